@@ -1,0 +1,88 @@
+# nhsym: symmetries and conservation laws of mechanical systems with constraints.
+#
+#   make sleigh    install what is missing, build, analyse the Chaplygin sleigh
+#   make check     install what the tests need, build, run every test (also under ASan and UBSan)
+#   make           build only            make install PREFIX=/usr/local
+#   make bench     measure, and write docs/performance.md
+#   make clean
+
+CC      = gcc
+PREFIX  = /usr/local
+VERSION = 0.1.0
+BUILD   = build$(if $(SANITIZE),-sanitize)
+JOBS    = $(shell nproc 2>/dev/null || echo 2)
+comma   = ,
+
+WARN     = -Wall -Wextra -Werror -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla
+SANE     = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+OPT      = $(if $(SANITIZE),-O1 -g $(SANE),-O2 -g)
+CFLAGS   = -std=c17 $(OPT) $(WARN)
+CPPFLAGS = -Isrc -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -DNH_DATADIR='"$(PREFIX)/share/nhsym"' -MMD -MP
+LDLIBS   = -lsundials_cvode -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense \
+           -lnlopt -lgsl -lflint-arb -lflint -lgmp -lyaml -lcjson -llapacke -lopenblas -lm
+
+PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-dev libflint-arb-dev
+TEST_PACKAGES = $(PACKAGES) libcriterion-dev
+
+MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
+OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
+CLI     = $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/cli/*.c))
+TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
+BENCHES = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/bench_*.c))
+
+.PHONY: all sleigh check tests sanitized install bench clean packages test-packages
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+all: $(BUILD)/nhsym
+
+sleigh: packages
+	@$(MAKE) --no-print-directory -j$(JOBS) all
+	@$(BUILD)/nhsym analyze sleigh
+
+check: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) all tests
+	@$(MAKE) --no-print-directory -j$(JOBS) SANITIZE=1 all tests
+	@sh tests/run.sh build build-sanitize
+
+tests: $(TESTS) $(BENCHES)
+
+bench: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) all tests
+	@sh tests/bench.sh $(BUILD) docs/performance.md
+
+packages:
+	@sh tests/packages.sh $(PACKAGES)
+
+test-packages:
+	@sh tests/packages.sh $(TEST_PACKAGES)
+
+$(BUILD)/libnhsym.a: $(OBJECTS)
+	@rm -f $@ && ar rcs $@ $(OBJECTS)
+
+$(BUILD)/nhsym: $(CLI) $(BUILD)/libnhsym.a
+	@echo "  link $@"
+	@$(CC) $(OPT) $(LDFLAGS) $(CLI) $(BUILD)/libnhsym.a $(LDLIBS) -o $@
+
+# The loops over batches of points; see the head of the file for why no -ffast-math.
+$(BUILD)/src/expr/tape_batch.o: CFLAGS += -O3 -fno-math-errno -fno-trapping-math
+
+$(BUILD)/%.o: %.c
+	@mkdir -p $(@D)
+	@echo "  cc   $<"
+	@$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+
+$(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/libnhsym.a
+	@echo "  link $@"
+	@$(CC) $(OPT) $(LDFLAGS) $< $(BUILD)/libnhsym.a $(LDLIBS) -lcriterion -o $@
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/nhsym/systems $(DESTDIR)$(PREFIX)/share/nhsym/analyses
+	install -m 755 $(BUILD)/nhsym $(DESTDIR)$(PREFIX)/bin/
+	install -m 644 systems/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/systems/
+	install -m 644 analyses/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/analyses/
+
+clean:
+	rm -rf build build-sanitize
+
+-include $(OBJECTS:.o=.d) $(CLI:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)

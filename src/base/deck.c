@@ -1,0 +1,266 @@
+/* deck: access to the tree, with messages.  See deck.h; deck_read.c builds the tree. */
+#include "base/deck.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/deck_source.h"
+#include "base/text.h"
+
+const nh_deck_node *nh_deck_root(const nh_deck *deck)
+{
+    return deck->root;
+}
+
+const char *nh_deck_name(const nh_deck *deck)
+{
+    return deck->name;
+}
+
+const nh_deck_node *nh_deck_get(const nh_deck_node *map, const char *key)
+{
+    if (!map || map->kind != NH_DECK_MAP)
+        return NULL;
+    for (size_t i = 0; i < map->count; i++)
+        if (strcmp(map->key[i]->text, key) == 0)
+            return map->item[i];
+    return NULL;
+}
+
+bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, nh_error *error, const char *format, ...)
+{
+    char what[2 * sizeof error->what]; /* longer than the field, so that nh_fail cuts it properly */
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    if (!node)
+        return nh_fail(error, NH_INPUT, deck->name, "%s", what);
+    return nh_deck_fail_at(deck, nh_deck_origin(deck, node, offset), error, "%s", what);
+}
+
+/* A single word gets quotes: `value`; a description stays as it is: the mass of `b1`. */
+static const char *quote_for(const char *what)
+{
+    for (const char *c = what; *c; c++)
+        if (*c == '`' || *c == ' ')
+            return "";
+    return "`";
+}
+
+enum { FOUND_SIZE = NH_DECK_SHOWN + 32 };
+
+/* What stands there, as in "found ...". */
+static void describe(const nh_deck_node *node, char out[FOUND_SIZE])
+{
+    char shown[NH_DECK_SHOWN];
+    if (node->kind != NH_DECK_SCALAR) {
+        snprintf(out, FOUND_SIZE, "%s", node->kind == NH_DECK_LIST ? "a list" : "a map");
+    } else if (!node->text[0]) {
+        snprintf(out, FOUND_SIZE, "%s", node->plain ? "nothing" : "an empty text");
+    } else {
+        nh_deck_shorten(node->text, shown);
+        snprintf(out, FOUND_SIZE, "%s`%s`", node->plain ? "" : "the text ", shown);
+    }
+}
+
+/* "`what` must be <wanted>, found ..." */
+__attribute__((format(printf, 5, 6)))
+static bool wrong(const nh_deck *deck, const nh_deck_node *node, const char *what, nh_error *error, const char *wanted, ...)
+{
+    char found[FOUND_SIZE], expected[256];
+    const char *quote = quote_for(what);
+    if (!node)
+        return nh_deck_fail(deck, NULL, 0, error, "%s%s%s is missing", quote, what, quote);
+    va_list arguments;
+    va_start(arguments, wanted);
+    vsnprintf(expected, sizeof expected, wanted, arguments);
+    va_end(arguments);
+    describe(node, found);
+    return nh_deck_fail(deck, node, 0, error, "%s%s%s must be %s, found %s", quote, what, quote, expected, found);
+}
+
+/* `a:1` is a word for YAML. */
+static bool lacks_space(const nh_deck_node *node)
+{
+    const char *colon = node->kind == NH_DECK_SCALAR && node->plain ? strchr(node->text, ':') : NULL;
+    return colon && colon[1] && !nh_deck_is_space(colon[1]);
+}
+
+bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind, const char *what, nh_error *error)
+{
+    static const char *const wanted[] = {"a single value", "a list", "a map (`key: value`)"};
+    if (node && node->kind == kind)
+        return true;
+    bool fresh = error && error->code == NH_OK;
+    wrong(deck, node, what, error, "%s", wanted[kind]);
+    if (fresh && node && kind == NH_DECK_MAP && lacks_space(node))
+        nh_error_hint(error, "write a space after the colon");
+    return false;
+}
+
+static void list_known(const char *const *known, size_t count, nh_text *out)
+{
+    for (size_t i = 0; i < count; i++)
+        nh_text_addf(out, "%s%s", i > 0 ? ", " : "known keys: ", known[i]);
+}
+
+static void hint_known(const nh_deck *deck, const nh_deck_node *map, const char *word, const char *const *known, size_t count,
+                       nh_error *error)
+{
+    const char *near = nh_text_nearest(word, known, count);
+    if (near) {
+        nh_error_hint(error, "did you mean `%s`?", near);
+        return;
+    }
+    nh_text list;
+    nh_text_init(&list);
+    if (deck->source[map->begin] == '{') /* an expression with a comma, cut in two? */
+        nh_text_add(&list, "if it belongs to an expression, put the expression in double quotes; ");
+    list_known(known, count, &list);
+    nh_error_hint(error, "%s", nh_text_string(&list));
+    nh_text_clear(&list);
+}
+
+bool nh_deck_only(const nh_deck *deck, const nh_deck_node *map, const char *const *known, size_t count, nh_error *error)
+{
+    if (!nh_deck_is(deck, map, NH_DECK_MAP, "this entry", error))
+        return false;
+    for (size_t i = 0; i < map->count; i++) {
+        size_t j = 0;
+        while (j < count && strcmp(map->key[i]->text, known[j]) != 0)
+            j++;
+        if (j < count)
+            continue;
+        char shown[NH_DECK_SHOWN];
+        nh_deck_shorten(map->key[i]->text, shown);
+        bool fresh = error && error->code == NH_OK;
+        nh_deck_fail(deck, map->key[i], 0, error, "unknown key `%s`", shown);
+        if (fresh)
+            hint_known(deck, map, map->key[i]->text, known, count, error);
+        return false;
+    }
+    return true;
+}
+
+static const char *skip_digits(const char *s)
+{
+    while (isdigit((unsigned char)*s))
+        s++;
+    return s;
+}
+
+/* [+-] digits [. digits] [e [+-] digits], with a digit before or after the point. */
+static bool looks_numeric(const char *s)
+{
+    s += *s == '+' || *s == '-';
+    const char *whole = s;
+    s = skip_digits(s);
+    size_t digits = (size_t)(s - whole);
+    if (*s == '.') {
+        const char *fraction = ++s;
+        s = skip_digits(s);
+        digits += (size_t)(s - fraction);
+    }
+    if (digits == 0)
+        return false;
+    if (*s == 'e' || *s == 'E') {
+        s += s[1] == '+' || s[1] == '-' ? 2 : 1;
+        if (!isdigit((unsigned char)*s))
+            return false;
+        s = skip_digits(s);
+    }
+    return *s == '\0';
+}
+
+static bool is_plain(const nh_deck_node *node)
+{
+    return node && node->kind == NH_DECK_SCALAR && node->plain;
+}
+
+/* After a message about a quoted number. */
+static void hint_unquote(const nh_deck_node *node, bool fresh, nh_error *error)
+{
+    if (fresh && node && node->kind == NH_DECK_SCALAR && !node->plain && looks_numeric(node->text))
+        nh_error_hint(error, "remove the quotes: what is quoted is a text");
+}
+
+bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *what, double *out, nh_error *error)
+{
+    if (!is_plain(node) || !looks_numeric(node->text)) {
+        bool fresh = error && error->code == NH_OK;
+        wrong(deck, node, what, error, "a number");
+        hint_unquote(node, fresh, error);
+        return false;
+    }
+    double value = strtod(node->text, NULL);
+    if (!isfinite(value))
+        return wrong(deck, node, what, error, "a number that a double can hold");
+    *out = value;
+    return true;
+}
+
+/* Digits are read exactly (a seed may have 19 of them); 1e6 and 4096.0 are whole too, while doubles are exact. */
+static bool to_whole(const char *text, long *out)
+{
+    const double exact = 9007199254740992.0; /* 2^53 */
+    char *rest;
+    errno = 0;
+    *out = strtol(text, &rest, 10);
+    if (*rest == '\0')
+        return errno == 0;
+    double value = strtod(text, NULL);
+    if (!(fabs(value) <= exact) || value != floor(value))
+        return false;
+    *out = (long)value;
+    return true;
+}
+
+bool nh_deck_whole(const nh_deck *deck, const nh_deck_node *node, const char *what, long min, long max, long *out, nh_error *error)
+{
+    long value;
+    if (is_plain(node) && looks_numeric(node->text) && to_whole(node->text, &value) && value >= min && value <= max) {
+        *out = value;
+        return true;
+    }
+    bool fresh = error && error->code == NH_OK;
+    if (min == LONG_MIN && max == LONG_MAX)
+        wrong(deck, node, what, error, "a whole number");
+    else if (max == LONG_MAX)
+        wrong(deck, node, what, error, "a whole number, at least %ld", min);
+    else if (min == LONG_MIN)
+        wrong(deck, node, what, error, "a whole number, at most %ld", max);
+    else
+        wrong(deck, node, what, error, "a whole number from %ld to %ld", min, max);
+    hint_unquote(node, fresh, error);
+    return false;
+}
+
+bool nh_deck_range(const nh_deck *deck, const nh_deck_node *node, const char *what, double out[2], nh_error *error)
+{
+    static const char *const end_name[] = {"lower", "upper"};
+    const char *quote = quote_for(what);
+    double value[2];
+    if (!node || node->kind != NH_DECK_LIST)
+        return wrong(deck, node, what, error, "a range [low, high]");
+    if (node->count != 2)
+        return nh_deck_fail(deck, node, 0, error, "%s%s%s must be a range [low, high], found a list of %zu", quote, what, quote,
+                            node->count);
+    for (size_t i = 0; i < 2; i++) {
+        char name[128];
+        snprintf(name, sizeof name, "the %s end of %s%.80s%s", end_name[i], quote, what, quote);
+        if (!nh_deck_number(deck, node->item[i], name, &value[i], error))
+            return false;
+    }
+    if (!(value[0] < value[1]))
+        return nh_deck_fail(deck, node->item[1], 0, error, "%s%s%s must be a range [low, high] with low < high, found [%s, %s]",
+                            quote, what, quote, node->item[0]->text, node->item[1]->text);
+    memcpy(out, value, sizeof value);
+    return true;
+}

@@ -1,0 +1,55 @@
+/* deck: YAML text as a tree that remembers where every word stood.
+ *
+ * libyaml parses; this module keeps file, line and column of each node, so that readers can point at what they do
+ * not understand, and knows the source text, so that a message shows the line with a caret. Aliases, anchors, tags
+ * and several documents are refused; depth and size are bounded. */
+#ifndef NH_DECK_H
+#define NH_DECK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
+
+typedef enum { NH_DECK_SCALAR, NH_DECK_LIST, NH_DECK_MAP } nh_deck_kind;
+
+typedef struct nh_deck_node nh_deck_node;
+struct nh_deck_node {
+    nh_deck_kind kind;
+    const char *text;         /* of a scalar */
+    bool plain;               /* a scalar without quotes: null, true, 12 mean what they look like */
+    size_t count;             /* items of a list, entries of a map */
+    const nh_deck_node **item; /* items, or values of a map */
+    const nh_deck_node **key;  /* keys of a map (scalars, distinct) */
+    size_t begin, end;        /* byte range in the source */
+    size_t line, column;      /* of the first character, from 1; a column counts code points */
+};
+
+typedef struct nh_deck nh_deck;
+
+/* Read a file, or a text that is called `name` in messages.  NULL on failure. */
+nh_deck *nh_deck_read(const char *path, nh_error *error);
+nh_deck *nh_deck_parse(const char *name, const char *text, size_t length, nh_error *error);
+void nh_deck_free(nh_deck *deck);
+const nh_deck_node *nh_deck_root(const nh_deck *deck);
+const char *nh_deck_name(const nh_deck *deck);
+
+/* The value of `key` in a map, or NULL. */
+const nh_deck_node *nh_deck_get(const nh_deck_node *map, const char *key);
+
+/* Record an error at a node: where, excerpt with caret.  `offset` counts bytes into the scalar's text (0 otherwise); the caret
+ * finds the right column through quotes, escapes and folded lines.  Returns false. */
+bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, nh_error *error, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+
+/* Refuse keys of a map that are not among `known`, suggesting the nearest. */
+bool nh_deck_only(const nh_deck *deck, const nh_deck_node *map, const char *const *known, size_t count, nh_error *error);
+
+/* Typed access with messages: "expected a number, found a list".  `what` names the thing in the message. */
+bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind, const char *what, nh_error *error);
+bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *what, double *out, nh_error *error);
+bool nh_deck_whole(const nh_deck *deck, const nh_deck_node *node, const char *what, long min, long max, long *out, nh_error *error);
+/* A list of two numbers low < high. */
+bool nh_deck_range(const nh_deck *deck, const nh_deck_node *node, const char *what, double out[2], nh_error *error);
+
+#endif

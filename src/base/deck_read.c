@@ -1,0 +1,377 @@
+/* deck_read: from a file through libyaml's events to the tree of a deck. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <yaml.h>
+
+#include "base/deck_source.h"
+#include "base/deck_yaml.h"
+
+enum { SIZE_LIMIT = 4 << 20, NODE_LIMIT = 200000, DEPTH_LIMIT = 64 };
+
+static const char comma_hint[] = "inside { } and [ ] a comma ends the entry: " NH_DECK_QUOTE_HINT;
+
+typedef struct {
+    yaml_parser_t parser;
+    nh_deck *deck;
+    nh_error *error;
+    const nh_deck_node **stack; /* finished children of the collections being read */
+    size_t used, capacity;
+    size_t nodes;
+} builder;
+
+static size_t byte_at(const builder *b, yaml_mark_t mark)
+{
+    return nh_deck_byte_of(b->deck, mark.index);
+}
+
+/* Fail at a byte, with a hint. */
+static bool refuse(builder *b, size_t byte, const char *what, const char *hint)
+{
+    nh_deck_fail_at(b->deck, byte, b->error, "%s", what);
+    return nh_error_hint(b->error, "%s", hint);
+}
+
+static bool next_event(builder *b, yaml_event_t *event)
+{
+    yaml_parser_t *p = &b->parser;
+    if (yaml_parser_parse(p, event))
+        return true;
+    if (p->error == YAML_MEMORY_ERROR)
+        return nh_fail(b->error, NH_LIMIT, b->deck->name, "out of memory while reading");
+    return nh_deck_explain(b->deck, p->problem ? p->problem : "unknown problem", byte_at(b, p->problem_mark), p->context,
+                           byte_at(b, p->context_mark), b->error);
+}
+
+/* Anchors, tags and aliases: nobody who writes mechanics means them; whoever begins an expression with * does. */
+static bool check_properties(builder *b, const yaml_event_t *event)
+{
+    bool alias = event->type == YAML_ALIAS_EVENT;
+    bool anchor = (event->type == YAML_SCALAR_EVENT && event->data.scalar.anchor) ||
+                  (event->type == YAML_SEQUENCE_START_EVENT && event->data.sequence_start.anchor) ||
+                  (event->type == YAML_MAPPING_START_EVENT && event->data.mapping_start.anchor);
+    bool tag = (event->type == YAML_SCALAR_EVENT && event->data.scalar.tag) ||
+               (event->type == YAML_SEQUENCE_START_EVENT && event->data.sequence_start.tag) ||
+               (event->type == YAML_MAPPING_START_EVENT && event->data.mapping_start.tag);
+    if (!alias && !anchor && !tag)
+        return true;
+    size_t at = byte_at(b, event->start_mark);
+    nh_deck_fail_at(b->deck, at, b->error, "a value cannot begin with `%.1s` (YAML's %s are not used here)",
+                    b->deck->source + at, alias ? "aliases" : anchor ? "anchors" : "tags");
+    return nh_error_hint(b->error, NH_DECK_QUOTE_HINT);
+}
+
+/* A text of the program has no control characters: escapes could bring them in. */
+static bool check_scalar_text(builder *b, const char *text, size_t length, size_t begin)
+{
+    for (size_t i = 0; i < length; i++) {
+        unsigned char c = (unsigned char)text[i], next = (unsigned char)(i + 1 < length ? text[i + 1] : 0);
+        bool control = (c < 0x20 && c != '\n' && c != '\t') || c == 0x7F || (c == 0xC2 && next >= 0x80 && next < 0xA0);
+        if (control)
+            return refuse(b, begin, "this text contains a control character", "remove the escape that stands for it");
+    }
+    return true;
+}
+
+/* [atan2(y, x)] is a list of `atan2(y` and `x)`. */
+static bool check_cut(builder *b, const nh_deck_node *node)
+{
+    const char *source = b->deck->source;
+    size_t after = node->end;
+    int open = 0;
+    while (nh_deck_is_space(source[after]))
+        after++;
+    if (!node->plain || source[after] != ',')
+        return true;
+    for (const char *c = node->text; *c; c++)
+        open += (*c == '(') - (*c == ')');
+    if (open <= 0)
+        return true;
+    return refuse(b, after, "this comma stands inside parentheses", comma_hint);
+}
+
+static bool fill_scalar(builder *b, nh_deck_node *node, const yaml_event_t *event)
+{
+    const char *text = (const char *)event->data.scalar.value;
+    size_t length = event->data.scalar.length;
+    node->kind = NH_DECK_SCALAR;
+    node->plain = event->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    if (!check_scalar_text(b, text, length, node->begin))
+        return false;
+    node->text = nh_arena_strndup(b->deck->arena, text, length);
+    return check_cut(b, node);
+}
+
+static nh_deck_node *new_node(builder *b, const yaml_event_t *event)
+{
+    nh_deck_node *node = nh_arena_alloc(b->deck->arena, sizeof *node);
+    node->text = "";
+    node->begin = byte_at(b, event->start_mark);
+    node->end = byte_at(b, event->end_mark);
+    nh_deck_place(b->deck, node->begin, &node->line, &node->column);
+    return node;
+}
+
+static void push(builder *b, const nh_deck_node *node)
+{
+    nh_grow(&b->stack, &b->capacity, b->used + 1, sizeof *b->stack);
+    b->stack[b->used++] = node;
+}
+
+/* The children since `bottom` become items; of a map, every other one is a key. */
+static void collect(builder *b, nh_deck_node *node, size_t bottom)
+{
+    size_t stride = node->kind == NH_DECK_MAP ? 2 : 1, total = b->used - bottom;
+    node->count = total / stride;
+    node->item = nh_arena_alloc(b->deck->arena, node->count * sizeof *node->item);
+    if (stride == 2)
+        node->key = nh_arena_alloc(b->deck->arena, node->count * sizeof *node->key);
+    for (size_t i = 0; i < node->count; i++) {
+        node->item[i] = b->stack[bottom + stride * i + stride - 1];
+        if (stride == 2)
+            node->key[i] = b->stack[bottom + stride * i];
+    }
+    b->used = bottom;
+}
+
+/* Where a collection ends: at its bracket; in block style libyaml only knows the next word after it. */
+static void close_collection(builder *b, nh_deck_node *node, const yaml_event_t *end)
+{
+    char first = b->deck->source[node->begin];
+    if (first == '{' || first == '[')
+        node->end = byte_at(b, end->end_mark);
+    else if (node->count > 0)
+        node->end = node->item[node->count - 1]->end;
+}
+
+static int by_text(const void *left, const void *right)
+{
+    const nh_deck_node *a = *(const nh_deck_node *const *)left, *b = *(const nh_deck_node *const *)right;
+    int order = strcmp(a->text, b->text);
+    return order ? order : (a->begin > b->begin) - (a->begin < b->begin);
+}
+
+/* Sorted, so that a hostile file cannot make this quadratic. */
+static bool check_duplicates(builder *b, const nh_deck_node *map)
+{
+    const nh_deck_node *second = NULL, *first = NULL;
+    const nh_deck_node **sorted = nh_alloc_array(map->count, sizeof *sorted);
+    memcpy(sorted, map->key, map->count * sizeof *sorted);
+    qsort(sorted, map->count, sizeof *sorted, by_text);
+    for (size_t i = 1; i < map->count; i++) {
+        bool same = strcmp(sorted[i - 1]->text, sorted[i]->text) == 0;
+        if (same && (!second || sorted[i]->begin < second->begin)) {
+            first = sorted[i - 1];
+            second = sorted[i];
+        }
+    }
+    nh_free(sorted);
+    if (!second)
+        return true;
+    char shown[NH_DECK_SHOWN];
+    nh_deck_shorten(second->text, shown);
+    nh_deck_fail_at(b->deck, second->begin, b->error, "the key `%s` is there already, in line %zu", shown, first->line);
+    return nh_error_hint(b->error, "remove or rename one of them");
+}
+
+static bool check_key(builder *b, const nh_deck_node *key)
+{
+    if (key->kind != NH_DECK_SCALAR)
+        return refuse(b, key->begin, key->kind == NH_DECK_LIST ? "a key must be a word, found a list" : "a key must be a word, found a map",
+                      NH_DECK_QUOTE_HINT);
+    if (!key->text[0])
+        return refuse(b, key->begin, "there is no key before the `:`", "write `key: value`");
+    if (key->plain && strcmp(key->text, "<<") == 0)
+        return refuse(b, key->begin, "merge keys (`<<`) are not used here", "write out the entries");
+    return true;
+}
+
+/* {a: 1, b} reads as b without a value: most often a comma or a colon that was not meant so. */
+static bool check_value(builder *b, const nh_deck_node *key, const nh_deck_node *value)
+{
+    const char *source = b->deck->source;
+    bool empty = value->kind == NH_DECK_SCALAR && value->plain && !value->text[0];
+    size_t gap = value->begin > key->end ? value->begin - key->end : 0;
+    if (!empty || memchr(source + key->end, ':', gap) || source[key->end] == ':')
+        return true;
+    char shown[NH_DECK_SHOWN];
+    nh_deck_shorten(key->text, shown);
+    nh_deck_fail_at(b->deck, key->begin, b->error, "`%s` has no value", shown);
+    if (key->plain && strchr(key->text, ':'))
+        return nh_error_hint(b->error, "write a space after the colon");
+    return nh_error_hint(b->error, "%s", comma_hint);
+}
+
+static bool read_node(builder *b, yaml_event_t *event, size_t depth);
+
+/* The items of a list, or the keys and values of a map, until `stop`. */
+static bool read_children(builder *b, nh_deck_node *node, yaml_event_type_t stop, size_t depth)
+{
+    size_t bottom = b->used;
+    for (;;) {
+        yaml_event_t event;
+        if (!next_event(b, &event))
+            return false;
+        if (event.type == stop) {
+            collect(b, node, bottom);
+            close_collection(b, node, &event);
+            yaml_event_delete(&event);
+            return true;
+        }
+        if (!read_node(b, &event, depth + 1))
+            return false;
+        bool at_value = node->kind == NH_DECK_MAP && (b->used - bottom) % 2 == 0;
+        bool at_key = node->kind == NH_DECK_MAP && !at_value;
+        if (at_key && !check_key(b, b->stack[b->used - 1]))
+            return false;
+        if (at_value && !check_value(b, b->stack[b->used - 2], b->stack[b->used - 1]))
+            return false;
+    }
+}
+
+/* Build the node that `event` begins and push it; the event is used up. */
+static bool read_node(builder *b, yaml_event_t *event, size_t depth)
+{
+    yaml_event_type_t type = event->type;
+    size_t begin = byte_at(b, event->start_mark);
+    nh_deck_node *node = NULL;
+    bool good = check_properties(b, event);
+    if (good && depth > DEPTH_LIMIT)
+        good = nh_deck_fail_at(b->deck, begin, b->error, "lists and maps are nested deeper than %d", DEPTH_LIMIT);
+    if (good && ++b->nodes > NODE_LIMIT)
+        good = nh_deck_fail_at(b->deck, begin, b->error, "the file has more than %d values", NODE_LIMIT);
+    if (good) {
+        node = new_node(b, event);
+        if (type == YAML_SCALAR_EVENT)
+            good = fill_scalar(b, node, event);
+    }
+    yaml_event_delete(event);
+    if (good && type == YAML_SEQUENCE_START_EVENT) {
+        node->kind = NH_DECK_LIST;
+        good = read_children(b, node, YAML_SEQUENCE_END_EVENT, depth);
+    } else if (good && type == YAML_MAPPING_START_EVENT) {
+        node->kind = NH_DECK_MAP;
+        good = read_children(b, node, YAML_MAPPING_END_EVENT, depth) && check_duplicates(b, node);
+    }
+    if (good)
+        push(b, node);
+    return good;
+}
+
+static bool fail_empty(builder *b)
+{
+    return nh_fail(b->error, NH_INPUT, b->deck->name, "there is nothing in this file");
+}
+
+/* Take the next event and tell its type; `begin` gets its place. */
+static bool take_event(builder *b, yaml_event_type_t *type, size_t *begin)
+{
+    yaml_event_t event;
+    if (!next_event(b, &event))
+        return false;
+    *type = event.type;
+    *begin = byte_at(b, event.start_mark);
+    yaml_event_delete(&event);
+    return true;
+}
+
+/* STREAM-START DOCUMENT-START node DOCUMENT-END STREAM-END */
+static bool read_document(builder *b)
+{
+    yaml_event_type_t type;
+    yaml_event_t event;
+    size_t begin;
+    if (!take_event(b, &type, &begin) || !take_event(b, &type, &begin))
+        return false;
+    if (type == YAML_STREAM_END_EVENT)
+        return fail_empty(b);
+    if (!next_event(b, &event) || !read_node(b, &event, 1))
+        return false;
+    const nh_deck_node *root = b->stack[0];
+    if (!take_event(b, &type, &begin) || !take_event(b, &type, &begin))
+        return false;
+    if (type != YAML_STREAM_END_EVENT)
+        return refuse(b, begin, "a second document begins here", "one file holds one document: remove this line or split the file");
+    if (root->kind == NH_DECK_SCALAR && root->plain && !root->text[0])
+        return fail_empty(b);
+    b->deck->root = root;
+    return true;
+}
+
+static bool build(nh_deck *deck, nh_error *error)
+{
+    builder b = {.deck = deck, .error = error};
+    if (!yaml_parser_initialize(&b.parser))
+        return nh_fail(error, NH_LIMIT, deck->name, "out of memory while reading");
+    yaml_parser_set_encoding(&b.parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&b.parser, (const unsigned char *)deck->source, deck->length);
+    bool good = read_document(&b);
+    yaml_parser_delete(&b.parser);
+    nh_free(b.stack);
+    return good;
+}
+
+/* What can be said about the bytes before they are looked at one by one. */
+static bool check_bytes(const char *name, const char *text, size_t length, nh_error *error)
+{
+    if (length > SIZE_LIMIT)
+        return nh_fail(error, NH_INPUT, name, "the file is larger than %d MiB", SIZE_LIMIT >> 20);
+    if (length >= 2 && (memcmp(text, "\xFF\xFE", 2) == 0 || memcmp(text, "\xFE\xFF", 2) == 0)) {
+        nh_fail(error, NH_INPUT, name, "the file is in the encoding UTF-16");
+        return nh_error_hint(error, "save the file in the encoding UTF-8");
+    }
+    return true;
+}
+
+nh_deck *nh_deck_parse(const char *name, const char *text, size_t length, nh_error *error)
+{
+    if (!check_bytes(name, text, length, error))
+        return NULL;
+    nh_deck *deck = nh_deck_create(name, text, length);
+    if (nh_deck_check_text(deck, error) && build(deck, error))
+        return deck;
+    nh_deck_free(deck);
+    return NULL;
+}
+
+/* The whole stream, or one byte more than is allowed. */
+static char *slurp(FILE *file, size_t *length)
+{
+    char *text = NULL;
+    size_t capacity = 0, got;
+    *length = 0;
+    do {
+        nh_grow(&text, &capacity, *length + 4096, 1);
+        size_t room = capacity - *length, left = (size_t)SIZE_LIMIT + 1 - *length;
+        got = fread(text + *length, 1, room < left ? room : left, file);
+        *length += got;
+    } while (got > 0);
+    return text;
+}
+
+nh_deck *nh_deck_read(const char *path, nh_error *error)
+{
+    struct stat status;
+    nh_deck *deck = NULL;
+    size_t length;
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        nh_fail(error, NH_INPUT, path, "this file cannot be opened: %s", strerror(errno));
+        return NULL;
+    }
+    if (fstat(fileno(file), &status) == 0 && S_ISDIR(status.st_mode)) {
+        nh_fail(error, NH_INPUT, path, "this is a directory, not a file");
+        fclose(file);
+        return NULL;
+    }
+    char *text = slurp(file, &length);
+    if (ferror(file))
+        nh_fail(error, NH_INPUT, path, "this file cannot be read: %s", strerror(errno));
+    else
+        deck = nh_deck_parse(path, text, length, error);
+    nh_free(text);
+    fclose(file);
+    return deck;
+}

@@ -1,0 +1,43 @@
+/* deck_source: the source text of a deck and the places in it.  Private to deck*.c. */
+#ifndef NH_DECK_SOURCE_H
+#define NH_DECK_SOURCE_H
+
+#include "base/deck.h"
+#include "base/memory.h"
+
+struct nh_deck {
+    nh_arena *arena; /* the nodes and their texts */
+    char *name, *source;
+    size_t length;
+    const nh_deck_node *root;
+    size_t *before; /* before[i]: code points before byte i * NH_DECK_BLOCK */
+    size_t *line;   /* byte at which a line begins */
+    size_t lines, line_capacity;
+};
+
+enum { NH_DECK_BLOCK = 64, NH_DECK_SHOWN = 192 };
+
+/* A deck without a tree that owns a copy of `text` (without byte order mark), indexed. */
+nh_deck *nh_deck_create(const char *name, const char *text, size_t length);
+
+/* Refuse what is no text: bytes that are not UTF-8, control characters.  (libyaml would, but without line and column.) */
+bool nh_deck_check_text(nh_deck *deck, nh_error *error);
+
+/* libyaml counts code points, we count bytes. */
+size_t nh_deck_byte_of(const nh_deck *deck, size_t code_point);
+void nh_deck_place(const nh_deck *deck, size_t byte, size_t *line, size_t *column);
+
+/* The byte of the source from which the byte `offset` of a scalar's text comes. */
+size_t nh_deck_origin(const nh_deck *deck, const nh_deck_node *node, size_t offset);
+
+bool nh_deck_is_break(char c);
+bool nh_deck_is_space(char c); /* blank or line break */
+
+/* nh_deck_fail for a byte of the source. */
+bool nh_deck_fail_at(const nh_deck *deck, size_t byte, nh_error *error, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* A text as it is quoted in a message: one line, not too long. */
+void nh_deck_shorten(const char *text, char out[NH_DECK_SHOWN]);
+
+#endif

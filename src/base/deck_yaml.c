@@ -1,0 +1,144 @@
+/* deck_yaml: see deck_yaml.h.
+ *
+ * Most of these messages are met by someone who wrote an expression that YAML takes for something else, so most
+ * hints say where quotes help. */
+#include "base/deck_yaml.h"
+
+#include <string.h>
+
+typedef struct {
+    const char *problem, *context; /* parts of libyaml's words; a NULL context matches any */
+    bool at_context;               /* point at the context, where the misunderstanding began */
+    const char *what;              /* NULL: a value cannot begin with the character there */
+    const char *hint;
+} rewording;
+
+static const rewording table[] = {
+    {"cannot start any token", NULL, false, NULL, NH_DECK_QUOTE_HINT},
+    {"alphabetic or numeric", NULL, true, NULL, NH_DECK_QUOTE_HINT},
+    {"undefined tag handle", NULL, true, NULL, NH_DECK_QUOTE_HINT},
+    {"incompatible YAML document", NULL, false, "this file asks for a version of YAML that is not known here", "remove this line"},
+    {"", "block scalar", true, NULL, NH_DECK_QUOTE_HINT},
+    {"", "a tag", true, NULL, NH_DECK_QUOTE_HINT},
+    {"", "directive", true, "a line that begins with `%` means something else in YAML", NH_DECK_QUOTE_HINT},
+    {"unexpected end of stream", "quoted scalar", true, "this quote is not closed",
+     "a value that begins with a quote ends with the same quote; an expression that begins with one goes into double quotes"},
+    {"document indicator", "quoted scalar", true, "this quote is not closed", "close it before the line that begins with --- or ..."},
+    {"mapping values are not allowed", NULL, false, "this `:` cannot stand here",
+     "put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
+    {"find expected ':'", "simple key", true, "expected `key: value`",
+     "write a space after the colon; a value that goes on in the next line is indented deeper than its key"},
+    {"block sequence entries", NULL, false, "a list item `- ` cannot stand here",
+     "begin the list on a line of its own, or put the expression in double quotes"},
+    {"mapping keys are not allowed", NULL, false, NULL, NH_DECK_QUOTE_HINT},
+    {"node content", NULL, false, "expected a value here", "write the value, or put an expression with commas in double quotes"},
+    {"<document start>", NULL, false, "this does not go on with what stands above",
+     "keys of one map begin in the same column; put an expression with quotes or brackets in double quotes"},
+    {"unexpected ':'", NULL, false, "this `:` cannot stand here", NH_DECK_QUOTE_HINT},
+};
+
+/* Only blanks between `from` and the end? */
+static bool nothing_after(const nh_deck *deck, size_t from)
+{
+    while (from < deck->length && nh_deck_is_space(deck->source[from]))
+        from++;
+    return from == deck->length;
+}
+
+static size_t line_of(const nh_deck *deck, size_t byte)
+{
+    size_t line, column;
+    nh_deck_place(deck, byte, &line, &column);
+    return line;
+}
+
+/* Inside { } or [ ] came something else than a comma or the closing bracket. */
+static bool explain_bracket(const nh_deck *deck, size_t at, size_t since, nh_error *error)
+{
+    bool map = deck->source[since] == '{';
+    char open = map ? '{' : '[', close = map ? '}' : ']';
+    size_t line = line_of(deck, since);
+    if (nothing_after(deck, at)) {
+        nh_deck_fail_at(deck, since, error, "this `%c` is not closed", open);
+        return nh_error_hint(error, "add `%c`, or put an expression that contains `%c` in double quotes", close, open);
+    }
+    nh_deck_fail_at(deck, at, error, "expected `,` or `%c` in the %s that begins with `%c` in line %zu", close,
+                    map ? "map" : "list", open, line);
+    if (line_of(deck, at) != line)
+        return nh_error_hint(error, "is the `%c` in line %zu closed?", open, line);
+    return nh_error_hint(error, NH_DECK_QUOTE_HINT);
+}
+
+/* A line that fits neither its map nor its list; or something behind a value, like the + 1 of `x: 'a' + 1`. */
+static bool explain_misfit(const nh_deck *deck, size_t at, const char *kind, size_t since, nh_error *error)
+{
+    size_t before = at;
+    if (deck->source[at] == ':') {
+        nh_deck_fail_at(deck, at, error, "there is no key before the `:`");
+        return nh_error_hint(error, "write `key: value`");
+    }
+    while (before > 0 && (deck->source[before - 1] == ' ' || deck->source[before - 1] == '\t'))
+        before--;
+    if (before > 0 && !nh_deck_is_break(deck->source[before - 1])) {
+        nh_deck_fail_at(deck, at, error, "there is something behind the end of the value");
+        return nh_error_hint(error, NH_DECK_QUOTE_HINT ", all of it");
+    }
+    nh_deck_fail_at(deck, at, error, "this line does not fit the %s that begins in line %zu", kind, line_of(deck, since));
+    return nh_error_hint(error, "entries of one map, and items of one list, begin in the same column");
+}
+
+static bool explain_tab(const nh_deck *deck, size_t at, nh_error *error)
+{
+    nh_deck_fail_at(deck, at, error, "there is a tab where YAML wants spaces");
+    return nh_error_hint(error, "indent with spaces");
+}
+
+/* libyaml stands at the backslash or behind the letter that follows it. */
+static bool explain_escape(const nh_deck *deck, size_t at, nh_error *error)
+{
+    while (at > 0 && deck->source[at] != '\\')
+        at--;
+    nh_deck_fail_at(deck, at, error, "a backslash in double quotes begins an escape, and this is none");
+    return nh_error_hint(error, "write \\\\ for a backslash, or use single quotes");
+}
+
+static bool matches(const rewording *row, const char *problem, const char *context)
+{
+    return strstr(problem, row->problem) && (!row->context || (context && strstr(context, row->context)));
+}
+
+/* An end of file on an empty line shows nothing: go back to the last word. */
+static size_t visible(const nh_deck *deck, size_t at)
+{
+    if (nothing_after(deck, at))
+        while (at > 0 && nh_deck_is_space(deck->source[at - 1]))
+            at--;
+    return at;
+}
+
+bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const char *context, size_t since, nh_error *error)
+{
+    if (deck->source[at] == '\t' || strstr(problem, "tab character"))
+        return explain_tab(deck, at, error);
+    if (strstr(problem, "expected ',' or"))
+        return explain_bracket(deck, at, since, error);
+    if (strstr(problem, "did not find expected key"))
+        return explain_misfit(deck, at, "map", since, error);
+    if (strstr(problem, "'-' indicator"))
+        return explain_misfit(deck, at, "list", since, error);
+    if (strstr(problem, "escape c") || strstr(problem, "hexdecimal"))
+        return explain_escape(deck, at, error);
+    at = visible(deck, at);
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+        const rewording *row = &table[i];
+        if (!matches(row, problem, context))
+            continue;
+        size_t spot = row->at_context ? since : at;
+        if (row->what)
+            nh_deck_fail_at(deck, spot, error, "%s", row->what);
+        else
+            nh_deck_fail_at(deck, spot, error, "a value cannot begin with `%.1s`", deck->source + spot);
+        return nh_error_hint(error, "%s", row->hint);
+    }
+    return nh_deck_fail_at(deck, at, error, "this is not YAML: %s%s%s", context ? context : "", context ? ", " : "", problem);
+}

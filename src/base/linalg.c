@@ -1,0 +1,314 @@
+/* linalg: see the header.  The only file that includes LAPACKE and CBLAS. */
+#include "base/linalg.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#undef I /* lapacke.h brings in <complex.h>, whose I would clash with any variable of that name */
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* OpenBLAS only: any other BLAS leaves the symbol unresolved, and then there is nothing to set. */
+extern void openblas_set_num_threads(int count) __attribute__((weak));
+
+enum {
+    PANEL = 64,      /* columns factorised at a time, and */
+    LEAF = 4,        /* those of them left to LAPACK: the fastest of several (tests/bench_nullspace.c) */
+    SMALLEST_BLOCK = 64 /* rows; below it the calls cost more than the flops */
+};
+
+void nh_linalg_threads(int count)
+{
+    if (openblas_set_num_threads)
+        openblas_set_num_threads(count);
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static size_t larger(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
+/* LAPACK wants every leading dimension to be at least 1, also for empty matrices. */
+static lapack_int leading(size_t rows)
+{
+    return (lapack_int)larger(rows, 1);
+}
+
+/* LAPACK's iterations may not end on a NaN, so it is kept out.  x - x is 0 for finite x and NaN otherwise. */
+static bool all_finite(size_t count, const double *a)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += a[i] - a[i];
+    return sum == 0;
+}
+
+/* ---- streaming QR ---- */
+
+struct nh_qr {
+    size_t columns;
+    size_t rows;     /* seen so far, those waiting in `block` included */
+    size_t waiting;  /* rows in `block` */
+    size_t capacity; /* rows `block` can hold */
+    double *r;       /* columns x columns */
+    double *block;   /* capacity x columns */
+    double *t;       /* PANEL x PANEL */
+    double *work;    /* PANEL x columns */
+};
+
+nh_qr *nh_qr_create(size_t columns)
+{
+    nh_qr *qr = nh_alloc(sizeof *qr);
+    qr->columns = columns;
+    qr->capacity = larger(2 * columns, SMALLEST_BLOCK);
+    qr->r = nh_alloc_array(columns * columns, sizeof(double));
+    qr->block = nh_alloc_array(qr->capacity * columns, sizeof(double));
+    qr->t = nh_alloc_array(PANEL * PANEL, sizeof(double));
+    qr->work = nh_alloc_array(PANEL * columns, sizeof(double));
+    return qr;
+}
+
+void nh_qr_reset(nh_qr *qr)
+{
+    memset(qr->r, 0, qr->columns * qr->columns * sizeof *qr->r);
+    qr->rows = qr->waiting = 0;
+}
+
+void nh_qr_free(nh_qr *qr)
+{
+    if (!qr)
+        return;
+    nh_free(qr->r);
+    nh_free(qr->block);
+    nh_free(qr->t);
+    nh_free(qr->work);
+    nh_free(qr);
+}
+
+/* With V the reflectors of panel columns first..first+count, stored in the block (on R they are the identity), and T their
+ * triangle, Q^T = 1 - [1; V] T^T [1; V]^T on the columns to the right:
+ *
+ *     W = T^T (R_right + V^T B_right),   R_right -= W,   B_right -= V W */
+static void reflect(nh_qr *qr, size_t first, size_t count, const double *t, size_t right, size_t columns)
+{
+    size_t n = qr->columns;
+    lapack_int k = (lapack_int)count, c = (lapack_int)columns, m = (lapack_int)qr->waiting, ld = (lapack_int)qr->capacity;
+    const double *v = qr->block + first * qr->capacity;
+    double *b = qr->block + right * qr->capacity, *r = qr->r + first + right * n, *w = qr->work;
+    for (size_t j = 0; j < columns; j++)
+        memcpy(w + j * count, r + j * n, count * sizeof *w);
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, k, c, m, 1.0, v, ld, b, ld, 1.0, w, k);
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasUpper, CblasTrans, CblasNonUnit, k, c, 1.0, t, PANEL, w, k);
+    for (size_t j = 0; j < columns; j++)
+        for (size_t i = 0; i < count; i++)
+            r[i + j * n] -= w[i + j * count];
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, c, k, -1.0, v, ld, w, k, 1.0, b, ld);
+}
+
+/* Reflectors of a panel, by halves: nearly all flops are then matrix products, where LAPACK's dtpqrt does matrix-vector ones
+ * (13 % slower at 1000 columns).  The triangle of both halves is [T1 T12; 0 T2] with T12 = -T1 V1^T V2 T2. */
+static void factorise(nh_qr *qr, size_t first, size_t count, double *t)
+{
+    lapack_int m = (lapack_int)qr->waiting, n = (lapack_int)qr->columns, ld = (lapack_int)qr->capacity;
+    double *v = qr->block + first * qr->capacity;
+    if (count <= LEAF) {
+        LAPACKE_dtpqrt2_work(LAPACK_COL_MAJOR, m, (lapack_int)count, 0, qr->r + first * (qr->columns + 1), n, v, ld, t, PANEL);
+        return;
+    }
+    size_t half = count / 2, rest = count - half;
+    double *t2 = t + half * (PANEL + 1), *t12 = t + half * PANEL;
+    factorise(qr, first, half, t);
+    reflect(qr, first, half, t, first + half, rest);
+    factorise(qr, first + half, rest, t2);
+    lapack_int k1 = (lapack_int)half, k2 = (lapack_int)rest;
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, k1, k2, m, -1.0, v, ld, v + half * qr->capacity, ld, 0.0, t12, PANEL);
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, k1, k2, 1.0, t, PANEL, t12, PANEL);
+    cblas_dtrmm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, k1, k2, 1.0, t2, PANEL, t12, PANEL);
+}
+
+/* [R; block] = Q R', panel by panel: a reflector acts on one row of R and all rows of the block, so the zeros of R stay. */
+static void flush(nh_qr *qr)
+{
+    for (size_t first = 0; first < qr->columns && qr->waiting > 0; first += PANEL) {
+        size_t count = smaller(PANEL, qr->columns - first), right = first + count;
+        factorise(qr, first, count, qr->t);
+        if (right < qr->columns)
+            reflect(qr, first, count, qr->t, right, qr->columns - right);
+    }
+    qr->waiting = 0;
+}
+
+/* All rows go through the buffer, however they arrive: so the triangle is the same to the last bit for every way of cutting
+ * the rows into blocks. */
+void nh_qr_add(nh_qr *qr, size_t rows, double *block, size_t ld)
+{
+    for (size_t done = 0; done < rows;) {
+        size_t take = smaller(rows - done, qr->capacity - qr->waiting);
+        for (size_t j = 0; j < qr->columns; j++)
+            memcpy(qr->block + qr->waiting + j * qr->capacity, block + done + j * ld, take * sizeof(double));
+        qr->waiting += take;
+        qr->rows += take;
+        done += take;
+        if (qr->waiting == qr->capacity)
+            flush(qr);
+    }
+}
+
+void nh_qr_triangle(nh_qr *qr, double *r)
+{
+    flush(qr);
+    memset(r, 0, qr->columns * qr->columns * sizeof *r);
+    for (size_t j = 0; j < qr->columns; j++)
+        memcpy(r + j * qr->columns, qr->r + j * qr->columns, (j + 1) * sizeof *r);
+}
+
+size_t nh_qr_rows(const nh_qr *qr)
+{
+    return qr->rows;
+}
+
+/* ---- decompositions ---- */
+
+/* dgesdd is several times faster than dgesvd, but its divide and conquer can fail where plain QR iteration does not.
+ * u, vt: both given or both NULL. */
+static bool svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
+{
+    char job = u ? 'S' : 'N';
+    lapack_int rows = (lapack_int)m, columns = (lapack_int)n, ld = leading(m), ldvt = leading(smaller(m, n));
+    double *copy = nh_alloc_array(m * n, sizeof *copy);
+    memcpy(copy, a, m * n * sizeof *copy);
+    lapack_int info = LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, a, ld, s, u, ld, vt, ldvt);
+    if (info != 0) {
+        double *superdiagonal = nh_alloc_array(smaller(m, n), sizeof *superdiagonal);
+        info = LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, copy, ld, s, u, ld, vt, ldvt, superdiagonal);
+        nh_free(superdiagonal);
+    }
+    nh_free(copy);
+    return info == 0;
+}
+
+bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
+{
+    size_t k = smaller(m, n);
+    if (k == 0)
+        return true;
+    if (!all_finite(m * n, a))
+        return false;
+    /* LAPACK computes both sides or none */
+    double *own_u = vt && !u ? nh_alloc_array(m * k, sizeof(double)) : NULL;
+    double *own_vt = u && !vt ? nh_alloc_array(k * n, sizeof(double)) : NULL;
+    bool ok = svd(m, n, a, s, own_u ? own_u : u, own_vt ? own_vt : vt);
+    nh_free(own_u);
+    nh_free(own_vt);
+    return ok;
+}
+
+bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot)
+{
+    size_t k = smaller(m, n);
+    for (size_t j = 0; j < n; j++)
+        pivot[j] = j;
+    if (k == 0)
+        return true;
+    if (!all_finite(m * n, a))
+        return false;
+    lapack_int *order = nh_alloc_array(n, sizeof *order); /* zeros: every column may move */
+    double *tau = nh_alloc_array(k, sizeof *tau);
+    lapack_int info = LAPACKE_dgeqp3(LAPACK_COL_MAJOR, (lapack_int)m, (lapack_int)n, a, leading(m), order, tau);
+    for (size_t j = 0; j < n && info == 0; j++) {
+        pivot[j] = (size_t)order[j] - 1;
+        for (size_t i = j + 1; i < m; i++)
+            a[i + j * m] = 0; /* the reflectors */
+    }
+    nh_free(order);
+    nh_free(tau);
+    return info == 0;
+}
+
+bool nh_eigen(size_t n, double *a, double *re, double *im, double *v)
+{
+    if (n == 0)
+        return true;
+    if (!all_finite(n * n, a))
+        return false;
+    lapack_int size = (lapack_int)n;
+    return LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', v ? 'V' : 'N', size, a, size, re, im, NULL, size, v, size) == 0;
+}
+
+/* ---- equations ---- */
+
+bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
+{
+    if (rcond)
+        *rcond = n == 0;
+    if (n == 0)
+        return true;
+    if (!all_finite(n * n, a) || !all_finite(n * nrhs, b))
+        return false;
+    lapack_int size = (lapack_int)n;
+    double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, '1', size, size, a, size);
+    lapack_int *swap = nh_alloc_array(n, sizeof *swap);
+    lapack_int info = LAPACKE_dgesv(LAPACK_COL_MAJOR, size, (lapack_int)nrhs, a, size, swap, b, size);
+    if (info == 0 && rcond)
+        info = LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', size, a, size, norm, rcond);
+    nh_free(swap);
+    return info == 0;
+}
+
+/* dgelsy: rank by pivoted QR with a condition estimate; the solution of least norm.  It does not iterate. */
+int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size_t ldb, double rcond)
+{
+    if (!all_finite(m * n, a))
+        return -1;
+    for (size_t j = 0; j < nrhs; j++)
+        if (!all_finite(m, b + j * ldb))
+            return -1;
+    if (m == 0 || n == 0) {
+        for (size_t j = 0; j < nrhs; j++)
+            memset(b + j * ldb, 0, n * sizeof *b);
+        return 0;
+    }
+    lapack_int rank = -1;
+    lapack_int *order = nh_alloc_array(n, sizeof *order);
+    for (size_t j = 0; j < nrhs && m < n; j++)
+        memset(b + m + j * ldb, 0, (n - m) * sizeof *b); /* read by LAPACKE's check for NaN, otherwise only written */
+    lapack_int info = LAPACKE_dgelsy(LAPACK_COL_MAJOR, (lapack_int)m, (lapack_int)n, (lapack_int)nrhs, a, (lapack_int)m, b,
+                                     (lapack_int)ldb, order, rcond, &rank);
+    nh_free(order);
+    return info == 0 ? (int)rank : -1;
+}
+
+/* ---- products ---- */
+
+void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b, double *c)
+{
+    if (k == 0)
+        memset(c, 0, m * n * sizeof *c);
+    if (m == 0 || n == 0 || k == 0)
+        return;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (lapack_int)m, (lapack_int)n, (lapack_int)k, 1.0, a, (lapack_int)m, b,
+                (lapack_int)k, 0.0, c, (lapack_int)m);
+}
+
+void nh_solve_triangle_right(size_t m, size_t n, const double *r, size_t ldr, double *b)
+{
+    if (m == 0 || n == 0)
+        return;
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)m, (lapack_int)n, 1.0, r,
+                (lapack_int)ldr, b, (lapack_int)m);
+}
+
+void nh_solve_triangle(size_t n, size_t nrhs, const double *r, size_t ldr, double *x, size_t ldx)
+{
+    if (n == 0 || nrhs == 0)
+        return;
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)n, (lapack_int)nrhs, 1.0, r,
+                (lapack_int)ldr, x, (lapack_int)ldx);
+}

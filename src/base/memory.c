@@ -1,0 +1,178 @@
+/* memory: see memory.h. */
+#include "base/memory.h"
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static nh_memory_handler *the_handler;
+
+void nh_memory_set_handler(nh_memory_handler *handler)
+{
+    the_handler = handler;
+}
+
+/* A handler that returns would leave its caller with a null pointer: abort rather than that. */
+static _Noreturn void out_of_memory(size_t wanted)
+{
+    if (the_handler)
+        the_handler(wanted);
+    abort();
+}
+
+static size_t product(size_t count, size_t size)
+{
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes))
+        out_of_memory(SIZE_MAX);
+    return bytes ? bytes : 1;
+}
+
+void *nh_alloc(size_t size)
+{
+    return nh_alloc_array(1, size);
+}
+
+void *nh_alloc_array(size_t count, size_t size)
+{
+    size_t bytes = product(count, size);
+    void *memory = calloc(1, bytes);
+    if (!memory)
+        out_of_memory(bytes);
+    return memory;
+}
+
+void *nh_realloc_array(void *old, size_t count, size_t size)
+{
+    size_t bytes = product(count, size);
+    void *memory = realloc(old, bytes);
+    if (!memory)
+        out_of_memory(bytes);
+    return memory;
+}
+
+void nh_free(void *pointer)
+{
+    free(pointer);
+}
+
+char *nh_strdup(const char *text)
+{
+    size_t size = strlen(text) + 1;
+    return memcpy(nh_alloc(size), text, size);
+}
+
+/* `array_pointer` is a `T **`; memcpy reads and writes it without pretending that it is a `void **`. */
+void nh_grow(void *array_pointer, size_t *capacity, size_t need, size_t size)
+{
+    if (need <= *capacity)
+        return;
+    size_t wanted = *capacity > SIZE_MAX / 2 ? need : 2 * *capacity;
+    if (wanted < 8)
+        wanted = 8;
+    if (wanted < need)
+        wanted = need;
+    void *array;
+    memcpy(&array, array_pointer, sizeof array);
+    array = nh_realloc_array(array, wanted, size);
+    memcpy(array_pointer, &array, sizeof array);
+    *capacity = wanted;
+}
+
+/* An arena is a list of blocks; the first is the one being filled.  Large requests get a block of their own behind
+ * it, so that they do not waste its rest. */
+enum { ALIGNMENT = 16, BLOCK_SIZE = 16384, LARGE = BLOCK_SIZE / 4 };
+
+typedef struct block block;
+struct block {
+    block *next;
+    _Alignas(ALIGNMENT) unsigned char memory[];
+};
+
+struct nh_arena {
+    block *first;
+    size_t used, capacity; /* of the first block */
+};
+
+nh_arena *nh_arena_create(void)
+{
+    return nh_alloc(sizeof(nh_arena));
+}
+
+void nh_arena_free(nh_arena *arena)
+{
+    if (!arena)
+        return;
+    for (block *each = arena->first, *next; each; each = next) {
+        next = each->next;
+        nh_free(each);
+    }
+    nh_free(arena);
+}
+
+static block *new_block(size_t size)
+{
+    if (size > SIZE_MAX - sizeof(block))
+        out_of_memory(SIZE_MAX);
+    return nh_alloc(sizeof(block) + size);
+}
+
+static void *alloc_large(nh_arena *arena, size_t size)
+{
+    block *own = new_block(size);
+    if (arena->first) {
+        own->next = arena->first->next;
+        arena->first->next = own;
+    } else {
+        arena->first = own; /* used == capacity == 0: nothing more goes into it */
+    }
+    return own->memory;
+}
+
+void *nh_arena_alloc(nh_arena *arena, size_t size)
+{
+    if (size > LARGE)
+        return alloc_large(arena, size);
+    size = size ? (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT : ALIGNMENT;
+    if (size > arena->capacity - arena->used) {
+        block *fresh = new_block(BLOCK_SIZE);
+        fresh->next = arena->first;
+        arena->first = fresh;
+        arena->used = 0;
+        arena->capacity = BLOCK_SIZE;
+    }
+    void *memory = arena->first->memory + arena->used;
+    arena->used += size;
+    return memory;
+}
+
+char *nh_arena_strndup(nh_arena *arena, const char *text, size_t length)
+{
+    if (length == SIZE_MAX)
+        out_of_memory(SIZE_MAX);
+    char *copy = nh_arena_alloc(arena, length + 1);
+    if (length)
+        memcpy(copy, text, length);
+    return copy;
+}
+
+char *nh_arena_strdup(nh_arena *arena, const char *text)
+{
+    return nh_arena_strndup(arena, text, strlen(text));
+}
+
+char *nh_arena_printf(nh_arena *arena, const char *format, ...)
+{
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *text = nh_arena_alloc(arena, length < 0 ? 1 : (size_t)length + 1);
+    if (length > 0)
+        vsnprintf(text, (size_t)length + 1, format, again);
+    va_end(again);
+    return text;
+}

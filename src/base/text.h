@@ -1,0 +1,29 @@
+/* text: growing strings, numbers as people write them, and "did you mean". */
+#ifndef NH_TEXT_H
+#define NH_TEXT_H
+
+#include <stddef.h>
+
+typedef struct {
+    char *data; /* always terminated once something was added; NULL before */
+    size_t length, capacity;
+} nh_text;
+
+void nh_text_init(nh_text *text);
+void nh_text_clear(nh_text *text);
+void nh_text_add(nh_text *text, const char *string);
+void nh_text_add_n(nh_text *text, const char *string, size_t length);
+void nh_text_addf(nh_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+const char *nh_text_string(const nh_text *text); /* "" when empty */
+
+/* The shortest decimal that reads back as exactly `value`, into `out` (32 bytes are enough). */
+void nh_text_number(double value, char *out, size_t size);
+
+/* The candidate nearest to `word` (Damerau-Levenshtein, case ignored), or NULL when none is near enough to be
+ * what was meant. */
+const char *nh_text_nearest(const char *word, const char *const *candidates, size_t count);
+
+/* Columns that `string` takes on a terminal (UTF-8 code points; no wide characters are used here). */
+size_t nh_text_width(const char *string);
+
+#endif

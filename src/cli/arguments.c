@@ -1,0 +1,124 @@
+/* arguments: the command line. */
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version };
+
+static const struct option long_options[] = {
+    {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
+    {"samples", required_argument, NULL, opt_samples},   {"tolerance", required_argument, NULL, opt_tolerance},
+    {"until", required_argument, NULL, opt_until},       {"json", optional_argument, NULL, opt_json},
+    {"analysis", required_argument, NULL, opt_analysis}, {"no-analysis", no_argument, NULL, opt_no_analysis},
+    {"chart", required_argument, NULL, opt_chart},       {"option", required_argument, NULL, opt_option},
+    {"columns", required_argument, NULL, opt_columns},   {"no-color", no_argument, NULL, opt_no_color},
+    {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
+    {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
+    {NULL, 0, NULL, 0}};
+
+/* "name=value" cut at the sign. */
+static bool assignment(nh_cli *cli, const char *text, const char *option, char **name, const char **value, nh_error *error)
+{
+    const char *equal = strchr(text, '=');
+    if (!equal || equal == text) {
+        nh_fail(error, NH_USAGE, "", "--%s needs NAME=VALUE, found `%s`", option, text);
+        return false;
+    }
+    *name = nh_arena_strndup(cli->arena, text, (size_t)(equal - text));
+    *value = equal + 1;
+    return true;
+}
+
+static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
+{
+    char *name, *end;
+    const char *value;
+    if (!assignment(cli, text, "set", &name, &value, error)) return false;
+    double x = strtod(value, &end);
+    if (end == value || *end || x != x || x - x != 0) return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
+    cli->setting[cli->settings++] = (nh_setting){name, x};
+    return true;
+}
+
+static bool set_chart(nh_cli *cli, const char *text, nh_error *error)
+{
+    static const char *const names[] = {"auto", "quasi", "coordinates"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i])) continue;
+        cli->chart = (nh_chart_choice)i;
+        return true;
+    }
+    nh_fail(error, NH_USAGE, "", "there is no chart `%s`", text);
+    return nh_error_hint(error, "--chart takes auto, quasi or coordinates");
+}
+
+static bool unknown_option(const char *word, nh_error *error)
+{
+    const char *names[sizeof long_options / sizeof *long_options];
+    size_t n = 0;
+    for (const struct option *o = long_options; o->name; o++) names[n++] = o->name;
+    nh_fail(error, NH_USAGE, "", "`%s` is not an option, or lacks its value", word);
+    const char *near = nh_text_nearest(word + strspn(word, "-"), names, n);
+    return near ? nh_error_hint(error, "did you mean `--%s`?", near) : nh_error_hint(error, "`nhsym help` lists them");
+}
+
+static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
+{
+    char *name;
+    const char *text;
+    switch (code) {
+    case opt_set: return set_parameter(cli, value, error);
+    case opt_seed: return cli->seed_given = true, nh_options_set(&cli->options, "seed", value, error);
+    case opt_samples: return cli->samples_given = true, nh_options_set(&cli->options, "samples", value, error);
+    case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
+    case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
+    case opt_columns: return nh_options_set(&cli->options, "columns", value, error);
+    case opt_option: return assignment(cli, value, "option", &name, &text, error) && nh_options_set(&cli->options, name, text, error);
+    case opt_chart: return set_chart(cli, value, error);
+    case opt_json: cli->json = value ? value : "-"; return true;
+    case opt_analysis: cli->analysis = value; return true;
+    case opt_no_analysis: return cli->no_analysis = true;
+    case opt_no_color: cli->colour = false; return true;
+    case opt_version: cli->command = "version"; return true;
+    case 'q': return cli->quiet = true;
+    case 'v': return cli->verbose = true;
+    default: return cli->help = true;
+    }
+}
+
+/* "--json FILE" with a space: getopt does not join an optional value, but the format promises it. */
+static const char *optional_value(int argc, char **argv)
+{
+    if (optarg || optind >= argc) return optarg;
+    const char *next = argv[optind];
+    size_t length = strlen(next);
+    bool file = !strcmp(next, "-") || (length > 5 && !strcmp(next + length - 5, ".json"));
+    if (!file) return NULL;
+    optind++;
+    return next;
+}
+
+bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
+{
+    cli->setting = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->setting);
+    cli->operand = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->operand);
+    cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
+    nh_options_default(&cli->options);
+    opterr = 0;
+    optind = 1;
+    for (int code; (code = getopt_long(argc, argv, "-qvho:", long_options, NULL)) != -1;) {
+        if (code == 1) {
+            if (!cli->command) cli->command = optarg;
+            else cli->operand[cli->operands++] = optarg;
+        } else if (code == '?' || code == 'o') {
+            return unknown_option(argv[optind - 1], error);
+        } else if (!take(cli, code, code == opt_json ? optional_value(argc, argv) : optarg, error)) {
+            return false;
+        }
+    }
+    while (optind < argc) cli->operand[cli->operands++] = argv[optind++];
+    return true;
+}

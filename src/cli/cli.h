@@ -1,0 +1,43 @@
+/* cli: what the commands share.  Only this folder prints or exits. */
+#ifndef NH_CLI_H
+#define NH_CLI_H
+
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "base/option.h"
+#include "base/text.h"
+#include "study/analyze.h"
+
+typedef struct {
+    const char *command;
+    size_t operands;
+    const char **operand;
+    const char *analysis, *json; /* files; json may be "-" */
+    bool no_analysis;
+    size_t settings;
+    nh_setting *setting;
+    nh_chart_choice chart;
+    nh_options options;
+    bool seed_given, samples_given, tolerance_given, until_given;
+    bool quiet, verbose, colour, help;
+    nh_arena *arena;
+} nh_cli;
+
+/* Parse the words after the program's name. */
+bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
+
+/* Exit code of a command. */
+typedef int nh_cli_command(nh_cli *cli, nh_error *error);
+nh_cli_command nh_cli_analyze, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help;
+
+/* The file of a system or analysis: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
+ * `kind` is "systems" or "analyses".  NULL with a suggestion. */
+const char *nh_cli_find(nh_cli *cli, const char *kind, const char *name, nh_error *error);
+/* The same without complaint. */
+const char *nh_cli_look(nh_cli *cli, const char *kind, const char *name);
+
+/* All names of that kind, sorted, each once. */
+size_t nh_cli_names(nh_cli *cli, const char *kind, const char ***names);
+
+#endif

@@ -1,0 +1,81 @@
+/* find: where systems and analyses live. */
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+
+enum { most_places = 64 };
+
+/* Folders to search, in order: here, each entry of NHSYM_PATH (itself, and its systems/), the installed data. */
+static size_t places(nh_cli *cli, const char *kind, const char **out)
+{
+    size_t n = 0;
+    out[n++] = nh_arena_strdup(cli->arena, kind);
+    const char *path = getenv("NHSYM_PATH");
+    while (path && *path && n + 3 < most_places) {
+        size_t length = strcspn(path, ":");
+        if (length) {
+            out[n++] = nh_arena_printf(cli->arena, "%.*s/%s", (int)length, path, kind);
+            out[n++] = nh_arena_strndup(cli->arena, path, length);
+        }
+        path += length + (path[length] == ':');
+    }
+    out[n++] = nh_arena_printf(cli->arena, "%s/%s", NH_DATADIR, kind);
+    return n;
+}
+
+const char *nh_cli_look(nh_cli *cli, const char *kind, const char *name)
+{
+    const char *folder[most_places];
+    if (strchr(name, '/') || (strlen(name) > 5 && !strcmp(name + strlen(name) - 5, ".yaml"))) return access(name, F_OK) ? NULL : name;
+    size_t n = places(cli, kind, folder);
+    for (size_t i = 0; i < n; i++) {
+        const char *file = nh_arena_printf(cli->arena, "%s/%s.yaml", folder[i], name);
+        if (!access(file, F_OK)) return file;
+    }
+    return NULL;
+}
+
+static int by_name(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
+
+size_t nh_cli_names(nh_cli *cli, const char *kind, const char ***names)
+{
+    const char *folder[most_places], **list = NULL;
+    size_t places_count = places(cli, kind, folder), count = 0, capacity = 0, kept = 0;
+    for (size_t i = 0; i < places_count; i++) {
+        DIR *directory = opendir(folder[i]);
+        for (struct dirent *entry; directory && (entry = readdir(directory));) {
+            size_t length = strlen(entry->d_name);
+            if (length < 6 || strcmp(entry->d_name + length - 5, ".yaml")) continue;
+            nh_grow(&list, &capacity, count + 1, sizeof *list);
+            list[count++] = nh_arena_strndup(cli->arena, entry->d_name, length - 5);
+        }
+        if (directory) closedir(directory);
+    }
+    if (count) qsort(list, count, sizeof *list, by_name);
+    const char **out = nh_arena_alloc(cli->arena, (count + 1) * sizeof *out);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || strcmp(list[i], list[i - 1])) out[kept++] = list[i];
+    nh_free(list);
+    *names = out;
+    return kept;
+}
+
+const char *nh_cli_find(nh_cli *cli, const char *kind, const char *name, nh_error *error)
+{
+    const char *found = nh_cli_look(cli, kind, name);
+    if (found) return found;
+    if (strchr(name, '/') || strstr(name, ".yaml")) {
+        nh_fail(error, NH_INPUT, name, "there is no such file");
+        return NULL;
+    }
+    const char **names;
+    size_t count = nh_cli_names(cli, kind, &names);
+    nh_fail(error, NH_INPUT, "", "there is no %s `%s` in ./%s, in NHSYM_PATH or among the installed ones", strcmp(kind, "systems") ? "analysis" : "system", name, kind);
+    const char *near = nh_text_nearest(name, names, count);
+    if (near) nh_error_hint(error, "did you mean `%s`?", near);
+    else nh_error_hint(error, "give the path of a file, or see `nhsym list`");
+    return NULL;
+}

@@ -1,0 +1,57 @@
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+
+static const struct {
+    const char *name;
+    nh_cli_command *run;
+} commands[] = {
+    {"analyze", nh_cli_analyze}, {"list", nh_cli_list},       {"show", nh_cli_show},
+    {"explain", nh_cli_explain}, {"version", nh_cli_version}, {"help", nh_cli_help},
+};
+enum { command_count = sizeof commands / sizeof *commands };
+
+static void out_of_memory(size_t wanted)
+{
+    (void)wanted;
+    static const char text[] = "nhsym: out of memory\n";
+    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) _exit(NH_LIMIT);
+    _exit(NH_LIMIT);
+}
+
+static int run(nh_cli *cli, nh_error *error)
+{
+    const char *names[command_count];
+    if (cli->help || !cli->command) return nh_cli_help(cli, error);
+    for (size_t i = 0; i < command_count; i++) {
+        names[i] = commands[i].name;
+        if (!strcmp(cli->command, names[i])) return commands[i].run(cli, error);
+    }
+    nh_fail(error, NH_USAGE, "", "there is no command `%s`", cli->command);
+    const char *near = nh_text_nearest(cli->command, names, command_count);
+    if (near) nh_error_hint(error, "did you mean `nhsym %s`?", near);
+    else nh_error_hint(error, "`nhsym help` lists the commands");
+    return NH_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_memory_set_handler(out_of_memory);
+    nh_cli cli = {.arena = nh_arena_create()};
+    int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
+    if (error.code != NH_OK) {
+        char text[4096];
+        nh_error_format(&error, text, sizeof text);
+        fprintf(stderr, "nhsym: %s\n", text);
+    }
+    nh_arena_free(cli.arena);
+    if (fflush(stdout) || ferror(stdout)) {
+        fprintf(stderr, "nhsym: the output could not be written\n");
+        return code ? code : NH_NUMERIC;
+    }
+    return code;
+}

@@ -1,0 +1,116 @@
+/* small: the commands that need no computation. */
+#include <string.h>
+
+#include "cli/cli.h"
+
+int nh_cli_version(nh_cli *cli, nh_error *error)
+{
+    (void)cli;
+    (void)error;
+    puts("nhsym " NH_VERSION);
+    return NH_OK;
+}
+
+int nh_cli_help(nh_cli *cli, nh_error *error)
+{
+    (void)cli;
+    (void)error;
+    puts("nhsym: symmetries and conservation laws of mechanical systems with constraints\n"
+         "\n"
+         "  nhsym analyze SYSTEM|FILE   currents, their symmetries, and how they were checked\n"
+         "  nhsym list                  systems that are here\n"
+         "  nhsym show SYSTEM           a system file\n"
+         "  nhsym explain [TOPIC]       what a word of the report means; `explain options` lists all numbers that decide\n"
+         "  nhsym version\n"
+         "\n"
+         "  --set NAME=VALUE            another parameter value (repeatable)\n"
+         "  --analysis FILE             the ansatz and the motion; --no-analysis: choose them\n"
+         "  --chart quasi|coordinates   which velocities to compute in\n"
+         "  --json [FILE|-]             the result as JSON; with - nothing else is printed\n"
+         "  --seed N --samples N --columns N --tolerance EPS --until T --option NAME=VALUE\n"
+         "  --quiet --verbose --no-color --help\n"
+         "\n"
+         "Examples\n"
+         "  nhsym analyze sleigh --set k=3\n"
+         "  nhsym analyze mine.yaml --json result.json");
+    return NH_OK;
+}
+
+int nh_cli_list(nh_cli *cli, nh_error *error)
+{
+    const char **names;
+    size_t count = nh_cli_names(cli, "systems", &names);
+    for (size_t i = 0; i < count; i++) {
+        const char *path = nh_cli_look(cli, "systems", names[i]);
+        nh_error trouble;
+        nh_error_clear(&trouble);
+        nh_system *s = path ? nh_system_read(path, 0, NULL, &trouble) : NULL;
+        printf("%-24s %s\n", names[i], s ? s->title : trouble.what);
+        nh_system_free(s);
+    }
+    if (count) return NH_OK;
+    nh_fail(error, NH_INPUT, "", "there are no systems in ./systems, in NHSYM_PATH or installed");
+    nh_error_hint(error, "run nhsym where a folder `systems` is, or set NHSYM_PATH");
+    return NH_INPUT;
+}
+
+int nh_cli_show(nh_cli *cli, nh_error *error)
+{
+    if (cli->operands != 1) {
+        nh_fail(error, NH_USAGE, "", "show which system?");
+        nh_error_hint(error, "nhsym show sleigh");
+        return NH_USAGE;
+    }
+    const char *path = nh_cli_find(cli, "systems", cli->operand[0], error);
+    if (!path) return error->code;
+    FILE *file = fopen(path, "r");
+    if (!file) return nh_fail(error, NH_INPUT, path, "cannot be read"), NH_INPUT;
+    char buffer[4096];
+    for (size_t n; (n = fread(buffer, 1, sizeof buffer, file)) > 0;) fwrite(buffer, 1, n, stdout);
+    fclose(file);
+    return NH_OK;
+}
+
+static const struct {
+    const char *word, *text;
+} topics[] = {
+    {"current", "A function Phi of time, coordinates and velocities that stays constant along every motion: Gamma(Phi) = 0."},
+    {"symmetry", "The Chetaev field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is Phi = alpha(Z)."},
+    {"case", "1: [Gamma,Z] = a Gamma, Z is also a symmetry of the equations of motion.  2: [Gamma,Z] = a Gamma + b Z.  3: neither."},
+    {"distribution", "The canonical distribution: virtual displacements that the constraints allow. [Gamma,Z] may leave it."},
+    {"FOUND", "Currents were found and each is proved, or certified to at least 50 digits."},
+    {"NONE", "No combination of the ansatz is conserved: every generalized singular value is far above rounding."},
+    {"UNDECIDED", "Values between rounding and significance: take more samples or another ansatz; a current is given with its digits."},
+    {"gap", "The ratio of the first singular value that is not null to the last that is.  Below 1000 nothing is decided."},
+    {"drift", "The largest change of a current along a computed motion, relative to the size of its terms."},
+    {"local", "The current changes when an angle goes once around: it is defined on a part of the configuration space only."},
+    {"independent", "Its gradient is not a combination of the gradients of the currents before it."},
+    {"holonomic", "The constraint can be integrated to one between positions."},
+    {"semiholonomic", "eps'_l(g) = 0: the constraint behaves like a holonomic one."},
+};
+
+static void explain_options(void)
+{
+    for (size_t i = 0; i < nh_option_count(); i++) {
+        nh_option_row o = nh_option_at(i);
+        printf("%-12s %-9g %-10s %s\n", o.name, o.value, o.unit, o.doc);
+    }
+}
+
+int nh_cli_explain(nh_cli *cli, nh_error *error)
+{
+    enum { count = sizeof topics / sizeof *topics };
+    const char *names[count + 1], *word = cli->operands ? cli->operand[0] : NULL;
+    for (size_t i = 0; i < count; i++) {
+        names[i] = topics[i].word;
+        if (!word) printf("%-14s %s\n", topics[i].word, topics[i].text);
+        else if (!strcmp(word, topics[i].word)) return puts(topics[i].text), NH_OK;
+    }
+    if (!word) return puts("options        every number that decides something (nhsym explain options)"), NH_OK;
+    if (!strcmp(word, "options")) return explain_options(), NH_OK;
+    names[count] = "options";
+    nh_fail(error, NH_USAGE, "", "nothing is known about `%s`", word);
+    const char *near = nh_text_nearest(word, names, count + 1);
+    if (near) nh_error_hint(error, "did you mean `%s`?", near);
+    return NH_USAGE;
+}

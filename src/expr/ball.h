@@ -1,0 +1,32 @@
+/* ball: rigorous evaluation of expressions (Arb).
+ *
+ * Values are mid-points with rigorous radii; what a ball excludes is excluded by proof, what it contains to 60 digits
+ * is zero to 60 digits. */
+#ifndef NH_BALL_H
+#define NH_BALL_H
+
+#include "expr/dag.h"
+
+typedef struct nh_ball nh_ball; /* values of some symbols, at some precision, and a memo of every node evaluated */
+
+nh_ball *nh_ball_create(const nh_dag *dag, long bits);
+void nh_ball_free(nh_ball *ball);
+
+/* Set a symbol to the exact rational p/q, or to an exact double; forgets values that depended on it. */
+void nh_ball_set_ratio(nh_ball *ball, nh_ex symbol, int64_t p, int64_t q);
+void nh_ball_set_double(nh_ball *ball, nh_ex symbol, double value);
+/* Set a symbol to the value of an expression in symbols set before. */
+void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value);
+
+/* The value of e.  False when it is not finite there, or a symbol has no value. */
+bool nh_ball_value(nh_ball *ball, nh_ex e, double *mid, double *radius);
+
+/* An upper bound of |e| (mid + radius), as log10, so that values below the double range are told apart; -infinity for an
+ * exact zero.  False as above. */
+bool nh_ball_log10_bound(nh_ball *ball, nh_ex e, double *log10_bound);
+
+/* log10( |sum_i term[i]| / max_i |term[i]| ), both bounded rigorously: minus the number of digits to which the sum
+ * vanishes.  False as above, or when every term is zero. */
+bool nh_ball_relative_sum(nh_ball *ball, size_t n, const nh_ex *term, double *log10_ratio);
+
+#endif

@@ -1,0 +1,301 @@
+#include "expr/dag.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/dag_internal.h"
+
+nh_dag *nh_dag_create(void)
+{
+    nh_dag *dag = nh_alloc(sizeof *dag);
+    dag->bucket_count = 1 << 10;
+    dag->bucket = nh_alloc_array(dag->bucket_count, sizeof *dag->bucket);
+    dag->names = nh_arena_create();
+    nh_int(dag, 0); /* index 0 is the number 0, index 1 the number 1 */
+    nh_int(dag, 1);
+    return dag;
+}
+
+void nh_dag_free(nh_dag *dag)
+{
+    if (!dag) return;
+    nh_free(dag->node);
+    nh_free(dag->arg);
+    nh_free(dag->bucket);
+    nh_free(dag->name);
+    nh_free(dag->memo);
+    nh_free(dag->rule);
+    nh_arena_free(dag->names);
+    nh_free(dag);
+}
+
+size_t nh_dag_size(const nh_dag *dag) { return dag->node_count; }
+
+/* ---- hash consing ---- */
+
+static uint64_t mix(uint64_t h, uint64_t x)
+{
+    h ^= x + 0x9e3779b97f4a7c15u + (h << 6) + (h >> 2);
+    h *= 0xff51afd7ed558ccdu;
+    return h ^ (h >> 32);
+}
+
+static uint64_t hash_of(unsigned kind, unsigned op, size_t count, const uint32_t *arg)
+{
+    uint64_t h = mix(kind * 0x100u + op, count);
+    for (size_t i = 0; i < count; i++) h = mix(h, arg[i]);
+    return h;
+}
+
+static void rehash(nh_dag *dag)
+{
+    dag->bucket_count *= 2;
+    dag->bucket = nh_realloc_array(dag->bucket, dag->bucket_count, sizeof *dag->bucket);
+    memset(dag->bucket, 0, dag->bucket_count * sizeof *dag->bucket);
+    for (uint32_t i = 0; i < dag->node_count; i++) {
+        uint32_t *head = &dag->bucket[dag->node[i].hash & (dag->bucket_count - 1)];
+        dag->node[i].next = *head;
+        *head = i + 1;
+    }
+}
+
+/* Which symbols occur, folded to 64 bits: a clear bit proves absence. */
+static uint64_t mask_of(const nh_dag *dag, unsigned kind, uint32_t self, size_t count, const uint32_t *arg)
+{
+    if (kind == NH_NUMBER) return 0;
+    if (kind == NH_SYMBOL) return (uint64_t)1 << (self % 64);
+    uint64_t mask = 0;
+    for (size_t i = 0; i < count; i++) mask |= dag->node[arg[i]].mask;
+    return mask;
+}
+
+nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg)
+{
+    uint64_t hash = hash_of(kind, op, count, arg);
+    for (uint32_t i = dag->bucket[hash & (dag->bucket_count - 1)]; i; i = dag->node[i - 1].next) {
+        const nh_node *n = &dag->node[i - 1];
+        if (n->hash == hash && n->kind == kind && n->op == op && n->count == count
+            && (count == 0 || !memcmp(dag->arg + n->first, arg, count * sizeof *arg)))
+            return i - 1;
+    }
+    if (dag->node_count >= UINT32_MAX - 1 || dag->arg_count + count > UINT32_MAX) nh_alloc(SIZE_MAX); /* the graph is full */
+    if (dag->node_count >= dag->bucket_count) rehash(dag);
+    nh_grow(&dag->node, &dag->node_capacity, dag->node_count + 1, sizeof *dag->node);
+    nh_grow(&dag->arg, &dag->arg_capacity, dag->arg_count + count, sizeof *dag->arg);
+    uint32_t self = (uint32_t)dag->node_count++;
+    nh_node *n = &dag->node[self];
+    *n = (nh_node){.kind = (uint8_t)kind, .op = (uint8_t)op, .count = (uint32_t)count,
+                   .first = (uint32_t)dag->arg_count, .hash = hash};
+    if (count) memcpy(dag->arg + dag->arg_count, arg, count * sizeof *arg);
+    dag->arg_count += count;
+    /* Children of numbers and symbols are table indices, not nodes. */
+    n->mask = mask_of(dag, kind, self, count, arg);
+    uint32_t *head = &dag->bucket[hash & (dag->bucket_count - 1)];
+    n->next = *head;
+    *head = self + 1;
+    return self;
+}
+
+/* ---- leaves ---- */
+
+nh_ex nh_number(nh_dag *dag, nh_num value)
+{
+    uint32_t word[6];
+    memset(word, 0, sizeof word);
+    if (value.q) value.d = 0;
+    else if (isnan(value.d)) value.d = NAN; /* one nan, whatever its sign */
+    memcpy(word, &value.p, 8);
+    memcpy(word + 2, &value.q, 8);
+    memcpy(word + 4, &value.d, 8);
+    return nh_dag_intern(dag, NH_NUMBER, 0, 6, word);
+}
+
+nh_num nh_number_of(const nh_dag *dag, nh_ex e)
+{
+    const uint32_t *word = dag->arg + dag->node[e].first;
+    nh_num value;
+    memcpy(&value.p, word, 8);
+    memcpy(&value.q, word + 2, 8);
+    memcpy(&value.d, word + 4, 8);
+    return value;
+}
+
+nh_ex nh_int(nh_dag *dag, int64_t value) { return nh_number(dag, nh_num_int(value)); }
+nh_ex nh_ratio(nh_dag *dag, int64_t p, int64_t q) { return nh_number(dag, nh_num_ratio(p, q)); }
+nh_ex nh_real(nh_dag *dag, double value) { return nh_number(dag, nh_num_real(value)); }
+
+bool nh_symbol_find(const nh_dag *dag, const char *name, nh_ex *out)
+{
+    for (size_t i = 0; i < dag->name_count; i++) {
+        if (dag->name[i].hidden || strcmp(dag->name[i].text, name)) continue;
+        *out = dag->name[i].symbol;
+        return true;
+    }
+    return false;
+}
+
+static nh_ex new_symbol(nh_dag *dag, const char *name, bool hidden)
+{
+    uint32_t index = (uint32_t)dag->name_count;
+    nh_grow(&dag->name, &dag->name_capacity, dag->name_count + 1, sizeof *dag->name);
+    nh_ex symbol = nh_dag_intern(dag, NH_SYMBOL, 0, 1, &index);
+    dag->name[dag->name_count++] = (nh_symbol_name){nh_arena_strdup(dag->names, name), symbol, hidden};
+    return symbol;
+}
+
+nh_ex nh_symbol(nh_dag *dag, const char *name)
+{
+    nh_ex found;
+    return nh_symbol_find(dag, name, &found) ? found : new_symbol(dag, name, false);
+}
+
+nh_ex nh_symbol_fresh(nh_dag *dag, const char *name) { return new_symbol(dag, name, true); }
+
+const char *nh_name_of(const nh_dag *dag, nh_ex e) { return dag->name[dag->arg[dag->node[e].first]].text; }
+
+/* ---- looking ---- */
+
+nh_kind nh_kind_of(const nh_dag *dag, nh_ex e) { return (nh_kind)dag->node[e].kind; }
+nh_function nh_function_of(const nh_dag *dag, nh_ex e) { return (nh_function)dag->node[e].op; }
+
+/* Sums are stored as [constant, term, coefficient, ...], products as [coefficient, base, exponent, ...]. */
+size_t nh_arity(const nh_dag *dag, nh_ex e)
+{
+    const nh_node *n = &dag->node[e];
+    if (n->kind == NH_FUNCTION) return n->count;
+    return n->kind == NH_SUM || n->kind == NH_PRODUCT ? n->count / 2 : 0;
+}
+
+nh_num nh_constant_of(const nh_dag *dag, nh_ex e) { return nh_number_of(dag, dag->arg[dag->node[e].first]); }
+
+nh_ex nh_child(const nh_dag *dag, nh_ex e, size_t i)
+{
+    const nh_node *n = &dag->node[e];
+    return dag->arg[n->first + (n->kind == NH_FUNCTION ? i : 1 + 2 * i)];
+}
+
+nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i)
+{
+    return nh_number_of(dag, dag->arg[dag->node[e].first + 2 + 2 * i]);
+}
+
+nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i) { return dag->arg[dag->node[e].first + 2 + 2 * i]; }
+
+bool nh_is_zero(const nh_dag *dag, nh_ex e) { return nh_is_number(dag, e, 0); }
+
+bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value)
+{
+    return dag->node[e].kind == NH_NUMBER && nh_num_is(nh_number_of(dag, e), value);
+}
+
+/* The indices of all nodes below `e`, each once, children first. */
+static size_t reach(const nh_dag *dag, nh_ex e, uint32_t **out)
+{
+    uint8_t *seen = nh_alloc(e + 1);
+    size_t count = 0;
+    seen[e] = 1;
+    for (uint32_t i = e + 1; i-- > 0;) { /* children have smaller indices than their parents */
+        if (!seen[i]) continue;
+        count++;
+        const nh_node *n = &dag->node[i];
+        if (n->kind <= NH_SYMBOL) continue;
+        for (uint32_t j = 0; j < n->count; j++) seen[dag->arg[n->first + j]] = 1;
+    }
+    *out = nh_alloc_array(count ? count : 1, sizeof **out);
+    size_t k = 0;
+    for (uint32_t i = 0; i <= e; i++)
+        if (seen[i]) (*out)[k++] = i;
+    nh_free(seen);
+    return count;
+}
+
+bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol)
+{
+    if (e == symbol) return true;
+    if (e < symbol || !(dag->node[e].mask & ((uint64_t)1 << (symbol % 64)))) return false;
+    const nh_node *n = &dag->node[e];
+    if (n->kind <= NH_SYMBOL) return false;
+    uint32_t *node;
+    size_t count = reach(dag, e, &node);
+    bool found = false;
+    for (size_t i = 0; i < count && !found; i++) found = node[i] == symbol;
+    nh_free(node);
+    return found;
+}
+
+size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
+{
+    uint32_t *node;
+    size_t count = reach(dag, e, &node), found = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (dag->node[node[i]].kind != NH_SYMBOL) continue;
+        if (found < max) out[found] = node[i];
+        found++;
+    }
+    nh_free(node);
+    return found;
+}
+
+size_t nh_node_count(const nh_dag *dag, nh_ex e)
+{
+    uint32_t *node;
+    size_t count = reach(dag, e, &node);
+    nh_free(node);
+    return count;
+}
+
+/* ---- substitution ---- */
+
+static nh_ex rebuild(nh_dag *dag, nh_ex e, const nh_ex *image)
+{
+    nh_kind kind = nh_kind_of(dag, e);
+    size_t n = nh_arity(dag, e);
+    if (kind == NH_FUNCTION) {
+        nh_ex first = image[nh_child(dag, e, 0)];
+        if (n == 1) return nh_call(dag, nh_function_of(dag, e), first);
+        return nh_call2(dag, nh_function_of(dag, e), first, image[nh_child(dag, e, 1)]);
+    }
+    nh_ex *part = nh_alloc_array(n + 1, sizeof *part), result;
+    nh_num *scale = nh_alloc_array(n + 1, sizeof *scale);
+    for (size_t i = 0; i < n; i++) {
+        part[i] = image[nh_child(dag, e, i)];
+        if (kind == NH_SUM) scale[i] = nh_coefficient_of(dag, e, i);
+        else part[i] = nh_pow(dag, part[i], image[nh_exponent_of(dag, e, i)]);
+    }
+    part[n] = nh_number(dag, nh_constant_of(dag, e));
+    scale[n] = nh_num_int(1);
+    result = kind == NH_SUM ? nh_linear(dag, n + 1, scale, part) : nh_product(dag, n + 1, part);
+    nh_free(scale);
+    nh_free(part);
+    return result;
+}
+
+nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t count, const nh_ex *from, const nh_ex *to)
+{
+    uint32_t *node;
+    size_t n = reach(dag, e, &node);
+    nh_ex *image = nh_alloc_array((size_t)e + 1, sizeof *image);
+    for (size_t i = 0; i < n; i++) {
+        nh_ex x = node[i];
+        image[x] = x;
+        bool replaced = false;
+        for (size_t j = 0; j < count && !replaced; j++) {
+            if (from[j] != x) continue;
+            image[x] = to[j];
+            replaced = true;
+        }
+        if (replaced || dag->node[x].kind <= NH_SYMBOL) continue;
+        bool changed = false;
+        const nh_node *y = &dag->node[x];
+        for (uint32_t j = 0; j < y->count; j++) {
+            nh_ex child = dag->arg[y->first + j];
+            changed |= image[child] != child;
+        }
+        if (changed) image[x] = rebuild(dag, x, image);
+    }
+    nh_ex result = image[e];
+    nh_free(image);
+    nh_free(node);
+    return result;
+}

@@ -1,0 +1,103 @@
+/* dag: hash-consed expressions in a light canonical form.
+ *
+ * An expression is an index into its graph; equal indices mean equal expressions, so common subexpressions are
+ * shared for free and every memo table is an array.  The form is canonical under commutativity, associativity,
+ * collection of like terms and like factors, exact rational arithmetic, and the signs of odd and even functions:
+ *
+ *     number    exact rational p/q (64 bit) or, when inexact, a double
+ *     symbol    parameter, coordinate, velocity, ...
+ *     sum       c0 + c1 e1 + c2 e2 + ...         content 1, first coefficient positive
+ *     product   c * b1^x1 * b2^x2 * ...          (powers and quotients too: 1/b = b^-1, sqrt(b) = b^(1/2);
+ *                                                 roots of numbers are split into roots of primes)
+ *     function  sin, cos, ..., atan2, pi
+ *
+ * Nothing deeper is done here (no trigonometric identities, no expansion): see normal.h. */
+#ifndef NH_DAG_H
+#define NH_DAG_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef uint32_t nh_ex; /* an expression of one graph */
+typedef struct nh_dag nh_dag;
+
+typedef enum { NH_NUMBER, NH_SYMBOL, NH_SUM, NH_PRODUCT, NH_FUNCTION } nh_kind;
+
+typedef enum {
+    NH_SIN, NH_COS, NH_TAN, NH_ASIN, NH_ACOS, NH_ATAN, NH_SINH, NH_COSH, NH_TANH, NH_ASINH, NH_ACOSH, NH_ATANH,
+    NH_EXP, NH_LOG, NH_ABS, NH_SIGN, NH_ATAN2, NH_PI, NH_FUNCTION_COUNT
+} nh_function;
+
+/* An exact rational p/q with q > 0 in lowest terms, or (q == 0) the double d. */
+typedef struct {
+    int64_t p, q;
+    double d;
+} nh_num;
+
+nh_num nh_num_int(int64_t value);
+nh_num nh_num_ratio(int64_t p, int64_t q);
+nh_num nh_num_real(double value); /* exact when the double is a whole number below 2^53 */
+nh_num nh_num_add(nh_num a, nh_num b);
+nh_num nh_num_mul(nh_num a, nh_num b);
+nh_num nh_num_inv(nh_num a); /* of zero: not a number */
+nh_num nh_num_pow(nh_num a, int64_t n);
+double nh_num_value(nh_num a);
+bool nh_num_is(nh_num a, int64_t p);
+bool nh_num_exact(nh_num a);
+bool nh_num_equal(nh_num a, nh_num b);
+
+nh_dag *nh_dag_create(void);
+void nh_dag_free(nh_dag *dag);
+size_t nh_dag_size(const nh_dag *dag); /* number of nodes made so far; indices are below it */
+
+/* Constructors.  Equal results have equal indices. */
+nh_ex nh_number(nh_dag *dag, nh_num value);
+nh_ex nh_int(nh_dag *dag, int64_t value);
+nh_ex nh_ratio(nh_dag *dag, int64_t p, int64_t q);
+nh_ex nh_real(nh_dag *dag, double value);
+nh_ex nh_symbol(nh_dag *dag, const char *name); /* the symbol of that name, made when new */
+/* A symbol of its own that prints as `name` but is not found by that name (implicit velocities, placeholders). */
+nh_ex nh_symbol_fresh(nh_dag *dag, const char *name);
+bool nh_symbol_find(const nh_dag *dag, const char *name, nh_ex *out);
+nh_ex nh_add(nh_dag *dag, nh_ex a, nh_ex b);
+nh_ex nh_sub(nh_dag *dag, nh_ex a, nh_ex b);
+nh_ex nh_mul(nh_dag *dag, nh_ex a, nh_ex b);
+nh_ex nh_div(nh_dag *dag, nh_ex a, nh_ex b);
+nh_ex nh_neg(nh_dag *dag, nh_ex a);
+nh_ex nh_pow(nh_dag *dag, nh_ex base, nh_ex exponent);
+nh_ex nh_powi(nh_dag *dag, nh_ex base, int64_t exponent);
+nh_ex nh_sqrt(nh_dag *dag, nh_ex a);
+nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a);
+nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b);
+nh_ex nh_pi(nh_dag *dag);
+/* sum_i coefficient[i] * term[i] */
+nh_ex nh_linear(nh_dag *dag, size_t n, const nh_num *coefficient, const nh_ex *term);
+nh_ex nh_product(nh_dag *dag, size_t n, const nh_ex *factor);
+
+/* Looking at a node. */
+nh_kind nh_kind_of(const nh_dag *dag, nh_ex e);
+nh_num nh_number_of(const nh_dag *dag, nh_ex e);        /* of a number */
+const char *nh_name_of(const nh_dag *dag, nh_ex e);     /* of a symbol */
+nh_function nh_function_of(const nh_dag *dag, nh_ex e); /* of a function */
+/* Sum: number of terms besides the constant; product: number of factors; function: number of arguments. */
+size_t nh_arity(const nh_dag *dag, nh_ex e);
+nh_num nh_constant_of(const nh_dag *dag, nh_ex e); /* the constant of a sum, the coefficient of a product */
+nh_ex nh_child(const nh_dag *dag, nh_ex e, size_t i); /* term, base of a factor, or argument */
+nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i); /* of the i-th term of a sum */
+nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i);     /* of the i-th factor of a product */
+const char *nh_function_name(nh_function f);
+size_t nh_function_arity(nh_function f);
+bool nh_is_zero(const nh_dag *dag, nh_ex e);
+bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
+/* Does `symbol` occur in `e`? (not through rules of implicit symbols, see diff.h) */
+bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol);
+/* The symbols that occur in e, ascending, into `out` (at most `max`); returns their number. */
+size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
+/* Number of distinct nodes reachable from e. */
+size_t nh_node_count(const nh_dag *dag, nh_ex e);
+
+/* e with from[i] replaced by to[i], all at once. */
+nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t n, const nh_ex *from, const nh_ex *to);
+
+#endif

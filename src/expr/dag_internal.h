@@ -1,0 +1,49 @@
+/* dag_internal: the graph's storage, shared by dag.c, algebra.c and diff.c only. */
+#ifndef NH_DAG_INTERNAL_H
+#define NH_DAG_INTERNAL_H
+
+#include "base/memory.h"
+#include "expr/dag.h"
+
+typedef struct {
+    uint8_t kind, op; /* op: the function */
+    uint32_t count, first; /* arguments: arg[first .. first+count-1] */
+    uint32_t next;    /* hash chain: index + 1 */
+    uint64_t hash, mask;
+} nh_node;
+
+typedef struct {
+    const char *text;
+    nh_ex symbol;
+    bool hidden; /* not found by name */
+} nh_symbol_name;
+
+/* One open-addressing slot of the derivative memo. */
+typedef struct {
+    uint64_t key; /* (e << 32 | x) + 1, 0 when free */
+    nh_ex value;
+} nh_diff_memo;
+
+typedef struct {
+    nh_ex u, x, value;
+} nh_diff_rule_entry;
+
+struct nh_dag {
+    nh_node *node;
+    size_t node_count, node_capacity;
+    uint32_t *arg;
+    size_t arg_count, arg_capacity;
+    uint32_t *bucket;
+    size_t bucket_count;
+    nh_symbol_name *name;
+    size_t name_count, name_capacity;
+    nh_arena *names;
+    nh_diff_memo *memo;
+    size_t memo_count, memo_capacity;
+    nh_diff_rule_entry *rule;
+    size_t rule_count, rule_capacity;
+};
+
+nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg);
+
+#endif

@@ -1,0 +1,18 @@
+/* emit: expressions from quotients in pieces (normal_quotient.h). */
+#ifndef NH_EMIT_H
+#define NH_EMIT_H
+
+#include "expr/kernel.h"
+#include "expr/normal_quotient.h"
+
+/* constant * monomial * prod factor^power; sin/cos in the monomial becomes tan, which is always shorter.  With `collect`
+ * the factors are written as x*(a + b) + c instead of a*x + b*x + c; that needs the kernels' lengths. */
+nh_ex nh_emit_product(const nh_kernels *kernels, const nh_pieces *pieces, bool collect);
+
+/* The numerator's terms, each over the denominator: for pieces that are not factored. */
+nh_ex nh_emit_terms(const nh_kernels *kernels, const nh_pieces *pieces);
+
+/* Does e contain inexact numbers?  A form that has them while its source has none is a form that overflowed. */
+bool nh_emit_inexact(const nh_dag *dag, nh_ex e);
+
+#endif

@@ -1,0 +1,307 @@
+#include "expr/form.h"
+
+#include <math.h>
+
+#include "expr/emit.h"
+
+enum {
+    deepest = 300,        /* nodes above each other that are rewritten: what the stack surely bears */
+    argument_terms = 300, /* an argument whose canonical form is longer stays as it is */
+    most_kernels = 300
+};
+
+void nh_forms_init(nh_forms *forms, nh_dag *dag, bool literal, size_t max_terms)
+{
+    *forms = (nh_forms){.dag = dag, .literal = literal, .max_terms = max_terms};
+}
+
+void nh_forms_clear(nh_forms *forms)
+{
+    nh_index_clear(&forms->rewritten);
+    nh_index_clear(&forms->canonical);
+}
+
+/* ---- canonical arguments ---- */
+
+static bool plain_product(const nh_dag *dag, nh_ex e)
+{
+    for (size_t i = 0; i < nh_arity(dag, e); i++) {
+        if (nh_kind_of(dag, nh_child(dag, e, i)) != NH_SYMBOL) return false;
+        if (nh_exponent_kind_of(dag, nh_exponent_of(dag, e, i)) != NH_EXPONENT_WHOLE) return false;
+    }
+    return true;
+}
+
+/* A sum of products of powers of symbols is canonical as it is. */
+static bool is_plain(const nh_dag *dag, nh_ex e)
+{
+    nh_kind kind = nh_kind_of(dag, e);
+    if (kind == NH_NUMBER || kind == NH_SYMBOL) return true;
+    if (kind == NH_PRODUCT) {
+        if (nh_arity(dag, e) == 1 && nh_is_number(dag, nh_exponent_of(dag, e, 0), 1)) return is_plain(dag, nh_child(dag, e, 0));
+        return plain_product(dag, e);
+    }
+    if (kind != NH_SUM) return false;
+    for (size_t i = 0; i < nh_arity(dag, e); i++) {
+        nh_ex term = nh_child(dag, e, i);
+        nh_kind inner = nh_kind_of(dag, term);
+        if (inner != NH_SYMBOL && !(inner == NH_PRODUCT && plain_product(dag, term))) return false;
+    }
+    return true;
+}
+
+/* The form of an argument, within narrower limits. */
+static bool make_argument(nh_forms *s, nh_ex e, nh_form *form)
+{
+    size_t max_terms = s->max_terms;
+    s->max_terms = argument_terms;
+    bool fine = nh_form_make(s, e, true, form) == NH_FIELD_FINE;
+    s->max_terms = max_terms;
+    if (fine) form->value = nh_quotient_rationalise(form->field, form->value);
+    return fine && nh_field_state_of(form->field) == NH_FIELD_FINE;
+}
+
+/* Inexact numbers that the source has not are a sign of overflow. */
+static bool is_sound(const nh_dag *dag, nh_ex result, nh_ex source)
+{
+    if (nh_kind_of(dag, result) == NH_NUMBER && isnan(nh_num_value(nh_number_of(dag, result)))) return false;
+    return !nh_emit_inexact(dag, result) || nh_emit_inexact(dag, source);
+}
+
+/* e = *content * (result), both canonical, content positive. */
+static nh_ex canonical_parts(nh_forms *s, nh_ex e, nh_num *content)
+{
+    nh_form form;
+    nh_pieces pieces;
+    nh_arena *arena = nh_arena_create();
+    nh_ex rest = e;
+    *content = nh_num_int(1);
+    if (make_argument(s, e, &form) && nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
+        bool minus = nh_num_value(pieces.constant) < 0, zero = nh_num_is(pieces.constant, 0);
+        nh_num size = minus ? nh_num_mul(pieces.constant, nh_num_int(-1)) : pieces.constant;
+        pieces.constant = nh_num_int(zero ? 0 : minus ? -1 : 1);
+        nh_ex candidate = nh_emit_terms(&form.kernels, &pieces);
+        if (nh_num_exact(size) && is_sound(s->dag, candidate, e)) {
+            rest = candidate;
+            *content = zero ? nh_num_int(1) : size;
+        }
+    }
+    nh_form_clear(&form);
+    nh_arena_free(arena);
+    return rest;
+}
+
+/* num/den = whole + rest/den: sin(y + 1/(1 + x)) is to be cut at the + */
+static nh_ex emit_mixed(nh_form *form)
+{
+    const nh_quotient *side[2];
+    nh_dag *dag = form->kernels.dag;
+    nh_arena *arena = nh_arena_create();
+    nh_ex sum = nh_int(dag, 0);
+    bool fits = true;
+    nh_quotient_divide(form->field, form->value, &side[0], &side[1]);
+    for (int i = 0; i < 2 && fits; i++) {
+        nh_pieces pieces;
+        fits = nh_pieces_make(form->field, arena, side[i], false, &pieces);
+        if (fits) sum = nh_add(dag, sum, nh_emit_terms(&form->kernels, &pieces));
+    }
+    nh_arena_free(arena);
+    return fits ? sum : nh_real(dag, NAN); /* inexact: the caller takes the overflow as such */
+}
+
+static nh_ex canonical(nh_forms *s, nh_ex e)
+{
+    uint32_t known;
+    nh_form form;
+    if (is_plain(s->dag, e)) return e;
+    if (nh_index_get(&s->canonical, e, &known)) return known;
+    nh_ex result = e;
+    if (make_argument(s, e, &form)) {
+        nh_ex candidate = emit_mixed(&form);
+        if (is_sound(s->dag, candidate, e)) result = candidate;
+    }
+    nh_form_clear(&form);
+    if (!nh_index_get(&s->canonical, e, &known)) nh_index_put(&s->canonical, e, result);
+    return result;
+}
+
+/* ---- rewriting ---- */
+
+/* n^x as a product of powers of primes: 6^(1/2) = 2^(1/2) 3^(1/2). */
+static nh_ex whole_root(nh_dag *dag, int64_t n, nh_num x)
+{
+    nh_ex e = nh_int(dag, 1);
+    for (int64_t d = 2; d < 2000 && d <= n / d; d++) {
+        int64_t multiplicity = 0;
+        for (; n % d == 0; n /= d) multiplicity++;
+        if (!multiplicity) continue;
+        nh_num power = nh_num_mul(x, nh_num_int(multiplicity));
+        e = nh_mul(dag, e, nh_pow(dag, nh_int(dag, d), nh_number(dag, power)));
+    }
+    return n == 1 ? e : nh_mul(dag, e, nh_pow(dag, nh_int(dag, n), nh_number(dag, x)));
+}
+
+static nh_ex number_root(nh_dag *dag, nh_num c, nh_num x)
+{
+    if (!nh_num_exact(c) || c.p <= 0) return nh_pow(dag, nh_number(dag, c), nh_number(dag, x));
+    nh_ex bottom = whole_root(dag, c.q, nh_num_mul(x, nh_num_int(-1)));
+    return nh_mul(dag, whole_root(dag, c.p, x), bottom);
+}
+
+/* (c B)^x = c^x B^x with a positive number c and a canonical B of content 1 */
+static nh_ex rewrite_root(nh_forms *s, nh_ex base, nh_num x)
+{
+    nh_dag *dag = s->dag;
+    if (nh_kind_of(dag, base) == NH_NUMBER) return number_root(dag, nh_number_of(dag, base), x);
+    nh_num content = nh_num_int(1);
+    if (!is_plain(dag, base)) {
+        base = canonical_parts(s, base, &content);
+    } else if (nh_kind_of(dag, base) == NH_PRODUCT && nh_num_exact(nh_constant_of(dag, base))) {
+        content = nh_constant_of(dag, base);
+        if (content.p < 0) content.p = -content.p;
+        base = nh_mul(dag, nh_number(dag, nh_num_inv(content)), base);
+    }
+    if (nh_kind_of(dag, base) == NH_NUMBER) return number_root(dag, nh_num_mul(content, nh_number_of(dag, base)), x);
+    return nh_mul(dag, number_root(dag, content, x), nh_pow(dag, base, nh_number(dag, x)));
+}
+
+static nh_ex rewrite(nh_forms *s, nh_ex e);
+
+static nh_ex rewrite_power(nh_forms *s, nh_ex base, nh_ex exponent)
+{
+    switch (nh_exponent_kind_of(s->dag, exponent)) {
+    case NH_EXPONENT_WHOLE: return nh_pow(s->dag, rewrite(s, base), exponent);
+    case NH_EXPONENT_ROOT: return rewrite_root(s, base, nh_number_of(s->dag, exponent));
+    default: return nh_pow(s->dag, canonical(s, base), canonical(s, exponent));
+    }
+}
+
+/* exp(c log b + rest) = b^c exp(rest) */
+static nh_ex rewrite_exponential(nh_forms *s, nh_ex a)
+{
+    nh_dag *dag = s->dag;
+    nh_parts parts;
+    nh_ex product = nh_int(dag, 1), rest = a;
+    nh_parts_make(dag, false, a, &parts);
+    for (size_t i = 0; i < parts.count; i++) {
+        nh_ex atom = parts.item[i].atom, c = nh_number(dag, parts.item[i].coefficient);
+        if (nh_kind_of(dag, atom) != NH_FUNCTION || nh_function_of(dag, atom) != NH_LOG) continue;
+        product = nh_mul(dag, product, rewrite_power(s, nh_child(dag, atom, 0), c));
+        rest = nh_sub(dag, rest, nh_mul(dag, c, atom));
+    }
+    nh_free(parts.item);
+    return nh_mul(dag, product, nh_call(dag, NH_EXP, rest));
+}
+
+/* sinh and the like in terms of exp, when not literal */
+static nh_ex rewrite_hyperbolic(nh_forms *s, nh_function f, nh_ex a)
+{
+    nh_dag *dag = s->dag;
+    nh_ex up = rewrite_exponential(s, a), down = nh_powi(dag, up, -1);
+    nh_ex sine = nh_sub(dag, up, down), cosine = nh_add(dag, up, down);
+    if (f == NH_TANH) return nh_div(dag, sine, cosine);
+    return nh_div(dag, f == NH_SINH ? sine : cosine, nh_int(dag, 2));
+}
+
+static nh_ex rewrite_function(nh_forms *s, nh_ex e)
+{
+    nh_function f = nh_function_of(s->dag, e);
+    if (nh_arity(s->dag, e) == 0) return e;
+    nh_ex a = canonical(s, nh_child(s->dag, e, 0));
+    if (f == NH_EXP) return rewrite_exponential(s, a);
+    if (!s->literal && (f == NH_SINH || f == NH_COSH || f == NH_TANH)) return rewrite_hyperbolic(s, f, a);
+    if (nh_arity(s->dag, e) == 1) return nh_call(s->dag, f, a);
+    return nh_call2(s->dag, f, a, canonical(s, nh_child(s->dag, e, 1)));
+}
+
+static nh_ex rewrite_sum(nh_forms *s, nh_ex e)
+{
+    size_t n = nh_arity(s->dag, e);
+    bool changed = false;
+    nh_num *coefficient = nh_alloc_array(n + 1, sizeof *coefficient);
+    nh_ex *term = nh_alloc_array(n + 1, sizeof *term);
+    for (size_t i = 0; i < n; i++) {
+        coefficient[i] = nh_coefficient_of(s->dag, e, i);
+        term[i] = rewrite(s, nh_child(s->dag, e, i));
+        changed |= term[i] != nh_child(s->dag, e, i);
+    }
+    coefficient[n] = nh_constant_of(s->dag, e);
+    term[n] = nh_int(s->dag, 1);
+    nh_ex result = changed ? nh_linear(s->dag, n + 1, coefficient, term) : e;
+    nh_free(coefficient);
+    nh_free(term);
+    return result;
+}
+
+static nh_ex rewrite_product(nh_forms *s, nh_ex e)
+{
+    size_t n = nh_arity(s->dag, e);
+    bool changed = false;
+    nh_ex *factor = nh_alloc_array(n ? n : 1, sizeof *factor);
+    for (size_t i = 0; i < n; i++) {
+        nh_ex base = nh_child(s->dag, e, i), exponent = nh_exponent_of(s->dag, e, i), as_it_is = nh_pow(s->dag, base, exponent);
+        factor[i] = rewrite_power(s, base, exponent);
+        changed |= factor[i] != as_it_is;
+    }
+    nh_ex result = e;
+    if (changed) result = nh_number(s->dag, nh_constant_of(s->dag, e));
+    for (size_t i = 0; i < n && changed; i++) result = nh_mul(s->dag, result, factor[i]);
+    nh_free(factor);
+    return result;
+}
+
+/* e with canonical arguments, radicands and exponents. */
+static nh_ex rewrite(nh_forms *s, nh_ex e)
+{
+    uint32_t known;
+    nh_kind kind = nh_kind_of(s->dag, e);
+    if (kind == NH_NUMBER || kind == NH_SYMBOL || s->depth >= deepest) return e;
+    if (nh_index_get(&s->rewritten, e, &known)) return known;
+    s->depth++;
+    nh_ex result = kind == NH_FUNCTION ? rewrite_function(s, e) : kind == NH_SUM ? rewrite_sum(s, e) : rewrite_product(s, e);
+    s->depth--;
+    if (!nh_index_get(&s->rewritten, e, &known)) nh_index_put(&s->rewritten, e, result);
+    return result;
+}
+
+/* ---- the whole ---- */
+
+/* Radicands come before their roots, so that every relation is known before it is needed. */
+static void relate(nh_form *f)
+{
+    for (size_t n = 0; n < f->kernels.count; n++) {
+        size_t i = f->kernels.order[n];
+        const nh_kernel *k = &f->kernels.item[i];
+        if (k->kind == NH_KERNEL_SIN || k->kind == NH_KERNEL_SINH)
+            nh_field_relate_pair(f->field, i, k->partner, k->kind == NH_KERNEL_SINH);
+        if (k->kind == NH_KERNEL_ROOT) nh_field_relate(f->field, i, (unsigned)k->unit.q, nh_form_eval(f, k->atom));
+        if (k->kind == NH_KERNEL_ABS) nh_field_relate(f->field, i, 2, nh_quotient_pow(f->field, nh_form_eval(f, k->atom), 2));
+    }
+}
+
+nh_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form)
+{
+    *form = (nh_form){0};
+    e = rewrite(forms, e);
+    nh_kernels *k = &form->kernels;
+    nh_kernels_init(k, forms->dag, forms->literal, opaque);
+    nh_kernels_collect(k, e);
+    if (k->broken) return NH_FIELD_UNDEFINED;
+    if (k->too_deep) return NH_FIELD_TOO_LARGE;
+    nh_kernels_settle(k);
+    if (k->count > most_kernels) return NH_FIELD_TOO_LARGE;
+    form->field = nh_field_create(k->count, forms->max_terms);
+    relate(form);
+    form->value = nh_form_eval(form, e);
+    return nh_field_state_of(form->field);
+}
+
+void nh_form_clear(nh_form *form)
+{
+    nh_kernels_clear(&form->kernels);
+    nh_field_free(form->field);
+    nh_index_clear(&form->known);
+    nh_free(form->of);
+}
+
+nh_ex nh_form_rewrite(nh_forms *forms, nh_ex e) { return rewrite(forms, e); }

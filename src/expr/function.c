@@ -1,0 +1,98 @@
+/* function: calls of functions in canonical form: values at numbers, signs of odd and even functions. */
+#include <math.h>
+
+#include "expr/dag.h"
+#include "expr/dag_internal.h"
+
+/* of(0) or of(1) where these are whole numbers; -1 where there is no such rule. */
+static const struct {
+    const char *name;
+    int arity, parity; /* parity: -1 odd, 1 even, 0 neither */
+    int at_zero, at_one;
+    double (*f)(double);
+} table[NH_FUNCTION_COUNT] = {
+    [NH_SIN] = {"sin", 1, -1, 0, -1, sin},       [NH_COS] = {"cos", 1, 1, 1, -1, cos},
+    [NH_TAN] = {"tan", 1, -1, 0, -1, tan},       [NH_ASIN] = {"asin", 1, -1, 0, -1, asin},
+    [NH_ACOS] = {"acos", 1, 0, -1, 0, acos},     [NH_ATAN] = {"atan", 1, -1, 0, -1, atan},
+    [NH_SINH] = {"sinh", 1, -1, 0, -1, sinh},    [NH_COSH] = {"cosh", 1, 1, 1, -1, cosh},
+    [NH_TANH] = {"tanh", 1, -1, 0, -1, tanh},    [NH_ASINH] = {"asinh", 1, -1, 0, -1, asinh},
+    [NH_ACOSH] = {"acosh", 1, 0, -1, 0, acosh},  [NH_ATANH] = {"atanh", 1, -1, 0, -1, atanh},
+    [NH_EXP] = {"exp", 1, 0, 1, -1, exp},        [NH_LOG] = {"log", 1, 0, -1, 0, log},
+    [NH_ABS] = {"abs", 1, 1, 0, 1, fabs},        [NH_SIGN] = {"sign", 1, -1, 0, 1, NULL},
+    [NH_ATAN2] = {"atan2", 2, 0, -1, -1, NULL},  [NH_PI] = {"pi", 0, 0, -1, -1, NULL},
+};
+
+const char *nh_function_name(nh_function f) { return table[f].name; }
+size_t nh_function_arity(nh_function f) { return (size_t)table[f].arity; }
+
+/* Of x and -x exactly one looks negative (sums have a positive first coefficient). */
+static bool looks_negative(const nh_dag *dag, nh_ex e)
+{
+    if (nh_kind_of(dag, e) == NH_NUMBER) return nh_num_value(nh_number_of(dag, e)) < 0;
+    return nh_kind_of(dag, e) == NH_PRODUCT && nh_num_value(nh_constant_of(dag, e)) < 0;
+}
+
+/* a = (n/2) pi for a whole n? */
+static bool half_turns(const nh_dag *dag, nh_ex a, int64_t *n)
+{
+    nh_num c = nh_num_int(1);
+    if (nh_kind_of(dag, a) == NH_PRODUCT && nh_arity(dag, a) == 1 && nh_is_number(dag, nh_exponent_of(dag, a, 0), 1)) {
+        c = nh_constant_of(dag, a);
+        a = nh_child(dag, a, 0);
+    }
+    c = nh_num_mul(c, nh_num_int(2));
+    *n = c.p;
+    return nh_kind_of(dag, a) == NH_FUNCTION && nh_function_of(dag, a) == NH_PI && c.q == 1;
+}
+
+static bool number_value(nh_dag *dag, nh_function f, nh_ex a, nh_ex *out)
+{
+    nh_num x = nh_number_of(dag, a);
+    if (f == NH_SIGN || f == NH_ABS) {
+        double v = nh_num_value(x);
+        *out = f == NH_ABS ? nh_number(dag, v < 0 ? nh_num_mul(x, nh_num_int(-1)) : x) : nh_int(dag, (v > 0) - (v < 0));
+        return true;
+    }
+    if (nh_num_is(x, 0) && table[f].at_zero >= 0) {
+        *out = nh_int(dag, table[f].at_zero);
+        return true;
+    }
+    if (nh_num_is(x, 1) && table[f].at_one >= 0) {
+        *out = nh_int(dag, table[f].at_one);
+        return true;
+    }
+    double y = table[f].f(nh_num_value(x));
+    *out = nh_real(dag, y);
+    return !nh_num_exact(x) || !isfinite(y); /* log(0) is no number; sin(2) stays exact */
+}
+
+static bool is_call(const nh_dag *dag, nh_ex e, nh_function f)
+{
+    return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == f;
+}
+
+nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
+{
+    nh_ex e;
+    int64_t n;
+    if (nh_kind_of(dag, a) == NH_NUMBER && number_value(dag, f, a, &e)) return e;
+    if (table[f].parity && looks_negative(dag, a)) {
+        e = nh_call(dag, f, nh_neg(dag, a));
+        return table[f].parity < 0 ? nh_neg(dag, e) : e;
+    }
+    if ((f == NH_SIN || f == NH_COS) && half_turns(dag, a, &n)) {
+        static const int sine[4] = {0, 1, 0, -1};
+        return nh_int(dag, sine[((uint64_t)n + (f == NH_COS)) & 3]);
+    }
+    if (f == NH_EXP && is_call(dag, a, NH_LOG)) return nh_child(dag, a, 0);
+    if (f == NH_LOG && is_call(dag, a, NH_EXP)) return nh_child(dag, a, 0);
+    return nh_dag_intern(dag, NH_FUNCTION, f, 1, &a);
+}
+
+nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b)
+{
+    uint32_t arg[2] = {a, b};
+    return nh_dag_intern(dag, NH_FUNCTION, f, 2, arg);
+}
+
+nh_ex nh_pi(nh_dag *dag) { return nh_dag_intern(dag, NH_FUNCTION, NH_PI, 0, NULL); }

@@ -1,0 +1,101 @@
+/* kernel: the functions of which an expression is a rational function.
+ *
+ *     e in Q(k1, k2, ...),   k: symbols, sin(a), cos(a), exp(a), b^(1/n), b^x, |a|, log(a), ...
+ *
+ * An argument a = sum_i c_i t_i (rational c_i, "atoms" t_i) of sin, cos, exp is cut into its atoms, and the rational
+ * multiples of one atom share a kernel: sin(t/2) and cos(t/3) are polynomials in sin(t/6), cos(t/6).  "Literal" tables
+ * do not cut: they keep sin(a + b) and sinh as they are, for forms that people want to read.
+ *
+ * Arguments must be canonical already (form.h): equal ones must have equal indices. */
+#ifndef NH_KERNEL_H
+#define NH_KERNEL_H
+
+#include "expr/dag.h"
+
+/* A map from expressions to words, or a set of expressions. */
+typedef struct {
+    uint64_t *slot; /* (key + 1) << 32 | value; 0 when free */
+    size_t count, capacity;
+} nh_index;
+
+bool nh_index_get(const nh_index *index, nh_ex key, uint32_t *value);
+void nh_index_put(nh_index *index, nh_ex key, uint32_t value); /* a key that is not there yet */
+void nh_index_clear(nh_index *index);
+
+typedef enum {
+    NH_KERNEL_PLAIN, NH_KERNEL_SIN, NH_KERNEL_COS, NH_KERNEL_SINH, NH_KERNEL_COSH, NH_KERNEL_EXP, NH_KERNEL_POWER,
+    NH_KERNEL_ROOT, NH_KERNEL_ABS
+} nh_kernel_kind;
+
+typedef struct {
+    nh_kernel_kind kind;
+    nh_ex base;     /* power: of what; otherwise 0 */
+    nh_ex atom;     /* argument / unit; root: the radicand; plain: the expression itself */
+    nh_num unit;    /* root: 1/order */
+    nh_ex shown;    /* for display: a nicer equal of the plain expression, radicand or argument; 0: none */
+    size_t length;  /* complexity, for display */
+    size_t discovered;
+    size_t partner; /* the cosine of a sine and vice versa */
+} nh_kernel;
+
+/* One c*t of a linear form. */
+typedef struct {
+    nh_ex atom;
+    nh_num coefficient;
+} nh_part;
+
+typedef struct {
+    nh_part *item;
+    size_t count, capacity;
+} nh_parts;
+
+/* What family(coefficient * atom) is in terms of a kernel. */
+typedef struct {
+    nh_kernel_kind family; /* NH_KERNEL_SIN and _SINH stand for their partners too */
+    nh_ex base, atom;
+    nh_num coefficient; /* positive; root: 1/q */
+    nh_num unit;
+    size_t kernel; /* with argument unit * atom */
+    bool settled;
+} nh_kernel_use;
+
+typedef struct {
+    nh_dag *dag;     /* borrows */
+    bool literal;
+    bool opaque;     /* inexact numbers are kernels of their own, not dyadic rationals */
+    bool broken;     /* met something that is not a number */
+    bool too_deep;   /* met an expression nested beyond what the stack is meant for */
+    nh_kernel *item; /* in an order that does not depend on what else there is */
+    size_t count, capacity;
+    size_t *order;   /* the kernels such that radicands come before their roots */
+    nh_kernel_use *use;
+    size_t uses, use_capacity;
+    nh_index seen, plain;
+} nh_kernels;
+
+void nh_kernels_init(nh_kernels *kernels, nh_dag *dag, bool literal, bool opaque);
+void nh_kernels_clear(nh_kernels *kernels);
+void nh_kernels_collect(nh_kernels *kernels, nh_ex e); /* note what e needs */
+void nh_kernels_settle(nh_kernels *kernels);           /* choose the units, number the kernels */
+
+/* The kernel of a symbol, an opaque function or number. */
+size_t nh_kernel_plain(const nh_kernels *kernels, nh_ex e);
+/* The kernel of family(c*atom), c > 0, with c = *multiple * unit. */
+size_t nh_kernel_find(const nh_kernels *kernels, nh_kernel_kind family, nh_ex base, nh_ex atom, nh_num c, int64_t *multiple);
+/* What (kernel)^power looks like. */
+nh_ex nh_kernel_power(const nh_kernels *kernels, size_t kernel, int64_t power);
+/* unit * atom, as shown */
+nh_ex nh_kernel_argument(const nh_kernels *kernels, size_t kernel);
+
+/* The linear form of an argument, or with `whole` its rational content and the rest; the caller frees parts->item. */
+void nh_parts_make(nh_dag *dag, bool whole, nh_ex argument, nh_parts *parts);
+/* The same for the argument of a family's functions. */
+void nh_kernel_parts(const nh_kernels *kernels, nh_kernel_kind family, nh_ex argument, nh_parts *parts);
+/* sin(c*atom) is a whole number of quarter turns? */
+bool nh_quarter_turns(const nh_dag *dag, nh_part part, int64_t *turns);
+
+/* How an exponent is treated: whole powers are polynomial, small fractions are roots, numbers beyond are opaque. */
+typedef enum { NH_EXPONENT_WHOLE, NH_EXPONENT_ROOT, NH_EXPONENT_OPAQUE, NH_EXPONENT_SYMBOLIC } nh_exponent_kind;
+nh_exponent_kind nh_exponent_kind_of(const nh_dag *dag, nh_ex exponent);
+
+#endif

@@ -1,0 +1,31 @@
+/* normal: expressions as quotients of multivariate polynomials over algebraically related kernels.
+ *
+ * Kernels are the symbols and the functions sin(a), cos(a), exp(a), log(a), roots, ...; each carries its relation
+ * (s^2 + c^2 - 1, r^n - a, e(a) e(-a) = 1).  Sums and integer multiples inside sin, cos, exp are expanded, tan is
+ * sin/cos, so that identities among them are seen.  The polynomial arithmetic and gcd are FLINT's.
+ *
+ * A zero normal form is a proof that the expression vanishes identically (wherever it is defined).  A non-zero one
+ * proves nothing when kernels are related in a way that is not known here: that is for ball.h. */
+#ifndef NH_NORMAL_H
+#define NH_NORMAL_H
+
+#include "expr/dag.h"
+
+typedef enum { NH_ZERO, NH_NONZERO, NH_TOO_LARGE } nh_zero_verdict;
+
+/* Is e identically zero?  `max_terms` bounds the size of intermediate polynomials (0: the default of 20000). */
+nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms);
+
+/* An equal expression that is the simplest found: the reduced quotient, with sin^2 or cos^2 eliminated, numerator
+ * and denominator factored where that is shorter; e itself when nothing is simpler or the size bound is met.
+ * Never larger, by nh_complexity, than e. */
+nh_ex nh_simplify(nh_dag *dag, nh_ex e);
+
+/* A polynomial in kernels with the zeros of e and no poles: the numerator of its normal form (tan(x) - y gives
+ * sin(x) - y*cos(x)); e itself when the size bound is met. */
+nh_ex nh_numerator(nh_dag *dag, nh_ex e);
+
+/* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
+size_t nh_complexity(const nh_dag *dag, nh_ex e);
+
+#endif

@@ -1,0 +1,37 @@
+/* numerator: an expression without its poles. */
+#include "expr/emit.h"
+#include "expr/form.h"
+#include "expr/normal.h"
+
+enum { most_terms = 2000 };
+
+/* Everything below the fraction bar is dropped. */
+static void keep_numerator(nh_pieces *pieces)
+{
+    for (size_t g = 0; g < pieces->generators; g++)
+        if (pieces->exponent[g] < 0) pieces->exponent[g] = 0;
+    size_t kept = 0;
+    for (size_t j = 0; j < pieces->factors; j++)
+        if (pieces->factor[j].power > 0) pieces->factor[kept++] = pieces->factor[j];
+    pieces->factors = kept;
+}
+
+nh_ex nh_numerator(nh_dag *dag, nh_ex e)
+{
+    nh_forms forms;
+    nh_form form;
+    nh_pieces pieces;
+    nh_arena *arena = nh_arena_create();
+    nh_forms_init(&forms, dag, false, most_terms);
+    nh_field_state state = nh_form_make(&forms, e, true, &form);
+    nh_ex result = e;
+    if (state == NH_FIELD_FINE && nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
+        keep_numerator(&pieces);
+        nh_ex top = nh_emit_product(&form.kernels, &pieces, false);
+        if (!nh_emit_inexact(dag, top)) result = top;
+    }
+    nh_form_clear(&form);
+    nh_forms_clear(&forms);
+    nh_arena_free(arena);
+    return result;
+}

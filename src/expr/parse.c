@@ -1,0 +1,407 @@
+#include "expr/parse.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { max_depth = 200, max_name = 63, max_power = 18 /* of ten, that is exact */ };
+
+static const char DIGITS[] = "0123456789",
+                  WORD[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+
+typedef struct {
+    nh_dag *dag;
+    const char *text;
+    size_t at;
+    int depth;
+    bool equation; /* parsing "lhs = rhs" */
+    nh_resolve *resolve;
+    void *context;
+    nh_parse_fault *fault;
+} parser;
+
+static bool fail(parser *p, size_t offset, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static bool fail(parser *p, size_t offset, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    vsnprintf(p->fault->what, sizeof p->fault->what, format, list);
+    va_end(list);
+    p->fault->offset = offset;
+    p->fault->hint[0] = 0;
+    return false;
+}
+
+static bool hint(parser *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static bool hint(parser *p, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    vsnprintf(p->fault->hint, sizeof p->fault->hint, format, list);
+    va_end(list);
+    return false;
+}
+
+static char peek(parser *p)
+{
+    while (p->text[p->at] && strchr(" \t\r\n", p->text[p->at])) p->at++;
+    return p->text[p->at];
+}
+
+static bool is_letter(char c) { return isalpha((unsigned char)c) || c == '_'; }
+static bool is_word(char c) { return isalnum((unsigned char)c) || c == '_'; }
+
+bool nh_is_name(const char *text)
+{
+    if (!is_letter(*text)) return false;
+    for (; *text; text++)
+        if (!is_word(*text)) return false;
+    return true;
+}
+
+static bool find_function(const char *name, nh_function *out)
+{
+    for (int f = 0; f < NH_PI; f++) {
+        if (strcmp(name, nh_function_name((nh_function)f))) continue;
+        *out = (nh_function)f;
+        return true;
+    }
+    return false;
+}
+
+bool nh_is_reserved(const char *name)
+{
+    nh_function f;
+    return find_function(name, &f) || !strcmp(name, "pi") || !strcmp(name, "t") || !strcmp(name, "sqrt");
+}
+
+static bool expression(parser *p, nh_ex *out);
+static bool unary(parser *p, nh_ex *out);
+
+/* Name the character at fault the way a person would. */
+static bool unexpected(parser *p, const char *wanted)
+{
+    char c = peek(p);
+    if (!c) return fail(p, p->at, "the expression ends here, but %s was expected", wanted);
+    if ((unsigned char)c >= 0x80) {
+        fail(p, p->at, "a character that the expression language does not have; %s was expected", wanted);
+        return hint(p, "names consist of the letters a-z, A-Z, digits and _ (write phi, not a Greek letter)");
+    }
+    if (iscntrl((unsigned char)c)) return fail(p, p->at, "a control character cannot stand here; %s was expected", wanted);
+    fail(p, p->at, "`%c` cannot stand here; %s was expected", c, wanted);
+    if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*') return hint(p, "powers are written with ^: x^2");
+    if (c == '=' && p->equation) return hint(p, "an equation has one `=` between two expressions");
+    if (c == '=') return hint(p, "an equation is expected only under constraints, forces, definitions and chart maps");
+    return false;
+}
+
+/* What stands after a complete operand, where an operator or `closing` could stand. */
+static bool no_operator(parser *p, const char *closing)
+{
+    char c = peek(p);
+    if (!is_word(c) && c != '(') return unexpected(p, closing);
+    fail(p, p->at, "an operator is missing before this");
+    return hint(p, "there is no implicit multiplication: write `*`");
+}
+
+/* Is every coefficient finite?  Products and sums of large numbers need not be. */
+static bool stays_finite(parser *p, nh_ex e, size_t at)
+{
+    nh_kind kind = nh_kind_of(p->dag, e);
+    double size = kind == NH_NUMBER ? nh_num_value(nh_number_of(p->dag, e)) : 0;
+    if (kind == NH_SUM || kind == NH_PRODUCT) size = nh_num_value(nh_constant_of(p->dag, e));
+    for (size_t i = 0; kind == NH_SUM && i < nh_arity(p->dag, e); i++)
+        size += fabs(nh_num_value(nh_coefficient_of(p->dag, e, i)));
+    return isfinite(size) || fail(p, at, "a number in this expression has become too large");
+}
+
+/* ---- numbers ---- */
+
+/* Digits with an optional point: their whole value, if it fits, and the power of ten it is multiplied with. */
+static const char *mantissa(const char *s, int64_t *digits, long *scale, bool *exact)
+{
+    bool point = false;
+    *digits = *scale = 0;
+    *exact = true;
+    for (; isdigit((unsigned char)*s) || (*s == '.' && !point); s++) {
+        if (*s == '.') {
+            point = true;
+            continue;
+        }
+        int64_t next;
+        if (__builtin_mul_overflow(*digits, 10, &next) || __builtin_add_overflow(next, *s - '0', &next)) *exact = false;
+        else *digits = next;
+        *scale -= point;
+    }
+    return s;
+}
+
+/* Digits with an optional point and exponent; exact when they fit. */
+static bool number(parser *p, nh_ex *out)
+{
+    const char *start = p->text + p->at, *s;
+    int64_t digits;
+    long scale, exponent = 0;
+    bool exact;
+    s = mantissa(start, &digits, &scale, &exact);
+    if ((*s == 'e' || *s == 'E') && strspn(s + 1 + (s[1] == '+' || s[1] == '-'), DIGITS) > 0) {
+        char *end;
+        exponent = strtol(s + 1, &end, 10);
+        s = end;
+    }
+    double value = strtod(start, NULL);
+    if (!isfinite(value)) return fail(p, p->at, "this number is too large");
+    if (value == 0 && digits) return fail(p, p->at, "this number is too small: it would become 0");
+    p->at = (size_t)(s - p->text);
+    bool moderate = exponent > -1000 && exponent < 1000; /* so that the sum below cannot overflow */
+    if (exact && moderate && labs(exponent + scale) <= max_power) {
+        nh_num ten = nh_num_pow(nh_num_int(10), exponent + scale);
+        *out = nh_number(p->dag, nh_num_mul(nh_num_int(digits), ten));
+    } else {
+        *out = nh_real(p->dag, value);
+    }
+    if (*s == '.') return fail(p, p->at, "a second decimal point in a number");
+    if (!is_letter(*s) && *s != '(') return true;
+    fail(p, p->at, "there is no implicit multiplication");
+    return hint(p, "write `%.*s*%.*s`", (int)(s - start > 20 ? 20 : s - start), start,
+                *s == '(' ? 1 : (int)strspn(s, WORD), s);
+}
+
+/* ---- names and calls ---- */
+
+static bool close_parenthesis(parser *p)
+{
+    if (peek(p) != ')') return no_operator(p, "an operator or `)`");
+    p->at++;
+    return true;
+}
+
+/* The arguments of `name`, after it. */
+static bool arguments(parser *p, const char *name, size_t count, nh_ex *argument)
+{
+    static const char *const amount[] = {"no", "one argument", "two arguments"};
+    if (peek(p) != '(') {
+        fail(p, p->at, "`%s` is a function; `(` was expected after it", name);
+        return hint(p, "write `%s(...)`", name);
+    }
+    p->at++;
+    for (size_t i = 0; i < count; i++) {
+        if (!expression(p, &argument[i])) return false;
+        char c = peek(p);
+        if (c == (i + 1 < count ? ')' : ',')) return fail(p, p->at, "`%s` takes %s", name, amount[count]);
+        if (i + 1 < count && c != ',') return no_operator(p, "an operator or `,`");
+        if (c == ',') p->at++;
+    }
+    return close_parenthesis(p);
+}
+
+/* f(a) or f(a, b); the name has been read, `at` is its offset. */
+static bool call(parser *p, nh_function f, const char *name, size_t at, nh_ex *out)
+{
+    nh_ex a[2];
+    size_t arity = nh_function_arity(f);
+    if (!arguments(p, name, arity, a)) return false;
+    *out = arity == 2 ? nh_call2(p->dag, f, a[0], a[1]) : nh_call(p->dag, f, a[0]);
+    if (nh_kind_of(p->dag, *out) == NH_NUMBER && !isfinite(nh_num_value(nh_number_of(p->dag, *out))))
+        return fail(p, at, "`%s` has no finite value here", name);
+    return true;
+}
+
+static bool square_root(parser *p, size_t at, nh_ex *out)
+{
+    nh_ex a;
+    if (!arguments(p, "sqrt", 1, &a)) return false;
+    if (nh_kind_of(p->dag, a) == NH_NUMBER && nh_num_value(nh_number_of(p->dag, a)) < 0)
+        return fail(p, at, "the square root of a negative number");
+    *out = nh_sqrt(p->dag, a);
+    return true;
+}
+
+/* A name that is not the language's own: the caller knows it. */
+static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
+{
+    nh_parse_fault *fault = p->fault;
+    fault->what[0] = fault->hint[0] = 0;
+    if (!p->resolve(p->context, word, out, fault)) {
+        if (!fault->what[0]) snprintf(fault->what, sizeof fault->what, "unknown name `%s`", word);
+        fault->offset = at;
+        return false;
+    }
+    fault->what[0] = fault->hint[0] = 0;
+    if (peek(p) != '(') return true;
+    fail(p, p->at, "`%s` is not a function, and there is no implicit multiplication", word);
+    return hint(p, "write `%s*(`", word);
+}
+
+static bool name(parser *p, nh_ex *out)
+{
+    size_t start = p->at, n = strspn(p->text + start, WORD);
+    char word[max_name + 2];
+    if (n > max_name) return fail(p, start, "a name longer than %d characters", max_name);
+    memcpy(word, p->text + start, n);
+    word[n] = 0;
+    p->at += n;
+    nh_function f;
+    if (!strcmp(word, "sqrt")) return square_root(p, start, out);
+    if (find_function(word, &f)) return call(p, f, word, start, out);
+    if (!strcmp(word, "pi")) {
+        *out = nh_pi(p->dag);
+        return true;
+    }
+    if (p->text[p->at] == '\'') {
+        strcat(word, "'");
+        p->at++;
+        if (p->text[p->at] == '\'')
+            return fail(p, start, "second derivatives cannot be used: a system is written with coordinates and velocities");
+    }
+    return resolved(p, word, start, out);
+}
+
+/* ---- operators ---- */
+
+static bool deeper(parser *p)
+{
+    return ++p->depth <= max_depth || fail(p, p->at, "nested deeper than %d levels", max_depth);
+}
+
+static bool atom(parser *p, nh_ex *out)
+{
+    char c = peek(p);
+    if (isdigit((unsigned char)c) || (c == '.' && isdigit((unsigned char)p->text[p->at + 1]))) return number(p, out);
+    if (is_letter(c)) return name(p, out);
+    if (c != '(') return unexpected(p, "a number, a name or `(`");
+    p->at++;
+    return expression(p, out) && close_parenthesis(p);
+}
+
+/* A number to the power of a number must be a number. */
+static bool real_power(const nh_dag *dag, nh_ex base, nh_ex exponent)
+{
+    if (nh_kind_of(dag, base) != NH_NUMBER || nh_kind_of(dag, exponent) != NH_NUMBER) return true;
+    return isfinite(pow(nh_num_value(nh_number_of(dag, base)), nh_num_value(nh_number_of(dag, exponent))));
+}
+
+static bool power(parser *p, nh_ex *out)
+{
+    if (!atom(p, out)) return false;
+    if (peek(p) != '^') return true;
+    size_t at = p->at;
+    nh_ex base = *out, exponent;
+    if (!deeper(p)) return false;
+    p->at++;
+    if (!unary(p, &exponent)) return false;
+    p->depth--;
+    if (!real_power(p->dag, base, exponent)) return fail(p, at, "this power has no finite value");
+    *out = nh_pow(p->dag, base, exponent);
+    return stays_finite(p, *out, at);
+}
+
+static bool unary(parser *p, nh_ex *out)
+{
+    char c = peek(p);
+    if (c != '-' && c != '+') return power(p, out);
+    if (!deeper(p)) return false;
+    p->at++;
+    if (!unary(p, out)) return false;
+    p->depth--;
+    if (c == '-') *out = nh_neg(p->dag, *out);
+    return true;
+}
+
+/* Operands are collected and combined at once: one by one, n of them would cost n^2. */
+typedef struct {
+    nh_ex *operand;
+    nh_num *sign; /* in sums */
+    size_t count, operands, signs;
+} chain;
+
+static void chain_push(chain *c, nh_ex operand, int sign)
+{
+    nh_grow(&c->operand, &c->operands, c->count + 1, sizeof *c->operand);
+    nh_grow(&c->sign, &c->signs, c->count + 1, sizeof *c->sign);
+    c->operand[c->count] = operand;
+    c->sign[c->count++] = nh_num_int(sign);
+}
+
+static void chain_clear(chain *c)
+{
+    nh_free(c->operand);
+    nh_free(c->sign);
+}
+
+static bool term(parser *p, nh_ex *out)
+{
+    size_t start = p->at;
+    if (!unary(p, out)) return false;
+    if (peek(p) != '*' && peek(p) != '/') return true;
+    chain factors = {0};
+    chain_push(&factors, *out, 1);
+    bool good = true;
+    for (char c; good && ((c = peek(p)) == '*' || c == '/');) {
+        size_t at = p->at++;
+        nh_ex next;
+        good = unary(p, &next);
+        if (good && c == '/' && nh_is_zero(p->dag, next)) good = fail(p, at, "division by zero");
+        if (good) chain_push(&factors, c == '/' ? nh_powi(p->dag, next, -1) : next, 1);
+    }
+    if (good) *out = nh_product(p->dag, factors.count, factors.operand);
+    chain_clear(&factors);
+    return good && stays_finite(p, *out, start);
+}
+
+static bool expression(parser *p, nh_ex *out)
+{
+    if (!deeper(p)) return false;
+    peek(p);
+    size_t start = p->at;
+    if (!term(p, out)) return false;
+    chain terms = {0};
+    chain_push(&terms, *out, 1);
+    bool good = true;
+    for (char c; good && ((c = peek(p)) == '+' || c == '-');) {
+        p->at++;
+        nh_ex next;
+        good = term(p, &next);
+        if (good) chain_push(&terms, next, c == '+' ? 1 : -1);
+    }
+    if (good && terms.count > 1) *out = nh_linear(p->dag, terms.count, terms.sign, terms.operand);
+    chain_clear(&terms);
+    p->depth--;
+    return good && stays_finite(p, *out, start);
+}
+
+static bool finish(parser *p)
+{
+    return !peek(p) || no_operator(p, "an operator or the end of the expression");
+}
+
+bool nh_parse(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *out, nh_parse_fault *fault)
+{
+    memset(fault, 0, sizeof *fault);
+    parser p = {.dag = dag, .text = text, .resolve = resolve, .context = context, .fault = fault, .depth = -1};
+    return expression(&p, out) && finish(&p);
+}
+
+bool nh_parse_equation(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *lhs, nh_ex *rhs,
+                       nh_parse_fault *fault)
+{
+    memset(fault, 0, sizeof *fault);
+    parser p = {.dag = dag, .text = text, .resolve = resolve, .context = context, .fault = fault, .depth = -1};
+    p.equation = true;
+    if (!expression(&p, lhs)) return false;
+    if (peek(&p) != '=') {
+        if (!peek(&p)) {
+            fail(&p, p.at, "an equation `... = ...` was expected, but there is no `=`");
+            return hint(&p, "write `%.100s = 0`", text);
+        }
+        return no_operator(&p, "an operator or `=`");
+    }
+    p.at++;
+    if (peek(&p) == '=') return fail(&p, p.at, "an equation is written with a single `=`");
+    return expression(&p, rhs) && finish(&p);
+}

@@ -1,0 +1,34 @@
+/* parse: the expression language of system files (docs/formats.md).
+ *
+ *     expression = term { (+|-) term }        term  = unary { (*|/) unary }
+ *     unary      = [-|+] unary | power        power = atom [ ^ unary ]       (right associative)
+ *     atom       = number | name | function ( ... ) | ( expression )
+ *
+ * A decimal number is the exact rational it looks like, if that fits.  Names are resolved by the caller.  Parentheses,
+ * calls, signs and powers may be nested 200 deep. */
+#ifndef NH_PARSE_H
+#define NH_PARSE_H
+
+#include "expr/dag.h"
+
+typedef struct {
+    size_t offset; /* byte in the text where the trouble is */
+    char what[512], hint[256];
+} nh_parse_fault;
+
+/* What a name (with its prime, "x'") means; false when unknown, with an optional explanation in fault->what/hint. */
+typedef bool nh_resolve(void *context, const char *name, nh_ex *out, nh_parse_fault *fault);
+
+/* Parse a whole text as one expression. */
+bool nh_parse(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *out, nh_parse_fault *fault);
+
+/* "lhs = rhs"; a text without "=" is refused. */
+bool nh_parse_equation(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *lhs, nh_ex *rhs,
+                       nh_parse_fault *fault);
+
+/* Is the text a name of the language: a letter or _, then letters, digits and _? */
+bool nh_is_name(const char *text);
+/* Is the name taken by a function, `pi` or `t`? */
+bool nh_is_reserved(const char *name);
+
+#endif

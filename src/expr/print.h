@@ -1,0 +1,15 @@
+/* print: expressions as text that the parser reads back to the same expression. */
+#ifndef NH_PRINT_H
+#define NH_PRINT_H
+
+#include "base/text.h"
+#include "expr/dag.h"
+
+/* In the expression language of system files.  Round trip: parsing the text gives e again (inexact constants to the
+ * last bit).  The graph may gain nodes.  What is nested deeper than 1000 levels is written "...". */
+void nh_print(nh_dag *dag, nh_ex e, nh_text *out);
+
+/* The same as a heap string (nh_free). */
+char *nh_print_string(nh_dag *dag, nh_ex e);
+
+#endif

@@ -1,0 +1,233 @@
+#include "expr/relation.h"
+
+#include "expr/emit.h"
+#include "expr/form.h"
+#include "expr/normal.h"
+#include "expr/relation_solve.h"
+
+enum { default_terms = 20000, most_kernels = 300 };
+
+/* All expressions in one field. */
+typedef struct {
+    nh_dag *dag;
+    size_t n, parameters;
+    const nh_ex *parameter;
+    nh_forms forms;
+    nh_form form;
+    nh_ex *e; /* with canonical arguments */
+    bool *constant; /* kernel -> does it depend on parameters only? */
+    const nh_quotient **value, **c;
+} question;
+
+/* ---- kernels ---- */
+
+static bool is_constant(const question *q, nh_ex e)
+{
+    enum { most = 64 };
+    nh_ex symbol[most];
+    size_t n = nh_symbols_in(q->dag, e, symbol, most);
+    if (n > most) return false;
+    for (size_t i = 0; i < n; i++) {
+        bool found = false;
+        for (size_t j = 0; j < q->parameters && !found; j++) found = symbol[i] == q->parameter[j];
+        if (!found) return false;
+    }
+    return true;
+}
+
+static bool constant_kernel(const question *q, const nh_kernel *k)
+{
+    return is_constant(q, k->atom) && (k->kind != NH_KERNEL_POWER || is_constant(q, k->base));
+}
+
+/* A quotient of constants? */
+static bool constant_quotient(const question *q, const nh_quotient *a)
+{
+    for (size_t g = 0; g < q->form.kernels.count; g++)
+        if (!q->constant[g] && nh_quotient_has(q->form.field, a, g)) return false;
+    return true;
+}
+
+/* A new kernel (ratio)^(1/order), for which the field has room; false when it cannot be written down. */
+static bool add_root(question *q, const nh_quotient *ratio, nh_num unit, size_t *kernel)
+{
+    nh_kernels *k = &q->form.kernels;
+    nh_arena *arena = nh_arena_create();
+    nh_pieces pieces;
+    bool fits = nh_pieces_make(q->form.field, arena, ratio, false, &pieces);
+    if (fits) {
+        nh_ex radicand = nh_emit_terms(k, &pieces);
+        *kernel = k->count;
+        nh_grow(&k->item, &k->capacity, k->count + 1, sizeof *k->item);
+        k->item[k->count++] = (nh_kernel){.kind = NH_KERNEL_ROOT, .atom = radicand, .unit = unit};
+        q->constant[*kernel] = true;
+        nh_field_relate(q->form.field, *kernel, (unsigned)unit.q, ratio);
+    }
+    nh_arena_free(arena);
+    return fits;
+}
+
+/* (A/B)^(1/n) as such or as 1/(B/A)^(1/n), whichever has no denominator; NULL when A/B is not constant. */
+static const nh_quotient *constant_root(question *q, const nh_quotient *a, const nh_quotient *b, nh_num unit)
+{
+    nh_field *field = q->form.field;
+    const nh_quotient *ratio = nh_quotient_mul(field, a, nh_quotient_inv(field, b));
+    size_t kernel;
+    if (nh_field_state_of(field) != NH_FIELD_FINE || !constant_quotient(q, ratio)) return NULL;
+    const nh_quotient *inverse = nh_quotient_inv(field, ratio);
+    bool upside_down = nh_relation_is_polynomial(field, inverse) && !nh_relation_is_polynomial(field, ratio);
+    if (!add_root(q, upside_down ? inverse : ratio, unit, &kernel)) return NULL;
+    return nh_quotient_power_of(field, kernel, upside_down ? -1 : 1);
+}
+
+/* r = A^(1/n), and there is s = B^(1/n) with a constant A/B: then r = (A/B)^(1/n) s.  The roots being positive where they
+ * are real, this needs no assumption on the sign of anything. */
+static bool relate_to_earlier(question *q, size_t root, const nh_quotient *radicand, const size_t *earlier, size_t count)
+{
+    nh_form *f = &q->form;
+    nh_num unit = f->kernels.item[root].unit;
+    for (size_t i = 0; i < count; i++) {
+        nh_kernel other = f->kernels.item[earlier[i]];
+        if (other.unit.q != unit.q) continue;
+        const nh_quotient *factor = constant_root(q, radicand, nh_form_eval(f, other.atom), unit);
+        if (!factor) continue;
+        nh_field_relate(f->field, root, 1, nh_quotient_mul(f->field, factor, nh_quotient_power_of(f->field, earlier[i], 1)));
+        return true;
+    }
+    return false;
+}
+
+/* Radicands come before their roots.  Returns whether the kernel is a root of variables that stands for itself. */
+static bool relate_kernel(question *q, size_t kernel, const size_t *earlier, size_t count)
+{
+    nh_form *f = &q->form;
+    nh_kernel k = f->kernels.item[kernel]; /* a copy: roots may be added */
+    if (k.kind == NH_KERNEL_SIN) nh_field_relate_pair(f->field, kernel, k.partner, false);
+    if (k.kind == NH_KERNEL_ABS) nh_field_relate(f->field, kernel, 2, nh_quotient_pow(f->field, nh_form_eval(f, k.atom), 2));
+    if (k.kind != NH_KERNEL_ROOT) return false;
+    const nh_quotient *radicand = nh_form_eval(f, k.atom);
+    if (!q->constant[kernel] && relate_to_earlier(q, kernel, radicand, earlier, count)) return false;
+    nh_field_relate(f->field, kernel, (unsigned)k.unit.q, radicand);
+    return !q->constant[kernel];
+}
+
+/* Which kernels are coefficients; spare ones, for which there is room, will be.  Returns the number of roots of variables. */
+static size_t sort_out(question *q)
+{
+    const nh_kernels *k = &q->form.kernels;
+    size_t roots = 0;
+    for (size_t i = 0; i < k->count; i++) roots += k->item[i].kind == NH_KERNEL_ROOT;
+    q->constant = nh_alloc_array(k->count + roots + 1, sizeof *q->constant);
+    for (size_t i = 0; i < k->count; i++) {
+        q->constant[i] = constant_kernel(q, &k->item[i]);
+        if (q->constant[i] && k->item[i].kind == NH_KERNEL_ROOT) roots--;
+    }
+    for (size_t i = 0; i <= roots; i++) q->constant[k->count + i] = true;
+    return roots;
+}
+
+/* The kernels of all expressions, and what they satisfy. */
+static bool collect_kernels(question *q)
+{
+    nh_kernels *k = &q->form.kernels;
+    nh_kernels_init(k, q->dag, false, true);
+    for (size_t j = 0; j < q->n; j++) nh_kernels_collect(k, q->e[j]);
+    if (k->broken || k->too_deep) return false;
+    nh_kernels_settle(k);
+    if (k->count > most_kernels) return false;
+    size_t count = k->count, roots = sort_out(q), *earlier = nh_alloc_array(roots + 1, sizeof *earlier);
+    q->form.field = nh_field_create(count + (roots ? roots - 1 : 0), q->forms.max_terms);
+    roots = 0;
+    for (size_t i = 0; i < count; i++)
+        if (relate_kernel(q, k->order[i], earlier, roots)) earlier[roots++] = k->order[i];
+    nh_free(earlier);
+    return nh_field_state_of(q->form.field) == NH_FIELD_FINE;
+}
+
+/* ---- coefficients as expressions ---- */
+
+static nh_ex shortest(nh_dag *dag, size_t n, const nh_ex *candidate)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < n; i++)
+        if (nh_complexity(dag, candidate[i]) < nh_complexity(dag, candidate[best])) best = i;
+    return candidate[best];
+}
+
+static bool emit(question *q, const nh_quotient *value, nh_ex *out)
+{
+    nh_ex candidate[3];
+    nh_pieces factored, whole;
+    nh_arena *arena = nh_arena_create();
+    const nh_kernels *k = &q->form.kernels;
+    bool fits = nh_pieces_make(q->form.field, arena, value, false, &whole) && nh_pieces_make(q->form.field, arena, value, true, &factored);
+    if (fits) {
+        candidate[0] = nh_emit_product(k, &factored, false);
+        candidate[1] = nh_emit_product(k, &whole, true);
+        candidate[2] = nh_emit_terms(k, &whole);
+        *out = shortest(q->dag, 3, candidate);
+    }
+    nh_arena_free(arena);
+    return fits && !nh_emit_inexact(q->dag, *out);
+}
+
+static bool emit_all(question *q, nh_ex *coefficient)
+{
+    for (size_t i = 0; i < q->form.kernels.count; i++) q->form.kernels.item[i].length = 1; /* they are symbols mostly */
+    for (size_t j = 0; j < q->n; j++) {
+        coefficient[j] = nh_int(q->dag, 0);
+        if (q->c[j] && !emit(q, q->c[j], &coefficient[j])) return false;
+    }
+    return true;
+}
+
+/* ---- the whole ---- */
+
+/* Exact, also after arguments have been made canonical? */
+static bool rewrite_all(question *q, const nh_ex *e)
+{
+    for (size_t j = 0; j < q->n; j++) {
+        if (nh_emit_inexact(q->dag, e[j])) return false;
+        q->e[j] = nh_form_rewrite(&q->forms, e[j]);
+        if (nh_emit_inexact(q->dag, q->e[j])) return false;
+    }
+    return true;
+}
+
+static bool evaluate_all(question *q)
+{
+    nh_field *field = q->form.field;
+    for (size_t j = 0; j < q->n; j++) {
+        q->value[j] = nh_form_eval(&q->form, q->e[j]);
+        if (nh_field_state_of(field) != NH_FIELD_FINE) return false;
+    }
+    return nh_relation_clear_denominators(field, q->n, q->value);
+}
+
+static nh_relation_verdict ask(question *q, const nh_ex *e, nh_ex *coefficient)
+{
+    if (!rewrite_all(q, e) || !collect_kernels(q) || !evaluate_all(q)) return NH_RELATION_TOO_LARGE;
+    nh_relation_system system = {.field = q->form.field, .constant = q->constant, .n = q->n, .value = q->value};
+    nh_relation_verdict verdict = nh_relation_solve(&system, q->c);
+    if (verdict == NH_RELATION_UNIQUE && !emit_all(q, coefficient)) verdict = NH_RELATION_TOO_LARGE;
+    return verdict;
+}
+
+nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter, size_t max_terms,
+                                     nh_ex *coefficient)
+{
+    if (n == 0) return NH_RELATION_NONE;
+    question q = {.dag = dag, .n = n, .parameters = parameters, .parameter = parameter};
+    nh_forms_init(&q.forms, dag, false, max_terms ? max_terms : default_terms);
+    q.e = nh_alloc_array(n, sizeof *q.e);
+    q.value = nh_alloc_array(n, sizeof *q.value);
+    q.c = nh_alloc_array(n, sizeof *q.c);
+    nh_relation_verdict verdict = ask(&q, e, coefficient);
+    nh_form_clear(&q.form);
+    nh_forms_clear(&q.forms);
+    nh_free(q.e);
+    nh_free(q.constant);
+    nh_free(q.value);
+    nh_free(q.c);
+    return verdict;
+}

@@ -1,0 +1,265 @@
+#include "expr/relation_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "expr/normal_flint.h"
+
+#include <flint/nmod_poly.h>
+#include <flint/nmod_vec.h>
+#include <flint/ulong_extras.h>
+
+/* Roots of random values exist with probability 1/2 or so each: enough attempts for a dozen of them. */
+enum { most_attempts = 20000 };
+
+/* ---- equations ---- */
+
+static void read_terms(nh_relation_rows *r, size_t column)
+{
+    nh_field *f = r->system->field;
+    const fmpz_mpoly_struct *p = r->system->value[column]->num;
+    for (slong i = 0; i < p->length; i++) {
+        uint32_t *monomial = r->exponent + r->terms * r->width;
+        size_t used = 0;
+        fmpz_mpoly_get_term_exp_ui(f->exponent, p, i, f->ctx);
+        for (slong g = 0; g < f->generators; g++)
+            if (!r->system->constant[g]) monomial[used++] = (uint32_t)f->exponent[g];
+        r->term[r->terms++] = (nh_relation_term){.column = column, .index = i, .monomial = monomial};
+    }
+}
+
+static int by_monomial(const void *left, const void *right, void *width)
+{
+    const nh_relation_term *a = left, *b = right;
+    for (size_t i = 0; i < *(const size_t *)width; i++)
+        if (a->monomial[i] != b->monomial[i]) return a->monomial[i] < b->monomial[i] ? -1 : 1;
+    if (a->column != b->column) return a->column < b->column ? -1 : 1;
+    return a->index < b->index ? -1 : a->index > b->index;
+}
+
+void nh_relation_rows_init(nh_relation_rows *rows, const nh_relation_system *system)
+{
+    size_t terms = 0, generators = (size_t)system->field->generators;
+    *rows = (nh_relation_rows){.system = system, .prime = (uint64_t)1 << 60};
+    for (size_t g = 0; g < generators; g++) rows->width += !system->constant[g];
+    for (size_t j = 0; j < system->n; j++) terms += (size_t)system->value[j]->num->length;
+    rows->exponent = nh_alloc_array(terms * rows->width + 1, sizeof *rows->exponent);
+    rows->term = nh_alloc_array(terms + 1, sizeof *rows->term);
+    rows->row = nh_alloc_array(terms + 1, sizeof *rows->row);
+    rows->value = nh_alloc_array(generators, sizeof *rows->value);
+    for (size_t j = 0; j < system->n; j++) read_terms(rows, j);
+    qsort_r(rows->term, terms, sizeof *rows->term, by_monomial, &rows->width);
+    for (size_t i = 0; i < terms; i++) {
+        const uint32_t *m = rows->term[i].monomial;
+        bool same = i && !memcmp(m, rows->term[i - 1].monomial, rows->width * sizeof *m);
+        if (!same) rows->row[rows->rows++].first = i;
+        rows->row[rows->rows - 1].last = i + 1;
+    }
+}
+
+void nh_relation_rows_clear(nh_relation_rows *rows)
+{
+    nh_free(rows->exponent);
+    nh_free(rows->term);
+    nh_free(rows->row);
+    nh_free(rows->value);
+    *rows = (nh_relation_rows){0};
+}
+
+/* The terms are in the order of the polynomial, and remain so without the variables that they share. */
+const nh_quotient *nh_relation_rows_entry(const nh_relation_rows *rows, size_t row, size_t column)
+{
+    nh_field *f = rows->system->field;
+    nh_quotient *q = NULL;
+    fmpz_t c;
+    fmpz_init(c);
+    for (size_t i = rows->row[row].first; i < rows->row[row].last; i++) {
+        const nh_relation_term *t = &rows->term[i];
+        if (t->column != column) continue;
+        if (!q) q = (nh_quotient *)nh_quotient_number(f, nh_num_int(0)); /* new, and nobody else's yet */
+        const fmpz_mpoly_struct *p = rows->system->value[column]->num;
+        fmpz_mpoly_get_term_exp_ui(f->exponent, p, t->index, f->ctx);
+        fmpz_mpoly_get_term_coeff_fmpz(c, p, t->index, f->ctx);
+        for (slong g = 0; g < f->generators; g++)
+            if (!rows->system->constant[g]) f->exponent[g] = 0;
+        fmpz_mpoly_push_term_fmpz_ui(q->num, c, f->exponent, f->ctx);
+    }
+    fmpz_clear(c);
+    return q;
+}
+
+/* ---- a point ---- */
+
+static ulong term_residue(nh_relation_rows *r, nmod_t mod, const fmpz_mpoly_struct *p, slong i)
+{
+    nh_field *f = r->system->field;
+    fmpz_t c;
+    fmpz_init(c);
+    fmpz_mpoly_get_term_exp_ui(f->exponent, p, i, f->ctx);
+    fmpz_mpoly_get_term_coeff_fmpz(c, p, i, f->ctx);
+    ulong v = fmpz_fdiv_ui(c, mod.n);
+    fmpz_clear(c);
+    for (slong g = 0; g < f->generators; g++)
+        if (r->system->constant[g] && f->exponent[g])
+            v = nmod_mul(v, nmod_pow_ui(r->value[g], f->exponent[g], mod), mod);
+    return v;
+}
+
+static ulong residue(nh_relation_rows *r, nmod_t mod, const fmpz_mpoly_struct *p)
+{
+    ulong v = 0;
+    for (slong i = 0; i < p->length; i++) v = nmod_add(v, term_residue(r, mod, p, i), mod);
+    return v;
+}
+
+/* x with x^order = a, if there is one. */
+static bool modular_root(ulong a, ulong order, nmod_t mod, ulong *x)
+{
+    *x = a;
+    if (order == 1 || a == 0) return true;
+    if (order == 2) return (*x = n_sqrtmod(a, mod.n)) != 0;
+    nmod_poly_t p;
+    nmod_poly_factor_t roots;
+    nmod_poly_init_mod(p, mod);
+    nmod_poly_factor_init(roots);
+    nmod_poly_set_coeff_ui(p, (slong)order, 1);
+    nmod_poly_set_coeff_ui(p, 0, nmod_neg(a, mod));
+    nmod_poly_roots(roots, p, 0);
+    bool found = roots->num > 0;
+    if (found) *x = nmod_neg(nmod_poly_get_coeff_ui(roots->p, 0), mod);
+    nmod_poly_factor_clear(roots);
+    nmod_poly_clear(p);
+    return found;
+}
+
+/* Relations hold earlier generators only. */
+static bool satisfy(nh_relation_rows *r, nmod_t mod)
+{
+    const nh_field *f = r->system->field;
+    for (size_t i = 0; i < f->relations; i++) {
+        const nh_relation *x = &f->relation[i];
+        if (!r->system->constant[x->generator]) continue;
+        ulong den = residue(r, mod, x->den), root;
+        if (!den) return false;
+        ulong a = nmod_mul(residue(r, mod, x->num), nmod_inv(den, mod), mod);
+        if (!modular_root(a, x->order, mod, &root)) return false;
+        r->value[x->generator] = root;
+    }
+    return true;
+}
+
+/* SplitMix64 [SteeleLeaFlood2014]: the same numbers for the same question. */
+static uint64_t next_random(nh_relation_rows *r)
+{
+    uint64_t z = r->random += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+}
+
+bool nh_relation_rows_choose_point(nh_relation_rows *rows)
+{
+    const nh_relation_system *s = rows->system;
+    nmod_t mod;
+    bool good = false;
+    for (int attempt = 0; attempt < most_attempts && !good; attempt++) {
+        rows->prime = n_nextprime(rows->prime, 0);
+        nmod_init(&mod, rows->prime);
+        for (slong g = 0; g < s->field->generators; g++) rows->value[g] = 1 + next_random(rows) % (rows->prime - 1);
+        good = satisfy(rows, mod);
+    }
+    for (size_t i = 0; i < rows->terms && good; i++) {
+        nh_relation_term *t = &rows->term[i];
+        t->residue = term_residue(rows, mod, s->value[t->column]->num, t->index);
+    }
+    return good;
+}
+
+/* ---- rank ---- */
+
+/* Rows in reduced echelon form. */
+typedef struct {
+    nmod_t mod;
+    size_t n, rank;
+    ulong *row;
+    size_t *pivot;
+} echelon;
+
+static void subtract(echelon *e, ulong *from, ulong factor, const ulong *row)
+{
+    if (factor) _nmod_vec_scalar_addmul_nmod(from, row, (slong)e->n, nmod_neg(factor, e->mod), e->mod);
+}
+
+static bool insert(echelon *e, ulong *v)
+{
+    for (size_t i = 0; i < e->rank; i++) subtract(e, v, v[e->pivot[i]], e->row + i * e->n);
+    size_t p = 0;
+    while (p < e->n && !v[p]) p++;
+    if (p == e->n) return false;
+    _nmod_vec_scalar_mul_nmod(v, v, (slong)e->n, nmod_inv(v[p], e->mod), e->mod);
+    for (size_t i = 0; i < e->rank; i++) subtract(e, e->row + i * e->n, e->row[i * e->n + p], v);
+    memcpy(e->row + e->rank * e->n, v, e->n * sizeof *v);
+    e->pivot[e->rank++] = p;
+    return true;
+}
+
+static void weigh(nh_relation_rows *r, const bool *support)
+{
+    for (size_t i = 0; i < r->rows; i++) {
+        nh_relation_row *row = &r->row[i];
+        size_t last = SIZE_MAX;
+        row->columns = row->terms = 0;
+        for (size_t t = row->first; t < row->last; t++) {
+            size_t column = r->term[t].column;
+            if (!support[column]) continue;
+            row->terms++;
+            row->columns += column != last;
+            last = column;
+        }
+    }
+}
+
+static int by_weight(const void *left, const void *right)
+{
+    const nh_relation_row *a = left, *b = right;
+    if (a->columns != b->columns) return a->columns < b->columns ? -1 : 1;
+    if (a->terms != b->terms) return a->terms < b->terms ? -1 : 1;
+    return a->first < b->first ? -1 : a->first > b->first;
+}
+
+/* One free column f: the vector with c_f = 1 is c_pivot = -row_f. */
+static void narrow(const echelon *e, bool *support)
+{
+    bool *pivots = nh_alloc_array(e->n, sizeof *pivots);
+    size_t free_column = 0;
+    for (size_t i = 0; i < e->rank; i++) pivots[e->pivot[i]] = true;
+    while (pivots[free_column] || !support[free_column]) free_column++;
+    for (size_t i = 0; i < e->rank; i++) support[e->pivot[i]] = e->row[i * e->n + free_column] != 0;
+    nh_free(pivots);
+}
+
+size_t nh_relation_rows_rank(nh_relation_rows *rows, bool *support, size_t *chosen)
+{
+    size_t n = rows->system->n, wanted = 0;
+    echelon e = {.n = n};
+    for (size_t j = 0; j < n; j++) wanted += support[j];
+    nmod_init(&e.mod, rows->prime);
+    e.row = nh_alloc_array((n + 1) * n, sizeof *e.row);
+    e.pivot = nh_alloc_array(n + 1, sizeof *e.pivot);
+    weigh(rows, support);
+    qsort(rows->row, rows->rows, sizeof *rows->row, by_weight);
+    for (size_t i = 0; i < rows->rows && e.rank < wanted; i++) {
+        ulong *v = e.row + n * n; /* scratch */
+        memset(v, 0, n * sizeof *v);
+        for (size_t t = rows->row[i].first; t < rows->row[i].last; t++) {
+            const nh_relation_term *x = &rows->term[t];
+            if (support[x->column]) v[x->column] = nmod_add(v[x->column], x->residue, e.mod);
+        }
+        if (insert(&e, v)) chosen[e.rank - 1] = i;
+    }
+    if (e.rank + 1 == wanted) narrow(&e, support);
+    size_t rank = e.rank;
+    nh_free(e.row);
+    nh_free(e.pivot);
+    return rank;
+}

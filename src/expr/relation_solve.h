@@ -1,0 +1,31 @@
+/* relation_solve: the linear algebra of relation.h, over the field K of the constant kernels.
+ *
+ *     sum_j c_j N_j = 0,   N_j = sum_m a_mj m,   a_mj in K,   m: monomials in the kernels that are not constant
+ *
+ * Rank, support and a sparse set of independent equations are found with random values of the constants modulo a prime;
+ * only that small system is solved over K, and the solution is put into the equation before it is believed. */
+#ifndef NH_RELATION_SOLVE_H
+#define NH_RELATION_SOLVE_H
+
+#include "expr/normal_quotient.h"
+#include "expr/relation.h"
+
+/* What the unknowns belong to. */
+typedef struct {
+    nh_field *field;
+    const bool *constant; /* generator -> is it a coefficient?  What a constant is related to must be constant */
+    size_t n;
+    const nh_quotient **value; /* N_j, without denominators */
+} nh_relation_system;
+
+/* The verdict; when unique, c[j] gets quotients without denominators and without common factor. */
+nh_relation_verdict nh_relation_solve(const nh_relation_system *system, const nh_quotient **c);
+
+/* q[j] times a common factor such that there are no denominators, also none that come from relations.  False, with the
+ * field broken, when that is too large. */
+bool nh_relation_clear_denominators(nh_field *field, size_t n, const nh_quotient **q);
+
+/* Is there nothing but a number below the fraction bar? */
+bool nh_relation_is_polynomial(const nh_field *field, const nh_quotient *q);
+
+#endif

@@ -1,0 +1,221 @@
+/* nh_simplify: several forms of one expression compete, the shortest wins. */
+#include "expr/emit.h"
+#include "expr/form.h"
+#include "expr/normal.h"
+
+enum {
+    most_terms = 1000,    /* of intermediate polynomials */
+    flip_terms = 200,     /* of quotients in which both sin^2 and cos^2 are tried as what to eliminate, */
+    most_flips = 8,       /* for this many angles */
+    factor_terms = 60,    /* see normal_factor.c */
+    shortest = 4,         /* complexity below which there is nothing to gain */
+    deepest = 20          /* levels of arguments and of terms that are simplified on their own */
+};
+
+/* What one call shares between the expression and its parts. */
+typedef struct {
+    nh_dag *dag;
+    nh_forms literal, cut;
+    nh_index done; /* part -> simplified */
+    int depth;
+} context;
+
+typedef struct {
+    context *shared;
+    nh_dag *dag;
+    nh_ex best, last;
+    size_t length;
+    bool inexact; /* the source has inexact numbers, so that more of them are no sign of overflow */
+} contest;
+
+static nh_ex simplify(context *shared, nh_ex e);
+
+static void offer(contest *c, nh_ex candidate)
+{
+    if (candidate == c->last || candidate == c->best) return;
+    c->last = candidate;
+    size_t length = nh_complexity(c->dag, candidate);
+    if (length >= c->length || (!c->inexact && nh_emit_inexact(c->dag, candidate))) return;
+    c->best = candidate;
+    c->length = length;
+}
+
+static size_t most_terms_of(const nh_pieces *p)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < p->factors; i++) most = p->factor[i].terms > most ? p->factor[i].terms : most;
+    return most;
+}
+
+static void offer_products(contest *c, const nh_form *form, const nh_pieces *pieces)
+{
+    offer(c, nh_emit_product(&form->kernels, pieces, false));
+    /* two terms have nothing in common: it is in the monomial already */
+    if (most_terms_of(pieces) > 2) offer(c, nh_emit_product(&form->kernels, pieces, true));
+}
+
+/* All ways to write one quotient.  Of n terms nothing shorter than n comes unless they have factors. */
+static void offer_quotient(contest *c, const nh_form *form, const nh_quotient *q)
+{
+    size_t terms = nh_quotient_terms(q);
+    if (terms > c->length && terms > factor_terms) return;
+    nh_arena *arena = nh_arena_create();
+    nh_pieces factored, whole;
+    bool irreducible = false;
+    bool fits = nh_pieces_make(form->field, arena, q, false, &whole);
+    if (nh_pieces_make(form->field, arena, q, true, &factored)) {
+        offer_products(c, form, &factored);
+        irreducible = fits && factored.factors == whole.factors && most_terms_of(&factored) == most_terms_of(&whole);
+    }
+    if (fits && terms <= c->length) {
+        if (!irreducible) offer_products(c, form, &whole);
+        offer(c, nh_emit_terms(&form->kernels, &whole));
+    }
+    nh_arena_free(arena);
+}
+
+/* Eliminate sin^2 everywhere; then, angle by angle, cos^2 where that is shorter. */
+static void offer_form(contest *c, nh_form *form)
+{
+    const nh_quotient *q = form->value;
+    offer_quotient(c, form, q);
+    const nh_quotient *rational = nh_quotient_rationalise(form->field, q);
+    if (rational != q && nh_field_state_of(form->field) == NH_FIELD_FINE) offer_quotient(c, form, rational);
+    size_t pairs = nh_quotient_terms(q) <= flip_terms ? nh_field_pairs(form->field) : 0;
+    for (size_t i = 0; i < pairs && i < most_flips && !nh_is_zero(c->dag, c->best); i++) {
+        size_t before = c->length;
+        nh_field_flip_pair(form->field, i);
+        const nh_quotient *flipped = nh_quotient_again(form->field, q);
+        if (nh_field_state_of(form->field) != NH_FIELD_FINE) return;
+        offer_quotient(c, form, flipped);
+        if (c->length < before) q = flipped;
+        else nh_field_flip_pair(form->field, i);
+    }
+}
+
+/* What stands inside kernels is shown in its shortest form. */
+static void beautify(contest *c, nh_form *form)
+{
+    for (size_t i = 0; i < form->kernels.count; i++) {
+        nh_kernel *k = &form->kernels.item[i];
+        size_t twin = k->partner; /* sine and cosine have the same argument */
+        nh_ex inside = k->kind == NH_KERNEL_ROOT ? k->atom : nh_kernel_argument(&form->kernels, i);
+        k->length = 1;
+        if (k->kind == NH_KERNEL_PLAIN && nh_kind_of(c->dag, inside) != NH_FUNCTION) continue;
+        if (!nh_quotient_has(form->field, form->value, i) && !nh_quotient_has(form->field, form->value, twin)) continue;
+        nh_ex shown = nh_complexity(c->dag, inside) > shortest ? simplify(c->shared, inside) : inside;
+        if (shown != inside) k->shown = shown;
+        k->length = nh_complexity(c->dag, shown) + (k->kind != NH_KERNEL_PLAIN);
+    }
+}
+
+/* Would cutting the arguments into atoms show more relations? */
+static bool worth_cutting(const nh_dag *dag, const nh_kernels *k)
+{
+    for (size_t i = 0; i < k->count; i++) {
+        const nh_kernel *x = &k->item[i];
+        if (x->kind == NH_KERNEL_SINH) return true;
+        if ((x->kind == NH_KERNEL_SIN || x->kind == NH_KERNEL_EXP) && nh_kind_of(dag, x->atom) == NH_SUM) return true;
+        for (size_t j = 0; j < i && x->kind == NH_KERNEL_SIN; j++)
+            if (k->item[j].kind == NH_KERNEL_SIN && k->item[j].atom == x->atom) return true;
+    }
+    return false;
+}
+
+/* Returns whether the other kind of kernels is worth a try. */
+static bool compete(contest *c, nh_ex e, bool literal)
+{
+    nh_form form;
+    bool fine = nh_form_make(literal ? &c->shared->literal : &c->shared->cut, e, true, &form) == NH_FIELD_FINE;
+    bool more = literal && worth_cutting(c->dag, &form.kernels);
+    if (fine) {
+        beautify(c, &form);
+        offer_form(c, &form);
+    }
+    nh_form_clear(&form);
+    return more && !nh_is_zero(c->dag, c->best);
+}
+
+/* ---- part by part ---- */
+
+static bool worth_descending(const nh_dag *dag, nh_ex e)
+{
+    nh_kind kind = nh_kind_of(dag, e);
+    if (kind == NH_SUM) return true;
+    for (size_t i = 0; i < nh_arity(dag, e); i++) {
+        nh_kind inner = nh_kind_of(dag, nh_child(dag, e, i));
+        if (kind == NH_FUNCTION ? inner > NH_SYMBOL : inner == NH_SUM || inner == NH_FUNCTION) return true;
+    }
+    return false;
+}
+
+static nh_ex part(contest *c, nh_ex e)
+{
+    return worth_descending(c->dag, e) ? simplify(c->shared, e) : e;
+}
+
+static nh_ex sum_of_parts(contest *c, nh_ex e)
+{
+    size_t n = nh_arity(c->dag, e);
+    nh_num *coefficient = nh_alloc_array(n + 1, sizeof *coefficient);
+    nh_ex *term = nh_alloc_array(n + 1, sizeof *term);
+    for (size_t i = 0; i < n; i++) {
+        coefficient[i] = nh_coefficient_of(c->dag, e, i);
+        term[i] = part(c, nh_child(c->dag, e, i));
+    }
+    coefficient[n] = nh_constant_of(c->dag, e);
+    term[n] = nh_int(c->dag, 1);
+    nh_ex sum = nh_linear(c->dag, n + 1, coefficient, term);
+    nh_free(coefficient);
+    nh_free(term);
+    return sum;
+}
+
+static nh_ex product_of_parts(contest *c, nh_ex e)
+{
+    nh_ex product = nh_number(c->dag, nh_constant_of(c->dag, e));
+    for (size_t i = 0; i < nh_arity(c->dag, e); i++) {
+        nh_ex base = part(c, nh_child(c->dag, e, i)), exponent = part(c, nh_exponent_of(c->dag, e, i));
+        product = nh_mul(c->dag, product, nh_pow(c->dag, base, exponent));
+    }
+    return product;
+}
+
+static nh_ex of_parts(contest *c, nh_ex e)
+{
+    nh_kind kind = nh_kind_of(c->dag, e);
+    if (kind == NH_SUM) return sum_of_parts(c, e);
+    if (kind == NH_PRODUCT) return product_of_parts(c, e);
+    size_t arity = nh_arity(c->dag, e);
+    nh_function f = nh_function_of(c->dag, e);
+    if (arity == 0) return e;
+    nh_ex a = part(c, nh_child(c->dag, e, 0));
+    return arity == 1 ? nh_call(c->dag, f, a) : nh_call2(c->dag, f, a, part(c, nh_child(c->dag, e, 1)));
+}
+
+static nh_ex simplify(context *shared, nh_ex e)
+{
+    uint32_t known;
+    contest c = {.shared = shared, .dag = shared->dag, .best = e, .last = e, .length = nh_complexity(shared->dag, e)};
+    if (c.length <= shortest || shared->depth > deepest) return e;
+    if (nh_index_get(&shared->done, e, &known)) return known;
+    shared->depth++;
+    c.inexact = nh_emit_inexact(c.dag, e);
+    if (compete(&c, e, true)) compete(&c, e, false);
+    if (c.best == e) offer(&c, of_parts(&c, e));
+    shared->depth--;
+    if (!nh_index_get(&shared->done, e, &known)) nh_index_put(&shared->done, e, c.best);
+    return c.best;
+}
+
+nh_ex nh_simplify(nh_dag *dag, nh_ex e)
+{
+    context shared = {.dag = dag};
+    nh_forms_init(&shared.literal, dag, true, most_terms);
+    nh_forms_init(&shared.cut, dag, false, most_terms);
+    nh_ex result = simplify(&shared, e);
+    nh_forms_clear(&shared.literal);
+    nh_forms_clear(&shared.cut);
+    nh_index_clear(&shared.done);
+    return result;
+}

@@ -1,0 +1,103 @@
+#include "expr/solve.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/normal.h"
+
+struct nh_lu {
+    nh_dag *dag;
+    size_t n;
+    nh_ex *a;      /* L below the diagonal (unit), U on and above it */
+    size_t *row;   /* row[i]: which original row came i-th */
+};
+
+static void swap_rows(nh_lu *lu, size_t i, size_t j)
+{
+    if (i == j) return;
+    for (size_t k = 0; k < lu->n; k++) {
+        nh_ex t = lu->a[i * lu->n + k];
+        lu->a[i * lu->n + k] = lu->a[j * lu->n + k];
+        lu->a[j * lu->n + k] = t;
+    }
+    size_t t = lu->row[i];
+    lu->row[i] = lu->row[j];
+    lu->row[j] = t;
+}
+
+/* The best pivot of column k; the row in its own place wins unless another is clearly safer. */
+static double choose_pivot(nh_lu *lu, size_t k, nh_pivot_score *score, void *context, size_t *best)
+{
+    double value = 0;
+    *best = k;
+    for (size_t i = k; i < lu->n; i++) {
+        nh_ex e = lu->a[i * lu->n + k];
+        double s = nh_is_zero(lu->dag, e) ? 0 : score(context, e);
+        if (s > (i == k ? 0 : 4 * value)) {
+            value = s;
+            *best = i;
+        }
+    }
+    return value;
+}
+
+static void eliminate(nh_lu *lu, size_t k)
+{
+    nh_dag *d = lu->dag;
+    size_t n = lu->n;
+    nh_ex pivot = lu->a[k * n + k];
+    for (size_t i = k + 1; i < n; i++) {
+        nh_ex *row = lu->a + i * n;
+        if (nh_is_zero(d, row[k])) continue;
+        row[k] = nh_simplify(d, nh_div(d, row[k], pivot));
+        for (size_t j = k + 1; j < n; j++) {
+            nh_ex u = lu->a[k * n + j];
+            if (!nh_is_zero(d, u)) row[j] = nh_simplify(d, nh_sub(d, row[j], nh_mul(d, row[k], u)));
+        }
+    }
+}
+
+nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score, void *context, size_t *rank)
+{
+    nh_lu *lu = nh_alloc(sizeof *lu);
+    *lu = (nh_lu){.dag = dag, .n = n, .a = nh_alloc_array(n * n + 1, sizeof *lu->a), .row = nh_alloc_array(n + 1, sizeof *lu->row)};
+    memcpy(lu->a, a, n * n * sizeof *a);
+    for (size_t i = 0; i < n; i++) lu->row[i] = i;
+    for (size_t k = 0; k < n; k++) {
+        size_t best;
+        if (rank) *rank = k;
+        if (choose_pivot(lu, k, score, context, &best) == 0) {
+            nh_lu_free(lu);
+            return NULL;
+        }
+        swap_rows(lu, k, best);
+        eliminate(lu, k);
+    }
+    if (rank) *rank = n;
+    return lu;
+}
+
+void nh_lu_free(nh_lu *lu)
+{
+    if (!lu) return;
+    nh_free(lu->a);
+    nh_free(lu->row);
+    nh_free(lu);
+}
+
+void nh_lu_solve(const nh_lu *lu, const nh_ex *b, nh_ex *x)
+{
+    nh_dag *d = lu->dag;
+    size_t n = lu->n;
+    nh_ex *y = nh_alloc_array(n + 1, sizeof *y);
+    for (size_t i = 0; i < n; i++) {
+        y[i] = b[lu->row[i]];
+        for (size_t j = 0; j < i; j++) y[i] = nh_sub(d, y[i], nh_mul(d, lu->a[i * n + j], y[j]));
+    }
+    for (size_t i = n; i-- > 0;) {
+        for (size_t j = i + 1; j < n; j++) y[i] = nh_sub(d, y[i], nh_mul(d, lu->a[i * n + j], y[j]));
+        y[i] = nh_div(d, y[i], lu->a[i * n + i]);
+    }
+    memcpy(x, y, n * sizeof *x);
+    nh_free(y);
+}

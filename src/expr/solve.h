@@ -1,0 +1,22 @@
+/* solve: linear systems whose entries are expressions, by LU factorization in the graph.
+ *
+ * Only n^3/3 nodes are made, whatever the entries are.  Rows are exchanged so that no pivot vanishes where the caller
+ * looks: a pivot's score is, for instance, its least absolute value over sample points. */
+#ifndef NH_SOLVE_H
+#define NH_SOLVE_H
+
+#include "expr/dag.h"
+
+/* How safe it is to divide by e: 0 means it vanishes (somewhere, or identically). */
+typedef double nh_pivot_score(void *context, nh_ex e);
+
+typedef struct nh_lu nh_lu;
+
+/* Factor the n x n matrix a (row-major: a[i*n + j]).  NULL when no usable pivot is left; *rank (may be NULL) says how far it got. */
+nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score, void *context, size_t *rank);
+void nh_lu_free(nh_lu *lu);
+
+/* x := a^-1 b (x may be b). */
+void nh_lu_solve(const nh_lu *lu, const nh_ex *b, nh_ex *x);
+
+#endif

@@ -1,0 +1,332 @@
+#include "expr/tape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/tape_internal.h"
+
+/* ---- values of single operations ---- */
+
+static double call_value(unsigned f, double a, double b)
+{
+    switch (f) {
+    case NH_SIN: return sin(a);
+    case NH_COS: return cos(a);
+    case NH_TAN: return tan(a);
+    case NH_ASIN: return asin(a);
+    case NH_ACOS: return acos(a);
+    case NH_ATAN: return atan(a);
+    case NH_SINH: return sinh(a);
+    case NH_COSH: return cosh(a);
+    case NH_TANH: return tanh(a);
+    case NH_ASINH: return asinh(a);
+    case NH_ACOSH: return acosh(a);
+    case NH_ATANH: return atanh(a);
+    case NH_EXP: return exp(a);
+    case NH_LOG: return log(a);
+    case NH_ABS: return fabs(a);
+    case NH_SIGN: return (a > 0) - (a < 0);
+    case NH_ATAN2: return atan2(a, b);
+    default: return NAN;
+    }
+}
+
+static double op_value(unsigned op, double a, double b)
+{
+    switch (op) {
+    case NH_OP_ADD: return a + b;
+    case NH_OP_SUB: return a - b;
+    case NH_OP_MUL: return a * b;
+    case NH_OP_DIV: return a / b;
+    case NH_OP_NEG: return -a;
+    case NH_OP_INV: return 1 / a;
+    case NH_OP_SQUARE: return a * a;
+    case NH_OP_SQRT: return sqrt(a);
+    case NH_OP_POW: return pow(a, b);
+    default: return call_value(op - NH_OP_FUNCTION, a, b);
+    }
+}
+
+/* ---- the compiler: first in virtual registers, each written once ---- */
+
+typedef struct {
+    nh_dag *dag;
+    uint32_t *value;     /* per node: virtual register + 1 */
+    double *constant;    /* virtual registers that are constants; parallel to kind */
+    char *kind;          /* 'i' input, 'c' constant, 't' temporary */
+    size_t count, kind_capacity, constant_capacity;
+    nh_instruction *code;
+    size_t length, capacity;
+    size_t n_fixed;
+    const nh_ex *fixed;
+    const double *fixed_value;
+    bool has_unbound;
+    nh_ex unbound;
+} compiler;
+
+static uint32_t fresh(compiler *c, char kind, double constant)
+{
+    nh_grow(&c->kind, &c->kind_capacity, c->count + 1, sizeof *c->kind);
+    nh_grow(&c->constant, &c->constant_capacity, c->count + 1, sizeof *c->constant);
+    c->kind[c->count] = kind;
+    c->constant[c->count] = constant;
+    return (uint32_t)c->count++;
+}
+
+static bool is_constant(const compiler *c, uint32_t r, double value) { return c->kind[r] == 'c' && c->constant[r] == value; }
+
+static uint32_t emit(compiler *c, unsigned op, uint32_t a, uint32_t b)
+{
+    if (c->kind[a] == 'c' && c->kind[b] == 'c') return fresh(c, 'c', op_value(op, c->constant[a], c->constant[b]));
+    if (op == NH_OP_MUL && is_constant(c, a, 1)) return b;
+    if ((op == NH_OP_MUL || op == NH_OP_DIV) && is_constant(c, b, 1)) return a;
+    if (op == NH_OP_MUL && is_constant(c, a, -1)) return emit(c, NH_OP_NEG, b, b);
+    if (op == NH_OP_ADD && is_constant(c, a, 0)) return b;
+    nh_grow(&c->code, &c->capacity, c->length + 1, sizeof *c->code);
+    uint32_t to = fresh(c, 't', 0);
+    c->code[c->length++] = (nh_instruction){op, to, a, b};
+    return to;
+}
+
+static uint32_t integer_power(compiler *c, uint32_t a, int64_t n)
+{
+    if (n == 1) return a;
+    if (n % 2) return emit(c, NH_OP_MUL, integer_power(c, a, n - 1), a);
+    uint32_t half = integer_power(c, a, n / 2);
+    return emit(c, NH_OP_SQUARE, half, half);
+}
+
+/* b^x with x made positive; the caller divides when it was negative. */
+static uint32_t positive_power(compiler *c, uint32_t b, nh_num x, uint32_t exponent)
+{
+    if (x.q == 1 && x.p <= 64) return integer_power(c, b, x.p);
+    if (x.q == 2 && x.p <= 63) {
+        uint32_t root = emit(c, NH_OP_SQRT, b, b);
+        return x.p == 1 ? root : emit(c, NH_OP_MUL, root, integer_power(c, b, x.p / 2));
+    }
+    return emit(c, NH_OP_POW, b, exponent);
+}
+
+static uint32_t compile_product(compiler *c, nh_ex e)
+{
+    const nh_dag *dag = c->dag;
+    uint32_t top = fresh(c, 'c', nh_num_value(nh_constant_of(dag, e))), bottom = 0;
+    bool divided = false;
+    for (size_t i = 0; i < nh_arity(dag, e); i++) {
+        uint32_t b = c->value[nh_child(dag, e, i)] - 1;
+        nh_ex x = nh_exponent_of(dag, e, i);
+        if (nh_kind_of(dag, x) != NH_NUMBER) {
+            top = emit(c, NH_OP_MUL, top, emit(c, NH_OP_POW, b, c->value[x] - 1));
+            continue;
+        }
+        nh_num n = nh_number_of(dag, x);
+        bool below = nh_num_value(n) < 0;
+        if (below) n = nh_num_mul(n, nh_num_int(-1));
+        uint32_t f = positive_power(c, b, n, fresh(c, 'c', nh_num_value(n)));
+        if (!below) top = emit(c, NH_OP_MUL, top, f);
+        else bottom = divided ? emit(c, NH_OP_MUL, bottom, f) : f;
+        divided |= below;
+    }
+    if (!divided) return top;
+    return is_constant(c, top, 1) ? emit(c, NH_OP_INV, bottom, bottom) : emit(c, NH_OP_DIV, top, bottom);
+}
+
+static uint32_t compile_sum(compiler *c, nh_ex e)
+{
+    const nh_dag *dag = c->dag;
+    uint32_t total = fresh(c, 'c', nh_num_value(nh_constant_of(dag, e)));
+    for (size_t i = 0; i < nh_arity(dag, e); i++) {
+        uint32_t term = c->value[nh_child(dag, e, i)] - 1;
+        double k = nh_num_value(nh_coefficient_of(dag, e, i));
+        bool minus = k < 0 && !is_constant(c, total, 0);
+        term = emit(c, NH_OP_MUL, fresh(c, 'c', minus ? -k : k), term);
+        total = emit(c, minus ? NH_OP_SUB : NH_OP_ADD, total, term);
+    }
+    return total;
+}
+
+static uint32_t compile_symbol(compiler *c, nh_ex e)
+{
+    for (size_t i = 0; i < c->n_fixed; i++)
+        if (c->fixed[i] == e) return fresh(c, 'c', c->fixed_value[i]);
+    if (!c->has_unbound) c->unbound = e;
+    c->has_unbound = true;
+    return fresh(c, 'c', NAN);
+}
+
+static uint32_t compile_node(compiler *c, nh_ex e)
+{
+    switch (nh_kind_of(c->dag, e)) {
+    case NH_NUMBER: return fresh(c, 'c', nh_num_value(nh_number_of(c->dag, e)));
+    case NH_SYMBOL: return compile_symbol(c, e);
+    case NH_SUM: return compile_sum(c, e);
+    case NH_PRODUCT: return compile_product(c, e);
+    default: break;
+    }
+    nh_function f = nh_function_of(c->dag, e);
+    if (f == NH_PI) return fresh(c, 'c', 3.14159265358979323846);
+    uint32_t a = c->value[nh_child(c->dag, e, 0)] - 1;
+    uint32_t b = f == NH_ATAN2 ? c->value[nh_child(c->dag, e, 1)] - 1 : a;
+    return emit(c, NH_OP_FUNCTION + f, a, b);
+}
+
+/* Nodes needed by the outputs, children first. */
+static void compile_nodes(compiler *c, size_t n_out, const nh_ex *out)
+{
+    const nh_dag *dag = c->dag;
+    nh_ex top = 0;
+    for (size_t i = 0; i < n_out; i++) top = out[i] > top ? out[i] : top;
+    char *needed = nh_alloc((size_t)top + 1);
+    for (size_t i = 0; i < n_out; i++) needed[out[i]] = 1;
+    for (nh_ex e = top + 1; e-- > 0;) {
+        if (!needed[e]) continue;
+        nh_kind kind = nh_kind_of(dag, e);
+        for (size_t i = 0; i < nh_arity(dag, e); i++) {
+            needed[nh_child(dag, e, i)] = 1;
+            if (kind == NH_PRODUCT && nh_kind_of(dag, nh_exponent_of(dag, e, i)) != NH_NUMBER)
+                needed[nh_exponent_of(dag, e, i)] = 1;
+        }
+    }
+    for (nh_ex e = 0; e <= top; e++)
+        if (needed[e] && !c->value[e]) c->value[e] = compile_node(c, e) + 1;
+    nh_free(needed);
+}
+
+/* ---- registers: a linear scan over last uses ---- */
+
+/* Instructions that no output needs (folded constants leave some behind) are removed. */
+static void drop_dead(compiler *c, size_t n_out, const uint32_t *out)
+{
+    char *live = nh_alloc(c->count + 1);
+    for (size_t i = 0; i < n_out; i++) live[out[i]] = 1;
+    size_t keep = c->length;
+    for (size_t i = c->length; i-- > 0;) {
+        nh_instruction x = c->code[i];
+        if (!live[x.to]) continue;
+        live[x.a] = live[x.b] = 1;
+        c->code[--keep] = x;
+    }
+    c->length -= keep;
+    if (c->length) memmove(c->code, c->code + keep, c->length * sizeof *c->code);
+    nh_free(live);
+}
+
+static void assign(compiler *c, nh_tape *tape, const uint32_t *out)
+{
+    uint32_t *place = nh_alloc_array(c->count + 1, sizeof *place);
+    size_t *last = nh_alloc_array(c->count + 1, sizeof *last);
+    char *used = nh_alloc(c->count + 1);
+    for (size_t i = 0; i < c->length; i++) {
+        last[c->code[i].a] = last[c->code[i].b] = i;
+        used[c->code[i].a] = used[c->code[i].b] = 1;
+    }
+    for (size_t i = 0; i < tape->outputs; i++) {
+        last[out[i]] = SIZE_MAX;
+        used[out[i]] = 1;
+    }
+    tape->constant = nh_alloc_array(c->count + 1, sizeof *tape->constant);
+    for (uint32_t v = 0; v < c->count; v++) {
+        if (v < tape->inputs) place[v] = v;
+        else if (c->kind[v] == 'c' && used[v]) {
+            tape->constant[tape->constants] = c->constant[v];
+            place[v] = (uint32_t)(tape->inputs + tape->constants++);
+        }
+    }
+    uint32_t next = (uint32_t)(tape->inputs + tape->constants), *stack = nh_alloc_array(c->length + 1, sizeof *stack);
+    size_t depth = 0;
+    for (size_t i = 0; i < c->length; i++) {
+        nh_instruction x = c->code[i], y = {x.op, 0, place[x.a], place[x.b]};
+        y.to = place[x.to] = depth ? stack[--depth] : next++; /* before the operands are freed: kernels must not alias */
+        if (c->kind[x.a] == 't' && last[x.a] == i) stack[depth++] = place[x.a];
+        if (x.b != x.a && c->kind[x.b] == 't' && last[x.b] == i) stack[depth++] = place[x.b];
+        tape->code[i] = y;
+    }
+    for (size_t i = 0; i < tape->outputs; i++) tape->output[i] = place[out[i]];
+    tape->registers = next;
+    nh_free(stack);
+    nh_free(used);
+    nh_free(last);
+    nh_free(place);
+}
+
+nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out, const nh_ex *out, size_t n_fixed,
+                        const nh_ex *fixed, const double *value)
+{
+    compiler c = {.dag = dag, .n_fixed = n_fixed, .fixed = fixed, .fixed_value = value};
+    c.value = nh_alloc_array(nh_dag_size(dag), sizeof *c.value);
+    for (size_t i = 0; i < n_in; i++) c.value[in[i]] = fresh(&c, 'i', 0) + 1;
+    compile_nodes(&c, n_out, out);
+    uint32_t *virtual_out = nh_alloc_array(n_out + 1, sizeof *virtual_out);
+    for (size_t i = 0; i < n_out; i++) virtual_out[i] = c.value[out[i]] - 1;
+    drop_dead(&c, n_out, virtual_out);
+    nh_tape *tape = nh_alloc(sizeof *tape);
+    *tape = (nh_tape){.inputs = n_in, .outputs = n_out, .length = c.length, .unbound = c.unbound, .has_unbound = c.has_unbound};
+    tape->code = nh_alloc_array(c.length + 1, sizeof *tape->code);
+    tape->output = nh_alloc_array(n_out + 1, sizeof *tape->output);
+    assign(&c, tape, virtual_out);
+    nh_free(virtual_out);
+    nh_free(c.value);
+    nh_free(c.kind);
+    nh_free(c.constant);
+    nh_free(c.code);
+    return tape;
+}
+
+void nh_tape_free(nh_tape *tape)
+{
+    if (!tape) return;
+    nh_free(tape->constant);
+    nh_free(tape->code);
+    nh_free(tape->output);
+    nh_free(tape);
+}
+
+size_t nh_tape_inputs(const nh_tape *tape) { return tape->inputs; }
+size_t nh_tape_outputs(const nh_tape *tape) { return tape->outputs; }
+size_t nh_tape_length(const nh_tape *tape) { return tape->length; }
+
+bool nh_tape_unbound(const nh_tape *tape, nh_ex *symbol)
+{
+    *symbol = tape->unbound;
+    return tape->has_unbound;
+}
+
+nh_tape_work *nh_tape_work_create(const nh_tape *tape)
+{
+    nh_tape_work *work = nh_alloc(sizeof *work);
+    work->scalar = nh_alloc_array(tape->registers + 1, sizeof(double));
+    work->row = nh_alloc_array(tape->registers + 1, sizeof *work->row);
+    for (size_t i = 0; i < tape->constants; i++) work->scalar[tape->inputs + i] = tape->constant[i];
+    work->batch = NULL; /* made at the first batch: many tapes only ever run at single points */
+    return work;
+}
+
+void nh_tape_work_free(nh_tape_work *work)
+{
+    if (!work) return;
+    free(work->batch);
+    nh_free(work->scalar);
+    nh_free(work->row);
+    nh_free(work);
+}
+
+void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, double *out)
+{
+    double *r = work->scalar;
+    memcpy(r, in, tape->inputs * sizeof *r);
+    for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++) {
+        switch (x->op) {
+        case NH_OP_ADD: r[x->to] = r[x->a] + r[x->b]; break;
+        case NH_OP_SUB: r[x->to] = r[x->a] - r[x->b]; break;
+        case NH_OP_MUL: r[x->to] = r[x->a] * r[x->b]; break;
+        case NH_OP_DIV: r[x->to] = r[x->a] / r[x->b]; break;
+        case NH_OP_SQUARE: r[x->to] = r[x->a] * r[x->a]; break;
+        case NH_OP_FUNCTION + NH_SIN: r[x->to] = sin(r[x->a]); break;
+        case NH_OP_FUNCTION + NH_COS: r[x->to] = cos(r[x->a]); break;
+        default: r[x->to] = op_value(x->op, r[x->a], r[x->b]);
+        }
+    }
+    for (size_t i = 0; i < tape->outputs; i++) out[i] = r[tape->output[i]];
+}

@@ -1,0 +1,36 @@
+/* tape: expressions compiled to a straight-line program, run at one point or at many.
+ *
+ * Dead code does not enter the tape, common subexpressions are computed once, what depends on parameters alone is folded when
+ * the tape is made, and registers are reused as soon as their value is dead, so that a batch stays in the cache.
+ * The tape is constant and may be shared by threads; each thread brings its own work memory. */
+#ifndef NH_TAPE_H
+#define NH_TAPE_H
+
+#include "expr/dag.h"
+
+enum { NH_BATCH = 256 }; /* points per batch: below 64 slow, 128 to 512 flat (docs/performance.md) */
+
+typedef struct nh_tape nh_tape;
+typedef struct nh_tape_work nh_tape_work;
+
+/* Outputs `out` as functions of the symbols `in`; the symbols `fixed` have the given values.  A symbol that is neither
+ * makes every output that uses it not-a-number; nh_tape_unbound names the first such symbol. */
+nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out, const nh_ex *out, size_t n_fixed,
+                        const nh_ex *fixed, const double *value);
+void nh_tape_free(nh_tape *tape);
+size_t nh_tape_inputs(const nh_tape *tape);
+size_t nh_tape_outputs(const nh_tape *tape);
+size_t nh_tape_length(const nh_tape *tape); /* instructions */
+bool nh_tape_unbound(const nh_tape *tape, nh_ex *symbol);
+
+nh_tape_work *nh_tape_work_create(const nh_tape *tape);
+void nh_tape_work_free(nh_tape_work *work);
+
+/* One point: in[n_in], out[n_out].  What is undefined there comes out as inf or nan. */
+void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, double *out);
+
+/* `count` <= NH_BATCH points: in[j][p] is input j at point p, out[k][p] likewise.  Agrees with nh_tape_eval to a few
+ * units in the last place of each operation (vector mathematics of glibc). */
+void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, const double *const *in, double *const *out);
+
+#endif

@@ -1,0 +1,110 @@
+/* tape_batch: one instruction over many points, in loops that the compiler vectorises.
+ *
+ * glibc's libmvec has vector versions of the elementary functions.  GCC uses them when the prototypes carry the `simd`
+ * attribute, which avoids -ffast-math (that would also remove nan and inf from this file).  Each kernel is compiled
+ * for several instruction sets and chosen when the program is loaded. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/tape_internal.h"
+
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_ADDRESS__
+#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define CLONES
+#endif
+
+#if defined __x86_64__ && defined __GNUC__
+#define VECTOR __attribute__((simd("notinbranch")))
+extern VECTOR double sin(double);
+extern VECTOR double cos(double);
+extern VECTOR double tan(double);
+extern VECTOR double asin(double);
+extern VECTOR double acos(double);
+extern VECTOR double atan(double);
+extern VECTOR double sinh(double);
+extern VECTOR double cosh(double);
+extern VECTOR double tanh(double);
+extern VECTOR double asinh(double);
+extern VECTOR double acosh(double);
+extern VECTOR double atanh(double);
+extern VECTOR double exp(double);
+extern VECTOR double log(double);
+extern VECTOR double pow(double, double);
+extern VECTOR double atan2(double, double);
+#endif
+
+/* Whole batches are computed, also when fewer points are wanted: a constant trip count vectorises best. */
+#define KERNEL(name, formula)                                                                        \
+    CLONES static void name(double *restrict to, const double *a, const double *b)                   \
+    {                                                                                                \
+        (void)b;                                                                                     \
+        for (size_t i = 0; i < NH_BATCH; i++) to[i] = (formula);                                     \
+    }
+
+KERNEL(k_add, a[i] + b[i])
+KERNEL(k_sub, a[i] - b[i])
+KERNEL(k_mul, a[i] * b[i])
+KERNEL(k_div, a[i] / b[i])
+KERNEL(k_neg, -a[i])
+KERNEL(k_inv, 1 / a[i])
+KERNEL(k_square, a[i] * a[i])
+KERNEL(k_sqrt, sqrt(a[i]))
+KERNEL(k_pow, pow(a[i], b[i]))
+KERNEL(k_sin, sin(a[i]))
+KERNEL(k_cos, cos(a[i]))
+KERNEL(k_tan, tan(a[i]))
+KERNEL(k_asin, asin(a[i]))
+KERNEL(k_acos, acos(a[i]))
+KERNEL(k_atan, atan(a[i]))
+KERNEL(k_sinh, sinh(a[i]))
+KERNEL(k_cosh, cosh(a[i]))
+KERNEL(k_tanh, tanh(a[i]))
+KERNEL(k_asinh, asinh(a[i]))
+KERNEL(k_acosh, acosh(a[i]))
+KERNEL(k_atanh, atanh(a[i]))
+KERNEL(k_exp, exp(a[i]))
+KERNEL(k_log, log(a[i]))
+KERNEL(k_abs, fabs(a[i]))
+KERNEL(k_sign, (double)(a[i] > 0) - (double)(a[i] < 0))
+KERNEL(k_atan2, atan2(a[i], b[i]))
+
+typedef void kernel(double *restrict to, const double *a, const double *b);
+
+static kernel *const table[] = {
+    [NH_OP_ADD] = k_add, [NH_OP_SUB] = k_sub, [NH_OP_MUL] = k_mul, [NH_OP_DIV] = k_div, [NH_OP_NEG] = k_neg,
+    [NH_OP_INV] = k_inv, [NH_OP_SQUARE] = k_square, [NH_OP_SQRT] = k_sqrt, [NH_OP_POW] = k_pow,
+    [NH_OP_FUNCTION + NH_SIN] = k_sin, [NH_OP_FUNCTION + NH_COS] = k_cos, [NH_OP_FUNCTION + NH_TAN] = k_tan,
+    [NH_OP_FUNCTION + NH_ASIN] = k_asin, [NH_OP_FUNCTION + NH_ACOS] = k_acos, [NH_OP_FUNCTION + NH_ATAN] = k_atan,
+    [NH_OP_FUNCTION + NH_SINH] = k_sinh, [NH_OP_FUNCTION + NH_COSH] = k_cosh, [NH_OP_FUNCTION + NH_TANH] = k_tanh,
+    [NH_OP_FUNCTION + NH_ASINH] = k_asinh, [NH_OP_FUNCTION + NH_ACOSH] = k_acosh, [NH_OP_FUNCTION + NH_ATANH] = k_atanh,
+    [NH_OP_FUNCTION + NH_EXP] = k_exp, [NH_OP_FUNCTION + NH_LOG] = k_log, [NH_OP_FUNCTION + NH_ABS] = k_abs,
+    [NH_OP_FUNCTION + NH_SIGN] = k_sign, [NH_OP_FUNCTION + NH_ATAN2] = k_atan2,
+};
+
+/* Rows of this work memory: inputs are copied in, so that a short batch can be padded with its first point. */
+static void prepare(const nh_tape *tape, nh_tape_work *work)
+{
+    size_t bytes = (tape->registers + 1) * NH_BATCH * sizeof(double);
+    work->batch = aligned_alloc(64, (bytes + 63) / 64 * 64);
+    if (!work->batch) work->batch = nh_alloc(SIZE_MAX); /* lets the memory handler decide */
+    for (size_t i = 0; i < tape->registers; i++) work->row[i] = work->batch + i * NH_BATCH;
+    for (size_t i = 0; i < tape->constants; i++)
+        for (size_t p = 0; p < NH_BATCH; p++) work->row[tape->inputs + i][p] = tape->constant[i];
+}
+
+void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, const double *const *in, double *const *out)
+{
+    if (count == 0) return;
+    if (!work->batch) prepare(tape, work);
+    double **row = work->row;
+    for (size_t j = 0; j < tape->inputs; j++) {
+        memcpy(row[j], in[j], count * sizeof(double));
+        for (size_t p = count; p < NH_BATCH; p++) row[j][p] = in[j][0];
+    }
+    for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++)
+        table[x->op](row[x->to], row[x->a], row[x->b]);
+    for (size_t k = 0; k < tape->outputs; k++) memcpy(out[k], row[tape->output[k]], count * sizeof(double));
+}

@@ -1,0 +1,32 @@
+/* tape_internal: the instructions, shared by tape.c (compiler, one point) and tape_batch.c (many points). */
+#ifndef NH_TAPE_INTERNAL_H
+#define NH_TAPE_INTERNAL_H
+
+#include "expr/tape.h"
+
+typedef enum {
+    NH_OP_ADD, NH_OP_SUB, NH_OP_MUL, NH_OP_DIV, NH_OP_NEG, NH_OP_INV, NH_OP_SQUARE, NH_OP_SQRT, NH_OP_POW,
+    NH_OP_FUNCTION /* + nh_function */
+} nh_op;
+
+typedef struct {
+    uint32_t op, to, a, b;
+} nh_instruction;
+
+/* Registers: [0, inputs) inputs, [inputs, inputs + constants) constants, then temporaries. */
+struct nh_tape {
+    size_t inputs, constants, registers, length, outputs;
+    double *constant;
+    nh_instruction *code;
+    uint32_t *output; /* register of each output */
+    nh_ex unbound;
+    bool has_unbound;
+};
+
+struct nh_tape_work {
+    double *scalar;  /* registers, for one point */
+    double *batch;   /* (registers - inputs) rows of NH_BATCH */
+    double **row;    /* registers: pointers into batch or to the inputs */
+};
+
+#endif

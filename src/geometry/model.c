@@ -1,0 +1,217 @@
+#include "geometry/model.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/print.h"
+#include "system/embedding_internal.h"
+
+static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }
+
+/* ---- derivatives along fields ---- */
+
+nh_ex nh_model_X0(const nh_model *o, nh_ex e)
+{
+    nh_ex result = nh_diff(o->dag, e, o->system->t);
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex d = nh_diff(o->dag, e, o->system->coordinate[s].q);
+        if (!nh_is_zero(o->dag, d)) result = nh_add(o->dag, result, nh_mul(o->dag, o->rho[s], d));
+    }
+    return result;
+}
+
+nh_ex nh_model_X(const nh_model *o, size_t i, nh_ex e)
+{
+    nh_ex result = nh_int(o->dag, 0);
+    for (size_t s = 0; s < o->m; s++) {
+        if (nh_is_zero(o->dag, o->R[s * o->n + i])) continue;
+        nh_ex d = nh_diff(o->dag, e, o->system->coordinate[s].q);
+        if (!nh_is_zero(o->dag, d)) result = nh_add(o->dag, result, nh_mul(o->dag, o->R[s * o->n + i], d));
+    }
+    return result;
+}
+
+nh_ex nh_model_Y(const nh_model *o, size_t i, nh_ex e) { return nh_diff(o->dag, e, o->chart->w[i]); }
+
+nh_ex nh_model_gamma(const nh_model *o, nh_ex e)
+{
+    nh_ex result = nh_model_X0(o, e);
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex d = nh_model_Y(o, i, e);
+        if (!nh_is_zero(o->dag, d)) result = nh_add(o->dag, result, nh_mul(o->dag, o->a[i], d));
+    }
+    return result;
+}
+
+nh_ex nh_model_along(const nh_model *o, const nh_field *f, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    nh_ex result = nh_mul(d, f->time, nh_diff(d, e, o->system->t));
+    for (size_t s = 0; s < o->m; s++)
+        if (!nh_is_zero(d, f->space[s])) result = nh_add(d, result, nh_mul(d, f->space[s], nh_diff(d, e, o->system->coordinate[s].q)));
+    for (size_t i = 0; i < o->n; i++)
+        if (!nh_is_zero(d, f->velocity[i])) result = nh_add(d, result, nh_mul(d, f->velocity[i], nh_model_Y(o, i, e)));
+    return result;
+}
+
+nh_ex nh_model_omega(const nh_model *o, const nh_field *a, const nh_field *b)
+{
+    nh_dag *d = o->dag;
+    nh_ex result = nh_sub(d, nh_mul(d, nh_model_along(o, b, o->E), a->time), nh_mul(d, nh_model_along(o, a, o->E), b->time));
+    for (size_t s = 0; s < o->m; s++) {
+        result = nh_add(d, result, nh_mul(d, nh_model_along(o, a, o->p[s]), b->space[s]));
+        result = nh_sub(d, result, nh_mul(d, nh_model_along(o, b, o->p[s]), a->space[s]));
+    }
+    return result;
+}
+
+nh_ex nh_model_compose(const nh_model *o, nh_ex e) { return nh_chart_compose(o->chart, e); }
+
+nh_tape *nh_model_tape(const nh_model *o, size_t count, const nh_ex *out)
+{
+    return nh_tape_create(o->dag, o->width, o->chart->symbol, count, out, o->system->parameters, o->parameter, o->parameter_value);
+}
+
+/* ---- construction ---- */
+
+static void momenta(nh_model *o)
+{
+    nh_dag *d = o->dag;
+    const nh_system *y = o->system;
+    o->Lbar = nh_simplify(d, nh_model_compose(o, y->lagrangian));
+    o->E = nh_int(d, 0);
+    for (size_t s = 0; s < o->m; s++) {
+        o->p[s] = nh_simplify(d, nh_model_compose(o, nh_diff(d, y->lagrangian, y->coordinate[s].v)));
+        o->E = nh_add(d, o->E, nh_mul(d, o->p[s], o->rho[s]));
+        for (size_t i = 0; i < o->n; i++) o->R[s * o->n + i] = nh_model_Y(o, i, o->rho[s]);
+    }
+    o->E = nh_simplify(d, nh_sub(d, o->E, o->Lbar));
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex sum = nh_int(d, 0);
+        for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_mul(d, o->p[s], o->R[s * o->n + i]));
+        o->pbar[i] = nh_simplify(d, sum);
+    }
+}
+
+/* dL/dq^s + Q_s, composed. */
+static nh_ex applied_force(const nh_model *o, size_t s)
+{
+    const nh_system *y = o->system;
+    nh_ex e = nh_add(o->dag, nh_diff(o->dag, y->lagrangian, y->coordinate[s].q), y->force[s]);
+    return nh_model_compose(o, e);
+}
+
+static void matrices(nh_model *o)
+{
+    nh_dag *d = o->dag;
+    size_t n = o->n;
+    for (size_t i = 0; i < n; i++) {
+        o->A[i] = nh_int(d, 0);
+        for (size_t s = 0; s < o->m; s++) {
+            nh_ex R = o->R[s * n + i];
+            if (nh_is_zero(d, R)) continue;
+            o->A[i] = nh_add(d, o->A[i], nh_mul(d, R, nh_sub(d, applied_force(o, s), nh_model_X0(o, o->p[s]))));
+        }
+        o->A[i] = nh_simplify(d, o->A[i]);
+        for (size_t j = 0; j < n; j++) {
+            nh_ex M = nh_int(d, 0), G = M;
+            for (size_t s = 0; s < o->m; s++) {
+                M = nh_add(d, M, nh_mul(d, nh_model_Y(o, i, o->p[s]), o->R[s * n + j]));
+                if (j > i) G = nh_add(d, G, nh_mul(d, nh_model_X(o, i, o->p[s]), o->R[s * n + j]));
+                if (j > i) G = nh_sub(d, G, nh_mul(d, nh_model_X(o, j, o->p[s]), o->R[s * n + i]));
+            }
+            o->M[i * n + j] = j < i ? o->M[j * n + i] : nh_simplify(d, M);
+            if (j <= i) continue;
+            o->G[i * n + j] = nh_simplify(d, G);
+            o->G[j * n + i] = nh_neg(d, o->G[i * n + j]);
+        }
+        o->G[i * n + i] = nh_int(d, 0);
+    }
+}
+
+static bool accelerations(nh_model *o, nh_error *error)
+{
+    size_t rank;
+    o->M_lu = nh_lu_create(o->dag, o->n, o->M, nh_embedding_score, o->chart, &rank);
+    if (!o->M_lu) {
+        char *entry = nh_print_string(o->dag, o->M[rank * o->n + rank]);
+        const nh_system *y = o->system;
+        nh_deck_fail(y->deck, nh_deck_get(nh_deck_root(y->deck), "lagrangian"), 0, error,
+                     "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu (the entry of `%s` is %.200s)",
+                     rank, o->n, nh_name_of(o->dag, o->chart->w[rank]), entry);
+        nh_free(entry);
+        return nh_error_hint(error, "every independent velocity needs inertia; a coordinate without any should be eliminated by a constraint");
+    }
+    nh_lu_solve(o->M_lu, o->A, o->a);
+    for (size_t i = 0; i < o->n; i++) o->a[i] = nh_simplify(o->dag, o->a[i]);
+    return true;
+}
+
+/* c_s = mu_a df^a/dv^s: solved in the rows of the most independent velocities (all of them for coordinate charts: the dependent ones). */
+static bool multipliers(nh_model *o, nh_error *error)
+{
+    nh_dag *d = o->dag;
+    const nh_system *y = o->system;
+    size_t k = o->k, m = o->m;
+    nh_ex *c = take(o, m);
+    for (size_t s = 0; s < m; s++) {
+        c[s] = nh_sub(d, applied_force(o, s), nh_model_gamma(o, o->p[s]));
+        if (m <= 12) c[s] = nh_simplify(d, c[s]);
+        o->reaction[s] = nh_neg(d, c[s]);
+        for (size_t a = 0; a < k; a++)
+            o->nu[a * m + s] = nh_simplify(d, nh_model_compose(o, nh_diff(d, nh_chart_constraint(o->chart, a), y->coordinate[s].v)));
+    }
+    /* normal equations (nu nu^T) mu = nu c: regular wherever the constraints are independent, in every chart */
+    nh_ex *N = take(o, k * k), *b = take(o, k);
+    for (size_t a = 0; a < k; a++) {
+        b[a] = nh_int(d, 0);
+        for (size_t s = 0; s < m; s++) b[a] = nh_add(d, b[a], nh_mul(d, o->nu[a * m + s], c[s]));
+        for (size_t e = 0; e < k; e++) {
+            nh_ex sum = nh_int(d, 0);
+            for (size_t s = 0; s < m; s++) sum = nh_add(d, sum, nh_mul(d, o->nu[a * m + s], o->nu[e * m + s]));
+            N[a * k + e] = nh_simplify(d, sum);
+        }
+    }
+    nh_lu *lu = nh_lu_create(d, k, N, nh_embedding_score, o->chart, NULL);
+    if (!lu) return nh_fail(error, NH_NUMERIC, "", "the constraints of %s become dependent on the sampling domain", y->name);
+    nh_lu_solve(lu, b, o->mu);
+    for (size_t a = 0; a < k; a++) o->mu[a] = nh_simplify(d, o->mu[a]);
+    nh_lu_free(lu);
+    return true;
+}
+
+nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
+{
+    if (!chart) return NULL;
+    nh_arena *arena = nh_arena_create();
+    nh_model *o = nh_arena_alloc(arena, sizeof *o);
+    *o = (nh_model){.system = system, .chart = chart, .dag = system->dag, .arena = arena, .m = system->coordinates, .n = chart->n,
+                    .k = system->constraints, .rho = chart->rho, .width = chart->width};
+    nh_system_bindings(system, &o->parameter, &o->parameter_value);
+    size_t m = o->m, n = o->n, k = o->k;
+    o->R = take(o, m * n);
+    o->p = take(o, m);
+    o->pbar = take(o, n);
+    o->M = take(o, n * n);
+    o->A = take(o, n);
+    o->G = take(o, n * n);
+    o->a = take(o, n);
+    o->mu = take(o, k);
+    o->nu = take(o, k * m);
+    o->reaction = take(o, m);
+    momenta(o);
+    matrices(o);
+    if (accelerations(o, error) && multipliers(o, error)) return o;
+    nh_model_free(o);
+    return NULL;
+}
+
+void nh_model_free(nh_model *model)
+{
+    if (!model) return;
+    nh_lu_free(model->M_lu);
+    nh_chart_free(model->chart);
+    nh_arena_free(model->arena);
+}

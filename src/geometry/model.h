@@ -1,0 +1,67 @@
+/* model: the geometry of a constrained system on its constraint submanifold.
+ *
+ * With v = rho(t,q,w), R = d rho/dw and everything composed with the embedding [docs/method.md, sec. 2]:
+ *
+ *     p_s  = dL/dv^s                         momenta
+ *     Lbar = L,  E = p_s rho^s - Lbar        constrained Lagrangian, energy
+ *     alpha = p_s dq^s - E dt                pull-back of the Poincare-Cartan form
+ *     X_0 = d/dt + rho^s d/dq^s,  X_i = R^s_i d/dq^s,  Y_i = d/dw^i        basis of the canonical distribution
+ *     M_ij = Y_i(p_s) R^s_j                                  = -Bbar   [CechMusilova2014, eq. 9]
+ *     A_i  = R^s_i (dL/dq^s + Q_s - X_0(p_s))                =  Abar   [CechMusilova2014, eq. 9]
+ *     G_ij = X_i(p_s) R^s_j - X_j(p_s) R^s_i                           [CechMusilova2014, eq. 18]
+ *     Gamma = X_0 + a^i Y_i,  M a = A                        constraint semispray [CechMusilova2014, eq. 21]
+ *     c_s  = dL/dq^s + Q_s - Gamma(p_s) = mu_a df^a/dv^s     Chetaev multipliers   [CechMusilova2014, eq. 10]
+ *
+ * A model is constant after creation and may be shared by threads. */
+#ifndef NH_MODEL_H
+#define NH_MODEL_H
+
+#include "expr/solve.h"
+#include "system/embedding.h"
+
+typedef struct {
+    nh_system *system;
+    nh_chart *chart;
+    nh_dag *dag;
+    nh_arena *arena;
+    size_t m, n, k;
+    nh_ex *rho, *R;         /* m; m x n, R[s*n + i] */
+    nh_ex *p, E, Lbar;      /* m; */
+    nh_ex *pbar;            /* n: dLbar/dw^i-like momenta p_s R^s_i, so that alpha(Z) = Lbar Z^0 + pbar_i zeta^i */
+    nh_ex *M, *A, *G;       /* n x n, n, n x n (row-major) */
+    nh_ex *a;               /* n: rates of the velocities */
+    nh_ex *mu;              /* k multipliers, of f^a = lhs - rhs as the user wrote them */
+    nh_ex *nu;              /* k x m: df^a/dv^s composed; annihilates R */
+    nh_ex *reaction;        /* m: generalized force of the constraints on the bodies, -c_s */
+    nh_lu *M_lu;
+    size_t width;           /* chart->width; points are (t, q, w, u) */
+    const nh_ex *parameter; /* symbols and values, system->parameters of them */
+    const double *parameter_value;
+} nh_model;
+
+/* Takes the chart over (also on failure).  NULL with a message when M is singular on the submanifold. */
+nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error);
+void nh_model_free(nh_model *model);
+
+/* Derivatives along the basis fields. */
+nh_ex nh_model_X0(const nh_model *model, nh_ex e);
+nh_ex nh_model_X(const nh_model *model, size_t i, nh_ex e);
+nh_ex nh_model_Y(const nh_model *model, size_t i, nh_ex e);
+nh_ex nh_model_gamma(const nh_model *model, nh_ex e);
+
+/* Omega(Z, X) for the basis fields, from the general formula
+ *     Omega(A,B) = A(p_s) B^s - B(p_s) A^s - A(E) B^0 + B(E) A^0
+ * (the closed forms M, A, G are tested against it).  A field has components time, space (m), velocity (n). */
+typedef struct {
+    nh_ex time, *space, *velocity; /* dt(Z), dq^s(Z), dw^i(Z) */
+} nh_field;
+nh_ex nh_model_along(const nh_model *model, const nh_field *field, nh_ex e);
+nh_ex nh_model_omega(const nh_model *model, const nh_field *a, const nh_field *b);
+
+/* A tape of expressions over the points (t, q, w, u), parameters bound. */
+nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
+
+/* The energy of the system as an expression of the chart, and an expression of coordinate velocities brought to the chart. */
+nh_ex nh_model_compose(const nh_model *model, nh_ex e);
+
+#endif

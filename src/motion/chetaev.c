@@ -1,0 +1,441 @@
+/* chetaev: see chetaev.h.
+ *
+ *     r_1 = q' - v,      r_2 = K v' + h + F^T mu,      r_3 = F v' + g          unknowns y = (q, v, mu)
+ *
+ * Newton's matrix dr/dy + c dr/dy' of the backward differences y' = c y + ... is
+ *
+ *           q              v                mu
+ *     [    c I            -I                0    ]
+ *     [  dr_2/dq     c K + dr_2/dv         F^T   ]
+ *     [  dr_3/dq     c F + dr_3/dv          0    ]
+ *
+ * where K, F and F^T are exact and the derivatives of r_2, r_3 at constant v', mu are differences: they only speed up the
+ * iteration, its limit does not depend on them.  v' and mu are functions of (q,v) as long as the matrix [K F^T; F 0] is
+ * regular, so the index is 1 whether K is regular or not. */
+#include "motion/chetaev.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "base/linalg.h"
+#include "base/memory.h"
+
+/* The multipliers take part in the error test, or they would be wrong between the steps wherever (q,v) allows long ones (by
+ * 10 % at rtol 1e-9 in a test); but they follow the accelerations, which are one order less exact than (q,v), so their
+ * tolerance is wider.  What Newton's iteration leaves behind enters v' and mu divided by the step: at IDA's share of 0.33
+ * that noise, not the motion, ruled the steps.  The sleigh to T = 10, rtol 1e-10 and 1e-14, errors of phi and mu:
+ *     mu not tested, 0.33     1.3 ms, 7e-10, 1e-7       4.5 ms, 1e-12, 5e-11
+ *     width 1, 0.33           3.3 ms, 5e-10, 2e-9      13 ms, 4e-14, 9e-13     (40 ms at 1e-12)
+ *     width 10, 0.003         1.4 ms, 2e-9, 2e-8        5.1 ms, 3e-13, 7e-12 */
+static const double multiplier_width = 10;
+static const double iteration_share = 0.003;
+
+_Static_assert(sizeof(realtype) == sizeof(double), "SUNDIALS must be built for double precision");
+
+typedef struct {
+    const nh_chetaev_problem *problem;
+    size_t m, k;
+    double *K, *h, *F, *g, *f; /* the terms at the last point asked for; K owns the memory of all five */
+    double *base, *shifted;    /* (r_2, r_3), m + k each */
+    double *point;             /* (q, v), 2m */
+    double *scale;             /* 2m + k */
+    SUNContext sundials;
+    void *ida;
+    N_Vector state, rate;
+    SUNMatrix matrix;
+    SUNLinearSolver solver;
+    double stop, rtol;
+    long evaluations, jacobians;
+    bool failed; /* the terms could not be computed in the last steps; at which time and step */
+    double failed_at;
+    long step, failed_step;
+    char message[200]; /* IDA's own last words */
+} ida_work;
+
+static bool all_finite(size_t count, const double *value)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(value[i]))
+            return false;
+    return true;
+}
+
+static size_t terms_size(size_t m, size_t k)
+{
+    return m * m + m + k * m + 2 * k;
+}
+
+static bool terms_at(ida_work *work, double t, const double *q, const double *v)
+{
+    work->evaluations++;
+    if (work->problem->terms(t, q, v, work->K, work->h, work->F, work->g, work->f, work->problem->context) &&
+        all_finite(terms_size(work->m, work->k), work->K))
+        return true;
+    work->failed = true;
+    work->failed_at = t;
+    work->failed_step = work->step;
+    return false;
+}
+
+/* (r_2, r_3) from the terms; `a` stands for v'. */
+static void balance(const ida_work *work, const double *a, const double *mu, double *out)
+{
+    size_t m = work->m, k = work->k;
+    memcpy(out, work->h, m * sizeof *out);
+    memcpy(out + m, work->g, k * sizeof *out);
+    for (size_t j = 0; j < m; j++) {
+        for (size_t i = 0; i < m; i++)
+            out[i] += work->K[i + j * m] * a[j];
+        for (size_t c = 0; c < k; c++) {
+            out[j] += work->F[c + j * k] * mu[c];
+            out[m + c] += work->F[c + j * k] * a[j];
+        }
+    }
+}
+
+/* ---- the start: [K F^T; F 0] (v', mu) = -(h, g) ---- */
+
+static double largest(size_t count, const double *value)
+{
+    double result = 0;
+    for (size_t i = 0; i < count; i++)
+        result = fmax(result, fabs(value[i]));
+    return result;
+}
+
+/* K/s, h/s and mu/s with s = max|K|, so that the unit of mass does not enter the condition number. */
+static bool solve_bordered(const ida_work *work, double *a, double *mu, double *rcond)
+{
+    size_t m = work->m, k = work->k, n = m + k;
+    double *matrix = nh_alloc_array(n, n * sizeof *matrix), *right = nh_alloc_array(n, sizeof *right);
+    double biggest = largest(m * m, work->K), s = biggest > 0 ? biggest : 1;
+    for (size_t j = 0; j < m; j++) {
+        for (size_t i = 0; i < m; i++)
+            matrix[i + j * n] = work->K[i + j * m] / s;
+        for (size_t c = 0; c < k; c++)
+            matrix[m + c + j * n] = matrix[j + (m + c) * n] = work->F[c + j * k];
+        right[j] = -work->h[j] / s;
+    }
+    for (size_t c = 0; c < k; c++)
+        right[m + c] = -work->g[c];
+    bool good = nh_solve(n, matrix, 1, right, rcond) && *rcond > DBL_EPSILON && all_finite(n, right);
+    if (good) {
+        memcpy(a, right, m * sizeof *a);
+        for (size_t c = 0; c < k; c++)
+            mu[c] = right[m + c] * s;
+        good = all_finite(k, mu);
+    }
+    nh_free(matrix);
+    nh_free(right);
+    return good;
+}
+
+/* What size a multiplier has: that of the forces it balances, or of the momenta when there are none. */
+static void scale_multipliers(ida_work *work, const double *a)
+{
+    size_t m = work->m, k = work->k;
+    double force = largest(m, work->h), momentum = 0;
+    for (size_t j = 0; j < m; j++)
+        for (size_t i = 0; i < m; i++) {
+            force = fmax(force, fabs(work->K[i + j * m] * a[j]));
+            momentum = fmax(momentum, fabs(work->K[i + j * m]) * work->scale[m + j]);
+        }
+    double size = force > 0 ? force : momentum, direction = largest(k * m, work->F);
+    for (size_t c = 0; c < k; c++)
+        work->scale[2 * m + c] = size > 0 && direction > 0 ? size / direction : 1;
+}
+
+/* The whole initial state: q, v given, v' and mu computed. */
+static bool make_consistent(ida_work *work, double t, const double *initial, double *state, double *rate, nh_error *error)
+{
+    size_t m = work->m;
+    double rcond = 0;
+    if (!terms_at(work, t, initial, initial + m)) {
+        nh_fail(error, NH_NUMERIC, "", "the equations of motion cannot be evaluated at the initial state (t = %.10g)", t);
+        return nh_error_hint(error, "check the initial values, or use coordinates that are regular there");
+    }
+    memcpy(state, initial, 2 * m * sizeof *state);
+    memcpy(rate, initial + m, m * sizeof *rate);
+    if (!solve_bordered(work, rate + m, state + 2 * m, &rcond)) {
+        nh_fail(error, NH_NUMERIC, "", "the accelerations and multipliers are not determined at the initial state: the mass matrix "
+                "bordered by the constraints has the reciprocal condition number %.2g", rcond);
+        return nh_error_hint(error, "look for dependent constraints, and for coordinates without inertia that no constraint holds");
+    }
+    scale_multipliers(work, rate + m);
+    return true;
+}
+
+/* ---- IDA's callbacks ---- */
+
+static int call_residual(realtype t, N_Vector state, N_Vector rate, N_Vector residual, void *user)
+{
+    ida_work *work = user;
+    const double *y = NV_DATA_S(state), *dy = NV_DATA_S(rate);
+    double *r = NV_DATA_S(residual);
+    size_t m = work->m;
+    if (!terms_at(work, t, y, y + m))
+        return 1; /* "recoverable": IDA tries a smaller step */
+    for (size_t i = 0; i < m; i++)
+        r[i] = dy[i] - y[m + i];
+    balance(work, dy + m, y + 2 * m, r + m);
+    return 0;
+}
+
+/* The blocks that are known exactly; column-major, n = 2m + k. */
+static void exact_blocks(const ida_work *work, double c, double *matrix)
+{
+    size_t m = work->m, k = work->k, n = 2 * m + k;
+    memset(matrix, 0, n * n * sizeof *matrix);
+    for (size_t j = 0; j < m; j++) {
+        matrix[j + j * n] = c;
+        matrix[j + (m + j) * n] = -1;
+        for (size_t i = 0; i < m; i++)
+            matrix[m + i + (m + j) * n] = c * work->K[i + j * m];
+        for (size_t a = 0; a < k; a++) {
+            matrix[2 * m + a + (m + j) * n] = c * work->F[a + j * k];
+            matrix[m + j + (2 * m + a) * n] = work->F[a + j * k];
+        }
+    }
+}
+
+/* Move coordinate or velocity j and evaluate, to the other side where the first leaves the domain; the shift, or 0. */
+static double shift(ida_work *work, double t, const double *y, size_t j)
+{
+    double size = sqrt(DBL_EPSILON) * fmax(fabs(y[j]), work->scale[j]);
+    memcpy(work->point, y, 2 * work->m * sizeof *y);
+    for (int side = 1; side >= -1; side -= 2) {
+        volatile double moved = y[j] + side * size; /* volatile: the shift must be the one that is stored */
+        work->point[j] = moved;
+        if (terms_at(work, t, work->point, work->point + work->m))
+            return moved - y[j];
+    }
+    return 0;
+}
+
+static int call_jacobian(realtype t, realtype c, N_Vector state, N_Vector rate, N_Vector residual, SUNMatrix matrix, void *user,
+                         N_Vector work1, N_Vector work2, N_Vector work3)
+{
+    (void)residual, (void)work1, (void)work2, (void)work3;
+    ida_work *work = user;
+    const double *y = NV_DATA_S(state), *a = NV_DATA_S(rate) + work->m;
+    size_t m = work->m, n = 2 * m + work->k;
+    if (!terms_at(work, t, y, y + m))
+        return 1;
+    exact_blocks(work, c, SM_DATA_D(matrix));
+    balance(work, a, y + 2 * m, work->base);
+    for (size_t j = 0; j < 2 * m; j++) {
+        double moved = shift(work, t, y, j), *column = SM_DATA_D(matrix) + j * n + m;
+        if (moved == 0)
+            return 1;
+        balance(work, a, y + 2 * m, work->shifted);
+        for (size_t i = 0; i < n - m; i++)
+            column[i] += (work->shifted[i] - work->base[i]) / moved;
+    }
+    work->jacobians++;
+    return 0;
+}
+
+static int call_weights(N_Vector state, N_Vector weight, void *user)
+{
+    const ida_work *work = user;
+    size_t m = work->m, n = 2 * m + work->k;
+    const double *y = NV_DATA_S(state);
+    for (size_t i = 0; i < n; i++)
+        NV_DATA_S(weight)[i] = 1 / ((i < 2 * m ? 1 : multiplier_width) * work->rtol * (fabs(y[i]) + work->scale[i]));
+    return 0;
+}
+
+static void keep_message(int code, const char *module, const char *function, char *message, void *user)
+{
+    (void)module, (void)function;
+    ida_work *work = user;
+    if (code < 0)
+        snprintf(work->message, sizeof work->message, "%s", message);
+}
+
+/* ---- one motion ---- */
+
+/* At the last state that was reached. */
+static double bordered_rcond(ida_work *work, double t)
+{
+    double *y = NV_DATA_S(work->state), *a = NV_DATA_S(work->rate) + work->m, rcond = 0;
+    if (terms_at(work, t, y, y + work->m))
+        solve_bordered(work, a, y + 2 * work->m, &rcond);
+    return rcond;
+}
+
+static void explain(int flag, ida_work *work, nh_motion *motion)
+{
+    double t = motion->end_time;
+    if (work->failed && flag != IDA_TOO_MUCH_ACC)
+        nh_motion_note(motion, "the equations of motion cannot be evaluated near t = %.10g: the motion leaves their domain or "
+                       "meets a singularity there; use other coordinates or stop earlier", work->failed_at);
+    else if (flag == IDA_TOO_MUCH_ACC)
+        nh_motion_note(motion, "rtol = %g asks for more than double precision gives near t = %.10g; use a larger rtol or scale",
+                       work->rtol, t);
+    else if (flag == IDA_ERR_FAIL || flag == IDA_CONV_FAIL || flag == IDA_LSETUP_FAIL || flag == IDA_LSOLVE_FAIL)
+        nh_motion_note(motion, "no step near t = %.10g reaches rtol = %g; the mass matrix bordered by the constraints has the "
+                       "reciprocal condition number %.2g there: if it is small, constraints become dependent, else the "
+                       "solution is singular", t, work->rtol, bordered_rcond(work, t));
+    else
+        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->message);
+}
+
+static nh_step ida_advance(double *time, nh_motion *motion, void *context)
+{
+    ida_work *work = context;
+    work->step = motion->steps;
+    if (work->step > work->failed_step + NH_STUCK_AFTER) /* so many good steps since: no longer of interest */
+        work->failed = false;
+    int flag = IDASolve(work->ida, work->stop, time, work->state, work->rate, IDA_ONE_STEP);
+    motion->evaluations = work->evaluations;
+    motion->jacobians = work->jacobians;
+    if (flag >= 0)
+        return flag == IDA_TSTOP_RETURN ? NH_STEP_LAST : NH_STEP_ON;
+    explain(flag, work, motion);
+    return NH_STEP_FAILED;
+}
+
+static bool ida_state(double time, double *state, void *context)
+{
+    ida_work *work = context;
+    if (IDAGetDky(work->ida, time, 0, work->state) != IDA_SUCCESS)
+        return false;
+    memcpy(state, NV_DATA_S(work->state), (2 * work->m + work->k) * sizeof *state);
+    return true;
+}
+
+static void ida_stuck(nh_motion *motion, void *context)
+{
+    explain(IDA_ERR_FAIL, context, motion);
+}
+
+static bool create_objects(ida_work *work)
+{
+    sunindextype size = (sunindextype)(2 * work->m + work->k);
+    if (SUNContext_Create(NULL, &work->sundials) != 0)
+        return false;
+    work->state = N_VNew_Serial(size, work->sundials);
+    work->rate = N_VNew_Serial(size, work->sundials);
+    work->matrix = SUNDenseMatrix(size, size, work->sundials);
+    if (!work->state || !work->rate || !work->matrix)
+        return false;
+    N_VConst(0, work->rate);
+    work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials);
+    work->ida = IDACreate(work->sundials);
+    return work->solver && work->ida;
+}
+
+static void create_arrays(ida_work *work, const double *scale)
+{
+    size_t m = work->m, k = work->k;
+    work->K = nh_alloc_array(terms_size(m, k), sizeof(double));
+    work->h = work->K + m * m;
+    work->F = work->h + m;
+    work->g = work->F + k * m;
+    work->f = work->g + k;
+    work->base = nh_alloc_array(m + k, sizeof(double));
+    work->shifted = nh_alloc_array(m + k, sizeof(double));
+    work->point = nh_alloc_array(2 * m, sizeof(double));
+    work->scale = nh_alloc_array(2 * m + k, sizeof(double));
+    for (size_t i = 0; i < 2 * m; i++)
+        work->scale[i] = scale ? scale[i] : 1.0;
+}
+
+static bool set_up(ida_work *work, double start)
+{
+    return IDASetErrHandlerFn(work->ida, keep_message, work) == IDA_SUCCESS &&
+           IDAInit(work->ida, call_residual, start, work->state, work->rate) == IDA_SUCCESS &&
+           IDASetUserData(work->ida, work) == IDA_SUCCESS &&
+           IDAWFtolerances(work->ida, call_weights) == IDA_SUCCESS &&
+           IDASetLinearSolver(work->ida, work->solver, work->matrix) == IDA_SUCCESS &&
+           IDASetJacFn(work->ida, call_jacobian) == IDA_SUCCESS &&
+           IDASetNonlinConvCoef(work->ida, iteration_share) == IDA_SUCCESS &&
+           IDASetStopTime(work->ida, work->stop) == IDA_SUCCESS;
+}
+
+static void destroy_work(ida_work *work)
+{
+    IDAFree(&work->ida);
+    SUNLinSolFree(work->solver);
+    SUNMatDestroy(work->matrix);
+    N_VDestroy(work->state);
+    N_VDestroy(work->rate);
+    SUNContext_Free(&work->sundials);
+    nh_free(work->K);
+    nh_free(work->base);
+    nh_free(work->shifted);
+    nh_free(work->point);
+    nh_free(work->scale);
+}
+
+/* The whole start, multipliers included, into the rows that hold it already. */
+static void enter_start(nh_motion *motion, const ida_work *work)
+{
+    size_t size = motion->size * sizeof(double);
+    for (size_t i = 0; i < motion->count; i++)
+        memcpy(motion->state + i * motion->size, NV_DATA_S(work->state), size);
+    memcpy(motion->end_state, NV_DATA_S(work->state), size);
+}
+
+/* max |f^a| over the output points; the terms are there, or the motion would not have come so far. */
+static double violation(ida_work *work, const nh_motion *motion)
+{
+    double result = 0;
+    for (size_t i = 0; i < motion->count; i++) {
+        const double *y = motion->state + i * motion->size;
+        if (terms_at(work, motion->time[i], y, y + work->m))
+            result = fmax(result, largest(work->k, work->f));
+    }
+    return result;
+}
+
+static bool integrate(ida_work *work, nh_motion *motion, const double *initial, size_t count, const double *times,
+                      const nh_flow_options *options, nh_error *error)
+{
+    create_arrays(work, options->scale);
+    bool created = create_objects(work);
+    if (created && !make_consistent(work, times[0], initial, NV_DATA_S(work->state), NV_DATA_S(work->rate), error))
+        return false;
+    if (!created || !set_up(work, times[0]))
+        return nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s",
+                       work->message[0] ? work->message : "out of memory");
+    enter_start(motion, work);
+    nh_stepper stepper = {.context = work, .advance = ida_advance, .state = ida_state, .stuck = ida_stuck};
+    nh_motion_run(motion, count, times, options, &stepper);
+    return true;
+}
+
+nh_chetaev_motion *nh_chetaev(const nh_chetaev_problem *problem, const double *initial, size_t count, const double *times,
+                              const nh_flow_options *options, nh_error *error)
+{
+    size_t m = problem->coordinates, k = problem->constraints;
+    nh_motion *motion = nh_motion_start(2 * m + k, 2 * m, initial, count, times, options, error);
+    if (!motion)
+        return NULL;
+    ida_work work = {.problem = problem, .m = m, .k = k, .stop = times[count - 1], .rtol = nh_motion_rtol(motion, options)};
+    nh_chetaev_motion *result = NULL;
+    if (integrate(&work, motion, initial, count, times, options, error)) {
+        result = nh_alloc(sizeof *result);
+        *result = (nh_chetaev_motion){motion, violation(&work, motion)};
+    } else {
+        nh_motion_free(motion);
+    }
+    destroy_work(&work);
+    return result;
+}
+
+void nh_chetaev_motion_free(nh_chetaev_motion *motion)
+{
+    if (!motion)
+        return;
+    nh_motion_free(motion->motion);
+    nh_free(motion);
+}

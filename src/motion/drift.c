@@ -1,0 +1,276 @@
+#include "motion/drift.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+
+typedef struct {
+    const nh_model *model;
+    nh_dynamics *dynamics;
+    nh_validation *out;
+    const nh_options *options;
+    size_t outputs;
+    double *times, *z0, *scale;
+    size_t watches;
+    const nh_watch *watch;
+} run;
+
+/* ---- currents along a motion ---- */
+
+/* value[i * n + k]: expression k at output i. */
+static bool along(run *r, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
+{
+    nh_tape *tape = nh_model_tape(r->model, n, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *point = nh_alloc_array(r->model->width, sizeof *point);
+    bool good = true;
+    for (size_t i = 0; i < motion->count && good; i++) {
+        good = nh_dynamics_point(r->dynamics, motion->time[i], motion->state + i * motion->size, point);
+        if (good) nh_tape_eval(tape, work, point, value + i * n);
+    }
+    nh_free(point);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return good;
+}
+
+/* The current, then its terms: those of a sum, also under a common factor. */
+static size_t terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
+{
+    nh_ex factor = nh_int(d, 1), sum = phi;
+    for (size_t i = 0; nh_kind_of(d, phi) == NH_PRODUCT && i < nh_arity(d, phi); i++) {
+        nh_ex base = nh_child(d, phi, i);
+        if (nh_kind_of(d, base) != NH_SUM || !nh_is_number(d, nh_exponent_of(d, phi, i), 1)) continue;
+        sum = base;
+        factor = nh_div(d, phi, base);
+        break;
+    }
+    size_t n = nh_kind_of(d, sum) == NH_SUM ? nh_arity(d, sum) : 0;
+    nh_ex *e = nh_alloc_array(1 + n, sizeof *e);
+    e[0] = phi;
+    for (size_t j = 0; j < n; j++) e[1 + j] = nh_mul(d, factor, nh_mul(d, nh_number(d, nh_coefficient_of(d, sum, j)), nh_child(d, sum, j)));
+    *out = e;
+    return 1 + n;
+}
+
+/* Each current and, for its scale, its terms. */
+static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi, size_t which)
+{
+    for (size_t k = 0; k < n; k++) {
+        nh_ex *e;
+        size_t per = terms_of(r->model->dag, phi[k], &e);
+        double *value = nh_alloc_array(per * motion->count, sizeof *value);
+        nh_drift *d = &r->out->current[k];
+        double scale = 0, worst = 0;
+        bool good = along(r, motion, per, e, value);
+        for (size_t i = 0; i < motion->count && good; i++) {
+            for (size_t j = 0; j < per; j++) scale = fmax(scale, fabs(value[i * per + j]));
+            worst = fmax(worst, fabs(value[i * per] - value[0]));
+            good = isfinite(worst) && isfinite(scale);
+        }
+        d->scale = scale;
+        d->drift[which] = good ? worst / fmax(scale, DBL_MIN) : INFINITY;
+        nh_free(value);
+        nh_free(e);
+    }
+}
+
+static void judge(nh_validation *v, const nh_options *options)
+{
+    for (size_t k = 0; k < v->currents; k++) {
+        nh_drift *d = &v->current[k];
+        double tight = d->drift[NH_DRIFT_RUNS - 1], loose = d->drift[0];
+        double floor = 1e3 * DBL_EPSILON; /* rounding of thousands of steps */
+        d->small = tight <= options->drift * v->tolerance[NH_DRIFT_RUNS - 1];
+        d->falls = tight <= floor || (tight < loose / 5 && loose < 1);
+    }
+}
+
+/* ---- the multiplier form ---- */
+
+static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, const nh_chetaev_motion *full)
+{
+    const nh_model *o = r->model;
+    nh_validation *v = r->out;
+    size_t m = o->m, count = full->motion->count;
+    if (reduced->count < count) count = reduced->count;
+    nh_motion head = *reduced;
+    head.count = count;
+    double *velocity = nh_alloc_array(count * m + 1, sizeof *velocity), *reaction = nh_alloc_array(count * m + 1, sizeof *reaction);
+    double *force = nh_alloc_array(m + 1, sizeof *force);
+    bool good = along(r, &head, m, o->rho, velocity) && along(r, &head, m, o->reaction, reaction);
+    for (size_t i = 0; i < count && good; i++) {
+        const double *z = reduced->state + i * reduced->size, *y = full->motion->state + i * full->motion->size;
+        bool forced = nh_bordered_force(bordered, full->motion->time[i], y, y + m, y + 2 * m, force);
+        for (size_t s = 0; s < m; s++) {
+            double w = velocity[i * m + s], c = -reaction[i * m + s];
+            v->state_difference = fmax(v->state_difference, fabs(z[s] - y[s]) / (1 + fabs(z[s])));
+            v->state_difference = fmax(v->state_difference, fabs(w - y[m + s]) / (1 + fabs(w)));
+            if (forced && isfinite(c)) v->multiplier_difference = fmax(v->multiplier_difference, fabs(c - force[s]) / (1 + fabs(c)));
+        }
+    }
+    nh_free(force);
+    nh_free(reaction);
+    nh_free(velocity);
+}
+
+static void multiplier_form(run *r, const nh_state *initial, const nh_motion *reduced)
+{
+    const nh_model *o = r->model;
+    nh_validation *v = r->out;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_bordered *b = nh_bordered_create(o);
+    nh_chetaev_problem problem = nh_bordered_problem(b);
+    double *y = nh_alloc_array(2 * o->m, sizeof *y);
+    memcpy(y, initial->q, o->m * sizeof *y);
+    nh_motion first = *reduced;
+    first.count = 1;
+    bool good = along(r, &first, o->m, o->rho, y + o->m);
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1]};
+    nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
+    if (full && full->motion->count > 1) {
+        v->multiplier_form = true;
+        v->violation = full->violation;
+        v->multiplier_evaluations = full->motion->evaluations;
+        compare(r, b, reduced, full);
+        if (!full->motion->complete) snprintf(v->note, sizeof v->note, "multiplier form: %.200s", full->motion->note);
+    } else {
+        snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
+    }
+    nh_chetaev_motion_free(full);
+    nh_free(y);
+    nh_bordered_free(b);
+}
+
+/* ---- the other chart's pivot ---- */
+
+static double determinant(size_t n, double *a)
+{
+    double det = 1;
+    for (size_t k = 0; k < n; k++) {
+        size_t best = k;
+        for (size_t i = k + 1; i < n; i++)
+            if (fabs(a[i + k * n]) > fabs(a[best + k * n])) best = i;
+        if (a[best + k * n] == 0) return 0;
+        for (size_t j = 0; j < n && best != k; j++) {
+            double x = a[k + j * n];
+            a[k + j * n] = a[best + j * n];
+            a[best + j * n] = x;
+        }
+        if (best != k) det = -det;
+        det *= a[k + k * n];
+        for (size_t i = k + 1; i < n; i++)
+            for (size_t j = n; j-- > k;) a[i + j * n] -= a[i + k * n] / a[k + k * n] * a[k + j * n];
+    }
+    return det;
+}
+
+/* det d(independent coordinate velocities)/dw changes sign where the coordinate chart breaks down. */
+static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
+{
+    const nh_model *o = r->model;
+    size_t n = o->n, row = 0;
+    if (!other || other->chart->quasi || !o->chart->quasi) return;
+    nh_ex *e = nh_alloc_array(n * n + 1, sizeof *e);
+    for (size_t s = 0; s < o->m; s++)
+        for (size_t i = 0; i < n; i++)
+            if (other->chart->w[i] == o->system->coordinate[s].v) {
+                for (size_t j = 0; j < n; j++) e[row + j * n] = o->R[s * n + j];
+                row++;
+            }
+    double *value = nh_alloc_array(motion->count * n * n + 1, sizeof *value), last = 0;
+    bool good = row == n && along(r, motion, n * n, e, value);
+    for (size_t i = 0; i < motion->count && good; i++) {
+        double det = determinant(n, value + i * n * n);
+        if (last * det < 0 && isnan(r->out->crossing)) {
+            double t0 = motion->time[i - 1], t1 = motion->time[i];
+            r->out->crossing = t0 + (t1 - t0) * last / (last - det);
+            r->out->crossing_chart = nh_arena_strdup(r->out->arena, other->chart->name);
+        }
+        last = det;
+    }
+    nh_free(value);
+    nh_free(e);
+}
+
+/* ---- all runs ---- */
+
+static void keep(run *r, const nh_motion *motion)
+{
+    nh_validation *v = r->out;
+    const nh_model *o = r->model;
+    v->count = motion->count;
+    v->size = motion->size;
+    v->time = nh_arena_alloc(v->arena, motion->count * sizeof *v->time);
+    v->state = nh_arena_alloc(v->arena, motion->count * motion->size * sizeof *v->state);
+    v->multiplier = nh_arena_alloc(v->arena, (motion->count * o->k + 1) * sizeof *v->multiplier);
+    memcpy(v->time, motion->time, motion->count * sizeof *v->time);
+    memcpy(v->state, motion->state, motion->count * motion->size * sizeof *v->state);
+    if (o->k) along(r, motion, o->k, o->mu, v->multiplier);
+    v->watches = r->watches;
+    v->watch_name = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *v->watch_name);
+    v->watch = nh_arena_alloc(v->arena, (r->watches * motion->count + 1) * sizeof *v->watch);
+    nh_ex *e = nh_alloc_array(r->watches + 1, sizeof *e);
+    for (size_t i = 0; i < r->watches; i++) {
+        v->watch_name[i] = nh_arena_strdup(v->arena, r->watch[i].name);
+        e[i] = r->watch[i].value;
+    }
+    if (r->watches) along(r, motion, r->watches, e, v->watch);
+    nh_free(e);
+    v->evaluations = motion->evaluations;
+    v->steps = motion->steps;
+    v->complete = motion->complete;
+    v->end = motion->end_time;
+    if (!motion->complete) snprintf(v->note, sizeof v->note, "%.250s", motion->note);
+}
+
+static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
+{
+    nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
+    for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
+        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale};
+        nh_motion *motion = nh_flow(&problem, r->z0, r->outputs, r->times, &options, error);
+        if (!motion) return false;
+        measure(r, motion, n, current, i);
+        if (i == NH_DRIFT_RUNS - 1) {
+            keep(r, motion);
+            watch_pivot(r, other, motion);
+            multiplier_form(r, initial, motion);
+        }
+        nh_motion_free(motion);
+    }
+    return true;
+}
+
+nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, size_t watches, const nh_watch *watch,
+                           const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_validation *v = nh_arena_alloc(arena, sizeof *v);
+    *v = (nh_validation){.arena = arena, .method = "CVODE Adams", .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, model->chart->name),
+                         .begin = initial->t, .end = until, .currents = n, .current = nh_arena_alloc(arena, (n + 1) * sizeof *v->current), .crossing = NAN};
+    for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, options->tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
+    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch};
+    r.times = nh_alloc_array(outputs + 1, sizeof *r.times);
+    r.z0 = nh_alloc_array(model->m + model->n + 1, sizeof *r.z0);
+    for (size_t i = 0; i < outputs; i++) r.times[i] = initial->t + (until - initial->t) * (double)i / (double)(outputs - 1);
+    r.scale = nh_alloc_array(model->m + model->n + 1, sizeof *r.scale);
+    for (size_t i = 0; i < model->m + model->n; i++) r.scale[i] = options->absolute;
+    bool good = nh_dynamics_start(r.dynamics, initial, false, r.z0, error) && all_runs(&r, other, n, current, initial, error);
+    if (good) judge(v, options);
+    nh_dynamics_free(r.dynamics);
+    nh_free(r.times);
+    nh_free(r.scale);
+    nh_free(r.z0);
+    if (good) return v;
+    nh_validation_free(v);
+    return NULL;
+}
+
+void nh_validation_free(nh_validation *validation)
+{
+    if (validation) nh_arena_free(validation->arena);
+}

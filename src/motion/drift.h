@@ -1,0 +1,51 @@
+/* drift: do the currents stay constant along a motion, and is the motion right?
+ *
+ * The reduced equations are integrated at three tolerances: a true current's drift falls with the tolerance, a false one's does not.
+ * The same motion in all coordinates with Chetaev multipliers gives a second opinion on the states, and its multipliers
+ * are compared with the formula of the model.  [docs/method.md, sec. 6] */
+#ifndef NH_DRIFT_H
+#define NH_DRIFT_H
+
+#include "base/option.h"
+#include "motion/dynamics.h"
+
+enum { NH_DRIFT_RUNS = 3 };
+
+typedef struct {
+    double drift[NH_DRIFT_RUNS]; /* max |Phi - Phi(0)| / scale, loosest tolerance first */
+    double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
+    bool small, falls;           /* below options->drift tolerances; falls with the tolerance (or is at rounding) */
+} nh_drift;
+
+typedef struct {
+    nh_arena *arena;
+    const char *method, *multiplier_method, *chart;
+    double tolerance[NH_DRIFT_RUNS], begin, end;
+    size_t currents;
+    nh_drift *current;
+    size_t count, size;        /* of the tightest run */
+    double *time, *state, *multiplier; /* count; count x (m + n); count x k by the formula */
+    long evaluations, steps;
+    bool complete;
+    char note[256];
+    bool multiplier_form;      /* was it integrated? */
+    double state_difference, multiplier_difference, violation; /* relative to 1 + size */
+    long multiplier_evaluations;
+    double crossing;           /* first time at which another chart's pivot changes sign; NAN: never */
+    const char *crossing_chart;
+    size_t watches;
+    const char **watch_name;
+    double *watch;             /* count x watches, along the tightest run */
+} nh_validation;
+
+typedef struct {
+    const char *name;
+    nh_ex value;
+} nh_watch;
+
+/* `other` may be NULL: a second chart whose pivot is watched (its independent velocities as functions of this chart's). */
+nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, size_t watches, const nh_watch *watch,
+                           const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error);
+void nh_validation_free(nh_validation *validation);
+
+#endif

@@ -1,0 +1,276 @@
+#include "motion/dynamics.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+
+/* ---- reduced equations ---- */
+
+struct nh_dynamics {
+    const nh_model *model;
+    size_t m, n, size, width;
+    nh_tape *rate, *jacobian, *velocity; /* velocity: rho and R */
+    nh_tape_work *rate_work, *jacobian_work, *velocity_work;
+    double *point, *out, *dense;
+};
+
+static nh_tape *rate_tape(const nh_model *o)
+{
+    nh_ex *e = nh_alloc_array(o->m + o->n, sizeof *e);
+    memcpy(e, o->rho, o->m * sizeof *e);
+    memcpy(e + o->m, o->a, o->n * sizeof *e);
+    nh_tape *tape = nh_model_tape(o, o->m + o->n, e);
+    nh_free(e);
+    return tape;
+}
+
+static nh_tape *jacobian_tape(const nh_model *o)
+{
+    size_t size = o->m + o->n;
+    nh_ex *e = nh_alloc_array(size * size, sizeof *e);
+    for (size_t j = 0; j < size; j++)
+        for (size_t i = 0; i < size; i++)
+            e[i + j * size] = nh_diff(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], o->chart->symbol[1 + j]);
+    nh_tape *tape = nh_model_tape(o, size * size, e);
+    nh_free(e);
+    return tape;
+}
+
+static nh_tape *velocity_tape(const nh_model *o)
+{
+    nh_ex *e = nh_alloc_array(o->m * (1 + o->n) + 1, sizeof *e);
+    memcpy(e, o->rho, o->m * sizeof *e);
+    for (size_t i = 0; i < o->n; i++)
+        for (size_t s = 0; s < o->m; s++) e[o->m + s + i * o->m] = o->R[s * o->n + i];
+    nh_tape *tape = nh_model_tape(o, o->m * (1 + o->n), e);
+    nh_free(e);
+    return tape;
+}
+
+nh_dynamics *nh_dynamics_create(const nh_model *o)
+{
+    nh_dynamics *d = nh_alloc(sizeof *d);
+    *d = (nh_dynamics){.model = o, .m = o->m, .n = o->n, .size = o->m + o->n, .width = o->width};
+    d->rate = rate_tape(o);
+    d->jacobian = jacobian_tape(o);
+    d->velocity = velocity_tape(o);
+    d->rate_work = nh_tape_work_create(d->rate);
+    d->jacobian_work = nh_tape_work_create(d->jacobian);
+    d->velocity_work = nh_tape_work_create(d->velocity);
+    d->point = nh_alloc_array(d->width, sizeof *d->point);
+    d->out = nh_alloc_array(d->m * (1 + d->n) + 1, sizeof *d->out);
+    d->dense = nh_alloc_array(d->m * d->n + d->m + d->n + 1, sizeof *d->dense);
+    return d;
+}
+
+void nh_dynamics_free(nh_dynamics *d)
+{
+    if (!d) return;
+    nh_tape_work_free(d->rate_work);
+    nh_tape_work_free(d->jacobian_work);
+    nh_tape_work_free(d->velocity_work);
+    nh_tape_free(d->rate);
+    nh_tape_free(d->jacobian);
+    nh_tape_free(d->velocity);
+    nh_free(d->point);
+    nh_free(d->out);
+    nh_free(d->dense);
+    nh_free(d);
+}
+
+/* The implicit velocities start from their last values, so that a motion stays on its branch. */
+bool nh_dynamics_point(nh_dynamics *d, double t, const double *z, double *point)
+{
+    point[0] = t;
+    memcpy(point + 1, z, d->size * sizeof *z);
+    size_t implicit = d->model->chart->implicit;
+    if (!implicit) return true;
+    if (point != d->point) memcpy(point + d->width - implicit, d->point + d->width - implicit, implicit * sizeof *point);
+    if (!nh_chart_complete(d->model->chart, point)) return false;
+    memcpy(d->point + d->width - implicit, point + d->width - implicit, implicit * sizeof *point);
+    return true;
+}
+
+static bool finite_all(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) return false;
+    return true;
+}
+
+static bool rate_of(double t, const double *z, double *rate, void *context)
+{
+    nh_dynamics *d = context;
+    if (!nh_dynamics_point(d, t, z, d->point)) return false;
+    nh_tape_eval(d->rate, d->rate_work, d->point, rate);
+    return finite_all(d->size, rate);
+}
+
+static bool jacobian_of(double t, const double *z, double *jacobian, void *context)
+{
+    nh_dynamics *d = context;
+    if (!nh_dynamics_point(d, t, z, d->point)) return false;
+    nh_tape_eval(d->jacobian, d->jacobian_work, d->point, jacobian);
+    return finite_all(d->size * d->size, jacobian);
+}
+
+nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
+{
+    return (nh_flow_problem){.size = d->size, .context = d, .rate = rate_of, .jacobian = jacobian_of};
+}
+
+/* ---- initial states ---- */
+
+/* One Gauss-Newton step of rho(w) = v; the size of the step, negative on failure. */
+static double fit_step(nh_dynamics *d, const double *v, double *w)
+{
+    size_t m = d->m, n = d->n;
+    nh_tape_eval(d->velocity, d->velocity_work, d->point, d->out);
+    if (!finite_all(m * (1 + n), d->out)) return -1;
+    double *R = d->dense, *b = R + m * n, size = 0;
+    memcpy(R, d->out + m, m * n * sizeof *R);
+    for (size_t s = 0; s < m; s++) b[s] = v[s] - d->out[s];
+    if (nh_least_squares(m, n, R, 1, b, m, 1e-12) < 0) return -1;
+    for (size_t i = 0; i < n; i++) {
+        w[i] += b[i];
+        size = fmax(size, fabs(b[i]));
+    }
+    return size;
+}
+
+static double mismatch(nh_dynamics *d, const double *v)
+{
+    double worst = 0;
+    nh_tape_eval(d->velocity, d->velocity_work, d->point, d->out);
+    for (size_t s = 0; s < d->m; s++) worst = fmax(worst, fabs(v[s] - d->out[s]) / (1 + fabs(v[s])));
+    return worst;
+}
+
+bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, double *z, nh_error *error)
+{
+    enum { most_steps = 50 };
+    static const double on_constraint = 1e-9;
+    const nh_chart *c = d->model->chart;
+    memcpy(z, state->q, d->m * sizeof *z);
+    memset(z + d->m, 0, d->n * sizeof *z);
+    for (size_t i = 0; i < d->n && !c->quasi; i++)
+        for (size_t s = 0; s < d->m; s++)
+            if (c->w[i] == d->model->system->coordinate[s].v) z[d->m + i] = state->v[s];
+    for (size_t a = 0; a < c->implicit; a++) d->point[d->width - c->implicit + a] = state->v[c->dependent[a]];
+    double size = 1;
+    for (int i = 0; i < most_steps && size > 1e-15; i++) {
+        if (!nh_dynamics_point(d, state->t, z, d->point)) size = -1;
+        else size = fit_step(d, state->v, z + d->m);
+    }
+    if (size < 0 || !nh_dynamics_point(d, state->t, z, d->point))
+        return nh_fail(error, NH_NUMERIC, "", "the chart %s is not defined at the initial state", c->name);
+    double off = mismatch(d, state->v);
+    if (off <= on_constraint || project) return true;
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g", off);
+    return nh_error_hint(error, "choose velocities that satisfy the constraints, or use --project to take the nearest ones");
+}
+
+/* ---- multiplier form ---- */
+
+struct nh_bordered {
+    size_t m, k;
+    nh_tape *tape; /* K, h, F, g, f */
+    nh_tape_work *work;
+    double *in, *out;
+};
+
+nh_bordered *nh_bordered_create(const nh_model *o)
+{
+    const nh_system *y = o->system;
+    nh_dag *d = o->dag;
+    size_t m = o->m, k = o->k, total = m * m + m + k * m + 2 * k;
+    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(total + 1, sizeof *out);
+    nh_ex *K = out, *h = K + m * m, *F = h + m, *g = F + k * m, *f = g + k;
+    in[0] = y->t;
+    for (size_t s = 0; s < m; s++) {
+        in[1 + s] = y->coordinate[s].q;
+        in[1 + m + s] = y->coordinate[s].v;
+    }
+    for (size_t s = 0; s < m; s++) {
+        nh_ex p = nh_diff(d, y->lagrangian, in[1 + m + s]);
+        h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, y->lagrangian, in[1 + s]), y->force[s]));
+        h[s] = nh_add(d, h[s], nh_diff_along(d, p, m, in + 1, in + 1 + m));
+        for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, in[1 + m + r]);
+    }
+    for (size_t a = 0; a < k; a++) {
+        f[a] = nh_numerator(d, nh_chart_constraint(o->chart, a)); /* y' = x' tan phi has no pole as y' cos phi = x' sin phi */
+        g[a] = nh_add(d, nh_diff(d, f[a], y->t), nh_diff_along(d, f[a], m, in + 1, in + 1 + m));
+        for (size_t s = 0; s < m; s++) F[a + s * k] = nh_diff(d, f[a], in[1 + m + s]);
+    }
+    nh_bordered *b = nh_alloc(sizeof *b);
+    *b = (nh_bordered){.m = m, .k = k, .in = nh_alloc_array(1 + 2 * m, sizeof *b->in), .out = nh_alloc_array(total + 1, sizeof *b->out)};
+    b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
+    b->work = nh_tape_work_create(b->tape);
+    nh_free(in);
+    nh_free(out);
+    return b;
+}
+
+void nh_bordered_free(nh_bordered *b)
+{
+    if (!b) return;
+    nh_tape_work_free(b->work);
+    nh_tape_free(b->tape);
+    nh_free(b->in);
+    nh_free(b->out);
+    nh_free(b);
+}
+
+/* Every constraint divided by |df/dv|, so that the multiplier has the size of the reaction. */
+static void normalise(size_t m, size_t k, double *F)
+{
+    double *g = F + k * m, *f = g + k;
+    for (size_t a = 0; a < k; a++) {
+        double norm = 0;
+        for (size_t s = 0; s < m; s++) norm += F[a + s * k] * F[a + s * k];
+        norm = sqrt(norm);
+        if (!(norm > 0)) continue;
+        for (size_t s = 0; s < m; s++) F[a + s * k] /= norm;
+        g[a] /= norm;
+        f[a] /= norm;
+    }
+}
+
+static bool terms_of(double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f, void *context)
+{
+    nh_bordered *b = context;
+    size_t m = b->m, k = b->k;
+    b->in[0] = t;
+    memcpy(b->in + 1, q, m * sizeof *q);
+    memcpy(b->in + 1 + m, v, m * sizeof *v);
+    nh_tape_eval(b->tape, b->work, b->in, b->out);
+    double *x = b->out;
+    normalise(m, k, x + m * m + m);
+    memcpy(K, x, m * m * sizeof *x);
+    memcpy(h, x + m * m, m * sizeof *x);
+    memcpy(F, x + m * m + m, k * m * sizeof *x);
+    memcpy(g, x + m * m + m + k * m, k * sizeof *x);
+    memcpy(f, x + m * m + m + k * m + k, k * sizeof *x);
+    return finite_all(m * m + m + k * m + 2 * k, x);
+}
+
+nh_chetaev_problem nh_bordered_problem(nh_bordered *b)
+{
+    return (nh_chetaev_problem){.coordinates = b->m, .constraints = b->k, .context = b, .terms = terms_of};
+}
+
+bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *v, const double *mu, double *force)
+{
+    size_t m = b->m, k = b->k;
+    double *space = nh_alloc_array(m * m + m + k * m + 2 * k + 1, sizeof *space), *h = space + m * m, *F = h + m, *g = F + k * m, *f = g + k;
+    bool good = terms_of(t, q, v, space, h, F, g, f, b);
+    for (size_t s = 0; s < m; s++) {
+        force[s] = 0;
+        for (size_t a = 0; a < k; a++) force[s] += mu[a] * F[a + s * k];
+    }
+    nh_free(space);
+    return good;
+}

@@ -1,0 +1,36 @@
+/* dynamics: a model's equations of motion as problems for the integrators, and initial states. */
+#ifndef NH_DYNAMICS_H
+#define NH_DYNAMICS_H
+
+#include "geometry/model.h"
+#include "motion/chetaev.h"
+
+/* A place and velocity in coordinates. */
+typedef struct {
+    double t;
+    double *q, *v; /* m each */
+} nh_state;
+
+/* Reduced equations: z = (q, w), z' = (rho, a), with their exact Jacobian. */
+typedef struct nh_dynamics nh_dynamics;
+nh_dynamics *nh_dynamics_create(const nh_model *model);
+void nh_dynamics_free(nh_dynamics *dynamics);
+nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
+
+/* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v; refuses a velocity off the constraints, saying by how much (the
+ * largest |f^a|), unless `project` is set.  z has m + n entries. */
+bool nh_dynamics_start(nh_dynamics *dynamics, const nh_state *state, bool project, double *z, nh_error *error);
+
+/* The point (t, q, w, u) that belongs to (t, z); width entries.  False when the implicit velocities cannot be found. */
+bool nh_dynamics_point(nh_dynamics *dynamics, double t, const double *z, double *point);
+
+/* Multiplier form in (q, v, mu).  The constraints are taken without poles and normalised to |df/dv| = 1: its multipliers are not those of
+ * the model, but the force mu_a df^a/dv^s is the same. */
+typedef struct nh_bordered nh_bordered;
+nh_bordered *nh_bordered_create(const nh_model *model);
+void nh_bordered_free(nh_bordered *bordered);
+nh_chetaev_problem nh_bordered_problem(nh_bordered *bordered);
+/* force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
+bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu, double *force);
+
+#endif

@@ -1,0 +1,247 @@
+#include "noether/echelon.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expr/normal.h"
+
+nh_nullspace_options nh_nullspace_options_from(const nh_options *o)
+{
+    return (nh_nullspace_options){o->rank, o->zero, o->undecided, o->gap, o->trivial};
+}
+
+nh_nullspace *nh_echelon_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term, const nh_options *options,
+                               nh_error *error)
+{
+    nh_family family = {.kind = NH_TERMS, .terms = n, .term = term};
+    nh_ansatz *a = nh_ansatz_create(model, points, 1, &family, n, error);
+    if (!a) return NULL;
+    nh_equations *equations = nh_equations_create(a->columns);
+    nh_rows *rows = nh_rows_create(model, a, 0, NULL);
+    nh_rows_current(rows, points, NULL, equations);
+    nh_nullspace_options limits = nh_nullspace_options_from(options);
+    nh_nullspace *nullspace = nh_nullspace_solve(equations, &limits, error);
+    nh_rows_free(rows);
+    nh_equations_free(equations);
+    nh_ansatz_free(a);
+    return nullspace;
+}
+
+/* ---- the echelon form ---- */
+
+typedef struct {
+    size_t terms, dimension;
+    double *v;       /* terms x dimension, each row scaled by its term's size */
+    double *size;    /* of the terms over the samples */
+    size_t *order;   /* terms, most complex first */
+    size_t *pivot;   /* per vector */
+} table;
+
+/* Root mean square of each term about its mean. */
+static void term_sizes(const nh_model *model, const nh_points *points, const nh_ansatz *a, double *size)
+{
+    double *value = nh_alloc_array(a->terms * points->count + 1, sizeof *value);
+    nh_points_evaluate(points, model, a->terms, a->term, value);
+    for (size_t j = 0; j < a->terms; j++) {
+        double mean = 0, square = 0;
+        for (size_t p = 0; p < points->count; p++) mean += value[j * points->count + p] / (double)points->count;
+        for (size_t p = 0; p < points->count; p++) square += pow(value[j * points->count + p] - mean, 2);
+        size[j] = sqrt(square / (double)points->count);
+        if (!isfinite(size[j])) size[j] = 0;
+    }
+    nh_free(value);
+}
+
+typedef struct {
+    size_t index, complexity;
+} ranked;
+
+static int most_complex_first(const void *a, const void *b)
+{
+    const ranked *x = a, *y = b;
+    if (x->complexity != y->complexity) return x->complexity < y->complexity ? 1 : -1;
+    return x->index < y->index ? 1 : -1;
+}
+
+static void order_terms(const nh_ansatz *a, size_t *order)
+{
+    ranked *r = nh_alloc_array(a->terms + 1, sizeof *r);
+    for (size_t j = 0; j < a->terms; j++) r[j] = (ranked){j, nh_complexity(a->dag, a->term[j])};
+    qsort(r, a->terms, sizeof *r, most_complex_first);
+    for (size_t j = 0; j < a->terms; j++) order[j] = r[j].index;
+    nh_free(r);
+}
+
+/* The column with the largest entry in row `term` among the vectors without a pivot. */
+static size_t best_vector(const table *t, size_t term, size_t done, double *largest)
+{
+    size_t best = done;
+    *largest = 0;
+    for (size_t k = done; k < t->dimension; k++) {
+        double x = fabs(t->v[term + k * t->terms]);
+        if (x <= *largest) continue;
+        *largest = x;
+        best = k;
+    }
+    return best;
+}
+
+static void swap_vectors(table *t, size_t a, size_t b)
+{
+    for (size_t j = 0; j < t->terms && a != b; j++) {
+        double x = t->v[j + a * t->terms];
+        t->v[j + a * t->terms] = t->v[j + b * t->terms];
+        t->v[j + b * t->terms] = x;
+    }
+}
+
+static void clear_row(table *t, size_t term, size_t pivot_vector)
+{
+    double *p = t->v + pivot_vector * t->terms, scale = p[term];
+    for (size_t j = 0; j < t->terms; j++) p[j] /= scale;
+    for (size_t k = 0; k < t->dimension; k++) {
+        double *x = t->v + k * t->terms, f = x[term];
+        if (k == pivot_vector || f == 0) continue;
+        for (size_t j = 0; j < t->terms; j++) x[j] -= f * p[j];
+        x[term] = 0;
+    }
+}
+
+/* Vectors are normalised to largest entry 1, so that a pivot is compared with its own vector. */
+static void normalise(table *t, size_t from)
+{
+    for (size_t k = from; k < t->dimension; k++) {
+        double largest = 0, *x = t->v + k * t->terms;
+        for (size_t j = 0; j < t->terms; j++) largest = fmax(largest, fabs(x[j]));
+        for (size_t j = 0; j < t->terms && largest > 0; j++) x[j] /= largest;
+    }
+}
+
+static void reduce(table *t, double small)
+{
+    size_t done = 0;
+    for (size_t i = 0; i < t->terms && done < t->dimension; i++) {
+        double largest;
+        size_t term = t->order[i];
+        normalise(t, done);
+        size_t k = best_vector(t, term, done, &largest);
+        if (largest < small) {
+            for (k = done; k < t->dimension; k++) t->v[term + k * t->terms] = 0;
+            continue;
+        }
+        swap_vectors(t, done, k);
+        clear_row(t, term, done);
+        t->pivot[done++] = term;
+    }
+    t->dimension = done;
+}
+
+static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n, double small)
+{
+    table t = {.terms = a->terms, .dimension = n->dimension};
+    t.v = nh_alloc_array(t.terms * t.dimension + 1, sizeof *t.v);
+    t.size = nh_alloc_array(t.terms + 1, sizeof *t.size);
+    t.order = nh_alloc_array(t.terms + 1, sizeof *t.order);
+    t.pivot = nh_alloc_array(t.dimension + 1, sizeof *t.pivot);
+    term_sizes(model, points, a, t.size);
+    order_terms(a, t.order);
+    for (size_t k = 0; k < t.dimension; k++)
+        for (size_t c = 0; c < a->columns; c++) {
+            double x = n->vector[c + k * n->columns];
+            for (size_t j = 0; j < t.terms && x != 0; j++) t.v[j + k * t.terms] += a->to_term[j + c * t.terms] * x * t.size[j];
+        }
+    reduce(&t, small);
+    return t;
+}
+
+static void table_clear(table *t)
+{
+    nh_free(t->v);
+    nh_free(t->size);
+    nh_free(t->order);
+    nh_free(t->pivot);
+}
+
+/* ---- supports ---- */
+
+typedef struct {
+    const nh_model *model;
+    const nh_points *points;
+    const nh_options *options;
+    nh_arena *arena;
+} context;
+
+/* Fit again on the terms whose entries exceed `cut`. */
+static bool refit(const context *x, const nh_ansatz *a, const table *t, size_t k, double cut, double accepted, nh_candidate *out)
+{
+    const double *v = t->v + k * t->terms;
+    size_t n = 0, pivot = 0;
+    *out = (nh_candidate){.term = nh_arena_alloc(x->arena, (t->terms + 1) * sizeof *out->term),
+                          .coefficient = nh_arena_alloc(x->arena, (t->terms + 1) * sizeof *out->coefficient)};
+    for (size_t i = 0; i < t->terms; i++) {
+        size_t j = t->order[t->terms - 1 - i]; /* simplest first */
+        if (fabs(v[j]) < cut || t->size[j] == 0) continue;
+        if (j == t->pivot[k]) pivot = n;
+        out->coefficient[n] = v[j] / t->size[j];
+        out->term[n++] = a->term[j];
+    }
+    out->count = n;
+    double unit = out->coefficient[pivot];
+    for (size_t j = 0; j < n; j++) out->coefficient[j] /= unit;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_nullspace *fit = nh_echelon_terms(x->model, x->points, n, out->term, x->options, &ignored);
+    if (!fit) return false;
+    bool good = fit->rank > 0 && fit->spectrum[0] <= accepted;
+    out->quotient = fit->rank ? fit->spectrum[0] : INFINITY;
+    out->refitted = fit->dimension == 1 && fit->vector[pivot] != 0;
+    for (size_t j = 0; j < n && out->refitted; j++) out->coefficient[j] = fit->vector[j] / fit->vector[pivot];
+    nh_nullspace_free(fit);
+    return good;
+}
+
+/* The smallest support that still satisfies the equations as well as the null space did. */
+static nh_candidate smallest_support(const context *x, const nh_ansatz *a, const table *t, size_t k, const nh_nullspace *n)
+{
+    double zero = x->options->zero * DBL_EPSILON, accepted = zero * fmax(1, n->next_left_scale);
+    double cuts[] = {x->options->support, 1e-3 * x->options->support, 1e-6 * x->options->support, 0};
+    nh_candidate c;
+    for (size_t i = 0; i < sizeof cuts / sizeof *cuts; i++)
+        if (refit(x, a, t, k, cuts[i], accepted, &c)) break;
+    return c;
+}
+
+static size_t candidate_complexity(const nh_dag *dag, const nh_candidate *c)
+{
+    size_t sum = 0;
+    for (size_t i = 0; i < c->count; i++) sum += 1 + nh_complexity(dag, c->term[i]);
+    return sum;
+}
+
+nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz, const nh_nullspace *nullspace,
+                          const nh_options *options)
+{
+    table t = make_table(model, points, ansatz, nullspace, options->support);
+    nh_candidates *list = nh_alloc(sizeof *list);
+    list->arena = nh_arena_create();
+    list->candidate = nh_arena_alloc(list->arena, (t.dimension + 1) * sizeof *list->candidate);
+    context x = {model, points, options, list->arena};
+    for (size_t k = 0; k < t.dimension; k++) {
+        nh_candidate c = smallest_support(&x, ansatz, &t, k, nullspace);
+        size_t at = list->count++;
+        size_t own = candidate_complexity(model->dag, &c);
+        for (; at > 0 && candidate_complexity(model->dag, &list->candidate[at - 1]) > own; at--) list->candidate[at] = list->candidate[at - 1];
+        list->candidate[at] = c;
+    }
+    table_clear(&t);
+    return list;
+}
+
+void nh_candidates_free(nh_candidates *candidates)
+{
+    if (!candidates) return;
+    nh_arena_free(candidates->arena);
+    nh_free(candidates);
+}

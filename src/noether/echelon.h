@@ -1,0 +1,36 @@
+/* echelon: a null space in its simplest representatives.
+ *
+ * The terms are ordered by complexity; the reduced echelon form with the most complex pivots first gives each vector the simplest
+ * tail.  Entries are compared in the size of c_j b_j, not of c_j.  Small entries are then tried as zeros: the coefficients are
+ * fitted again on the support alone, which also makes them exact to rounding. */
+#ifndef NH_ECHELON_H
+#define NH_ECHELON_H
+
+#include "base/option.h"
+#include "noether/rows.h"
+
+typedef struct {
+    size_t count;        /* terms with a coefficient */
+    nh_ex *term;
+    double *coefficient; /* the most complex one is 1 */
+    double quotient;     /* |A c| / |B c| of the final coefficients */
+    bool refitted;       /* the support alone has a one-dimensional null space */
+} nh_candidate;
+
+typedef struct {
+    nh_arena *arena;
+    size_t count;
+    nh_candidate *candidate; /* simplest first */
+} nh_candidates;
+
+nh_nullspace_options nh_nullspace_options_from(const nh_options *options);
+
+nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz, const nh_nullspace *nullspace,
+                          const nh_options *options);
+void nh_candidates_free(nh_candidates *candidates);
+
+/* The null space of explicit terms alone. NULL on failure. */
+nh_nullspace *nh_echelon_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term, const nh_options *options,
+                               nh_error *error);
+
+#endif

@@ -1,0 +1,91 @@
+#include "noether/independence.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expr/diff.h"
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(size_t n, double *x)
+{
+    if (n == 0) return NAN;
+    qsort(x, n, sizeof *x, ascending);
+    return x[n / 2];
+}
+
+/* Gradients d phi / d z_j over (t, q, w); implicit velocities are followed by the rules of diff.h. */
+static double *gradients(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, size_t width)
+{
+    nh_ex *e = nh_alloc_array(n * width + 1, sizeof *e);
+    for (size_t k = 0; k < n; k++)
+        for (size_t j = 0; j < width; j++) e[k * width + j] = nh_diff(o->dag, phi[k], o->chart->symbol[j]);
+    double *value = nh_alloc_array(n * width * points->count + 1, sizeof *value);
+    nh_points_evaluate(points, o, n * width, e, value);
+    nh_free(e);
+    return value;
+}
+
+typedef struct {
+    size_t width, points, accepted;
+    double *basis; /* per point: accepted orthonormal gradients */
+} frame;
+
+/* Remove the accepted directions (twice, for round-off); returns what is left of |g|, -1 when g vanishes or is not finite. */
+static double remaining(const frame *f, size_t point, double *g)
+{
+    double before = 0, after = 0;
+    const double *basis = f->basis + point * f->width * f->width;
+    for (size_t j = 0; j < f->width; j++) before += g[j] * g[j];
+    before = sqrt(before);
+    if (!(before > 0) || !isfinite(before)) return -1;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t k = 0; k < f->accepted; k++) {
+            double dot = 0;
+            for (size_t j = 0; j < f->width; j++) dot += g[j] * basis[k * f->width + j];
+            for (size_t j = 0; j < f->width; j++) g[j] -= dot * basis[k * f->width + j];
+        }
+    for (size_t j = 0; j < f->width; j++) after += g[j] * g[j];
+    return sqrt(after) / before;
+}
+
+static void accept(frame *f, const double *rest)
+{
+    for (size_t p = 0; p < f->points; p++) {
+        double size = 0, *to = f->basis + p * f->width * f->width + f->accepted * f->width;
+        const double *g = rest + p * f->width;
+        for (size_t j = 0; j < f->width; j++) size += g[j] * g[j];
+        for (size_t j = 0; j < f->width; j++) to[j] = size > 0 ? g[j] / sqrt(size) : 0;
+    }
+    f->accepted++;
+}
+
+void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, double sure, double doubt,
+                          nh_independence *out, double *fraction)
+{
+    size_t width = 1 + o->m + o->n, count = points->count;
+    double *g = gradients(o, points, n, phi, width);
+    frame f = {.width = width, .points = count, .basis = nh_alloc_array(count * width * width + 1, sizeof(double))};
+    double *rest = nh_alloc_array(count * width + 1, sizeof *rest), *left = nh_alloc_array(count + 1, sizeof *left);
+    for (size_t k = 0; k < n; k++) {
+        size_t usable = 0;
+        for (size_t p = 0; p < count; p++) {
+            for (size_t j = 0; j < width; j++) rest[p * width + j] = g[(k * width + j) * count + p];
+            double r = remaining(&f, p, rest + p * width);
+            if (r >= 0) left[usable++] = r;
+        }
+        double m = median(usable, left);
+        if (fraction) fraction[k] = usable ? m : 0;
+        out[k] = usable == 0 ? NH_CONSTANT : m > sure ? NH_INDEPENDENT : m < doubt ? NH_DEPENDENT : NH_DOUBTFUL;
+        if (out[k] == NH_INDEPENDENT && f.accepted < width) accept(&f, rest);
+    }
+    nh_free(left);
+    nh_free(rest);
+    nh_free(f.basis);
+    nh_free(g);
+}

@@ -1,0 +1,349 @@
+/* nullspace: see the header. */
+#include "noether/nullspace.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "base/memory.h"
+
+enum { CHUNK = 64 }; /* rows of B that get their leading 1 at a time */
+
+/* ---- collecting rows ---- */
+
+struct nh_equations {
+    size_t columns;
+    nh_qr *residuals; /* A */
+    nh_qr *values;    /* [1 B] */
+    double *chunk;    /* CHUNK x (1 + columns) */
+    const char *bad;  /* what was not finite, or NULL */
+    size_t bad_column;
+};
+
+nh_equations *nh_equations_create(size_t columns)
+{
+    nh_equations *equations = nh_alloc(sizeof *equations);
+    equations->columns = columns;
+    equations->residuals = nh_qr_create(columns);
+    equations->values = nh_qr_create(columns + 1);
+    equations->chunk = nh_alloc_array(CHUNK * (columns + 1), sizeof(double));
+    return equations;
+}
+
+void nh_equations_reset(nh_equations *equations)
+{
+    nh_qr_reset(equations->residuals);
+    nh_qr_reset(equations->values);
+    equations->bad = NULL;
+}
+
+void nh_equations_free(nh_equations *equations)
+{
+    if (!equations)
+        return;
+    nh_qr_free(equations->residuals);
+    nh_qr_free(equations->values);
+    nh_free(equations->chunk);
+    nh_free(equations);
+}
+
+/* Note the first column that is not finite; false when there is one, now or before. */
+static bool check_finite(nh_equations *equations, const char *what, size_t rows, const double *block, size_t ld)
+{
+    for (size_t j = 0; j < equations->columns && !equations->bad; j++) {
+        double sum = 0;
+        for (size_t i = 0; i < rows; i++)
+            sum += block[i + j * ld] - block[i + j * ld]; /* 0, or NaN for a NaN or an infinity */
+        if (sum != 0) {
+            equations->bad = what;
+            equations->bad_column = j;
+        }
+    }
+    return !equations->bad;
+}
+
+void nh_equations_add(nh_equations *equations, size_t rows, double *a, size_t ld)
+{
+    if (check_finite(equations, "the equations", rows, a, ld))
+        nh_qr_add(equations->residuals, rows, a, ld);
+}
+
+void nh_equations_add_values(nh_equations *equations, size_t rows, double *b, size_t ld)
+{
+    if (!check_finite(equations, "the values", rows, b, ld))
+        return;
+    for (size_t done = 0; done < rows; done += CHUNK) {
+        size_t take = rows - done < CHUNK ? rows - done : CHUNK;
+        for (size_t j = 0; j < equations->columns; j++)
+            memcpy(equations->chunk + (j + 1) * CHUNK, b + done + j * ld, take * sizeof *b);
+        /* the column of ones must survive: the contract lets nh_qr_add overwrite it */
+        for (size_t i = 0; i < take; i++)
+            equations->chunk[i] = 1;
+        nh_qr_add(equations->values, take, equations->chunk, CHUNK);
+    }
+}
+
+/* ---- independent columns ---- */
+
+/* Euclidean norm, safe against overflow. */
+static double norm(size_t count, const double *x)
+{
+    double largest = 0, sum = 0;
+    for (size_t i = 0; i < count; i++)
+        largest = fmax(largest, fabs(x[i]));
+    if (largest == 0)
+        return 0;
+    for (size_t i = 0; i < count; i++)
+        sum += x[i] / largest * (x[i] / largest);
+    return largest * sqrt(sum);
+}
+
+/* scale_j = |b_j|, or 0 when that is below trivial * size_j (constant) or the column is empty.  Lists the others in
+ * basis->column and returns how many they are. */
+static size_t equilibrate(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, const double *size,
+                          double trivial)
+{
+    size_t count = 0;
+    for (size_t j = 0; j < columns; j++) {
+        double length = norm(rows, b + j * ld);
+        bool constant = length == 0 || (size && length <= trivial * size[j]);
+        basis->scale[j] = constant ? 0 : length;
+        if (!constant)
+            basis->column[count++] = j;
+    }
+    return count;
+}
+
+/* The rank of a pivoted triangle t (leading dimension ld): pivots |t_jj| >= rank |t_00|. */
+static void choose_rank(nh_basis *basis, size_t available, const double *t, size_t ld, double rank)
+{
+    double first = fabs(t[0]);
+    size_t count = 0;
+    while (count < available && fabs(t[count + count * ld]) >= rank * first)
+        count++;
+    basis->count = count;
+    basis->smallest_kept = fabs(t[(count - 1) * (ld + 1)]) / first;
+    basis->largest_dropped = count < available ? fabs(t[count * (ld + 1)]) / first : 0;
+}
+
+/* column[j] := column[pivot[j]] and r := the leading triangle of t. */
+static void keep_pivots(nh_basis *basis, size_t available, const double *t, size_t ld, const size_t *pivot)
+{
+    size_t *listed = nh_alloc_array(available, sizeof *listed);
+    memcpy(listed, basis->column, available * sizeof *listed);
+    basis->r = nh_alloc_array(basis->count * basis->count, sizeof(double));
+    for (size_t j = 0; j < basis->count; j++) {
+        basis->column[j] = listed[pivot[j]];
+        memcpy(basis->r + j * basis->count, t + j * ld, (j + 1) * sizeof *t);
+    }
+    nh_free(listed);
+}
+
+bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, const double *size,
+                   const nh_nullspace_options *options, nh_error *error)
+{
+    *basis = (nh_basis){0};
+    basis->scale = nh_alloc_array(columns, sizeof(double));
+    basis->column = nh_alloc_array(columns, sizeof(size_t));
+    size_t available = equilibrate(basis, rows, columns, b, ld, size, options->trivial);
+    if (available == 0)
+        return true;
+    basis->count = available;
+    double *scaled = nh_alloc_array(rows * available, sizeof *scaled);
+    size_t *pivot = nh_alloc_array(available, sizeof *pivot);
+    nh_basis_gather(basis, rows, b, ld, scaled);
+    bool ok = nh_qr_pivoted(rows, available, scaled, pivot);
+    if (ok) {
+        choose_rank(basis, rows < available ? rows : available, scaled, rows, options->rank);
+        keep_pivots(basis, available, scaled, rows, pivot);
+    }
+    nh_free(scaled);
+    nh_free(pivot);
+    if (ok)
+        return true;
+    nh_basis_clear(basis);
+    return nh_fail(error, NH_NUMERIC, "", "the columns of the ansatz are too large to be compared (overflow in the QR)");
+}
+
+void nh_basis_clear(nh_basis *basis)
+{
+    nh_free(basis->column);
+    nh_free(basis->r);
+    nh_free(basis->scale);
+    *basis = (nh_basis){0};
+}
+
+void nh_basis_gather(const nh_basis *basis, size_t rows, const double *a, size_t ld, double *out)
+{
+    for (size_t j = 0; j < basis->count; j++) {
+        size_t from = basis->column[j];
+        for (size_t i = 0; i < rows; i++)
+            out[i + j * rows] = a[i + from * ld] / basis->scale[from];
+    }
+}
+
+void nh_basis_expand(const nh_basis *basis, size_t columns, size_t count_of_x, double *x, double *c)
+{
+    nh_solve_triangle(basis->count, count_of_x, basis->r, basis->count, x, basis->count);
+    memset(c, 0, columns * count_of_x * sizeof *c);
+    for (size_t k = 0; k < count_of_x; k++)
+        for (size_t j = 0; j < basis->count; j++) {
+            size_t to = basis->column[j];
+            c[to + k * columns] = x[j + k * basis->count] / basis->scale[to];
+        }
+}
+
+/* The triangle of [1 B] is
+ *
+ *     [ sqrt(N)  sqrt(N) mean ]
+ *     [    0          R_B     ]    with R_B^T R_B = (B - mean)^T (B - mean),
+ *
+ * so that |R_B e_j| is the variation of column j and the norm of the whole column its size. */
+static bool independent_values(nh_basis *basis, nh_equations *equations, const nh_nullspace_options *options, nh_error *error)
+{
+    size_t n = equations->columns;
+    double *r = nh_alloc_array((n + 1) * (n + 1), sizeof *r);
+    double *size = nh_alloc_array(n, sizeof *size);
+    nh_qr_triangle(equations->values, r);
+    for (size_t j = 0; j < n; j++)
+        size[j] = norm(n + 1, r + (j + 1) * (n + 1));
+    bool ok = nh_basis_init(basis, n, n, r + (n + 1) + 1, n + 1, size, options, error);
+    nh_free(r);
+    nh_free(size);
+    return ok;
+}
+
+/* ---- the quotient ---- */
+
+static bool check_input(const nh_equations *equations, nh_error *error)
+{
+    size_t n = equations->columns, of_a = nh_qr_rows(equations->residuals), of_b = nh_qr_rows(equations->values);
+    if (equations->bad)
+        return nh_fail(error, NH_NUMERIC, "", "column %zu of the ansatz is not finite in %s at some sample point",
+                       equations->bad_column, equations->bad);
+    if (n > 0 && (of_a < n || of_b < n + 1)) {
+        nh_fail(error, NH_NUMERIC, "",
+                "%zu equations and %zu values cannot decide about %zu columns; at least %zu and %zu are needed", of_a, of_b, n,
+                n, n + 1);
+        return nh_error_hint(error, "take more sample points (2.5 per column are usual)");
+    }
+    return true;
+}
+
+/* spectrum := singular values of A D^-1 P R^-1, ascending; v: the right vectors as columns, in the same order. */
+static bool quotient(nh_equations *equations, const nh_basis *basis, double *spectrum, double *v, nh_error *error)
+{
+    size_t n = equations->columns, k = basis->count;
+    double *triangle = nh_alloc_array(n * n, sizeof *triangle);
+    double *a = nh_alloc_array(n * k, sizeof *a);
+    double *s = nh_alloc_array(k, sizeof *s);
+    double *vt = nh_alloc_array(k * k, sizeof *vt);
+    nh_qr_triangle(equations->residuals, triangle);
+    nh_basis_gather(basis, n, triangle, n, a);
+    nh_solve_triangle_right(n, k, basis->r, k, a);
+    bool ok = nh_svd(n, k, a, s, NULL, vt);
+    for (size_t j = 0; j < k && ok; j++) {
+        spectrum[j] = s[k - 1 - j];
+        for (size_t i = 0; i < k; i++)
+            v[i + j * k] = vt[(k - 1 - j) + i * k];
+    }
+    nh_free(triangle);
+    nh_free(a);
+    nh_free(s);
+    nh_free(vt);
+    return ok || nh_fail(error, NH_NUMERIC, "", "the singular value decomposition of %zu columns failed", k);
+}
+
+/*     null:       sigma <= zero eps max(1, sigma_max)
+ *     undecided:  up to `undecided` times that, or a gap that is too shallow
+ *
+ * Normalising by sigma_max alone would miss a sector that holds nothing but integrals. */
+static void decide(nh_nullspace *result, const nh_nullspace_options *options)
+{
+    size_t k = result->rank, null = 0;
+    const double *sigma = result->spectrum;
+    result->next_left_scale = k ? sigma[k - 1] : 0;
+    double bound = options->zero * DBL_EPSILON * fmax(1, result->next_left_scale);
+    while (null < k && sigma[null] <= bound)
+        null++;
+    size_t low = null; /* one past the undecided ones */
+    while (low < k && sigma[low] <= options->undecided * bound)
+        low++;
+    result->dimension = null;
+    result->gap = null > 0 && null < k ? sigma[null] / fmax(sigma[null - 1], DBL_EPSILON) : INFINITY;
+    if (low > null || result->gap <= options->gap)
+        result->verdict = NH_UNDECIDED;
+    else
+        result->verdict = null > 0 ? NH_FOUND : NH_NONE;
+}
+
+/* The entry of largest modulus becomes positive. */
+static void fix_sign(size_t n, double *c)
+{
+    size_t largest = 0;
+    for (size_t i = 1; i < n; i++)
+        if (fabs(c[i]) > fabs(c[largest]))
+            largest = i;
+    double sign = c[largest] < 0 ? -1 : 1;
+    for (size_t i = 0; i < n; i++)
+        c[i] = sign * c[i] + 0.0; /* + 0 turns -0 into 0 */
+}
+
+static void describe_basis(nh_nullspace *result, const nh_basis *basis, const nh_nullspace_options *options)
+{
+    for (size_t j = 0; j < result->columns; j++)
+        result->dropped[j] = true;
+    for (size_t j = 0; j < basis->count; j++)
+        result->dropped[basis->column[j]] = false;
+    result->rank = basis->count;
+    result->smallest_kept = basis->smallest_kept;
+    result->largest_dropped = basis->largest_dropped;
+    result->rank_in_doubt = basis->smallest_kept < options->gap * basis->largest_dropped;
+}
+
+static bool solve(nh_nullspace *result, nh_equations *equations, const nh_basis *basis, const nh_nullspace_options *options,
+                  nh_error *error)
+{
+    size_t k = basis->count;
+    double *v = nh_alloc_array(k * k, sizeof *v);
+    result->spectrum = nh_alloc_array(k, sizeof(double));
+    bool ok = quotient(equations, basis, result->spectrum, v, error);
+    if (ok) {
+        decide(result, options);
+        result->vector = nh_alloc_array(result->columns * result->dimension, sizeof(double));
+        nh_basis_expand(basis, result->columns, result->dimension, v, result->vector);
+        for (size_t j = 0; j < result->dimension; j++)
+            fix_sign(result->columns, result->vector + j * result->columns);
+    }
+    nh_free(v);
+    return ok;
+}
+
+nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_options *options, nh_error *error)
+{
+    nh_basis basis;
+    if (!check_input(equations, error) || !independent_values(&basis, equations, options, error))
+        return NULL;
+    nh_nullspace *result = nh_alloc(sizeof *result);
+    result->columns = equations->columns;
+    result->rows = nh_qr_rows(equations->residuals);
+    result->dropped = nh_alloc_array(result->columns, sizeof(bool));
+    describe_basis(result, &basis, options);
+    bool ok = solve(result, equations, &basis, options, error);
+    nh_basis_clear(&basis);
+    if (ok)
+        return result;
+    nh_nullspace_free(result);
+    return NULL;
+}
+
+void nh_nullspace_free(nh_nullspace *nullspace)
+{
+    if (!nullspace)
+        return;
+    nh_free(nullspace->spectrum);
+    nh_free(nullspace->vector);
+    nh_free(nullspace->dropped);
+    nh_free(nullspace);
+}

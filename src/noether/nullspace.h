@@ -1,0 +1,84 @@
+/* nullspace: the combinations of the ansatz that satisfy every sampled equation.
+ *
+ *     minimise |A c| / |B c|,   A: rows of (N0), (NY) or Gamma(Phi);   B: samples of Phi - mean(Phi)
+ *
+ * A plain SVD of A would call every near-dependence of the basis a symmetry; the quotient asks how little Gamma(Phi) is
+ * compared with how much Phi varies.  Both matrices are streamed: only their triangles are kept.  Columns of B that depend
+ * on the others over the samples are dropped by a rank-revealing QR (after equilibration); the generalized singular values
+ * are those of A R^-1 with B P = Q R.  The rank is read at the widest gap above rounding; a shallow gap is NH_UNDECIDED,
+ * never a quiet "none".
+ *
+ *     paper                    here
+ *     generalized sigma_j      spectrum[j], ascending
+ *     ker                      vector, columns x dimension
+ *
+ * Reference: [GolubVanLoan2013, sec. 6.1.6 and 8.7.4]. */
+#ifndef NH_NULLSPACE_H
+#define NH_NULLSPACE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
+
+typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED } nh_verdict;
+
+/* All tolerances, from the option table. */
+typedef struct {
+    double rank;      /* columns of B below rank * first pivot are dependent (1e-9) */
+    double zero;      /* null: sigma <= zero * eps * max(1, sigma_max)  (100) */
+    double undecided; /* undecided up to this many times the null bound (1e5) */
+    double gap;       /* required ratio of the first non-null to the last null value (1e3) */
+    double trivial;   /* a column whose variation is below trivial * its size is constant (1e-11) */
+} nh_nullspace_options;
+
+/* Collects rows. */
+typedef struct nh_equations nh_equations;
+nh_equations *nh_equations_create(size_t columns);
+void nh_equations_free(nh_equations *equations);
+void nh_equations_reset(nh_equations *equations); /* forget all rows */
+/* Rows of A: residuals of the equations per column (column-major, overwritten). */
+void nh_equations_add(nh_equations *equations, size_t rows, double *a, size_t ld);
+/* Rows of B: the currents' values per column at sample points (column-major, overwritten); the mean is removed here (by
+ * a leading column of ones in the QR, so that no second pass is needed). */
+void nh_equations_add_values(nh_equations *equations, size_t rows, double *b, size_t ld);
+
+typedef struct {
+    nh_verdict verdict;
+    size_t columns, rows;  /* of A as fed */
+    size_t rank;           /* independent, non-constant columns kept; length of the spectrum */
+    double *spectrum;      /* generalized singular values, ascending, `rank` of them */
+    size_t dimension;      /* of the null space */
+    double gap;            /* spectrum[dimension] / max(spectrum[dimension-1], eps); INFINITY when nothing is above or below */
+    double *vector;        /* columns x dimension, in the columns' own units, |B c| = 1; dropped columns have 0 */
+    bool *dropped;         /* per column */
+    double smallest_kept, largest_dropped; /* pivots of B relative to the first; closer than 1e3: the rank is in doubt */
+    bool rank_in_doubt;
+    double next_left_scale; /* largest generalized singular value */
+} nh_nullspace;
+
+/* Columns that are independent over the samples, chosen by pivoted QR of the equilibrated matrix: B D^-1 P = Q R with
+ * D = diag(scale).  Used by the null space and by the pencil. */
+typedef struct {
+    size_t count;   /* independent columns */
+    size_t *column; /* their numbers, in the order of the pivots */
+    double *r;      /* count x count, upper triangle */
+    double *scale;  /* per column of B (all of them): its norm; 0 marks a constant or empty column */
+    double smallest_kept, largest_dropped; /* pivots relative to the first; 0 when there is none */
+} nh_basis;
+
+/* b: rows x columns with leading dimension ld, or its triangle.  size: norm of each column before centring; NULL: nothing
+ * was centred.  A basis with count 0 is no error. */
+bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, const double *size,
+                   const nh_nullspace_options *options, nh_error *error);
+void nh_basis_clear(nh_basis *basis);
+/* out (rows x count) := a D^-1 P, the same columns of another matrix in the same units. */
+void nh_basis_gather(const nh_basis *basis, size_t rows, const double *a, size_t ld, double *out);
+/* c (columns x count_of_x) := D^-1 P R^-1 x, from orthonormal coordinates x (count x count_of_x, overwritten) to the columns;
+ * columns outside the basis get 0. */
+void nh_basis_expand(const nh_basis *basis, size_t columns, size_t count_of_x, double *x, double *c);
+
+nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_options *options, nh_error *error);
+void nh_nullspace_free(nh_nullspace *nullspace);
+
+#endif

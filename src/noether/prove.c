@@ -1,0 +1,90 @@
+#include "noether/prove.h"
+
+#include <math.h>
+
+#include "expr/ball.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "system/sample.h"
+
+enum { wanted_points = 4, most_tries = 40 };
+
+static nh_ex with_values(const nh_model *o, nh_ex e)
+{
+    size_t n = o->system->parameters;
+    nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
+    for (size_t i = 0; i < n; i++) {
+        double x = o->parameter_value[i];
+        int64_t scale = 1;
+        while (scale < 1000000000 && x * (double)scale != round(x * (double)scale)) scale *= 10;
+        bool decimal = fabs(x * (double)scale - round(x * (double)scale)) == 0 && fabs(x) * (double)scale < 9e15;
+        value[i] = decimal ? nh_ratio(o->dag, (int64_t)round(x * (double)scale), scale) : nh_real(o->dag, x);
+    }
+    e = nh_substitute(o->dag, e, n, o->parameter, value);
+    nh_free(value);
+    return e;
+}
+
+/* A random point with short rational coordinates; implicit velocities by Newton's method in doubles (they limit the digits). */
+static void set_point(const nh_model *o, nh_ball *ball, uint64_t *state, bool *usable)
+{
+    enum { grid = 997 };
+    double *z = nh_alloc_array(o->width, sizeof *z);
+    size_t explicit_width = o->width - o->chart->implicit;
+    for (size_t j = 0; j < o->width; j++) {
+        double span = o->chart->high[j] - o->chart->low[j], x = o->chart->low[j] + span * nh_random(state);
+        int64_t p = (int64_t)round(x * grid);
+        z[j] = (double)p / grid;
+        if (j < explicit_width) nh_ball_set_ratio(ball, o->chart->symbol[j], p, grid);
+    }
+    *usable = nh_chart_complete(o->chart, z);
+    for (size_t j = explicit_width; j < o->width; j++) nh_ball_set_double(ball, o->chart->symbol[j], z[j]);
+    nh_free(z);
+}
+
+static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_options *options, nh_proof *proof)
+{
+    nh_ball *ball = nh_ball_create(o->dag, (long)options->bits);
+    uint64_t state = (uint64_t)options->seed + 77;
+    double least = INFINITY;
+    for (int tries = 0; tries < most_tries && proof->points < wanted_points; tries++) {
+        bool usable;
+        double log10_ratio;
+        set_point(o, ball, &state, &usable);
+        if (!usable || !nh_ball_relative_sum(ball, n, term, &log10_ratio)) continue;
+        least = fmin(least, -log10_ratio);
+        proof->points++;
+    }
+    nh_ball_free(ball);
+    double most = options->bits * log10(2);
+    proof->digits = proof->points == 0 ? 0 : fmax(0, fmin(least, most));
+}
+
+nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool parameters_free, const nh_options *options)
+{
+    nh_proof proof = {0};
+    nh_dag *d = o->dag;
+    nh_ex sum = nh_int(d, 0), *valued = nh_alloc_array(n + 1, sizeof *valued);
+    for (size_t i = 0; i < n; i++) sum = nh_add(d, sum, term[i]);
+    size_t limit = (size_t)options->proof_terms;
+    if (parameters_free && o->chart->implicit == 0) proof.all_parameters = nh_normal_is_zero(d, sum, limit) == NH_ZERO;
+    proof.proved = proof.all_parameters || nh_normal_is_zero(d, with_values(o, sum), limit) == NH_ZERO;
+    for (size_t i = 0; i < n; i++) valued[i] = with_values(o, term[i]);
+    cancel(o, n, valued, options, &proof);
+    proof.refuted = !proof.proved && proof.points > 0 && proof.digits < options->digits / 2;
+    nh_free(valued);
+    return proof;
+}
+
+nh_proof nh_prove_current(const nh_model *o, nh_ex phi, bool parameters_free, const nh_options *options)
+{
+    nh_dag *d = o->dag;
+    size_t n = 1 + o->m + o->n;
+    nh_ex *term = nh_alloc_array(n, sizeof *term);
+    term[0] = nh_diff(d, phi, o->system->t);
+    for (size_t s = 0; s < o->m; s++) term[1 + s] = nh_mul(d, o->rho[s], nh_diff(d, phi, o->system->coordinate[s].q));
+    for (size_t i = 0; i < o->n; i++) term[1 + o->m + i] = nh_mul(d, o->a[i], nh_model_Y(o, i, phi));
+    nh_proof proof = nh_prove_zero(o, n, term, parameters_free, options);
+    nh_free(term);
+    return proof;
+}

@@ -1,0 +1,27 @@
+/* prove: is Gamma(Phi) = 0 exactly?
+ *
+ * 1. The normal form of Gamma(Phi) with every parameter an indeterminate: zero is a proof for all parameter values.
+ * 2. The same with the parameters at their given exact values: a proof for these.
+ * 3. Ball arithmetic at random rational points, 256 bits and more: the number of digits to which the terms of Gamma(Phi) cancel.
+ *    A formal near-integral cancels to 13 digits, a true one to as many as were computed. */
+#ifndef NH_PROVE_H
+#define NH_PROVE_H
+
+#include "base/option.h"
+#include "geometry/model.h"
+
+typedef struct {
+    bool proved;          /* exactly zero, at least for the given parameters */
+    bool all_parameters;  /* for all parameter values */
+    double digits;        /* of cancellation, least over the points; 0 when it could not be evaluated */
+    size_t points;        /* that could be evaluated */
+    bool refuted;         /* a ball excludes zero: Phi with these coefficients is not conserved */
+} nh_proof;
+
+/* `parameters_free`: the coefficients of phi hold for all parameter values, so that step 1 makes sense. */
+nh_proof nh_prove_current(const nh_model *model, nh_ex phi, bool parameters_free, const nh_options *options);
+
+/* The same for any expression that should vanish on the submanifold. */
+nh_proof nh_prove_zero(const nh_model *model, size_t terms, const nh_ex *term, bool parameters_free, const nh_options *options);
+
+#endif

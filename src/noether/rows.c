@@ -1,0 +1,222 @@
+#include "noether/rows.h"
+
+#include <string.h>
+
+#include "expr/normal.h"
+
+/* ---- current route ---- */
+
+struct nh_rows {
+    const nh_ansatz *ansatz;
+    nh_tape *tape;
+    nh_tape_work *work;
+    size_t width, unknowns;
+    double **row;          /* values, then rates of the factors, then kappa */
+    double *store, *theta; /* rows of NH_BATCH */
+    double *value, *rate;  /* columns x NH_BATCH */
+    const double **in;
+};
+
+/* Values and Gamma-rates of the factors, in one tape. */
+static nh_tape *factor_tape(const nh_model *o, const nh_ansatz *a, nh_ex kappa, size_t unknowns, const nh_ex *unknown)
+{
+    size_t n = a->factors;
+    nh_ex *out = nh_alloc_array(2 * n + 1, sizeof *out), *in = nh_alloc_array(o->width + unknowns, sizeof *in);
+    for (size_t i = 0; i < n; i++) {
+        out[i] = a->factor[i];
+        out[n + i] = nh_model_gamma(o, a->factor[i]);
+    }
+    out[2 * n] = kappa;
+    memcpy(in, o->chart->symbol, o->width * sizeof *in);
+    if (unknowns) memcpy(in + o->width, unknown, unknowns * sizeof *in);
+    nh_tape *tape = nh_tape_create(o->dag, o->width + unknowns, in, 2 * n + 1, out, o->system->parameters, o->parameter, o->parameter_value);
+    nh_free(in);
+    nh_free(out);
+    return tape;
+}
+
+static nh_rows *prepare(const nh_model *o, const nh_ansatz *a, nh_ex kappa, size_t unknowns, const nh_ex *unknown)
+{
+    nh_rows *r = nh_alloc(sizeof *r);
+    size_t rows = 2 * a->factors + 1;
+    *r = (nh_rows){.ansatz = a, .tape = factor_tape(o, a, kappa, unknowns, unknown), .width = o->width, .unknowns = unknowns};
+    r->work = nh_tape_work_create(r->tape);
+    r->row = nh_alloc_array(rows, sizeof *r->row);
+    r->store = nh_alloc_array(rows * NH_BATCH, sizeof *r->store);
+    for (size_t i = 0; i < rows; i++) r->row[i] = r->store + i * NH_BATCH;
+    r->theta = nh_alloc_array(unknowns * NH_BATCH + 1, sizeof *r->theta);
+    r->value = nh_alloc_array(a->columns * NH_BATCH + 1, sizeof *r->value);
+    r->rate = nh_alloc_array(a->columns * NH_BATCH + 1, sizeof *r->rate);
+    r->in = nh_alloc_array(o->width + unknowns, sizeof *r->in);
+    return r;
+}
+
+nh_rows *nh_rows_create(const nh_model *model, const nh_ansatz *ansatz, size_t unknowns, const nh_ex *unknown)
+{
+    return prepare(model, ansatz, nh_int(model->dag, 0), unknowns, unknown);
+}
+
+void nh_rows_free(nh_rows *r)
+{
+    if (!r) return;
+    nh_tape_work_free(r->work);
+    nh_tape_free(r->tape);
+    nh_free(r->row);
+    nh_free(r->store);
+    nh_free(r->theta);
+    nh_free(r->value);
+    nh_free(r->rate);
+    nh_free(r->in);
+    nh_free(r);
+}
+
+/* One column by Leibniz' rule: value = prod f_i, rate = sum_i g_i prod_(j != i) f_j. */
+static void leibniz(const nh_column *c, size_t count, double *const *f, double *const *g, double *value, double *rate)
+{
+    for (size_t p = 0; p < count; p++) {
+        value[p] = 1;
+        rate[p] = 0;
+    }
+    for (size_t i = 0; i < c->count; i++) {
+        const double *fi = f[c->factor[i]], *gi = g[c->factor[i]];
+        for (size_t p = 0; p < count; p++) {
+            rate[p] = rate[p] * fi[p] + value[p] * gi[p];
+            value[p] *= fi[p];
+        }
+    }
+}
+
+/* Columns' values and rates at points start .. start+count-1, column-major with leading dimension NH_BATCH. */
+static size_t run(nh_rows *r, const nh_points *points, size_t start)
+{
+    const nh_ansatz *a = r->ansatz;
+    size_t left = points->count - start, count = left < NH_BATCH ? left : NH_BATCH;
+    for (size_t j = 0; j < points->width; j++) r->in[j] = points->column[j] + start;
+    for (size_t j = 0; j < r->unknowns; j++) r->in[points->width + j] = r->theta + j * NH_BATCH;
+    nh_tape_eval_batch(r->tape, r->work, count, r->in, r->row);
+    for (size_t j = 0; j < a->columns; j++)
+        leibniz(&a->column[j], count, r->row, r->row + a->factors, r->value + j * NH_BATCH, r->rate + j * NH_BATCH);
+    return count;
+}
+
+void nh_rows_current(nh_rows *r, const nh_points *points, const double *theta, nh_equations *equations)
+{
+    for (size_t j = 0; j < r->unknowns; j++)
+        for (size_t p = 0; p < NH_BATCH; p++) r->theta[j * NH_BATCH + p] = theta[j];
+    for (size_t start = 0; start < points->count; start += NH_BATCH) {
+        size_t count = run(r, points, start);
+        for (size_t j = 0; j < r->ansatz->columns; j++)
+            for (size_t p = 0; p < count; p++) r->rate[j * NH_BATCH + p] *= points->weight[start + p];
+        nh_equations_add(equations, count, r->rate, NH_BATCH);
+        nh_equations_add_values(equations, count, r->value, NH_BATCH);
+    }
+}
+
+void nh_rows_pencil(const nh_model *o, const nh_ansatz *a, nh_ex kappa, const nh_points *points, double *A, double *B)
+{
+    nh_rows *r = prepare(o, a, kappa, 0, NULL);
+    const double *k = r->row[2 * a->factors];
+    for (size_t start = 0; start < points->count; start += NH_BATCH) {
+        size_t count = run(r, points, start);
+        for (size_t j = 0; j < a->columns; j++)
+            for (size_t p = 0; p < count; p++) {
+                double w = points->weight[start + p];
+                A[j * points->count + start + p] = w * r->rate[j * NH_BATCH + p];
+                B[j * points->count + start + p] = w * k[p] * r->value[j * NH_BATCH + p];
+            }
+    }
+    nh_rows_free(r);
+}
+
+/* ---- symmetry route ---- */
+
+static void add_column(nh_field_column *list, size_t *count, size_t slot, nh_ex e, nh_dag *dag)
+{
+    if (nh_is_zero(dag, e)) return;
+    if (nh_kind_of(dag, e) == NH_PRODUCT) { /* a numeric factor makes no new column */
+        nh_num c = nh_constant_of(dag, e);
+        if (!nh_num_is(c, 1)) e = nh_mul(dag, e, nh_number(dag, nh_num_inv(c)));
+    }
+    if (nh_kind_of(dag, e) == NH_NUMBER) e = nh_int(dag, 1);
+    for (size_t i = 0; i < *count; i++)
+        if (list[i].slot == slot && list[i].function == e) return;
+    list[(*count)++] = (nh_field_column){slot, e};
+}
+
+size_t nh_rows_field_columns(const nh_model *o, size_t n, const nh_ex *b, nh_field_column **out)
+{
+    nh_dag *d = o->dag;
+    nh_field_column *list = nh_arena_alloc(o->arena, (n * (o->n + 1) + 1) * sizeof *list);
+    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
+    size_t count = 0;
+    for (size_t j = 0; j < n; j++) {
+        nh_ex z0 = b[j];
+        for (size_t i = 0; i < o->n; i++) zeta[i] = nh_model_Y(o, i, b[j]);
+        nh_lu_solve(o->M_lu, zeta, zeta);
+        for (size_t i = 0; i < o->n; i++) {
+            zeta[i] = nh_simplify(d, zeta[i]);
+            z0 = nh_sub(d, z0, nh_mul(d, o->pbar[i], zeta[i]));
+            add_column(list, &count, i + 1, zeta[i], d);
+        }
+        add_column(list, &count, 0, nh_simplify(d, z0), d);
+    }
+    nh_free(zeta);
+    *out = list;
+    return count;
+}
+
+nh_ex nh_rows_field_current(const nh_model *o, const nh_field_column *c)
+{
+    return c->slot == 0 ? c->function : nh_mul(o->dag, o->pbar[c->slot - 1], c->function);
+}
+
+/* How much the field varies: its own part of Phi, slot by slot.  (Phi alone would not do: z0 = g and zeta = g/pbar have the same Phi
+ * and are different fields.)  Centred per slot, so that Phi = const stays trivial. */
+static void field_values(size_t n, const nh_field_column *column, size_t slot, size_t per, size_t count, const double *value, double *block)
+{
+    memset(block, 0, n * count * sizeof *block);
+    for (size_t c = 0; c < n; c++) {
+        const double *from = value + c * per * count;
+        double mean = 0;
+        if (column[c].slot != slot) continue;
+        for (size_t p = 0; p < count; p++) mean += from[p] / (double)count;
+        for (size_t p = 0; p < count; p++) block[c * count + p] = from[p] - mean;
+    }
+}
+
+void nh_rows_symmetry(const nh_model *o, size_t n, const nh_field_column *column, const nh_points *points, nh_equations *equations)
+{
+    nh_dag *d = o->dag;
+    size_t per = o->n + 2; /* Phi, (N0), (NY)_1..n */
+    nh_ex *e = nh_alloc_array(n * per + 1, sizeof *e);
+    for (size_t c = 0; c < n; c++) {
+        nh_ex phi = nh_rows_field_current(o, &column[c]), n0 = nh_model_X0(o, phi);
+        size_t i = column[c].slot - 1;
+        bool zeta = column[c].slot > 0;
+        if (zeta) n0 = nh_add(d, n0, nh_mul(d, o->A[i], column[c].function));
+        e[c * per] = phi;
+        e[c * per + 1] = n0;
+        for (size_t j = 0; j < o->n; j++) {
+            nh_ex ny = nh_model_Y(o, j, phi);
+            if (zeta) ny = nh_sub(d, ny, nh_mul(d, o->M[i * o->n + j], column[c].function));
+            e[c * per + 2 + j] = ny;
+        }
+    }
+    double *value = nh_alloc_array(n * per * points->count + 1, sizeof *value);
+    nh_points_evaluate(points, o, n * per, e, value);
+    double *block = nh_alloc_array(n * points->count + 1, sizeof *block);
+    for (size_t q = 1; q < per; q++) {
+        for (size_t c = 0; c < n; c++) {
+            const double *from = value + (c * per + q) * points->count;
+            for (size_t p = 0; p < points->count; p++) block[c * points->count + p] = points->weight[p] * from[p];
+        }
+        nh_equations_add(equations, points->count, block, points->count);
+    }
+    for (size_t slot = 0; slot <= o->n; slot++) {
+        field_values(n, column, slot, per, points->count, value, block);
+        nh_equations_add_values(equations, points->count, block, points->count);
+    }
+    nh_free(block);
+    nh_free(value);
+    nh_free(e);
+}

@@ -1,0 +1,213 @@
+#include "noether/symmetry.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/diff.h"
+#include "expr/normal.h"
+
+static nh_ex *take(nh_model *o, size_t n) { return nh_arena_alloc(o->arena, (n + 1) * sizeof(nh_ex)); }
+
+nh_ex nh_symmetry_current(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
+{
+    nh_ex phi = nh_mul(o->dag, o->Lbar, Z0);
+    for (size_t i = 0; i < o->n; i++) phi = nh_add(o->dag, phi, nh_mul(o->dag, o->pbar[i], zeta[i]));
+    return phi;
+}
+
+void nh_symmetry_equations(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W, nh_ex *out)
+{
+    nh_dag *d = o->dag;
+    size_t n = o->n;
+    out[0] = nh_model_X0(o, phi);
+    for (size_t i = 0; i < n; i++) out[0] = nh_add(d, out[0], nh_mul(d, o->A[i], zeta[i]));
+    for (size_t j = 0; j < n; j++) {
+        nh_ex nx = nh_sub(d, nh_model_X(o, j, phi), nh_mul(d, o->A[j], Z0)), ny = nh_model_Y(o, j, phi);
+        for (size_t i = 0; i < n; i++) {
+            nx = nh_add(d, nx, nh_mul(d, o->G[i * n + j], zeta[i]));
+            nx = nh_add(d, nx, nh_mul(d, o->M[i * n + j], W[i]));
+            ny = nh_sub(d, ny, nh_mul(d, o->M[i * n + j], zeta[i]));
+        }
+        out[1 + j] = nx;
+        out[1 + n + j] = ny;
+    }
+}
+
+/* zeta, Z^0, W and the field's components in the chart. */
+static void solve_components(nh_model *o, nh_symmetry *z)
+{
+    nh_dag *d = o->dag;
+    size_t n = o->n, m = o->m;
+    for (size_t i = 0; i < n; i++) z->zeta[i] = nh_model_Y(o, i, z->phi);
+    nh_lu_solve(o->M_lu, z->zeta, z->zeta);
+    nh_ex rest = z->phi;
+    for (size_t i = 0; i < n; i++) {
+        z->zeta[i] = nh_simplify(d, z->zeta[i]);
+        rest = nh_sub(d, rest, nh_mul(d, o->pbar[i], z->zeta[i]));
+    }
+    z->Z0 = nh_simplify(d, nh_div(d, rest, o->Lbar));
+    for (size_t j = 0; j < n; j++) {
+        nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
+        for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
+        z->W[j] = b;
+    }
+    nh_lu_solve(o->M_lu, z->W, z->W);
+    z->field = (nh_field){z->Z0, take(o, m), take(o, n)};
+    for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = nh_simplify(d, z->W[i]);
+    for (size_t s = 0; s < m; s++) {
+        nh_ex e = nh_mul(d, o->rho[s], z->Z0);
+        for (size_t i = 0; i < n; i++) e = nh_add(d, e, nh_mul(d, o->R[s * n + i], z->zeta[i]));
+        z->field.space[s] = nh_simplify(d, e);
+    }
+    for (size_t s = 0; s < m; s++) z->coordinate_rate[s] = nh_simplify(d, nh_model_along(o, &z->field, o->rho[s]));
+}
+
+/* The two halves of each bracket component: what is differentiated along Gamma, and what along Z. */
+static void bracket_halves(const nh_model *o, const nh_symmetry *z, nh_ex *first, nh_ex *second)
+{
+    size_t k = 0;
+    first[k] = nh_model_gamma(o, z->Z0);
+    second[k++] = nh_int(o->dag, 0);
+    for (size_t s = 0; s < o->m; s++, k++) {
+        first[k] = nh_model_gamma(o, z->field.space[s]);
+        second[k] = nh_model_along(o, &z->field, o->rho[s]);
+    }
+    for (size_t i = 0; i < o->n; i++, k++) {
+        first[k] = nh_model_gamma(o, z->W[i]);
+        second[k] = nh_model_along(o, &z->field, o->a[i]);
+    }
+}
+
+static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex *second)
+{
+    nh_dag *d = o->dag;
+    z->bracket = (nh_field){nh_simplify(d, first[0]), take(o, o->m), take(o, o->n)};
+    for (size_t s = 0; s < o->m; s++) z->bracket.space[s] = nh_simplify(d, nh_sub(d, first[1 + s], second[1 + s]));
+    for (size_t i = 0; i < o->n; i++)
+        z->bracket.velocity[i] = nh_simplify(d, nh_sub(d, first[1 + o->m + i], second[1 + o->m + i]));
+    for (size_t a = 0; a < o->k; a++) {
+        nh_ex e = nh_int(d, 0);
+        for (size_t s = 0; s < o->m; s++) {
+            nh_ex part = nh_sub(d, z->bracket.space[s], nh_mul(d, o->rho[s], z->bracket.time));
+            e = nh_add(d, e, nh_mul(d, o->nu[a * o->m + s], part));
+        }
+        z->bracket_form[a] = nh_simplify(d, e);
+    }
+}
+
+/* ---- deciding the case at points ---- */
+
+typedef struct {
+    size_t width, forms;  /* 1 + m + n; k */
+    double *gamma, *z, *b, *scale, *form, *form_scale; /* at one point */
+} local;
+
+/* r = b - b^0 Gamma against z' = Z - Z^0 Gamma: 1 when r vanishes, 2 when parallel, 3 otherwise, 0 when not finite. */
+static int case_at(const local *l, double same)
+{
+    double r2 = 0, z2 = 0, rz = 0, scale = 0, zscale = 0;
+    for (size_t j = 0; j < l->width; j++) {
+        double r = l->b[j] - l->b[0] * l->gamma[j], z = l->z[j] - l->z[0] * l->gamma[j];
+        r2 += r * r;
+        z2 += z * z;
+        rz += r * z;
+        scale = fmax(scale, l->scale[j] + fabs(l->b[0] * l->gamma[j]));
+        zscale = fmax(zscale, fabs(l->z[j]) + fabs(l->z[0] * l->gamma[j]));
+    }
+    if (!isfinite(r2 + z2 + rz + scale)) return 0;
+    if (sqrt(r2) <= same * scale) return 1;
+    if (sqrt(z2) <= same * zscale) return 3;
+    double across = sqrt(fmax(0, r2 - rz * rz / z2));
+    return across <= sqrt(same) * 1e-3 * sqrt(r2) ? 2 : 3;
+}
+
+static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const nh_ex *first, const nh_ex *second, double same)
+{
+    size_t width = 1 + o->m + o->n, total = 4 * width + o->k, count = points->count;
+    nh_ex *e = nh_alloc_array(total, sizeof *e);
+    e[0] = nh_int(o->dag, 1);
+    memcpy(e + 1, o->rho, o->m * sizeof *e);
+    memcpy(e + 1 + o->m, o->a, o->n * sizeof *e);
+    e[width] = z->Z0;
+    memcpy(e + width + 1, z->field.space, o->m * sizeof *e);
+    memcpy(e + width + 1 + o->m, z->W, o->n * sizeof *e);
+    memcpy(e + 2 * width, first, width * sizeof *e);
+    memcpy(e + 3 * width, second, width * sizeof *e);
+    memcpy(e + 4 * width, z->bracket_form, o->k * sizeof *e);
+    double *value = nh_alloc_array(total * count, sizeof *value), *at = nh_alloc_array(total + width, sizeof *at);
+    nh_points_evaluate(points, o, total, e, value);
+    int worst = 1;
+    bool inside = true, decided = false;
+    for (size_t p = 0; p < count; p++) {
+        for (size_t j = 0; j < total; j++) at[j] = value[j * count + p];
+        double scale = 0, *b = at + 2 * width, *second_half = at + 3 * width, *sizes = at + total;
+        for (size_t j = 0; j < width; j++) {
+            sizes[j] = fabs(b[j]) + fabs(second_half[j]);
+            b[j] -= second_half[j];
+            scale = fmax(scale, sizes[j]);
+        }
+        local l = {width, o->k, at, at + width, b, sizes, NULL, NULL};
+        int kase = case_at(&l, same);
+        if (kase == 0) continue;
+        decided = true;
+        if (kase > worst) worst = kase;
+        for (size_t a = 0; a < o->k; a++) inside &= fabs(at[4 * width + a]) <= same * 10 * fmax(scale, 1e-300);
+    }
+    z->kase = decided ? worst : 0;
+    z->bracket_in_distribution = inside;
+    nh_free(at);
+    nh_free(value);
+    nh_free(e);
+}
+
+/* The largest residual of the constraint Noether equations, relative to the largest of their terms. */
+static double residual(nh_model *o, const nh_points *points, const nh_symmetry *z)
+{
+    size_t n = 1 + 2 * o->n, count = points->count;
+    nh_ex *e = nh_alloc_array(2 * n + 1, sizeof *e);
+    nh_symmetry_equations(o, z->phi, z->Z0, z->zeta, z->W, e);
+    e[n] = nh_model_X0(o, z->phi);
+    for (size_t j = 0; j < o->n; j++) {
+        e[n + 1 + j] = nh_model_X(o, j, z->phi);
+        e[n + 1 + o->n + j] = nh_model_Y(o, j, z->phi);
+    }
+    e[2 * n] = z->phi;
+    double *value = nh_alloc_array((2 * n + 1) * count, sizeof *value), worst = 0;
+    nh_points_evaluate(points, o, 2 * n + 1, e, value);
+    for (size_t p = 0; p < count; p++) {
+        double scale = 0;
+        for (size_t i = n; i < 2 * n; i++) scale = fmax(scale, fabs(value[i * count + p]));
+        for (size_t i = 0; i < n; i++) {
+            double r = fabs(value[i * count + p]) / fmax(scale, 1e-300);
+            if (isfinite(r)) worst = fmax(worst, r);
+        }
+    }
+    nh_free(value);
+    nh_free(e);
+    return worst;
+}
+
+static bool is_projectable(nh_model *o, const nh_symmetry *z)
+{
+    for (size_t i = 0; i < o->n; i++) {
+        if (nh_normal_is_zero(o->dag, nh_model_Y(o, i, z->Z0), 0) != NH_ZERO) return false;
+        for (size_t s = 0; s < o->m; s++)
+            if (nh_normal_is_zero(o->dag, nh_model_Y(o, i, z->field.space[s]), 0) != NH_ZERO) return false;
+    }
+    return true;
+}
+
+bool nh_symmetry_of(nh_model *o, const nh_points *points, nh_ex phi, double same, nh_symmetry *z, nh_error *error)
+{
+    *z = (nh_symmetry){.phi = phi, .zeta = take(o, o->n), .W = take(o, o->n), .coordinate_rate = take(o, o->m), .bracket_form = take(o, o->k)};
+    if (nh_normal_is_zero(o->dag, o->Lbar, 0) == NH_ZERO)
+        return nh_fail(error, NH_NUMERIC, "", "the constrained Lagrangian vanishes identically, so currents have no symmetry of Noether type");
+    solve_components(o, z);
+    nh_ex *first = take(o, 1 + o->m + o->n), *second = take(o, 1 + o->m + o->n);
+    bracket_halves(o, z, first, second);
+    bracket(o, z, first, second);
+    decide(o, points, z, first, second, same);
+    z->projectable = is_projectable(o, z);
+    z->noether_residual = residual(o, points, z);
+    return true;
+}

@@ -1,0 +1,39 @@
+/* symmetry: the constraint symmetry of a current, and what kind it is.
+ *
+ * Where Lbar != 0 and M is regular every first integral is the Noether-type current of exactly one Chetaev field
+ * Z = Z^0 X_0 + zeta^i X_i + W^i Y_i  [CechMusilova2014, eq. 20]:
+ *
+ *     zeta = M^-1 dPhi/dw,   Z^0 = (Phi - pbar_i zeta^i) / Lbar,   W = M^-1 (A Z^0 - G^T zeta - X(Phi))
+ *
+ *     [Gamma,Z]^0 = Gamma(Z^0),  [Gamma,Z]^s = Gamma(Z^s) - Z(rho^s),  [Gamma,Z]^i = Gamma(W^i) - Z(a^i)
+ *     i_[Gamma,Z] phi^a = nu^a_s ([Gamma,Z]^s - rho^s [Gamma,Z]^0)                [CechMusilova2014, eq. 22]
+ *
+ * Case 1: [Gamma,Z] = a Gamma;  case 2: = a Gamma + b Z;  case 3: neither   [CechMusilova2014, sec. 3.3]. */
+#ifndef NH_SYMMETRY_H
+#define NH_SYMMETRY_H
+
+#include "noether/points.h"
+
+typedef struct {
+    nh_ex phi, Z0;
+    nh_ex *zeta, *W;          /* n */
+    nh_field field;           /* components in the chart: d/dt, d/dq (m), d/dw (n) */
+    nh_ex *coordinate_rate;   /* m: Z(rho^s), the component along d/dx' of a coordinate chart */
+    nh_field bracket;         /* [Gamma, Z] */
+    nh_ex *bracket_form;      /* k: i_[Gamma,Z] phi^a */
+    bool bracket_in_distribution, projectable;
+    int kase;                 /* 1, 2, 3; 0 when it could not be decided */
+    double noether_residual;  /* largest relative residual of (N0), (NX), (NY) over the points */
+} nh_symmetry;
+
+/* Expressions belong to the model's graph, arrays to its arena.  Fails where Lbar vanishes identically. `same`: relative size below
+ * which two fields are equal at a point. */
+bool nh_symmetry_of(nh_model *model, const nh_points *points, nh_ex phi, double same, nh_symmetry *out, nh_error *error);
+
+/* A field given by Z^0 and zeta: its current alpha(Z) = Lbar Z^0 + pbar_i zeta^i. */
+nh_ex nh_symmetry_current(const nh_model *model, nh_ex Z0, const nh_ex *zeta);
+
+/* (N0), (NX)_j, (NY)_j of a field Z with current phi, 1 + 2n expressions that vanish iff Z is a constraint symmetry. */
+void nh_symmetry_equations(const nh_model *model, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W, nh_ex *out);
+
+#endif

@@ -1,0 +1,313 @@
+#include "report/summary.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/print.h"
+#include "geometry/distribution.h"
+
+enum { line_width = 100 };
+
+typedef struct {
+    const nh_result *r;
+    nh_summary_style style;
+    nh_text *out;
+} writer;
+
+static void heading(writer *w, const char *text)
+{
+    nh_text_addf(w->out, "\n%s%s%s\n", w->style.colour ? "\033[1m" : "", text, w->style.colour ? "\033[0m" : "");
+}
+
+static void faint(writer *w, bool on)
+{
+    if (w->style.colour) nh_text_add(w->out, on ? "\033[2m" : "\033[0m");
+}
+
+/* "label = text", broken after operators so that nothing runs off the page. */
+static void formula(writer *w, int indent, const char *label, nh_ex e)
+{
+    char *text = nh_print_string(w->r->model->dag, e);
+    int at = indent + (int)nh_text_width(label), hang = at < 24 ? at : indent + 4;
+    nh_text_addf(w->out, "%*s%s", indent, "", label);
+    const char *rest = text;
+    while ((int)strlen(rest) > line_width - at) {
+        int cut = 0, depth = 0, room = line_width - at;
+        for (int i = 1; i < room; i++) { /* the last "+" or "-" of the outermost depth seen, else any */
+            if (rest[i] == '(') depth++;
+            if (rest[i] == ')') depth--;
+            if (rest[i] == ' ' && (rest[i + 1] == '+' || rest[i + 1] == '-')) cut = i;
+        }
+        if (!cut)
+            for (int i = 1; i < room; i++)
+                if (rest[i] == '*') cut = i;
+        if (!cut) break;
+        nh_text_add_n(w->out, rest, (size_t)cut);
+        nh_text_addf(w->out, "\n%*s", hang, "");
+        rest += cut + (rest[cut] == ' ');
+        at = hang;
+    }
+    nh_text_addf(w->out, "%s\n", rest);
+    nh_free(text);
+}
+
+/* ---- the system ---- */
+
+static void system_lines(writer *w)
+{
+    const nh_result *r = w->r;
+    const nh_system *s = r->system;
+    nh_distribution d = nh_distribution_of(r->model);
+    nh_text_addf(w->out, "%s%s%s", w->style.colour ? "\033[1m" : "", s->title, w->style.colour ? "\033[0m" : "");
+    for (size_t i = 0; i < s->parameters; i++) nh_text_addf(w->out, "%s%s = %.10g", i ? ", " : "   with ", s->parameter[i].name, s->parameter[i].value);
+    nh_text_addf(w->out, "\n%zu coordinate%s", s->coordinates, s->coordinates == 1 ? "" : "s");
+    if (s->constraints) {
+        nh_text_addf(w->out, ", %zu %s constraint%s%s", s->constraints, nh_constraint_type_name(d.type), s->constraints == 1 ? "" : "s",
+                     d.rheonomic ? ", time-dependent" : "");
+        nh_text_add(w->out, d.holonomic ? " (holonomic)" : d.semiholonomic ? " (semiholonomic)" : " (nonholonomic");
+        if (!d.holonomic && !d.semiholonomic) {
+            for (size_t i = 0; i < d.growth_length; i++) nh_text_addf(w->out, "%s%zu", i ? "," : "; growth vector ", d.growth[i]);
+            nh_text_add(w->out, ")");
+        }
+        if (d.hidden && !d.holonomic) nh_text_addf(w->out, "; %zu hidden holonomic constraint%s", d.hidden, d.hidden == 1 ? "" : "s");
+    } else {
+        nh_text_add(w->out, ", no constraints");
+    }
+    nh_text_addf(w->out, "; constraint submanifold of dimension %zu\n", 1 + r->model->m + r->model->n);
+}
+
+static void equations_of(writer *w, const nh_model *o)
+{
+    nh_text label;
+    for (size_t i = 0; i < o->n; i++) {
+        nh_text_init(&label);
+        nh_text_addf(&label, "%s' = ", nh_name_of(o->dag, o->chart->w[i]));
+        formula(w, 2, nh_text_string(&label), o->a[i]);
+        nh_text_clear(&label);
+    }
+}
+
+static void equations(writer *w)
+{
+    const nh_result *r = w->r;
+    nh_text title;
+    nh_text_init(&title);
+    nh_text_addf(&title, "Reduced equations in %s", r->model->chart->name);
+    heading(w, nh_text_string(&title));
+    nh_text_clear(&title);
+    equations_of(w, r->model);
+    if (r->other) {
+        nh_text_addf(w->out, "  and in %s:\n", r->other->chart->name);
+        equations_of(w, r->other);
+    }
+    for (size_t a = 0; a < r->model->k; a++) {
+        if (a == 0) heading(w, "Chetaev multipliers");
+        const nh_model *o = r->other ? r->other : r->model;
+        nh_text_addf(w->out, "  of %s:\n", r->system->constraint[a].text);
+        formula(w, 4, "mu = ", o->mu[a]);
+    }
+}
+
+/* ---- currents ---- */
+
+static const char *case_text(int kase)
+{
+    switch (kase) {
+    case 1: return "case 1: Z is also a symmetry of the equations of motion";
+    case 2: return "case 2: [Gamma,Z] lies in the span of Gamma and Z";
+    case 3: return "case 3: Z is not a symmetry of the equations of motion";
+    default: return "the case could not be decided";
+    }
+}
+
+static void component(writer *w, nh_ex e, const char *along, bool *first)
+{
+    nh_dag *d = w->r->model->dag;
+    if (nh_is_zero(d, e)) return;
+    char *text = nh_print_string(d, e);
+    nh_text_addf(w->out, "%s", *first ? "        Z = " : "\n          + ");
+    if (nh_is_number(d, e, 1)) nh_text_addf(w->out, "d/d%s", along);
+    else nh_text_addf(w->out, nh_kind_of(d, e) == NH_SUM ? "(%s) d/d%s" : "%s d/d%s", text, along);
+    *first = false;
+    nh_free(text);
+}
+
+/* Components along time, coordinates and the velocities of the coordinate chart (the paper's basis) where there is one. */
+static void field_lines(writer *w, const nh_found *f)
+{
+    const nh_result *r = w->r;
+    const nh_model *o = r->model, *chart = r->other ? r->other : r->model;
+    const nh_symmetry *z = &f->symmetry;
+    bool first = true;
+    component(w, z->Z0, "t", &first);
+    for (size_t s = 0; s < o->m; s++) component(w, z->field.space[s], r->system->coordinate[s].name, &first);
+    for (size_t i = 0; i < chart->n; i++) {
+        nh_ex e = 0;
+        if (!r->other) e = z->W[i];
+        else
+            for (size_t s = 0; s < o->m; s++)
+                if (chart->chart->w[i] == r->system->coordinate[s].v) e = z->coordinate_rate[s];
+        component(w, e, nh_name_of(o->dag, chart->chart->w[i]), &first);
+    }
+    nh_text_add(w->out, first ? "        Z = 0\n" : "\n");
+}
+
+static void certificate(writer *w, const nh_found *f)
+{
+    const nh_system *s = w->r->system;
+    nh_text_add(w->out, "        ");
+    if (f->proof.all_parameters) {
+        nh_text_add(w->out, s->parameters ? "proved for all " : "proved");
+        for (size_t i = 0; i < s->parameters; i++) nh_text_addf(w->out, "%s%s", i ? ", " : "", s->parameter[i].name);
+    } else if (f->proof.proved) {
+        nh_text_add(w->out, "proved for these parameter values");
+    } else {
+        nh_text_addf(w->out, "conserved to %.0f digits%s", f->proof.digits, f->exact ? " (not proved)" : " (coefficients fitted in double precision)");
+    }
+    nh_text_addf(w->out, "; held-out residual %.1e", f->heldout);
+    if (w->r->validation) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
+    nh_text_add(w->out, "\n");
+}
+
+static void bracket_lines(writer *w, const nh_found *f)
+{
+    const nh_result *r = w->r;
+    nh_text_addf(w->out, "        %s;\n        [Gamma,Z] %s the canonical distribution%s\n", case_text(f->symmetry.kase),
+                 f->symmetry.bracket_in_distribution ? "lies in" : "leaves", f->symmetry.projectable ? "; Z is a point symmetry" : "");
+    if (f->symmetry.bracket_in_distribution) return;
+    for (size_t a = 0; a < r->model->k; a++) {
+        nh_text label;
+        nh_text_init(&label);
+        nh_text_addf(&label, "i_[Gamma,Z] phi^%zu = ", a + 1);
+        formula(w, 8, nh_text_string(&label), f->symmetry.bracket_form[a]);
+        nh_text_clear(&label);
+    }
+}
+
+static void current(writer *w, const nh_found *f)
+{
+    nh_text_addf(w->out, "\n  %s%s%s", w->style.colour ? "\033[32m" : "", f->name, w->style.colour ? "\033[0m" : "");
+    if (f->meaning[0]) nh_text_addf(w->out, "  (%s)", f->meaning);
+    if (f->independence == NH_DEPENDENT) nh_text_addf(w->out, "  depends on the currents above%s%s", f->relation ? ": " : "", f->relation ? f->relation : "");
+    if (f->independence == NH_DOUBTFUL) nh_text_addf(w->out, "  perhaps dependent on the currents above (gradient fraction %.1e)", f->fraction);
+    if (f->independence == NH_CONSTANT) nh_text_add(w->out, "  constant on the submanifold");
+    if (f->local) nh_text_add(w->out, "  [local: many-valued on an angle]");
+    nh_text_add(w->out, "\n");
+    formula(w, 8, "", f->phi);
+    if (f->has_symmetry) field_lines(w, f);
+    faint(w, true);
+    certificate(w, f);
+    if (f->has_symmetry) bracket_lines(w, f);
+    faint(w, false);
+}
+
+static void answer(writer *w)
+{
+    const nh_result *r = w->r;
+    static const char *const verdicts[] = {"FOUND", "NONE", "UNDECIDED"};
+    nh_text title;
+    nh_text_init(&title);
+    if (r->count == 0) nh_text_addf(&title, "%s: no current in this ansatz", verdicts[r->verdict]);
+    else nh_text_addf(&title, "%s: %zu independent current%s of at most %zu", verdicts[r->verdict], r->independent, r->independent == 1 ? "" : "s", r->local_maximum);
+    heading(w, nh_text_string(&title));
+    nh_text_clear(&title);
+    for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);
+}
+
+/* ---- evidence ---- */
+
+static void spectrum_line(writer *w, const char *name, const nh_spectrum *s)
+{
+    if (!s->done) return;
+    nh_text_addf(w->out, "  %-15s %zu columns (%zu independent), %zu rows: ", name, s->columns, s->rank, s->rows);
+    if (s->rank == 0) nh_text_add(w->out, "no column varies on the samples\n");
+    else if (s->dimension == 0) nh_text_addf(w->out, "no null value; the smallest of the spectrum is %.2g\n", s->spectrum[0]);
+    else {
+        nh_text_addf(w->out, "%zu null value%s up to %.1e", s->dimension, s->dimension == 1 ? "" : "s", s->spectrum[s->dimension - 1]);
+        if (s->dimension < s->rank) nh_text_addf(w->out, ", then %.2g: gap %.0e\n", s->spectrum[s->dimension], s->gap);
+        else nh_text_add(w->out, ", and nothing else\n");
+    }
+}
+
+static void unknowns(writer *w)
+{
+    const nh_result *r = w->r;
+    if (!r->hits) return;
+    nh_text_add(w->out, "  unknown         ");
+    for (size_t j = 0; j < r->hits->unknowns; j++) {
+        const nh_unknown *u = &r->analysis->unknown[j];
+        nh_text_addf(w->out, "%s%s in [%g, %g]", j ? ", " : "", nh_name_of(r->model->dag, u->symbol), u->low, u->high);
+    }
+    if (r->specials == 0) nh_text_addf(w->out, ": no value gives a current (smallest singular value %.1e)", r->hits->best);
+    for (size_t k = 0; k < r->specials; k++) {
+        const nh_special *s = &r->special[k];
+        nh_text_add(w->out, k ? ";" : ":");
+        for (size_t j = 0; j < r->hits->unknowns; j++) {
+            nh_text_addf(w->out, " %s = ", nh_name_of(r->model->dag, r->analysis->unknown[j].symbol));
+            if (s->recognised[j]) nh_print(r->model->dag, s->recognised[j], w->out);
+            nh_text_addf(w->out, "%s%.15g", s->recognised[j] ? " = " : "", s->value[j]);
+        }
+        if (s->hit->by_pencil && s->hit->by_search) nh_text_addf(w->out, " (eigenvalue pencil and NLopt agree to %.0e)", fmax(s->hit->difference, 1e-16));
+        else nh_text_addf(w->out, " (by %s)", s->hit->by_pencil ? "eigenvalue pencil" : "NLopt");
+    }
+    nh_text_add(w->out, "\n");
+}
+
+static void evidence(writer *w)
+{
+    const nh_result *r = w->r;
+    heading(w, "How it was found");
+    nh_text_addf(w->out, "  ansatz          %s\n  samples         %zu points, %zu rejected\n", r->ansatz_note, r->samples, r->rejected);
+    unknowns(w);
+    spectrum_line(w, "current route", &r->current);
+    spectrum_line(w, "symmetry route", &r->symmetry);
+    if (r->routes_compared)
+        nh_text_addf(w->out, "  the two routes %s: angle %.0e between the spaces found\n", r->routes_agree ? "agree" : "DISAGREE", fmax(r->routes_angle, 1e-16));
+}
+
+/* The watched quantities at a few times. */
+static void watched(writer *w, const nh_validation *v)
+{
+    enum { rows = 5 };
+    if (!v->watches || v->count < rows) return;
+    nh_text_addf(w->out, "  %10s", "t");
+    for (size_t j = 0; j < v->watches; j++) nh_text_addf(w->out, "%14s", v->watch_name[j]);
+    for (size_t i = 0; i < rows; i++) {
+        size_t at = i * (v->count - 1) / (rows - 1);
+        nh_text_addf(w->out, "\n  %10.4g", v->time[at]);
+        for (size_t j = 0; j < v->watches; j++) nh_text_addf(w->out, "%14.8g", v->watch[at * v->watches + j]);
+    }
+    nh_text_add(w->out, "\n");
+}
+
+static void motion(writer *w)
+{
+    const nh_validation *v = w->r->validation;
+    if (!v) return;
+    heading(w, "Checked along a motion");
+    nh_text_addf(w->out, "  %s in %s, t = %g to %.6g, %ld evaluations\n", v->method, v->chart, v->begin, v->end, v->evaluations);
+    if (!isnan(v->crossing))
+        nh_text_addf(w->out, "  the chart of %s breaks down at t = %.4g; this one is regular there\n", v->crossing_chart, v->crossing);
+    if (v->currents && w->style.verbose) {
+        nh_text_addf(w->out, "  drift at tolerance%10.0e%10.0e%10.0e\n", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
+        for (size_t k = 0; k < v->currents; k++)
+            nh_text_addf(w->out, "  %-18s%10.1e%10.1e%10.1e\n", w->r->found[k].name, v->current[k].drift[0], v->current[k].drift[1], v->current[k].drift[2]);
+    }
+    watched(w, v);
+    if (v->multiplier_form)
+        nh_text_addf(w->out, "  multiplier form (%s): states agree to %.0e, multipliers to %.0e, constraints hold to %.0e\n", v->multiplier_method,
+                     v->state_difference, v->multiplier_difference, v->violation);
+}
+
+void nh_summary(const nh_result *r, nh_summary_style style, nh_text *out)
+{
+    writer w = {r, style, out};
+    system_lines(&w);
+    answer(&w);
+    equations(&w);
+    evidence(&w);
+    motion(&w);
+    for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%s  warning: %s\n", i ? "" : "\n", r->warning[i]);
+    nh_text_addf(out, "\n%.0f ms (geometry %.0f, unknowns %.0f, null space %.0f, currents %.0f, motion %.0f)\n", 1e3 * r->timing.total, 1e3 * r->timing.geometry,
+                 1e3 * r->timing.unknowns, 1e3 * (r->timing.samples + r->timing.nullspace), 1e3 * r->timing.currents, 1e3 * r->timing.validation);
+}

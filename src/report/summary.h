@@ -1,0 +1,14 @@
+/* summary: the short report on a terminal. */
+#ifndef NH_SUMMARY_H
+#define NH_SUMMARY_H
+
+#include "base/text.h"
+#include "study/result.h"
+
+typedef struct {
+    bool colour, verbose;
+} nh_summary_style;
+
+void nh_summary(const nh_result *result, nh_summary_style style, nh_text *out);
+
+#endif

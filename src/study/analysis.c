@@ -1,0 +1,394 @@
+#include "study/analysis.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "expr/parse.h"
+
+/* ---- before the system ---- */
+
+static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz", "unknowns", "samples", "seed", "validate", "scene",
+                                       "definitions", "chart", "title", "doc"};
+enum { top_key_count = sizeof top_keys / sizeof *top_keys };
+
+static bool choice(const nh_deck *deck, const nh_deck_node *node, const char *what, size_t n, const char *const *names, size_t *out, nh_error *error)
+{
+    if (!node) return true;
+    if (!nh_deck_is(deck, node, NH_DECK_SCALAR, what, error)) return false;
+    for (*out = 0; *out < n; ++*out)
+        if (!strcmp(node->text, names[*out])) return true;
+    nh_deck_fail(deck, node, 0, error, "unknown %s `%s`", what, node->text);
+    const char *near = nh_text_nearest(node->text, names, n);
+    return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "expected %s, ..., or %s", names[0], names[n - 1]);
+}
+
+static bool read_settings(nh_analysis *a, const nh_deck_node *map, nh_error *error)
+{
+    if (!map) return true;
+    if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "set", error)) return false;
+    a->setting = nh_arena_alloc(a->arena, (map->count + 1) * sizeof *a->setting);
+    for (size_t i = 0; i < map->count; i++) {
+        a->setting[i].name = map->key[i]->text;
+        if (!nh_deck_number(a->deck, map->item[i], "the value of a parameter", &a->setting[i].value, error)) return false;
+    }
+    a->settings = map->count;
+    return true;
+}
+
+static bool read_head(nh_analysis *a, nh_error *error)
+{
+    static const char *const routes[] = {"both", "symmetry", "current"}, *const charts[] = {"auto", "quasi", "coordinates"};
+    const nh_deck_node *root = nh_deck_root(a->deck), *node;
+    size_t index = 0;
+    if (!nh_deck_is(a->deck, root, NH_DECK_MAP, "an analysis file (system: ..., ansatz: ...)", error)) return false;
+    if (!nh_deck_only(a->deck, root, top_keys, top_key_count, error)) return false;
+    node = nh_deck_get(root, "name");
+    a->name = node && node->kind == NH_DECK_SCALAR ? node->text : "analysis";
+    node = nh_deck_get(root, "system");
+    a->system = node && node->kind == NH_DECK_SCALAR ? node->text : NULL;
+    if (!choice(a->deck, nh_deck_get(root, "route"), "route", 3, routes, &index, error)) return false;
+    a->route = (nh_route)index;
+    index = 0;
+    if (!choice(a->deck, nh_deck_get(root, "chart"), "chart", 3, charts, &index, error)) return false;
+    a->chart = (nh_chart_choice)index;
+    long whole;
+    if ((node = nh_deck_get(root, "samples"))) {
+        if (!nh_deck_whole(a->deck, node, "samples", 16, 10000000, &whole, error)) return false;
+        a->samples = (double)whole;
+        a->has_samples = true;
+    }
+    if ((node = nh_deck_get(root, "seed"))) {
+        if (!nh_deck_whole(a->deck, node, "seed", 0, 1000000000, &whole, error)) return false;
+        a->seed = (double)whole;
+        a->has_seed = true;
+    }
+    return read_settings(a, nh_deck_get(root, "set"), error);
+}
+
+nh_analysis *nh_analysis_read(const char *path, nh_error *error)
+{
+    nh_deck *deck = nh_deck_read(path, error);
+    if (!deck) return NULL;
+    nh_arena *arena = nh_arena_create();
+    nh_analysis *a = nh_arena_alloc(arena, sizeof *a);
+    a->arena = arena;
+    a->deck = deck;
+    if (read_head(a, error)) return a;
+    nh_analysis_free(a);
+    return NULL;
+}
+
+void nh_analysis_free(nh_analysis *analysis)
+{
+    if (!analysis) return;
+    nh_deck_free(analysis->deck);
+    nh_arena_free(analysis->arena);
+}
+
+/* ---- expressions of the chart ---- */
+
+bool nh_analysis_to_chart(const nh_model *o, nh_ex e, nh_ex *out, nh_error *error)
+{
+    nh_system *s = o->system;
+    bool quasi_used = false;
+    for (size_t i = 0; i < s->quasi; i++) quasi_used |= nh_depends(s->dag, e, s->quasi_velocity[i]);
+    if (quasi_used && !o->chart->quasi) {
+        nh_chart *chart = nh_chart_create(s, NH_CHART_QUASI, 1, error);
+        if (!chart) return false;
+        nh_ex *w = nh_alloc_array(s->quasi + 1, sizeof *w);
+        bool good = nh_chart_inverse(chart, w);
+        if (good) e = nh_substitute(s->dag, e, s->quasi, s->quasi_velocity, w);
+        nh_free(w);
+        nh_chart_free(chart);
+        if (!good) return nh_fail(error, NH_NUMERIC, "", "quasi-velocities that depend nonlinearly on the velocities cannot be used in this chart");
+    }
+    *out = nh_model_compose(o, e);
+    return true;
+}
+
+/* ---- after the system: a reader with the names of the analysis ---- */
+
+typedef struct {
+    nh_analysis *a;
+    const nh_model *model;
+    const nh_deck_node *root;
+    nh_named *extra; /* E, Lbar, unknowns, definitions */
+    size_t extras;
+    nh_error *error;
+} reader;
+
+static void *take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->a->arena, (count + 1) * size); }
+
+static bool parse(reader *r, const nh_deck_node *node, nh_ex *out)
+{
+    if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "an expression", r->error)) return false;
+    nh_ex e;
+    return nh_system_expression(r->model->system, r->a->deck, node, r->extras, r->extra, &e, r->error)
+           && nh_analysis_to_chart(r->model, e, out, r->error);
+}
+
+static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
+{
+    nh_ex taken;
+    if (!nh_is_name(name) || nh_is_reserved(name)) return nh_deck_fail(r->a->deck, node, 0, r->error, "`%s` cannot be used as a name", name);
+    if (nh_symbol_find(r->model->dag, name, &taken)) return nh_deck_fail(r->a->deck, node, 0, r->error, "`%s` is already a name of the system", name);
+    return true;
+}
+
+static bool read_unknowns(reader *r)
+{
+    const nh_deck_node *map = nh_deck_get(r->root, "unknowns");
+    if (!map) return true;
+    if (!nh_deck_is(r->a->deck, map, NH_DECK_MAP, "unknowns {nu: [low, high]}", r->error)) return false;
+    r->a->unknown = take(r, map->count, sizeof *r->a->unknown);
+    for (size_t i = 0; i < map->count; i++) {
+        double range[2];
+        const char *name = map->key[i]->text;
+        if (!name_is_free(r, map->key[i], name)) return false;
+        if (!nh_deck_range(r->a->deck, map->item[i], "an interval [low, high]", range, r->error)) return false;
+        nh_ex symbol = nh_symbol(r->model->dag, name);
+        r->a->unknown[i] = (nh_unknown){symbol, range[0], range[1]};
+        r->extra[r->extras++] = (nh_named){.name = name, .value = symbol};
+        r->a->unknowns = i + 1;
+    }
+    return true;
+}
+
+/* "name = expression" */
+static bool read_assignment(reader *r, const nh_deck_node *node, nh_named *out)
+{
+    if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "a definition `name = expression`", r->error)) return false;
+    const char *equal = strchr(node->text, '=');
+    if (!equal) return nh_deck_fail(r->a->deck, node, 0, r->error, "a definition `name = expression` was expected, but there is no `=`");
+    size_t n = (size_t)(equal - node->text);
+    char *copy = nh_arena_strdup(r->a->arena, node->text);
+    memset(copy, ' ', n + 1);
+    while (n && node->text[n - 1] == ' ') n--;
+    *out = (nh_named){.name = nh_arena_strndup(r->a->arena, node->text, n), .text = equal + 1 + strspn(equal + 1, " ")};
+    nh_deck_node right = *node;
+    right.text = copy;
+    return parse(r, &right, &out->value);
+}
+
+static bool read_assignments(reader *r, const nh_deck_node *list, const char *what, bool visible, nh_named **out, size_t *count)
+{
+    if (!list) return true;
+    if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, what, r->error)) return false;
+    *out = take(r, list->count, sizeof **out);
+    for (size_t i = 0; i < list->count; i++) {
+        if (!read_assignment(r, list->item[i], &(*out)[i])) return false;
+        if (visible && !nh_is_name((*out)[i].name)) return nh_deck_fail(r->a->deck, list->item[i], 0, r->error, "`%s` is not a name", (*out)[i].name);
+        if (visible) r->extra[r->extras++] = (*out)[i];
+        *count = i + 1;
+    }
+    return true;
+}
+
+/* ---- families ---- */
+
+static bool read_in(reader *r, const nh_deck_node *item, nh_family *f)
+{
+    const nh_deck_node *in = nh_deck_get(item, "in");
+    if (!in) return nh_deck_fail(r->a->deck, item, 0, r->error, "this family has no `in`: functions of what?");
+    size_t n = in->kind == NH_DECK_LIST ? in->count : 1;
+    nh_ex *list = take(r, n, sizeof *list);
+    for (size_t i = 0; i < n; i++)
+        if (!parse(r, in->kind == NH_DECK_LIST ? in->item[i] : in, &list[i])) return false;
+    f->in = list;
+    f->in_count = n;
+    return true;
+}
+
+static bool read_size(reader *r, const nh_deck_node *item, const char *key, long fallback, size_t *out)
+{
+    const nh_deck_node *node = nh_deck_get(item, key);
+    long value = fallback;
+    if (node && !nh_deck_whole(r->a->deck, node, key, 0, 200, &value, r->error)) return false;
+    if (value < 0) return nh_deck_fail(r->a->deck, item, 0, r->error, "this family needs a `%s`", key);
+    *out = (size_t)value;
+    return true;
+}
+
+static bool read_fourier(reader *r, const nh_deck_node *item, nh_family *f)
+{
+    const nh_deck_node *frequency = nh_deck_get(item, "frequency"), *constant = nh_deck_get(item, "constant");
+    f->kind = NH_FOURIER;
+    f->frequency = nh_int(r->model->dag, 1);
+    f->constant = frequency == NULL;
+    if (constant) f->constant = constant->text && !strcmp(constant->text, "true");
+    if (frequency && !parse(r, frequency, &f->frequency)) return false;
+    return read_in(r, item, f) && read_size(r, item, "harmonics", 1, &f->degree);
+}
+
+static bool read_terms(reader *r, const nh_deck_node *item, nh_family *f)
+{
+    const nh_deck_node *list = nh_deck_get(item, "terms");
+    if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "terms", r->error)) return false;
+    nh_ex *term = take(r, list->count, sizeof *term);
+    for (size_t i = 0; i < list->count; i++)
+        if (!parse(r, list->item[i], &term[i])) return false;
+    *f = (nh_family){.kind = NH_TERMS, .terms = list->count, .term = term};
+    return true;
+}
+
+static bool read_family(reader *r, const nh_deck_node *item, int depth, nh_family *f);
+
+static bool read_product(reader *r, const nh_deck_node *item, int depth, nh_family *f)
+{
+    const nh_deck_node *list = nh_deck_get(item, "product");
+    if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "product", r->error)) return false;
+    if (list->count == 0) return nh_deck_fail(r->a->deck, list, 0, r->error, "an empty product");
+    nh_family *part = take(r, list->count, sizeof *part);
+    for (size_t i = 0; i < list->count; i++)
+        if (!read_family(r, list->item[i], depth + 1, &part[i])) return false;
+    *f = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = list->count, .part = part};
+    return true;
+}
+
+static bool read_family(reader *r, const nh_deck_node *item, int depth, nh_family *f)
+{
+    static const char *const keys[] = {"basis", "in", "degree", "harmonics", "frequency", "constant", "terms", "product"};
+    static const char *const bases[] = {"polynomial", "fourier", "chebyshev"};
+    size_t basis = 0;
+    const nh_deck *deck = r->a->deck;
+    if (!nh_deck_is(deck, item, NH_DECK_MAP, "a family {basis: ..., in: ...}", r->error) || !nh_deck_only(deck, item, keys, 8, r->error)) return false;
+    if (depth > 4) return nh_deck_fail(deck, item, 0, r->error, "products nested too deeply");
+    if (nh_deck_get(item, "product")) return read_product(r, item, depth, f);
+    if (nh_deck_get(item, "terms")) return read_terms(r, item, f);
+    if (!nh_deck_get(item, "basis")) return nh_deck_fail(deck, item, 0, r->error, "a family needs `basis`, `terms` or `product`");
+    if (!choice(deck, nh_deck_get(item, "basis"), "basis", 3, bases, &basis, r->error)) return false;
+    *f = (nh_family){.kind = basis == 0 ? NH_POLYNOMIAL : NH_CHEBYSHEV};
+    if (basis == 1) return read_fourier(r, item, f);
+    if (!read_in(r, item, f) || !read_size(r, item, "degree", -1, &f->degree)) return false;
+    if (basis == 2 && f->in_count != 1) return nh_deck_fail(deck, item, 0, r->error, "a chebyshev family is in one variable; use a product for several");
+    return true;
+}
+
+static bool read_ansatz(reader *r)
+{
+    const nh_deck_node *list = nh_deck_get(r->root, "ansatz");
+    if (!list) return true;
+    if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "ansatz", r->error)) return false;
+    r->a->family = take(r, list->count, sizeof *r->a->family);
+    for (size_t i = 0; i < list->count; i++)
+        if (!read_family(r, list->item[i], 0, &r->a->family[i])) return false;
+    r->a->families = list->count;
+    return true;
+}
+
+/* ---- the motion ---- */
+
+static bool number_at(reader *r, const nh_deck_node *node, const char *name, double *out)
+{
+    char what[128];
+    snprintf(what, sizeof what, "the initial value of `%.80s`", name);
+    return nh_deck_number(r->a->deck, node, what, out, r->error);
+}
+
+/* Coordinate velocities that quasi-velocities give at (t, q). */
+static void velocities_of(const nh_system *s, const double *quasi, nh_state *state)
+{
+    const nh_ex *symbols;
+    const double *values;
+    size_t m = s->coordinates;
+    nh_ex *in = nh_alloc_array(1 + m + s->quasi, sizeof *in);
+    double *z = nh_alloc_array(1 + m + s->quasi, sizeof *z);
+    in[0] = s->t;
+    z[0] = state->t;
+    for (size_t i = 0; i < m; i++) {
+        in[1 + i] = s->coordinate[i].q;
+        z[1 + i] = state->q[i];
+    }
+    for (size_t i = 0; i < s->quasi; i++) {
+        in[1 + m + i] = s->quasi_velocity[i];
+        z[1 + m + i] = quasi[i];
+    }
+    nh_system_bindings(s, &symbols, &values);
+    nh_tape *tape = nh_tape_create(s->dag, 1 + m + s->quasi, in, m, s->quasi_map, s->parameters, symbols, values);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, z, state->v);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(z);
+    nh_free(in);
+}
+
+static bool read_initial(reader *r, const nh_deck_node *map)
+{
+    const nh_system *s = r->model->system;
+    nh_state *state = &r->a->initial;
+    double *quasi = take(r, s->quasi, sizeof *quasi);
+    bool any_quasi = false, any_velocity = false;
+    for (size_t i = 0; i < map->count; i++) {
+        const char *name = map->key[i]->text;
+        double value;
+        bool known = !strcmp(name, "t");
+        if (!number_at(r, map->item[i], name, &value)) return false;
+        if (known) state->t = value;
+        for (size_t j = 0; j < s->coordinates && !known; j++) {
+            bool velocity = !strcmp(name, nh_name_of(s->dag, s->coordinate[j].v));
+            known = velocity || !strcmp(name, s->coordinate[j].name);
+            if (known) (velocity ? state->v : state->q)[j] = value;
+            any_velocity |= velocity;
+        }
+        for (size_t j = 0; j < s->quasi && !known; j++)
+            if (!strcmp(name, nh_name_of(s->dag, s->quasi_velocity[j]))) {
+                quasi[j] = value;
+                known = any_quasi = true;
+            }
+        if (!known) return nh_deck_fail(r->a->deck, map->key[i], 0, r->error, "`%s` is not a coordinate or velocity of %s", name, s->name);
+    }
+    if (any_quasi && any_velocity) return nh_deck_fail(r->a->deck, map, 0, r->error, "give either coordinate velocities or quasi-velocities, not both");
+    if (any_quasi) velocities_of(s, quasi, state);
+    r->a->has_initial = true;
+    return true;
+}
+
+static bool read_validate(reader *r)
+{
+    static const char *const keys[] = {"initial", "time", "tolerance"};
+    const nh_deck_node *map = nh_deck_get(r->root, "validate"), *node;
+    nh_analysis *a = r->a;
+    size_t m = r->model->m;
+    a->initial = (nh_state){0, take(r, m, sizeof(double)), take(r, m, sizeof(double))};
+    if (!map) return true;
+    if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "validate", r->error) || !nh_deck_only(a->deck, map, keys, 3, r->error)) return false;
+    if ((node = nh_deck_get(map, "time"))) {
+        double range[2];
+        if (!nh_deck_range(a->deck, node, "the time interval [begin, end]", range, r->error)) return false;
+        a->initial.t = range[0];
+        a->until = range[1];
+        a->has_until = true;
+    }
+    if ((node = nh_deck_get(map, "tolerance"))) {
+        if (!nh_deck_number(a->deck, node, "tolerance", &a->tolerance, r->error)) return false;
+        if (!(a->tolerance >= 1e-14 && a->tolerance <= 1e-2)) return nh_deck_fail(a->deck, node, 0, r->error, "the tolerance must lie between 1e-14 and 1e-2");
+        a->has_tolerance = true;
+    }
+    node = nh_deck_get(map, "initial");
+    if (!node) return true;
+    return nh_deck_is(a->deck, node, NH_DECK_MAP, "initial {x: 0, ...}", r->error) && read_initial(r, node);
+}
+
+static bool read_scene(reader *r)
+{
+    static const char *const keys[] = {"watch", "draw"};
+    const nh_deck_node *map = nh_deck_get(r->root, "scene");
+    if (!map) return true;
+    if (!nh_deck_is(r->a->deck, map, NH_DECK_MAP, "scene", r->error) || !nh_deck_only(r->a->deck, map, keys, 2, r->error)) return false;
+    return read_assignments(r, nh_deck_get(map, "watch"), "watch", false, &r->a->watch, &r->a->watches);
+}
+
+bool nh_analysis_resolve(nh_analysis *a, const nh_model *model, nh_error *error)
+{
+    const nh_deck_node *root = nh_deck_root(a->deck), *definitions = nh_deck_get(root, "definitions"), *unknowns = nh_deck_get(root, "unknowns");
+    reader r = {.a = a, .model = model, .root = root, .error = error};
+    nh_ex taken;
+    r.extra = take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0), sizeof *r.extra);
+    if (!nh_symbol_find(model->dag, "E", &taken)) r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
+    if (!nh_symbol_find(model->dag, "Lbar", &taken)) r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
+    return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && read_ansatz(&r)
+           && read_validate(&r) && read_scene(&r);
+}

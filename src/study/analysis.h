@@ -1,0 +1,40 @@
+/* analysis: a question as text (docs/formats.md): which ansatz, which unknowns, which motion. */
+#ifndef NH_ANALYSIS_H
+#define NH_ANALYSIS_H
+
+#include "motion/dynamics.h"
+#include "noether/unknowns.h"
+
+typedef enum { NH_ROUTE_BOTH, NH_ROUTE_SYMMETRY, NH_ROUTE_CURRENT } nh_route;
+
+/* The part that must be known before the system is read. */
+typedef struct {
+    nh_arena *arena;
+    nh_deck *deck;
+    const char *name, *system;
+    size_t settings;
+    nh_setting *setting;
+    nh_chart_choice chart;
+    nh_route route;
+    bool has_seed, has_samples, has_tolerance;
+    double seed, samples, tolerance;
+    /* the rest, after nh_analysis_resolve */
+    size_t families, unknowns, watches, definitions;
+    nh_family *family;
+    nh_unknown *unknown;
+    nh_named *definition, *watch;
+    bool has_initial, has_until;
+    nh_state initial;
+    double until;
+} nh_analysis;
+
+nh_analysis *nh_analysis_read(const char *path, nh_error *error);
+void nh_analysis_free(nh_analysis *analysis);
+
+/* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its chart. */
+bool nh_analysis_resolve(nh_analysis *analysis, const nh_model *model, nh_error *error);
+
+/* Any expression of the system (coordinate velocities, quasi-velocities) as a function of the model's chart. */
+bool nh_analysis_to_chart(const nh_model *model, nh_ex e, nh_ex *out, nh_error *error);
+
+#endif

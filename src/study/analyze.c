@@ -1,0 +1,202 @@
+#include "study/analyze.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/linalg.h"
+#include "study/currents.h"
+#include "study/defaults.h"
+#include "study/routes.h"
+#include "study/specials.h"
+
+enum { least_samples = 256, samples_per_column = 4, motion_outputs = 401 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double lap(double *last)
+{
+    double t = now(), d = t - *last;
+    *last = t;
+    return d;
+}
+
+/* ---- reading ---- */
+
+static void merge_options(nh_result *r, const nh_analyze_request *q)
+{
+    const nh_analysis *a = r->analysis;
+    r->options = q->options;
+    if (!a) return;
+    if (a->has_seed && !q->seed_given) r->options.seed = a->seed;
+    if (a->has_samples && !q->samples_given) r->options.samples = a->samples;
+    if (a->has_tolerance && !q->tolerance_given) r->options.tolerance = a->tolerance;
+    if (a->has_until && !q->until_given) r->options.until = a->until;
+}
+
+static bool read_files(nh_result *r, const nh_analyze_request *q, nh_error *error)
+{
+    if (q->analysis_path && !(r->analysis = nh_analysis_read(q->analysis_path, error))) return false;
+    size_t own = r->analysis ? r->analysis->settings : 0;
+    nh_setting *setting = nh_arena_alloc(r->arena, (own + q->settings + 1) * sizeof *setting);
+    if (own) memcpy(setting, r->analysis->setting, own * sizeof *setting);
+    if (q->settings) memcpy(setting + own, q->setting, q->settings * sizeof *setting);
+    r->system = nh_system_read(q->system_path, own + q->settings, setting, error);
+    return r->system != NULL;
+}
+
+static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *error)
+{
+    nh_chart_choice choice = q->chart != NH_CHART_AUTO || !r->analysis ? q->chart : r->analysis->chart;
+    uint64_t seed = (uint64_t)r->options.seed;
+    r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, seed, error), error);
+    if (!r->model) return false;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (r->model->chart->quasi && r->system->constraints)
+        r->other = nh_model_create(r->system, nh_chart_create(r->system, NH_CHART_COORDINATES, seed, &ignored), &ignored);
+    if (ignored.code != NH_OK) nh_result_warn(r, "the chart of coordinate velocities: %s", ignored.what);
+    r->local_maximum = 2 * r->model->m - r->model->k;
+    return !r->analysis || nh_analysis_resolve(r->analysis, r->model, error);
+}
+
+/* ---- the linear problem ---- */
+
+static nh_points *fit_points(nh_result *r, size_t columns, nh_error *error)
+{
+    size_t count = (size_t)r->options.samples;
+    if (count == 0) count = samples_per_column * columns;
+    if (count < least_samples) count = least_samples;
+    if (count < columns + 16) count = columns + 16;
+    return nh_points_create(r->model, count, 1, (uint64_t)r->options.seed, error);
+}
+
+static nh_nullspace *current_route(nh_result *r, const nh_ansatz *a, const nh_points *points, nh_error *error)
+{
+    nh_equations *equations = nh_equations_create(a->columns);
+    nh_rows *rows = nh_rows_create(r->model, a, 0, NULL);
+    nh_rows_current(rows, points, NULL, equations);
+    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+    nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);
+    nh_rows_free(rows);
+    nh_equations_free(equations);
+    if (s) r->current = nh_spectrum_of(r->arena, s);
+    return s;
+}
+
+static bool linear_problem(nh_result *r, size_t families, const nh_family *family, double *clock, nh_error *error)
+{
+    nh_points *ranges = nh_points_create(r->model, least_samples, 1, (uint64_t)r->options.seed, error);
+    if (!ranges) return false;
+    nh_ansatz *a = nh_ansatz_create(r->model, ranges, families, family, (size_t)r->options.columns, error);
+    nh_points_free(ranges);
+    if (!a) return false;
+    nh_points *points = fit_points(r, a->columns, error);
+    r->timing.samples = lap(clock);
+    nh_nullspace *s = points ? current_route(r, a, points, error) : NULL;
+    bool good = s != NULL;
+    if (good) {
+        r->samples = points->count;
+        r->rejected = points->tried - points->count;
+        if (r->route != NH_ROUTE_CURRENT) nh_routes_compare(r, a, points, s);
+        nh_candidates *candidates = nh_echelon(r->model, points, a, s, &r->options);
+        r->timing.nullspace = lap(clock);
+        good = nh_currents_build(r, candidates, error);
+        nh_candidates_free(candidates);
+        r->timing.currents = lap(clock);
+    }
+    nh_nullspace_free(s);
+    nh_points_free(points);
+    nh_ansatz_free(a);
+    return good;
+}
+
+/* FOUND needs a certificate; a null space in doubt, or a current that is small but not certified, is UNDECIDED. */
+static void conclude(nh_result *r)
+{
+    bool certified = r->count > 0;
+    for (size_t k = 0; k < r->count; k++) certified &= r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits;
+    r->verdict = r->current.verdict;
+    if (r->count == 0 && r->verdict == NH_FOUND) r->verdict = NH_UNDECIDED;
+    if (r->verdict == NH_FOUND && !certified) {
+        r->verdict = NH_UNDECIDED;
+        nh_result_warn(r, "a current could not be certified to %g digits; it is conserved to the digits given with it", r->options.digits);
+    }
+    if (r->current.verdict == NH_UNDECIDED)
+        nh_result_warn(r, "the spectrum has values between rounding and significance: enlarge the ansatz, or take more samples with --samples");
+    if (r->current.rank_in_doubt)
+        nh_result_warn(r, "two columns of the ansatz are nearly dependent: which were kept is a matter of the option `rank`");
+}
+
+/* ---- the motion ---- */
+
+static void validate(nh_result *r)
+{
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    nh_state initial = r->analysis ? r->analysis->initial : (nh_state){0};
+    if (!r->analysis || !r->analysis->has_initial)
+        if (!nh_defaults_initial(r, &initial, &trouble)) {
+            nh_result_warn(r, "no motion was computed: %s", trouble.what);
+            return;
+        }
+    nh_ex *phi = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *phi);
+    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
+    size_t watches = r->analysis ? r->analysis->watches : 0;
+    nh_watch *watch = nh_arena_alloc(r->arena, (watches + 1) * sizeof *watch);
+    for (size_t i = 0; i < watches; i++) watch[i] = (nh_watch){r->analysis->watch[i].name, r->analysis->watch[i].value};
+    r->validation = nh_validate(r->model, r->other, r->count, phi, watches, watch, &initial, r->options.until, motion_outputs, &r->options, &trouble);
+    if (!r->validation) {
+        nh_result_warn(r, "no motion was computed: %s", trouble.what);
+        return;
+    }
+    for (size_t k = 0; k < r->count; k++) {
+        r->found[k].drift = r->validation->current[k];
+        if (!r->found[k].drift.small)
+            nh_result_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances", r->found[k].name,
+                           r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
+    }
+    if (r->validation->note[0]) nh_result_warn(r, "%s", r->validation->note);
+}
+
+/* ---- the pipeline ---- */
+
+static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
+{
+    double start = now(), clock = start;
+    r->options = q->options;
+    if (!read_files(r, q, error)) return false;
+    merge_options(r, q);
+    r->route = r->analysis ? r->analysis->route : NH_ROUTE_BOTH;
+    r->timing.read = lap(&clock);
+    if (!make_models(r, q, error)) return false;
+    r->timing.geometry = lap(&clock);
+    size_t families = r->analysis ? r->analysis->families : 0;
+    nh_family *family = r->analysis ? r->analysis->family : NULL;
+    if (families == 0) nh_defaults_ansatz(r, &families, &family);
+    else r->ansatz_note = "as given in the analysis file";
+    if (!nh_specials_find(r, &families, &family, error)) return false;
+    r->timing.unknowns = lap(&clock);
+    if (!linear_problem(r, families, family, &clock, error)) return false;
+    conclude(r);
+    validate(r);
+    r->timing.validation = lap(&clock);
+    r->timing.total = now() - start;
+    return true;
+}
+
+nh_result *nh_analyze(const nh_analyze_request *request, nh_error *error)
+{
+    nh_linalg_threads(1);
+    nh_arena *arena = nh_arena_create();
+    nh_result *r = nh_arena_alloc(arena, sizeof *r);
+    r->arena = arena;
+    if (run(r, request, error)) return r;
+    nh_result_free(r);
+    return NULL;
+}

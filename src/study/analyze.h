@@ -1,0 +1,22 @@
+/* analyze: from a system and a question to currents, symmetries and their validation.
+ *
+ *     system -> model -> points -> (unknowns) -> rows -> null space -> echelon -> currents -> motion -> result */
+#ifndef NH_ANALYZE_H
+#define NH_ANALYZE_H
+
+#include "study/result.h"
+
+typedef struct {
+    const char *system_path;     /* a file */
+    const char *analysis_path;   /* or NULL: the program chooses */
+    size_t settings;             /* --set, after the analysis' own */
+    const nh_setting *setting;
+    nh_chart_choice chart;       /* NH_CHART_AUTO: the analysis' choice */
+    nh_options options;
+    bool seed_given, samples_given, tolerance_given, until_given; /* these options outrank the analysis file's values */
+} nh_analyze_request;
+
+/* NULL when nothing can be said; otherwise a result, perhaps partial, with warnings. */
+nh_result *nh_analyze(const nh_analyze_request *request, nh_error *error);
+
+#endif

@@ -1,0 +1,300 @@
+#include "study/currents.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/relation.h"
+#include "noether/recognise.h"
+#include "study/dependence.h"
+
+enum { heldout_count = 256, generic_count = 24 };
+
+static nh_ex parameter_value(const nh_model *o, size_t i)
+{
+    nh_num ratio;
+    double x = o->parameter_value[i];
+    return nh_recognise_ratio(x, 1000000000, DBL_EPSILON, &ratio) ? nh_number(o->dag, ratio) : nh_real(o->dag, x);
+}
+
+/* ---- coefficients ---- */
+
+/* Exact: Gamma of the support's terms are linearly related over the field of the parameters, or at their given values. */
+static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, bool *all_parameters)
+{
+    nh_dag *d = o->dag;
+    size_t n = c->count, p = o->system->parameters, limit = (size_t)options->proof_terms;
+    nh_ex *rate = nh_alloc_array(n + 1, sizeof *rate), *value = nh_alloc_array(p + 1, sizeof *value);
+    for (size_t j = 0; j < n; j++) rate[j] = nh_model_gamma(o, c->term[j]);
+    *all_parameters = nh_relation_find(d, n, rate, p, o->parameter, limit, out) == NH_RELATION_UNIQUE;
+    bool good = *all_parameters;
+    if (!good) {
+        for (size_t i = 0; i < p; i++) value[i] = parameter_value(o, i);
+        for (size_t j = 0; j < n; j++) rate[j] = nh_substitute(d, rate[j], p, o->parameter, value);
+        good = nh_relation_find(d, n, rate, 0, NULL, limit, out) == NH_RELATION_UNIQUE;
+    }
+    nh_free(value);
+    nh_free(rate);
+    return good;
+}
+
+/* Are the exact coefficients the fitted ones, up to a factor?  (A relation may exist that is not the current we fitted.) */
+static bool same_direction(const nh_model *o, const nh_candidate *c, const nh_ex *exact)
+{
+    double *value = nh_alloc_array(c->count + 1, sizeof *value), largest = 0, factor = 0, worst = 0;
+    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, c->count, exact, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, NULL, value);
+    for (size_t j = 0; j < c->count; j++)
+        if (fabs(c->coefficient[j]) > largest) {
+            largest = fabs(c->coefficient[j]);
+            factor = value[j] / c->coefficient[j];
+        }
+    for (size_t j = 0; j < c->count; j++) worst = fmax(worst, fabs(value[j] - factor * c->coefficient[j]));
+    bool same = isfinite(factor) && factor != 0 && worst <= 1e-6 * fabs(factor) * largest;
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(value);
+    return same;
+}
+
+/* The current as an expression; `exact` and `all_parameters` say what its coefficients are. */
+static nh_ex assemble(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_found *f)
+{
+    nh_dag *d = o->dag;
+    nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k), phi = nh_int(d, 0);
+    f->exact = exact_coefficients(o, c, options, k, &f->all_parameters) && same_direction(o, c, k);
+    if (!f->exact) {
+        f->all_parameters = false;
+        f->exact = true;
+        for (size_t j = 0; j < c->count; j++) f->exact &= nh_recognise_number(d, c->coefficient[j], options->recognise, &k[j]);
+    }
+    for (size_t j = 0; j < c->count && !f->exact; j++) k[j] = nh_real(d, c->coefficient[j]);
+    for (size_t j = 0; j < c->count; j++) phi = nh_add(d, phi, nh_mul(d, k[j], c->term[j]));
+    nh_free(k);
+    return phi;
+}
+
+/* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
+
+static bool is_parametric(const nh_model *o, nh_ex e)
+{
+    for (size_t j = 0; j < o->width; j++)
+        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
+    return true;
+}
+
+/* The factor of e that contains numbers and parameters only. */
+static nh_ex parametric_factor(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    if (nh_kind_of(d, e) != NH_PRODUCT) return is_parametric(o, e) ? e : nh_int(d, 1);
+    nh_ex factor = nh_number(d, nh_constant_of(d, e));
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex base = nh_child(d, e, i), x = nh_exponent_of(d, e, i);
+        if (is_parametric(o, base) && is_parametric(o, x)) factor = nh_mul(d, factor, nh_pow(d, base, x));
+    }
+    return factor;
+}
+
+/* What to divide the current by: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest factor of zeta. */
+static nh_ex unit_of(const nh_model *o, const nh_symmetry *z)
+{
+    nh_dag *d = o->dag;
+    if (!nh_is_zero(d, z->Z0) && is_parametric(o, z->Z0)) return z->Z0;
+    nh_ex best = nh_int(d, 1);
+    size_t least = SIZE_MAX;
+    for (size_t i = o->n; i-- > 0;) { /* later components win ties */
+        if (nh_is_zero(d, z->zeta[i])) continue;
+        nh_ex factor = parametric_factor(o, z->zeta[i]);
+        size_t size = nh_is_number(d, factor, 1) ? 0 : nh_complexity(d, factor);
+        if (size >= least) continue;
+        least = size;
+        best = factor;
+    }
+    return best;
+}
+
+static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh_error *error)
+{
+    nh_model *o = r->model;
+    nh_dag *d = o->dag;
+    f->phi = nh_simplify(d, f->phi);
+    if (!nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error)) return false;
+    nh_ex unit = unit_of(o, &f->symmetry);
+    f->has_symmetry = true;
+    if (nh_is_number(d, unit, 1) || nh_is_zero(d, unit)) return true;
+    f->phi = nh_simplify(d, nh_div(d, f->phi, unit));
+    return nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
+}
+
+/* ---- checks on points that the fit did not see ---- */
+
+/* max |Gamma(Phi)| / max(sum |terms of it|, 1e-3 |dPhi| |Gamma|). */
+static double heldout_residual(const nh_model *o, const nh_points *points, nh_ex phi)
+{
+    size_t width = 1 + o->m + o->n, count = points->count;
+    nh_ex *e = nh_alloc_array(2 * width, sizeof *e);
+    double *value = nh_alloc_array(2 * width * count, sizeof *value), worst = 0;
+    for (size_t j = 0; j < width; j++) {
+        e[j] = j == 0 ? nh_int(o->dag, 1) : j <= o->m ? o->rho[j - 1] : o->a[j - 1 - o->m];
+        e[width + j] = nh_diff(o->dag, phi, o->chart->symbol[j]);
+    }
+    nh_points_evaluate(points, o, 2 * width, e, value);
+    for (size_t p = 0; p < count; p++) {
+        double sum = 0, size = 0, g = 0, speed = 0;
+        for (size_t j = 0; j < width; j++) {
+            double x = value[j * count + p], y = value[(width + j) * count + p];
+            sum += x * y;
+            size += fabs(x * y);
+            g += y * y;
+            speed += x * x;
+        }
+        double r = fabs(sum) / fmax(fmax(size, 1e-3 * sqrt(g * speed)), DBL_MIN);
+        if (isfinite(r)) worst = fmax(worst, r);
+    }
+    nh_free(value);
+    nh_free(e);
+    return worst;
+}
+
+/* Does the current change when an angle goes once around?  Then it is defined locally only. */
+static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi)
+{
+    nh_dag *d = o->dag;
+    for (size_t s = 0; s < o->m; s++) {
+        const nh_coordinate *c = &o->system->coordinate[s];
+        if (c->type != NH_ANGLE || !nh_depends(d, phi, c->q)) continue;
+        nh_ex around = nh_add(d, c->q, nh_mul(d, nh_int(d, 2), nh_pi(d)));
+        nh_ex pair[2] = {phi, nh_substitute(d, phi, 1, &c->q, &around)};
+        double *value = nh_alloc_array(2 * points->count, sizeof *value), worst = 0, size = 0;
+        nh_points_evaluate(points, o, 2, pair, value);
+        for (size_t p = 0; p < points->count; p++) {
+            double change = fabs(value[p] - value[points->count + p]);
+            if (isfinite(change)) worst = fmax(worst, change);
+            if (isfinite(value[p])) size = fmax(size, fabs(value[p]));
+        }
+        nh_free(value);
+        if (worst > 1e-9 * size) return true;
+    }
+    return false;
+}
+
+static bool proportional(nh_model *o, nh_ex phi, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    if (nh_is_zero(d, e)) return false;
+    nh_ex ratio = nh_simplify(d, nh_div(d, phi, e));
+    return is_parametric(o, ratio);
+}
+
+static const char *meaning_of(nh_result *r, nh_ex phi)
+{
+    nh_model *o = r->model;
+    if (proportional(o, phi, o->E)) return "energy";
+    for (size_t s = 0; s < o->m; s++)
+        if (proportional(o, phi, o->p[s])) return nh_arena_printf(r->arena, "momentum of %s", o->system->coordinate[s].name);
+    return "";
+}
+
+static void in_velocities(nh_result *r, nh_found *f, const nh_ex *inverse, bool invertible)
+{
+    nh_model *o = r->model;
+    nh_ex *v = nh_alloc_array(o->chart->implicit + 1, sizeof *v);
+    for (size_t a = 0; a < o->chart->implicit; a++) v[a] = o->system->coordinate[o->chart->dependent[a]].v;
+    f->has_in_velocities = invertible;
+    f->in_velocities = nh_substitute(o->dag, f->phi, o->chart->implicit, o->chart->u, v);
+    if (invertible && o->chart->quasi)
+        f->in_velocities = nh_simplify(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, inverse));
+    nh_free(v);
+}
+
+static void examine(nh_result *r, const nh_candidate *c, const nh_points *heldout, const nh_points *generic, nh_found *f)
+{
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    f->quotient = c->quotient;
+    f->phi = assemble(r->model, c, &r->options, f);
+    if (!with_symmetry(r, generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
+    f->heldout = heldout_residual(r->model, heldout, f->phi);
+    f->proof = nh_prove_current(r->model, f->phi, f->exact, &r->options);
+    f->all_parameters = f->proof.all_parameters;
+    f->local = is_local(r->model, generic, f->phi);
+    f->meaning = meaning_of(r, f->phi);
+}
+
+/* Simple ones first, so that the complicated ones are called dependent. */
+static void sort(nh_result *r)
+{
+    nh_dag *d = r->model->dag;
+    for (size_t i = 1; i < r->count; i++) {
+        nh_found f = r->found[i];
+        size_t own = nh_complexity(d, f.phi), j = i;
+        bool energy = !strcmp(f.meaning, "energy");
+        for (; j > 0; j--) {
+            bool before = !strcmp(r->found[j - 1].meaning, "energy");
+            if (before || (!energy && nh_complexity(d, r->found[j - 1].phi) <= own)) break;
+            r->found[j] = r->found[j - 1];
+        }
+        r->found[j] = f;
+    }
+}
+
+static void independence(nh_result *r, const nh_points *generic)
+{
+    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
+    nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
+    double *fraction = nh_alloc_array(r->count + 1, sizeof *fraction);
+    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
+    nh_independence_test(r->model, generic, r->count, phi, r->options.sure, r->options.doubt, kind, fraction);
+    r->independent = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        r->found[k].independence = kind[k];
+        r->found[k].fraction = fraction[k];
+        r->independent += kind[k] == NH_INDEPENDENT;
+        r->found[k].name = nh_arena_printf(r->arena, "Phi%zu", k + 1);
+    }
+    nh_free(fraction);
+    nh_free(kind);
+    nh_free(phi);
+    nh_dependence_relations(r);
+}
+
+/* A candidate that fails on held-out points or is refuted exactly is no current: it is left out, with a word about it. */
+static bool keeps(nh_result *r, const nh_found *f)
+{
+    if (f->proof.proved) return true;
+    if (f->heldout <= r->options.heldout && !f->proof.refuted) return true;
+    nh_result_warn(r, "a combination that fits the samples to %.1e is not conserved (held-out residual %.1e, its rate cancels to %.0f digits): left out",
+                   f->quotient, f->heldout, f->proof.digits);
+    return false;
+}
+
+bool nh_currents_build(nh_result *r, const nh_candidates *candidates, nh_error *error)
+{
+    uint64_t seed = (uint64_t)r->options.seed;
+    nh_points *heldout = nh_points_create(r->model, heldout_count, 1.7, seed + 101, error);
+    nh_points *generic = heldout ? nh_points_create(r->model, generic_count, 1, seed + 202, error) : NULL;
+    if (generic) {
+        nh_ex *inverse = nh_alloc_array(r->model->n + 1, sizeof *inverse);
+        bool invertible = nh_chart_inverse(r->model->chart, inverse);
+        if (!invertible) nh_result_warn(r, "currents could not be written in coordinate velocities: the chart is not affine in its quasi-velocities");
+        r->found = nh_arena_alloc(r->arena, (candidates->count + 1) * sizeof *r->found);
+        for (size_t k = 0; k < candidates->count; k++) {
+            nh_found *f = &r->found[r->count];
+            examine(r, &candidates->candidate[k], heldout, generic, f);
+            in_velocities(r, f, inverse, invertible);
+            r->count += keeps(r, f);
+        }
+        sort(r);
+        independence(r, generic);
+        nh_free(inverse);
+    }
+    bool good = generic != NULL;
+    nh_points_free(generic);
+    nh_points_free(heldout);
+    return good;
+}

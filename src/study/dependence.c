@@ -1,0 +1,133 @@
+#include "study/dependence.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/normal.h"
+#include "expr/print.h"
+#include "expr/relation.h"
+
+enum { most_currents = 6, point_factor = 3 };
+
+/* Monomials of degree <= 2 in phi_1..phi_r and the dependent one (last), the ones with it last. */
+typedef struct {
+    size_t count;
+    nh_ex *placeholder; /* monomials in the symbols Phi1, ... */
+    nh_ex *value;       /* the same in the currents */
+} monomials;
+
+static void add(nh_dag *d, monomials *m, nh_ex pa, nh_ex pb, nh_ex va, nh_ex vb)
+{
+    m->placeholder[m->count] = nh_mul(d, pa, pb);
+    m->value[m->count++] = nh_mul(d, va, vb);
+}
+
+static monomials build(nh_result *r, size_t n, const nh_ex *symbol, const nh_ex *phi)
+{
+    nh_dag *d = r->model->dag;
+    size_t most = (n + 1) * (n + 2) / 2;
+    monomials m = {0, nh_alloc_array(most, sizeof(nh_ex)), nh_alloc_array(most, sizeof(nh_ex))};
+    nh_ex one = nh_int(d, 1);
+    add(d, &m, one, one, one, one);
+    for (size_t i = 0; i < n; i++) add(d, &m, symbol[i], one, phi[i], one);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) add(d, &m, symbol[i], symbol[j], phi[i], phi[j]);
+    return m;
+}
+
+/* The null vector of the monomials' values with the fewest entries: the columns are added one by one until they first become dependent. */
+static bool numeric_relation(const nh_points *points, const nh_model *o, const monomials *m, bool *used)
+{
+    size_t count = points->count, n = m->count;
+    double *value = nh_alloc_array(n * count, sizeof *value), *a = nh_alloc_array(n * count, sizeof *a), *b = nh_alloc_array(count, sizeof *b);
+    bool found = false;
+    nh_points_evaluate(points, o, n, m->value, value);
+    for (size_t j = 0; j < n; j++) {
+        double size = 0;
+        for (size_t p = 0; p < count; p++) size += value[j * count + p] * value[j * count + p];
+        for (size_t p = 0; p < count && size > 0; p++) value[j * count + p] /= sqrt(size);
+        if (!isfinite(size)) break;
+    }
+    for (size_t j = 1; j < n && !found; j++) {
+        memcpy(a, value, j * count * sizeof *a);
+        memcpy(b, value + j * count, count * sizeof *b);
+        if (count <= j || nh_least_squares(count, j, a, 1, b, count, 1e-12) < (int)j) break;
+        double worst = 0;
+        for (size_t p = 0; p < count; p++) {
+            double rest = value[j * count + p];
+            for (size_t i = 0; i < j; i++) rest -= b[i] * value[i * count + p];
+            worst = fmax(worst, fabs(rest) * sqrt((double)count));
+        }
+        found = worst < 1e-9;
+        for (size_t i = 0; i < j && found; i++) used[i] = fabs(b[i]) > 1e-9;
+        used[j] = found;
+    }
+    nh_free(b);
+    nh_free(a);
+    nh_free(value);
+    return found;
+}
+
+/* "Phi4^2 = ..." with exact coefficients, or NULL. */
+static const char *exact_relation(nh_result *r, const monomials *m, const bool *used, nh_ex own)
+{
+    nh_model *o = r->model;
+    nh_dag *d = o->dag;
+    nh_ex *value = nh_alloc_array(m->count, sizeof *value), *name = nh_alloc_array(m->count, sizeof *name), *c = nh_alloc_array(m->count, sizeof *c);
+    size_t n = 0, pivot = 0;
+    for (size_t j = 0; j < m->count; j++) {
+        if (!used[j]) continue;
+        if (nh_depends(d, m->placeholder[j], own)) pivot = n;
+        value[n] = m->value[j];
+        name[n++] = m->placeholder[j];
+    }
+    const char *text = NULL;
+    bool exact = nh_relation_find(d, n, value, o->system->parameters, o->parameter, (size_t)r->options.proof_terms, c) == NH_RELATION_UNIQUE;
+    if (exact && !nh_is_zero(d, c[pivot])) {
+        nh_ex right = nh_int(d, 0);
+        for (size_t j = 0; j < n; j++)
+            if (j != pivot) right = nh_sub(d, right, nh_mul(d, nh_simplify(d, nh_div(d, c[j], c[pivot])), name[j]));
+        char *left = nh_print_string(d, name[pivot]), *rest = nh_print_string(d, right);
+        text = nh_arena_printf(r->arena, "%s = %s", left, rest);
+        nh_free(left);
+        nh_free(rest);
+    }
+    nh_free(c);
+    nh_free(name);
+    nh_free(value);
+    return text;
+}
+
+static void relate(nh_result *r, nh_found *f, const nh_points *points)
+{
+    nh_ex symbol[most_currents + 1], phi[most_currents + 1];
+    size_t n = 0;
+    for (nh_found *g = r->found; g < f && n < most_currents; g++) {
+        if (g->independence != NH_INDEPENDENT) continue;
+        symbol[n] = nh_symbol_fresh(r->model->dag, g->name);
+        phi[n++] = g->phi;
+    }
+    symbol[n] = nh_symbol_fresh(r->model->dag, f->name);
+    phi[n++] = f->phi;
+    monomials m = build(r, n, symbol, phi);
+    bool *used = nh_alloc_array(m.count, sizeof *used);
+    if (numeric_relation(points, r->model, &m, used)) f->relation = exact_relation(r, &m, used, symbol[n - 1]);
+    nh_free(used);
+    nh_free(m.placeholder);
+    nh_free(m.value);
+}
+
+void nh_dependence_relations(nh_result *r)
+{
+    size_t monomial_count = (most_currents + 2) * (most_currents + 3) / 2;
+    nh_points *points = NULL;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    for (size_t k = 0; k < r->count; k++) {
+        if (r->found[k].independence != NH_DEPENDENT) continue;
+        if (!points) points = nh_points_create(r->model, point_factor * monomial_count, 1, (uint64_t)r->options.seed + 303, &ignored);
+        if (points) relate(r, &r->found[k], points);
+    }
+    nh_points_free(points);
+}

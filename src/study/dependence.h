@@ -1,0 +1,10 @@
+/* dependence: what a dependent current is a function of, where a quadratic relation says it. */
+#ifndef NH_DEPENDENCE_H
+#define NH_DEPENDENCE_H
+
+#include "study/result.h"
+
+/* For every dependent current look for a polynomial relation of degree two with the independent ones before it; sets `relation`. */
+void nh_dependence_relations(nh_result *result);
+
+#endif

@@ -1,0 +1,77 @@
+/* result: what an analysis found.  Reports are views of it; nothing is computed after it is complete. */
+#ifndef NH_RESULT_H
+#define NH_RESULT_H
+
+#include "motion/drift.h"
+#include "noether/independence.h"
+#include "noether/prove.h"
+#include "noether/symmetry.h"
+#include "noether/unknowns.h"
+#include "study/analysis.h"
+
+typedef struct {
+    const char *name;         /* Phi1, Phi2, ... */
+    const char *meaning;      /* "energy", "momentum of x", or "" */
+    nh_ex phi;                /* in the chart */
+    nh_ex in_velocities;      /* in t, q, q' and parameters */
+    bool has_in_velocities;
+    bool exact;               /* every coefficient was recognised */
+    bool all_parameters;      /* and holds for all parameter values */
+    double quotient, heldout;
+    nh_proof proof;
+    nh_independence independence;
+    double fraction;
+    const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
+    bool has_symmetry, by_current_route, by_symmetry_route, local;
+    nh_symmetry symmetry;
+    nh_drift drift;
+} nh_found;
+
+/* One linear problem and its answer. */
+typedef struct {
+    bool done;
+    nh_verdict verdict;
+    size_t columns, rows, rank, dimension;
+    double *spectrum, gap;
+    bool rank_in_doubt;
+} nh_spectrum;
+
+typedef struct {
+    double *value;
+    const nh_ex *recognised;  /* per unknown: an expression, or 0 */
+    const nh_hit *hit;
+} nh_special;
+
+typedef struct {
+    double read, geometry, samples, unknowns, nullspace, currents, validation, total; /* seconds */
+} nh_timing;
+
+typedef struct {
+    nh_arena *arena;
+    nh_system *system;
+    nh_analysis *analysis;    /* NULL: chosen by the program */
+    nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
+    nh_options options;
+    nh_route route;
+    const char *ansatz_note;  /* what was tried, in words */
+    size_t samples, rejected;
+    nh_spectrum current, symmetry;
+    bool routes_compared, routes_agree;
+    double routes_angle;
+    nh_hits *hits;
+    size_t specials;
+    nh_special *special;
+    size_t count, independent, local_maximum;
+    nh_found *found;
+    nh_verdict verdict;
+    nh_validation *validation; /* NULL when no motion could be computed */
+    size_t warnings;
+    const char **warning;
+    bool partial;
+    nh_timing timing;
+} nh_result;
+
+void nh_result_warn(nh_result *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void nh_result_free(nh_result *result); /* with system, analysis and models */
+
+#endif

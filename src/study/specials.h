@@ -1,0 +1,10 @@
+/* specials: the values of the ansatz' unknowns at which currents appear, named where they are simple. */
+#ifndef NH_SPECIALS_H
+#define NH_SPECIALS_H
+
+#include "study/result.h"
+
+/* Find them, and replace every family with an unknown by one copy for each value (none when there is none). */
+bool nh_specials_find(nh_result *result, size_t *families, nh_family **family, nh_error *error);
+
+#endif

@@ -1,0 +1,383 @@
+/* elimination: the chart of coordinate velocities; which velocities depend on the others, and how. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "base/text.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/solve.h"
+#include "system/embedding_internal.h"
+#include "system/sample.h"
+
+enum { wanted_probes = 24, most_tries = 400, projection_steps = 60, most_subsets = 2000 };
+
+/* Points (t, q, v) that satisfy the constraints. */
+typedef struct {
+    nh_system *system;
+    size_t m, k, width; /* width = 1 + 2 m */
+    nh_tape *tape;      /* f (k) and F = df/dv (k x m, row-major) as functions of (t, q, v) */
+    nh_tape_work *work;
+    double *out;
+    double *point;      /* count x width */
+    double *F;          /* count x (k m), column-major k x m */
+    size_t count;
+} cloud;
+
+static void cloud_tape(cloud *c)
+{
+    nh_system *s = c->system;
+    nh_dag *d = s->dag;
+    nh_ex *in = nh_alloc_array(c->width, sizeof *in), *out = nh_alloc_array(c->k * (1 + c->m) + 1, sizeof *out);
+    in[0] = s->t;
+    for (size_t i = 0; i < c->m; i++) {
+        in[1 + i] = s->coordinate[i].q;
+        in[1 + c->m + i] = s->coordinate[i].v;
+    }
+    for (size_t a = 0; a < c->k; a++) {
+        out[a] = nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs);
+        for (size_t i = 0; i < c->m; i++) out[c->k + a + i * c->k] = nh_diff(d, out[a], in[1 + c->m + i]);
+    }
+    const nh_ex *symbols;
+    const double *values;
+    nh_system_bindings(s, &symbols, &values);
+    c->tape = nh_tape_create(d, c->width, in, c->k * (1 + c->m), out, s->parameters, symbols, values);
+    c->work = nh_tape_work_create(c->tape);
+    c->out = nh_alloc_array(c->k * (1 + c->m) + 1, sizeof *c->out);
+    nh_free(in);
+    nh_free(out);
+}
+
+static bool all_finite(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) return false;
+    return true;
+}
+
+/* Move v onto the constraints by the shortest Gauss-Newton steps. */
+static bool project(cloud *c, double *z)
+{
+    size_t k = c->k, m = c->m, big = m > k ? m : k;
+    double *F = nh_alloc_array(k * m + big + 1, sizeof *F), *step = F + k * m;
+    bool good = false;
+    for (int i = 0; i < projection_steps && !good; i++) {
+        nh_tape_eval(c->tape, c->work, z, c->out);
+        if (!all_finite(k * (1 + m), c->out)) break;
+        memcpy(F, c->out + k, k * m * sizeof *F);
+        memset(step, 0, big * sizeof *step);
+        memcpy(step, c->out, k * sizeof *step);
+        if (nh_least_squares(k, m, F, 1, step, big, 1e-12) < 0) break;
+        double size = 0;
+        for (size_t j = 0; j < m; j++) {
+            size = fmax(size, fabs(step[j]));
+            z[1 + m + j] -= step[j];
+        }
+        good = size < 1e-14;
+    }
+    double worst = 0;
+    nh_tape_eval(c->tape, c->work, z, c->out);
+    for (size_t a = 0; a < k; a++) worst = fmax(worst, fabs(c->out[a]));
+    nh_free(F);
+    return worst < 1e-9 && all_finite(k * (1 + m), c->out);
+}
+
+static void cloud_fill(cloud *c, uint64_t seed)
+{
+    double *low = nh_alloc_array(2 * c->width, sizeof *low), *high = low + c->width;
+    nh_system *s = c->system;
+    nh_embedding_range(s, s->t, &low[0], &high[0]);
+    for (size_t i = 0; i < c->m; i++) {
+        nh_embedding_range(s, s->coordinate[i].q, &low[1 + i], &high[1 + i]);
+        nh_embedding_range(s, s->coordinate[i].v, &low[1 + c->m + i], &high[1 + c->m + i]);
+    }
+    nh_sampler *sampler = nh_sampler_create(c->width, low, high, seed);
+    c->point = nh_alloc_array(wanted_probes * c->width, sizeof *c->point);
+    c->F = nh_alloc_array(wanted_probes * c->k * c->m + 1, sizeof *c->F);
+    for (int tries = 0; tries < most_tries && c->count < wanted_probes; tries++) {
+        double *z = c->point + c->count * c->width;
+        nh_sampler_next(sampler, z);
+        if (!project(c, z)) continue;
+        memcpy(c->F + c->count * c->k * c->m, c->out + c->k, c->k * c->m * sizeof *c->F);
+        c->count++;
+    }
+    nh_sampler_free(sampler);
+    nh_free(low);
+}
+
+static void cloud_clear(cloud *c)
+{
+    nh_tape_work_free(c->work);
+    nh_tape_free(c->tape);
+    nh_free(c->out);
+    nh_free(c->point);
+    nh_free(c->F);
+}
+
+/* ---- ranks ---- */
+
+/* Largest rank of df/dv over the points, and the constraint that adds nothing to those before it. */
+static size_t rank_of(const cloud *c, size_t *redundant)
+{
+    size_t best = 0;
+    *redundant = c->k;
+    for (size_t use = 1; use <= c->k; use++) {
+        size_t rank = 0;
+        for (size_t p = 0; p < c->count; p++) {
+            double *a = nh_alloc_array(use * c->m, sizeof *a), *s = nh_alloc_array(c->k + c->m, sizeof *s);
+            for (size_t i = 0; i < use; i++)
+                for (size_t j = 0; j < c->m; j++) a[i + j * use] = c->F[p * c->k * c->m + i + j * c->k];
+            size_t r = 0, small = use < c->m ? use : c->m;
+            if (nh_svd(use, c->m, a, s, NULL, NULL))
+                while (r < small && s[r] > 1e-10 * s[0] && s[r] > 1e-13) r++;
+            if (r > rank) rank = r;
+            nh_free(s);
+            nh_free(a);
+        }
+        if (rank == best && *redundant == c->k) *redundant = use - 1;
+        best = rank;
+    }
+    return best;
+}
+
+static bool check_rank(const cloud *c, nh_error *error)
+{
+    const nh_system *s = c->system;
+    if (c->count == 0) {
+        nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "no point of the sampling domain satisfies the constraint%s", c->k > 1 ? "s" : "");
+        return nh_error_hint(error, "the constraints contradict each other, or `domain:` keeps away from where they hold");
+    }
+    size_t redundant, rank = rank_of(c, &redundant);
+    if (rank < c->k) {
+        nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
+                     "this constraint says nothing new about the velocities: the %zu constraints have rank %zu", c->k, rank);
+        return nh_error_hint(error, "it repeats or contradicts the others; remove it");
+    }
+    if (c->k < c->m) return true;
+    nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "%zu independent constraints on %zu coordinates leave no freedom to move", c->k, c->m);
+    return nh_error_hint(error, "a system needs fewer constraints than coordinates");
+}
+
+/* ---- which velocities to eliminate ---- */
+
+/* |det F_S| / sqrt(det F F^T), in [0, 1] by Cauchy and Binet; here through singular values. */
+static double volume(size_t rows, size_t columns, double *a)
+{
+    double *s = nh_alloc_array(rows + columns, sizeof *s), product = 1;
+    if (!nh_svd(rows, columns, a, s, NULL, NULL)) product = 0;
+    for (size_t i = 0; i < rows && i < columns; i++) product *= s[i];
+    nh_free(s);
+    return product;
+}
+
+static double subset_score(const cloud *c, const size_t *subset)
+{
+    double least = INFINITY;
+    double *a = nh_alloc_array(c->k * c->m + 1, sizeof *a);
+    for (size_t p = 0; p < c->count; p++) {
+        const double *F = c->F + p * c->k * c->m;
+        for (size_t j = 0; j < c->k; j++) memcpy(a + j * c->k, F + subset[j] * c->k, c->k * sizeof *a);
+        double part = volume(c->k, c->k, a);
+        memcpy(a, F, c->k * c->m * sizeof *a);
+        least = fmin(least, part / fmax(volume(c->k, c->m, a), 1e-300));
+    }
+    nh_free(a);
+    return least;
+}
+
+static bool next_subset(size_t k, size_t m, size_t *subset)
+{
+    for (size_t i = k; i-- > 0;) {
+        if (subset[i] == m - k + i) continue;
+        subset[i]++;
+        for (size_t j = i + 1; j < k; j++) subset[j] = subset[j - 1] + 1;
+        return true;
+    }
+    return false;
+}
+
+/* Constraints written as  x' = ...  with the left sides not occurring on the right tell what the user had in mind. */
+static bool written_explicitly(const cloud *c, size_t *out)
+{
+    const nh_system *s = c->system;
+    for (size_t a = 0; a < c->k; a++) {
+        out[a] = c->m;
+        for (size_t i = 0; i < c->m; i++)
+            if (s->constraint[a].lhs == s->coordinate[i].v) out[a] = i;
+        if (out[a] == c->m) return false;
+        for (size_t b = 0; b < a; b++)
+            if (out[b] == out[a]) return false;
+    }
+    for (size_t a = 0; a < c->k; a++)
+        for (size_t b = 0; b < c->k; b++)
+            if (nh_depends(s->dag, s->constraint[a].rhs, s->coordinate[out[b]].v)) return false;
+    return true;
+}
+
+static double choose_dependent(const cloud *c, size_t *out)
+{
+    const nh_system *s = c->system;
+    if (s->dependents) {
+        memcpy(out, s->dependent, c->k * sizeof *out);
+        return subset_score(c, out);
+    }
+    if (written_explicitly(c, out)) return subset_score(c, out);
+    size_t *subset = nh_alloc_array(c->k + 1, sizeof *subset), tried = 0;
+    double best = -1;
+    for (size_t i = 0; i < c->k; i++) subset[i] = i;
+    do {
+        double score = subset_score(c, subset);
+        if (score > best * (1 - 1e-9) || best < 0) { /* later coordinates win ties: users list first what moves freely */
+            best = score;
+            memcpy(out, subset, c->k * sizeof *out);
+        }
+    } while (++tried < most_subsets && next_subset(c->k, c->m, subset));
+    nh_free(subset);
+    return best;
+}
+
+/* ---- building the chart ---- */
+
+static bool is_dependent(const size_t *dependent, size_t k, size_t i)
+{
+    for (size_t a = 0; a < k; a++)
+        if (dependent[a] == i) return true;
+    return false;
+}
+
+static void copy_probes(nh_chart *chart, const cloud *c)
+{
+    const nh_coordinate *coordinate = c->system->coordinate;
+    for (size_t p = 0; p < c->count; p++) {
+        const double *from = c->point + p * c->width, *v = from + 1 + c->m;
+        double *to = chart->probe + p * chart->width, *w = to + 1 + c->m;
+        memcpy(to, from, (1 + c->m) * sizeof *to);
+        for (size_t i = 0; i < chart->n; i++)
+            for (size_t j = 0; j < c->m; j++)
+                if (chart->w[i] == coordinate[j].v) w[i] = v[j];
+        for (size_t a = 0; a < chart->implicit; a++) w[chart->n + a] = v[chart->dependent[a]];
+    }
+    chart->probes = c->count;
+}
+
+/* Linear in the dependent velocities: v_dep = -G^-1 f(v_dep = 0), G = df/dv_dep. */
+static bool solve_linear(nh_chart *chart, const cloud *c, const nh_ex *G, const nh_ex *f)
+{
+    const nh_system *s = c->system;
+    nh_dag *d = s->dag;
+    nh_ex *zero = nh_alloc_array(c->k + 1, sizeof *zero), *u = nh_alloc_array(c->k + 1, sizeof *u), *b = nh_alloc_array(c->k + 1, sizeof *b);
+    for (size_t a = 0; a < c->k; a++) u[a] = s->coordinate[chart->dependent[a]].v;
+    for (size_t a = 0; a < c->k; a++) b[a] = nh_neg(d, nh_substitute(d, f[a], c->k, u, zero));
+    nh_lu *lu = nh_lu_create(d, c->k, G, nh_embedding_score, chart, NULL);
+    if (lu) nh_lu_solve(lu, b, b);
+    for (size_t a = 0; a < c->k && lu; a++) chart->rho[chart->dependent[a]] = nh_simplify(d, b[a]);
+    bool good = lu != NULL;
+    nh_lu_free(lu);
+    nh_free(zero);
+    nh_free(u);
+    nh_free(b);
+    return good;
+}
+
+/* Nonlinear: the dependent velocities stay, as implicit symbols with du/dz = -G^-1 df/dz. */
+static bool keep_implicit(nh_chart *chart, const cloud *c, const nh_ex *G, const nh_ex *f)
+{
+    const nh_system *s = c->system;
+    nh_dag *d = s->dag;
+    size_t k = c->k, explicit_width = chart->width - k;
+    nh_lu *lu = nh_lu_create(d, k, G, nh_embedding_score, chart, NULL);
+    if (!lu) return false;
+    nh_ex *b = nh_alloc_array(k * explicit_width + 1, sizeof *b);
+    for (size_t j = 0; j < explicit_width; j++) { /* all partial derivatives before the first rule */
+        for (size_t a = 0; a < k; a++) b[j * k + a] = nh_neg(d, nh_diff(d, f[a], chart->symbol[j]));
+        nh_lu_solve(lu, b + j * k, b + j * k);
+    }
+    for (size_t j = 0; j < explicit_width; j++)
+        for (size_t a = 0; a < k; a++) nh_diff_rule(d, chart->u[a], chart->symbol[j], b[j * k + a]);
+    nh_lu_free(lu);
+    nh_free(b);
+    nh_ex *out = nh_alloc_array(k + k * k, sizeof *out);
+    for (size_t a = 0; a < k; a++) {
+        out[a] = chart->residual[a] = f[a];
+        for (size_t i = 0; i < k; i++) out[k + a + i * k] = G[a * k + i];
+    }
+    const nh_ex *symbols;
+    const double *values;
+    nh_system_bindings(s, &symbols, &values);
+    chart->newton = nh_tape_create(d, chart->width, chart->symbol, k + k * k, out, s->parameters, symbols, values);
+    nh_free(out);
+    return true;
+}
+
+static const char *chart_name(const nh_chart *chart, char *buffer, size_t size)
+{
+    size_t at = (size_t)snprintf(buffer, size, "coordinate velocities (");
+    for (size_t i = 0; i < chart->n && at < size; i++)
+        at += (size_t)snprintf(buffer + at, size - at, "%s%s", i ? ", " : "", nh_name_of(chart->system->dag, chart->w[i]));
+    if (at < size) snprintf(buffer + at, size - at, ")");
+    return buffer;
+}
+
+static nh_chart *build(const cloud *c, const size_t *dependent, double pivot, nh_error *error)
+{
+    nh_system *s = c->system;
+    nh_dag *d = s->dag;
+    size_t k = c->k, m = c->m;
+    nh_ex *f = nh_alloc_array(k + k * k + 1, sizeof *f), *G = f + k;
+    bool linear = true;
+    for (size_t a = 0; a < k; a++) {
+        f[a] = nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs);
+        for (size_t i = 0; i < k; i++) {
+            G[a * k + i] = nh_diff(d, f[a], s->coordinate[dependent[i]].v);
+            for (size_t j = 0; j < k; j++) linear &= !nh_depends(d, G[a * k + i], s->coordinate[dependent[j]].v);
+        }
+    }
+    nh_chart *chart = nh_embedding_new(s, "", m - k, linear ? 0 : k);
+    memcpy(chart->dependent, dependent, k * sizeof *dependent);
+    chart->pivot = pivot;
+    size_t n = 0;
+    for (size_t i = 0; i < m; i++) {
+        chart->rho[i] = s->coordinate[i].v;
+        if (!is_dependent(dependent, k, i)) chart->w[n++] = s->coordinate[i].v;
+    }
+    nh_ex *v = nh_alloc_array(k + 1, sizeof *v);
+    for (size_t a = 0; a < k && !linear; a++) {
+        v[a] = s->coordinate[dependent[a]].v;
+        chart->rho[dependent[a]] = chart->u[a] = nh_symbol_fresh(d, nh_name_of(d, v[a]));
+    }
+    for (size_t a = 0; a < k + k * k && !linear; a++) f[a] = nh_substitute(d, f[a], k, v, chart->u);
+    nh_free(v);
+    nh_embedding_symbols(chart);
+    copy_probes(chart, c);
+    char buffer[400];
+    chart->name = nh_arena_strdup(chart->arena, chart_name(chart, buffer, sizeof buffer));
+    bool good = k == 0 || (linear ? solve_linear(chart, c, G, f) : keep_implicit(chart, c, G, f));
+    nh_free(f);
+    if (good) return chart;
+    nh_chart_free(chart);
+    nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "the constraints cannot be solved for the chosen dependent velocities");
+    nh_error_hint(error, "name others under `dependent:`, or leave it out");
+    return NULL;
+}
+
+nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *error)
+{
+    cloud c = {.system = system, .m = system->coordinates, .k = system->constraints, .width = 1 + 2 * system->coordinates};
+    cloud_tape(&c);
+    cloud_fill(&c, seed);
+    nh_chart *chart = NULL;
+    size_t *dependent = nh_alloc_array(c.k + 1, sizeof *dependent);
+    if (c.k == 0 || check_rank(&c, error)) {
+        double pivot = c.k ? choose_dependent(&c, dependent) : 1;
+        if (pivot < 1e-12) {
+            nh_deck_fail(system->deck, system->constraint[0].node, 0, error, "the constraints do not determine the velocities named under `dependent:`");
+            nh_error_hint(error, "name others, or leave `dependent:` out");
+        } else {
+            chart = build(&c, dependent, pivot, error);
+        }
+    }
+    nh_free(dependent);
+    cloud_clear(&c);
+    return chart;
+}

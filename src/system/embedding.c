@@ -1,0 +1,255 @@
+#include "system/embedding.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "base/text.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/solve.h"
+#include "system/embedding_internal.h"
+#include "system/sample.h"
+
+enum { probe_count = 24, newton_steps = 40 };
+
+/* ---- the sampling box ---- */
+
+static void default_range(const nh_system *s, nh_ex symbol, double *low, double *high)
+{
+    *low = -1.5; /* velocities */
+    *high = 1.5;
+    if (symbol == s->t) {
+        *low = 0;
+        *high = 1;
+    }
+    for (size_t i = 0; i < s->coordinates; i++) {
+        if (s->coordinate[i].q != symbol) continue;
+        double half = s->coordinate[i].type == NH_ANGLE ? 3.14159265358979323846 : 1;
+        *low = -half;
+        *high = half;
+    }
+}
+
+void nh_embedding_range(const nh_system *s, nh_ex symbol, double *low, double *high)
+{
+    default_range(s, symbol, low, high);
+    for (size_t i = 0; i < s->intervals; i++) {
+        if (s->interval[i].symbol != symbol) continue;
+        *low = s->interval[i].low;
+        *high = s->interval[i].high;
+    }
+}
+
+/* ---- the parts that both kinds of chart share ---- */
+
+nh_chart *nh_embedding_new(nh_system *s, const char *name, size_t n, size_t implicit)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_chart *c = nh_arena_alloc(arena, sizeof *c);
+    size_t m = s->coordinates, width = 1 + m + n + implicit;
+    *c = (nh_chart){.system = s, .arena = arena, .n = n, .implicit = implicit, .width = width, .pivot = 1};
+    c->name = nh_arena_strdup(arena, name);
+    c->w = nh_arena_alloc(arena, (n + 1) * sizeof *c->w);
+    c->rho = nh_arena_alloc(arena, (m + 1) * sizeof *c->rho);
+    c->u = nh_arena_alloc(arena, (implicit + 1) * sizeof *c->u);
+    c->residual = nh_arena_alloc(arena, (implicit + 1) * sizeof *c->residual);
+    c->dependent = nh_arena_alloc(arena, (s->constraints + 1) * sizeof *c->dependent);
+    c->symbol = nh_arena_alloc(arena, width * sizeof *c->symbol);
+    c->low = nh_arena_alloc(arena, width * sizeof *c->low);
+    c->high = nh_arena_alloc(arena, width * sizeof *c->high);
+    c->probe = nh_arena_alloc(arena, probe_count * width * sizeof *c->probe);
+    return c;
+}
+
+void nh_embedding_symbols(nh_chart *c)
+{
+    const nh_system *s = c->system;
+    size_t k = 0;
+    c->symbol[k++] = s->t;
+    for (size_t i = 0; i < s->coordinates; i++) c->symbol[k++] = s->coordinate[i].q;
+    for (size_t i = 0; i < c->n; i++) c->symbol[k++] = c->w[i];
+    for (size_t i = 0; i < c->implicit; i++) c->symbol[k++] = c->u[i];
+    for (size_t i = 0; i < c->width; i++) nh_embedding_range(s, c->symbol[i], &c->low[i], &c->high[i]);
+}
+
+void nh_chart_free(nh_chart *chart)
+{
+    if (!chart) return;
+    nh_tape_free(chart->newton);
+    nh_arena_free(chart->arena);
+}
+
+nh_ex nh_chart_compose(const nh_chart *c, nh_ex e)
+{
+    const nh_system *s = c->system;
+    nh_ex *v = nh_alloc_array(s->coordinates + 1, sizeof *v);
+    for (size_t i = 0; i < s->coordinates; i++) v[i] = s->coordinate[i].v;
+    e = nh_substitute(s->dag, e, s->coordinates, v, c->rho);
+    nh_free(v);
+    return e;
+}
+
+nh_ex nh_chart_constraint(const nh_chart *c, size_t a)
+{
+    const nh_constraint *f = &c->system->constraint[a];
+    return nh_sub(c->system->dag, f->lhs, f->rhs);
+}
+
+bool nh_chart_complete(const nh_chart *c, double *z)
+{
+    size_t k = c->implicit;
+    if (!k) return true;
+    double *u = z + c->width - k, *out = nh_alloc_array(k + k * k, sizeof *out), *jacobian = out + k;
+    nh_tape_work *work = nh_tape_work_create(c->newton);
+    double last = INFINITY;
+    bool good = false;
+    for (int step = 0; step < newton_steps && !good; step++) {
+        double size = 0, norm = 0;
+        nh_tape_eval(c->newton, work, z, out);
+        for (size_t i = 0; i < k; i++) norm = fmax(norm, fabs(out[i]));
+        if (!isfinite(norm) || !nh_solve(k, jacobian, 1, out, NULL)) break;
+        for (size_t i = 0; i < k; i++) {
+            size = fmax(size, fabs(out[i]) / (1 + fabs(u[i])));
+            u[i] -= out[i];
+        }
+        good = size < 4e-16 || (size < 1e-13 && size >= 0.5 * last);
+        last = size;
+    }
+    nh_tape_work_free(work);
+    nh_free(out);
+    return good;
+}
+
+/* ---- least pivot over the probes ---- */
+
+double nh_embedding_score(void *context, nh_ex e)
+{
+    const nh_chart *c = context;
+    const nh_ex *symbols;
+    const double *values;
+    nh_system_bindings(c->system, &symbols, &values);
+    nh_tape *tape = nh_tape_create(c->system->dag, c->width, c->symbol, 1, &e, c->system->parameters, symbols, values);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < c->probes; i++) {
+        double x;
+        nh_tape_eval(tape, work, c->probe + i * c->width, &x);
+        if (!isfinite(x)) continue;
+        least = fmin(least, fabs(x));
+        most = fmax(most, fabs(x));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return most < 1e-13 || !isfinite(least) ? 0 : least + 1e-12 * most;
+}
+
+/* ---- the user's quasi-velocities ---- */
+
+static bool probes_of_quasi(nh_chart *c, uint64_t seed)
+{
+    nh_sampler *sampler = nh_sampler_create(c->width, c->low, c->high, seed);
+    for (c->probes = 0; c->probes < probe_count; c->probes++) nh_sampler_next(sampler, c->probe + c->probes * c->width);
+    nh_sampler_free(sampler);
+    return true;
+}
+
+/* Do the constraints hold on the image of the chart?  Compared with the size of the constraint's own terms. */
+static bool chart_satisfies(const nh_chart *c, nh_error *error)
+{
+    const nh_system *s = c->system;
+    for (size_t a = 0; a < s->constraints; a++) {
+        nh_ex f = nh_chart_compose(c, nh_chart_constraint(c, a));
+        if (nh_normal_is_zero(s->dag, f, 0) == NH_ZERO) continue;
+        const nh_ex *symbols;
+        const double *values;
+        nh_system_bindings(s, &symbols, &values);
+        nh_ex pair[2] = {f, nh_chart_compose(c, s->constraint[a].lhs)};
+        nh_tape *tape = nh_tape_create(s->dag, c->width, c->symbol, 2, pair, s->parameters, symbols, values);
+        nh_tape_work *work = nh_tape_work_create(tape);
+        double worst = 0, out[2];
+        for (size_t i = 0; i < c->probes; i++) {
+            nh_tape_eval(tape, work, c->probe + i * c->width, out);
+            if (isfinite(out[0])) worst = fmax(worst, fabs(out[0]) / (1 + fabs(out[1])));
+        }
+        nh_tape_work_free(work);
+        nh_tape_free(tape);
+        if (worst < 1e-10) continue;
+        nh_deck_fail(s->deck, s->constraint[a].node, 0, error, "the chart's map does not satisfy this constraint (off by %.2g at a sample point)", worst);
+        return nh_error_hint(error, "substitute the map into the constraint: it must vanish for all quasi-velocities");
+    }
+    return true;
+}
+
+static nh_chart *quasi_chart(nh_system *s, uint64_t seed, nh_error *error)
+{
+    nh_text name;
+    nh_text_init(&name);
+    nh_text_add(&name, "quasi-velocities (");
+    for (size_t i = 0; i < s->quasi; i++) nh_text_addf(&name, "%s%s", i ? ", " : "", nh_name_of(s->dag, s->quasi_velocity[i]));
+    nh_text_add(&name, ")");
+    nh_chart *c = nh_embedding_new(s, nh_text_string(&name), s->quasi, 0);
+    nh_text_clear(&name);
+    c->quasi = true;
+    memcpy(c->w, s->quasi_velocity, s->quasi * sizeof *c->w);
+    memcpy(c->rho, s->quasi_map, s->coordinates * sizeof *c->rho);
+    nh_embedding_symbols(c);
+    if (probes_of_quasi(c, seed) && chart_satisfies(c, error)) return c;
+    nh_chart_free(c);
+    return NULL;
+}
+
+nh_chart *nh_chart_create(nh_system *system, nh_chart_choice choice, uint64_t seed, nh_error *error)
+{
+    if (choice == NH_CHART_QUASI && !system->quasi) {
+        nh_fail(error, NH_USAGE, "", "%s defines no quasi-velocities", system->name);
+        nh_error_hint(error, "add a `chart:` to the system file");
+        return NULL;
+    }
+    if (system->quasi && choice != NH_CHART_COORDINATES) return quasi_chart(system, seed, error);
+    return nh_embedding_coordinates(system, seed, error);
+}
+
+/* ---- back from coordinate velocities ---- */
+
+bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
+{
+    const nh_system *s = c->system;
+    nh_dag *d = s->dag;
+    size_t n = c->n, m = s->coordinates;
+    if (!c->quasi) {
+        memcpy(out, c->w, n * sizeof *out);
+        return true;
+    }
+    nh_ex *R = nh_alloc_array(m * n + n * n + n + 1, sizeof *R), *N = R + m * n, *b = N + n * n;
+    nh_ex *zero = nh_alloc_array(n + 1, sizeof *zero);
+    bool affine = true;
+    for (size_t k = 0; k < m; k++)
+        for (size_t i = 0; i < n; i++) {
+            R[k * n + i] = nh_diff(d, c->rho[k], c->w[i]);
+            for (size_t j = 0; j < n; j++) affine &= !nh_depends(d, R[k * n + i], c->w[j]);
+        }
+    for (size_t i = 0; i < n && affine; i++) {
+        b[i] = nh_int(d, 0);
+        for (size_t j = 0; j < n; j++) N[i * n + j] = nh_int(d, 0);
+        for (size_t k = 0; k < m; k++) {
+            nh_ex rest = nh_sub(d, s->coordinate[k].v, nh_substitute(d, c->rho[k], n, c->w, zero));
+            b[i] = nh_add(d, b[i], nh_mul(d, R[k * n + i], rest));
+            for (size_t j = 0; j < n; j++) N[i * n + j] = nh_add(d, N[i * n + j], nh_mul(d, R[k * n + i], R[k * n + j]));
+        }
+    }
+    nh_lu *lu = NULL;
+    if (affine) {
+        for (size_t i = 0; i < n * n; i++) N[i] = nh_simplify(d, N[i]);
+        lu = nh_lu_create(d, n, N, nh_embedding_score, (void *)c, NULL);
+    }
+    if (lu) {
+        nh_lu_solve(lu, b, out);
+        for (size_t i = 0; i < n; i++) out[i] = nh_simplify(d, out[i]);
+    }
+    bool good = lu != NULL;
+    nh_lu_free(lu);
+    nh_free(zero);
+    nh_free(R);
+    return good;
+}

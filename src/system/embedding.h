@@ -1,0 +1,50 @@
+/* embedding: constraints to a parametrization of the constraint submanifold.
+ *
+ *     v^s = rho^s(t, q, w),   w^1..w^n,   n = m - k          [MATH, sec. 1], [CechMusilova2014, sec. 2.3]
+ *
+ * A chart is either the user's quasi-velocities, or the independent coordinate velocities with the dependent ones
+ * eliminated: symbolically where the constraints are linear in them, otherwise they stay as implicit symbols u with f(t, q, w, u) = 0,
+ * found by Newton's method at points and followed by the implicit function theorem in derivatives. */
+#ifndef NH_EMBEDDING_H
+#define NH_EMBEDDING_H
+
+#include "expr/tape.h"
+#include "system/system.h"
+
+typedef enum { NH_CHART_AUTO, NH_CHART_QUASI, NH_CHART_COORDINATES } nh_chart_choice;
+
+typedef struct {
+    const nh_system *system;
+    nh_arena *arena;
+    const char *name;         /* "quasi-velocities (omega, v)" */
+    bool quasi;
+    size_t n, implicit;
+    nh_ex *w;                 /* n velocities of the chart */
+    nh_ex *rho;               /* m: coordinate velocities as functions of (t, q, w, u) */
+    size_t *dependent;        /* k coordinate indices, coordinate charts only */
+    nh_ex *u, *residual;      /* implicit velocities and the constraints that determine them */
+    size_t width;             /* 1 + m + n + implicit: the point (t, q, w, u) */
+    nh_ex *symbol;            /* width */
+    double *low, *high;       /* width: sampling box */
+    nh_tape *newton;          /* residual and d residual / d u; NULL when nothing is implicit */
+    double *probe;            /* probes x width: a few points for pivots and ranks */
+    size_t probes;
+    double pivot;             /* least pivot of the elimination over the probes, relative */
+} nh_chart;
+
+/* NULL on failure; the message names the constraint and the rank. */
+nh_chart *nh_chart_create(nh_system *system, nh_chart_choice choice, uint64_t seed, nh_error *error);
+void nh_chart_free(nh_chart *chart);
+
+/* Complete a point: solve for the implicit velocities, starting from those in z.  False when Newton's method fails. */
+bool nh_chart_complete(const nh_chart *chart, double *z);
+
+/* The chart's velocities as functions of (t, q, q'): w = (R^T R)^-1 R^T (v - rho(0)) where rho is affine in w.  False where
+ * it is not (the caller says so). */
+bool nh_chart_inverse(const nh_chart *chart, nh_ex *w_of_v);
+
+/* f^a = lhs - rhs in coordinate velocities, and composed with the embedding. */
+nh_ex nh_chart_constraint(const nh_chart *chart, size_t a);
+nh_ex nh_chart_compose(const nh_chart *chart, nh_ex e); /* v replaced by rho */
+
+#endif

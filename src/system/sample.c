@@ -1,0 +1,59 @@
+#include "system/sample.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_qrng.h>
+#include <math.h>
+
+#include "base/memory.h"
+
+enum { sobol_limit = 40 };
+
+struct nh_sampler {
+    gsl_qrng *qrng;
+    size_t dimension;
+    double *low, *width, *shift;
+};
+
+double nh_random(uint64_t *state)
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+nh_sampler *nh_sampler_create(size_t dimension, const double *low, const double *high, uint64_t seed)
+{
+    gsl_set_error_handler_off(); /* GSL's default handler aborts */
+    nh_sampler *s = nh_alloc(sizeof *s);
+    s->dimension = dimension;
+    s->low = nh_alloc_array(3 * dimension + 1, sizeof *s->low);
+    s->width = s->low + dimension;
+    s->shift = s->width + dimension;
+    uint64_t state = seed * 0x2545f4914f6cdd1du + dimension;
+    for (size_t i = 0; i < dimension; i++) {
+        s->low[i] = low[i];
+        s->width[i] = high[i] - low[i];
+        s->shift[i] = nh_random(&state);
+    }
+    if (dimension) s->qrng = gsl_qrng_alloc(dimension <= sobol_limit ? gsl_qrng_sobol : gsl_qrng_reversehalton, (unsigned)dimension);
+    return s;
+}
+
+void nh_sampler_free(nh_sampler *sampler)
+{
+    if (!sampler) return;
+    if (sampler->qrng) gsl_qrng_free(sampler->qrng);
+    nh_free(sampler->low);
+    nh_free(sampler);
+}
+
+void nh_sampler_next(nh_sampler *s, double *point)
+{
+    if (!s->qrng) return;
+    gsl_qrng_get(s->qrng, point);
+    for (size_t i = 0; i < s->dimension; i++) {
+        double x = point[i] + s->shift[i];
+        point[i] = s->low[i] + s->width[i] * (x - floor(x));
+    }
+}

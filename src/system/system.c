@@ -1,0 +1,155 @@
+#include "system/system.h"
+
+#include <string.h>
+
+#include "base/text.h"
+#include "expr/parse.h"
+#include "expr/print.h"
+#include "system/system_internal.h"
+
+/* ---- names ---- */
+
+typedef struct {
+    const nh_system *system;
+    size_t extras;
+    const nh_named *extra;
+    unsigned forbid; /* NH_NO_VELOCITIES, NH_NO_QUASI, NH_NO_COORDINATES */
+} scope;
+
+static bool in_named(size_t count, const nh_named *list, const char *name, nh_ex *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(list[i].name, name)) continue;
+        *out = list[i].value;
+        return true;
+    }
+    return false;
+}
+
+static bool in_coordinates(const scope *s, const char *name, nh_ex *out, nh_parse_fault *fault)
+{
+    const nh_system *y = s->system;
+    for (size_t i = 0; i < y->coordinates; i++) {
+        size_t n = strlen(y->coordinate[i].name);
+        if (strncmp(y->coordinate[i].name, name, n)) continue;
+        bool velocity = !strcmp(name + n, "'");
+        if (name[n] && !velocity) continue;
+        *out = velocity ? y->coordinate[i].v : y->coordinate[i].q;
+        if (velocity ? s->forbid & NH_NO_VELOCITIES : s->forbid & NH_NO_COORDINATES) {
+            snprintf(fault->what, sizeof fault->what, "`%s` cannot be used here: %s", name,
+                     s->forbid & NH_NO_COORDINATES ? "only parameters and earlier definitions can" : "velocities cannot");
+            return false;
+        }
+        return true;
+    }
+    return false;
+}
+
+/* "did you mean" over everything that has a name here. */
+static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
+{
+    const nh_system *y = s->system;
+    size_t n = 0, max = 2 + s->extras + y->definitions + y->parameters + 2 * y->coordinates + y->quasi + NH_FUNCTION_COUNT;
+    const char **list = nh_alloc_array(max, sizeof *list);
+    for (size_t i = 0; i < s->extras; i++) list[n++] = s->extra[i].name;
+    for (size_t i = 0; i < y->definitions; i++) list[n++] = y->definition[i].name;
+    for (size_t i = 0; i < y->parameters; i++) list[n++] = y->parameter[i].name;
+    for (size_t i = 0; i < y->coordinates; i++) list[n++] = y->coordinate[i].name;
+    for (size_t i = 0; i < y->coordinates && y->coordinate[i].v; i++) list[n++] = nh_name_of(y->dag, y->coordinate[i].v);
+    for (size_t i = 0; i < y->quasi; i++) list[n++] = nh_name_of(y->dag, y->quasi_velocity[i]);
+    list[n++] = "sqrt";
+    for (int f = 0; f < NH_FUNCTION_COUNT; f++) list[n++] = nh_function_name((nh_function)f);
+    snprintf(fault->what, sizeof fault->what, "unknown name `%s`", name);
+    const char *near = nh_text_nearest(name, list, n);
+    if (near) snprintf(fault->hint, sizeof fault->hint, "did you mean `%s`?", near);
+    else if (strchr(name, '\'')) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate");
+    else snprintf(fault->hint, sizeof fault->hint, "declare it under parameters, coordinates or definitions");
+    nh_free(list);
+}
+
+static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
+{
+    const scope *s = context;
+    const nh_system *y = s->system;
+    if (!strcmp(name, "t")) {
+        *out = y->t;
+        return true;
+    }
+    if (in_named(s->extras, s->extra, name, out) || in_named(y->definitions, y->definition, name, out)) return true;
+    for (size_t i = 0; i < y->parameters; i++) {
+        if (strcmp(y->parameter[i].name, name)) continue;
+        *out = y->parameter[i].symbol;
+        return true;
+    }
+    if (in_coordinates(s, name, out, fault)) return true;
+    if (fault->what[0]) return false;
+    for (size_t i = 0; i < y->quasi; i++) {
+        if (strcmp(nh_name_of(y->dag, y->quasi_velocity[i]), name)) continue;
+        *out = y->quasi_velocity[i];
+        if (!(s->forbid & NH_NO_QUASI)) return true;
+        snprintf(fault->what, sizeof fault->what, "the quasi-velocity `%s` cannot be used here", name);
+        snprintf(fault->hint, sizeof fault->hint, "write it in the coordinates' own velocities");
+        return false;
+    }
+    suggest(s, name, fault);
+    return false;
+}
+
+bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, unsigned forbid,
+                               size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs, nh_error *error)
+{
+    scope s = {system, extras, extra, forbid};
+    nh_parse_fault fault;
+    bool good = lhs ? nh_parse_equation(system->dag, node->text, resolve, &s, lhs, rhs, &fault)
+                    : nh_parse(system->dag, node->text, resolve, &s, rhs, &fault);
+    if (good) return true;
+    nh_deck_fail(deck, node, fault.offset, error, "%s", fault.what);
+    return fault.hint[0] ? nh_error_hint(error, "%s", fault.hint) : false;
+}
+
+bool nh_system_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t extras,
+                          const nh_named *extra, nh_ex *out, nh_error *error)
+{
+    if (!nh_deck_is(deck, node, NH_DECK_SCALAR, "an expression", error)) return false;
+    return nh_system_read_expression(system, deck, node, 0, extras, extra, NULL, out, error);
+}
+
+bool nh_system_expression_text(const nh_system *system, const char *where, const char *text, size_t extras,
+                               const nh_named *extra, nh_ex *out, nh_error *error)
+{
+    scope s = {system, extras, extra, 0};
+    nh_parse_fault fault;
+    if (nh_parse(system->dag, text, resolve, &s, out, &fault)) return true;
+    char place[300];
+    snprintf(place, sizeof place, "%.250s:%zu", where, fault.offset + 1);
+    nh_fail(error, NH_USAGE, place, "%s", fault.what);
+    snprintf(error->excerpt, sizeof error->excerpt, "  %.400s\n  %*s^", text, (int)(fault.offset > 400 ? 400 : fault.offset), "");
+    return fault.hint[0] ? nh_error_hint(error, "%s", fault.hint) : false;
+}
+
+long nh_system_coordinate(const nh_system *system, const char *name)
+{
+    for (size_t i = 0; i < system->coordinates; i++)
+        if (!strcmp(system->coordinate[i].name, name)) return (long)i;
+    return -1;
+}
+
+void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values)
+{
+    nh_ex *s = nh_arena_alloc(system->arena, (system->parameters + 1) * sizeof *s);
+    double *v = nh_arena_alloc(system->arena, (system->parameters + 1) * sizeof *v);
+    for (size_t i = 0; i < system->parameters; i++) {
+        s[i] = system->parameter[i].symbol;
+        v[i] = system->parameter[i].value;
+    }
+    *symbols = s;
+    *values = v;
+}
+
+void nh_system_free(nh_system *system)
+{
+    if (!system) return;
+    nh_dag_free(system->dag);
+    nh_deck_free(system->deck);
+    nh_arena_free(system->arena);
+}

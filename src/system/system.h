@@ -1,0 +1,87 @@
+/* system: what a user wrote, as expressions (docs/formats.md). */
+#ifndef NH_SYSTEM_H
+#define NH_SYSTEM_H
+
+#include "base/deck.h"
+#include "base/memory.h"
+#include "expr/dag.h"
+
+typedef enum { NH_ANGLE, NH_LENGTH, NH_PLAIN } nh_coordinate_type;
+
+typedef struct {
+    const char *name, *unit, *doc;
+    nh_ex symbol;
+    double value;
+} nh_parameter;
+
+typedef struct {
+    const char *name, *doc;
+    nh_coordinate_type type;
+    nh_ex q, v; /* the coordinate and its velocity "name'" */
+} nh_coordinate;
+
+typedef struct {
+    const char *text;
+    nh_ex lhs, rhs;  /* f = lhs - rhs */
+    bool position;   /* it was an equation between positions: lhs and rhs are its time derivative */
+    const nh_deck_node *node;
+} nh_constraint;
+
+typedef struct {
+    nh_ex symbol;
+    double low, high;
+} nh_interval;
+
+typedef struct {
+    const char *name, *text;
+    nh_ex value;
+} nh_named;
+
+typedef struct {
+    nh_arena *arena;
+    nh_dag *dag;
+    nh_deck *deck;
+    const char *name, *title, *source;
+    nh_ex t;
+    size_t parameters, coordinates, constraints, definitions, intervals, currents, not_conserved;
+    nh_parameter *parameter;
+    nh_coordinate *coordinate;
+    nh_constraint *constraint;
+    nh_named *definition;
+    nh_interval *interval;   /* the sampling box as far as the user gave it */
+    nh_named *current, *trap; /* known currents; functions known not to be conserved */
+    nh_ex lagrangian;
+    nh_ex *force;            /* per coordinate; the number 0 where there is none */
+    bool has_forces;
+    size_t dependents;       /* 0 when the user named none */
+    size_t *dependent;       /* coordinate indices */
+    size_t quasi;            /* number of quasi-velocities, 0 without a chart */
+    nh_ex *quasi_velocity;   /* symbols */
+    nh_ex *quasi_map;        /* velocity of each coordinate */
+} nh_system;
+
+typedef struct {
+    const char *name;
+    double value;
+} nh_setting;
+
+/* Read a system file; `settings` override parameter values.  NULL on failure. */
+nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error);
+nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting, nh_error *error);
+void nh_system_free(nh_system *system);
+
+/* Parse an expression of this system: t, parameters, definitions, coordinates, velocities x', quasi-velocities, and the
+ * extra names; errors point into `node`, a scalar of `deck`. */
+bool nh_system_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t extras,
+                          const nh_named *extra, nh_ex *out, nh_error *error);
+/* The same for a text from the command line, called `where` in messages. */
+bool nh_system_expression_text(const nh_system *system, const char *where, const char *text, size_t extras,
+                               const nh_named *extra, nh_ex *out, nh_error *error);
+
+/* Parameter symbols and values as parallel arrays owned by the arena. */
+void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values);
+
+/* The index of a coordinate by name, or -1. */
+long nh_system_coordinate(const nh_system *system, const char *name);
+
+#endif

@@ -1,0 +1,468 @@
+/* system_read: a system file, key by key. */
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "expr/diff.h"
+#include "expr/parse.h"
+#include "system/system_internal.h"
+
+typedef struct {
+    nh_system *system;
+    nh_deck *deck;
+    const nh_deck_node *root;
+    nh_error *error;
+} reader;
+
+static const char *const top_keys[] = {"name", "title", "source", "parameters", "coordinates", "definitions", "lagrangian",
+                                       "constraints", "dependent", "chart", "forces", "domain", "known", "doc"};
+enum { top_key_count = sizeof top_keys / sizeof *top_keys };
+
+static void *take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
+
+/* The list under `key`; an absent key is an empty list. */
+static bool list_of(reader *r, const nh_deck_node *map, const char *key, const nh_deck_node **out, size_t *count)
+{
+    *out = nh_deck_get(map, key);
+    *count = 0;
+    if (!*out) return true;
+    if (!nh_deck_is(r->deck, *out, NH_DECK_LIST, key, r->error)) return false;
+    *count = (*out)->count;
+    return true;
+}
+
+static const char *scalar_of(reader *r, const nh_deck_node *map, const char *key, const char *fallback)
+{
+    const nh_deck_node *node = nh_deck_get(map, key);
+    return node && node->kind == NH_DECK_SCALAR ? node->text : nh_arena_strdup(r->system->arena, fallback);
+}
+
+/* Is `name` free and well formed? */
+static bool new_name(reader *r, const nh_deck_node *node)
+{
+    const nh_system *s = r->system;
+    if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a name", r->error)) return false;
+    const char *name = node->text;
+    if (!nh_is_name(name)) {
+        nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not a name", name);
+        return nh_error_hint(r->error, "a name is a letter, then letters, digits and _");
+    }
+    if (nh_is_reserved(name)) {
+        nh_deck_fail(r->deck, node, 0, r->error, "`%s` has a meaning of its own and cannot be redefined", name);
+        return nh_error_hint(r->error, "choose another name, for instance `%s1`", name);
+    }
+    nh_ex taken;
+    if (nh_symbol_find(s->dag, name, &taken)) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
+    for (size_t i = 0; i < s->definitions; i++)
+        if (!strcmp(s->definition[i].name, name)) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
+    return true;
+}
+
+static bool read_parameters(reader *r)
+{
+    static const char *const keys[] = {"name", "value", "unit", "doc"};
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!list_of(r, r->root, "parameters", &list, &n)) return false;
+    s->parameter = take(r, n, sizeof *s->parameter);
+    for (size_t i = 0; i < n; i++) {
+        const nh_deck_node *item = list->item[i];
+        if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a parameter {name: ..., value: ...}", r->error)) return false;
+        if (!nh_deck_only(r->deck, item, keys, 4, r->error)) return false;
+        const nh_deck_node *name = nh_deck_get(item, "name"), *value = nh_deck_get(item, "value");
+        if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this parameter has no `name`");
+        if (!new_name(r, name)) return false;
+        nh_parameter *p = &s->parameter[i];
+        *p = (nh_parameter){.name = name->text, .unit = scalar_of(r, item, "unit", ""), .doc = scalar_of(r, item, "doc", "")};
+        if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
+        if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error)) return false;
+        p->symbol = nh_symbol(s->dag, p->name);
+        s->parameters = i + 1;
+    }
+    return true;
+}
+
+static bool read_type(reader *r, const nh_deck_node *node, nh_coordinate_type *out)
+{
+    static const char *const names[] = {"angle", "length", "number"};
+    static const nh_coordinate_type types[] = {NH_ANGLE, NH_LENGTH, NH_PLAIN};
+    *out = NH_PLAIN;
+    if (!node) return true;
+    if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a type", r->error)) return false;
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(node->text, names[i])) continue;
+        *out = types[i];
+        return true;
+    }
+    nh_deck_fail(r->deck, node, 0, r->error, "unknown type `%s`; expected angle, length or number", node->text);
+    const char *near = nh_text_nearest(node->text, names, 3);
+    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+}
+
+static bool read_coordinates(reader *r)
+{
+    static const char *const keys[] = {"name", "type", "doc", "unit"};
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!list_of(r, r->root, "coordinates", &list, &n)) return false;
+    if (n == 0) {
+        nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
+        return nh_error_hint(r->error, "coordinates:\n  - {name: x, type: length}");
+    }
+    s->coordinate = take(r, n, sizeof *s->coordinate);
+    for (size_t i = 0; i < n; i++) {
+        const nh_deck_node *item = list->item[i], *name = item;
+        nh_coordinate *c = &s->coordinate[i];
+        *c = (nh_coordinate){.doc = "", .type = NH_PLAIN};
+        if (item->kind != NH_DECK_SCALAR) {
+            if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a coordinate {name: ..., type: ...}", r->error)) return false;
+            if (!nh_deck_only(r->deck, item, keys, 4, r->error)) return false;
+            name = nh_deck_get(item, "name");
+            if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this coordinate has no `name`");
+            if (!read_type(r, nh_deck_get(item, "type"), &c->type)) return false;
+            c->doc = scalar_of(r, item, "doc", "");
+        }
+        if (!new_name(r, name)) return false;
+        c->name = name->text;
+        c->q = nh_symbol(s->dag, c->name);
+        s->coordinates = i + 1;
+    }
+    for (size_t i = 0; i < n; i++) /* after all coordinates: symbols print in the order of declaration */
+        s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
+    return true;
+}
+
+/* Split "name = expression" at its first `=`; the name must be the whole left side. */
+static bool read_assignment_name(reader *r, const nh_deck_node *node, const char *what, const char **name)
+{
+    if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, what, r->error)) return false;
+    const char *equal = strchr(node->text, '=');
+    if (!equal) return nh_deck_fail(r->deck, node, 0, r->error, "%s was expected, but there is no `=`", what);
+    size_t n = (size_t)(equal - node->text);
+    while (n && node->text[n - 1] == ' ') n--;
+    *name = nh_arena_strndup(r->system->arena, node->text, n);
+    return true;
+}
+
+/* The right side, as an expression; the left side is blanked out so that columns stay right. */
+static bool read_right_side(reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out)
+{
+    char *copy = nh_arena_strdup(r->system->arena, node->text);
+    memset(copy, ' ', (size_t)(strchr(copy, '=') - copy) + 1);
+    nh_deck_node shadow = *node;
+    shadow.text = copy;
+    return nh_system_read_expression(r->system, r->deck, &shadow, forbid, 0, NULL, NULL, out, r->error);
+}
+
+static bool read_definitions(reader *r)
+{
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!list_of(r, r->root, "definitions", &list, &n)) return false;
+    s->definition = take(r, n, sizeof *s->definition);
+    for (size_t i = 0; i < n; i++) {
+        const nh_deck_node *node = list->item[i];
+        nh_named *d = &s->definition[i];
+        if (!read_assignment_name(r, node, "a definition `name = expression`", &d->name)) return false;
+        nh_deck_node name = *node;
+        name.text = d->name;
+        if (!new_name(r, &name)) return false;
+        if (!read_right_side(r, node, 0, &d->value)) return false;
+        d->text = node->text;
+        s->definitions = i + 1;
+    }
+    return true;
+}
+
+static bool read_lagrangian(reader *r)
+{
+    const nh_deck_node *node = nh_deck_get(r->root, "lagrangian");
+    if (!node) {
+        nh_deck_fail(r->deck, NULL, 0, r->error, "this system has no `lagrangian`");
+        return nh_error_hint(r->error, "lagrangian: m/2*x'^2 - m*g*x");
+    }
+    if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the lagrangian", r->error)) return false;
+    return nh_system_read_expression(r->system, r->deck, node, NH_NO_QUASI, 0, NULL, NULL, &r->system->lagrangian, r->error);
+}
+
+/* f(t, q) = 0 holds along a motion that starts on it iff its time derivative vanishes. */
+static void differentiate_position(nh_system *s, nh_constraint *c)
+{
+    nh_ex f = nh_sub(s->dag, c->lhs, c->rhs), rate = nh_diff(s->dag, f, s->t);
+    for (size_t i = 0; i < s->coordinates; i++)
+        rate = nh_add(s->dag, rate, nh_mul(s->dag, nh_diff(s->dag, f, s->coordinate[i].q), s->coordinate[i].v));
+    c->lhs = rate;
+    c->rhs = nh_int(s->dag, 0);
+    c->position = true;
+}
+
+static bool read_constraints(reader *r)
+{
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!list_of(r, r->root, "constraints", &list, &n)) return false;
+    s->constraint = take(r, n, sizeof *s->constraint);
+    for (size_t i = 0; i < n; i++) {
+        nh_constraint *c = &s->constraint[i];
+        const nh_deck_node *node = list->item[i];
+        if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a constraint `... = ...`", r->error)) return false;
+        *c = (nh_constraint){.text = node->text, .node = node};
+        if (!nh_system_read_expression(s, r->deck, node, NH_NO_QUASI, 0, NULL, &c->lhs, &c->rhs, r->error)) return false;
+        nh_ex f = nh_sub(s->dag, c->lhs, c->rhs);
+        bool moving = false, placed = false;
+        for (size_t j = 0; j < s->coordinates; j++) {
+            moving |= nh_depends(s->dag, f, s->coordinate[j].v);
+            placed |= nh_depends(s->dag, f, s->coordinate[j].q);
+        }
+        if (!moving && !placed) {
+            nh_deck_fail(r->deck, node, 0, r->error, "this constraint contains no coordinate and no velocity");
+            return nh_error_hint(r->error, nh_is_zero(s->dag, f) ? "it is always true: remove it" : "it can never hold: is a name missing?");
+        }
+        if (!moving) differentiate_position(s, c);
+        s->constraints = i + 1;
+    }
+    return true;
+}
+
+static bool read_dependent(reader *r)
+{
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!list_of(r, r->root, "dependent", &list, &n)) return false;
+    if (n && n != s->constraints)
+        return nh_deck_fail(r->deck, list, 0, r->error, "%zu dependent velocities for %zu constraints; expected as many as constraints", n, s->constraints);
+    s->dependent = take(r, n, sizeof *s->dependent);
+    const char **names = take(r, s->coordinates, sizeof *names);
+    for (size_t i = 0; i < s->coordinates; i++) names[i] = s->coordinate[i].name;
+    for (size_t i = 0; i < n; i++) {
+        const nh_deck_node *node = list->item[i];
+        if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the name of a coordinate", r->error)) return false;
+        size_t length = strcspn(node->text, "'");
+        long index = nh_system_coordinate(s, nh_arena_strndup(s->arena, node->text, length));
+        if (index < 0) {
+            nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not a coordinate", node->text);
+            const char *near = nh_text_nearest(node->text, names, s->coordinates);
+            return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+        }
+        for (size_t j = 0; j < i; j++)
+            if (s->dependent[j] == (size_t)index) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is named twice", node->text);
+        s->dependent[i] = (size_t)index;
+    }
+    s->dependents = n;
+    return true;
+}
+
+static bool read_quasi_names(reader *r, const nh_deck_node *chart)
+{
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!list_of(r, chart, "velocities", &list, &n)) return false;
+    size_t free_velocities = s->coordinates - s->constraints;
+    if (n != free_velocities) {
+        nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "the chart has %zu velocities, but %zu coordinates with %zu constraints leave %zu", n,
+                     s->coordinates, s->constraints, free_velocities);
+        return nh_error_hint(r->error, n < free_velocities ? "list every constraint under `constraints:`" : "one velocity for each degree of freedom");
+    }
+    s->quasi_velocity = take(r, n, sizeof *s->quasi_velocity);
+    for (size_t i = 0; i < n; i++) {
+        if (!new_name(r, list->item[i])) return false;
+        s->quasi_velocity[i] = nh_symbol(s->dag, list->item[i]->text);
+    }
+    s->quasi = n;
+    return true;
+}
+
+/* Which coordinate's velocity is on the left side "x'"? */
+static long velocity_on_left(reader *r, const nh_deck_node *node, const char *name)
+{
+    size_t n = strlen(name);
+    const nh_system *s = r->system;
+    for (size_t i = 0; i < s->coordinates; i++)
+        if (n && !strcmp(name, nh_name_of(s->dag, s->coordinate[i].v))) return (long)i;
+    nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not the velocity of a coordinate", name);
+    if (nh_system_coordinate(s, name) >= 0) nh_error_hint(r->error, "write `%s' = ...`", name);
+    return -1;
+}
+
+static bool read_chart(reader *r)
+{
+    static const char *const keys[] = {"velocities", "map"};
+    const nh_deck_node *chart = nh_deck_get(r->root, "chart"), *map;
+    nh_system *s = r->system;
+    size_t n;
+    if (!chart) return true;
+    if (!nh_deck_is(r->deck, chart, NH_DECK_MAP, "a chart {velocities: [...], map: [...]}", r->error)) return false;
+    if (!nh_deck_only(r->deck, chart, keys, 2, r->error) || !read_quasi_names(r, chart)) return false;
+    if (!list_of(r, chart, "map", &map, &n)) return false;
+    s->quasi_map = take(r, s->coordinates, sizeof *s->quasi_map);
+    bool *given = take(r, s->coordinates, sizeof *given);
+    for (size_t i = 0; i < n; i++) {
+        const char *name;
+        if (!read_assignment_name(r, map->item[i], "a line `x' = ...` of the chart's map", &name)) return false;
+        long index = velocity_on_left(r, map->item[i], name);
+        if (index < 0) return false;
+        if (given[index]) return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` is given twice", name);
+        given[index] = true;
+        if (!read_right_side(r, map->item[i], NH_NO_VELOCITIES, &s->quasi_map[index])) return false;
+    }
+    for (size_t i = 0; i < s->coordinates; i++)
+        if (!given[i])
+            return nh_deck_fail(r->deck, map ? map : chart, 0, r->error, "the chart's map does not say what `%s'` is", s->coordinate[i].name);
+    return true;
+}
+
+static bool read_forces(reader *r)
+{
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    s->force = take(r, s->coordinates, sizeof *s->force);
+    for (size_t i = 0; i < s->coordinates; i++) s->force[i] = nh_int(s->dag, 0);
+    if (!list_of(r, r->root, "forces", &list, &n)) return false;
+    for (size_t i = 0; i < n; i++) {
+        const char *name;
+        nh_ex value;
+        if (!read_assignment_name(r, list->item[i], "a force `coordinate = expression`", &name)) return false;
+        long index = nh_system_coordinate(s, name);
+        if (index < 0) {
+            nh_deck_fail(r->deck, list->item[i], 0, r->error, "`%s` is not a coordinate", name);
+            return nh_error_hint(r->error, "a generalized force belongs to a coordinate: `%s = ...`", s->coordinate[0].name);
+        }
+        if (!read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
+        s->force[index] = nh_add(s->dag, s->force[index], value);
+        s->has_forces = true;
+    }
+    return true;
+}
+
+static bool box_symbol(reader *r, const nh_deck_node *key, nh_ex *out)
+{
+    nh_system *s = r->system;
+    const char **names = take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
+    size_t n = 0;
+    names[n++] = "t";
+    for (size_t i = 0; i < s->coordinates; i++) {
+        names[n++] = s->coordinate[i].name;
+        names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
+    }
+    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    for (size_t i = 0; i < n; i++)
+        if (!strcmp(names[i], key->text)) return nh_symbol_find(s->dag, key->text, out);
+    nh_deck_fail(r->deck, key, 0, r->error, "`%s` is not a coordinate, a velocity or t", key->text);
+    const char *near = nh_text_nearest(key->text, names, n);
+    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+}
+
+static bool read_domain(reader *r)
+{
+    const nh_deck_node *map = nh_deck_get(r->root, "domain");
+    nh_system *s = r->system;
+    if (!map) return true;
+    if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a domain {x: [low, high], ...}", r->error)) return false;
+    s->interval = take(r, map->count, sizeof *s->interval);
+    for (size_t i = 0; i < map->count; i++) {
+        double range[2];
+        nh_interval *box = &s->interval[i];
+        if (!box_symbol(r, map->key[i], &box->symbol)) return false;
+        if (!nh_deck_range(r->deck, map->item[i], "an interval [low, high]", range, r->error)) return false;
+        box->low = range[0];
+        box->high = range[1];
+        s->intervals = i + 1;
+    }
+    return true;
+}
+
+static bool read_named_list(reader *r, const nh_deck_node *known, const char *key, nh_named **out, size_t *count)
+{
+    static const char *const keys[] = {"name", "expr", "doc"};
+    const nh_deck_node *list;
+    size_t n;
+    if (!list_of(r, known, key, &list, &n)) return false;
+    *out = take(r, n, sizeof **out);
+    for (size_t i = 0; i < n; i++) {
+        const nh_deck_node *item = list->item[i];
+        if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "an entry {name: ..., expr: ...}", r->error)) return false;
+        if (!nh_deck_only(r->deck, item, keys, 3, r->error)) return false;
+        const nh_deck_node *expr = nh_deck_get(item, "expr");
+        if (!expr) return nh_deck_fail(r->deck, item, 0, r->error, "this entry has no `expr`");
+        (*out)[i] = (nh_named){.name = scalar_of(r, item, "name", ""), .text = expr->text ? expr->text : ""};
+        if (!nh_system_expression(r->system, r->deck, expr, 0, NULL, &(*out)[i].value, r->error)) return false;
+        *count = i + 1;
+    }
+    return true;
+}
+
+static bool read_known(reader *r)
+{
+    static const char *const keys[] = {"currents", "not_conserved"};
+    const nh_deck_node *known = nh_deck_get(r->root, "known");
+    nh_system *s = r->system;
+    if (!known) return true;
+    if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known: {currents: [...]}", r->error)) return false;
+    return nh_deck_only(r->deck, known, keys, 2, r->error) && read_named_list(r, known, "currents", &s->current, &s->currents)
+           && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved);
+}
+
+static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
+{
+    nh_system *s = r->system;
+    for (size_t k = 0; k < count; k++) {
+        nh_parameter *found = NULL;
+        for (size_t i = 0; i < s->parameters; i++)
+            if (!strcmp(s->parameter[i].name, setting[k].name)) found = &s->parameter[i];
+        if (found) {
+            found->value = setting[k].value;
+            continue;
+        }
+        const char **names = take(r, s->parameters, sizeof *names);
+        for (size_t i = 0; i < s->parameters; i++) names[i] = s->parameter[i].name;
+        nh_fail(r->error, NH_USAGE, "", "`%s` is not a parameter of %s", setting[k].name, s->name);
+        const char *near = nh_text_nearest(setting[k].name, names, s->parameters);
+        return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+    }
+    return true;
+}
+
+static bool read_all(reader *r, size_t settings, const nh_setting *setting)
+{
+    nh_system *s = r->system;
+    if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)", r->error)) return false;
+    if (!nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
+    s->name = scalar_of(r, r->root, "name", "system");
+    s->title = scalar_of(r, r->root, "title", s->name);
+    s->source = scalar_of(r, r->root, "source", "");
+    if (!read_parameters(r)) return false;
+    s->t = nh_symbol(s->dag, "t");
+    return read_coordinates(r) && read_definitions(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
+           && read_chart(r) && read_forces(r) && read_domain(r) && read_known(r) && apply_settings(r, settings, setting);
+}
+
+static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *setting, nh_error *error)
+{
+    if (!deck) return NULL;
+    nh_arena *arena = nh_arena_create();
+    nh_system *s = nh_arena_alloc(arena, sizeof *s);
+    s->arena = arena;
+    s->deck = deck;
+    s->dag = nh_dag_create();
+    reader r = {s, deck, nh_deck_root(deck), error};
+    if (read_all(&r, settings, setting)) return s;
+    nh_system_free(s);
+    return NULL;
+}
+
+nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error)
+{
+    return read_deck(nh_deck_read(path, error), settings, setting, error);
+}
+
+nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting, nh_error *error)
+{
+    return read_deck(nh_deck_parse(name, text, strlen(text), error), settings, setting, error);
+}

@@ -1,0 +1,27 @@
+#!/bin/sh
+# Runs every Criterion program of the given build folders and adds up what they say.
+# usage: run.sh BUILD...          the last line is "N passed, N failed"
+passed=0
+failed=0
+log=$(mktemp)
+for build in "$@"; do
+    for program in "$build"/tests/test_*; do
+        case "$program" in *.o | *.d) continue ;; esac
+        NHSYM="$build/nhsym" "$program" --jobs 2 >"$log" 2>&1
+        code=$?
+        line=$(sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -a 'Synthesis:' | tail -n 1)
+        good=$(printf '%s' "$line" | sed -n 's/.*Passing: *\([0-9]*\).*/\1/p')
+        all=$(printf '%s' "$line" | sed -n 's/.*Tested: *\([0-9]*\).*/\1/p')
+        : "${good:=0}" "${all:=0}"
+        bad=$((all - good))
+        [ "$code" != 0 ] && [ "$bad" = 0 ] && bad=1
+        [ "$all" = 0 ] && bad=1
+        printf '%-45s %4d passed %3d failed\n' "$program" "$good" "$bad"
+        [ "$bad" = 0 ] || cat "$log"
+        passed=$((passed + good))
+        failed=$((failed + bad))
+    done
+done
+rm -f "$log"
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ] && [ "$passed" -gt 0 ]

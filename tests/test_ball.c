@@ -1,0 +1,181 @@
+/* ball: rigorous values, exact where they can be, and honest about what is not finite. */
+#include <criterion/criterion.h>
+#include <math.h>
+
+#include "expr/ball.h"
+
+static nh_dag *dag;
+static nh_ball *ball;
+static nh_ex x, y;
+
+static void start(void)
+{
+    dag = nh_dag_create();
+    x = nh_symbol(dag, "x");
+    y = nh_symbol(dag, "y");
+    ball = nh_ball_create(dag, 128);
+}
+
+static void stop(void)
+{
+    nh_ball_free(ball);
+    nh_dag_free(dag);
+}
+
+TestSuite(ball, .init = start, .fini = stop);
+
+static void expect_value(nh_ex e, double expected)
+{
+    double mid, radius;
+    cr_assert(nh_ball_value(ball, e, &mid, &radius));
+    cr_expect_leq(fabs(mid - expected), radius + 4e-16 * fabs(expected), "%.17g instead of %.17g", mid, expected);
+    cr_expect_leq(radius, 1e-15 * fabs(expected) + 1e-30, "radius %g", radius);
+}
+
+static bool has_value(nh_ex e)
+{
+    double mid, radius;
+    return nh_ball_value(ball, e, &mid, &radius);
+}
+
+Test(ball, functions)
+{
+    static const struct {
+        nh_function f;
+        double (*g)(double);
+    } table[] = {{NH_SIN, sin}, {NH_COS, cos}, {NH_TAN, tan}, {NH_ASIN, asin}, {NH_ACOS, acos}, {NH_ATAN, atan}, {NH_SINH, sinh},
+                 {NH_COSH, cosh}, {NH_TANH, tanh}, {NH_ASINH, asinh}, {NH_ATANH, atanh}, {NH_EXP, exp}, {NH_LOG, log}, {NH_ABS, fabs}};
+    nh_ball_set_double(ball, x, 0.7236);
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) expect_value(nh_call(dag, table[i].f, x), table[i].g(0.7236));
+    nh_ball_set_double(ball, x, -2.385);
+    expect_value(nh_call(dag, NH_ABS, x), 2.385);
+    expect_value(nh_call(dag, NH_SIGN, x), -1);
+    expect_value(nh_call(dag, NH_ACOSH, nh_neg(dag, x)), acosh(2.385));
+    expect_value(nh_pi(dag), acos(-1));
+}
+
+Test(ball, arctangent_of_two_arguments)
+{
+    static const double point[][2] = {{1, 2}, {1, -2}, {-1, -2}, {-1, 2}, {0, 3}, {3, 0}, {-3, 0}};
+    for (size_t i = 0; i < sizeof point / sizeof *point; i++) {
+        nh_ball_set_double(ball, y, point[i][0]);
+        nh_ball_set_double(ball, x, point[i][1]);
+        expect_value(nh_call2(dag, NH_ATAN2, y, x), atan2(point[i][0], point[i][1]));
+    }
+}
+
+Test(ball, powers)
+{
+    nh_ball_set_ratio(ball, x, 9, 4);
+    nh_ball_set_ratio(ball, y, -3, 1);
+    expect_value(nh_sqrt(dag, x), 1.5);
+    expect_value(nh_pow(dag, x, nh_ratio(dag, -3, 2)), 8.0 / 27);
+    expect_value(nh_pow(dag, x, nh_ratio(dag, 1, 3)), cbrt(2.25));
+    expect_value(nh_pow(dag, x, y), 64.0 / 729);
+    expect_value(nh_powi(dag, y, -3), -1.0 / 27);
+    nh_ball_set_ratio(ball, x, 999999, 1000000);
+    expect_value(nh_powi(dag, x, 1000000), exp(1e6 * log1p(-1e-6)));
+    nh_ball_set_ratio(ball, x, 9, 4);
+    cr_expect_not(has_value(nh_sqrt(dag, y)));
+    cr_expect_not(has_value(nh_pow(dag, y, nh_ratio(dag, 1, 3))));
+    cr_expect_not(has_value(nh_pow(dag, y, x)));
+    cr_expect_not(has_value(nh_powi(dag, nh_add(dag, y, nh_int(dag, 3)), -1)));
+    cr_expect_not(has_value(nh_call(dag, NH_LOG, y)));
+}
+
+Test(ball, exact_rationals)
+{
+    double bound;
+    nh_ball_set_ratio(ball, x, 1, 3);
+    nh_ball_set_ratio(ball, y, 1, 4);
+    /* 4 y - 1 is exact, 3 x - 1 is zero to 38 digits */
+    nh_ex e = nh_sub(dag, nh_mul(dag, nh_int(dag, 4), y), nh_int(dag, 1));
+    cr_expect(nh_ball_log10_bound(ball, e, &bound));
+    cr_expect_eq(bound, -INFINITY);
+    e = nh_sub(dag, nh_mul(dag, nh_int(dag, 3), x), nh_int(dag, 1));
+    cr_expect(nh_ball_log10_bound(ball, e, &bound));
+    cr_expect_lt(bound, -37);
+}
+
+Test(ball, radius_covers_the_rounding_to_a_double)
+{
+    double mid, radius;
+    nh_ball_set_ratio(ball, x, 1, 3);
+    cr_assert(nh_ball_value(ball, x, &mid, &radius));
+    cr_expect_eq(mid, 1.0 / 3);
+    cr_expect_geq(radius, 1.8e-17); /* 1/3 - (double)1/3 = 1.85e-17 */
+    cr_expect_leq(radius, 1.9e-17);
+}
+
+Test(ball, forgetting)
+{
+    nh_ex e = nh_add(dag, nh_mul(dag, x, x), nh_int(dag, 1));
+    cr_expect_not(has_value(e), "x has no value");
+    nh_ball_set_double(ball, x, 2);
+    expect_value(e, 5);
+    nh_ball_set_double(ball, x, 3);
+    expect_value(e, 10);
+    nh_ball_set_expression(ball, y, e);
+    nh_ball_set_double(ball, x, 4);
+    expect_value(nh_add(dag, x, y), 14);
+    cr_expect_not(has_value(nh_symbol(dag, "z")));
+    nh_ball_set_expression(ball, x, nh_symbol(dag, "z"));
+    cr_expect_not(has_value(e));
+}
+
+Test(ball, graph_grows)
+{
+    nh_ball_set_double(ball, x, 1);
+    nh_ex e = x;
+    for (int i = 0; i < 1500; i++) {
+        e = nh_call(dag, NH_ATAN, nh_add(dag, e, nh_int(dag, i)));
+        if (i % 100 == 0) cr_expect(has_value(e));
+    }
+    cr_expect(has_value(e));
+    for (int i = 0; i < 100000; i++) e = nh_call(dag, NH_SIN, e);
+    cr_expect_not(has_value(e), "too deep for the stack, and told so");
+}
+
+Test(ball, sizes_beyond_doubles)
+{
+    double bound;
+    nh_ball_set_double(ball, x, -2000);
+    cr_expect(nh_ball_log10_bound(ball, nh_call(dag, NH_EXP, x), &bound));
+    cr_expect_float_eq(bound, -2000 / log(10), 1e-9);
+    cr_expect(nh_ball_log10_bound(ball, nh_call(dag, NH_EXP, nh_neg(dag, x)), &bound));
+    cr_expect_float_eq(bound, 2000 / log(10), 1e-9);
+    cr_expect_not(has_value(nh_call(dag, NH_EXP, nh_neg(dag, x))), "no double holds exp(2000)");
+}
+
+Test(ball, relative_sum)
+{
+    double ratio;
+    nh_ball_set_ratio(ball, x, 12345, 6789);
+    nh_ex s = nh_powi(dag, nh_call(dag, NH_SIN, x), 2), c = nh_powi(dag, nh_call(dag, NH_COS, x), 2);
+    nh_ex terms[3] = {s, c, nh_int(dag, -1)};
+    cr_expect(nh_ball_relative_sum(ball, 3, terms, &ratio));
+    cr_expect_lt(ratio, -36);
+    terms[2] = nh_ratio(dag, -999999, 1000000);
+    cr_expect(nh_ball_relative_sum(ball, 3, terms, &ratio));
+    cr_expect_float_eq(ratio, -6, 1e-5);
+    cr_expect_not(nh_ball_relative_sum(ball, 1, (nh_ex[]){nh_int(dag, 0)}, &ratio), "every term is zero");
+    cr_expect_not(nh_ball_relative_sum(ball, 1, &y, &ratio), "y has no value");
+    nh_ex tiny[2] = {nh_call(dag, NH_EXP, nh_mul(dag, nh_int(dag, -4000), x)), nh_int(dag, 0)};
+    cr_expect(nh_ball_relative_sum(ball, 2, tiny, &ratio));
+    cr_expect_float_eq(ratio, 0, 1e-9);
+}
+
+/* A hundred digits confirm what sixteen cannot refute. */
+Test(ball, precision)
+{
+    nh_ball *fine = nh_ball_create(dag, 400);
+    double coarse_bound, fine_bound;
+    /* exp(pi sqrt(163)) is within 1e-12 of a whole number, and is none */
+    nh_ex e = nh_call(dag, NH_EXP, nh_mul(dag, nh_pi(dag), nh_sqrt(dag, nh_int(dag, 163))));
+    e = nh_sub(dag, e, nh_int(dag, 262537412640768744));
+    cr_expect(nh_ball_log10_bound(ball, e, &coarse_bound));
+    cr_expect(nh_ball_log10_bound(fine, e, &fine_bound));
+    cr_expect_float_eq(fine_bound, log10(7.4992740280181431e-13), 1e-12);
+    cr_expect_geq(coarse_bound, fine_bound);
+    nh_ball_free(fine);
+}
