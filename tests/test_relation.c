@@ -198,6 +198,8 @@ Test(relation, parameters)
         {"a", NH_RELATION_UNIQUE, {"sin(x+a)", "sin(x)", "cos(x)"}, {"1", "-cos(a)", "-sin(a)"}},
         {"a", NH_RELATION_UNIQUE, {"exp(x+a)", "exp(x)", "y"}, {"1", "-exp(a)", "0"}},
         {"a b", NH_RELATION_UNIQUE, {"(a+b)^(x+1)", "(b+a)^x", "x*y"}, {"1", "-a-b", "0"}},
+        {"a", NH_RELATION_NONE, {"x^a", "1"}, {0}},
+        {"a", NH_RELATION_UNIQUE, {"x^(a+1)", "(x+a)*x^a", "x^a"}, {"1", "-1", "a"}},
         {"m", NH_RELATION_NONE, {"x", "m*y", "x*y"}, {0}},
         {"m a", NH_RELATION_NONE, {"x*m+a*y", "a*x+m*y"}, {0}},
         {"a b", NH_RELATION_NONE, {"x*sin(a*x)", "x*sin(b*x)"}, {0}},
@@ -216,6 +218,7 @@ Test(relation, roots_of_parameters)
         {"m a", NH_RELATION_UNIQUE, {"x*m^(1/3)+y", "x*m+m^(2/3)*y"}, {"m^(2/3)", "-1"}},
         {"m a", NH_RELATION_UNIQUE, {"x/(1+sqrt(m))", "x/(1-sqrt(m))", "y"}, {"1+sqrt(m)", "sqrt(m)-1", "0"}},
         {"m a", NH_RELATION_UNIQUE, {"x*(sqrt(m)+sqrt(a))", "x*(a-m)"}, {"sqrt(m)-sqrt(a)", "1"}},
+        {"m a k", NH_RELATION_UNIQUE, {"x*sqrt(m)*(k^(1/6)+1)", "x*m^(1/3)*a^(1/6)"}, {"a^(1/6)", "-m^(1/6)*(k^(1/6)+1)"}},
         {"m a", NH_RELATION_UNIQUE, {"x*sqrt(m/a+1)", "x*(m/a+1)"}, {"sqrt(m/a+1)", "-1"}},
     };
     TRY(list);
@@ -229,6 +232,9 @@ Test(relation, proportional_roots)
         {"a k", NH_RELATION_UNIQUE, {"sqrt(v^2/a^2+k^2*w^2)", "1/sqrt(v^2+a^2*k^2*w^2)", "sqrt(v^2+a^2*k^2*w^2)"},
          {"sqrt(a^2)", "0", "-1"}},
         {"m a", NH_RELATION_UNIQUE, {"(m*x+a*m)^(1/3)", "(x+a)^(4/3)/(x+a)"}, {"1", "-m^(1/3)"}},
+        {"m", NH_RELATION_UNIQUE, {"sqrt(m*x+m)*sqrt(m)+y", "m*sqrt(x+1)+y"}, {"1", "-1"}},
+        {"m a", NH_RELATION_UNIQUE, {"sqrt(m*x+m)*m^(1/3)", "sqrt(x+1)*(1+sqrt(a))"}, {"1+sqrt(a)", "-m^(5/6)"}},
+        {"m", NH_RELATION_NONE, {"sqrt(m*x+m)", "(x+1)^(1/3)"}, {0}},
         {"m", NH_RELATION_NONE, {"sqrt(m*x^2+y^2)", "sqrt(x^2+y^2)"}, {0}},
         {"", NH_RELATION_NONE, {"sqrt(m*(x^2+y^2))", "sqrt(x^2+y^2)"}, {0}},
     };

@@ -33,6 +33,7 @@
     X(tolerance,        1e-10,   1e-14,  1e-2,  "",         "relative tolerance of the motions")                                    \
     X(absolute,         1e-3,    0,      1e6,   "",         "size below which a state's error is absolute: tolerance*absolute")     \
     X(drift,            100,     1,      1e6,   "tolerance", "a true current drifts by less than this many tolerances")             \
+    X(steps,            2e5,     10,     1e9,   "steps",    "a motion that needs more steps than this is ended and said to be so") \
     X(until,            10,      -1e9,   1e9,   "time",     "end of the validation motion")                                         \
     X(pivot,            1e-3,    0,      1,     "",         "relative size of a chart's pivot below which the chart is left")
 

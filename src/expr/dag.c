@@ -224,18 +224,22 @@ bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol)
     return found;
 }
 
-size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max)
+static size_t of_kind(const nh_dag *dag, nh_ex e, nh_kind kind, nh_ex *out, size_t max)
 {
     uint32_t *node;
     size_t count = reach(dag, e, &node), found = 0;
     for (size_t i = 0; i < count; i++) {
-        if (dag->node[node[i]].kind != NH_SYMBOL) continue;
+        if (dag->node[node[i]].kind != kind) continue;
         if (found < max) out[found] = node[i];
         found++;
     }
     nh_free(node);
     return found;
 }
+
+size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { return of_kind(dag, e, NH_SYMBOL, out, max); }
+
+size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { return of_kind(dag, e, NH_FUNCTION, out, max); }
 
 size_t nh_node_count(const nh_dag *dag, nh_ex e)
 {

@@ -94,6 +94,8 @@ bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
 bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol);
 /* The symbols that occur in e, ascending, into `out` (at most `max`); returns their number. */
 size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
+/* The function calls that occur in e likewise. */
+size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 /* Number of distinct nodes reachable from e. */
 size_t nh_node_count(const nh_dag *dag, nh_ex e);
 

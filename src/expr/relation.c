@@ -48,23 +48,32 @@ static bool constant_quotient(const question *q, const nh_quotient *a)
     return true;
 }
 
-/* A new kernel (ratio)^(1/order), for which the field has room; false when it cannot be written down. */
-static bool add_root(question *q, const nh_quotient *ratio, nh_num unit, size_t *kernel)
+/* A kernel for radicand^(1/order), for which the field has room. */
+static size_t add_root(question *q, nh_ex radicand, const nh_quotient *value, nh_num unit)
 {
     nh_kernels *k = &q->form.kernels;
-    nh_arena *arena = nh_arena_create();
+    size_t kernel = k->count++;
+    nh_grow(&k->item, &k->capacity, k->count, sizeof *k->item);
+    k->item[kernel] = (nh_kernel){.kind = NH_KERNEL_ROOT, .atom = radicand, .unit = unit};
+    q->constant[kernel] = true;
+    nh_field_relate(q->form.field, kernel, (unsigned)unit.q, value);
+    return kernel;
+}
+
+/* value^(1/order) for a constant value: a power of a kernel there is, or a new one; NULL when it cannot be written down. */
+static const nh_quotient *root_of(question *q, const nh_quotient *value, nh_num unit)
+{
+    nh_kernels *k = &q->form.kernels;
     nh_pieces pieces;
-    bool fits = nh_pieces_make(q->form.field, arena, ratio, false, &pieces);
-    if (fits) {
-        nh_ex radicand = nh_emit_terms(k, &pieces);
-        *kernel = k->count;
-        nh_grow(&k->item, &k->capacity, k->count + 1, sizeof *k->item);
-        k->item[k->count++] = (nh_kernel){.kind = NH_KERNEL_ROOT, .atom = radicand, .unit = unit};
-        q->constant[*kernel] = true;
-        nh_field_relate(q->form.field, *kernel, (unsigned)unit.q, ratio);
-    }
+    nh_arena *arena = nh_arena_create();
+    bool fits = nh_pieces_make(q->form.field, arena, value, false, &pieces);
+    nh_ex radicand = fits ? nh_emit_terms(k, &pieces) : 0;
     nh_arena_free(arena);
-    return fits;
+    if (!fits) return NULL;
+    for (size_t i = 0; i < k->count; i++)
+        if (k->item[i].kind == NH_KERNEL_ROOT && k->item[i].atom == radicand && k->item[i].unit.q % unit.q == 0)
+            return nh_quotient_power_of(q->form.field, i, k->item[i].unit.q / unit.q);
+    return nh_quotient_power_of(q->form.field, add_root(q, radicand, value, unit), 1);
 }
 
 /* (A/B)^(1/n) as such or as 1/(B/A)^(1/n), whichever has no denominator; NULL when A/B is not constant. */
@@ -72,12 +81,11 @@ static const nh_quotient *constant_root(question *q, const nh_quotient *a, const
 {
     nh_field *field = q->form.field;
     const nh_quotient *ratio = nh_quotient_mul(field, a, nh_quotient_inv(field, b));
-    size_t kernel;
     if (nh_field_state_of(field) != NH_FIELD_FINE || !constant_quotient(q, ratio)) return NULL;
     const nh_quotient *inverse = nh_quotient_inv(field, ratio);
     bool upside_down = nh_relation_is_polynomial(field, inverse) && !nh_relation_is_polynomial(field, ratio);
-    if (!add_root(q, upside_down ? inverse : ratio, unit, &kernel)) return NULL;
-    return nh_quotient_power_of(field, kernel, upside_down ? -1 : 1);
+    const nh_quotient *root = root_of(q, upside_down ? inverse : ratio, unit);
+    return root && upside_down ? nh_quotient_inv(field, root) : root;
 }
 
 /* r = A^(1/n), and there is s = B^(1/n) with a constant A/B: then r = (A/B)^(1/n) s.  The roots being positive where they
@@ -138,8 +146,11 @@ static bool collect_kernels(question *q)
     size_t count = k->count, roots = sort_out(q), *earlier = nh_alloc_array(roots + 1, sizeof *earlier);
     q->form.field = nh_field_create(count + (roots ? roots - 1 : 0), q->forms.max_terms);
     roots = 0;
-    for (size_t i = 0; i < count; i++)
-        if (relate_kernel(q, k->order[i], earlier, roots)) earlier[roots++] = k->order[i];
+    for (int pass = 0; pass < 2; pass++) /* constants first: the others may turn out to be multiples of their roots */
+        for (size_t i = 0; i < count; i++) {
+            size_t kernel = k->order[i];
+            if (q->constant[kernel] == (pass == 0) && relate_kernel(q, kernel, earlier, roots)) earlier[roots++] = kernel;
+        }
     nh_free(earlier);
     return nh_field_state_of(q->form.field) == NH_FIELD_FINE;
 }
@@ -183,11 +194,10 @@ static bool emit_all(question *q, nh_ex *coefficient)
 
 /* ---- the whole ---- */
 
-/* Exact, also after arguments have been made canonical? */
+/* False when inexact numbers occur, or come up as arguments are made canonical. */
 static bool rewrite_all(question *q, const nh_ex *e)
 {
     for (size_t j = 0; j < q->n; j++) {
-        if (nh_emit_inexact(q->dag, e[j])) return false;
         q->e[j] = nh_form_rewrite(&q->forms, e[j]);
         if (nh_emit_inexact(q->dag, q->e[j])) return false;
     }

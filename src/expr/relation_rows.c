@@ -148,7 +148,7 @@ static bool satisfy(nh_relation_rows *r, nmod_t mod)
     return true;
 }
 
-/* SplitMix64 [SteeleLeaFlood2014]: the same numbers for the same question. */
+/* SplitMix64: the same numbers for the same question. */
 static uint64_t next_random(nh_relation_rows *r)
 {
     uint64_t z = r->random += 0x9e3779b97f4a7c15u;

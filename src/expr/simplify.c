@@ -208,12 +208,36 @@ static nh_ex simplify(context *shared, nh_ex e)
     return c.best;
 }
 
+/* ---- the user's own arguments ---- */
+
+/* log((R + v)/(R - v)) comes back with a canonical argument, which may be longer than what was written: then the source's call is put
+ * back.  Both stand for the same value: one is the rewriting of the other. */
+static nh_ex restore_calls(context *shared, nh_ex source, nh_ex result)
+{
+    enum { most_calls = 64 };
+    nh_dag *dag = shared->dag;
+    nh_ex call[most_calls], shown[most_calls];
+    size_t n = nh_functions_in(dag, source, call, most_calls), kept = 0;
+    if (n > most_calls) return result;
+    for (size_t i = 0; i < n; i++) {
+        if (nh_arity(dag, call[i]) != 1) continue;
+        nh_ex canonical = nh_form_rewrite(&shared->literal, call[i]);
+        if (nh_kind_of(dag, canonical) != NH_FUNCTION || nh_arity(dag, canonical) != 1) continue;
+        nh_ex g = nh_call(dag, nh_function_of(dag, canonical), simplify(shared, nh_child(dag, canonical, 0)));
+        if (g == call[i] || nh_complexity(dag, g) <= nh_complexity(dag, call[i])) continue;
+        shown[kept] = g;
+        call[kept++] = call[i];
+    }
+    return kept ? nh_substitute(dag, result, kept, shown, call) : result;
+}
+
 nh_ex nh_simplify(nh_dag *dag, nh_ex e)
 {
     context shared = {.dag = dag};
     nh_forms_init(&shared.literal, dag, true, most_terms);
     nh_forms_init(&shared.cut, dag, false, most_terms);
     nh_ex result = simplify(&shared, e);
+    if (result != e) result = restore_calls(&shared, e, result);
     nh_forms_clear(&shared.literal);
     nh_forms_clear(&shared.cut);
     nh_index_clear(&shared.done);

@@ -25,15 +25,15 @@ static void swap_rows(nh_lu *lu, size_t i, size_t j)
     lu->row[j] = t;
 }
 
-/* The best pivot of column k; the row in its own place wins unless another is clearly safer. */
-static double choose_pivot(nh_lu *lu, size_t k, nh_pivot_score *score, void *context, size_t *best)
+/* The best pivot for row r in column k; the row in its own place wins unless another is clearly safer. */
+static double choose_pivot(nh_lu *lu, size_t r, size_t k, nh_pivot_score *score, void *context, size_t *best)
 {
     double value = 0;
-    *best = k;
-    for (size_t i = k; i < lu->n; i++) {
+    *best = r;
+    for (size_t i = r; i < lu->n; i++) {
         nh_ex e = lu->a[i * lu->n + k];
         double s = nh_is_zero(lu->dag, e) ? 0 : score(context, e);
-        if (s > (i == k ? 0 : 4 * value)) {
+        if (s > (i == r ? 0 : 4 * value)) {
             value = s;
             *best = i;
         }
@@ -41,17 +41,18 @@ static double choose_pivot(nh_lu *lu, size_t k, nh_pivot_score *score, void *con
     return value;
 }
 
-static void eliminate(nh_lu *lu, size_t k)
+/* Column k below row r, by row r. */
+static void eliminate(nh_lu *lu, size_t r, size_t k)
 {
     nh_dag *d = lu->dag;
     size_t n = lu->n;
-    nh_ex pivot = lu->a[k * n + k];
-    for (size_t i = k + 1; i < n; i++) {
+    nh_ex pivot = lu->a[r * n + k];
+    for (size_t i = r + 1; i < n; i++) {
         nh_ex *row = lu->a + i * n;
         if (nh_is_zero(d, row[k])) continue;
         row[k] = nh_simplify(d, nh_div(d, row[k], pivot));
         for (size_t j = k + 1; j < n; j++) {
-            nh_ex u = lu->a[k * n + j];
+            nh_ex u = lu->a[r * n + j];
             if (!nh_is_zero(d, u)) row[j] = nh_simplify(d, nh_sub(d, row[j], nh_mul(d, row[k], u)));
         }
     }
@@ -61,20 +62,19 @@ nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score
 {
     nh_lu *lu = nh_alloc(sizeof *lu);
     *lu = (nh_lu){.dag = dag, .n = n, .a = nh_alloc_array(n * n + 1, sizeof *lu->a), .row = nh_alloc_array(n + 1, sizeof *lu->row)};
-    memcpy(lu->a, a, n * n * sizeof *a);
+    if (n) memcpy(lu->a, a, n * n * sizeof *a);
     for (size_t i = 0; i < n; i++) lu->row[i] = i;
+    size_t r = 0; /* = k until a column has no pivot; from then on only the rank is of interest */
     for (size_t k = 0; k < n; k++) {
         size_t best;
-        if (rank) *rank = k;
-        if (choose_pivot(lu, k, score, context, &best) == 0) {
-            nh_lu_free(lu);
-            return NULL;
-        }
-        swap_rows(lu, k, best);
-        eliminate(lu, k);
+        if (choose_pivot(lu, r, k, score, context, &best) == 0) continue;
+        swap_rows(lu, r, best);
+        eliminate(lu, r++, k);
     }
-    if (rank) *rank = n;
-    return lu;
+    if (rank) *rank = r;
+    if (r == n) return lu;
+    nh_lu_free(lu);
+    return NULL;
 }
 
 void nh_lu_free(nh_lu *lu)

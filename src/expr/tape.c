@@ -27,7 +27,7 @@ static double call_value(unsigned f, double a, double b)
     case NH_EXP: return exp(a);
     case NH_LOG: return log(a);
     case NH_ABS: return fabs(a);
-    case NH_SIGN: return (a > 0) - (a < 0);
+    case NH_SIGN: return a > 0 ? 1 : a < 0 ? -1 : a;
     case NH_ATAN2: return atan2(a, b);
     default: return NAN;
     }
@@ -51,6 +51,13 @@ static double op_value(unsigned op, double a, double b)
 
 /* ---- the compiler: first in virtual registers, each written once ---- */
 
+/* What a virtual register holds: an operation, or (op == constant_word) the two halves of a double. */
+typedef struct {
+    uint32_t op, a, b, to; /* to: the register + 1, 0 when the slot is free */
+} known_value;
+
+enum { constant_word = UINT16_MAX };
+
 typedef struct {
     nh_dag *dag;
     uint32_t *value;     /* per node: virtual register + 1 */
@@ -59,6 +66,8 @@ typedef struct {
     size_t count, kind_capacity, constant_capacity;
     nh_instruction *code;
     size_t length, capacity;
+    known_value *known; /* open addressing: equal operations have one register */
+    size_t known_count, known_capacity;
     size_t n_fixed;
     const nh_ex *fixed;
     const double *fixed_value;
@@ -75,17 +84,60 @@ static uint32_t fresh(compiler *c, char kind, double constant)
     return (uint32_t)c->count++;
 }
 
+static known_value *known_slot(known_value *table, size_t capacity, uint32_t op, uint32_t a, uint32_t b)
+{
+    uint64_t h = ((uint64_t)op << 48) ^ ((uint64_t)a << 24) ^ b ^ ((uint64_t)a >> 8);
+    for (size_t i = (size_t)(h * 0x9e3779b97f4a7c15u >> 32) & (capacity - 1);; i = (i + 1) & (capacity - 1)) {
+        known_value *k = &table[i];
+        if (!k->to || (k->op == op && k->a == a && k->b == b)) return k;
+    }
+}
+
+/* The slot of this operation; its `to` is 0 when it is new. */
+static known_value *find_known(compiler *c, uint32_t op, uint32_t a, uint32_t b)
+{
+    if (2 * (c->known_count + 1) > c->known_capacity) {
+        size_t capacity = c->known_capacity ? 2 * c->known_capacity : 64;
+        known_value *table = nh_alloc_array(capacity, sizeof *table);
+        for (size_t i = 0; i < c->known_capacity; i++) {
+            known_value k = c->known[i];
+            if (k.to) *known_slot(table, capacity, k.op, k.a, k.b) = k;
+        }
+        nh_free(c->known);
+        c->known = table;
+        c->known_capacity = capacity;
+    }
+    known_value *k = known_slot(c->known, c->known_capacity, op, a, b);
+    if (!k->to) {
+        c->known_count++;
+        *k = (known_value){op, a, b, 0};
+    }
+    return k;
+}
+
+static uint32_t constant(compiler *c, double value)
+{
+    uint32_t word[2];
+    memcpy(word, &value, sizeof word);
+    known_value *k = find_known(c, constant_word, word[0], word[1]);
+    if (!k->to) k->to = fresh(c, 'c', value) + 1;
+    return k->to - 1;
+}
+
 static bool is_constant(const compiler *c, uint32_t r, double value) { return c->kind[r] == 'c' && c->constant[r] == value; }
 
 static uint32_t emit(compiler *c, unsigned op, uint32_t a, uint32_t b)
 {
-    if (c->kind[a] == 'c' && c->kind[b] == 'c') return fresh(c, 'c', op_value(op, c->constant[a], c->constant[b]));
+    if (c->kind[a] == 'c' && c->kind[b] == 'c') return constant(c, op_value(op, c->constant[a], c->constant[b]));
     if (op == NH_OP_MUL && is_constant(c, a, 1)) return b;
     if ((op == NH_OP_MUL || op == NH_OP_DIV) && is_constant(c, b, 1)) return a;
     if (op == NH_OP_MUL && is_constant(c, a, -1)) return emit(c, NH_OP_NEG, b, b);
     if (op == NH_OP_ADD && is_constant(c, a, 0)) return b;
+    known_value *k = find_known(c, op, a, b);
+    if (k->to) return k->to - 1;
     nh_grow(&c->code, &c->capacity, c->length + 1, sizeof *c->code);
     uint32_t to = fresh(c, 't', 0);
+    k->to = to + 1;
     c->code[c->length++] = (nh_instruction){op, to, a, b};
     return to;
 }
@@ -109,22 +161,31 @@ static uint32_t positive_power(compiler *c, uint32_t b, nh_num x, uint32_t expon
     return emit(c, NH_OP_POW, b, exponent);
 }
 
+/* The i-th factor without the sign of its exponent; `below`: it divides. */
+static uint32_t compile_factor(compiler *c, nh_ex e, size_t i, bool *below)
+{
+    uint32_t b = c->value[nh_child(c->dag, e, i)] - 1;
+    nh_ex x = nh_exponent_of(c->dag, e, i);
+    *below = false;
+    if (nh_kind_of(c->dag, x) != NH_NUMBER) return emit(c, NH_OP_POW, b, c->value[x] - 1);
+    nh_num n = nh_number_of(c->dag, x);
+    *below = nh_num_value(n) < 0;
+    if (*below) n = nh_num_mul(n, nh_num_int(-1));
+    return positive_power(c, b, n, constant(c, nh_num_value(n)));
+}
+
+/* Constant factors first: they fold into one. */
 static uint32_t compile_product(compiler *c, nh_ex e)
 {
-    const nh_dag *dag = c->dag;
-    uint32_t top = fresh(c, 'c', nh_num_value(nh_constant_of(dag, e))), bottom = 0;
-    bool divided = false;
-    for (size_t i = 0; i < nh_arity(dag, e); i++) {
-        uint32_t b = c->value[nh_child(dag, e, i)] - 1;
-        nh_ex x = nh_exponent_of(dag, e, i);
-        if (nh_kind_of(dag, x) != NH_NUMBER) {
-            top = emit(c, NH_OP_MUL, top, emit(c, NH_OP_POW, b, c->value[x] - 1));
-            continue;
-        }
-        nh_num n = nh_number_of(dag, x);
-        bool below = nh_num_value(n) < 0;
-        if (below) n = nh_num_mul(n, nh_num_int(-1));
-        uint32_t f = positive_power(c, b, n, fresh(c, 'c', nh_num_value(n)));
+    uint32_t top = constant(c, nh_num_value(nh_constant_of(c->dag, e))), bottom = 0;
+    bool divided = false, below;
+    for (size_t i = 0; i < nh_arity(c->dag, e); i++) {
+        uint32_t f = compile_factor(c, e, i, &below);
+        if (c->kind[f] == 'c') top = emit(c, below ? NH_OP_DIV : NH_OP_MUL, top, f);
+    }
+    for (size_t i = 0; i < nh_arity(c->dag, e); i++) {
+        uint32_t f = compile_factor(c, e, i, &below);
+        if (c->kind[f] == 'c') continue;
         if (!below) top = emit(c, NH_OP_MUL, top, f);
         else bottom = divided ? emit(c, NH_OP_MUL, bottom, f) : f;
         divided |= below;
@@ -133,15 +194,23 @@ static uint32_t compile_product(compiler *c, nh_ex e)
     return is_constant(c, top, 1) ? emit(c, NH_OP_INV, bottom, bottom) : emit(c, NH_OP_DIV, top, bottom);
 }
 
+/* Constant terms first: they fold into one. */
 static uint32_t compile_sum(compiler *c, nh_ex e)
 {
     const nh_dag *dag = c->dag;
-    uint32_t total = fresh(c, 'c', nh_num_value(nh_constant_of(dag, e)));
-    for (size_t i = 0; i < nh_arity(dag, e); i++) {
+    size_t n = nh_arity(dag, e);
+    double fixed = nh_num_value(nh_constant_of(dag, e));
+    for (size_t i = 0; i < n; i++) {
         uint32_t term = c->value[nh_child(dag, e, i)] - 1;
+        if (c->kind[term] == 'c') fixed += nh_num_value(nh_coefficient_of(dag, e, i)) * c->constant[term];
+    }
+    uint32_t total = constant(c, fixed);
+    for (size_t i = 0; i < n; i++) {
+        uint32_t term = c->value[nh_child(dag, e, i)] - 1;
+        if (c->kind[term] == 'c') continue;
         double k = nh_num_value(nh_coefficient_of(dag, e, i));
         bool minus = k < 0 && !is_constant(c, total, 0);
-        term = emit(c, NH_OP_MUL, fresh(c, 'c', minus ? -k : k), term);
+        term = emit(c, NH_OP_MUL, constant(c, minus ? -k : k), term);
         total = emit(c, minus ? NH_OP_SUB : NH_OP_ADD, total, term);
     }
     return total;
@@ -150,23 +219,23 @@ static uint32_t compile_sum(compiler *c, nh_ex e)
 static uint32_t compile_symbol(compiler *c, nh_ex e)
 {
     for (size_t i = 0; i < c->n_fixed; i++)
-        if (c->fixed[i] == e) return fresh(c, 'c', c->fixed_value[i]);
+        if (c->fixed[i] == e) return constant(c, c->fixed_value[i]);
     if (!c->has_unbound) c->unbound = e;
     c->has_unbound = true;
-    return fresh(c, 'c', NAN);
+    return constant(c, NAN);
 }
 
 static uint32_t compile_node(compiler *c, nh_ex e)
 {
     switch (nh_kind_of(c->dag, e)) {
-    case NH_NUMBER: return fresh(c, 'c', nh_num_value(nh_number_of(c->dag, e)));
+    case NH_NUMBER: return constant(c, nh_num_value(nh_number_of(c->dag, e)));
     case NH_SYMBOL: return compile_symbol(c, e);
     case NH_SUM: return compile_sum(c, e);
     case NH_PRODUCT: return compile_product(c, e);
     default: break;
     }
     nh_function f = nh_function_of(c->dag, e);
-    if (f == NH_PI) return fresh(c, 'c', 3.14159265358979323846);
+    if (f == NH_PI) return constant(c, 3.14159265358979323846);
     uint32_t a = c->value[nh_child(c->dag, e, 0)] - 1;
     uint32_t b = f == NH_ATAN2 ? c->value[nh_child(c->dag, e, 1)] - 1 : a;
     return emit(c, NH_OP_FUNCTION + f, a, b);
@@ -181,7 +250,7 @@ static void compile_nodes(compiler *c, size_t n_out, const nh_ex *out)
     char *needed = nh_alloc((size_t)top + 1);
     for (size_t i = 0; i < n_out; i++) needed[out[i]] = 1;
     for (nh_ex e = top + 1; e-- > 0;) {
-        if (!needed[e]) continue;
+        if (!needed[e] || c->value[e]) continue; /* an input may be an expression: nothing below it is needed */
         nh_kind kind = nh_kind_of(dag, e);
         for (size_t i = 0; i < nh_arity(dag, e); i++) {
             needed[nh_child(dag, e, i)] = 1;
@@ -271,6 +340,7 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
     nh_free(c.kind);
     nh_free(c.constant);
     nh_free(c.code);
+    nh_free(c.known);
     return tape;
 }
 
@@ -315,7 +385,7 @@ void nh_tape_work_free(nh_tape_work *work)
 void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, double *out)
 {
     double *r = work->scalar;
-    memcpy(r, in, tape->inputs * sizeof *r);
+    if (tape->inputs) memcpy(r, in, tape->inputs * sizeof *r);
     for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++) {
         switch (x->op) {
         case NH_OP_ADD: r[x->to] = r[x->a] + r[x->b]; break;

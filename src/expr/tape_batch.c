@@ -36,12 +36,15 @@ extern VECTOR double pow(double, double);
 extern VECTOR double atan2(double, double);
 #endif
 
-/* Whole batches are computed, also when fewer points are wanted: a constant trip count vectorises best. */
+/* Points are computed in whole blocks, the widest vector of doubles: no loop has a remainder. */
+enum { BLOCK = 8 };
+
 #define KERNEL(name, formula)                                                                        \
-    CLONES static void name(double *restrict to, const double *a, const double *b)                   \
+    CLONES static void name(size_t n, double *restrict to, const double *a, const double *b)         \
     {                                                                                                \
         (void)b;                                                                                     \
-        for (size_t i = 0; i < NH_BATCH; i++) to[i] = (formula);                                     \
+        n &= ~(size_t)(BLOCK - 1);                                                                   \
+        for (size_t i = 0; i < n; i++) to[i] = (formula);                                            \
     }
 
 KERNEL(k_add, a[i] + b[i])
@@ -68,10 +71,10 @@ KERNEL(k_atanh, atanh(a[i]))
 KERNEL(k_exp, exp(a[i]))
 KERNEL(k_log, log(a[i]))
 KERNEL(k_abs, fabs(a[i]))
-KERNEL(k_sign, (double)(a[i] > 0) - (double)(a[i] < 0))
+KERNEL(k_sign, a[i] > 0 ? 1 : a[i] < 0 ? -1 : a[i])
 KERNEL(k_atan2, atan2(a[i], b[i]))
 
-typedef void kernel(double *restrict to, const double *a, const double *b);
+typedef void kernel(size_t n, double *restrict to, const double *a, const double *b);
 
 static kernel *const table[] = {
     [NH_OP_ADD] = k_add, [NH_OP_SUB] = k_sub, [NH_OP_MUL] = k_mul, [NH_OP_DIV] = k_div, [NH_OP_NEG] = k_neg,
@@ -84,7 +87,7 @@ static kernel *const table[] = {
     [NH_OP_FUNCTION + NH_SIGN] = k_sign, [NH_OP_FUNCTION + NH_ATAN2] = k_atan2,
 };
 
-/* Rows of this work memory: inputs are copied in, so that a short batch can be padded with its first point. */
+/* Rows of this work memory: inputs are copied in, so that a short batch can be padded with its first point to whole blocks. */
 static void prepare(const nh_tape *tape, nh_tape_work *work)
 {
     size_t bytes = (tape->registers + 1) * NH_BATCH * sizeof(double);
@@ -100,11 +103,12 @@ void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, c
     if (count == 0) return;
     if (!work->batch) prepare(tape, work);
     double **row = work->row;
+    size_t padded = (count + BLOCK - 1) / BLOCK * BLOCK;
     for (size_t j = 0; j < tape->inputs; j++) {
         memcpy(row[j], in[j], count * sizeof(double));
-        for (size_t p = count; p < NH_BATCH; p++) row[j][p] = in[j][0];
+        for (size_t p = count; p < padded; p++) row[j][p] = in[j][0];
     }
     for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++)
-        table[x->op](row[x->to], row[x->a], row[x->b]);
+        table[x->op](padded, row[x->to], row[x->a], row[x->b]);
     for (size_t k = 0; k < tape->outputs; k++) memcpy(out[k], row[tape->output[k]], count * sizeof(double));
 }

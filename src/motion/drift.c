@@ -129,7 +129,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     nh_motion first = *reduced;
     first.count = 1;
     bool good = along(r, &first, o->m, o->rho, y + o->m);
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1]};
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = r->options->steps};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
@@ -231,7 +231,7 @@ static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *curre
 {
     nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
-        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale};
+        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps};
         nh_motion *motion = nh_flow(&problem, r->z0, r->outputs, r->times, &options, error);
         if (!motion) return false;
         measure(r, motion, n, current, i);

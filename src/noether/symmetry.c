@@ -33,19 +33,25 @@ void nh_symmetry_equations(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *
     }
 }
 
+nh_ex nh_symmetry_components(const nh_model *o, nh_ex phi, nh_ex *zeta)
+{
+    nh_dag *d = o->dag;
+    nh_ex rest = phi;
+    for (size_t i = 0; i < o->n; i++) zeta[i] = nh_model_Y(o, i, phi);
+    nh_lu_solve(o->M_lu, zeta, zeta);
+    for (size_t i = 0; i < o->n; i++) {
+        zeta[i] = nh_simplify(d, zeta[i]);
+        rest = nh_sub(d, rest, nh_mul(d, o->pbar[i], zeta[i]));
+    }
+    return nh_simplify(d, nh_div(d, rest, o->Lbar));
+}
+
 /* zeta, Z^0, W and the field's components in the chart. */
 static void solve_components(nh_model *o, nh_symmetry *z)
 {
     nh_dag *d = o->dag;
     size_t n = o->n, m = o->m;
-    for (size_t i = 0; i < n; i++) z->zeta[i] = nh_model_Y(o, i, z->phi);
-    nh_lu_solve(o->M_lu, z->zeta, z->zeta);
-    nh_ex rest = z->phi;
-    for (size_t i = 0; i < n; i++) {
-        z->zeta[i] = nh_simplify(d, z->zeta[i]);
-        rest = nh_sub(d, rest, nh_mul(d, o->pbar[i], z->zeta[i]));
-    }
-    z->Z0 = nh_simplify(d, nh_div(d, rest, o->Lbar));
+    z->Z0 = nh_symmetry_components(o, z->phi, z->zeta);
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
         for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
@@ -78,19 +84,21 @@ static void bracket_halves(const nh_model *o, const nh_symmetry *z, nh_ex *first
     }
 }
 
+/* The components are left as they come: they are evaluated, not printed.  With nu R = 0 the form needs no derivative of Z:
+ *     i_[Gamma,Z] phi^a = nu^a_s (Gamma(R^s_i) - X_i(rho^s)) zeta^i. */
 static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex *second)
 {
     nh_dag *d = o->dag;
-    z->bracket = (nh_field){nh_simplify(d, first[0]), take(o, o->m), take(o, o->n)};
-    for (size_t s = 0; s < o->m; s++) z->bracket.space[s] = nh_simplify(d, nh_sub(d, first[1 + s], second[1 + s]));
-    for (size_t i = 0; i < o->n; i++)
-        z->bracket.velocity[i] = nh_simplify(d, nh_sub(d, first[1 + o->m + i], second[1 + o->m + i]));
+    z->bracket = (nh_field){first[0], take(o, o->m), take(o, o->n)};
+    for (size_t s = 0; s < o->m; s++) z->bracket.space[s] = nh_sub(d, first[1 + s], second[1 + s]);
+    for (size_t i = 0; i < o->n; i++) z->bracket.velocity[i] = nh_sub(d, first[1 + o->m + i], second[1 + o->m + i]);
     for (size_t a = 0; a < o->k; a++) {
         nh_ex e = nh_int(d, 0);
-        for (size_t s = 0; s < o->m; s++) {
-            nh_ex part = nh_sub(d, z->bracket.space[s], nh_mul(d, o->rho[s], z->bracket.time));
-            e = nh_add(d, e, nh_mul(d, o->nu[a * o->m + s], part));
-        }
+        for (size_t s = 0; s < o->m; s++)
+            for (size_t i = 0; i < o->n; i++) {
+                nh_ex turn = nh_sub(d, nh_model_gamma(o, o->R[s * o->n + i]), nh_model_X(o, i, o->rho[s]));
+                e = nh_add(d, e, nh_mul(d, nh_mul(d, o->nu[a * o->m + s], turn), z->zeta[i]));
+            }
         z->bracket_form[a] = nh_simplify(d, e);
     }
 }

@@ -30,6 +30,9 @@ typedef struct {
  * which two fields are equal at a point. */
 bool nh_symmetry_of(nh_model *model, const nh_points *points, nh_ex phi, double same, nh_symmetry *out, nh_error *error);
 
+/* Only Z^0 (returned) and zeta (n) of a current. */
+nh_ex nh_symmetry_components(const nh_model *model, nh_ex phi, nh_ex *zeta);
+
 /* A field given by Z^0 and zeta: its current alpha(Z) = Lbar Z^0 + pbar_i zeta^i. */
 nh_ex nh_symmetry_current(const nh_model *model, nh_ex Z0, const nh_ex *zeta);
 

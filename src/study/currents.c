@@ -101,15 +101,15 @@ static nh_ex parametric_factor(const nh_model *o, nh_ex e)
 }
 
 /* What to divide the current by: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest factor of zeta. */
-static nh_ex unit_of(const nh_model *o, const nh_symmetry *z)
+static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
 {
     nh_dag *d = o->dag;
-    if (!nh_is_zero(d, z->Z0) && is_parametric(o, z->Z0)) return z->Z0;
+    if (!nh_is_zero(d, Z0) && is_parametric(o, Z0)) return Z0;
     nh_ex best = nh_int(d, 1);
     size_t least = SIZE_MAX;
     for (size_t i = o->n; i-- > 0;) { /* later components win ties */
-        if (nh_is_zero(d, z->zeta[i])) continue;
-        nh_ex factor = parametric_factor(o, z->zeta[i]);
+        if (nh_is_zero(d, zeta[i])) continue;
+        nh_ex factor = parametric_factor(o, zeta[i]);
         size_t size = nh_is_number(d, factor, 1) ? 0 : nh_complexity(d, factor);
         if (size >= least) continue;
         least = size;
@@ -122,13 +122,12 @@ static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh
 {
     nh_model *o = r->model;
     nh_dag *d = o->dag;
-    f->phi = nh_simplify(d, f->phi);
-    if (!nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error)) return false;
-    nh_ex unit = unit_of(o, &f->symmetry);
-    f->has_symmetry = true;
-    if (nh_is_number(d, unit, 1) || nh_is_zero(d, unit)) return true;
-    f->phi = nh_simplify(d, nh_div(d, f->phi, unit));
-    return nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
+    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta), Z0 = nh_symmetry_components(o, f->phi, zeta);
+    nh_ex unit = unit_of(o, Z0, zeta);
+    nh_free(zeta);
+    f->phi = nh_simplify(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit));
+    f->has_symmetry = nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
+    return f->has_symmetry;
 }
 
 /* ---- checks on points that the fit did not see ---- */
