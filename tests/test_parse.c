@@ -95,6 +95,7 @@ Test(parse, values)
     }
     cr_expect(nh_num_exact(nh_number_of(d, parsed(d, "0.1"))));
     cr_expect(nh_num_exact(nh_number_of(d, parsed(d, "123456789.012345678"))));
+    cr_expect(nh_num_exact(nh_number_of(d, parsed(d, "2.385e-15"))));
     cr_expect_not(nh_num_exact(nh_number_of(d, parsed(d, "1e-30"))));
     nh_dag_free(d);
 }

@@ -232,7 +232,6 @@ static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
         fault->offset = at;
         return false;
     }
-    fault->what[0] = fault->hint[0] = 0;
     if (peek(p) != '(') return true;
     fail(p, p->at, "`%s` is not a function, and there is no implicit multiplication", word);
     return hint(p, "write `%s*(`", word);

@@ -307,7 +307,7 @@ static void put_signed_product(printer *p, nh_ex e, int context)
     size_t n = nh_arity(dag, e), mixed = minus ? find_mixed_sum(dag, e) : n;
     if (mixed < n) minus = false;
     bool root = n == 1 && nh_num_is(nh_constant_of(dag, e), 1) && nh_exponent_of(dag, e, 0) == nh_ratio(dag, 1, 2);
-    bool wrap = (context > in_sum && minus) || (context == in_power && !root) || (context == in_product && !root && n != 1);
+    bool wrap = context > in_sum && !root;
     open_if(p, wrap);
     if (minus) nh_text_add(p->out, "-");
     put_product(p, e, mixed < n ? nh_child(dag, e, mixed) : 0);

@@ -265,23 +265,6 @@ static void compile_nodes(compiler *c, size_t n_out, const nh_ex *out)
 
 /* ---- registers: a linear scan over last uses ---- */
 
-/* Instructions that no output needs (folded constants leave some behind) are removed. */
-static void drop_dead(compiler *c, size_t n_out, const uint32_t *out)
-{
-    char *live = nh_alloc(c->count + 1);
-    for (size_t i = 0; i < n_out; i++) live[out[i]] = 1;
-    size_t keep = c->length;
-    for (size_t i = c->length; i-- > 0;) {
-        nh_instruction x = c->code[i];
-        if (!live[x.to]) continue;
-        live[x.a] = live[x.b] = 1;
-        c->code[--keep] = x;
-    }
-    c->length -= keep;
-    if (c->length) memmove(c->code, c->code + keep, c->length * sizeof *c->code);
-    nh_free(live);
-}
-
 static void assign(compiler *c, nh_tape *tape, const uint32_t *out)
 {
     uint32_t *place = nh_alloc_array(c->count + 1, sizeof *place);
@@ -329,7 +312,6 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
     compile_nodes(&c, n_out, out);
     uint32_t *virtual_out = nh_alloc_array(n_out + 1, sizeof *virtual_out);
     for (size_t i = 0; i < n_out; i++) virtual_out[i] = c.value[out[i]] - 1;
-    drop_dead(&c, n_out, virtual_out);
     nh_tape *tape = nh_alloc(sizeof *tape);
     *tape = (nh_tape){.inputs = n_in, .outputs = n_out, .length = c.length, .unbound = c.unbound, .has_unbound = c.has_unbound};
     tape->code = nh_alloc_array(c.length + 1, sizeof *tape->code);

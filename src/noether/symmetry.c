@@ -119,7 +119,7 @@ static int case_at(const local *l, double same)
         r2 += r * r;
         z2 += z * z;
         rz += r * z;
-        scale = fmax(scale, l->scale[j] + fabs(l->b[0] * l->gamma[j]));
+        scale = fmax(scale, fmax(l->scale[j] + fabs(l->b[0] * l->gamma[j]), fabs(l->z[j]))); /* a bracket of order |Z| is not small */
         zscale = fmax(zscale, fabs(l->z[j]) + fabs(l->z[0] * l->gamma[j]));
     }
     if (!isfinite(r2 + z2 + rz + scale)) return 0;
@@ -150,6 +150,7 @@ static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const n
         for (size_t j = 0; j < total; j++) at[j] = value[j * count + p];
         double scale = 0, *b = at + 2 * width, *second_half = at + 3 * width, *sizes = at + total;
         for (size_t j = 0; j < width; j++) {
+            scale = fmax(scale, fabs(at[width + j]));
             sizes[j] = fabs(b[j]) + fabs(second_half[j]);
             b[j] -= second_half[j];
             scale = fmax(scale, sizes[j]);

@@ -310,6 +310,37 @@ static bool keep_implicit(nh_chart *chart, const cloud *c, const nh_ex *G, const
     return true;
 }
 
+/* The branch that most points of the domain lie on, counting those in the user's range for u: the sign of df/du. */
+static int branch_of(const cloud *c, size_t which)
+{
+    double low, high;
+    long balance = 0;
+    nh_embedding_range(c->system, c->system->coordinate[which].v, &low, &high);
+    for (size_t p = 0; p < c->count; p++) {
+        const double *z = c->point + p * c->width;
+        double u = z[1 + c->m + which], inside = u >= low && u <= high ? 1000 : 1;
+        nh_tape_eval(c->tape, c->work, z, c->out);
+        balance += (long)(c->out[c->k + which * c->k] > 0 ? inside : -inside);
+    }
+    return balance >= 0 ? 1 : -1;
+}
+
+/* One constraint a u^2 + b u + c = 0: u = (-b + s sqrt(b^2 - 4 a c)) / (2 a), so that everything that follows is explicit. */
+static bool quadratic_root(const cloud *c, size_t which, int branch, nh_ex *out)
+{
+    const nh_system *s = c->system;
+    nh_dag *d = s->dag;
+    if (c->k != 1) return false;
+    nh_ex u = s->coordinate[which].v, zero = nh_int(d, 0), f = nh_sub(d, s->constraint[0].lhs, s->constraint[0].rhs);
+    nh_ex slope = nh_diff(d, f, u), a = nh_simplify(d, nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, u)));
+    if (nh_depends(d, a, u) || nh_is_zero(d, a)) return false;
+    nh_ex b = nh_simplify(d, nh_substitute(d, slope, 1, &u, &zero)), rest = nh_substitute(d, f, 1, &u, &zero);
+    nh_ex under = nh_simplify(d, nh_sub(d, nh_powi(d, b, 2), nh_mul(d, nh_int(d, 4), nh_mul(d, a, rest))));
+    nh_ex root = nh_mul(d, nh_int(d, branch), nh_sqrt(d, under));
+    *out = nh_simplify(d, nh_div(d, nh_sub(d, root, b), nh_mul(d, nh_int(d, 2), a)));
+    return true;
+}
+
 static const char *chart_name(const nh_chart *chart, char *buffer, size_t size)
 {
     size_t at = (size_t)snprintf(buffer, size, "coordinate velocities (");
@@ -333,7 +364,10 @@ static nh_chart *build(const cloud *c, const size_t *dependent, double pivot, nh
             for (size_t j = 0; j < k; j++) linear &= !nh_depends(d, G[a * k + i], s->coordinate[dependent[j]].v);
         }
     }
-    nh_chart *chart = nh_embedding_new(s, "", m - k, linear ? 0 : k);
+    nh_ex root = 0;
+    int branch = linear ? 0 : branch_of(c, dependent[0]);
+    bool quadratic = !linear && quadratic_root(c, dependent[0], branch, &root), implicit = !linear && !quadratic;
+    nh_chart *chart = nh_embedding_new(s, "", m - k, implicit ? k : 0);
     memcpy(chart->dependent, dependent, k * sizeof *dependent);
     chart->pivot = pivot;
     size_t n = 0;
@@ -342,17 +376,21 @@ static nh_chart *build(const cloud *c, const size_t *dependent, double pivot, nh
         if (!is_dependent(dependent, k, i)) chart->w[n++] = s->coordinate[i].v;
     }
     nh_ex *v = nh_alloc_array(k + 1, sizeof *v);
-    for (size_t a = 0; a < k && !linear; a++) {
+    for (size_t a = 0; a < k && implicit; a++) {
         v[a] = s->coordinate[dependent[a]].v;
         chart->rho[dependent[a]] = chart->u[a] = nh_symbol_fresh(d, nh_name_of(d, v[a]));
     }
-    for (size_t a = 0; a < k + k * k && !linear; a++) f[a] = nh_substitute(d, f[a], k, v, chart->u);
+    for (size_t a = 0; a < k + k * k && implicit; a++) f[a] = nh_substitute(d, f[a], k, v, chart->u);
+    if (quadratic) {
+        chart->rho[dependent[0]] = root;
+        chart->branch = branch;
+    }
     nh_free(v);
     nh_embedding_symbols(chart);
     copy_probes(chart, c);
     char buffer[400];
     chart->name = nh_arena_strdup(chart->arena, chart_name(chart, buffer, sizeof buffer));
-    bool good = k == 0 || (linear ? solve_linear(chart, c, G, f) : keep_implicit(chart, c, G, f));
+    bool good = k == 0 || quadratic || (linear ? solve_linear(chart, c, G, f) : keep_implicit(chart, c, G, f));
     nh_free(f);
     if (good) return chart;
     nh_chart_free(chart);

@@ -29,6 +29,7 @@ typedef struct {
     nh_tape *newton;          /* residual and d residual / d u; NULL when nothing is implicit */
     double *probe;            /* probes x width: a few points for pivots and ranks */
     size_t probes;
+    int branch;               /* of a quadratic constraint: the sign of its root; 0 otherwise */
     double pivot;             /* least pivot of the elimination over the probes, relative */
 } nh_chart;
 
