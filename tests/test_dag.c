@@ -156,6 +156,7 @@ Test(dag, large_coefficients_stay_exact)
     nh_ex x = nh_symbol(d, "x"), y = nh_symbol(d, "y");
     nh_ex term[] = {x, y};
     nh_ex e = nh_linear(d, 2, (nh_num[]){nh_num_int(INT64_MAX - 1), nh_num_ratio(1, 7)}, term);
+    cr_assert_eq(nh_kind_of(d, e), NH_SUM, "not 1/7 of a sum with 7 times the coefficients");
     cr_expect(nh_num_exact(nh_coefficient_of(d, e, 0)) && nh_num_exact(nh_coefficient_of(d, e, 1)));
     nh_ex rest = nh_sub(d, e, nh_mul(d, nh_int(d, INT64_MAX - 1), x));
     cr_expect_eq(rest, nh_div(d, y, nh_int(d, 7)));

@@ -166,51 +166,69 @@ static void table_clear(table *t)
 
 /* ---- supports ---- */
 
-typedef struct {
-    const nh_model *model;
-    const nh_points *points;
-    const nh_options *options;
-    nh_arena *arena;
-} context;
+static void *take(nh_candidates *list, size_t count, size_t size) { return nh_arena_alloc(list->arena, (count + 1) * size); }
 
-/* Fit again on the terms whose entries exceed `cut`. */
-static bool refit(const context *x, const nh_ansatz *a, const table *t, size_t k, double cut, double accepted, nh_candidate *out)
+/* The terms above a cut, scaled so that the pivot has coefficient 1. */
+static void select_support(nh_candidate *c, double cut)
+{
+    double unit = 1;
+    nh_ex pivot = c->term[c->pivot];
+    c->count = 0;
+    for (size_t j = 0; j < c->all; j++) {
+        if (c->all_size[j] < cut) continue;
+        if (c->all_term[j] == pivot) {
+            c->pivot = c->count;
+            unit = c->all_coefficient[j];
+        }
+        c->coefficient[c->count] = c->all_coefficient[j];
+        c->term[c->count++] = c->all_term[j];
+    }
+    for (size_t j = 0; j < c->count; j++) c->coefficient[j] /= unit;
+}
+
+static nh_candidate candidate_of(nh_candidates *list, const nh_ansatz *a, const table *t, size_t k, double cut, double accepted)
 {
     const double *v = t->v + k * t->terms;
-    size_t n = 0, pivot = 0;
-    *out = (nh_candidate){.term = nh_arena_alloc(x->arena, (t->terms + 1) * sizeof *out->term),
-                          .coefficient = nh_arena_alloc(x->arena, (t->terms + 1) * sizeof *out->coefficient)};
+    nh_candidate c = {.accepted = accepted};
+    c.term = take(list, t->terms, sizeof *c.term);
+    c.coefficient = take(list, t->terms, sizeof *c.coefficient);
+    c.all_term = take(list, t->terms, sizeof *c.all_term);
+    c.all_coefficient = take(list, t->terms, sizeof *c.all_coefficient);
+    c.all_size = take(list, t->terms, sizeof *c.all_size);
     for (size_t i = 0; i < t->terms; i++) {
         size_t j = t->order[t->terms - 1 - i]; /* simplest first */
-        if (fabs(v[j]) < cut || t->size[j] == 0) continue;
-        if (j == t->pivot[k]) pivot = n;
-        out->coefficient[n] = v[j] / t->size[j];
-        out->term[n++] = a->term[j];
+        if (v[j] == 0 || t->size[j] == 0) continue;
+        c.all_term[c.all] = a->term[j];
+        c.all_coefficient[c.all] = v[j] / t->size[j];
+        c.all_size[c.all++] = fabs(v[j]);
     }
-    out->count = n;
-    double unit = out->coefficient[pivot];
-    for (size_t j = 0; j < n; j++) out->coefficient[j] /= unit;
+    c.term[0] = a->term[t->pivot[k]];
+    select_support(&c, cut);
+    return c;
+}
+
+/* Fit the support alone.  False when it does not satisfy the equations well enough. */
+static bool refit(const nh_model *model, const nh_points *points, nh_candidate *c, const nh_options *options)
+{
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_nullspace *fit = nh_echelon_terms(x->model, x->points, n, out->term, x->options, &ignored);
+    nh_nullspace *fit = nh_echelon_terms(model, points, c->count, c->term, options, &ignored);
     if (!fit) return false;
-    bool good = fit->rank > 0 && fit->spectrum[0] <= accepted;
-    out->quotient = fit->rank ? fit->spectrum[0] : INFINITY;
-    out->refitted = fit->dimension == 1 && fit->vector[pivot] != 0;
-    for (size_t j = 0; j < n && out->refitted; j++) out->coefficient[j] = fit->vector[j] / fit->vector[pivot];
+    bool good = fit->rank > 0 && fit->spectrum[0] <= c->accepted;
+    c->quotient = fit->rank ? fit->spectrum[0] : INFINITY;
+    c->refitted = fit->dimension == 1 && fit->vector[c->pivot] != 0;
+    for (size_t j = 0; j < c->count && c->refitted; j++) c->coefficient[j] = fit->vector[j] / fit->vector[c->pivot];
     nh_nullspace_free(fit);
     return good;
 }
 
-/* The smallest support that still satisfies the equations as well as the null space did. */
-static nh_candidate smallest_support(const context *x, const nh_ansatz *a, const table *t, size_t k, const nh_nullspace *n)
+void nh_echelon_refine(const nh_model *model, const nh_points *points, nh_candidate *c, const nh_options *options)
 {
-    double zero = x->options->zero * DBL_EPSILON, accepted = zero * fmax(1, n->next_left_scale);
-    double cuts[] = {x->options->support, 1e-3 * x->options->support, 1e-6 * x->options->support, 0};
-    nh_candidate c;
-    for (size_t i = 0; i < sizeof cuts / sizeof *cuts; i++)
-        if (refit(x, a, t, k, cuts[i], accepted, &c)) break;
-    return c;
+    const double cuts[] = {options->support, 1e-3 * options->support, 1e-6 * options->support, 0};
+    for (size_t i = 0; i < sizeof cuts / sizeof *cuts; i++) {
+        select_support(c, cuts[i]);
+        if (refit(model, points, c, options)) break;
+    }
 }
 
 static size_t candidate_complexity(const nh_dag *dag, const nh_candidate *c)
@@ -226,12 +244,11 @@ nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const 
     table t = make_table(model, points, ansatz, nullspace, options->support);
     nh_candidates *list = nh_alloc(sizeof *list);
     list->arena = nh_arena_create();
-    list->candidate = nh_arena_alloc(list->arena, (t.dimension + 1) * sizeof *list->candidate);
-    context x = {model, points, options, list->arena};
+    list->candidate = take(list, t.dimension, sizeof *list->candidate);
+    double accepted = options->zero * DBL_EPSILON * fmax(1, nullspace->next_left_scale);
     for (size_t k = 0; k < t.dimension; k++) {
-        nh_candidate c = smallest_support(&x, ansatz, &t, k, nullspace);
-        size_t at = list->count++;
-        size_t own = candidate_complexity(model->dag, &c);
+        nh_candidate c = candidate_of(list, ansatz, &t, k, options->support, accepted);
+        size_t at = list->count++, own = candidate_complexity(model->dag, &c);
         for (; at > 0 && candidate_complexity(model->dag, &list->candidate[at - 1]) > own; at--) list->candidate[at] = list->candidate[at - 1];
         list->candidate[at] = c;
     }

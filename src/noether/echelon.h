@@ -10,11 +10,16 @@
 #include "noether/rows.h"
 
 typedef struct {
-    size_t count;        /* terms with a coefficient */
+    size_t count;        /* terms with a coefficient, simplest first */
     nh_ex *term;
-    double *coefficient; /* the most complex one is 1 */
+    double *coefficient; /* the pivot's is 1 */
+    size_t pivot;        /* the most complex term */
     double quotient;     /* |A c| / |B c| of the final coefficients */
     bool refitted;       /* the support alone has a one-dimensional null space */
+    double accepted;     /* quotient that the null space itself reached: what a smaller support must reach too */
+    size_t all;          /* every term of the echelon vector, before small ones were dropped */
+    nh_ex *all_term;
+    double *all_coefficient, *all_size; /* size: |c_j b_j| relative to the largest */
 } nh_candidate;
 
 typedef struct {
@@ -25,8 +30,12 @@ typedef struct {
 
 nh_nullspace_options nh_nullspace_options_from(const nh_options *options);
 
+/* Echelon form only: coefficients to about seven digits. */
 nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz, const nh_nullspace *nullspace,
                           const nh_options *options);
+/* The smallest support of a candidate that satisfies the equations as well as the null space did, fitted again. */
+void nh_echelon_refine(const nh_model *model, const nh_points *points, nh_candidate *candidate, const nh_options *options);
+
 void nh_candidates_free(nh_candidates *candidates);
 
 /* The null space of explicit terms alone. NULL on failure. */

@@ -106,7 +106,11 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
         if (r->route != NH_ROUTE_CURRENT) nh_routes_compare(r, a, points, s);
         nh_candidates *candidates = nh_echelon(r->model, points, a, s, &r->options);
         r->timing.nullspace = lap(clock);
-        good = nh_currents_build(r, candidates, error);
+        nh_workbench *bench = nh_workbench_create(r, error);
+        good = bench != NULL;
+        for (size_t k = 0; k < candidates->count && good; k++) nh_currents_add(bench, &candidates->candidate[k], points);
+        if (good) nh_currents_finish(bench);
+        nh_workbench_free(bench);
         nh_candidates_free(candidates);
         r->timing.currents = lap(clock);
     }

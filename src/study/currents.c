@@ -211,18 +211,20 @@ static void in_velocities(nh_result *r, nh_found *f, const nh_ex *inverse, bool 
     nh_free(v);
 }
 
-static void examine(nh_result *r, const nh_candidate *c, const nh_points *heldout, const nh_points *generic, nh_found *f)
+static void examine(nh_workbench *b, const nh_candidate *c, nh_found *f)
 {
+    nh_result *r = b->result;
     nh_error trouble;
     nh_error_clear(&trouble);
     f->quotient = c->quotient;
     f->phi = assemble(r->model, c, &r->options, f);
-    if (!with_symmetry(r, generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
-    f->heldout = heldout_residual(r->model, heldout, f->phi);
+    if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
+    f->heldout = heldout_residual(r->model, b->heldout, f->phi);
     f->proof = nh_prove_current(r->model, f->phi, f->exact, &r->options);
     f->all_parameters = f->proof.all_parameters;
-    f->local = is_local(r->model, generic, f->phi);
+    f->local = is_local(r->model, b->generic, f->phi);
     f->meaning = meaning_of(r, f->phi);
+    in_velocities(r, f, b->inverse, b->invertible);
 }
 
 /* Simple ones first, so that the complicated ones are called dependent. */
@@ -272,28 +274,58 @@ static bool keeps(nh_result *r, const nh_found *f)
     return false;
 }
 
-bool nh_currents_build(nh_result *r, const nh_candidates *candidates, nh_error *error)
+nh_workbench *nh_workbench_create(nh_result *r, nh_error *error)
 {
     uint64_t seed = (uint64_t)r->options.seed;
-    nh_points *heldout = nh_points_create(r->model, heldout_count, 1.7, seed + 101, error);
-    nh_points *generic = heldout ? nh_points_create(r->model, generic_count, 1, seed + 202, error) : NULL;
-    if (generic) {
-        nh_ex *inverse = nh_alloc_array(r->model->n + 1, sizeof *inverse);
-        bool invertible = nh_chart_inverse(r->model->chart, inverse);
-        if (!invertible) nh_result_warn(r, "currents could not be written in coordinate velocities: the chart is not affine in its quasi-velocities");
-        r->found = nh_arena_alloc(r->arena, (candidates->count + 1) * sizeof *r->found);
-        for (size_t k = 0; k < candidates->count; k++) {
-            nh_found *f = &r->found[r->count];
-            examine(r, &candidates->candidate[k], heldout, generic, f);
-            in_velocities(r, f, inverse, invertible);
-            r->count += keeps(r, f);
-        }
-        sort(r);
-        independence(r, generic);
-        nh_free(inverse);
+    nh_workbench *b = nh_alloc(sizeof *b);
+    b->result = r;
+    b->heldout = nh_points_create(r->model, heldout_count, 1.7, seed + 101, error);
+    b->generic = b->heldout ? nh_points_create(r->model, generic_count, 1, seed + 202, error) : NULL;
+    b->inverse = nh_alloc_array(r->model->n + 1, sizeof *b->inverse);
+    if (!b->generic) {
+        nh_workbench_free(b);
+        return NULL;
     }
-    bool good = generic != NULL;
-    nh_points_free(generic);
-    nh_points_free(heldout);
-    return good;
+    b->invertible = nh_chart_inverse(r->model->chart, b->inverse);
+    if (!b->invertible) nh_result_warn(r, "currents could not be written in coordinate velocities: the chart is not affine in its quasi-velocities");
+    return b;
+}
+
+void nh_workbench_free(nh_workbench *b)
+{
+    if (!b) return;
+    nh_points_free(b->generic);
+    nh_points_free(b->heldout);
+    nh_free(b->inverse);
+    nh_free(b);
+}
+
+static nh_found *next_found(nh_result *r)
+{
+    if (r->count == r->capacity) { /* the arena keeps the old list: there are few */
+        size_t capacity = 2 * r->capacity + 16;
+        nh_found *list = nh_arena_alloc(r->arena, capacity * sizeof *list);
+        if (r->count) memcpy(list, r->found, r->count * sizeof *list);
+        r->found = list;
+        r->capacity = capacity;
+    }
+    memset(&r->found[r->count], 0, sizeof r->found[r->count]);
+    return &r->found[r->count];
+}
+
+bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *fit)
+{
+    nh_result *r = b->result;
+    nh_found *f = next_found(r);
+    nh_echelon_refine(r->model, fit, candidate, &r->options);
+    examine(b, candidate, f);
+    if (!keeps(r, f)) return false;
+    r->count++;
+    return true;
+}
+
+void nh_currents_finish(nh_workbench *b)
+{
+    sort(b->result);
+    independence(b->result, b->generic);
 }

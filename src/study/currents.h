@@ -4,7 +4,22 @@
 
 #include "study/result.h"
 
-/* Turn the candidates into result->found: coefficients recognised, normalised, proved, held out, classified, made independent. */
-bool nh_currents_build(nh_result *result, const nh_candidates *candidates, nh_error *error);
+/* What all currents of one result are checked with. */
+typedef struct {
+    nh_result *result;
+    nh_points *heldout, *generic; /* points that no fit has seen */
+    nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
+    bool invertible;
+} nh_workbench;
+
+nh_workbench *nh_workbench_create(nh_result *result, nh_error *error);
+void nh_workbench_free(nh_workbench *bench);
+
+/* Refine a candidate, recognise its coefficients, normalise, prove, hold out and classify it; append it to result->found unless it turns
+ * out not to be conserved (then a warning says so).  `fit`: the points of its null space. */
+bool nh_currents_add(nh_workbench *bench, nh_candidate *candidate, const nh_points *fit);
+
+/* Order, name and relate what was found. */
+void nh_currents_finish(nh_workbench *bench);
 
 #endif

@@ -61,7 +61,7 @@ typedef struct {
     nh_hits *hits;
     size_t specials;
     nh_special *special;
-    size_t count, independent, local_maximum;
+    size_t count, capacity, independent, local_maximum;
     nh_found *found;
     nh_verdict verdict;
     nh_validation *validation; /* NULL when no motion could be computed */
