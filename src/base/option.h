@@ -13,6 +13,8 @@
     X(samples,          0,       0,      1e7,   "points",   "fit points; 0: four per column, at least 256")                         \
     X(seed,             1,       0,      1e15,  "",         "seed of the low-discrepancy samples and of every random choice")       \
     X(columns,          1500,    1,      20000, "columns",  "largest ansatz that is tried")                                         \
+    X(stage_columns,    330,     1,      20000, "columns",  "largest ansatz of one stage when the program chooses")                 \
+    X(max_seconds,      10,      0,      1e7,   "s",        "time after which the search by stages ends")                           \
     X(rank,             1e-9,    0,      1,     "",         "columns whose pivot is below this part of the first are dependent")    \
     X(zero,             100,     1,      1e6,   "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \
     X(undecided,        1e5,     1,      1e10,  "",         "up to this many times the null bound a value is undecided")            \

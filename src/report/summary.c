@@ -253,11 +253,22 @@ static void unknowns(writer *w)
     nh_text_add(w->out, "\n");
 }
 
+static void stages(writer *w)
+{
+    const nh_result *r = w->r;
+    for (size_t i = 0; i < r->stages; i++) {
+        const nh_tried *s = &r->stage[i];
+        if (s->skipped) nh_text_addf(w->out, "    %-80s too large\n", s->name);
+        else nh_text_addf(w->out, "    %-80s %4zu columns, null %zu%s, new %zu\n", s->name, s->columns, s->dimension, s->undecided ? " (undecided)" : "", s->found);
+    }
+}
+
 static void evidence(writer *w)
 {
     const nh_result *r = w->r;
     heading(w, "How it was found");
     nh_text_addf(w->out, "  ansatz          %s\n  samples         %zu points, %zu rejected\n", r->ansatz_note, r->samples, r->rejected);
+    stages(w);
     unknowns(w);
     spectrum_line(w, "current route", &r->current);
     spectrum_line(w, "symmetry route", &r->symmetry);

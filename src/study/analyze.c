@@ -7,6 +7,7 @@
 #include "base/linalg.h"
 #include "study/currents.h"
 #include "study/defaults.h"
+#include "study/ladder.h"
 #include "study/routes.h"
 #include "study/specials.h"
 
@@ -182,11 +183,16 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     r->timing.geometry = lap(&clock);
     size_t families = r->analysis ? r->analysis->families : 0;
     nh_family *family = r->analysis ? r->analysis->family : NULL;
-    if (families == 0) nh_defaults_ansatz(r, &families, &family);
-    else r->ansatz_note = "as given in the analysis file";
-    if (!nh_specials_find(r, &families, &family, error)) return false;
-    r->timing.unknowns = lap(&clock);
-    if (!linear_problem(r, families, family, &clock, error)) return false;
+    if (families == 0) {
+        r->ansatz_note = "chosen: a ladder of stages made of the system's own functions";
+        if (!nh_ladder_climb(r, error)) return false;
+        r->timing.nullspace = lap(&clock);
+    } else {
+        r->ansatz_note = "as given in the analysis file";
+        if (!nh_specials_find(r, &families, &family, error)) return false;
+        r->timing.unknowns = lap(&clock);
+        if (!linear_problem(r, families, family, &clock, error)) return false;
+    }
     conclude(r);
     validate(r);
     r->timing.validation = lap(&clock);

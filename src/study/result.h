@@ -36,6 +36,14 @@ typedef struct {
     bool rank_in_doubt;
 } nh_spectrum;
 
+/* A stage of the ladder. */
+typedef struct {
+    const char *name;
+    size_t columns, dimension, found; /* found: new independent currents */
+    double gap, seconds;
+    bool skipped, undecided;          /* skipped: too many columns */
+} nh_tried;
+
 typedef struct {
     double *value;
     const nh_ex *recognised;  /* per unknown: an expression, or 0 */
@@ -55,6 +63,8 @@ typedef struct {
     nh_route route;
     const char *ansatz_note;  /* what was tried, in words */
     size_t samples, rejected;
+    size_t stages;
+    nh_tried *stage;          /* the ladder's; empty with an analysis file */
     nh_spectrum current, symmetry;
     bool routes_compared, routes_agree;
     double routes_angle;
@@ -70,6 +80,9 @@ typedef struct {
     bool partial;
     nh_timing timing;
 } nh_result;
+
+/* A null space's numbers, copied into an arena. */
+nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *nullspace);
 
 void nh_result_warn(nh_result *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void nh_result_free(nh_result *result); /* with system, analysis and models */

@@ -8,15 +8,6 @@
 /* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this it is left out, and said. */
 enum { most_columns = 400 };
 
-nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
-{
-    nh_spectrum c = {.done = true, .verdict = s->verdict, .columns = s->columns, .rows = s->rows, .rank = s->rank, .dimension = s->dimension,
-                     .gap = s->gap, .rank_in_doubt = s->rank_in_doubt};
-    c.spectrum = nh_arena_alloc(arena, (s->rank + 1) * sizeof *c.spectrum);
-    if (s->rank) memcpy(c.spectrum, s->spectrum, s->rank * sizeof *c.spectrum);
-    return c;
-}
-
 /* Values of `n` combinations (vector: terms x n) of expressions at the points, each centred and of norm 1; points x n. */
 static double *combinations(const nh_model *o, const nh_points *points, size_t terms, const nh_ex *e, size_t n, const double *vector)
 {

@@ -4,105 +4,38 @@
 #include <string.h>
 
 #include "noether/recognise.h"
-#include "system/sample.h"
+#include "study/naming.h"
 
-enum { search_points = 128, most_symbols = 12, most_values = 12, extra_sets = 4 };
+enum { search_points = 128, most_values = 12 };
 
-/* ---- parameters and sums of parameters (J + m a^2) that values may be monomials of ---- */
-
-static bool parametric_sum(const nh_model *o, nh_ex e)
-{
-    if (nh_kind_of(o->dag, e) != NH_SUM) return false;
-    for (size_t j = 0; j < o->width; j++)
-        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
-    return true;
-}
-
-static void harvest(const nh_model *o, nh_ex e, nh_ex *list, size_t *count)
-{
-    nh_dag *d = o->dag;
-    if (*count == most_symbols) return;
-    if (parametric_sum(o, e)) {
-        for (size_t i = 0; i < *count; i++)
-            if (list[i] == e) return;
-        list[(*count)++] = e;
-        return;
-    }
-    nh_kind kind = nh_kind_of(d, e);
-    if (kind == NH_SYMBOL || kind == NH_NUMBER) return;
-    for (size_t i = 0; i < nh_arity(d, e); i++) harvest(o, nh_child(d, e, i), list, count);
-}
-
-static size_t atoms(const nh_model *o, nh_ex *list)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < o->system->parameters && count < most_symbols; i++)
-        if (o->parameter_value[i] > 0) list[count++] = o->parameter[i];
-    for (size_t i = 0; i < o->n * o->n; i++) harvest(o, o->M[i], list, &count);
-    for (size_t i = 0; i < o->n; i++) harvest(o, o->a[i], list, &count);
-    return count;
-}
-
-/* ---- one value followed over several parameter sets ---- */
-
+/* The pencil at other parameter values. */
 typedef struct {
-    size_t sets, atoms;
-    double *parameter; /* sets x parameters */
-    double *atom;      /* sets x atoms */
-} sets;
+    const nh_result *r;
+    const nh_points *points;
+    size_t families;
+    const nh_family *family;
+    nh_unknown unknown;
+} pencil_context;
 
-static sets make_sets(const nh_model *o, size_t n, const nh_ex *atom, uint64_t seed)
+static bool follow(const nh_model *changed, double near, double *value, void *context)
 {
-    size_t p = o->system->parameters;
-    sets s = {.sets = n + 2 + extra_sets, .atoms = n};
-    s.parameter = nh_alloc_array(s.sets * p + 1, sizeof *s.parameter);
-    s.atom = nh_alloc_array(s.sets * n + 1, sizeof *s.atom);
-    for (size_t k = 0; k < s.sets; k++) {
-        double *value = s.parameter + k * p;
-        for (size_t i = 0; i < p; i++) value[i] = o->parameter_value[i] * (k ? 1 + 0.2 * (nh_random(&seed) - 0.5) : 1);
-        nh_tape *tape = nh_tape_create(o->dag, 0, NULL, n, atom, p, o->parameter, value);
-        nh_tape_work *work = nh_tape_work_create(tape);
-        nh_tape_eval(tape, work, NULL, s.atom + k * n);
-        nh_tape_work_free(work);
-        nh_tape_free(tape);
-    }
-    return s;
+    const pencil_context *c = context;
+    double list[most_values], best = HUGE_VAL;
+    bool applied;
+    size_t count = nh_unknowns_pencil(changed, c->points, c->families, c->family, &c->unknown, &c->r->options, most_values, list, &applied);
+    for (size_t i = 0; i < count; i++)
+        if (fabs(list[i] - near) < best) {
+            best = fabs(list[i] - near);
+            *value = list[i];
+        }
+    return count > 0;
 }
 
-static void clear_sets(sets *s)
-{
-    nh_free(s->parameter);
-    nh_free(s->atom);
-}
-
-/* The hit's value as a monomial of parameters, from the pencil at perturbed parameters; else a simple number; else 0. */
 static nh_ex recognise(const nh_result *r, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *u,
                        const nh_hits *hits, size_t which)
 {
-    const nh_model *o = r->model;
-    nh_ex atom[most_symbols], found = 0;
-    size_t n = atoms(o, atom);
-    sets s = make_sets(o, n, atom, (uint64_t)r->options.seed + 5);
-    double *value = nh_alloc_array(s.sets, sizeof *value), list[most_values];
-    bool good = hits->pencil_applied && o->chart->implicit == 0, applied;
-    nh_unknown wide = {u->symbol, 0, HUGE_VAL};
-    for (size_t k = 0; k < s.sets && good; k++) {
-        nh_model changed = *o; /* the same geometry at other parameter values: tapes bind them */
-        changed.parameter_value = s.parameter + k * o->system->parameters;
-        size_t count = nh_unknowns_pencil(&changed, points, families, family, &wide, &r->options, most_values, list, &applied);
-        double target = k == 0 ? hits->hit[which].value[0] : value[0], best = HUGE_VAL;
-        for (size_t i = 0; i < count; i++) /* the nearest value: parameters changed by at most ten percent */
-            if (fabs(list[i] - target) < best) {
-                best = fabs(list[i] - target);
-                value[k] = list[i];
-            }
-        good = count > 0;
-    }
-    bool named = good && nh_recognise_monomial(o->dag, s.sets, n, atom, s.atom, value, 1e-8, &found);
-    if (!named && !nh_recognise_number(o->dag, hits->hit[which].value[0], r->options.recognise, &found)) found = 0;
-    nh_free(value);
-    clear_sets(&s);
-    return found;
+    pencil_context c = {r, points, families, family, {u->symbol, 0, HUGE_VAL}};
+    return nh_name_value(r->model, hits->hit[which].value[0], follow, &c, r->options.recognise, (uint64_t)r->options.seed);
 }
 
 static void name_values(nh_result *r, const nh_points *points, size_t families, const nh_family *family)

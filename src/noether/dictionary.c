@@ -1,0 +1,185 @@
+#include "noether/dictionary.h"
+
+#include <string.h>
+
+#include "expr/diff.h"
+#include "expr/normal.h"
+
+enum { most_entries = 24, most_seen = 4096, longest = 60 };
+
+typedef struct {
+    nh_model *o;
+    nh_dictionary *out;
+    size_t seen_count;
+    nh_ex *seen; /* nodes already looked at */
+} harvester;
+
+static bool is_in(size_t n, const nh_ex *list, nh_ex e)
+{
+    for (size_t i = 0; i < n; i++)
+        if (list[i] == e) return true;
+    return false;
+}
+
+/* Up to a constant factor an expression enters once. */
+static void add(harvester *h, size_t *n, nh_ex *list, nh_ex e)
+{
+    nh_dag *d = h->o->dag;
+    e = nh_simplify(d, nh_model_compose(h->o, e));
+    if (nh_kind_of(d, e) == NH_PRODUCT) {
+        nh_num c = nh_constant_of(d, e);
+        if (!nh_num_is(c, 1)) e = nh_mul(d, e, nh_number(d, nh_num_inv(c)));
+    }
+    if (nh_kind_of(d, e) == NH_NUMBER || *n == most_entries || nh_complexity(d, e) > longest || is_in(*n, list, e)) return;
+    list[(*n)++] = e;
+}
+
+static bool has_velocity(const nh_model *o, nh_ex e)
+{
+    for (size_t s = 0; s < o->m; s++)
+        if (nh_depends(o->dag, e, o->system->coordinate[s].v)) return true;
+    for (size_t i = 0; i < o->n; i++)
+        if (nh_depends(o->dag, e, o->chart->w[i])) return true;
+    return false;
+}
+
+static bool has_position(const nh_model *o, nh_ex e)
+{
+    if (nh_depends(o->dag, e, o->system->t)) return true;
+    for (size_t s = 0; s < o->m; s++)
+        if (nh_depends(o->dag, e, o->system->coordinate[s].q)) return true;
+    return false;
+}
+
+/* Linear and homogeneous in the velocities? */
+static bool is_form(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    nh_ex v[2 * 64], zero[2 * 64] = {0};
+    size_t n = 0;
+    if (o->m > 64) return false;
+    for (size_t s = 0; s < o->m; s++) v[n++] = o->system->coordinate[s].v;
+    for (size_t i = 0; i < o->n && o->chart->quasi; i++) v[n++] = o->chart->w[i];
+    for (size_t i = 0; i < n; i++)
+        if (has_velocity(o, nh_diff(d, e, v[i]))) return false;
+    return nh_is_zero(d, nh_substitute(d, e, n, v, zero));
+}
+
+/* A function of position that no polynomial and no plain sine or cosine of a coordinate is. */
+static void add_atom(harvester *h, nh_ex e)
+{
+    nh_dag *d = h->o->dag;
+    add(h, &h->out->atoms, h->out->atom, e);
+    nh_kind kind = nh_kind_of(d, e);
+    bool invertible = kind == NH_PRODUCT || nh_function_of(d, e) == NH_EXP;
+    if (invertible) add(h, &h->out->atoms, h->out->atom, nh_powi(d, e, -1));
+}
+
+static bool plain_wave(const nh_model *o, nh_ex e)
+{
+    nh_function f = nh_function_of(o->dag, e);
+    return (f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_kind_of(o->dag, nh_child(o->dag, e, 0)) == NH_SYMBOL;
+}
+
+static void add_wave(harvester *h, nh_ex e)
+{
+    nh_function f = nh_function_of(h->o->dag, e);
+    if (f != NH_SIN && f != NH_COS && f != NH_TAN) return;
+    for (size_t s = 0; s < h->o->m; s++) {
+        nh_ex q = h->o->system->coordinate[s].q;
+        if (nh_depends(h->o->dag, e, q) && !is_in(h->out->waves, h->out->wave, q)) h->out->wave[h->out->waves++] = q;
+    }
+}
+
+static void walk(harvester *h, nh_ex e)
+{
+    nh_dag *d = h->o->dag;
+    nh_kind kind = nh_kind_of(d, e);
+    if (kind == NH_NUMBER || kind == NH_SYMBOL || is_in(h->seen_count, h->seen, e) || h->seen_count == most_seen) return;
+    h->seen[h->seen_count++] = e;
+    bool moving = has_velocity(h->o, e), placed = has_position(h->o, e);
+    if (kind == NH_SUM && moving && is_form(h->o, e)) add(h, &h->out->forms, h->out->form, e);
+    if (kind == NH_FUNCTION && placed) add_wave(h, e);
+    if (kind == NH_FUNCTION && placed && !moving && !plain_wave(h->o, e)) add_atom(h, e);
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex child = nh_child(d, e, i);
+        walk(h, child);
+        if (kind != NH_PRODUCT) continue;
+        nh_ex x = nh_exponent_of(d, e, i);
+        bool polynomial = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1 && nh_number_of(d, x).p > 0;
+        if (!polynomial && has_position(h->o, child) && !has_velocity(h->o, child)) add_atom(h, nh_pow(d, child, x));
+    }
+}
+
+/* The additive terms of the potential, and the derivatives of those that contain an angle in a sine or cosine. */
+static void potentials(harvester *h)
+{
+    nh_model *o = h->o;
+    nh_dag *d = o->dag;
+    nh_ex zero[64] = {0}, v[64];
+    if (o->m > 64) return;
+    for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v;
+    nh_ex V = nh_substitute(d, o->system->lagrangian, o->m, v, zero);
+    bool factored = nh_kind_of(d, V) == NH_PRODUCT && nh_arity(d, V) == 1 && nh_kind_of(d, nh_child(d, V, 0)) == NH_SUM;
+    nh_ex sum = factored ? nh_child(d, V, 0) : V;
+    size_t n = nh_kind_of(d, sum) == NH_SUM ? nh_arity(d, sum) : 1;
+    for (size_t i = 0; i < n; i++) {
+        nh_ex term = nh_kind_of(d, sum) == NH_SUM ? nh_child(d, sum, i) : sum;
+        if (!has_position(o, term)) continue;
+        add(h, &h->out->potentials, h->out->potential, term);
+        for (size_t j = 0; j < h->out->waves; j++) {
+            nh_ex slope = nh_diff(d, term, h->out->wave[j]);
+            if (!nh_is_zero(d, slope)) add(h, &h->out->potentials, h->out->potential, slope);
+        }
+    }
+}
+
+static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
+{
+    nh_dag *d = h->o->dag;
+    nh_kind kind = nh_kind_of(d, e);
+    if (e == q) return true;
+    if (kind == NH_NUMBER || kind == NH_SYMBOL || !nh_depends(d, e, q)) return false;
+    nh_function f = kind == NH_FUNCTION ? nh_function_of(d, e) : NH_PI;
+    if (f == NH_SIN || f == NH_COS || f == NH_TAN) return false;
+    for (size_t i = 0; i < nh_arity(d, e); i++)
+        if (occurs_plainly(h, nh_child(d, e, i), q)) return true;
+    return false;
+}
+
+static void shapes(harvester *h)
+{
+    nh_model *o = h->o;
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex q = o->system->coordinate[s].q;
+        bool plain = false, any = false;
+        for (size_t i = 0; i < o->n; i++) {
+            any |= nh_depends(o->dag, o->a[i], q);
+            plain |= any && occurs_plainly(h, o->a[i], q);
+        }
+        if (any) h->out->shape[h->out->shapes++] = q;
+        if (plain) h->out->length[h->out->lengths++] = q;
+        if (o->system->coordinate[s].type == NH_ANGLE && any && !is_in(h->out->waves, h->out->wave, q)) h->out->wave[h->out->waves++] = q;
+    }
+}
+
+static nh_ex *take(nh_model *o) { return nh_arena_alloc(o->arena, (most_entries + 64) * sizeof(nh_ex)); }
+
+nh_dictionary nh_dictionary_of(nh_model *o)
+{
+    nh_dictionary out = {.velocity = take(o), .form = take(o), .atom = take(o), .potential = take(o), .momentum = take(o),
+                         .position = take(o), .wave = take(o), .length = take(o), .shape = take(o)};
+    harvester h = {.o = o, .out = &out, .seen = nh_alloc_array(most_seen, sizeof *h.seen)};
+    for (size_t i = 0; i < o->n; i++) out.velocity[out.velocities++] = o->chart->w[i];
+    for (size_t s = 0; s < o->m && out.positions < most_entries; s++) out.position[out.positions++] = o->system->coordinate[s].q;
+    walk(&h, o->system->lagrangian);
+    for (size_t a = 0; a < o->k; a++) walk(&h, nh_chart_constraint(o->chart, a));
+    for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
+    for (size_t s = 0; s < o->m; s++)
+        if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
+    for (size_t s = 0; s < o->m; s++) add(&h, &out.momenta, out.momentum, nh_diff(o->dag, o->system->lagrangian, o->system->coordinate[s].v));
+    potentials(&h);
+    shapes(&h);
+    nh_free(h.seen);
+    return out;
+}

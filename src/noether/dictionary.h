@@ -1,0 +1,33 @@
+/* dictionary: what a system itself is made of.
+ *
+ * Harvested from the expressions of L, of the constraints and of the embedding, parameters left symbolic:
+ *
+ *     velocities   the chart's and the dependent ones
+ *     forms        sums that are linear and homogeneous in the velocities (angular velocities, rolling forms, momenta)
+ *     atoms        non-polynomial functions of position and their inverses (1/r, exp(a - b), sqrt(1 + y^2), sin 2phi)
+ *     potential    the additive terms of L without velocities, and for angles their first derivatives
+ *     energy       as one column, whatever it looks like
+ *
+ * [docs/method.md, sec. 4] */
+#ifndef NH_DICTIONARY_H
+#define NH_DICTIONARY_H
+
+#include "geometry/model.h"
+
+typedef struct {
+    size_t velocities, forms, atoms, potentials, momenta;
+    nh_ex *velocity, *form, *atom, *potential, *momentum; /* functions on the submanifold, in the chart */
+    size_t positions;
+    nh_ex *position;    /* the coordinates */
+    size_t waves;
+    nh_ex *wave;        /* angles that occur in sines and cosines of the system, or are declared so */
+    size_t lengths;
+    nh_ex *length;      /* coordinates on which the equations of motion depend otherwise than through sines and cosines */
+    size_t shapes;
+    nh_ex *shape;       /* coordinates on which the equations of motion depend at all */
+} nh_dictionary;
+
+/* Belongs to the model's arena. */
+nh_dictionary nh_dictionary_of(nh_model *model);
+
+#endif

@@ -1,0 +1,94 @@
+#include "study/naming.h"
+
+#include "noether/recognise.h"
+#include "system/sample.h"
+
+enum { most_symbols = 12, extra_sets = 4 };
+
+/* ---- parameters and sums of parameters (J + m a^2) that values may be monomials of ---- */
+
+static bool parametric_sum(const nh_model *o, nh_ex e)
+{
+    if (nh_kind_of(o->dag, e) != NH_SUM) return false;
+    for (size_t j = 0; j < o->width; j++)
+        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
+    return true;
+}
+
+static void harvest(const nh_model *o, nh_ex e, nh_ex *list, size_t *count)
+{
+    nh_dag *d = o->dag;
+    if (*count == most_symbols) return;
+    if (parametric_sum(o, e)) {
+        for (size_t i = 0; i < *count; i++)
+            if (list[i] == e) return;
+        list[(*count)++] = e;
+        return;
+    }
+    nh_kind kind = nh_kind_of(d, e);
+    if (kind == NH_SYMBOL || kind == NH_NUMBER) return;
+    for (size_t i = 0; i < nh_arity(d, e); i++) harvest(o, nh_child(d, e, i), list, count);
+}
+
+static size_t atoms_of(const nh_model *o, nh_ex *list)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < o->system->parameters && count < most_symbols; i++)
+        if (o->parameter_value[i] > 0) list[count++] = o->parameter[i];
+    for (size_t i = 0; i < o->n * o->n; i++) harvest(o, o->M[i], list, &count);
+    for (size_t i = 0; i < o->n; i++) harvest(o, o->a[i], list, &count);
+    return count;
+}
+
+/* ---- parameter sets: the given one, then others within ten percent ---- */
+
+typedef struct {
+    size_t count, atoms;
+    double *parameter, *atom; /* count x parameters, count x atoms */
+} sets;
+
+static sets make_sets(const nh_model *o, size_t n, const nh_ex *atom, uint64_t seed)
+{
+    size_t p = o->system->parameters;
+    sets s = {.count = n + 2 + extra_sets, .atoms = n};
+    s.parameter = nh_alloc_array(s.count * p + 1, sizeof *s.parameter);
+    s.atom = nh_alloc_array(s.count * n + 1, sizeof *s.atom);
+    for (size_t k = 0; k < s.count; k++) {
+        double *value = s.parameter + k * p;
+        for (size_t i = 0; i < p; i++) value[i] = o->parameter_value[i] * (k ? 1 + 0.2 * (nh_random(&seed) - 0.5) : 1);
+        nh_tape *tape = nh_tape_create(o->dag, 0, NULL, n, atom, p, o->parameter, value);
+        nh_tape_work *work = nh_tape_work_create(tape);
+        nh_tape_eval(tape, work, NULL, s.atom + k * n);
+        nh_tape_work_free(work);
+        nh_tape_free(tape);
+    }
+    return s;
+}
+
+/* Implicit velocities are solved by tapes that are bound already: they cannot be moved to other parameters. */
+static bool follow_all(const nh_model *o, const sets *s, double value, nh_follow *follow, void *context, double *values)
+{
+    values[0] = value;
+    if (o->chart->implicit) return false;
+    for (size_t k = 1; k < s->count; k++) {
+        nh_model changed = *o;
+        changed.parameter_value = s->parameter + k * o->system->parameters;
+        if (!follow(&changed, value, &values[k], context)) return false;
+    }
+    return true;
+}
+
+nh_ex nh_name_value(const nh_model *o, double value, nh_follow *follow, void *context, double tolerance, uint64_t seed)
+{
+    nh_ex atom[most_symbols], found = 0;
+    size_t n = atoms_of(o, atom);
+    sets s = make_sets(o, n, atom, seed + 5);
+    double *values = nh_alloc_array(s.count, sizeof *values);
+    bool named = follow_all(o, &s, value, follow, context, values)
+                 && nh_recognise_monomial(o->dag, s.count, n, atom, s.atom, values, 100 * tolerance, &found);
+    if (!named && !nh_recognise_number(o->dag, value, tolerance, &found)) found = 0;
+    nh_free(values);
+    nh_free(s.parameter);
+    nh_free(s.atom);
+    return found;
+}

@@ -1,0 +1,241 @@
+#include "study/stages.h"
+
+#include <string.h>
+
+enum { most_list = 200, most_families = 24 };
+
+typedef struct {
+    nh_arena *arena;
+    const nh_model *o;
+    const nh_dictionary *w;
+    nh_family *family;
+    size_t count;
+} shelf;
+
+typedef struct {
+    size_t n;
+    nh_ex e[most_list];
+} list;
+
+static void put(list *l, nh_ex e)
+{
+    for (size_t i = 0; i < l->n; i++)
+        if (l->e[i] == e) return;
+    if (l->n < most_list) l->e[l->n++] = e;
+}
+
+static void put_all(list *l, size_t n, const nh_ex *e)
+{
+    for (size_t i = 0; i < n; i++) put(l, e[i]);
+}
+
+static nh_family terms_of(shelf *s, const list *l)
+{
+    nh_ex *copy = nh_arena_alloc(s->arena, (l->n + 1) * sizeof *copy);
+    memcpy(copy, l->e, l->n * sizeof *copy);
+    return (nh_family){.kind = NH_TERMS, .terms = l->n, .term = copy};
+}
+
+static nh_family product_of(shelf *s, size_t n, const nh_family *part)
+{
+    nh_family *copy = nh_arena_alloc(s->arena, n * sizeof *copy);
+    memcpy(copy, part, n * sizeof *copy);
+    return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = n, .part = copy};
+}
+
+static void add(shelf *s, nh_family f)
+{
+    if (s->count < most_families && (f.kind != NH_TERMS || f.terms)) s->family[s->count++] = f;
+}
+
+static void add_product(shelf *s, const list *a, const list *b)
+{
+    if (a->n && b->n) add(s, product_of(s, 2, (nh_family[]){terms_of(s, a), terms_of(s, b)}));
+}
+
+static nh_family polynomial_of(shelf *s, const list *l, size_t degree)
+{
+    nh_ex *copy = nh_arena_alloc(s->arena, (l->n + 1) * sizeof *copy);
+    memcpy(copy, l->e, l->n * sizeof *copy);
+    return (nh_family){.kind = NH_POLYNOMIAL, .in = copy, .in_count = l->n, .degree = degree};
+}
+
+/* ---- the lists that stages are made of ---- */
+
+/* Everything of degree one or two in the velocities that the system itself shows. */
+static list words(const shelf *s)
+{
+    list l = {0};
+    put(&l, s->o->E);
+    put_all(&l, s->w->momenta, s->w->momentum);
+    put_all(&l, s->w->velocities, s->w->velocity);
+    put_all(&l, s->w->forms, s->w->form);
+    return l;
+}
+
+static list linear_words(const shelf *s)
+{
+    list l = {0};
+    put_all(&l, s->w->velocities, s->w->velocity);
+    put_all(&l, s->w->forms, s->w->form);
+    return l;
+}
+
+static list positions(const shelf *s, bool one, bool time)
+{
+    list l = {0};
+    if (one) put(&l, nh_int(s->o->dag, 1));
+    put_all(&l, s->w->positions, s->w->position);
+    if (time) put(&l, s->o->system->t);
+    return l;
+}
+
+static list functions(const shelf *s, bool one)
+{
+    list l = {0};
+    if (one) put(&l, nh_int(s->o->dag, 1));
+    put_all(&l, s->w->atoms, s->w->atom);
+    put_all(&l, s->w->potentials, s->w->potential);
+    return l;
+}
+
+/* prod over the angles of {1, cos, sin}, to the given harmonic. */
+static list waves(const shelf *s, size_t harmonic)
+{
+    nh_dag *d = s->o->dag;
+    list l = {0};
+    put(&l, nh_int(d, 1));
+    for (size_t i = 0; i < s->w->waves; i++) {
+        size_t n = l.n;
+        for (size_t k = 1; k <= harmonic; k++) {
+            nh_ex angle = nh_mul(d, nh_int(d, (int64_t)k), s->w->wave[i]), c = nh_call(d, NH_COS, angle), q = nh_call(d, NH_SIN, angle);
+            for (size_t j = 0; j < n; j++) {
+                put(&l, nh_mul(d, l.e[j], c));
+                put(&l, nh_mul(d, l.e[j], q));
+            }
+        }
+    }
+    return l;
+}
+
+static list squares(const shelf *s, const list *a)
+{
+    list l = {0};
+    for (size_t i = 0; i < a->n; i++)
+        for (size_t j = 0; j <= i; j++) put(&l, nh_mul(s->o->dag, a->e[i], a->e[j]));
+    return l;
+}
+
+/* ---- the stages ---- */
+
+static void stage_words(shelf *s)
+{
+    list l = words(s), q = positions(s, false, true), f = functions(s, false);
+    put_all(&l, q.n, q.e);
+    put_all(&l, f.n, f.e);
+    add(s, terms_of(s, &l));
+}
+
+static void stage_words_positions(shelf *s)
+{
+    list l = words(s), q = positions(s, true, true), f = functions(s, false);
+    add_product(s, &l, &q);
+    add(s, terms_of(s, &f));
+    add(s, terms_of(s, &q));
+}
+
+static void stage_linear_waves(shelf *s)
+{
+    list l = linear_words(s), w = waves(s, 1);
+    if (s->w->waves) add_product(s, &l, &w);
+}
+
+static void stage_functions(shelf *s)
+{
+    list l = words(s), q = positions(s, true, false), f = functions(s, true);
+    if (f.n < 2) return;
+    add(s, product_of(s, 3, (nh_family[]){terms_of(s, &l), terms_of(s, &q), terms_of(s, &f)}));
+    add_product(s, &q, &f);
+}
+
+/* Total degree in positions and velocities, with the atoms; only where the angles do not matter. */
+static void stage_total(shelf *s, size_t degree, bool with_functions)
+{
+    list v = {0}, f = functions(s, true);
+    for (size_t i = 0; i < s->w->positions; i++) put(&v, s->w->position[i]);
+    put_all(&v, s->w->velocities, s->w->velocity);
+    if (with_functions && f.n > 1) add(s, product_of(s, 2, (nh_family[]){polynomial_of(s, &v, degree), terms_of(s, &f)}));
+    else add(s, polynomial_of(s, &v, degree));
+}
+
+static void stage_degree_2(shelf *s) { stage_total(s, 2, true); }
+static void stage_degree_3(shelf *s) { stage_total(s, 3, false); }
+static void stage_degree_4(shelf *s) { stage_total(s, 4, false); }
+
+static void stage_quadratic_waves(shelf *s)
+{
+    list l = linear_words(s), q = squares(s, &l), w = waves(s, 1), f = functions(s, false);
+    if (!s->w->waves) return;
+    add_product(s, &q, &w);
+    add(s, terms_of(s, &f));
+}
+
+/* Quadratic in the velocities, linear in positions, atoms of weight two: Runge-Lenz vectors. */
+static void stage_weights(shelf *s)
+{
+    list l = linear_words(s), q = squares(s, &l), x = positions(s, true, false), f = functions(s, false);
+    add_product(s, &q, &x);
+    add_product(s, &f, &x);
+}
+
+/* Rational: P / v with P linear. */
+static void stage_ratios(shelf *s)
+{
+    nh_dag *d = s->o->dag;
+    list l = linear_words(s), q = positions(s, true, false), v = {0};
+    for (size_t i = 0; i < s->w->velocities; i++) put(&v, nh_powi(d, s->w->velocity[i], -1));
+    for (size_t i = 0; i < s->w->atoms; i++) put(&v, s->w->atom[i]);
+    add(s, product_of(s, 3, (nh_family[]){terms_of(s, &l), terms_of(s, &q), terms_of(s, &v)}));
+}
+
+static void stage_linear_waves_2(shelf *s)
+{
+    list l = linear_words(s), w = waves(s, 2);
+    if (s->w->waves) add_product(s, &l, &w);
+}
+
+static const struct {
+    const char *name;
+    void (*build)(shelf *);
+} stages[] = {
+    {"energy, momenta, velocities, forms, positions, terms of the potential", stage_words},
+    {"the same times 1, t and the positions", stage_words_positions},
+    {"velocities and forms times first harmonics of the angles", stage_linear_waves},
+    {"energy, momenta and forms times positions and the system's own functions", stage_functions},
+    {"total degree 2 times the system's own functions", stage_degree_2},
+    {"quadratic forms times positions", stage_weights},
+    {"ratios of velocities", stage_ratios},
+    {"total degree 3", stage_degree_3},
+    {"quadratic forms times first harmonics", stage_quadratic_waves},
+    {"velocities and forms times second harmonics", stage_linear_waves_2},
+    {"total degree 4", stage_degree_4},
+};
+
+bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t index, nh_stage *out)
+{
+    if (index >= sizeof stages / sizeof *stages) return false;
+    shelf s = {arena, o, w, nh_arena_alloc(arena, most_families * sizeof(nh_family)), 0};
+    stages[index].build(&s);
+    *out = (nh_stage){stages[index].name, s.count, s.family};
+    return true;
+}
+
+nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w)
+{
+    shelf s = {arena, o, w, NULL, 0};
+    list l = linear_words(&s), q = positions(&s, false, false), f = functions(&s, false);
+    put_all(&l, w->momenta, w->momentum);
+    put_all(&l, q.n, q.e);
+    put_all(&l, f.n, f.e);
+    return terms_of(&s, &l);
+}
