@@ -157,7 +157,8 @@ static const char TURNTABLE[] =
     "dependent: [x, y]\n"
     "domain: {x: [-0.7, 0.7], y: [-0.7, 0.7], p: [-0.7, 0.7], h: [0.6, 2.0], s: [-0.7, 0.7]}\n";
 
-/* Constant speed under gravity, the paper's nonlinear constraint, and the same one implicitly; the chart is the direction. */
+/* Constant speed under gravity, the paper's nonlinear constraint: solved for y', with a root to be chosen, and implicit; the chart is the
+ * direction. */
 #define PROJECTILE \
     PARTICLE("uniform projectile", "") \
     "parameters: [{name: m, value: 1.3}, {name: g, value: 9.81}, {name: v0, value: 3}]\n" \
@@ -166,7 +167,8 @@ static const char TURNTABLE[] =
     "domain: {x': [0.4, 2.8], y': [0.4, 2.8], b: [0.2, 1.4]}\n"
 #define DIRECTION "chart: {velocities: [b], map: [\"x' = v0*cos(b)\", \"y' = v0*sin(b)\"]}\n"
 static const char PROJECTILE_EXPLICIT[] = PROJECTILE "constraints: [\"y' = sqrt(v0^2 - x'^2)\"]\n" DIRECTION;
-static const char PROJECTILE_IMPLICIT[] = PROJECTILE "constraints: [\"x'^2 + y'^2 = v0^2\"]\n" DIRECTION;
+static const char PROJECTILE_QUADRATIC[] = PROJECTILE "constraints: [\"x'^2 + y'^2 = v0^2\"]\n" DIRECTION;
+static const char PROJECTILE_IMPLICIT[] = PROJECTILE "constraints: [\"sqrt(x'^2 + y'^2) = v0\"]\n" DIRECTION;
 
 /* The same in space. */
 #define PROJECTILE_IN_SPACE \
@@ -176,7 +178,8 @@ static const char PROJECTILE_IMPLICIT[] = PROJECTILE "constraints: [\"x'^2 + y'^
     "dependent: [z]\n" \
     "domain: {x': [0.4, 1.7], y': [0.4, 1.7], z': [0.4, 2.8]}\n"
 static const char SPACE_EXPLICIT[] = PROJECTILE_IN_SPACE "constraints: [\"z' = sqrt(v0^2 - x'^2 - y'^2)\"]\n";
-static const char SPACE_IMPLICIT[] = PROJECTILE_IN_SPACE "constraints: [\"x'^2 + y'^2 + z'^2 = v0^2\"]\n";
+static const char SPACE_QUADRATIC[] = PROJECTILE_IN_SPACE "constraints: [\"x'^2 + y'^2 + z'^2 = v0^2\"]\n";
+static const char SPACE_IMPLICIT[] = PROJECTILE_IN_SPACE "constraints: [\"sqrt(x'^2 + y'^2 + z'^2) = v0\"]\n";
 
 /* Nonlinear and homogeneous in the velocities: the energy is conserved. */
 static const char APPELL_HAMEL[] = PARTICLE("Appell-Hamel", AND_Z)

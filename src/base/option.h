@@ -19,6 +19,7 @@
     X(zero,             100,     1,      1e6,   "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \
     X(undecided,        1e5,     1,      1e10,  "",         "up to this many times the null bound a value is undecided")            \
     X(gap,              1e3,     1,      1e15,  "",         "ratio of the first non-null to the last null value that is demanded")  \
+    X(likely,           1e-7,    0,      1,     "",         "values up to this, before the widest gap, are tried for a certificate") \
     X(trivial,          1e-11,   0,      1,     "",         "a column that varies by less than this part of its size is constant")  \
     X(split,            1e-4,    0,      1,     "",         "pencil eigenvalues below this are split Jordan blocks at zero")        \
     X(heldout,          1e-8,    0,      1,     "",         "largest relative residual of a current on points not used in the fit") \

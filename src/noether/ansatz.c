@@ -165,7 +165,8 @@ static bool build_fourier(builder *b, const nh_family *f, part *p)
     return build_terms(b, n, term, p);
 }
 
-/* The columns T_k in their stable recurrence, the terms as powers while these are readable, as cos(k acos s) beyond. */
+/* The columns T_k in their stable recurrence, the terms as powers while these are readable, beyond that by halving, which is short on
+ * paper and holds outside of [-1, 1] too (as cos(k acos s) does not):  T_2j = 2 T_j^2 - 1,  T_2j+1 = 2 T_j T_j+1 - s. */
 static bool build_chebyshev(builder *b, const nh_family *f, part *p)
 {
     enum { readable = 8 };
@@ -176,7 +177,10 @@ static bool build_chebyshev(builder *b, const nh_family *f, part *p)
     double *power = take(b, n * n, sizeof *power);
     chebyshev(b, f->in[0], f->degree, T, power);
     if (!build_terms(b, n, T, p)) return false;
-    for (size_t k = 2; k < n; k++) p->term[k] = nh_call(d, NH_COS, nh_mul(d, nh_int(d, (int64_t)k), nh_call(d, NH_ACOS, T[1])));
+    for (size_t k = 2; k < n; k++) {
+        nh_ex twice = nh_mul(d, nh_int(d, 2), nh_mul(d, p->term[k / 2], p->term[(k + 1) / 2]));
+        p->term[k] = nh_sub(d, twice, T[k % 2]);
+    }
     return true;
 }
 

@@ -10,8 +10,9 @@ enum { most_entries = 24, most_seen = 4096, longest = 60 };
 typedef struct {
     nh_model *o;
     nh_dictionary *out;
-    size_t seen_count;
-    nh_ex *seen; /* nodes already looked at */
+    size_t seen_count, all_waves;
+    nh_ex *seen;        /* nodes already looked at */
+    nh_ex all_wave[64]; /* every coordinate inside a sine or cosine */
 } harvester;
 
 static bool is_in(size_t n, const nh_ex *list, nh_ex e)
@@ -75,6 +76,19 @@ static void add_atom(harvester *h, nh_ex e)
     if (invertible) add(h, &h->out->atoms, h->out->atom, nh_powi(d, e, -1));
 }
 
+/* With 1/sqrt(b + c q^2) goes its integral, asinh of the same argument. */
+static void add_integral(harvester *h, nh_ex base)
+{
+    nh_dag *d = h->o->dag;
+    for (size_t s = 0; s < h->o->m; s++) {
+        nh_ex q = h->o->system->coordinate[s].q, zero = nh_int(d, 0), slope = nh_diff(d, base, q);
+        nh_ex c = nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, q)), b = nh_substitute(d, base, 1, &q, &zero);
+        if (nh_is_zero(d, slope) || has_position(h->o, b) || has_position(h->o, c) || nh_is_zero(d, c)) continue;
+        if (!nh_is_zero(d, nh_substitute(d, slope, 1, &q, &zero))) continue;
+        add(h, &h->out->atoms, h->out->atom, nh_call(d, NH_ASINH, nh_mul(d, q, nh_sqrt(d, nh_div(d, c, b)))));
+    }
+}
+
 static bool plain_wave(const nh_model *o, nh_ex e)
 {
     nh_function f = nh_function_of(o->dag, e);
@@ -87,7 +101,7 @@ static void add_wave(harvester *h, nh_ex e)
     if (f != NH_SIN && f != NH_COS && f != NH_TAN) return;
     for (size_t s = 0; s < h->o->m; s++) {
         nh_ex q = h->o->system->coordinate[s].q;
-        if (nh_depends(h->o->dag, e, q) && !is_in(h->out->waves, h->out->wave, q)) h->out->wave[h->out->waves++] = q;
+        if (h->all_waves < 64 && nh_depends(h->o->dag, e, q) && !is_in(h->all_waves, h->all_wave, q)) h->all_wave[h->all_waves++] = q;
     }
 }
 
@@ -107,7 +121,25 @@ static void walk(harvester *h, nh_ex e)
         if (kind != NH_PRODUCT) continue;
         nh_ex x = nh_exponent_of(d, e, i);
         bool polynomial = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1 && nh_number_of(d, x).p > 0;
-        if (!polynomial && has_position(h->o, child) && !has_velocity(h->o, child)) add_atom(h, nh_pow(d, child, x));
+        if (polynomial || !has_position(h->o, child) || has_velocity(h->o, child)) continue;
+        add_atom(h, nh_pow(d, child, x));
+    }
+}
+
+/* Roots of the determinant of the mass matrix: densities of invariant measures, and currents with them. */
+static void add_roots(harvester *h)
+{
+    nh_model *o = h->o;
+    nh_dag *d = o->dag;
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex M = o->M[i * o->n + i];
+        for (size_t j = 0; nh_kind_of(d, M) == NH_PRODUCT && j < nh_arity(d, M); j++) {
+            nh_ex base = nh_child(d, M, j);
+            if (nh_kind_of(d, base) == NH_SUM && has_position(o, base) && !has_velocity(o, base)) M = base;
+        }
+        if (nh_kind_of(d, M) != NH_SUM || !has_position(o, M) || has_velocity(o, M)) continue;
+        add_atom(h, nh_sqrt(d, M));
+        add_integral(h, M);
     }
 }
 
@@ -127,8 +159,8 @@ static void potentials(harvester *h)
         nh_ex term = nh_kind_of(d, sum) == NH_SUM ? nh_child(d, sum, i) : sum;
         if (!has_position(o, term)) continue;
         add(h, &h->out->potentials, h->out->potential, term);
-        for (size_t j = 0; j < h->out->waves; j++) {
-            nh_ex slope = nh_diff(d, term, h->out->wave[j]);
+        for (size_t j = 0; j < h->all_waves; j++) {
+            nh_ex slope = nh_diff(d, term, h->all_wave[j]);
             if (!nh_is_zero(d, slope)) add(h, &h->out->potentials, h->out->potential, slope);
         }
     }
@@ -150,6 +182,7 @@ static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
 static void shapes(harvester *h)
 {
     nh_model *o = h->o;
+    h->out->waves = 0; /* only angles that the equations of motion contain: harmonics of cyclic ones come out of the pencil */
     for (size_t s = 0; s < o->m; s++) {
         nh_ex q = o->system->coordinate[s].q;
         bool plain = false, any = false;
@@ -159,7 +192,8 @@ static void shapes(harvester *h)
         }
         if (any) h->out->shape[h->out->shapes++] = q;
         if (plain) h->out->length[h->out->lengths++] = q;
-        if (o->system->coordinate[s].type == NH_ANGLE && any && !is_in(h->out->waves, h->out->wave, q)) h->out->wave[h->out->waves++] = q;
+        bool wave = o->system->coordinate[s].type == NH_ANGLE || is_in(h->all_waves, h->all_wave, q);
+        if (wave && any) h->out->wave[h->out->waves++] = q;
     }
 }
 
@@ -179,6 +213,7 @@ nh_dictionary nh_dictionary_of(nh_model *o)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
     for (size_t s = 0; s < o->m; s++) add(&h, &out.momenta, out.momentum, nh_diff(o->dag, o->system->lagrangian, o->system->coordinate[s].v));
     potentials(&h);
+    add_roots(&h);
     shapes(&h);
     nh_free(h.seen);
     return out;

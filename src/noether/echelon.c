@@ -9,7 +9,7 @@
 
 nh_nullspace_options nh_nullspace_options_from(const nh_options *o)
 {
-    return (nh_nullspace_options){o->rank, o->zero, o->undecided, o->gap, o->trivial};
+    return (nh_nullspace_options){o->rank, o->zero, o->undecided, o->gap, o->likely, o->trivial};
 }
 
 nh_nullspace *nh_echelon_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term, const nh_options *options,
@@ -140,7 +140,7 @@ static void reduce(table *t, double small)
 
 static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n, double small)
 {
-    table t = {.terms = a->terms, .dimension = n->dimension};
+    table t = {.terms = a->terms, .dimension = n->likely};
     t.v = nh_alloc_array(t.terms * t.dimension + 1, sizeof *t.v);
     t.size = nh_alloc_array(t.terms + 1, sizeof *t.size);
     t.order = nh_alloc_array(t.terms + 1, sizeof *t.order);

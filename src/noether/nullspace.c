@@ -278,6 +278,20 @@ static void decide(nh_nullspace *result, const nh_nullspace_options *options)
         result->verdict = null > 0 ? NH_FOUND : NH_NONE;
 }
 
+/* The widest gap after values that could still be null. */
+static size_t likely_null(const nh_nullspace *result, const nh_nullspace_options *options)
+{
+    size_t best = result->dimension;
+    double widest = options->gap * options->gap;
+    for (size_t j = result->dimension; j + 1 < result->rank && result->spectrum[j] <= options->likely; j++) {
+        double gap = result->spectrum[j + 1] / fmax(result->spectrum[j], DBL_EPSILON);
+        if (gap <= widest) continue;
+        widest = gap;
+        best = j + 1;
+    }
+    return best;
+}
+
 /* The entry of largest modulus becomes positive. */
 static void fix_sign(size_t n, double *c)
 {
@@ -311,9 +325,10 @@ static bool solve(nh_nullspace *result, nh_equations *equations, const nh_basis 
     bool ok = quotient(equations, basis, result->spectrum, v, error);
     if (ok) {
         decide(result, options);
-        result->vector = nh_alloc_array(result->columns * result->dimension, sizeof(double));
-        nh_basis_expand(basis, result->columns, result->dimension, v, result->vector);
-        for (size_t j = 0; j < result->dimension; j++)
+        result->likely = likely_null(result, options);
+        result->vector = nh_alloc_array(result->columns * result->likely, sizeof(double));
+        nh_basis_expand(basis, result->columns, result->likely, v, result->vector);
+        for (size_t j = 0; j < result->likely; j++)
             fix_sign(result->columns, result->vector + j * result->columns);
     }
     nh_free(v);

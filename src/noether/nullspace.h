@@ -29,6 +29,7 @@ typedef struct {
     double zero;      /* null: sigma <= zero * eps * max(1, sigma_max)  (100) */
     double undecided; /* undecided up to this many times the null bound (1e5) */
     double gap;       /* required ratio of the first non-null to the last null value (1e3) */
+    double likely;    /* values up to this one, before the widest gap, are likely null (1e-7) */
     double trivial;   /* a column whose variation is below trivial * its size is constant (1e-11) */
 } nh_nullspace_options;
 
@@ -49,8 +50,10 @@ typedef struct {
     size_t rank;           /* independent, non-constant columns kept; length of the spectrum */
     double *spectrum;      /* generalized singular values, ascending, `rank` of them */
     size_t dimension;      /* of the null space */
+    size_t likely;         /* >= dimension: values before the widest gap; near-dependent columns lift true null values above
+                              rounding, so that these are worth a certificate, and nothing without one */
     double gap;            /* spectrum[dimension] / max(spectrum[dimension-1], eps); INFINITY when nothing is above or below */
-    double *vector;        /* columns x dimension, in the columns' own units, |B c| = 1; dropped columns have 0 */
+    double *vector;        /* columns x likely, in the columns' own units, |B c| = 1; dropped columns have 0 */
     bool *dropped;         /* per column */
     double smallest_kept, largest_dropped; /* pivots of B relative to the first; closer than 1e3: the rank is in doubt */
     bool rank_in_doubt;

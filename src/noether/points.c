@@ -3,9 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/linalg.h"
 #include "system/sample.h"
 
 enum { most_tries_per_point = 40 };
+static const double least_pivot = 0.02; /* nearer to where a chart of coordinate velocities breaks down, its formulas lose digits */
 
 static nh_points *empty(size_t count, size_t width)
 {
@@ -54,20 +56,24 @@ void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n
 
 /* The accelerations and velocities decide what is usable: everything else is made of the same parts. */
 typedef struct {
-    nh_tape *tape;
+    const nh_model *o;
+    nh_tape *tape;  /* rho (m), R (m x n, column-major), a (n), Lbar */
     nh_tape_work *work;
-    double *out;
-    size_t n;
+    double *out, *dense;
+    double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
 
-static guard guard_create(const nh_model *o)
+static guard guard_create(const nh_model *o, double pivot)
 {
-    size_t n = o->n + o->m + 1;
-    nh_ex *e = nh_alloc_array(n, sizeof *e);
-    memcpy(e, o->a, o->n * sizeof *e);
-    memcpy(e + o->n, o->rho, o->m * sizeof *e);
-    e[n - 1] = o->Lbar;
-    guard g = {.tape = nh_model_tape(o, n, e), .out = nh_alloc_array(n, sizeof(double)), .n = n};
+    size_t m = o->m, n = o->n, total = m + m * n + n;
+    nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
+    memcpy(e, o->rho, m * sizeof *e);
+    e[total] = o->Lbar;
+    for (size_t i = 0; i < n; i++)
+        for (size_t s = 0; s < m; s++) e[m + s + i * m] = o->R[s * n + i];
+    memcpy(e + m + m * n, o->a, n * sizeof *e);
+    guard g = {.o = o, .tape = nh_model_tape(o, total + 1, e), .out = nh_alloc_array(total + 1, sizeof(double)),
+               .dense = nh_alloc_array(m * n + m + n + 1, sizeof(double)), .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
     g.work = nh_tape_work_create(g.tape);
     nh_free(e);
     return g;
@@ -78,32 +84,62 @@ static void guard_clear(guard *g)
     nh_tape_work_free(g->work);
     nh_tape_free(g->tape);
     nh_free(g->out);
+    nh_free(g->dense);
+}
+
+/* The velocities nearest to v that the constraints allow: Gauss-Newton on rho(w) = v (one step when rho is affine). */
+static bool project(guard *g, double *z, const double *v)
+{
+    enum { most_steps = 12 };
+    size_t m = g->o->m, n = g->o->n;
+    double *R = g->dense, *b = R + m * n;
+    for (int step = 0; step < most_steps; step++) {
+        double size = 0;
+        nh_tape_eval(g->tape, g->work, z, g->out);
+        for (size_t i = 0; i < m + m * n; i++)
+            if (!isfinite(g->out[i])) return false;
+        memcpy(R, g->out + m, m * n * sizeof *R);
+        for (size_t s = 0; s < m; s++) b[s] = v[s] - g->out[s];
+        if (nh_least_squares(m, n, R, 1, b, m, 1e-12) < 0) return false;
+        for (size_t i = 0; i < n; i++) {
+            z[1 + m + i] += b[i];
+            size = fmax(size, fabs(b[i]));
+        }
+        if (size < 1e-9) break;
+    }
+    return true;
 }
 
 /* Weight of a point, or 0 to reject it. */
-static double accept(guard *g, const nh_model *o, const double *z, nh_points *p)
+static double accept(guard *g, const double *z, nh_points *p)
 {
     static const double too_fast = 1e8; /* nearer to a singularity than doubles can use */
-    double size = 0;
+    size_t m = g->o->m, n = g->o->n;
+    double fast = 0, steep = 0, strong = 0;
     nh_tape_eval(g->tape, g->work, z, g->out);
-    for (size_t i = 0; i < g->n; i++) {
+    for (size_t i = 0; i <= m + m * n + n; i++) {
         if (!isfinite(g->out[i])) {
             p->not_finite++;
             return 0;
         }
-        if (i < o->n + o->m) size = fmax(size, fabs(g->out[i]));
+        if (i == m + m * n + n) break; /* Lbar needs only to exist */
+        double *largest = i < m ? &fast : i < m + m * n ? &steep : &strong;
+        *largest = fmax(*largest, fabs(g->out[i]));
     }
-    if (size < too_fast) return 1 / (1 + size);
+    if (fast < too_fast && strong < too_fast && steep < g->steepest) return 1 / (1 + strong + fast);
     p->degenerate++;
     return 0;
 }
 
-static void stretched_box(const nh_model *o, double stretch, double *low, double *high)
+/* The box of (t, q, w, u), or, natural, of (t, q, q'). */
+static void stretched_box(const nh_model *o, bool natural, double stretch, double *low, double *high)
 {
     const nh_chart *c = o->chart;
-    for (size_t i = 0; i < o->width; i++) {
-        double middle = (c->low[i] + c->high[i]) / 2, half = (c->high[i] - c->low[i]) / 2;
-        if (i > o->m) half *= stretch;
+    size_t dimension = natural ? 1 + 2 * o->m : o->width;
+    for (size_t i = 0; i < dimension; i++) {
+        double a = i < o->width ? c->low[i] : 0, b = i < o->width ? c->high[i] : 0;
+        if (natural && i > o->m) nh_chart_range(c, o->system->coordinate[i - 1 - o->m].v, &a, &b);
+        double middle = (a + b) / 2, half = (b - a) / 2 * (i > o->m ? stretch : 1);
         low[i] = middle - half;
         high[i] = middle + half;
     }
@@ -112,17 +148,28 @@ static void stretched_box(const nh_model *o, double stretch, double *low, double
 nh_points *nh_points_create(const nh_model *o, size_t count, double stretch, uint64_t seed, nh_error *error)
 {
     nh_points *p = empty(count, o->width);
-    double *low = nh_alloc_array(3 * o->width, sizeof *low), *high = low + o->width, *z = high + o->width;
-    stretched_box(o, stretch, low, high);
-    nh_sampler *sampler = nh_sampler_create(o->width, low, high, seed);
-    guard g = guard_create(o);
+    size_t room = 1 + 2 * o->m + o->width;
+    double *low = nh_alloc_array(4 * room, sizeof *low), *high = low + room, *z = high + room, *v = z + room;
+    guard g = guard_create(o, least_pivot);
+    bool natural = !o->chart->quasi && o->k > 0 && o->chart->implicit == 0; /* velocities in the box, then moved onto the constraints */
+    size_t m = o->m, dimension = natural ? 1 + 2 * m : o->width;
+    stretched_box(o, natural, stretch, low, high);
+    nh_sampler *sampler = nh_sampler_create(dimension, low, high, seed);
     for (size_t most = most_tries_per_point * count + 200; p->count < count && p->tried < most; p->tried++) {
         nh_sampler_next(sampler, z);
+        if (natural) {
+            memcpy(v, z + 1 + m, m * sizeof *v);
+            for (size_t i = 0; i < o->n; i++) z[1 + m + i] = v[o->chart->free[i]];
+            if (!project(&g, z, v)) {
+                p->not_finite++;
+                continue;
+            }
+        }
         if (!nh_chart_complete(o->chart, z)) {
             p->not_solved++;
             continue;
         }
-        double weight = accept(&g, o, z, p);
+        double weight = accept(&g, z, p);
         if (weight == 0) continue;
         for (size_t j = 0; j < o->width; j++) p->column[j][p->count] = z[j];
         p->weight[p->count++] = weight;

@@ -13,15 +13,24 @@ static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz
                                        "definitions", "chart", "title", "doc"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
-static bool choice(const nh_deck *deck, const nh_deck_node *node, const char *what, size_t n, const char *const *names, size_t *out, nh_error *error)
+/* One of three words. */
+static bool choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error)
 {
     if (!node) return true;
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, what, error)) return false;
-    for (*out = 0; *out < n; ++*out)
+    for (*out = 0; *out < 3; ++*out)
         if (!strcmp(node->text, names[*out])) return true;
     nh_deck_fail(deck, node, 0, error, "unknown %s `%s`", what, node->text);
-    const char *near = nh_text_nearest(node->text, names, n);
-    return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "expected %s, ..., or %s", names[0], names[n - 1]);
+    const char *near = nh_text_nearest(node->text, names, 3);
+    return near ? nh_error_hint(error, "did you mean `%s`?", near) : nh_error_hint(error, "expected %s, %s or %s", names[0], names[1], names[2]);
+}
+
+/* The text under `key`, or the fallback. */
+static bool text_of(const nh_deck *deck, const nh_deck_node *map, const char *key, const char *fallback, const char **out, nh_error *error)
+{
+    const nh_deck_node *node = nh_deck_get(map, key);
+    *out = node ? node->text : fallback;
+    return !node || nh_deck_is(deck, node, NH_DECK_SCALAR, key, error);
 }
 
 static bool read_settings(nh_analysis *a, const nh_deck_node *map, nh_error *error)
@@ -44,14 +53,13 @@ static bool read_head(nh_analysis *a, nh_error *error)
     size_t index = 0;
     if (!nh_deck_is(a->deck, root, NH_DECK_MAP, "an analysis file (system: ..., ansatz: ...)", error)) return false;
     if (!nh_deck_only(a->deck, root, top_keys, top_key_count, error)) return false;
-    node = nh_deck_get(root, "name");
-    a->name = node && node->kind == NH_DECK_SCALAR ? node->text : "analysis";
-    node = nh_deck_get(root, "system");
-    a->system = node && node->kind == NH_DECK_SCALAR ? node->text : NULL;
-    if (!choice(a->deck, nh_deck_get(root, "route"), "route", 3, routes, &index, error)) return false;
+    const char *remark; /* title and doc are for the reader of the file */
+    if (!text_of(a->deck, root, "name", "analysis", &a->name, error) || !text_of(a->deck, root, "system", NULL, &a->system, error)) return false;
+    if (!text_of(a->deck, root, "title", "", &remark, error) || !text_of(a->deck, root, "doc", "", &remark, error)) return false;
+    if (!choice(a->deck, nh_deck_get(root, "route"), "route", routes, &index, error)) return false;
     a->route = (nh_route)index;
     index = 0;
-    if (!choice(a->deck, nh_deck_get(root, "chart"), "chart", 3, charts, &index, error)) return false;
+    if (!choice(a->deck, nh_deck_get(root, "chart"), "chart", charts, &index, error)) return false;
     a->chart = (nh_chart_choice)index;
     long whole;
     if ((node = nh_deck_get(root, "samples"))) {
@@ -60,7 +68,7 @@ static bool read_head(nh_analysis *a, nh_error *error)
         a->has_samples = true;
     }
     if ((node = nh_deck_get(root, "seed"))) {
-        if (!nh_deck_whole(a->deck, node, "seed", 0, 1000000000, &whole, error)) return false;
+        if (!nh_deck_whole(a->deck, node, "seed", 0, 1000000000000000, &whole, error)) return false;
         a->seed = (double)whole;
         a->has_seed = true;
     }
@@ -115,26 +123,48 @@ typedef struct {
     const nh_model *model;
     const nh_deck_node *root;
     nh_named *extra; /* E, Lbar, unknowns, definitions */
-    size_t extras;
+    size_t extras, own; /* the first `own` are E and Lbar */
     nh_error *error;
 } reader;
 
 static void *take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->a->arena, (count + 1) * size); }
+
+/* nh_analysis_to_chart, complaining about the node. */
+static bool to_chart(reader *r, const nh_deck_node *node, nh_ex e, nh_ex *out)
+{
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    return nh_analysis_to_chart(r->model, e, out, &trouble) || nh_deck_fail(r->a->deck, node, 0, r->error, "%s", trouble.what);
+}
 
 static bool parse(reader *r, const nh_deck_node *node, nh_ex *out)
 {
     if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "an expression", r->error)) return false;
     nh_ex e;
     return nh_system_expression(r->model->system, r->a->deck, node, r->extras, r->extra, &e, r->error)
-           && nh_analysis_to_chart(r->model, e, out, r->error);
+           && to_chart(r, node, e, out);
 }
 
+/* Is `name`, which stands at `node`, well formed and free? */
 static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
 {
+    const nh_deck *deck = r->a->deck;
+    const nh_system *s = r->model->system;
     nh_ex taken;
-    if (!nh_is_name(name) || nh_is_reserved(name)) return nh_deck_fail(r->a->deck, node, 0, r->error, "`%s` cannot be used as a name", name);
-    if (nh_symbol_find(r->model->dag, name, &taken)) return nh_deck_fail(r->a->deck, node, 0, r->error, "`%s` is already a name of the system", name);
-    return true;
+    if (!nh_is_name(name)) {
+        nh_deck_fail(deck, node, 0, r->error, "`%s` is not a name", name);
+        return nh_error_hint(r->error, "a name is a letter, then letters, digits and _");
+    }
+    if (nh_is_reserved(name)) {
+        nh_deck_fail(deck, node, 0, r->error, "`%s` has a meaning of its own and cannot be redefined", name);
+        return nh_error_hint(r->error, "choose another name, for instance `%s1`", name);
+    }
+    for (size_t i = 0; i < r->extras; i++)
+        if (!strcmp(r->extra[i].name, name))
+            return nh_deck_fail(deck, node, 0, r->error, i < r->own ? "`%s` is there already: E is the energy, Lbar the constrained Lagrangian" : "`%s` is declared twice", name);
+    bool used = nh_symbol_find(r->model->dag, name, &taken);
+    for (size_t i = 0; i < s->definitions; i++) used |= !strcmp(s->definition[i].name, name);
+    return !used || nh_deck_fail(deck, node, 0, r->error, "`%s` is already a name of the system", name);
 }
 
 static bool read_unknowns(reader *r)
@@ -147,7 +177,7 @@ static bool read_unknowns(reader *r)
         double range[2];
         const char *name = map->key[i]->text;
         if (!name_is_free(r, map->key[i], name)) return false;
-        if (!nh_deck_range(r->a->deck, map->item[i], "an interval [low, high]", range, r->error)) return false;
+        if (!nh_deck_range(r->a->deck, map->item[i], name, range, r->error)) return false;
         nh_ex symbol = nh_symbol(r->model->dag, name);
         r->a->unknown[i] = (nh_unknown){symbol, range[0], range[1]};
         r->extra[r->extras++] = (nh_named){.name = name, .value = symbol};
@@ -156,17 +186,20 @@ static bool read_unknowns(reader *r)
     return true;
 }
 
-/* "name = expression" */
-static bool read_assignment(reader *r, const nh_deck_node *node, nh_named *out)
+/* "name = expression"; a visible name can be used in later expressions. */
+static bool read_assignment(reader *r, const nh_deck_node *node, bool visible, nh_named *out)
 {
-    if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "a definition `name = expression`", r->error)) return false;
+    const nh_deck *deck = r->a->deck;
+    const char *what = visible ? "a definition `name = expression`" : "a line `name = expression` of what is watched";
+    if (!nh_deck_is(deck, node, NH_DECK_SCALAR, what, r->error)) return false;
     const char *equal = strchr(node->text, '=');
-    if (!equal) return nh_deck_fail(r->a->deck, node, 0, r->error, "a definition `name = expression` was expected, but there is no `=`");
+    if (!equal) return nh_deck_fail(deck, node, 0, r->error, "%s was expected, but there is no `=`", what);
     size_t n = (size_t)(equal - node->text);
     char *copy = nh_arena_strdup(r->a->arena, node->text);
     memset(copy, ' ', n + 1);
     while (n && node->text[n - 1] == ' ') n--;
     *out = (nh_named){.name = nh_arena_strndup(r->a->arena, node->text, n), .text = equal + 1 + strspn(equal + 1, " ")};
+    if (visible ? !name_is_free(r, node, out->name) : n == 0 && !nh_deck_fail(deck, node, 0, r->error, "there is no name before the `=`")) return false;
     nh_deck_node right = *node;
     right.text = copy;
     return parse(r, &right, &out->value);
@@ -178,8 +211,9 @@ static bool read_assignments(reader *r, const nh_deck_node *list, const char *wh
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, what, r->error)) return false;
     *out = take(r, list->count, sizeof **out);
     for (size_t i = 0; i < list->count; i++) {
-        if (!read_assignment(r, list->item[i], &(*out)[i])) return false;
-        if (visible && !nh_is_name((*out)[i].name)) return nh_deck_fail(r->a->deck, list->item[i], 0, r->error, "`%s` is not a name", (*out)[i].name);
+        if (!read_assignment(r, list->item[i], visible, &(*out)[i])) return false;
+        for (size_t j = 0; j < i; j++)
+            if (!strcmp((*out)[i].name, (*out)[j].name)) return nh_deck_fail(r->a->deck, list->item[i], 0, r->error, "`%s` is declared twice", (*out)[i].name);
         if (visible) r->extra[r->extras++] = (*out)[i];
         *count = i + 1;
     }
@@ -193,6 +227,7 @@ static bool read_in(reader *r, const nh_deck_node *item, nh_family *f)
     const nh_deck_node *in = nh_deck_get(item, "in");
     if (!in) return nh_deck_fail(r->a->deck, item, 0, r->error, "this family has no `in`: functions of what?");
     size_t n = in->kind == NH_DECK_LIST ? in->count : 1;
+    if (n == 0) return nh_deck_fail(r->a->deck, in, 0, r->error, "this `in` is empty: functions of what?");
     nh_ex *list = take(r, n, sizeof *list);
     for (size_t i = 0; i < n; i++)
         if (!parse(r, in->kind == NH_DECK_LIST ? in->item[i] : in, &list[i])) return false;
@@ -217,7 +252,10 @@ static bool read_fourier(reader *r, const nh_deck_node *item, nh_family *f)
     f->kind = NH_FOURIER;
     f->frequency = nh_int(r->model->dag, 1);
     f->constant = frequency == NULL;
-    if (constant) f->constant = constant->text && !strcmp(constant->text, "true");
+    if (constant && !nh_deck_is(r->a->deck, constant, NH_DECK_SCALAR, "constant", r->error)) return false;
+    if (constant) f->constant = !strcmp(constant->text, "true");
+    if (constant && !f->constant && strcmp(constant->text, "false"))
+        return nh_deck_fail(r->a->deck, constant, 0, r->error, "`constant` must be true or false, found `%s`", constant->text);
     if (frequency && !parse(r, frequency, &f->frequency)) return false;
     return read_in(r, item, f) && read_size(r, item, "harmonics", 1, &f->degree);
 }
@@ -226,6 +264,7 @@ static bool read_terms(reader *r, const nh_deck_node *item, nh_family *f)
 {
     const nh_deck_node *list = nh_deck_get(item, "terms");
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "terms", r->error)) return false;
+    if (list->count == 0) return nh_deck_fail(r->a->deck, list, 0, r->error, "this list of terms is empty");
     nh_ex *term = take(r, list->count, sizeof *term);
     for (size_t i = 0; i < list->count; i++)
         if (!parse(r, list->item[i], &term[i])) return false;
@@ -239,11 +278,24 @@ static bool read_product(reader *r, const nh_deck_node *item, int depth, nh_fami
 {
     const nh_deck_node *list = nh_deck_get(item, "product");
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "product", r->error)) return false;
-    if (list->count == 0) return nh_deck_fail(r->a->deck, list, 0, r->error, "an empty product");
+    if (list->count == 0) return nh_deck_fail(r->a->deck, list, 0, r->error, "this product is empty");
     nh_family *part = take(r, list->count, sizeof *part);
     for (size_t i = 0; i < list->count; i++)
         if (!read_family(r, list->item[i], depth + 1, &part[i])) return false;
     *f = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = list->count, .part = part};
+    return true;
+}
+
+/* Has the family only keys that mean something for its kind?  `keys`: words with spaces between. */
+static bool fits(reader *r, const nh_deck_node *item, const char *kind, const char *keys)
+{
+    for (size_t i = 0; i < item->count; i++) {
+        const char *key = item->key[i]->text, *found = strstr(keys, key);
+        size_t n = strlen(key);
+        if (found && (found == keys || found[-1] == ' ') && (found[n] == ' ' || !found[n])) continue;
+        nh_deck_fail(r->a->deck, item->key[i], 0, r->error, "`%s` means nothing for %s", key, kind);
+        return nh_error_hint(r->error, "it takes: %s", keys);
+    }
     return true;
 }
 
@@ -255,12 +307,13 @@ static bool read_family(reader *r, const nh_deck_node *item, int depth, nh_famil
     const nh_deck *deck = r->a->deck;
     if (!nh_deck_is(deck, item, NH_DECK_MAP, "a family {basis: ..., in: ...}", r->error) || !nh_deck_only(deck, item, keys, 8, r->error)) return false;
     if (depth > 4) return nh_deck_fail(deck, item, 0, r->error, "products nested too deeply");
-    if (nh_deck_get(item, "product")) return read_product(r, item, depth, f);
-    if (nh_deck_get(item, "terms")) return read_terms(r, item, f);
+    if (nh_deck_get(item, "product")) return fits(r, item, "a product", "product") && read_product(r, item, depth, f);
+    if (nh_deck_get(item, "terms")) return fits(r, item, "a list of terms", "terms") && read_terms(r, item, f);
     if (!nh_deck_get(item, "basis")) return nh_deck_fail(deck, item, 0, r->error, "a family needs `basis`, `terms` or `product`");
-    if (!choice(deck, nh_deck_get(item, "basis"), "basis", 3, bases, &basis, r->error)) return false;
+    if (!choice(deck, nh_deck_get(item, "basis"), "basis", bases, &basis, r->error)) return false;
     *f = (nh_family){.kind = basis == 0 ? NH_POLYNOMIAL : NH_CHEBYSHEV};
-    if (basis == 1) return read_fourier(r, item, f);
+    if (basis == 1) return fits(r, item, "a fourier family", "basis in harmonics frequency constant") && read_fourier(r, item, f);
+    if (!fits(r, item, basis ? "a chebyshev family" : "a polynomial family", "basis in degree")) return false;
     if (!read_in(r, item, f) || !read_size(r, item, "degree", -1, &f->degree)) return false;
     if (basis == 2 && f->in_count != 1) return nh_deck_fail(deck, item, 0, r->error, "a chebyshev family is in one variable; use a product for several");
     return true;
@@ -315,6 +368,22 @@ static void velocities_of(const nh_system *s, const double *quasi, nh_state *sta
     nh_free(in);
 }
 
+static bool unknown_state(reader *r, const nh_deck_node *key)
+{
+    const nh_system *s = r->model->system;
+    const char **names = take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
+    size_t n = 0;
+    names[n++] = "t";
+    for (size_t i = 0; i < s->coordinates; i++) {
+        names[n++] = s->coordinate[i].name;
+        names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
+    }
+    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    nh_deck_fail(r->a->deck, key, 0, r->error, "`%s` is not a coordinate or velocity of %s", key->text, s->name);
+    const char *near = nh_text_nearest(key->text, names, n);
+    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+}
+
 static bool read_initial(reader *r, const nh_deck_node *map)
 {
     const nh_system *s = r->model->system;
@@ -338,7 +407,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
                 quasi[j] = value;
                 known = any_quasi = true;
             }
-        if (!known) return nh_deck_fail(r->a->deck, map->key[i], 0, r->error, "`%s` is not a coordinate or velocity of %s", name, s->name);
+        if (!known) return unknown_state(r, map->key[i]);
     }
     if (any_quasi && any_velocity) return nh_deck_fail(r->a->deck, map, 0, r->error, "give either coordinate velocities or quasi-velocities, not both");
     if (any_quasi) velocities_of(s, quasi, state);
@@ -389,6 +458,7 @@ bool nh_analysis_resolve(nh_analysis *a, const nh_model *model, nh_error *error)
     r.extra = take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0), sizeof *r.extra);
     if (!nh_symbol_find(model->dag, "E", &taken)) r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
     if (!nh_symbol_find(model->dag, "Lbar", &taken)) r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
+    r.own = r.extras;
     return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && read_ansatz(&r)
            && read_validate(&r) && read_scene(&r);
 }

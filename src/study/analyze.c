@@ -109,7 +109,7 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
         r->timing.nullspace = lap(clock);
         nh_workbench *bench = nh_workbench_create(r, error);
         good = bench != NULL;
-        for (size_t k = 0; k < candidates->count && good; k++) nh_currents_add(bench, &candidates->candidate[k], points);
+        for (size_t k = 0; k < candidates->count && good; k++) nh_currents_add(bench, &candidates->candidate[k], points, s->likely == s->dimension);
         if (good) nh_currents_finish(bench);
         nh_workbench_free(bench);
         nh_candidates_free(candidates);

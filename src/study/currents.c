@@ -265,9 +265,10 @@ static void independence(nh_result *r, const nh_points *generic)
 }
 
 /* A candidate that fails on held-out points or is refuted exactly is no current: it is left out, with a word about it. */
-static bool keeps(nh_result *r, const nh_found *f)
+static bool keeps(nh_result *r, const nh_found *f, bool certain)
 {
-    if (f->proof.proved) return true;
+    if (f->proof.proved || f->proof.digits >= r->options.digits) return true;
+    if (!certain) return false; /* it was only likely */
     if (f->heldout <= r->options.heldout && !f->proof.refuted) return true;
     nh_result_warn(r, "a combination that fits the samples to %.1e is not conserved (held-out residual %.1e, its rate cancels to %.0f digits): left out",
                    f->quotient, f->heldout, f->proof.digits);
@@ -313,13 +314,13 @@ static nh_found *next_found(nh_result *r)
     return &r->found[r->count];
 }
 
-bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *fit)
+bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *fit, bool certain)
 {
     nh_result *r = b->result;
     nh_found *f = next_found(r);
     nh_echelon_refine(r->model, fit, candidate, &r->options);
     examine(b, candidate, f);
-    if (!keeps(r, f)) return false;
+    if (!keeps(r, f, certain)) return false;
     r->count++;
     return true;
 }

@@ -5,11 +5,12 @@
 #include <string.h>
 #include <time.h>
 
+#include "expr/normal.h"
 #include "noether/pencil.h"
 #include "study/naming.h"
 #include "study/stages.h"
 
-enum { range_points = 256, least_points = 256, most_tested = 60, most_kappa = 16, most_values = 24 };
+enum { range_points = 256, least_points = 256, most_tested = 60, most_kappa = 16, most_values = 24, most_factors = 10, short_factor = 14 };
 static const double points_per_column = 2.5;
 
 typedef struct {
@@ -17,6 +18,8 @@ typedef struct {
     nh_workbench *bench;
     nh_dictionary words;
     nh_points *ranges;
+    size_t factors;    /* simple currents, dependent ones too: factors of later stages */
+    nh_ex factor[most_factors];
     double start;
 } climber;
 
@@ -36,8 +39,16 @@ static nh_ex rough(const nh_model *o, const nh_candidate *c)
     return e;
 }
 
+static void keep_factor(climber *x, nh_ex phi)
+{
+    if (x->factors == most_factors || nh_complexity(x->r->model->dag, phi) > short_factor) return;
+    for (size_t i = 0; i < x->factors; i++)
+        if (x->factor[i] == phi) return;
+    x->factor[x->factors++] = phi;
+}
+
 /* Gradients against those of the known currents decide; candidates come simplest first. */
-static size_t add_new(climber *x, nh_candidates *list, const nh_points *fit)
+static size_t add_new(climber *x, nh_candidates *list, const nh_points *fit, bool certain)
 {
     nh_result *r = x->r;
     size_t known = r->count, n = list->count < most_tested ? list->count : most_tested, before = r->independent;
@@ -46,8 +57,15 @@ static size_t add_new(climber *x, nh_candidates *list, const nh_points *fit)
     for (size_t k = 0; k < known; k++) phi[k] = r->found[k].phi;
     for (size_t k = 0; k < n; k++) phi[known + k] = rough(r->model, &list->candidate[k]);
     nh_independence_test(r->model, x->bench->generic, known + n, phi, r->options.sure, r->options.doubt, kind, NULL);
-    for (size_t k = 0; k < n && r->independent < r->local_maximum; k++)
-        if (kind[known + k] == NH_INDEPENDENT && nh_currents_add(x->bench, &list->candidate[k], fit)) r->independent++;
+    for (size_t k = 0; k < n && r->independent < r->local_maximum; k++) {
+        nh_candidate *c = &list->candidate[k];
+        if (kind[known + k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, fit, certain)) {
+            r->independent++;
+            keep_factor(x, r->found[r->count - 1].phi);
+        } else if (c->count == 1 && kind[known + k] == NH_DEPENDENT) {
+            keep_factor(x, c->term[0]);
+        }
+    }
     nh_free(kind);
     nh_free(phi);
     return r->independent - before;
@@ -99,7 +117,7 @@ static void run_stage(climber *x, const char *name, size_t families, const nh_fa
         r->samples = fit->count > r->samples ? fit->count : r->samples;
         r->rejected += fit->tried - fit->count;
         nh_candidates *list = nh_echelon(r->model, fit, a, s, &r->options);
-        note->found = add_new(x, list, fit);
+        note->found = add_new(x, list, fit, s->likely == s->dimension);
         keep_spectrum(r, s, note->found > 0);
         nh_candidates_free(list);
     }
@@ -117,7 +135,7 @@ typedef struct {
     climber *x;
     const nh_ansatz *base;
     nh_ex q; /* t or a coordinate */
-    bool imaginary;
+    bool periodic, imaginary;
 } rate_context;
 
 /* |Im| or Re of the pencil's eigenvalues, each once. */
@@ -132,12 +150,14 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
     nh_rows_pencil(o, c->base, nh_model_gamma(o, c->q), points, A, B);
     nh_pencil *p = nh_pencil_solve(points->count, n, A, B, &limits, c->x->r->options.split, &ignored);
     for (size_t k = 0; p && k < p->dimension && count < most; k++) {
-        if (p->im[k] < 0 || p->residual[k] > 1e-9) continue;
-        bool old = false;
-        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - p->re[k]) + fabs(im[j] - p->im[k]) < 1e-7 * (fabs(re[j]) + fabs(im[j]));
+        double x = p->re[k], y = p->im[k];
+        if (y < 0 || p->residual[k] > 1e-9) continue;
+        if (c->periodic) y = fabs(y - round(y)); /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
+        bool old = fabs(x) + fabs(y) < 1e-6;
+        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < 1e-7 * (fabs(re[j]) + fabs(im[j]));
         if (old) continue;
-        re[count] = p->re[k];
-        im[count++] = p->im[k];
+        re[count] = x;
+        im[count++] = y;
     }
     nh_pencil_free(p);
     nh_free(B);
@@ -150,13 +170,13 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
     rate_context *c = context;
     double re[most_values], im[most_values], best = HUGE_VAL;
     size_t n = rates(changed, c, re, im, most_values);
-    for (size_t i = 0; i < n; i++) {
-        double v = c->imaginary ? im[i] : re[i];
-        if (fabs(v - near) < best) {
+    for (size_t i = 0; i < n; i++)
+        for (int turn = 0; turn < (c->imaginary && c->periodic ? 2 : 1); turn++) { /* nu may have crossed 1/2, where it was folded */
+            double v = !c->imaginary ? re[i] : turn ? 1 - im[i] : im[i];
+            if (fabs(v - near) >= best) continue;
             best = fabs(v - near);
             *value = v;
         }
-    }
     return n > 0 && best < 0.5 * fabs(near);
 }
 
@@ -196,7 +216,8 @@ static void pencil_stage(climber *x, nh_ex q, const char *name)
     nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words);
     nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &trouble);
     if (!a) return;
-    rate_context c = {x, a, q, false};
+    rate_context c = {.x = x, .base = a, .q = q};
+    for (size_t i = 0; i < x->words.waves; i++) c.periodic |= x->words.wave[i] == q;
     double re[most_values], im[most_values];
     size_t n = rates(r->model, &c, re, im, most_values);
     if (n > most_rates) n = most_rates;
@@ -214,6 +235,25 @@ static void pencil_stage(climber *x, nh_ex q, const char *name)
     run_stage(x, text, 2, both);
 }
 
+/* Currents found so far as factors: Phi times 1, t, positions and the system's functions. */
+static void known_stage(climber *x)
+{
+    nh_result *r = x->r;
+    nh_ex *f = nh_arena_alloc(r->arena, (2 + x->words.positions + x->words.atoms + x->words.potentials) * sizeof *f);
+    size_t m = 0;
+    f[m++] = nh_int(r->model->dag, 1);
+    f[m++] = r->system->t;
+    for (size_t i = 0; i < x->words.positions; i++) f[m++] = x->words.position[i];
+    for (size_t i = 0; i < x->words.atoms; i++) f[m++] = x->words.atom[i];
+    for (size_t i = 0; i < x->words.potentials; i++) f[m++] = x->words.potential[i];
+    if (x->factors < 2) return;
+    nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *both = nh_arena_alloc(r->arena, sizeof *both);
+    part[0] = (nh_family){.kind = NH_TERMS, .terms = x->factors, .term = x->factor};
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = m, .term = f};
+    both[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    run_stage(x, "currents found so far times t, positions and the system's functions", 1, both);
+}
+
 static bool done(const climber *x)
 {
     return x->r->independent >= x->r->local_maximum || seconds() - x->start > x->r->options.max_seconds;
@@ -228,7 +268,7 @@ static void all_pencils(climber *x)
 
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
-    enum { pencils_after = 2 };
+    enum { pencils_after = 2, known_after = 4 };
     climber x = {.r = r, .start = seconds()};
     x.ranges = nh_points_create(r->model, range_points, 1, (uint64_t)r->options.seed, error);
     if (!x.ranges) return false;
@@ -242,6 +282,7 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
     for (size_t i = 0; !done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
         run_stage(&x, stage.name, stage.families, stage.family);
         if (i + 1 == pencils_after) all_pencils(&x);
+        if (i + 1 == known_after && !done(&x)) known_stage(&x);
     }
     if (seconds() - x.start > r->options.max_seconds) {
         r->partial = true;

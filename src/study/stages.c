@@ -171,6 +171,7 @@ static void stage_total(shelf *s, size_t degree, bool with_functions)
 static void stage_degree_2(shelf *s) { stage_total(s, 2, true); }
 static void stage_degree_3(shelf *s) { stage_total(s, 3, false); }
 static void stage_degree_4(shelf *s) { stage_total(s, 4, false); }
+static void stage_degree_6(shelf *s) { stage_total(s, 6, false); }
 
 static void stage_quadratic_waves(shelf *s)
 {
@@ -219,6 +220,7 @@ static const struct {
     {"quadratic forms times first harmonics", stage_quadratic_waves},
     {"velocities and forms times second harmonics", stage_linear_waves_2},
     {"total degree 4", stage_degree_4},
+    {"total degree 6", stage_degree_6},
 };
 
 bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t index, nh_stage *out)
@@ -232,8 +234,13 @@ bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, siz
 
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w)
 {
+    enum { most_with_waves = 110 };
     shelf s = {arena, o, w, NULL, 0};
-    list l = linear_words(&s), q = positions(&s, false, false), f = functions(&s, false);
+    list l = linear_words(&s), q = positions(&s, false, false), f = functions(&s, false), v = waves(&s, 1);
+    size_t words_count = l.n;
+    if (l.n * v.n <= most_with_waves)
+        for (size_t i = 0; i < words_count; i++)
+            for (size_t j = 0; j < v.n; j++) put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
     put_all(&l, w->momenta, w->momentum);
     put_all(&l, q.n, q.e);
     put_all(&l, f.n, f.e);

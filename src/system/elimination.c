@@ -373,7 +373,9 @@ static nh_chart *build(const cloud *c, const size_t *dependent, double pivot, nh
     size_t n = 0;
     for (size_t i = 0; i < m; i++) {
         chart->rho[i] = s->coordinate[i].v;
-        if (!is_dependent(dependent, k, i)) chart->w[n++] = s->coordinate[i].v;
+        if (is_dependent(dependent, k, i)) continue;
+        chart->free[n] = i;
+        chart->w[n++] = s->coordinate[i].v;
     }
     nh_ex *v = nh_alloc_array(k + 1, sizeof *v);
     for (size_t a = 0; a < k && implicit; a++) {
@@ -397,6 +399,17 @@ static nh_chart *build(const cloud *c, const size_t *dependent, double pivot, nh
     nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "the constraints cannot be solved for the chosen dependent velocities");
     nh_error_hint(error, "name others under `dependent:`, or leave it out");
     return NULL;
+}
+
+bool nh_embedding_ranks(nh_system *system, uint64_t seed, nh_error *error)
+{
+    cloud c = {.system = system, .m = system->coordinates, .k = system->constraints, .width = 1 + 2 * system->coordinates};
+    if (c.k == 0) return true;
+    cloud_tape(&c);
+    cloud_fill(&c, seed);
+    bool good = c.count == 0 || check_rank(&c, error); /* no point found says nothing: the user's chart has points */
+    cloud_clear(&c);
+    return good;
 }
 
 nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *error)

@@ -55,6 +55,7 @@ nh_chart *nh_embedding_new(nh_system *s, const char *name, size_t n, size_t impl
     c->u = nh_arena_alloc(arena, (implicit + 1) * sizeof *c->u);
     c->residual = nh_arena_alloc(arena, (implicit + 1) * sizeof *c->residual);
     c->dependent = nh_arena_alloc(arena, (s->constraints + 1) * sizeof *c->dependent);
+    c->free = nh_arena_alloc(arena, (n + 1) * sizeof *c->free);
     c->symbol = nh_arena_alloc(arena, width * sizeof *c->symbol);
     c->low = nh_arena_alloc(arena, width * sizeof *c->low);
     c->high = nh_arena_alloc(arena, width * sizeof *c->high);
@@ -72,6 +73,8 @@ void nh_embedding_symbols(nh_chart *c)
     for (size_t i = 0; i < c->implicit; i++) c->symbol[k++] = c->u[i];
     for (size_t i = 0; i < c->width; i++) nh_embedding_range(s, c->symbol[i], &c->low[i], &c->high[i]);
 }
+
+void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high) { nh_embedding_range(c->system, symbol, low, high); }
 
 void nh_chart_free(nh_chart *chart)
 {
@@ -146,12 +149,11 @@ double nh_embedding_score(void *context, nh_ex e)
 
 /* ---- the user's quasi-velocities ---- */
 
-static bool probes_of_quasi(nh_chart *c, uint64_t seed)
+static void probes_of_quasi(nh_chart *c, uint64_t seed)
 {
     nh_sampler *sampler = nh_sampler_create(c->width, c->low, c->high, seed);
     for (c->probes = 0; c->probes < probe_count; c->probes++) nh_sampler_next(sampler, c->probe + c->probes * c->width);
     nh_sampler_free(sampler);
-    return true;
 }
 
 /* Do the constraints hold on the image of the chart?  Compared with the size of the constraint's own terms. */
@@ -181,6 +183,44 @@ static bool chart_satisfies(const nh_chart *c, nh_error *error)
     return true;
 }
 
+/* The largest rank of d rho/dw over the probes. */
+static size_t rank_of_map(const nh_chart *c)
+{
+    nh_dag *d = c->system->dag;
+    size_t m = c->system->coordinates, n = c->n, best = 0;
+    const nh_ex *symbols;
+    const double *values;
+    nh_system_bindings(c->system, &symbols, &values);
+    nh_ex *R = nh_alloc_array(m * n, sizeof *R);
+    for (size_t i = 0; i < m * n; i++) R[i] = nh_diff(d, c->rho[i % m], c->w[i / m]);
+    nh_tape *tape = nh_tape_create(d, c->width, c->symbol, m * n, R, c->system->parameters, symbols, values);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *a = nh_alloc_array(m * n + m + n, sizeof *a), *s = a + m * n;
+    for (size_t p = 0; p < c->probes; p++) {
+        size_t rank = 0, small = m < n ? m : n;
+        bool finite = true;
+        nh_tape_eval(tape, work, c->probe + p * c->width, a);
+        for (size_t i = 0; i < m * n; i++) finite &= isfinite(a[i]);
+        if (!finite || !nh_svd(m, n, a, s, NULL, NULL)) continue;
+        while (rank < small && s[rank] > 1e-10 * s[0] && s[rank] > 1e-13) rank++;
+        if (rank > best) best = rank;
+    }
+    nh_free(a);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(R);
+    return best;
+}
+
+static bool velocities_independent(const nh_chart *c, nh_error *error)
+{
+    size_t rank = rank_of_map(c);
+    if (rank == c->n) return true;
+    const nh_deck *deck = c->system->deck;
+    nh_deck_fail(deck, nh_deck_get(nh_deck_root(deck), "chart"), 0, error, "the chart's map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank, c->n);
+    return nh_error_hint(error, "each quasi-velocity must move something that the others do not");
+}
+
 static nh_chart *quasi_chart(nh_system *s, uint64_t seed, nh_error *error)
 {
     nh_text name;
@@ -194,7 +234,8 @@ static nh_chart *quasi_chart(nh_system *s, uint64_t seed, nh_error *error)
     memcpy(c->w, s->quasi_velocity, s->quasi * sizeof *c->w);
     memcpy(c->rho, s->quasi_map, s->coordinates * sizeof *c->rho);
     nh_embedding_symbols(c);
-    if (probes_of_quasi(c, seed) && chart_satisfies(c, error)) return c;
+    probes_of_quasi(c, seed);
+    if (nh_embedding_ranks(s, seed, error) && chart_satisfies(c, error) && velocities_independent(c, error)) return c;
     nh_chart_free(c);
     return NULL;
 }

@@ -22,6 +22,7 @@ typedef struct {
     nh_ex *w;                 /* n velocities of the chart */
     nh_ex *rho;               /* m: coordinate velocities as functions of (t, q, w, u) */
     size_t *dependent;        /* k coordinate indices, coordinate charts only */
+    size_t *free;             /* n coordinate indices: whose velocities the w are, coordinate charts only */
     nh_ex *u, *residual;      /* implicit velocities and the constraints that determine them */
     size_t width;             /* 1 + m + n + implicit: the point (t, q, w, u) */
     nh_ex *symbol;            /* width */
@@ -39,6 +40,9 @@ void nh_chart_free(nh_chart *chart);
 
 /* Complete a point: solve for the implicit velocities, starting from those in z.  False when Newton's method fails. */
 bool nh_chart_complete(const nh_chart *chart, double *z);
+
+/* The sampling interval of any symbol of the system. */
+void nh_chart_range(const nh_chart *chart, nh_ex symbol, double *low, double *high);
 
 /* The chart's velocities as functions of (t, q, q'): w = (R^T R)^-1 R^T (v - rho(0)) where rho is affine in w.  False where
  * it is not (the caller says so). */

@@ -31,10 +31,12 @@ static bool list_of(reader *r, const nh_deck_node *map, const char *key, const n
     return true;
 }
 
-static const char *scalar_of(reader *r, const nh_deck_node *map, const char *key, const char *fallback)
+/* The text under `key`, or the fallback. */
+static bool text_of(reader *r, const nh_deck_node *map, const char *key, const char *fallback, const char **out)
 {
     const nh_deck_node *node = nh_deck_get(map, key);
-    return node && node->kind == NH_DECK_SCALAR ? node->text : nh_arena_strdup(r->system->arena, fallback);
+    *out = node ? node->text : fallback;
+    return !node || nh_deck_is(r->deck, node, NH_DECK_SCALAR, key, r->error);
 }
 
 /* Is `name` free and well formed? */
@@ -74,7 +76,8 @@ static bool read_parameters(reader *r)
         if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this parameter has no `name`");
         if (!new_name(r, name)) return false;
         nh_parameter *p = &s->parameter[i];
-        *p = (nh_parameter){.name = name->text, .unit = scalar_of(r, item, "unit", ""), .doc = scalar_of(r, item, "doc", "")};
+        *p = (nh_parameter){.name = name->text};
+        if (!text_of(r, item, "unit", "", &p->unit) || !text_of(r, item, "doc", "", &p->doc)) return false;
         if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
         if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error)) return false;
         p->symbol = nh_symbol(s->dag, p->name);
@@ -122,7 +125,8 @@ static bool read_coordinates(reader *r)
             name = nh_deck_get(item, "name");
             if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this coordinate has no `name`");
             if (!read_type(r, nh_deck_get(item, "type"), &c->type)) return false;
-            c->doc = scalar_of(r, item, "doc", "");
+            const char *unit; /* for the reader of the file */
+            if (!text_of(r, item, "doc", "", &c->doc) || !text_of(r, item, "unit", "", &unit)) return false;
         }
         if (!new_name(r, name)) return false;
         c->name = name->text;
@@ -131,6 +135,24 @@ static bool read_coordinates(reader *r)
     }
     for (size_t i = 0; i < n; i++) /* after all coordinates: symbols print in the order of declaration */
         s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
+    return true;
+}
+
+/* The names of the quasi-velocities, before any expression: using one where it may not stand is then told as such. */
+static bool read_quasi_names(reader *r)
+{
+    const nh_deck_node *chart = nh_deck_get(r->root, "chart"), *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!chart) return true;
+    if (!nh_deck_is(r->deck, chart, NH_DECK_MAP, "a chart {velocities: [...], map: [...]}", r->error)) return false;
+    if (!list_of(r, chart, "velocities", &list, &n)) return false;
+    s->quasi_velocity = take(r, n, sizeof *s->quasi_velocity);
+    for (size_t i = 0; i < n; i++) {
+        if (!new_name(r, list->item[i])) return false;
+        s->quasi_velocity[i] = nh_symbol(s->dag, list->item[i]->text);
+        s->quasi = i + 1;
+    }
     return true;
 }
 
@@ -170,7 +192,7 @@ static bool read_definitions(reader *r)
         nh_deck_node name = *node;
         name.text = d->name;
         if (!new_name(r, &name)) return false;
-        if (!read_right_side(r, node, 0, &d->value)) return false;
+        if (!read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
         d->text = node->text;
         s->definitions = i + 1;
     }
@@ -257,25 +279,17 @@ static bool read_dependent(reader *r)
     return true;
 }
 
-static bool read_quasi_names(reader *r, const nh_deck_node *chart)
+/* As many as degrees of freedom? */
+static bool count_quasi(reader *r, const nh_deck_node *chart)
 {
-    const nh_deck_node *list;
-    size_t n;
-    nh_system *s = r->system;
-    if (!list_of(r, chart, "velocities", &list, &n)) return false;
-    size_t free_velocities = s->coordinates - s->constraints;
-    if (n != free_velocities) {
-        nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "the chart has %zu velocities, but %zu coordinates with %zu constraints leave %zu", n,
-                     s->coordinates, s->constraints, free_velocities);
-        return nh_error_hint(r->error, n < free_velocities ? "list every constraint under `constraints:`" : "one velocity for each degree of freedom");
-    }
-    s->quasi_velocity = take(r, n, sizeof *s->quasi_velocity);
-    for (size_t i = 0; i < n; i++) {
-        if (!new_name(r, list->item[i])) return false;
-        s->quasi_velocity[i] = nh_symbol(s->dag, list->item[i]->text);
-    }
-    s->quasi = n;
-    return true;
+    const nh_system *s = r->system;
+    const nh_deck_node *list = nh_deck_get(chart, "velocities");
+    if (s->constraints > s->coordinates) return true; /* told by the ranks */
+    size_t left = s->coordinates - s->constraints;
+    if (s->quasi == left) return true;
+    nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "the chart has %zu velocities, but %zu coordinates with %zu constraints leave %zu", s->quasi,
+                 s->coordinates, s->constraints, left);
+    return nh_error_hint(r->error, s->quasi < left ? "list every constraint under `constraints:`" : "one velocity for each degree of freedom");
 }
 
 /* Which coordinate's velocity is on the left side "x'"? */
@@ -297,8 +311,7 @@ static bool read_chart(reader *r)
     nh_system *s = r->system;
     size_t n;
     if (!chart) return true;
-    if (!nh_deck_is(r->deck, chart, NH_DECK_MAP, "a chart {velocities: [...], map: [...]}", r->error)) return false;
-    if (!nh_deck_only(r->deck, chart, keys, 2, r->error) || !read_quasi_names(r, chart)) return false;
+    if (!nh_deck_only(r->deck, chart, keys, 2, r->error) || !count_quasi(r, chart)) return false;
     if (!list_of(r, chart, "map", &map, &n)) return false;
     s->quasi_map = take(r, s->coordinates, sizeof *s->quasi_map);
     bool *given = take(r, s->coordinates, sizeof *given);
@@ -310,6 +323,9 @@ static bool read_chart(reader *r)
         if (given[index]) return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` is given twice", name);
         given[index] = true;
         if (!read_right_side(r, map->item[i], NH_NO_VELOCITIES, &s->quasi_map[index])) return false;
+        for (size_t j = 0; j < s->coordinates; j++) /* through a definition */
+            if (nh_depends(s->dag, s->quasi_map[index], s->coordinate[j].v))
+                return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` cannot be used here: it comes in through a definition", nh_name_of(s->dag, s->coordinate[j].v));
     }
     for (size_t i = 0; i < s->coordinates; i++)
         if (!given[i])
@@ -370,7 +386,7 @@ static bool read_domain(reader *r)
         double range[2];
         nh_interval *box = &s->interval[i];
         if (!box_symbol(r, map->key[i], &box->symbol)) return false;
-        if (!nh_deck_range(r->deck, map->item[i], "an interval [low, high]", range, r->error)) return false;
+        if (!nh_deck_range(r->deck, map->item[i], map->key[i]->text, range, r->error)) return false;
         box->low = range[0];
         box->high = range[1];
         s->intervals = i + 1;
@@ -391,7 +407,8 @@ static bool read_named_list(reader *r, const nh_deck_node *known, const char *ke
         if (!nh_deck_only(r->deck, item, keys, 3, r->error)) return false;
         const nh_deck_node *expr = nh_deck_get(item, "expr");
         if (!expr) return nh_deck_fail(r->deck, item, 0, r->error, "this entry has no `expr`");
-        (*out)[i] = (nh_named){.name = scalar_of(r, item, "name", ""), .text = expr->text ? expr->text : ""};
+        (*out)[i] = (nh_named){.text = expr->text};
+        if (!text_of(r, item, "name", "", &(*out)[i].name)) return false;
         if (!nh_system_expression(r->system, r->deck, expr, 0, NULL, &(*out)[i].value, r->error)) return false;
         *count = i + 1;
     }
@@ -434,12 +451,12 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     nh_system *s = r->system;
     if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)", r->error)) return false;
     if (!nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
-    s->name = scalar_of(r, r->root, "name", "system");
-    s->title = scalar_of(r, r->root, "title", s->name);
-    s->source = scalar_of(r, r->root, "source", "");
+    const char *doc; /* for the reader of the file */
+    if (!text_of(r, r->root, "name", "system", &s->name) || !text_of(r, r->root, "title", s->name, &s->title)) return false;
+    if (!text_of(r, r->root, "source", "", &s->source) || !text_of(r, r->root, "doc", "", &doc)) return false;
     if (!read_parameters(r)) return false;
     s->t = nh_symbol(s->dag, "t");
-    return read_coordinates(r) && read_definitions(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
+    return read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
            && read_chart(r) && read_forces(r) && read_domain(r) && read_known(r) && apply_settings(r, settings, setting);
 }
 
