@@ -222,16 +222,23 @@ static bool square_root(parser *p, size_t at, nh_ex *out)
     return true;
 }
 
+/* The caller does not know the name, or explained why it cannot stand here. */
+static bool unresolved(parser *p, const char *word, size_t at)
+{
+    nh_parse_fault *fault = p->fault;
+    bool unknown = !fault->what[0] || !strncmp(fault->what, "unknown name", strlen("unknown name")), called = peek(p) == '(';
+    fault->offset = at;
+    if (unknown) snprintf(fault->what, sizeof fault->what, "unknown %s `%s`", called ? "function" : "name", word);
+    if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
+    return hint(p, "the functions are: sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log sqrt abs");
+}
+
 /* A name that is not the language's own: the caller knows it. */
 static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
 {
     nh_parse_fault *fault = p->fault;
     fault->what[0] = fault->hint[0] = 0;
-    if (!p->resolve(p->context, word, out, fault)) {
-        if (!fault->what[0]) snprintf(fault->what, sizeof fault->what, "unknown name `%s`", word);
-        fault->offset = at;
-        return false;
-    }
+    if (!p->resolve(p->context, word, out, fault)) return unresolved(p, word, at);
     if (peek(p) != '(') return true;
     fail(p, p->at, "`%s` is not a function, and there is no implicit multiplication", word);
     return hint(p, "write `%s*(`", word);

@@ -1,6 +1,7 @@
 #include "noether/ansatz.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "expr/normal.h"
@@ -264,6 +265,41 @@ static void join(builder *b, size_t n, const part *p)
         }
 }
 
+typedef struct {
+    size_t index, complexity;
+} ranked;
+
+static int simplest_first(const void *a, const void *b)
+{
+    const ranked *x = a, *y = b;
+    if (x->complexity != y->complexity) return x->complexity < y->complexity ? -1 : 1;
+    return x->index < y->index ? -1 : x->index > y->index;
+}
+
+/* Simple columns come first: where columns are dependent the null space keeps the first ones. */
+static void order_columns(builder *b)
+{
+    nh_ansatz *a = b->a;
+    ranked *r = nh_alloc_array(a->columns + 1, sizeof *r);
+    size_t *length = nh_alloc_array(a->factors + 1, sizeof *length);
+    for (size_t i = 0; i < a->factors; i++) length[i] = nh_complexity(a->dag, a->factor[i]);
+    for (size_t j = 0; j < a->columns; j++) {
+        r[j] = (ranked){j, a->column[j].count};
+        for (size_t i = 0; i < a->column[j].count; i++) r[j].complexity += length[a->column[j].factor[i]];
+    }
+    qsort(r, a->columns, sizeof *r, simplest_first);
+    nh_column *column = take(b, a->columns, sizeof *column);
+    double *map = take(b, a->terms * a->columns, sizeof *map);
+    for (size_t j = 0; j < a->columns; j++) {
+        column[j] = a->column[r[j].index];
+        memcpy(map + j * a->terms, a->to_term + r[j].index * a->terms, a->terms * sizeof *map);
+    }
+    a->column = column;
+    a->to_term = map;
+    nh_free(length);
+    nh_free(r);
+}
+
 nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, size_t most,
                             nh_error *error)
 {
@@ -278,7 +314,10 @@ nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size
         good = build(&b, &family[i], &p[i]);
         total += good ? p[i].columns : 0;
     }
-    if (good && total <= most) join(&b, families, p);
+    if (good && total <= most) {
+        join(&b, families, p);
+        order_columns(&b);
+    }
     nh_free(p);
     if (good && total <= most) return a;
     nh_fail(error, NH_LIMIT, "", "the ansatz has more than %zu columns", most);

@@ -115,29 +115,36 @@ static size_t equilibrate(nh_basis *basis, size_t rows, size_t columns, const do
     return count;
 }
 
-/* The rank of a pivoted triangle t (leading dimension ld): pivots |t_jj| >= rank |t_00|. */
-static void choose_rank(nh_basis *basis, size_t available, const double *t, size_t ld, double rank)
+/* Gram-Schmidt, twice for round-off, in the given order: a column that depends on those before it is dropped, so that the caller's
+ * order (simplest first) decides which of dependent columns stay.  q: rows x available, unit columns; overwritten by the orthonormal ones
+ * that are kept.  r gets the triangle with leading dimension `available`. */
+static void keep_independent(nh_basis *basis, size_t rows, size_t available, double *q, double *r, double rank)
 {
-    double first = fabs(t[0]);
-    size_t count = 0;
-    while (count < available && fabs(t[count + count * ld]) >= rank * first)
-        count++;
-    basis->count = count;
-    basis->smallest_kept = fabs(t[(count - 1) * (ld + 1)]) / first;
-    basis->largest_dropped = count < available ? fabs(t[count * (ld + 1)]) / first : 0;
-}
-
-/* column[j] := column[pivot[j]] and r := the leading triangle of t. */
-static void keep_pivots(nh_basis *basis, size_t available, const double *t, size_t ld, const size_t *pivot)
-{
-    size_t *listed = nh_alloc_array(available, sizeof *listed);
-    memcpy(listed, basis->column, available * sizeof *listed);
-    basis->r = nh_alloc_array(basis->count * basis->count, sizeof(double));
-    for (size_t j = 0; j < basis->count; j++) {
-        basis->column[j] = listed[pivot[j]];
-        memcpy(basis->r + j * basis->count, t + j * ld, (j + 1) * sizeof *t);
+    double *h = nh_alloc_array(available, sizeof *h), *shadow = nh_alloc_array(rows, sizeof *shadow);
+    size_t kept = 0;
+    basis->smallest_kept = 1;
+    for (size_t j = 0; j < available; j++) {
+        double *x = q + j * rows, *column = r + kept * available;
+        memset(column, 0, available * sizeof *column);
+        for (int pass = 0; pass < 2 && kept; pass++) {
+            nh_multiply(1, kept, rows, x, q, h);
+            nh_multiply(rows, 1, kept, q, h, shadow);
+            for (size_t i = 0; i < rows; i++) x[i] -= shadow[i];
+            for (size_t i = 0; i < kept; i++) column[i] += h[i];
+        }
+        double rest = kept < rows ? norm(rows, x) : 0;
+        if (rest < rank) {
+            basis->largest_dropped = fmax(basis->largest_dropped, rest);
+            continue;
+        }
+        basis->smallest_kept = fmin(basis->smallest_kept, rest);
+        column[kept] = rest;
+        for (size_t i = 0; i < rows; i++) q[i + kept * rows] = x[i] / rest;
+        basis->column[kept++] = basis->column[j];
     }
-    nh_free(listed);
+    basis->count = kept;
+    nh_free(shadow);
+    nh_free(h);
 }
 
 bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, const double *size,
@@ -150,18 +157,17 @@ bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b
     if (available == 0)
         return true;
     basis->count = available;
-    double *scaled = nh_alloc_array(rows * available, sizeof *scaled);
-    size_t *pivot = nh_alloc_array(available, sizeof *pivot);
-    nh_basis_gather(basis, rows, b, ld, scaled);
-    bool ok = nh_qr_pivoted(rows, available, scaled, pivot);
-    if (ok) {
-        choose_rank(basis, rows < available ? rows : available, scaled, rows, options->rank);
-        keep_pivots(basis, available, scaled, rows, pivot);
+    double *q = nh_alloc_array(rows * available, sizeof *q), *r = nh_alloc_array(available * available, sizeof *r);
+    nh_basis_gather(basis, rows, b, ld, q);
+    bool finite = isfinite(norm(rows * available, q));
+    if (finite) {
+        keep_independent(basis, rows, available, q, r, options->rank);
+        basis->r = nh_alloc_array(basis->count * basis->count, sizeof(double));
+        for (size_t j = 0; j < basis->count; j++) memcpy(basis->r + j * basis->count, r + j * available, (j + 1) * sizeof *r);
     }
-    nh_free(scaled);
-    nh_free(pivot);
-    if (ok)
-        return true;
+    nh_free(q);
+    nh_free(r);
+    if (finite) return true;
     nh_basis_clear(basis);
     return nh_fail(error, NH_NUMERIC, "", "the columns of the ansatz are too large to be compared (overflow in the QR)");
 }

@@ -25,7 +25,7 @@ typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED } nh_verdict;
 
 /* All tolerances, from the option table. */
 typedef struct {
-    double rank;      /* columns of B below rank * first pivot are dependent (1e-9) */
+    double rank;      /* a column of B of which less than this part is left by the columns before it is dependent (1e-9) */
     double zero;      /* null: sigma <= zero * eps * max(1, sigma_max)  (100) */
     double undecided; /* undecided up to this many times the null bound (1e5) */
     double gap;       /* required ratio of the first non-null to the last null value (1e3) */
@@ -64,7 +64,7 @@ typedef struct {
  * D = diag(scale).  Used by the null space and by the pencil. */
 typedef struct {
     size_t count;   /* independent columns */
-    size_t *column; /* their numbers, in the order of the pivots */
+    size_t *column; /* their numbers, ascending: of dependent columns the first ones stay */
     double *r;      /* count x count, upper triangle */
     double *scale;  /* per column of B (all of them): its norm; 0 marks a constant or empty column */
     double smallest_kept, largest_dropped; /* pivots relative to the first; 0 when there is none */

@@ -4,6 +4,20 @@
 
 #include "expr/normal.h"
 
+/* The derivative of log(R - s), with a difference that cancels, is often a quotient in which nothing cancels: worth the simplification,
+ * which otherwise would cost more than the whole search. */
+static nh_ex without_logarithms(nh_dag *d, nh_ex of, nh_ex derivative)
+{
+    enum { most = 64 };
+    nh_ex call[most];
+    size_t n = nh_functions_in(d, of, call, most);
+    for (size_t i = 0; i < n && i < most; i++) {
+        nh_function f = nh_function_of(d, call[i]);
+        if (f == NH_LOG || f == NH_ATANH || f == NH_ACOSH || f == NH_ASIN || f == NH_ACOS) return nh_simplify(d, derivative);
+    }
+    return derivative;
+}
+
 /* ---- current route ---- */
 
 struct nh_rows {
@@ -24,7 +38,7 @@ static nh_tape *factor_tape(const nh_model *o, const nh_ansatz *a, nh_ex kappa, 
     nh_ex *out = nh_alloc_array(2 * n + 1, sizeof *out), *in = nh_alloc_array(o->width + unknowns, sizeof *in);
     for (size_t i = 0; i < n; i++) {
         out[i] = a->factor[i];
-        out[n + i] = nh_model_gamma(o, a->factor[i]);
+        out[n + i] = without_logarithms(o->dag, a->factor[i], nh_model_gamma(o, a->factor[i]));
     }
     out[2 * n] = kappa;
     memcpy(in, o->chart->symbol, o->width * sizeof *in);
@@ -195,11 +209,11 @@ void nh_rows_symmetry(const nh_model *o, size_t n, const nh_field_column *column
         bool zeta = column[c].slot > 0;
         if (zeta) n0 = nh_add(d, n0, nh_mul(d, o->A[i], column[c].function));
         e[c * per] = phi;
-        e[c * per + 1] = n0;
+        e[c * per + 1] = without_logarithms(d, phi, n0);
         for (size_t j = 0; j < o->n; j++) {
             nh_ex ny = nh_model_Y(o, j, phi);
             if (zeta) ny = nh_sub(d, ny, nh_mul(d, o->M[i * o->n + j], column[c].function));
-            e[c * per + 2 + j] = ny;
+            e[c * per + 2 + j] = without_logarithms(d, phi, ny);
         }
     }
     double *value = nh_alloc_array(n * per * points->count + 1, sizeof *value);

@@ -153,7 +153,7 @@ static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
     nh_ex taken;
     if (!nh_is_name(name)) {
         nh_deck_fail(deck, node, 0, r->error, "`%s` is not a name", name);
-        return nh_error_hint(r->error, "a name is a letter, then letters, digits and _");
+        return nh_error_hint(r->error, "a name is a letter a-z or A-Z, then letters, digits and _");
     }
     if (nh_is_reserved(name)) {
         nh_deck_fail(deck, node, 0, r->error, "`%s` has a meaning of its own and cannot be redefined", name);
@@ -190,19 +190,16 @@ static bool read_unknowns(reader *r)
 static bool read_assignment(reader *r, const nh_deck_node *node, bool visible, nh_named *out)
 {
     const nh_deck *deck = r->a->deck;
-    const char *what = visible ? "a definition `name = expression`" : "a line `name = expression` of what is watched";
+    const char *what = visible ? "a definition `name = expression`" : "a watched quantity `name = expression`";
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, what, r->error)) return false;
     const char *equal = strchr(node->text, '=');
     if (!equal) return nh_deck_fail(deck, node, 0, r->error, "%s was expected, but there is no `=`", what);
     size_t n = (size_t)(equal - node->text);
-    char *copy = nh_arena_strdup(r->a->arena, node->text);
-    memset(copy, ' ', n + 1);
     while (n && node->text[n - 1] == ' ') n--;
     *out = (nh_named){.name = nh_arena_strndup(r->a->arena, node->text, n), .text = equal + 1 + strspn(equal + 1, " ")};
     if (visible ? !name_is_free(r, node, out->name) : n == 0 && !nh_deck_fail(deck, node, 0, r->error, "there is no name before the `=`")) return false;
-    nh_deck_node right = *node;
-    right.text = copy;
-    return parse(r, &right, &out->value);
+    nh_ex e;
+    return nh_system_right_side(r->model->system, deck, node, r->extras, r->extra, &e, r->error) && to_chart(r, node, e, &out->value);
 }
 
 static bool read_assignments(reader *r, const nh_deck_node *list, const char *what, bool visible, nh_named **out, size_t *count)
@@ -286,13 +283,13 @@ static bool read_product(reader *r, const nh_deck_node *item, int depth, nh_fami
     return true;
 }
 
-/* Has the family only keys that mean something for its kind?  `keys`: words with spaces between. */
+/* Has the family only keys that mean something for its kind? */
 static bool fits(reader *r, const nh_deck_node *item, const char *kind, const char *keys)
 {
     for (size_t i = 0; i < item->count; i++) {
         const char *key = item->key[i]->text, *found = strstr(keys, key);
         size_t n = strlen(key);
-        if (found && (found == keys || found[-1] == ' ') && (found[n] == ' ' || !found[n])) continue;
+        if (found && (found == keys || found[-1] == ' ') && (found[n] == ',' || !found[n])) continue;
         nh_deck_fail(r->a->deck, item->key[i], 0, r->error, "`%s` means nothing for %s", key, kind);
         return nh_error_hint(r->error, "it takes: %s", keys);
     }
@@ -312,8 +309,8 @@ static bool read_family(reader *r, const nh_deck_node *item, int depth, nh_famil
     if (!nh_deck_get(item, "basis")) return nh_deck_fail(deck, item, 0, r->error, "a family needs `basis`, `terms` or `product`");
     if (!choice(deck, nh_deck_get(item, "basis"), "basis", bases, &basis, r->error)) return false;
     *f = (nh_family){.kind = basis == 0 ? NH_POLYNOMIAL : NH_CHEBYSHEV};
-    if (basis == 1) return fits(r, item, "a fourier family", "basis in harmonics frequency constant") && read_fourier(r, item, f);
-    if (!fits(r, item, basis ? "a chebyshev family" : "a polynomial family", "basis in degree")) return false;
+    if (basis == 1) return fits(r, item, "a fourier family", "basis, in, harmonics, frequency, constant") && read_fourier(r, item, f);
+    if (!fits(r, item, basis ? "a chebyshev family" : "a polynomial family", "basis, in, degree")) return false;
     if (!read_in(r, item, f) || !read_size(r, item, "degree", -1, &f->degree)) return false;
     if (basis == 2 && f->in_count != 1) return nh_deck_fail(deck, item, 0, r->error, "a chebyshev family is in one variable; use a product for several");
     return true;

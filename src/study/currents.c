@@ -7,6 +7,7 @@
 
 #include "expr/diff.h"
 #include "expr/normal.h"
+#include "expr/print.h"
 #include "expr/relation.h"
 #include "noether/recognise.h"
 #include "study/dependence.h"
@@ -325,8 +326,25 @@ bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *
     return true;
 }
 
+/* Everybody expects the energy: where it is not conserved this is said, with its rate when that is short. */
+static void miss_energy(nh_workbench *b)
+{
+    enum { longest = 40 };
+    nh_result *r = b->result;
+    const nh_model *o = r->model;
+    for (size_t k = 0; k < r->count; k++)
+        if (!strcmp(r->found[k].meaning, "energy")) return;
+    if (!(heldout_residual(o, b->generic, o->E) > r->options.heldout)) return;
+    nh_ex rate = nh_model_gamma(o, o->E);
+    if (nh_complexity(o->dag, rate) < 10 * longest) rate = nh_simplify(o->dag, rate);
+    char *text = nh_complexity(o->dag, rate) <= longest ? nh_print_string(o->dag, rate) : NULL;
+    nh_result_warn(r, "the energy is not conserved%s%s", text ? ": it changes at the rate " : "", text ? text : "");
+    nh_free(text);
+}
+
 void nh_currents_finish(nh_workbench *b)
 {
     sort(b->result);
     independence(b->result, b->generic);
+    miss_energy(b);
 }

@@ -47,27 +47,42 @@ static void keep_factor(climber *x, nh_ex phi)
     x->factor[x->factors++] = phi;
 }
 
-/* Gradients against those of the known currents decide; candidates come simplest first. */
+/* Gradients against those of the known currents; candidates come simplest first.  kind[k] of candidate k; returns how many are new. */
+static size_t compare(climber *x, nh_candidates *list, nh_independence *kind)
+{
+    nh_result *r = x->r;
+    size_t known = r->count, n = list->count < most_tested ? list->count : most_tested, fresh = 0;
+    nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
+    nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
+    for (size_t k = 0; k < known; k++) phi[k] = r->found[k].phi;
+    for (size_t k = 0; k < n; k++) phi[known + k] = rough(r->model, &list->candidate[k]);
+    nh_independence_test(r->model, x->bench->generic, known + n, phi, r->options.sure, r->options.doubt, all, NULL);
+    for (size_t k = 0; k < n; k++) {
+        kind[k] = all[known + k];
+        fresh += kind[k] == NH_INDEPENDENT;
+    }
+    list->count = n;
+    nh_free(all);
+    nh_free(phi);
+    return fresh;
+}
+
 static size_t add_new(climber *x, nh_candidates *list, const nh_points *fit, bool certain)
 {
     nh_result *r = x->r;
-    size_t known = r->count, n = list->count < most_tested ? list->count : most_tested, before = r->independent;
-    nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
-    nh_independence *kind = nh_alloc_array(known + n + 1, sizeof *kind);
-    for (size_t k = 0; k < known; k++) phi[k] = r->found[k].phi;
-    for (size_t k = 0; k < n; k++) phi[known + k] = rough(r->model, &list->candidate[k]);
-    nh_independence_test(r->model, x->bench->generic, known + n, phi, r->options.sure, r->options.doubt, kind, NULL);
-    for (size_t k = 0; k < n && r->independent < r->local_maximum; k++) {
+    size_t before = r->independent;
+    nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
+    compare(x, list, kind);
+    for (size_t k = 0; k < list->count && r->independent < r->local_maximum; k++) {
         nh_candidate *c = &list->candidate[k];
-        if (kind[known + k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, fit, certain)) {
+        if (kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, fit, certain)) {
             r->independent++;
             keep_factor(x, r->found[r->count - 1].phi);
-        } else if (c->count == 1 && kind[known + k] == NH_DEPENDENT) {
+        } else if (c->count == 1 && kind[k] == NH_DEPENDENT) {
             keep_factor(x, c->term[0]);
         }
     }
     nh_free(kind);
-    nh_free(phi);
     return r->independent - before;
 }
 
@@ -89,44 +104,78 @@ static void keep_spectrum(nh_result *r, const nh_nullspace *s, bool found)
     if (better) r->current = nh_spectrum_of(r->arena, s);
 }
 
+/* A stage's linear problem, solved. */
+typedef struct {
+    nh_ansatz *ansatz;
+    nh_points *fit;
+    nh_nullspace *nullspace; /* NULL when something went wrong */
+} solved;
+
+static solved solve_stage(climber *x, size_t families, const nh_family *family)
+{
+    nh_result *r = x->r;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    solved s = {.ansatz = nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.stage_columns, &ignored)};
+    if (!s.ansatz) return s;
+    size_t count = (size_t)fmax(least_points, points_per_column * (double)s.ansatz->columns);
+    s.fit = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed + r->stages, &ignored);
+    if (!s.fit) return s;
+    nh_equations *equations = nh_equations_create(s.ansatz->columns);
+    nh_rows *rows = nh_rows_create(r->model, s.ansatz, 0, NULL);
+    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+    nh_rows_current(rows, s.fit, NULL, equations);
+    s.nullspace = nh_nullspace_solve(equations, &limits, &ignored);
+    nh_rows_free(rows);
+    nh_equations_free(equations);
+    return s;
+}
+
+static void clear_stage(solved *s)
+{
+    nh_nullspace_free(s->nullspace);
+    nh_points_free(s->fit);
+    nh_ansatz_free(s->ansatz);
+}
+
+/* Would this stage give anything new? */
+static bool promising(climber *x, size_t families, const nh_family *family)
+{
+    solved s = solve_stage(x, families, family);
+    bool fresh = false;
+    if (s.nullspace && s.nullspace->likely) {
+        nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, &x->r->options);
+        nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
+        fresh = compare(x, list, kind) > 0;
+        nh_free(kind);
+        nh_candidates_free(list);
+    }
+    clear_stage(&s);
+    return fresh;
+}
+
 static void run_stage(climber *x, const char *name, size_t families, const nh_family *family)
 {
     nh_result *r = x->r;
-    nh_error trouble;
-    nh_error_clear(&trouble);
     if (families == 0) return;
-    nh_tried *note = note_stage(x, name);
     double start = seconds();
-    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.stage_columns, &trouble);
-    if (!a) {
-        note->skipped = true;
-        return;
-    }
-    size_t count = (size_t)fmax(least_points, points_per_column * (double)a->columns);
-    nh_points *fit = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed + r->stages, &trouble);
-    nh_equations *equations = nh_equations_create(a->columns);
-    nh_rows *rows = nh_rows_create(r->model, a, 0, NULL);
-    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
-    if (fit) nh_rows_current(rows, fit, NULL, equations);
-    nh_nullspace *s = fit ? nh_nullspace_solve(equations, &limits, &trouble) : NULL;
-    note->columns = a->columns;
-    if (s) {
-        note->dimension = s->dimension;
-        note->gap = s->gap;
-        note->undecided = s->verdict == NH_UNDECIDED;
-        r->samples = fit->count > r->samples ? fit->count : r->samples;
-        r->rejected += fit->tried - fit->count;
-        nh_candidates *list = nh_echelon(r->model, fit, a, s, &r->options);
-        note->found = add_new(x, list, fit, s->likely == s->dimension);
-        keep_spectrum(r, s, note->found > 0);
+    nh_tried *note = note_stage(x, name);
+    solved s = solve_stage(x, families, family);
+    note->skipped = !s.ansatz;
+    note->columns = s.ansatz ? s.ansatz->columns : 0;
+    if (s.nullspace) {
+        note->dimension = s.nullspace->dimension;
+        note->gap = s.nullspace->gap;
+        note->undecided = s.nullspace->verdict == NH_UNDECIDED;
+        r->samples = s.fit->count > r->samples ? s.fit->count : r->samples;
+        r->rejected += s.fit->tried - s.fit->count;
+        nh_candidates *list = nh_echelon(r->model, s.fit, s.ansatz, s.nullspace, &r->options);
+        note->found = add_new(x, list, s.fit, s.nullspace->likely == s.nullspace->dimension);
+        keep_spectrum(r, s.nullspace, note->found > 0);
         nh_candidates_free(list);
     }
     note->seconds = seconds() - start;
-    nh_nullspace_free(s);
-    nh_rows_free(rows);
-    nh_equations_free(equations);
-    nh_points_free(fit);
-    nh_ansatz_free(a);
+    clear_stage(&s);
 }
 
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
@@ -180,24 +229,25 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
     return n > 0 && best < 0.5 * fabs(near);
 }
 
-static nh_ex named(rate_context *c, double value, bool imaginary)
+/* The rate as an expression of the parameters; just as a number while it is only tried. */
+static nh_ex rate_of(rate_context *c, double value, bool imaginary, bool trial)
 {
     const nh_result *r = c->x->r;
     c->imaginary = imaginary;
     if (fabs(value) < 1e-9) return 0; /* node 0 is the number 0 */
-    nh_ex e = nh_name_value(r->model, value, follow, c, r->options.recognise, (uint64_t)r->options.seed);
+    nh_ex e = trial ? 0 : nh_name_value(r->model, value, follow, c, r->options.recognise, (uint64_t)r->options.seed);
     return e ? e : nh_real(r->model->dag, value);
 }
 
-/* f times exp(-re q) {cos(im q), sin(im q)} for every rate. */
-static size_t wave_terms(rate_context *c, size_t n, const double *re, const double *im, nh_ex *out)
+/* exp(-re q) {cos(im q), sin(im q)} for every rate. */
+static size_t wave_terms(rate_context *c, size_t n, const double *re, const double *im, bool trial, nh_ex *out)
 {
     nh_dag *d = c->x->r->model->dag;
     size_t count = 0;
     for (size_t k = 0; k < n; k++) {
         bool waves = fabs(im[k]) > 1e-9 * fabs(re[k]), decays = fabs(re[k]) > 1e-9 * fabs(im[k]);
-        nh_ex decay = decays ? nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, named(c, re[k], false), c->q))) : nh_int(d, 1);
-        nh_ex angle = waves ? nh_mul(d, named(c, im[k], true), c->q) : 0;
+        nh_ex decay = decays ? nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, rate_of(c, re[k], false, trial), c->q))) : nh_int(d, 1);
+        nh_ex angle = waves ? nh_mul(d, rate_of(c, im[k], true, trial), c->q) : 0;
         if (!waves) out[count++] = decay;
         else {
             out[count++] = nh_mul(d, decay, nh_call(d, NH_COS, angle));
@@ -207,32 +257,44 @@ static size_t wave_terms(rate_context *c, size_t n, const double *re, const doub
     return count;
 }
 
-static void pencil_stage(climber *x, nh_ex q, const char *name)
+/* The base times the waves; with the base itself only where it is everything of degree one (smooth functions on a small interval are nearly
+ * dependent, so that nothing unnecessary should be there). */
+static size_t wave_families(climber *x, const nh_family *base, size_t which, size_t terms, const nh_ex *wave, nh_family *out)
+{
+    nh_family *part = nh_arena_alloc(x->r->arena, 2 * sizeof *part);
+    part[0] = *base;
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = terms, .term = wave};
+    out[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    out[1] = *base;
+    return which == NH_PENCIL_BASES - 1 ? 2 : 1;
+}
+
+/* Returns whether something new was found. */
+static bool pencil_stage(climber *x, nh_ex q, const char *name, size_t which)
 {
     enum { most_rates = 4 };
     nh_result *r = x->r;
-    nh_error trouble;
-    nh_error_clear(&trouble);
-    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words);
-    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &trouble);
-    if (!a) return;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    size_t before = r->independent;
+    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, which), family[2];
+    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &ignored);
+    if (!a) return false;
     rate_context c = {.x = x, .base = a, .q = q};
     for (size_t i = 0; i < x->words.waves; i++) c.periodic |= x->words.wave[i] == q;
     double re[most_values], im[most_values];
     size_t n = rates(r->model, &c, re, im, most_values);
     if (n > most_rates) n = most_rates;
     nh_ex *wave = nh_arena_alloc(r->arena, (2 * n + 1) * sizeof *wave);
-    size_t terms = wave_terms(&c, n, re, im, wave);
+    size_t terms = wave_terms(&c, n, re, im, true, wave);
+    if (terms && promising(x, wave_families(x, &base, which, terms, wave, family), family)) {
+        char text[120];
+        snprintf(text, sizeof text, "exponentials and waves in %s with rates found by the pencil", name);
+        wave_terms(&c, n, re, im, false, wave);
+        run_stage(x, text, wave_families(x, &base, which, terms, wave, family), family);
+    }
     nh_ansatz_free(a);
-    if (terms == 0) return;
-    nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *both = nh_arena_alloc(r->arena, 2 * sizeof *both);
-    part[0] = base;
-    part[1] = (nh_family){.kind = NH_TERMS, .terms = terms, .term = wave};
-    both[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-    both[1] = base;
-    char text[120];
-    snprintf(text, sizeof text, "exponentials and waves in %s with rates found by the pencil", name);
-    run_stage(x, text, 2, both);
+    return r->independent > before;
 }
 
 /* Currents found so far as factors: Phi times 1, t, positions and the system's functions. */
@@ -259,11 +321,15 @@ static bool done(const climber *x)
     return x->r->independent >= x->r->local_maximum || seconds() - x->start > x->r->options.max_seconds;
 }
 
+/* The smallest base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
 static void all_pencils(climber *x)
 {
     const nh_model *o = x->r->model;
-    if (!done(x)) pencil_stage(x, o->system->t, "t");
-    for (size_t s = 0; s < o->m && !done(x); s++) pencil_stage(x, o->system->coordinate[s].q, o->system->coordinate[s].name);
+    for (size_t i = 0; i <= o->m; i++) {
+        nh_ex q = i == 0 ? o->system->t : o->system->coordinate[i - 1].q;
+        for (size_t base = 0; base < NH_PENCIL_BASES && !done(x); base++)
+            if (pencil_stage(x, q, nh_name_of(o->dag, q), base)) break;
+    }
 }
 
 bool nh_ladder_climb(nh_result *r, nh_error *error)

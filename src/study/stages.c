@@ -232,17 +232,19 @@ bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, siz
     return true;
 }
 
-nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w)
+nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t base)
 {
     enum { most_with_waves = 110 };
     shelf s = {arena, o, w, NULL, 0};
-    list l = linear_words(&s), q = positions(&s, false, false), f = functions(&s, false), v = waves(&s, 1);
+    list l = {0}, v = waves(&s, 1), q = positions(&s, false, false), f = functions(&s, false);
+    put_all(&l, w->velocities, w->velocity);
+    if (base == 2) put_all(&l, w->forms, w->form);
     size_t words_count = l.n;
-    if (l.n * v.n <= most_with_waves)
-        for (size_t i = 0; i < words_count; i++)
-            for (size_t j = 0; j < v.n; j++) put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
-    put_all(&l, w->momenta, w->momentum);
+    for (size_t i = 0; i < words_count && base > 0 && words_count * v.n <= most_with_waves; i++)
+        for (size_t j = 0; j < v.n; j++) put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
+    if (base < 2) return terms_of(&s, &l);
     put_all(&l, q.n, q.e);
     put_all(&l, f.n, f.e);
+    put_all(&l, w->momenta, w->momentum);
     return terms_of(&s, &l);
 }

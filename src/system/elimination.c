@@ -141,18 +141,43 @@ static size_t rank_of(const cloud *c, size_t *redundant)
     return best;
 }
 
-static bool check_rank(const cloud *c, nh_error *error)
+static void cloud_init(cloud *c, nh_system *system, size_t constraints, uint64_t seed)
+{
+    *c = (cloud){.system = system, .m = system->coordinates, .k = constraints, .width = 1 + 2 * system->coordinates};
+    cloud_tape(c);
+    cloud_fill(c, seed);
+}
+
+/* Point at the first constraint that cannot hold together with those before it. */
+static bool contradiction(const cloud *c, uint64_t seed, nh_error *error)
 {
     const nh_system *s = c->system;
-    if (c->count == 0) {
-        nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "no point of the sampling domain satisfies the constraint%s", c->k > 1 ? "s" : "");
-        return nh_error_hint(error, "the constraints contradict each other, or `domain:` keeps away from where they hold");
+    size_t a = 0;
+    for (; a < c->k; a++) {
+        cloud part;
+        cloud_init(&part, c->system, a + 1, seed);
+        size_t points = part.count;
+        cloud_clear(&part);
+        if (points == 0) break;
     }
+    const nh_deck_node *node = s->constraint[a < c->k ? a : 0].node;
+    if (a == 0) {
+        nh_deck_fail(s->deck, node, 0, error, "no point of the sampling domain satisfies this constraint");
+        return nh_error_hint(error, "it contradicts itself, or `domain:` keeps away from where it holds");
+    }
+    nh_deck_fail(s->deck, node, 0, error, "this constraint contradicts those before it: no point of the sampling domain satisfies them all");
+    return nh_error_hint(error, "correct one of them; or does `domain:` keep away from where they hold?");
+}
+
+static bool check_rank(const cloud *c, uint64_t seed, nh_error *error)
+{
+    const nh_system *s = c->system;
+    if (c->count == 0) return contradiction(c, seed, error);
     size_t redundant, rank = rank_of(c, &redundant);
     if (rank < c->k) {
         nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
                      "this constraint says nothing new about the velocities: the %zu constraints have rank %zu", c->k, rank);
-        return nh_error_hint(error, "it repeats or contradicts the others; remove it");
+        return nh_error_hint(error, "it repeats the others; remove it");
     }
     if (c->k < c->m) return true;
     nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "%zu independent constraints on %zu coordinates leave no freedom to move", c->k, c->m);
@@ -403,23 +428,21 @@ static nh_chart *build(const cloud *c, const size_t *dependent, double pivot, nh
 
 bool nh_embedding_ranks(nh_system *system, uint64_t seed, nh_error *error)
 {
-    cloud c = {.system = system, .m = system->coordinates, .k = system->constraints, .width = 1 + 2 * system->coordinates};
-    if (c.k == 0) return true;
-    cloud_tape(&c);
-    cloud_fill(&c, seed);
-    bool good = c.count == 0 || check_rank(&c, error); /* no point found says nothing: the user's chart has points */
+    cloud c;
+    if (system->constraints == 0) return true;
+    cloud_init(&c, system, system->constraints, seed);
+    bool good = c.count == 0 || check_rank(&c, seed, error); /* no point found says nothing: the user's chart has points */
     cloud_clear(&c);
     return good;
 }
 
 nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *error)
 {
-    cloud c = {.system = system, .m = system->coordinates, .k = system->constraints, .width = 1 + 2 * system->coordinates};
-    cloud_tape(&c);
-    cloud_fill(&c, seed);
+    cloud c;
+    cloud_init(&c, system, system->constraints, seed);
     nh_chart *chart = NULL;
     size_t *dependent = nh_alloc_array(c.k + 1, sizeof *dependent);
-    if (c.k == 0 || check_rank(&c, error)) {
+    if (c.k == 0 || check_rank(&c, seed, error)) {
         double pivot = c.k ? choose_dependent(&c, dependent) : 1;
         if (pivot < 1e-12) {
             nh_deck_fail(system->deck, system->constraint[0].node, 0, error, "the constraints do not determine the velocities named under `dependent:`");

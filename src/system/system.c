@@ -13,7 +13,7 @@ typedef struct {
     const nh_system *system;
     size_t extras;
     const nh_named *extra;
-    unsigned forbid; /* NH_NO_VELOCITIES, NH_NO_QUASI, NH_NO_COORDINATES */
+    unsigned forbid; /* NH_NO_VELOCITIES, NH_NO_QUASI */
 } scope;
 
 static bool in_named(size_t count, const nh_named *list, const char *name, nh_ex *out)
@@ -35,12 +35,10 @@ static bool in_coordinates(const scope *s, const char *name, nh_ex *out, nh_pars
         bool velocity = !strcmp(name + n, "'");
         if (name[n] && !velocity) continue;
         *out = velocity ? y->coordinate[i].v : y->coordinate[i].q;
-        if (velocity ? s->forbid & NH_NO_VELOCITIES : s->forbid & NH_NO_COORDINATES) {
-            snprintf(fault->what, sizeof fault->what, "`%s` cannot be used here: %s", name,
-                     s->forbid & NH_NO_COORDINATES ? "only parameters and earlier definitions can" : "velocities cannot");
-            return false;
-        }
-        return true;
+        if (!velocity || !(s->forbid & NH_NO_VELOCITIES)) return true;
+        snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
+        snprintf(fault->hint, sizeof fault->hint, "the chart's map gives the velocities: write it in quasi-velocities, coordinates and t");
+        return false;
     }
     return false;
 }
@@ -60,9 +58,11 @@ static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
     list[n++] = "sqrt";
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) list[n++] = nh_function_name((nh_function)f);
     snprintf(fault->what, sizeof fault->what, "unknown name `%s`", name);
-    const char *near = nh_text_nearest(name, list, n);
-    if (near) snprintf(fault->hint, sizeof fault->hint, "did you mean `%s`?", near);
-    else if (strchr(name, '\'')) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate");
+    const char *near = nh_text_nearest(name, list, n), *prime = strchr(name, '\'');
+    bool meant = near && (!prime || strchr(near, '\'')); /* m' is not a misspelt m */
+    if (meant) snprintf(fault->hint, sizeof fault->hint, "did you mean `%s`?", near);
+    else if (prime) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate, and `%.*s` is none", (int)(prime - name), name);
+    else if (s->extras) snprintf(fault->hint, sizeof fault->hint, "declare it under definitions or unknowns here, or in the system file");
     else snprintf(fault->hint, sizeof fault->hint, "declare it under parameters, coordinates or definitions");
     nh_free(list);
 }
@@ -95,15 +95,26 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
     return false;
 }
 
-bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, unsigned forbid,
+/* Where an expression should stand: after `skip` bytes there is another `=`. */
+static bool not_an_equation(const nh_deck *deck, const nh_deck_node *node, size_t skip, nh_error *error)
+{
+    const char *equal = strchr(node->text + skip, '=');
+    if (!equal) return true;
+    size_t at = (size_t)(equal - node->text);
+    if (skip) return nh_deck_fail(deck, node, at, error, at == skip ? "this is written with a single `=`" : "there is a second `=`");
+    nh_deck_fail(deck, node, at, error, "an expression was expected here, not an equation");
+    return nh_error_hint(error, "equations stand under constraints, forces, definitions and in a chart's map");
+}
+
+bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip, unsigned forbid,
                                size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs, nh_error *error)
 {
     scope s = {system, extras, extra, forbid};
     nh_parse_fault fault;
-    bool good = lhs ? nh_parse_equation(system->dag, node->text, resolve, &s, lhs, rhs, &fault)
-                    : nh_parse(system->dag, node->text, resolve, &s, rhs, &fault);
-    if (good) return true;
-    nh_deck_fail(deck, node, fault.offset, error, "%s", fault.what);
+    const char *text = node->text + skip;
+    if (!lhs && !not_an_equation(deck, node, skip, error)) return false;
+    if (lhs ? nh_parse_equation(system->dag, text, resolve, &s, lhs, rhs, &fault) : nh_parse(system->dag, text, resolve, &s, rhs, &fault)) return true;
+    nh_deck_fail(deck, node, skip + fault.offset, error, "%s", fault.what);
     return fault.hint[0] ? nh_error_hint(error, "%s", fault.hint) : false;
 }
 
@@ -111,7 +122,15 @@ bool nh_system_expression(const nh_system *system, const nh_deck *deck, const nh
                           const nh_named *extra, nh_ex *out, nh_error *error)
 {
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, "an expression", error)) return false;
-    return nh_system_read_expression(system, deck, node, 0, extras, extra, NULL, out, error);
+    return nh_system_read_expression(system, deck, node, 0, 0, extras, extra, NULL, out, error);
+}
+
+bool nh_system_right_side(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t extras,
+                          const nh_named *extra, nh_ex *out, nh_error *error)
+{
+    const char *equal = strchr(node->text, '=');
+    size_t skip = equal ? (size_t)(equal - node->text) + 1 : 0;
+    return nh_system_read_expression(system, deck, node, skip, 0, extras, extra, NULL, out, error);
 }
 
 bool nh_system_expression_text(const nh_system *system, const char *where, const char *text, size_t extras,

@@ -74,6 +74,9 @@ void nh_system_free(nh_system *system);
  * extra names; errors point into `node`, a scalar of `deck`. */
 bool nh_system_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t extras,
                           const nh_named *extra, nh_ex *out, nh_error *error);
+/* The same for what follows the first `=` of the scalar, or the whole of it. */
+bool nh_system_right_side(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t extras,
+                          const nh_named *extra, nh_ex *out, nh_error *error);
 /* The same for a text from the command line, called `where` in messages. */
 bool nh_system_expression_text(const nh_system *system, const char *where, const char *text, size_t extras,
                                const nh_named *extra, nh_ex *out, nh_error *error);

@@ -6,10 +6,10 @@
 
 #include "system/system.h"
 
-enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2, NH_NO_COORDINATES = 4 };
+enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2 };
 
-/* An expression (lhs NULL) or an equation, with errors pointing into the scalar `node`. */
-bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, unsigned forbid,
+/* An expression (lhs NULL) or an equation, after the first `skip` bytes of the scalar `node`, with errors pointing into it. */
+bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip, unsigned forbid,
                                size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs, nh_error *error);
 
 #endif

@@ -47,7 +47,7 @@ static bool new_name(reader *r, const nh_deck_node *node)
     const char *name = node->text;
     if (!nh_is_name(name)) {
         nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not a name", name);
-        return nh_error_hint(r->error, "a name is a letter, then letters, digits and _");
+        return nh_error_hint(r->error, "a name is a letter a-z or A-Z, then letters, digits and _");
     }
     if (nh_is_reserved(name)) {
         nh_deck_fail(r->deck, node, 0, r->error, "`%s` has a meaning of its own and cannot be redefined", name);
@@ -112,7 +112,7 @@ static bool read_coordinates(reader *r)
     if (!list_of(r, r->root, "coordinates", &list, &n)) return false;
     if (n == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
-        return nh_error_hint(r->error, "coordinates:\n  - {name: x, type: length}");
+        return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
     s->coordinate = take(r, n, sizeof *s->coordinate);
     for (size_t i = 0; i < n; i++) {
@@ -168,14 +168,11 @@ static bool read_assignment_name(reader *r, const nh_deck_node *node, const char
     return true;
 }
 
-/* The right side, as an expression; the left side is blanked out so that columns stay right. */
+/* The right side, as an expression. */
 static bool read_right_side(reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out)
 {
-    char *copy = nh_arena_strdup(r->system->arena, node->text);
-    memset(copy, ' ', (size_t)(strchr(copy, '=') - copy) + 1);
-    nh_deck_node shadow = *node;
-    shadow.text = copy;
-    return nh_system_read_expression(r->system, r->deck, &shadow, forbid, 0, NULL, NULL, out, r->error);
+    size_t skip = (size_t)(strchr(node->text, '=') - node->text) + 1;
+    return nh_system_read_expression(r->system, r->deck, node, skip, forbid, 0, NULL, NULL, out, r->error);
 }
 
 static bool read_definitions(reader *r)
@@ -204,10 +201,10 @@ static bool read_lagrangian(reader *r)
     const nh_deck_node *node = nh_deck_get(r->root, "lagrangian");
     if (!node) {
         nh_deck_fail(r->deck, NULL, 0, r->error, "this system has no `lagrangian`");
-        return nh_error_hint(r->error, "lagrangian: m/2*x'^2 - m*g*x");
+        return nh_error_hint(r->error, "for example: lagrangian: m/2*x'^2 - m*g*x");
     }
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the lagrangian", r->error)) return false;
-    return nh_system_read_expression(r->system, r->deck, node, NH_NO_QUASI, 0, NULL, NULL, &r->system->lagrangian, r->error);
+    return nh_system_read_expression(r->system, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, &r->system->lagrangian, r->error);
 }
 
 /* f(t, q) = 0 holds along a motion that starts on it iff its time derivative vanishes. */
@@ -233,7 +230,7 @@ static bool read_constraints(reader *r)
         const nh_deck_node *node = list->item[i];
         if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a constraint `... = ...`", r->error)) return false;
         *c = (nh_constraint){.text = node->text, .node = node};
-        if (!nh_system_read_expression(s, r->deck, node, NH_NO_QUASI, 0, NULL, &c->lhs, &c->rhs, r->error)) return false;
+        if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, &c->lhs, &c->rhs, r->error)) return false;
         nh_ex f = nh_sub(s->dag, c->lhs, c->rhs);
         bool moving = false, placed = false;
         for (size_t j = 0; j < s->coordinates; j++) {
@@ -257,7 +254,7 @@ static bool read_dependent(reader *r)
     nh_system *s = r->system;
     if (!list_of(r, r->root, "dependent", &list, &n)) return false;
     if (n && n != s->constraints)
-        return nh_deck_fail(r->deck, list, 0, r->error, "%zu dependent velocities for %zu constraints; expected as many as constraints", n, s->constraints);
+        return nh_deck_fail(r->deck, list, 0, r->error, "there must be as many dependent velocities as constraints: %zu, not %zu", s->constraints, n);
     s->dependent = take(r, n, sizeof *s->dependent);
     const char **names = take(r, s->coordinates, sizeof *names);
     for (size_t i = 0; i < s->coordinates; i++) names[i] = s->coordinate[i].name;
@@ -287,9 +284,9 @@ static bool count_quasi(reader *r, const nh_deck_node *chart)
     if (s->constraints > s->coordinates) return true; /* told by the ranks */
     size_t left = s->coordinates - s->constraints;
     if (s->quasi == left) return true;
-    nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "the chart has %zu velocities, but %zu coordinates with %zu constraints leave %zu", s->quasi,
-                 s->coordinates, s->constraints, left);
-    return nh_error_hint(r->error, s->quasi < left ? "list every constraint under `constraints:`" : "one velocity for each degree of freedom");
+    nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "the chart must have as many velocities as there are degrees of freedom: %zu, not %zu (coordinates: %zu, constraints: %zu)",
+                 left, s->quasi, s->coordinates, s->constraints);
+    return s->quasi < left ? nh_error_hint(r->error, "list every constraint under `constraints:`, and every velocity here") : false;
 }
 
 /* Which coordinate's velocity is on the left side "x'"? */
@@ -325,7 +322,7 @@ static bool read_chart(reader *r)
         if (!read_right_side(r, map->item[i], NH_NO_VELOCITIES, &s->quasi_map[index])) return false;
         for (size_t j = 0; j < s->coordinates; j++) /* through a definition */
             if (nh_depends(s->dag, s->quasi_map[index], s->coordinate[j].v))
-                return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` cannot be used here: it comes in through a definition", nh_name_of(s->dag, s->coordinate[j].v));
+                return nh_deck_fail(r->deck, map->item[i], 0, r->error, "the velocity `%s` cannot be used here; it comes in through a definition", nh_name_of(s->dag, s->coordinate[j].v));
     }
     for (size_t i = 0; i < s->coordinates; i++)
         if (!given[i])
@@ -348,7 +345,7 @@ static bool read_forces(reader *r)
         long index = nh_system_coordinate(s, name);
         if (index < 0) {
             nh_deck_fail(r->deck, list->item[i], 0, r->error, "`%s` is not a coordinate", name);
-            return nh_error_hint(r->error, "a generalized force belongs to a coordinate: `%s = ...`", s->coordinate[0].name);
+            return nh_error_hint(r->error, "a generalized force belongs to a coordinate, for example `%s = ...`", s->coordinate[0].name);
         }
         if (!read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
         s->force[index] = nh_add(s->dag, s->force[index], value);
@@ -421,7 +418,7 @@ static bool read_known(reader *r)
     const nh_deck_node *known = nh_deck_get(r->root, "known");
     nh_system *s = r->system;
     if (!known) return true;
-    if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known: {currents: [...]}", r->error)) return false;
+    if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known", r->error)) return false;
     return nh_deck_only(r->deck, known, keys, 2, r->error) && read_named_list(r, known, "currents", &s->current, &s->currents)
            && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved);
 }

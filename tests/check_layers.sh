@@ -1,0 +1,79 @@
+#!/bin/sh
+# Is the house in order?  What docs/architecture.md promises, checked on the sources.
+# usage: check_layers.sh [BUILD]          prints one line per offence; silent and 0 when there is none
+build=${1:-build}
+cd "$(dirname "$0")/.." || exit 2
+offences=$(mktemp) || exit 2
+trap 'rm -f "$offences"' EXIT
+
+# ---- a file includes its own folder's or lower folders' headers ----
+awk '
+    BEGIN { n = split("base expr system geometry noether motion study report cli", name, " "); for (i = 1; i <= n; i++) level[name[i]] = i }
+    /^[ \t]*#[ \t]*include[ \t]*"/ {
+        split(FILENAME, path, "/")
+        split($0, quoted, "\"")
+        split(quoted[2], part, "/")
+        if (!(part[1] in level)) print FILENAME ": \"" quoted[2] "\" names no layer"
+        else if (level[part[1]] > level[path[2]]) print FILENAME ": includes " quoted[2] " of a higher layer"
+    }' src/*/*.c src/*/*.h >>"$offences"
+
+# ---- a third-party header stands where docs/architecture.md says, and nowhere else ----
+standard=" assert.h ctype.h errno.h float.h inttypes.h limits.h math.h setjmp.h stdarg.h stdbool.h stddef.h stdint.h stdio.h stdlib.h string.h time.h"
+standard="$standard dirent.h fcntl.h getopt.h signal.h strings.h sys/resource.h sys/stat.h sys/time.h sys/types.h sys/wait.h unistd.h "
+found=$(for file in src/*/*.c src/*/*.h; do
+    sed -n 's/^[ \t]*#[ \t]*include[ \t]*<\([^>]*\)>.*/\1/p' "$file" | while read -r header; do
+        case "$standard" in *" $header "*) ;; *) echo "$header $file" ;; esac
+    done
+done | sort -u)
+promised=$(sed -n 's/^| `<\([^>]*\)>` | \(.*\) | .*/\1 \2/p' docs/architecture.md | tr -d '`,' |
+    awk '{ for (i = 2; i <= NF; i++) print $1, $i }' | sort -u)
+printf '%s\n' "$found" | while read -r line; do
+    printf '%s\n' "$promised" | grep -qxF "$line" || echo "${line#* }: includes <${line% *}>, which docs/architecture.md does not say"
+done >>"$offences"
+printf '%s\n' "$promised" | while read -r line; do
+    printf '%s\n' "$found" | grep -qxF "$line" || echo "docs/architecture.md: ${line#* } does not include <${line% *}>"
+done >>"$offences"
+
+# ---- exported symbols start with nh_ (the sanitizers add their own) ----
+if [ -f "$build/libnhsym.a" ]; then
+    nm -g --defined-only "$build/libnhsym.a" 2>/dev/null | awk 'NF == 3 && $3 !~ /^nh_/ && $3 !~ /^__odr_asan|^__asan|^__ubsan/ { print "libnhsym.a: exports " $3 }' |
+        sort -u >>"$offences"
+else
+    echo "$build/libnhsym.a: is not there" >>"$offences"
+fi
+
+# ---- cited sources and sections exist ----
+grep -noE '\[[A-Za-z]*:? ?[A-Z][A-Za-z]+[0-9]{4}[a-z]?' src/*/*.c src/*/*.h tests/*.c tests/*.h tests/*.sh README.md docs/*.md | grep -v '^docs/references.md' |
+    sed 's/^\([^:]*:[0-9]*\):.*[^A-Za-z]\([A-Z][A-Za-z]*[0-9]\{4\}[a-z]\{0,1\}\)$/\1 \2/' | while read -r place key; do
+    grep -q "^\* \*\*\[$key\]\*\*" docs/references.md || echo "$place: [$key] is not in docs/references.md"
+done >>"$offences"
+grep -noE 'docs/[a-z]+\.md(, sec\. [0-9]+)?' src/*/*.c src/*/*.h README.md docs/*.md tests/*.[ch] tests/*.sh Makefile | while IFS=: read -r file line citation; do
+    page=${citation%%,*}
+    [ -f "$page" ] || [ "$page" = docs/performance.md ] || echo "$file:$line: $page is not there"
+    case "$citation" in
+    *sec.*) grep -q "^## ${citation##*sec. }\. " "$page" || echo "$file:$line: $page has no section ${citation##*sec. }" ;;
+    esac
+done >>"$offences"
+for page in README.md docs/*.md; do
+    folder=$(dirname "$page")
+    grep -oE '\]\([^)#:]+\)' "$page" | sed 's/^](\(.*\))$/\1/' | while read -r link; do
+        [ -e "$folder/$link" ] || [ "$(basename "$link")" = performance.md ] || echo "$page: links to $link, which is not there"
+    done
+done >>"$offences"
+
+# ---- a page per function ----
+awk -v most_lines=60 -v most_file=460 '
+    FNR == 1 { if (last > most_file) print previous ": " last " lines"; start = 0 }
+    { last = FNR; previous = FILENAME }
+    /^{/ { start = FNR - 1; head = before }
+    /^}/ { if (start && FNR - start + 1 > most_lines) print FILENAME ":" start ": a function of " FNR - start + 1 " lines: " head; start = 0 }
+    { before = $0 }
+    END { if (last > most_file) print previous ": " last " lines" }' src/*/*.c src/*/*.h >>"$offences"
+
+# ---- no system is known to the code; src/cli may name one in an example ----
+for file in $(ls src/*/*.[ch] | grep -v '^src/cli/'); do
+    ${CC:-gcc} -fpreprocessed -dD -E -P -x c "$file" 2>/dev/null | grep -niE 'sleigh|disk|crane' | sed "s|^|$file: code that knows a system: |"
+done >>"$offences"
+
+sort -u "$offences"
+[ ! -s "$offences" ]
