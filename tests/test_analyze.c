@@ -252,3 +252,244 @@ Test(analyze, the_sleigh_without_inertia_about_its_centre)
     cr_expect(force < 1e-12, "the multiplier is %.1e", force);
     nh_result_free(r);
 }
+
+/* ---- what must not be found ---- */
+
+/* The sleigh's file with a line added or replaced. */
+static const char *sleigh_with(const char *extra, const char *lagrangian_too)
+{
+    static char text[6000];
+    char line[400];
+    size_t at = 0;
+    FILE *f = fopen(SLEIGH, "r");
+    cr_assert_not_null(f);
+    while (fgets(line, sizeof line, f)) {
+        bool lagrangian = !strncmp(line, "lagrangian:", 11);
+        if (lagrangian) line[strcspn(line, "\n")] = 0;
+        at += (size_t)snprintf(text + at, sizeof text - at, "%s%s", line, lagrangian ? lagrangian_too : "");
+        if (lagrangian) at += (size_t)snprintf(text + at, sizeof text - at, "\n%s", extra);
+        cr_assert_lt(at, sizeof text - 500);
+    }
+    fclose(f);
+    return file("system.yaml", text);
+}
+
+static const char *ansatz(const char *items)
+{
+    static char text[3000];
+    snprintf(text, sizeof text, "name: q\nsystem: any\nansatz:\n%s", items);
+    return file("analysis.yaml", text);
+}
+
+/* A little friction: the energy is not conserved, and this is said; with a column that compensates it, that is a true current. */
+Test(analyze, friction)
+{
+    const char *system = sleigh_with("forces:\n  - phi = -0.01*phi'\n", "");
+    nh_result *r = ask((question){.system = system, .analysis = ansatz("  - terms: [omega^2, v^2, omega*v]\n")});
+    cr_expect(r->verdict == NH_NONE && r->count == 0, "verdict %d, %zu found", (int)r->verdict, r->count);
+    cr_expect(warned(r, "energy is not conserved") && warned(r, "-omega^2/100"), "nothing was said about the energy");
+    nh_result_free(r);
+    r = ask((question){.system = system, .analysis = QUESTION});
+    cr_expect_null(find(r, "E"));
+    cr_expect_null(find(r, PAPER[1].formula));
+    cr_expect_null(find(r, PAPER[2].formula));
+    cr_assert_eq(r->count, 1);
+    cr_expect_str_empty(r->found[0].meaning);
+    cr_expect_not_null(find(r, "E + v/(100*a)"), "d/dt v = a omega^2 makes up for the friction");
+    cr_expect(warned(r, "energy is not conserved"));
+    nothing_false(r);
+    nh_result_free(r);
+    r = ask((question){.system = system}); /* the program's own search */
+    cr_expect_null(find(r, "E"));
+    cr_expect(warned(r, "energy is not conserved"));
+    nothing_false(r);
+    nh_result_free(r);
+}
+
+/* The energy is not missed where it is conserved but not in the ansatz. */
+Test(analyze, an_ansatz_without_a_true_integral_says_none)
+{
+    static const char *const items[] = {"  - {basis: polynomial, in: [x, y, phi], degree: 3}\n", "  - terms: [omega, v, omega*v, omega^2]\n",
+                                        "  - product:\n      - terms: [omega, v]\n      - {basis: fourier, in: phi, harmonics: 4}\n"};
+    for (size_t i = 0; i < 3; i++) {
+        nh_result *r = ask((question){.system = SLEIGH, .analysis = ansatz(items[i])});
+        cr_expect(r->verdict == NH_NONE && r->count == 0 && r->independent == 0, "ansatz %zu: %zu found", i, r->count);
+        cr_expect(r->current.done && r->current.rank > 0 && r->current.spectrum[0] > 1e-4, "ansatz %zu: smallest value %.1e", i, r->current.spectrum[0]);
+        for (size_t j = 1; j < r->current.rank; j++) cr_expect(r->current.spectrum[j] >= r->current.spectrum[j - 1]);
+        cr_expect(r->symmetry.done && r->symmetry.dimension == 0);
+        cr_expect_not(warned(r, "energy"));
+        nh_result_free(r);
+    }
+}
+
+Test(analyze, an_unknown_frequency_that_does_not_exist)
+{
+    const char *system = sleigh_with("", " + 0.3*cos(x)");
+    nh_result *r = ask((question){.system = system, .analysis = QUESTION, .until = 1});
+    cr_expect(r->specials == 0 && r->hits->count == 0);
+    cr_expect_eq(r->verdict, NH_NONE); /* E contains cos x, which is not in the ansatz */
+    cr_expect(r->count == 0 && r->current.spectrum[0] > 1e-5, "%zu found, smallest value %.1e", r->count, r->current.spectrum[0]);
+    nh_result_free(r);
+}
+
+/* A thousandth of something: nothing of the unperturbed system survives but what is true. */
+Test(analyze, perturbed_systems)
+{
+    static const char *const more[] = {" + 0.001*x'^2*x", " + 0.001*phi'*x'", " + 0.001*cos(phi)", " + 0.001*x*y", " + 0.001*x'^4"};
+    for (size_t i = 0; i < 5; i++) {
+        const char *system = sleigh_with("", more[i]);
+        nh_result *r = ask((question){.system = system, .analysis = QUESTION, .until = 1}), *own = ask((question){.system = system, .until = 1});
+        cr_expect_null(find(r, PAPER[1].formula), "%s", more[i]);
+        cr_expect_null(find(r, PAPER[2].formula), "%s", more[i]);
+        cr_expect_null(find(r, PAPER[3].formula), "%s", more[i]);
+        nothing_false(r);
+        nothing_false(own);
+        cr_expect_not_null(find(own, "E"), "%s: the energy", more[i]);
+        nh_result_free(own);
+        nh_result_free(r);
+    }
+}
+
+/* Almost integrable: the frequency is off by 1e-7, so that the null value is small but not null. */
+Test(analyze, nearly_is_not_conserved)
+{
+    nh_result *r = ask((question){.system = SLEIGH, .analysis = ansatz("  - product:\n      - terms: [omega, v]\n"
+                                                                      "      - {basis: fourier, in: phi, frequency: 0.5000001}\n")});
+    cr_expect(r->verdict == NH_NONE && r->count == 0, "verdict %d with %zu found", (int)r->verdict, r->count);
+    cr_expect(r->current.spectrum[0] > 1e-9 && r->current.spectrum[0] < 1e-6, "%.1e", r->current.spectrum[0]);
+    nh_result_free(r);
+}
+
+/* ---- what must not matter ---- */
+
+#define POLYNOMIAL "  - {basis: polynomial, in: [omega, v], degree: 2}\n"
+#define WAVES "  - product:\n      - {basis: polynomial, in: [omega, v], degree: 1}\n      - {basis: fourier, in: phi, harmonics: 1}\n"
+#define TRUE_WAVES "  - product:\n      - terms: [omega, v]\n      - {basis: fourier, in: phi, frequency: 1/k}\n"
+#define TERMS "  - terms: [\"x'*t\", \"x*omega\", \"sqrt(E)*t\"]\n"
+
+/* Relative difference of two spectra above rounding. */
+static double spectra(const nh_spectrum *a, const nh_spectrum *b)
+{
+    double worst = a->rank == b->rank && a->dimension == b->dimension ? 0 : INFINITY;
+    for (size_t i = a->dimension; i < a->rank && isfinite(worst); i++) worst = fmax(worst, fabs(a->spectrum[i] / b->spectrum[i] - 1));
+    return worst;
+}
+
+static nh_result *plain(const char *system, const char *items, uint64_t seed, nh_chart_choice chart)
+{
+    return ask((question){.system = system, .analysis = ansatz(items), .seed = seed, .until = 0.3, .chart = chart});
+}
+
+/* The same rows in another order: the same spectrum.  The seed moves the points: the same dimensions, the same kind of spectrum. */
+Test(analyze, order_of_the_ansatz_and_seed)
+{
+    nh_result *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
+    const char *orders[] = {TERMS TRUE_WAVES WAVES POLYNOMIAL, WAVES TERMS POLYNOMIAL TRUE_WAVES};
+    for (size_t i = 0; i < 2; i++) {
+        nh_result *b = plain(SLEIGH, orders[i], 1, NH_CHART_AUTO);
+        cr_expect_eq(a->count, b->count);
+        cr_expect_lt(spectra(&a->current, &b->current), 1e-8, "order %zu: %.1e", i, spectra(&a->current, &b->current));
+        cr_expect_lt(spectra(&a->symmetry, &b->symmetry), 1e-8, "order %zu: %.1e", i, spectra(&a->symmetry, &b->symmetry));
+        nh_result_free(b);
+    }
+    cr_expect_eq(a->current.dimension, 3);
+    for (uint64_t seed = 2; seed < 8; seed++) {
+        nh_result *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, seed, NH_CHART_AUTO);
+        cr_expect(b->verdict == NH_FOUND && b->count == a->count && b->independent == a->independent);
+        cr_expect_lt(spectra(&a->current, &b->current), 0.5, "seed %d: %.1e", (int)seed, spectra(&a->current, &b->current));
+        for (size_t i = 0; i < 3; i++) cr_expect_not_null(find(b, PAPER[i].formula), "seed %d: %s", (int)seed, PAPER[i].name);
+        nh_result_free(b);
+    }
+    nh_result_free(a);
+}
+
+/* The same seed gives the same result to the last digit. */
+Test(analyze, repeatable)
+{
+    nh_result *a = ask((question){SLEIGH, QUESTION, SETS[4], NH_CHART_AUTO, 3, 1}), *b = ask((question){SLEIGH, QUESTION, SETS[4], NH_CHART_AUTO, 3, 1});
+    cr_assert_eq(a->current.rank, b->current.rank);
+    cr_expect_arr_eq(a->current.spectrum, b->current.spectrum, a->current.rank * sizeof(double));
+    cr_expect_arr_eq(a->special[0].value, b->special[0].value, sizeof(double));
+    for (size_t i = 0; i < a->count; i++) cr_expect_eq(a->found[i].drift.drift[2], b->found[i].drift.drift[2]);
+    nh_result_free(a);
+    nh_result_free(b);
+}
+
+/* Millimetres for metres: a and the velocity's box times 1000; grams for kilograms. */
+static const char *in_other_units(double length, double mass)
+{
+    static char text[3000];
+    snprintf(text, sizeof text,
+             "name: sleigh\n"
+             "parameters: [{name: m, value: %.17g}, {name: a, value: %.17g}, {name: k, value: 2}]\n"
+             "coordinates:\n  - {name: phi, type: angle}\n  - {name: x, type: length}\n  - {name: y, type: length}\n"
+             "lagrangian: m/2*((x' - a*phi'*sin(phi))^2 + (y' + a*phi'*cos(phi))^2) + m*a^2*(k^2 - 1)/2*phi'^2\n"
+             "constraints: [\"y' = x'*tan(phi)\"]\ndependent: [y]\n"
+             "chart: {velocities: [omega, v], map: [phi' = omega, x' = v*cos(phi), y' = v*sin(phi)]}\n"
+             "domain: {phi: [-1.2, 1.2], omega: [-2, 2], v: [%.17g, %.17g], x: [%.17g, %.17g], y: [%.17g, %.17g]}\n",
+             2 * mass, length, -2 * length, 2 * length, -length, length, -length, length);
+    return file("system.yaml", text);
+}
+
+Test(analyze, units)
+{
+    nh_result *a = plain(in_other_units(1, 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
+    nh_result *grams = plain(in_other_units(1, 1000), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
+    cr_expect_eq(a->count, 3);
+    cr_expect_lt(spectra(&a->current, &grams->current), 1e-8, "%.1e", spectra(&a->current, &grams->current));
+    cr_expect_lt(spectra(&a->symmetry, &grams->symmetry), 1e-8, "%.1e", spectra(&a->symmetry, &grams->symmetry));
+    const double lengths[] = {1000, 1e-3};
+    for (size_t i = 0; i < 2; i++) {
+        nh_result *b = plain(in_other_units(lengths[i], 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
+        cr_expect(b->verdict == NH_FOUND && b->count == 3 && b->independent == 2, "lengths x %g: %zu found", lengths[i], b->count);
+        cr_expect(b->current.dimension == a->current.dimension && b->current.rank == a->current.rank, "lengths x %g", lengths[i]);
+        cr_expect(b->symmetry.dimension == a->symmetry.dimension && b->symmetry.rank == a->symmetry.rank, "lengths x %g", lengths[i]);
+        cr_expect(b->routes_agree, "lengths x %g: %.1e", lengths[i], b->routes_angle);
+        for (size_t j = 0; j < 3; j++) cr_expect_not_null(find(b, PAPER[j].formula), "lengths x %g: %s", lengths[i], PAPER[j].name);
+        nh_result_free(b);
+    }
+    nh_result_free(a);
+    nh_result_free(grams);
+}
+
+/* The same question in both charts: the same functions, so the same dimensions and ranks. */
+Test(analyze, charts)
+{
+    nh_result *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_QUASI);
+    nh_result *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_COORDINATES);
+    cr_expect(a->model->chart->quasi && !b->model->chart->quasi);
+    cr_expect(a->count == b->count && a->independent == b->independent && b->verdict == NH_FOUND);
+    cr_expect(a->current.dimension == b->current.dimension && a->current.rank == b->current.rank, "%zu of %zu, %zu of %zu", a->current.dimension,
+              a->current.rank, b->current.dimension, b->current.rank);
+    cr_expect_eq(a->symmetry.dimension, b->symmetry.dimension);
+    for (size_t j = 0; j < 3; j++) cr_expect(find(a, PAPER[j].formula) && find(b, PAPER[j].formula), "%s", PAPER[j].name);
+    nh_result_free(a);
+    nh_result_free(b);
+}
+
+/* ---- other systems, from files of the test's own ---- */
+
+/* A Chebyshev ansatz of high degree, of an angle that leaves the sampled box on the motion: y' exp(cos q) is conserved. */
+Test(analyze, chebyshev)
+{
+    const char *system = file("system.yaml", "name: weight\ncoordinates: [{name: q, type: angle}, {name: y, type: length}]\n"
+                                             "lagrangian: (q'^2 + exp(cos(q))*y'^2)/2\ndomain: {q: [-1, 1]}\n");
+    const char *items = "  - product:\n      - terms: [\"y'\"]\n      - {basis: chebyshev, in: q, degree: 24}\n";
+    nh_result *r = ask((question){.system = system, .analysis = ansatz(items)});
+    cr_assert(r->current.dimension == 1 && r->count <= 1, "%zu null values, %zu found", r->current.dimension, r->count);
+    nh_points *points = points_of(r->model, 100, 5);
+    if (r->count) cr_expect_lt(off_multiple(r->model, points, r->found[0].phi, formula(r->model, "exp(cos(q))*y'")), 1e-11);
+    nh_points_free(points);
+    nh_result_free(r);
+}
+
+Test(analyze, a_nonlinear_constraint)
+{
+    nh_result *r = ask((question){.system = file("system.yaml", SPACE_EXPLICIT), .analysis = ansatz("  - terms: [\"x'/y'\", \"x'\", \"y'\", \"x\", \"t\"]\n")});
+    cr_assert_eq(r->count, 1, "%zu found", r->count);
+    cr_expect_not_null(find(r, "x'/y'"));
+    cr_expect(r->found[0].symmetry.kase == 2 && r->found[0].symmetry.bracket_in_distribution, "case %d", r->found[0].symmetry.kase);
+    cr_expect(warned(r, "energy is not conserved"));
+    nothing_false(r);
+    nh_result_free(r);
+}

@@ -2,8 +2,10 @@
 #include <criterion/criterion.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "expr/diff.h"
 #include "names.h"
 #include "system/sample.h"
 

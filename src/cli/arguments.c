@@ -60,9 +60,15 @@ static bool unknown_option(const char *word, nh_error *error)
     const char *names[sizeof long_options / sizeof *long_options];
     size_t n = 0;
     for (const struct option *o = long_options; o->name; o++) names[n++] = o->name;
-    nh_fail(error, NH_USAGE, "", "`%s` is not an option, or lacks its value", word);
+    nh_fail(error, NH_USAGE, "", "there is no option `%s`", word);
     const char *near = nh_text_nearest(word + strspn(word, "-"), names, n);
     return near ? nh_error_hint(error, "did you mean `--%s`?", near) : nh_error_hint(error, "`nhsym help` lists them");
+}
+
+static bool missing_value(const char *word, nh_error *error)
+{
+    nh_fail(error, NH_USAGE, "", "`%s` needs a value", word);
+    return nh_error_hint(error, "`nhsym help` shows how it is written");
 }
 
 static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
@@ -89,14 +95,15 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     }
 }
 
-/* "--json FILE" with a space: getopt does not join an optional value, but the format promises it. */
-static const char *optional_value(int argc, char **argv)
+/* "--json FILE" with a space: getopt does not join an optional value, but the format promises it.  Before the system's name, a
+ * word counts as FILE when it ends in .json. */
+static const char *optional_value(const nh_cli *cli, int argc, char **argv)
 {
     if (optarg || optind >= argc) return optarg;
     const char *next = argv[optind];
     size_t length = strlen(next);
     bool file = !strcmp(next, "-") || (length > 5 && !strcmp(next + length - 5, ".json"));
-    if (!file) return NULL;
+    if (!file && (next[0] == '-' || cli->operands == 0)) return NULL;
     optind++;
     return next;
 }
@@ -109,13 +116,15 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     nh_options_default(&cli->options);
     opterr = 0;
     optind = 1;
-    for (int code; (code = getopt_long(argc, argv, "-qvho:", long_options, NULL)) != -1;) {
+    for (int code; (code = getopt_long(argc, argv, "-:qvh", long_options, NULL)) != -1;) {
         if (code == 1) {
             if (!cli->command) cli->command = optarg;
             else cli->operand[cli->operands++] = optarg;
-        } else if (code == '?' || code == 'o') {
+        } else if (code == ':') {
+            return missing_value(argv[optind - 1], error);
+        } else if (code == '?') {
             return unknown_option(argv[optind - 1], error);
-        } else if (!take(cli, code, code == opt_json ? optional_value(argc, argv) : optarg, error)) {
+        } else if (!take(cli, code, code == opt_json ? optional_value(cli, argc, argv) : optarg, error)) {
             return false;
         }
     }

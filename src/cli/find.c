@@ -8,13 +8,27 @@
 
 enum { most_places = 64 };
 
+/* PREFIX of an installed program, wherever it was moved to: PREFIX/bin/nhsym runs. */
+static const char *prefix_of_program(nh_cli *cli)
+{
+    char path[4096];
+    ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
+    path[n > 0 ? n : 0] = 0;
+    for (int i = 0; i < 2; i++) {
+        char *slash = strrchr(path, '/');
+        if (!slash) return NULL;
+        *slash = 0;
+    }
+    return nh_arena_strdup(cli->arena, path);
+}
+
 /* Folders to search, in order: here, each entry of NHSYM_PATH (itself, and its systems/), the installed data. */
 static size_t places(nh_cli *cli, const char *kind, const char **out)
 {
     size_t n = 0;
     out[n++] = nh_arena_strdup(cli->arena, kind);
     const char *path = getenv("NHSYM_PATH");
-    while (path && *path && n + 3 < most_places) {
+    while (path && *path && n + 4 < most_places) {
         size_t length = strcspn(path, ":");
         if (length) {
             out[n++] = nh_arena_printf(cli->arena, "%.*s/%s", (int)length, path, kind);
@@ -22,6 +36,8 @@ static size_t places(nh_cli *cli, const char *kind, const char **out)
         }
         path += length + (path[length] == ':');
     }
+    const char *prefix = prefix_of_program(cli);
+    if (prefix) out[n++] = nh_arena_printf(cli->arena, "%s/share/nhsym/%s", prefix, kind);
     out[n++] = nh_arena_printf(cli->arena, "%s/%s", NH_DATADIR, kind);
     return n;
 }

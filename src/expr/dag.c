@@ -303,3 +303,27 @@ nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t count, const nh_ex *from, const
     nh_free(node);
     return result;
 }
+
+nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root)
+{
+    uint32_t *node;
+    size_t n = reach(dag, e, &node);
+    nh_ex *image = nh_alloc_array((size_t)e + 1, sizeof *image);
+    for (size_t i = 0; i < n; i++) {
+        nh_ex x = node[i];
+        image[x] = dag->node[x].kind > NH_SYMBOL ? rebuild(dag, x, image) : x;
+        if (dag->node[x].kind != NH_PRODUCT) continue;
+        nh_ex product = nh_number(dag, nh_constant_of(dag, x));
+        for (size_t j = 0; j < nh_arity(dag, x); j++) {
+            nh_ex b = nh_child(dag, x, j), y = nh_exponent_of(dag, x, j);
+            nh_num power = dag->node[y].kind == NH_NUMBER ? nh_number_of(dag, y) : nh_num_int(1);
+            bool half = b == base && power.q == 2;
+            product = nh_mul(dag, product, half ? nh_powi(dag, root, power.p) : nh_pow(dag, image[b], image[y]));
+        }
+        image[x] = product;
+    }
+    nh_ex result = image[e];
+    nh_free(image);
+    nh_free(node);
+    return result;
+}

@@ -102,4 +102,7 @@ size_t nh_node_count(const nh_dag *dag, nh_ex e);
 /* e with from[i] replaced by to[i], all at once. */
 nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t n, const nh_ex *from, const nh_ex *to);
 
+/* e with every half power of `base` written in `root`: base^(p/2) becomes root^p.  For base = root^2, and root of one sign. */
+nh_ex nh_substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root);
+
 #endif

@@ -209,6 +209,7 @@ static void in_velocities(nh_result *r, nh_found *f, const nh_ex *inverse, bool 
     f->in_velocities = nh_substitute(o->dag, f->phi, o->chart->implicit, o->chart->u, v);
     if (invertible && o->chart->quasi)
         f->in_velocities = nh_simplify(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, inverse));
+    if (o->chart->branch) f->in_velocities = nh_chart_both_branches(o->chart, f->in_velocities);
     nh_free(v);
 }
 

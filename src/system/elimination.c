@@ -351,7 +351,7 @@ static int branch_of(const cloud *c, size_t which)
 }
 
 /* One constraint a u^2 + b u + c = 0: u = (-b + s sqrt(b^2 - 4 a c)) / (2 a), so that everything that follows is explicit. */
-static bool quadratic_root(const cloud *c, size_t which, int branch, nh_ex *out)
+static bool quadratic_root(const cloud *c, size_t which, int branch, nh_ex *out, nh_ex *radicand, nh_ex *in_velocities)
 {
     const nh_system *s = c->system;
     nh_dag *d = s->dag;
@@ -362,7 +362,10 @@ static bool quadratic_root(const cloud *c, size_t which, int branch, nh_ex *out)
     nh_ex b = nh_simplify(d, nh_substitute(d, slope, 1, &u, &zero)), rest = nh_substitute(d, f, 1, &u, &zero);
     nh_ex under = nh_simplify(d, nh_sub(d, nh_powi(d, b, 2), nh_mul(d, nh_int(d, 4), nh_mul(d, a, rest))));
     nh_ex root = nh_mul(d, nh_int(d, branch), nh_sqrt(d, under));
+    nh_ex linear = nh_add(d, nh_mul(d, nh_int(d, 2), nh_mul(d, a, u)), b); /* 2 a u + b = branch * sqrt(under) */
     *out = nh_simplify(d, nh_div(d, nh_sub(d, root, b), nh_mul(d, nh_int(d, 2), a)));
+    *radicand = under;
+    *in_velocities = nh_mul(d, nh_int(d, branch), linear);
     return true;
 }
 
@@ -389,9 +392,9 @@ static nh_chart *build(const cloud *c, const size_t *dependent, double pivot, nh
             for (size_t j = 0; j < k; j++) linear &= !nh_depends(d, G[a * k + i], s->coordinate[dependent[j]].v);
         }
     }
-    nh_ex root = 0;
+    nh_ex root = 0, radicand = 0, in_velocities = 0;
     int branch = linear ? 0 : branch_of(c, dependent[0]);
-    bool quadratic = !linear && quadratic_root(c, dependent[0], branch, &root), implicit = !linear && !quadratic;
+    bool quadratic = !linear && quadratic_root(c, dependent[0], branch, &root, &radicand, &in_velocities), implicit = !linear && !quadratic;
     nh_chart *chart = nh_embedding_new(s, "", m - k, implicit ? k : 0);
     memcpy(chart->dependent, dependent, k * sizeof *dependent);
     chart->pivot = pivot;
@@ -411,6 +414,8 @@ static nh_chart *build(const cloud *c, const size_t *dependent, double pivot, nh
     if (quadratic) {
         chart->rho[dependent[0]] = root;
         chart->branch = branch;
+        chart->radicand = radicand;
+        chart->root = in_velocities;
     }
     nh_free(v);
     nh_embedding_symbols(chart);

@@ -99,6 +99,19 @@ nh_ex nh_chart_constraint(const nh_chart *c, size_t a)
     return nh_sub(c->system->dag, f->lhs, f->rhs);
 }
 
+/* Simplification may have split the radicand (4 k^2 (x'^2 + y'^2) into 2 sqrt(k^2 (x'^2 + y'^2))): its square-free parts are tried too. */
+nh_ex nh_chart_both_branches(const nh_chart *c, nh_ex e)
+{
+    nh_dag *d = c->system->dag;
+    nh_ex root = nh_sqrt(d, c->radicand), scale = nh_int(d, 1), base = c->radicand;
+    if (nh_kind_of(d, root) == NH_PRODUCT) {
+        scale = nh_number(d, nh_constant_of(d, root));
+        nh_ex rest = nh_div(d, root, scale);
+        if (nh_kind_of(d, rest) == NH_PRODUCT && nh_arity(d, rest) == 1) base = nh_child(d, rest, 0);
+    }
+    return nh_substitute_root(d, e, base, nh_div(d, c->root, scale));
+}
+
 bool nh_chart_complete(const nh_chart *c, double *z)
 {
     size_t k = c->implicit;

@@ -31,6 +31,7 @@ typedef struct {
     double *probe;            /* probes x width: a few points for pivots and ranks */
     size_t probes;
     int branch;               /* of a quadratic constraint: the sign of its root; 0 otherwise */
+    nh_ex radicand, root;     /* of that root, and the root in coordinate velocities: branch*(2 a u + b), valid on both branches */
     double pivot;             /* least pivot of the elimination over the probes, relative */
 } nh_chart;
 
@@ -47,6 +48,10 @@ void nh_chart_range(const nh_chart *chart, nh_ex symbol, double *low, double *hi
 /* The chart's velocities as functions of (t, q, q'): w = (R^T R)^-1 R^T (v - rho(0)) where rho is affine in w.  False where
  * it is not (the caller says so). */
 bool nh_chart_inverse(const nh_chart *chart, nh_ex *w_of_v);
+
+/* An expression of a chart on one branch of a quadratic constraint, with the root written in coordinate velocities again: it then
+ * holds on both branches. */
+nh_ex nh_chart_both_branches(const nh_chart *chart, nh_ex e);
 
 /* f^a = lhs - rhs in coordinate velocities, and composed with the embedding. */
 nh_ex nh_chart_constraint(const nh_chart *chart, size_t a);
