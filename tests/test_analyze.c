@@ -306,7 +306,7 @@ Test(analyze, friction)
     nh_result_free(r);
 }
 
-/* The energy is not missed where it is conserved but not in the ansatz. */
+/* Nothing is said against the energy where it is conserved but not in the ansatz. */
 Test(analyze, an_ansatz_without_a_true_integral_says_none)
 {
     static const char *const items[] = {"  - {basis: polynomial, in: [x, y, phi], degree: 3}\n", "  - terms: [omega, v, omega*v, omega^2]\n",
@@ -314,7 +314,7 @@ Test(analyze, an_ansatz_without_a_true_integral_says_none)
     for (size_t i = 0; i < 3; i++) {
         nh_result *r = ask((question){.system = SLEIGH, .analysis = ansatz(items[i])});
         cr_expect(r->verdict == NH_NONE && r->count == 0 && r->independent == 0, "ansatz %zu: %zu found", i, r->count);
-        cr_expect(r->current.done && r->current.rank > 0 && r->current.spectrum[0] > 1e-4, "ansatz %zu: smallest value %.1e", i, r->current.spectrum[0]);
+        cr_expect(r->current.done && r->current.rank > 0 && r->current.spectrum[0] > 1e-6, "ansatz %zu: smallest value %.1e", i, r->current.spectrum[0]);
         for (size_t j = 1; j < r->current.rank; j++) cr_expect(r->current.spectrum[j] >= r->current.spectrum[j - 1]);
         cr_expect(r->symmetry.done && r->symmetry.dimension == 0);
         cr_expect_not(warned(r, "energy"));
@@ -469,16 +469,19 @@ Test(analyze, charts)
 
 /* ---- other systems, from files of the test's own ---- */
 
-/* A Chebyshev ansatz of high degree, of an angle that leaves the sampled box on the motion: y' exp(cos q) is conserved. */
+/* A Chebyshev series of high degree, whose last coefficients are tiny: y' exp(cos q) is conserved. */
 Test(analyze, chebyshev)
 {
     const char *system = file("system.yaml", "name: weight\ncoordinates: [{name: q, type: angle}, {name: y, type: length}]\n"
                                              "lagrangian: (q'^2 + exp(cos(q))*y'^2)/2\ndomain: {q: [-1, 1]}\n");
     const char *items = "  - product:\n      - terms: [\"y'\"]\n      - {basis: chebyshev, in: q, degree: 24}\n";
     nh_result *r = ask((question){.system = system, .analysis = ansatz(items)});
-    cr_assert(r->current.dimension == 1 && r->count <= 1, "%zu null values, %zu found", r->current.dimension, r->count);
+    cr_assert(r->current.dimension == 1 && r->count == 1, "%zu null values, %zu found", r->current.dimension, r->count);
+    cr_expect(r->verdict == NH_UNDECIDED && !r->found[0].exact, "fitted coefficients are no certificate");
+    cr_expect(r->found[0].proof.digits >= 10 && r->found[0].heldout < 1e-9, "%g digits", r->found[0].proof.digits);
     nh_points *points = points_of(r->model, 100, 5);
-    if (r->count) cr_expect_lt(off_multiple(r->model, points, r->found[0].phi, formula(r->model, "exp(cos(q))*y'")), 1e-11);
+    double off = off_multiple(r->model, points, r->found[0].phi, formula(r->model, "exp(cos(q))*y'"));
+    cr_expect_lt(off, 1e-10, "off by %.1e", off);
     nh_points_free(points);
     nh_result_free(r);
 }

@@ -330,7 +330,7 @@ Test(unknowns, the_pencil_alone)
     }
 }
 
-/* Bounds that exclude 1/k, and a sleigh with friction: nothing is found, and the best value is far from zero. */
+/* Bounds that exclude 1/k: nothing is found, and the best value is far from zero. */
 Test(unknowns, nothing_where_there_is_nothing)
 {
     mechanics x = sleigh(1.3, 0.7, 1.5);

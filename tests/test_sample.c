@@ -11,7 +11,7 @@ enum { most_dimension = 60 };
 /* Mean and mean square of (x - low)/(high - low) over `count` points, the worst dimension's distance from 1/2 and 1/3. */
 static void evenness(size_t dimension, size_t count, uint64_t seed, double *mean_off, double *square_off)
 {
-    double low[most_dimension], high[most_dimension], x[most_dimension], sum[most_dimension] = {0}, square[most_dimension] = {0};
+    double low[most_dimension] = {0}, high[most_dimension] = {0}, x[most_dimension], sum[most_dimension] = {0}, square[most_dimension] = {0};
     for (size_t i = 0; i < dimension; i++) {
         low[i] = -1.385 * (double)(i + 1);
         high[i] = low[i] + 0.7 + (double)i;

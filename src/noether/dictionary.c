@@ -126,20 +126,43 @@ static void walk(harvester *h, nh_ex e)
     }
 }
 
-/* Roots of the determinant of the mass matrix: densities of invariant measures, and currents with them. */
+static void add_root(harvester *h, nh_ex e)
+{
+    nh_model *o = h->o;
+    if (nh_kind_of(o->dag, e) != NH_SUM || !has_position(o, e) || has_velocity(o, e)) return;
+    add_atom(h, nh_sqrt(o->dag, e));
+    add_integral(h, e);
+}
+
+/* Determinant of the mass matrix, of at most three velocities. */
+static nh_ex determinant(const nh_model *o)
+{
+    nh_dag *d = o->dag;
+    const nh_ex *M = o->M;
+    size_t n = o->n;
+    nh_ex det = nh_int(d, 0);
+    if (n == 1) return M[0];
+    if (n == 2) return nh_sub(d, nh_mul(d, M[0], M[3]), nh_mul(d, M[1], M[2]));
+    for (size_t j = 0; j < 3 && n == 3; j++) {
+        size_t a = (j + 1) % 3, b = (j + 2) % 3;
+        nh_ex minor = nh_sub(d, nh_mul(d, M[3 + a], M[6 + b]), nh_mul(d, M[3 + b], M[6 + a]));
+        det = nh_add(d, det, nh_mul(d, M[j], minor));
+    }
+    return det;
+}
+
+/* Roots of the mass matrix' diagonal and of the factors of its determinant: densities of invariant measures, and currents with them. */
 static void add_roots(harvester *h)
 {
     nh_model *o = h->o;
     nh_dag *d = o->dag;
+    nh_ex det = nh_simplify(d, determinant(o));
+    add_root(h, det);
+    for (size_t j = 0; nh_kind_of(d, det) == NH_PRODUCT && j < nh_arity(d, det); j++) add_root(h, nh_child(d, det, j));
     for (size_t i = 0; i < o->n; i++) {
         nh_ex M = o->M[i * o->n + i];
-        for (size_t j = 0; nh_kind_of(d, M) == NH_PRODUCT && j < nh_arity(d, M); j++) {
-            nh_ex base = nh_child(d, M, j);
-            if (nh_kind_of(d, base) == NH_SUM && has_position(o, base) && !has_velocity(o, base)) M = base;
-        }
-        if (nh_kind_of(d, M) != NH_SUM || !has_position(o, M) || has_velocity(o, M)) continue;
-        add_atom(h, nh_sqrt(d, M));
-        add_integral(h, M);
+        add_root(h, M);
+        for (size_t j = 0; nh_kind_of(d, M) == NH_PRODUCT && j < nh_arity(d, M); j++) add_root(h, nh_child(d, M, j));
     }
 }
 

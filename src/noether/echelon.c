@@ -127,10 +127,7 @@ static void reduce(table *t, double small)
         size_t term = t->order[i];
         normalise(t, done);
         size_t k = best_vector(t, term, done, &largest);
-        if (largest < small) {
-            for (k = done; k < t->dimension; k++) t->v[term + k * t->terms] = 0;
-            continue;
-        }
+        if (largest < small) continue; /* no pivot, but it stays: the last coefficients of a Chebyshev series are small */
         swap_vectors(t, done, k);
         clear_row(t, term, done);
         t->pivot[done++] = term;
@@ -138,9 +135,9 @@ static void reduce(table *t, double small)
     t->dimension = done;
 }
 
-static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n, double small)
+static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n, size_t count, double small)
 {
-    table t = {.terms = a->terms, .dimension = n->likely};
+    table t = {.terms = a->terms, .dimension = count};
     t.v = nh_alloc_array(t.terms * t.dimension + 1, sizeof *t.v);
     t.size = nh_alloc_array(t.terms + 1, sizeof *t.size);
     t.order = nh_alloc_array(t.terms + 1, sizeof *t.order);
@@ -239,9 +236,9 @@ static size_t candidate_complexity(const nh_dag *dag, const nh_candidate *c)
 }
 
 nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const nh_ansatz *ansatz, const nh_nullspace *nullspace,
-                          const nh_options *options)
+                          size_t count, const nh_options *options)
 {
-    table t = make_table(model, points, ansatz, nullspace, options->support);
+    table t = make_table(model, points, ansatz, nullspace, count, options->support);
     nh_candidates *list = nh_alloc(sizeof *list);
     list->arena = nh_arena_create();
     list->candidate = take(list, t.dimension, sizeof *list->candidate);

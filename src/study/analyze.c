@@ -90,6 +90,15 @@ static nh_nullspace *current_route(nh_result *r, const nh_ansatz *a, const nh_po
     return s;
 }
 
+/* The null vectors; then, where the spectrum is in doubt, those that are only likely, of which a certificate decides. */
+static void collect(nh_result *r, nh_workbench *bench, const nh_ansatz *a, const nh_points *points, const nh_nullspace *s)
+{
+    bool sure = s->likely == s->dimension;
+    nh_candidates *list = nh_echelon(r->model, points, a, s, sure ? s->dimension : s->likely, &r->options);
+    for (size_t k = 0; k < list->count; k++) nh_currents_add(bench, &list->candidate[k], points, sure);
+    nh_candidates_free(list);
+}
+
 static bool linear_problem(nh_result *r, size_t families, const nh_family *family, double *clock, nh_error *error)
 {
     nh_points *ranges = nh_points_create(r->model, least_samples, 1, (uint64_t)r->options.seed, error);
@@ -105,14 +114,12 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
         r->samples = points->count;
         r->rejected = points->tried - points->count;
         if (r->route != NH_ROUTE_CURRENT) nh_routes_compare(r, a, points, s);
-        nh_candidates *candidates = nh_echelon(r->model, points, a, s, &r->options);
         r->timing.nullspace = lap(clock);
         nh_workbench *bench = nh_workbench_create(r, error);
         good = bench != NULL;
-        for (size_t k = 0; k < candidates->count && good; k++) nh_currents_add(bench, &candidates->candidate[k], points, s->likely == s->dimension);
+        if (good) collect(r, bench, a, points, s);
         if (good) nh_currents_finish(bench);
         nh_workbench_free(bench);
-        nh_candidates_free(candidates);
         r->timing.currents = lap(clock);
     }
     nh_nullspace_free(s);

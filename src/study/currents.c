@@ -271,7 +271,7 @@ static bool keeps(nh_result *r, const nh_found *f, bool certain)
 {
     if (f->proof.proved || f->proof.digits >= r->options.digits) return true;
     if (!certain) return false; /* it was only likely */
-    if (f->heldout <= r->options.heldout && !f->proof.refuted) return true;
+    if (f->heldout <= r->options.heldout && !(f->exact && f->proof.refuted)) return true; /* fitted coefficients never cancel further */
     nh_result_warn(r, "a combination that fits the samples to %.1e is not conserved (held-out residual %.1e, its rate cancels to %.0f digits): left out",
                    f->quotient, f->heldout, f->proof.digits);
     return false;

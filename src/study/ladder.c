@@ -144,7 +144,7 @@ static bool promising(climber *x, size_t families, const nh_family *family)
     solved s = solve_stage(x, families, family);
     bool fresh = false;
     if (s.nullspace && s.nullspace->likely) {
-        nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, &x->r->options);
+        nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &x->r->options);
         nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
         fresh = compare(x, list, kind) > 0;
         nh_free(kind);
@@ -152,6 +152,15 @@ static bool promising(climber *x, size_t families, const nh_family *family)
     }
     clear_stage(&s);
     return fresh;
+}
+
+/* The first `count` null vectors, turned into what is new in them. */
+static size_t harvest(climber *x, const solved *s, size_t count, bool certain)
+{
+    nh_candidates *list = nh_echelon(x->r->model, s->fit, s->ansatz, s->nullspace, count, &x->r->options);
+    size_t found = add_new(x, list, s->fit, certain);
+    nh_candidates_free(list);
+    return found;
 }
 
 static void run_stage(climber *x, const char *name, size_t families, const nh_family *family)
@@ -169,10 +178,9 @@ static void run_stage(climber *x, const char *name, size_t families, const nh_fa
         note->undecided = s.nullspace->verdict == NH_UNDECIDED;
         r->samples = s.fit->count > r->samples ? s.fit->count : r->samples;
         r->rejected += s.fit->tried - s.fit->count;
-        nh_candidates *list = nh_echelon(r->model, s.fit, s.ansatz, s.nullspace, &r->options);
-        note->found = add_new(x, list, s.fit, s.nullspace->likely == s.nullspace->dimension);
+        note->found = harvest(x, &s, s.nullspace->dimension, true);
+        if (s.nullspace->likely > s.nullspace->dimension) note->found += harvest(x, &s, s.nullspace->likely, false);
         keep_spectrum(r, s.nullspace, note->found > 0);
-        nh_candidates_free(list);
     }
     note->seconds = seconds() - start;
     clear_stage(&s);
@@ -334,7 +342,7 @@ static void all_pencils(climber *x)
 
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
-    enum { pencils_after = 2, known_after = 4 };
+    enum { pencils_after = 2, known_after = 5 };
     climber x = {.r = r, .start = seconds()};
     x.ranges = nh_points_create(r->model, range_points, 1, (uint64_t)r->options.seed, error);
     if (!x.ranges) return false;

@@ -158,6 +158,12 @@ static void stage_functions(shelf *s)
     add_product(s, &q, &f);
 }
 
+static void stage_linear_functions(shelf *s)
+{
+    list l = linear_words(s), f = functions(s, true);
+    if (f.n > 1) add_product(s, &l, &f);
+}
+
 /* Total degree in positions and velocities, with the atoms; only where the angles do not matter. */
 static void stage_total(shelf *s, size_t degree, bool with_functions)
 {
@@ -212,6 +218,7 @@ static const struct {
     {"energy, momenta, velocities, forms, positions, terms of the potential", stage_words},
     {"the same times 1, t and the positions", stage_words_positions},
     {"velocities and forms times first harmonics of the angles", stage_linear_waves},
+    {"velocities and forms times the system's own functions", stage_linear_functions},
     {"energy, momenta and forms times positions and the system's own functions", stage_functions},
     {"total degree 2 times the system's own functions", stage_degree_2},
     {"quadratic forms times positions", stage_weights},

@@ -1,0 +1,357 @@
+/* cli: what the commands print and return, in folders and environments like those of users.  (JSON: test_cli_json.c.) */
+#include "program.h"
+
+static const char FREE[] = "name: free\n"
+                           "title: A particle without forces\n"
+                           "parameters: [{name: m, value: 2.385}]\n"
+                           "coordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                           "lagrangian: m/2*(x'^2 + y'^2)\n";
+
+/* NHSYM_PATH of the project, as an environment. */
+static const char *const *project_path(const place *p)
+{
+    static char entry[PATH_MAX + 20];
+    static const char *const list[] = {entry, NULL};
+    snprintf(entry, sizeof entry, "NHSYM_PATH=%s", p->project);
+    return list;
+}
+
+static finished run_with_path(const place *p, const char *line) { return run_so(p, &(manner){.environment = project_path(p)}, line); }
+
+/* The program with `line` prints `out` and `err` exactly and returns `code`; NULL: anything. */
+static void check(const place *p, const char *line, int code, const char *out, const char *err)
+{
+    finished f = run_with_path(p, line);
+    cr_expect_eq(f.code, code, "nhsym %s: exit code %d, expected %d\n%s%s", line, f.code, code, f.out, f.err);
+    if (out) cr_expect_str_eq(f.out, out, "nhsym %s printed\n%s", line, f.out);
+    if (err) cr_expect_str_eq(f.err, err, "nhsym %s complained\n%s", line, f.err);
+    finished_clear(&f);
+}
+
+static void check_contains(const char *text, const char *part) { cr_expect_not_null(strstr(text, part), "`%s` is not in\n%s", part, text); }
+
+/* ---- usage ---- */
+
+Test(cli, wrong_usage_is_told_with_a_suggestion)
+{
+    static const struct { const char *line, *err; } list[] = {
+        {"analyz sleigh", "nhsym: there is no command `analyz`\nhint: did you mean `nhsym analyze`?\n"},
+        {"frobnicate", "nhsym: there is no command `frobnicate`\nhint: `nhsym help` lists the commands\n"},
+        {"analyze", "nhsym: analyze what?\nhint: nhsym analyze sleigh, or nhsym analyze mine.yaml\n"},
+        {"analyze sleigh tops", "nhsym: `nhsym analyze` takes one system, found `tops` too\n"},
+        {"analyze sleigh --seedd 3", "nhsym: there is no option `--seedd`\nhint: did you mean `--seed`?\n"},
+        {"analyze sleigh --frob", "nhsym: there is no option `--frob`\nhint: `nhsym help` lists them\n"},
+        {"analyze sleigh -z", "nhsym: there is no option `-z`\nhint: `nhsym help` lists them\n"},
+        {"analyze sleigh --seed", "nhsym: `--seed` needs a value\nhint: `nhsym help` shows how it is written\n"},
+        {"analyze sleigh --set k", "nhsym: --set needs NAME=VALUE, found `k`\n"},
+        {"analyze sleigh --set =3", "nhsym: --set needs NAME=VALUE, found `=3`\n"},
+        {"analyze sleigh --set k=two", "nhsym: --set k needs a number, found `two`\n"},
+        {"analyze sleigh --set k=", "nhsym: --set k needs a number, found ``\n"},
+        {"analyze sleigh --set k=nan", "nhsym: --set k needs a number, found `nan`\n"},
+        {"analyze sleigh --set k=inf", "nhsym: --set k needs a number, found `inf`\n"},
+        {"analyze sleigh --set kk=3", "nhsym: `kk` is not a parameter of sleigh\nhint: did you mean `k`?\n"},
+        {"analyze sleigh --seed -3", "nhsym: the option `seed` must lie between 0 and 1e+15, found `-3`\n"},
+        {"analyze sleigh --seed many", "nhsym: the option `seed` needs a number, found `many`\n"},
+        {"analyze sleigh --option sed=3", "nhsym: there is no option `sed`\nhint: did you mean `seed`?\n"},
+        {"analyze sleigh --option seed", "nhsym: --option needs NAME=VALUE, found `seed`\n"},
+        {"analyze sleigh --chart quasy", "nhsym: there is no chart `quasy`\nhint: --chart takes auto, quasi or coordinates\n"},
+        {"show", "nhsym: show which system?\nhint: nhsym show sleigh\n"},
+        {"explain gapp", "nhsym: nothing is known about `gapp`\nhint: did you mean `gap`?\n"},
+    };
+    place p = place_make();
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) check(&p, list[i].line, 2, "", list[i].err);
+    place_clear(&p);
+}
+
+Test(cli, unknown_systems_and_files)
+{
+    place p = place_make();
+    check(&p, "analyze sleig", 3, "", "nhsym: there is no system `sleig` in ./systems, in NHSYM_PATH or among the installed ones\nhint: did you mean `sleigh`?\n");
+    check(&p, "show sleig", 3, "", "nhsym: there is no system `sleig` in ./systems, in NHSYM_PATH or among the installed ones\nhint: did you mean `sleigh`?\n");
+    check(&p, "analyze xyzzyx", 3, "",
+          "nhsym: there is no system `xyzzyx` in ./systems, in NHSYM_PATH or among the installed ones\nhint: give the path of a file, or see `nhsym list`\n");
+    check(&p, "analyze no/such.yaml", 3, "", "nhsym: no/such.yaml: there is no such file\n");
+    check(&p, "analyze mine.yaml", 3, "", "nhsym: mine.yaml: there is no such file\n");
+    check(&p, "analyze sleigh --analysis sleig", 3, "",
+          "nhsym: there is no analysis `sleig` in ./analyses, in NHSYM_PATH or among the installed ones\nhint: did you mean `sleigh`?\n");
+    place_clear(&p);
+}
+
+Test(cli, a_bad_file_is_shown_where_it_is_bad)
+{
+    place p = place_make();
+    write_here(&p, "mine.yaml", "name: mine\ncoordinates: [x]\nlagrangian: m*x'^2\n");
+    check(&p, "analyze mine.yaml", 3, "",
+          "nhsym: mine.yaml:3:13: unknown name `m`\n  lagrangian: m*x'^2\n              ^\nhint: declare it under parameters, coordinates or definitions\n");
+    check(&p, "analyze mine.yaml --json -", 3, "", NULL); /* standard output stays clean */
+    place_clear(&p);
+}
+
+/* ---- exit codes ---- */
+
+Test(cli, no_current_is_a_success)
+{
+    place p = place_make();
+    write_here(&p, "mine.yaml", "name: mine\ncoordinates: [x, y]\nlagrangian: x'^2 + y'^2\nforces:\n  - x = -0.3*x' + y^2*x\n  - y = -0.4*y' - x^3\n");
+    write_here(&p, "ask.yaml", "ansatz:\n  - {basis: polynomial, in: [x', y', x, y], degree: 2}\n");
+    finished f = run_expecting(&p, "analyze mine.yaml --analysis ./ask.yaml", 0);
+    check_contains(f.out, "NONE");
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(cli, a_numerical_failure_is_explained)
+{
+    place p = place_make();
+    write_here(&p, "mine.yaml", "name: mine\ncoordinates: [x]\nlagrangian: x'^2 - sqrt(x - 5)\n");
+    finished f = run_expecting(&p, "analyze mine.yaml", 4);
+    check_contains(f.err, "sample points were usable");
+    check_contains(f.err, "domain:");
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(cli, a_limit_is_told)
+{
+    place p = place_make();
+    finished f = run_with_path(&p, "analyze sleigh --columns 3");
+    cr_expect_eq(f.code, 5);
+    cr_expect_str_eq(f.err, "nhsym: the ansatz has more than 3 columns\nhint: lower a degree or the harmonics, or raise the limit with --columns\n");
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* As on a full disk. */
+Test(cli, output_that_cannot_be_written_is_told)
+{
+    place p = place_make();
+    FILE *full = fopen("/dev/full", "w");
+    cr_assert_not_null(full, "this machine has no /dev/full");
+    fclose(full);
+    char line[PATH_MAX + 50], *argument[] = {"sh", "-c", line, NULL};
+    snprintf(line, sizeof line, "'%s' help >/dev/full", p.program);
+    finished f = run_vector(&p, &(manner){0}, argument);
+    cr_expect_eq(f.code, 4);
+    cr_expect_str_eq(f.err, "nhsym: the output could not be written\n");
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* ---- the small commands ---- */
+
+Test(cli, version_and_help)
+{
+    static const char *const asking[] = {"help", "--help", "-h", "", "analyze --help"};
+    place p = place_make();
+    finished version = run_expecting(&p, "version", 0), option = run_expecting(&p, "--version", 0);
+    cr_expect_eq(strncmp(version.out, "nhsym ", 6), 0, "%s", version.out);
+    cr_expect_str_eq(version.out, option.out);
+    for (size_t i = 0; i < sizeof asking / sizeof *asking; i++) {
+        finished f = run_expecting(&p, asking[i], 0);
+        check_contains(f.out, "nhsym analyze SYSTEM|FILE");
+        check_contains(f.out, "--set NAME=VALUE");
+        cr_expect_str_eq(f.err, "");
+        finished_clear(&f);
+    }
+    finished_clear(&version);
+    finished_clear(&option);
+    place_clear(&p);
+}
+
+Test(cli, explain_knows_its_own_topics)
+{
+    place p = place_make();
+    finished all = run_expecting(&p, "explain", 0);
+    char line[200], word[100];
+    int topics = 0;
+    for (const char *at = all.out; sscanf(at, "%99s", word) == 1; at = strchr(at, '\n') + 1, topics++) {
+        snprintf(line, sizeof line, "explain %s", word);
+        finished f = run_expecting(&p, line, 0);
+        cr_expect_gt(strlen(f.out), (size_t)30, "%s: %s", word, f.out);
+        finished_clear(&f);
+    }
+    cr_expect_gt(topics, 10);
+    finished options = run_expecting(&p, "explain options", 0);
+    check_contains(options.out, "seed         1 ");
+    finished_clear(&options);
+    finished_clear(&all);
+    place_clear(&p);
+}
+
+Test(cli, list_and_show)
+{
+    place p = place_make();
+    folder_here(&p, "systems", 0755);
+    write_here(&p, "systems/free.yaml", FREE);
+    write_here(&p, "systems/broken.yaml", "name: broken\n");
+    write_here(&p, "systems/note.txt", "not a system\n");
+    finished list = run_with_path(&p, "list"), show = run_expecting(&p, "show free", 0);
+    cr_expect_eq(list.code, 0);
+    check_contains(list.out, "free                     A particle without forces\n");
+    check_contains(list.out, "sleigh                   Chaplygin sleigh\n");
+    check_contains(list.out, "broken ");
+    cr_expect_null(strstr(list.out, "note"));
+    cr_expect_str_eq(show.out, FREE, "a file is shown byte by byte");
+    finished_clear(&list);
+    finished_clear(&show);
+    place_clear(&p);
+}
+
+/* ---- where systems are found ---- */
+
+Test(cli, a_system_of_ones_own_in_an_empty_folder)
+{
+    static const char *const lines[] = {"analyze mine.yaml", "analyze ./mine.yaml", "analyze sub/mine.yaml", "analyze free"};
+    place p = place_make();
+    write_here(&p, "mine.yaml", FREE);
+    folder_here(&p, "sub", 0755);
+    write_here(&p, "sub/mine.yaml", FREE);
+    folder_here(&p, "systems", 0755);
+    write_here(&p, "systems/free.yaml", FREE);
+    for (size_t i = 0; i < 4; i++) {
+        finished f = run_expecting(&p, lines[i], 0);
+        check_contains(f.out, "FOUND: 4 independent currents of at most 4");
+        check_contains(f.out, "momentum of x");
+        cr_expect_str_eq(f.err, "");
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* The folder first, then NHSYM_PATH in its order. */
+Test(cli, nhsym_path_is_searched_in_order)
+{
+    static const char *const both[] = {"NHSYM_PATH=first:second", NULL}, *const turned[] = {"NHSYM_PATH=second:::first", NULL}, *const none[] = {"NHSYM_PATH=", NULL};
+    place p = place_make();
+    folder_here(&p, "first", 0755);
+    folder_here(&p, "first/systems", 0755);
+    folder_here(&p, "second", 0755);
+    write_here(&p, "first/systems/which.yaml", "# first\n");
+    write_here(&p, "second/which.yaml", "# second\n");
+    finished a = run_so(&p, &(manner){.environment = both}, "show which"), b = run_so(&p, &(manner){.environment = turned}, "show which");
+    finished c = run_so(&p, &(manner){.environment = none}, "show which");
+    cr_expect_str_eq(a.out, "# first\n");
+    cr_expect_str_eq(b.out, "# second\n");
+    cr_expect_eq(c.code, 3);
+    folder_here(&p, "systems", 0755);
+    write_here(&p, "systems/which.yaml", "# here\n");
+    finished d = run_so(&p, &(manner){.environment = both}, "show which");
+    cr_expect_str_eq(d.out, "# here\n");
+    finished_clear(&a);
+    finished_clear(&b);
+    finished_clear(&c);
+    finished_clear(&d);
+    place_clear(&p);
+}
+
+/* `make install` into a folder; the program is then run there from elsewhere, without any setting. */
+Test(cli, the_installed_program_works_from_anywhere, .timeout = 300)
+{
+    place p = place_make();
+    char build[PATH_MAX + 8], destination[2 * PATH_MAX], *slash;
+    snprintf(build, sizeof build, "BUILD=%s", p.program);
+    if ((slash = strrchr(build, '/'))) *slash = 0;
+    snprintf(destination, sizeof destination, "DESTDIR=%s/root", p.folder);
+    char *argument[] = {"make", "-s", "-C", p.project, "-o", "all", "install", build, destination, "PREFIX=/opt/nh", NULL};
+    finished made = run_vector(&p, &(manner){0}, argument);
+    cr_assert_eq(made.code, 0, "make install: %s%s", made.out, made.err);
+    snprintf(p.program, sizeof p.program, "%.1000s/root/opt/nh/bin/nhsym", p.folder);
+    finished list = run_expecting(&p, "list", 0), f = run_expecting(&p, "analyze sleigh --set k=3", 0);
+    check_contains(list.out, "sleigh ");
+    check_contains(f.out, "nu = 1/k");
+    check_contains(f.out, "as given in the analysis file");
+    finished_clear(&made);
+    finished_clear(&list);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* ---- what a run prints ---- */
+
+Test(cli, settings_reach_the_result)
+{
+    place p = place_make();
+    write_here(&p, "mine.yaml", FREE);
+    finished f = run_expecting(&p, "analyze mine.yaml --set m=0.125", 0), last = run_expecting(&p, "analyze --set m=3 mine.yaml --set m=7.5", 0);
+    check_contains(f.out, "free   with m = 0.125\n");
+    check_contains(last.out, "free   with m = 7.5\n");
+    finished_clear(&f);
+    finished_clear(&last);
+    place_clear(&p);
+}
+
+Test(cli, quiet_prints_nothing)
+{
+    place p = place_make();
+    write_here(&p, "mine.yaml", FREE);
+    finished f = run_expecting(&p, "analyze mine.yaml --quiet", 0), q = run_expecting(&p, "analyze -q mine.yaml", 0);
+    cr_expect_str_eq(f.out, "");
+    cr_expect_str_eq(f.err, "");
+    cr_expect_str_eq(q.out, "");
+    finished_clear(&f);
+    finished_clear(&q);
+    place_clear(&p);
+}
+
+static bool coloured(const finished *f) { return strchr(f->out, '\x1b') != NULL; }
+
+Test(cli, colours_only_on_a_terminal_that_wants_them)
+{
+    static const char *const without[] = {"NO_COLOR=1", "TERM=xterm", NULL}, *const with[] = {"TERM=xterm", NULL};
+    place p = place_make();
+    write_here(&p, "mine.yaml", FREE);
+    finished terminal = run_so(&p, &(manner){.terminal = true, .environment = with}, "analyze mine.yaml");
+    finished no_color = run_so(&p, &(manner){.terminal = true, .environment = without}, "analyze mine.yaml");
+    finished option = run_so(&p, &(manner){.terminal = true, .environment = with}, "analyze mine.yaml --no-color");
+    finished pipe = run_so(&p, &(manner){.environment = with}, "analyze mine.yaml");
+    cr_expect(coloured(&terminal), "%s", terminal.out);
+    cr_expect_not(coloured(&no_color));
+    cr_expect_not(coloured(&option));
+    cr_expect_not(coloured(&pipe));
+    check_contains(no_color.out, "FOUND");
+    finished_clear(&terminal);
+    finished_clear(&no_color);
+    finished_clear(&option);
+    finished_clear(&pipe);
+    place_clear(&p);
+}
+
+/* The last line of a summary tells the time it took. */
+static void cut_last_line(char *text)
+{
+    size_t n = strlen(text);
+    cr_assert(n > 1 && text[n - 1] == '\n');
+    text[n - 1] = 0;
+    char *last = strrchr(text, '\n');
+    cr_assert(last && strstr(last, " ms ("), "%s", text);
+    *last = 0;
+}
+
+Test(cli, the_same_question_gets_the_same_answer)
+{
+    place p = place_make();
+    finished a = run_with_path(&p, "analyze sleigh --seed 5"), b = run_with_path(&p, "analyze sleigh --seed 5"), c = run_with_path(&p, "analyze sleigh --seed 6");
+    cut_last_line(a.out);
+    cut_last_line(b.out);
+    cut_last_line(c.out);
+    cr_expect_str_eq(a.out, b.out);
+    cr_expect_str_neq(a.out, c.out, "the seed chooses the samples");
+    finished_clear(&a);
+    finished_clear(&b);
+    finished_clear(&c);
+    place_clear(&p);
+}
+
+Test(cli, an_analysis_file_chooses_system_and_ansatz)
+{
+    place p = place_make();
+    write_here(&p, "mine.yaml", FREE);
+    write_here(&p, "ask.yaml", "system: ./mine.yaml\nset: {m: 4.5}\nansatz:\n  - terms: [\"x'\", \"x'*y\", x]\n");
+    finished f = run_expecting(&p, "analyze --analysis ./ask.yaml", 0), g = run_expecting(&p, "analyze mine.yaml --analysis ./ask.yaml --set m=6.5", 0);
+    check_contains(f.out, "free   with m = 4.5\n");
+    check_contains(f.out, "FOUND: 1 independent current");
+    check_contains(g.out, "free   with m = 6.5\n"); /* the command line has the last word */
+    finished_clear(&f);
+    finished_clear(&g);
+    place_clear(&p);
+}
