@@ -23,7 +23,7 @@ static nh_candidates *candidates_of(const nh_model *o, const nh_points *points, 
     nh_rows_current(rows, points, NULL, equations);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, &error);
     must(s != NULL, &error, "the null space");
-    nh_candidates *c = nh_echelon(o, points, a, s, &options);
+    nh_candidates *c = nh_echelon(o, points, a, s, s->dimension, &options);
     for (size_t i = 0; i < c->count; i++) nh_echelon_refine(o, points, &c->candidate[i], &options);
     nh_nullspace_free(s);
     nh_equations_free(equations);

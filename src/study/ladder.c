@@ -329,6 +329,23 @@ static bool done(const climber *x)
     return x->r->independent >= x->r->local_maximum || seconds() - x->start > x->r->options.max_seconds;
 }
 
+/* Each of the system's functions alone: many at once are nearly dependent on a small interval. */
+static void function_stages(climber *x)
+{
+    nh_result *r = x->r;
+    size_t n = x->words.velocities + x->words.forms;
+    nh_ex *linear = nh_arena_alloc(r->arena, (n + 1) * sizeof *linear);
+    memcpy(linear, x->words.velocity, x->words.velocities * sizeof *linear);
+    memcpy(linear + x->words.velocities, x->words.form, x->words.forms * sizeof *linear);
+    for (size_t i = 0; i < x->words.atoms && !done(x); i++) {
+        nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
+        part[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = linear};
+        part[1] = (nh_family){.kind = NH_TERMS, .terms = 1, .term = &x->words.atom[i]};
+        all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+        if (promising(x, 1, all)) run_stage(x, "velocities and forms times one function", 1, all);
+    }
+}
+
 /* The smallest base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
 static void all_pencils(climber *x)
 {
@@ -356,6 +373,7 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
     for (size_t i = 0; !done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
         run_stage(&x, stage.name, stage.families, stage.family);
         if (i + 1 == pencils_after) all_pencils(&x);
+        if (i + 1 == known_after) function_stages(&x);
         if (i + 1 == known_after && !done(&x)) known_stage(&x);
     }
     if (seconds() - x.start > r->options.max_seconds) {
