@@ -29,7 +29,7 @@
     X(same,             1e-9,    0,      1,     "",         "relative difference below which two fields agree at a point")          \
     X(recognise,        1e-10,   0,      1,     "",         "relative difference below which a number is taken for a simple one")   \
     X(agreement,        1e-8,    0,      1,     "",         "largest angle between the spaces found by the two routes")             \
-    X(evaluations,      300,     10,     1e7,   "",         "objective evaluations of the global search per unknown")               \
+    X(evaluations,      200,     10,     1e7,   "",         "objective evaluations of the global search per unknown")               \
     X(bits,             256,     64,     4096,  "bits",     "working precision of ball arithmetic")                                 \
     X(digits,           50,      10,     1000,  "digits",   "digits to which a residual must vanish to be certified")               \
     X(proof_terms,      20000,   100,    1e7,   "terms",    "largest polynomial that an exact proof may use")                       \

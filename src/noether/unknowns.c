@@ -9,7 +9,7 @@
 #include "noether/pencil.h"
 #include "system/sample.h"
 
-enum { most_basins = 12, generic_probes = 5, search_rows = 64 };
+enum { most_basins = 12, generic_probes = 3, search_rows = 40 };
 
 /* ---- the pencil ---- */
 
@@ -207,7 +207,7 @@ static double polish(objective *o, double *theta, double width)
         nlopt_set_min_objective(opt, evaluate, o);
         nlopt_set_initial_step(opt, step);
         nlopt_set_xtol_rel(opt, DBL_EPSILON);
-        nlopt_set_maxeval(opt, 50 * (int)n);
+        nlopt_set_maxeval(opt, 30 * (int)n);
         o->running = opt;
         nlopt_optimize(opt, best, &found);
         o->running = NULL;

@@ -2,6 +2,7 @@
 
 #include <cjson/cJSON.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,8 +14,19 @@ typedef struct {
     nh_dag *dag;
 } writer;
 
-/* Numbers that are not finite become null: cJSON writes them so. */
-static void put_number(cJSON *to, const char *key, double x) { cJSON_AddItemToObject(to, key, isfinite(x) ? cJSON_CreateNumber(x) : cJSON_CreateNull()); }
+/* The shortest text that reads back as the same double (cJSON itself gives up the last digit); null when x is not finite. */
+static cJSON *number(double x)
+{
+    char text[40];
+    if (!isfinite(x)) return cJSON_CreateNull();
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, x);
+        if (strtod(text, NULL) == x) break;
+    }
+    return cJSON_CreateRaw(text);
+}
+
+static void put_number(cJSON *to, const char *key, double x) { cJSON_AddItemToObject(to, key, number(x)); }
 
 static cJSON *expression(const writer *w, nh_ex e)
 {
@@ -49,7 +61,7 @@ static void put_expressions(const writer *w, cJSON *to, const char *key, size_t 
 static void put_numbers(cJSON *to, const char *key, size_t n, const double *x, size_t stride)
 {
     cJSON *array = put_array(to, key);
-    for (size_t i = 0; i < n; i++) cJSON_AddItemToArray(array, isfinite(x[i * stride]) ? cJSON_CreateNumber(x[i * stride]) : cJSON_CreateNull());
+    for (size_t i = 0; i < n; i++) cJSON_AddItemToArray(array, number(x[i * stride]));
 }
 
 /* ---- the system ---- */

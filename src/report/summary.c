@@ -24,30 +24,53 @@ static void faint(writer *w, bool on)
     if (w->style.colour) nh_text_add(w->out, on ? "\033[2m" : "\033[0m");
 }
 
-/* "label = text", broken after operators so that nothing runs off the page. */
-static void formula(writer *w, int indent, const char *label, nh_ex e)
+/* The user's own abbreviations, from the analysis file, instead of what they stand for. */
+static nh_ex abbreviate(const writer *w, nh_ex e)
 {
-    char *text = nh_print_string(w->r->model->dag, e);
-    int at = indent + (int)nh_text_width(label), hang = at < 24 ? at : indent + 4;
-    nh_text_addf(w->out, "%*s%s", indent, "", label);
-    const char *rest = text;
-    while ((int)strlen(rest) > line_width - at) {
-        int cut = 0, depth = 0, room = line_width - at;
-        for (int i = 1; i < room; i++) { /* the last "+" or "-" of the outermost depth seen, else any */
-            if (rest[i] == '(') depth++;
-            if (rest[i] == ')') depth--;
+    const nh_analysis *a = w->r->analysis;
+    nh_dag *d = w->r->model->dag;
+    for (size_t i = a ? a->definitions : 0; i-- > 0;) {
+        nh_kind kind = nh_kind_of(d, a->definition[i].value);
+        if (kind == NH_NUMBER || kind == NH_SYMBOL) continue;
+        nh_ex name = nh_symbol(d, a->definition[i].name), value = a->definition[i].value;
+        bool root = kind == NH_PRODUCT && nh_arity(d, value) == 1 && nh_num_is(nh_constant_of(d, value), 1)
+                    && nh_exponent_of(d, value, 0) == nh_ratio(d, 1, 2);
+        e = root ? nh_substitute_root(d, e, nh_child(d, value, 0), name) : nh_substitute(d, e, 1, &value, &name);
+    }
+    return e;
+}
+
+static void abbreviations(writer *w)
+{
+    const nh_analysis *a = w->r->analysis;
+    for (size_t i = 0; a && i < a->definitions; i++) nh_text_addf(w->out, "  %s %s = %s\n", i ? "     " : "where", a->definition[i].name, a->definition[i].text);
+}
+
+/* A formula that begins at column `hang`, broken before + and - (or after *) so that nothing runs off the page. */
+static void wrapped(writer *w, int hang, const char *rest)
+{
+    int room = line_width - hang;
+    while ((int)strlen(rest) > room) {
+        int cut = 0;
+        for (int i = 1; i < room; i++)
             if (rest[i] == ' ' && (rest[i + 1] == '+' || rest[i + 1] == '-')) cut = i;
-        }
-        if (!cut)
-            for (int i = 1; i < room; i++)
-                if (rest[i] == '*') cut = i;
+        for (int i = 1; i < room && !cut; i++)
+            if (rest[room - i] == '*') cut = room - i + 1;
         if (!cut) break;
         nh_text_add_n(w->out, rest, (size_t)cut);
         nh_text_addf(w->out, "\n%*s", hang, "");
         rest += cut + (rest[cut] == ' ');
-        at = hang;
     }
     nh_text_addf(w->out, "%s\n", rest);
+}
+
+/* "label = formula" */
+static void formula(writer *w, int indent, const char *label, nh_ex e)
+{
+    char *text = nh_print_string(w->r->model->dag, abbreviate(w, e));
+    int at = indent + (int)nh_text_width(label);
+    nh_text_addf(w->out, "%*s%s", indent, "", label);
+    wrapped(w, at < 24 ? at : indent + 4, text);
     nh_free(text);
 }
 
@@ -120,16 +143,36 @@ static const char *case_text(int kase)
     }
 }
 
+/* A plus or minus outside all parentheses, after the first character. */
+static bool reads_as_sum(const char *text)
+{
+    int depth = 0;
+    for (const char *c = text; *c; c++) {
+        depth += (*c == '(') - (*c == ')');
+        if (depth == 0 && *c == ' ' && (c[1] == '+' || c[1] == '-')) return true;
+    }
+    return false;
+}
+
 static void component(writer *w, nh_ex e, const char *along, bool *first)
 {
     nh_dag *d = w->r->model->dag;
     if (nh_is_zero(d, e)) return;
-    char *text = nh_print_string(d, e);
-    nh_text_addf(w->out, "%s", *first ? "        Z = " : "\n          + ");
-    if (nh_is_number(d, e, 1)) nh_text_addf(w->out, "d/d%s", along);
-    else nh_text_addf(w->out, nh_kind_of(d, e) == NH_SUM ? "(%s) d/d%s" : "%s d/d%s", text, along);
+    e = abbreviate(w, e);
+    nh_text_addf(w->out, "%s", *first ? "        Z = " : "          + ");
     *first = false;
-    nh_free(text);
+    if (nh_is_number(d, e, 1)) {
+        nh_text_addf(w->out, "d/d%s\n", along);
+        return;
+    }
+    nh_text text;
+    nh_text_init(&text);
+    char *printed = nh_print_string(d, e);
+    bool sum = reads_as_sum(printed);
+    nh_text_addf(&text, "%s%s%s d/d%s", sum ? "(" : "", printed, sum ? ")" : "", along);
+    nh_free(printed);
+    wrapped(w, 12, nh_text_string(&text));
+    nh_text_clear(&text);
 }
 
 /* Components along time, coordinates and the velocities of the coordinate chart (the paper's basis) where there is one. */
@@ -149,7 +192,7 @@ static void field_lines(writer *w, const nh_found *f)
                 if (chart->chart->w[i] == r->system->coordinate[s].v) e = z->coordinate_rate[s];
         component(w, e, nh_name_of(o->dag, chart->chart->w[i]), &first);
     }
-    nh_text_add(w->out, first ? "        Z = 0\n" : "\n");
+    if (first) nh_text_add(w->out, "        Z = 0\n");
 }
 
 static void certificate(writer *w, const nh_found *f)
@@ -212,6 +255,7 @@ static void answer(writer *w)
     heading(w, nh_text_string(&title));
     nh_text_clear(&title);
     for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);
+    abbreviations(w);
 }
 
 /* ---- evidence ---- */
