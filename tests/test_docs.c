@@ -146,14 +146,18 @@ static bool was_printed(const walk *w, const char *wanted)
 
 static void check_shown(walk *w, char *block)
 {
+    nh_text missing;
+    nh_text_init(&missing);
     for (char *line; (line = next_line(&block));) {
         nh_text plain;
         normalise(line, &plain);
         const char *wanted = nh_text_string(&plain);
-        if (*wanted && !strstr(wanted, "...")) cr_expect(was_printed(w, wanted), "%s: this line is not printed: %s\n%s", w->page, line, nh_text_string(&w->printed));
+        if (*wanted && !strstr(wanted, "...") && !was_printed(w, wanted)) nh_text_addf(&missing, "%s\n", line);
         w->shown++;
         nh_text_clear(&plain);
     }
+    cr_expect(!missing.length, "%s: these lines are not printed:\n%s\nbut this is:\n%s", w->page, nh_text_string(&missing), nh_text_string(&w->printed));
+    nh_text_clear(&missing);
 }
 
 static void write_file(const walk *w, const char *name, const char *text)

@@ -224,8 +224,10 @@ Test(geometry, the_mass_matrix_is_the_projected_hessian) { everywhere(mass_matri
 
 static void momenta_at(sheet *s)
 {
+    double all = 0; /* Lbar adds them up: one of them cannot be better than its share in the others */
+    for (size_t i = 0; i < s->n; i++) all += fabs(s->pbar[i]);
     for (size_t i = 0; i < s->n; i++) {
-        double sum = 0, size = 0;
+        double sum = 0, size = all;
         for (size_t q = 0; q < s->m; q++) {
             sum += s->p[q] * s->R[q * s->n + i];
             size += fabs(s->p[q] * s->R[q * s->n + i]);

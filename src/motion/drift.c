@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
 
 typedef struct {
     const nh_model *model;
@@ -15,6 +16,7 @@ typedef struct {
     double *times, *z0, *scale;
     size_t watches;
     const nh_watch *watch;
+    bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
 } run;
 
 /* ---- currents along a motion ---- */
@@ -55,9 +57,27 @@ static size_t terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
     return 1 + n;
 }
 
+/* Where does the chart lose digits?  One flag per output. */
+static bool *steep_points(run *r, const nh_motion *motion, bool *any)
+{
+    const nh_model *o = r->model;
+    size_t n = o->m * o->n;
+    bool *steep = nh_alloc_array(motion->count + 1, sizeof *steep);
+    double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
+    *any = false;
+    bool good = !o->chart->quasi && o->k && along(r, motion, n, o->R, R);
+    for (size_t i = 0; i < motion->count && good; i++) {
+        for (size_t j = 0; j < n; j++) steep[i] |= !(fabs(R[i * n + j]) < steepest);
+        *any |= steep[i];
+    }
+    nh_free(R);
+    return steep;
+}
+
 /* Each current and, for its scale, its terms. */
 static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi, size_t which)
 {
+    bool any, *steep = steep_points(r, motion, &any);
     for (size_t k = 0; k < n; k++) {
         nh_ex *e;
         size_t per = terms_of(r->model->dag, phi[k], &e);
@@ -66,6 +86,7 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
         double scale = 0, worst = 0;
         bool good = along(r, motion, per, e, value);
         for (size_t i = 0; i < motion->count && good; i++) {
+            if (steep[i]) continue;
             for (size_t j = 0; j < per; j++) scale = fmax(scale, fabs(value[i * per + j]));
             worst = fmax(worst, fabs(value[i * per] - value[0]));
             good = isfinite(worst) && isfinite(scale);
@@ -75,6 +96,7 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
         nh_free(value);
         nh_free(e);
     }
+    nh_free(steep);
 }
 
 static void judge(nh_validation *v, const nh_options *options)
@@ -227,13 +249,53 @@ static void keep(run *r, const nh_motion *motion)
     if (!motion->complete) snprintf(v->note, sizeof v->note, "%.250s", motion->note);
 }
 
-static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
+static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_error *error)
 {
     nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
+    return nh_flow(&problem, r->z0, r->outputs, r->times, options, error);
+}
+
+/* The motion in (q, v), brought to the chart's (q, w) afterwards. */
+static nh_motion *full_motion(run *r, nh_flow_options options, nh_error *error)
+{
+    const nh_model *o = r->model;
+    size_t m = o->m, n = o->n;
+    nh_bordered *b = nh_bordered_create(o);
+    nh_flow_problem problem = nh_bordered_flow(b);
+    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
+    nh_motion first = {.count = 1, .size = m + n, .time = r->times, .state = r->z0};
+    memcpy(y, r->z0, m * sizeof *y);
+    for (size_t s = 0; s < 2 * m; s++) scale[s] = r->scale[0];
+    options.scale = scale;
+    bool good = along(r, &first, m, o->rho, y + m);
+    nh_motion *motion = good ? nh_flow(&problem, y, r->outputs, r->times, &options, error) : NULL;
+    for (size_t i = 0; motion && i < motion->count; i++) { /* in place: m + n <= 2 m */
+        double *from = motion->state + i * 2 * m, *to = motion->state + i * (m + n);
+        memmove(to, from, m * sizeof *to);
+        for (size_t j = 0; j < n; j++) y[j] = from[m + o->chart->free[j]];
+        memcpy(to + m, y, n * sizeof *to);
+    }
+    if (motion) motion->size = m + n;
+    nh_free(scale);
+    nh_free(y);
+    nh_bordered_free(b);
+    return motion;
+}
+
+static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
+{
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
         nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps};
-        nh_motion *motion = nh_flow(&problem, r->z0, r->outputs, r->times, &options, error);
+        nh_motion *motion = r->everywhere ? full_motion(r, options, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
+        bool steep;
+        nh_free(steep_points(r, motion, &steep));
+        if (!r->everywhere && (steep || !motion->complete) && !r->model->chart->quasi && r->model->k && !r->model->chart->implicit && !r->model->chart->branch) {
+            r->everywhere = true; /* begin again, in a formulation that is regular there */
+            r->out->chart = "all coordinates (the chart breaks down on the way)";
+            nh_motion_free(motion);
+            return all_runs(r, other, n, current, initial, error);
+        }
         measure(r, motion, n, current, i);
         if (i == NH_DRIFT_RUNS - 1) {
             keep(r, motion);

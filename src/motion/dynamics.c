@@ -180,6 +180,7 @@ struct nh_bordered {
     nh_tape *tape; /* K, h, F, g, f */
     nh_tape_work *work;
     double *in, *out;
+    double *terms, *matrix, *right; /* of the bordered system, for the accelerations */
 };
 
 nh_bordered *nh_bordered_create(const nh_model *o)
@@ -207,6 +208,9 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     }
     nh_bordered *b = nh_alloc(sizeof *b);
     *b = (nh_bordered){.m = m, .k = k, .in = nh_alloc_array(1 + 2 * m, sizeof *b->in), .out = nh_alloc_array(total + 1, sizeof *b->out)};
+    b->terms = nh_alloc_array(total + 1, sizeof *b->terms);
+    b->matrix = nh_alloc_array((m + k) * (m + k), sizeof *b->matrix);
+    b->right = nh_alloc_array(m + k, sizeof *b->right);
     b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
     b->work = nh_tape_work_create(b->tape);
     nh_free(in);
@@ -221,6 +225,9 @@ void nh_bordered_free(nh_bordered *b)
     nh_tape_free(b->tape);
     nh_free(b->in);
     nh_free(b->out);
+    nh_free(b->terms);
+    nh_free(b->matrix);
+    nh_free(b->right);
     nh_free(b);
 }
 
@@ -262,15 +269,37 @@ nh_chetaev_problem nh_bordered_problem(nh_bordered *b)
     return (nh_chetaev_problem){.coordinates = b->m, .constraints = b->k, .context = b, .terms = terms_of};
 }
 
+/*     [ K  F^T ] [ v' ]     [ h ]
+ *     [ F   0  ] [ mu ] = - [ g ]                                                                                        */
+static bool bordered_rate(double t, const double *z, double *rate, void *context)
+{
+    nh_bordered *b = context;
+    size_t m = b->m, k = b->k, n = m + k;
+    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
+    if (!terms_of(t, z, z + m, b->terms, h, F, g, f, b)) return false;
+    memset(b->matrix, 0, n * n * sizeof *b->matrix);
+    for (size_t s = 0; s < m; s++) {
+        for (size_t r = 0; r < m; r++) b->matrix[s + r * n] = b->terms[s + r * m];
+        for (size_t a = 0; a < k; a++) b->matrix[m + a + s * n] = b->matrix[s + (m + a) * n] = F[a + s * k];
+        b->right[s] = -h[s];
+    }
+    for (size_t a = 0; a < k; a++) b->right[m + a] = -g[a];
+    if (!nh_solve(n, b->matrix, 1, b->right, NULL)) return false;
+    memcpy(rate, z + m, m * sizeof *rate);
+    memcpy(rate + m, b->right, m * sizeof *rate);
+    return finite_all(2 * m, rate);
+}
+
+nh_flow_problem nh_bordered_flow(nh_bordered *b) { return (nh_flow_problem){.size = 2 * b->m, .context = b, .rate = bordered_rate}; }
+
 bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *v, const double *mu, double *force)
 {
     size_t m = b->m, k = b->k;
-    double *space = nh_alloc_array(m * m + m + k * m + 2 * k + 1, sizeof *space), *h = space + m * m, *F = h + m, *g = F + k * m, *f = g + k;
-    bool good = terms_of(t, q, v, space, h, F, g, f, b);
+    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
+    bool good = terms_of(t, q, v, b->terms, h, F, g, f, b);
     for (size_t s = 0; s < m; s++) {
         force[s] = 0;
         for (size_t a = 0; a < k; a++) force[s] += mu[a] * F[a + s * k];
     }
-    nh_free(space);
     return good;
 }

@@ -30,6 +30,10 @@ typedef struct nh_bordered nh_bordered;
 nh_bordered *nh_bordered_create(const nh_model *model);
 void nh_bordered_free(nh_bordered *bordered);
 nh_chetaev_problem nh_bordered_problem(nh_bordered *bordered);
+/* The same equations solved for the accelerations: (q, v)' = (v, v'(t, q, v)), regular wherever the constraints are independent,
+ * whatever the charts do. */
+nh_flow_problem nh_bordered_flow(nh_bordered *bordered);
+
 /* force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
 bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu, double *force);
 

@@ -115,15 +115,32 @@ static size_t equilibrate(nh_basis *basis, size_t rows, size_t columns, const do
     return count;
 }
 
+/* Column `kept` of R has come: with it the distance of each column from the span of all others, 1 / |row i of R^-1|, falls.  (A slowly
+ * growing dependence, cos x = T_0 + T_2 + ..., leaves no small pivot.)  square[i]: |row i of R^-1|^2; returns the column with the largest. */
+static size_t watch_rows(size_t kept, const double *r, size_t ld, double *square, double *y)
+{
+    size_t worst = kept;
+    double rest = r[kept + kept * ld];
+    memcpy(y, r + kept * ld, kept * sizeof *y);
+    if (kept) nh_solve_triangle(kept, 1, r, ld, y, kept);
+    square[kept] = 1 / (rest * rest);
+    for (size_t i = 0; i < kept; i++) {
+        square[i] += y[i] / rest * (y[i] / rest);
+        if (square[i] > square[worst]) worst = i;
+    }
+    return worst;
+}
+
 /* Gram-Schmidt, twice for round-off, in the given order: a column that depends on those before it is dropped, so that the caller's
  * order (simplest first) decides which of dependent columns stay.  q: rows x available, unit columns; overwritten by the orthonormal ones
- * that are kept.  r gets the triangle with leading dimension `available`. */
-static void keep_independent(nh_basis *basis, size_t rows, size_t available, double *q, double *r, double rank)
+ * that are kept.  r gets the triangle with leading dimension `available`.  Returns a column that must go first because, much more than any
+ * later one, it depends on the others; `available` when there is none. */
+static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, double *q, double *r, double rank)
 {
-    double *h = nh_alloc_array(available, sizeof *h), *shadow = nh_alloc_array(rows, sizeof *shadow);
-    size_t kept = 0;
+    double *h = nh_alloc_array(2 * available, sizeof *h), *square = h + available, *shadow = nh_alloc_array(rows + available, sizeof *shadow);
+    size_t kept = 0, *from = nh_alloc_array(available, sizeof *from), intruder = available;
     basis->smallest_kept = 1;
-    for (size_t j = 0; j < available; j++) {
+    for (size_t j = 0; j < available && intruder == available; j++) {
         double *x = q + j * rows, *column = r + kept * available;
         memset(column, 0, available * sizeof *column);
         for (int pass = 0; pass < 2 && kept; pass++) {
@@ -140,11 +157,45 @@ static void keep_independent(nh_basis *basis, size_t rows, size_t available, dou
         basis->smallest_kept = fmin(basis->smallest_kept, rest);
         column[kept] = rest;
         for (size_t i = 0; i < rows; i++) q[i + kept * rows] = x[i] / rest;
+        from[kept] = j;
+        size_t worst = watch_rows(kept, r, available, square, shadow);
+        if (sqrt(square[worst]) * rank > 1) {
+            basis->largest_dropped = fmax(basis->largest_dropped, 1 / sqrt(square[worst]));
+            intruder = from[worst];
+        }
         basis->column[kept++] = basis->column[j];
     }
     basis->count = kept;
+    nh_free(from);
     nh_free(shadow);
     nh_free(h);
+    return intruder;
+}
+
+/* The independent columns of those listed in basis->column, with their triangle. */
+static bool choose_columns(nh_basis *basis, size_t rows, size_t available, const double *b, size_t ld, double rank)
+{
+    double *q = nh_alloc_array(rows * available, sizeof *q), *r = nh_alloc_array(available * available, sizeof *r);
+    size_t *candidate = nh_alloc_array(available, sizeof *candidate), intruder = 0;
+    memcpy(candidate, basis->column, available * sizeof *candidate);
+    for (bool again = true; again && available > 0;) {
+        memcpy(basis->column, candidate, available * sizeof *candidate);
+        basis->count = available;
+        nh_basis_gather(basis, rows, b, ld, q);
+        if (!isfinite(norm(rows * available, q))) break;
+        intruder = keep_independent(basis, rows, available, q, r, rank);
+        again = intruder < available;
+        if (!again) break;
+        memmove(candidate + intruder, candidate + intruder + 1, (available - intruder - 1) * sizeof *candidate);
+        available--;
+    }
+    bool good = intruder == available && available > 0;
+    basis->r = nh_alloc_array(basis->count * basis->count + 1, sizeof(double));
+    for (size_t j = 0; j < basis->count && good; j++) memcpy(basis->r + j * basis->count, r + j * available, (j + 1) * sizeof *r);
+    nh_free(candidate);
+    nh_free(q);
+    nh_free(r);
+    return good;
 }
 
 bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, const double *size,
@@ -156,18 +207,7 @@ bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b
     size_t available = equilibrate(basis, rows, columns, b, ld, size, options->trivial);
     if (available == 0)
         return true;
-    basis->count = available;
-    double *q = nh_alloc_array(rows * available, sizeof *q), *r = nh_alloc_array(available * available, sizeof *r);
-    nh_basis_gather(basis, rows, b, ld, q);
-    bool finite = isfinite(norm(rows * available, q));
-    if (finite) {
-        keep_independent(basis, rows, available, q, r, options->rank);
-        basis->r = nh_alloc_array(basis->count * basis->count, sizeof(double));
-        for (size_t j = 0; j < basis->count; j++) memcpy(basis->r + j * basis->count, r + j * available, (j + 1) * sizeof *r);
-    }
-    nh_free(q);
-    nh_free(r);
-    if (finite) return true;
+    if (choose_columns(basis, rows, available, b, ld, options->rank)) return true;
     nh_basis_clear(basis);
     return nh_fail(error, NH_NUMERIC, "", "the columns of the ansatz are too large to be compared (overflow in the QR)");
 }

@@ -128,20 +128,27 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
     return good;
 }
 
-/* FOUND needs a certificate; a null space in doubt, or a current that is small but not certified, is UNDECIDED. */
+/* Were there null vectors that could be true but got no certificate?  Small values without a gap behind them are the tail of a badly
+ * conditioned ansatz, not candidates. */
+static bool open_question(const nh_result *r)
+{
+    bool any = r->stages == 0 && r->current.likely > r->current.dimension && r->count < r->current.likely;
+    for (size_t i = 0; i < r->stages; i++) any |= r->stage[i].undecided && r->stage[i].found == 0;
+    return any;
+}
+
+/* FOUND needs a certificate for every current; NONE needs a spectrum without a gap at rounding. */
 static void conclude(nh_result *r)
 {
-    bool certified = r->count > 0;
+    bool certified = true;
     for (size_t k = 0; k < r->count; k++) certified &= r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits;
-    r->verdict = r->current.verdict;
-    if (r->count == 0 && r->verdict == NH_FOUND) r->verdict = NH_UNDECIDED;
-    if (r->verdict == NH_FOUND && !certified) {
-        r->verdict = NH_UNDECIDED;
+    bool open = open_question(r), failed = r->count == 0 && r->current.dimension > 0;
+    r->verdict = r->count == 0 ? (open || failed ? NH_UNDECIDED : NH_NONE) : certified ? NH_FOUND : NH_UNDECIDED;
+    if (!certified)
         nh_result_warn(r, "a current could not be certified to %g digits; it is conserved to the digits given with it", r->options.digits);
-    }
-    if (r->current.verdict == NH_UNDECIDED)
-        nh_result_warn(r, "the spectrum has values between rounding and significance: enlarge the ansatz, or take more samples with --samples");
-    if (r->current.rank_in_doubt)
+    if (r->count == 0 && open)
+        nh_result_warn(r, "some null vectors could be true but got no certificate: another ansatz, or more samples (--samples), would decide");
+    if (r->stages == 0 && r->current.rank_in_doubt)
         nh_result_warn(r, "two columns of the ansatz are nearly dependent: which were kept is a matter of the option `rank`");
 }
 

@@ -175,7 +175,7 @@ static void run_stage(climber *x, const char *name, size_t families, const nh_fa
     if (s.nullspace) {
         note->dimension = s.nullspace->dimension;
         note->gap = s.nullspace->gap;
-        note->undecided = s.nullspace->verdict == NH_UNDECIDED;
+        note->undecided = s.nullspace->likely > s.nullspace->dimension;
         r->samples = s.fit->count > r->samples ? s.fit->count : r->samples;
         r->rejected += s.fit->tried - s.fit->count;
         note->found = harvest(x, &s, s.nullspace->dimension, true);

@@ -8,7 +8,7 @@ enum { most_warnings = 200 };
 
 nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
 {
-    nh_spectrum c = {.done = true, .verdict = s->verdict, .columns = s->columns, .rows = s->rows, .rank = s->rank, .dimension = s->dimension,
+    nh_spectrum c = {.done = true, .verdict = s->verdict, .columns = s->columns, .rows = s->rows, .rank = s->rank, .dimension = s->dimension, .likely = s->likely,
                      .gap = s->gap, .rank_in_doubt = s->rank_in_doubt};
     c.spectrum = nh_arena_alloc(arena, (s->rank + 1) * sizeof *c.spectrum);
     if (s->rank) memcpy(c.spectrum, s->spectrum, s->rank * sizeof *c.spectrum);

@@ -31,7 +31,7 @@ typedef struct {
 typedef struct {
     bool done;
     nh_verdict verdict;
-    size_t columns, rows, rank, dimension;
+    size_t columns, rows, rank, dimension, likely;
     double *spectrum, gap;
     bool rank_in_doubt;
 } nh_spectrum;
@@ -41,7 +41,7 @@ typedef struct {
     const char *name;
     size_t columns, dimension, found; /* found: new independent currents */
     double gap, seconds;
-    bool skipped, undecided;          /* skipped: too many columns */
+    bool skipped, undecided;          /* skipped: too many columns; undecided: likely null vectors without a certificate */
 } nh_tried;
 
 typedef struct {
