@@ -103,14 +103,6 @@ static void omega_at(sheet *s)
     nh_free(b);
 }
 
-static void omega_closed_forms(const subject *s, mechanics *x)
-{
-    (void)s;
-    at_points(x, omega_at);
-}
-
-Test(geometry, omega_has_the_closed_forms_M_A_G) { everywhere(omega_closed_forms); }
-
 /* Basis fields as expressions, kinds as in sheet_field, then d/dt and the d/dq^s. */
 static nh_field field_of(const nh_model *o, size_t kind, nh_ex *space, nh_ex *velocity)
 {
@@ -237,14 +229,6 @@ static void momenta_at(sheet *s)
     }
 }
 
-static void momenta(const subject *s, mechanics *x)
-{
-    (void)s;
-    at_points(x, momenta_at);
-}
-
-Test(geometry, projected_momenta_are_derivatives_of_the_constrained_lagrangian) { everywhere(momenta); }
-
 /* i_Gamma Omega vanishes on the distribution, up to the applied forces. */
 static void kernel_at(sheet *s)
 {
@@ -260,14 +244,6 @@ static void kernel_at(sheet *s)
     nh_free(b);
 }
 
-static void kernel(const subject *s, mechanics *x)
-{
-    (void)s;
-    at_points(x, kernel_at);
-}
-
-Test(geometry, gamma_is_in_the_kernel_of_omega) { everywhere(kernel); }
-
 /* M is symmetric, and M a = A. */
 static void equations_at(sheet *s)
 {
@@ -281,14 +257,6 @@ static void equations_at(sheet *s)
         near(s, sum, s->A[i], size, "M a", i, 0);
     }
 }
-
-static void equations(const subject *s, mechanics *x)
-{
-    (void)s;
-    at_points(x, equations_at);
-}
-
-Test(geometry, accelerations_solve_M_a_A) { everywhere(equations); }
 
 /* ---- multipliers ---- */
 
@@ -317,14 +285,6 @@ static void multipliers_at(sheet *s)
         }
 }
 
-static void multipliers(const subject *s, mechanics *x)
-{
-    (void)s;
-    at_points(x, multipliers_at);
-}
-
-Test(geometry, chetaev_multipliers_carry_the_whole_reaction) { everywhere(multipliers); }
-
 /* ---- energy ---- */
 
 /* Gamma(E) = (Q_s + reaction_s) v^s - dL/dt */
@@ -344,7 +304,6 @@ static void energy_at(sheet *s)
 static void energy(const subject *which, mechanics *x)
 {
     const nh_model *o = x->model;
-    at_points(x, energy_at);
     nh_ex rate = nh_model_gamma(o, o->E);
     if (which->conservative && which->exact) zero(x, rate, "Gamma(E)", 0, 0);
     nh_points *points = points_of(o, POINTS, 23);
@@ -357,7 +316,18 @@ static void energy(const subject *which, mechanics *x)
     nh_points_free(points);
 }
 
-Test(geometry, energy_balance) { everywhere(energy); }
+/* All of the above at points, in one pass: making the models takes longer than checking them.
+ *     omega_at        Omega has the closed forms M, A, G             momenta_at      pbar_i = p_s R^s_i = dLbar/dw^i
+ *     kernel_at       i_Gamma Omega vanishes, up to forces           equations_at    M is symmetric, M a = A
+ *     multipliers_at  c_s = mu_a nu_as for all s, nu R = 0           energy_at       the balance of the energy */
+static void identities(const subject *which, mechanics *x)
+{
+    check_at *const each[] = {omega_at, momenta_at, kernel_at, equations_at, multipliers_at, energy_at};
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++) at_points(x, each[i]);
+    energy(which, x);
+}
+
+Test(geometry, identities) { everywhere(identities); }
 
 /* Linear constraints do no work: the energy changes by the power of the applied forces, identically. */
 Test(geometry, energy_changes_by_the_power_of_the_forces)

@@ -128,21 +128,12 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
     return good;
 }
 
-/* Were there null vectors that could be true but got no certificate?  Small values without a gap behind them are the tail of a badly
- * conditioned ansatz, not candidates. */
-static bool open_question(const nh_result *r)
-{
-    bool any = r->stages == 0 && r->current.likely > r->current.dimension && r->count < r->current.likely;
-    for (size_t i = 0; i < r->stages; i++) any |= r->stage[i].undecided && r->stage[i].found == 0;
-    return any;
-}
-
 /* FOUND needs a certificate for every current; NONE needs a spectrum without a gap at rounding. */
 static void conclude(nh_result *r)
 {
     bool certified = true;
     for (size_t k = 0; k < r->count; k++) certified &= r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits;
-    bool open = open_question(r), failed = r->count == 0 && r->current.dimension > 0;
+    bool open = r->open > 0, failed = r->count == 0 && r->current.dimension > 0;
     r->verdict = r->count == 0 ? (open || failed ? NH_UNDECIDED : NH_NONE) : certified ? NH_FOUND : NH_UNDECIDED;
     if (!certified)
         nh_result_warn(r, "a current could not be certified to %g digits; it is conserved to the digits given with it", r->options.digits);

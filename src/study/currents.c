@@ -12,7 +12,7 @@
 #include "noether/recognise.h"
 #include "study/dependence.h"
 
-enum { heldout_count = 256, generic_count = 24 };
+enum { heldout_count = 256, generic_count = 24, open_digits = 12 };
 
 static nh_ex parameter_value(const nh_model *o, size_t i)
 {
@@ -270,7 +270,10 @@ static void independence(nh_result *r, const nh_points *generic)
 static bool keeps(nh_result *r, const nh_found *f, bool certain)
 {
     if (f->proof.proved || f->proof.digits >= r->options.digits) return true;
-    if (!certain) return false; /* it was only likely */
+    if (!certain) { /* it was only likely: what cancels as far as doubles go remains an open question, the rest is answered */
+        r->open += f->proof.digits >= open_digits;
+        return false;
+    }
     if (f->heldout <= r->options.heldout && !(f->exact && f->proof.refuted)) return true; /* fitted coefficients never cancel further */
     nh_result_warn(r, "a combination that fits the samples to %.1e is not conserved (held-out residual %.1e, its rate cancels to %.0f digits): left out",
                    f->quotient, f->heldout, f->proof.digits);

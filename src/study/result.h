@@ -72,6 +72,7 @@ typedef struct {
     size_t specials;
     nh_special *special;
     size_t count, capacity, independent, local_maximum;
+    size_t open;              /* null vectors that could be true but got no certificate */
     nh_found *found;
     nh_verdict verdict;
     nh_validation *validation; /* NULL when no motion could be computed */
