@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -15,6 +15,8 @@ static const struct option long_options[] = {
     {"analysis", required_argument, NULL, opt_analysis}, {"no-analysis", no_argument, NULL, opt_no_analysis},
     {"chart", required_argument, NULL, opt_chart},       {"option", required_argument, NULL, opt_option},
     {"columns", required_argument, NULL, opt_columns},   {"no-color", no_argument, NULL, opt_no_color},
+    {"current", required_argument, NULL, opt_current},   {"field", required_argument, NULL, opt_field},
+    {"max-seconds", required_argument, NULL, opt_max_seconds},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -81,6 +83,9 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_samples: return cli->samples_given = true, nh_options_set(&cli->options, "samples", value, error);
     case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
+    case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error);
+    case opt_current: cli->current = value; return true;
+    case opt_field: cli->field = value; return true;
     case opt_columns: return nh_options_set(&cli->options, "columns", value, error);
     case opt_option: return assignment(cli, value, "option", &name, &text, error) && nh_options_set(&cli->options, name, text, error);
     case opt_chart: return set_chart(cli, value, error);

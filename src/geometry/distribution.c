@@ -6,7 +6,7 @@
 #include "base/linalg.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
-#include "system/embedding_internal.h"
+#include "system/embedding.h"
 
 const char *nh_constraint_type_name(nh_constraint_type type)
 {
@@ -19,7 +19,7 @@ static bool vanishes(const nh_model *o, nh_ex e)
 {
     nh_zero_verdict verdict = nh_normal_is_zero(o->dag, e, 0);
     if (verdict == NH_ZERO) return true;
-    return nh_embedding_score(o->chart, e) == 0;
+    return nh_chart_pivot_score(o->chart, e) == 0;
 }
 
 static nh_constraint_type type_of(const nh_model *o)

@@ -6,7 +6,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/print.h"
-#include "system/embedding_internal.h"
+#include "system/embedding.h"
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }
 
@@ -134,7 +134,7 @@ static void matrices(nh_model *o)
 static bool accelerations(nh_model *o, nh_error *error)
 {
     size_t rank;
-    o->M_lu = nh_lu_create(o->dag, o->n, o->M, nh_embedding_score, o->chart, &rank);
+    o->M_lu = nh_lu_create(o->dag, o->n, o->M, nh_chart_pivot_score, o->chart, &rank);
     if (!o->M_lu) {
         char *entry = nh_print_string(o->dag, o->M[rank * o->n + rank]);
         const nh_system *y = o->system;
@@ -174,7 +174,7 @@ static bool multipliers(nh_model *o, nh_error *error)
             N[a * k + e] = nh_simplify(d, sum);
         }
     }
-    nh_lu *lu = nh_lu_create(d, k, N, nh_embedding_score, o->chart, NULL);
+    nh_lu *lu = nh_lu_create(d, k, N, nh_chart_pivot_score, o->chart, NULL);
     if (!lu) return nh_fail(error, NH_NUMERIC, "", "the constraints of %s become dependent on the sampling domain", y->name);
     nh_lu_solve(lu, b, o->mu);
     for (size_t a = 0; a < k; a++) o->mu[a] = nh_simplify(d, o->mu[a]);

@@ -160,6 +160,8 @@ double nh_embedding_score(void *context, nh_ex e)
     return most < 1e-13 || !isfinite(least) ? 0 : least + 1e-12 * most;
 }
 
+double nh_chart_pivot_score(void *chart, nh_ex e) { return nh_embedding_score(chart, e); }
+
 /* ---- the user's quasi-velocities ---- */
 
 static void probes_of_quasi(nh_chart *c, uint64_t seed)

@@ -53,6 +53,9 @@ bool nh_chart_inverse(const nh_chart *chart, nh_ex *w_of_v);
  * holds on both branches. */
 nh_ex nh_chart_both_branches(const nh_chart *chart, nh_ex e);
 
+/* nh_pivot_score over the chart's probes (context: the chart). */
+double nh_chart_pivot_score(void *chart, nh_ex e);
+
 /* f^a = lhs - rhs in coordinate velocities, and composed with the embedding. */
 nh_ex nh_chart_constraint(const nh_chart *chart, size_t a);
 nh_ex nh_chart_compose(const nh_chart *chart, nh_ex e); /* v replaced by rho */

@@ -1,0 +1,41 @@
+#include <string.h>
+
+#include "base/output.h"
+#include "cli/cli.h"
+#include "report/verdict.h"
+
+static bool ask(nh_cli *cli, nh_verdict_of_one **out, nh_error *error)
+{
+    if (cli->operands != 1 || !cli->current == !cli->field) {
+        nh_fail(error, NH_USAGE, "", "verify needs one system and either --current or --field");
+        return nh_error_hint(error, "nhsym verify sleigh --current \"m*v\", or --field \"Z0=1; phi=phi'; x=x'\"");
+    }
+    const char *path = nh_cli_find(cli, "systems", cli->operand[0], error);
+    nh_system *system = path ? nh_system_read(path, cli->settings, cli->setting, error) : NULL;
+    if (!system) return false;
+    if (cli->current) *out = nh_verify_current(system, cli->chart, cli->current, &cli->options, error);
+    else *out = nh_verify_field(system, cli->chart, cli->field, &cli->options, error);
+    return *out != NULL;
+}
+
+int nh_cli_verify(nh_cli *cli, nh_error *error)
+{
+    nh_verdict_of_one *v = NULL;
+    if (!ask(cli, &v, error) || !v) return error->code;
+    bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true, conserved = v->conserved;
+    if (!to_stdout && !cli->quiet) {
+        nh_text text;
+        nh_text_init(&text);
+        nh_verdict_text(v, cli->field != NULL, &text);
+        fputs(nh_text_string(&text), stdout);
+        nh_text_clear(&text);
+    }
+    if (cli->json) {
+        char *json = nh_verdict_json(v);
+        if (to_stdout) fputs(json, stdout);
+        else good = nh_output_write(cli->json, json, strlen(json), error);
+        nh_free(json);
+    }
+    nh_verdict_free(v);
+    return !good ? (int)error->code : conserved ? NH_OK : NH_REFUTED;
+}

@@ -1,0 +1,11 @@
+/* verdict: the answer to `verify` as text and as JSON (schema version 1, docs/formats.md). */
+#ifndef NH_VERDICT_REPORT_H
+#define NH_VERDICT_REPORT_H
+
+#include "base/text.h"
+#include "study/verify.h"
+
+void nh_verdict_text(const nh_verdict_of_one *verdict, bool field, nh_text *out);
+char *nh_verdict_json(const nh_verdict_of_one *verdict); /* a heap string (nh_free), ending in a newline */
+
+#endif

@@ -1,0 +1,268 @@
+#include "study/verify.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "expr/diff.h"
+#include "expr/normal.h"
+
+enum { test_points = 256, generic_points = 24 };
+
+static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const nh_options *options, nh_error *error)
+{
+    nh_model *model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
+    if (!model) {
+        nh_system_free(system);
+        return NULL;
+    }
+    nh_arena *arena = nh_arena_create();
+    nh_verdict_of_one *v = nh_arena_alloc(arena, sizeof *v);
+    *v = (nh_verdict_of_one){.arena = arena, .system = system, .model = model};
+    return v;
+}
+
+void nh_verdict_free(nh_verdict_of_one *v)
+{
+    if (!v) return;
+    nh_model_free(v->model);
+    nh_system_free(v->system);
+    nh_arena_free(v->arena);
+}
+
+/* ---- the worst point of an expression that should vanish ---- */
+
+/* |e| / max(sum of |terms|, floor): where it is largest the point is kept. */
+static bool worst_point(nh_verdict_of_one *v, const nh_points *points, size_t n, const nh_ex *term, double *residual)
+{
+    size_t count = points->count, worst = count;
+    double *value = nh_alloc_array(n * count + 1, sizeof *value), most = 0, rate = 0;
+    nh_points_evaluate(points, v->model, n, term, value);
+    for (size_t p = 0; p < count; p++) {
+        double sum = 0, size = 0;
+        for (size_t j = 0; j < n; j++) {
+            sum += value[j * count + p];
+            size += fabs(value[j * count + p]);
+        }
+        double r = size > 0 ? fabs(sum) / size : 0;
+        if (!isfinite(r) || r <= most) continue;
+        most = r;
+        worst = p;
+        rate = sum;
+    }
+    nh_free(value);
+    *residual = most;
+    if (worst == count) return false;
+    if (!v->counterexample) v->counterexample = nh_arena_alloc(v->arena, v->model->width * sizeof(double));
+    for (size_t j = 0; j < v->model->width; j++) v->counterexample[j] = points->column[j][worst];
+    v->rate = rate;
+    return true;
+}
+
+/* The terms of Gamma(Phi): one for each direction. */
+static size_t rate_terms(nh_verdict_of_one *v, nh_ex phi, nh_ex **out)
+{
+    const nh_model *o = v->model;
+    nh_dag *d = o->dag;
+    size_t n = 1 + o->m + o->n;
+    nh_ex *term = nh_arena_alloc(v->arena, n * sizeof *term);
+    term[0] = nh_diff(d, phi, o->system->t);
+    for (size_t s = 0; s < o->m; s++) term[1 + s] = nh_mul(d, o->rho[s], nh_diff(d, phi, o->system->coordinate[s].q));
+    for (size_t i = 0; i < o->n; i++) term[1 + o->m + i] = nh_mul(d, o->a[i], nh_model_Y(o, i, phi));
+    *out = term;
+    return n;
+}
+
+static bool accepts(const nh_proof *proof, double residual, const nh_options *options)
+{
+    return proof->proved || (proof->digits >= options->digits && residual <= options->heldout);
+}
+
+static bool examine(nh_verdict_of_one *v, const nh_options *options, nh_error *error)
+{
+    nh_points *points = nh_points_create(v->model, test_points, 1.2, (uint64_t)options->seed + 7, error);
+    nh_points *generic = points ? nh_points_create(v->model, generic_points, 1, (uint64_t)options->seed + 8, error) : NULL;
+    if (!generic) {
+        nh_points_free(points);
+        return false;
+    }
+    nh_ex *term;
+    size_t n = rate_terms(v, v->current, &term);
+    v->proof = nh_prove_zero(v->model, n, term, true, options);
+    bool found = worst_point(v, points, n, term, &v->residual);
+    v->conserved = accepts(&v->proof, v->residual, options);
+    v->has_counterexample = found && !v->conserved;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (v->conserved) v->has_symmetry = nh_symmetry_of(v->model, generic, v->current, options->same, &v->symmetry, &ignored);
+    nh_points_free(generic);
+    nh_points_free(points);
+    return true;
+}
+
+nh_verdict_of_one *nh_verify_current(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
+{
+    nh_verdict_of_one *v = start(system, chart, options, error);
+    nh_ex e;
+    if (!v) return NULL;
+    bool good = nh_system_expression_text(system, "--current", text, 0, NULL, &e, error) && nh_analysis_to_chart(v->model, e, &v->current, error);
+    if (good) {
+        v->current = nh_simplify(v->model->dag, v->current);
+        v->trivial = nh_kind_of(v->model->dag, v->current) == NH_NUMBER;
+        good = examine(v, options, error);
+    }
+    if (good) return v;
+    nh_verdict_free(v);
+    return NULL;
+}
+
+/* ---- fields ---- */
+
+/* What the user gave: along t, the coordinates and, optionally, the velocities of the chart. */
+typedef struct {
+    nh_ex time, *space, *zeta, *W;
+    bool has_W;
+} given;
+
+/* One "name=expression" between semicolons. */
+static bool component(nh_verdict_of_one *v, const char *text, size_t length, given *g, nh_error *error)
+{
+    char *part = nh_arena_strndup(v->arena, text, length), *equal = strchr(part, '=');
+    while (*part == ' ') part++;
+    if (!*part) return true;
+    if (!equal) return nh_fail(error, NH_USAGE, "--field", "a component `name=expression` was expected, found `%s`", part);
+    size_t n = (size_t)(equal - part);
+    while (n && part[n - 1] == ' ') n--;
+    char *name = nh_arena_strndup(v->arena, part, n);
+    long index = nh_system_coordinate(v->system, name);
+    bool is_time = !strcmp(name, "Z0") || !strcmp(name, "t");
+    nh_ex e, *to = is_time ? &g->time : index >= 0 ? &g->space[index] : NULL;
+    for (size_t i = 0; i < v->model->n && !to; i++)
+        if (!strcmp(name, nh_name_of(v->model->dag, v->model->chart->w[i]))) {
+            to = &g->W[i];
+            g->has_W = true;
+        }
+    if (!to) {
+        nh_fail(error, NH_USAGE, "--field", "`%s` is neither Z0 nor a coordinate nor a velocity of the chart", name);
+        return nh_error_hint(error, "components along time (Z0) and the coordinates determine the field; those not named are 0");
+    }
+    return nh_system_expression_text(v->system, "--field", equal + 1, 0, NULL, &e, error) && nh_analysis_to_chart(v->model, e, to, error);
+}
+
+/* zeta with Z^s = zeta^i R^s_i + rho^s Z^0, from n rows of R: those of the free coordinates, or least squares for quasi-velocities. */
+static bool solve_zeta(nh_verdict_of_one *v, nh_ex time, const nh_ex *space, nh_ex *zeta, nh_error *error)
+{
+    const nh_model *o = v->model;
+    nh_dag *d = o->dag;
+    size_t n = o->n, m = o->m;
+    nh_ex *rest = nh_arena_alloc(v->arena, (m + 1) * sizeof *rest);
+    for (size_t s = 0; s < m; s++) rest[s] = nh_sub(d, space[s], nh_mul(d, o->rho[s], time));
+    if (!o->chart->quasi) {
+        for (size_t i = 0; i < n; i++) zeta[i] = rest[o->chart->free[i]];
+        return true;
+    }
+    nh_ex *N = nh_arena_alloc(v->arena, (n * n + 1) * sizeof *N);
+    for (size_t i = 0; i < n; i++) {
+        zeta[i] = nh_int(d, 0);
+        for (size_t j = 0; j < n; j++) N[i * n + j] = nh_int(d, 0);
+        for (size_t s = 0; s < m; s++) {
+            zeta[i] = nh_add(d, zeta[i], nh_mul(d, o->R[s * n + i], rest[s]));
+            for (size_t j = 0; j < n; j++) N[i * n + j] = nh_add(d, N[i * n + j], nh_mul(d, o->R[s * n + i], o->R[s * n + j]));
+        }
+    }
+    for (size_t i = 0; i < n * n; i++) N[i] = nh_simplify(d, N[i]);
+    nh_lu *lu = nh_lu_create(d, n, N, nh_chart_pivot_score, o->chart, NULL);
+    if (!lu) return nh_fail(error, NH_NUMERIC, "", "the chart %s degenerates on the sampling domain", o->chart->name);
+    nh_lu_solve(lu, zeta, zeta);
+    nh_lu_free(lu);
+    for (size_t i = 0; i < n; i++) zeta[i] = nh_simplify(d, zeta[i]);
+    return true;
+}
+
+/* The terms of the k-th condition: Z in the canonical distribution (m), (N0), (NY) (n); (NX) (n) only determines W and is checked only when
+ * the user gave W. */
+static size_t condition(nh_verdict_of_one *v, const given *g, size_t k, nh_ex *term)
+{
+    const nh_model *o = v->model;
+    nh_dag *d = o->dag;
+    size_t n = 0, m = o->m;
+    if (k < m) { /* Z^s = zeta^i R^s_i + rho^s Z^0 */
+        term[n++] = nh_neg(d, g->space[k]);
+        term[n++] = nh_mul(d, o->rho[k], g->time);
+        for (size_t i = 0; i < o->n; i++) term[n++] = nh_mul(d, g->zeta[i], o->R[k * o->n + i]);
+        v->equation = nh_arena_printf(v->arena, "the canonical distribution, component %s", o->system->coordinate[k].name);
+    } else if (k == m) {
+        term[n++] = nh_model_X0(o, v->current);
+        for (size_t i = 0; i < o->n; i++) term[n++] = nh_mul(d, o->A[i], g->zeta[i]);
+        v->equation = "(N0)";
+    } else if (k <= m + o->n) {
+        size_t j = k - m - 1;
+        term[n++] = nh_model_Y(o, j, v->current);
+        for (size_t i = 0; i < o->n; i++) term[n++] = nh_neg(d, nh_mul(d, o->M[i * o->n + j], g->zeta[i]));
+        v->equation = nh_arena_printf(v->arena, "(NY) for %s", nh_name_of(d, o->chart->w[j]));
+    } else {
+        size_t j = k - m - 1 - o->n;
+        term[n++] = nh_model_X(o, j, v->current);
+        term[n++] = nh_neg(d, nh_mul(d, o->A[j], g->time));
+        for (size_t i = 0; i < o->n; i++) {
+            term[n++] = nh_mul(d, o->G[i * o->n + j], g->zeta[i]);
+            term[n++] = nh_mul(d, o->M[i * o->n + j], g->W[i]);
+        }
+        v->equation = nh_arena_printf(v->arena, "(NX) for %s", nh_name_of(d, o->chart->w[j]));
+    }
+    return n;
+}
+
+static bool check_field(nh_verdict_of_one *v, const given *g, const nh_options *options, nh_error *error)
+{
+    const nh_model *o = v->model;
+    nh_points *points = nh_points_create(o, test_points, 1.2, (uint64_t)options->seed + 7, error);
+    if (!points) return false;
+    size_t total = o->m + 1 + (g->has_W ? 2 : 1) * o->n;
+    nh_ex *term = nh_arena_alloc(v->arena, (2 * o->n + 4) * sizeof *term);
+    v->conserved = true;
+    v->proof = (nh_proof){.proved = true, .all_parameters = true, .digits = INFINITY};
+    for (size_t k = 0; k < total && v->conserved; k++) {
+        size_t n = condition(v, g, k, term);
+        nh_proof proof = nh_prove_zero(o, n, term, true, options);
+        double residual;
+        bool found = worst_point(v, points, n, term, &residual);
+        v->residual = fmax(v->residual, residual);
+        v->conserved = accepts(&proof, residual, options);
+        v->has_counterexample = found && !v->conserved;
+        v->proof.proved &= proof.proved;
+        v->proof.all_parameters &= proof.all_parameters;
+        v->proof.digits = fmin(v->proof.digits, proof.digits);
+    }
+    nh_points_free(points);
+    return true;
+}
+
+nh_verdict_of_one *nh_verify_field(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
+{
+    nh_verdict_of_one *v = start(system, chart, options, error);
+    if (!v) return NULL;
+    nh_model *o = v->model;
+    given g = {.time = nh_int(o->dag, 0), .space = nh_arena_alloc(v->arena, (o->m + 1) * sizeof(nh_ex)),
+               .zeta = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex)), .W = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex))};
+    bool good = true; /* node 0 is the number 0: components not named vanish */
+    for (const char *p = text; good && *p;) {
+        size_t length = strcspn(p, ";");
+        good = component(v, p, length, &g, error);
+        p += length + (p[length] == ';');
+    }
+    good = good && solve_zeta(v, g.time, g.space, g.zeta, error);
+    if (good) {
+        v->current = nh_simplify(o->dag, nh_symmetry_current(o, g.time, g.zeta));
+        v->trivial = nh_kind_of(o->dag, v->current) == NH_NUMBER;
+        good = check_field(v, &g, options, error);
+    }
+    nh_points *generic = good && v->conserved ? nh_points_create(o, generic_points, 1, (uint64_t)options->seed + 8, error) : NULL;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (generic) v->has_symmetry = nh_symmetry_of(o, generic, v->current, options->same, &v->symmetry, &ignored);
+    nh_points_free(generic);
+    if (good) return v;
+    nh_verdict_free(v);
+    return NULL;
+}

@@ -1,0 +1,33 @@
+/* verify: is this a first integral, is this a constraint symmetry?
+ *
+ * A current is confirmed by proof or by its digits, and shown with the field it comes from; or refuted with a point at which its rate is
+ * not zero.  A field Z^0, Z^s is a constraint symmetry when zeta^i from it satisfies (N0), (NX), (NY). */
+#ifndef NH_VERIFY_H
+#define NH_VERIFY_H
+
+#include "study/result.h"
+
+typedef struct {
+    nh_arena *arena;
+    nh_system *system;
+    nh_model *model;
+    nh_ex current;            /* in the chart; of a field: its current alpha(Z) */
+    bool conserved;           /* or: is a constraint symmetry */
+    bool trivial;             /* the current is constant */
+    bool has_symmetry;
+    nh_symmetry symmetry;
+    nh_proof proof;
+    double residual;          /* largest relative rate on random points */
+    bool has_counterexample;
+    double *counterexample;   /* model->width values (t, q, w, u) */
+    double rate;              /* Gamma(Phi), or the violated equation, there */
+    const char *equation;     /* which equation of a field fails: "(N0)", "(NY) for phi'", ... */
+} nh_verdict_of_one;
+
+/* NULL when the question cannot be asked (bad input). */
+nh_verdict_of_one *nh_verify_current(nh_system *system, nh_chart_choice chart, const char *current, const nh_options *options, nh_error *error);
+/* "Z0=..; phi=..; x=..": components along t and the coordinates, those not named are 0. */
+nh_verdict_of_one *nh_verify_field(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
+void nh_verdict_free(nh_verdict_of_one *verdict); /* with the system */
+
+#endif
