@@ -1,10 +1,8 @@
 #include "report/verdict.h"
 
-#include <cjson/cJSON.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
+#include "base/json.h"
 #include "expr/print.h"
 
 static void put(nh_text *out, nh_dag *dag, const char *label, nh_ex e)
@@ -60,55 +58,46 @@ void nh_verdict_text(const nh_verdict_of_one *v, bool field, nh_text *out)
     if (v->has_symmetry && !v->trivial) put_field(v, out);
 }
 
-static void add_expression(cJSON *to, const char *key, nh_dag *dag, nh_ex e)
+static void put_expression(nh_json *to, const char *key, nh_dag *dag, nh_ex e)
 {
     char *text = nh_print_string(dag, e);
-    cJSON_AddStringToObject(to, key, text);
+    nh_json_put_text(to, key, text);
     nh_free(text);
 }
 
-static void add_number(cJSON *to, const char *key, double x) { cJSON_AddItemToObject(to, key, isfinite(x) ? cJSON_CreateNumber(x) : cJSON_CreateNull()); }
-
-static void add_symmetry(const nh_verdict_of_one *v, cJSON *to)
+static void put_symmetry(const nh_verdict_of_one *v, nh_json *to)
 {
     nh_dag *d = v->model->dag;
-    cJSON *item = cJSON_AddObjectToObject(to, "symmetry"), *components = NULL;
-    add_expression(item, "Z0", d, v->symmetry.Z0);
-    components = cJSON_AddObjectToObject(item, "components");
-    add_expression(components, "t", d, v->symmetry.Z0);
-    for (size_t s = 0; s < v->model->m; s++) add_expression(components, v->system->coordinate[s].name, d, v->symmetry.field.space[s]);
-    for (size_t i = 0; i < v->model->n; i++) add_expression(components, nh_name_of(d, v->model->chart->w[i]), d, v->symmetry.W[i]);
-    cJSON_AddNumberToObject(item, "case", v->symmetry.kase);
-    cJSON_AddBoolToObject(item, "bracket_in_distribution", v->symmetry.bracket_in_distribution);
+    nh_json *item = nh_json_put_object(to, "symmetry"), *components;
+    put_expression(item, "Z0", d, v->symmetry.Z0);
+    components = nh_json_put_object(item, "components");
+    put_expression(components, "t", d, v->symmetry.Z0);
+    for (size_t s = 0; s < v->model->m; s++) put_expression(components, v->system->coordinate[s].name, d, v->symmetry.field.space[s]);
+    for (size_t i = 0; i < v->model->n; i++) put_expression(components, nh_name_of(d, v->model->chart->w[i]), d, v->symmetry.W[i]);
+    nh_json_put_number(item, "case", v->symmetry.kase);
+    nh_json_put_bool(item, "bracket_in_distribution", v->symmetry.bracket_in_distribution);
 }
 
 char *nh_verdict_json(const nh_verdict_of_one *v)
 {
     nh_dag *d = v->model->dag;
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddNumberToObject(root, "schema", 1);
-    cJSON_AddBoolToObject(root, "conserved", v->conserved);
-    add_expression(root, "current", d, v->current);
-    cJSON_AddBoolToObject(root, "trivial", v->trivial);
-    if (v->has_symmetry) add_symmetry(v, root);
-    else cJSON_AddNullToObject(root, "symmetry");
-    add_number(root, "residual", v->residual);
-    add_number(root, "certified_digits", floor(v->proof.digits));
-    cJSON_AddBoolToObject(root, "proved", v->proof.proved);
-    cJSON_AddBoolToObject(root, "proved_for_all_parameters", v->proof.all_parameters);
+    nh_json *root = nh_json_object();
+    nh_json_put_number(root, "schema", 1);
+    nh_json_put_bool(root, "conserved", v->conserved);
+    put_expression(root, "current", d, v->current);
+    nh_json_put_bool(root, "trivial", v->trivial);
+    if (v->has_symmetry) put_symmetry(v, root);
+    else nh_json_put_null(root, "symmetry");
+    nh_json_put_number(root, "residual", v->residual);
+    nh_json_put_number(root, "certified_digits", floor(v->proof.digits));
+    nh_json_put_bool(root, "proved", v->proof.proved);
+    nh_json_put_bool(root, "proved_for_all_parameters", v->proof.all_parameters);
     if (v->has_counterexample) {
-        cJSON *point = cJSON_AddObjectToObject(root, "counterexample");
-        for (size_t j = 0; j < v->model->width; j++) add_number(point, nh_name_of(d, v->model->chart->symbol[j]), v->counterexample[j]);
-        add_number(point, "rate", v->rate);
+        nh_json *point = nh_json_put_object(root, "counterexample");
+        for (size_t j = 0; j < v->model->width; j++) nh_json_put_number(point, nh_name_of(d, v->model->chart->symbol[j]), v->counterexample[j]);
+        nh_json_put_number(point, "rate", v->rate);
     } else {
-        cJSON_AddNullToObject(root, "counterexample");
+        nh_json_put_null(root, "counterexample");
     }
-    char *printed = cJSON_Print(root);
-    cJSON_Delete(root);
-    size_t length = strlen(printed);
-    char *out = nh_alloc(length + 2);
-    memcpy(out, printed, length);
-    out[length] = '\n';
-    free(printed);
-    return out;
+    return nh_json_finish(root);
 }

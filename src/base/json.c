@@ -1,0 +1,63 @@
+#include "base/json.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+
+/* cJSON itself gives up the last digit. */
+static cJSON *number(double value)
+{
+    char text[40];
+    if (!isfinite(value)) return cJSON_CreateNull();
+    nh_text_number(value, text, sizeof text);
+    return cJSON_CreateRaw(text);
+}
+
+static nh_json *put(nh_json *object, const char *key, cJSON *item)
+{
+    cJSON_AddItemToObject(object, key, item);
+    return item;
+}
+
+static nh_json *add(nh_json *array, cJSON *item)
+{
+    cJSON_AddItemToArray(array, item);
+    return item;
+}
+
+static cJSON *text_or_null(const char *text) { return text ? cJSON_CreateString(text) : cJSON_CreateNull(); }
+
+nh_json *nh_json_object(void) { return cJSON_CreateObject(); }
+nh_json *nh_json_put_object(nh_json *object, const char *key) { return put(object, key, cJSON_CreateObject()); }
+nh_json *nh_json_put_array(nh_json *object, const char *key) { return put(object, key, cJSON_CreateArray()); }
+void nh_json_put_number(nh_json *object, const char *key, double value) { put(object, key, number(value)); }
+void nh_json_put_text(nh_json *object, const char *key, const char *text) { put(object, key, text_or_null(text)); }
+void nh_json_put_bool(nh_json *object, const char *key, bool value) { put(object, key, cJSON_CreateBool(value)); }
+void nh_json_put_null(nh_json *object, const char *key) { put(object, key, cJSON_CreateNull()); }
+void nh_json_put_copy(nh_json *object, const char *key, const nh_json *value) { put(object, key, cJSON_Duplicate(value, 1)); }
+nh_json *nh_json_add_object(nh_json *array) { return add(array, cJSON_CreateObject()); }
+void nh_json_add_number(nh_json *array, double value) { add(array, number(value)); }
+void nh_json_add_text(nh_json *array, const char *text) { add(array, text_or_null(text)); }
+nh_json *nh_json_get(const nh_json *object, const char *key) { return cJSON_GetObjectItem(object, key); }
+
+void nh_json_put_numbers(nh_json *object, const char *key, size_t n, const double *value, size_t stride)
+{
+    nh_json *array = nh_json_put_array(object, key);
+    for (size_t i = 0; i < n; i++) nh_json_add_number(array, value[i * stride]);
+}
+
+char *nh_json_finish(nh_json *root)
+{
+    char *printed = cJSON_Print(root);
+    cJSON_Delete(root);
+    size_t length = strlen(printed);
+    char *out = nh_alloc(length + 2);
+    memcpy(out, printed, length);
+    out[length] = '\n';
+    free(printed);
+    return out;
+}

@@ -1,0 +1,32 @@
+/* json: documents to be written, over cJSON.  Numbers read back exactly; what is not finite becomes null. */
+#ifndef NH_JSON_H
+#define NH_JSON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct cJSON nh_json; /* an object, an array, or a value; children belong to their parent */
+
+nh_json *nh_json_object(void);
+/* Members of an object. */
+nh_json *nh_json_put_object(nh_json *object, const char *key);
+nh_json *nh_json_put_array(nh_json *object, const char *key);
+void nh_json_put_number(nh_json *object, const char *key, double value);
+void nh_json_put_text(nh_json *object, const char *key, const char *text); /* null when text is NULL */
+void nh_json_put_bool(nh_json *object, const char *key, bool value);
+void nh_json_put_null(nh_json *object, const char *key);
+/* n numbers value[0], value[stride], ... */
+void nh_json_put_numbers(nh_json *object, const char *key, size_t n, const double *value, size_t stride);
+/* A copy of another member. */
+void nh_json_put_copy(nh_json *object, const char *key, const nh_json *value);
+/* Entries of an array. */
+nh_json *nh_json_add_object(nh_json *array);
+void nh_json_add_number(nh_json *array, double value);
+void nh_json_add_text(nh_json *array, const char *text);
+
+nh_json *nh_json_get(const nh_json *object, const char *key);
+
+/* The document as a heap string (nh_free) that ends in a newline; the document is freed. */
+char *nh_json_finish(nh_json *root);
+
+#endif
