@@ -16,6 +16,7 @@ for build in "$@"; do
         bad=$((all - good))
         [ "$code" != 0 ] && [ "$bad" = 0 ] && bad=1
         [ "$all" = 0 ] && bad=1
+        grep -aq -e 'LeakSanitizer: detected' -e 'runtime error:' -e 'ERROR: AddressSanitizer' "$log" && bad=$((bad + 1)) # Criterion passes these over
         printf '%-45s %4d passed %3d failed\n' "$program" "$good" "$bad"
         [ "$bad" = 0 ] || cat "$log"
         passed=$((passed + good))

@@ -57,7 +57,7 @@ nh_ex nh_int(nh_dag *dag, int64_t value);
 nh_ex nh_ratio(nh_dag *dag, int64_t p, int64_t q);
 nh_ex nh_real(nh_dag *dag, double value);
 nh_ex nh_symbol(nh_dag *dag, const char *name); /* the symbol of that name, made when new */
-/* A symbol of its own that prints as `name` but is not found by that name (implicit velocities, placeholders). */
+/* A symbol of its own that prints as `name` but is not found by that name (implicit velocities, names of currents). */
 nh_ex nh_symbol_fresh(nh_dag *dag, const char *name);
 bool nh_symbol_find(const nh_dag *dag, const char *name, nh_ex *out);
 nh_ex nh_add(nh_dag *dag, nh_ex a, nh_ex b);

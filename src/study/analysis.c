@@ -1,4 +1,4 @@
-#include "study/analysis.h"
+#include "study/analysis_internal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@ static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
-static bool choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error)
+bool nh_analysis_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error)
 {
     if (!node) return true;
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, what, error)) return false;
@@ -56,10 +56,10 @@ static bool read_head(nh_analysis *a, nh_error *error)
     const char *remark; /* title and doc are for the reader of the file */
     if (!text_of(a->deck, root, "name", "analysis", &a->name, error) || !text_of(a->deck, root, "system", NULL, &a->system, error)) return false;
     if (!text_of(a->deck, root, "title", "", &remark, error) || !text_of(a->deck, root, "doc", "", &remark, error)) return false;
-    if (!choice(a->deck, nh_deck_get(root, "route"), "route", routes, &index, error)) return false;
+    if (!nh_analysis_choice(a->deck, nh_deck_get(root, "route"), "route", routes, &index, error)) return false;
     a->route = (nh_route)index;
     index = 0;
-    if (!choice(a->deck, nh_deck_get(root, "chart"), "chart", charts, &index, error)) return false;
+    if (!nh_analysis_choice(a->deck, nh_deck_get(root, "chart"), "chart", charts, &index, error)) return false;
     a->chart = (nh_chart_choice)index;
     long whole;
     if ((node = nh_deck_get(root, "samples"))) {
@@ -118,16 +118,9 @@ bool nh_analysis_to_chart(const nh_model *o, nh_ex e, nh_ex *out, nh_error *erro
 
 /* ---- after the system: a reader with the names of the analysis ---- */
 
-typedef struct {
-    nh_analysis *a;
-    const nh_model *model;
-    const nh_deck_node *root;
-    nh_named *extra; /* E, Lbar, unknowns, definitions */
-    size_t extras, own; /* the first `own` are E and Lbar */
-    nh_error *error;
-} reader;
+typedef nh_analysis_reader reader;
 
-static void *take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->a->arena, (count + 1) * size); }
+void *nh_analysis_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->a->arena, (count + 1) * size); }
 
 /* nh_analysis_to_chart, complaining about the node. */
 static bool to_chart(reader *r, const nh_deck_node *node, nh_ex e, nh_ex *out)
@@ -137,7 +130,7 @@ static bool to_chart(reader *r, const nh_deck_node *node, nh_ex e, nh_ex *out)
     return nh_analysis_to_chart(r->model, e, out, &trouble) || nh_deck_fail(r->a->deck, node, 0, r->error, "%s", trouble.what);
 }
 
-static bool parse(reader *r, const nh_deck_node *node, nh_ex *out)
+bool nh_analysis_parse(reader *r, const nh_deck_node *node, nh_ex *out)
 {
     if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "an expression", r->error)) return false;
     nh_ex e;
@@ -172,7 +165,7 @@ static bool read_unknowns(reader *r)
     const nh_deck_node *map = nh_deck_get(r->root, "unknowns");
     if (!map) return true;
     if (!nh_deck_is(r->a->deck, map, NH_DECK_MAP, "unknowns {nu: [low, high]}", r->error)) return false;
-    r->a->unknown = take(r, map->count, sizeof *r->a->unknown);
+    r->a->unknown = nh_analysis_take(r, map->count, sizeof *r->a->unknown);
     for (size_t i = 0; i < map->count; i++) {
         double range[2];
         const char *name = map->key[i]->text;
@@ -206,7 +199,7 @@ static bool read_assignments(reader *r, const nh_deck_node *list, const char *wh
 {
     if (!list) return true;
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, what, r->error)) return false;
-    *out = take(r, list->count, sizeof **out);
+    *out = nh_analysis_take(r, list->count, sizeof **out);
     for (size_t i = 0; i < list->count; i++) {
         if (!read_assignment(r, list->item[i], visible, &(*out)[i])) return false;
         for (size_t j = 0; j < i; j++)
@@ -214,117 +207,6 @@ static bool read_assignments(reader *r, const nh_deck_node *list, const char *wh
         if (visible) r->extra[r->extras++] = (*out)[i];
         *count = i + 1;
     }
-    return true;
-}
-
-/* ---- families ---- */
-
-static bool read_in(reader *r, const nh_deck_node *item, nh_family *f)
-{
-    const nh_deck_node *in = nh_deck_get(item, "in");
-    if (!in) return nh_deck_fail(r->a->deck, item, 0, r->error, "this family has no `in`: functions of what?");
-    size_t n = in->kind == NH_DECK_LIST ? in->count : 1;
-    if (n == 0) return nh_deck_fail(r->a->deck, in, 0, r->error, "this `in` is empty: functions of what?");
-    nh_ex *list = take(r, n, sizeof *list);
-    for (size_t i = 0; i < n; i++)
-        if (!parse(r, in->kind == NH_DECK_LIST ? in->item[i] : in, &list[i])) return false;
-    f->in = list;
-    f->in_count = n;
-    return true;
-}
-
-static bool read_size(reader *r, const nh_deck_node *item, const char *key, long fallback, size_t *out)
-{
-    const nh_deck_node *node = nh_deck_get(item, key);
-    long value = fallback;
-    if (node && !nh_deck_whole(r->a->deck, node, key, 0, 200, &value, r->error)) return false;
-    if (value < 0) return nh_deck_fail(r->a->deck, item, 0, r->error, "this family needs a `%s`", key);
-    *out = (size_t)value;
-    return true;
-}
-
-static bool read_fourier(reader *r, const nh_deck_node *item, nh_family *f)
-{
-    const nh_deck_node *frequency = nh_deck_get(item, "frequency"), *constant = nh_deck_get(item, "constant");
-    f->kind = NH_FOURIER;
-    f->frequency = nh_int(r->model->dag, 1);
-    f->constant = frequency == NULL;
-    if (constant && !nh_deck_is(r->a->deck, constant, NH_DECK_SCALAR, "constant", r->error)) return false;
-    if (constant) f->constant = !strcmp(constant->text, "true");
-    if (constant && !f->constant && strcmp(constant->text, "false"))
-        return nh_deck_fail(r->a->deck, constant, 0, r->error, "`constant` must be true or false, found `%s`", constant->text);
-    if (frequency && !parse(r, frequency, &f->frequency)) return false;
-    return read_in(r, item, f) && read_size(r, item, "harmonics", 1, &f->degree);
-}
-
-static bool read_terms(reader *r, const nh_deck_node *item, nh_family *f)
-{
-    const nh_deck_node *list = nh_deck_get(item, "terms");
-    if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "terms", r->error)) return false;
-    if (list->count == 0) return nh_deck_fail(r->a->deck, list, 0, r->error, "this list of terms is empty");
-    nh_ex *term = take(r, list->count, sizeof *term);
-    for (size_t i = 0; i < list->count; i++)
-        if (!parse(r, list->item[i], &term[i])) return false;
-    *f = (nh_family){.kind = NH_TERMS, .terms = list->count, .term = term};
-    return true;
-}
-
-static bool read_family(reader *r, const nh_deck_node *item, int depth, nh_family *f);
-
-static bool read_product(reader *r, const nh_deck_node *item, int depth, nh_family *f)
-{
-    const nh_deck_node *list = nh_deck_get(item, "product");
-    if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "product", r->error)) return false;
-    if (list->count == 0) return nh_deck_fail(r->a->deck, list, 0, r->error, "this product is empty");
-    nh_family *part = take(r, list->count, sizeof *part);
-    for (size_t i = 0; i < list->count; i++)
-        if (!read_family(r, list->item[i], depth + 1, &part[i])) return false;
-    *f = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = list->count, .part = part};
-    return true;
-}
-
-/* Has the family only keys that mean something for its kind? */
-static bool fits(reader *r, const nh_deck_node *item, const char *kind, const char *keys)
-{
-    for (size_t i = 0; i < item->count; i++) {
-        const char *key = item->key[i]->text, *found = strstr(keys, key);
-        size_t n = strlen(key);
-        if (found && (found == keys || found[-1] == ' ') && (found[n] == ',' || !found[n])) continue;
-        nh_deck_fail(r->a->deck, item->key[i], 0, r->error, "`%s` means nothing for %s", key, kind);
-        return nh_error_hint(r->error, "it takes: %s", keys);
-    }
-    return true;
-}
-
-static bool read_family(reader *r, const nh_deck_node *item, int depth, nh_family *f)
-{
-    static const char *const keys[] = {"basis", "in", "degree", "harmonics", "frequency", "constant", "terms", "product"};
-    static const char *const bases[] = {"polynomial", "fourier", "chebyshev"};
-    size_t basis = 0;
-    const nh_deck *deck = r->a->deck;
-    if (!nh_deck_is(deck, item, NH_DECK_MAP, "a family {basis: ..., in: ...}", r->error) || !nh_deck_only(deck, item, keys, 8, r->error)) return false;
-    if (depth > 4) return nh_deck_fail(deck, item, 0, r->error, "products nested too deeply");
-    if (nh_deck_get(item, "product")) return fits(r, item, "a product", "product") && read_product(r, item, depth, f);
-    if (nh_deck_get(item, "terms")) return fits(r, item, "a list of terms", "terms") && read_terms(r, item, f);
-    if (!nh_deck_get(item, "basis")) return nh_deck_fail(deck, item, 0, r->error, "a family needs `basis`, `terms` or `product`");
-    if (!choice(deck, nh_deck_get(item, "basis"), "basis", bases, &basis, r->error)) return false;
-    *f = (nh_family){.kind = basis == 0 ? NH_POLYNOMIAL : NH_CHEBYSHEV};
-    if (basis == 1) return fits(r, item, "a fourier family", "basis, in, harmonics, frequency, constant") && read_fourier(r, item, f);
-    if (!fits(r, item, basis ? "a chebyshev family" : "a polynomial family", "basis, in, degree")) return false;
-    if (!read_in(r, item, f) || !read_size(r, item, "degree", -1, &f->degree)) return false;
-    if (basis == 2 && f->in_count != 1) return nh_deck_fail(deck, item, 0, r->error, "a chebyshev family is in one variable; use a product for several");
-    return true;
-}
-
-static bool read_ansatz(reader *r)
-{
-    const nh_deck_node *list = nh_deck_get(r->root, "ansatz");
-    if (!list) return true;
-    if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "ansatz", r->error)) return false;
-    r->a->family = take(r, list->count, sizeof *r->a->family);
-    for (size_t i = 0; i < list->count; i++)
-        if (!read_family(r, list->item[i], 0, &r->a->family[i])) return false;
-    r->a->families = list->count;
     return true;
 }
 
@@ -378,7 +260,7 @@ static void velocities_of(const nh_system *s, const double *quasi, nh_state *sta
 static bool unknown_state(reader *r, const nh_deck_node *key)
 {
     const nh_system *s = r->model->system;
-    const char **names = take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
+    const char **names = nh_analysis_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
     size_t n = 0;
     names[n++] = "t";
     for (size_t i = 0; i < s->coordinates; i++) {
@@ -395,7 +277,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
 {
     const nh_system *s = r->model->system;
     nh_state *state = &r->a->initial;
-    double *quasi = take(r, s->quasi, sizeof *quasi);
+    double *quasi = nh_analysis_take(r, s->quasi, sizeof *quasi);
     bool any_quasi = false, any_velocity = false;
     for (size_t i = 0; i < map->count; i++) {
         const char *name = map->key[i]->text;
@@ -428,7 +310,7 @@ static bool read_validate(reader *r)
     const nh_deck_node *map = nh_deck_get(r->root, "validate"), *node;
     nh_analysis *a = r->a;
     size_t m = r->model->m;
-    a->initial = (nh_state){0, take(r, m, sizeof(double)), take(r, m, sizeof(double))};
+    a->initial = (nh_state){0, nh_analysis_take(r, m, sizeof(double)), nh_analysis_take(r, m, sizeof(double))};
     if (!map) return true;
     if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "validate", r->error) || !nh_deck_only(a->deck, map, keys, 3, r->error)) return false;
     if ((node = nh_deck_get(map, "time"))) {
@@ -462,10 +344,10 @@ bool nh_analysis_resolve(nh_analysis *a, const nh_model *model, nh_error *error)
     const nh_deck_node *root = nh_deck_root(a->deck), *definitions = nh_deck_get(root, "definitions"), *unknowns = nh_deck_get(root, "unknowns");
     reader r = {.a = a, .model = model, .root = root, .error = error};
     nh_ex taken;
-    r.extra = take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0), sizeof *r.extra);
+    r.extra = nh_analysis_take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0), sizeof *r.extra);
     if (!nh_symbol_find(model->dag, "E", &taken)) r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
     if (!nh_symbol_find(model->dag, "Lbar", &taken)) r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     r.own = r.extras;
-    return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && read_ansatz(&r)
+    return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && nh_analysis_read_ansatz(&r)
            && read_validate(&r) && read_scene(&r);
 }

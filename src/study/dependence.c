@@ -13,13 +13,13 @@ enum { most_currents = 6, point_factor = 3 };
 /* Monomials of degree <= 2 in phi_1..phi_r and the dependent one (last), the ones with it last. */
 typedef struct {
     size_t count;
-    nh_ex *placeholder; /* monomials in the symbols Phi1, ... */
+    nh_ex *name_of; /* monomials in the symbols Phi1, ... */
     nh_ex *value;       /* the same in the currents */
 } monomials;
 
 static void add(nh_dag *d, monomials *m, nh_ex pa, nh_ex pb, nh_ex va, nh_ex vb)
 {
-    m->placeholder[m->count] = nh_mul(d, pa, pb);
+    m->name_of[m->count] = nh_mul(d, pa, pb);
     m->value[m->count++] = nh_mul(d, va, vb);
 }
 
@@ -78,9 +78,9 @@ static const char *exact_relation(nh_result *r, const monomials *m, const bool *
     size_t n = 0, pivot = 0;
     for (size_t j = 0; j < m->count; j++) {
         if (!used[j]) continue;
-        if (nh_depends(d, m->placeholder[j], own)) pivot = n;
+        if (nh_depends(d, m->name_of[j], own)) pivot = n;
         value[n] = m->value[j];
-        name[n++] = m->placeholder[j];
+        name[n++] = m->name_of[j];
     }
     const char *text = NULL;
     bool exact = nh_relation_find(d, n, value, o->system->parameters, o->parameter, (size_t)r->options.proof_terms, c) == NH_RELATION_UNIQUE;
@@ -114,7 +114,7 @@ static void relate(nh_result *r, nh_found *f, const nh_points *points)
     bool *used = nh_alloc_array(m.count, sizeof *used);
     if (numeric_relation(points, r->model, &m, used)) f->relation = exact_relation(r, &m, used, symbol[n - 1]);
     nh_free(used);
-    nh_free(m.placeholder);
+    nh_free(m.name_of);
     nh_free(m.value);
 }
 

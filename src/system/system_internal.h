@@ -1,4 +1,4 @@
-/* system_internal: shared by system.c (names) and system_read.c (the file). */
+/* system_internal: shared by system.c (names), system_read.c and system_parts.c (the file). */
 #ifndef NH_SYSTEM_INTERNAL_H
 #define NH_SYSTEM_INTERNAL_H
 
@@ -11,5 +11,25 @@ enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2 };
 /* An expression (lhs NULL) or an equation, after the first `skip` bytes of the scalar `node`, with errors pointing into it. */
 bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip, unsigned forbid,
                                size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs, nh_error *error);
+
+/* A system file while it is read. */
+typedef struct {
+    nh_system *system;
+    nh_deck *deck;
+    const nh_deck_node *root;
+    nh_error *error;
+} nh_system_reader;
+
+/* In order: zeroed memory of the system (count + 1 elements); the list under a key (absent: empty); the text under a key; the two sides of
+ * "name = expression"; and the optional parts of the file. */
+void *nh_system_take(nh_system_reader *r, size_t count, size_t size);
+bool nh_system_list_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const nh_deck_node **out, size_t *count);
+bool nh_system_text_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const char *fallback, const char **out);
+bool nh_system_assignment_name(nh_system_reader *r, const nh_deck_node *node, const char *what, const char **name);
+bool nh_system_read_right_side(nh_system_reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out);
+bool nh_system_read_chart(nh_system_reader *r);
+bool nh_system_read_forces(nh_system_reader *r);
+bool nh_system_read_domain(nh_system_reader *r);
+bool nh_system_read_known(nh_system_reader *r);
 
 #endif

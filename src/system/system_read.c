@@ -7,21 +7,16 @@
 #include "expr/parse.h"
 #include "system/system_internal.h"
 
-typedef struct {
-    nh_system *system;
-    nh_deck *deck;
-    const nh_deck_node *root;
-    nh_error *error;
-} reader;
+typedef nh_system_reader reader;
 
 static const char *const top_keys[] = {"name", "title", "source", "parameters", "coordinates", "definitions", "lagrangian",
                                        "constraints", "dependent", "chart", "forces", "domain", "known", "doc"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
-static void *take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
+void *nh_system_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
 
 /* The list under `key`; an absent key is an empty list. */
-static bool list_of(reader *r, const nh_deck_node *map, const char *key, const nh_deck_node **out, size_t *count)
+bool nh_system_list_of(reader *r, const nh_deck_node *map, const char *key, const nh_deck_node **out, size_t *count)
 {
     *out = nh_deck_get(map, key);
     *count = 0;
@@ -32,7 +27,7 @@ static bool list_of(reader *r, const nh_deck_node *map, const char *key, const n
 }
 
 /* The text under `key`, or the fallback. */
-static bool text_of(reader *r, const nh_deck_node *map, const char *key, const char *fallback, const char **out)
+bool nh_system_text_of(reader *r, const nh_deck_node *map, const char *key, const char *fallback, const char **out)
 {
     const nh_deck_node *node = nh_deck_get(map, key);
     *out = node ? node->text : fallback;
@@ -66,8 +61,8 @@ static bool read_parameters(reader *r)
     const nh_deck_node *list;
     size_t n;
     nh_system *s = r->system;
-    if (!list_of(r, r->root, "parameters", &list, &n)) return false;
-    s->parameter = take(r, n, sizeof *s->parameter);
+    if (!nh_system_list_of(r, r->root, "parameters", &list, &n)) return false;
+    s->parameter = nh_system_take(r, n, sizeof *s->parameter);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i];
         if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a parameter {name: ..., value: ...}", r->error)) return false;
@@ -77,7 +72,7 @@ static bool read_parameters(reader *r)
         if (!new_name(r, name)) return false;
         nh_parameter *p = &s->parameter[i];
         *p = (nh_parameter){.name = name->text};
-        if (!text_of(r, item, "unit", "", &p->unit) || !text_of(r, item, "doc", "", &p->doc)) return false;
+        if (!nh_system_text_of(r, item, "unit", "", &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc)) return false;
         if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
         if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error)) return false;
         p->symbol = nh_symbol(s->dag, p->name);
@@ -109,12 +104,12 @@ static bool read_coordinates(reader *r)
     const nh_deck_node *list;
     size_t n;
     nh_system *s = r->system;
-    if (!list_of(r, r->root, "coordinates", &list, &n)) return false;
+    if (!nh_system_list_of(r, r->root, "coordinates", &list, &n)) return false;
     if (n == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
-    s->coordinate = take(r, n, sizeof *s->coordinate);
+    s->coordinate = nh_system_take(r, n, sizeof *s->coordinate);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i], *name = item;
         nh_coordinate *c = &s->coordinate[i];
@@ -126,7 +121,7 @@ static bool read_coordinates(reader *r)
             if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this coordinate has no `name`");
             if (!read_type(r, nh_deck_get(item, "type"), &c->type)) return false;
             const char *unit; /* for the reader of the file */
-            if (!text_of(r, item, "doc", "", &c->doc) || !text_of(r, item, "unit", "", &unit)) return false;
+            if (!nh_system_text_of(r, item, "doc", "", &c->doc) || !nh_system_text_of(r, item, "unit", "", &unit)) return false;
         }
         if (!new_name(r, name)) return false;
         c->name = name->text;
@@ -146,8 +141,8 @@ static bool read_quasi_names(reader *r)
     nh_system *s = r->system;
     if (!chart) return true;
     if (!nh_deck_is(r->deck, chart, NH_DECK_MAP, "a chart {velocities: [...], map: [...]}", r->error)) return false;
-    if (!list_of(r, chart, "velocities", &list, &n)) return false;
-    s->quasi_velocity = take(r, n, sizeof *s->quasi_velocity);
+    if (!nh_system_list_of(r, chart, "velocities", &list, &n)) return false;
+    s->quasi_velocity = nh_system_take(r, n, sizeof *s->quasi_velocity);
     for (size_t i = 0; i < n; i++) {
         if (!new_name(r, list->item[i])) return false;
         s->quasi_velocity[i] = nh_symbol(s->dag, list->item[i]->text);
@@ -157,7 +152,7 @@ static bool read_quasi_names(reader *r)
 }
 
 /* Split "name = expression" at its first `=`; the name must be the whole left side. */
-static bool read_assignment_name(reader *r, const nh_deck_node *node, const char *what, const char **name)
+bool nh_system_assignment_name(reader *r, const nh_deck_node *node, const char *what, const char **name)
 {
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, what, r->error)) return false;
     const char *equal = strchr(node->text, '=');
@@ -169,7 +164,7 @@ static bool read_assignment_name(reader *r, const nh_deck_node *node, const char
 }
 
 /* The right side, as an expression. */
-static bool read_right_side(reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out)
+bool nh_system_read_right_side(reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out)
 {
     size_t skip = (size_t)(strchr(node->text, '=') - node->text) + 1;
     return nh_system_read_expression(r->system, r->deck, node, skip, forbid, 0, NULL, NULL, out, r->error);
@@ -180,16 +175,16 @@ static bool read_definitions(reader *r)
     const nh_deck_node *list;
     size_t n;
     nh_system *s = r->system;
-    if (!list_of(r, r->root, "definitions", &list, &n)) return false;
-    s->definition = take(r, n, sizeof *s->definition);
+    if (!nh_system_list_of(r, r->root, "definitions", &list, &n)) return false;
+    s->definition = nh_system_take(r, n, sizeof *s->definition);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *node = list->item[i];
         nh_named *d = &s->definition[i];
-        if (!read_assignment_name(r, node, "a definition `name = expression`", &d->name)) return false;
+        if (!nh_system_assignment_name(r, node, "a definition `name = expression`", &d->name)) return false;
         nh_deck_node name = *node;
         name.text = d->name;
         if (!new_name(r, &name)) return false;
-        if (!read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
+        if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
         d->text = node->text;
         s->definitions = i + 1;
     }
@@ -223,8 +218,8 @@ static bool read_constraints(reader *r)
     const nh_deck_node *list;
     size_t n;
     nh_system *s = r->system;
-    if (!list_of(r, r->root, "constraints", &list, &n)) return false;
-    s->constraint = take(r, n, sizeof *s->constraint);
+    if (!nh_system_list_of(r, r->root, "constraints", &list, &n)) return false;
+    s->constraint = nh_system_take(r, n, sizeof *s->constraint);
     for (size_t i = 0; i < n; i++) {
         nh_constraint *c = &s->constraint[i];
         const nh_deck_node *node = list->item[i];
@@ -252,11 +247,11 @@ static bool read_dependent(reader *r)
     const nh_deck_node *list;
     size_t n;
     nh_system *s = r->system;
-    if (!list_of(r, r->root, "dependent", &list, &n)) return false;
+    if (!nh_system_list_of(r, r->root, "dependent", &list, &n)) return false;
     if (n && n != s->constraints)
         return nh_deck_fail(r->deck, list, 0, r->error, "there must be as many dependent velocities as constraints: %zu, not %zu", s->constraints, n);
-    s->dependent = take(r, n, sizeof *s->dependent);
-    const char **names = take(r, s->coordinates, sizeof *names);
+    s->dependent = nh_system_take(r, n, sizeof *s->dependent);
+    const char **names = nh_system_take(r, s->coordinates, sizeof *names);
     for (size_t i = 0; i < s->coordinates; i++) names[i] = s->coordinate[i].name;
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *node = list->item[i];
@@ -276,153 +271,6 @@ static bool read_dependent(reader *r)
     return true;
 }
 
-/* As many as degrees of freedom? */
-static bool count_quasi(reader *r, const nh_deck_node *chart)
-{
-    const nh_system *s = r->system;
-    const nh_deck_node *list = nh_deck_get(chart, "velocities");
-    if (s->constraints > s->coordinates) return true; /* told by the ranks */
-    size_t left = s->coordinates - s->constraints;
-    if (s->quasi == left) return true;
-    nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "the chart must have as many velocities as there are degrees of freedom: %zu, not %zu (coordinates: %zu, constraints: %zu)",
-                 left, s->quasi, s->coordinates, s->constraints);
-    return s->quasi < left ? nh_error_hint(r->error, "list every constraint under `constraints:`, and every velocity here") : false;
-}
-
-/* Which coordinate's velocity is on the left side "x'"? */
-static long velocity_on_left(reader *r, const nh_deck_node *node, const char *name)
-{
-    size_t n = strlen(name);
-    const nh_system *s = r->system;
-    for (size_t i = 0; i < s->coordinates; i++)
-        if (n && !strcmp(name, nh_name_of(s->dag, s->coordinate[i].v))) return (long)i;
-    nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not the velocity of a coordinate", name);
-    if (nh_system_coordinate(s, name) >= 0) nh_error_hint(r->error, "write `%s' = ...`", name);
-    return -1;
-}
-
-static bool read_chart(reader *r)
-{
-    static const char *const keys[] = {"velocities", "map"};
-    const nh_deck_node *chart = nh_deck_get(r->root, "chart"), *map;
-    nh_system *s = r->system;
-    size_t n;
-    if (!chart) return true;
-    if (!nh_deck_only(r->deck, chart, keys, 2, r->error) || !count_quasi(r, chart)) return false;
-    if (!list_of(r, chart, "map", &map, &n)) return false;
-    s->quasi_map = take(r, s->coordinates, sizeof *s->quasi_map);
-    bool *given = take(r, s->coordinates, sizeof *given);
-    for (size_t i = 0; i < n; i++) {
-        const char *name;
-        if (!read_assignment_name(r, map->item[i], "a line `x' = ...` of the chart's map", &name)) return false;
-        long index = velocity_on_left(r, map->item[i], name);
-        if (index < 0) return false;
-        if (given[index]) return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` is given twice", name);
-        given[index] = true;
-        if (!read_right_side(r, map->item[i], NH_NO_VELOCITIES, &s->quasi_map[index])) return false;
-        for (size_t j = 0; j < s->coordinates; j++) /* through a definition */
-            if (nh_depends(s->dag, s->quasi_map[index], s->coordinate[j].v))
-                return nh_deck_fail(r->deck, map->item[i], 0, r->error, "the velocity `%s` cannot be used here; it comes in through a definition", nh_name_of(s->dag, s->coordinate[j].v));
-    }
-    for (size_t i = 0; i < s->coordinates; i++)
-        if (!given[i])
-            return nh_deck_fail(r->deck, map ? map : chart, 0, r->error, "the chart's map does not say what `%s'` is", s->coordinate[i].name);
-    return true;
-}
-
-static bool read_forces(reader *r)
-{
-    const nh_deck_node *list;
-    size_t n;
-    nh_system *s = r->system;
-    s->force = take(r, s->coordinates, sizeof *s->force);
-    for (size_t i = 0; i < s->coordinates; i++) s->force[i] = nh_int(s->dag, 0);
-    if (!list_of(r, r->root, "forces", &list, &n)) return false;
-    for (size_t i = 0; i < n; i++) {
-        const char *name;
-        nh_ex value;
-        if (!read_assignment_name(r, list->item[i], "a force `coordinate = expression`", &name)) return false;
-        long index = nh_system_coordinate(s, name);
-        if (index < 0) {
-            nh_deck_fail(r->deck, list->item[i], 0, r->error, "`%s` is not a coordinate", name);
-            return nh_error_hint(r->error, "a generalized force belongs to a coordinate, for example `%s = ...`", s->coordinate[0].name);
-        }
-        if (!read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
-        s->force[index] = nh_add(s->dag, s->force[index], value);
-        s->has_forces = true;
-    }
-    return true;
-}
-
-static bool box_symbol(reader *r, const nh_deck_node *key, nh_ex *out)
-{
-    nh_system *s = r->system;
-    const char **names = take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
-    size_t n = 0;
-    names[n++] = "t";
-    for (size_t i = 0; i < s->coordinates; i++) {
-        names[n++] = s->coordinate[i].name;
-        names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
-    }
-    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
-    for (size_t i = 0; i < n; i++)
-        if (!strcmp(names[i], key->text)) return nh_symbol_find(s->dag, key->text, out);
-    nh_deck_fail(r->deck, key, 0, r->error, "`%s` is not a coordinate, a velocity or t", key->text);
-    const char *near = nh_text_nearest(key->text, names, n);
-    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
-}
-
-static bool read_domain(reader *r)
-{
-    const nh_deck_node *map = nh_deck_get(r->root, "domain");
-    nh_system *s = r->system;
-    if (!map) return true;
-    if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a domain {x: [low, high], ...}", r->error)) return false;
-    s->interval = take(r, map->count, sizeof *s->interval);
-    for (size_t i = 0; i < map->count; i++) {
-        double range[2];
-        nh_interval *box = &s->interval[i];
-        if (!box_symbol(r, map->key[i], &box->symbol)) return false;
-        if (!nh_deck_range(r->deck, map->item[i], map->key[i]->text, range, r->error)) return false;
-        box->low = range[0];
-        box->high = range[1];
-        s->intervals = i + 1;
-    }
-    return true;
-}
-
-static bool read_named_list(reader *r, const nh_deck_node *known, const char *key, nh_named **out, size_t *count)
-{
-    static const char *const keys[] = {"name", "expr", "doc"};
-    const nh_deck_node *list;
-    size_t n;
-    if (!list_of(r, known, key, &list, &n)) return false;
-    *out = take(r, n, sizeof **out);
-    for (size_t i = 0; i < n; i++) {
-        const nh_deck_node *item = list->item[i];
-        if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "an entry {name: ..., expr: ...}", r->error)) return false;
-        if (!nh_deck_only(r->deck, item, keys, 3, r->error)) return false;
-        const nh_deck_node *expr = nh_deck_get(item, "expr");
-        if (!expr) return nh_deck_fail(r->deck, item, 0, r->error, "this entry has no `expr`");
-        (*out)[i] = (nh_named){.text = expr->text};
-        if (!text_of(r, item, "name", "", &(*out)[i].name)) return false;
-        if (!nh_system_expression(r->system, r->deck, expr, 0, NULL, &(*out)[i].value, r->error)) return false;
-        *count = i + 1;
-    }
-    return true;
-}
-
-static bool read_known(reader *r)
-{
-    static const char *const keys[] = {"currents", "not_conserved"};
-    const nh_deck_node *known = nh_deck_get(r->root, "known");
-    nh_system *s = r->system;
-    if (!known) return true;
-    if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known", r->error)) return false;
-    return nh_deck_only(r->deck, known, keys, 2, r->error) && read_named_list(r, known, "currents", &s->current, &s->currents)
-           && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved);
-}
-
 static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
 {
     nh_system *s = r->system;
@@ -434,7 +282,7 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
             found->value = setting[k].value;
             continue;
         }
-        const char **names = take(r, s->parameters, sizeof *names);
+        const char **names = nh_system_take(r, s->parameters, sizeof *names);
         for (size_t i = 0; i < s->parameters; i++) names[i] = s->parameter[i].name;
         nh_fail(r->error, NH_USAGE, "", "`%s` is not a parameter of %s", setting[k].name, s->name);
         const char *near = nh_text_nearest(setting[k].name, names, s->parameters);
@@ -449,12 +297,12 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)", r->error)) return false;
     if (!nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
     const char *doc; /* for the reader of the file */
-    if (!text_of(r, r->root, "name", "system", &s->name) || !text_of(r, r->root, "title", s->name, &s->title)) return false;
-    if (!text_of(r, r->root, "source", "", &s->source) || !text_of(r, r->root, "doc", "", &doc)) return false;
+    if (!nh_system_text_of(r, r->root, "name", "system", &s->name) || !nh_system_text_of(r, r->root, "title", s->name, &s->title)) return false;
+    if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc)) return false;
     if (!read_parameters(r)) return false;
     s->t = nh_symbol(s->dag, "t");
     return read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
-           && read_chart(r) && read_forces(r) && read_domain(r) && read_known(r) && apply_settings(r, settings, setting);
+           && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_known(r) && apply_settings(r, settings, setting);
 }
 
 static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *setting, nh_error *error)

@@ -1,0 +1,25 @@
+/* analysis_internal: shared by analysis.c and analysis_ansatz.c. */
+#ifndef NH_ANALYSIS_INTERNAL_H
+#define NH_ANALYSIS_INTERNAL_H
+
+#include "study/analysis.h"
+
+typedef struct {
+    nh_analysis *a;
+    const nh_model *model;
+    const nh_deck_node *root;
+    nh_named *extra; /* E, Lbar, unknowns, definitions */
+    size_t extras, own; /* the first `own` are E and Lbar */
+    nh_error *error;
+} nh_analysis_reader;
+
+/* `count` + 1 zeroed elements that live as long as the analysis. */
+void *nh_analysis_take(nh_analysis_reader *r, size_t count, size_t size);
+/* An expression in the names of the analysis, brought to the model's chart. */
+bool nh_analysis_parse(nh_analysis_reader *r, const nh_deck_node *node, nh_ex *out);
+/* One of `names`; an absent node leaves *out alone. */
+bool nh_analysis_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error);
+/* ansatz: the list of families. */
+bool nh_analysis_read_ansatz(nh_analysis_reader *r);
+
+#endif

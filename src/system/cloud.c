@@ -1,0 +1,171 @@
+#include "system/cloud.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "system/embedding_internal.h"
+#include "system/sample.h"
+
+enum { wanted_probes = 24, most_tries = 400, projection_steps = 60 };
+
+
+static void cloud_tape(nh_cloud *c)
+{
+    nh_system *s = c->system;
+    nh_dag *d = s->dag;
+    nh_ex *in = nh_alloc_array(c->width, sizeof *in), *out = nh_alloc_array(c->k * (1 + c->m) + 1, sizeof *out);
+    in[0] = s->t;
+    for (size_t i = 0; i < c->m; i++) {
+        in[1 + i] = s->coordinate[i].q;
+        in[1 + c->m + i] = s->coordinate[i].v;
+    }
+    for (size_t a = 0; a < c->k; a++) {
+        out[a] = nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs);
+        for (size_t i = 0; i < c->m; i++) out[c->k + a + i * c->k] = nh_diff(d, out[a], in[1 + c->m + i]);
+    }
+    const nh_ex *symbols;
+    const double *values;
+    nh_system_bindings(s, &symbols, &values);
+    c->tape = nh_tape_create(d, c->width, in, c->k * (1 + c->m), out, s->parameters, symbols, values);
+    c->work = nh_tape_work_create(c->tape);
+    c->out = nh_alloc_array(c->k * (1 + c->m) + 1, sizeof *c->out);
+    nh_free(in);
+    nh_free(out);
+}
+
+static bool all_finite(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) return false;
+    return true;
+}
+
+/* Move v onto the constraints by the shortest Gauss-Newton steps. */
+static bool project(nh_cloud *c, double *z)
+{
+    size_t k = c->k, m = c->m, big = m > k ? m : k;
+    double *F = nh_alloc_array(k * m + big + 1, sizeof *F), *step = F + k * m;
+    bool good = false;
+    for (int i = 0; i < projection_steps && !good; i++) {
+        nh_tape_eval(c->tape, c->work, z, c->out);
+        if (!all_finite(k * (1 + m), c->out)) break;
+        memcpy(F, c->out + k, k * m * sizeof *F);
+        memset(step, 0, big * sizeof *step);
+        memcpy(step, c->out, k * sizeof *step);
+        if (nh_least_squares(k, m, F, 1, step, big, 1e-12) < 0) break;
+        double size = 0;
+        for (size_t j = 0; j < m; j++) {
+            size = fmax(size, fabs(step[j]));
+            z[1 + m + j] -= step[j];
+        }
+        good = size < 1e-14;
+    }
+    double worst = 0;
+    nh_tape_eval(c->tape, c->work, z, c->out);
+    for (size_t a = 0; a < k; a++) worst = fmax(worst, fabs(c->out[a]));
+    nh_free(F);
+    return worst < 1e-9 && all_finite(k * (1 + m), c->out);
+}
+
+static void cloud_fill(nh_cloud *c, uint64_t seed)
+{
+    double *low = nh_alloc_array(2 * c->width, sizeof *low), *high = low + c->width;
+    nh_system *s = c->system;
+    nh_embedding_range(s, s->t, &low[0], &high[0]);
+    for (size_t i = 0; i < c->m; i++) {
+        nh_embedding_range(s, s->coordinate[i].q, &low[1 + i], &high[1 + i]);
+        nh_embedding_range(s, s->coordinate[i].v, &low[1 + c->m + i], &high[1 + c->m + i]);
+    }
+    nh_sampler *sampler = nh_sampler_create(c->width, low, high, seed);
+    c->point = nh_alloc_array(wanted_probes * c->width, sizeof *c->point);
+    c->F = nh_alloc_array(wanted_probes * c->k * c->m + 1, sizeof *c->F);
+    for (int tries = 0; tries < most_tries && c->count < wanted_probes; tries++) {
+        double *z = c->point + c->count * c->width;
+        nh_sampler_next(sampler, z);
+        if (!project(c, z)) continue;
+        memcpy(c->F + c->count * c->k * c->m, c->out + c->k, c->k * c->m * sizeof *c->F);
+        c->count++;
+    }
+    nh_sampler_free(sampler);
+    nh_free(low);
+}
+
+void nh_cloud_clear(nh_cloud *c)
+{
+    nh_tape_work_free(c->work);
+    nh_tape_free(c->tape);
+    nh_free(c->out);
+    nh_free(c->point);
+    nh_free(c->F);
+}
+
+/* ---- ranks ---- */
+
+/* Largest rank of df/dv over the points, and the constraint that adds nothing to those before it. */
+static size_t rank_of(const nh_cloud *c, size_t *redundant)
+{
+    size_t best = 0;
+    *redundant = c->k;
+    for (size_t use = 1; use <= c->k; use++) {
+        size_t rank = 0;
+        for (size_t p = 0; p < c->count; p++) {
+            double *a = nh_alloc_array(use * c->m, sizeof *a), *s = nh_alloc_array(c->k + c->m, sizeof *s);
+            for (size_t i = 0; i < use; i++)
+                for (size_t j = 0; j < c->m; j++) a[i + j * use] = c->F[p * c->k * c->m + i + j * c->k];
+            size_t r = 0, small = use < c->m ? use : c->m;
+            if (nh_svd(use, c->m, a, s, NULL, NULL))
+                while (r < small && s[r] > 1e-10 * s[0] && s[r] > 1e-13) r++;
+            if (r > rank) rank = r;
+            nh_free(s);
+            nh_free(a);
+        }
+        if (rank == best && *redundant == c->k) *redundant = use - 1;
+        best = rank;
+    }
+    return best;
+}
+
+void nh_cloud_init(nh_cloud *c, nh_system *system, size_t constraints, uint64_t seed)
+{
+    *c = (nh_cloud){.system = system, .m = system->coordinates, .k = constraints, .width = 1 + 2 * system->coordinates};
+    cloud_tape(c);
+    cloud_fill(c, seed);
+}
+
+/* Point at the first constraint that cannot hold together with those before it. */
+static bool contradiction(const nh_cloud *c, uint64_t seed, nh_error *error)
+{
+    const nh_system *s = c->system;
+    size_t a = 0;
+    for (; a < c->k; a++) {
+        nh_cloud part;
+        nh_cloud_init(&part, c->system, a + 1, seed);
+        size_t points = part.count;
+        nh_cloud_clear(&part);
+        if (points == 0) break;
+    }
+    const nh_deck_node *node = s->constraint[a < c->k ? a : 0].node;
+    if (a == 0) {
+        nh_deck_fail(s->deck, node, 0, error, "no point of the sampling domain satisfies this constraint");
+        return nh_error_hint(error, "it contradicts itself, or `domain:` keeps away from where it holds");
+    }
+    nh_deck_fail(s->deck, node, 0, error, "this constraint contradicts those before it: no point of the sampling domain satisfies them all");
+    return nh_error_hint(error, "correct one of them; or does `domain:` keep away from where they hold?");
+}
+
+bool nh_cloud_check_rank(const nh_cloud *c, uint64_t seed, nh_error *error)
+{
+    const nh_system *s = c->system;
+    if (c->count == 0) return contradiction(c, seed, error);
+    size_t redundant, rank = rank_of(c, &redundant);
+    if (rank < c->k) {
+        nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
+                     "this constraint says nothing new about the velocities: the %zu constraints have rank %zu", c->k, rank);
+        return nh_error_hint(error, "it repeats the others; remove it");
+    }
+    if (c->k < c->m) return true;
+    nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "%zu independent constraints on %zu coordinates leave no freedom to move", c->k, c->m);
+    return nh_error_hint(error, "a system needs fewer constraints than coordinates");
+}

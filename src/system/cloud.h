@@ -1,0 +1,26 @@
+/* cloud: points (t, q, q') that satisfy the constraints, and the rank of the constraints over them. */
+#ifndef NH_CLOUD_H
+#define NH_CLOUD_H
+
+#include "expr/tape.h"
+#include "system/system.h"
+
+typedef struct {
+    nh_system *system;
+    size_t m, k, width; /* width = 1 + 2 m */
+    nh_tape *tape;      /* f (k) and F = df/dv (k x m, row-major) as functions of (t, q, v) */
+    nh_tape_work *work;
+    double *out;
+    double *point;      /* count x width */
+    double *F;          /* count x (k m), column-major k x m */
+    size_t count;
+} nh_cloud;
+
+/* Points for the first `constraints` of the system. */
+void nh_cloud_init(nh_cloud *c, nh_system *system, size_t constraints, uint64_t seed);
+void nh_cloud_clear(nh_cloud *c);
+
+/* Refuse constraints that say nothing new, contradict each other or leave no freedom; the message names the constraint and the rank. */
+bool nh_cloud_check_rank(const nh_cloud *c, uint64_t seed, nh_error *error);
+
+#endif

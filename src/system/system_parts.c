@@ -1,0 +1,152 @@
+/* system_parts: the optional parts of a system file: chart, forces, domain, known currents. */
+#include <string.h>
+
+#include "base/text.h"
+#include "system/system_internal.h"
+
+/* As many as degrees of freedom? */
+static bool count_quasi(nh_system_reader *r, const nh_deck_node *chart)
+{
+    const nh_system *s = r->system;
+    const nh_deck_node *list = nh_deck_get(chart, "velocities");
+    if (s->constraints > s->coordinates) return true; /* told by the ranks */
+    size_t left = s->coordinates - s->constraints;
+    if (s->quasi == left) return true;
+    nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "the chart must have as many velocities as there are degrees of freedom: %zu, not %zu (coordinates: %zu, constraints: %zu)",
+                 left, s->quasi, s->coordinates, s->constraints);
+    return s->quasi < left ? nh_error_hint(r->error, "list every constraint under `constraints:`, and every velocity here") : false;
+}
+
+/* Which coordinate's velocity is on the left side "x'"? */
+static long velocity_on_left(nh_system_reader *r, const nh_deck_node *node, const char *name)
+{
+    size_t n = strlen(name);
+    const nh_system *s = r->system;
+    for (size_t i = 0; i < s->coordinates; i++)
+        if (n && !strcmp(name, nh_name_of(s->dag, s->coordinate[i].v))) return (long)i;
+    nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not the velocity of a coordinate", name);
+    if (nh_system_coordinate(s, name) >= 0) nh_error_hint(r->error, "write `%s' = ...`", name);
+    return -1;
+}
+
+bool nh_system_read_chart(nh_system_reader *r)
+{
+    static const char *const keys[] = {"velocities", "map"};
+    const nh_deck_node *chart = nh_deck_get(r->root, "chart"), *map;
+    nh_system *s = r->system;
+    size_t n;
+    if (!chart) return true;
+    if (!nh_deck_only(r->deck, chart, keys, 2, r->error) || !count_quasi(r, chart)) return false;
+    if (!nh_system_list_of(r, chart, "map", &map, &n)) return false;
+    s->quasi_map = nh_system_take(r, s->coordinates, sizeof *s->quasi_map);
+    bool *given = nh_system_take(r, s->coordinates, sizeof *given);
+    for (size_t i = 0; i < n; i++) {
+        const char *name;
+        if (!nh_system_assignment_name(r, map->item[i], "a line `x' = ...` of the chart's map", &name)) return false;
+        long index = velocity_on_left(r, map->item[i], name);
+        if (index < 0) return false;
+        if (given[index]) return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` is given twice", name);
+        given[index] = true;
+        if (!nh_system_read_right_side(r, map->item[i], NH_NO_VELOCITIES, &s->quasi_map[index])) return false;
+        for (size_t j = 0; j < s->coordinates; j++) /* through a definition */
+            if (nh_depends(s->dag, s->quasi_map[index], s->coordinate[j].v))
+                return nh_deck_fail(r->deck, map->item[i], 0, r->error, "the velocity `%s` cannot be used here; it comes in through a definition", nh_name_of(s->dag, s->coordinate[j].v));
+    }
+    for (size_t i = 0; i < s->coordinates; i++)
+        if (!given[i])
+            return nh_deck_fail(r->deck, map ? map : chart, 0, r->error, "the chart's map does not say what `%s'` is", s->coordinate[i].name);
+    return true;
+}
+
+bool nh_system_read_forces(nh_system_reader *r)
+{
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    s->force = nh_system_take(r, s->coordinates, sizeof *s->force);
+    for (size_t i = 0; i < s->coordinates; i++) s->force[i] = nh_int(s->dag, 0);
+    if (!nh_system_list_of(r, r->root, "forces", &list, &n)) return false;
+    for (size_t i = 0; i < n; i++) {
+        const char *name;
+        nh_ex value;
+        if (!nh_system_assignment_name(r, list->item[i], "a force `coordinate = expression`", &name)) return false;
+        long index = nh_system_coordinate(s, name);
+        if (index < 0) {
+            nh_deck_fail(r->deck, list->item[i], 0, r->error, "`%s` is not a coordinate", name);
+            return nh_error_hint(r->error, "a generalized force belongs to a coordinate, for example `%s = ...`", s->coordinate[0].name);
+        }
+        if (!nh_system_read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
+        s->force[index] = nh_add(s->dag, s->force[index], value);
+        s->has_forces = true;
+    }
+    return true;
+}
+
+static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
+{
+    nh_system *s = r->system;
+    const char **names = nh_system_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
+    size_t n = 0;
+    names[n++] = "t";
+    for (size_t i = 0; i < s->coordinates; i++) {
+        names[n++] = s->coordinate[i].name;
+        names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
+    }
+    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    for (size_t i = 0; i < n; i++)
+        if (!strcmp(names[i], key->text)) return nh_symbol_find(s->dag, key->text, out);
+    nh_deck_fail(r->deck, key, 0, r->error, "`%s` is not a coordinate, a velocity or t", key->text);
+    const char *near = nh_text_nearest(key->text, names, n);
+    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+}
+
+bool nh_system_read_domain(nh_system_reader *r)
+{
+    const nh_deck_node *map = nh_deck_get(r->root, "domain");
+    nh_system *s = r->system;
+    if (!map) return true;
+    if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a domain {x: [low, high], ...}", r->error)) return false;
+    s->interval = nh_system_take(r, map->count, sizeof *s->interval);
+    for (size_t i = 0; i < map->count; i++) {
+        double range[2];
+        nh_interval *box = &s->interval[i];
+        if (!box_symbol(r, map->key[i], &box->symbol)) return false;
+        if (!nh_deck_range(r->deck, map->item[i], map->key[i]->text, range, r->error)) return false;
+        box->low = range[0];
+        box->high = range[1];
+        s->intervals = i + 1;
+    }
+    return true;
+}
+
+static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out, size_t *count)
+{
+    static const char *const keys[] = {"name", "expr", "doc"};
+    const nh_deck_node *list;
+    size_t n;
+    if (!nh_system_list_of(r, known, key, &list, &n)) return false;
+    *out = nh_system_take(r, n, sizeof **out);
+    for (size_t i = 0; i < n; i++) {
+        const nh_deck_node *item = list->item[i];
+        if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "an entry {name: ..., expr: ...}", r->error)) return false;
+        if (!nh_deck_only(r->deck, item, keys, 3, r->error)) return false;
+        const nh_deck_node *expr = nh_deck_get(item, "expr");
+        if (!expr) return nh_deck_fail(r->deck, item, 0, r->error, "this entry has no `expr`");
+        (*out)[i] = (nh_named){.text = expr->text};
+        if (!nh_system_text_of(r, item, "name", "", &(*out)[i].name)) return false;
+        if (!nh_system_expression(r->system, r->deck, expr, 0, NULL, &(*out)[i].value, r->error)) return false;
+        *count = i + 1;
+    }
+    return true;
+}
+
+bool nh_system_read_known(nh_system_reader *r)
+{
+    static const char *const keys[] = {"currents", "not_conserved"};
+    const nh_deck_node *known = nh_deck_get(r->root, "known");
+    nh_system *s = r->system;
+    if (!known) return true;
+    if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known", r->error)) return false;
+    return nh_deck_only(r->deck, known, keys, 2, r->error) && read_named_list(r, known, "currents", &s->current, &s->currents)
+           && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved);
+}
