@@ -44,7 +44,7 @@ static void mixing(size_t n, double *z, unsigned long long *state)
 static void measure(size_t n, size_t m)
 {
     enum { BLOCK = 256 };
-    const nh_nullspace_options options = {1e-9, 100, 1e5, 1e3, 1e-7, 1e-11};
+    const nh_nullspace_options options = {1e-9, 100, 1e5, 1e3, 1e6, 1e-7, 1e-11};
     unsigned long long state = 2385;
     double *b = nh_alloc_array(m * n, sizeof *b), *a = nh_alloc_array(m * n, sizeof *a), *z = nh_alloc_array(n * n, sizeof *z);
     for (size_t i = 0; i < m * n; i++)

@@ -300,19 +300,25 @@ Test(cli, colours_only_on_a_terminal_that_wants_them)
     static const char *const without[] = {"NO_COLOR=1", "TERM=xterm", NULL}, *const with[] = {"TERM=xterm", NULL};
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
+    finished pipe = run_so(&p, &(manner){.environment = with}, "analyze mine.yaml");
+    check_contains(pipe.out, "FOUND");
+    cr_expect_not(coloured(&pipe));
+    finished_clear(&pipe);
+    if (!terminals_exist()) { /* a bare chroot without /dev/pts: only the half without a terminal can be tried */
+        cr_log_warn("there are no pseudo-terminals here: colours on a terminal were not tried");
+        place_clear(&p);
+        return;
+    }
     finished terminal = run_so(&p, &(manner){.terminal = true, .environment = with}, "analyze mine.yaml");
     finished no_color = run_so(&p, &(manner){.terminal = true, .environment = without}, "analyze mine.yaml");
     finished option = run_so(&p, &(manner){.terminal = true, .environment = with}, "analyze mine.yaml --no-color");
-    finished pipe = run_so(&p, &(manner){.environment = with}, "analyze mine.yaml");
     cr_expect(coloured(&terminal), "%s", terminal.out);
     cr_expect_not(coloured(&no_color));
     cr_expect_not(coloured(&option));
-    cr_expect_not(coloured(&pipe));
     check_contains(no_color.out, "FOUND");
     finished_clear(&terminal);
     finished_clear(&no_color);
     finished_clear(&option);
-    finished_clear(&pipe);
     place_clear(&p);
 }
 

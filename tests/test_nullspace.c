@@ -10,7 +10,7 @@
 #include "noether/nullspace.h"
 #include "samples.h"
 
-static const nh_nullspace_options OPTIONS = {1e-9, 100, 1e5, 1e3, 1e-7, 1e-11};
+static const nh_nullspace_options OPTIONS = {1e-9, 100, 1e5, 1e3, 1e6, 1e-7, 1e-11};
 
 /* Solve from copies, fed in blocks of these sizes. */
 static nh_nullspace *solve_with(const samples *s, size_t block_a, size_t block_b, const nh_nullspace_options *options, nh_error *error)

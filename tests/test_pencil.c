@@ -9,7 +9,7 @@
 #include "noether/pencil.h"
 #include "samples.h"
 
-static const nh_nullspace_options OPTIONS = {1e-9, 100, 1e5, 1e3, 1e-7, 1e-11};
+static const nh_nullspace_options OPTIONS = {1e-9, 100, 1e5, 1e3, 1e6, 1e-7, 1e-11};
 static const double SPLIT = 1e-4;
 
 static void set(samples *s, size_t row, size_t column, double value, double rate)

@@ -19,6 +19,7 @@
     X(zero,             100,     1,      1e6,   "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \
     X(undecided,        1e5,     1,      1e10,  "",         "up to this many times the null bound a value is undecided")            \
     X(gap,              1e3,     1,      1e15,  "",         "ratio of the first non-null to the last null value that is demanded")  \
+    X(steepest,         1e6,    1,      1e15,  "",         "largest singular value that may raise the null bound")                 \
     X(likely,           1e-7,    0,      1,     "",         "values up to this, before the widest gap, are tried for a certificate") \
     X(trivial,          1e-11,   0,      1,     "",         "a column that varies by less than this part of its size is constant")  \
     X(split,            1e-4,    0,      1,     "",         "pencil eigenvalues below this are split Jordan blocks at zero")        \
@@ -37,8 +38,7 @@
     X(absolute,         1e-3,    0,      1e6,   "",         "size below which a state's error is absolute: tolerance*absolute")     \
     X(drift,            100,     1,      1e6,   "tolerance", "a true current drifts by less than this many tolerances")             \
     X(steps,            2e5,     10,     1e9,   "steps",    "a motion that needs more steps than this is ended and said to be so") \
-    X(until,            10,      -1e9,   1e9,   "time",     "end of the validation motion")                                         \
-    X(pivot,            1e-3,    0,      1,     "",         "relative size of a chart's pivot below which the chart is left")
+    X(until,            10,      -1e9,   1e9,   "time",     "end of the validation motion")                                        
 
 typedef struct {
 #define X(name, value, low, high, unit, doc) double name;

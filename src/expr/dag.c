@@ -25,6 +25,7 @@ void nh_dag_free(nh_dag *dag)
     nh_free(dag->bucket);
     nh_free(dag->name);
     nh_free(dag->memo);
+    nh_free(dag->simplified);
     nh_free(dag->rule);
     nh_arena_free(dag->names);
     nh_free(dag);
@@ -95,6 +96,25 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
     n->next = *head;
     *head = self + 1;
     return self;
+}
+
+/* ---- simplest forms ---- */
+
+bool nh_dag_simplified(const nh_dag *dag, nh_ex e, nh_ex *out)
+{
+    if (e >= dag->simplified_capacity || !dag->simplified[e]) return false;
+    *out = dag->simplified[e] - 1;
+    return true;
+}
+
+void nh_dag_set_simplified(nh_dag *dag, nh_ex e, nh_ex simple)
+{
+    size_t old = dag->simplified_capacity;
+    if (e >= old) {
+        nh_grow(&dag->simplified, &dag->simplified_capacity, dag->node_count, sizeof *dag->simplified);
+        memset(dag->simplified + old, 0, (dag->simplified_capacity - old) * sizeof *dag->simplified);
+    }
+    dag->simplified[e] = simple + 1;
 }
 
 /* ---- leaves ---- */

@@ -1,4 +1,4 @@
-/* dag_internal: the graph's storage, shared by dag.c, algebra.c and diff.c only. */
+/* dag_internal: the graph's storage, shared by the modules that make or remember nodes. */
 #ifndef NH_DAG_INTERNAL_H
 #define NH_DAG_INTERNAL_H
 
@@ -40,9 +40,15 @@ struct nh_dag {
     nh_arena *names;
     nh_diff_memo *memo;
     size_t memo_count, memo_capacity;
+    nh_ex *simplified; /* per node: its simplest form + 1; 0 when not yet asked */
+    size_t simplified_capacity;
     nh_diff_rule_entry *rule;
     size_t rule_count, rule_capacity;
 };
+
+/* The memo of nh_simplify: *out when known. */
+bool nh_dag_simplified(const nh_dag *dag, nh_ex e, nh_ex *out);
+void nh_dag_set_simplified(nh_dag *dag, nh_ex e, nh_ex simple);
 
 nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg);
 

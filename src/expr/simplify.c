@@ -1,4 +1,5 @@
 /* nh_simplify: several forms of one expression compete, the shortest wins. */
+#include "expr/dag_internal.h"
 #include "expr/emit.h"
 #include "expr/form.h"
 #include "expr/normal.h"
@@ -231,8 +232,11 @@ static nh_ex restore_calls(context *shared, nh_ex source, nh_ex result)
     return kept ? nh_substitute(dag, result, kept, shown, call) : result;
 }
 
+/* Asked again and again for the same components: the graph remembers. */
 nh_ex nh_simplify(nh_dag *dag, nh_ex e)
 {
+    nh_ex known;
+    if (nh_dag_simplified(dag, e, &known)) return known;
     context shared = {.dag = dag};
     nh_forms_init(&shared.literal, dag, true, most_terms);
     nh_forms_init(&shared.cut, dag, false, most_terms);
@@ -241,5 +245,7 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_forms_clear(&shared.literal);
     nh_forms_clear(&shared.cut);
     nh_index_clear(&shared.done);
+    nh_dag_set_simplified(dag, e, result);
+    nh_dag_set_simplified(dag, result, result);
     return result;
 }

@@ -170,7 +170,7 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
     double off = mismatch(d, state->v);
     if (off <= on_constraint || project) return true;
     nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g", off);
-    return nh_error_hint(error, "choose velocities that satisfy the constraints, or use --project to take the nearest ones");
+    return nh_error_hint(error, "choose velocities that satisfy the constraints");
 }
 
 /* ---- multiplier form ---- */

@@ -2,7 +2,7 @@
  *
  * The right-hand side comes as a callback, so that this module knows nothing of mechanics.  Tolerances: relative rtol and
  * absolute atol_i = rtol * scale_i (scale from the caller). Roots of guard functions are events: a chart's pivot that changes
- * sign stops the integration there (LIBRARIES: integrators step over chart singularities with flag 0).
+ * sign stops the integration there (integrators step over chart singularities without any failure flag).
  *
  * Reference: [Hindmarsh2005]. */
 #ifndef NH_FLOW_H

@@ -9,7 +9,7 @@
 
 nh_nullspace_options nh_nullspace_options_from(const nh_options *o)
 {
-    return (nh_nullspace_options){o->rank, o->zero, o->undecided, o->gap, o->likely, o->trivial};
+    return (nh_nullspace_options){o->rank, o->zero, o->undecided, o->gap, o->steepest, o->likely, o->trivial};
 }
 
 nh_nullspace *nh_echelon_terms(const nh_model *model, const nh_points *points, size_t n, const nh_ex *term, const nh_options *options,
@@ -242,7 +242,7 @@ nh_candidates *nh_echelon(const nh_model *model, const nh_points *points, const 
     nh_candidates *list = nh_alloc(sizeof *list);
     list->arena = nh_arena_create();
     list->candidate = take(list, t.dimension, sizeof *list->candidate);
-    double accepted = options->zero * DBL_EPSILON * fmax(1, nullspace->next_left_scale);
+    double accepted = options->zero * DBL_EPSILON * fmax(1, fmin(options->steepest, nullspace->next_left_scale));
     for (size_t k = 0; k < t.dimension; k++) {
         nh_candidate c = candidate_of(list, ansatz, &t, k, options->support, accepted);
         size_t at = list->count++, own = candidate_complexity(model->dag, &c);

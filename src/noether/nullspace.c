@@ -301,7 +301,7 @@ static bool quotient(nh_equations *equations, const nh_basis *basis, double *spe
     return ok || nh_fail(error, NH_NUMERIC, "", "the singular value decomposition of %zu columns failed", k);
 }
 
-/*     null:       sigma <= zero eps max(1, sigma_max)
+/*     null:       sigma <= zero eps max(1, min(sigma_max, steepest))
  *     undecided:  up to `undecided` times that, or a gap that is too shallow
  *
  * Normalising by sigma_max alone would miss a sector that holds nothing but integrals. */
@@ -310,7 +310,7 @@ static void decide(nh_nullspace *result, const nh_nullspace_options *options)
     size_t k = result->rank, null = 0;
     const double *sigma = result->spectrum;
     result->next_left_scale = k ? sigma[k - 1] : 0;
-    double bound = options->zero * DBL_EPSILON * fmax(1, result->next_left_scale);
+    double bound = options->zero * DBL_EPSILON * fmax(1, fmin(options->steepest, result->next_left_scale));
     while (null < k && sigma[null] <= bound)
         null++;
     size_t low = null; /* one past the undecided ones */

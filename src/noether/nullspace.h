@@ -29,6 +29,7 @@ typedef struct {
     double zero;      /* null: sigma <= zero * eps * max(1, sigma_max)  (100) */
     double undecided; /* undecided up to this many times the null bound (1e5) */
     double gap;       /* required ratio of the first non-null to the last null value (1e3) */
+    double steepest;  /* sigma_max counts up to this in the null bound: a singular column must not make everything null (1e6) */
     double likely;    /* values up to this one, before the widest gap, are likely null (1e-7) */
     double trivial;   /* a column whose variation is below trivial * its size is constant (1e-11) */
 } nh_nullspace_options;

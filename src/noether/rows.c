@@ -151,7 +151,10 @@ static void add_column(nh_field_column *list, size_t *count, size_t slot, nh_ex 
         nh_num c = nh_constant_of(dag, e);
         if (!nh_num_is(c, 1)) e = nh_mul(dag, e, nh_number(dag, nh_num_inv(c)));
     }
-    if (nh_kind_of(dag, e) == NH_NUMBER) e = nh_int(dag, 1);
+    if (nh_kind_of(dag, e) == NH_NUMBER) {
+        if (slot == 0) return; /* z0 = const is the trivial current */
+        e = nh_int(dag, 1);
+    }
     for (size_t i = 0; i < *count; i++)
         if (list[i].slot == slot && list[i].function == e) return;
     list[(*count)++] = (nh_field_column){slot, e};

@@ -9,7 +9,7 @@
 #include "noether/pencil.h"
 #include "system/sample.h"
 
-enum { most_basins = 12, generic_probes = 3, search_rows = 40 };
+enum { most_basins = 12, most_polished = 8, generic_probes = 3, search_rows = 40 };
 
 /* ---- the pencil ---- */
 
@@ -336,6 +336,7 @@ nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t
     }
     search(&o, options);
     size_t n = basins(&o, 1e-2, theta);
+    if (n > most_polished) n = most_polished;
     for (size_t i = 0; i < n; i++) {
         polish(&o, theta + i * unknowns, 1e-3);
         consider(h, &o, theta + i * unknowns, false);

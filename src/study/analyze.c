@@ -185,6 +185,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     r->route = r->analysis ? r->analysis->route : NH_ROUTE_BOTH;
     r->timing.read = lap(&clock);
     if (!make_models(r, q, error)) return false;
+    merge_options(r, q); /* now the analysis' motion is known too */
     r->timing.geometry = lap(&clock);
     size_t families = r->analysis ? r->analysis->families : 0;
     nh_family *family = r->analysis ? r->analysis->family : NULL;

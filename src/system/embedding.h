@@ -1,6 +1,6 @@
 /* embedding: constraints to a parametrization of the constraint submanifold.
  *
- *     v^s = rho^s(t, q, w),   w^1..w^n,   n = m - k          [MATH, sec. 1], [CechMusilova2014, sec. 2.3]
+ *     v^s = rho^s(t, q, w),   w^1..w^n,   n = m - k          [docs/method.md, sec. 1], [CechMusilova2014, sec. 2.3]
  *
  * A chart is either the user's quasi-velocities, or the independent coordinate velocities with the dependent ones
  * eliminated: symbolically where the constraints are linear in them, otherwise they stay as implicit symbols u with f(t, q, w, u) = 0,
