@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -16,7 +16,8 @@ static const struct option long_options[] = {
     {"chart", required_argument, NULL, opt_chart},       {"option", required_argument, NULL, opt_option},
     {"columns", required_argument, NULL, opt_columns},   {"no-color", no_argument, NULL, opt_no_color},
     {"current", required_argument, NULL, opt_current},   {"field", required_argument, NULL, opt_field},
-    {"max-seconds", required_argument, NULL, opt_max_seconds},
+    {"max-seconds", required_argument, NULL, opt_max_seconds}, {"initial", required_argument, NULL, opt_initial},
+    {"step", required_argument, NULL, opt_step},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -43,6 +44,14 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     if (end == value || *end || x != x || x - x != 0) return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
     cli->setting[cli->settings++] = (nh_setting){name, x};
     return true;
+}
+
+static bool positive(const char *text, const char *option, double *out, nh_error *error)
+{
+    char *end;
+    *out = strtod(text, &end);
+    if (end != text && !*end && *out > 0 && *out - *out == 0) return true;
+    return nh_fail(error, NH_USAGE, "", "--%s needs a positive number, found `%s`", option, text);
 }
 
 static bool set_chart(nh_cli *cli, const char *text, nh_error *error)
@@ -84,6 +93,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
     case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error);
+    case opt_initial: cli->initial = value; return true;
+    case opt_step: return positive(value, "step", &cli->step, error);
     case opt_current: cli->current = value; return true;
     case opt_field: cli->field = value; return true;
     case opt_columns: return nh_options_set(&cli->options, "columns", value, error);

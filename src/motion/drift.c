@@ -282,6 +282,9 @@ static nh_motion *full_motion(run *r, nh_flow_options options, nh_error *error)
     return motion;
 }
 
+/* A chart of coordinate velocities of constraints that are linear in the dependent ones can be replaced by all coordinates. */
+static bool may_leave_chart(const nh_model *o) { return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch; }
+
 static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
@@ -290,7 +293,7 @@ static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *curre
         if (!motion) return false;
         bool steep;
         nh_free(steep_points(r, motion, &steep));
-        if (!r->everywhere && (steep || !motion->complete) && !r->model->chart->quasi && r->model->k && !r->model->chart->implicit && !r->model->chart->branch) {
+        if (!r->everywhere && (steep || !motion->complete) && may_leave_chart(r->model)) {
             r->everywhere = true; /* begin again, in a formulation that is regular there */
             r->out->chart = "all coordinates (the chart breaks down on the way)";
             nh_motion_free(motion);
@@ -330,6 +333,32 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     if (good) return v;
     nh_validation_free(v);
     return NULL;
+}
+
+nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, size_t count, const double *times, const nh_options *options,
+                        const char **formulation, size_t n, const nh_ex *e, double **value, nh_error *error)
+{
+    size_t size = model->m + model->n;
+    run r = {.model = model, .dynamics = nh_dynamics_create(model), .options = options, .outputs = count, .times = (double *)times};
+    r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
+    r.scale = nh_alloc_array(size + 1, sizeof *r.scale);
+    for (size_t i = 0; i < size; i++) r.scale[i] = options->absolute;
+    nh_flow_options how = {.method = NH_ADAMS, .rtol = options->tolerance, .scale = r.scale, .max_steps = options->steps};
+    nh_motion *motion = nh_dynamics_start(r.dynamics, initial, false, r.z0, error) ? reduced_motion(&r, &how, error) : NULL;
+    *formulation = "reduced equations";
+    bool steep = false;
+    if (motion) nh_free(steep_points(&r, motion, &steep));
+    if (motion && may_leave_chart(model) && (steep || !motion->complete)) {
+        nh_motion_free(motion);
+        *formulation = "all coordinates, accelerations from the bordered system";
+        motion = full_motion(&r, how, error);
+    }
+    *value = nh_alloc_array(n * count + 1, sizeof **value);
+    if (motion && n) along(&r, motion, n, e, *value);
+    nh_dynamics_free(r.dynamics);
+    nh_free(r.scale);
+    nh_free(r.z0);
+    return motion;
 }
 
 void nh_validation_free(nh_validation *validation)

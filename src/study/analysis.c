@@ -75,9 +75,8 @@ static bool read_head(nh_analysis *a, nh_error *error)
     return read_settings(a, nh_deck_get(root, "set"), error);
 }
 
-nh_analysis *nh_analysis_read(const char *path, nh_error *error)
+static nh_analysis *read_deck(nh_deck *deck, nh_error *error)
 {
-    nh_deck *deck = nh_deck_read(path, error);
     if (!deck) return NULL;
     nh_arena *arena = nh_arena_create();
     nh_analysis *a = nh_arena_alloc(arena, sizeof *a);
@@ -86,6 +85,13 @@ nh_analysis *nh_analysis_read(const char *path, nh_error *error)
     if (read_head(a, error)) return a;
     nh_analysis_free(a);
     return NULL;
+}
+
+nh_analysis *nh_analysis_read(const char *path, nh_error *error) { return read_deck(nh_deck_read(path, error), error); }
+
+nh_analysis *nh_analysis_text(const char *name, const char *text, nh_error *error)
+{
+    return read_deck(nh_deck_parse(name, text, strlen(text), error), error);
 }
 
 void nh_analysis_free(nh_analysis *analysis)

@@ -29,6 +29,8 @@ typedef struct {
 } nh_analysis;
 
 nh_analysis *nh_analysis_read(const char *path, nh_error *error);
+/* The same from a text, called `name` in messages. */
+nh_analysis *nh_analysis_text(const char *name, const char *text, nh_error *error);
 void nh_analysis_free(nh_analysis *analysis);
 
 /* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its chart. */

@@ -1,0 +1,11 @@
+/* motion: a simulation as CSV and as JSON (schema version 1, docs/formats.md). */
+#ifndef NH_MOTION_REPORT_H
+#define NH_MOTION_REPORT_H
+
+#include "base/text.h"
+#include "study/simulate.h"
+
+void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head line, then a row per output time */
+char *nh_motion_json(const nh_simulation *simulation);             /* a heap string (nh_free), ending in a newline */
+
+#endif
