@@ -172,7 +172,7 @@ Test(cli, explain_knows_its_own_topics)
     }
     cr_expect_gt(topics, 10);
     finished options = run_expecting(&p, "explain options", 0);
-    check_contains(options.out, "seed         1 ");
+    check_contains(options.out, "seed          1 ");
     finished_clear(&options);
     finished_clear(&all);
     place_clear(&p);

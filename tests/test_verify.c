@@ -1,0 +1,209 @@
+/* verify and simulate: the paper's claims about the sleigh, confirmed or refuted; a motion against its closed form. */
+#include <criterion/criterion.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "report/motion.h"
+#include "report/verdict.h"
+#include "study/simulate.h"
+#include "study/verify.h"
+
+static const char SLEIGH[] = "systems/sleigh.yaml";
+
+static nh_options defaults(void)
+{
+    nh_options o;
+    nh_options_default(&o);
+    return o;
+}
+
+static nh_system *sleigh(size_t n, const nh_setting *setting)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_system *s = nh_system_read(SLEIGH, n, setting, &error);
+    cr_assert_not_null(s, "%s", error.what);
+    return s;
+}
+
+static nh_verdict_of_one *current(const char *text, nh_chart_choice chart)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_options o = defaults();
+    nh_verdict_of_one *v = nh_verify_current(sleigh(0, NULL), chart, text, &o, &error);
+    cr_assert_not_null(v, "%s: %s", text, error.what);
+    return v;
+}
+
+static nh_verdict_of_one *field(const char *text, nh_chart_choice chart)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_options o = defaults();
+    nh_verdict_of_one *v = nh_verify_field(sleigh(0, NULL), chart, text, &o, &error);
+    cr_assert_not_null(v, "%s: %s", text, error.what);
+    return v;
+}
+
+/* ---- currents ---- */
+
+static const char PHI2[] = "m*x'/cos(phi)*sin(phi/k) + m*a*k*phi'*cos(phi/k)", PHI2B[] = "m*x'/cos(phi)*cos(phi/k) - m*a*k*phi'*sin(phi/k)";
+
+Test(verify, true_currents_are_proved_for_all_parameters_in_both_charts)
+{
+    static const char *const list[] = {"-m/2*(x'^2/cos(phi)^2 + a^2*k^2*phi'^2)", PHI2, PHI2B};
+    for (size_t i = 0; i < 3; i++)
+        for (int chart = NH_CHART_QUASI; chart <= NH_CHART_COORDINATES; chart++) {
+            nh_verdict_of_one *v = current(list[i], (nh_chart_choice)chart);
+            cr_expect(v->conserved && v->proof.all_parameters, "%s", list[i]);
+            cr_expect(v->has_symmetry && v->symmetry.kase == (i == 0 ? 1 : 3), "%s: case %d", list[i], v->symmetry.kase);
+            cr_expect_not(v->has_counterexample);
+            nh_verdict_free(v);
+        }
+}
+
+/* The counterexample is checked by hand: Gamma(m v) = m a omega^2 in quasi-velocities. */
+Test(verify, a_false_current_is_refuted_with_a_point)
+{
+    nh_verdict_of_one *v = current("m*v", NH_CHART_QUASI);
+    cr_assert(!v->conserved && v->has_counterexample);
+    double omega = v->counterexample[4], expected = 2.0 * 1.0 * omega * omega;
+    cr_expect_float_eq(v->rate, expected, 1e-12 * fabs(expected));
+    cr_expect_gt(v->residual, 0.1);
+    char *json = nh_verdict_json(v);
+    cr_expect_not_null(strstr(json, "\"conserved\":\tfalse"), "%s", json);
+    cr_expect_not_null(strstr(json, "\"rate\":"), "%s", json);
+    nh_free(json);
+    nh_verdict_free(v);
+}
+
+Test(verify, almost_is_not_conserved)
+{
+    nh_verdict_of_one *v = current("v*sin(phi*0.500001) + 2*omega*cos(phi*0.500001)", NH_CHART_QUASI);
+    cr_expect_not(v->conserved);
+    cr_expect_lt(v->residual, 1e-4);
+    cr_expect_gt(v->residual, 1e-9);
+    nh_verdict_free(v);
+}
+
+Test(verify, a_constant_is_called_trivial)
+{
+    nh_verdict_of_one *v = current("sin(phi)^2 + cos(phi)^2", NH_CHART_QUASI);
+    cr_expect(v->trivial && v->conserved);
+    nh_verdict_free(v);
+}
+
+/* ---- fields ---- */
+
+#define R "sqrt(x'^2/(a^2*cos(phi)^2) + k^2*phi'^2)"
+#define S "x'/(a*cos(phi))"
+#define G "k^2/(" R ")^2*log((" R " + " S ")/(" R " - " S "))"
+#define B "((phi'*t + x'/(a*phi'*cos(phi)))/" R ")"
+#define D "((a*k^2*cos(phi) - x'*t)/" R ")"
+#define PLACES "Z0=" G "; phi=" G "*phi' - " B "; x=" G "*x' + " D "; y=" G "*x'*tan(phi) + " D "*tan(phi)"
+#define PHI_RATE G "*(-phi'*x'/(a*k^2*cos(phi)))"
+#define X_RATE G "*(a*phi'^2*cos(phi) - phi'*x'*tan(phi))"
+
+/* [CechMusilova2014], Z(Phi_3): the components along phi' and x' outside the Gamma term are printed with the wrong sign. */
+Test(verify, the_third_field_as_printed_is_refuted_and_corrected_is_proved)
+{
+    static const char printed[] = PLACES "; phi'=" PHI_RATE " + " D "*phi'/(a*k^2*cos(phi)); x'=" X_RATE " + " B "*(a*phi'*cos(phi) - x'*tan(phi))";
+    static const char corrected[] = PLACES "; phi'=" PHI_RATE " - " D "*phi'/(a*k^2*cos(phi)); x'=" X_RATE " - " B "*(a*phi'*cos(phi) - x'*tan(phi))";
+    nh_verdict_of_one *v = field(printed, NH_CHART_COORDINATES);
+    cr_expect(!v->conserved && v->has_counterexample);
+    cr_expect_not_null(strstr(v->equation, "(NX)"), "%s", v->equation);
+    nh_verdict_free(v);
+    v = field(corrected, NH_CHART_COORDINATES);
+    cr_expect(v->conserved && v->proof.all_parameters);
+    nh_verdict_free(v);
+}
+
+Test(verify, fields_outside_the_distribution_or_without_symmetry_are_refuted)
+{
+    nh_verdict_of_one *v = field("y=1", NH_CHART_QUASI);
+    cr_expect_not(v->conserved);
+    cr_expect_not_null(strstr(v->equation, "canonical distribution"), "%s", v->equation);
+    nh_verdict_free(v);
+    v = field("phi=1", NH_CHART_QUASI);
+    cr_expect_not(v->conserved);
+    cr_expect_str_eq(v->equation, "(N0)");
+    nh_verdict_free(v);
+    v = field("Z0=1", NH_CHART_QUASI);
+    cr_expect(v->conserved && v->symmetry.kase == 1);
+    nh_verdict_free(v);
+}
+
+Test(verify, wrong_questions_are_explained)
+{
+    static const struct { const char *field, *what; } list[] = {
+        {"phi=1; z=2", "`z` is neither Z0 nor a coordinate nor a velocity of the chart"},
+        {"phi", "a component `name=expression` was expected, found `phi`"},
+        {"phi=fi", "unknown name `fi`"},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        nh_error error;
+        nh_error_clear(&error);
+        nh_options o = defaults();
+        cr_expect_null(nh_verify_field(sleigh(0, NULL), NH_CHART_QUASI, list[i].field, &o, &error));
+        cr_expect_eq(error.code, NH_USAGE);
+        cr_expect_str_eq(error.what, list[i].what);
+    }
+}
+
+/* ---- simulate ---- */
+
+static nh_simulation *motion(const char *initial, double until, double step, nh_chart_choice chart, nh_error *error)
+{
+    nh_error_clear(error);
+    nh_simulate_request q = {.system_path = SLEIGH, .initial = initial, .until_given = true, .tolerance_given = true, .chart = chart, .step = step, .options = defaults()};
+    q.options.until = until;
+    return nh_simulate(&q, error);
+}
+
+static double last(const nh_simulation *s, const char *name)
+{
+    for (size_t k = 0; k < s->columns; k++)
+        if (!strcmp(s->column[k].name, name)) return s->value[(s->motion->count - 1) * s->columns + k];
+    cr_expect_fail("no column %s", name);
+    return NAN;
+}
+
+/* phi = 2 k atan tanh(z/2), z = omega0 t/k  [CechMusilova2014, eq. 33]; also in the chart that breaks down at cos phi = 0. */
+Test(simulate, the_closed_form_in_both_charts)
+{
+    for (int chart = NH_CHART_QUASI; chart <= NH_CHART_COORDINATES; chart++) {
+        nh_error error;
+        nh_simulation *s = motion("phi=0, phi'=2.2", 4, 0.8, (nh_chart_choice)chart, &error);
+        cr_assert_not_null(s, "%s", error.what);
+        double z = 2.2 * 4 / 2, phi = 4 * atan(tanh(z / 2));
+        cr_expect_eq(s->motion->count, 6);
+        cr_expect_float_eq(last(s, "phi"), phi, 1e-8);
+        cr_expect_float_eq(last(s, "phi'"), 2.2 / cosh(z), 1e-8);
+        cr_expect_float_eq(last(s, "E"), 0.5 * 2 * 4 * 2.2 * 2.2, 1e-7);
+        nh_text csv;
+        nh_text_init(&csv);
+        nh_motion_csv(s, &csv);
+        cr_expect_eq(strncmp(nh_text_string(&csv), "t,phi,x,y,phi',x',y',", 21), 0, "%.80s", nh_text_string(&csv));
+        cr_expect_null(strstr(nh_text_string(&csv), "nan"));
+        nh_text_clear(&csv);
+        nh_simulation_free(s);
+    }
+}
+
+Test(simulate, what_cannot_be_started_is_explained)
+{
+    static const struct { const char *initial, *what; } list[] = {
+        {NULL, "simulate needs an initial state"},
+        {"phi=0, x'=1, y'=1", "the initial velocities violate the constraints: they are off by 0.5"},
+    };
+    for (size_t i = 0; i < 2; i++) {
+        nh_error error;
+        cr_expect_null(motion(list[i].initial, 1, 0.5, NH_CHART_QUASI, &error));
+        cr_expect_str_eq(error.what, list[i].what);
+    }
+    nh_error error;
+    cr_expect_null(motion("psi=1", 1, 0.5, NH_CHART_QUASI, &error));
+    cr_expect_not_null(strstr(error.what, "`psi`"), "%s", error.what);
+}
