@@ -172,6 +172,38 @@ static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, d
     return intruder;
 }
 
+/* b is a triangle, and every column keeps a good part of itself apart from all others (1/|row i of R^-1|): then it is the answer, and
+ * Gram-Schmidt, which is slower than the whole QR at a thousand columns, has nothing to add. */
+static bool already_independent(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, double rank)
+{
+    size_t n = basis->count;
+    double safe = sqrt(rank), least = 1;
+    if (n != columns || n != rows) return false;
+    for (size_t j = 0; j < n; j++) {
+        for (size_t i = j + 1; i < n; i++)
+            if (b[i + j * ld] != 0) return false;
+        least = fmin(least, fabs(b[j + j * ld]) / basis->scale[j]);
+    }
+    if (!(least > safe)) return false;
+    double *r = nh_alloc_array(n * n, sizeof *r), *inverse = nh_alloc_array(n * n, sizeof *inverse), apart = 1;
+    nh_basis_gather(basis, n, b, ld, r);
+    for (size_t j = 0; j < n; j++) inverse[j + j * n] = 1;
+    nh_solve_triangle(n, n, r, n, inverse, n);
+    for (size_t i = 0; i < n; i++) {
+        double square = 0;
+        for (size_t j = i; j < n; j++) square += inverse[i + j * n] * inverse[i + j * n];
+        apart = fmin(apart, 1 / sqrt(square));
+    }
+    nh_free(inverse);
+    if (apart > safe) {
+        basis->r = r;
+        basis->smallest_kept = least;
+        return true;
+    }
+    nh_free(r);
+    return false;
+}
+
 /* The independent columns of those listed in basis->column, with their triangle. */
 static bool choose_columns(nh_basis *basis, size_t rows, size_t available, const double *b, size_t ld, double rank)
 {
@@ -207,6 +239,8 @@ bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b
     size_t available = equilibrate(basis, rows, columns, b, ld, size, options->trivial);
     if (available == 0)
         return true;
+    basis->count = available;
+    if (already_independent(basis, rows, columns, b, ld, options->rank)) return true;
     if (choose_columns(basis, rows, available, b, ld, options->rank)) return true;
     nh_basis_clear(basis);
     return nh_fail(error, NH_NUMERIC, "", "the columns of the ansatz are too large to be compared (overflow in the QR)");

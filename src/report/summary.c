@@ -273,6 +273,14 @@ static void spectrum_line(writer *w, const char *name, const nh_spectrum *s)
     }
 }
 
+/* The whole spectrum, ascending, with --verbose. */
+static void spectrum_values(writer *w, const nh_spectrum *s)
+{
+    enum { per_line = 10 };
+    if (!w->style.verbose || !s->done) return;
+    for (size_t i = 0; i < s->rank; i++) nh_text_addf(w->out, "%s%9.1e%s", i % per_line ? "" : "    ", s->spectrum[i], i % per_line == per_line - 1 || i + 1 == s->rank ? "\n" : "");
+}
+
 static void unknowns(writer *w)
 {
     const nh_result *r = w->r;
@@ -315,7 +323,9 @@ static void evidence(writer *w)
     stages(w);
     unknowns(w);
     spectrum_line(w, "current route", &r->current);
+    spectrum_values(w, &r->current);
     spectrum_line(w, "symmetry route", &r->symmetry);
+    spectrum_values(w, &r->symmetry);
     if (r->routes_compared)
         nh_text_addf(w->out, "  the two routes %s: angle %.0e between the spaces found\n", r->routes_agree ? "agree" : "DISAGREE", fmax(r->routes_angle, 1e-16));
 }
@@ -343,7 +353,7 @@ static void motion(writer *w)
     nh_text_addf(w->out, "  %s in %s, t = %g to %.6g, %ld evaluations\n", v->method, v->chart, v->begin, v->end, v->evaluations);
     if (!isnan(v->crossing))
         nh_text_addf(w->out, "  the chart of %s breaks down at t = %.4g; this one is regular there\n", v->crossing_chart, v->crossing);
-    if (v->currents && w->style.verbose) {
+    if (v->currents) {
         nh_text_addf(w->out, "  drift at tolerance%10.0e%10.0e%10.0e\n", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
         for (size_t k = 0; k < v->currents; k++)
             nh_text_addf(w->out, "  %-18s%10.1e%10.1e%10.1e\n", w->r->found[k].name, v->current[k].drift[0], v->current[k].drift[1], v->current[k].drift[2]);
