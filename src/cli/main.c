@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
+#include "expr/normal.h"
 
 static const struct {
     const char *name;
@@ -49,6 +50,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "nhsym: %s\n", text);
     }
     nh_arena_free(cli.arena);
+    nh_normal_cleanup();
     if (fflush(stdout) || ferror(stdout)) {
         fprintf(stderr, "nhsym: the output could not be written\n");
         return code ? code : NH_NUMERIC;

@@ -28,4 +28,7 @@ nh_ex nh_numerator(nh_dag *dag, nh_ex e);
 /* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);
 
+/* Give back what FLINT and Arb keep for their next use; call it last. */
+void nh_normal_cleanup(void);
+
 #endif

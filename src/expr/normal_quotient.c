@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "expr/normal.h"
 #include "expr/normal_flint.h"
 
 /* Products are refused when they need more than this many term products per admitted term; a whole computation may
@@ -431,3 +432,6 @@ void nh_quotient_divide(nh_field *field, const nh_quotient *a, const nh_quotient
     cancel(field, w);
     cancel(field, r);
 }
+
+/* declared in normal.h: the only file that may call FLINT */
+void nh_normal_cleanup(void) { flint_cleanup(); }
