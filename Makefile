@@ -4,6 +4,7 @@
 #   make check     install what the tests need, build, run every test (also under ASan and UBSan)
 #   make           build only            make install PREFIX=/usr/local
 #   make bench     measure, and write docs/performance.md
+#   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
 #   make clean
 
 CC      = gcc
@@ -30,7 +31,7 @@ CLI     = $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/cli/*.c))
 TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
 BENCHES = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/bench_*.c))
 
-.PHONY: all sleigh check tests sanitized install bench clean packages test-packages
+.PHONY: all sleigh check tests install bench catalogue clean packages test-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -50,6 +51,11 @@ tests: $(TESTS) $(BENCHES)
 bench: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all tests
 	@sh tests/bench.sh $(BUILD) docs/performance.md
+
+catalogue: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. False: reported but not conserved, or a function known not to be.\n\n'; \
+	   $(BUILD)/tests/bench_catalogue systems; } >docs/catalogue.md; code=$$?; tail -n 1 docs/catalogue.md; exit $$code
 
 packages:
 	@sh tests/packages.sh $(PACKAGES)

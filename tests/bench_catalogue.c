@@ -1,0 +1,25 @@
+/* bench_catalogue: every system of a folder analysed without an analysis file, against the integrals that its file knows.
+ *
+ *     bench_catalogue systems        prints a table; the exit code is 1 when something known is missing or something false is reported
+ */
+#include "catalogue.h"
+
+int main(int argc, char **argv)
+{
+    char *name[most_files];
+    const char *folder = argc > 1 ? argv[1] : "systems";
+    size_t n = list(folder, name), missing = 0, wrong = 0;
+    double total = 0;
+    puts("| system | known | independent found | at most | missing | false | not certified | seconds | which |\n|---|---|---|---|---|---|---|---|---|");
+    for (size_t i = 0; i < n; i++) {
+        row o = compare_file(folder, name[i], 0);
+        printf("| %s | %zu | %zu | %zu | %zu | %zu | %zu | %.2f | %s |\n", name[i], o.known, o.found, o.maximum, o.missing, o.wrong, o.uncertain, o.seconds, o.names);
+        fflush(stdout);
+        missing += o.missing;
+        wrong += o.wrong;
+        total += o.seconds;
+        free(name[i]);
+    }
+    printf("\n%zu systems, %zu known integrals missing, %zu false, %.1f seconds in all.\n", n, missing, wrong, total);
+    return n == 0 || missing + wrong > 0;
+}

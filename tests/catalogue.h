@@ -1,0 +1,110 @@
+/* A folder of systems against the integrals that its files know: for bench_catalogue, which prints a table, and test_catalogue, which asserts.
+ *
+ * Known: currents of the file (`known: currents`).  Found: independent currents reported.  Missing: known ones that are not functions of those
+ * found.  False: reported ones whose rate does not cancel to 50 digits at random points, and traps (`known: not_conserved`) that are functions
+ * of those found. */
+#ifndef NH_TESTS_CATALOGUE_H
+#define NH_TESTS_CATALOGUE_H
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "noether/independence.h"
+#include "study/analyze.h"
+
+enum { most_files = 500, points = 24 };
+
+typedef struct {
+    size_t known, found, missing, wrong, uncertain, maximum;
+    double seconds;
+    char names[400]; /* of what is missing or wrong */
+} row;
+
+/* Is e a function of the currents found?  Its gradient is in the span of theirs at generic points. */
+static bool depends(const nh_result *r, const nh_points *generic, nh_ex e)
+{
+    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
+    nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
+    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
+    phi[r->count] = e;
+    nh_independence_test(r->model, generic, r->count + 1, phi, r->options.sure, r->options.doubt, kind, NULL);
+    bool result = kind[r->count] == NH_DEPENDENT || kind[r->count] == NH_CONSTANT;
+    nh_free(kind);
+    nh_free(phi);
+    return result;
+}
+
+static void note(row *o, const char *what, const char *name)
+{
+    size_t n = strlen(o->names);
+    snprintf(o->names + n, sizeof o->names - n, "%s%s %.60s", n ? ", " : "", what, name);
+}
+
+static void compare(nh_result *r, row *o)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_points *generic = nh_points_create(r->model, points, 1, 4711, &error);
+    o->known = r->system->currents;
+    o->found = r->independent;
+    o->maximum = r->local_maximum;
+    o->seconds = r->timing.total;
+    for (size_t k = 0; k < r->count; k++) {
+        bool certified = r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits;
+        o->uncertain += !certified;
+        if (certified && r->found[k].heldout > r->options.heldout) o->wrong++, note(o, "false", r->found[k].name);
+    }
+    for (size_t k = 0; k < r->system->currents; k++) {
+        nh_ex e;
+        if (nh_analysis_to_chart(r->model, r->system->current[k].value, &e, &error) && depends(r, generic, e)) continue;
+        o->missing++;
+        note(o, "missing", r->system->current[k].name);
+    }
+    for (size_t k = 0; k < r->system->not_conserved; k++) {
+        nh_ex e;
+        if (!nh_analysis_to_chart(r->model, r->system->trap[k].value, &e, &error) || !depends(r, generic, e)) continue;
+        o->wrong++;
+        note(o, "trap", r->system->trap[k].name);
+    }
+    nh_points_free(generic);
+}
+
+static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+
+static size_t list(const char *folder, char **name)
+{
+    DIR *d = opendir(folder);
+    size_t n = 0;
+    for (struct dirent *e; d && n < most_files && (e = readdir(d));) {
+        size_t length = strlen(e->d_name);
+        if (length > 5 && !strcmp(e->d_name + length - 5, ".yaml")) name[n++] = strndup(e->d_name, length - 5);
+    }
+    if (d) closedir(d);
+    if (n) qsort(name, n, sizeof *name, by_name);
+    return n;
+}
+
+/* The system in folder/name.yaml, analysed without an analysis file and compared. */
+static row compare_file(const char *folder, const char *name, double max_seconds)
+{
+    row o = {0};
+    char path[4096];
+    nh_error error;
+    nh_error_clear(&error);
+    snprintf(path, sizeof path, "%s/%s.yaml", folder, name);
+    nh_analyze_request q = {.system_path = path};
+    nh_options_default(&q.options);
+    if (max_seconds > 0) q.options.max_seconds = max_seconds;
+    nh_result *r = nh_analyze(&q, &error);
+    if (r) compare(r, &o);
+    else {
+        o.missing = 1;
+        note(&o, "error:", error.what);
+    }
+    nh_result_free(r);
+    return o;
+}
+
+#endif
