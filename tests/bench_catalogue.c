@@ -1,6 +1,6 @@
 /* bench_catalogue: every system of a folder analysed without an analysis file, against the integrals that its file knows.
  *
- *     bench_catalogue systems        prints a table; the exit code is 1 when something known is missing or something false is reported
+ *     bench_catalogue systems [SEED]        prints a table; the exit code is 1 when something known is missing or something false is reported
  */
 #include "catalogue.h"
 
@@ -8,11 +8,12 @@ int main(int argc, char **argv)
 {
     char *name[most_files];
     const char *folder = argc > 1 ? argv[1] : "systems";
+    uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 0;
     size_t n = list(folder, name), missing = 0, wrong = 0;
     double total = 0;
     puts("| system | known | independent found | at most | missing | false | not certified | seconds | which |\n|---|---|---|---|---|---|---|---|---|");
     for (size_t i = 0; i < n; i++) {
-        row o = compare_file(folder, name[i], 0);
+        row o = compare_file(folder, name[i], seed, 0);
         printf("| %s | %zu | %zu | %zu | %zu | %zu | %zu | %.2f | %s |\n", name[i], o.known, o.found, o.maximum, o.missing, o.wrong, o.uncertain, o.seconds, o.names);
         fflush(stdout);
         missing += o.missing;

@@ -86,8 +86,8 @@ static size_t list(const char *folder, char **name)
     return n;
 }
 
-/* The system in folder/name.yaml, analysed without an analysis file and compared. */
-static row compare_file(const char *folder, const char *name, double max_seconds)
+/* The system in folder/name.yaml, analysed without an analysis file and compared; seed and max_seconds as in the options, 0: the default. */
+static row compare_file(const char *folder, const char *name, uint64_t seed, double max_seconds)
 {
     row o = {0};
     char path[4096];
@@ -96,6 +96,7 @@ static row compare_file(const char *folder, const char *name, double max_seconds
     snprintf(path, sizeof path, "%s/%s.yaml", folder, name);
     nh_analyze_request q = {.system_path = path};
     nh_options_default(&q.options);
+    if (seed) q.options.seed = seed, q.seed_given = true;
     if (max_seconds > 0) q.options.max_seconds = max_seconds;
     nh_result *r = nh_analyze(&q, &error);
     if (r) compare(r, &o);

@@ -10,7 +10,7 @@
 
 static inline mechanics sleigh(double m, double a, double k)
 {
-    nh_setting setting[] = {{"m", m}, {"a", a}, {"k", k}};
+    nh_setting setting[] = {{.name = "m", .value = m}, {.name = "a", .value = a}, {.name = "k", .value = k}};
     return mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 3, setting);
 }
 

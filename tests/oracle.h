@@ -65,7 +65,7 @@ static inline mechanics oracle_model(const char *path, const char *text, const c
 {
     nh_setting setting[10];
     nh_error error = {0};
-    for (size_t i = 0; i < n; i++) setting[i] = (nh_setting){parameter[i], oracle_number(set, parameter[i])};
+    for (size_t i = 0; i < n; i++) setting[i] = (nh_setting){.name = parameter[i], .value = oracle_number(set, parameter[i])};
     nh_system *s = path ? nh_system_read(path, n, setting, &error) : nh_system_parse("oracle", text, n, setting, &error);
     return mechanics_make(s, NH_CHART_COORDINATES, &error);
 }

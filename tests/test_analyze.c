@@ -60,7 +60,7 @@ typedef struct {
 
 static nh_result *ask(question q)
 {
-    nh_setting setting[3] = {{"m", 0}, {"a", 0}, {"k", 0}};
+    nh_setting setting[3] = {{.name = "m"}, {.name = "a"}, {.name = "k"}};
     nh_error error = {0};
     nh_analyze_request request = {.system_path = q.system, .analysis_path = q.analysis, .setting = setting, .chart = q.chart};
     nh_options_default(&request.options);

@@ -50,6 +50,7 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --set k=nan", "nhsym: --set k needs a number, found `nan`\n"},
         {"analyze sleigh --set k=inf", "nhsym: --set k needs a number, found `inf`\n"},
         {"analyze sleigh --set kk=3", "nhsym: `kk` is not a parameter of sleigh\nhint: did you mean `k`?\n"},
+        {"analyze sleigh --seed 1.5", "nhsym: the option `seed` is a whole number, found `1.5`\n"},
         {"analyze sleigh --seed -3", "nhsym: the option `seed` must lie between 0 and 1e+15, found `-3`\n"},
         {"analyze sleigh --seed many", "nhsym: the option `seed` needs a number, found `many`\n"},
         {"analyze sleigh --option sed=3", "nhsym: there is no option `sed`\nhint: did you mean `seed`?\n"},

@@ -396,7 +396,7 @@ Test(geometry, gamma_and_multipliers_do_not_depend_on_the_chart)
 /* The Chaplygin sleigh with k = 1 has no inertia about its centre of mass: d2L/dv dv is singular, M is not. */
 Test(geometry, a_singular_mass_matrix_may_be_regular_on_the_submanifold)
 {
-    nh_setting k = {"k", 1};
+    nh_setting k = {.name = "k", .value = 1};
     for (int quasi = 0; quasi < 2; quasi++) {
         mechanics x = mechanics_of_file("systems/sleigh.yaml", quasi ? NH_CHART_QUASI : NH_CHART_COORDINATES, 1, &k);
         double z[6] = {0.1, 0.7, -0.3, 0.2, 1.1, -0.8};

@@ -206,7 +206,7 @@ static double flow_error(const nh_model *o, const cJSON *motion)
 static mechanics sleigh_of(const cJSON *set)
 {
     nh_setting setting[3];
-    for (size_t i = 0; i < 3; i++) setting[i] = (nh_setting){SLEIGH_PARAMETERS[i], oracle_number(set, SLEIGH_PARAMETERS[i])};
+    for (size_t i = 0; i < 3; i++) setting[i] = (nh_setting){.name = SLEIGH_PARAMETERS[i], .value = oracle_number(set, SLEIGH_PARAMETERS[i])};
     return mechanics_of_file(SLEIGH, NH_CHART_QUASI, 3, setting);
 }
 

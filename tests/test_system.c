@@ -241,7 +241,7 @@ Test(system, the_whole_expression_language)
 Test(system, settings_override_values)
 {
     nh_error error = {0};
-    nh_setting set[] = {{"k", 3.25}, {"m", 0.125}, {"k", 4.5}};
+    nh_setting set[] = {{.name = "k", .value = 3.25}, {.name = "m", .value = 0.125}, {.name = "k", .value = 4.5}};
     nh_system *s = nh_system_parse("all.yaml", ALL, 3, set, &error);
     must(s != NULL, &error, "settings");
     cr_expect_eq(s->parameter[0].value, 0.125);
@@ -255,7 +255,7 @@ Test(system, settings_of_unknown_parameters_are_refused)
 {
     nh_error error = {0};
     char text[1000];
-    nh_setting set[] = {{"bgi", 3}, {"phi", 1}};
+    nh_setting set[] = {{.name = "bgi", .value = 3}, {.name = "phi", .value = 1}};
     cr_assert_null(nh_system_parse("all.yaml", ALL, 1, set, &error));
     cr_expect_eq(error.code, NH_USAGE);
     nh_error_format(&error, text, sizeof text);

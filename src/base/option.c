@@ -1,12 +1,13 @@
 #include "base/option.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/text.h"
 
 static const nh_option_row table[] = {
-#define X(name, value, low, high, unit, doc) {#name, unit, doc, value, low, high},
+#define X(name, value, low, high, kind, unit, doc) {#name, unit, doc, value, low, high, NH_OPTION_##kind},
     NH_OPTION_TABLE(X)
 #undef X
 };
@@ -18,7 +19,7 @@ nh_option_row nh_option_at(size_t index) { return table[index]; }
 void nh_options_default(nh_options *options)
 {
     *options = (nh_options){
-#define X(name, value, low, high, unit, doc) value,
+#define X(name, value, low, high, kind, unit, doc) value,
         NH_OPTION_TABLE(X)
 #undef X
     };
@@ -27,7 +28,7 @@ void nh_options_default(nh_options *options)
 static double *field(nh_options *options, size_t index)
 {
     static const size_t offset[] = {
-#define X(name, value, low, high, unit, doc) offsetof(nh_options, name),
+#define X(name, value, low, high, kind, unit, doc) offsetof(nh_options, name),
         NH_OPTION_TABLE(X)
 #undef X
     };
@@ -52,6 +53,8 @@ bool nh_options_set(nh_options *options, const char *name, const char *value, nh
     if (end == value || *end) return nh_fail(error, NH_USAGE, "", "the option `%s` needs a number, found `%s`", name, value);
     if (!(x >= table[index].low && x <= table[index].high))
         return nh_fail(error, NH_USAGE, "", "the option `%s` must lie between %g and %g, found `%s`", name, table[index].low, table[index].high, value);
+    if (table[index].kind == NH_OPTION_whole && x != floor(x))
+        return nh_fail(error, NH_USAGE, "", "the option `%s` is a whole number, found `%s`", name, value);
     *field(options, index) = x;
     return true;
 }

@@ -1,4 +1,4 @@
-/* option: every number that decides something, in one table: name, default, range, unit, meaning.
+/* option: every number that decides something, in one table: name, default, range, kind (real or whole), unit, meaning.
  *
  * The command line (--option NAME=VALUE), `nhsym explain options` and docs/options.md all print from it. */
 #ifndef NH_OPTION_H
@@ -8,53 +8,56 @@
 
 #include "base/error.h"
 
-/*        name          default  least   most   unit        meaning */
-#define NH_OPTION_TABLE(X)                                                                                                          \
-    X(samples,          0,       0,      1e7,   "points",   "fit points; 0: four per column, at least 256")                         \
-    X(seed,             1,       0,      1e15,  "",         "seed of the low-discrepancy samples and of every random choice")       \
-    X(columns,          1500,    1,      20000, "columns",  "largest ansatz that is tried")                                         \
-    X(stage_columns,    330,     1,      20000, "columns",  "largest ansatz of one stage when the program chooses")                 \
-    X(max_seconds,      10,      0,      1e7,   "s",        "time after which the search by stages ends")                           \
-    X(rank,             1e-9,    0,      1,     "",         "columns whose pivot is below this part of the first are dependent")    \
-    X(zero,             100,     1,      1e6,   "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \
-    X(undecided,        1e5,     1,      1e10,  "",         "up to this many times the null bound a value is undecided")            \
-    X(gap,              1e3,     1,      1e15,  "",         "ratio of the first non-null to the last null value that is demanded")  \
-    X(steepest,         1e6,    1,      1e15,  "",         "largest singular value that may raise the null bound")                 \
-    X(likely,           1e-7,    0,      1,     "",         "values up to this, before the widest gap, are tried for a certificate") \
-    X(trivial,          1e-11,   0,      1,     "",         "a column that varies by less than this part of its size is constant")  \
-    X(split,            1e-4,    0,      1,     "",         "pencil eigenvalues below this are split Jordan blocks at zero")        \
-    X(heldout,          1e-8,    0,      1,     "",         "largest relative residual of a current on points not used in the fit") \
-    X(support,          3e-7,    0,      1,     "",         "coefficients below this part of the largest are tried as zero")        \
-    X(sure,             1e-2,    0,      1,     "",         "gradient fraction above which a current is independent")               \
-    X(doubt,            1e-6,    0,      1,     "",         "gradient fraction below which a current is dependent")                 \
-    X(same,             1e-9,    0,      1,     "",         "relative difference below which two fields agree at a point")          \
-    X(recognise,        1e-10,   0,      1,     "",         "relative difference below which a number is taken for a simple one")   \
-    X(agreement,        1e-8,    0,      1,     "",         "largest angle between the spaces found by the two routes")             \
-    X(evaluations,      200,     10,     1e7,   "",         "objective evaluations of the global search per unknown")               \
-    X(bits,             256,     64,     4096,  "bits",     "working precision of ball arithmetic")                                 \
-    X(digits,           50,      10,     1000,  "digits",   "digits to which a residual must vanish to be certified")               \
-    X(proof_terms,      20000,   100,    1e7,   "terms",    "largest polynomial that an exact proof may use")                       \
-    X(tolerance,        1e-10,   1e-14,  1e-2,  "",         "relative tolerance of the motions")                                    \
-    X(absolute,         1e-3,    0,      1e6,   "",         "size below which a state's error is absolute: tolerance*absolute")     \
-    X(drift,            100,     1,      1e6,   "tolerance", "a true current drifts by less than this many tolerances")             \
-    X(steps,            2e5,     10,     1e9,   "steps",    "a motion that needs more steps than this is ended and said to be so") \
-    X(until,            10,      -1e9,   1e9,   "time",     "end of the validation motion")                                        
+/*        name          default  least   most   kind   unit        meaning */
+#define NH_OPTION_TABLE(X)                                                                                                                   \
+    X(samples,          0,       0,      1e7,   whole, "points",   "fit points; 0: four per column, at least 256")                           \
+    X(seed,             1,       0,      1e15,  whole, "",         "seed of the low-discrepancy samples and of every random choice")         \
+    X(columns,          1500,    1,      20000, whole, "columns",  "largest ansatz that is tried")                                           \
+    X(stage_columns,    330,     1,      20000, whole, "columns",  "largest ansatz of one stage when the program chooses")                   \
+    X(max_seconds,      10,      0,      1e7,   real,  "s",        "time after which the search by stages ends")                             \
+    X(rank,             1e-9,    0,      1,     real,  "",         "columns whose pivot is below this part of the first are dependent")      \
+    X(zero,             100,     1,      1e6,   real,  "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \
+    X(undecided,        1e5,     1,      1e10,  real,  "",         "up to this many times the null bound a value is undecided")              \
+    X(gap,              1e3,     1,      1e15,  real,  "",         "ratio of the first non-null to the last null value that is demanded")    \
+    X(steepest,         1e6,    1,      1e15,  real,  "",         "largest singular value that may raise the null bound")                    \
+    X(likely,           1e-7,    0,      1,     real,  "",         "values up to this, before the widest gap, are tried for a certificate")  \
+    X(trivial,          1e-11,   0,      1,     real,  "",         "a column that varies by less than this part of its size is constant")    \
+    X(split,            1e-4,    0,      1,     real,  "",         "pencil eigenvalues below this are split Jordan blocks at zero")          \
+    X(heldout,          1e-8,    0,      1,     real,  "",         "largest relative residual of a current on points not used in the fit")   \
+    X(support,          3e-7,    0,      1,     real,  "",         "coefficients below this part of the largest are tried as zero")          \
+    X(sure,             1e-2,    0,      1,     real,  "",         "gradient fraction above which a current is independent")                 \
+    X(doubt,            1e-6,    0,      1,     real,  "",         "gradient fraction below which a current is dependent")                   \
+    X(same,             1e-9,    0,      1,     real,  "",         "relative difference below which two fields agree at a point")            \
+    X(recognise,        1e-10,   0,      1,     real,  "",         "relative difference below which a number is taken for a simple one")     \
+    X(agreement,        1e-8,    0,      1,     real,  "",         "largest angle between the spaces found by the two routes")               \
+    X(evaluations,      200,     10,     1e7,   whole, "",         "objective evaluations of the global search per unknown")                 \
+    X(bits,             256,     64,     4096,  whole, "bits",     "working precision of ball arithmetic")                                   \
+    X(digits,           50,      10,     1000,  whole, "digits",   "digits to which a residual must vanish to be certified")                 \
+    X(proof_terms,      20000,   100,    1e7,   whole, "terms",    "largest polynomial that an exact proof may use")                         \
+    X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \
+    X(absolute,         1e-3,    0,      1e6,   real,  "",         "size below which a state's error is absolute: tolerance*absolute")       \
+    X(drift,            100,     1,      1e6,   real,  "tolerance", "a true current drifts by less than this many tolerances")               \
+    X(steps,            2e5,     10,     1e9,   whole, "steps",    "a motion that needs more steps than this is ended and said to be so")    \
+    X(until,            10,      -1e9,   1e9,   real,  "time",     "end of the validation motion")
+
+typedef enum { NH_OPTION_real, NH_OPTION_whole } nh_option_kind;
 
 typedef struct {
-#define X(name, value, low, high, unit, doc) double name;
+#define X(name, value, low, high, kind, unit, doc) double name;
     NH_OPTION_TABLE(X)
 #undef X
 } nh_options;
 
 void nh_options_default(nh_options *options);
 
-/* "name=value" or a name and a value; unknown names and values out of range are refused with a suggestion. */
+/* "name=value" or a name and a value; unknown names, values out of range and fractions of what is whole are refused with a suggestion. */
 bool nh_options_set(nh_options *options, const char *name, const char *value, nh_error *error);
 
 /* For documentation and help. */
 typedef struct {
     const char *name, *unit, *doc;
     double value, low, high;
+    nh_option_kind kind;
 } nh_option_row;
 size_t nh_option_count(void);
 nh_option_row nh_option_at(size_t index);

@@ -42,7 +42,7 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     if (!assignment(cli, text, "set", &name, &value, error)) return false;
     double x = strtod(value, &end);
     if (end == value || *end || x != x || x - x != 0) return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
-    cli->setting[cli->settings++] = (nh_setting){name, x};
+    cli->setting[cli->settings++] = (nh_setting){.name = name, .value = x};
     return true;
 }
 

@@ -39,7 +39,7 @@ static bool read_settings(nh_analysis *a, const nh_deck_node *map, nh_error *err
     if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "set", error)) return false;
     a->setting = nh_arena_alloc(a->arena, (map->count + 1) * sizeof *a->setting);
     for (size_t i = 0; i < map->count; i++) {
-        a->setting[i].name = map->key[i]->text;
+        a->setting[i] = (nh_setting){.name = map->key[i]->text, .deck = a->deck, .key = map->key[i]};
         if (!nh_deck_number(a->deck, map->item[i], "the value of a parameter", &a->setting[i].value, error)) return false;
     }
     a->settings = map->count;
@@ -267,13 +267,7 @@ static bool unknown_state(reader *r, const nh_deck_node *key)
 {
     const nh_system *s = r->model->system;
     const char **names = nh_analysis_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
-    size_t n = 0;
-    names[n++] = "t";
-    for (size_t i = 0; i < s->coordinates; i++) {
-        names[n++] = s->coordinate[i].name;
-        names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
-    }
-    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    size_t n = nh_system_state_names(s, names);
     nh_deck_fail(r->a->deck, key, 0, r->error, "`%s` is not a coordinate or velocity of %s", key->text, s->name);
     const char *near = nh_text_nearest(key->text, names, n);
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;

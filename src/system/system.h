@@ -63,12 +63,17 @@ typedef struct {
 typedef struct {
     const char *name;
     double value;
+    const nh_deck *deck;     /* where it was written: NULL for the command line */
+    const nh_deck_node *key;
 } nh_setting;
 
 /* Read a system file; `settings` override parameter values.  NULL on failure. */
 nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error);
 nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting, nh_error *error);
 void nh_system_free(nh_system *system);
+
+/* t, coordinates, velocities and quasi-velocities by name, for messages: at most 2*coordinates + quasi + 1, counted by the result. */
+size_t nh_system_state_names(const nh_system *system, const char **names);
 
 /* Parse an expression of this system: t, parameters, definitions, coordinates, velocities x', quasi-velocities, and the
  * extra names; errors point into `node`, a scalar of `deck`. */

@@ -82,10 +82,8 @@ bool nh_system_read_forces(nh_system_reader *r)
     return true;
 }
 
-static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
+size_t nh_system_state_names(const nh_system *s, const char **names)
 {
-    nh_system *s = r->system;
-    const char **names = nh_system_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
     size_t n = 0;
     names[n++] = "t";
     for (size_t i = 0; i < s->coordinates; i++) {
@@ -93,6 +91,14 @@ static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
         names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
     }
     for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    return n;
+}
+
+static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
+{
+    nh_system *s = r->system;
+    const char **names = nh_system_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
+    size_t n = nh_system_state_names(s, names);
     for (size_t i = 0; i < n; i++)
         if (!strcmp(names[i], key->text)) return nh_symbol_find(s->dag, key->text, out);
     nh_deck_fail(r->deck, key, 0, r->error, "`%s` is not a coordinate, a velocity or t", key->text);
