@@ -67,6 +67,12 @@ static size_t compare(climber *x, nh_candidates *list, nh_independence *kind)
     return fresh;
 }
 
+static bool done(const climber *x)
+{
+    return x->r->independent >= x->r->local_maximum || seconds() - x->start > x->r->options.max_seconds;
+}
+
+/* Certificates of vectors that are only likely are dear and mostly refused: the time limit ends them too, and leaves the question open. */
 static size_t add_new(climber *x, nh_candidates *list, const nh_points *fit, bool certain)
 {
     nh_result *r = x->r;
@@ -75,6 +81,10 @@ static size_t add_new(climber *x, nh_candidates *list, const nh_points *fit, boo
     compare(x, list, kind);
     for (size_t k = 0; k < list->count && r->independent < r->local_maximum; k++) {
         nh_candidate *c = &list->candidate[k];
+        if (!certain && done(x)) {
+            r->open += kind[k] == NH_INDEPENDENT;
+            continue;
+        }
         if (kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, fit, certain)) {
             r->independent++;
             keep_factor(x, r->found[r->count - 1].phi);
@@ -322,11 +332,6 @@ static void known_stage(climber *x)
     part[1] = (nh_family){.kind = NH_TERMS, .terms = m, .term = f};
     both[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
     run_stage(x, "currents found so far times t, positions and the system's functions", 1, both);
-}
-
-static bool done(const climber *x)
-{
-    return x->r->independent >= x->r->local_maximum || seconds() - x->start > x->r->options.max_seconds;
 }
 
 /* Each of the system's functions alone: many at once are nearly dependent on a small interval. */
