@@ -15,7 +15,29 @@ Test(catalogue, finds_what_is_known_and_nothing_false)
         row o = compare_file("systems", name[i], 0, patience);
         cr_expect_eq(o.missing, 0, "%s: %s", name[i], o.names);
         cr_expect_eq(o.wrong, 0, "%s: %s", name[i], o.names);
+        cr_expect_eq(o.unread, 0, "%s: %zu currents not checked by the multiplier form", name[i], o.unread);
         cr_expect_leq(o.found, o.maximum, "%s reports %zu independent currents of at most %zu", name[i], o.found, o.maximum);
         free(name[i]);
     }
+}
+
+/* The check itself: a coordinate and one of the known false currents are caught by it. */
+Test(catalogue, the_multiplier_form_catches_what_is_not_conserved)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_analyze_request q = {.system_path = "systems/rolling_disk.yaml"};
+    nh_options_default(&q.options);
+    nh_result *r = nh_analyze(&q, &error);
+    cr_assert_not_null(r, "%s", error.what);
+    nh_points *at = nh_points_create(r->model, points, 1, 4711, &error);
+    cr_assert_not_null(at, "%s", error.what);
+    nh_found x = {.has_in_velocities = true, .in_velocities = r->system->coordinate[0].q}, trap = {.has_in_velocities = true};
+    cr_expect_gt(rate_by_multipliers(r, at, &x), 1e-3);
+    cr_assert_gt(r->system->not_conserved, 0);
+    trap.in_velocities = r->system->trap[0].value;
+    cr_expect_gt(rate_by_multipliers(r, at, &trap), 1e-3);
+    cr_expect(isnan(rate_by_multipliers(r, at, &(nh_found){0})));
+    nh_points_free(at);
+    nh_result_free(r);
 }
