@@ -496,3 +496,18 @@ Test(analyze, a_nonlinear_constraint)
     nothing_false(r);
     nh_result_free(r);
 }
+
+/* A disturbance of 1e-9 breaks the rotation: no double sees it, the refined coefficients do. */
+Test(analyze, almost_conserved_is_told_apart)
+{
+    nh_result *r = ask((question){.system = file("system.yaml", PARTICLE("rounded", "") "lagrangian: (x'^2 + y'^2 - x^2 - y^2)/2 + 1e-9*x^2*y\n"),
+                                  .analysis = ansatz("  - {basis: polynomial, in: [x, y, x', y'], degree: 4}\n")});
+    cr_expect(r->verdict == NH_FOUND && r->independent == 1, "%zu independent", r->independent);
+    cr_expect_not_null(find(r, "x'^2 + y'^2 + x^2 + y^2 - 2e-9*x^2*y"));
+    cr_assert_gt(r->almosts, 0);
+    for (size_t k = 0; k < r->almosts; k++) {
+        const nh_almost *a = &r->almost[k];
+        cr_expect(a->digits > 6 && a->digits < 25 && a->rate > 0 && a->rate < 1e-8, "%g digits, rate %.1e", a->digits, a->rate);
+    }
+    nh_result_free(r);
+}

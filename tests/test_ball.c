@@ -2,7 +2,7 @@
 #include <criterion/criterion.h>
 #include <math.h>
 
-#include "expr/ball.h"
+#include "expr/ball_fit.h"
 
 static nh_dag *dag;
 static nh_ball *ball;
@@ -178,4 +178,56 @@ Test(ball, precision)
     cr_expect_float_eq(fine_bound, log10(7.4992740280181431e-13), 1e-12);
     cr_expect_geq(coarse_bound, fine_bound);
     nh_ball_free(fine);
+}
+
+/* ---- ball_fit: sin(x + 1/3) = a sin x + b cos x, and the same with a disturbance that no double can see ---- */
+
+static double fitted_digits(nh_ex left, double *a, double *b)
+{
+    nh_ex term[] = {left, nh_call(dag, NH_SIN, x), nh_call(dag, NH_COS, x)};
+    bool fixed[] = {true, false, false};
+    double value[] = {-1, 0, 0}, ratio = 0;
+    nh_ball_fit *fit = nh_ball_fit_create(ball, 3, term, fixed, value);
+    for (int p = 1; p <= 5; p++) {
+        nh_ball_set_ratio(ball, x, p * p, 7);
+        cr_assert(nh_ball_fit_add(fit));
+    }
+    cr_assert(nh_ball_fit_solve(fit));
+    nh_ball_set_ratio(ball, x, 22, 13);
+    cr_assert(nh_ball_fit_residual(fit, &ratio));
+    *a = nh_ball_fit_coefficient(fit, 1);
+    *b = nh_ball_fit_coefficient(fit, 2);
+    nh_ball_fit_free(fit);
+    return -ratio;
+}
+
+Test(ball, fit_tells_true_from_nearly_true)
+{
+    double a, b;
+    nh_ex shifted = nh_call(dag, NH_SIN, nh_add(dag, x, nh_ratio(dag, 1, 3)));
+    cr_expect_gt(fitted_digits(shifted, &a, &b), 30);
+    cr_expect_float_eq(a, cos(1. / 3), 1e-15);
+    cr_expect_float_eq(b, sin(1. / 3), 1e-15);
+    nh_ex disturbed = nh_add(dag, shifted, nh_mul(dag, nh_powi(dag, nh_int(dag, 10), -17), nh_powi(dag, x, 2)));
+    double digits = fitted_digits(disturbed, &a, &b);
+    cr_expect(digits > 14 && digits < 19, "%g digits", digits);
+}
+
+Test(ball, fit_refuses_what_is_not_determined)
+{
+    nh_ex term[] = {nh_int(dag, 1), x, nh_mul(dag, nh_int(dag, 2), x)};
+    bool fixed[] = {true, false, false};
+    double value[] = {1, 0, 0}, ratio;
+    nh_ball_fit *fit = nh_ball_fit_create(ball, 3, term, fixed, value);
+    cr_expect_not(nh_ball_fit_add(fit), "x has no value yet");
+    for (int p = 1; p < 5; p++) {
+        nh_ball_set_ratio(ball, x, p, 3);
+        cr_assert(nh_ball_fit_add(fit));
+    }
+    if (nh_ball_fit_solve(fit)) { /* rounding may hide the singularity, the residual does not */
+        nh_ball_set_ratio(ball, x, 9, 2);
+        cr_assert(nh_ball_fit_residual(fit, &ratio));
+        cr_expect_gt(ratio, -5);
+    }
+    nh_ball_fit_free(fit);
 }

@@ -1,9 +1,9 @@
 #include "expr/ball.h"
 
-#include <arb.h>
 #include <math.h>
 
 #include "base/memory.h"
+#include "expr/ball_internal.h"
 
 enum { deepest = 3000 }; /* nesting that the stack surely bears */
 
@@ -237,6 +237,10 @@ static bool eval(nh_ball *ball, nh_ex e, arb_t out)
     return ball->of[e].finite;
 }
 
+bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out) { return eval(ball, e, out); }
+
+long nh_ball_bits(const nh_ball *ball) { return ball->bits; }
+
 /* ---- asking ---- */
 
 void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value)
@@ -290,7 +294,7 @@ static double log10_of(const arf_t x)
     return value;
 }
 
-static double log10_upper(const arb_t v)
+double nh_ball_log10_upper(const arb_t v)
 {
     arf_t bound;
     arf_init(bound);
@@ -300,7 +304,7 @@ static double log10_upper(const arb_t v)
     return value;
 }
 
-static double log10_lower(const arb_t v)
+double nh_ball_log10_lower(const arb_t v)
 {
     arf_t bound;
     arf_init(bound);
@@ -315,7 +319,7 @@ bool nh_ball_log10_bound(nh_ball *ball, nh_ex e, double *log10_bound)
     arb_t v;
     arb_init(v);
     bool fine = eval(ball, e, v);
-    if (fine) *log10_bound = log10_upper(v);
+    if (fine) *log10_bound = nh_ball_log10_upper(v);
     arb_clear(v);
     return fine;
 }
@@ -331,11 +335,11 @@ bool nh_ball_relative_sum(nh_ball *ball, size_t n, const nh_ex *term, double *lo
         fine = eval(ball, term[i], v);
         if (!fine) break;
         arb_add(sum, sum, v, ball->bits);
-        double size = log10_lower(v);
+        double size = nh_ball_log10_lower(v);
         if (size > largest) largest = size;
     }
     fine = fine && isfinite(largest);
-    if (fine) *log10_ratio = log10_upper(sum) - largest;
+    if (fine) *log10_ratio = nh_ball_log10_upper(sum) - largest;
     arb_clear(sum);
     arb_clear(v);
     return fine;

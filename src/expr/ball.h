@@ -11,6 +11,7 @@ typedef struct nh_ball nh_ball; /* values of some symbols, at some precision, an
 
 nh_ball *nh_ball_create(const nh_dag *dag, long bits);
 void nh_ball_free(nh_ball *ball);
+long nh_ball_bits(const nh_ball *ball);
 
 /* Set a symbol to the exact rational p/q, or to an exact double; forgets values that depended on it. */
 void nh_ball_set_ratio(nh_ball *ball, nh_ex symbol, int64_t p, int64_t q);

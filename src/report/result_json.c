@@ -200,6 +200,7 @@ static void put_current(const writer *w, nh_json *currents, const nh_found *f)
     nh_json_put_bool(item, "proved", f->proof.proved);
     nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
     nh_json_put_bool(item, "exact", f->exact);
+    nh_json_put_number(item, "printed_digits", floor(f->printed_digits));
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);
     nh_json_put_text(item, "relation", f->relation);
     nh_json_put_bool(item, "local", f->local);
@@ -213,6 +214,19 @@ static void put_current(const writer *w, nh_json *currents, const nh_found *f)
     if (f->symmetry.kase) nh_json_put_number(item, "case", f->symmetry.kase);
     else nh_json_put_null(item, "case");
     nh_json_put_bool(item, "projectable", f->symmetry.projectable);
+}
+
+static void put_almost(const writer *w, nh_json *root)
+{
+    nh_json *list = nh_json_put_array(root, "almost_conserved");
+    for (size_t k = 0; k < w->r->almosts; k++) {
+        const nh_almost *a = &w->r->almost[k];
+        nh_json *item = nh_json_add_object(list);
+        put_expression(w, item, "expression", a->phi);
+        put_expression(w, item, "in_velocities", a->in_velocities);
+        nh_json_put_number(item, "digits", floor(a->digits));
+        nh_json_put_number(item, "rate", a->rate);
+    }
 }
 
 /* ---- the motion ---- */
@@ -274,6 +288,7 @@ char *nh_result_json(const nh_result *r)
     put_search(&w, root);
     nh_json *currents = nh_json_put_array(root, "currents");
     for (size_t k = 0; k < r->count; k++) put_current(&w, currents, &r->found[k]);
+    put_almost(&w, root);
     nh_json_put_number(root, "independent_currents", (double)r->independent);
     nh_json_put_number(root, "local_maximum", (double)r->local_maximum);
     put_validation(&w, root);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/normal.h"
 #include "expr/print.h"
 #include "geometry/distribution.h"
 
@@ -205,7 +206,8 @@ static void certificate(writer *w, const nh_found *f)
     } else if (f->proof.proved) {
         nh_text_add(w->out, "proved for these parameter values");
     } else {
-        nh_text_addf(w->out, "conserved to %.0f digits%s", f->proof.digits, f->exact ? " (not proved)" : " (coefficients fitted in double precision)");
+        nh_text_addf(w->out, "conserved to %.0f digits%s", f->proof.digits,
+                     f->exact ? " (not proved)" : f->refined >= f->proof.digits && f->asked ? " with its coefficients refined" : " (coefficients fitted in double precision)");
     }
     nh_text_addf(w->out, "; held-out residual %.1e", f->heldout);
     if (w->r->validation) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
@@ -244,6 +246,21 @@ static void current(writer *w, const nh_found *f)
     faint(w, false);
 }
 
+/* What doubles take for a current and more digits do not. */
+static void almost(writer *w)
+{
+    enum { longest = 40, most = 2 };
+    const nh_result *r = w->r;
+    for (size_t k = 0; k < r->almosts && k < most; k++) {
+        const nh_almost *a = &r->almost[k];
+        bool brief = nh_complexity(r->model->dag, a->phi) <= longest;
+        nh_text_addf(w->out, "\n  almost conserved, not a current: its rate cancels to %.0f digits and no further; it changes by %.0e of its own variation per unit of time%s\n",
+                     a->digits, a->rate, brief ? "" : " (expression in the JSON)");
+        if (brief) formula(w, 8, "", a->phi);
+    }
+    if (r->almosts > most) nh_text_addf(w->out, "\n  almost conserved too: %zu more, in the JSON\n", r->almosts - most);
+}
+
 static void answer(writer *w)
 {
     const nh_result *r = w->r;
@@ -255,6 +272,7 @@ static void answer(writer *w)
     heading(w, nh_text_string(&title));
     nh_text_clear(&title);
     for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);
+    almost(w);
     abbreviations(w);
 }
 

@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "base/linalg.h"
+#include "study/coefficients.h"
 #include "study/currents.h"
 #include "study/defaults.h"
 #include "study/ladder.h"
@@ -132,7 +133,7 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
 static void conclude(nh_result *r)
 {
     bool certified = true;
-    for (size_t k = 0; k < r->count; k++) certified &= r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits;
+    for (size_t k = 0; k < r->count; k++) certified &= nh_coefficients_certain(&r->found[k], &r->options);
     bool open = r->open > 0, failed = r->count == 0 && r->current.dimension > 0;
     r->verdict = r->count == 0 ? (open || failed ? NH_UNDECIDED : NH_NONE) : certified ? NH_FOUND : NH_UNDECIDED;
     if (!certified)

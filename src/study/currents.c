@@ -8,76 +8,10 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/print.h"
-#include "expr/relation.h"
-#include "noether/recognise.h"
+#include "study/coefficients.h"
 #include "study/dependence.h"
 
-enum { heldout_count = 256, generic_count = 24, open_digits = 12 };
-
-static nh_ex parameter_value(const nh_model *o, size_t i)
-{
-    nh_num ratio;
-    double x = o->parameter_value[i];
-    return nh_recognise_ratio(x, 1000000000, DBL_EPSILON, &ratio) ? nh_number(o->dag, ratio) : nh_real(o->dag, x);
-}
-
-/* ---- coefficients ---- */
-
-/* Exact: Gamma of the support's terms are linearly related over the field of the parameters, or at their given values. */
-static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, bool *all_parameters)
-{
-    nh_dag *d = o->dag;
-    size_t n = c->count, p = o->system->parameters, limit = (size_t)options->proof_terms;
-    nh_ex *rate = nh_alloc_array(n + 1, sizeof *rate), *value = nh_alloc_array(p + 1, sizeof *value);
-    for (size_t j = 0; j < n; j++) rate[j] = nh_model_gamma(o, c->term[j]);
-    *all_parameters = nh_relation_find(d, n, rate, p, o->parameter, limit, out) == NH_RELATION_UNIQUE;
-    bool good = *all_parameters;
-    if (!good) {
-        for (size_t i = 0; i < p; i++) value[i] = parameter_value(o, i);
-        for (size_t j = 0; j < n; j++) rate[j] = nh_substitute(d, rate[j], p, o->parameter, value);
-        good = nh_relation_find(d, n, rate, 0, NULL, limit, out) == NH_RELATION_UNIQUE;
-    }
-    nh_free(value);
-    nh_free(rate);
-    return good;
-}
-
-/* Are the exact coefficients the fitted ones, up to a factor?  (A relation may exist that is not the current we fitted.) */
-static bool same_direction(const nh_model *o, const nh_candidate *c, const nh_ex *exact)
-{
-    double *value = nh_alloc_array(c->count + 1, sizeof *value), largest = 0, factor = 0, worst = 0;
-    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, c->count, exact, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, value);
-    for (size_t j = 0; j < c->count; j++)
-        if (fabs(c->coefficient[j]) > largest) {
-            largest = fabs(c->coefficient[j]);
-            factor = value[j] / c->coefficient[j];
-        }
-    for (size_t j = 0; j < c->count; j++) worst = fmax(worst, fabs(value[j] - factor * c->coefficient[j]));
-    bool same = isfinite(factor) && factor != 0 && worst <= 1e-6 * fabs(factor) * largest;
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(value);
-    return same;
-}
-
-/* The current as an expression; `exact` and `all_parameters` say what its coefficients are. */
-static nh_ex assemble(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_found *f)
-{
-    nh_dag *d = o->dag;
-    nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k), phi = nh_int(d, 0);
-    f->exact = exact_coefficients(o, c, options, k, &f->all_parameters) && same_direction(o, c, k);
-    if (!f->exact) {
-        f->all_parameters = false;
-        f->exact = true;
-        for (size_t j = 0; j < c->count; j++) f->exact &= nh_recognise_number(d, c->coefficient[j], options->recognise, &k[j]);
-    }
-    for (size_t j = 0; j < c->count && !f->exact; j++) k[j] = nh_real(d, c->coefficient[j]);
-    for (size_t j = 0; j < c->count; j++) phi = nh_add(d, phi, nh_mul(d, k[j], c->term[j]));
-    nh_free(k);
-    return phi;
-}
+enum { heldout_count = 256, generic_count = 24, open_digits = 12, least_almost = 6 };
 
 /* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
 
@@ -213,16 +147,25 @@ static void in_velocities(nh_result *r, nh_found *f, const nh_ex *inverse, bool 
     nh_free(v);
 }
 
-static void examine(nh_workbench *b, const nh_candidate *c, nh_found *f)
+/* What decides whether it is a current at all. */
+static void decide(nh_workbench *b, nh_candidate *c, nh_found *f)
+{
+    nh_result *r = b->result;
+    f->quotient = c->quotient;
+    f->phi = nh_coefficients_assemble(r->model, c, &r->options, f);
+    f->heldout = heldout_residual(r->model, b->heldout, f->phi);
+    if (nh_coefficients_refuted(f, &r->options)) return;
+    f->proof = nh_prove_current(r->model, f->phi, f->exact, &r->options);
+    nh_coefficients_certify(&r->options, f);
+}
+
+/* What is said about a current. */
+static void describe(nh_workbench *b, nh_found *f)
 {
     nh_result *r = b->result;
     nh_error trouble;
     nh_error_clear(&trouble);
-    f->quotient = c->quotient;
-    f->phi = assemble(r->model, c, &r->options, f);
     if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
-    f->heldout = heldout_residual(r->model, b->heldout, f->phi);
-    f->proof = nh_prove_current(r->model, f->phi, f->exact, &r->options);
     f->all_parameters = f->proof.all_parameters;
     f->local = is_local(r->model, b->generic, f->phi);
     f->meaning = meaning_of(r, f->phi);
@@ -266,10 +209,43 @@ static void independence(nh_result *r, const nh_points *generic)
     nh_dependence_relations(r);
 }
 
-/* A candidate that fails on held-out points or is refuted exactly is no current: it is left out, with a word about it. */
-static bool keeps(nh_result *r, const nh_found *f, bool certain)
+/* Root mean square of Gamma(Phi) over that of Phi - mean(Phi). */
+static double relative_rate(const nh_model *o, const nh_points *points, nh_ex phi)
 {
-    if (f->proof.proved || f->proof.digits >= r->options.digits) return true;
+    nh_ex pair[2] = {phi, nh_model_gamma(o, phi)};
+    double *value = nh_alloc_array(2 * points->count, sizeof *value), mean = 0, variation = 0, rate = 0;
+    nh_points_evaluate(points, o, 2, pair, value);
+    for (size_t p = 0; p < points->count; p++) mean += value[p] / (double)points->count;
+    for (size_t p = 0; p < points->count; p++) {
+        variation += pow(value[p] - mean, 2);
+        rate += pow(value[points->count + p], 2);
+    }
+    nh_free(value);
+    return variation > 0 && isfinite(rate) ? sqrt(rate / variation) : NAN;
+}
+
+/* Decided not to be exact, although doubles could not tell: worth a word, as what it is. */
+static void note_almost(nh_workbench *b, const nh_found *f)
+{
+    nh_result *r = b->result;
+    double rate = relative_rate(r->model, b->generic, f->phi);
+    nh_found copy = *f;
+    if (r->almosts == NH_MOST_ALMOST || !isfinite(rate) || f->refined < least_almost) return;
+    in_velocities(r, &copy, b->inverse, b->invertible);
+    if (!r->almost) r->almost = nh_arena_alloc(r->arena, NH_MOST_ALMOST * sizeof *r->almost);
+    r->almost[r->almosts++] = (nh_almost){f->phi, copy.in_velocities, f->refined, rate};
+}
+
+/* A candidate that fails on held-out points, is refuted exactly or does not cancel with many digits is no current: it is left out, with a word
+ * about it. */
+static bool keeps(nh_workbench *b, const nh_found *f, bool certain)
+{
+    nh_result *r = b->result;
+    if (nh_coefficients_certain(f, &r->options)) return true;
+    if (nh_coefficients_refuted(f, &r->options)) {
+        note_almost(b, f);
+        return false;
+    }
     if (!certain) { /* it was only likely: what cancels as far as doubles go remains an open question, the rest is answered */
         r->open += f->proof.digits >= open_digits;
         return false;
@@ -319,13 +295,29 @@ static nh_found *next_found(nh_result *r)
     return &r->found[r->count];
 }
 
+/* A function of the currents known already? */
+static bool is_old(const nh_workbench *b, const nh_found *f)
+{
+    const nh_result *r = b->result;
+    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
+    nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
+    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
+    phi[r->count] = f->phi;
+    nh_independence_test(r->model, b->generic, r->count + 1, phi, r->options.sure, r->options.doubt, kind, NULL);
+    bool old = kind[r->count] != NH_INDEPENDENT;
+    nh_free(kind);
+    nh_free(phi);
+    return old;
+}
+
 bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *fit, bool certain)
 {
     nh_result *r = b->result;
     nh_found *f = next_found(r);
     nh_echelon_refine(r->model, fit, candidate, &r->options);
-    examine(b, candidate, f);
-    if (!keeps(r, f, certain)) return false;
+    decide(b, candidate, f);
+    if (!keeps(b, f, certain) || (f->moved && is_old(b, f))) return false;
+    describe(b, f);
     r->count++;
     return true;
 }

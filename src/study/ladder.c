@@ -334,6 +334,19 @@ static void known_stage(climber *x)
     run_stage(x, "currents found so far times t, positions and the system's functions", 1, both);
 }
 
+/* The energy and each momentum alone: nothing nearly dependent beside them can take their place. */
+static void single_stages(climber *x)
+{
+    nh_result *r = x->r;
+    for (size_t i = 0; i <= x->words.momenta && !done(x); i++) {
+        nh_ex *e = nh_arena_alloc(r->arena, sizeof *e);
+        nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
+        *e = i == 0 ? r->model->E : x->words.momentum[i - 1];
+        *all = (nh_family){.kind = NH_TERMS, .terms = 1, .term = e};
+        if (promising(x, 1, all)) run_stage(x, i == 0 ? "energy" : "a momentum", 1, all);
+    }
+}
+
 /* Each of the system's functions alone: many at once are nearly dependent on a small interval. */
 static void function_stages(climber *x)
 {
@@ -375,6 +388,7 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
     }
     x.words = nh_dictionary_of(r->model);
     nh_stage stage;
+    single_stages(&x);
     for (size_t i = 0; !done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
         run_stage(&x, stage.name, stage.families, stage.family);
         if (i + 1 == pencils_after) all_pencils(&x);

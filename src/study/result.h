@@ -19,6 +19,10 @@ typedef struct {
     bool all_parameters;      /* and holds for all parameter values */
     double quotient, heldout;
     nh_proof proof;
+    bool asked;               /* were the coefficients refined with many digits?  */
+    bool moved;               /* and is what came out another combination than doubles had found?  */
+    double refined;           /* the digits to which they cancel then, -1 when this could not be computed */
+    double printed_digits;    /* the digits to which the current cancels with its coefficients as printed */
     nh_independence independence;
     double fraction;
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
@@ -26,6 +30,13 @@ typedef struct {
     nh_symmetry symmetry;
     nh_drift drift;
 } nh_found;
+
+/* A combination that looks conserved in doubles and is not. */
+typedef struct {
+    nh_ex phi, in_velocities; /* in the chart; in t, q, q' and parameters */
+    double digits;            /* to which its rate cancels at best, with coefficients of any accuracy */
+    double rate;              /* root mean square of its rate over that of its variation, per unit of time */
+} nh_almost;
 
 /* One linear problem and its answer. */
 typedef struct {
@@ -35,6 +46,8 @@ typedef struct {
     double *spectrum, gap;
     bool rank_in_doubt;
 } nh_spectrum;
+
+enum { NH_MOST_ALMOST = 6 };
 
 /* A stage of the ladder. */
 typedef struct {
@@ -74,6 +87,8 @@ typedef struct {
     size_t count, capacity, independent, local_maximum;
     size_t open;              /* null vectors that could be true but got no certificate */
     nh_found *found;
+    size_t almosts;           /* nearly conserved, found by the way: at most NH_MOST_ALMOST */
+    nh_almost *almost;
     nh_verdict verdict;
     nh_validation *validation; /* NULL when no motion could be computed */
     size_t warnings;

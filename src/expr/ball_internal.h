@@ -1,0 +1,16 @@
+/* What the files of the ball module share: Arb's numbers. */
+#ifndef NH_BALL_INTERNAL_H
+#define NH_BALL_INTERNAL_H
+
+#include <arb.h>
+
+#include "expr/ball.h"
+
+/* The value of e; false when it is not finite or a symbol has no value. */
+bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out);
+
+/* log10 of rigorous bounds of |v|. */
+double nh_ball_log10_upper(const arb_t v);
+double nh_ball_log10_lower(const arb_t v);
+
+#endif

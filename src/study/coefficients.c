@@ -1,0 +1,125 @@
+#include "study/coefficients.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "expr/relation.h"
+#include "noether/recognise.h"
+#include "noether/refine.h"
+
+static nh_ex parameter_value(const nh_model *o, size_t i)
+{
+    nh_num ratio;
+    double x = o->parameter_value[i];
+    return nh_recognise_ratio(x, 1000000000, DBL_EPSILON, &ratio) ? nh_number(o->dag, ratio) : nh_real(o->dag, x);
+}
+
+/* ---- coefficients ---- */
+
+/* Exact: Gamma of the support's terms are linearly related over the field of the parameters, or at their given values. */
+static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, bool *all_parameters)
+{
+    nh_dag *d = o->dag;
+    size_t n = c->count, p = o->system->parameters, limit = (size_t)options->proof_terms;
+    nh_ex *rate = nh_alloc_array(n + 1, sizeof *rate), *value = nh_alloc_array(p + 1, sizeof *value);
+    for (size_t j = 0; j < n; j++) rate[j] = nh_model_gamma(o, c->term[j]);
+    *all_parameters = nh_relation_find(d, n, rate, p, o->parameter, limit, out) == NH_RELATION_UNIQUE;
+    bool good = *all_parameters;
+    if (!good) {
+        for (size_t i = 0; i < p; i++) value[i] = parameter_value(o, i);
+        for (size_t j = 0; j < n; j++) rate[j] = nh_substitute(d, rate[j], p, o->parameter, value);
+        good = nh_relation_find(d, n, rate, 0, NULL, limit, out) == NH_RELATION_UNIQUE;
+    }
+    nh_free(value);
+    nh_free(rate);
+    return good;
+}
+
+/* Are the exact coefficients the fitted ones, up to a factor?  (A relation may exist that is not the current we fitted.) */
+static bool same_direction(const nh_model *o, const nh_candidate *c, const nh_ex *exact)
+{
+    double *value = nh_alloc_array(c->count + 1, sizeof *value), largest = 0, factor = 0, worst = 0;
+    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, c->count, exact, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, NULL, value);
+    for (size_t j = 0; j < c->count; j++)
+        if (fabs(c->coefficient[j]) > largest) {
+            largest = fabs(c->coefficient[j]);
+            factor = value[j] / c->coefficient[j];
+        }
+    for (size_t j = 0; j < c->count; j++) worst = fmax(worst, fabs(value[j] - factor * c->coefficient[j]));
+    bool same = isfinite(factor) && factor != 0 && worst <= 1e-6 * fabs(factor) * largest;
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(value);
+    return same;
+}
+
+/* ---- many digits ---- */
+
+static bool near(size_t n, const double *a, const double *b)
+{
+    double largest = 0, worst = 0;
+    for (size_t j = 0; j < n; j++) {
+        largest = fmax(largest, fabs(a[j]));
+        worst = fmax(worst, fabs(a[j] - b[j]));
+    }
+    return worst <= 1e-6 * largest;
+}
+
+static void refine(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f)
+{
+    f->asked = true;
+    bool *fixed = nh_alloc_array(c->count + 1, sizeof *fixed);
+    double *k = nh_alloc_array(c->count + 1, sizeof *k);
+    memcpy(k, c->coefficient, c->count * sizeof *k);
+    fixed[c->pivot] = true;
+    f->refined = nh_refine(o, c->count, c->term, fixed, k, 1, options);
+    f->moved = !near(c->count, c->coefficient, k); /* a true current of the same terms, if it is one, but not the one that doubles saw */
+    if (f->refined >= 0) memcpy(c->coefficient, k, c->count * sizeof *k);
+    nh_free(k);
+    nh_free(fixed);
+}
+
+/* ---- the whole ---- */
+
+static nh_ex combination(nh_dag *d, const nh_candidate *c, const nh_ex *k)
+{
+    nh_ex phi = nh_int(d, 0);
+    for (size_t j = 0; j < c->count; j++) phi = nh_add(d, phi, nh_mul(d, k ? k[j] : nh_real(d, c->coefficient[j]), c->term[j]));
+    return phi;
+}
+
+bool nh_coefficients_certain(const nh_found *f, const nh_options *options) { return f->proof.proved || f->proof.digits >= options->digits; }
+
+bool nh_coefficients_refuted(const nh_found *f, const nh_options *options)
+{
+    return f->asked && f->refined >= 0 && f->refined < options->digits && !nh_coefficients_certain(f, options);
+}
+
+nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f)
+{
+    nh_dag *d = o->dag;
+    nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k);
+    refine(o, c, options, f); /* relations of many terms cost more */
+    bool hopeless = f->refined >= 0 && f->refined < options->digits;
+    f->exact = !hopeless && exact_coefficients(o, c, options, k, &f->all_parameters) && same_direction(o, c, k);
+    if (!f->exact) {
+        f->all_parameters = false;
+        f->exact = true;
+        for (size_t j = 0; j < c->count; j++) f->exact &= nh_recognise_number(d, c->coefficient[j], options->recognise, &k[j]);
+    }
+    nh_ex phi = combination(d, c, f->exact ? k : NULL);
+    nh_free(k);
+    return phi;
+}
+
+void nh_coefficients_certify(const nh_options *options, nh_found *f)
+{
+    f->printed_digits = f->proof.digits;
+    if (nh_coefficients_certain(f, options)) return;
+    if (f->refined < options->digits) return;
+    f->proof.digits = f->refined;
+    f->proof.refuted = false;
+}

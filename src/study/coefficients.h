@@ -1,0 +1,22 @@
+/* coefficients: from fitted numbers to exact ones, or to as many digits as decide.
+ *
+ * First a fit in ball arithmetic, which tells a true current from one that is only nearly conserved; then exact relations of the terms' rates
+ * over the field of the parameters; over the rationals at the parameters' values; simple numbers.   [docs/method.md, sec. 6] */
+#ifndef NH_COEFFICIENTS_H
+#define NH_COEFFICIENTS_H
+
+#include "study/result.h"
+
+/* The current as an expression; found->exact and ->all_parameters say what its coefficients are, ->refined how far they cancel. */
+nh_ex nh_coefficients_assemble(const nh_model *model, nh_candidate *candidate, const nh_options *options, nh_found *found);
+
+/* After the proof: where that left the question open the refined digits are the certificate. */
+void nh_coefficients_certify(const nh_options *options, nh_found *found);
+
+/* Proved, or certified to as many digits as are asked for. */
+bool nh_coefficients_certain(const nh_found *found, const nh_options *options);
+
+/* Decided the other way: the refined combination does not cancel, and nothing in it is inexact. */
+bool nh_coefficients_refuted(const nh_found *found, const nh_options *options);
+
+#endif
