@@ -185,18 +185,18 @@ Test(ball, precision)
 static double fitted_digits(nh_ex left, double *a, double *b)
 {
     nh_ex term[] = {left, nh_call(dag, NH_SIN, x), nh_call(dag, NH_COS, x)};
-    bool fixed[] = {true, false, false};
-    double value[] = {-1, 0, 0}, ratio = 0;
-    nh_ball_fit *fit = nh_ball_fit_create(ball, 3, term, fixed, value);
+    bool leading[] = {true, false, false};
+    double ratio = 0;
+    nh_ball_fit *fit = nh_ball_fit_create(ball, 3, term, leading);
     for (int p = 1; p <= 5; p++) {
         nh_ball_set_ratio(ball, x, p * p, 7);
         cr_assert(nh_ball_fit_add(fit));
     }
-    cr_assert(nh_ball_fit_solve(fit));
+    cr_assert_eq(nh_ball_fit_solve(fit, 25, true), 1);
     nh_ball_set_ratio(ball, x, 22, 13);
-    cr_assert(nh_ball_fit_residual(fit, &ratio));
-    *a = nh_ball_fit_coefficient(fit, 1);
-    *b = nh_ball_fit_coefficient(fit, 2);
+    cr_assert(nh_ball_fit_residual(fit, 0, &ratio));
+    *a = -nh_ball_fit_coefficient(fit, 0, 1) / nh_ball_fit_coefficient(fit, 0, 0);
+    *b = -nh_ball_fit_coefficient(fit, 0, 2) / nh_ball_fit_coefficient(fit, 0, 0);
     nh_ball_fit_free(fit);
     return -ratio;
 }
@@ -216,18 +216,39 @@ Test(ball, fit_tells_true_from_nearly_true)
 Test(ball, fit_refuses_what_is_not_determined)
 {
     nh_ex term[] = {nh_int(dag, 1), x, nh_mul(dag, nh_int(dag, 2), x)};
-    bool fixed[] = {true, false, false};
-    double value[] = {1, 0, 0}, ratio;
-    nh_ball_fit *fit = nh_ball_fit_create(ball, 3, term, fixed, value);
+    bool leading[] = {true, false, false};
+    double ratio;
+    nh_ball_fit *fit = nh_ball_fit_create(ball, 3, term, leading);
     cr_expect_not(nh_ball_fit_add(fit), "x has no value yet");
     for (int p = 1; p < 5; p++) {
         nh_ball_set_ratio(ball, x, p, 3);
         cr_assert(nh_ball_fit_add(fit));
     }
-    if (nh_ball_fit_solve(fit)) { /* rounding may hide the singularity, the residual does not */
+    if (nh_ball_fit_solve(fit, 25, true)) { /* rounding may hide the singularity, the residual does not */
         nh_ball_set_ratio(ball, x, 9, 2);
-        cr_assert(nh_ball_fit_residual(fit, &ratio));
+        cr_assert(nh_ball_fit_residual(fit, 0, &ratio));
         cr_expect_gt(ratio, -5);
     }
+    nh_ball_fit_free(fit);
+}
+
+/* Neither sin x - x, nor cos x - 1, nor the shifted sine alone: only one combination of two disturbed relations is true. */
+Test(ball, fit_finds_the_true_combination)
+{
+    nh_ex tiny = nh_mul(dag, nh_powi(dag, nh_int(dag, 10), -15), nh_call(dag, NH_EXP, x)), s = nh_call(dag, NH_SIN, x), c = nh_call(dag, NH_COS, x);
+    nh_ex term[] = {nh_add(dag, nh_call(dag, NH_SIN, nh_add(dag, x, nh_int(dag, 1))), tiny), nh_sub(dag, nh_call(dag, NH_SIN, nh_add(dag, x, nh_int(dag, 2))), tiny), s, c};
+    bool leading[] = {true, true, false, false};
+    nh_ball_free(ball);
+    ball = nh_ball_create(dag, 400);
+    nh_ball_fit *fit = nh_ball_fit_create(ball, 4, term, leading);
+    for (int p = 1; p <= 8; p++) {
+        nh_ball_set_ratio(ball, x, p * p - 9, 17);
+        cr_assert(nh_ball_fit_add(fit));
+    }
+    cr_assert_eq(nh_ball_fit_solve(fit, 20, false), 1);
+    cr_expect_float_eq(nh_ball_fit_coefficient(fit, 0, 0) / nh_ball_fit_coefficient(fit, 0, 1), 1, 1e-15);
+    double ratio;
+    nh_ball_set_ratio(ball, x, 3, 5);
+    cr_expect(nh_ball_fit_residual(fit, 0, &ratio) && ratio < -25, "%g", ratio);
     nh_ball_fit_free(fit);
 }

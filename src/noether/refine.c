@@ -15,45 +15,64 @@ static bool feed(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t rows
     size_t added = 0;
     for (size_t tries = 0; tries < most_tries * rows + 40 && added < rows; tries++)
         if (nh_exact_point(o, ball, state) && nh_ball_fit_add(fit)) added++;
-    return added == rows && nh_ball_fit_solve(fit);
+    return added == rows;
 }
 
-static double check(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uint64_t *state, const nh_options *options)
+/* digits[k] of every vector; false when there were no points for it. */
+static bool check(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uint64_t *state, const nh_options *options, nh_refined *out)
 {
-    double digits = options->bits * log10(2);
     size_t seen = 0;
+    for (size_t k = 0; k < out->count; k++) out->digits[k] = options->bits * log10(2);
     for (size_t tries = 0; tries < most_tries * heldout_points + 40 && seen < heldout_points; tries++) {
-        double ratio;
-        if (!nh_exact_point(o, ball, state) || !nh_ball_fit_residual(fit, &ratio)) continue;
-        digits = fmin(digits, fmax(0, -ratio));
-        seen++;
+        bool usable = nh_exact_point(o, ball, state);
+        for (size_t k = 0; k < out->count && usable; k++) {
+            double ratio;
+            usable = nh_ball_fit_residual(fit, k, &ratio);
+            if (usable) out->digits[k] = fmin(out->digits[k], fmax(0, -ratio));
+        }
+        seen += usable;
     }
-    return seen == heldout_points ? digits : -1;
+    return seen == heldout_points;
 }
 
-double nh_refine(const nh_model *o, size_t n, const nh_ex *term, const bool *fixed, double *coefficient, double rows, const nh_options *options)
+/* The terms' rates; false when one contains rounded numbers: they bound the digits from the start, and nothing would be decided. */
+static bool rates(const nh_model *o, size_t n, const nh_ex *term, nh_ex *rate)
 {
-    nh_ex *rate = nh_alloc_array(n + 1, sizeof *rate);
-    size_t unknowns = 0;
-    uint64_t state = (uint64_t)options->seed + 313;
     bool exact = true;
-    for (size_t j = 0; j < n; j++) {
+    for (size_t j = 0; j < n && exact; j++) {
         rate[j] = nh_exact_values(o, nh_model_gamma(o, term[j]));
-        unknowns += !fixed[j];
-        exact &= !nh_is_inexact(o->dag, rate[j]);
+        exact = !nh_is_inexact(o->dag, rate[j]);
     }
-    if (!exact) { /* rounded numbers bound the digits from the start: nothing would be decided */
+    return exact;
+}
+
+nh_refined nh_refine(const nh_model *o, size_t n, const nh_ex *term, const bool *leading, double rows, const nh_options *options)
+{
+    nh_refined out = {0};
+    nh_ex *rate = nh_alloc_array(n + 1, sizeof *rate);
+    if (!rates(o, n, term, rate)) {
         nh_free(rate);
-        return -1;
+        return out;
     }
+    uint64_t state = (uint64_t)options->seed + 313;
     nh_ball *ball = ball_for(o, options);
-    nh_ball_fit *fit = nh_ball_fit_create(ball, n, rate, fixed, coefficient);
-    bool solved = feed(o, ball, fit, (size_t)ceil(rows * (double)unknowns) + spare_rows, &state);
-    double digits = solved ? check(o, ball, fit, &state, options) : -1;
-    for (size_t j = 0; j < n && digits >= 0; j++)
-        if (!fixed[j]) coefficient[j] = nh_ball_fit_coefficient(fit, j);
+    nh_ball_fit *fit = nh_ball_fit_create(ball, n, rate, leading);
+    bool fed = feed(o, ball, fit, (size_t)ceil(rows * (double)n) + spare_rows, &state);
+    if (fed) out.count = nh_ball_fit_solve(fit, options->digits, true);
+    out.coefficient = nh_alloc_array(n * out.count + 1, sizeof *out.coefficient);
+    out.digits = nh_alloc_array(out.count + 1, sizeof *out.digits);
+    if (!check(o, ball, fit, &state, options, &out)) out.count = 0;
+    for (size_t k = 0; k < out.count; k++)
+        for (size_t j = 0; j < n; j++) out.coefficient[k * n + j] = nh_ball_fit_coefficient(fit, k, j);
     nh_ball_fit_free(fit);
     nh_ball_free(ball);
     nh_free(rate);
-    return digits;
+    return out;
+}
+
+void nh_refined_clear(nh_refined *r)
+{
+    nh_free(r->coefficient);
+    nh_free(r->digits);
+    *r = (nh_refined){0};
 }

@@ -1,6 +1,6 @@
-/* refine: a candidate's coefficients with hundreds of bits.
+/* refine: currents among given terms, with hundreds of bits.
  *
- *     Gamma(sum_j c_j b_j) = 0,   c_pivot = 1,   by least squares at exact points in ball arithmetic
+ *     Gamma(sum_j c_j b_j) = 0   by least squares at exact points in ball arithmetic   [ball_fit.h]
  *
  * A true current cancels at points that the fit has not seen to as many digits as there are; a combination that is only nearly conserved
  * cancels to the 13 that made it look true in doubles. */
@@ -10,10 +10,15 @@
 #include "base/option.h"
 #include "geometry/model.h"
 
-/* The digits to which the rate of the refined combination cancels, least over held-out points, at most what the fit could give; negative when
- * it could not be computed.  fixed[j]: the coefficient stays; coefficient[] gets the others, rounded.  `rows`: equations per unknown, 1 where
- * the combination is thought exact, more where it is a truncated series. */
-double nh_refine(const nh_model *model, size_t n, const nh_ex *term, const bool *fixed, double *coefficient, double rows,
-                 const nh_options *options);
+typedef struct {
+    size_t count;        /* true currents, or 1 and the one that is nearest to it; 0: nothing could be decided */
+    double *coefficient; /* n x count, rounded; each has one leading coefficient that is not zero where the others' are */
+    double *digits;      /* per vector: to which its rate cancels at held-out points */
+} nh_refined;
+
+/* leading[j]: the terms whose coefficients fix a vector (the pivots of an echelon form).  `rows`: equations per unknown, 1 where the
+ * combination is thought exact, more where it is a truncated series. */
+nh_refined nh_refine(const nh_model *model, size_t n, const nh_ex *term, const bool *leading, double rows, const nh_options *options);
+void nh_refined_clear(nh_refined *refined);
 
 #endif

@@ -97,6 +97,7 @@ static void collect(nh_result *r, nh_workbench *bench, const nh_ansatz *a, const
     bool sure = s->likely == s->dimension;
     nh_candidates *list = nh_echelon(r->model, points, a, s, sure ? s->dimension : s->likely, &r->options);
     for (size_t k = 0; k < list->count; k++) nh_currents_add(bench, &list->candidate[k], points, sure);
+    nh_currents_join(bench, points);
     nh_candidates_free(list);
 }
 

@@ -70,16 +70,15 @@ static bool near(size_t n, const double *a, const double *b)
 
 static void refine(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f)
 {
+    bool *leading = nh_alloc_array(c->count + 1, sizeof *leading);
+    leading[c->pivot] = true;
+    nh_refined better = nh_refine(o, c->count, c->term, leading, 1, options);
     f->asked = true;
-    bool *fixed = nh_alloc_array(c->count + 1, sizeof *fixed);
-    double *k = nh_alloc_array(c->count + 1, sizeof *k);
-    memcpy(k, c->coefficient, c->count * sizeof *k);
-    fixed[c->pivot] = true;
-    f->refined = nh_refine(o, c->count, c->term, fixed, k, 1, options);
-    f->moved = !near(c->count, c->coefficient, k); /* a true current of the same terms, if it is one, but not the one that doubles saw */
-    if (f->refined >= 0) memcpy(c->coefficient, k, c->count * sizeof *k);
-    nh_free(k);
-    nh_free(fixed);
+    f->refined = better.count ? better.digits[0] : -1;
+    f->moved = better.count && !near(c->count, c->coefficient, better.coefficient); /* of the same terms, but not the one that doubles saw */
+    if (better.count) memcpy(c->coefficient, better.coefficient, c->count * sizeof *c->coefficient);
+    nh_refined_clear(&better);
+    nh_free(leading);
 }
 
 /* ---- the whole ---- */

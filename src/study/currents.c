@@ -8,6 +8,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "noether/refine.h"
 #include "study/coefficients.h"
 #include "study/dependence.h"
 
@@ -316,10 +317,66 @@ bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *
     nh_found *f = next_found(r);
     nh_echelon_refine(r->model, fit, candidate, &r->options);
     decide(b, candidate, f);
-    if (!keeps(b, f, certain) || (f->moved && is_old(b, f))) return false;
+    if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST) b->near[b->nears++] = candidate;
+    if (!keeps(b, f, certain) || ((f->moved || !certain) && is_old(b, f))) return false;
     describe(b, f);
     r->count++;
     return true;
+}
+
+static size_t unite(nh_workbench *b, nh_ex *term, bool *leading)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < b->nears; k++)
+        for (size_t j = 0; j < b->near[k]->count; j++) {
+            size_t at = 0;
+            while (at < n && term[at] != b->near[k]->term[j]) at++;
+            if (at == n) term[n++] = b->near[k]->term[j];
+            leading[at] |= j == b->near[k]->pivot;
+        }
+    return n;
+}
+
+/* One of the leading terms that the vector has is its pivot. */
+static nh_candidate joined(const nh_workbench *b, size_t n, const nh_ex *term, const bool *leading, const double *coefficient)
+{
+    nh_arena *arena = b->result->arena;
+    nh_candidate c = {.all = n, .accepted = b->near[0]->accepted};
+    c.term = nh_arena_alloc(arena, (n + 1) * sizeof *c.term);
+    c.coefficient = nh_arena_alloc(arena, (n + 1) * sizeof *c.coefficient);
+    c.all_term = nh_arena_alloc(arena, (n + 1) * sizeof *c.all_term);
+    c.all_coefficient = nh_arena_alloc(arena, (n + 1) * sizeof *c.all_coefficient);
+    c.all_size = nh_arena_alloc(arena, (n + 1) * sizeof *c.all_size);
+    for (size_t j = 0; j < n; j++) {
+        c.all_term[j] = term[j];
+        c.all_coefficient[j] = coefficient[j];
+        c.all_size[j] = fabs(coefficient[j]);
+        if (leading[j] && coefficient[j] != 0) c.term[0] = term[j];
+    }
+    return c;
+}
+
+size_t nh_currents_join(nh_workbench *b, const nh_points *fit)
+{
+    enum { most_terms = 160 };
+    const nh_result *r = b->result;
+    size_t n = 0, added = 0;
+    for (size_t k = 0; k < b->nears; k++) n += b->near[k]->count;
+    nh_ex *term = nh_alloc_array(n + 1, sizeof *term);
+    bool *leading = nh_alloc_array(n + 1, sizeof *leading);
+    n = unite(b, term, leading);
+    nh_refined better = {0};
+    if (b->nears > 1 && n <= most_terms) better = nh_refine(r->model, n, term, leading, 1, &r->options);
+    for (size_t k = 0; k < better.count; k++) {
+        if (better.digits[k] < r->options.digits) continue;
+        nh_candidate c = joined(b, n, term, leading, better.coefficient + k * n);
+        added += nh_currents_add(b, &c, fit, false);
+    }
+    b->nears = 0;
+    nh_refined_clear(&better);
+    nh_free(leading);
+    nh_free(term);
+    return added;
 }
 
 /* Everybody expects the energy: where it is not conserved this is said, with its rate when that is short. */

@@ -10,6 +10,8 @@ typedef struct {
     nh_points *heldout, *generic; /* points that no fit has seen */
     nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
     bool invertible;
+    size_t nears;                 /* candidates of the present list that are nearly conserved, and only nearly */
+    nh_candidate *near[NH_MOST_ALMOST];
 } nh_workbench;
 
 nh_workbench *nh_workbench_create(nh_result *result, nh_error *error);
@@ -19,6 +21,9 @@ void nh_workbench_free(nh_workbench *bench);
  * out not to be conserved (then a warning says so).  `fit`: the points of its null space; `certain`: the null space was; otherwise
  * only a certificate makes it a current, and nothing is said without. */
 bool nh_currents_add(nh_workbench *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
+
+/* After the last candidate of a list: is a combination of those that were only nearly conserved a current?  Returns how many were added. */
+size_t nh_currents_join(nh_workbench *bench, const nh_points *fit);
 
 /* Order, name and relate what was found. */
 void nh_currents_finish(nh_workbench *bench);

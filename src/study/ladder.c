@@ -92,6 +92,7 @@ static size_t add_new(climber *x, nh_candidates *list, const nh_points *fit, boo
             keep_factor(x, c->term[0]);
         }
     }
+    r->independent += nh_currents_join(x->bench, fit);
     nh_free(kind);
     return r->independent - before;
 }
