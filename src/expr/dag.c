@@ -261,21 +261,6 @@ size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { retur
 
 size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { return of_kind(dag, e, NH_FUNCTION, out, max); }
 
-bool nh_is_exact(const nh_dag *dag, nh_ex e)
-{
-    uint32_t *node;
-    size_t count = reach(dag, e, &node);
-    bool exact = true;
-    for (size_t i = 0; i < count && exact; i++) {
-        nh_kind kind = dag->node[node[i]].kind;
-        if (kind == NH_NUMBER) exact = nh_num_exact(nh_number_of(dag, node[i]));
-        if (kind == NH_SUM || kind == NH_PRODUCT) exact = nh_num_exact(nh_constant_of(dag, node[i]));
-        for (size_t j = 0; kind == NH_SUM && j < nh_arity(dag, node[i]) && exact; j++) exact = nh_num_exact(nh_coefficient_of(dag, node[i], j));
-    }
-    nh_free(node);
-    return exact;
-}
-
 size_t nh_node_count(const nh_dag *dag, nh_ex e)
 {
     uint32_t *node;

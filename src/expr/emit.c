@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "expr/normal.h"
+
 /* ---- monomials ---- */
 
 static int64_t opposite(int64_t a, int64_t b)
@@ -184,10 +186,10 @@ static bool inexact(const nh_dag *dag, nh_ex e, nh_index *seen)
     return found;
 }
 
-bool nh_emit_inexact(const nh_dag *dag, nh_ex e)
+bool nh_is_exact(const nh_dag *dag, nh_ex e)
 {
     nh_index seen = {0};
     bool found = inexact(dag, e, &seen);
     nh_index_clear(&seen);
-    return found;
+    return !found;
 }

@@ -12,7 +12,4 @@ nh_ex nh_emit_product(const nh_kernels *kernels, const nh_pieces *pieces, bool c
 /* The numerator's terms, each over the denominator: for pieces that are not factored. */
 nh_ex nh_emit_terms(const nh_kernels *kernels, const nh_pieces *pieces);
 
-/* Does e contain inexact numbers?  A form that has them while its source has none is a form that overflowed. */
-bool nh_emit_inexact(const nh_dag *dag, nh_ex e);
-
 #endif
