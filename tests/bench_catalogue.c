@@ -11,11 +11,10 @@ int main(int argc, char **argv)
     uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 0;
     size_t n = list(folder, name), missing = 0, wrong = 0, unread = 0;
     double total = 0;
-    puts("| system | known | independent found | at most | missing | false | not certified | rate | seconds | which |\n|---|---|---|---|---|---|---|---|---|---|");
+    print_head("system");
     for (size_t i = 0; i < n; i++) {
         row o = compare_file(folder, name[i], seed, 0);
-        printf("| %s | %zu | %zu | %zu | %zu | %zu | %zu | %.0e | %.2f | %s |\n", name[i], o.known, o.found, o.maximum, o.missing, o.wrong, o.uncertain, o.rate, o.seconds, o.names);
-        fflush(stdout);
+        print_row(name[i], &o);
         missing += o.missing;
         wrong += o.wrong;
         total += o.seconds;

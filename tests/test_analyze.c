@@ -360,6 +360,29 @@ Test(analyze, nearly_is_not_conserved)
     nh_result_free(r);
 }
 
+/* The ladder's own words may be undefined somewhere (here the root of 3 - 8 x^2 + ...): they go, the energy stays. */
+Test(analyze, words_that_are_not_finite_do_not_hide_the_energy)
+{
+    nh_result *r = ask((question){.system = file("system.yaml", "name: box\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}]\n"
+                                                               "lagrangian: x'^2*(29*y^4 + 25)/200 - 2.12*x^2 + y'^2*(29*x^2 + 18)/100 + p'^2 + y^2*p'\n"
+                                                               "constraints: [\"p' = 79*x^2*y'/50 - 4*x'*sin(p)/5\"]\n"), .until = 1});
+    cr_expect_not_null(find(r, "E"), "%zu found", r->count);
+    nothing_false(r);
+    nh_result_free(r);
+}
+
+/* A number too long for an exact rational: rounding at the 16th digit is no refutation, and no certificate. */
+Test(analyze, inexact_constants_refute_nothing)
+{
+    nh_result *r = ask((question){.system = file("system.yaml", "name: tiny\ncoordinates: [x, y]\n"
+                                                               "lagrangian: x'^2/2 + 1.3*y'^2*(1 + x^2) + x'*y'/3 - 1.1234567890123e-9*(7.7e10*x^3*y + 3.3e10*y^4/7)/1.7e1 - 1.6726e-27*1e27*y\n"), .until = 1});
+    cr_assert_geq(r->count, 1);
+    cr_expect_not_null(find(r, "E"), "%zu found", r->count);
+    cr_expect_not(warned(r, "is not conserved"));
+    cr_expect(r->found[0].proof.proved || r->verdict == NH_UNDECIDED);
+    nh_result_free(r);
+}
+
 /* ---- what must not matter ---- */
 
 #define POLYNOMIAL "  - {basis: polynomial, in: [omega, v], degree: 2}\n"

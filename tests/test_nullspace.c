@@ -411,6 +411,35 @@ Test(nullspace, what_is_not_finite_names_its_column)
         }
 }
 
+/* The same with the column left out: the others' null vectors stay, whatever came before the row that is not finite. */
+Test(nullspace, what_is_not_finite_can_be_left_out)
+{
+    for (int in_values = 0; in_values < 2; in_values++) {
+        samples s = rotation(60, 2, false, true);
+        size_t rows = s.rows, n = s.columns;
+        nh_nullspace *all = solve(&s);
+        nh_equations *equations = nh_equations_create(n);
+        nh_equations_leave_out(equations);
+        (in_values ? s.b : s.a)[47 + 6 * rows] = NAN;
+        for (size_t i = 0; i < rows; i += 20) {
+            nh_equations_add(equations, 20, s.a + i, rows);
+            nh_equations_add_values(equations, 20, s.b + i, rows);
+        }
+        nh_error error = {0};
+        nh_nullspace *rest = nh_nullspace_solve(equations, &OPTIONS, &error);
+        cr_assert(rest, "%s", error.what);
+        cr_expect(rest->dropped[6] && !all->dropped[6] && rest->rank == all->rank - 1);
+        bool used = false; /* did a null vector need the column? */
+        for (size_t k = 0; k < all->dimension; k++) used |= fabs(all->vector[6 + k * n]) > 1e-8;
+        cr_expect_eq(rest->dimension, all->dimension - used);
+        for (size_t k = 0; k < rest->dimension; k++) cr_expect_eq(rest->vector[6 + k * n], 0);
+        nh_nullspace_free(rest);
+        nh_nullspace_free(all);
+        nh_equations_free(equations);
+        discard(&s);
+    }
+}
+
 Test(nullspace, too_few_rows_are_refused_with_the_numbers)
 {
     samples s = rotation(9, 2, false, false); /* 9 columns: the mean takes a tenth row */

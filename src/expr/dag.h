@@ -96,8 +96,6 @@ bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol);
 size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 /* The function calls that occur in e likewise. */
 size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
-/* Does e contain inexact numbers?  A form that has them while its source has none is a form that overflowed. */
-bool nh_is_inexact(const nh_dag *dag, nh_ex e);
 /* Number of distinct nodes reachable from e. */
 size_t nh_node_count(const nh_dag *dag, nh_ex e);
 

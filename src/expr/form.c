@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "expr/emit.h"
+#include "expr/normal.h"
 
 enum {
     deepest = 300,        /* nodes above each other that are rewritten: what the stack surely bears */
@@ -65,7 +66,7 @@ static bool make_argument(nh_forms *s, nh_ex e, nh_form *form)
 static bool is_sound(const nh_dag *dag, nh_ex result, nh_ex source)
 {
     if (nh_kind_of(dag, result) == NH_NUMBER && isnan(nh_num_value(nh_number_of(dag, result)))) return false;
-    return !nh_is_inexact(dag, result) || nh_is_inexact(dag, source);
+    return nh_is_exact(dag, result) || !nh_is_exact(dag, source);
 }
 
 /* e = *content * (result), both canonical, content positive. */

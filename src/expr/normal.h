@@ -25,6 +25,10 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e);
  * sin(x) - y*cos(x)); e itself when the size bound is met. */
 nh_ex nh_numerator(nh_dag *dag, nh_ex e);
 
+/* Is every number in e an exact rational?  Where an expression has others while its source has none, arithmetic overflowed and was rounded to
+ * doubles. */
+bool nh_is_exact(const nh_dag *dag, nh_ex e);
+
 /* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);
 

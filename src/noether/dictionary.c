@@ -66,6 +66,15 @@ static bool is_form(const nh_model *o, nh_ex e)
     return nh_is_zero(d, nh_substitute(d, e, n, v, zero));
 }
 
+/* A momentum is a word whatever it looks like, as the energy is. */
+static void add_momentum(harvester *h, nh_ex p)
+{
+    nh_dictionary *out = h->out;
+    nh_ex e = nh_model_compose(h->o, p);
+    if (nh_complexity(h->o->dag, e) <= longest) add(h, &out->momenta, out->momentum, p);
+    else if (out->momenta < most_entries && !is_in(out->momenta, out->momentum, e)) out->momentum[out->momenta++] = e;
+}
+
 /* A function of position that no polynomial and no plain sine or cosine of a coordinate is. */
 static void add_atom(harvester *h, nh_ex e)
 {
@@ -234,7 +243,7 @@ nh_dictionary nh_dictionary_of(nh_model *o)
     for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
-    for (size_t s = 0; s < o->m; s++) add(&h, &out.momenta, out.momentum, nh_diff(o->dag, o->system->lagrangian, o->system->coordinate[s].v));
+    for (size_t s = 0; s < o->m; s++) add_momentum(&h, nh_diff(o->dag, o->system->lagrangian, o->system->coordinate[s].v));
     potentials(&h);
     add_roots(&h);
     shapes(&h);

@@ -19,6 +19,7 @@ struct nh_equations {
     double *chunk;    /* CHUNK x (1 + columns) */
     const char *bad;  /* what was not finite, or NULL */
     size_t bad_column;
+    bool *left_out;   /* per column that was not finite somewhere; NULL: such a column is an error */
 };
 
 nh_equations *nh_equations_create(size_t columns)
@@ -36,6 +37,12 @@ void nh_equations_reset(nh_equations *equations)
     nh_qr_reset(equations->residuals);
     nh_qr_reset(equations->values);
     equations->bad = NULL;
+    if (equations->left_out) memset(equations->left_out, 0, equations->columns * sizeof *equations->left_out);
+}
+
+void nh_equations_leave_out(nh_equations *equations)
+{
+    if (!equations->left_out) equations->left_out = nh_alloc_array(equations->columns + 1, sizeof *equations->left_out);
 }
 
 void nh_equations_free(nh_equations *equations)
@@ -45,20 +52,25 @@ void nh_equations_free(nh_equations *equations)
     nh_qr_free(equations->residuals);
     nh_qr_free(equations->values);
     nh_free(equations->chunk);
+    nh_free(equations->left_out);
     nh_free(equations);
 }
 
-/* Note the first column that is not finite; false when there is one, now or before. */
-static bool check_finite(nh_equations *equations, const char *what, size_t rows, const double *block, size_t ld)
+/* Note the first column that is not finite, or leave out every such one; false when there is an error, now or before. */
+static bool check_finite(nh_equations *equations, const char *what, size_t rows, double *block, size_t ld)
 {
     for (size_t j = 0; j < equations->columns && !equations->bad; j++) {
         double sum = 0;
         for (size_t i = 0; i < rows; i++)
             sum += block[i + j * ld] - block[i + j * ld]; /* 0, or NaN for a NaN or an infinity */
-        if (sum != 0) {
-            equations->bad = what;
-            equations->bad_column = j;
+        if (sum == 0) continue;
+        if (equations->left_out) {
+            equations->left_out[j] = true;
+            memset(block + j * ld, 0, rows * sizeof *block);
+            continue;
         }
+        equations->bad = what;
+        equations->bad_column = j;
     }
     return !equations->bad;
 }
@@ -286,8 +298,10 @@ static bool independent_values(nh_basis *basis, nh_equations *equations, const n
     double *r = nh_alloc_array((n + 1) * (n + 1), sizeof *r);
     double *size = nh_alloc_array(n, sizeof *size);
     nh_qr_triangle(equations->values, r);
-    for (size_t j = 0; j < n; j++)
+    for (size_t j = 0; j < n; j++) {
+        if (equations->left_out && equations->left_out[j]) memset(r + (j + 1) * (n + 1), 0, (n + 1) * sizeof *r); /* as a column of zeros: dropped */
         size[j] = norm(n + 1, r + (j + 1) * (n + 1));
+    }
     bool ok = nh_basis_init(basis, n, n, r + (n + 1) + 1, n + 1, size, options, error);
     nh_free(r);
     nh_free(size);

@@ -39,6 +39,9 @@ typedef struct nh_equations nh_equations;
 nh_equations *nh_equations_create(size_t columns);
 void nh_equations_free(nh_equations *equations);
 void nh_equations_reset(nh_equations *equations); /* forget all rows */
+/* From now on a column that is not finite at some point is dropped, as dependent ones are, instead of an error: for an ansatz that the program
+ * made itself (the root of a function of both signs). */
+void nh_equations_leave_out(nh_equations *equations);
 /* Rows of A: residuals of the equations per column (column-major, overwritten). */
 void nh_equations_add(nh_equations *equations, size_t rows, double *a, size_t ld);
 /* Rows of B: the currents' values per column at sample points (column-major, overwritten); the mean is removed here (by

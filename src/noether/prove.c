@@ -6,7 +6,7 @@
 #include "expr/normal.h"
 #include "noether/exact.h"
 
-enum { wanted_points = 4, most_tries = 40 };
+enum { wanted_points = 4, most_tries = 40, double_digits = 12 };
 
 static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_options *options, nh_proof *proof)
 {
@@ -33,9 +33,15 @@ nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool para
     size_t limit = (size_t)options->proof_terms;
     if (parameters_free && o->chart->implicit == 0) proof.all_parameters = nh_normal_is_zero(d, sum, limit) == NH_ZERO;
     proof.proved = proof.all_parameters || nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO;
-    for (size_t i = 0; i < n; i++) valued[i] = nh_exact_values(o, term[i]);
+    bool exact = true;
+    for (size_t i = 0; i < n; i++) {
+        valued[i] = nh_exact_values(o, term[i]);
+        exact = exact && nh_is_exact(d, valued[i]);
+    }
     cancel(o, n, valued, options, &proof);
-    proof.refuted = !proof.proved && proof.points > 0 && proof.digits < options->digits / 2;
+    double doubt = options->digits / 2; /* numbers too long for exact rationals were rounded to doubles when the rate was formed */
+    if (!exact && doubt > double_digits) doubt = double_digits;
+    proof.refuted = !proof.proved && proof.points > 0 && proof.digits < doubt;
     nh_free(valued);
     return proof;
 }

@@ -133,6 +133,7 @@ static solved solve_stage(climber *x, size_t families, const nh_family *family)
     s.fit = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed + r->stages, &ignored);
     if (!s.fit) return s;
     nh_equations *equations = nh_equations_create(s.ansatz->columns);
+    nh_equations_leave_out(equations);
     nh_rows *rows = nh_rows_create(r->model, s.ansatz, 0, NULL);
     nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
     nh_rows_current(rows, s.fit, NULL, equations);
