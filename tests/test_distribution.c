@@ -112,7 +112,7 @@ Test(distribution, the_classical_growth_vectors) { flat_ones(true, 1); }
 
 Test(distribution, growth_does_not_depend_on_coordinates_and_on_how_constraints_are_written)
 {
-    for (uint64_t seed = 1; seed <= 4; seed++) flat_ones(false, seed);
+    for (uint64_t seed = 1; seed <= 2; seed++) flat_ones(false, seed);
 }
 
 /* ---- singular places ---- */
@@ -204,6 +204,7 @@ static const struct {
     {THREE "constraints: [\"z' = x'*y + x*y' + 1\"]\n", "z - x*y - t", 1, 1, false},
     {THREE "constraints: [\"z' = y*x'\"]\n", NULL, 0, 0, false},
     {"coordinates: [{name: p, type: angle}, {name: q, type: angle}, z]\nlagrangian: p'^2 + q'^2 + z'^2/2\nconstraints: [\"p' = 3*q' + 2*z*z'\"]\n", "p - 3*q - z^2", 1, 1, true},
+    {THREE "constraints: [\"x'^2 + y'^2 = 4\", \"z' = x'*y + x*y'\"]\n", "z - x*y", 1, 1, false},
     {"coordinates: [x, y, z, u]\nlagrangian: x'^2 + y'^2 + z'^2 + u'^2\nconstraints: [\"z' = y*x'\", \"u' = x'*y + y'*x + z' - y*x'\"]\n", "u - x*y", 1, 1, false},
 };
 

@@ -154,7 +154,7 @@ static nh_growth growth(const nh_model *o, const nh_distribution *out)
 
 nh_distribution nh_distribution_of(const nh_model *o)
 {
-    nh_distribution out = {.type = NH_UNCONSTRAINED};
+    nh_distribution out = {.type = NH_UNCONSTRAINED, .growth.proved = true};
     if (o->k == 0) return out;
     out.homogeneous = is_homogeneous(o);
     out.type = !is_affine(o) ? NH_NONLINEAR : out.homogeneous ? NH_LINEAR : NH_AFFINE;

@@ -66,15 +66,12 @@ static void put_constraint(const writer *w, nh_json *to)
     nh_json_put_bool(item, "rheonomic", d->rheonomic);
     nh_json_put_text(item, "integrability", nh_constraint_integrability(w->r->model, d));
     put_ranks(item, "growth_vector", g->length, g->rank);
-    if (g->length) nh_json_put_text(item, "growth_space", spaces[g->space]);
-    else nh_json_put_null(item, "growth_space");
+    nh_json_put_text(item, "growth_space", g->length ? spaces[g->space] : "none");
     nh_json_put_bool(item, "growth_proved", g->proved);
     if (g->drops) {
         nh_json *drop = nh_json_put_object(item, "growth_drops");
         nh_json_put_text(drop, "where", g->where ? nh_name_of(w->dag, g->where) : "origin");
         put_ranks(drop, "growth_vector", g->length_there, g->rank_there);
-    } else {
-        nh_json_put_null(item, "growth_drops");
     }
     put_integrals(w, item);
 }
