@@ -89,7 +89,8 @@ static void check_keys(const cJSON *root, const char *under, size_t n, const key
 static const key SCHEMA[] = {
     {"schema", "n"}, {"version", "s"}, {"system", "s"}, {"parameters", "o"},
     {"dimension.coordinates", "n"}, {"dimension.constraints", "n"}, {"dimension.submanifold", "n"},
-    {"constraint.type", "s"}, {"constraint.semiholonomic", "b"}, {"constraint.holonomic", "b"}, {"constraint.rheonomic", "b"},
+    {"constraint.type", "s"}, {"constraint.semiholonomic", "b"}, {"constraint.holonomic", "b"}, {"constraint.rheonomic", "b"}, {"constraint.homogeneous", "b"}, {"constraint.integrability", "s"},
+    {"constraint.growth_proved", "b"}, {"constraint.growth_space", "s"}, {"constraint.hidden_holonomic.count", "n"}, {"constraint.hidden_holonomic.without_closed_form", "n"},
     {"reduced_equations", "a"}, {"reduced_equations.0.velocity", "s"}, {"reduced_equations.0.rate", "s"}, {"multipliers", "a"},
     {"nullspace.columns", "n"}, {"nullspace.rows", "n"}, {"nullspace.spectrum", "a"}, {"nullspace.gap", "n0"}, {"nullspace.dimension", "n"},
     {"unknowns", "o"}, {"currents", "a"}, {"independent_currents", "n"}, {"local_maximum", "n"},

@@ -87,8 +87,13 @@ static const struct {
     {"drift", "The largest change of a current along a computed motion, relative to the size of its terms."},
     {"local", "The current changes when an angle goes once around: it is defined on a part of the configuration space only."},
     {"independent", "Its gradient is not a combination of the gradients of the currents before it."},
-    {"holonomic", "The constraint can be integrated to one between positions."},
-    {"semiholonomic", "eps'_l(g) = 0: the constraint behaves like a holonomic one."},
+    {"holonomic", "A constraint between positions, as it was given."},
+    {"integrable", "The constraints on velocities say no more than that as many functions of time and positions stay constant."},
+    {"partly", "Partly integrable: some combinations of the constraints hold a function of time and positions constant, others do not."},
+    {"nonholonomic", "No function of time and positions is held constant by the constraints: every place can be reached."},
+    {"hidden", "Hidden holonomic constraints: functions that the constraints alone keep constant, found by brackets of the allowed directions."},
+    {"growth", "Growth vector: the dimensions that the allowed directions, their brackets, the brackets with those, ... fill."},
+    {"semiholonomic", "eps'_l(g) = 0: a nonlinear constraint that behaves like a holonomic one in these coordinates."},
 };
 
 static void explain_options(void)

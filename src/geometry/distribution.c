@@ -1,9 +1,5 @@
 #include "geometry/distribution.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "base/linalg.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "system/embedding.h"
@@ -14,133 +10,160 @@ const char *nh_constraint_type_name(nh_constraint_type type)
     return names[type];
 }
 
+const char *nh_constraint_integrability(const nh_model *o, const nh_distribution *d)
+{
+    if (o->k == 0) return "none";
+    if (d->positions == o->k) return "holonomic";
+    return d->holonomic ? "integrable" : d->integrals ? "partly integrable" : "nonholonomic";
+}
+
 /* Zero by normal form, or, where that is undecided, at the probes. */
 static bool vanishes(const nh_model *o, nh_ex e)
 {
-    nh_zero_verdict verdict = nh_normal_is_zero(o->dag, e, 0);
-    if (verdict == NH_ZERO) return true;
+    if (nh_is_zero(o->dag, e) || nh_normal_is_zero(o->dag, e, 0) == NH_ZERO) return true;
     return nh_chart_pivot_score(o->chart, e) == 0;
 }
 
-static nh_constraint_type type_of(const nh_model *o)
+/* nu^a_s x^s */
+static nh_ex across(const nh_model *o, size_t a, const nh_ex *x)
+{
+    nh_ex e = nh_int(o->dag, 0);
+    for (size_t s = 0; s < o->m; s++) e = nh_add(o->dag, e, nh_mul(o->dag, o->nu[a * o->m + s], x[s]));
+    return e;
+}
+
+/* The velocities allowed at a place do not turn away from their tangent space. */
+static bool is_affine(const nh_model *o)
+{
+    nh_ex *x = nh_alloc_array(o->m + 1, sizeof *x);
+    bool affine = true;
+    for (size_t i = 0; i < o->n && affine; i++)
+        for (size_t j = 0; j <= i && affine; j++) {
+            for (size_t s = 0; s < o->m; s++) x[s] = nh_model_Y(o, j, o->R[s * o->n + i]);
+            for (size_t a = 0; a < o->k && affine; a++) affine = vanishes(o, across(o, a, x));
+        }
+    nh_free(x);
+    return affine;
+}
+
+static bool is_homogeneous(const nh_model *o)
+{
+    for (size_t a = 0; a < o->k; a++)
+        if (!vanishes(o, across(o, a, o->rho))) return false;
+    return true;
+}
+
+/* Of f(t, q) = 0 the rate f_t + f_q v is what is stored; at rest it is f_t. */
+static nh_ex time_part(const nh_model *o, size_t a)
 {
     const nh_system *y = o->system;
     nh_dag *d = o->dag;
-    nh_constraint_type type = o->k ? NH_LINEAR : NH_UNCONSTRAINED;
-    nh_ex *v = nh_alloc_array(2 * o->m + 1, sizeof *v), *zero = v + o->m;
-    for (size_t s = 0; s < o->m; s++) v[s] = y->coordinate[s].v;
-    for (size_t a = 0; a < o->k; a++) {
-        nh_ex f = nh_chart_constraint(o->chart, a);
-        for (size_t s = 0; s < o->m; s++)
-            for (size_t r = 0; r <= s; r++) {
-                nh_ex second = nh_diff(d, nh_diff(d, f, v[s]), v[r]);
-                if (!nh_is_zero(d, second) && nh_normal_is_zero(d, second, 0) != NH_ZERO) type = NH_NONLINEAR;
-            }
-        if (type == NH_LINEAR && nh_normal_is_zero(d, nh_substitute(d, f, o->m, v, zero), 0) != NH_ZERO) type = NH_AFFINE;
-    }
-    nh_free(v);
-    return type;
+    nh_ex f = nh_chart_constraint(o->chart, a), zero = nh_int(d, 0);
+    if (!y->constraint[a].position) return nh_model_compose(o, nh_diff(d, f, y->t));
+    for (size_t s = 0; s < o->m; s++) f = nh_substitute(d, f, 1, &y->coordinate[s].v, &zero);
+    return f;
+}
+
+static bool is_rheonomic(const nh_model *o)
+{
+    for (size_t a = 0; a < o->k; a++)
+        if (!vanishes(o, time_part(o, a))) return true;
+    return false;
 }
 
 static bool is_semiholonomic(const nh_model *o)
 {
-    nh_dag *d = o->dag;
-    for (size_t a = 0; a < o->k; a++)
-        for (size_t l = 0; l < o->n; l++) {
-            nh_ex e = nh_int(d, 0);
-            for (size_t s = 0; s < o->m; s++) {
-                nh_ex part = nh_sub(d, nh_model_X0(o, o->R[s * o->n + l]), nh_model_X(o, l, o->rho[s]));
-                e = nh_add(d, e, nh_mul(d, o->nu[a * o->m + s], part));
-            }
-            if (!vanishes(o, e)) return false;
-        }
-    return true;
-}
-
-/* ---- growth vector ---- */
-
-typedef struct {
-    size_t count, capacity;
-    nh_ex *field; /* count x m */
-} fields;
-
-static void push(fields *f, size_t m, const nh_ex *x)
-{
-    nh_grow(&f->field, &f->capacity, (f->count + 1) * m, sizeof *f->field);
-    memcpy(f->field + f->count++ * m, x, m * sizeof *x);
-}
-
-static void bracket(const nh_model *o, const nh_ex *x, const nh_ex *y, nh_ex *out)
-{
-    nh_dag *d = o->dag;
-    for (size_t s = 0; s < o->m; s++) {
-        out[s] = nh_int(d, 0);
-        for (size_t r = 0; r < o->m; r++) {
-            nh_ex q = o->system->coordinate[r].q;
-            out[s] = nh_add(d, out[s], nh_mul(d, x[r], nh_diff(d, y[s], q)));
-            out[s] = nh_sub(d, out[s], nh_mul(d, y[r], nh_diff(d, x[s], q)));
-        }
+    nh_ex *x = nh_alloc_array(o->m + 1, sizeof *x);
+    bool semi = true;
+    for (size_t l = 0; l < o->n && semi; l++) {
+        for (size_t s = 0; s < o->m; s++) x[s] = nh_sub(o->dag, nh_model_X0(o, o->R[s * o->n + l]), nh_model_X(o, l, o->rho[s]));
+        for (size_t a = 0; a < o->k && semi; a++) semi = vanishes(o, across(o, a, x));
     }
-}
-
-/* Largest rank of the fields over a few probes. */
-static size_t rank_of(const nh_model *o, const fields *f)
-{
-    enum { probes = 4 };
-    size_t m = o->m, n = f->count, best = 0;
-    nh_tape *tape = nh_model_tape(o, n * m, f->field);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    double *a = nh_alloc_array(n * m, sizeof *a), *s = nh_alloc_array(n + m, sizeof *s);
-    for (size_t p = 0; p < probes && p < o->chart->probes; p++) {
-        nh_tape_eval(tape, work, o->chart->probe + p * o->width, a);
-        size_t rank = 0, least = n < m ? n : m;
-        if (nh_svd(m, n, a, s, NULL, NULL))
-            while (rank < least && s[rank] > 1e-9 * s[0]) rank++;
-        if (rank > best) best = rank;
-    }
-    nh_free(s);
-    nh_free(a);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return best;
-}
-
-static void growth(const nh_model *o, nh_distribution *out)
-{
-    enum { most_fields = 200 };
-    size_t m = o->m, first = 0;
-    fields f = {0};
-    nh_ex *x = nh_alloc_array(m + 1, sizeof *x);
-    for (size_t i = 0; i < o->n; i++) {
-        for (size_t s = 0; s < m; s++) x[s] = o->R[s * o->n + i];
-        push(&f, m, x);
-    }
-    out->growth[out->growth_length++] = rank_of(o, &f);
-    while (out->growth_length < NH_MOST_GROWTH && out->growth[out->growth_length - 1] < m && f.count < most_fields) {
-        size_t last = f.count;
-        for (size_t i = 0; i < o->n; i++)
-            for (size_t j = first; j < last && f.count < most_fields; j++) {
-                if (first == 0 && j <= i) continue; /* [X_i, X_j] once */
-                bracket(o, f.field + i * m, f.field + j * m, x);
-                push(&f, m, x);
-            }
-        first = last;
-        size_t rank = rank_of(o, &f);
-        if (rank == out->growth[out->growth_length - 1]) break;
-        out->growth[out->growth_length++] = rank;
-    }
-    out->hidden = m - out->growth[out->growth_length - 1];
     nh_free(x);
-    nh_free(f.field);
+    return semi;
+}
+
+/* ---- growth ---- */
+
+static bool any_depends(const nh_model *o, size_t n, const nh_ex *e, size_t symbols, const nh_ex *symbol)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < symbols; j++)
+            if (nh_depends(o->dag, e[i], symbol[j])) return true;
+    return false;
+}
+
+/* X_i on the coordinates. */
+static nh_growth growth_of_displacements(const nh_model *o)
+{
+    nh_ex *field = nh_alloc_array(o->n * o->m + 1, sizeof *field);
+    for (size_t i = 0; i < o->n; i++)
+        for (size_t s = 0; s < o->m; s++) field[i * o->m + s] = o->R[s * o->n + i];
+    nh_growth g = nh_growth_of(o, o->n, o->m, o->chart->symbol + 1, field, 0);
+    nh_free(field);
+    return g;
+}
+
+/* X_0 at w = 0 and X_i on (t, q), for rho affine in w. */
+static nh_growth growth_of_events(const nh_model *o)
+{
+    size_t N = 1 + o->m;
+    nh_dag *d = o->dag;
+    nh_ex *field = nh_alloc_array((o->n + 1) * N, sizeof *field), *zero = nh_alloc_array(o->n + 1, sizeof *zero);
+    for (size_t i = 0; i <= o->n; i++) {
+        zero[i] = nh_int(d, 0);
+        field[i * N] = nh_int(d, i == 0);
+        for (size_t s = 0; s < o->m; s++) field[i * N + 1 + s] = i ? o->R[s * o->n + i - 1] : o->rho[s];
+    }
+    for (size_t s = 0; s < o->m; s++) field[1 + s] = nh_substitute(d, field[1 + s], o->n, o->chart->w, zero);
+    nh_growth g = nh_growth_of(o, o->n + 1, N, o->chart->symbol, field, 0);
+    g.space = NH_ON_EVENTS;
+    nh_free(zero);
+    nh_free(field);
+    return g;
+}
+
+/* X_0, X_i, Y_i on the submanifold; `shift` of the directions are not counted. */
+static nh_growth growth_of_states(const nh_model *o, size_t shift)
+{
+    size_t n = o->n, N = 1 + o->m + n;
+    nh_ex *field = nh_alloc_array((2 * n + 1) * N, sizeof *field);
+    for (size_t i = 0; i < 2 * n + 1; i++)
+        for (size_t j = 0; j < N; j++) field[i * N + j] = nh_int(o->dag, (i == 0 && j == 0) || (i > n && j == o->m + i - n));
+    for (size_t i = 0; i <= n; i++)
+        for (size_t s = 0; s < o->m; s++) field[i * N + 1 + s] = i ? o->R[s * n + i - 1] : o->rho[s];
+    nh_growth g = nh_growth_of(o, 2 * n + 1, N, o->chart->symbol, field, shift);
+    nh_free(field);
+    return g;
+}
+
+/* The smallest space that tells it.  Where the chart bends although the constraints do not, the canonical distribution contains the n directions
+ * Y_i, and d/dt when neither velocity at rest nor t has a part in it; they add to every rank alike. */
+static nh_growth growth(const nh_model *o, const nh_distribution *out)
+{
+    const nh_chart *c = o->chart;
+    size_t own = o->n + c->implicit;
+    bool bent = any_depends(o, o->m * o->n, o->R, own, c->symbol + 1 + o->m), timed = any_depends(o, o->m * o->n, o->R, 1, &o->system->t);
+    bool at_rest = out->type == NH_LINEAR && !out->rheonomic;
+    nh_growth g;
+    if (out->type == NH_NONLINEAR) g = growth_of_states(o, 0), g.space = NH_ON_STATES;
+    else if (bent || (at_rest && timed)) g = growth_of_states(o, o->n + at_rest), g.space = at_rest ? NH_ON_POSITIONS : NH_ON_EVENTS;
+    else g = at_rest ? growth_of_displacements(o) : growth_of_events(o);
+    return g;
 }
 
 nh_distribution nh_distribution_of(const nh_model *o)
 {
-    nh_distribution out = {.type = type_of(o)};
-    for (size_t a = 0; a < o->k; a++) out.rheonomic |= nh_depends(o->dag, nh_chart_constraint(o->chart, a), o->system->t);
+    nh_distribution out = {.type = NH_UNCONSTRAINED, .growth.proved = true};
     if (o->k == 0) return out;
-    out.semiholonomic = is_semiholonomic(o);
-    out.holonomic = out.semiholonomic && out.type != NH_NONLINEAR;
-    if (out.type == NH_LINEAR && !out.rheonomic) growth(o, &out);
+    out.homogeneous = is_homogeneous(o);
+    out.type = !is_affine(o) ? NH_NONLINEAR : out.homogeneous ? NH_LINEAR : NH_AFFINE;
+    out.rheonomic = is_rheonomic(o);
+    out.growth = growth(o, &out);
+    out.integrals = out.growth.dimension - out.growth.rank[out.growth.length - 1];
+    out.holonomic = out.type != NH_NONLINEAR && out.integrals == o->k;
+    out.semiholonomic = out.type == NH_NONLINEAR ? is_semiholonomic(o) : out.holonomic;
+    for (size_t a = 0; a < o->k; a++) out.positions += o->system->constraint[a].position;
+    out.hidden = out.integrals > out.positions ? out.integrals - out.positions : 0;
     return out;
 }

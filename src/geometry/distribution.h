@@ -1,28 +1,37 @@
 /* distribution: what kind of constraint this is.
  *
- *     linear, affine, nonlinear      in the velocities
- *     rheonomic                      time occurs in it
- *     semiholonomic                  nu^a_s (X_0(R^s_l) - X_l(rho^s)) = 0, which is eps'_l(g^a) = 0 [CechMusilova2014, sec. 2.3]
- *     holonomic                      affine and semiholonomic: the distribution is integrable (Frobenius)
- *     growth vector                  ranks of D, D + [D,D], D + [D,D] + [D,[D,D]], ... at generic points; a final rank below m
- *                                    means m - rank hidden holonomic constraints */
+ *     affine         nu^a_s d2rho^s/dw^i dw^j = 0: the velocities allowed at a place form an affine space
+ *     homogeneous    nu^a_s rho^s = 0: with a velocity all its multiples are allowed
+ *     linear         both
+ *     rheonomic      df^a/dt is not zero on the submanifold; for a constraint between positions, its own rate at rest is not
+ *     holonomic      affine and integrable: as many functions of (t, q) stay constant as there are constraints
+ *     semiholonomic  nu^a_s (X_0(R^s_l) - X_l(rho^s)) = 0, which is eps'_l(g^a) = 0 [CechMusilova2014, sec. 2.3]; for affine constraints the
+ *                    same as holonomic; for nonlinear ones it depends on the coordinates
+ *     growth         of the distribution of virtual displacements (linear, no t), of d/dt + rho^s d/dq^s and R^s_i d/dq^s on (t, q) (affine or t),
+ *                    of the canonical distribution on (t, q, w) (nonlinear)
+ *     hidden         functions of (t, q) that the constraints hold constant, besides those of the constraints between positions
+ *
+ * [docs/method.md, sec. 2] */
 #ifndef NH_DISTRIBUTION_H
 #define NH_DISTRIBUTION_H
 
-#include "geometry/model.h"
+#include "geometry/growth.h"
 
 typedef enum { NH_UNCONSTRAINED, NH_LINEAR, NH_AFFINE, NH_NONLINEAR } nh_constraint_type;
 
-enum { NH_MOST_GROWTH = 6 };
-
 typedef struct {
     nh_constraint_type type;
-    bool rheonomic, semiholonomic, holonomic;
-    size_t growth[NH_MOST_GROWTH], growth_length; /* linear constraints without t only */
-    size_t hidden; /* hidden holonomic constraints: m - last growth rank */
+    bool homogeneous, rheonomic, semiholonomic, holonomic;
+    size_t positions;   /* constraints that were given between positions */
+    nh_growth growth;   /* length 0 without constraints */
+    size_t integrals;   /* functions of (t, q) that stay constant: dimension minus last rank */
+    size_t hidden;      /* of them, those that are not given as constraints between positions */
 } nh_distribution;
 
 nh_distribution nh_distribution_of(const nh_model *model);
 const char *nh_constraint_type_name(nh_constraint_type type);
+
+/* "holonomic" (given between positions), "integrable", "partly integrable", "nonholonomic", or "none". */
+const char *nh_constraint_integrability(const nh_model *model, const nh_distribution *distribution);
 
 #endif

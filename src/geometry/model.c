@@ -3,9 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/linalg.h"
+#include "base/text.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
-#include "expr/print.h"
 #include "system/embedding.h"
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }
@@ -131,19 +132,78 @@ static void matrices(nh_model *o)
     }
 }
 
+/* The largest rank of M over the probes, and at that probe the direction of w with the least inertia, its largest component 1. */
+static size_t rank_of_mass(const nh_model *o, double *direction)
+{
+    size_t n = o->n, best = 0;
+    nh_tape *tape = nh_model_tape(o, n * n, o->M);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *a = nh_alloc_array(2 * n * n + n + 1, sizeof *a), *vt = a + n * n, *s = vt + n * n;
+    bool first = true;
+    for (size_t p = 0; p < o->chart->probes; p++) {
+        size_t rank = 0, large = 0;
+        bool finite = true;
+        nh_tape_eval(tape, work, o->chart->probe + p * o->width, a);
+        for (size_t i = 0; i < n * n; i++) finite &= isfinite(a[i]);
+        if (!finite || !nh_svd(n, n, a, s, NULL, vt)) continue;
+        while (rank < n && s[rank] > 1e-11 * fmax(s[0], 1e-300)) rank++;
+        if (rank <= best && !first) continue;
+        first = false;
+        best = rank;
+        for (size_t i = 0; i < n; i++) {
+            direction[i] = vt[n - 1 + i * n];
+            if (fabs(direction[i]) > (1 + 1e-9) * fabs(direction[large])) large = i;
+        }
+        double unit = direction[large];
+        for (size_t i = 0; i < n; i++) direction[i] = fabs(direction[i] / unit) < 1e-9 ? 0 : direction[i] / unit;
+    }
+    nh_free(a);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return best;
+}
+
+/* "y'" or "x' : z' = 1 : -0.5" */
+static void print_direction(const nh_model *o, const double *direction, nh_text *out)
+{
+    const char *between = "";
+    size_t moving = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        if (direction[i] == 0) continue;
+        nh_text_addf(out, "%s%s", between, nh_name_of(o->dag, o->chart->w[i]));
+        between = " : ";
+        moving++;
+    }
+    between = " = ";
+    for (size_t i = 0; i < o->n && moving > 1; i++) {
+        if (direction[i] == 0) continue;
+        nh_text_addf(out, "%s%.4g", between, direction[i]);
+        between = " : ";
+    }
+}
+
+static bool singular(const nh_model *o, nh_error *error)
+{
+    const nh_system *y = o->system;
+    double *direction = nh_alloc_array(o->n + 1, sizeof *direction);
+    size_t rank = rank_of_mass(o, direction);
+    nh_text which;
+    nh_text_init(&which);
+    print_direction(o, direction, &which);
+    nh_deck_fail(y->deck, nh_deck_get(nh_deck_root(y->deck), "lagrangian"), 0, error,
+                 rank < o->n ? "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu; no inertia in the direction %.300s"
+                             : "the mass matrix of the Lagrangian has rank %zu of %zu but is singular in places of the sampling domain, in the direction %.300s",
+                 rank, o->n, nh_text_string(&which));
+    nh_text_clear(&which);
+    nh_free(direction);
+    return nh_error_hint(error, rank < o->n ? "every independent velocity needs inertia; a coordinate without any should be eliminated by a constraint"
+                                            : "keep `domain:` away from there");
+}
+
 static bool accelerations(nh_model *o, nh_error *error)
 {
-    size_t rank;
-    o->M_lu = nh_lu_create(o->dag, o->n, o->M, nh_chart_pivot_score, o->chart, &rank);
-    if (!o->M_lu) {
-        char *entry = nh_print_string(o->dag, o->M[rank * o->n + rank]);
-        const nh_system *y = o->system;
-        nh_deck_fail(y->deck, nh_deck_get(nh_deck_root(y->deck), "lagrangian"), 0, error,
-                     "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu (the entry of `%s` is %.200s)",
-                     rank, o->n, nh_name_of(o->dag, o->chart->w[rank]), entry);
-        nh_free(entry);
-        return nh_error_hint(error, "every independent velocity needs inertia; a coordinate without any should be eliminated by a constraint");
-    }
+    o->M_lu = nh_lu_create(o->dag, o->n, o->M, nh_chart_pivot_score, o->chart, NULL);
+    if (!o->M_lu) return singular(o, error);
     nh_lu_solve(o->M_lu, o->A, o->a);
     for (size_t i = 0; i < o->n; i++) o->a[i] = nh_simplify(o->dag, o->a[i]);
     return true;

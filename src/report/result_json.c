@@ -5,7 +5,6 @@
 
 #include "base/json.h"
 #include "expr/print.h"
-#include "geometry/distribution.h"
 
 typedef struct {
     const nh_result *r;
@@ -31,6 +30,52 @@ static void put_expressions(const writer *w, nh_json *to, const char *key, size_
 
 /* ---- the system ---- */
 
+static void put_ranks(nh_json *to, const char *key, size_t n, const size_t *rank)
+{
+    nh_json *list = nh_json_put_array(to, key);
+    for (size_t i = 0; i < n; i++) nh_json_add_number(list, (double)rank[i]);
+}
+
+/* Functions of (t, q) that the constraints alone keep constant. */
+static void put_integrals(const writer *w, nh_json *to)
+{
+    const nh_result *r = w->r;
+    nh_json *item = nh_json_put_object(to, "hidden_holonomic");
+    nh_json_put_number(item, "count", (double)r->constraint.hidden);
+    nh_json *functions = nh_json_put_array(item, "functions");
+    for (size_t i = 0; i < r->integrals; i++) {
+        const nh_found *f = &r->found[r->integral[i]];
+        nh_json *line = nh_json_add_object(functions);
+        nh_json_put_text(line, "current", f->name);
+        put_expression(w, line, "expression", f->phi);
+        nh_json_put_bool(line, "local", f->local);
+    }
+    nh_json_put_number(item, "without_closed_form", (double)(r->constraint.hidden - r->integrals));
+}
+
+static void put_constraint(const writer *w, nh_json *to)
+{
+    static const char *const spaces[] = {"positions", "time and positions", "submanifold"};
+    const nh_distribution *d = &w->r->constraint;
+    const nh_growth *g = &d->growth;
+    nh_json *item = nh_json_put_object(to, "constraint");
+    nh_json_put_text(item, "type", nh_constraint_type_name(d->type));
+    nh_json_put_bool(item, "homogeneous", d->homogeneous);
+    nh_json_put_bool(item, "semiholonomic", d->semiholonomic);
+    nh_json_put_bool(item, "holonomic", d->holonomic);
+    nh_json_put_bool(item, "rheonomic", d->rheonomic);
+    nh_json_put_text(item, "integrability", nh_constraint_integrability(w->r->model, d));
+    put_ranks(item, "growth_vector", g->length, g->rank);
+    nh_json_put_text(item, "growth_space", g->length ? spaces[g->space] : "none");
+    nh_json_put_bool(item, "growth_proved", g->proved);
+    if (g->drops) {
+        nh_json *drop = nh_json_put_object(item, "growth_drops");
+        nh_json_put_text(drop, "where", g->where ? nh_name_of(w->dag, g->where) : "origin");
+        put_ranks(drop, "growth_vector", g->length_there, g->rank_there);
+    }
+    put_integrals(w, item);
+}
+
 static void put_system(const writer *w, nh_json *to)
 {
     const nh_result *r = w->r;
@@ -44,14 +89,7 @@ static void put_system(const writer *w, nh_json *to)
     nh_json_put_number(dimension, "coordinates", (double)r->model->m);
     nh_json_put_number(dimension, "constraints", (double)r->model->k);
     nh_json_put_number(dimension, "submanifold", (double)(1 + r->model->m + r->model->n));
-    nh_distribution d = nh_distribution_of(r->model);
-    nh_json *constraint = nh_json_put_object(to, "constraint");
-    nh_json_put_text(constraint, "type", nh_constraint_type_name(d.type));
-    nh_json_put_bool(constraint, "semiholonomic", d.semiholonomic);
-    nh_json_put_bool(constraint, "holonomic", d.holonomic);
-    nh_json_put_bool(constraint, "rheonomic", d.rheonomic);
-    nh_json *growth = nh_json_put_array(constraint, "growth_vector");
-    for (size_t i = 0; i < d.growth_length; i++) nh_json_add_number(growth, (double)d.growth[i]);
+    put_constraint(w, to);
 }
 
 static nh_json *add_chart(const writer *w, nh_json *charts, const nh_model *o)

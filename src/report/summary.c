@@ -5,7 +5,6 @@
 
 #include "expr/normal.h"
 #include "expr/print.h"
-#include "geometry/distribution.h"
 
 enum { line_width = 100 };
 
@@ -77,27 +76,66 @@ static void formula(writer *w, int indent, const char *label, nh_ex e)
 
 /* ---- the system ---- */
 
+static void ranks(writer *w, const char *before, size_t n, const size_t *rank)
+{
+    for (size_t i = 0; i < n; i++) nh_text_addf(w->out, "%s%zu", i ? "," : before, rank[i]);
+}
+
+/* "(nonholonomic; growth vector 2,3)" */
+static void kind_of_constraint(writer *w)
+{
+    static const char *const spaces[] = {"growth vector ", "growth vector with time ", "growth vector on the submanifold "};
+    const nh_distribution *d = &w->r->constraint;
+    const nh_growth *g = &d->growth;
+    const char *kind = nh_constraint_integrability(w->r->model, d);
+    nh_text_addf(w->out, " (%s%s", kind, d->semiholonomic && !d->holonomic ? ", semiholonomic" : "");
+    if (g->length > 1) {
+        nh_text_add(w->out, "; ");
+        ranks(w, spaces[g->space], g->length, g->rank);
+    }
+    if (g->drops) {
+        if (g->where) nh_text_addf(w->out, ", at %s = 0 ", nh_name_of(w->r->model->dag, g->where));
+        ranks(w, g->where ? "" : ", at the origin ", g->length_there, g->rank_there);
+    }
+    nh_text_addf(w->out, ")%s", g->proved ? "" : " (by numbers)");
+}
+
+/* Which functions the constraints alone keep constant. */
+static void integrals_line(writer *w)
+{
+    const nh_result *r = w->r;
+    size_t hidden = r->constraint.hidden, left = hidden - r->integrals;
+    if (hidden == 0) return;
+    bool all = r->constraint.holonomic;
+    nh_text_addf(w->out, "%zu %s%s: ", hidden, all ? "integral" : "hidden holonomic constraint", hidden == 1 ? "" : "s");
+    for (size_t i = 0; i < r->integrals; i++) {
+        const nh_found *f = &r->found[r->integral[i]];
+        char *text = nh_print_string(r->model->dag, f->phi);
+        bool brief = strlen(text) <= line_width / 2;
+        nh_text_addf(w->out, "%s%s%s%s = const%s", i ? ", " : "", f->name, brief ? " = " : "", brief ? text : "", f->local ? " (local)" : "");
+        nh_free(text);
+    }
+    if (left) nh_text_addf(w->out, "%s%zu without a closed form in this ansatz", r->integrals ? ", and " : "", left);
+    nh_text_add(w->out, "\n");
+}
+
 static void system_lines(writer *w)
 {
     const nh_result *r = w->r;
     const nh_system *s = r->system;
-    nh_distribution d = nh_distribution_of(r->model);
+    const nh_distribution *d = &r->constraint;
     nh_text_addf(w->out, "%s%s%s", w->style.colour ? "\033[1m" : "", s->title, w->style.colour ? "\033[0m" : "");
     for (size_t i = 0; i < s->parameters; i++) nh_text_addf(w->out, "%s%s = %.10g", i ? ", " : "   with ", s->parameter[i].name, s->parameter[i].value);
     nh_text_addf(w->out, "\n%zu coordinate%s", s->coordinates, s->coordinates == 1 ? "" : "s");
     if (s->constraints) {
-        nh_text_addf(w->out, ", %zu %s constraint%s%s", s->constraints, nh_constraint_type_name(d.type), s->constraints == 1 ? "" : "s",
-                     d.rheonomic ? ", time-dependent" : "");
-        nh_text_add(w->out, d.holonomic ? " (holonomic)" : d.semiholonomic ? " (semiholonomic)" : " (nonholonomic");
-        if (!d.holonomic && !d.semiholonomic) {
-            for (size_t i = 0; i < d.growth_length; i++) nh_text_addf(w->out, "%s%zu", i ? "," : "; growth vector ", d.growth[i]);
-            nh_text_add(w->out, ")");
-        }
-        if (d.hidden && !d.holonomic) nh_text_addf(w->out, "; %zu hidden holonomic constraint%s", d.hidden, d.hidden == 1 ? "" : "s");
+        nh_text_addf(w->out, ", %zu %s%s constraint%s%s", s->constraints, d->type == NH_NONLINEAR && d->homogeneous ? "homogeneous " : "",
+                     nh_constraint_type_name(d->type), s->constraints == 1 ? "" : "s", d->rheonomic ? ", time-dependent" : "");
+        kind_of_constraint(w);
     } else {
         nh_text_add(w->out, ", no constraints");
     }
     nh_text_addf(w->out, "; constraint submanifold of dimension %zu\n", 1 + r->model->m + r->model->n);
+    integrals_line(w);
 }
 
 static void equations_of(writer *w, const nh_model *o)

@@ -8,6 +8,7 @@
 #include "study/coefficients.h"
 #include "study/currents.h"
 #include "study/defaults.h"
+#include "study/integrals.h"
 #include "study/ladder.h"
 #include "study/routes.h"
 #include "study/specials.h"
@@ -64,6 +65,7 @@ static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *err
         r->other = nh_model_create(r->system, nh_chart_create(r->system, NH_CHART_COORDINATES, seed, &ignored), &ignored);
     if (ignored.code != NH_OK) nh_result_warn(r, "the chart of coordinate velocities: %s", ignored.what);
     r->local_maximum = 2 * r->model->m - r->model->k;
+    r->constraint = nh_distribution_of(r->model);
     return !r->analysis || nh_analysis_resolve(r->analysis, r->model, error);
 }
 
@@ -202,6 +204,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
         if (!linear_problem(r, families, family, &clock, error)) return false;
     }
     conclude(r);
+    nh_integrals_of_constraints(r);
     validate(r);
     r->timing.validation = lap(&clock);
     r->timing.total = now() - start;

@@ -2,6 +2,7 @@
 #ifndef NH_RESULT_H
 #define NH_RESULT_H
 
+#include "geometry/distribution.h"
 #include "motion/drift.h"
 #include "noether/independence.h"
 #include "noether/prove.h"
@@ -72,6 +73,7 @@ typedef struct {
     nh_system *system;
     nh_analysis *analysis;    /* NULL: chosen by the program */
     nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
+    nh_distribution constraint; /* the kind of constraint */
     nh_options options;
     nh_route route;
     const char *ansatz_note;  /* what was tried, in words */
@@ -89,6 +91,8 @@ typedef struct {
     nh_found *found;
     size_t almosts;           /* nearly conserved, found by the way: at most NH_MOST_ALMOST */
     nh_almost *almost;
+    size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
+    size_t *integral;         /* found[integral[i]] */
     nh_verdict verdict;
     nh_validation *validation; /* NULL when no motion could be computed */
     size_t warnings;

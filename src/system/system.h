@@ -23,7 +23,8 @@ typedef struct {
 typedef struct {
     const char *text;
     nh_ex lhs, rhs;  /* f = lhs - rhs */
-    bool position;   /* it was an equation between positions: lhs and rhs are its time derivative */
+    bool position;   /* it was an equation between positions, level = 0: lhs and rhs are its time derivative */
+    nh_ex level;
     const nh_deck_node *node;
 } nh_constraint;
 

@@ -211,6 +211,7 @@ static void differentiate_position(nh_system *s, nh_constraint *c)
     c->lhs = rate;
     c->rhs = nh_int(s->dag, 0);
     c->position = true;
+    c->level = f;
 }
 
 static bool read_constraints(reader *r)

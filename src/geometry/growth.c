@@ -1,0 +1,291 @@
+#include "geometry/growth.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+
+enum { most_fields = 200, largest_entry = 400, zero_terms = 2000, stages_beyond = 2 };
+static const double rank_bound = 1e-9;
+
+typedef struct {
+    const nh_model *o;
+    nh_dag *d;
+    size_t N;
+    const nh_ex *symbol;
+    bool proved, too_large;
+} space;
+
+static void bracket(const space *x, const nh_ex *a, const nh_ex *b, nh_ex *out)
+{
+    nh_dag *d = x->d;
+    for (size_t s = 0; s < x->N; s++) {
+        out[s] = nh_int(d, 0);
+        for (size_t r = 0; r < x->N; r++) {
+            if (!nh_is_zero(d, a[r])) out[s] = nh_add(d, out[s], nh_mul(d, a[r], nh_diff(d, b[s], x->symbol[r])));
+            if (!nh_is_zero(d, b[r])) out[s] = nh_sub(d, out[s], nh_mul(d, b[r], nh_diff(d, a[s], x->symbol[r])));
+        }
+    }
+}
+
+/* ---- elimination over the field of functions ---- */
+
+/* Fields in reduced form: E_i has 1 in component pivot[i], where all others have 0. */
+typedef struct {
+    size_t count, *pivot;
+    nh_ex *field; /* count x N */
+} frame;
+
+static void frame_init(frame *f, size_t N)
+{
+    *f = (frame){0, nh_alloc_array(N + 1, sizeof *f->pivot), nh_alloc_array(N * N + 1, sizeof *f->field)};
+}
+
+static void frame_clear(frame *f)
+{
+    nh_free(f->pivot);
+    nh_free(f->field);
+}
+
+/* Simplified, and the number 0 where it vanishes identically. */
+static nh_ex tidy(space *x, nh_ex e)
+{
+    nh_dag *d = x->d;
+    if (nh_is_zero(d, e)) return e;
+    e = nh_simplify(d, e);
+    if (nh_is_zero(d, e)) return e;
+    x->too_large |= nh_complexity(d, e) > largest_entry;
+    if (nh_kind_of(d, e) == NH_NUMBER || nh_kind_of(d, e) == NH_SYMBOL) return e;
+    if (nh_normal_is_zero(d, e, zero_terms) == NH_ZERO) return nh_int(d, 0);
+    if (nh_chart_pivot_score(x->o->chart, e) > 0) return e;
+    x->proved = false; /* zero at the probes only */
+    return nh_int(d, 0);
+}
+
+/* x := x - x[p] e for a field e with 1 in component p. */
+static void clear_component(space *x, nh_ex *field, const nh_ex *e, size_t p)
+{
+    nh_dag *d = x->d;
+    nh_ex factor = field[p];
+    if (nh_is_zero(d, factor)) return;
+    for (size_t s = 0; s < x->N; s++)
+        if (!nh_is_zero(d, e[s])) field[s] = s == p ? nh_int(d, 0) : tidy(x, nh_sub(d, field[s], nh_mul(d, factor, e[s])));
+}
+
+/* The simplest entry that does not vanish; N when there is none. */
+static size_t choose_pivot(const space *x, const nh_ex *field)
+{
+    size_t best = x->N, least = SIZE_MAX;
+    for (size_t s = 0; s < x->N; s++) {
+        if (nh_is_zero(x->d, field[s])) continue;
+        size_t size = nh_kind_of(x->d, field[s]) == NH_NUMBER ? 0 : nh_complexity(x->d, field[s]);
+        if (size < least) best = s, least = size;
+    }
+    return best;
+}
+
+/* Add a field (overwritten) unless it is a combination of those there. */
+static bool frame_add(space *x, frame *f, nh_ex *field)
+{
+    size_t N = x->N;
+    for (size_t s = 0; s < N; s++) field[s] = tidy(x, field[s]);
+    for (size_t i = 0; i < f->count; i++) clear_component(x, field, f->field + i * N, f->pivot[i]);
+    size_t p = choose_pivot(x, field);
+    if (p == N) return false;
+    nh_ex inverse = nh_div(x->d, nh_int(x->d, 1), field[p]);
+    for (size_t s = 0; s < N; s++) field[s] = s == p ? nh_int(x->d, 1) : tidy(x, nh_mul(x->d, inverse, field[s]));
+    for (size_t i = 0; i < f->count; i++) clear_component(x, f->field + i * N, field, p);
+    memcpy(f->field + f->count * N, field, N * sizeof *field);
+    f->pivot[f->count++] = p;
+    return true;
+}
+
+/* ---- ranks at points ---- */
+
+/* Brackets [X_i, F] of the generators with those of the stage before; stage j ends before field first[j + 1]. */
+typedef struct {
+    size_t count, capacity, stages, first[NH_MOST_GROWTH + 1];
+    nh_ex *field;
+} brackets;
+
+static void push(brackets *b, size_t N, const nh_ex *x)
+{
+    nh_grow(&b->field, &b->capacity, (b->count + 1) * N, sizeof *b->field);
+    memcpy(b->field + b->count++ * N, x, N * sizeof *x);
+}
+
+static void next_stage(const space *x, brackets *b, size_t generators)
+{
+    size_t N = x->N, from = b->stages ? b->first[b->stages - 1] : 0, to = b->count;
+    nh_ex *out = nh_alloc_array(N + 1, sizeof *out);
+    for (size_t i = 0; i < generators; i++)
+        for (size_t j = from; j < to && b->count < most_fields; j++) {
+            if (from == 0 && j <= i) continue; /* [X_i, X_j] once */
+            bracket(x, b->field + i * N, b->field + j * N, out);
+            push(b, N, out);
+        }
+    b->first[++b->stages] = b->count;
+    nh_free(out);
+}
+
+/* Rank of the first `count` columns; what is rounding beside the largest column counts as zero, the others by their directions. */
+static size_t rank_of(size_t N, size_t count, const double *value, double *work)
+{
+    double largest = 0, *s = work + N * count;
+    size_t used = 0, rank = 0;
+    for (size_t i = 0; i < N * count; i++) largest = fmax(largest, fabs(value[i]));
+    for (size_t i = 0; i < count; i++) {
+        double size = 0;
+        for (size_t j = 0; j < N; j++) size = hypot(size, value[i * N + j]);
+        if (size <= rank_bound * 1e-3 * largest) continue;
+        for (size_t j = 0; j < N; j++) work[used * N + j] = value[i * N + j] / size;
+        used++;
+    }
+    size_t least = used < N ? used : N;
+    if (used && nh_svd(N, used, work, s, NULL, NULL))
+        while (rank < least && s[rank] > rank_bound * s[0]) rank++;
+    return rank;
+}
+
+/* The ranks of all stages at a point z; false where something is not finite. */
+static bool ranks_at(const space *x, const brackets *b, const nh_tape *tape, const double *z, size_t *rank)
+{
+    size_t n = b->count * x->N;
+    nh_tape_work *scratch = nh_tape_work_create(tape);
+    double *value = nh_alloc_array(2 * n + b->count + x->N + 1, sizeof *value);
+    nh_tape_eval(tape, scratch, z, value);
+    bool good = true;
+    for (size_t i = 0; i < n; i++) good &= isfinite(value[i]) && fabs(value[i]) < 1e100;
+    for (size_t j = 0; j < b->stages && good; j++) rank[j] = rank_of(x->N, b->first[j + 1], value, value + n);
+    nh_free(value);
+    nh_tape_work_free(scratch);
+    return good;
+}
+
+/* Stage by stage, the largest rank over the probes, until it stays the same for once; two stages more are made, for places where it grows later. */
+static nh_tape *ranks_of_probes(const space *x, brackets *b, size_t generators, const nh_ex *field, nh_growth *g)
+{
+    size_t rank[NH_MOST_GROWTH + 1], beyond = 0;
+    const nh_chart *c = x->o->chart;
+    nh_tape *tape = NULL;
+    for (size_t i = 0; i < generators; i++) push(b, x->N, field + i * x->N);
+    b->first[++b->stages] = b->count;
+    for (;;) {
+        nh_tape_free(tape);
+        tape = nh_model_tape(x->o, b->count * x->N, b->field);
+        size_t best = 0, last = b->stages - 1, reached = g->length ? g->rank[g->length - 1] : 0;
+        for (size_t p = 0; p < c->probes && best < x->N; p++)
+            if (ranks_at(x, b, tape, c->probe + p * x->o->width, rank) && rank[last] > best) best = rank[last];
+        if (best > reached && beyond == 0) g->rank[g->length++] = best;
+        if (best == reached || best == x->N) beyond++;
+        if (beyond > stages_beyond || b->stages == NH_MOST_GROWTH || b->count >= most_fields) return tape;
+        next_stage(x, b, generators);
+    }
+}
+
+static bool differs(const nh_growth *g, const brackets *b, const size_t *rank)
+{
+    for (size_t j = 0; j < b->stages && j < NH_MOST_GROWTH; j++)
+        if (rank[j] != g->rank[j < g->length ? j : g->length - 1]) return true;
+    return false;
+}
+
+/* Ranks with repetitions at a special point, up to the generic final one. */
+static void keep_there(nh_growth *g, const brackets *b, const size_t *rank, nh_ex where)
+{
+    g->drops = true;
+    g->where = where;
+    for (size_t j = 0; j < b->stages && j < NH_MOST_GROWTH; j++) {
+        g->rank_there[g->length_there++] = rank[j];
+        if (rank[j] == g->rank[g->length - 1]) break;
+    }
+    while (g->length_there > 1 && g->rank_there[g->length_there - 1] == g->rank_there[g->length_there - 2] && g->rank_there[g->length_there - 1] != g->rank[g->length - 1])
+        g->length_there--;
+}
+
+/* A probe with one coordinate, or all of them (s = m), at zero.  False where the domain does not reach it. */
+static bool special_point(const nh_model *o, size_t probe, size_t s, double *z)
+{
+    const nh_chart *c = o->chart;
+    memcpy(z, c->probe + probe * o->width, o->width * sizeof *z);
+    for (size_t r = s == o->m ? 0 : s; r < (s == o->m ? o->m : s + 1); r++) {
+        if (c->low[1 + r] > 0 || c->high[1 + r] < 0) return false;
+        z[1 + r] = 0;
+    }
+    return c->implicit == 0 || nh_chart_complete(c, z);
+}
+
+static void look_for_drops(const space *x, const brackets *b, const nh_tape *tape, nh_growth *g)
+{
+    const nh_model *o = x->o;
+    size_t rank[NH_MOST_GROWTH + 1], probe = 0;
+    while (probe < o->chart->probes && (!ranks_at(x, b, tape, o->chart->probe + probe * o->width, rank) || differs(g, b, rank))) probe++;
+    if (probe == o->chart->probes) return; /* rounding: nothing can be said */
+    double *z = nh_alloc_array(o->width + 1, sizeof *z);
+    for (size_t s = 0; s <= o->m && !g->drops; s++) {
+        if (!special_point(o, probe, s, z) || !ranks_at(x, b, tape, z, rank)) continue;
+        if (rank[0] == g->rank[0] && differs(g, b, rank)) keep_there(g, b, rank, s < o->m ? o->system->coordinate[s].q : 0);
+    }
+    nh_free(z);
+}
+
+/* ---- a proof that nothing is missing ---- */
+
+/* Brackets of the fields with those before them, in reduced form all along, until `count` are there. */
+static void grow_to(space *x, frame *f, size_t count)
+{
+    size_t N = x->N;
+    nh_ex *field = nh_alloc_array(N + 1, sizeof *field);
+    for (size_t i = 1; i < f->count && f->count < count && !x->too_large; i++)
+        for (size_t j = 0; j < i && f->count < count && !x->too_large; j++) {
+            bracket(x, f->field + i * N, f->field + j * N, field);
+            frame_add(x, f, field);
+        }
+    nh_free(field);
+}
+
+/* Brackets fill `count` directions, and those are involutive: their brackets, whose components along the pivots vanish, vanish. */
+static bool prove_involutive(space *x, size_t generators, const nh_ex *generator, size_t count)
+{
+    size_t N = x->N;
+    frame f;
+    frame_init(&f, N);
+    nh_ex *field = nh_alloc_array(N + 1, sizeof *field);
+    for (size_t i = 0; i < generators; i++) {
+        memcpy(field, generator + i * N, N * sizeof *field);
+        frame_add(x, &f, field);
+    }
+    grow_to(x, &f, count);
+    bool good = f.count == count && !x->too_large;
+    for (size_t i = 0; i < f.count && good; i++)
+        for (size_t j = 0; j < i && good; j++) {
+            bracket(x, f.field + i * N, f.field + j * N, field);
+            for (size_t s = 0; s < N && good; s++) good = nh_is_zero(x->d, tidy(x, field[s])) && !x->too_large;
+        }
+    nh_free(field);
+    frame_clear(&f);
+    return good && x->proved;
+}
+
+static void shift_down(size_t length, size_t *rank, size_t shift)
+{
+    for (size_t j = 0; j < length; j++) rank[j] = rank[j] > shift ? rank[j] - shift : 0;
+}
+
+nh_growth nh_growth_of(const nh_model *o, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field, size_t shift)
+{
+    space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true};
+    nh_growth g = {.dimension = N - shift};
+    brackets b = {0};
+    nh_tape *tape = ranks_of_probes(&x, &b, count, field, &g);
+    look_for_drops(&x, &b, tape, &g);
+    size_t last = g.rank[g.length - 1];
+    g.proved = last == N || prove_involutive(&x, count, field, last);
+    shift_down(g.length, g.rank, shift);
+    shift_down(g.length_there, g.rank_there, shift);
+    nh_tape_free(tape);
+    nh_free(b.field);
+    return g;
+}

@@ -1,0 +1,14 @@
+/* integrals: which currents are functions that the constraints alone hold constant.
+ *
+ * A current Phi(t, q) satisfies X_0(Phi) = 0 for all velocities, hence X_i(Phi) = 0: it belongs to the constraints, whatever the Lagrangian is, and is a
+ * hidden holonomic constraint Phi = const.  How many there are is known from the growth vector (geometry/distribution.h); here they are found among
+ * the currents.  [docs/method.md, sec. 2] */
+#ifndef NH_INTEGRALS_H
+#define NH_INTEGRALS_H
+
+#include "study/result.h"
+
+/* Fills result->integral, and the meaning of the currents concerned. */
+void nh_integrals_of_constraints(nh_result *result);
+
+#endif
