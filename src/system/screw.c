@@ -6,7 +6,7 @@
 
 enum { short_enough = 150 }; /* what is simplified: a product of two rotation matrices is, the product of five is not */
 
-nh_ex nh_tidy(nh_dag *d, nh_ex e) { return nh_complexity(d, e) <= short_enough ? nh_simplify(d, e) : e; }
+nh_ex nh_tidy(nh_dag *d, nh_ex e) { return nh_simplify_short(d, e, short_enough); }
 
 /* ---- vectors ---- */
 
