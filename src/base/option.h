@@ -34,6 +34,8 @@
     X(bits,             256,     64,     4096,  whole, "bits",     "working precision of ball arithmetic")                                   \
     X(digits,           50,      10,     1000,  whole, "digits",   "digits to which a residual must vanish to be certified")                 \
     X(proof_terms,      20000,   100,    1e7,   whole, "terms",    "largest polynomial that an exact proof may use")                         \
+    X(shown,            600,     10,     1e9,   whole, "symbols",  "longer formulas are not written out in the summary")                     \
+    X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \
     X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \
     X(absolute,         1e-3,    0,      1e6,   real,  "",         "size below which a state's error is absolute: tolerance*absolute")       \
     X(drift,            100,     1,      1e6,   real,  "tolerance", "a true current drifts by less than this many tolerances")               \

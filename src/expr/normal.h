@@ -21,6 +21,10 @@ nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms);
  * Never larger, by nh_complexity, than e. */
 nh_ex nh_simplify(nh_dag *dag, nh_ex e);
 
+/* The same, but e itself when it is longer than `most` (nh_complexity): what is large is often small as a shared graph, like the equations of a chain
+ * of bodies, and what comes out of the normal form shares nothing.  0: the limit for the equations of a system. */
+nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most);
+
 /* A polynomial in kernels with the zeros of e and no poles: the numerator of its normal form (tan(x) - y gives
  * sin(x) - y*cos(x)); e itself when the size bound is met. */
 nh_ex nh_numerator(nh_dag *dag, nh_ex e);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/normal.h"
 
 /* Binding strength of what surrounds an expression. */
 enum { in_sum = 0, in_product = 1, in_power = 2 };
@@ -346,3 +347,5 @@ char *nh_print_string(nh_dag *dag, nh_ex e)
     nh_text_clear(&text);
     return copy;
 }
+
+char *nh_print_short(nh_dag *dag, nh_ex e, double most) { return (double)nh_complexity(dag, e) > most ? NULL : nh_print_string(dag, e); }

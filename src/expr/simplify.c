@@ -10,7 +10,8 @@ enum {
     most_flips = 8,       /* for this many angles */
     factor_terms = 60,    /* see normal_factor.c */
     shortest = 4,         /* complexity below which there is nothing to gain */
-    deepest = 20          /* levels of arguments and of terms that are simplified on their own */
+    deepest = 20,         /* levels of arguments and of terms that are simplified on their own */
+    longest = 3000        /* of the equations of a system, complexity beyond which they are left alone */
 };
 
 /* What one call shares between the expression and its parts. */
@@ -249,3 +250,5 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_dag_set_simplified(dag, result, result);
     return result;
 }
+
+nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most) { return nh_complexity(dag, e) <= (most ? most : longest) ? nh_simplify(dag, e) : e; }

@@ -50,10 +50,10 @@ static void eliminate(nh_lu *lu, size_t r, size_t k)
     for (size_t i = r + 1; i < n; i++) {
         nh_ex *row = lu->a + i * n;
         if (nh_is_zero(d, row[k])) continue;
-        row[k] = nh_simplify(d, nh_div(d, row[k], pivot));
+        row[k] = nh_simplify_short(d, nh_div(d, row[k], pivot), 0);
         for (size_t j = k + 1; j < n; j++) {
             nh_ex u = lu->a[r * n + j];
-            if (!nh_is_zero(d, u)) row[j] = nh_simplify(d, nh_sub(d, row[j], nh_mul(d, row[k], u)));
+            if (!nh_is_zero(d, u)) row[j] = nh_simplify_short(d, nh_sub(d, row[j], nh_mul(d, row[k], u)), 0);
         }
     }
 }

@@ -11,6 +11,8 @@
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }
 
+static nh_ex simple(const nh_model *o, nh_ex e) { return nh_simplify_short(o->dag, e, 0); }
+
 /* ---- derivatives along fields ---- */
 
 nh_ex nh_model_X0(const nh_model *o, nh_ex e)
@@ -81,18 +83,18 @@ static void momenta(nh_model *o)
 {
     nh_dag *d = o->dag;
     const nh_system *y = o->system;
-    o->Lbar = nh_simplify(d, nh_model_compose(o, y->lagrangian));
+    o->Lbar = simple(o, nh_model_compose(o, y->lagrangian));
     o->E = nh_int(d, 0);
     for (size_t s = 0; s < o->m; s++) {
-        o->p[s] = nh_simplify(d, nh_model_compose(o, nh_diff(d, y->lagrangian, y->coordinate[s].v)));
+        o->p[s] = simple(o, nh_model_compose(o, nh_diff(d, y->lagrangian, y->coordinate[s].v)));
         o->E = nh_add(d, o->E, nh_mul(d, o->p[s], o->rho[s]));
         for (size_t i = 0; i < o->n; i++) o->R[s * o->n + i] = nh_model_Y(o, i, o->rho[s]);
     }
-    o->E = nh_simplify(d, nh_sub(d, o->E, o->Lbar));
+    o->E = simple(o, nh_sub(d, o->E, o->Lbar));
     for (size_t i = 0; i < o->n; i++) {
         nh_ex sum = nh_int(d, 0);
         for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_mul(d, o->p[s], o->R[s * o->n + i]));
-        o->pbar[i] = nh_simplify(d, sum);
+        o->pbar[i] = simple(o, sum);
     }
 }
 
@@ -115,7 +117,7 @@ static void matrices(nh_model *o)
             if (nh_is_zero(d, R)) continue;
             o->A[i] = nh_add(d, o->A[i], nh_mul(d, R, nh_sub(d, applied_force(o, s), nh_model_X0(o, o->p[s]))));
         }
-        o->A[i] = nh_simplify(d, o->A[i]);
+        o->A[i] = simple(o, o->A[i]);
         for (size_t j = 0; j < n; j++) {
             nh_ex M = nh_int(d, 0), G = M;
             for (size_t s = 0; s < o->m; s++) {
@@ -123,9 +125,9 @@ static void matrices(nh_model *o)
                 if (j > i) G = nh_add(d, G, nh_mul(d, nh_model_X(o, i, o->p[s]), o->R[s * n + j]));
                 if (j > i) G = nh_sub(d, G, nh_mul(d, nh_model_X(o, j, o->p[s]), o->R[s * n + i]));
             }
-            o->M[i * n + j] = j < i ? o->M[j * n + i] : nh_simplify(d, M);
+            o->M[i * n + j] = j < i ? o->M[j * n + i] : simple(o, M);
             if (j <= i) continue;
-            o->G[i * n + j] = nh_simplify(d, G);
+            o->G[i * n + j] = simple(o, G);
             o->G[j * n + i] = nh_neg(d, o->G[i * n + j]);
         }
         o->G[i * n + i] = nh_int(d, 0);
@@ -205,7 +207,7 @@ static bool accelerations(nh_model *o, nh_error *error)
     o->M_lu = nh_lu_create(o->dag, o->n, o->M, nh_chart_pivot_score, o->chart, NULL);
     if (!o->M_lu) return singular(o, error);
     nh_lu_solve(o->M_lu, o->A, o->a);
-    for (size_t i = 0; i < o->n; i++) o->a[i] = nh_simplify(o->dag, o->a[i]);
+    for (size_t i = 0; i < o->n; i++) o->a[i] = simple(o, o->a[i]);
     return true;
 }
 
@@ -216,12 +218,14 @@ static bool multipliers(nh_model *o, nh_error *error)
     const nh_system *y = o->system;
     size_t k = o->k, m = o->m;
     nh_ex *c = take(o, m);
+    for (size_t s = 0; s < m; s++) o->reaction[s] = nh_int(d, 0);
+    if (k == 0) return true;
     for (size_t s = 0; s < m; s++) {
         c[s] = nh_sub(d, applied_force(o, s), nh_model_gamma(o, o->p[s]));
-        if (m <= 12) c[s] = nh_simplify(d, c[s]);
+        if (m <= 12) c[s] = simple(o, c[s]);
         o->reaction[s] = nh_neg(d, c[s]);
         for (size_t a = 0; a < k; a++)
-            o->nu[a * m + s] = nh_simplify(d, nh_model_compose(o, nh_diff(d, nh_chart_constraint(o->chart, a), y->coordinate[s].v)));
+            o->nu[a * m + s] = simple(o, nh_model_compose(o, nh_diff(d, nh_chart_constraint(o->chart, a), y->coordinate[s].v)));
     }
     /* normal equations (nu nu^T) mu = nu c: regular wherever the constraints are independent, in every chart */
     nh_ex *N = take(o, k * k), *b = take(o, k);
@@ -231,13 +235,13 @@ static bool multipliers(nh_model *o, nh_error *error)
         for (size_t e = 0; e < k; e++) {
             nh_ex sum = nh_int(d, 0);
             for (size_t s = 0; s < m; s++) sum = nh_add(d, sum, nh_mul(d, o->nu[a * m + s], o->nu[e * m + s]));
-            N[a * k + e] = nh_simplify(d, sum);
+            N[a * k + e] = simple(o, sum);
         }
     }
     nh_lu *lu = nh_lu_create(d, k, N, nh_chart_pivot_score, o->chart, NULL);
     if (!lu) return nh_fail(error, NH_NUMERIC, "", "the constraints of %s become dependent on the sampling domain", y->name);
     nh_lu_solve(lu, b, o->mu);
-    for (size_t a = 0; a < k; a++) o->mu[a] = nh_simplify(d, o->mu[a]);
+    for (size_t a = 0; a < k; a++) o->mu[a] = simple(o, o->mu[a]);
     nh_lu_free(lu);
     return true;
 }

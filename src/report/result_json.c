@@ -1,6 +1,7 @@
 #include "report/result_json.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/json.h"
@@ -9,11 +10,20 @@
 typedef struct {
     const nh_result *r;
     nh_dag *dag;
+    size_t *left_out; /* formulas that are too long */
 } writer;
+
+/* NULL, counted, when it is too long. */
+static char *text_of(const writer *w, nh_ex e)
+{
+    char *text = nh_print_short(w->dag, e, w->r->options.written);
+    *w->left_out += !text;
+    return text;
+}
 
 static void put_expression(const writer *w, nh_json *to, const char *key, nh_ex e)
 {
-    char *text = nh_print_string(w->dag, e);
+    char *text = text_of(w, e);
     nh_json_put_text(to, key, text);
     nh_free(text);
 }
@@ -22,7 +32,7 @@ static void put_expressions(const writer *w, nh_json *to, const char *key, size_
 {
     nh_json *array = nh_json_put_array(to, key);
     for (size_t i = 0; i < n; i++) {
-        char *text = nh_print_string(w->dag, e[i]);
+        char *text = text_of(w, e[i]);
         nh_json_add_text(array, text);
         nh_free(text);
     }
@@ -319,7 +329,8 @@ static void put_timing(const nh_timing *t, nh_json *to)
 
 char *nh_result_json(const nh_result *r)
 {
-    writer w = {r, r->model->dag};
+    size_t left_out = 0;
+    writer w = {r, r->model->dag, &left_out};
     nh_json *root = nh_json_object();
     put_system(&w, root);
     put_equations(&w, root);
@@ -334,5 +345,8 @@ char *nh_result_json(const nh_result *r)
     put_timing(&r->timing, root);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);
+    char note[200];
+    snprintf(note, sizeof note, "%zu formula%s longer than %.0f symbols and null here (option `written`)", left_out, left_out == 1 ? " is" : "s are", r->options.written);
+    if (left_out) nh_json_add_text(warnings, note);
     return nh_json_finish(root);
 }

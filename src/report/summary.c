@@ -1,6 +1,7 @@
 #include "report/summary.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "expr/normal.h"
@@ -50,7 +51,8 @@ static void abbreviations(writer *w)
 static void wrapped(writer *w, int hang, const char *rest)
 {
     int room = line_width - hang;
-    while ((int)strlen(rest) > room) {
+    const char *end = rest + strlen(rest);
+    while (end - rest > room) {
         int cut = 0;
         for (int i = 1; i < room; i++)
             if (rest[i] == ' ' && (rest[i + 1] == '+' || rest[i + 1] == '-')) cut = i;
@@ -64,10 +66,22 @@ static void wrapped(writer *w, int hang, const char *rest)
     nh_text_addf(w->out, "%s\n", rest);
 }
 
+/* The formula as text; when it is too long, how long it would be. */
+static char *text_of(const writer *w, nh_ex e)
+{
+    nh_dag *d = w->r->model->dag;
+    char *text = nh_print_short(d, e, w->r->options.shown), size[120];
+    if (text) return text;
+    double length = (double)nh_complexity(d, e);
+    if (length < 1e9) snprintf(size, sizeof size, "... (%.0f symbols: too long to be shown; option `shown`)", length);
+    else snprintf(size, sizeof size, "... (too long to be shown)");
+    return nh_strdup(size);
+}
+
 /* "label = formula" */
 static void formula(writer *w, int indent, const char *label, nh_ex e)
 {
-    char *text = nh_print_string(w->r->model->dag, abbreviate(w, e));
+    char *text = text_of(w, abbreviate(w, e));
     int at = indent + (int)nh_text_width(label);
     nh_text_addf(w->out, "%*s%s", indent, "", label);
     wrapped(w, at < 24 ? at : indent + 4, text);
@@ -164,7 +178,9 @@ static void equations(writer *w)
     }
     for (size_t a = 0; a < r->model->k; a++) {
         if (a == 0) heading(w, "Chetaev multipliers");
-        const nh_model *o = r->other ? r->other : r->model;
+        nh_dag *d = r->model->dag;
+        bool shorter = r->other && ((double)nh_complexity(d, r->other->mu[a]) <= r->options.shown || nh_complexity(d, r->other->mu[a]) <= nh_complexity(d, r->model->mu[a]));
+        const nh_model *o = shorter ? r->other : r->model;
         nh_text_addf(w->out, "  of %s:\n", r->system->constraint[a].text);
         formula(w, 4, "mu = ", o->mu[a]);
     }
@@ -206,7 +222,7 @@ static void component(writer *w, nh_ex e, const char *along, bool *first)
     }
     nh_text text;
     nh_text_init(&text);
-    char *printed = nh_print_string(d, e);
+    char *printed = text_of(w, e);
     bool sum = reads_as_sum(printed);
     nh_text_addf(&text, "%s%s%s d/d%s", sum ? "(" : "", printed, sum ? ")" : "", along);
     nh_free(printed);

@@ -5,6 +5,7 @@
 #include "base/deck.h"
 #include "base/memory.h"
 #include "expr/dag.h"
+#include "system/bodies.h"
 
 typedef enum { NH_ANGLE, NH_LENGTH, NH_PLAIN } nh_coordinate_type;
 
@@ -51,7 +52,8 @@ typedef struct {
     nh_named *definition;
     nh_interval *interval;   /* the sampling box as far as the user gave it */
     nh_named *current, *trap; /* known currents; functions known not to be conserved */
-    nh_ex lagrangian;
+    nh_chain *chain;         /* bodies and joints; NULL when the file has none */
+    nh_ex lagrangian;        /* with the energies of bodies and joints */
     nh_ex *force;            /* per coordinate; the number 0 where there is none */
     bool has_forces;
     size_t dependents;       /* 0 when the user named none */

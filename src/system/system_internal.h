@@ -27,9 +27,18 @@ bool nh_system_list_of(nh_system_reader *r, const nh_deck_node *map, const char 
 bool nh_system_text_of(nh_system_reader *r, const nh_deck_node *map, const char *key, const char *fallback, const char **out);
 bool nh_system_assignment_name(nh_system_reader *r, const nh_deck_node *node, const char *what, const char **name);
 bool nh_system_read_right_side(nh_system_reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out);
+bool nh_system_new_name(nh_system_reader *r, const nh_deck_node *node); /* is it free and well formed? */
 bool nh_system_read_chart(nh_system_reader *r);
 bool nh_system_read_forces(nh_system_reader *r);
 bool nh_system_read_domain(nh_system_reader *r);
 bool nh_system_read_known(nh_system_reader *r);
+
+/* Bodies and joints, in this order: who carries whom; the coordinates that joints bring (room for them: NH_MOST_SCREWS each); expressions and all
+ * that follows from them.  Wheels become constraints, for which the caller has room. */
+bool nh_system_read_tree(nh_system_reader *r);
+bool nh_system_read_joint_coordinates(nh_system_reader *r);
+bool nh_system_read_chain(nh_system_reader *r);
+size_t nh_system_most_wheel_constraints(const nh_system *system);
+void nh_system_add_wheel_constraints(nh_system_reader *r);
 
 #endif

@@ -110,17 +110,23 @@ bool nh_system_read_domain(nh_system_reader *r)
 {
     const nh_deck_node *map = nh_deck_get(r->root, "domain");
     nh_system *s = r->system;
+    size_t screws = s->chain ? s->chain->screws : 0;
+    s->interval = nh_system_take(r, (map ? map->count : 0) + screws, sizeof *s->interval);
+    for (size_t k = 0; k < screws; k++) { /* first, so that what the user says comes later and wins */
+        const nh_screw *screw = &s->chain->screw[k];
+        if (screw->coordinate < 0 || screw->low == screw->high) continue;
+        s->interval[s->intervals++] = (nh_interval){s->coordinate[screw->coordinate].q, screw->low, screw->high};
+    }
     if (!map) return true;
     if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a domain {x: [low, high], ...}", r->error)) return false;
-    s->interval = nh_system_take(r, map->count, sizeof *s->interval);
     for (size_t i = 0; i < map->count; i++) {
         double range[2];
-        nh_interval *box = &s->interval[i];
+        nh_interval *box = &s->interval[s->intervals];
         if (!box_symbol(r, map->key[i], &box->symbol)) return false;
         if (!nh_deck_range(r->deck, map->item[i], map->key[i]->text, range, r->error)) return false;
         box->low = range[0];
         box->high = range[1];
-        s->intervals = i + 1;
+        s->intervals++;
     }
     return true;
 }

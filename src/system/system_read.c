@@ -10,7 +10,8 @@
 typedef nh_system_reader reader;
 
 static const char *const top_keys[] = {"name", "title", "source", "parameters", "coordinates", "definitions", "lagrangian",
-                                       "constraints", "dependent", "chart", "forces", "domain", "known", "doc"};
+                                       "constraints", "dependent", "chart", "forces", "domain", "known", "doc",
+                                       "bodies", "joints", "gravity", "wheels"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 void *nh_system_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
@@ -35,7 +36,7 @@ bool nh_system_text_of(reader *r, const nh_deck_node *map, const char *key, cons
 }
 
 /* Is `name` free and well formed? */
-static bool new_name(reader *r, const nh_deck_node *node)
+bool nh_system_new_name(reader *r, const nh_deck_node *node)
 {
     const nh_system *s = r->system;
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a name", r->error)) return false;
@@ -69,7 +70,7 @@ static bool read_parameters(reader *r)
         if (!nh_deck_only(r->deck, item, keys, 4, r->error)) return false;
         const nh_deck_node *name = nh_deck_get(item, "name"), *value = nh_deck_get(item, "value");
         if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this parameter has no `name`");
-        if (!new_name(r, name)) return false;
+        if (!nh_system_new_name(r, name)) return false;
         nh_parameter *p = &s->parameter[i];
         *p = (nh_parameter){.name = name->text};
         if (!nh_system_text_of(r, item, "unit", "", &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc)) return false;
@@ -105,11 +106,11 @@ static bool read_coordinates(reader *r)
     size_t n;
     nh_system *s = r->system;
     if (!nh_system_list_of(r, r->root, "coordinates", &list, &n)) return false;
-    if (n == 0) {
+    if (n + (s->chain ? s->chain->screws : 0) == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
-    s->coordinate = nh_system_take(r, n, sizeof *s->coordinate);
+    s->coordinate = nh_system_take(r, n + (s->chain ? s->chain->screws : 0), sizeof *s->coordinate);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i], *name = item;
         nh_coordinate *c = &s->coordinate[i];
@@ -123,12 +124,14 @@ static bool read_coordinates(reader *r)
             const char *unit; /* for the reader of the file */
             if (!nh_system_text_of(r, item, "doc", "", &c->doc) || !nh_system_text_of(r, item, "unit", "", &unit)) return false;
         }
-        if (!new_name(r, name)) return false;
+        if (!nh_system_new_name(r, name)) return false;
         c->name = name->text;
         c->q = nh_symbol(s->dag, c->name);
         s->coordinates = i + 1;
     }
-    for (size_t i = 0; i < n; i++) /* after all coordinates: symbols print in the order of declaration */
+    if (!nh_system_read_joint_coordinates(r)) return false;
+    if (s->coordinates == 0) return nh_deck_fail(r->deck, NULL, 0, r->error, "no joint of this system has a coordinate, and there are no others");
+    for (size_t i = 0; i < s->coordinates; i++) /* after all coordinates: symbols print in the order of declaration */
         s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
     return true;
 }
@@ -144,7 +147,7 @@ static bool read_quasi_names(reader *r)
     if (!nh_system_list_of(r, chart, "velocities", &list, &n)) return false;
     s->quasi_velocity = nh_system_take(r, n, sizeof *s->quasi_velocity);
     for (size_t i = 0; i < n; i++) {
-        if (!new_name(r, list->item[i])) return false;
+        if (!nh_system_new_name(r, list->item[i])) return false;
         s->quasi_velocity[i] = nh_symbol(s->dag, list->item[i]->text);
         s->quasi = i + 1;
     }
@@ -183,7 +186,7 @@ static bool read_definitions(reader *r)
         if (!nh_system_assignment_name(r, node, "a definition `name = expression`", &d->name)) return false;
         nh_deck_node name = *node;
         name.text = d->name;
-        if (!new_name(r, &name)) return false;
+        if (!nh_system_new_name(r, &name)) return false;
         if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
         d->text = node->text;
         s->definitions = i + 1;
@@ -194,12 +197,18 @@ static bool read_definitions(reader *r)
 static bool read_lagrangian(reader *r)
 {
     const nh_deck_node *node = nh_deck_get(r->root, "lagrangian");
+    nh_system *s = r->system;
+    if (s->chain) s->lagrangian = nh_sub(s->dag, s->chain->kinetic, s->chain->potential);
+    if (!node && s->chain) return true;
     if (!node) {
         nh_deck_fail(r->deck, NULL, 0, r->error, "this system has no `lagrangian`");
         return nh_error_hint(r->error, "for example: lagrangian: m/2*x'^2 - m*g*x");
     }
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the lagrangian", r->error)) return false;
-    return nh_system_read_expression(r->system, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, &r->system->lagrangian, r->error);
+    nh_ex written;
+    if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, &written, r->error)) return false;
+    s->lagrangian = s->chain ? nh_add(s->dag, s->lagrangian, written) : written;
+    return true;
 }
 
 /* f(t, q) = 0 holds along a motion that starts on it iff its time derivative vanishes. */
@@ -220,9 +229,10 @@ static bool read_constraints(reader *r)
     size_t n;
     nh_system *s = r->system;
     if (!nh_system_list_of(r, r->root, "constraints", &list, &n)) return false;
-    s->constraint = nh_system_take(r, n, sizeof *s->constraint);
+    s->constraint = nh_system_take(r, n + nh_system_most_wheel_constraints(s), sizeof *s->constraint);
+    nh_system_add_wheel_constraints(r);
     for (size_t i = 0; i < n; i++) {
-        nh_constraint *c = &s->constraint[i];
+        nh_constraint *c = &s->constraint[s->constraints];
         const nh_deck_node *node = list->item[i];
         if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a constraint `... = ...`", r->error)) return false;
         *c = (nh_constraint){.text = node->text, .node = node};
@@ -238,7 +248,7 @@ static bool read_constraints(reader *r)
             return nh_error_hint(r->error, nh_is_zero(s->dag, f) ? "it is always true: remove it" : "it can never hold: is a name missing?");
         }
         if (!moving) differentiate_position(s, c);
-        s->constraints = i + 1;
+        s->constraints++;
     }
     return true;
 }
@@ -301,10 +311,10 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     const char *doc; /* for the reader of the file */
     if (!nh_system_text_of(r, r->root, "name", "system", &s->name) || !nh_system_text_of(r, r->root, "title", s->name, &s->title)) return false;
     if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc)) return false;
-    if (!read_parameters(r)) return false;
+    if (!read_parameters(r) || !apply_settings(r, settings, setting)) return false;
     s->t = nh_symbol(s->dag, "t");
-    return read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
-           && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_known(r) && apply_settings(r, settings, setting);
+    return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && nh_system_read_chain(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
+           && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_known(r);
 }
 
 static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *setting, nh_error *error)
