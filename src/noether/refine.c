@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "expr/ball_fit.h"
+#include "expr/normal.h"
 #include "noether/exact.h"
 
 enum { spare_rows = 8, heldout_points = 4, most_tries = 4 };
