@@ -13,7 +13,9 @@
     X(samples,          0,       0,      1e7,   whole, "points",   "fit points; 0: four per column, at least 256")                           \
     X(seed,             1,       0,      1e15,  whole, "",         "seed of the low-discrepancy samples and of every random choice")         \
     X(columns,          1500,    1,      20000, whole, "columns",  "largest ansatz that is tried")                                           \
-    X(stage_columns,    330,     1,      20000, whole, "columns",  "largest ansatz of one stage when the program chooses")                   \
+    X(stage_columns,    330,     1,      20000, whole, "columns",  "largest part of one stage when the program chooses")                     \
+    X(split_columns,    90,      1,      20000, whole, "columns",  "a stage with more columns than this is split by discrete symmetries")    \
+    X(threads,          1,       1,      64,    whole, "threads",  "that work on a stage's parts; the result does not depend on them")       \
     X(max_seconds,      10,      0,      1e7,   real,  "s",        "time after which the search by stages ends")                             \
     X(rank,             1e-9,    0,      1,     real,  "",         "columns whose pivot is below this part of the first are dependent")      \
     X(zero,             100,     1,      1e6,   real,  "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \

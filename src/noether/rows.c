@@ -126,7 +126,8 @@ void nh_rows_current(nh_rows *r, const nh_points *points, const double *theta, n
     }
 }
 
-void nh_rows_pencil(const nh_model *o, const nh_ansatz *a, nh_ex kappa, const nh_points *points, double *A, double *B)
+/* w Gamma(b_j) and w kappa b_j, or b_j alone, of every column at every point. */
+static void whole(const nh_model *o, const nh_ansatz *a, nh_ex kappa, bool weigh, const nh_points *points, double *A, double *B)
 {
     nh_rows *r = prepare(o, a, kappa, 0, NULL);
     const double *k = r->row[2 * a->factors];
@@ -134,12 +135,22 @@ void nh_rows_pencil(const nh_model *o, const nh_ansatz *a, nh_ex kappa, const nh
         size_t count = run(r, points, start);
         for (size_t j = 0; j < a->columns; j++)
             for (size_t p = 0; p < count; p++) {
-                double w = points->weight[start + p];
+                double w = points->weight[start + p], unit = weigh ? w * k[p] : 1;
                 A[j * points->count + start + p] = w * r->rate[j * NH_BATCH + p];
-                B[j * points->count + start + p] = w * k[p] * r->value[j * NH_BATCH + p];
+                B[j * points->count + start + p] = unit * r->value[j * NH_BATCH + p];
             }
     }
     nh_rows_free(r);
+}
+
+void nh_rows_pencil(const nh_model *o, const nh_ansatz *a, nh_ex kappa, const nh_points *points, double *A, double *B)
+{
+    whole(o, a, kappa, true, points, A, B);
+}
+
+void nh_rows_all(const nh_model *o, const nh_ansatz *a, const nh_points *points, double *A, double *B)
+{
+    whole(o, a, nh_int(o->dag, 1), false, points, A, B);
 }
 
 /* ---- symmetry route ---- */

@@ -25,6 +25,9 @@ void nh_rows_free(nh_rows *rows);
 /* Feed A and B for all points, with the unknowns at theta. */
 void nh_rows_current(nh_rows *rows, const nh_points *points, const double *theta, nh_equations *equations);
 
+/* The same as whole matrices: weighted rates into a, values into b, count x columns (column-major). */
+void nh_rows_all(const nh_model *model, const nh_ansatz *ansatz, const nh_points *points, double *a, double *b);
+
 /* kappa b_j and Gamma(b_j) for the pencil, into count x columns arrays (column-major). */
 void nh_rows_pencil(const nh_model *model, const nh_ansatz *ansatz, nh_ex kappa, const nh_points *points, double *a, double *b);
 

@@ -383,7 +383,11 @@ static void stages(writer *w)
     for (size_t i = 0; i < r->stages; i++) {
         const nh_tried *s = &r->stage[i];
         if (s->skipped) nh_text_addf(w->out, "    %-80s too large\n", s->name);
-        else nh_text_addf(w->out, "    %-80s %4zu columns, null %zu%s, new %zu\n", s->name, s->columns, s->dimension, s->undecided ? " (undecided)" : "", s->found);
+        else {
+            nh_text_addf(w->out, "    %-80s %4zu columns", s->name, s->columns);
+            if (s->sectors > 1) nh_text_addf(w->out, " in %zu sectors", s->sectors);
+            nh_text_addf(w->out, ", null %zu%s, new %zu\n", s->dimension, s->undecided ? " (undecided)" : "", s->found);
+        }
     }
 }
 

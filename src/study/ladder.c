@@ -7,6 +7,7 @@
 
 #include "expr/normal.h"
 #include "noether/pencil.h"
+#include "noether/sectors.h"
 #include "study/naming.h"
 #include "study/stages.h"
 
@@ -18,6 +19,7 @@ typedef struct {
     nh_workbench *bench;
     nh_dictionary words;
     nh_points *ranges;
+    nh_reflections *reflections; /* found when a stage is large */
     size_t factors;    /* simple currents, dependent ones too: factors of later stages */
     nh_ex factor[most_factors];
     double start;
@@ -120,26 +122,38 @@ typedef struct {
     nh_ansatz *ansatz;
     nh_points *fit;
     nh_nullspace *nullspace; /* NULL when something went wrong */
+    size_t sectors;
 } solved;
 
+static nh_sectors split(climber *x, nh_ansatz *a)
+{
+    nh_result *r = x->r;
+    bool large = a->columns > (size_t)r->options.split_columns;
+    nh_reflections none = {0};
+    if (large && !x->reflections) x->reflections = nh_reflections_find(r->model, x->ranges);
+    return nh_sectors_split(r->model, large ? x->reflections : &none, x->ranges, a);
+}
+
+/* Columns are limited by the largest part, and by what can be held at all. */
 static solved solve_stage(climber *x, size_t families, const nh_family *family)
 {
     nh_result *r = x->r;
     nh_error ignored;
     nh_error_clear(&ignored);
-    solved s = {.ansatz = nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.stage_columns, &ignored)};
+    solved s = {.ansatz = nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.columns, &ignored)};
     if (!s.ansatz) return s;
-    size_t count = (size_t)fmax(least_points, points_per_column * (double)s.ansatz->columns);
-    s.fit = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed + r->stages, &ignored);
-    if (!s.fit) return s;
-    nh_equations *equations = nh_equations_create(s.ansatz->columns);
-    nh_equations_leave_out(equations);
-    nh_rows *rows = nh_rows_create(r->model, s.ansatz, 0, NULL);
-    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
-    nh_rows_current(rows, s.fit, NULL, equations);
-    s.nullspace = nh_nullspace_solve(equations, &limits, &ignored);
-    nh_rows_free(rows);
-    nh_equations_free(equations);
+    nh_sectors sectors = split(x, s.ansatz);
+    s.sectors = sectors.count;
+    if (sectors.largest > (size_t)r->options.stage_columns) {
+        nh_ansatz_free(s.ansatz);
+        s.ansatz = NULL;
+    } else if (sectors.count) {
+        size_t count = (size_t)fmax(least_points, points_per_column * (double)sectors.largest);
+        nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+        s.fit = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed + r->stages, &ignored);
+        if (s.fit) s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, (size_t)r->options.threads, &ignored);
+    }
+    nh_sectors_clear(&sectors);
     return s;
 }
 
@@ -184,6 +198,7 @@ static void run_stage(climber *x, const char *name, size_t families, const nh_fa
     solved s = solve_stage(x, families, family);
     note->skipped = !s.ansatz;
     note->columns = s.ansatz ? s.ansatz->columns : 0;
+    note->sectors = s.sectors;
     if (s.nullspace) {
         note->dimension = s.nullspace->dimension;
         note->gap = s.nullspace->gap;
@@ -403,6 +418,7 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
     }
     nh_currents_finish(x.bench);
     nh_workbench_free(x.bench);
+    nh_reflections_free(x.reflections);
     nh_points_free(x.ranges);
     return true;
 }

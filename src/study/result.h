@@ -53,7 +53,7 @@ enum { NH_MOST_ALMOST = 6 };
 /* A stage of the ladder. */
 typedef struct {
     const char *name;
-    size_t columns, dimension, found; /* found: new independent currents */
+    size_t columns, sectors, dimension, found; /* sectors: parts that were solved apart; found: new independent currents */
     double gap, seconds;
     bool skipped, undecided;          /* skipped: too many columns; undecided: likely null vectors without a certificate */
 } nh_tried;
