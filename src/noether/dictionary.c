@@ -160,6 +160,66 @@ static nh_ex determinant(const nh_model *o)
     return det;
 }
 
+/* ---- the frame ---- */
+
+/* The root of what depends on position in e, where that has even powers only: sin(h)^2 -> sin(h). */
+static nh_ex even_root(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    nh_ex root = nh_int(d, 1);
+    if (nh_kind_of(d, e) != NH_PRODUCT) return root;
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex base = nh_child(d, e, i), x = nh_exponent_of(d, e, i);
+        if (!has_position(o, base)) continue;
+        nh_num power = nh_kind_of(d, x) == NH_NUMBER ? nh_number_of(d, x) : nh_num_int(1);
+        if (power.q != 1 || power.p % 2) return nh_int(d, 1);
+        root = nh_mul(d, root, nh_powi(d, base, power.p / 2));
+    }
+    return root;
+}
+
+static size_t simplest_pivot(const nh_model *o, const nh_ex *M, const bool *done)
+{
+    size_t best = o->n, least = SIZE_MAX;
+    for (size_t i = 0; i < o->n; i++) {
+        size_t size = nh_complexity(o->dag, M[i * o->n + i]);
+        if (done[i] || nh_is_zero(o->dag, M[i * o->n + i]) || size >= least) continue;
+        least = size;
+        best = i;
+    }
+    return best;
+}
+
+/* M = L D L^T with the simplest pivots first. */
+static void frame(harvester *h)
+{
+    enum { most = 5 };
+    nh_model *o = h->o;
+    nh_dag *d = o->dag;
+    size_t n = o->n;
+    nh_ex M[most * most];
+    bool done[most] = {false}, moving = false;
+    if (n > most) return;
+    for (size_t i = 0; i < n * n; i++) {
+        M[i] = nh_complexity(d, o->M[i]) > 4 * longest ? 0 : nh_simplify(d, o->M[i]);
+        moving |= has_position(o, M[i]);
+        if (nh_complexity(d, o->M[i]) > 4 * longest || has_velocity(o, M[i])) return;
+    }
+    if (!moving) return;
+    for (size_t step = 0; step < n; step++) {
+        size_t p = simplest_pivot(o, M, done);
+        if (p == n) break;
+        nh_ex form = o->chart->w[p], pivot = M[p * n + p];
+        done[p] = true;
+        for (size_t j = 0; j < n; j++)
+            if (!done[j]) form = nh_add(d, form, nh_mul(d, nh_div(d, M[p * n + j], pivot), o->chart->w[j]));
+        add(h, &h->out->frames, h->out->frame, nh_mul(d, even_root(o, pivot), form));
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j < n; j++)
+                if (!done[i] && !done[j]) M[i * n + j] = nh_simplify(d, nh_sub(d, M[i * n + j], nh_div(d, nh_mul(d, M[i * n + p], M[p * n + j]), pivot)));
+    }
+}
+
 /* Roots of the mass matrix' diagonal and of the factors of its determinant: densities of invariant measures, and currents with them. */
 static void add_roots(harvester *h)
 {
@@ -234,7 +294,7 @@ static nh_ex *take(nh_model *o) { return nh_arena_alloc(o->arena, (most_entries 
 nh_dictionary nh_dictionary_of(nh_model *o)
 {
     nh_dictionary out = {.velocity = take(o), .form = take(o), .atom = take(o), .potential = take(o), .momentum = take(o),
-                         .position = take(o), .wave = take(o), .length = take(o), .shape = take(o)};
+                         .position = take(o), .wave = take(o), .frame = take(o), .length = take(o), .shape = take(o)};
     harvester h = {.o = o, .out = &out, .seen = nh_alloc_array(most_seen, sizeof *h.seen)};
     for (size_t i = 0; i < o->n; i++) out.velocity[out.velocities++] = o->chart->w[i];
     for (size_t s = 0; s < o->m && out.positions < most_entries; s++) out.position[out.positions++] = o->system->coordinate[s].q;
@@ -245,6 +305,7 @@ nh_dictionary nh_dictionary_of(nh_model *o)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
     for (size_t s = 0; s < o->m; s++) add_momentum(&h, nh_diff(o->dag, o->system->lagrangian, o->system->coordinate[s].v));
     potentials(&h);
+    frame(&h);
     add_roots(&h);
     shapes(&h);
     nh_free(h.seen);

@@ -6,6 +6,7 @@
  *     forms        sums that are linear and homogeneous in the velocities (angular velocities, rolling forms, momenta)
  *     atoms        non-polynomial functions of position and their inverses (1/r, exp(a - b), sqrt(1 + y^2), sin 2phi)
  *     potential    the additive terms of L without velocities, and for angles their first derivatives
+ *     frame        M = L D L^T: the forms (L^T w)_i, with the root of D_i's position factor where it is rational (p, q, r of a top)
  *     energy       as one column, whatever it looks like
  *
  * [docs/method.md, sec. 4] */
@@ -19,6 +20,8 @@ typedef struct {
     nh_ex *velocity, *form, *atom, *potential, *momentum; /* functions on the submanifold, in the chart */
     size_t positions;
     nh_ex *position;    /* the coordinates */
+    size_t frames;
+    nh_ex *frame;       /* forms in which the kinetic energy is a sum of squares, each with a factor of position; none when they are velocities */
     size_t waves;
     nh_ex *wave;        /* angles that occur in sines and cosines of the system, or are declared so */
     size_t lengths;

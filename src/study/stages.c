@@ -195,6 +195,37 @@ static void stage_weights(shelf *s)
     add_product(s, &f, &x);
 }
 
+/* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the energy (Kovalevskaya's
+ * integral, Toda's, Calogero's). */
+static void weighted(shelf *s, const list *u, const list *f)
+{
+    list ff = squares(s, f);
+    add(s, polynomial_of(s, u, 4));
+    if (f->n) add(s, product_of(s, 2, (nh_family[]){polynomial_of(s, u, 2), terms_of(s, f)}));
+    add(s, terms_of(s, &ff));
+}
+
+static void stage_weight_4(shelf *s)
+{
+    enum { most = 10 };
+    list u = {0}, f = {0};
+    put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
+    if (s->w->frames == s->o->n) put_all(&u, s->w->frames, s->w->frame);
+    else put_all(&u, s->o->n, s->o->chart->w);
+    weighted(s, &u, &f);
+}
+
+/* The same in the forms that the system itself shows, where they are as many as the velocities. */
+static void stage_forms_4(shelf *s)
+{
+    enum { most = 10 };
+    list u = {0}, f = {0};
+    if (s->w->forms != s->o->n) return;
+    put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
+    put_all(&u, s->w->forms, s->w->form);
+    weighted(s, &u, &f);
+}
+
 /* Rational: P / v with P linear. */
 static void stage_ratios(shelf *s)
 {
@@ -222,6 +253,8 @@ static const struct {
     {"energy, momenta and forms times positions and the system's own functions", stage_functions},
     {"total degree 2 times the system's own functions", stage_degree_2},
     {"quadratic forms times positions", stage_weights},
+    {"weighted degree 4 in the frame of the kinetic energy", stage_weight_4},
+    {"weighted degree 4 in the system's own forms", stage_forms_4},
     {"ratios of velocities", stage_ratios},
     {"total degree 3", stage_degree_3},
     {"quadratic forms times first harmonics", stage_quadratic_waves},
