@@ -62,7 +62,7 @@ static void judge(nh_result *r, const multiplier_motion *motion, row *o)
 {
     for (size_t k = 0; k < r->count; k++) {
         const nh_found *f = &r->found[k];
-        bool certified = f->proof.proved || f->proof.digits >= r->options.digits;
+        bool certified = f->proof.proved || f->printed_digits >= r->options.digits; /* as printed: refined coefficients do not fit into doubles */
         multiplier_rate rate = rate_of(motion, f);
         o->uncertain += !certified;
         if (isnan(rate.upper)) {
@@ -70,7 +70,7 @@ static void judge(nh_result *r, const multiplier_motion *motion, row *o)
             continue;
         }
         if (certified) o->rate = fmax(o->rate, rate.upper);
-        if (rate.upper > (certified ? rate_bound : digits_slack - f->proof.digits)) o->wrong++, note(o, "false", f->name);
+        if (rate.upper > (certified ? rate_bound : digits_slack - f->printed_digits)) o->wrong++, note(o, "false", f->name);
     }
 }
 

@@ -16,6 +16,7 @@ typedef struct {
     double *times, *z0, *scale;
     size_t watches;
     const nh_watch *watch;
+    const nh_valid *valid;
     bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
 } run;
 
@@ -74,6 +75,19 @@ static bool *steep_points(run *r, const nh_motion *motion, bool *any)
     return steep;
 }
 
+/* How many outputs there are before the motion leaves the interval of current k. */
+static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
+{
+    const nh_system *system = r->model->system;
+    if (!r->valid || !r->valid[k].coordinate) return motion->count;
+    for (size_t s = 0; s < r->model->m; s++)
+        for (size_t i = 0; system->coordinate[s].q == r->valid[k].coordinate && i < motion->count; i++) {
+            double q = motion->state[i * motion->size + s];
+            if (q < r->valid[k].low || q > r->valid[k].high) return i;
+        }
+    return motion->count;
+}
+
 /* Each current and, for its scale, its terms. */
 static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi, size_t which)
 {
@@ -84,8 +98,10 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
         double *value = nh_alloc_array(per * motion->count, sizeof *value);
         nh_drift *d = &r->out->current[k];
         double scale = 0, worst = 0;
+        size_t inside = outputs_inside(r, motion, k);
         bool good = along(r, motion, per, e, value);
-        for (size_t i = 0; i < motion->count && good; i++) {
+        d->until = inside ? motion->time[inside - 1] : r->out->begin;
+        for (size_t i = 0; i < inside && good; i++) {
             if (steep[i]) continue;
             for (size_t j = 0; j < per; j++) scale = fmax(scale, fabs(value[i * per + j]));
             worst = fmax(worst, fabs(value[i * per] - value[0]));
@@ -310,7 +326,7 @@ static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *curre
     return true;
 }
 
-nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, size_t watches, const nh_watch *watch,
+nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, const nh_valid *valid, size_t watches, const nh_watch *watch,
                            const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
@@ -318,7 +334,7 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     *v = (nh_validation){.arena = arena, .method = "CVODE Adams", .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, model->chart->name),
                          .begin = initial->t, .end = until, .currents = n, .current = nh_arena_alloc(arena, (n + 1) * sizeof *v->current), .crossing = NAN};
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, options->tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
-    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch};
+    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid};
     r.times = nh_alloc_array(outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(model->m + model->n + 1, sizeof *r.z0);
     for (size_t i = 0; i < outputs; i++) r.times[i] = initial->t + (until - initial->t) * (double)i / (double)(outputs - 1);

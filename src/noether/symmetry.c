@@ -6,6 +6,13 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
+/* A long formula with rounded coefficients, a series, has no simpler form. */
+static nh_ex tidy(nh_dag *d, nh_ex e)
+{
+    enum { lengthy = 200 };
+    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify(d, e);
+}
+
 static nh_ex *take(nh_model *o, size_t n) { return nh_arena_alloc(o->arena, (n + 1) * sizeof(nh_ex)); }
 
 nh_ex nh_symmetry_current(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
@@ -40,10 +47,10 @@ nh_ex nh_symmetry_components(const nh_model *o, nh_ex phi, nh_ex *zeta)
     for (size_t i = 0; i < o->n; i++) zeta[i] = nh_model_Y(o, i, phi);
     nh_lu_solve(o->M_lu, zeta, zeta);
     for (size_t i = 0; i < o->n; i++) {
-        zeta[i] = nh_simplify(d, zeta[i]);
+        zeta[i] = tidy(d, zeta[i]);
         rest = nh_sub(d, rest, nh_mul(d, o->pbar[i], zeta[i]));
     }
-    return nh_simplify(d, nh_div(d, rest, o->Lbar));
+    return tidy(d, nh_div(d, rest, o->Lbar));
 }
 
 /* zeta, Z^0, W and the field's components in the chart. */
@@ -59,13 +66,13 @@ static void solve_components(nh_model *o, nh_symmetry *z)
     }
     nh_lu_solve(o->M_lu, z->W, z->W);
     z->field = (nh_field){z->Z0, take(o, m), take(o, n)};
-    for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = nh_simplify(d, z->W[i]);
+    for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = tidy(d, z->W[i]);
     for (size_t s = 0; s < m; s++) {
         nh_ex e = nh_mul(d, o->rho[s], z->Z0);
         for (size_t i = 0; i < n; i++) e = nh_add(d, e, nh_mul(d, o->R[s * n + i], z->zeta[i]));
-        z->field.space[s] = nh_simplify(d, e);
+        z->field.space[s] = tidy(d, e);
     }
-    for (size_t s = 0; s < m; s++) z->coordinate_rate[s] = nh_simplify(d, nh_model_along(o, &z->field, o->rho[s]));
+    for (size_t s = 0; s < m; s++) z->coordinate_rate[s] = tidy(d, nh_model_along(o, &z->field, o->rho[s]));
 }
 
 /* The two halves of each bracket component: what is differentiated along Gamma, and what along Z. */
@@ -99,7 +106,7 @@ static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex
                 nh_ex turn = nh_sub(d, nh_model_gamma(o, o->R[s * o->n + i]), nh_model_X(o, i, o->rho[s]));
                 e = nh_add(d, e, nh_mul(d, nh_mul(d, o->nu[a * o->m + s], turn), z->zeta[i]));
             }
-        z->bracket_form[a] = nh_simplify(d, e);
+        z->bracket_form[a] = tidy(d, e);
     }
 }
 
@@ -196,12 +203,23 @@ static double residual(nh_model *o, const nh_points *points, const nh_symmetry *
     return worst;
 }
 
-static bool is_projectable(nh_model *o, const nh_symmetry *z)
+/* Exactly, or at the points where rounded coefficients leave nothing exact. */
+static bool vanishes(const nh_model *o, const nh_points *points, nh_ex e, double same)
+{
+    if (nh_is_exact(o->dag, e)) return nh_normal_is_zero(o->dag, e, 0) == NH_ZERO;
+    double *value = nh_alloc_array(points->count + 1, sizeof *value), worst = 0;
+    nh_points_evaluate(points, o, 1, &e, value);
+    for (size_t p = 0; p < points->count; p++) worst = fmax(worst, isfinite(value[p]) ? fabs(value[p]) : 0);
+    nh_free(value);
+    return worst <= same;
+}
+
+static bool is_projectable(const nh_model *o, const nh_points *points, const nh_symmetry *z, double same)
 {
     for (size_t i = 0; i < o->n; i++) {
-        if (nh_normal_is_zero(o->dag, nh_model_Y(o, i, z->Z0), 0) != NH_ZERO) return false;
+        if (!vanishes(o, points, nh_model_Y(o, i, z->Z0), same)) return false;
         for (size_t s = 0; s < o->m; s++)
-            if (nh_normal_is_zero(o->dag, nh_model_Y(o, i, z->field.space[s]), 0) != NH_ZERO) return false;
+            if (!vanishes(o, points, nh_model_Y(o, i, z->field.space[s]), same)) return false;
     }
     return true;
 }
@@ -216,7 +234,7 @@ bool nh_symmetry_of(nh_model *o, const nh_points *points, nh_ex phi, double same
     bracket_halves(o, z, first, second);
     bracket(o, z, first, second);
     decide(o, points, z, first, second, same);
-    z->projectable = is_projectable(o, z);
+    z->projectable = is_projectable(o, points, z, same);
     z->noether_residual = residual(o, points, z);
     return true;
 }

@@ -160,11 +160,16 @@ static void validate(nh_result *r)
             return;
         }
     nh_ex *phi = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *phi);
-    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
+    nh_valid *valid = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *valid);
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_series *series = r->found[k].series;
+        phi[k] = r->found[k].phi;
+        if (series) valid[k] = (nh_valid){series->coordinate, series->low, series->high};
+    }
     size_t watches = r->analysis ? r->analysis->watches : 0;
     nh_watch *watch = nh_arena_alloc(r->arena, (watches + 1) * sizeof *watch);
     for (size_t i = 0; i < watches; i++) watch[i] = (nh_watch){r->analysis->watch[i].name, r->analysis->watch[i].value};
-    r->validation = nh_validate(r->model, r->other, r->count, phi, watches, watch, &initial, r->options.until, motion_outputs, &r->options, &trouble);
+    r->validation = nh_validate(r->model, r->other, r->count, phi, valid, watches, watch, &initial, r->options.until, motion_outputs, &r->options, &trouble);
     if (!r->validation) {
         nh_result_warn(r, "no motion was computed: %s", trouble.what);
         return;
