@@ -16,6 +16,7 @@ typedef struct {
     const char *analysis, *json; /* files; json may be "-" */
     const char *current, *field; /* questions of verify */
     const char *initial;         /* of simulate */
+    bool project;
     double step;
     bool no_analysis;
     size_t settings;

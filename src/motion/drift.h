@@ -54,8 +54,9 @@ typedef struct {
 nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, const nh_valid *valid, size_t watches, const nh_watch *watch,
                            const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error);
 /* One motion at options->tolerance, in (q, w): in the chart, or in all coordinates where the chart breaks down on the way; *formulation says
- * which.  value[i * n + k]: expression k at output i (n may be 0).  NULL with a message when nothing could be computed. */
-nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, size_t count, const double *times, const nh_options *options,
+ * which.  value[i * n + k]: expression k at output i (n may be 0).  `project`: velocities that violate the constraints are replaced by
+ * the nearest that satisfy them.  NULL with a message when nothing could be computed. */
+nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, bool project, size_t count, const double *times, const nh_options *options,
                         const char **formulation, size_t n, const nh_ex *e, double **value, nh_error *error);
 
 void nh_validation_free(nh_validation *validation);

@@ -56,6 +56,7 @@ typedef struct {
     nh_ex lagrangian;        /* with the energies of bodies and joints */
     nh_ex *force;            /* per coordinate; the number 0 where there is none */
     bool has_forces;
+    int branch;              /* of a quadratic constraint: the sign of its root, or 0: the domain chooses */
     size_t dependents;       /* 0 when the user named none */
     size_t *dependent;       /* coordinate indices */
     size_t quasi;            /* number of quasi-velocities, 0 without a chart */
