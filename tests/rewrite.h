@@ -16,7 +16,7 @@ enum { rewrite_most = 40 };
 typedef struct {
     bool rename;             /* coordinates and quasi-velocities get new names */
     const size_t *order;     /* order[i]: which coordinate comes i-th; NULL: as it was */
-    nh_num length, time, action; /* old = new * this; q == 0: 1.  `length` is that of every coordinate that is no angle, `action` multiplies L */
+    nh_num length, time, action; /* old = new * this; q == 0: 1.  `length` is that of every coordinate that is no pure number, `action` multiplies L */
     bool no_chart;           /* without the quasi-velocities */
     size_t dependents;       /* 0: as it was, or, with no_dependents, left to the program */
     const size_t *dependent;
@@ -37,10 +37,26 @@ typedef struct {
 
 static nh_num scale_or_one(nh_num x) { return x.q ? x : nh_num_int(1); }
 
-static nh_num length_of(const rewriter *w, size_t s)
+static bool in_function(const nh_system *y, nh_ex e, nh_ex q)
 {
-    return w->y->coordinate[s].type == NH_ANGLE ? nh_num_int(1) : scale_or_one(w->how->length);
+    enum { most = 200 };
+    nh_ex call[most];
+    size_t n = nh_functions_in(y->dag, e, call, most);
+    for (size_t i = 0; i < n && i < most; i++)
+        if (nh_depends(y->dag, call[i], q)) return true;
+    return false;
 }
+
+/* Angles, and what stands in a sine or exponential, are pure numbers. */
+static bool is_number(const nh_system *y, size_t s)
+{
+    nh_ex q = y->coordinate[s].q;
+    bool found = y->coordinate[s].type == NH_ANGLE || in_function(y, y->lagrangian, q);
+    for (size_t a = 0; a < y->constraints && !found; a++) found = in_function(y, y->constraint[a].lhs, q) || in_function(y, y->constraint[a].rhs, q);
+    return found;
+}
+
+static nh_num length_of(const rewriter *w, size_t s) { return is_number(w->y, s) ? nh_num_int(1) : scale_or_one(w->how->length); }
 
 static void map_symbol(rewriter *w, nh_ex from, const char *name, nh_num scale)
 {
