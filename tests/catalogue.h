@@ -71,7 +71,7 @@ static void judge(nh_result *r, const multiplier_motion *motion, row *o)
             o->unread++;
             continue;
         }
-        if (!rate.exact) o->rounded++;
+        if (certified && !rate.exact) o->rounded++;
         else if (certified) o->rate = fmax(o->rate, rate.upper);
         double bound = certified ? rate_bound : digits_slack - digits;
         if (rate.upper > (rate.exact ? bound : fmax(bound, rounding))) o->wrong++, note(o, "false", f->name);
