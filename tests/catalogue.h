@@ -19,11 +19,12 @@
 
 enum { most_files = 500, points = 24, least_points = 4, bits = 400 };
 
-/* 10-logarithms: of the largest relative rate of a certified current, and of how much worse than at the program's own points a fitted one may be. */
-static const double rate_bound = -30, digits_slack = 3;
+/* 10-logarithms: of the largest relative rate of a certified current, and of how much worse than at the program's own points a fitted one may be,
+ * and of what is left where numbers too long for exact ones were rounded to doubles. */
+static const double rate_bound = -30, digits_slack = 3, rounding = -11;
 
 typedef struct {
-    size_t known, found, missing, wrong, uncertain, unread, maximum; /* unread: certified, but not to be had in the velocities of the coordinates */
+    size_t known, found, missing, wrong, uncertain, unread, rounded, maximum; /* rounded: checked to the digits of doubles only; unread: certified, but not to be had in the velocities of the coordinates */
     double seconds, rate; /* rate: the largest of a certified current in the multiplier form, relative, as log10 */
     char names[400]; /* of what is missing or wrong */
 } row;
@@ -62,15 +63,18 @@ static void judge(nh_result *r, const multiplier_motion *motion, row *o)
 {
     for (size_t k = 0; k < r->count; k++) {
         const nh_found *f = &r->found[k];
-        bool certified = f->proof.proved || f->printed_digits >= r->options.digits; /* as printed: refined coefficients do not fit into doubles */
+        double digits = fmin(f->proof.digits, f->printed_digits); /* coefficients refined to many digits are written with those of doubles */
+        bool certified = f->proof.proved || digits >= r->options.digits;
         multiplier_rate rate = rate_of(motion, f);
         o->uncertain += !certified;
         if (isnan(rate.upper)) {
             o->unread++;
             continue;
         }
-        if (certified) o->rate = fmax(o->rate, rate.upper);
-        if (rate.upper > (certified ? rate_bound : digits_slack - f->printed_digits)) o->wrong++, note(o, "false", f->name);
+        if (certified && !rate.exact) o->rounded++;
+        else if (certified) o->rate = fmax(o->rate, rate.upper);
+        double bound = certified ? rate_bound : digits_slack - digits;
+        if (rate.upper > (rate.exact ? bound : fmax(bound, rounding))) o->wrong++, note(o, "false", f->name);
     }
 }
 

@@ -16,6 +16,7 @@ Test(catalogue, finds_what_is_known_and_nothing_false)
         cr_expect_eq(o.missing, 0, "%s: %s", name[i], o.names);
         cr_expect_eq(o.wrong, 0, "%s: %s", name[i], o.names);
         cr_expect_eq(o.unread, 0, "%s: %zu currents not checked by the multiplier form", name[i], o.unread);
+        cr_expect_eq(o.rounded, 0, "%s: %zu currents checked with rounded numbers", name[i], o.rounded);
         cr_expect_leq(o.found, o.maximum, "%s reports %zu independent currents of at most %zu", name[i], o.found, o.maximum);
         free(name[i]);
     }
