@@ -6,11 +6,11 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-/* A long formula with rounded coefficients, a series, has no simpler form. */
+/* A long formula with rounded coefficients, a series, has no simpler form; a very long one stays a shared graph. */
 static nh_ex tidy(nh_dag *d, nh_ex e)
 {
     enum { lengthy = 200 };
-    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify(d, e);
+    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify_short(d, e, 0);
 }
 
 static nh_ex *take(nh_model *o, size_t n) { return nh_arena_alloc(o->arena, (n + 1) * sizeof(nh_ex)); }
