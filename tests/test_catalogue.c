@@ -40,6 +40,24 @@ Test(catalogue, analysis_files_find_everything_known)
     }
 }
 
+/* The field of the energy is d/dt, however long the inverse of the mass matrix is. */
+Test(catalogue, the_energy_belongs_to_time)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_analyze_request q = {.system_path = "systems/rattleback.yaml"};
+    nh_options_default(&q.options);
+    q.options.max_seconds = patience;
+    nh_result *r = nh_analyze(&q, &error);
+    cr_assert_not_null(r, "%s", error.what);
+    const nh_found *f = r->found;
+    cr_assert(r->count > 0 && !strcmp(f->meaning, "energy") && f->has_symmetry);
+    cr_expect(nh_is_number(r->model->dag, f->symmetry.Z0, 1));
+    for (size_t s = 0; s < r->model->m; s++) cr_expect(nh_is_zero(r->model->dag, f->symmetry.field.space[s]), "along %s", r->system->coordinate[s].name);
+    for (size_t i = 0; i < r->model->n; i++) cr_expect(nh_is_zero(r->model->dag, f->symmetry.W[i]), "along velocity %zu", i);
+    nh_result_free(r);
+}
+
 /* The check itself: a coordinate and one of the known false currents are caught by it. */
 Test(catalogue, the_multiplier_form_catches_what_is_not_conserved)
 {
