@@ -6,11 +6,11 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-/* A long formula with rounded coefficients, a series, has no simpler form. */
+/* A long formula with rounded coefficients, a series, has no simpler form; a very long one stays a shared graph. */
 static nh_ex tidy(nh_dag *d, nh_ex e)
 {
     enum { lengthy = 200 };
-    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify(d, e);
+    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify_short(d, e, 0);
 }
 
 static nh_ex *take(nh_model *o, size_t n) { return nh_arena_alloc(o->arena, (n + 1) * sizeof(nh_ex)); }
@@ -40,12 +40,32 @@ void nh_symmetry_equations(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *
     }
 }
 
+/* zeta^i = c w^i with a constant c, as the energy has it where velocities are linear in w: dPhi/dw^i = c M_ij w^j is tested without M^-1, whose
+ * formula may be too long to be simplified. */
+static bool along_the_motion(const nh_model *o, nh_ex phi, nh_ex *zeta)
+{
+    nh_dag *d = o->dag;
+    nh_ex c = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex p = nh_int(d, 0), slope = nh_model_Y(o, i, phi);
+        for (size_t j = 0; j < o->n; j++) p = nh_add(d, p, nh_mul(d, o->M[i * o->n + j], o->chart->w[j]));
+        if (i == 0 && nh_normal_is_zero(d, p, 0) != NH_NONZERO) return false;
+        if (i == 0) c = nh_simplify(d, nh_div(d, slope, p));
+        for (size_t s = 0; s < o->width && i == 0; s++)
+            if (nh_depends(d, c, o->chart->symbol[s])) return false;
+        if (nh_normal_is_zero(d, nh_sub(d, slope, nh_mul(d, c, p)), 0) != NH_ZERO) return false;
+    }
+    for (size_t i = 0; i < o->n; i++) zeta[i] = nh_mul(d, c, o->chart->w[i]);
+    return o->n > 0;
+}
+
 nh_ex nh_symmetry_components(const nh_model *o, nh_ex phi, nh_ex *zeta)
 {
     nh_dag *d = o->dag;
     nh_ex rest = phi;
-    for (size_t i = 0; i < o->n; i++) zeta[i] = nh_model_Y(o, i, phi);
-    nh_lu_solve(o->M_lu, zeta, zeta);
+    bool short_cut = along_the_motion(o, phi, zeta);
+    for (size_t i = 0; i < o->n && !short_cut; i++) zeta[i] = nh_model_Y(o, i, phi);
+    if (!short_cut) nh_lu_solve(o->M_lu, zeta, zeta);
     for (size_t i = 0; i < o->n; i++) {
         zeta[i] = tidy(d, zeta[i]);
         rest = nh_sub(d, rest, nh_mul(d, o->pbar[i], zeta[i]));
@@ -62,7 +82,7 @@ static void solve_components(nh_model *o, nh_symmetry *z)
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
         for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
-        z->W[j] = b;
+        z->W[j] = nh_normal_is_zero(d, b, 0) == NH_ZERO ? nh_int(d, 0) : b; /* zero for an energy; told before M^-1 lengthens it */
     }
     nh_lu_solve(o->M_lu, z->W, z->W);
     z->field = (nh_field){z->Z0, take(o, m), take(o, n)};

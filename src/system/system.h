@@ -37,6 +37,7 @@ typedef struct {
 typedef struct {
     const char *name, *text;
     nh_ex value;
+    const char *out_of_reach; /* of a known current: why the program's own ansatz does not hold it, or NULL */
 } nh_named;
 
 typedef struct {
