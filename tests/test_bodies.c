@@ -1,5 +1,6 @@
 /* Bodies and joints: energies against differentiated poses, poses against exponentials by hand, the mass matrix and the accelerations against a
  * recursion by hand, wheels against their geometry, the crane against independent values of 40 digits. */
+#include "base/linalg.h"
 #include "chain.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
@@ -457,4 +458,53 @@ Test(bodies, crane_against_the_oracle)
     tally_check(&a, 1e-12, "crane");
     cJSON_Delete(all);
     mechanics_clear(&x);
+}
+
+/* By bodies and joints and by a Lagrangian written out: the same function, the same distribution. */
+Test(bodies, crane_in_two_ways)
+{
+    nh_error error = {0};
+    nh_system *a = nh_system_read("systems/crane.yaml", 0, NULL, &error), *b = nh_system_read("systems/crane_lagrangian.yaml", 0, NULL, &error);
+    must(a && b, &error, "the cranes");
+    double z[17], L[2], F[64];
+    cr_assert_eq(a->coordinates, b->coordinates);
+    cr_assert_eq(a->constraints, 4);
+    for (size_t i = 0; i < 8; i++) cr_expect_str_eq(a->coordinate[i].name, b->coordinate[i].name);
+    for (uint64_t seed = 1; seed <= 6; seed++) {
+        random_state(a, seed, z);
+        at(a, 1, &a->lagrangian, z, L);
+        at(b, 1, &b->lagrangian, z, L + 1);
+        cr_expect_leq(fabs(L[0] - L[1]), 1e-14 * fabs(L[0]), "%.17g, %.17g", L[0], L[1]);
+        nh_ex row[64]; /* both sets of one-forms, stacked: of rank 4 */
+        for (int k = 0; k < 8; k++) {
+            const nh_system *s = k < 4 ? a : b;
+            for (int i = 0; i < 8; i++) row[i] = nh_diff(s->dag, nh_sub(s->dag, s->constraint[k % 4].lhs, s->constraint[k % 4].rhs), s->coordinate[i].v);
+            at(s, 8, row, z, F + 8 * k);
+        }
+        double s8[8];
+        cr_assert(nh_svd(8, 8, F, s8, NULL, NULL));
+        cr_expect_gt(s8[3], 0.05);
+        cr_expect_lt(s8[4], 1e-14);
+    }
+    nh_system_free(a);
+    nh_system_free(b);
+}
+
+/* K of a car with trailers is what the file's own definitions say, and its chart satisfies the constraints (checked on reading). */
+Test(bodies, energies_written_by_hand)
+{
+    static const char *const names[] = {"car_trailers_5", "two_wheel_cart", "cart_rotor", "spherical_robot", "crane"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", names[i]);
+        mechanics x = mechanics_of_file(path, NH_CHART_QUASI, 0, NULL);
+        double z[17] = {0}, T[2];
+        nh_ex energy = 0;
+        for (size_t k = 0; k < x.system->currents; k++)
+            if (!strcmp(x.system->current[k].name, "energy")) energy = x.system->current[k].value;
+        random_state(x.system, 8, z);
+        at(x.system, 2, (nh_ex[]){x.system->chain->kinetic, energy}, z, T);
+        cr_expect_leq(fabs(T[0] - T[1]), 1e-13 * T[0], "%s: %.17g, %.17g", names[i], T[0], T[1]);
+        mechanics_clear(&x);
+    }
 }
