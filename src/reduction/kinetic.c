@@ -51,6 +51,10 @@ static void read_lagrangian(nh_kinetic *k)
     }
     k->V = nh_neg(d, nh_simplify(d, at_rest(k, L)));
     k->autonomous = !nh_depends(d, L, k->model->system->t);
+    if (k->quadratic && k->autonomous) return;
+    for (size_t i = 0; i < k->m * k->m; i++) k->K[i] = nh_int(d, 0);
+    for (size_t i = 0; i < k->m; i++) k->a[i] = nh_int(d, 0);
+    k->V = nh_int(d, 0);
 }
 
 static void read_constraints(nh_kinetic *k)
@@ -65,6 +69,8 @@ static void read_constraints(nh_kinetic *k)
         k->linear &= nh_is_zero(d, k->b[a]);
         k->autonomous &= !nh_depends(d, k->force[a], k->model->system->t);
     }
+    for (size_t i = 0; i < k->f * k->m && !(k->affine && k->autonomous); i++) k->omega[i] = nh_int(d, 0);
+    for (size_t a = 0; a < k->f && !(k->affine && k->autonomous); a++) k->b[a] = nh_int(d, 0);
 }
 
 /* K is positive definite at a place when its Cholesky factor exists. */
@@ -104,7 +110,7 @@ static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, 
     nh_tape_eval(tape, work, q, K);
     for (size_t i = 0; i < m * m + k->f * m + 1; i++)
         if (!isfinite(K[i])) return 0;
-    if (!k->quadratic) return 1;
+    if (!k->quadratic || !k->autonomous) return 1;
     for (size_t i = 0; i < m; i++) unit[i] = K[i * (m + 1)] > 0 ? 1 / sqrt(K[i * (m + 1)]) : 0;
     for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
     return nh_svd(m, m, K, s, NULL, NULL) && s[0] > 0 ? s[m - 1] / s[0] : 0;
@@ -212,11 +218,15 @@ nh_tape *nh_kinetic_tape(const nh_kinetic *k, size_t count, const nh_ex *out)
     return nh_tape_create(k->dag, k->m, k->q, count, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
 }
 
-void nh_kinetic_values(const nh_kinetic *k, size_t count, const nh_ex *e, const double *q, double *out)
+static void run(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, const double *q, double *out)
 {
     nh_tape *tape = nh_kinetic_tape(k, count, e);
     nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, q, out);
+    for (size_t p = 0; p < places; p++) nh_tape_eval(tape, work, q + p * k->m, out + p * count);
     nh_tape_work_free(work);
     nh_tape_free(tape);
 }
+
+void nh_kinetic_values(const nh_kinetic *k, size_t count, const nh_ex *e, const double *q, double *out) { run(k, count, e, 1, q, out); }
+
+void nh_kinetic_sample(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, double *out) { run(k, count, e, places, k->place, out); }

@@ -36,6 +36,8 @@ void nh_kinetic_free(nh_kinetic *kinetic);
 nh_tape *nh_kinetic_tape(const nh_kinetic *kinetic, size_t count, const nh_ex *out);
 /* Values of expressions in the coordinates at one place. */
 void nh_kinetic_values(const nh_kinetic *kinetic, size_t count, const nh_ex *e, const double *q, double *out);
+/* At the first `places` sample points, count values each. */
+void nh_kinetic_sample(const nh_kinetic *kinetic, size_t count, const nh_ex *e, size_t places, double *out);
 
 
 #endif

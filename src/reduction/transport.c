@@ -1,12 +1,11 @@
 #include "reduction/transport.h"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/linalg.h"
 #include "expr/diff.h"
+#include "reduction/runge.h"
 
 static size_t packed(size_t i, size_t j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
 
@@ -144,39 +143,23 @@ typedef struct {
     size_t count;
 } way;
 
-static int rate_of(double s, const double *y, double *rate, void *context)
+static bool rate_of(double s, const double *y, double *rate, void *context)
 {
     way *w = context;
     nh_transport *t = w->t;
     for (size_t i = 0; i < t->m; i++) t->q[i] = w->from[i] + s * w->x[i] * t->scale[i];
-    if (!nh_transport_at(t, t->q, w->x)) return GSL_EBADFUNC;
+    if (!nh_transport_at(t, t->q, w->x)) return false;
     for (size_t j = 0; j < w->count; j++) nh_transport_rate(t, w->x, y + j * t->size, rate + j * t->size);
-    for (size_t i = 0; i < t->size * w->count; i++)
-        if (!isfinite(rate[i])) return GSL_EBADFUNC;
-    return GSL_SUCCESS;
+    return true;
 }
 
 bool nh_transport_along(nh_transport *t, const double *q0, const double *q1, size_t count, double *y, double tolerance)
 {
-    enum { most_steps = 400 };
     static const double largest = 1e8; /* a jet that has grown so much has lost its digits */
-    double *x = nh_alloc_array(t->m, sizeof *x), s = 0, step = 0.1;
+    double *x = nh_alloc_array(t->m, sizeof *x);
     way w = {t, q0, x, count};
     for (size_t i = 0; i < t->m; i++) x[i] = (q1[i] - q0[i]) / t->scale[i];
-    gsl_odeiv2_system system = {rate_of, NULL, t->size * count, &w};
-    gsl_error_handler_t *old = gsl_set_error_handler_off();
-    gsl_odeiv2_step *stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, system.dimension);
-    gsl_odeiv2_control *control = gsl_odeiv2_control_y_new(tolerance, tolerance);
-    gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(system.dimension);
-    bool good = stepper && control && evolve;
-    for (int i = 0; good && s < 1; i++) {
-        good = i < most_steps && gsl_odeiv2_evolve_apply(evolve, control, stepper, &system, &s, 1, &step, y) == GSL_SUCCESS;
-        for (size_t j = 0; good && j < system.dimension; j++) good = fabs(y[j]) < largest;
-    }
-    if (evolve) gsl_odeiv2_evolve_free(evolve);
-    if (control) gsl_odeiv2_control_free(control);
-    if (stepper) gsl_odeiv2_step_free(stepper);
-    gsl_set_error_handler(old);
+    bool good = nh_runge(t->size * count, rate_of, &w, 0, 1, tolerance, largest, y);
     nh_free(x);
     return good;
 }
