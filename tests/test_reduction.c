@@ -1,10 +1,12 @@
 /* reduction: reduced motions with reconstruction against the motion in all coordinates. */
+#include "oracle.h"
 #include "reduced.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "motion/dynamics.h"
+#include "reduction/chaplygin.h"
 #include "reduction/group.h"
 #include "reduction/reconstruct.h"
 
@@ -108,4 +110,192 @@ Test(reduction, equations_on_a_slice_and_reconstruction_agree_with_the_full_moti
     master_against_full("top", NULL, "systems/euler_top.yaml", 3, FIRST, 0.5, 1e-10);
     master_against_full("Routh sphere", NULL, "systems/routh_sphere.yaml", 4, FIRST, 0.5, 1e-10);
     master_against_full("sleigh", NULL, "systems/sleigh_inertia.yaml", 3, FIRST, 5, 1e-10);
+}
+
+/* ---- Chaplygin ---- */
+
+/* The Chaplygin stage of a system, by generators in the order in which they are found. */
+typedef struct {
+    reducible x;
+    nh_group *g;
+    nh_action action;
+    nh_slice slice;
+    nh_chaplygin c;
+    nh_options options;
+} stage;
+
+static void stage_open(stage *s, const char *name, nh_system *system, const size_t *index, const double *q, nh_error *error)
+{
+    s->options = sharp();
+    s->x = reducible_make(system, 5, error);
+    s->g = nh_group_find(s->x.kinetic, &s->options, error);
+    must(s->g != NULL, error, name);
+    s->action = subgroup(s->g, s->x.kinetic->f, index, &s->options);
+    cr_assert(s->action.chaplygin, "%s is no Chaplygin system", name);
+    size_t shape[20], along[20];
+    double y0[20];
+    nh_slice_choose(&s->action, shape, along);
+    for (size_t a = 0; a < s->action.d; a++) y0[a] = q ? q[along[a]] : 0;
+    nh_slice_init(&s->slice, &s->action, shape, along, y0);
+    must(nh_chaplygin_init(&s->c, &s->slice, error), error, name);
+}
+
+static void stage_close(stage *s)
+{
+    nh_action_clear(&s->action);
+    nh_group_free(s->g);
+    reducible_clear(&s->x);
+}
+
+/* At points and along the motions of the crane: every reduced number of the reference data. */
+Test(reduction, crane_reference_values)
+{
+    nh_error error = {0};
+    stage s;
+    cJSON *data = oracle_read("tests/data/crane_oracle.json");
+    const cJSON *set = oracle_get(data, "sets")->child;
+    stage_open(&s, "crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, NULL, &error);
+    cr_assert(s.slice.n == 4 && s.slice.shape[0] == 3 && s.slice.shape[1] == 4 && s.slice.shape[2] == 5 && s.slice.shape[3] == 7);
+    static const size_t order[4] = {0, 2, 1, 3}; /* the data's psi1, psi2, phi1, phi2 */
+    tally tK = {.what = "Khat"}, tp = {.what = "phat"}, tU = {.what = "Upsilon12"}, tF = {.what = "F_G"};
+    nh_reduced_flow *flow = nh_reduced_flow_create(&s.c.reduced);
+    for (const cJSON *point = oracle_get(set, "points")->child; point; point = point->next) {
+        double q[8], v[8], u[8], w[4], K[16], J[16], U[64], want[16], got[16];
+        oracle_flat(oracle_get(point, "q_full"), q);
+        oracle_flat(oracle_get(point, "qdot_full"), v);
+        nh_kinetic_values(s.x.kinetic, 16, s.c.K, q, K);
+        nh_kinetic_values(s.x.kinetic, 16, s.c.J, q, J);
+        nh_kinetic_values(s.x.kinetic, 64, s.c.U, q, U);
+        oracle_flat(oracle_get(point, "Khat"), want);
+        for (size_t i = 0; i < 16; i++) got[i] = K[order[i / 4] * 4 + order[i % 4]];
+        tally_add(&tK, 16, got, want, 0);
+        for (size_t i = 0; i < 4; i++) w[i] = v[s.slice.shape[i]];
+        for (size_t i = 0; i < 4; i++) {
+            got[i] = u[i] = 0;
+            for (size_t j = 0; j < 4; j++) got[i] += K[order[i] * 4 + j] * w[j];
+        }
+        oracle_flat(oracle_get(point, "phat"), want);
+        tally_add(&tp, 4, got, want, 0);
+        got[0] = 0; /* Ups_12: psi1 and psi2 are the first and the third shape coordinate here */
+        for (size_t k = 0; k < 4; k++) got[0] += U[(k * 4 + 0) * 4 + 2] * w[k];
+        oracle_flat(oracle_get(point, "Upsilon12"), want);
+        tally_add(&tU, 1, got, want, 0);
+        for (size_t a = 0; a < 4; a++) { /* body momenta of d/dx, d/dy, d/dpsi3, rotation */
+            got[a] = 0;
+            for (size_t j = 0; j < 4; j++) got[a] += J[a * 4 + j] * w[j];
+        }
+        double x = got[2];
+        got[2] = got[3], got[3] = x;
+        oracle_flat(oracle_get(point, "F_G"), want);
+        tally_add(&tF, 4, got, want, 0);
+    }
+    tally_check(&tK, 1e-12, "crane");
+    tally_check(&tp, 1e-12, "crane");
+    tally_check(&tU, 1e-11, "crane");
+    tally_check(&tF, 1e-12, "crane");
+    nh_reduced_flow_free(flow);
+    cJSON_Delete(data);
+    stage_close(&s);
+}
+
+/* The reduced motions with reconstruction, from initial states with any group coordinates. */
+Test(reduction, crane_reference_motions)
+{
+    nh_error error = {0};
+    cJSON *data = oracle_read("tests/data/crane_oracle.json");
+    tally tq = {.what = "q(T)"}, tz = {.what = "reduced"};
+    for (const cJSON *motion = oracle_get(oracle_get(data, "sets")->child, "trajectories")->child; motion; motion = motion->next) {
+        stage s;
+        double q[8], v[8], w[4], x[4], z[8], want[12], got[12], times[2] = {0, oracle_number(motion, "T")};
+        static const size_t order[4] = {0, 2, 1, 3}, group[4] = {0, 1, 2, 6};
+        oracle_flat(oracle_get(motion, "q0"), q);
+        oracle_flat(oracle_get(motion, "qdot0"), v);
+        stage_open(&s, "crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, q, &error);
+        for (size_t i = 0; i < 4; i++) w[i] = v[s.slice.shape[i]], x[i] = q[s.slice.shape[i]];
+        cr_assert(nh_reduced_start(&s.c.reduced, x, w, z));
+        nh_reconstruction *r = nh_reconstruct(&s.c.reduced, &s.slice, z, 2, times, &s.options, &error);
+        must(r && r->complete, &error, "the crane");
+        oracle_flat(oracle_get(motion, "qT"), want);
+        tally_add(&tq, 8, r->q + 8, want, 0);
+        oracle_flat(oracle_get(motion, "reduced_T(psi1,psi2,phi1,phi2,phat1..4,x,y,theta,psi3)"), want);
+        for (size_t i = 0; i < 4; i++) {
+            got[i] = r->z[8 + order[i]];
+            got[4 + i] = r->z[8 + 4 + order[i]];
+            got[8 + i] = r->q[8 + group[i]];
+        }
+        tally_add(&tz, 12, got, want, 0);
+        nh_reconstruction_free(r);
+        stage_close(&s);
+    }
+    tally_check(&tq, 1e-10, "crane");
+    tally_check(&tz, 1e-10, "crane");
+    cJSON_Delete(data);
+}
+
+/* (2.11) with curvature, against Hamel's equations in the frame: two derivations of one right-hand side. */
+static void chaplygin_against_master(const char *name, nh_system *system, const size_t *index, double tolerance)
+{
+    nh_error error = {0};
+    stage s;
+    stage_open(&s, name, system, index, NULL, &error);
+    size_t independent[20], n = s.slice.n, used = 0;
+    nh_reduced master;
+    for (size_t i = 0; i < n; i++) independent[i] = i;
+    must(nh_reduced_master(&master, &s.slice, independent, &error), &error, name);
+    nh_reduced_flow *a = nh_reduced_flow_create(&master), *b = nh_reduced_flow_create(&s.c.reduced);
+    double worst = 0, ups = 0;
+    for (size_t p = 0; p < 20; p++) {
+        double z[20], ra[20], rb[20], za[20], zb[20];
+        for (size_t i = 0; i < n; i++) {
+            z[i] = s.x.kinetic->place[p * s.slice.m + s.slice.shape[i]];
+            z[n + i] = s.x.kinetic->speed[p * s.slice.m + i];
+        }
+        cr_assert(nh_reduced_flow_at(a, z, ra, NULL, za, NULL) && nh_reduced_flow_at(b, z, rb, NULL, zb, NULL));
+        worst = fmax(worst, fmax(distance(2 * n, ra, rb), distance(s.action.d, za, zb)));
+        double *U = nh_alloc_array(n * n * n, sizeof *U), q[20];
+        nh_slice_place(&s.slice, z, q);
+        nh_kinetic_values(s.x.kinetic, n * n * n, s.c.U, q, U);
+        for (size_t i = 0; i < n * n * n; i++) ups = fmax(ups, fabs(U[i]));
+        used++;
+        nh_free(U);
+    }
+    cr_expect(worst < tolerance && used == 20, "%s: the two forms differ by %g", name, worst);
+    cr_expect(ups > 1e-3, "%s has no curvature", name);
+    if (getenv("NHSYM_TEST_FIGURES")) printf("%-30s (2.11) against the frame's equations: %.1e, |Ups| %.2g\n", name, worst, ups);
+    nh_reduced_flow_free(a);
+    nh_reduced_flow_free(b);
+    stage_close(&s);
+}
+
+Test(reduction, almost_symplectic_equations_agree_with_those_in_the_frame)
+{
+    static const size_t cart[] = {0, 1, 4}, ball[] = {0, 1}, particle[] = {1};
+    nh_error error = {0};
+    chaplygin_against_master("crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, 1e-10);
+    chaplygin_against_master("cart", nh_system_parse("cart", CART, 0, NULL, &error), cart, 1e-10); /* Ups comes from the bracket alone */
+    chaplygin_against_master("twisted cart", nh_system_parse("twisted", TWISTED_CART, 0, NULL, &error), (size_t[]){2, 3, 4}, 1e-10);
+    chaplygin_against_master("Chaplygin ball", nh_system_read("systems/chaplygin_ball.yaml", 0, NULL, &error), ball, 1e-10);
+    chaplygin_against_master("particle", nh_system_read("systems/nonholonomic_particle.yaml", 0, NULL, &error), particle, 1e-10);
+}
+
+Test(reduction, measure_and_factor)
+{
+    static const size_t cart[] = {0, 1, 4}, two[] = {0, 1}, one[] = {0}, particle[] = {1};
+    static const struct {
+        const char *name, *text, *file;
+        const size_t *index;
+        bool measure, factor;
+    } known[] = {{"particle", NULL, "systems/nonholonomic_particle.yaml", particle, true, true}, {"cart", CART, NULL, cart, true, true},
+                 {"vertical disk", NULL, "systems/vertical_disk.yaml", two, true, true}, {"Chaplygin ball", NULL, "systems/chaplygin_ball.yaml", two, true, false},
+                 {"sleigh", NULL, "systems/sleigh_inertia.yaml", one, false, false},     {"crane", CRANE, NULL, CRANE_FOUR, false, false}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        nh_error error = {0};
+        stage s;
+        stage_open(&s, known[i].name, known[i].text ? nh_system_parse(known[i].name, known[i].text, 0, NULL, &error) : nh_system_read(known[i].file, 0, NULL, &error), known[i].index, NULL, &error);
+        nh_chaplygin_measure m = nh_chaplygin_measure_of(&s.c, &s.options);
+        if (getenv("NHSYM_TEST_FIGURES")) printf("%-30s |Theta| %.2e, |dTheta| %.1e, phi-simple %.1e\n", known[i].name, m.size, m.curl, m.phi_simple);
+        cr_expect_eq(m.measure, known[i].measure, "%s: measure, |dTheta| = %g", known[i].name, m.curl);
+        cr_expect_eq(m.factor, known[i].factor, "%s: factor, %g", known[i].name, m.phi_simple);
+        stage_close(&s);
+    }
 }
