@@ -60,6 +60,23 @@ static const char TWISTED_CART[] = "name: twisted\n" CART_HEAD "  - a\n  - b\n"
     "  - p1 = a' - 3/10*theta' - (x'*cos(y) - x*sin(y)*y')/5\n"
     "  - p2 = b' + (theta'*y + theta*y')/2\n" CART_REST;
 
+/* A cart that carries a free rigid body with a mass sliding in it; the body is coupled to the wheel. */
+static const char CART_AND_BODY[] = "name: body\n" CART_HEAD
+    "  - {name: psi1, type: angle}\n  - {name: psi2, type: angle}\n  - {name: u, type: length}\n"
+    "  - {name: p, type: angle}\n  - {name: h, type: angle}\n  - {name: s, type: angle}\n"
+    "definitions:\n"
+    "  - w1 = h'*cos(s) + p'*sin(h)*sin(s)\n"
+    "  - w2 = -h'*sin(s) + p'*sin(h)*cos(s)\n"
+    "  - w3 = p'*cos(h) + s'\n"
+    "lagrangian: >-\n"
+    "  m/2*(x'^2 + y'^2) + m*e*theta'*(-sin(theta)*x' + cos(theta)*y') + J/2*theta'^2 + K/2*(psi1'^2 + psi2'^2)\n"
+    "  + (1.1 + u^2/4)/2*w1^2 + 0.85*w2^2 + (1.15 + u/5)*w3^2 + 0.3*u'*w1 + 0.2*psi1'*w2 + 0.15*u*psi2'*w3 + 0.6*u'^2 - 0.4*u^2 - 0.3*cos(psi1)*u\n"
+    "constraints:\n"
+    "  - -sin(theta)*x' + cos(theta)*y' = 0\n"
+    "  - cos(theta)*x' + sin(theta)*y' + c*theta' - r*psi1' = 0\n"
+    "  - cos(theta)*x' + sin(theta)*y' - c*theta' - r*psi2' = 0\n"
+    "domain: {h: [0.7, 1.9]}\n";
+
 typedef struct {
     nh_system *system;
     nh_model *model; /* bare */

@@ -9,6 +9,8 @@
 #include "reduction/chaplygin.h"
 #include "reduction/group.h"
 #include "reduction/reconstruct.h"
+#include "reduction/second.h"
+#include "reduction/subspace.h"
 
 static nh_options sharp(void)
 {
@@ -298,4 +300,151 @@ Test(reduction, measure_and_factor)
         cr_expect_eq(m.factor, known[i].factor, "%s: factor, %g", known[i].name, m.phi_simple);
         stage_close(&s);
     }
+}
+
+/* ---- the second stage ---- */
+
+static void field_of(const stage *s, size_t index, nh_ex *out) { memcpy(out, s->g->action.generator[index].component, s->slice.m * sizeof *out); }
+
+/* The second stage by generators of the whole group, on the slice through a place of the first shape space. */
+static void second_open(nh_second *second, const stage *s, const char *name, size_t d, const size_t *index, const double *x, nh_error *error)
+{
+    nh_ex *field = nh_alloc_array(d * s->slice.m, sizeof *field);
+    size_t shape[20], along[20];
+    double y0[20];
+    for (size_t b = 0; b < d; b++) field_of(s, index[b], field + b * s->slice.m);
+    must(nh_second_init(second, &s->c, d, field, &s->options, error), error, name);
+    nh_slice_choose(&second->action, shape, along);
+    for (size_t a = 0; a < d; a++) y0[a] = x ? x[along[a]] : 0;
+    must(nh_second_equations(second, shape, along, y0, error), error, name);
+    nh_free(field);
+}
+
+/* p of the second stage from a state (x, w) of the first. */
+static void second_start(const nh_second *t, const double *x, const double *w, double *z)
+{
+    double u[20], Av[100], x2[20], w2[20];
+    cr_assert(nh_slice_components(&t->slice, x, w, u));
+    nh_kinetic_values(t->hat, t->d * t->n, t->Av, x, Av);
+    for (size_t i = 0; i < t->n; i++) x2[i] = x[t->slice.shape[i]], w2[i] = u[i];
+    for (size_t a = 0; a < t->d; a++) {
+        w2[t->n + a] = u[t->n + a];
+        for (size_t i = 0; i < t->n; i++) w2[t->n + a] += Av[a * t->n + i] * u[i];
+    }
+    cr_assert(nh_reduced_start(&t->reduced, x2, w2, z));
+}
+
+Test(reduction, crane_twice_reduced_reference_values)
+{
+    nh_error error = {0};
+    cJSON *data = oracle_read("tests/data/crane_oracle.json");
+    tally tz = {.what = "twice reduced"}, ta = {.what = "Abreve, Xi"}, t0 = {.what = "start"};
+    const cJSON *set = oracle_get(data, "sets")->child;
+    static const size_t phi1[] = {2}, order[3] = {0, 1, 2};
+    for (const cJSON *motion = oracle_get(set, "trajectories")->child; motion; motion = motion->next) {
+        stage s;
+        nh_second t;
+        double q[8], v[8], x[4], w[4], z[8], want[6], got[6], times[2] = {0, oracle_number(motion, "T")};
+        oracle_flat(oracle_get(motion, "q0"), q);
+        oracle_flat(oracle_get(motion, "qdot0"), v);
+        stage_open(&s, "crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, q, &error);
+        for (size_t i = 0; i < 4; i++) w[i] = v[s.slice.shape[i]], x[i] = q[s.slice.shape[i]];
+        second_open(&t, &s, "crane", 1, phi1, x, &error);
+        cr_assert(t.n == 3 && t.slice.shape[0] == 0 && t.slice.shape[1] == 2 && t.slice.shape[2] == 3 && t.abelian);
+        cr_expect(t.weak < 1e-12 && t.strong < 1e-12 && t.invariance < 1e-12);
+        second_start(&t, x, w, z);
+        oracle_flat(oracle_get(motion, "twice_reduced0(psi1,psi2,phi2,pc1,pc2,pcphi2)"), want);
+        for (size_t i = 0; i < 6; i++) got[i] = z[i < 3 ? order[i] : 3 + order[i - 3]];
+        tally_add(&t0, 6, got, want, 0);
+        cr_expect_float_eq(z[6], oracle_number(motion, "vartheta"), 1e-12);
+        nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, 2, times, &s.options, &error);
+        must(r && r->complete, &error, "the crane, twice reduced");
+        oracle_flat(oracle_get(motion, "twice_reduced_T"), want);
+        tally_add(&tz, 6, r->z + 7, want, 0);
+        cr_expect_float_eq(r->z[13], z[6], 1e-11);
+        nh_reconstruction_free(r);
+        for (const cJSON *point = oracle_get(set, "points")->child; point; point = point->next) {
+            double Av[3], B[9], abreve[4], at[4];
+            oracle_flat(oracle_get(point, "q_full"), q);
+            for (size_t i = 0; i < 4; i++) at[i] = q[s.slice.shape[i]];
+            nh_kinetic_values(t.hat, 3, t.Av, at, Av);
+            nh_kinetic_values(t.hat, 9, t.Bv, at, B);
+            oracle_flat(oracle_get(point, "Abreve"), abreve);
+            want[0] = abreve[0], want[1] = abreve[1], want[2] = oracle_number(point, "Xi12_over_vartheta");
+            got[0] = Av[0], got[1] = Av[1], got[2] = B[1];
+            tally_add(&ta, 3, got, want, 0);
+        }
+        nh_second_clear(&t);
+        stage_close(&s);
+    }
+    tally_check(&tz, 1e-10, "crane");
+    tally_check(&t0, 1e-12, "crane");
+    tally_check(&ta, 1e-12, "crane");
+    cJSON_Delete(data);
+}
+
+/* Twice reduced with reconstruction against once reduced; the spatial momentum is conserved. */
+static void twice_against_once(const char *name, nh_system *system, const size_t *first, size_t d, const size_t *index, bool strong, double until, double tolerance)
+{
+    enum { count = 5 };
+    nh_error error = {0};
+    stage s;
+    nh_second t;
+    stage_open(&s, name, system, first, NULL, &error);
+    size_t n = s.slice.n, m = s.slice.m;
+    double x[20], w[20], z[40], times[count], E[60];
+    for (size_t i = 0; i < n; i++) x[i] = s.x.kinetic->place[2 * m + s.slice.shape[i]], w[i] = s.x.kinetic->speed[2 * m + s.slice.shape[i]];
+    second_open(&t, &s, name, d, index, x, &error);
+    cr_expect_lt(t.weak, 1e-10, "%s: (ii) fails, %g", name, t.weak);
+    cr_expect_eq(t.strong < 1e-10, strong, "%s: (ii') %g", name, t.strong);
+    for (size_t i = 0; i < count; i++) times[i] = until * (double)i / (count - 1);
+    second_start(&t, x, w, z);
+    nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, count, times, &s.options, &error);
+    must(r && r->complete, &error, name);
+    cr_assert(nh_reduced_start(&s.c.reduced, x, w, z));
+    nh_reduced_flow *flow = nh_reduced_flow_create(&s.c.reduced);
+    nh_flow_problem problem = nh_reduced_flow_problem(flow);
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = s.options.tolerance};
+    nh_motion *once = nh_flow(&problem, z, count, times, &options, &error);
+    must(once && once->complete, &error, name);
+    double off = 0, drift = 0, momentum[20], start[20], curvature[500], most = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double *at = once->state + i * 2 * n;
+        off = fmax(off, distance(n, r->q + i * n, at));
+        nh_action_values(&t.action, at, E);
+        for (size_t a = 0; a < d; a++) { /* e_a^s p_s */
+            momentum[a] = 0;
+            for (size_t k = 0; k < n; k++) momentum[a] += E[k + a * n] * at[n + k];
+            if (i == 0) start[a] = momentum[a];
+            drift = fmax(drift, fabs(momentum[a] - start[a]));
+        }
+    }
+    nh_kinetic_values(t.hat, d * t.n * t.n, t.Bv, x, curvature);
+    for (size_t i = 0; i < d * t.n * t.n; i++) most = fmax(most, fabs(curvature[i]));
+    cr_expect(off < tolerance, "%s: %g from the once reduced motion", name, off);
+    cr_expect(drift < tolerance, "%s: the momentum drifts by %g", name, drift);
+    cr_expect(distance(n, r->q + (count - 1) * n, r->q) > 0.05, "%s: nothing moves", name);
+    if (getenv("NHSYM_TEST_FIGURES"))
+        printf("%-30s N of %zu, orbits of %zu: %.1e from once reduced, momentum drift %.1e, |Bv| %.2g, weak %.1e strong %.1e, %zu restarts\n", name, d, t.orbit, off, drift, most, t.weak, t.strong, r->restarts);
+    nh_motion_free(once);
+    nh_reduced_flow_free(flow);
+    nh_reconstruction_free(r);
+    nh_second_clear(&t);
+    stage_close(&s);
+}
+
+Test(reduction, twice_reduced_motions_agree_with_once_reduced_ones)
+{
+    nh_error error = {0};
+    static const size_t ball[] = {0, 1}, turn[] = {2}, phi1[] = {2};
+    twice_against_once("crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, 1, phi1, true, 2, 1e-10);
+    twice_against_once("Chaplygin ball", nh_system_read("systems/chaplygin_ball.yaml", 0, NULL, &error), ball, 1, turn, false, 1, 1e-10);
+}
+
+/* N = SO(3), not abelian: momentum on coadjoint orbits of dimension two, curved mechanical connection. */
+Test(reduction, second_stage_with_a_rotation_group)
+{
+    nh_error error = {0};
+    static const size_t cart[] = {0, 1, 4}, rotations[] = {3, 5, 6};
+    twice_against_once("cart and free body", nh_system_parse("body", CART_AND_BODY, 0, NULL, &error), cart, 3, rotations, true, 1, 1e-10);
 }

@@ -209,7 +209,7 @@ static const char *field_text(const nh_kinetic *k, const nh_generator *g, nh_tex
 
 static void place_text(const nh_kinetic *k, size_t p, nh_text *out)
 {
-    for (size_t s = 0; s < k->m; s++) nh_text_addf(out, "%s%s = %.4g", s ? ", " : "", k->model->system->coordinate[s].name, k->place[p * k->m + s]);
+    for (size_t s = 0; s < k->m; s++) nh_text_addf(out, "%s%s = %.4g", s ? ", " : "", k->name[s], k->place[p * k->m + s]);
 }
 
 static bool not_invariant(const nh_action *g, size_t a, nh_error *error)
@@ -265,27 +265,8 @@ size_t nh_action_horizontal(const nh_action *g, const nh_options *options, doubl
             for (size_t b = 0; b < d; b++)
                 for (size_t s = 0; s < m; s++) a[p * f + i + b * rows] += omega[i * m + s] * E[s + b * m];
     }
-    size_t n = nh_kernel(rows, d, a, options->group, c, NULL, NULL), rank = 0;
-    for (size_t j = 0; j < d && rank < n; j++) { /* echelon form, so that a single generator is seen as one */
-        size_t best = rank;
-        for (size_t r = rank; r < n; r++)
-            if (fabs(c[j + r * d]) > fabs(c[j + best * d])) best = r;
-        if (fabs(c[j + best * d]) <= options->group) continue;
-        for (size_t i = 0; i < d; i++) {
-            double x = c[i + best * d];
-            c[i + best * d] = c[i + rank * d];
-            c[i + rank * d] = x;
-        }
-        for (size_t r = 0; r < n; r++) {
-            double factor = c[j + r * d] / c[j + rank * d];
-            for (size_t i = 0; i < d && r != rank; i++) c[i + r * d] -= factor * c[i + rank * d];
-        }
-        double pivot = c[j + rank * d];
-        for (size_t i = 0; i < d; i++) c[i + rank * d] /= pivot;
-        rank++;
-    }
-    for (size_t i = 0; i < n * d; i++)
-        if (fabs(c[i] - round(c[i])) < options->group) c[i] = round(c[i]);
+    size_t n = nh_kernel(rows, d, a, options->group, c, NULL, NULL);
+    nh_column_echelon(d, n, options->group, c);
     nh_free(a);
     nh_free(E);
     return n;
@@ -353,7 +334,7 @@ bool nh_flows_closed(nh_flows *f, size_t generator)
         closed = nh_flows_move(f, c, turn, q);
         for (size_t s = 0; s < k->m && closed; s++) {
             double way = q[s] - k->place[s];
-            if (k->model->system->coordinate[s].type == NH_ANGLE) way -= turn * round(way / turn);
+            if (k->angle[s]) way -= turn * round(way / turn);
             closed = fabs(way) < same * (1 + fabs(q[s]));
         }
     }

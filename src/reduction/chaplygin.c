@@ -115,7 +115,7 @@ static void equations(nh_chaplygin *c)
     memcpy(o->M, c->K, n * n * sizeof *o->M);
     for (size_t i = 0; i < n; i++) {
         o->w[i] = o->dx[i] = k->v[s->shape[i]];
-        o->momentum[i] = nh_arena_printf(k->arena, "p_%s", k->model->system->coordinate[s->shape[i]].name);
+        o->momentum[i] = nh_arena_printf(k->arena, "p_%s", k->name[s->shape[i]]);
     }
     for (size_t i = 0; i < n; i++) {
         nh_ex sum = nh_neg(d, nh_diff(d, c->V, s->x[i]));

@@ -117,15 +117,10 @@ size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *su
 static size_t along_dependents(const nh_group *g, size_t count, const size_t *subset)
 {
     const nh_kinetic *k = g->kinetic;
-    const nh_system *y = k->model->system;
     size_t n = 0;
     for (size_t i = 0; i < count; i++) {
-        bool only = y->dependents > 0;
-        for (size_t s = 0; s < k->m; s++) {
-            bool dependent = false;
-            for (size_t j = 0; j < y->dependents; j++) dependent |= y->dependent[j] == s;
-            only &= dependent || nh_is_zero(k->dag, g->action.generator[subset[i]].component[s]);
-        }
+        bool only = true;
+        for (size_t s = 0; s < k->m; s++) only &= k->dependent[s] || nh_is_zero(k->dag, g->action.generator[subset[i]].component[s]);
         n += only;
     }
     return n;

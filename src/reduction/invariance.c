@@ -146,7 +146,7 @@ void nh_generator_text(const nh_kinetic *k, const nh_generator *g, nh_text *out)
     for (size_t s = 0; s < k->m; s++) {
         nh_ex e = g->component[s];
         if (nh_is_zero(k->dag, e)) continue;
-        const char *name = k->model->system->coordinate[s].name;
+        const char *name = k->name[s];
         nh_ex minus = nh_neg(k->dag, e);
         bool below = nh_kind_of(k->dag, e) == NH_PRODUCT && nh_num_value(nh_constant_of(k->dag, e)) < 0;
         below |= nh_kind_of(k->dag, e) == NH_NUMBER && nh_num_value(nh_number_of(k->dag, e)) < 0;

@@ -191,7 +191,13 @@ nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *er
     k->omega = k->K + m * m;
     k->b = k->omega + f * m;
     k->force = k->b + f;
+    k->name = nh_arena_alloc(arena, m * sizeof *k->name);
+    k->angle = nh_arena_alloc(arena, 2 * m * sizeof *k->angle);
+    k->dependent = k->angle + m;
+    for (size_t j = 0; j < model->system->dependents; j++) k->dependent[model->system->dependent[j]] = true;
     for (size_t s = 0; s < m; s++) {
+        k->name[s] = model->system->coordinate[s].name;
+        k->angle[s] = model->system->coordinate[s].type == NH_ANGLE;
         k->q[s] = model->system->coordinate[s].q;
         k->v[s] = model->system->coordinate[s].v;
     }

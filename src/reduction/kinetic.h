@@ -16,6 +16,8 @@ typedef struct {
     nh_arena *arena;
     size_t m, f;           /* coordinates, constraints */
     nh_ex *q, *v;          /* m symbols each */
+    const char **name;     /* m, of the coordinates */
+    bool *angle, *dependent; /* m: an angle; named under `dependent:` */
     nh_ex *K, V, *a;       /* m x m (row-major), m; zeros unless quadratic */
     nh_ex *force;          /* f: the constraints without poles */
     nh_ex *omega, *b;      /* f x m (row-major), f; zeros unless affine */

@@ -84,7 +84,7 @@ static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
     nh_dag *d = k->dag;
     nh_ex found[most_found];
     size_t n = functions_of_system(k, found);
-    bool angle = k->model->system->coordinate[j].type == NH_ANGLE, turned = angle;
+    bool angle = k->angle[j], turned = angle;
     f->count = 0;
     for (size_t i = 0; i < n; i++) turned |= circular(d, found[i]) && nh_depends(d, nh_child(d, found[i], 0), k->q[j]);
     bool powers = !turned || level == 3 || level == 5; /* beside sines they are nearly dependent on a short interval */

@@ -144,7 +144,7 @@ static void name_velocities(nh_reduced *o, const nh_slice *s, const size_t *inde
     const nh_kinetic *k = s->kinetic;
     for (size_t i = 0; i < o->r; i++) {
         bool shape = independent[i] < s->n;
-        const char *name = shape ? k->model->system->coordinate[s->shape[independent[i]]].name : nh_arena_printf(k->arena, "%zu", independent[i] - s->n + 1);
+        const char *name = shape ? k->name[s->shape[independent[i]]] : nh_arena_printf(k->arena, "%zu", independent[i] - s->n + 1);
         o->w[i] = shape ? k->v[s->shape[independent[i]]] : nh_symbol_fresh(k->dag, nh_arena_printf(k->arena, "zeta%s", name));
         o->momentum[i] = nh_arena_printf(k->arena, shape ? "p_%s" : "mu_%s", name);
     }

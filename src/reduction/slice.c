@@ -63,7 +63,6 @@ void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
 {
     static const double nearly = 1.05; /* of nearly equal ones the preferred, then the first */
     const nh_kinetic *k = g->kinetic;
-    const nh_system *y = k->model->system;
     size_t m = k->m, d = g->d, places = k->places < trial_places ? k->places : trial_places, trials = 0;
     size_t *rows = nh_alloc_array(d + 1, sizeof *rows);
     double *E = scaled_generators(g, places), best = -1;
@@ -71,8 +70,7 @@ void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
     do {
         double value = worst_minor(m, d, places, E, rows);
         for (size_t i = 0; i < d; i++)
-            for (size_t j = 0; j < y->dependents; j++)
-                if (y->dependent[j] == rows[i]) value *= 1 + 0.5 / (double)d;
+            if (k->dependent[rows[i]]) value *= 1 + 0.5 / (double)d;
         if (value <= best * nearly) continue;
         best = value;
         memcpy(along, rows, d * sizeof *along);

@@ -97,6 +97,31 @@ double nh_largest(size_t n, const double *a)
     return most;
 }
 
+void nh_column_echelon(size_t d, size_t n, double small, double *c)
+{
+    size_t rank = 0;
+    for (size_t j = 0; j < d && rank < n; j++) {
+        size_t best = rank;
+        for (size_t r = rank; r < n; r++)
+            if (fabs(c[j + r * d]) > fabs(c[j + best * d])) best = r;
+        if (fabs(c[j + best * d]) <= small) continue;
+        for (size_t i = 0; i < d; i++) {
+            double x = c[i + best * d];
+            c[i + best * d] = c[i + rank * d];
+            c[i + rank * d] = x;
+        }
+        double pivot = c[j + rank * d];
+        for (size_t i = 0; i < d; i++) c[i + rank * d] /= pivot;
+        for (size_t r = 0; r < n; r++) {
+            double factor = c[j + r * d];
+            for (size_t i = 0; i < d && r != rank; i++) c[i + r * d] -= factor * c[i + rank * d];
+        }
+        rank++;
+    }
+    for (size_t i = 0; i < n * d; i++)
+        if (fabs(c[i] - round(c[i])) < small) c[i] = round(c[i]);
+}
+
 void nh_matrix_exp(size_t n, const double *a, double *out)
 {
     enum { terms = 20 }; /* 0.5^20/20! is far below rounding */

@@ -28,6 +28,9 @@ double nh_coordinates(size_t m, size_t r, const double *u, size_t n, const doubl
 /* c (m x n) = a b, a is m x k; and the largest modulus of n numbers. */
 double nh_largest(size_t n, const double *a);
 
+/* n independent columns of length d in reduced echelon form (first entries as pivots); what is within `small` of a whole number becomes that. */
+void nh_column_echelon(size_t d, size_t n, double small, double *c);
+
 /* exp(a) of an n x n matrix, by scaling and squaring of the Taylor series. */
 void nh_matrix_exp(size_t n, const double *a, double *out);
 
