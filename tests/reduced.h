@@ -5,7 +5,7 @@
 #include "mechanics.h"
 #include "reduction/jets.h"
 
-/* A crane on a four-wheel car [Chhabra2014, sec. 6], kinetic energy with the corrections that a derivation from the bodies gives. */
+/* A crane on a four-wheel car [ChhabraEmami2014, sec. 6], kinetic energy with the corrections that a derivation from the bodies gives. */
 static const char CRANE[] =
     "name: crane\n"
     "parameters:\n"

@@ -3,7 +3,7 @@
  * With E = (e_a) (m x d) and D = ker omega, at generic points:
  *
  *     free                 rank E = d
- *     dimension assumption V + D = TQ: rank [E, D] = m                 [Chhabra2014, eq. 2.7], [CendraDiaz2007, sec. 2]
+ *     dimension assumption V + D = TQ: rank [E, D] = m                 [ChhabraEmami2014, eq. 2.7], [CendraDiaz2007, sec. 2]
  *     dim S, S = D cap V   d + (m - f) - rank [E, D]
  *     Chaplygin            S = 0 and V + D = TQ
  *

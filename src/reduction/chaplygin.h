@@ -1,10 +1,10 @@
-/* chaplygin: the first stage of reduction where V + D = TQ and V cap D = 0 [Chhabra2014, sec. 2], [Koiller1992].
+/* chaplygin: the first stage of reduction where V + D = TQ and V cap D = 0 [ChhabraEmami2014, sec. 2], [Koiller1992].
  *
  *     A = om_e^-1 om_x                        connection on the slice: the horizontal lift of x' is (x', -A x') in the frame
- *     B^a_ij = d_i A^a_j - d_j A^a_i - C_bc^a A^b_i A^c_j                                curvature       [Chhabra2014, eq. 2.12]
- *     Khat = H^T Kf H,   H = (1; -A)          metric,      Hhat = 1/2 p Khat^-1 p + V                    [Chhabra2014, eq. 2.10]
+ *     B^a_ij = d_i A^a_j - d_j A^a_i - C_bc^a A^b_i A^c_j                                curvature       [ChhabraEmami2014, eq. 2.12]
+ *     Khat = H^T Kf H,   H = (1; -A)          metric,      Hhat = 1/2 p Khat^-1 p + V                    [ChhabraEmami2014, eq. 2.10]
  *     J_a = (Kf_e H)_aj x'^j                  momentum of the group in the body frame
- *     Ups_ij = J_a B^a_ij                     the almost-symplectic form is dx ^ dp + 1/2 Ups dx ^ dx    [Chhabra2014, eq. 2.11]
+ *     Ups_ij = J_a B^a_ij                     the almost-symplectic form is dx ^ dp + 1/2 Ups dx ^ dx    [ChhabraEmami2014, eq. 2.11]
  *     p_i' = -d_i Hhat + Ups_ij x'^j,   x' = Khat^-1 p,   zeta = -A x'
  *
  * In the paper J is the spatial momentum, which agrees at the identity only. */

@@ -1,10 +1,10 @@
-/* second: further symmetry of a reduced Chaplygin system, and the second stage of its reduction [Chhabra2014, sec. 2.3].
+/* second: further symmetry of a reduced Chaplygin system, and the second stage of its reduction [ChhabraEmami2014, sec. 2.3].
  *
  * N acts on Qhat with generators zeta_b (the shape parts of symmetries that normalise the first group).  Conditions, at all points of the slice:
  *
  *     (i)   Khat, V and Ups are invariant under N
  *     (ii)  sym_(lj) zeta^i U_lij = 0         weak: together with (i) the same as the conservation of p(zeta)             [here]
- *     (ii') zeta^i U_lij = 0                  strong: the paper's hypothesis                                    [Chhabra2014, Prop. 2]
+ *     (ii') zeta^i U_lij = 0                  strong: the paper's hypothesis                                    [ChhabraEmami2014, Prop. 2]
  *
  * The equations need (i) and (ii) only.  On a slice of Qhat, frame (d_i, e_a), C the constants of N:
  *
@@ -14,7 +14,7 @@
  *     pt_i' = 1/2 x'^T d_i Kt x' + 1/2 v^T d_i I v - d_i V + m_a Bv^a_ij x'^j + C_lk^a m_a Av^l_i v^k + g_i - Av^a_i g_a
  *     g = Fr^T Ups Fr (x', zeta)
  *
- * For abelian N, m is constant, m_a Bv^a is the 2-form Xi of [Chhabra2014, eq. 2.17], and the rest is eq. 2.19.  For other N the equations hold on the
+ * For abelian N, m is constant, m_a Bv^a is the 2-form Xi of [ChhabraEmami2014, eq. 2.17], and the rest is eq. 2.19.  For other N the equations hold on the
  * bundle of coadjoint orbits: (x, pt) and m on the orbit through its initial value. */
 #ifndef NH_SECOND_H
 #define NH_SECOND_H
