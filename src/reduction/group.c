@@ -126,15 +126,29 @@ static size_t along_dependents(const nh_group *g, size_t count, const size_t *su
     return n;
 }
 
+/* Generators of the subset that do not commute with all of it: a group that is not abelian is divided out as a whole. */
+static size_t interacting(const nh_algebra *g, size_t count, const size_t *subset)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool acts = false;
+        for (size_t j = 0; j < count; j++)
+            for (size_t k = 0; k < g->d; k++) acts |= g->c[(subset[i] * g->d + subset[j]) * g->d + k] != 0;
+        n += acts;
+    }
+    return n;
+}
+
 typedef struct {
-    size_t along, normal;
+    size_t along, normal, interacting;
     double transversality;
 } merit;
 
 static bool better(merit a, merit b)
 {
-    if (a.along != b.along) return a.along > b.along;
     if (a.normal != b.normal) return a.normal > b.normal;
+    if (a.interacting != b.interacting) return a.interacting > b.interacting;
+    if (a.along != b.along) return a.along > b.along;
     return a.transversality > 1.05 * b.transversality; /* of nearly equal ones the first */
 }
 
@@ -163,7 +177,7 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
             nh_action sub;
             for (size_t i = 0; i < f; i++) t[subset[i] + i * d] = 1;
             nh_action_sub(&sub, &g->action, f, t, options);
-            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), sub.transversality};
+            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), interacting(&g->action.algebra, f, subset), sub.transversality};
             if (sub.chaplygin && sub.free && m.transversality > options->group && (!found || better(m, best))) {
                 best = m;
                 found = true;

@@ -23,8 +23,9 @@ nh_group *nh_group_find(const nh_kinetic *kinetic, const nh_options *options, nh
 nh_group *nh_group_of(const nh_kinetic *kinetic, size_t count, const nh_generator *generator, const nh_options *options);
 void nh_group_free(nh_group *group);
 
-/* The subset of the generators (count indices, as many as constraints) that makes a Chaplygin system, normalised by the most of the others and best
- * conditioned; false when there is none.  A subset whose coordinates are those that the system calls dependent wins. */
+/* The subset of the generators (as many as constraints) that makes a Chaplygin system; false when there is none.  Of several: the one that most of
+ * the others normalise, then the least abelian, then the one with the most generators along coordinates that the system calls dependent, then the
+ * best conditioned over the sample points. */
 bool nh_group_chaplygin(const nh_group *group, const nh_options *options, size_t *index);
 /* The generators outside a subset that normalise it ([e, subset] in the span of the subset); returns their number. */
 size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, const nh_options *options, size_t *index);

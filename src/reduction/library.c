@@ -145,7 +145,7 @@ static void products(nh_library *l, const nh_kinetic *k, const factors *f, const
         return;
     }
     for (size_t i = 0; i < (together ? f[j].count : 1); i++)
-        products(l, k, f, on, j + 1, nh_mul(k->dag, so_far, f[j].e[i]), together - (i > 0), component, most);
+        products(l, k, f, on, j + 1, nh_mul(k->dag, so_far, f[j].e[i]), together - (i > 0 && together), component, most);
 }
 
 void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, int level, size_t most)
@@ -162,6 +162,21 @@ void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, in
     }
     nh_free(nonzero);
     nh_free(depends);
+    nh_free(f);
+}
+
+void nh_library_for(nh_library *l, const nh_kinetic *k, size_t components, int level, size_t most)
+{
+    size_t m = k->m;
+    bool *on = nh_alloc_array(m, sizeof *on);
+    factors *f = nh_alloc_array(m, sizeof *f);
+    *l = (nh_library){0};
+    for (size_t j = 0; j < m; j++) {
+        factors_of(k, j, level, &f[j]);
+        on[j] = true;
+    }
+    for (size_t a = 0; a < components; a++) products(l, k, f, on, 0, nh_int(k->dag, 1), 1, a, (a + 1) * most / (components ? components : 1));
+    nh_free(on);
     nh_free(f);
 }
 
