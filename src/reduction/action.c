@@ -279,6 +279,7 @@ struct nh_flows {
     nh_tape *tape;
     nh_tape_work *work;
     double *E;
+    bool *constant;    /* per generator: a translation */
     const double *c;
 };
 
@@ -290,6 +291,12 @@ nh_flows *nh_flows_create(const nh_action *g)
     for (size_t a = 0; a < g->d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
     *f = (nh_flows){.action = g, .tape = nh_kinetic_tape(g->kinetic, m * g->d, e), .E = nh_alloc_array(m * g->d + 1, sizeof *f->E)};
     f->work = nh_tape_work_create(f->tape);
+    f->constant = nh_alloc_array(g->d + 1, sizeof *f->constant);
+    for (size_t a = 0; a < g->d; a++) {
+        f->constant[a] = true;
+        for (size_t s = 0; s < m; s++)
+            for (size_t j = 0; j < m; j++) f->constant[a] &= !nh_depends(g->kinetic->dag, e[a * m + s], g->kinetic->q[j]);
+    }
     nh_free(e);
     return f;
 }
@@ -300,6 +307,7 @@ void nh_flows_free(nh_flows *f)
     nh_tape_work_free(f->work);
     nh_tape_free(f->tape);
     nh_free(f->E);
+    nh_free(f->constant);
     nh_free(f);
 }
 
@@ -318,8 +326,17 @@ static bool field_rate(double t, const double *q, double *rate, void *context)
 bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
 {
     static const double tolerance = 1e-14, largest = 1e12;
+    size_t m = f->action->kinetic->m;
+    bool translation = true;
     f->c = c;
-    return t == 0 || nh_runge(f->action->kinetic->m, field_rate, f, 0, t, tolerance, largest, q);
+    for (size_t a = 0; a < f->action->d; a++) translation &= c[a] == 0 || f->constant[a];
+    if (translation) {
+        nh_tape_eval(f->tape, f->work, q, f->E);
+        for (size_t a = 0; a < f->action->d; a++)
+            for (size_t s = 0; s < m && c[a] != 0; s++) q[s] += t * c[a] * f->E[s + a * m];
+        return true;
+    }
+    return t == 0 || nh_runge(m, field_rate, f, 0, t, tolerance, largest, q);
 }
 
 bool nh_flows_closed(nh_flows *f, size_t generator)

@@ -165,7 +165,17 @@ void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, in
     nh_free(f);
 }
 
-void nh_library_for(nh_library *l, const nh_kinetic *k, size_t components, int level, size_t most)
+static void swap(nh_library *l, size_t i, size_t j)
+{
+    nh_ex e = l->function[i];
+    size_t c = l->component[i];
+    double x = l->complexity[i];
+    l->function[i] = l->function[j], l->function[j] = e;
+    l->component[i] = l->component[j], l->component[j] = c;
+    l->complexity[i] = l->complexity[j], l->complexity[j] = x;
+}
+
+void nh_library_for(nh_library *l, const nh_kinetic *k, size_t components, int level, size_t together, size_t most)
 {
     size_t m = k->m;
     bool *on = nh_alloc_array(m, sizeof *on);
@@ -175,7 +185,9 @@ void nh_library_for(nh_library *l, const nh_kinetic *k, size_t components, int l
         factors_of(k, j, level, &f[j]);
         on[j] = true;
     }
-    for (size_t a = 0; a < components; a++) products(l, k, f, on, 0, nh_int(k->dag, 1), 1, a, (a + 1) * most / (components ? components : 1));
+    for (size_t a = 0; a < components; a++) products(l, k, f, on, 0, nh_int(k->dag, 1), together, a, (a + 1) * most / (components ? components : 1));
+    for (size_t i = 1; i < l->count; i++) /* the simple ones first: of dependent columns the first ones stay */
+        for (size_t j = i; j > 0 && l->complexity[j - 1] > l->complexity[j]; j--) swap(l, j - 1, j);
     nh_free(on);
     nh_free(f);
 }

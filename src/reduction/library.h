@@ -25,8 +25,8 @@ typedef struct {
 
 /* `jets` may be NULL. */
 void nh_library_init(nh_library *library, const nh_kinetic *kinetic, const nh_jets *jets, int level, size_t most);
-/* The same functions, one coordinate at a time, for each of `components` coefficients (of sections, see momenta.h). */
-void nh_library_for(nh_library *library, const nh_kinetic *kinetic, size_t components, int level, size_t most);
+/* The same functions, of at most `together` coordinates at a time, for each of `components` coefficients (of sections, see momenta.h). */
+void nh_library_for(nh_library *library, const nh_kinetic *kinetic, size_t components, int level, size_t together, size_t most);
 /* Some columns of another one. */
 void nh_library_pick(nh_library *out, const nh_library *library, size_t n, const size_t *index);
 void nh_library_clear(nh_library *library);

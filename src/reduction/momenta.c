@@ -226,6 +226,18 @@ static nh_ex coefficient(const search *s, double value)
     return nh_recognise_number(s->k->dag, value, s->options->recognise, &e) ? e : nh_real(s->k->dag, value);
 }
 
+/* The simplest term, of the last generator, gets a positive coefficient. */
+static void normalise(const search *s, double *v)
+{
+    double sign = 1, complexity = INFINITY;
+    for (size_t c = 0; c < s->n; c++) {
+        if (v[c] == 0 || s->l.complexity[c] > complexity) continue;
+        complexity = s->l.complexity[c];
+        sign = v[c] < 0 ? -1 : 1;
+    }
+    for (size_t c = 0; c < s->n; c++) v[c] *= sign;
+}
+
 static void take(search *s, size_t count, double *v, nh_momenta *out)
 {
     nh_dag *dag = s->k->dag;
@@ -233,6 +245,7 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
     out->momentum = nh_arena_alloc(s->k->arena, (count + 1) * sizeof *out->momentum);
     for (size_t r = count; r-- > 0;) {
         nh_momentum *p = &out->momentum[out->count++];
+        normalise(s, v + r * s->n);
         p->horizontal = true;
         p->f = nh_arena_alloc(s->k->arena, (s->d + 1) * sizeof *p->f);
         for (size_t a = 0; a < s->d; a++) p->f[a] = nh_int(dag, 0);
@@ -249,15 +262,15 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
 
 bool nh_momenta_find(nh_momenta *out, const nh_action *g, const nh_options *options, nh_error *error)
 {
-    enum { most_columns = 300 };
+    enum { most_columns = 420 };
     const nh_kinetic *k = g->kinetic;
     bool good = true;
     *out = (nh_momenta){0};
-    for (int level = 1; level <= 2 && good && g->d; level++) { /* level 2: with 1/sin and the like */
+    for (int level = 1; level <= 3 && good && g->d; level++) { /* 2: with 1/sin and the like; 3: products of two */
         search s = {.g = g, .k = k, .options = options, .m = k->m, .d = g->d, .f = k->f};
         nh_momenta found = {0};
         double *vector;
-        nh_library_for(&s.l, k, g->d, level, most_columns);
+        nh_library_for(&s.l, k, g->d, level == 3 ? 1 : level, level == 3 ? 2 : 1, most_columns);
         s.n = s.l.count;
         collect(&s);
         size_t count = solve(&s, &vector, error);

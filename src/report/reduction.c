@@ -41,7 +41,7 @@ size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s
 
 static void put_expression(nh_text *out, const char *indent, const char *name, nh_dag *d, nh_ex e, bool verbose)
 {
-    enum { longest = 300 };
+    enum { longest = 600 };
     char *text = nh_print_string(d, e);
     size_t length = strlen(text);
     if (length > longest && !verbose) nh_text_addf(out, "%s%s = (%zu characters; --verbose prints them)\n", indent, name, length);

@@ -7,7 +7,7 @@
 #include "reduction/subspace.h"
 #include "study/reduce_internal.h"
 
-enum { outputs = 41 };
+enum { outputs = 81, most_steps = 20000 };
 
 typedef struct {
     nh_reduction *r;
@@ -32,24 +32,61 @@ static double difference(size_t n, const double *a, const double *b)
 
 /* ---- the full motion ---- */
 
+/* Motions are computed with a tenth of the tolerance, so that errors that add up along them stay below a hundred tolerances. */
+static double local_tolerance(const nh_reduction *r) { return fmax(r->options.tolerance / 10, 1e-14); }
+
+/* sigma_min / sigma_max of the metric with unit diagonal: small near a pole of the coordinates. */
+static double regularity(const nh_kinetic *k, const double *q)
+{
+    size_t m = k->m;
+    double *K = nh_alloc_array(m * m + m, sizeof *K), *s = K + m * m, *unit = nh_alloc_array(m, sizeof *unit), ratio = 0;
+    nh_kinetic_values(k, m * m, k->K, q, K);
+    for (size_t i = 0; i < m; i++) unit[i] = 1 / sqrt(K[i * (m + 1)]);
+    for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
+    nh_singular_values(m, m, K, s);
+    if (s[0] > 0) ratio = s[m - 1] / s[0];
+    nh_free(K);
+    nh_free(unit);
+    return ratio;
+}
+
+/* How far the coarser of two motions of one system agrees with the finer, and stays away from poles of the coordinates (beyond one, the same
+ * place may have other coordinates): number of outputs. */
+static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
+{
+    static const double pole = 0.002; /* of the regularity at the start */
+    size_t n = 0, m = k->m, least = coarse->count < fine->count ? coarse->count : fine->count;
+    double start = regularity(k, fine->state);
+    while (n < least && difference(m, coarse->state + n * 2 * m, fine->state + n * 2 * m) <= allowed && regularity(k, fine->state + n * 2 * m) > pole * start) n++;
+    return n;
+}
+
+/* The reference is computed again with a smaller tolerance: what is compared is then the error of the reduced motion, and where the two part (at a
+ * pole of the coordinates) nothing is compared any more. */
 static bool full_motion(bench *b, nh_error *error)
 {
+    static const double finest = 1e-13, lost = 1e5; /* in tolerances */
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
     nh_bordered *bordered = nh_bordered_create(r->model);
     nh_flow_problem problem = nh_bordered_flow(bordered);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = r->options.tolerance, .max_steps = r->options.steps};
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, most_steps)};
     double *z = nh_alloc_array(2 * m, sizeof *z), begin = now();
     memcpy(z, r->initial.q, m * sizeof *z);
     memcpy(z + m, r->initial.v, m * sizeof *z);
-    nh_motion *motion = nh_flow(&problem, z, outputs, b->times, &options, error);
+    nh_motion *coarse = nh_flow(&problem, z, outputs, b->times, &options, error);
     r->full_seconds = now() - begin;
+    options.rtol = fmin(options.rtol, finest);
+    nh_motion *motion = coarse ? nh_flow(&problem, z, outputs, b->times, &options, error) : NULL;
     if (motion) {
-        b->reached = motion->count;
+        b->reached = reliable(r->kinetic, coarse, motion, lost * r->options.tolerance);
+        if (b->reached < motion->count)
+            nh_reduction_warn(r, "the full motion in these coordinates is followed up to t = %.4g only: there it comes near a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
         b->full = nh_arena_alloc(r->arena, outputs * 2 * m * sizeof *b->full);
         memcpy(b->full, motion->state, motion->count * 2 * m * sizeof *b->full);
         if (!motion->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", motion->end_time, motion->note);
     }
+    nh_motion_free(coarse);
     nh_motion_free(motion);
     nh_bordered_free(bordered);
     nh_free(z);
@@ -113,7 +150,7 @@ static void compare(bench *b, nh_reduction_stage *s, const double *z, const doub
     nh_error trouble = {0};
     nh_reduced_flow *flow = nh_reduced_flow_create(s->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = r->options.tolerance, .max_steps = r->options.steps};
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, most_steps)};
     double begin = now(), e0 = 0, e1 = 0;
     nh_motion *motion = problem.size ? nh_flow(&problem, z, outputs, b->times, &options, &trouble) : NULL;
     s->seconds = now() - begin;
@@ -123,7 +160,10 @@ static void compare(bench *b, nh_reduction_stage *s, const double *z, const doub
             if (nh_reduced_flow_at(flow, motion->state + i * motion->size, NULL, NULL, NULL, &e1)) s->energy_drift = fmax(s->energy_drift, fabs(e1 - e0) / (1 + fabs(e0)));
     nh_motion_free(motion);
     nh_reduced_flow_free(flow);
-    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, outputs, b->times, &r->options, &trouble);
+    nh_options finer = r->options;
+    finer.tolerance = options.rtol;
+    finer.steps = options.max_steps;
+    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, outputs, b->times, &finer, &trouble);
     if (!c) {
         snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
         return;
@@ -207,7 +247,7 @@ static double *once_reduced(bench *b, const nh_chaplygin *first, const nh_second
     nh_error trouble = {0};
     nh_reduced_flow *flow = nh_reduced_flow_create(&first->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = r->options.tolerance, .max_steps = r->options.steps};
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, most_steps)};
     nh_motion *motion = nh_flow(&problem, z, outputs, b->times, &options, &trouble);
     double *out = nh_arena_alloc(r->arena, (outputs * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d, sizeof *E), *start = E + n * d, size = 1;
     *drift = 0;
