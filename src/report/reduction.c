@@ -133,6 +133,23 @@ static void put_second(const nh_second *t, nh_text *out)
     else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
 }
 
+static void put_chain(const nh_reduction_stage *s, nh_text *out)
+{
+    const nh_ideals *c = s->chain;
+    const nh_poincare *p = &s->poincare;
+    if (!s->by_stages) return;
+    nh_text_add(out, "  by stages along ");
+    for (size_t j = 0; j < c->blocks; j++) {
+        nh_text_add(out, j ? " > {" : "{");
+        for (size_t i = c->start[j]; i < c->d; i++) nh_text_addf(out, "%s%zu", i > c->start[j] ? ", " : "", c->order[i] + 1);
+        nh_text_add(out, "}");
+    }
+    nh_text_addf(out, " (numbers of the generators above); S of dimension %zu\n", p->dimension);
+    nh_text_addf(out, "  vertical and horizontal equations against the true accelerations at %zu places: in one stage %.1e, by stages %.1e\n", p->places,
+                 fmax(p->one_vertical, p->one_horizontal), fmax(p->stages_vertical, p->stages_horizontal));
+    nh_text_addf(out, "  bracket by stages against the bracket %.1e, Euler-Poincare right-hand side %.1e\n", p->bracket, p->euler_poincare);
+}
+
 static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, bool verbose, nh_text *out)
 {
     static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of"};
@@ -150,6 +167,7 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
     size_t n = nh_reduction_equations(r, s, &e);
     for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, verbose);
     if (s->kind == NH_STAGE_CHAPLYGIN) put_measure(&s->measure, out);
+    put_chain(s, out);
     put_numbers(s, out);
 }
 

@@ -150,6 +150,26 @@ static void put_second(nh_json *to, const nh_reduction_stage *s)
     nh_json_put_number(to, "momentum_drift", s->momentum_drift);
 }
 
+static void put_chain(nh_json *to, const nh_reduction_stage *s)
+{
+    const nh_ideals *c = s->chain;
+    const nh_poincare *p = &s->poincare;
+    nh_json *list = nh_json_put_array(to, "chain"), *check;
+    for (size_t j = 0; j < c->blocks; j++) {
+        nh_json *block = nh_json_add_array(list);
+        for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) nh_json_add_number(block, (double)c->order[i] + 1);
+    }
+    check = nh_json_put_object(to, "by_stages");
+    nh_json_put_number(check, "intersection", (double)p->dimension);
+    nh_json_put_number(check, "places", (double)p->places);
+    nh_json_put_number(check, "one_stage_vertical", p->one_vertical);
+    nh_json_put_number(check, "one_stage_horizontal", p->one_horizontal);
+    nh_json_put_number(check, "by_stages_vertical", p->stages_vertical);
+    nh_json_put_number(check, "by_stages_horizontal", p->stages_horizontal);
+    nh_json_put_number(check, "bracket", p->bracket);
+    nh_json_put_number(check, "euler_poincare", p->euler_poincare);
+}
+
 static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction_stage *s)
 {
     nh_json *to = nh_json_add_object(stages), *list = nh_json_put_array(to, "shape");
@@ -171,6 +191,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     }
     if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, s);
     if (s->kind == NH_STAGE_SECOND) put_second(to, s);
+    if (s->by_stages) put_chain(to, s);
     if (s->compared) nh_json_put_number(to, s->kind == NH_STAGE_SECOND ? "agreement_with_first" : "agreement_with_full", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
     nh_json_put_number(to, "reached", s->reached);

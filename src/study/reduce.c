@@ -189,6 +189,7 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     r->arena = arena;
     r->options = q->options;
     r->until = q->options.until;
+    r->chain_text = q->chain;
     nh_linalg_threads(1);
     bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error);
     if (good && !r->kinetic->reducible) nh_reduction_warn(r, "the symmetries are found, but the system is not reduced: %s", r->kinetic->obstacle);
@@ -204,6 +205,7 @@ void nh_reduction_free(nh_reduction *r)
     if (!r) return;
     for (size_t i = 0; i < 4; i++) nh_action_clear(&r->action[i]);
     for (size_t i = 0; i < 2; i++) nh_second_clear(&r->second[i]);
+    nh_ideals_clear(&r->chain);
     for (size_t i = 0; i < r->stages; i++) nh_free(r->stage[i].group);
     if (r->group != r->all) nh_group_free(r->group);
     nh_group_free(r->all);

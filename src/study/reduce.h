@@ -5,6 +5,7 @@
 #include "motion/dynamics.h"
 #include "reduction/group.h"
 #include "reduction/momenta.h"
+#include "reduction/poincare.h"
 #include "reduction/reconstruct.h"
 #include "reduction/second.h"
 
@@ -14,6 +15,7 @@ typedef struct {
     const nh_setting *setting;
     nh_chart_choice chart;
     const char *initial;      /* "phi=0, omega=2", or NULL */
+    const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     nh_options options;
 } nh_reduce_request;
@@ -30,6 +32,9 @@ typedef struct {
     const nh_chaplygin *chaplygin; /* shown; of the first kind */
     nh_chaplygin_measure measure;
     const nh_second *second;  /* shown; of the second kind */
+    bool by_stages;           /* third kind: were the equations by stages formed? */
+    const nh_ideals *chain;
+    nh_poincare poincare;
     double agreement;         /* largest difference of a position from the full motion (second kind: from the first stage), relative to 1 + size */
     double reached;           /* time up to which */
     double energy_drift;      /* of the reduced motion, relative */
@@ -54,6 +59,8 @@ typedef struct {
     nh_reduction_stage stage[4];
     nh_action action[4];      /* of the stages */
     nh_second second[2];
+    nh_ideals chain;
+    const char *chain_text;
     nh_momenta momenta;
     size_t warnings;
     const char *warning[16];

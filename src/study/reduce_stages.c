@@ -1,6 +1,7 @@
 /* reduce_stages: which reductions a system allows, carried out, and their motions against the full one. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -325,6 +326,51 @@ static bool second_stage(bench *b, const nh_chaplygin *first, size_t d, const nh
 
 /* ---- the whole group at once ---- */
 
+/* "3; 1, 2" as blocks; numbers are those of the generators of the action, from 1. */
+static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order, nh_error *error)
+{
+    size_t blocks = 0, n = 0;
+    bool *used = nh_alloc_array(d + 1, sizeof *used), good = true;
+    size[0] = 0;
+    for (const char *c = text; *c && good;) {
+        char *end;
+        long i = strtol(c, &end, 10);
+        if (end != c) {
+            good = i >= 1 && (size_t)i <= d && !used[i - 1];
+            if (good) used[i - 1] = true, order[n++] = (size_t)i - 1, size[blocks]++;
+            c = end;
+        } else if (*c == ';') {
+            if (size[blocks] && blocks + 1 < d) size[++blocks] = 0;
+            c++;
+        } else {
+            good = strchr(", \t", *c) != NULL;
+            c++;
+        }
+    }
+    nh_free(used);
+    if (good && n == d) return blocks + (size[blocks] > 0);
+    nh_fail(error, NH_USAGE, "--chain", "a chain names every generator of the group once, found `%.100s`", text);
+    nh_error_hint(error, "--chain \"3; 1, 2\": generators of the quotient first, those of the smallest normal subgroup last");
+    return 0;
+}
+
+/* The equations by stages, with the locked inertia at a sample point as inner product on the Lie algebra. */
+static bool by_stages(nh_reduction *r, nh_reduction_stage *s, nh_error *error)
+{
+    const nh_slice *slice = s->slice;
+    size_t d = slice->d, m = slice->m, *size = nh_alloc_array(2 * d + 2, sizeof *size), *order = size + d + 1;
+    double *K = nh_alloc_array(m * m + d * d + 1, sizeof *K), *metric = K + m * m;
+    size_t blocks = r->chain_text ? read_chain(r->chain_text, d, size, order, error) : nh_ideals_find(&slice->action->algebra, size, order);
+    nh_kinetic_values(r->kinetic, m * m, slice->K, r->initial.q, K);
+    for (size_t a = 0; a < d * d; a++) metric[a] = K[(slice->n + a / d) * m + slice->n + a % d];
+    bool good = blocks > 0 && nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
+    if (good) good = s->by_stages = nh_poincare_check(&s->poincare, slice, &r->chain, &r->options, error);
+    s->chain = &r->chain;
+    nh_free(size);
+    nh_free(K);
+    return good;
+}
+
 static bool master_stage(bench *b, const nh_action *action, nh_error *error)
 {
     nh_reduction *r = b->r;
@@ -345,6 +391,11 @@ static bool master_stage(bench *b, const nh_action *action, nh_error *error)
         s->reduced = o;
         s->shown = pretty;
         compare(b, s, z, b->full, 2 * m, b->reached);
+        nh_error trouble = {0};
+        if (s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {
+            if (r->chain_text) good = false;
+            else nh_reduction_warn(r, "no equations by stages: %s", trouble.what);
+        }
     } else {
         good = nh_fail(error, NH_NUMERIC, "", "the initial state is a singular place of the slice");
     }
@@ -416,6 +467,10 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     }
     if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); a subgroup of dimension %zu is divided out at once", g->d - g->orbit, r->action[1].d);
     nh_error trouble = {0};
-    if (!master_stage(&b, &r->action[1], &trouble)) nh_reduction_warn(r, "the whole group is not divided out: %s", trouble.what);
+    if (!master_stage(&b, &r->action[1], &trouble) && r->chain_text) {
+        if (error) *error = trouble;
+        return false;
+    }
+    if (trouble.code != NH_OK) nh_reduction_warn(r, "the whole group is not divided out: %s", trouble.what);
     return true;
 }
