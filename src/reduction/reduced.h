@@ -27,7 +27,7 @@ void nh_reduced_init(nh_reduced *reduced, const nh_kinetic *kinetic, size_t n, c
  *
  *     p_i = rho_i . (pi, mu),   p_i' = rho_i^j (1/2 u^T d_j Kf u - d_j V) + rho_i^b C_ab^k zeta^a mu_k + x'^j d_j rho_i . (pi, mu)
  *
- * [Hamel's equations in the frame (d/dx, e_a); docs/method.md].  `independent`: the r = m - f components of u that serve as w.
+ * Hamel's equations in the frame (d/dx, e_a); docs/method.md, sec. 9.  `independent`: the r = m - f components of u that serve as w.
  * False when the others cannot be solved for. */
 bool nh_reduced_master(nh_reduced *reduced, const nh_slice *slice, const size_t *independent, nh_error *error);
 /* Components of the frame that serve as w: the others' minor of omf is well conditioned; group components are given up first. */

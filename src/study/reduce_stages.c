@@ -1,21 +1,13 @@
 /* reduce_stages: which reductions a system allows, carried out, and their motions against the full one. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "reduction/subspace.h"
 #include "study/reduce_internal.h"
 
-enum { outputs = 81, most_steps = 20000 };
 
-typedef struct {
-    nh_reduction *r;
-    double *times;
-    size_t reached;       /* of the full motion */
-    double *full;         /* outputs x 2 m */
-} bench;
 
 static double now(void)
 {
@@ -52,7 +44,7 @@ static double regularity(const nh_kinetic *k, const double *q)
 }
 
 /* How far the coarser of two motions of one system agrees with the finer, and stays away from poles of the coordinates (beyond one, the same
- * place may have other coordinates): number of outputs. */
+ * place may have other coordinates): number of NH_REDUCTION_OUTPUTS. */
 static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
 {
     static const double pole = 0.002; /* of the regularity at the start */
@@ -64,26 +56,26 @@ static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_mo
 
 /* The reference is computed again with a smaller tolerance: what is compared is then the error of the reduced motion, and where the two part (at a
  * pole of the coordinates) nothing is compared any more. */
-static bool full_motion(bench *b, nh_error *error)
+static bool full_motion(nh_reduction_bench *b, nh_error *error)
 {
     static const double finest = 1e-13, lost = 1e5; /* in tolerances */
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
     nh_bordered *bordered = nh_bordered_create(r->model);
     nh_flow_problem problem = nh_bordered_flow(bordered);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, most_steps)};
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     double *z = nh_alloc_array(2 * m, sizeof *z), begin = now();
     memcpy(z, r->initial.q, m * sizeof *z);
     memcpy(z + m, r->initial.v, m * sizeof *z);
-    nh_motion *coarse = nh_flow(&problem, z, outputs, b->times, &options, error);
+    nh_motion *coarse = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error);
     r->full_seconds = now() - begin;
     options.rtol = fmin(options.rtol, finest);
-    nh_motion *motion = coarse ? nh_flow(&problem, z, outputs, b->times, &options, error) : NULL;
+    nh_motion *motion = coarse ? nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error) : NULL;
     if (motion) {
         b->reached = reliable(r->kinetic, coarse, motion, lost * r->options.tolerance);
         if (b->reached < motion->count)
             nh_reduction_warn(r, "the full motion in these coordinates is followed up to t = %.4g only: there it comes near a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
-        b->full = nh_arena_alloc(r->arena, outputs * 2 * m * sizeof *b->full);
+        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
         memcpy(b->full, motion->state, motion->count * 2 * m * sizeof *b->full);
         if (!motion->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", motion->end_time, motion->note);
     }
@@ -127,7 +119,7 @@ static bool slice_is_good(const nh_slice *s)
 }
 
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
-static void make_slices(nh_reduction *r, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown)
+void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown)
 {
     size_t m = action->kinetic->m, d = action->d, *shape = nh_arena_alloc(r->arena, (m + 1) * sizeof *shape), *along = shape + (m - d);
     double *y = nh_alloc_array(d + 1, sizeof *y), *zero = nh_alloc_array(d + 1, sizeof *zero);
@@ -145,15 +137,15 @@ static void make_slices(nh_reduction *r, const nh_action *action, const double *
 }
 
 /* Integrate, reconstruct, compare: positions `want` (stride apart) are those of the motion that is to be met. */
-static void compare(bench *b, nh_reduction_stage *s, const double *z, const double *want, size_t stride, size_t reached)
+void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const double *z, const double *want, size_t stride, size_t reached)
 {
     nh_reduction *r = b->r;
     nh_error trouble = {0};
     nh_reduced_flow *flow = nh_reduced_flow_create(s->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, most_steps)};
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     double begin = now(), e0 = 0, e1 = 0;
-    nh_motion *motion = problem.size ? nh_flow(&problem, z, outputs, b->times, &options, &trouble) : NULL;
+    nh_motion *motion = problem.size ? nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble) : NULL;
     s->seconds = now() - begin;
     s->speedup = s->seconds > 0 ? r->full_seconds / s->seconds : 0;
     if (motion && nh_reduced_flow_at(flow, z, NULL, NULL, NULL, &e0))
@@ -164,7 +156,7 @@ static void compare(bench *b, nh_reduction_stage *s, const double *z, const doub
     nh_options finer = r->options;
     finer.tolerance = options.rtol;
     finer.steps = options.max_steps;
-    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, outputs, b->times, &finer, &trouble);
+    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, NH_REDUCTION_OUTPUTS, b->times, &finer, &trouble);
     if (!c) {
         snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
         return;
@@ -179,7 +171,7 @@ static void compare(bench *b, nh_reduction_stage *s, const double *z, const doub
     nh_reconstruction_free(c);
 }
 
-static nh_reduction_stage *new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
+nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
     nh_reduction_stage *s = &r->stage[r->stages++];
     *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action)};
@@ -194,15 +186,15 @@ static const nh_chaplygin *chaplygin_on(nh_reduction *r, const nh_slice *slice, 
     return nh_chaplygin_init(c, slice, error) ? c : NULL;
 }
 
-static bool chaplygin_stage(bench *b, const nh_action *action, const nh_chaplygin **through, nh_error *error)
+static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, const nh_chaplygin **through, nh_error *error)
 {
     nh_reduction *r = b->r;
     nh_slice *slice, *shown;
     size_t m = r->kinetic->m;
-    make_slices(r, action, r->initial.q, &slice, &shown);
+    nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
     const nh_chaplygin *c = *through = chaplygin_on(r, slice, error), *pretty = slice->K == shown->K ? c : chaplygin_on(r, shown, error);
     if (!c || !pretty) return false;
-    nh_reduction_stage *s = new_stage(r, NH_STAGE_CHAPLYGIN, action);
+    nh_reduction_stage *s = nh_reduction_new_stage(r, NH_STAGE_CHAPLYGIN, action);
     s->slice = slice;
     s->reduced = &c->reduced;
     s->shown = &pretty->reduced;
@@ -213,7 +205,7 @@ static bool chaplygin_stage(bench *b, const nh_action *action, const nh_chaplygi
         x[i] = r->initial.q[slice->shape[i]];
     }
     bool good = nh_slice_components(slice, r->initial.q, r->initial.v, w) && nh_reduced_start(s->reduced, x, w, z);
-    if (good) compare(b, s, z, b->full, 2 * m, b->reached);
+    if (good) nh_reduction_compare(b, s, z, b->full, 2 * m, b->reached);
     nh_free(x);
     return good || nh_fail(error, NH_NUMERIC, "", "the initial state is a singular place of the slice");
 }
@@ -241,16 +233,16 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t r
 }
 
 /* Drift of e_a^s p_s along the once reduced motion, and that motion's positions. */
-static double *once_reduced(bench *b, const nh_chaplygin *first, const nh_second *t, const double *z, double *drift, size_t *reached)
+static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, const nh_second *t, const double *z, double *drift, size_t *reached)
 {
     nh_reduction *r = b->r;
     size_t n = first->n, d = t->d;
     nh_error trouble = {0};
     nh_reduced_flow *flow = nh_reduced_flow_create(&first->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, most_steps)};
-    nh_motion *motion = nh_flow(&problem, z, outputs, b->times, &options, &trouble);
-    double *out = nh_arena_alloc(r->arena, (outputs * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d, sizeof *E), *start = E + n * d, size = 1;
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
+    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d, sizeof *E), *start = E + n * d, size = 1;
     *drift = 0;
     *reached = motion ? motion->count : 0;
     for (size_t i = 0; i < *reached; i++) {
@@ -287,7 +279,7 @@ static bool second_state(const nh_second *t, const double *x, const double *w, d
     return good;
 }
 
-static bool second_stage(bench *b, const nh_chaplygin *first, size_t d, const nh_ex *field, nh_error *error)
+static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_t d, const nh_ex *field, nh_error *error)
 {
     nh_reduction *r = b->r;
     nh_second *t = &r->second[0], *pretty = t;
@@ -309,14 +301,14 @@ static bool second_stage(bench *b, const nh_chaplygin *first, size_t d, const nh
     }
     if (good) {
         size_t reached;
-        nh_reduction_stage *s = new_stage(r, NH_STAGE_SECOND, &t->action);
+        nh_reduction_stage *s = nh_reduction_new_stage(r, NH_STAGE_SECOND, &t->action);
         s->second = pretty;
         s->slice = &t->slice;
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         good = second_state(t, x, u, z);
-        if (good) compare(b, s, z, want, n, reached);
+        if (good) nh_reduction_compare(b, s, z, want, n, reached);
     }
     nh_free(shape);
     nh_free(x);
@@ -324,113 +316,7 @@ static bool second_stage(bench *b, const nh_chaplygin *first, size_t d, const nh
     return good;
 }
 
-/* ---- the whole group at once ---- */
-
-/* "3; 1, 2" as blocks; numbers are those of the generators of the action, from 1. */
-static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order, nh_error *error)
-{
-    size_t blocks = 0, n = 0;
-    bool *used = nh_alloc_array(d + 1, sizeof *used), good = true;
-    size[0] = 0;
-    for (const char *c = text; *c && good;) {
-        char *end;
-        long i = strtol(c, &end, 10);
-        if (end != c) {
-            good = i >= 1 && (size_t)i <= d && !used[i - 1];
-            if (good) used[i - 1] = true, order[n++] = (size_t)i - 1, size[blocks]++;
-            c = end;
-        } else if (*c == ';') {
-            if (size[blocks] && blocks + 1 < d) size[++blocks] = 0;
-            c++;
-        } else {
-            good = strchr(", \t", *c) != NULL;
-            c++;
-        }
-    }
-    nh_free(used);
-    if (good && n == d) return blocks + (size[blocks] > 0);
-    nh_fail(error, NH_USAGE, "--chain", "a chain names every generator of the group once, found `%.100s`", text);
-    nh_error_hint(error, "--chain \"3; 1, 2\": generators of the quotient first, those of the smallest normal subgroup last");
-    return 0;
-}
-
-/* The equations by stages, with the locked inertia at a sample point as inner product on the Lie algebra. */
-static bool by_stages(nh_reduction *r, nh_reduction_stage *s, nh_error *error)
-{
-    const nh_slice *slice = s->slice;
-    size_t d = slice->d, m = slice->m, *size = nh_alloc_array(2 * d + 2, sizeof *size), *order = size + d + 1;
-    double *K = nh_alloc_array(m * m + d * d + 1, sizeof *K), *metric = K + m * m;
-    size_t blocks = r->chain_text ? read_chain(r->chain_text, d, size, order, error) : nh_ideals_find(&slice->action->algebra, size, order);
-    nh_kinetic_values(r->kinetic, m * m, slice->K, r->initial.q, K);
-    for (size_t a = 0; a < d * d; a++) metric[a] = K[(slice->n + a / d) * m + slice->n + a % d];
-    bool good = blocks > 0 && nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
-    if (good) good = s->by_stages = nh_poincare_check(&s->poincare, slice, &r->chain, &r->options, error);
-    s->chain = &r->chain;
-    nh_free(size);
-    nh_free(K);
-    return good;
-}
-
-static bool master_stage(bench *b, const nh_action *action, nh_error *error)
-{
-    nh_reduction *r = b->r;
-    nh_slice *slice, *shown;
-    size_t m = r->kinetic->m, rank = m - r->kinetic->f, *independent = nh_alloc_array(m + 1, sizeof *independent);
-    nh_reduced *o = nh_arena_alloc(r->arena, 2 * sizeof *o), *pretty = o;
-    double *x = nh_alloc_array(6 * m + 1, sizeof *x), *w = x + m, *u = w + m, *z = u + m;
-    make_slices(r, action, r->initial.q, &slice, &shown);
-    nh_reduced_independent(slice, independent);
-    bool good = nh_reduced_master(o, slice, independent, error);
-    if (good && slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, error) ? o + 1 : o;
-    good = good && nh_slice_components(slice, r->initial.q, r->initial.v, u);
-    for (size_t i = 0; i < rank && good; i++) w[i] = u[independent[i]];
-    for (size_t i = 0; i < slice->n; i++) x[i] = r->initial.q[slice->shape[i]];
-    if (good && nh_reduced_start(o, x, w, z)) {
-        nh_reduction_stage *s = new_stage(r, action->dimension_assumption ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
-        s->slice = slice;
-        s->reduced = o;
-        s->shown = pretty;
-        compare(b, s, z, b->full, 2 * m, b->reached);
-        nh_error trouble = {0};
-        if (s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {
-            if (r->chain_text) good = false;
-            else nh_reduction_warn(r, "no equations by stages: %s", trouble.what);
-        }
-    } else {
-        good = nh_fail(error, NH_NUMERIC, "", "the initial state is a singular place of the slice");
-    }
-    nh_free(independent);
-    nh_free(x);
-    return good;
-}
-
-/* A subset of the generators that acts freely, as large as possible; the whole group when that does. */
-static bool free_subgroup(nh_reduction *r, nh_action *out)
-{
-    const nh_action *g = &r->group->action;
-    size_t d = g->d;
-    double *t = nh_alloc_array(d * d + 1, sizeof *t);
-    bool found = false;
-    for (size_t size = g->orbit; size > 0 && !found; size--) {
-        for (unsigned long set = 0; set < 1ul << (d < 16 ? d : 16) && !found; set++) {
-            size_t n = 0;
-            memset(t, 0, d * d * sizeof *t);
-            for (size_t a = 0; a < d; a++)
-                if (set >> a & 1) {
-                    if (n < size) t[a + n * d] = 1;
-                    n++;
-                }
-            if (n != size) continue;
-            nh_action_sub(out, g, n, t, &r->options);
-            found = out->closes && out->free;
-            if (!found) nh_action_clear(out);
-        }
-    }
-    nh_free(t);
-    return found;
-}
-
-static bool first_and_second(bench *b, nh_error *error)
+static bool first_and_second(nh_reduction_bench *b, nh_error *error)
 {
     nh_reduction *r = b->r;
     const nh_action *g = &r->group->action;
@@ -456,18 +342,18 @@ static bool first_and_second(bench *b, nh_error *error)
 
 bool nh_reduction_stages(nh_reduction *r, nh_error *error)
 {
-    bench b = {.r = r, .times = nh_arena_alloc(r->arena, outputs * sizeof(double))};
-    for (size_t i = 0; i < outputs; i++) b.times[i] = r->until * (double)i / (outputs - 1);
+    nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
+    for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
     if (!full_motion(&b, error) || !first_and_second(&b, error)) return false;
     const nh_action *g = &r->group->action;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
-    if (!free_subgroup(r, &r->action[1])) {
+    if (!nh_reduction_free_subgroup(r, &r->action[1])) {
         nh_reduction_warn(r, "no subgroup acts freely on the sample points");
         return true;
     }
     if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); a subgroup of dimension %zu is divided out at once", g->d - g->orbit, r->action[1].d);
     nh_error trouble = {0};
-    if (!master_stage(&b, &r->action[1], &trouble) && r->chain_text) {
+    if (!nh_reduction_whole(&b, &r->action[1], &trouble) && r->chain_text) {
         if (error) *error = trouble;
         return false;
     }
