@@ -160,12 +160,13 @@ static void find_ranks(nh_action *g, const nh_options *options)
     g->dimension_assumption = k->affine && joint == m;
     g->intersection = g->orbit + n > joint ? g->orbit + n - joint : 0;
     g->chaplygin = g->dimension_assumption && g->intersection == 0 && g->orbit == d;
+    nh_free(E);
 }
 
 void nh_action_init(nh_action *g, const nh_kinetic *k, size_t d, const nh_generator *generator, const nh_options *options)
 {
     *g = (nh_action){.kinetic = k, .d = d, .generator = nh_arena_alloc(k->arena, (d + 1) * sizeof *g->generator)};
-    memcpy(g->generator, generator, d * sizeof *generator);
+    if (d) memcpy(g->generator, generator, d * sizeof *generator);
     find_constants(g, options);
     find_ranks(g, options);
 }

@@ -223,6 +223,7 @@ static nh_ex coefficient(const search *s, double value)
     nh_num x;
     nh_ex e;
     if (nh_recognise_ratio(value, 1000, s->options->same, &x)) return nh_number(s->k->dag, x);
+    if (nh_recognise_ratio(value, 100000, s->options->same / 1000, &x)) return nh_number(s->k->dag, x); /* the proof decides */
     return nh_recognise_number(s->k->dag, value, s->options->recognise, &e) ? e : nh_real(s->k->dag, value);
 }
 
