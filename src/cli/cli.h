@@ -15,8 +15,9 @@ typedef struct {
     const char **operand;
     const char *analysis, *json; /* files; json may be "-" */
     const char *current, *field; /* questions of verify */
-    const char *initial;         /* of simulate */
+    const char *initial;         /* of simulate and reduce */
     bool project;
+    const char *group, *chain;   /* of reduce */
     double step;
     bool no_analysis;
     size_t settings;
@@ -33,7 +34,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help;
+nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help;
 
 /* The file of a system or analysis: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
  * `kind` is "systems" or "analyses".  NULL with a suggestion. */

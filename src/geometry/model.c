@@ -277,7 +277,7 @@ static bool multipliers(nh_model *o, const slopes *slope, nh_error *error)
     return true;
 }
 
-nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
+nh_model *nh_model_bare(nh_system *system, nh_chart *chart)
 {
     if (!chart) return NULL;
     nh_arena *arena = nh_arena_create();
@@ -285,6 +285,13 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     *o = (nh_model){.system = system, .chart = chart, .dag = system->dag, .arena = arena, .m = system->coordinates, .n = chart->n,
                     .k = system->constraints, .rho = chart->rho, .width = chart->width};
     nh_system_bindings(system, &o->parameter, &o->parameter_value);
+    return o;
+}
+
+nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
+{
+    nh_model *o = nh_model_bare(system, chart);
+    if (!o) return NULL;
     size_t m = o->m, n = o->n, k = o->k;
     o->R = take(o, m * n);
     o->p = take(o, m);

@@ -6,8 +6,7 @@
 
 enum { default_outputs = 100, most_outputs = 10000000 };
 
-/* "phi=0, omega=2" as the initial state of an analysis file. */
-static nh_analysis *inline_analysis(nh_arena *arena, const char *initial, nh_error *error)
+nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error)
 {
     size_t length = strlen(initial);
     char *text = nh_arena_alloc(arena, 2 * length + 64), *to = text + sprintf(text, "validate:\n  initial: {");
@@ -27,7 +26,7 @@ static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis 
 {
     s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
     if (!s->model || (s->analysis && !nh_analysis_resolve(s->analysis, s->model, error))) return false;
-    return !q->initial || ((*own = inline_analysis(s->arena, q->initial, error)) && nh_analysis_resolve(*own, s->model, error));
+    return !q->initial || ((*own = nh_simulate_initial(s->arena, q->initial, error)) && nh_analysis_resolve(*own, s->model, error));
 }
 
 /* The initial state chooses the branch of a quadratic constraint. */

@@ -37,6 +37,9 @@ typedef struct {
     double tolerance;
 } nh_simulation;
 
+/* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model). */
+nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error);
+
 nh_simulation *nh_simulate(const nh_simulate_request *request, nh_error *error);
 void nh_simulation_free(nh_simulation *simulation);
 
