@@ -7,7 +7,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-enum { most_fields = 200, largest_entry = 400, zero_terms = 2000, stages_beyond = 2, deepest = 4 };
+enum { most_fields = 200, largest_entry = 400, zero_terms = 2000, stages_beyond = 2, deepest = 4, most_nodes = 250000 };
 static const double rank_bound = 1e-9;
 
 typedef struct {
@@ -16,6 +16,7 @@ typedef struct {
     size_t N;
     const nh_ex *symbol;
     bool proved, too_large;
+    size_t end; /* size of the graph at which brackets are given up */
 } space;
 
 static void bracket(const space *x, const nh_ex *a, const nh_ex *b, nh_ex *out)
@@ -121,7 +122,7 @@ static void next_stage(const space *x, brackets *b, size_t generators)
     size_t N = x->N, from = b->stages ? b->first[b->stages - 1] : 0, to = b->count;
     nh_ex *out = nh_alloc_array(N + 1, sizeof *out);
     for (size_t i = 0; i < generators; i++)
-        for (size_t j = from; j < to && b->count < most_fields; j++) {
+        for (size_t j = from; j < to && b->count < most_fields && nh_dag_size(x->d) < x->end; j++) {
             if (from == 0 && j <= i) continue; /* [X_i, X_j] once */
             bracket(x, b->field + i * N, b->field + j * N, out);
             push(b, N, out);
@@ -202,6 +203,8 @@ static void generic_ranks(const space *x, size_t generators, const nh_ex *field,
         growing &= best < x->N && g->length < NH_MOST_GROWTH;
         if (growing && b.stages > 1) prune(x, &b, tape, c->probe + at * x->o->width);
         if (growing) next_stage(x, &b, generators);
+        g->cut = nh_dag_size(x->d) >= x->end || b.count >= most_fields;
+        growing &= !g->cut;
         nh_tape_free(tape);
     }
     nh_free(b.field);
@@ -245,7 +248,7 @@ static void look_for_drops(const space *x, size_t generators, const nh_ex *field
     const nh_model *o = x->o;
     size_t rank[NH_MOST_GROWTH + 1], probe = 0;
     brackets b = {0};
-    if (g->length > deepest) return;
+    if (g->length > deepest || g->cut) return;
     for (size_t i = 0; i < generators; i++) push(&b, x->N, field + i * x->N);
     b.first[++b.stages] = b.count;
     while (b.stages < g->length + stages_beyond && b.count < most_fields) next_stage(x, &b, generators);
@@ -306,12 +309,13 @@ static void shift_down(size_t length, size_t *rank, size_t shift)
 
 nh_growth nh_growth_of(const nh_model *o, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field, size_t shift)
 {
-    space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true};
+    space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true, .end = nh_dag_size(o->dag) + most_nodes};
     nh_growth g = {.dimension = N - shift};
     generic_ranks(&x, count, field, &g);
     look_for_drops(&x, count, field, &g);
     size_t last = g.rank[g.length - 1];
-    g.proved = last == N || prove_involutive(&x, count, field, last);
+    if (last == N) g.cut = false;
+    g.proved = !g.cut && (last == N || prove_involutive(&x, count, field, last));
     shift_down(g.length, g.rank, shift);
     shift_down(g.length_there, g.rank_there, shift);
     return g;
