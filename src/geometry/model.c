@@ -223,7 +223,14 @@ static bool singular(const nh_model *o, nh_error *error)
     nh_text which;
     nh_text_init(&which);
     print_direction(o, direction, &which);
-    nh_deck_fail(y->deck, nh_deck_get(nh_deck_root(y->deck), "lagrangian"), 0, error,
+    const nh_deck_node *where = nh_deck_get(nh_deck_root(y->deck), "lagrangian");
+    if (!nh_text_string(&which)[0]) { /* it could be evaluated nowhere */
+        nh_text_clear(&which);
+        nh_free(direction);
+        nh_deck_fail(y->deck, where, 0, error, "the mass matrix of the Lagrangian is not finite at any point of the sampling domain");
+        return nh_error_hint(error, "is it divided by a parameter that is 0, or a root taken of something negative?  Or does `domain:` lie outside of where it is defined?");
+    }
+    nh_deck_fail(y->deck, where, 0, error,
                  rank < o->n ? "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu; no inertia in the direction %.300s"
                              : "the mass matrix of the Lagrangian has rank %zu of %zu but is singular in places of the sampling domain, in the direction %.300s",
                  rank, o->n, nh_text_string(&which));
