@@ -575,3 +575,27 @@ Test(analyze, kovalevskaya, .timeout = 120)
         nh_result_free(r);
     }
 }
+
+/* What is found in Cartesian coordinates must be found in polar ones: vectors have the harmonics of a cyclic angle there. */
+Test(analyze, polar_coordinates, .timeout = 120)
+{
+#define SPHERICAL "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\ndomain: {r: [0.5, 2], th: [0.4, 2.6]}\n"
+#define POLAR "coordinates: [{name: r, type: length}, {name: ph, type: angle}]\ndomain: {r: [0.5, 2]}\n"
+    static const struct {
+        const char *text;
+        size_t independent;
+        const char *one; /* one of the currents */
+    } list[] = {
+        {"name: kepler\n" POLAR "lagrangian: (r'^2 + r^2*ph'^2)/2 + 1.3/r\n", 3, NULL},
+        {"name: oscillator\n" POLAR "lagrangian: (r'^2 + r^2*ph'^2)/2 - 1.7*r^2/2\n", 4, "r^2*ph'"},
+        {"name: free\n" SPHERICAL "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2\n", 6, "r^2*sin(th)^2*ph'"},
+        {"name: monopole\n" SPHERICAL "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + 0.6*cos(th)*ph' + 1.2/r - 0.18/r^2\n", 5, "r^2*sin(th)^2*ph' + 0.6*cos(th)"},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        nh_result *r = ask((question){.system = file("system.yaml", list[i].text)});
+        cr_expect(r->verdict == NH_FOUND && r->independent == list[i].independent, "%s: %zu independent", r->system->name, r->independent);
+        if (list[i].one) cr_expect_not_null(find(r, list[i].one), "%s", r->system->name);
+        nothing_false(r);
+        nh_result_free(r);
+    }
+}
