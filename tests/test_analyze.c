@@ -534,3 +534,44 @@ Test(analyze, almost_conserved_is_told_apart)
     }
     nh_result_free(r);
 }
+
+/* Coefficients that solve a linear equation without elementary solutions (the disk's are of Legendre type): a series each, certified by its
+ * refinement; with the energy they are three of the disk's currents.  They must be new, linear and constant to rounding inside the interval. */
+Test(analyze, series_of_the_rolling_disk, .timeout = 120)
+{
+    nh_result *r = ask((question){.system = "systems/rolling_disk.yaml"});
+    size_t series = 0;
+    cr_expect(r->verdict == NH_FOUND && r->independent == 3, "%zu independent", r->independent);
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_found *f = &r->found[k];
+        if (!f->series) continue;
+        series++;
+        cr_expect(f->proof.digits >= 50 && f->printed_digits >= 13 && f->printed_digits < 20, "%g refined, %g printed", f->proof.digits, f->printed_digits);
+        cr_expect(f->heldout < 1e-12 && f->series->low < 0.8 && f->series->high > 1.8, "%.1e on [%g, %g]", f->heldout, f->series->low, f->series->high);
+        cr_expect(f->independence == NH_INDEPENDENT && f->drift.small, "drift %.1e", f->drift.drift[2]);
+        for (size_t i = 0; i < r->model->n; i++)
+            for (size_t j = 0; j < r->model->n; j++) {
+                nh_ex second = nh_model_Y(r->model, i, nh_model_Y(r->model, j, f->phi));
+                cr_expect(nh_is_zero(r->model->dag, nh_simplify(r->model->dag, second)), "not linear");
+            }
+    }
+    cr_expect_eq(series, 2);
+    nh_result_free(r);
+}
+
+/* Kovalevskaya's top in Euler angles: energy, momentum, and an integral of the fourth degree; with other moments of inertia it is not there. */
+Test(analyze, kovalevskaya, .timeout = 120)
+{
+    static const char *const form =
+        "name: top\nparameters: [{name: A, value: %s}, {name: C, value: 0.9}, {name: g, value: 1.3}]\n"
+        "coordinates: [{name: phi, type: angle}, {name: theta, type: angle}, {name: psi, type: angle}]\n"
+        "lagrangian: A/2*(phi'^2*sin(theta)^2 + theta'^2) + C/2*(psi' + phi'*cos(theta))^2 - g*sin(theta)*sin(psi)\ndomain: {theta: [0.4, 2.6]}\n";
+    char text[600];
+    for (int special = 0; special < 2; special++) {
+        snprintf(text, sizeof text, form, special ? "1.8" : "1.7");
+        nh_result *r = ask((question){.system = file("system.yaml", text)});
+        cr_expect(r->verdict == NH_FOUND && r->independent == 2 + (size_t)special, "%zu independent", r->independent);
+        nothing_false(r);
+        nh_result_free(r);
+    }
+}

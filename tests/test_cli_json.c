@@ -93,12 +93,12 @@ static const key SCHEMA[] = {
     {"constraint.growth_proved", "b"}, {"constraint.growth_space", "s"}, {"constraint.hidden_holonomic.count", "n"}, {"constraint.hidden_holonomic.without_closed_form", "n"},
     {"reduced_equations", "a"}, {"reduced_equations.0.velocity", "s"}, {"reduced_equations.0.rate", "s"}, {"multipliers", "a"},
     {"nullspace.columns", "n"}, {"nullspace.rows", "n"}, {"nullspace.spectrum", "a"}, {"nullspace.gap", "n0"}, {"nullspace.dimension", "n"},
-    {"unknowns", "o"}, {"currents", "a"}, {"independent_currents", "n"}, {"local_maximum", "n"},
+    {"unknowns", "o"}, {"currents", "a"}, {"almost_conserved", "a"}, {"independent_currents", "n"}, {"local_maximum", "n"},
     {"validation", "o0"}, {"timing.total_s", "n"}, {"warnings", "a"},
 };
 static const key CURRENT[] = {
     {"name", "s"}, {"expression", "s"}, {"in_velocities", "s0"}, {"residual", "n"}, {"heldout_residual", "n"},
-    {"certified_digits", "n"}, {"proved", "b"}, {"independent", "b"}, {"drift", "n0"}, {"drift_order_ok", "b0"},
+    {"certified_digits", "n"}, {"proved", "b"}, {"independent", "b"}, {"drift", "n0"}, {"drift_order_ok", "b0"}, {"printed_digits", "n"}, {"series", "o0"},
     {"symmetry.Z0", "s"}, {"symmetry.zeta", "a"}, {"symmetry.W", "a"}, {"symmetry.components.t", "s"},
     {"bracket_in_distribution", "b"}, {"case", "n0"}, {"projectable", "b"},
 };
@@ -116,7 +116,7 @@ static void check_no_word(const char *text, const char *word)
 static size_t null_numbers(const cJSON *item)
 {
     static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "symmetry_route",
-                                        "chart_crossing", "nullspace"};
+                                        "chart_crossing", "nullspace", "series"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {
         for (size_t i = 0; i < COUNT(texts); i++)
@@ -236,6 +236,16 @@ Test(cli_json, the_same_inputs_give_the_same_output, .timeout = 300)
         free(a);
         free(b);
     }
+    place_clear(&p);
+}
+
+Test(cli_json, threads_do_not_change_the_output, .timeout = 300)
+{
+    place p = place_with_project();
+    char *a = without_timing(json_of(&p, "analyze chaplygin_ball --threads 1 --json -", 0)), *b = without_timing(json_of(&p, "analyze chaplygin_ball --threads 3 --json -", 0));
+    cr_expect_str_eq(a, b);
+    free(a);
+    free(b);
     place_clear(&p);
 }
 

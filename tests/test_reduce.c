@@ -154,15 +154,31 @@ Test(reduce, bad_groups_are_explained)
 Test(reduce, given_groups)
 {
     nh_error error = {0};
-    nh_reduction *r = reduce_path("systems/two_wheel_carriage.yaml", "x=1; y=1; p=1, x=-y, y=x", NULL, "x=0.3, p=0.2, x'=0.7, y'=0.1, p'=0.5, a'=1", 1, &error);
+    nh_reduction *r = reduce_path("systems/two_wheel_carriage.yaml", "x=1; y=1; p=1, x=-y, y=x", NULL, "x=0.3, p=0.2, x'=0.7, p'=0.5", 1, &error);
     must(r != NULL, &error, "given");
     cr_expect(r->group->given && r->all == NULL);
     cr_expect_str_eq(r->group->name, "SE(2)");
     cr_assert_eq(r->stages, 1);
     cr_expect_eq(r->stage[0].kind, NH_STAGE_CHAPLYGIN);
     cr_expect(r->stage[0].compared && r->stage[0].agreement < 1e-8, "%g", r->stage[0].agreement);
-    cr_expect_eq(r->warnings, 1, "the velocities had to be moved");
+    cr_expect_float_eq(r->initial.v[1], 0.7 * tan(0.2), 1e-12, "what is not named follows from the constraints");
+    cr_expect_eq(r->initial.v[0], 0.7);
+    cr_expect_eq(r->warnings, 0);
     cr_expect(r->stage[0].measure.measure && r->stage[0].measure.factor);
+    nh_reduction_free(r);
+}
+
+Test(reduce, velocities_off_the_constraints)
+{
+    nh_error error = {0};
+    cr_expect(reduce_path("systems/sleigh_inertia.yaml", NULL, NULL, "h=0.3, x'=1, y'=1, h'=0.2", 1, &error) == NULL);
+    cr_expect(strstr(error.what, "violate the constraints") != NULL, "%s", error.what);
+    nh_reduce_request q = {.system_path = "systems/sleigh_inertia.yaml", .initial = "h=0.3, x'=1, y'=1, h'=0.2", .project = true};
+    nh_options_default(&q.options);
+    nh_error_clear(&error);
+    nh_reduction *r = nh_reduce(&q, &error);
+    must(r != NULL, &error, "projected");
+    cr_expect_float_eq(r->initial.v[0] * sin(0.3) - r->initial.v[1] * cos(0.3), 0, 1e-12);
     nh_reduction_free(r);
 }
 

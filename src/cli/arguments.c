@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_group, opt_chain };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -17,8 +17,9 @@ static const struct option long_options[] = {
     {"columns", required_argument, NULL, opt_columns},   {"no-color", no_argument, NULL, opt_no_color},
     {"current", required_argument, NULL, opt_current},   {"field", required_argument, NULL, opt_field},
     {"max-seconds", required_argument, NULL, opt_max_seconds}, {"initial", required_argument, NULL, opt_initial},
-    {"step", required_argument, NULL, opt_step},         {"group", required_argument, NULL, opt_group},
-    {"chain", required_argument, NULL, opt_chain},
+    {"step", required_argument, NULL, opt_step},         {"threads", required_argument, NULL, opt_threads},
+    {"project", no_argument, NULL, opt_project},
+    {"group", required_argument, NULL, opt_group},       {"chain", required_argument, NULL, opt_chain},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -93,8 +94,10 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_samples: return cli->samples_given = true, nh_options_set(&cli->options, "samples", value, error);
     case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
+    case opt_threads: return nh_options_set(&cli->options, "threads", value, error);
     case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
+    case opt_project: return cli->project = true;
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_chain: cli->chain = value; return true;
     case opt_group: cli->group = value; return true;

@@ -17,6 +17,7 @@ typedef struct {
     const char *current, *field; /* questions of verify */
     const char *initial;         /* of simulate and reduce */
     const char *group, *chain;   /* of reduce */
+    bool project;
     double step;
     bool no_analysis;
     size_t settings;

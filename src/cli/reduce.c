@@ -10,7 +10,7 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "reduce which system?");
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
-    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .group = cli->group, .chain = cli->chain, .options = cli->options};
+    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .project = cli->project, .group = cli->group, .chain = cli->chain, .options = cli->options};
     q->system_path = nh_cli_find(cli, "systems", cli->operand[0], error);
     return q->system_path != NULL;
 }

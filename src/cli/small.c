@@ -31,7 +31,7 @@ int nh_cli_help(nh_cli *cli, nh_error *error)
          "  --analysis FILE             the ansatz and the motion; --no-analysis: choose them\n"
          "  --chart quasi|coordinates   which velocities to compute in\n"
          "  --json [FILE|-]             the result as JSON; with - nothing else is printed\n"
-         "  --seed N --samples N --columns N --tolerance EPS --until T --max-seconds S --option NAME=VALUE\n"
+         "  --seed N --samples N --columns N --tolerance EPS --until T --max-seconds S --threads N --option NAME=VALUE\n"
          "  --quiet --verbose --no-color --help\n"
          "\n"
          "Examples\n"

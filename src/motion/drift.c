@@ -16,14 +16,64 @@ typedef struct {
     double *times, *z0, *scale;
     size_t watches;
     const nh_watch *watch;
+    const nh_valid *valid;
     bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
 } run;
 
 /* ---- currents along a motion ---- */
 
+/* An expression of the chart in (t, q, v), where it holds beyond the chart: implicit velocities and roots are velocities there.  `inverse`:
+ * quasi-velocities in v. */
+static nh_ex everywhere(const nh_model *o, const nh_ex *inverse, nh_ex e)
+{
+    const nh_chart *c = o->chart;
+    for (size_t s = 0; s < o->m; s++)
+        if (e == o->rho[s]) return o->system->coordinate[s].v;
+    nh_ex *v = nh_alloc_array(c->implicit + 1, sizeof *v);
+    for (size_t a = 0; a < c->implicit; a++) v[a] = o->system->coordinate[c->dependent[a]].v;
+    e = nh_substitute(o->dag, e, c->implicit, c->u, v);
+    nh_free(v);
+    if (c->quasi) e = nh_substitute(o->dag, e, o->n, c->w, inverse);
+    return c->branch ? nh_chart_both_branches(c, e) : e;
+}
+
+/* Along a motion in (q, v). */
+static void along_everywhere(const run *r, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
+{
+    const nh_model *o = r->model;
+    size_t m = o->m;
+    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(n + 1, sizeof *out);
+    double *point = nh_alloc_array(1 + 2 * m, sizeof *point);
+    in[0] = o->system->t;
+    for (size_t s = 0; s < m; s++) {
+        in[1 + s] = o->system->coordinate[s].q;
+        in[1 + m + s] = o->system->coordinate[s].v;
+    }
+    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
+    if (o->chart->quasi) nh_chart_inverse(o->chart, inverse);
+    for (size_t k = 0; k < n; k++) out[k] = everywhere(o, inverse, e[k]);
+    nh_free(inverse);
+    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * m, in, n, out, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t i = 0; i < motion->count; i++) {
+        point[0] = motion->time[i];
+        memcpy(point + 1, motion->state + i * 2 * m, 2 * m * sizeof *point);
+        nh_tape_eval(tape, work, point, value + i * n);
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(point);
+    nh_free(out);
+    nh_free(in);
+}
+
 /* value[i * n + k]: expression k at output i. */
 static bool along(run *r, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
 {
+    if (motion->size > r->model->m + r->model->n) {
+        along_everywhere(r, motion, n, e, value);
+        return true;
+    }
     nh_tape *tape = nh_model_tape(r->model, n, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     double *point = nh_alloc_array(r->model->width, sizeof *point);
@@ -74,6 +124,19 @@ static bool *steep_points(run *r, const nh_motion *motion, bool *any)
     return steep;
 }
 
+/* How many outputs there are before the motion leaves the interval of current k. */
+static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
+{
+    const nh_system *system = r->model->system;
+    if (!r->valid || !r->valid[k].coordinate) return motion->count;
+    for (size_t s = 0; s < r->model->m; s++)
+        for (size_t i = 0; system->coordinate[s].q == r->valid[k].coordinate && i < motion->count; i++) {
+            double q = motion->state[i * motion->size + s];
+            if (q < r->valid[k].low || q > r->valid[k].high) return i;
+        }
+    return motion->count;
+}
+
 /* Each current and, for its scale, its terms. */
 static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi, size_t which)
 {
@@ -84,8 +147,10 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
         double *value = nh_alloc_array(per * motion->count, sizeof *value);
         nh_drift *d = &r->out->current[k];
         double scale = 0, worst = 0;
+        size_t inside = outputs_inside(r, motion, k);
         bool good = along(r, motion, per, e, value);
-        for (size_t i = 0; i < motion->count && good; i++) {
+        d->until = inside ? motion->time[inside - 1] : r->out->begin;
+        for (size_t i = 0; i < inside && good; i++) {
             if (steep[i]) continue;
             for (size_t j = 0; j < per; j++) scale = fmax(scale, fabs(value[i * per + j]));
             worst = fmax(worst, fabs(value[i * per] - value[0]));
@@ -151,14 +216,16 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     nh_motion first = *reduced;
     first.count = 1;
     bool good = along(r, &first, o->m, o->rho, y + o->m);
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = r->options->steps};
+    double enough = 2000 + 20 * (double)reduced->steps; /* a second opinion: near a pole of the coordinates it may need millions */
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps)};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
         v->violation = full->violation;
         v->multiplier_evaluations = full->motion->evaluations;
         compare(r, b, reduced, full);
-        if (!full->motion->complete) snprintf(v->note, sizeof v->note, "multiplier form: %.200s", full->motion->note);
+        if (!full->motion->complete)
+            snprintf(v->note, sizeof v->note, "the multiplier form was compared to t = %.4g only: %.180s", full->motion->end_time, full->motion->note);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
     }
@@ -255,7 +322,7 @@ static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_erro
     return nh_flow(&problem, r->z0, r->outputs, r->times, options, error);
 }
 
-/* The motion in (q, v), brought to the chart's (q, w) afterwards. */
+/* The motion in (q, v). */
 static nh_motion *full_motion(run *r, nh_flow_options options, nh_error *error)
 {
     const nh_model *o = r->model;
@@ -269,21 +336,20 @@ static nh_motion *full_motion(run *r, nh_flow_options options, nh_error *error)
     options.scale = scale;
     bool good = along(r, &first, m, o->rho, y + m);
     nh_motion *motion = good ? nh_flow(&problem, y, r->outputs, r->times, &options, error) : NULL;
-    for (size_t i = 0; motion && i < motion->count; i++) { /* in place: m + n <= 2 m */
-        double *from = motion->state + i * 2 * m, *to = motion->state + i * (m + n);
-        memmove(to, from, m * sizeof *to);
-        for (size_t j = 0; j < n; j++) y[j] = from[m + o->chart->free[j]];
-        memcpy(to + m, y, n * sizeof *to);
-    }
-    if (motion) motion->size = m + n;
     nh_free(scale);
     nh_free(y);
     nh_bordered_free(b);
     return motion;
 }
 
-/* A chart of coordinate velocities of constraints that are linear in the dependent ones can be replaced by all coordinates. */
-static bool may_leave_chart(const nh_model *o) { return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch; }
+/* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
+static bool may_leave_chart(const nh_model *o)
+{
+    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
+    bool may = o->k && (!o->chart->quasi || nh_chart_inverse(o->chart, inverse));
+    nh_free(inverse);
+    return may;
+}
 
 static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
 {
@@ -310,7 +376,7 @@ static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *curre
     return true;
 }
 
-nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, size_t watches, const nh_watch *watch,
+nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, const nh_valid *valid, size_t watches, const nh_watch *watch,
                            const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
@@ -318,7 +384,7 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     *v = (nh_validation){.arena = arena, .method = "CVODE Adams", .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, model->chart->name),
                          .begin = initial->t, .end = until, .currents = n, .current = nh_arena_alloc(arena, (n + 1) * sizeof *v->current), .crossing = NAN};
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, options->tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
-    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch};
+    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid};
     r.times = nh_alloc_array(outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(model->m + model->n + 1, sizeof *r.z0);
     for (size_t i = 0; i < outputs; i++) r.times[i] = initial->t + (until - initial->t) * (double)i / (double)(outputs - 1);
@@ -335,7 +401,7 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     return NULL;
 }
 
-nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, size_t count, const double *times, const nh_options *options,
+nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, bool project, size_t count, const double *times, const nh_options *options,
                         const char **formulation, size_t n, const nh_ex *e, double **value, nh_error *error)
 {
     size_t size = model->m + model->n;
@@ -344,7 +410,7 @@ nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, size_t c
     r.scale = nh_alloc_array(size + 1, sizeof *r.scale);
     for (size_t i = 0; i < size; i++) r.scale[i] = options->absolute;
     nh_flow_options how = {.method = NH_ADAMS, .rtol = options->tolerance, .scale = r.scale, .max_steps = options->steps};
-    nh_motion *motion = nh_dynamics_start(r.dynamics, initial, false, r.z0, error) ? reduced_motion(&r, &how, error) : NULL;
+    nh_motion *motion = nh_dynamics_start(r.dynamics, initial, project, r.z0, error) ? reduced_motion(&r, &how, error) : NULL;
     *formulation = "reduced equations";
     bool steep = false;
     if (motion) nh_free(steep_points(&r, motion, &steep));

@@ -14,6 +14,7 @@ enum { NH_DRIFT_RUNS = 3 };
 typedef struct {
     double drift[NH_DRIFT_RUNS]; /* max |Phi - Phi(0)| / scale, loosest tolerance first */
     double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
+    double until;                /* time to which it was measured: before the end where the motion leaves the current's interval */
     bool small, falls;           /* below options->drift tolerances; falls with the tolerance (or is at rounding) */
 } nh_drift;
 
@@ -43,12 +44,19 @@ typedef struct {
     nh_ex value;
 } nh_watch;
 
-/* `other` may be NULL: a second chart whose pivot is watched (its independent velocities as functions of this chart's). */
-nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, size_t watches, const nh_watch *watch,
+/* Where a current makes sense: while `coordinate` lies between low and high; coordinate 0: everywhere. */
+typedef struct {
+    nh_ex coordinate;
+    double low, high;
+} nh_valid;
+
+/* valid: n intervals, or NULL.  `other` may be NULL: a second chart whose pivot is watched (its independent velocities as functions of this chart's). */
+nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, const nh_valid *valid, size_t watches, const nh_watch *watch,
                            const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error);
 /* One motion at options->tolerance, in (q, w): in the chart, or in all coordinates where the chart breaks down on the way; *formulation says
- * which.  value[i * n + k]: expression k at output i (n may be 0).  NULL with a message when nothing could be computed. */
-nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, size_t count, const double *times, const nh_options *options,
+ * which.  value[i * n + k]: expression k at output i (n may be 0).  `project`: velocities that violate the constraints are replaced by
+ * the nearest that satisfy them.  NULL with a message when nothing could be computed. */
+nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, bool project, size_t count, const double *times, const nh_options *options,
                         const char **formulation, size_t n, const nh_ex *e, double **value, nh_error *error);
 
 void nh_validation_free(nh_validation *validation);

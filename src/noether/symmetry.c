@@ -6,6 +6,13 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
+/* A long formula with rounded coefficients, a series, has no simpler form; a very long one stays a shared graph. */
+static nh_ex tidy(nh_dag *d, nh_ex e)
+{
+    enum { lengthy = 200 };
+    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify_short(d, e, 0);
+}
+
 static nh_ex *take(nh_model *o, size_t n) { return nh_arena_alloc(o->arena, (n + 1) * sizeof(nh_ex)); }
 
 nh_ex nh_symmetry_current(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
@@ -33,17 +40,37 @@ void nh_symmetry_equations(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *
     }
 }
 
+/* zeta^i = c w^i with a constant c, as the energy has it where velocities are linear in w: dPhi/dw^i = c M_ij w^j is tested without M^-1, whose
+ * formula may be too long to be simplified. */
+static bool along_the_motion(const nh_model *o, nh_ex phi, nh_ex *zeta)
+{
+    nh_dag *d = o->dag;
+    nh_ex c = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex p = nh_int(d, 0), slope = nh_model_Y(o, i, phi);
+        for (size_t j = 0; j < o->n; j++) p = nh_add(d, p, nh_mul(d, o->M[i * o->n + j], o->chart->w[j]));
+        if (i == 0 && nh_normal_is_zero(d, p, 0) != NH_NONZERO) return false;
+        if (i == 0) c = nh_simplify(d, nh_div(d, slope, p));
+        for (size_t s = 0; s < o->width && i == 0; s++)
+            if (nh_depends(d, c, o->chart->symbol[s])) return false;
+        if (nh_normal_is_zero(d, nh_sub(d, slope, nh_mul(d, c, p)), 0) != NH_ZERO) return false;
+    }
+    for (size_t i = 0; i < o->n; i++) zeta[i] = nh_mul(d, c, o->chart->w[i]);
+    return o->n > 0;
+}
+
 nh_ex nh_symmetry_components(const nh_model *o, nh_ex phi, nh_ex *zeta)
 {
     nh_dag *d = o->dag;
     nh_ex rest = phi;
-    for (size_t i = 0; i < o->n; i++) zeta[i] = nh_model_Y(o, i, phi);
-    nh_lu_solve(o->M_lu, zeta, zeta);
+    bool short_cut = along_the_motion(o, phi, zeta);
+    for (size_t i = 0; i < o->n && !short_cut; i++) zeta[i] = nh_model_Y(o, i, phi);
+    if (!short_cut) nh_lu_solve(o->M_lu, zeta, zeta);
     for (size_t i = 0; i < o->n; i++) {
-        zeta[i] = nh_simplify(d, zeta[i]);
+        zeta[i] = tidy(d, zeta[i]);
         rest = nh_sub(d, rest, nh_mul(d, o->pbar[i], zeta[i]));
     }
-    return nh_simplify(d, nh_div(d, rest, o->Lbar));
+    return tidy(d, nh_div(d, rest, o->Lbar));
 }
 
 /* zeta, Z^0, W and the field's components in the chart. */
@@ -55,17 +82,17 @@ static void solve_components(nh_model *o, nh_symmetry *z)
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
         for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
-        z->W[j] = b;
+        z->W[j] = nh_normal_is_zero(d, b, 0) == NH_ZERO ? nh_int(d, 0) : b; /* zero for an energy; told before M^-1 lengthens it */
     }
     nh_lu_solve(o->M_lu, z->W, z->W);
     z->field = (nh_field){z->Z0, take(o, m), take(o, n)};
-    for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = nh_simplify(d, z->W[i]);
+    for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = tidy(d, z->W[i]);
     for (size_t s = 0; s < m; s++) {
         nh_ex e = nh_mul(d, o->rho[s], z->Z0);
         for (size_t i = 0; i < n; i++) e = nh_add(d, e, nh_mul(d, o->R[s * n + i], z->zeta[i]));
-        z->field.space[s] = nh_simplify(d, e);
+        z->field.space[s] = tidy(d, e);
     }
-    for (size_t s = 0; s < m; s++) z->coordinate_rate[s] = nh_simplify(d, nh_model_along(o, &z->field, o->rho[s]));
+    for (size_t s = 0; s < m; s++) z->coordinate_rate[s] = tidy(d, nh_model_along(o, &z->field, o->rho[s]));
 }
 
 /* The two halves of each bracket component: what is differentiated along Gamma, and what along Z. */
@@ -99,7 +126,7 @@ static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex
                 nh_ex turn = nh_sub(d, nh_model_gamma(o, o->R[s * o->n + i]), nh_model_X(o, i, o->rho[s]));
                 e = nh_add(d, e, nh_mul(d, nh_mul(d, o->nu[a * o->m + s], turn), z->zeta[i]));
             }
-        z->bracket_form[a] = nh_simplify(d, e);
+        z->bracket_form[a] = tidy(d, e);
     }
 }
 
@@ -196,12 +223,23 @@ static double residual(nh_model *o, const nh_points *points, const nh_symmetry *
     return worst;
 }
 
-static bool is_projectable(nh_model *o, const nh_symmetry *z)
+/* Exactly, or at the points where rounded coefficients leave nothing exact. */
+static bool vanishes(const nh_model *o, const nh_points *points, nh_ex e, double same)
+{
+    if (nh_is_exact(o->dag, e)) return nh_normal_is_zero(o->dag, e, 0) == NH_ZERO;
+    double *value = nh_alloc_array(points->count + 1, sizeof *value), worst = 0;
+    nh_points_evaluate(points, o, 1, &e, value);
+    for (size_t p = 0; p < points->count; p++) worst = fmax(worst, isfinite(value[p]) ? fabs(value[p]) : 0);
+    nh_free(value);
+    return worst <= same;
+}
+
+static bool is_projectable(const nh_model *o, const nh_points *points, const nh_symmetry *z, double same)
 {
     for (size_t i = 0; i < o->n; i++) {
-        if (nh_normal_is_zero(o->dag, nh_model_Y(o, i, z->Z0), 0) != NH_ZERO) return false;
+        if (!vanishes(o, points, nh_model_Y(o, i, z->Z0), same)) return false;
         for (size_t s = 0; s < o->m; s++)
-            if (nh_normal_is_zero(o->dag, nh_model_Y(o, i, z->field.space[s]), 0) != NH_ZERO) return false;
+            if (!vanishes(o, points, nh_model_Y(o, i, z->field.space[s]), same)) return false;
     }
     return true;
 }
@@ -216,7 +254,7 @@ bool nh_symmetry_of(nh_model *o, const nh_points *points, nh_ex phi, double same
     bracket_halves(o, z, first, second);
     bracket(o, z, first, second);
     decide(o, points, z, first, second, same);
-    z->projectable = is_projectable(o, z);
+    z->projectable = is_projectable(o, points, z, same);
     z->noether_residual = residual(o, points, z);
     return true;
 }

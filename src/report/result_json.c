@@ -234,6 +234,25 @@ static void put_drift(const writer *w, nh_json *to, const nh_found *f)
     nh_json_put_bool(to, "drift_order_ok", f->drift.falls);
 }
 
+static void put_series(const writer *w, nh_json *to, const nh_series *series)
+{
+    if (!series) {
+        nh_json_put_null(to, "series");
+        return;
+    }
+    nh_json *item = nh_json_put_object(to, "series");
+    nh_json_put_text(item, "coordinate", nh_name_of(w->dag, series->coordinate));
+    nh_json_put_number(item, "low", series->low);
+    nh_json_put_number(item, "high", series->high);
+    nh_json_put_number(item, "degree", (double)series->degree);
+    nh_json *words = nh_json_put_array(item, "words");
+    for (size_t i = 0; i < series->words; i++) {
+        char *text = nh_print_string(w->dag, series->word[i]);
+        nh_json_add_text(words, text);
+        nh_free(text);
+    }
+}
+
 static void put_current(const writer *w, nh_json *currents, const nh_found *f)
 {
     nh_json *item = nh_json_add_object(currents);
@@ -252,6 +271,7 @@ static void put_current(const writer *w, nh_json *currents, const nh_found *f)
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);
     nh_json_put_text(item, "relation", f->relation);
     nh_json_put_bool(item, "local", f->local);
+    put_series(w, item, f->series);
     put_drift(w, item, f);
     if (!f->has_symmetry) {
         nh_json_put_null(item, "symmetry");

@@ -1,4 +1,4 @@
-#include "report/summary.h"
+#include "report/summary_internal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,24 +9,18 @@
 
 enum { line_width = 100 };
 
-typedef struct {
-    const nh_result *r;
-    nh_summary_style style;
-    nh_text *out;
-} writer;
-
-static void heading(writer *w, const char *text)
+void nh_summary_heading(nh_summary_writer *w, const char *text)
 {
     nh_text_addf(w->out, "\n%s%s%s\n", w->style.colour ? "\033[1m" : "", text, w->style.colour ? "\033[0m" : "");
 }
 
-static void faint(writer *w, bool on)
+static void faint(nh_summary_writer *w, bool on)
 {
     if (w->style.colour) nh_text_add(w->out, on ? "\033[2m" : "\033[0m");
 }
 
 /* The user's own abbreviations, from the analysis file, instead of what they stand for. */
-static nh_ex abbreviate(const writer *w, nh_ex e)
+static nh_ex abbreviate(const nh_summary_writer *w, nh_ex e)
 {
     const nh_analysis *a = w->r->analysis;
     nh_dag *d = w->r->model->dag;
@@ -41,14 +35,14 @@ static nh_ex abbreviate(const writer *w, nh_ex e)
     return e;
 }
 
-static void abbreviations(writer *w)
+static void abbreviations(nh_summary_writer *w)
 {
     const nh_analysis *a = w->r->analysis;
     for (size_t i = 0; a && i < a->definitions; i++) nh_text_addf(w->out, "  %s %s = %s\n", i ? "     " : "where", a->definition[i].name, a->definition[i].text);
 }
 
 /* A formula that begins at column `hang`, broken before + and - (or after *) so that nothing runs off the page. */
-static void wrapped(writer *w, int hang, const char *rest)
+static void wrapped(nh_summary_writer *w, int hang, const char *rest)
 {
     int room = line_width - hang;
     const char *end = rest + strlen(rest);
@@ -67,7 +61,7 @@ static void wrapped(writer *w, int hang, const char *rest)
 }
 
 /* The formula as text; when it is too long, how long it would be. */
-static char *text_of(const writer *w, nh_ex e)
+static char *text_of(const nh_summary_writer *w, nh_ex e)
 {
     nh_dag *d = w->r->model->dag;
     char *text = nh_print_short(d, e, w->r->options.shown), size[120];
@@ -79,7 +73,7 @@ static char *text_of(const writer *w, nh_ex e)
 }
 
 /* "label = formula" */
-static void formula(writer *w, int indent, const char *label, nh_ex e)
+static void formula(nh_summary_writer *w, int indent, const char *label, nh_ex e)
 {
     char *text = text_of(w, abbreviate(w, e));
     int at = indent + (int)nh_text_width(label);
@@ -90,13 +84,13 @@ static void formula(writer *w, int indent, const char *label, nh_ex e)
 
 /* ---- the system ---- */
 
-static void ranks(writer *w, const char *before, size_t n, const size_t *rank)
+static void ranks(nh_summary_writer *w, const char *before, size_t n, const size_t *rank)
 {
     for (size_t i = 0; i < n; i++) nh_text_addf(w->out, "%s%zu", i ? "," : before, rank[i]);
 }
 
 /* "(nonholonomic; growth vector 2,3)" */
-static void kind_of_constraint(writer *w)
+static void kind_of_constraint(nh_summary_writer *w)
 {
     static const char *const spaces[] = {"growth vector ", "growth vector with time ", "growth vector on the submanifold "};
     const nh_distribution *d = &w->r->constraint;
@@ -115,7 +109,7 @@ static void kind_of_constraint(writer *w)
 }
 
 /* Which functions the constraints alone keep constant. */
-static void integrals_line(writer *w)
+static void integrals_line(nh_summary_writer *w)
 {
     const nh_result *r = w->r;
     size_t hidden = r->constraint.hidden, left = hidden - r->integrals;
@@ -133,7 +127,7 @@ static void integrals_line(writer *w)
     nh_text_add(w->out, "\n");
 }
 
-static void system_lines(writer *w)
+static void system_lines(nh_summary_writer *w)
 {
     const nh_result *r = w->r;
     const nh_system *s = r->system;
@@ -152,7 +146,7 @@ static void system_lines(writer *w)
     integrals_line(w);
 }
 
-static void equations_of(writer *w, const nh_model *o)
+static void equations_of(nh_summary_writer *w, const nh_model *o)
 {
     nh_text label;
     for (size_t i = 0; i < o->n; i++) {
@@ -163,13 +157,13 @@ static void equations_of(writer *w, const nh_model *o)
     }
 }
 
-static void equations(writer *w)
+static void equations(nh_summary_writer *w)
 {
     const nh_result *r = w->r;
     nh_text title;
     nh_text_init(&title);
     nh_text_addf(&title, "Reduced equations in %s", r->model->chart->name);
-    heading(w, nh_text_string(&title));
+    nh_summary_heading(w, nh_text_string(&title));
     nh_text_clear(&title);
     equations_of(w, r->model);
     if (r->other) {
@@ -177,7 +171,7 @@ static void equations(writer *w)
         equations_of(w, r->other);
     }
     for (size_t a = 0; a < r->model->k; a++) {
-        if (a == 0) heading(w, "Chetaev multipliers");
+        if (a == 0) nh_summary_heading(w, "Chetaev multipliers");
         nh_dag *d = r->model->dag;
         bool shorter = r->other && ((double)nh_complexity(d, r->other->mu[a]) <= r->options.shown || nh_complexity(d, r->other->mu[a]) <= nh_complexity(d, r->model->mu[a]));
         const nh_model *o = shorter ? r->other : r->model;
@@ -209,7 +203,7 @@ static bool reads_as_sum(const char *text)
     return false;
 }
 
-static void component(writer *w, nh_ex e, const char *along, bool *first)
+static void component(nh_summary_writer *w, nh_ex e, const char *along, bool *first)
 {
     nh_dag *d = w->r->model->dag;
     if (nh_is_zero(d, e)) return;
@@ -231,7 +225,7 @@ static void component(writer *w, nh_ex e, const char *along, bool *first)
 }
 
 /* Components along time, coordinates and the velocities of the coordinate chart (the paper's basis) where there is one. */
-static void field_lines(writer *w, const nh_found *f)
+static void field_lines(nh_summary_writer *w, const nh_found *f)
 {
     const nh_result *r = w->r;
     const nh_model *o = r->model, *chart = r->other ? r->other : r->model;
@@ -250,7 +244,7 @@ static void field_lines(writer *w, const nh_found *f)
     if (first) nh_text_add(w->out, "        Z = 0\n");
 }
 
-static void certificate(writer *w, const nh_found *f)
+static void certificate(nh_summary_writer *w, const nh_found *f)
 {
     const nh_system *s = w->r->system;
     nh_text_add(w->out, "        ");
@@ -268,7 +262,7 @@ static void certificate(writer *w, const nh_found *f)
     nh_text_add(w->out, "\n");
 }
 
-static void bracket_lines(writer *w, const nh_found *f)
+static void bracket_lines(nh_summary_writer *w, const nh_found *f)
 {
     const nh_result *r = w->r;
     nh_text_addf(w->out, "        %s;\n        [Gamma,Z] %s the canonical distribution%s\n", case_text(f->symmetry.kase),
@@ -283,7 +277,21 @@ static void bracket_lines(writer *w, const nh_found *f)
     }
 }
 
-static void current(writer *w, const nh_found *f)
+static void series_lines(nh_summary_writer *w, const nh_series *s)
+{
+    nh_dag *d = w->r->model->dag;
+    const char *q = nh_name_of(d, s->coordinate);
+    nh_text_add(w->out, "        ");
+    for (size_t i = 0; i < s->words; i++) {
+        nh_text_addf(w->out, "%sf%zu(%s)", i ? " + " : "", i + 1, q);
+        if (nh_is_number(d, s->word[i], 1)) continue;
+        nh_text_add(w->out, "*");
+        nh_print(d, s->word[i], w->out);
+    }
+    nh_text_addf(w->out, "\n        f: Chebyshev series of degree %zu in %s on [%g, %g] without closed form (coefficients in the JSON)\n", s->degree, q, s->low, s->high);
+}
+
+static void current(nh_summary_writer *w, const nh_found *f)
 {
     nh_text_addf(w->out, "\n  %s%s%s", w->style.colour ? "\033[32m" : "", f->name, w->style.colour ? "\033[0m" : "");
     if (f->meaning[0]) nh_text_addf(w->out, "  (%s)", f->meaning);
@@ -292,8 +300,9 @@ static void current(writer *w, const nh_found *f)
     if (f->independence == NH_CONSTANT) nh_text_add(w->out, "  constant on the submanifold");
     if (f->local) nh_text_add(w->out, "  [local: many-valued on an angle]");
     nh_text_add(w->out, "\n");
-    formula(w, 8, "", f->phi);
-    if (f->has_symmetry) field_lines(w, f);
+    if (f->series) series_lines(w, f->series);
+    else formula(w, 8, "", f->phi);
+    if (f->has_symmetry && !f->series) field_lines(w, f);
     faint(w, true);
     certificate(w, f);
     if (f->has_symmetry) bracket_lines(w, f);
@@ -301,7 +310,7 @@ static void current(writer *w, const nh_found *f)
 }
 
 /* What doubles take for a current and more digits do not. */
-static void almost(writer *w)
+static void almost(nh_summary_writer *w)
 {
     enum { longest = 40, most = 2 };
     const nh_result *r = w->r;
@@ -315,7 +324,7 @@ static void almost(writer *w)
     if (r->almosts > most) nh_text_addf(w->out, "\n  almost conserved too: %zu more, in the JSON\n", r->almosts - most);
 }
 
-static void answer(writer *w)
+static void answer(nh_summary_writer *w)
 {
     const nh_result *r = w->r;
     static const char *const verdicts[] = {"FOUND", "NONE", "UNDECIDED"};
@@ -323,131 +332,21 @@ static void answer(writer *w)
     nh_text_init(&title);
     if (r->count == 0) nh_text_addf(&title, "%s: no current in this ansatz", verdicts[r->verdict]);
     else nh_text_addf(&title, "%s: %zu independent current%s of at most %zu", verdicts[r->verdict], r->independent, r->independent == 1 ? "" : "s", r->local_maximum);
-    heading(w, nh_text_string(&title));
+    nh_summary_heading(w, nh_text_string(&title));
     nh_text_clear(&title);
     for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);
     almost(w);
     abbreviations(w);
 }
 
-/* ---- evidence ---- */
-
-static void spectrum_line(writer *w, const char *name, const nh_spectrum *s)
-{
-    if (!s->done) return;
-    nh_text_addf(w->out, "  %-15s %zu columns (%zu independent), %zu rows: ", name, s->columns, s->rank, s->rows);
-    if (s->rank == 0) nh_text_add(w->out, "no column varies on the samples\n");
-    else if (s->dimension == 0) nh_text_addf(w->out, "no null value; the smallest of the spectrum is %.2g\n", s->spectrum[0]);
-    else {
-        nh_text_addf(w->out, "%zu null value%s up to %.1e", s->dimension, s->dimension == 1 ? "" : "s", s->spectrum[s->dimension - 1]);
-        if (s->dimension < s->rank) nh_text_addf(w->out, ", then %.2g: gap %.0e\n", s->spectrum[s->dimension], s->gap);
-        else nh_text_add(w->out, ", and nothing else\n");
-    }
-}
-
-/* The whole spectrum, ascending, with --verbose. */
-static void spectrum_values(writer *w, const nh_spectrum *s)
-{
-    enum { per_line = 10 };
-    if (!w->style.verbose || !s->done) return;
-    for (size_t i = 0; i < s->rank; i++) nh_text_addf(w->out, "%s%9.1e%s", i % per_line ? "" : "    ", s->spectrum[i], i % per_line == per_line - 1 || i + 1 == s->rank ? "\n" : "");
-}
-
-static void unknowns(writer *w)
-{
-    const nh_result *r = w->r;
-    if (!r->hits) return;
-    nh_text_add(w->out, "  unknown         ");
-    for (size_t j = 0; j < r->hits->unknowns; j++) {
-        const nh_unknown *u = &r->analysis->unknown[j];
-        nh_text_addf(w->out, "%s%s in [%g, %g]", j ? ", " : "", nh_name_of(r->model->dag, u->symbol), u->low, u->high);
-    }
-    if (r->specials == 0) nh_text_addf(w->out, ": no value gives a current (smallest singular value %.1e)", r->hits->best);
-    for (size_t k = 0; k < r->specials; k++) {
-        const nh_special *s = &r->special[k];
-        nh_text_add(w->out, k ? ";" : ":");
-        for (size_t j = 0; j < r->hits->unknowns; j++) {
-            nh_text_addf(w->out, " %s = ", nh_name_of(r->model->dag, r->analysis->unknown[j].symbol));
-            if (s->recognised[j]) nh_print(r->model->dag, s->recognised[j], w->out);
-            nh_text_addf(w->out, "%s%.15g", s->recognised[j] ? " = " : "", s->value[j]);
-        }
-        if (s->hit->by_pencil && s->hit->by_search) nh_text_addf(w->out, " (eigenvalue pencil and NLopt agree to %.0e)", fmax(s->hit->difference, 1e-16));
-        else nh_text_addf(w->out, " (by %s)", s->hit->by_pencil ? "eigenvalue pencil" : "NLopt");
-    }
-    nh_text_add(w->out, "\n");
-}
-
-static void stages(writer *w)
-{
-    const nh_result *r = w->r;
-    for (size_t i = 0; i < r->stages; i++) {
-        const nh_tried *s = &r->stage[i];
-        if (s->skipped) nh_text_addf(w->out, "    %-80s too large\n", s->name);
-        else {
-            nh_text_addf(w->out, "    %-80s %4zu columns", s->name, s->columns);
-            if (s->sectors > 1) nh_text_addf(w->out, " in %zu sectors", s->sectors);
-            nh_text_addf(w->out, ", null %zu%s, new %zu\n", s->dimension, s->undecided ? " (undecided)" : "", s->found);
-        }
-    }
-}
-
-static void evidence(writer *w)
-{
-    const nh_result *r = w->r;
-    heading(w, "How it was found");
-    nh_text_addf(w->out, "  ansatz          %s\n  samples         %zu points, %zu rejected\n", r->ansatz_note, r->samples, r->rejected);
-    stages(w);
-    unknowns(w);
-    spectrum_line(w, "current route", &r->current);
-    spectrum_values(w, &r->current);
-    spectrum_line(w, "symmetry route", &r->symmetry);
-    spectrum_values(w, &r->symmetry);
-    if (r->routes_compared)
-        nh_text_addf(w->out, "  the two routes %s: angle %.0e between the spaces found\n", r->routes_agree ? "agree" : "DISAGREE", fmax(r->routes_angle, 1e-16));
-}
-
-/* The watched quantities at a few times. */
-static void watched(writer *w, const nh_validation *v)
-{
-    enum { rows = 5 };
-    if (!v->watches || v->count < rows) return;
-    nh_text_addf(w->out, "  %10s", "t");
-    for (size_t j = 0; j < v->watches; j++) nh_text_addf(w->out, "%14s", v->watch_name[j]);
-    for (size_t i = 0; i < rows; i++) {
-        size_t at = i * (v->count - 1) / (rows - 1);
-        nh_text_addf(w->out, "\n  %10.4g", v->time[at]);
-        for (size_t j = 0; j < v->watches; j++) nh_text_addf(w->out, "%14.8g", v->watch[at * v->watches + j]);
-    }
-    nh_text_add(w->out, "\n");
-}
-
-static void motion(writer *w)
-{
-    const nh_validation *v = w->r->validation;
-    if (!v) return;
-    heading(w, "Checked along a motion");
-    nh_text_addf(w->out, "  %s in %s, t = %g to %.6g, %ld evaluations\n", v->method, v->chart, v->begin, v->end, v->evaluations);
-    if (!isnan(v->crossing))
-        nh_text_addf(w->out, "  the chart of %s breaks down at t = %.4g; this one is regular there\n", v->crossing_chart, v->crossing);
-    if (v->currents) {
-        nh_text_addf(w->out, "  drift at tolerance%10.0e%10.0e%10.0e\n", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
-        for (size_t k = 0; k < v->currents; k++)
-            nh_text_addf(w->out, "  %-18s%10.1e%10.1e%10.1e\n", w->r->found[k].name, v->current[k].drift[0], v->current[k].drift[1], v->current[k].drift[2]);
-    }
-    watched(w, v);
-    if (v->multiplier_form)
-        nh_text_addf(w->out, "  multiplier form (%s): states agree to %.0e, multipliers to %.0e, constraints hold to %.0e\n", v->multiplier_method,
-                     v->state_difference, v->multiplier_difference, v->violation);
-}
-
 void nh_summary(const nh_result *r, nh_summary_style style, nh_text *out)
 {
-    writer w = {r, style, out};
+    nh_summary_writer w = {r, style, out};
     system_lines(&w);
     answer(&w);
     equations(&w);
-    evidence(&w);
-    motion(&w);
+    nh_summary_evidence(&w);
+    nh_summary_motion(&w);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%s  warning: %s\n", i ? "" : "\n", r->warning[i]);
     nh_text_addf(out, "\n%.0f ms (geometry %.0f, unknowns %.0f, null space %.0f, currents %.0f, motion %.0f)\n", 1e3 * r->timing.total, 1e3 * r->timing.geometry,
                  1e3 * r->timing.unknowns, 1e3 * (r->timing.samples + r->timing.nullspace), 1e3 * r->timing.currents, 1e3 * r->timing.validation);

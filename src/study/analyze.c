@@ -53,12 +53,26 @@ static bool read_files(nh_result *r, const nh_analyze_request *q, nh_error *erro
     return r->system != NULL;
 }
 
+/* An initial state on the other branch of a quadratic constraint chooses that. */
+static bool turn_to_initial(nh_result *r, nh_chart_choice choice, const nh_analyze_request *q, nh_error *error)
+{
+    if (!r->analysis || !nh_analysis_resolve(r->analysis, r->model, error)) return !r->analysis;
+    if (!r->analysis->has_initial || !nh_dynamics_other_branch(r->model, &r->analysis->initial)) return true;
+    r->system->branch = -r->model->chart->branch;
+    nh_model_free(r->model);
+    nh_analysis_free(r->analysis);
+    r->model = NULL;
+    r->analysis = nh_analysis_read(q->analysis_path, error);
+    if (r->analysis) r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
+    return r->model && nh_analysis_resolve(r->analysis, r->model, error);
+}
+
 static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *error)
 {
     nh_chart_choice choice = q->chart != NH_CHART_AUTO || !r->analysis ? q->chart : r->analysis->chart;
     uint64_t seed = (uint64_t)r->options.seed;
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, seed, error), error);
-    if (!r->model) return false;
+    if (!r->model || !turn_to_initial(r, choice, q, error)) return false;
     nh_error ignored;
     nh_error_clear(&ignored);
     if (r->model->chart->quasi && r->system->constraints)
@@ -66,7 +80,7 @@ static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *err
     if (ignored.code != NH_OK) nh_result_warn(r, "the chart of coordinate velocities: %s", ignored.what);
     r->local_maximum = 2 * r->model->m - r->model->k;
     r->constraint = nh_distribution_of(r->model);
-    return !r->analysis || nh_analysis_resolve(r->analysis, r->model, error);
+    return true;
 }
 
 /* ---- the linear problem ---- */
@@ -160,11 +174,16 @@ static void validate(nh_result *r)
             return;
         }
     nh_ex *phi = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *phi);
-    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
+    nh_valid *valid = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *valid);
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_series *series = r->found[k].series;
+        phi[k] = r->found[k].phi;
+        if (series) valid[k] = (nh_valid){series->coordinate, series->low, series->high};
+    }
     size_t watches = r->analysis ? r->analysis->watches : 0;
     nh_watch *watch = nh_arena_alloc(r->arena, (watches + 1) * sizeof *watch);
     for (size_t i = 0; i < watches; i++) watch[i] = (nh_watch){r->analysis->watch[i].name, r->analysis->watch[i].value};
-    r->validation = nh_validate(r->model, r->other, r->count, phi, watches, watch, &initial, r->options.until, motion_outputs, &r->options, &trouble);
+    r->validation = nh_validate(r->model, r->other, r->count, phi, valid, watches, watch, &initial, r->options.until, motion_outputs, &r->options, &trouble);
     if (!r->validation) {
         nh_result_warn(r, "no motion was computed: %s", trouble.what);
         return;

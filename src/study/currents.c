@@ -54,14 +54,19 @@ static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
     return best;
 }
 
-static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh_error *error)
+static void normalise(nh_model *o, nh_found *f)
 {
-    nh_model *o = r->model;
     nh_dag *d = o->dag;
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta), Z0 = nh_symmetry_components(o, f->phi, zeta);
     nh_ex unit = unit_of(o, Z0, zeta);
     nh_free(zeta);
     f->phi = nh_simplify(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit));
+}
+
+static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh_error *error)
+{
+    nh_model *o = r->model;
+    if (!f->series) normalise(o, f);
     f->has_symmetry = nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
     return f->has_symmetry;
 }
@@ -296,14 +301,13 @@ static nh_found *next_found(nh_result *r)
     return &r->found[r->count];
 }
 
-/* A function of the currents known already? */
-static bool is_old(const nh_workbench *b, const nh_found *f)
+bool nh_currents_known(const nh_workbench *b, nh_ex current)
 {
     const nh_result *r = b->result;
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
     for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
-    phi[r->count] = f->phi;
+    phi[r->count] = current;
     nh_independence_test(r->model, b->generic, r->count + 1, phi, r->options.sure, r->options.doubt, kind, NULL);
     bool old = kind[r->count] != NH_INDEPENDENT;
     nh_free(kind);
@@ -318,7 +322,22 @@ bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *
     nh_echelon_refine(r->model, fit, candidate, &r->options);
     decide(b, candidate, f);
     if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST) b->near[b->nears++] = candidate;
-    if (!keeps(b, f, certain) || ((f->moved || !certain) && is_old(b, f))) return false;
+    if (!keeps(b, f, certain) || ((f->moved || !certain) && nh_currents_known(b, f->phi))) return false;
+    describe(b, f);
+    r->count++;
+    return true;
+}
+
+bool nh_currents_add_series(nh_workbench *b, nh_ex phi, const nh_series *series, double quotient, double digits)
+{
+    nh_result *r = b->result;
+    nh_found *f = next_found(r);
+    *f = (nh_found){.phi = phi, .series = series, .quotient = quotient, .asked = true, .refined = digits};
+    if (nh_currents_known(b, f->phi)) return false;
+    f->heldout = heldout_residual(r->model, b->heldout, phi);
+    f->proof = nh_prove_current(r->model, phi, false, &r->options);
+    nh_coefficients_certify(&r->options, f);
+    if (!keeps(b, f, true)) return false;
     describe(b, f);
     r->count++;
     return true;

@@ -22,6 +22,12 @@ void nh_workbench_free(nh_workbench *bench);
  * only a certificate makes it a current, and nothing is said without. */
 bool nh_currents_add(nh_workbench *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
 
+/* Is it a function of the currents found so far, or constant? */
+bool nh_currents_known(const nh_workbench *bench, nh_ex phi);
+
+/* The same for a series, whose certificate was computed with it.  Nothing is added when it depends on the currents there are. */
+bool nh_currents_add_series(nh_workbench *bench, nh_ex phi, const nh_series *series, double quotient, double digits);
+
 /* After the last candidate of a list: is a combination of those that were only nearly conserved a current?  Returns how many were added. */
 size_t nh_currents_join(nh_workbench *bench, const nh_points *fit);
 

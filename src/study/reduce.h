@@ -14,7 +14,8 @@ typedef struct {
     size_t settings;
     const nh_setting *setting;
     nh_chart_choice chart;
-    const char *initial;      /* "phi=0, omega=2", or NULL */
+    const char *initial;      /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
+    bool project;             /* move velocities that violate the constraints to the nearest that do not */
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     nh_options options;

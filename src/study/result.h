@@ -10,6 +10,14 @@
 #include "noether/unknowns.h"
 #include "study/analysis.h"
 
+/* Coefficient functions that have no closed form: Chebyshev series in one coordinate, good in an interval of it. */
+typedef struct {
+    nh_ex coordinate;
+    double low, high;
+    size_t degree, words;
+    nh_ex *word;              /* the functions that they multiply */
+} nh_series;
+
 typedef struct {
     const char *name;         /* Phi1, Phi2, ... */
     const char *meaning;      /* "energy", "momentum of x", or "" */
@@ -28,6 +36,7 @@ typedef struct {
     double fraction;
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
     bool has_symmetry, by_current_route, by_symmetry_route, local;
+    const nh_series *series;  /* NULL for a closed form */
     nh_symmetry symmetry;
     nh_drift drift;
 } nh_found;

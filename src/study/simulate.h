@@ -11,7 +11,7 @@ typedef struct {
     const nh_setting *setting;
     nh_chart_choice chart;
     const char *initial;                     /* "phi=0, omega=2", or NULL */
-    bool until_given, tolerance_given;
+    bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
     double step;                             /* output spacing; 0: a hundredth of the time */
     nh_options options;
 } nh_simulate_request;

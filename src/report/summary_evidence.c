@@ -1,0 +1,118 @@
+#include <math.h>
+
+#include "expr/print.h"
+#include "report/summary_internal.h"
+
+/* ---- evidence ---- */
+
+static void spectrum_line(nh_summary_writer *w, const char *name, const nh_spectrum *s)
+{
+    if (!s->done) return;
+    nh_text_addf(w->out, "  %-15s %zu columns (%zu independent), %zu rows: ", name, s->columns, s->rank, s->rows);
+    if (s->rank == 0) nh_text_add(w->out, "no column varies on the samples\n");
+    else if (s->dimension == 0) nh_text_addf(w->out, "no null value; the smallest of the spectrum is %.2g\n", s->spectrum[0]);
+    else {
+        nh_text_addf(w->out, "%zu null value%s up to %.1e", s->dimension, s->dimension == 1 ? "" : "s", s->spectrum[s->dimension - 1]);
+        if (s->dimension < s->rank) nh_text_addf(w->out, ", then %.2g: gap %.0e\n", s->spectrum[s->dimension], s->gap);
+        else nh_text_add(w->out, ", and nothing else\n");
+    }
+}
+
+/* The whole spectrum, ascending, with --verbose. */
+static void spectrum_values(nh_summary_writer *w, const nh_spectrum *s)
+{
+    enum { per_line = 10 };
+    if (!w->style.verbose || !s->done) return;
+    for (size_t i = 0; i < s->rank; i++) nh_text_addf(w->out, "%s%9.1e%s", i % per_line ? "" : "    ", s->spectrum[i], i % per_line == per_line - 1 || i + 1 == s->rank ? "\n" : "");
+}
+
+static void unknowns(nh_summary_writer *w)
+{
+    const nh_result *r = w->r;
+    if (!r->hits) return;
+    nh_text_add(w->out, "  unknown         ");
+    for (size_t j = 0; j < r->hits->unknowns; j++) {
+        const nh_unknown *u = &r->analysis->unknown[j];
+        nh_text_addf(w->out, "%s%s in [%g, %g]", j ? ", " : "", nh_name_of(r->model->dag, u->symbol), u->low, u->high);
+    }
+    if (r->specials == 0) nh_text_addf(w->out, ": no value gives a current (smallest singular value %.1e)", r->hits->best);
+    for (size_t k = 0; k < r->specials; k++) {
+        const nh_special *s = &r->special[k];
+        nh_text_add(w->out, k ? ";" : ":");
+        for (size_t j = 0; j < r->hits->unknowns; j++) {
+            nh_text_addf(w->out, " %s = ", nh_name_of(r->model->dag, r->analysis->unknown[j].symbol));
+            if (s->recognised[j]) nh_print(r->model->dag, s->recognised[j], w->out);
+            nh_text_addf(w->out, "%s%.15g", s->recognised[j] ? " = " : "", s->value[j]);
+        }
+        if (s->hit->by_pencil && s->hit->by_search) nh_text_addf(w->out, " (eigenvalue pencil and NLopt agree to %.0e)", fmax(s->hit->difference, 1e-16));
+        else nh_text_addf(w->out, " (by %s)", s->hit->by_pencil ? "eigenvalue pencil" : "NLopt");
+    }
+    nh_text_add(w->out, "\n");
+}
+
+static void stages(nh_summary_writer *w)
+{
+    const nh_result *r = w->r;
+    for (size_t i = 0; i < r->stages; i++) {
+        const nh_tried *s = &r->stage[i];
+        if (s->skipped) nh_text_addf(w->out, "    %-80s too large\n", s->name);
+        else {
+            nh_text_addf(w->out, "    %-80s %4zu columns", s->name, s->columns);
+            if (s->sectors > 1) nh_text_addf(w->out, " in %zu sectors", s->sectors);
+            nh_text_addf(w->out, ", null %zu%s, new %zu\n", s->dimension, s->undecided ? " (undecided)" : "", s->found);
+        }
+    }
+}
+
+void nh_summary_evidence(nh_summary_writer *w)
+{
+    const nh_result *r = w->r;
+    nh_summary_heading(w, "How it was found");
+    nh_text_addf(w->out, "  ansatz          %s\n  samples         %zu points, %zu rejected\n", r->ansatz_note, r->samples, r->rejected);
+    stages(w);
+    unknowns(w);
+    spectrum_line(w, "current route", &r->current);
+    spectrum_values(w, &r->current);
+    spectrum_line(w, "symmetry route", &r->symmetry);
+    spectrum_values(w, &r->symmetry);
+    if (r->routes_compared)
+        nh_text_addf(w->out, "  the two routes %s: angle %.0e between the spaces found\n", r->routes_agree ? "agree" : "DISAGREE", fmax(r->routes_angle, 1e-16));
+}
+
+/* The watched quantities at a few times. */
+static void watched(nh_summary_writer *w, const nh_validation *v)
+{
+    enum { rows = 5 };
+    if (!v->watches || v->count < rows) return;
+    nh_text_addf(w->out, "  %10s", "t");
+    for (size_t j = 0; j < v->watches; j++) nh_text_addf(w->out, "%14s", v->watch_name[j]);
+    for (size_t i = 0; i < rows; i++) {
+        size_t at = i * (v->count - 1) / (rows - 1);
+        nh_text_addf(w->out, "\n  %10.4g", v->time[at]);
+        for (size_t j = 0; j < v->watches; j++) nh_text_addf(w->out, "%14.8g", v->watch[at * v->watches + j]);
+    }
+    nh_text_add(w->out, "\n");
+}
+
+void nh_summary_motion(nh_summary_writer *w)
+{
+    const nh_validation *v = w->r->validation;
+    if (!v) return;
+    nh_summary_heading(w, "Checked along a motion");
+    nh_text_addf(w->out, "  %s in %s, t = %g to %.6g, %ld evaluations\n", v->method, v->chart, v->begin, v->end, v->evaluations);
+    if (!isnan(v->crossing))
+        nh_text_addf(w->out, "  the chart of %s breaks down at t = %.4g; this one is regular there\n", v->crossing_chart, v->crossing);
+    if (v->currents) {
+        nh_text_addf(w->out, "  drift at tolerance%10.0e%10.0e%10.0e\n", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
+        for (size_t k = 0; k < v->currents; k++) {
+            const nh_drift *d = &v->current[k];
+            nh_text_addf(w->out, "  %-18s%10.1e%10.1e%10.1e", w->r->found[k].name, d->drift[0], d->drift[1], d->drift[2]);
+            if (d->until < v->end - 1e-9 * fabs(v->end) && w->r->found[k].series) nh_text_addf(w->out, "  (to t = %.4g, where the motion leaves its interval)", d->until);
+            nh_text_add(w->out, "\n");
+        }
+    }
+    watched(w, v);
+    if (v->multiplier_form)
+        nh_text_addf(w->out, "  multiplier form (%s): states agree to %.0e, multipliers to %.0e, constraints hold to %.0e\n", v->multiplier_method,
+                     v->state_difference, v->multiplier_difference, v->violation);
+}

@@ -1,0 +1,17 @@
+/* What the files of the summary share. */
+#ifndef NH_SUMMARY_INTERNAL_H
+#define NH_SUMMARY_INTERNAL_H
+
+#include "report/summary.h"
+
+typedef struct {
+    const nh_result *r;
+    nh_summary_style style;
+    nh_text *out;
+} nh_summary_writer;
+
+void nh_summary_heading(nh_summary_writer *w, const char *text);
+void nh_summary_evidence(nh_summary_writer *w); /* how it was found */
+void nh_summary_motion(nh_summary_writer *w);   /* checked along a motion */
+
+#endif

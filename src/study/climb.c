@@ -1,0 +1,190 @@
+#include "study/climb.h"
+
+#include <math.h>
+#include <time.h>
+
+#include "expr/normal.h"
+
+enum { least_points = 256, most_tested = 60, short_factor = 14 };
+static const double points_per_column = 2.5;
+
+double nh_climb_clock(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- which candidates are new ---- */
+
+static nh_ex rough(const nh_model *o, const nh_candidate *c)
+{
+    nh_ex e = nh_int(o->dag, 0);
+    for (size_t j = 0; j < c->count; j++) e = nh_add(o->dag, e, nh_mul(o->dag, nh_real(o->dag, c->coefficient[j]), c->term[j]));
+    return e;
+}
+
+static void keep_factor(nh_climb *x, nh_ex phi)
+{
+    if (x->factors == NH_MOST_FACTORS || nh_complexity(x->r->model->dag, phi) > short_factor) return;
+    for (size_t i = 0; i < x->factors; i++)
+        if (x->factor[i] == phi) return;
+    x->factor[x->factors++] = phi;
+}
+
+/* Gradients against those of the known currents; candidates come simplest first.  kind[k] of candidate k; returns how many are new. */
+static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
+{
+    nh_result *r = x->r;
+    size_t known = r->count, n = list->count < most_tested ? list->count : most_tested, fresh = 0;
+    nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
+    nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
+    for (size_t k = 0; k < known; k++) phi[k] = r->found[k].phi;
+    for (size_t k = 0; k < n; k++) phi[known + k] = rough(r->model, &list->candidate[k]);
+    nh_independence_test(r->model, x->bench->generic, known + n, phi, r->options.sure, r->options.doubt, all, NULL);
+    for (size_t k = 0; k < n; k++) {
+        kind[k] = all[known + k];
+        fresh += kind[k] == NH_INDEPENDENT;
+    }
+    list->count = n;
+    nh_free(all);
+    nh_free(phi);
+    return fresh;
+}
+
+bool nh_climb_done(const nh_climb *x)
+{
+    return x->r->independent >= x->r->local_maximum || nh_climb_clock() - x->start > x->r->options.max_seconds;
+}
+
+/* Certificates of vectors that are only likely are dear and mostly refused: the time limit ends them too, and leaves the question open. */
+static size_t add_new(nh_climb *x, nh_candidates *list, const nh_points *fit, bool certain)
+{
+    nh_result *r = x->r;
+    size_t before = r->independent;
+    nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
+    compare(x, list, kind);
+    for (size_t k = 0; k < list->count && r->independent < r->local_maximum; k++) {
+        nh_candidate *c = &list->candidate[k];
+        if (!certain && nh_climb_done(x)) {
+            r->open += kind[k] == NH_INDEPENDENT;
+            continue;
+        }
+        if (kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, fit, certain)) {
+            r->independent++;
+            keep_factor(x, r->found[r->count - 1].phi);
+        } else if (c->count == 1 && kind[k] == NH_DEPENDENT) {
+            keep_factor(x, c->term[0]);
+        }
+    }
+    r->independent += nh_currents_join(x->bench, fit);
+    nh_free(kind);
+    return r->independent - before;
+}
+
+/* ---- one stage ---- */
+
+nh_tried *nh_climb_note(nh_climb *x, const char *name)
+{
+    nh_result *r = x->r;
+    enum { most_stages = 64 };
+    if (!r->stage) r->stage = nh_arena_alloc(r->arena, most_stages * sizeof *r->stage);
+    if (r->stages == most_stages) r->stages--;
+    r->stage[r->stages] = (nh_tried){.name = nh_arena_strdup(r->arena, name)};
+    return &r->stage[r->stages++];
+}
+
+void nh_climb_keep_spectrum(nh_climb *x, const nh_nullspace *s, bool found)
+{
+    nh_result *r = x->r;
+    bool better = !r->current.done || found || (r->count == 0 && s->columns > r->current.columns);
+    if (better) r->current = nh_spectrum_of(r->arena, s);
+}
+
+static nh_sectors split(nh_climb *x, nh_ansatz *a)
+{
+    nh_result *r = x->r;
+    bool large = a->columns > (size_t)r->options.split_columns;
+    nh_reflections none = {0};
+    if (large && !x->reflections) x->reflections = nh_reflections_find(r->model, x->ranges);
+    return nh_sectors_split(r->model, large ? x->reflections : &none, x->ranges, a);
+}
+
+/* Columns are limited by the largest part, and by what can be held at all. */
+nh_solved nh_climb_solve(nh_climb *x, size_t families, const nh_family *family)
+{
+    nh_result *r = x->r;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_solved s = {.ansatz = nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.columns, &ignored)};
+    if (!s.ansatz) return s;
+    nh_sectors sectors = split(x, s.ansatz);
+    s.sectors = sectors.count;
+    if (sectors.largest > (size_t)r->options.stage_columns) {
+        nh_ansatz_free(s.ansatz);
+        s.ansatz = NULL;
+    } else if (sectors.count) {
+        size_t count = (size_t)fmax(least_points, points_per_column * (double)sectors.largest);
+        nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+        s.fit = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed + r->stages, &ignored);
+        if (s.fit) s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, (size_t)r->options.threads, &ignored);
+    }
+    nh_sectors_clear(&sectors);
+    return s;
+}
+
+void nh_solved_clear(nh_solved *s)
+{
+    nh_nullspace_free(s->nullspace);
+    nh_points_free(s->fit);
+    nh_ansatz_free(s->ansatz);
+}
+
+/* Would this stage give anything new? */
+bool nh_climb_promising(nh_climb *x, size_t families, const nh_family *family)
+{
+    nh_solved s = nh_climb_solve(x, families, family);
+    bool fresh = false;
+    if (s.nullspace && s.nullspace->likely) {
+        nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &x->r->options);
+        nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
+        fresh = compare(x, list, kind) > 0;
+        nh_free(kind);
+        nh_candidates_free(list);
+    }
+    nh_solved_clear(&s);
+    return fresh;
+}
+
+/* The first `count` null vectors, turned into what is new in them. */
+static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certain)
+{
+    nh_candidates *list = nh_echelon(x->r->model, s->fit, s->ansatz, s->nullspace, count, &x->r->options);
+    size_t found = add_new(x, list, s->fit, certain);
+    nh_candidates_free(list);
+    return found;
+}
+
+void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_family *family)
+{
+    nh_result *r = x->r;
+    if (families == 0) return;
+    double start = nh_climb_clock();
+    nh_tried *note = nh_climb_note(x, name);
+    nh_solved s = nh_climb_solve(x, families, family);
+    note->skipped = !s.ansatz;
+    note->columns = s.ansatz ? s.ansatz->columns : 0;
+    note->sectors = s.sectors;
+    if (s.nullspace) {
+        note->dimension = s.nullspace->dimension;
+        note->gap = s.nullspace->gap;
+        note->undecided = s.nullspace->likely > s.nullspace->dimension;
+        r->samples = s.fit->count > r->samples ? s.fit->count : r->samples;
+        r->rejected += s.fit->tried - s.fit->count;
+        note->found = harvest(x, &s, s.nullspace->dimension, true);
+        if (s.nullspace->likely > s.nullspace->dimension) note->found += harvest(x, &s, s.nullspace->likely, false);
+        nh_climb_keep_spectrum(x, s.nullspace, note->found > 0);
+    }
+    note->seconds = nh_climb_clock() - start;
+    nh_solved_clear(&s);
+}

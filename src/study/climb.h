@@ -1,0 +1,53 @@
+/* climb: what every stage of the ladder is made of: solve a linear problem, see what in it is new, keep that. */
+#ifndef NH_CLIMB_H
+#define NH_CLIMB_H
+
+#include "noether/dictionary.h"
+#include "noether/sectors.h"
+#include "study/currents.h"
+
+enum { NH_MOST_FACTORS = 10 };
+
+/* The ladder's state. */
+typedef struct {
+    nh_result *r;
+    nh_workbench *bench;
+    nh_dictionary words;
+    nh_points *ranges;
+    nh_reflections *reflections; /* found when a stage is large */
+    size_t factors;              /* simple currents, dependent ones too: factors of later stages */
+    nh_ex factor[NH_MOST_FACTORS];
+    double start;
+} nh_climb;
+
+/* A stage's linear problem, solved. */
+typedef struct {
+    nh_ansatz *ansatz;
+    nh_points *fit;
+    nh_nullspace *nullspace; /* NULL when something went wrong */
+    size_t sectors;
+} nh_solved;
+
+double nh_climb_clock(void); /* seconds */
+/* Nothing more to find, or no time left. */
+bool nh_climb_done(const nh_climb *climb);
+
+/* Columns are limited by the largest part, and by what can be held at all. */
+nh_solved nh_climb_solve(nh_climb *climb, size_t families, const nh_family *family);
+void nh_solved_clear(nh_solved *solved);
+
+/* An entry in the list of what was tried. */
+nh_tried *nh_climb_note(nh_climb *climb, const char *name);
+/* The spectrum that is reported: of the last stage that found something, else of the largest. */
+void nh_climb_keep_spectrum(nh_climb *climb, const nh_nullspace *nullspace, bool found);
+/* Would this stage give anything new? */
+bool nh_climb_promising(nh_climb *climb, size_t families, const nh_family *family);
+/* Solve it, keep what is new, and note it. */
+void nh_climb_stage(nh_climb *climb, const char *name, size_t families, const nh_family *family);
+
+/* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
+void nh_climb_rates(nh_climb *climb);
+/* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
+void nh_climb_series(nh_climb *climb);
+
+#endif

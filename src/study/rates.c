@@ -1,0 +1,140 @@
+/* The ladder's search for unknown rates. */
+#include <math.h>
+#include <stdio.h>
+
+#include "noether/pencil.h"
+#include "study/climb.h"
+#include "study/naming.h"
+#include "study/stages.h"
+
+enum { most_values = 24, range_points = 256 };
+
+/* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
+
+typedef struct {
+    nh_climb *x;
+    const nh_ansatz *base;
+    nh_ex q; /* t or a coordinate */
+    bool periodic, imaginary;
+} rate_context;
+
+/* |Im| or Re of the pencil's eigenvalues, each once. */
+static size_t rates(const nh_model *o, const rate_context *c, double *re, double *im, size_t most)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    const nh_points *points = c->x->ranges;
+    size_t n = c->base->columns, count = 0;
+    double *A = nh_alloc_array(points->count * n + 1, sizeof *A), *B = nh_alloc_array(points->count * n + 1, sizeof *B);
+    nh_nullspace_options limits = nh_nullspace_options_from(&c->x->r->options);
+    nh_rows_pencil(o, c->base, nh_model_gamma(o, c->q), points, A, B);
+    nh_pencil *p = nh_pencil_solve(points->count, n, A, B, &limits, c->x->r->options.split, &ignored);
+    for (size_t k = 0; p && k < p->dimension && count < most; k++) {
+        double x = p->re[k], y = p->im[k];
+        if (y < 0 || p->residual[k] > 1e-9) continue;
+        if (c->periodic) y = fabs(y - round(y)); /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
+        bool old = fabs(x) + fabs(y) < 1e-6;
+        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < 1e-7 * (fabs(re[j]) + fabs(im[j]));
+        if (old) continue;
+        re[count] = x;
+        im[count++] = y;
+    }
+    nh_pencil_free(p);
+    nh_free(B);
+    nh_free(A);
+    return count;
+}
+
+static bool follow(const nh_model *changed, double near, double *value, void *context)
+{
+    rate_context *c = context;
+    double re[most_values], im[most_values], best = HUGE_VAL;
+    size_t n = rates(changed, c, re, im, most_values);
+    for (size_t i = 0; i < n; i++)
+        for (int turn = 0; turn < (c->imaginary && c->periodic ? 2 : 1); turn++) { /* nu may have crossed 1/2, where it was folded */
+            double v = !c->imaginary ? re[i] : turn ? 1 - im[i] : im[i];
+            if (fabs(v - near) >= best) continue;
+            best = fabs(v - near);
+            *value = v;
+        }
+    return n > 0 && best < 0.5 * fabs(near);
+}
+
+/* The rate as an expression of the parameters; just as a number while it is only tried. */
+static nh_ex rate_of(rate_context *c, double value, bool imaginary, bool trial)
+{
+    const nh_result *r = c->x->r;
+    c->imaginary = imaginary;
+    if (fabs(value) < 1e-9) return 0; /* node 0 is the number 0 */
+    nh_ex e = trial ? 0 : nh_name_value(r->model, value, follow, c, r->options.recognise, (uint64_t)r->options.seed);
+    return e ? e : nh_real(r->model->dag, value);
+}
+
+/* exp(-re q) {cos(im q), sin(im q)} for every rate. */
+static size_t wave_terms(rate_context *c, size_t n, const double *re, const double *im, bool trial, nh_ex *out)
+{
+    nh_dag *d = c->x->r->model->dag;
+    size_t count = 0;
+    for (size_t k = 0; k < n; k++) {
+        bool waves = fabs(im[k]) > 1e-9 * fabs(re[k]), decays = fabs(re[k]) > 1e-9 * fabs(im[k]);
+        nh_ex decay = decays ? nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, rate_of(c, re[k], false, trial), c->q))) : nh_int(d, 1);
+        nh_ex angle = waves ? nh_mul(d, rate_of(c, im[k], true, trial), c->q) : 0;
+        if (!waves) out[count++] = decay;
+        else {
+            out[count++] = nh_mul(d, decay, nh_call(d, NH_COS, angle));
+            out[count++] = nh_mul(d, decay, nh_call(d, NH_SIN, angle));
+        }
+    }
+    return count;
+}
+
+/* The base times the waves; with the base itself only where it is everything of degree one (smooth functions on a small interval are nearly
+ * dependent, so that nothing unnecessary should be there). */
+static size_t wave_families(nh_climb *x, const nh_family *base, size_t which, size_t terms, const nh_ex *wave, nh_family *out)
+{
+    nh_family *part = nh_arena_alloc(x->r->arena, 2 * sizeof *part);
+    part[0] = *base;
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = terms, .term = wave};
+    out[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    out[1] = *base;
+    return which == NH_PENCIL_BASES - 1 ? 2 : 1;
+}
+
+/* Returns whether something new was found. */
+static bool pencil_stage(nh_climb *x, nh_ex q, const char *name, size_t which)
+{
+    enum { most_rates = 4 };
+    nh_result *r = x->r;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    size_t before = r->independent;
+    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, which), family[2];
+    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &ignored);
+    if (!a) return false;
+    rate_context c = {.x = x, .base = a, .q = q};
+    for (size_t i = 0; i < x->words.waves; i++) c.periodic |= x->words.wave[i] == q;
+    double re[most_values], im[most_values];
+    size_t n = rates(r->model, &c, re, im, most_values);
+    if (n > most_rates) n = most_rates;
+    nh_ex *wave = nh_arena_alloc(r->arena, (2 * n + 1) * sizeof *wave);
+    size_t terms = wave_terms(&c, n, re, im, true, wave);
+    if (terms && nh_climb_promising(x, wave_families(x, &base, which, terms, wave, family), family)) {
+        char text[120];
+        snprintf(text, sizeof text, "exponentials and waves in %s with rates found by the pencil", name);
+        wave_terms(&c, n, re, im, false, wave);
+        nh_climb_stage(x, text, wave_families(x, &base, which, terms, wave, family), family);
+    }
+    nh_ansatz_free(a);
+    return r->independent > before;
+}
+
+/* The smallest base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
+void nh_climb_rates(nh_climb *x)
+{
+    const nh_model *o = x->r->model;
+    for (size_t i = 0; i <= o->m; i++) {
+        nh_ex q = i == 0 ? o->system->t : o->system->coordinate[i - 1].q;
+        for (size_t base = 0; base < NH_PENCIL_BASES && !nh_climb_done(x); base++)
+            if (pencil_stage(x, q, nh_name_of(o->dag, q), base)) break;
+    }
+}
