@@ -212,3 +212,50 @@ Test(reduce, json)
     nh_text_clear(&out);
     nh_reduction_free(r);
 }
+
+/* The C code of every stage, compiled, against the equations themselves. */
+Test(reduce, c_code_computes_the_reduced_equations)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_path("systems/crane.yaml", NULL, NULL, NULL, 1, &error);
+    must(r != NULL, &error, "crane");
+    char folder[] = "/tmp/nhsym-c-XXXXXX", name[200], command[700], line[100];
+    cr_assert(mkdtemp(folder));
+    snprintf(name, sizeof name, "%s/code.c", folder);
+    FILE *file = fopen(name, "w");
+    nh_text code;
+    nh_text_init(&code);
+    nh_reduction_c(r, &code);
+    fprintf(file, "%s#include <stdio.h>\nint main(void)\n{\n    double z[20], rate[20] = {0}, zeta[20] = {0};\n", nh_text_string(&code));
+    double z[20];
+    for (size_t i = 0; i < 20; i++) z[i] = 0.3 + 0.11 * (double)i - 0.007 * (double)(i * i);
+    for (size_t i = 0; i < 20; i++) fprintf(file, "    z[%zu] = %.17g;\n", i, z[i]);
+    for (size_t s = 0; s < r->stages; s++) fprintf(file, "    stage%zu(z, rate, zeta);\n    for (int i = 0; i < 20; i++) printf(\"%%.17g\\n%%.17g\\n\", rate[i], zeta[i]);\n", s + 1);
+    fprintf(file, "    return 0;\n}\n");
+    fclose(file);
+    snprintf(command, sizeof command, "cd %s && ${CC:-cc} -std=c99 -Wall -Wextra -Werror code.c -o code -lm && ./code", folder);
+    FILE *pipe = popen(command, "r");
+    cr_assert(pipe != NULL);
+    for (size_t s = 0; s < r->stages; s++) {
+        const nh_reduced *o = r->stage[s].shown;
+        double rate[20] = {0}, zeta[20] = {0};
+        nh_reduced_flow *flow = nh_reduced_flow_create(o);
+        cr_assert(nh_reduced_flow_at(flow, z, rate, NULL, zeta, NULL));
+        nh_reduced_flow_free(flow);
+        for (size_t i = 0; i < 20; i++)
+            for (int which = 0; which < 2; which++) {
+                double want = which ? zeta[i] : rate[i];
+                cr_assert(fgets(line, sizeof line, pipe));
+                if (i < (which ? o->d : o->n + o->r)) cr_expect_float_eq(strtod(line, NULL), want, 1e-11 * (1 + fabs(want)), "stage %zu, %d %zu: %s, not %g", s + 1, which, i, line, want);
+            }
+    }
+    cr_expect_eq(pclose(pipe), 0);
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    cr_expect_eq(system(command), 0);
+    nh_text_clear(&code);
+    nh_text_init(&code);
+    nh_reduction_latex(r, &code);
+    cr_expect(strstr(nh_text_string(&code), "\\dot{p}_{\\psi_{1}} &= ") != NULL);
+    nh_text_clear(&code);
+    nh_reduction_free(r);
+}
