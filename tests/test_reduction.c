@@ -8,6 +8,7 @@
 #include "motion/dynamics.h"
 #include "reduction/chaplygin.h"
 #include "reduction/group.h"
+#include "reduction/linear.h"
 #include "reduction/momenta.h"
 #include "reduction/reconstruct.h"
 #include "reduction/second.h"
@@ -513,6 +514,7 @@ Test(reduction, disk_reference_motions)
     static const size_t all[] = {0, 1, 2, 3};
     cJSON *data = oracle_read("tests/data/disk_oracle.json");
     tally tz = {.what = "q(T)"}, te = {.what = "energy"};
+    double drift = 0, change = 0;
     for (const cJSON *set = oracle_get(data, "sets")->child; set; set = set->next)
         for (const cJSON *motion = oracle_get(set, "trajectories")->child; motion; motion = motion->next) {
             nh_setting setting[6];
@@ -550,12 +552,19 @@ Test(reduction, disk_reference_motions)
             double energy, expected = oracle_number(motion, "E");
             cr_assert(nh_reduced_flow_at(flow, r->z + 4, NULL, NULL, NULL, &energy));
             tally_add(&te, 1, &energy, &expected, 0);
+            nh_linear_momenta linear;
+            nh_linear_momenta_find(&linear, &reduced, &options);
+            cr_assert_eq(linear.count, 2, "off by %g", linear.off);
+            drift = fmax(drift, fabs(nh_linear_momenta_drift(&linear, &reduced, 2, r->z)));
+            for (size_t i = 0; i < 2; i++) change = fmax(change, fabs(r->z[4 + 1 + linear.index[i]] - r->z[1 + linear.index[i]]));
             nh_reduced_flow_free(flow);
             nh_reconstruction_free(r);
             nh_action_clear(&action);
             nh_group_free(g);
             reducible_clear(&x);
         }
+    cr_expect(drift < 1e-9, "the linear currents drift by %g", drift);
+    cr_expect(change > 0.1, "the momenta themselves change by %g only", change);
     tally_check(&tz, 1e-10, "disk");
     tally_check(&te, 1e-11, "disk");
     cJSON_Delete(data);

@@ -4,6 +4,7 @@
 
 #include "motion/dynamics.h"
 #include "reduction/group.h"
+#include "reduction/linear.h"
 #include "reduction/momenta.h"
 #include "reduction/poincare.h"
 #include "reduction/reconstruct.h"
@@ -36,6 +37,8 @@ typedef struct {
     bool by_stages;           /* third kind: were the equations by stages formed? */
     const nh_ideals *chain;
     nh_poincare poincare;
+    nh_linear_momenta linear; /* of the shown equations; third and fourth kind */
+    double linear_drift;      /* of these currents along the reduced motion; negative: not followed */
     double agreement;         /* largest difference of a position from the full motion (second kind: from the first stage), relative to 1 + size */
     double reached;           /* time up to which */
     double energy_drift;      /* of the reduced motion, relative */
