@@ -216,7 +216,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     nh_motion first = *reduced;
     first.count = 1;
     bool good = along(r, &first, o->m, o->rho, y + o->m);
-    double enough = 2000 + 20 * (double)reduced->steps; /* a second opinion: near a pole of the coordinates it may need millions */
+    double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
     nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps)};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {

@@ -206,6 +206,15 @@ bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
     return root < 0;
 }
 
+/* y' = x' tan phi has no pole as y' cos phi = x' sin phi.  A formula that becomes much longer is left as it is: it is evaluated at every step. */
+static nh_ex without_poles(nh_dag *d, nh_ex f)
+{
+    enum { short_enough = 300, growth = 2 };
+    nh_ex numerator = nh_numerator(d, f);
+    size_t length = nh_complexity(d, numerator);
+    return length <= short_enough || length <= growth * nh_complexity(d, f) ? numerator : f;
+}
+
 /* ---- multiplier form ---- */
 
 struct nh_bordered {
@@ -235,7 +244,7 @@ nh_bordered *nh_bordered_create(const nh_model *o)
         for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, in[1 + m + r]);
     }
     for (size_t a = 0; a < k; a++) {
-        f[a] = nh_numerator(d, nh_chart_constraint(o->chart, a)); /* y' = x' tan phi has no pole as y' cos phi = x' sin phi */
+        f[a] = without_poles(d, nh_chart_constraint(o->chart, a));
         g[a] = nh_add(d, nh_diff(d, f[a], y->t), nh_diff_along(d, f[a], m, in + 1, in + 1 + m));
         for (size_t s = 0; s < m; s++) F[a + s * k] = nh_diff(d, f[a], in[1 + m + s]);
     }

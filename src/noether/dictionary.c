@@ -1,5 +1,6 @@
 #include "noether/dictionary.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "expr/diff.h"
@@ -26,7 +27,7 @@ static bool is_in(size_t n, const nh_ex *list, nh_ex e)
 static void add(harvester *h, size_t *n, nh_ex *list, nh_ex e)
 {
     nh_dag *d = h->o->dag;
-    e = nh_simplify(d, nh_model_compose(h->o, e));
+    e = nh_simplify_short(d, nh_model_compose(h->o, e), 0);
     if (nh_kind_of(d, e) == NH_PRODUCT) {
         nh_num c = nh_constant_of(d, e);
         if (!nh_num_is(c, 1)) e = nh_mul(d, e, nh_number(d, nh_num_inv(c)));
@@ -83,6 +84,10 @@ static void add_atom(harvester *h, nh_ex e)
     nh_kind kind = nh_kind_of(d, e);
     bool invertible = kind == NH_PRODUCT || nh_function_of(d, e) == NH_EXP;
     if (invertible) add(h, &h->out->atoms, h->out->atom, nh_powi(d, e, -1));
+    bool power = kind == NH_PRODUCT && nh_arity(d, e) == 1 && nh_num_is(nh_constant_of(d, e), 1);
+    nh_ex x = power ? nh_exponent_of(d, e, 0) : 0;
+    if (!power || nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || llabs(nh_number_of(d, x).p) < 2) return;
+    add(h, &h->out->atoms, h->out->atom, nh_powi(d, nh_child(d, e, 0), -1)); /* of a higher power the first one too */
 }
 
 /* With 1/sqrt(b + c q^2) goes its integral, asinh of the same argument. */
@@ -216,7 +221,7 @@ static void frame(harvester *h)
         add(h, &h->out->frames, h->out->frame, nh_mul(d, even_root(o, pivot), form));
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++)
-                if (!done[i] && !done[j]) M[i * n + j] = nh_simplify(d, nh_sub(d, M[i * n + j], nh_div(d, nh_mul(d, M[i * n + p], M[p * n + j]), pivot)));
+                if (!done[i] && !done[j]) M[i * n + j] = nh_simplify_short(d, nh_sub(d, M[i * n + j], nh_div(d, nh_mul(d, M[i * n + p], M[p * n + j]), pivot)), 0);
     }
 }
 
@@ -225,7 +230,7 @@ static void add_roots(harvester *h)
 {
     nh_model *o = h->o;
     nh_dag *d = o->dag;
-    nh_ex det = nh_simplify(d, determinant(o));
+    nh_ex det = nh_simplify_short(d, determinant(o), 0);
     add_root(h, det);
     for (size_t j = 0; nh_kind_of(d, det) == NH_PRODUCT && j < nh_arity(d, det); j++) add_root(h, nh_child(d, det, j));
     for (size_t i = 0; i < o->n; i++) {
@@ -233,6 +238,37 @@ static void add_roots(harvester *h)
         add_root(h, M);
         for (size_t j = 0; nh_kind_of(d, M) == NH_PRODUCT && j < nh_arity(d, M); j++) add_root(h, nh_child(d, M, j));
     }
+}
+
+/* One term, and its derivatives by the angles in it. */
+static void potential_term(harvester *h, nh_ex term)
+{
+    nh_dag *d = h->o->dag;
+    if (!has_position(h->o, term)) return;
+    add(h, &h->out->potentials, h->out->potential, term);
+    for (size_t j = 0; j < h->all_waves; j++) {
+        nh_ex slope = nh_diff(d, term, h->all_wave[j]);
+        if (!nh_is_zero(d, slope)) add(h, &h->out->potentials, h->out->potential, slope);
+    }
+}
+
+/* Sums are taken apart, also b*(e1 + e2) and e1*(1 + e2): how L is written must not matter. */
+static void potential_terms(harvester *h, nh_ex e, int depth)
+{
+    nh_dag *d = h->o->dag;
+    if (nh_kind_of(d, e) == NH_SUM && depth) {
+        for (size_t i = 0; i < nh_arity(d, e); i++) potential_terms(h, nh_child(d, e, i), depth - 1);
+        return;
+    }
+    for (size_t i = 0; nh_kind_of(d, e) == NH_PRODUCT && depth && i < nh_arity(d, e); i++) {
+        nh_ex sum = nh_child(d, e, i);
+        if (nh_kind_of(d, sum) != NH_SUM || !nh_is_number(d, nh_exponent_of(d, e, i), 1) || !has_position(h->o, sum)) continue;
+        nh_ex factor = nh_div(d, e, sum);
+        for (size_t j = 0; j < nh_arity(d, sum); j++) potential_terms(h, nh_mul(d, factor, nh_child(d, sum, j)), depth - 1);
+        if (!nh_num_is(nh_constant_of(d, sum), 0)) potential_terms(h, factor, depth - 1);
+        return;
+    }
+    potential_term(h, e);
 }
 
 /* The additive terms of the potential, and the derivatives of those that contain an angle in a sine or cosine. */
@@ -244,31 +280,28 @@ static void potentials(harvester *h)
     if (o->m > 64) return;
     for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v;
     nh_ex V = nh_substitute(d, o->system->lagrangian, o->m, v, zero);
-    bool factored = nh_kind_of(d, V) == NH_PRODUCT && nh_arity(d, V) == 1 && nh_kind_of(d, nh_child(d, V, 0)) == NH_SUM;
-    nh_ex sum = factored ? nh_child(d, V, 0) : V;
-    size_t n = nh_kind_of(d, sum) == NH_SUM ? nh_arity(d, sum) : 1;
-    for (size_t i = 0; i < n; i++) {
-        nh_ex term = nh_kind_of(d, sum) == NH_SUM ? nh_child(d, sum, i) : sum;
-        if (!has_position(o, term)) continue;
-        add(h, &h->out->potentials, h->out->potential, term);
-        for (size_t j = 0; j < h->all_waves; j++) {
-            nh_ex slope = nh_diff(d, term, h->all_wave[j]);
-            if (!nh_is_zero(d, slope)) add(h, &h->out->potentials, h->out->potential, slope);
-        }
-    }
+    potential_terms(h, V, 3);
+}
+
+/* Outside sines and cosines; `seen`: per node, looked at already (a shared graph has exponentially many paths). */
+static bool plainly(const nh_dag *d, nh_ex e, nh_ex q, bool *seen)
+{
+    nh_kind kind = nh_kind_of(d, e);
+    if (e == q) return true;
+    if (kind == NH_NUMBER || kind == NH_SYMBOL || seen[e]) return false;
+    seen[e] = true;
+    nh_function f = kind == NH_FUNCTION ? nh_function_of(d, e) : NH_PI;
+    if (f == NH_SIN || f == NH_COS || f == NH_TAN) return false;
+    for (size_t i = 0; i < nh_arity(d, e); i++)
+        if (plainly(d, nh_child(d, e, i), q, seen)) return true;
+    return false;
 }
 
 static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
 {
-    nh_dag *d = h->o->dag;
-    nh_kind kind = nh_kind_of(d, e);
-    if (e == q) return true;
-    if (kind == NH_NUMBER || kind == NH_SYMBOL || !nh_depends(d, e, q)) return false;
-    nh_function f = kind == NH_FUNCTION ? nh_function_of(d, e) : NH_PI;
-    if (f == NH_SIN || f == NH_COS || f == NH_TAN) return false;
-    for (size_t i = 0; i < nh_arity(d, e); i++)
-        if (occurs_plainly(h, nh_child(d, e, i), q)) return true;
-    return false;
+    bool *seen = nh_alloc_array((size_t)e + 1, sizeof *seen), result = plainly(h->o->dag, e, q, seen);
+    nh_free(seen);
+    return result;
 }
 
 static void shapes(harvester *h)
