@@ -16,8 +16,8 @@ typedef struct {
     const char *analysis, *json; /* files; json may be "-" */
     const char *current, *field; /* questions of verify */
     const char *initial;         /* of simulate and reduce */
+    const char *group, *chain, *to; /* of reduce */
     bool project;
-    const char *group, *chain;   /* of reduce */
     double step;
     bool no_analysis;
     size_t settings;

@@ -21,7 +21,7 @@ int nh_cli_help(nh_cli *cli, nh_error *error)
          "  nhsym verify SYSTEM|FILE --current EXPR | --field \"Z0=..; x=..\"    is it conserved? a constraint symmetry?\n"
          "  nhsym simulate SYSTEM|FILE --initial \"phi=0, omega=2\" --until T --step H    a motion, as CSV or --json\n"
          "  nhsym reduce SYSTEM|FILE    its symmetry group, and the reduced equations; --group \"1, 2\" or \"x=1; theta=1, x=-y, y=x\" chooses,\n"
-         "                              --chain \"3; 1, 2\" the stages\n"
+         "                              --chain \"3; 1, 2\" the stages, --to c|latex writes the equations\n"
          "  nhsym list                  systems that are here\n"
          "  nhsym show SYSTEM           a system file\n"
          "  nhsym explain [TOPIC]       what a word of the report means; `explain options` lists all numbers that decide\n"
