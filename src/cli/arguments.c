@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_watch, opt_scene };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -17,7 +17,8 @@ static const struct option long_options[] = {
     {"columns", required_argument, NULL, opt_columns},   {"no-color", no_argument, NULL, opt_no_color},
     {"current", required_argument, NULL, opt_current},   {"field", required_argument, NULL, opt_field},
     {"max-seconds", required_argument, NULL, opt_max_seconds}, {"initial", required_argument, NULL, opt_initial},
-    {"step", required_argument, NULL, opt_step},
+    {"step", required_argument, NULL, opt_step},         {"watch", required_argument, NULL, opt_watch},
+    {"scene", no_argument, NULL, opt_scene},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -95,6 +96,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
     case opt_step: return positive(value, "step", &cli->step, error);
+    case opt_watch: cli->watch = value; return true;
+    case opt_scene: return cli->scene = true;
     case opt_current: cli->current = value; return true;
     case opt_field: cli->field = value; return true;
     case opt_columns: return nh_options_set(&cli->options, "columns", value, error);

@@ -15,7 +15,8 @@ typedef struct {
     const char **operand;
     const char *analysis, *json; /* files; json may be "-" */
     const char *current, *field; /* questions of verify */
-    const char *initial;         /* of simulate */
+    const char *initial, *watch; /* of simulate */
+    bool scene;
     double step;
     bool no_analysis;
     size_t settings;

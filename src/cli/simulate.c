@@ -11,7 +11,7 @@ static bool request_of(nh_cli *cli, nh_simulate_request *q, nh_error *error)
         return nh_error_hint(error, "nhsym simulate sleigh --initial \"omega=2\" --until 10");
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step,
+    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
     q->system_path = nh_cli_find(cli, "systems", name, error);
     if (!q->system_path) return false;
@@ -32,6 +32,7 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
         nh_motion_csv(s, &text);
         fputs(nh_text_string(&text), stdout);
         nh_text_clear(&text);
+        if (s->scene) fprintf(stderr, "nhsym: %s\n", s->scene);
     }
     if (cli->json) {
         char *json = nh_motion_json(s);

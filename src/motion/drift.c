@@ -5,8 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
-
 typedef struct {
     const nh_model *model;
     nh_dynamics *dynamics;
@@ -21,23 +19,6 @@ typedef struct {
 } run;
 
 /* ---- currents along a motion ---- */
-
-/* value[i * n + k]: expression k at output i. */
-static bool along(run *r, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
-{
-    nh_tape *tape = nh_model_tape(r->model, n, e);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    double *point = nh_alloc_array(r->model->width, sizeof *point);
-    bool good = true;
-    for (size_t i = 0; i < motion->count && good; i++) {
-        good = nh_dynamics_point(r->dynamics, motion->time[i], motion->state + i * motion->size, point);
-        if (good) nh_tape_eval(tape, work, point, value + i * n);
-    }
-    nh_free(point);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return good;
-}
 
 /* The current, then its terms: those of a sum, also under a common factor. */
 static size_t terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
@@ -58,23 +39,6 @@ static size_t terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
     return 1 + n;
 }
 
-/* Where does the chart lose digits?  One flag per output. */
-static bool *steep_points(run *r, const nh_motion *motion, bool *any)
-{
-    const nh_model *o = r->model;
-    size_t n = o->m * o->n;
-    bool *steep = nh_alloc_array(motion->count + 1, sizeof *steep);
-    double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
-    *any = false;
-    bool good = !o->chart->quasi && o->k && along(r, motion, n, o->R, R);
-    for (size_t i = 0; i < motion->count && good; i++) {
-        for (size_t j = 0; j < n; j++) steep[i] |= !(fabs(R[i * n + j]) < steepest);
-        *any |= steep[i];
-    }
-    nh_free(R);
-    return steep;
-}
-
 /* How many outputs there are before the motion leaves the interval of current k. */
 static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
 {
@@ -91,7 +55,7 @@ static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
 /* Each current and, for its scale, its terms. */
 static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi, size_t which)
 {
-    bool any, *steep = steep_points(r, motion, &any);
+    bool any, *steep = nh_steep_points(r->dynamics, motion, &any);
     for (size_t k = 0; k < n; k++) {
         nh_ex *e;
         size_t per = terms_of(r->model->dag, phi[k], &e);
@@ -99,7 +63,7 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
         nh_drift *d = &r->out->current[k];
         double scale = 0, worst = 0;
         size_t inside = outputs_inside(r, motion, k);
-        bool good = along(r, motion, per, e, value);
+        bool good = nh_along(r->dynamics, motion, per, e, value);
         d->until = inside ? motion->time[inside - 1] : r->out->begin;
         for (size_t i = 0; i < inside && good; i++) {
             if (steep[i]) continue;
@@ -138,7 +102,7 @@ static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, con
     head.count = count;
     double *velocity = nh_alloc_array(count * m + 1, sizeof *velocity), *reaction = nh_alloc_array(count * m + 1, sizeof *reaction);
     double *force = nh_alloc_array(m + 1, sizeof *force);
-    bool good = along(r, &head, m, o->rho, velocity) && along(r, &head, m, o->reaction, reaction);
+    bool good = nh_along(r->dynamics, &head, m, o->rho, velocity) && nh_along(r->dynamics, &head, m, o->reaction, reaction);
     for (size_t i = 0; i < count && good; i++) {
         const double *z = reduced->state + i * reduced->size, *y = full->motion->state + i * full->motion->size;
         bool forced = nh_bordered_force(bordered, full->motion->time[i], y, y + m, y + 2 * m, force);
@@ -166,7 +130,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     memcpy(y, initial->q, o->m * sizeof *y);
     nh_motion first = *reduced;
     first.count = 1;
-    bool good = along(r, &first, o->m, o->rho, y + o->m);
+    bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
     nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = r->options->steps};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
@@ -220,7 +184,7 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
                 row++;
             }
     double *value = nh_alloc_array(motion->count * n * n + 1, sizeof *value), last = 0;
-    bool good = row == n && along(r, motion, n * n, e, value);
+    bool good = row == n && nh_along(r->dynamics, motion, n * n, e, value);
     for (size_t i = 0; i < motion->count && good; i++) {
         double det = determinant(n, value + i * n * n);
         if (last * det < 0 && isnan(r->out->crossing)) {
@@ -234,9 +198,34 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
     nh_free(e);
 }
 
+/* ---- the scene ---- */
+
+/* What is watched, from the smallest model for it: the same values? */
+static void smallest_model(run *r, const nh_state *initial, const nh_ex *watched)
+{
+    nh_validation *v = r->out;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_options options = *r->options;
+    options.tolerance = v->tolerance[NH_DRIFT_RUNS - 1];
+    nh_trajectory_request q = {.model = r->model, .initial = initial, .count = v->count, .times = v->time, .options = &options, .n = r->watches, .e = watched, .smallest = true};
+    nh_trajectory *t = nh_trajectory_create(&q, &ignored);
+    if (t && t->scene && t->motion->complete) {
+        nh_text words;
+        nh_text_init(&words);
+        nh_scene_words(t->scene, &words);
+        v->scene = nh_arena_strdup(v->arena, nh_text_string(&words));
+        v->scene_evaluations = t->motion->evaluations;
+        for (size_t i = 0; i < v->count * r->watches; i++)
+            if (isfinite(v->watch[i])) v->scene_difference = fmax(v->scene_difference, fabs(t->value[i] - v->watch[i]) / (1 + fabs(v->watch[i])));
+        nh_text_clear(&words);
+    }
+    nh_trajectory_free(t);
+}
+
 /* ---- all runs ---- */
 
-static void keep(run *r, const nh_motion *motion)
+static void keep(run *r, const nh_state *initial, const nh_motion *motion)
 {
     nh_validation *v = r->out;
     const nh_model *o = r->model;
@@ -247,7 +236,7 @@ static void keep(run *r, const nh_motion *motion)
     v->multiplier = nh_arena_alloc(v->arena, (motion->count * o->k + 1) * sizeof *v->multiplier);
     memcpy(v->time, motion->time, motion->count * sizeof *v->time);
     memcpy(v->state, motion->state, motion->count * motion->size * sizeof *v->state);
-    if (o->k) along(r, motion, o->k, o->mu, v->multiplier);
+    if (o->k) nh_along(r->dynamics, motion, o->k, o->mu, v->multiplier);
     v->watches = r->watches;
     v->watch_name = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *v->watch_name);
     v->watch = nh_arena_alloc(v->arena, (r->watches * motion->count + 1) * sizeof *v->watch);
@@ -256,7 +245,8 @@ static void keep(run *r, const nh_motion *motion)
         v->watch_name[i] = nh_arena_strdup(v->arena, r->watch[i].name);
         e[i] = r->watch[i].value;
     }
-    if (r->watches) along(r, motion, r->watches, e, v->watch);
+    if (r->watches) nh_along(r->dynamics, motion, r->watches, e, v->watch);
+    if (r->watches && !r->everywhere && motion->complete) smallest_model(r, initial, e);
     nh_free(e);
     v->evaluations = motion->evaluations;
     v->steps = motion->steps;
@@ -271,45 +261,15 @@ static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_erro
     return nh_flow(&problem, r->z0, r->outputs, r->times, options, error);
 }
 
-/* The motion in (q, v), brought to the chart's (q, w) afterwards. */
-static nh_motion *full_motion(run *r, nh_flow_options options, nh_error *error)
-{
-    const nh_model *o = r->model;
-    size_t m = o->m, n = o->n;
-    nh_bordered *b = nh_bordered_create(o);
-    nh_flow_problem problem = nh_bordered_flow(b);
-    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
-    nh_motion first = {.count = 1, .size = m + n, .time = r->times, .state = r->z0};
-    memcpy(y, r->z0, m * sizeof *y);
-    for (size_t s = 0; s < 2 * m; s++) scale[s] = r->scale[0];
-    options.scale = scale;
-    bool good = along(r, &first, m, o->rho, y + m);
-    nh_motion *motion = good ? nh_flow(&problem, y, r->outputs, r->times, &options, error) : NULL;
-    for (size_t i = 0; motion && i < motion->count; i++) { /* in place: m + n <= 2 m */
-        double *from = motion->state + i * 2 * m, *to = motion->state + i * (m + n);
-        memmove(to, from, m * sizeof *to);
-        for (size_t j = 0; j < n; j++) y[j] = from[m + o->chart->free[j]];
-        memcpy(to + m, y, n * sizeof *to);
-    }
-    if (motion) motion->size = m + n;
-    nh_free(scale);
-    nh_free(y);
-    nh_bordered_free(b);
-    return motion;
-}
-
-/* A chart of coordinate velocities of constraints that are linear in the dependent ones can be replaced by all coordinates. */
-static bool may_leave_chart(const nh_model *o) { return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch; }
-
 static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
         nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps};
-        nh_motion *motion = r->everywhere ? full_motion(r, options, error) : reduced_motion(r, &options, error);
+        nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, r->z0, r->outputs, r->times, &options, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
         bool steep;
-        nh_free(steep_points(r, motion, &steep));
-        if (!r->everywhere && (steep || !motion->complete) && may_leave_chart(r->model)) {
+        nh_free(nh_steep_points(r->dynamics, motion, &steep));
+        if (!r->everywhere && (steep || !motion->complete) && nh_may_leave_chart(r->model)) {
             r->everywhere = true; /* begin again, in a formulation that is regular there */
             r->out->chart = "all coordinates (the chart breaks down on the way)";
             nh_motion_free(motion);
@@ -317,7 +277,7 @@ static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *curre
         }
         measure(r, motion, n, current, i);
         if (i == NH_DRIFT_RUNS - 1) {
-            keep(r, motion);
+            keep(r, initial, motion);
             watch_pivot(r, other, motion);
             multiplier_form(r, initial, motion);
         }
@@ -349,32 +309,6 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     if (good) return v;
     nh_validation_free(v);
     return NULL;
-}
-
-nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, size_t count, const double *times, const nh_options *options,
-                        const char **formulation, size_t n, const nh_ex *e, double **value, nh_error *error)
-{
-    size_t size = model->m + model->n;
-    run r = {.model = model, .dynamics = nh_dynamics_create(model), .options = options, .outputs = count, .times = (double *)times};
-    r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
-    r.scale = nh_alloc_array(size + 1, sizeof *r.scale);
-    for (size_t i = 0; i < size; i++) r.scale[i] = options->absolute;
-    nh_flow_options how = {.method = NH_ADAMS, .rtol = options->tolerance, .scale = r.scale, .max_steps = options->steps};
-    nh_motion *motion = nh_dynamics_start(r.dynamics, initial, false, r.z0, error) ? reduced_motion(&r, &how, error) : NULL;
-    *formulation = "reduced equations";
-    bool steep = false;
-    if (motion) nh_free(steep_points(&r, motion, &steep));
-    if (motion && may_leave_chart(model) && (steep || !motion->complete)) {
-        nh_motion_free(motion);
-        *formulation = "all coordinates, accelerations from the bordered system";
-        motion = full_motion(&r, how, error);
-    }
-    *value = nh_alloc_array(n * count + 1, sizeof **value);
-    if (motion && n) along(&r, motion, n, e, *value);
-    nh_dynamics_free(r.dynamics);
-    nh_free(r.scale);
-    nh_free(r.z0);
-    return motion;
 }
 
 void nh_validation_free(nh_validation *validation)

@@ -81,6 +81,8 @@ void nh_dynamics_free(nh_dynamics *d)
     nh_free(d);
 }
 
+const nh_model *nh_dynamics_model(const nh_dynamics *d) { return d->model; }
+
 /* The implicit velocities start from their last values, so that a motion stays on its branch. */
 bool nh_dynamics_point(nh_dynamics *d, double t, const double *z, double *point)
 {

@@ -16,6 +16,7 @@ typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
+const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);
 
 /* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v; refuses a velocity off the constraints, saying by how much (the
  * largest |f^a|), unless `project` is set.  z has m + n entries. */

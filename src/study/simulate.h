@@ -11,6 +11,8 @@ typedef struct {
     const nh_setting *setting;
     nh_chart_choice chart;
     const char *initial;                     /* "phi=0, omega=2", or NULL */
+    const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
+    bool scene;                              /* the same with what the analysis file watches */
     bool until_given, tolerance_given;
     double step;                             /* output spacing; 0: a hundredth of the time */
     nh_options options;
@@ -29,11 +31,13 @@ typedef struct {
     nh_system *system;
     nh_analysis *analysis;
     nh_model *model;
-    const char *formulation;
+    const char *method, *formulation;
+    const char *scene;    /* the smallest model in words; NULL: all states were integrated */
     size_t columns;
     nh_simulated *column;
-    nh_motion *motion;
+    nh_motion *motion;    /* its states are those of the scene, where there is one */
     double *value;        /* motion->count x columns, row by row */
+    nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
 } nh_simulation;
 

@@ -1,0 +1,184 @@
+#include "motion/trajectory.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
+
+/* ---- expressions along a motion ---- */
+
+typedef bool to_point(void *context, double t, const double *z, double *point);
+
+static bool point_of_all(void *context, double t, const double *z, double *point) { return nh_dynamics_point(context, t, z, point); }
+static bool point_of_scene(void *context, double t, const double *z, double *point) { return nh_scene_point(context, t, z, point); }
+
+static bool values_along(const nh_model *model, to_point *place, void *context, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
+{
+    nh_tape *tape = nh_model_tape(model, n, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *point = nh_alloc_array(model->width, sizeof *point);
+    bool good = true;
+    for (size_t i = 0; i < motion->count && good; i++) {
+        good = place(context, motion->time[i], motion->state + i * motion->size, point);
+        if (good) nh_tape_eval(tape, work, point, value + i * n);
+    }
+    nh_free(point);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return good;
+}
+
+bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
+{
+    return values_along(nh_dynamics_model(dynamics), point_of_all, dynamics, motion, n, e, value);
+}
+
+/* ---- charts that break down ---- */
+
+bool nh_may_leave_chart(const nh_model *o) { return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch; }
+
+static bool *steep(size_t count, size_t n, const double *R, bool *any)
+{
+    bool *flag = nh_alloc_array(count + 1, sizeof *flag);
+    *any = false;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = 0; j < n; j++) flag[i] |= !(fabs(R[i * n + j]) < steepest);
+        *any |= flag[i];
+    }
+    return flag;
+}
+
+bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t n = o->m * o->n;
+    double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
+    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R), *flag = steep(good ? motion->count : 0, n, R, any);
+    if (!good) flag = (nh_free(flag), nh_alloc_array(motion->count + 1, sizeof *flag));
+    nh_free(R);
+    return flag;
+}
+
+/* The entries of R that kept states alone decide; the others do not enter their equations. */
+static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion *motion)
+{
+    const nh_model *o = s->model;
+    if (o->chart->quasi || !o->k) return false;
+    nh_ex *e = nh_alloc_array(o->m * o->n + 1, sizeof *e);
+    size_t n = 0;
+    for (size_t i = 0; i < o->m * o->n; i++) {
+        bool known = true;
+        for (size_t j = s->kept; j < s->states; j++) known &= !nh_depends(o->dag, o->R[i], o->chart->symbol[1 + s->state[j]]);
+        if (known) e[n++] = o->R[i];
+    }
+    double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
+    bool any = false, good = values_along(o, point_of_scene, run, motion, n, e, R);
+    if (good) nh_free(steep(motion->count, n, R, &any));
+    nh_free(R);
+    nh_free(e);
+    return any || !good;
+}
+
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const double *z0, size_t count, const double *times, const nh_flow_options *given, nh_error *error)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t m = o->m, n = o->n;
+    nh_bordered *b = nh_bordered_create(o);
+    nh_flow_problem problem = nh_bordered_flow(b);
+    nh_flow_options options = *given;
+    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
+    nh_motion first = {.count = 1, .size = m + n, .time = (double *)times, .state = (double *)z0};
+    memcpy(y, z0, m * sizeof *y);
+    for (size_t s = 0; s < 2 * m; s++) scale[s] = given->scale[0];
+    options.scale = scale;
+    bool good = nh_along(dynamics, &first, m, o->rho, y + m);
+    nh_motion *motion = good ? nh_flow(&problem, y, count, times, &options, error) : NULL;
+    for (size_t i = 0; motion && i < motion->count; i++) { /* in place: m + n <= 2 m */
+        double *from = motion->state + i * 2 * m, *to = motion->state + i * (m + n);
+        memmove(to, from, m * sizeof *to);
+        for (size_t j = 0; j < n; j++) y[j] = from[m + o->chart->free[j]];
+        memcpy(to + m, y, n * sizeof *to);
+    }
+    if (motion) motion->size = m + n;
+    nh_free(scale);
+    nh_free(y);
+    nh_bordered_free(b);
+    return motion;
+}
+
+/* ---- one motion ---- */
+
+typedef struct {
+    const nh_trajectory_request *q;
+    nh_dynamics *dynamics;
+    nh_trajectory *out;
+    double *z0;
+    nh_flow_options how;
+} job;
+
+/* The scene's states from the start of all. */
+static bool in_scene(job *j, nh_error *error)
+{
+    nh_scene *s = j->out->scene = nh_scene_create(j->q->model, j->q->n, j->q->e);
+    nh_scene_run *run = nh_scene_run_create(s, j->z0);
+    nh_flow_problem problem = nh_scene_problem(run);
+    double *small = nh_alloc_array(s->kept + 1, sizeof *small);
+    for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
+    nh_motion *motion = s->kept ? nh_flow(&problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
+    bool good = motion && !(nh_may_leave_chart(j->q->model) && (!motion->complete || scene_is_steep(s, run, motion)));
+    if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
+    j->out->motion = motion;
+    nh_free(small);
+    nh_scene_run_free(run);
+    if (good) return true;
+    nh_motion_free(motion);
+    nh_scene_free(s);
+    j->out->motion = NULL;
+    j->out->scene = NULL;
+    return false;
+}
+
+static void in_all_states(job *j, nh_error *error)
+{
+    const nh_trajectory_request *q = j->q;
+    nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
+    nh_motion *motion = nh_flow(&problem, j->z0, q->count, q->times, &j->how, error);
+    bool any = false;
+    if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
+    if (motion && nh_may_leave_chart(q->model) && (any || !motion->complete)) {
+        nh_motion_free(motion);
+        j->out->formulation = "all coordinates, accelerations from the bordered system";
+        motion = nh_motion_everywhere(j->dynamics, j->z0, q->count, q->times, &j->how, error);
+    }
+    j->out->motion = motion;
+    if (motion && q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
+}
+
+nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *error)
+{
+    size_t size = q->model->m + q->model->n;
+    nh_trajectory *out = nh_alloc(sizeof *out);
+    *out = (nh_trajectory){.method = "CVODE Adams", .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
+    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0)};
+    double *scale = nh_alloc_array(size + 1, sizeof *scale);
+    for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;
+    j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (nh_dynamics_start(j.dynamics, q->initial, false, j.z0, error) && !(q->smallest && in_scene(&j, &ignored))) in_all_states(&j, error);
+    nh_dynamics_free(j.dynamics);
+    nh_free(scale);
+    nh_free(j.z0);
+    if (out->motion) return out;
+    nh_trajectory_free(out);
+    return NULL;
+}
+
+void nh_trajectory_free(nh_trajectory *trajectory)
+{
+    if (!trajectory) return;
+    nh_motion_free(trajectory->motion);
+    nh_scene_free(trajectory->scene);
+    nh_free(trajectory->value);
+    nh_free(trajectory);
+}
