@@ -91,6 +91,27 @@ Test(scene, quadratures_are_in_order)
     mechanics_clear(&x);
 }
 
+/* Watched in the chart (phi', x'), which ends at cos phi = 0 between two outputs: all coordinates take over. */
+Test(scene, a_chart_that_ends_between_outputs_is_left)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_COORDINATES, 0, NULL);
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    double q[3] = {0}, v[3] = {2, 0, 0}, times[2] = {0, 5};
+    nh_state initial = {0, q, v};
+    nh_ex e = formula(x.model, "phi'");
+    for (int smallest = 0; smallest < 2; smallest++) {
+        nh_trajectory_request r = {.model = x.model, .initial = &initial, .count = 2, .times = times, .options = &options, .n = 1, .e = &e, .smallest = smallest};
+        nh_trajectory *t = nh_trajectory_create(&r, &error);
+        cr_assert(t && t->motion->complete);
+        cr_expect(strstr(t->formulation, "all coordinates"), "%s", t->formulation);
+        cr_expect_float_eq(t->value[1], 2 / cosh(5.0), 1e-7, "%.12g", t->value[1]);
+        nh_trajectory_free(t);
+    }
+    mechanics_clear(&x);
+}
+
 /* ---- the same values as the whole model, for every system ---- */
 
 static uint64_t state = 88172645463325252u;

@@ -4,11 +4,11 @@
 #include "cli/cli.h"
 #include "report/motion.h"
 
-static bool request_of(nh_cli *cli, nh_simulate_request *q, nh_error *error)
+bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *q, nh_error *error)
 {
     if (cli->operands != 1) {
-        nh_fail(error, NH_USAGE, "", "simulate which system?");
-        return nh_error_hint(error, "nhsym simulate sleigh --initial \"omega=2\" --until 10");
+        nh_fail(error, NH_USAGE, "", "%s which system?", cli->command);
+        return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
     *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene,
@@ -23,7 +23,7 @@ static bool request_of(nh_cli *cli, nh_simulate_request *q, nh_error *error)
 int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
-    nh_simulation *s = request_of(cli, &request, error) ? nh_simulate(&request, error) : NULL;
+    nh_simulation *s = nh_cli_motion_request(cli, "nhsym simulate sleigh --initial \"omega=2\" --until 10", &request, error) ? nh_simulate(&request, error) : NULL;
     if (!s) return error->code;
     bool good = true, complete = s->motion->complete;
     if (!cli->json && !cli->quiet) {

@@ -21,6 +21,7 @@ int nh_cli_help(nh_cli *cli, nh_error *error)
          "  nhsym verify SYSTEM|FILE --current EXPR | --field \"Z0=..; x=..\"    is it conserved? a constraint symmetry?\n"
          "  nhsym simulate SYSTEM|FILE --initial \"phi=0, omega=2\" --until T --step H    a motion, as CSV or --json\n"
          "                              --watch \"x, T = m/2*v^2\": only these, by the smallest model for them; --scene: those of the analysis file\n"
+         "  nhsym chart SYSTEM|FILE [--budget 5s] [--svg FILE]    every integrator on one motion: time against error\n"
          "  nhsym list                  systems that are here\n"
          "  nhsym show SYSTEM           a system file\n"
          "  nhsym explain [TOPIC]       what a word of the report means; `explain options` lists all numbers that decide\n"

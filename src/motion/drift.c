@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/linalg.h"
+
 typedef struct {
     const nh_model *model;
     nh_dynamics *dynamics;
@@ -149,27 +151,6 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
 
 /* ---- the other chart's pivot ---- */
 
-static double determinant(size_t n, double *a)
-{
-    double det = 1;
-    for (size_t k = 0; k < n; k++) {
-        size_t best = k;
-        for (size_t i = k + 1; i < n; i++)
-            if (fabs(a[i + k * n]) > fabs(a[best + k * n])) best = i;
-        if (a[best + k * n] == 0) return 0;
-        for (size_t j = 0; j < n && best != k; j++) {
-            double x = a[k + j * n];
-            a[k + j * n] = a[best + j * n];
-            a[best + j * n] = x;
-        }
-        if (best != k) det = -det;
-        det *= a[k + k * n];
-        for (size_t i = k + 1; i < n; i++)
-            for (size_t j = n; j-- > k;) a[i + j * n] -= a[i + k * n] / a[k + k * n] * a[k + j * n];
-    }
-    return det;
-}
-
 /* det d(independent coordinate velocities)/dw changes sign where the coordinate chart breaks down. */
 static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
 {
@@ -186,7 +167,7 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
     double *value = nh_alloc_array(motion->count * n * n + 1, sizeof *value), last = 0;
     bool good = row == n && nh_along(r->dynamics, motion, n * n, e, value);
     for (size_t i = 0; i < motion->count && good; i++) {
-        double det = determinant(n, value + i * n * n);
+        double det = nh_determinant(n, value + i * n * n);
         if (last * det < 0 && isnan(r->out->crossing)) {
             double t0 = motion->time[i - 1], t1 = motion->time[i];
             r->out->crossing = t0 + (t1 - t0) * last / (last - det);

@@ -11,7 +11,7 @@ typedef struct {
     double *q, *v; /* m each */
 } nh_state;
 
-/* Reduced equations: z = (q, w), z' = (rho, a), with their exact Jacobian. */
+/* Reduced equations: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot of a chart of coordinate velocities is a guard. */
 typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);

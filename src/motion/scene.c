@@ -169,6 +169,7 @@ void nh_scene_free(nh_scene *s)
 struct nh_scene_run {
     const nh_scene *scene;
     nh_tape_work *rate, *jacobian;
+    const nh_flow_problem *whole;
     double *point; /* (t, q, w, u): dropped states at their initial values, implicit velocities at their last ones */
 };
 
@@ -229,9 +230,17 @@ static bool scene_jacobian(double t, const double *z, double *jacobian, void *co
     return finite_all(run->scene->kept * run->scene->kept, jacobian);
 }
 
-nh_flow_problem nh_scene_problem(nh_scene_run *run)
+static bool scene_guard(double t, const double *z, double *value, void *context)
 {
-    return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = scene_jacobian};
+    nh_scene_run *run = context;
+    return place(run, t, z) && run->whole->guard(t, run->point + 1, value, run->whole->context);
+}
+
+nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole)
+{
+    run->whole = whole;
+    size_t guards = whole ? whole->guards : 0;
+    return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = scene_jacobian, .guards = guards, .guard = guards ? scene_guard : NULL};
 }
 
 /* ---- in words ---- */

@@ -121,7 +121,7 @@ static bool in_scene(job *j, nh_error *error)
 {
     nh_scene *s = j->out->scene = nh_scene_create(j->q->model, j->q->n, j->q->e);
     nh_scene_run *run = nh_scene_run_create(s, j->z0);
-    nh_flow_problem problem = nh_scene_problem(run);
+    nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_scene_problem(run, &whole);
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
     nh_motion *motion = s->kept ? nh_flow(&problem, small, j->q->count, j->q->times, &j->how, error) : NULL;

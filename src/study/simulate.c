@@ -23,7 +23,25 @@ static nh_analysis *inline_analysis(nh_arena *arena, const char *initial, nh_err
     return nh_analysis_text("--initial", text, error);
 }
 
-static bool read_all(nh_simulation *s, const nh_simulate_request *q, nh_state *initial, double *until, nh_error *error)
+/* A generic state on the constraints: the chart's first probe. */
+static bool choose_initial(nh_simulation *s, nh_state *initial)
+{
+    const nh_model *o = s->model;
+    if (!o->chart->probes) return false;
+    const double *point = o->chart->probe;
+    nh_tape *tape = nh_model_tape(o, o->m, o->rho);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    initial->t = point[0];
+    initial->q = nh_arena_alloc(s->arena, o->m * sizeof(double));
+    initial->v = nh_arena_alloc(s->arena, o->m * sizeof(double));
+    memcpy(initial->q, point + 1, o->m * sizeof(double));
+    nh_tape_eval(tape, work, point, initial->v);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return true;
+}
+
+bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_choose, nh_state *initial, double *until, nh_error *error)
 {
     nh_analysis *own = NULL;
     if (q->analysis_path && !(s->analysis = nh_analysis_read(q->analysis_path, error))) return false;
@@ -50,7 +68,7 @@ static bool read_all(nh_simulation *s, const nh_simulate_request *q, nh_state *i
     *until = !q->until_given && s->analysis && s->analysis->has_until ? s->analysis->until : q->options.until;
     s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance : q->options.tolerance;
     nh_analysis_free(own);
-    if (given) return true;
+    if (given || (may_choose && choose_initial(s, initial))) return true;
     nh_fail(error, NH_USAGE, "", "simulate needs an initial state");
     return nh_error_hint(error, "--initial \"%s=0, %s=1\"; what is not named is 0", s->system->coordinate[0].name, nh_name_of(s->model->dag, s->model->chart->w[0]));
 }
@@ -172,7 +190,7 @@ nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
     double until, *times = NULL;
     size_t count;
     s->arena = arena;
-    if (read_all(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
+    if (nh_simulate_read(s, q, false, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
     if (times && choose_columns(s, q, error) && integrate(s, q, &initial, count, times, error)) return s;
     nh_simulation_free(s);
     return NULL;

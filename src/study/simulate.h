@@ -42,6 +42,9 @@ typedef struct {
 } nh_simulation;
 
 nh_simulation *nh_simulate(const nh_simulate_request *request, nh_error *error);
+/* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the initial state
+ * (a generic one where none is given and `may_choose`) and the final time.  Also on failure: nh_simulation_free. */
+bool nh_simulate_read(nh_simulation *simulation, const nh_simulate_request *request, bool may_choose, nh_state *initial, double *until, nh_error *error);
 void nh_simulation_free(nh_simulation *simulation);
 
 #endif
