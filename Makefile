@@ -5,6 +5,9 @@
 #   make           build only            make install PREFIX=/usr/local
 #   make bench     measure, and write docs/performance.md
 #   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
+#   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
+#   make perturbed analyse copies of every system with a small term added, and print the table
+#   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
 #   make clean
 
 CC      = gcc
@@ -31,7 +34,11 @@ CLI     = $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/cli/*.c))
 TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
 BENCHES = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/bench_*.c))
 
-.PHONY: all sleigh check tests install bench catalogue clean packages test-packages
+SYSTEMS = 200
+SEED    = 1
+SECONDS = 60
+
+.PHONY: all sleigh check tests install bench catalogue random perturbed fuzz clean packages test-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -54,8 +61,12 @@ bench: test-packages
 
 catalogue: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
-	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points.\n\n'; \
+	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points.\n\n'; \
 	   $(BUILD)/tests/bench_catalogue systems; } >docs/catalogue.md; code=$$?; tail -n 1 docs/catalogue.md; exit $$code
+
+random perturbed: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(BUILD)/tests/bench_$@ $(if $(filter random,$@),$(SYSTEMS),systems) $(SEED)
 
 packages:
 	@sh tests/packages.sh $(PACKAGES)

@@ -1,6 +1,7 @@
 /* bench_catalogue: every system of a folder analysed without an analysis file, against the integrals that its file knows.
  *
- *     bench_catalogue systems [SEED]        prints a table; the exit code is 1 when something known is missing or something false is reported
+ *     bench_catalogue systems [SEED]        prints a table; the exit code is 1 when something within reach is missing or something false is reported or
+ *                                       written
  */
 #include "catalogue.h"
 
@@ -9,18 +10,19 @@ int main(int argc, char **argv)
     char *name[most_files];
     const char *folder = argc > 1 ? argv[1] : "systems";
     uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 0;
-    size_t n = list(folder, name), missing = 0, wrong = 0, unread = 0;
+    size_t n = list(folder, name), missing = 0, excused = 0, wrong = 0, unread = 0;
     double total = 0;
     print_head("system");
     for (size_t i = 0; i < n; i++) {
         row o = compare_file(folder, name[i], seed, 0);
         print_row(name[i], &o);
         missing += o.missing;
-        wrong += o.wrong;
+        excused += o.excused;
+        wrong += o.wrong + o.untrue;
         total += o.seconds;
         unread += o.unread;
         free(name[i]);
     }
-    printf("\n%zu systems, %zu known integrals missing, %zu false, %zu not checked by the multiplier form, %.1f seconds in all.\n", n, missing, wrong, unread, total);
-    return n == 0 || missing + wrong > 0;
+    printf("\n%zu systems, %zu known integrals missing (%zu of them out of reach), %zu false, %zu not checked by the multiplier form, %.1f seconds in all.\n", n, missing, excused, wrong, unread, total);
+    return n == 0 || missing - excused + wrong > 0;
 }

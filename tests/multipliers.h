@@ -17,6 +17,7 @@
 
 #include "base/memory.h"
 #include "expr/diff.h"
+#include "expr/normal.h"
 #include "noether/points.h"
 
 /* ---- expressions in ball arithmetic ---- */
@@ -147,6 +148,7 @@ typedef struct {
     const nh_model *model; /* borrows */
     slong bits;
     size_t m, k, points, capacity, symbols;
+    bool exact;            /* no number of the equations was too long for an exact one: then rates have all digits, else those of doubles */
     nh_ex *symbol;
     arb_ptr state, change; /* points x symbols */
 } multiplier_motion;
@@ -274,6 +276,8 @@ static multiplier_motion *multiplier_motion_create(const nh_model *model, const 
     for (size_t i = 0; i < p; i++) o->symbol[1 + 2 * m + i] = model->parameter[i];
     nh_ex *K = nh_alloc_array(m * m + m + 2 * k + k * m, sizeof *K), *h = K + m * m, *F = h + m, *c = F + k * m, *f = c + k;
     multiplier_equations(model, K, h, F, c, f);
+    o->exact = true;
+    for (nh_ex *e = K; e < f + k; e++) o->exact = o->exact && nh_is_exact(model->dag, *e);
     double *v = nh_alloc_array(m * at->count, sizeof *v);
     nh_points_evaluate(at, model, m, model->rho, v);
     arb_graph g;
@@ -313,6 +317,7 @@ static void multiplier_motion_free(multiplier_motion *o)
  * Phi times the speed of the state: an acceleration may be zero up to rounding. */
 typedef struct {
     size_t points;
+    bool exact; /* equations and Phi; else only the digits of doubles mean anything */
     double upper, lower;
 } multiplier_rate;
 
@@ -371,9 +376,12 @@ static multiplier_rate multiplier_rate_of(const multiplier_motion *o, nh_ex phi)
 {
     size_t n = 1 + 2 * o->m;
     nh_dag *d = o->model->dag;
-    multiplier_rate worst = {.upper = -INFINITY, .lower = -INFINITY};
+    multiplier_rate worst = {.exact = o->exact, .upper = -INFINITY, .lower = -INFINITY};
     nh_ex *slope = nh_alloc_array(n, sizeof *slope);
-    for (size_t j = 0; j < n; j++) slope[j] = nh_diff(d, phi, o->symbol[j]);
+    for (size_t j = 0; j < n; j++) {
+        slope[j] = nh_diff(d, phi, o->symbol[j]);
+        worst.exact = worst.exact && nh_is_exact(d, slope[j]);
+    }
     arb_graph g;
     arb_graph_init(&g, d, o->bits, o->symbols, o->symbol, NULL);
     for (size_t i = 0; i < o->points; i++) {

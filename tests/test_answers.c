@@ -234,6 +234,25 @@ Test(prove, false_ones_are_refuted)
     mechanics_clear(&x);
 }
 
+/* However small or large the box is, the points differ, so that what is false is refuted. */
+Test(prove, false_ones_are_refuted_in_boxes_of_any_size)
+{
+    static const double size[] = {1e-12, 1e-7, 1e-3, 1, 1e5, 1e12};
+    for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "name: box\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: (x'^2 + y'^2)/2\n"
+                 "domain: {x: [%g, %g], y: [%g, %g], x': [%g, %g], y': [%g, %g]}\n",
+                 -size[i], size[i], -size[i], size[i], -size[i], size[i], -size[i], size[i]);
+        mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
+        nh_proof good = proof_of(x.model, "x*y' - y*x'", true), bad = proof_of(x.model, "x*x' - y*y'", true), worse = proof_of(x.model, "x*y' - 1.001*y*x'", true);
+        cr_expect(good.proved && good.points >= 4, "%g", size[i]);
+        cr_expect(bad.refuted && bad.digits < 5 && bad.points >= 4, "%g: %g digits at %zu points", size[i], bad.digits, bad.points);
+        cr_expect(worse.refuted && worse.digits < 5, "%g: %g digits", size[i], worse.digits);
+        mechanics_clear(&x);
+    }
+}
+
 /* The number of digits says how far from true a near-integral is. */
 Test(prove, digits_measure_the_distance)
 {

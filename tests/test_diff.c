@@ -282,3 +282,24 @@ Test(diff, wide_expressions, .timeout = 20)
     nh_free(part);
     nh_dag_free(d);
 }
+
+/* All derivatives at once, by accumulation, against one at a time. */
+Test(diff, gradient_agrees_with_diff)
+{
+    size_t compared = 0;
+    for (uint64_t seed = 1; seed <= 300; seed++) {
+        source s = source_create(seed);
+        nh_ex e = random_expression(&s, 5), slope[SYMBOLS];
+        double at[SYMBOLS];
+        nh_gradient(s.dag, e, SYMBOLS, s.symbol, slope);
+        for (size_t i = 0; i < SYMBOLS; i++) at[i] = random_real(&s, 0.4, 1.7);
+        for (size_t i = 0; i < SYMBOLS; i++) {
+            double size = 1, one = naive_value(s.dag, nh_diff(s.dag, e, s.symbol[i]), s.symbol, at, &size), all = naive_value(s.dag, slope[i], s.symbol, at, &size);
+            if (!isfinite(one) || !(size < 1e5)) continue;
+            cr_expect_leq(fabs(one - all), 1e-9 * (1 + size), "seed %d, symbol %zu: %.17g and %.17g", (int)seed, i, one, all);
+            compared++;
+        }
+        nh_dag_free(s.dag);
+    }
+    cr_expect_gt(compared, (size_t)600, "only %zu", compared);
+}

@@ -203,6 +203,9 @@ static const struct {
     {THREE "constraints: [\"x^2 + y^2 + z^2 = 1\"]\n", NULL, 0, 0, false},
     {THREE "constraints: [\"z' = x'*y + x*y' + 1\"]\n", "z - x*y - t", 1, 1, false},
     {THREE "constraints: [\"z' = y*x'\"]\n", NULL, 0, 0, false},
+    {THREE "constraints: [\"z' = z*x'\"]\n", "z*exp(-x)", 1, 1, false},
+    {THREE "constraints: [\"z' = cos(x)*x' + t*y' + y\"]\n", "z - t*y - sin(x)", 1, 1, false},
+    {THREE "constraints: [\"z' = (z + x)*(x' + y') - x'\"]\n", NULL, 1, 0, false}, /* (z + x)*exp(-x - y) is in no ansatz */
     {"coordinates: [{name: p, type: angle}, {name: q, type: angle}, z]\nlagrangian: p'^2 + q'^2 + z'^2/2\nconstraints: [\"p' = 3*q' + 2*z*z'\"]\n", "p - 3*q - z^2", 1, 1, true},
     {THREE "constraints: [\"x'^2 + y'^2 = 4\", \"z' = x'*y + x*y'\"]\n", "z - x*y", 1, 1, false},
     {"coordinates: [x, y, z, u]\nlagrangian: x'^2 + y'^2 + z'^2 + u'^2\nconstraints: [\"z' = y*x'\", \"u' = x'*y + y'*x + z' - y*x'\"]\n", "u - x*y", 1, 1, false},

@@ -417,6 +417,29 @@ Test(geometry, a_lagrangian_that_is_singular_on_the_submanifold_is_refused)
     nh_system_free(s);
 }
 
+/* The direction without inertia is told, also when it is no coordinate's, and however the rank falls: none, or in places only. */
+Test(geometry, a_direction_without_inertia_is_named)
+{
+    static const struct {
+        const char *lagrangian, *says[3];
+    } cases[] = {
+        {"(x' + 2*y')^2/2 + z'^2", {"rank 2 of 3", "x' : y' = 1 : -0.5", "needs inertia"}},
+        {"(x' + y')^2 + (y' - z')^2*exp(x)", {"rank 2 of 3", "x' : y' : z' = 1 : -1 : -1", ""}},
+        {"x*y*z", {"rank 0 of 3", "singular on the constraint submanifold", ""}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[300], said[2600];
+        nh_error error = {0};
+        snprintf(text, sizeof text, "name: flat\ncoordinates: [x, y, z]\nlagrangian: %s\n", cases[i].lagrangian);
+        nh_system *s = nh_system_parse("flat.yaml", text, 0, NULL, &error);
+        cr_assert_not_null(s, "%s", error.what);
+        cr_assert_null(nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error));
+        nh_error_format(&error, said, sizeof said);
+        for (size_t j = 0; j < 3; j++) cr_expect_not_null(strstr(said, cases[i].says[j]), "%s: no \"%s\" in %s", cases[i].lagrangian, cases[i].says[j], said);
+        nh_system_free(s);
+    }
+}
+
 /* ---- kinds of constraints ---- */
 
 typedef struct {

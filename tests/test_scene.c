@@ -99,7 +99,7 @@ Test(scene, a_chart_that_ends_between_outputs_is_left)
     nh_error error = {0};
     nh_options_default(&options);
     double q[3] = {0}, v[3] = {2, 0, 0}, times[2] = {0, 5};
-    nh_state initial = {0, q, v};
+    nh_state initial = {.q = q, .v = v};
     nh_ex e = formula(x.model, "phi'");
     for (int smallest = 0; smallest < 2; smallest++) {
         nh_trajectory_request r = {.model = x.model, .initial = &initial, .count = 2, .times = times, .options = &options, .n = 1, .e = &e, .smallest = smallest};
@@ -136,7 +136,7 @@ static void compare_on(const char *path)
     mechanics x = mechanics_of_file(path, NH_CHART_AUTO, 0, NULL);
     nh_model *o = x.model;
     double *at = nh_alloc_array(2 * o->m, sizeof *at);
-    nh_state initial = {0, at, at + o->m};
+    nh_state initial = {.q = at, .v = at + o->m};
     for (size_t trial = 0; trial < 3 && trial < o->chart->probes; trial++) {
         nh_ex e = random_quantity(o);
         start_at_probe(o, trial, &initial);

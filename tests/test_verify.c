@@ -6,6 +6,11 @@
 
 #include "report/motion.h"
 #include "report/verdict.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
 #include "study/simulate.h"
 #include "study/verify.h"
 
@@ -190,6 +195,38 @@ Test(simulate, the_closed_form_in_both_charts)
         nh_text_clear(&csv);
         nh_simulation_free(s);
     }
+}
+
+/* Constant speed in gravity: where z' changes sign the chart of (x', y') ends, at the branch point of z' = +-sqrt(1 - x'^2 - y'^2), and the motion goes
+ * on in all coordinates.  x' exp(-g z), y' exp(-g z) and the speed stay; z' follows from z' = tanh(c - g t) of the unit tangent. */
+Test(simulate, a_motion_leaves_its_chart_and_its_branch)
+{
+    static const char text[] = "name: rising\nparameters: [{name: g, value: 1.3}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
+                               "lagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\nconstraints:\n  - x'^2 + y'^2 + z'^2 = 1\n";
+    char path[] = "/tmp/nhsym-rising-XXXXXX";
+    int descriptor = mkstemp(path);
+    cr_assert(descriptor >= 0 && write(descriptor, text, sizeof text - 1) == (ssize_t)sizeof text - 1 && close(descriptor) == 0);
+    static const char *const starts[] = {"x'=0.36, y'=0.48, z'=0.8", "x'=-0.1, y'=0.2", "x'=-0.1, y'=0.2, z'=0.97467943448089639"};
+    for (size_t k = 0; k < 3; k++) {
+        nh_error error = {0};
+        nh_simulate_request q = {.system_path = path, .initial = starts[k], .until_given = true, .tolerance_given = true, .step = 0.25, .options = defaults()};
+        q.options.until = 4;
+        q.options.tolerance = 1e-11;
+        nh_simulation *s = nh_simulate(&q, &error);
+        cr_assert_not_null(s, "%s: %s", starts[k], error.what);
+        cr_assert(s->motion->complete && s->motion->count == 17, "ended at %g", s->motion->end_time);
+        const double *first = s->value + 3;
+        double c = atanh(first[2]);
+        for (size_t i = 0; i < s->motion->count; i++) {
+            const double *v = s->value + i * s->columns + 3, t = s->motion->time[i], ratio = cosh(c) / cosh(c - 1.3 * t);
+            cr_expect_float_eq(v[2], tanh(c - 1.3 * t), 2e-9, "z' at %g: %.17g instead of %.17g", t, v[2], tanh(c - 1.3 * t));
+            cr_expect_float_eq(v[0], first[0] * ratio, 2e-9);
+            cr_expect_float_eq(v[1], first[1] * ratio, 2e-9);
+        }
+        if (k != 1) cr_expect(first[2] > 0 && s->value[16 * s->columns + 5] < -0.9, "no apex was passed");
+        nh_simulation_free(s);
+    }
+    remove(path);
 }
 
 Test(simulate, what_cannot_be_started_is_explained)

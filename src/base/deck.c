@@ -42,6 +42,8 @@ bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, 
     va_end(arguments);
     if (!node)
         return nh_fail(error, NH_INPUT, deck->name, "%s", what);
+    if (node->deck)
+        deck = node->deck;
     return nh_deck_fail_at(deck, nh_deck_origin(deck, node, offset), error, "%s", what);
 }
 

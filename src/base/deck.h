@@ -23,6 +23,7 @@ struct nh_deck_node {
     const nh_deck_node **key;  /* keys of a map (scalars, distinct) */
     size_t begin, end;        /* byte range in the source */
     size_t line, column;      /* of the first character, from 1; a column counts code points */
+    const struct nh_deck *deck; /* where it stands: a file may include another */
 };
 
 typedef struct nh_deck nh_deck;
@@ -31,6 +32,11 @@ typedef struct nh_deck nh_deck;
 nh_deck *nh_deck_read(const char *path, nh_error *error);
 nh_deck *nh_deck_parse(const char *name, const char *text, size_t length, nh_error *error);
 void nh_deck_free(nh_deck *deck);
+
+/* Merge in the file that the root's key `include` names, relative to the folder of this one, and those that it includes: the root is then a map
+ * without that key.  Maps are united and lists appended to those of the included file; what both say, and list entries {name: ...} of one name,
+ * this file decides.  Messages about a node name the file in which it stands. */
+bool nh_deck_include(nh_deck *deck, nh_error *error);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);
 const char *nh_deck_name(const nh_deck *deck);
 

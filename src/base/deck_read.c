@@ -108,6 +108,7 @@ static nh_deck_node *new_node(builder *b, const yaml_event_t *event)
 {
     nh_deck_node *node = nh_arena_alloc(b->deck->arena, sizeof *node);
     node->text = "";
+    node->deck = b->deck;
     node->begin = byte_at(b, event->start_mark);
     node->end = byte_at(b, event->end_mark);
     nh_deck_place(b->deck, node->begin, &node->line, &node->column);

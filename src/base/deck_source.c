@@ -67,6 +67,7 @@ void nh_deck_free(nh_deck *deck)
 {
     if (!deck)
         return;
+    nh_deck_free(deck->included);
     nh_free(deck->before);
     nh_free(deck->line);
     nh_arena_free(deck->arena);

@@ -10,6 +10,7 @@ struct nh_deck {
     char *name, *source;
     size_t length;
     const nh_deck_node *root;
+    struct nh_deck *included; /* owned */
     size_t *before; /* before[i]: code points before byte i * NH_DECK_BLOCK */
     size_t *line;   /* byte at which a line begins */
     size_t lines, line_capacity;

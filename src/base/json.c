@@ -40,6 +40,7 @@ void nh_json_put_bool(nh_json *object, const char *key, bool value) { put(object
 void nh_json_put_null(nh_json *object, const char *key) { put(object, key, cJSON_CreateNull()); }
 void nh_json_put_copy(nh_json *object, const char *key, const nh_json *value) { put(object, key, cJSON_Duplicate(value, 1)); }
 nh_json *nh_json_add_object(nh_json *array) { return add(array, cJSON_CreateObject()); }
+nh_json *nh_json_add_array(nh_json *array) { return add(array, cJSON_CreateArray()); }
 void nh_json_add_number(nh_json *array, double value) { add(array, number(value)); }
 void nh_json_add_text(nh_json *array, const char *text) { add(array, text_or_null(text)); }
 nh_json *nh_json_get(const nh_json *object, const char *key) { return cJSON_GetObjectItem(object, key); }

@@ -21,6 +21,7 @@ void nh_json_put_numbers(nh_json *object, const char *key, size_t n, const doubl
 void nh_json_put_copy(nh_json *object, const char *key, const nh_json *value);
 /* Entries of an array. */
 nh_json *nh_json_add_object(nh_json *array);
+nh_json *nh_json_add_array(nh_json *array);
 void nh_json_add_number(nh_json *array, double value);
 void nh_json_add_text(nh_json *array, const char *text);
 

@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_watch, opt_scene, opt_svg, opt_budget };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -17,9 +17,11 @@ static const struct option long_options[] = {
     {"columns", required_argument, NULL, opt_columns},   {"no-color", no_argument, NULL, opt_no_color},
     {"current", required_argument, NULL, opt_current},   {"field", required_argument, NULL, opt_field},
     {"max-seconds", required_argument, NULL, opt_max_seconds}, {"initial", required_argument, NULL, opt_initial},
-    {"step", required_argument, NULL, opt_step},         {"watch", required_argument, NULL, opt_watch},
-    {"scene", no_argument, NULL, opt_scene},             {"svg", required_argument, NULL, opt_svg},
-    {"budget", required_argument, NULL, opt_budget},
+    {"step", required_argument, NULL, opt_step},         {"threads", required_argument, NULL, opt_threads},
+    {"project", no_argument, NULL, opt_project},
+    {"group", required_argument, NULL, opt_group},       {"chain", required_argument, NULL, opt_chain},
+    {"watch", required_argument, NULL, opt_watch},       {"scene", no_argument, NULL, opt_scene},
+    {"svg", required_argument, NULL, opt_svg},           {"budget", required_argument, NULL, opt_budget},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -105,13 +107,17 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_samples: return cli->samples_given = true, nh_options_set(&cli->options, "samples", value, error);
     case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
+    case opt_threads: return nh_options_set(&cli->options, "threads", value, error);
     case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
+    case opt_project: return cli->project = true;
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_watch: cli->watch = value; return true;
     case opt_svg: cli->svg = value; return true;
     case opt_budget: return seconds(value, &cli->budget, error);
     case opt_scene: return cli->scene = true;
+    case opt_chain: cli->chain = value; return true;
+    case opt_group: cli->group = value; return true;
     case opt_current: cli->current = value; return true;
     case opt_field: cli->field = value; return true;
     case opt_columns: return nh_options_set(&cli->options, "columns", value, error);

@@ -16,7 +16,10 @@ typedef struct {
     const char **operand;
     const char *analysis, *json; /* files; json may be "-" */
     const char *current, *field; /* questions of verify */
-    const char *initial, *watch; /* of simulate */
+    const char *initial;         /* of simulate and reduce */
+    bool project;
+    const char *group, *chain;   /* of reduce */
+    const char *watch;           /* of simulate */
     bool scene;
     const char *svg;             /* of chart */
     double budget;
@@ -36,7 +39,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_chart, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help;
+nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_chart, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help;
 
 /* What simulate and chart ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);

@@ -50,6 +50,9 @@ struct nh_dag {
 bool nh_dag_simplified(const nh_dag *dag, nh_ex e, nh_ex *out);
 void nh_dag_set_simplified(nh_dag *dag, nh_ex e, nh_ex simple);
 
+/* f'(a); e is f(a) itself. */
+nh_ex nh_diff_outer(nh_dag *dag, nh_function f, nh_ex e, nh_ex a);
+
 nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg);
 
 #endif

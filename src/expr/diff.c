@@ -59,7 +59,7 @@ static nh_ex inverse(nh_dag *d, nh_ex a) { return nh_powi(d, a, -1); }
 static nh_ex inverse_sqrt(nh_dag *d, nh_ex a) { return nh_pow(d, a, nh_ratio(d, -1, 2)); }
 
 /* f'(a); `e` is f(a) itself. */
-static nh_ex outer(nh_dag *d, nh_function f, nh_ex e, nh_ex a)
+nh_ex nh_diff_outer(nh_dag *d, nh_function f, nh_ex e, nh_ex a)
 {
     switch (f) {
     case NH_SIN: return nh_call(d, NH_COS, a);
@@ -88,7 +88,7 @@ static nh_ex diff_function(nh_dag *d, nh_ex e, nh_ex x)
     nh_ex a = nh_child(d, e, 0);
     if (f != NH_ATAN2) {
         nh_ex da = nh_diff(d, a, x);
-        return nh_is_zero(d, da) ? da : nh_mul(d, outer(d, f, e, a), da);
+        return nh_is_zero(d, da) ? da : nh_mul(d, nh_diff_outer(d, f, e, a), da);
     }
     /* atan2(y, x)' = (y' x - y x') / (x^2 + y^2) */
     nh_ex b = nh_child(d, e, 1);

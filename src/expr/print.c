@@ -254,6 +254,20 @@ static size_t width_of(nh_num c)
     return above + (c.q == 1 ? 0 : 1 + digits_of(c.q));
 }
 
+/* Can c be multiplied into a sum, and taken out again when the text is read, without a number too long to be exact? */
+static bool scales_exactly(const nh_dag *dag, nh_num c, nh_ex sum)
+{
+    static const double longest = 4e18; /* of the numbers in a 64-bit rational */
+    nh_num first = nh_constant_of(dag, sum);
+    double size = fabs((double)first.p) * (double)first.q;
+    if (!nh_num_exact(c)) return true;
+    for (size_t i = 0; i < nh_arity(dag, sum); i++) {
+        nh_num k = nh_coefficient_of(dag, sum, i);
+        size = fmax(size, fabs((double)k.p) * (double)k.q);
+    }
+    return size * fabs((double)c.p) * (double)c.q < longest;
+}
+
 /* Is c * (sum) shorter without the parentheses: b - a for -(a - b), x^2/2 - b for (x^2 - 2*b)/2? */
 static bool opens_sum(const nh_dag *dag, nh_ex e)
 {
@@ -261,6 +275,7 @@ static bool opens_sum(const nh_dag *dag, nh_ex e)
     nh_ex sum = nh_child(dag, e, 0);
     if (nh_kind_of(dag, sum) != NH_SUM || !nh_is_number(dag, nh_exponent_of(dag, e, 0), 1)) return false;
     nh_num scale = nh_constant_of(dag, e);
+    if (!scales_exactly(dag, scale, sum)) return false;
     size_t closed = 2 + width_of(scale), open = 0;
     for (size_t i = 0; i < nh_arity(dag, sum); i++) {
         closed += width_of(nh_coefficient_of(dag, sum, i));

@@ -160,7 +160,7 @@ nh_distribution nh_distribution_of(const nh_model *o)
     out.type = !is_affine(o) ? NH_NONLINEAR : out.homogeneous ? NH_LINEAR : NH_AFFINE;
     out.rheonomic = is_rheonomic(o);
     out.growth = growth(o, &out);
-    out.integrals = out.growth.dimension - out.growth.rank[out.growth.length - 1];
+    if (!out.growth.cut) out.integrals = out.growth.dimension - out.growth.rank[out.growth.length - 1];
     out.holonomic = out.type != NH_NONLINEAR && out.integrals == o->k;
     out.semiholonomic = out.type == NH_NONLINEAR ? is_semiholonomic(o) : out.holonomic;
     for (size_t a = 0; a < o->k; a++) out.positions += o->system->constraint[a].position;

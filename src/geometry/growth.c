@@ -7,7 +7,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-enum { most_fields = 200, largest_entry = 400, zero_terms = 2000, stages_beyond = 2 };
+enum { most_fields = 200, largest_entry = 400, zero_terms = 2000, stages_beyond = 2, deepest = 4, most_nodes = 250000 };
 static const double rank_bound = 1e-9;
 
 typedef struct {
@@ -16,6 +16,7 @@ typedef struct {
     size_t N;
     const nh_ex *symbol;
     bool proved, too_large;
+    size_t end; /* size of the graph at which brackets are given up */
 } space;
 
 static void bracket(const space *x, const nh_ex *a, const nh_ex *b, nh_ex *out)
@@ -121,7 +122,7 @@ static void next_stage(const space *x, brackets *b, size_t generators)
     size_t N = x->N, from = b->stages ? b->first[b->stages - 1] : 0, to = b->count;
     nh_ex *out = nh_alloc_array(N + 1, sizeof *out);
     for (size_t i = 0; i < generators; i++)
-        for (size_t j = from; j < to && b->count < most_fields; j++) {
+        for (size_t j = from; j < to && b->count < most_fields && nh_dag_size(x->d) < x->end; j++) {
             if (from == 0 && j <= i) continue; /* [X_i, X_j] once */
             bracket(x, b->field + i * N, b->field + j * N, out);
             push(b, N, out);
@@ -164,25 +165,49 @@ static bool ranks_at(const space *x, const brackets *b, const nh_tape *tape, con
     return good;
 }
 
-/* Stage by stage, the largest rank over the probes, until it stays the same for once; two stages more are made, for places where it grows later. */
-static nh_tape *ranks_of_probes(const space *x, brackets *b, size_t generators, const nh_ex *field, nh_growth *g)
+/* Of the last stage keep the fields that raise the rank at z: with the others [X_i, .] gives nothing new. */
+static void prune(const space *x, brackets *b, const nh_tape *tape, const double *z)
 {
-    size_t rank[NH_MOST_GROWTH + 1], beyond = 0;
-    const nh_chart *c = x->o->chart;
-    nh_tape *tape = NULL;
-    for (size_t i = 0; i < generators; i++) push(b, x->N, field + i * x->N);
-    b->first[++b->stages] = b->count;
-    for (;;) {
-        nh_tape_free(tape);
-        tape = nh_model_tape(x->o, b->count * x->N, b->field);
-        size_t best = 0, last = b->stages - 1, reached = g->length ? g->rank[g->length - 1] : 0;
-        for (size_t p = 0; p < c->probes && best < x->N; p++)
-            if (ranks_at(x, b, tape, c->probe + p * x->o->width, rank) && rank[last] > best) best = rank[last];
-        if (best > reached && beyond == 0) g->rank[g->length++] = best;
-        if (best == reached || best == x->N) beyond++;
-        if (beyond > stages_beyond || b->stages == NH_MOST_GROWTH || b->count >= most_fields) return tape;
-        next_stage(x, b, generators);
+    size_t N = x->N, from = b->first[b->stages - 1], kept = from, n = b->count * N;
+    nh_tape_work *scratch = nh_tape_work_create(tape);
+    double *value = nh_alloc_array(2 * n + b->count + N + 1, sizeof *value);
+    nh_tape_eval(tape, scratch, z, value);
+    size_t rank = rank_of(N, from, value, value + n);
+    for (size_t j = from; j < b->count; j++) {
+        memmove(value + kept * N, value + j * N, N * sizeof *value);
+        size_t with = rank_of(N, kept + 1, value, value + n);
+        if (with == rank) continue;
+        rank = with;
+        memmove(b->field + kept++ * N, b->field + j * N, N * sizeof *b->field);
     }
+    b->count = b->first[b->stages] = kept;
+    nh_free(value);
+    nh_tape_work_free(scratch);
+}
+
+/* Stage by stage, the largest rank over the probes, until it stays the same. */
+static void generic_ranks(const space *x, size_t generators, const nh_ex *field, nh_growth *g)
+{
+    size_t rank[NH_MOST_GROWTH + 1];
+    const nh_chart *c = x->o->chart;
+    brackets b = {0};
+    for (size_t i = 0; i < generators; i++) push(&b, x->N, field + i * x->N);
+    b.first[++b.stages] = b.count;
+    for (bool growing = true; growing;) {
+        nh_tape *tape = nh_model_tape(x->o, b.count * x->N, b.field);
+        size_t best = 0, at = 0, last = b.stages - 1, reached = g->length ? g->rank[g->length - 1] : 0;
+        for (size_t p = 0; p < c->probes && best < x->N; p++)
+            if (ranks_at(x, &b, tape, c->probe + p * x->o->width, rank) && rank[last] > best) best = rank[last], at = p;
+        growing = best > reached;
+        if (growing) g->rank[g->length++] = best;
+        growing &= best < x->N && g->length < NH_MOST_GROWTH;
+        if (growing && b.stages > 1) prune(x, &b, tape, c->probe + at * x->o->width);
+        if (growing) next_stage(x, &b, generators);
+        g->cut = nh_dag_size(x->d) >= x->end || b.count >= most_fields;
+        growing &= !g->cut;
+        nh_tape_free(tape);
+    }
+    nh_free(b.field);
 }
 
 static bool differs(const nh_growth *g, const brackets *b, const size_t *rank)
@@ -217,18 +242,26 @@ static bool special_point(const nh_model *o, size_t probe, size_t s, double *z)
     return c->implicit == 0 || nh_chart_complete(c, z);
 }
 
-static void look_for_drops(const space *x, const brackets *b, const nh_tape *tape, nh_growth *g)
+/* With all brackets, to two stages more than grow at generic points; their number doubles at least with every stage. */
+static void look_for_drops(const space *x, size_t generators, const nh_ex *field, nh_growth *g)
 {
     const nh_model *o = x->o;
     size_t rank[NH_MOST_GROWTH + 1], probe = 0;
-    while (probe < o->chart->probes && (!ranks_at(x, b, tape, o->chart->probe + probe * o->width, rank) || differs(g, b, rank))) probe++;
-    if (probe == o->chart->probes) return; /* rounding: nothing can be said */
+    brackets b = {0};
+    if (g->length > deepest || g->cut) return;
+    for (size_t i = 0; i < generators; i++) push(&b, x->N, field + i * x->N);
+    b.first[++b.stages] = b.count;
+    while (b.stages < g->length + stages_beyond && b.count < most_fields) next_stage(x, &b, generators);
+    nh_tape *tape = nh_model_tape(o, b.count * x->N, b.field);
+    while (probe < o->chart->probes && (!ranks_at(x, &b, tape, o->chart->probe + probe * o->width, rank) || differs(g, &b, rank))) probe++;
     double *z = nh_alloc_array(o->width + 1, sizeof *z);
-    for (size_t s = 0; s <= o->m && !g->drops; s++) {
-        if (!special_point(o, probe, s, z) || !ranks_at(x, b, tape, z, rank)) continue;
-        if (rank[0] == g->rank[0] && differs(g, b, rank)) keep_there(g, b, rank, s < o->m ? o->system->coordinate[s].q : 0);
+    for (size_t s = 0; s <= o->m && !g->drops && probe < o->chart->probes; s++) { /* else rounding: nothing can be said */
+        if (!special_point(o, probe, s, z) || !ranks_at(x, &b, tape, z, rank)) continue;
+        if (rank[0] == g->rank[0] && differs(g, &b, rank)) keep_there(g, &b, rank, s < o->m ? o->system->coordinate[s].q : 0);
     }
     nh_free(z);
+    nh_tape_free(tape);
+    nh_free(b.field);
 }
 
 /* ---- a proof that nothing is missing ---- */
@@ -276,16 +309,14 @@ static void shift_down(size_t length, size_t *rank, size_t shift)
 
 nh_growth nh_growth_of(const nh_model *o, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field, size_t shift)
 {
-    space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true};
+    space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true, .end = nh_dag_size(o->dag) + most_nodes};
     nh_growth g = {.dimension = N - shift};
-    brackets b = {0};
-    nh_tape *tape = ranks_of_probes(&x, &b, count, field, &g);
-    look_for_drops(&x, &b, tape, &g);
+    generic_ranks(&x, count, field, &g);
+    look_for_drops(&x, count, field, &g);
     size_t last = g.rank[g.length - 1];
-    g.proved = last == N || prove_involutive(&x, count, field, last);
+    if (last == N) g.cut = false;
+    g.proved = !g.cut && (last == N || prove_involutive(&x, count, field, last));
     shift_down(g.length, g.rank, shift);
     shift_down(g.length_there, g.rank_there, shift);
-    nh_tape_free(tape);
-    nh_free(b.field);
     return g;
 }

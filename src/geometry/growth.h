@@ -24,6 +24,7 @@ typedef struct {
     size_t dimension;                         /* N */
     size_t length, rank[NH_MOST_GROWTH];      /* generic ranks, strictly increasing */
     bool proved;
+    bool cut;                                 /* formulas became too large on the way: the ranks may grow further */
     bool drops;                               /* at some place of the sampling domain that was looked at the ranks grow differently */
     nh_ex where;                              /* the coordinate that vanishes there; 0: all of them do */
     size_t length_there, rank_there[NH_MOST_GROWTH];

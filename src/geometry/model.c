@@ -11,6 +11,8 @@
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }
 
+enum { large_length = 3000 }; /* nh_complexity of a Lagrangian */
+
 static nh_ex simple(const nh_model *o, nh_ex e) { return nh_simplify_short(o->dag, e, 0); }
 
 /* ---- derivatives along fields ---- */
@@ -79,14 +81,39 @@ nh_tape *nh_model_tape(const nh_model *o, size_t count, const nh_ex *out)
 
 /* ---- construction ---- */
 
-static void momenta(nh_model *o)
+/* A large Lagrangian, such as that of a chain of bodies, is differentiated with respect to everything at once, and along X_0 in one go (tau). */
+typedef struct {
+    bool large;
+    nh_ex *dq, *dv; /* m: dL/dq^s, dL/dv^s */
+    nh_ex tau;
+} slopes;
+
+static slopes slopes_of(const nh_model *o)
+{
+    nh_dag *d = o->dag;
+    const nh_system *y = o->system;
+    slopes s = {.large = !o->chart->implicit && nh_complexity(d, y->lagrangian) > large_length};
+    nh_ex *symbol = nh_arena_alloc(o->arena, (4 * o->m + 1) * sizeof *symbol);
+    s.dq = symbol + 2 * o->m;
+    s.dv = s.dq + o->m;
+    for (size_t i = 0; i < o->m; i++) symbol[i] = y->coordinate[i].q, symbol[o->m + i] = y->coordinate[i].v;
+    if (s.large) nh_gradient(d, y->lagrangian, 2 * o->m, symbol, s.dq);
+    for (size_t i = 0; i < o->m && !s.large; i++) s.dq[i] = nh_diff(d, y->lagrangian, symbol[i]), s.dv[i] = nh_diff(d, y->lagrangian, symbol[o->m + i]);
+    if (!s.large) return s;
+    s.tau = nh_symbol_fresh(d, "tau");
+    nh_diff_rule(d, y->t, s.tau, nh_int(d, 1));
+    for (size_t i = 0; i < o->m; i++) nh_diff_rule(d, y->coordinate[i].q, s.tau, o->rho[i]);
+    return s;
+}
+
+static void momenta(nh_model *o, const slopes *slope)
 {
     nh_dag *d = o->dag;
     const nh_system *y = o->system;
     o->Lbar = simple(o, nh_model_compose(o, y->lagrangian));
     o->E = nh_int(d, 0);
     for (size_t s = 0; s < o->m; s++) {
-        o->p[s] = simple(o, nh_model_compose(o, nh_diff(d, y->lagrangian, y->coordinate[s].v)));
+        o->p[s] = simple(o, nh_model_compose(o, slope->dv[s]));
         o->E = nh_add(d, o->E, nh_mul(d, o->p[s], o->rho[s]));
         for (size_t i = 0; i < o->n; i++) o->R[s * o->n + i] = nh_model_Y(o, i, o->rho[s]);
     }
@@ -99,14 +126,18 @@ static void momenta(nh_model *o)
 }
 
 /* dL/dq^s + Q_s, composed. */
-static nh_ex applied_force(const nh_model *o, size_t s)
+static nh_ex applied_force(const nh_model *o, const slopes *slope, size_t s)
 {
-    const nh_system *y = o->system;
-    nh_ex e = nh_add(o->dag, nh_diff(o->dag, y->lagrangian, y->coordinate[s].q), y->force[s]);
-    return nh_model_compose(o, e);
+    return nh_model_compose(o, nh_add(o->dag, slope->dq[s], o->system->force[s]));
 }
 
-static void matrices(nh_model *o)
+/* X_0(p_s) */
+static nh_ex rate_of_momentum(const nh_model *o, const slopes *slope, size_t s)
+{
+    return slope->large ? nh_diff(o->dag, o->p[s], slope->tau) : nh_model_X0(o, o->p[s]);
+}
+
+static void matrices(nh_model *o, const slopes *slope)
 {
     nh_dag *d = o->dag;
     size_t n = o->n;
@@ -115,7 +146,7 @@ static void matrices(nh_model *o)
         for (size_t s = 0; s < o->m; s++) {
             nh_ex R = o->R[s * n + i];
             if (nh_is_zero(d, R)) continue;
-            o->A[i] = nh_add(d, o->A[i], nh_mul(d, R, nh_sub(d, applied_force(o, s), nh_model_X0(o, o->p[s]))));
+            o->A[i] = nh_add(d, o->A[i], nh_mul(d, R, nh_sub(d, applied_force(o, slope, s), rate_of_momentum(o, slope, s))));
         }
         o->A[i] = simple(o, o->A[i]);
         for (size_t j = 0; j < n; j++) {
@@ -212,7 +243,7 @@ static bool accelerations(nh_model *o, nh_error *error)
 }
 
 /* c_s = mu_a df^a/dv^s: solved in the rows of the most independent velocities (all of them for coordinate charts: the dependent ones). */
-static bool multipliers(nh_model *o, nh_error *error)
+static bool multipliers(nh_model *o, const slopes *slope, nh_error *error)
 {
     nh_dag *d = o->dag;
     const nh_system *y = o->system;
@@ -221,7 +252,7 @@ static bool multipliers(nh_model *o, nh_error *error)
     for (size_t s = 0; s < m; s++) o->reaction[s] = nh_int(d, 0);
     if (k == 0) return true;
     for (size_t s = 0; s < m; s++) {
-        c[s] = nh_sub(d, applied_force(o, s), nh_model_gamma(o, o->p[s]));
+        c[s] = nh_sub(d, applied_force(o, slope, s), nh_model_gamma(o, o->p[s]));
         if (m <= 12) c[s] = simple(o, c[s]);
         o->reaction[s] = nh_neg(d, c[s]);
         for (size_t a = 0; a < k; a++)
@@ -246,7 +277,7 @@ static bool multipliers(nh_model *o, nh_error *error)
     return true;
 }
 
-nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
+nh_model *nh_model_bare(nh_system *system, nh_chart *chart)
 {
     if (!chart) return NULL;
     nh_arena *arena = nh_arena_create();
@@ -254,6 +285,13 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     *o = (nh_model){.system = system, .chart = chart, .dag = system->dag, .arena = arena, .m = system->coordinates, .n = chart->n,
                     .k = system->constraints, .rho = chart->rho, .width = chart->width};
     nh_system_bindings(system, &o->parameter, &o->parameter_value);
+    return o;
+}
+
+nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
+{
+    nh_model *o = nh_model_bare(system, chart);
+    if (!o) return NULL;
     size_t m = o->m, n = o->n, k = o->k;
     o->R = take(o, m * n);
     o->p = take(o, m);
@@ -265,9 +303,10 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     o->mu = take(o, k);
     o->nu = take(o, k * m);
     o->reaction = take(o, m);
-    momenta(o);
-    matrices(o);
-    if (accelerations(o, error) && multipliers(o, error)) return o;
+    slopes slope = slopes_of(o);
+    momenta(o, &slope);
+    matrices(o, &slope);
+    if (accelerations(o, error) && multipliers(o, &slope, error)) return o;
     nh_model_free(o);
     return NULL;
 }

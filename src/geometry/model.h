@@ -41,6 +41,8 @@ typedef struct {
 
 /* Takes the chart over (also on failure).  NULL with a message when M is singular on the submanifold. */
 nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error);
+/* Only system, chart, rho and parameters, without any geometry: enough for motions with multipliers (nh_bordered). */
+nh_model *nh_model_bare(nh_system *system, nh_chart *chart);
 void nh_model_free(nh_model *model);
 
 /* Derivatives along the basis fields. */

@@ -133,14 +133,16 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     nh_motion first = *reduced;
     first.count = 1;
     bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = r->options->steps};
+    double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps)};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
         v->violation = full->violation;
         v->multiplier_evaluations = full->motion->evaluations;
         compare(r, b, reduced, full);
-        if (!full->motion->complete) snprintf(v->note, sizeof v->note, "multiplier form: %.200s", full->motion->note);
+        if (!full->motion->complete)
+            snprintf(v->note, sizeof v->note, "the multiplier form was compared to t = %.4g only: %.180s", full->motion->end_time, full->motion->note);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
     }

@@ -53,6 +53,15 @@ static nh_tape *velocity_tape(const nh_model *o)
     return tape;
 }
 
+/* y' = x' tan phi has no pole as y' cos phi = x' sin phi.  A formula that becomes much longer is left as it is: it is evaluated at every step. */
+static nh_ex without_poles(nh_dag *d, nh_ex f)
+{
+    enum { short_enough = 300, growth = 2 };
+    nh_ex numerator = nh_numerator(d, f);
+    size_t length = nh_complexity(d, numerator);
+    return length <= short_enough || length <= growth * nh_complexity(d, f) ? numerator : f;
+}
+
 /* A chart of coordinate velocities ends where its dependent velocities are no longer determined. */
 static void watch_pivot(nh_dynamics *d)
 {
@@ -60,7 +69,7 @@ static void watch_pivot(nh_dynamics *d)
     if (o->chart->quasi || !o->k || o->chart->implicit || o->chart->branch) return;
     nh_ex *e = nh_alloc_array(o->k * o->m, sizeof *e);
     for (size_t a = 0; a < o->k; a++) {
-        nh_ex f = nh_numerator(o->dag, nh_chart_constraint(o->chart, a)); /* y' = x' tan phi has no pole as y' cos phi = x' sin phi */
+        nh_ex f = without_poles(o->dag, nh_chart_constraint(o->chart, a));
         for (size_t s = 0; s < o->m; s++) e[a * o->m + s] = nh_chart_compose(o->chart, nh_diff(o->dag, f, o->system->coordinate[s].v));
     }
     d->constraint = nh_model_tape(o, o->k * o->m, e);
@@ -166,15 +175,19 @@ nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 
 /* ---- initial states ---- */
 
-/* One Gauss-Newton step of rho(w) = v; the size of the step, negative on failure. */
-static double fit_step(nh_dynamics *d, const double *v, double *w)
+/* One Gauss-Newton step of rho(w) = v for the given velocities; the size of the step, negative on failure. */
+static double fit_step(nh_dynamics *d, const nh_state *state, double *w)
 {
     size_t m = d->m, n = d->n;
     nh_tape_eval(d->velocity, d->velocity_work, d->point, d->out);
     if (!finite_all(m * (1 + n), d->out)) return -1;
     double *R = d->dense, *b = R + m * n, size = 0;
     memcpy(R, d->out + m, m * n * sizeof *R);
-    for (size_t s = 0; s < m; s++) b[s] = v[s] - d->out[s];
+    for (size_t s = 0; s < m; s++) {
+        bool counts = !state->given || state->given[s];
+        b[s] = counts ? state->v[s] - d->out[s] : 0;
+        for (size_t i = 0; i < n && !counts; i++) R[s + i * m] = 0;
+    }
     if (nh_least_squares(m, n, R, 1, b, m, 1e-12) < 0) return -1;
     for (size_t i = 0; i < n; i++) {
         w[i] += b[i];
@@ -183,11 +196,12 @@ static double fit_step(nh_dynamics *d, const double *v, double *w)
     return size;
 }
 
-static double mismatch(nh_dynamics *d, const double *v)
+static double mismatch(nh_dynamics *d, const nh_state *state)
 {
     double worst = 0;
     nh_tape_eval(d->velocity, d->velocity_work, d->point, d->out);
-    for (size_t s = 0; s < d->m; s++) worst = fmax(worst, fabs(v[s] - d->out[s]) / (1 + fabs(v[s])));
+    for (size_t s = 0; s < d->m; s++)
+        if (!state->given || state->given[s]) worst = fmax(worst, fabs(state->v[s] - d->out[s]) / (1 + fabs(state->v[s])));
     return worst;
 }
 
@@ -205,14 +219,42 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
     double size = 1;
     for (int i = 0; i < most_steps && size > 1e-15; i++) {
         if (!nh_dynamics_point(d, state->t, z, d->point)) size = -1;
-        else size = fit_step(d, state->v, z + d->m);
+        else size = fit_step(d, state, z + d->m);
     }
     if (size < 0 || !nh_dynamics_point(d, state->t, z, d->point))
-        return nh_fail(error, NH_NUMERIC, "", "the chart %s is not defined at the initial state", c->name);
-    double off = mismatch(d, state->v);
+    {
+        nh_fail(error, NH_NUMERIC, "", "the initial state has no place in the chart of %s: no velocities near the given ones satisfy the constraints there", c->name);
+        return nh_error_hint(error, "give fewer velocities (the others follow from the constraints), other values, or another `domain:` to choose another branch");
+    }
+    double off = mismatch(d, state);
     if (off <= on_constraint || project) return true;
     nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g", off);
-    return nh_error_hint(error, "choose velocities that satisfy the constraints");
+    return nh_error_hint(error, "leave the dependent ones out: they follow from the constraints; or --project takes the nearest that satisfy them");
+}
+
+bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
+{
+    const nh_system *y = o->system;
+    const nh_chart *c = o->chart;
+    if (!c->branch || (state->given && !state->given[c->dependent[0]])) return false;
+    nh_ex *in = nh_alloc_array(1 + 2 * o->m, sizeof *in);
+    double *z = nh_alloc_array(1 + 2 * o->m, sizeof *z), root;
+    in[0] = y->t;
+    z[0] = state->t;
+    for (size_t s = 0; s < o->m; s++) {
+        in[1 + s] = y->coordinate[s].q;
+        in[1 + o->m + s] = y->coordinate[s].v;
+        z[1 + s] = state->q[s];
+        z[1 + o->m + s] = state->v[s];
+    }
+    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * o->m, in, 1, &c->root, y->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, z, &root);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(z);
+    nh_free(in);
+    return root < 0;
 }
 
 /* ---- multiplier form ---- */
@@ -244,7 +286,7 @@ nh_bordered *nh_bordered_create(const nh_model *o)
         for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, in[1 + m + r]);
     }
     for (size_t a = 0; a < k; a++) {
-        f[a] = nh_numerator(d, nh_chart_constraint(o->chart, a)); /* y' = x' tan phi has no pole as y' cos phi = x' sin phi */
+        f[a] = without_poles(d, nh_chart_constraint(o->chart, a));
         g[a] = nh_add(d, nh_diff(d, f[a], y->t), nh_diff_along(d, f[a], m, in + 1, in + 1 + m));
         for (size_t s = 0; s < m; s++) F[a + s * k] = nh_diff(d, f[a], in[1 + m + s]);
     }

@@ -9,6 +9,7 @@
 typedef struct {
     double t;
     double *q, *v; /* m each */
+    bool *given;   /* per velocity: it was named; the others follow from the constraints.  NULL: all were */
 } nh_state;
 
 /* Reduced equations: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot of a chart of coordinate velocities is a guard. */
@@ -18,9 +19,12 @@ void nh_dynamics_free(nh_dynamics *dynamics);
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
 const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);
 
-/* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v; refuses a velocity off the constraints, saying by how much (the
- * largest |f^a|), unless `project` is set.  z has m + n entries. */
+/* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v over the velocities that are given (of least norm where these leave a choice);
+ * refuses a velocity off the constraints, saying by how much, unless `project` is set.  z has m + n entries. */
 bool nh_dynamics_start(nh_dynamics *dynamics, const nh_state *state, bool project, double *z, nh_error *error);
+
+/* Does the state lie on the other branch of a quadratic constraint than the chart?  Only velocities that are given say so. */
+bool nh_dynamics_other_branch(const nh_model *model, const nh_state *state);
 
 /* The point (t, q, w, u) that belongs to (t, z); width entries.  False when the implicit velocities cannot be found. */
 bool nh_dynamics_point(nh_dynamics *dynamics, double t, const double *z, double *point);

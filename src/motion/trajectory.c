@@ -28,14 +28,67 @@ static bool values_along(const nh_model *model, to_point *place, void *context, 
     return good;
 }
 
+/* An expression of the chart in (t, q, v), where it holds beyond the chart: implicit velocities and roots are velocities there.  `inverse`:
+ * quasi-velocities in v. */
+static nh_ex everywhere(const nh_model *o, const nh_ex *inverse, nh_ex e)
+{
+    const nh_chart *c = o->chart;
+    for (size_t s = 0; s < o->m; s++)
+        if (e == o->rho[s]) return o->system->coordinate[s].v;
+    nh_ex *v = nh_alloc_array(c->implicit + 1, sizeof *v);
+    for (size_t a = 0; a < c->implicit; a++) v[a] = o->system->coordinate[c->dependent[a]].v;
+    e = nh_substitute(o->dag, e, c->implicit, c->u, v);
+    nh_free(v);
+    if (c->quasi) e = nh_substitute(o->dag, e, o->n, c->w, inverse);
+    return c->branch ? nh_chart_both_branches(c, e) : e;
+}
+
+/* Along a motion in (q, v). */
+static void along_everywhere(const nh_model *o, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
+{
+    size_t m = o->m;
+    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(n + 1, sizeof *out);
+    double *point = nh_alloc_array(1 + 2 * m, sizeof *point);
+    in[0] = o->system->t;
+    for (size_t s = 0; s < m; s++) {
+        in[1 + s] = o->system->coordinate[s].q;
+        in[1 + m + s] = o->system->coordinate[s].v;
+    }
+    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
+    if (o->chart->quasi) nh_chart_inverse(o->chart, inverse);
+    for (size_t k = 0; k < n; k++) out[k] = everywhere(o, inverse, e[k]);
+    nh_free(inverse);
+    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * m, in, n, out, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t i = 0; i < motion->count; i++) {
+        point[0] = motion->time[i];
+        memcpy(point + 1, motion->state + i * 2 * m, 2 * m * sizeof *point);
+        nh_tape_eval(tape, work, point, value + i * n);
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(point);
+    nh_free(out);
+    nh_free(in);
+}
+
 bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
 {
-    return values_along(nh_dynamics_model(dynamics), point_of_all, dynamics, motion, n, e, value);
+    const nh_model *o = nh_dynamics_model(dynamics);
+    if (motion->size <= o->m + o->n) return values_along(o, point_of_all, dynamics, motion, n, e, value);
+    along_everywhere(o, motion, n, e, value);
+    return true;
 }
 
 /* ---- charts that break down ---- */
 
-bool nh_may_leave_chart(const nh_model *o) { return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch; }
+bool nh_may_leave_chart(const nh_model *o)
+{
+    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
+    bool may = o->k && (!o->chart->quasi || nh_chart_inverse(o->chart, inverse));
+    nh_free(inverse);
+    return may;
+}
 
 static bool *steep(size_t count, size_t n, const double *R, bool *any)
 {
@@ -82,24 +135,17 @@ static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion
 nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const double *z0, size_t count, const double *times, const nh_flow_options *given, nh_error *error)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
-    size_t m = o->m, n = o->n;
+    size_t m = o->m;
     nh_bordered *b = nh_bordered_create(o);
     nh_flow_problem problem = nh_bordered_flow(b);
     nh_flow_options options = *given;
     double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
-    nh_motion first = {.count = 1, .size = m + n, .time = (double *)times, .state = (double *)z0};
+    nh_motion first = {.count = 1, .size = m + o->n, .time = (double *)times, .state = (double *)z0};
     memcpy(y, z0, m * sizeof *y);
     for (size_t s = 0; s < 2 * m; s++) scale[s] = given->scale[0];
     options.scale = scale;
     bool good = nh_along(dynamics, &first, m, o->rho, y + m);
     nh_motion *motion = good ? nh_flow(&problem, y, count, times, &options, error) : NULL;
-    for (size_t i = 0; motion && i < motion->count; i++) { /* in place: m + n <= 2 m */
-        double *from = motion->state + i * 2 * m, *to = motion->state + i * (m + n);
-        memmove(to, from, m * sizeof *to);
-        for (size_t j = 0; j < n; j++) y[j] = from[m + o->chart->free[j]];
-        memcpy(to + m, y, n * sizeof *to);
-    }
-    if (motion) motion->size = m + n;
     nh_free(scale);
     nh_free(y);
     nh_bordered_free(b);
@@ -165,7 +211,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (nh_dynamics_start(j.dynamics, q->initial, false, j.z0, error) && !(q->smallest && in_scene(&j, &ignored))) in_all_states(&j, error);
+    if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error) && !(q->smallest && in_scene(&j, &ignored))) in_all_states(&j, error);
     nh_dynamics_free(j.dynamics);
     nh_free(scale);
     nh_free(j.z0);

@@ -14,10 +14,11 @@ typedef struct {
     size_t n;
     const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
     bool smallest;            /* integrate only what they need */
+    bool project;             /* velocities that violate the constraints are replaced by the nearest that satisfy them */
 } nh_trajectory_request;
 
 typedef struct {
-    nh_motion *motion;        /* in (q, w), or in the kept states of the scene */
+    nh_motion *motion;        /* in (q, w), in (q, v), or in the kept states of the scene */
     const char *method, *formulation;
     double *value;            /* count x n, row by row: value[i * n + k] */
     nh_scene *scene;          /* NULL: all states were integrated */
@@ -29,16 +30,16 @@ void nh_trajectory_free(nh_trajectory *trajectory);
 
 /* ---- parts, also for the validation ---- */
 
-/* value[i * n + k]: expression k at output i of a motion in (q, w).  False where implicit velocities cannot be found. */
+/* value[i * n + k]: expression k of the chart at output i of a motion in (q, w) or in (q, v).  False where implicit velocities cannot be found. */
 bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value);
 
 /* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
 
-/* The motion in all coordinates, with accelerations from the bordered system, brought to (q, w) of a chart of coordinate velocities. */
+/* The motion in all coordinates, in (q, v), with accelerations from the bordered system. */
 nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const double *z0, size_t count, const double *times, const nh_flow_options *options, nh_error *error);
 
-/* A chart of coordinate velocities of constraints that are linear in the dependent ones can be replaced by all coordinates. */
+/* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
 bool nh_may_leave_chart(const nh_model *model);
 
 #endif

@@ -1,5 +1,6 @@
 #include "noether/dictionary.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "expr/diff.h"
@@ -83,6 +84,10 @@ static void add_atom(harvester *h, nh_ex e)
     nh_kind kind = nh_kind_of(d, e);
     bool invertible = kind == NH_PRODUCT || nh_function_of(d, e) == NH_EXP;
     if (invertible) add(h, &h->out->atoms, h->out->atom, nh_powi(d, e, -1));
+    bool power = kind == NH_PRODUCT && nh_arity(d, e) == 1 && nh_num_is(nh_constant_of(d, e), 1);
+    nh_ex x = power ? nh_exponent_of(d, e, 0) : 0;
+    if (!power || nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || llabs(nh_number_of(d, x).p) < 2) return;
+    add(h, &h->out->atoms, h->out->atom, nh_powi(d, nh_child(d, e, 0), -1)); /* of a higher power the first one too */
 }
 
 /* With 1/sqrt(b + c q^2) goes its integral, asinh of the same argument. */
@@ -235,6 +240,37 @@ static void add_roots(harvester *h)
     }
 }
 
+/* One term, and its derivatives by the angles in it. */
+static void potential_term(harvester *h, nh_ex term)
+{
+    nh_dag *d = h->o->dag;
+    if (!has_position(h->o, term)) return;
+    add(h, &h->out->potentials, h->out->potential, term);
+    for (size_t j = 0; j < h->all_waves; j++) {
+        nh_ex slope = nh_diff(d, term, h->all_wave[j]);
+        if (!nh_is_zero(d, slope)) add(h, &h->out->potentials, h->out->potential, slope);
+    }
+}
+
+/* Sums are taken apart, also b*(e1 + e2) and e1*(1 + e2): how L is written must not matter. */
+static void potential_terms(harvester *h, nh_ex e, int depth)
+{
+    nh_dag *d = h->o->dag;
+    if (nh_kind_of(d, e) == NH_SUM && depth) {
+        for (size_t i = 0; i < nh_arity(d, e); i++) potential_terms(h, nh_child(d, e, i), depth - 1);
+        return;
+    }
+    for (size_t i = 0; nh_kind_of(d, e) == NH_PRODUCT && depth && i < nh_arity(d, e); i++) {
+        nh_ex sum = nh_child(d, e, i);
+        if (nh_kind_of(d, sum) != NH_SUM || !nh_is_number(d, nh_exponent_of(d, e, i), 1) || !has_position(h->o, sum)) continue;
+        nh_ex factor = nh_div(d, e, sum);
+        for (size_t j = 0; j < nh_arity(d, sum); j++) potential_terms(h, nh_mul(d, factor, nh_child(d, sum, j)), depth - 1);
+        if (!nh_num_is(nh_constant_of(d, sum), 0)) potential_terms(h, factor, depth - 1);
+        return;
+    }
+    potential_term(h, e);
+}
+
 /* The additive terms of the potential, and the derivatives of those that contain an angle in a sine or cosine. */
 static void potentials(harvester *h)
 {
@@ -244,18 +280,7 @@ static void potentials(harvester *h)
     if (o->m > 64) return;
     for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v;
     nh_ex V = nh_substitute(d, o->system->lagrangian, o->m, v, zero);
-    bool factored = nh_kind_of(d, V) == NH_PRODUCT && nh_arity(d, V) == 1 && nh_kind_of(d, nh_child(d, V, 0)) == NH_SUM;
-    nh_ex sum = factored ? nh_child(d, V, 0) : V;
-    size_t n = nh_kind_of(d, sum) == NH_SUM ? nh_arity(d, sum) : 1;
-    for (size_t i = 0; i < n; i++) {
-        nh_ex term = nh_kind_of(d, sum) == NH_SUM ? nh_child(d, sum, i) : sum;
-        if (!has_position(o, term)) continue;
-        add(h, &h->out->potentials, h->out->potential, term);
-        for (size_t j = 0; j < h->all_waves; j++) {
-            nh_ex slope = nh_diff(d, term, h->all_wave[j]);
-            if (!nh_is_zero(d, slope)) add(h, &h->out->potentials, h->out->potential, slope);
-        }
-    }
+    potential_terms(h, V, 3);
 }
 
 static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)

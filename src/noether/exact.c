@@ -53,16 +53,31 @@ static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
     nh_free(out);
 }
 
-bool nh_exact_point(const nh_model *o, nh_ball *ball, uint64_t *state)
+/* A short rational near x, p/q with steps of less than a thousandth of the interval, so that points differ however small it is; where that does
+ * not fit into 64 bits, the double itself, which is a rational too.  Returns the value. */
+static double set_near(nh_ball *ball, nh_ex symbol, double x, double span)
 {
     enum { grid = 997 };
+    static const double most = 9e15;
+    double q = grid;
+    while (q * span < grid && q < most / 10) q *= 10;
+    double p = round(x * q);
+    if (fabs(p) < most && q * span >= grid) {
+        nh_ball_set_ratio(ball, symbol, (int64_t)p, (int64_t)q);
+        return p / q;
+    }
+    nh_ball_set_double(ball, symbol, x);
+    return x;
+}
+
+bool nh_exact_point(const nh_model *o, nh_ball *ball, uint64_t *state)
+{
     double *z = nh_alloc_array(o->width, sizeof *z);
     size_t explicit_width = o->width - o->chart->implicit;
     for (size_t j = 0; j < o->width; j++) {
-        double span = o->chart->high[j] - o->chart->low[j], x = o->chart->low[j] + span * nh_random(state);
-        int64_t p = (int64_t)round(x * grid);
-        z[j] = (double)p / grid;
-        if (j < explicit_width) nh_ball_set_ratio(ball, o->chart->symbol[j], p, grid);
+        double span = o->chart->high[j] - o->chart->low[j];
+        z[j] = o->chart->low[j] + span * nh_random(state);
+        if (j < explicit_width) z[j] = set_near(ball, o->chart->symbol[j], z[j], span);
     }
     bool usable = nh_chart_complete(o->chart, z);
     for (size_t j = explicit_width; j < o->width; j++) nh_ball_set_double(ball, o->chart->symbol[j], z[j]);

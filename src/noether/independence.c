@@ -19,7 +19,7 @@ static double median(size_t n, double *x)
     return x[n / 2];
 }
 
-/* Gradients d phi / d z_j over (t, q, w); implicit velocities are followed by the rules of diff.h. */
+/* Gradients d phi / d z_j over (t, q, w), times the half width of the sampling box in z_j, so that units do not matter; implicit velocities are followed by the rules of diff.h. */
 static double *gradients(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, size_t width)
 {
     nh_ex *e = nh_alloc_array(n * width + 1, sizeof *e);
@@ -27,6 +27,10 @@ static double *gradients(const nh_model *o, const nh_points *points, size_t n, c
         for (size_t j = 0; j < width; j++) e[k * width + j] = nh_diff(o->dag, phi[k], o->chart->symbol[j]);
     double *value = nh_alloc_array(n * width * points->count + 1, sizeof *value);
     nh_points_evaluate(points, o, n * width, e, value);
+    for (size_t k = 0; k < n * width; k++) {
+        double span = (o->chart->high[k % width] - o->chart->low[k % width]) / 2;
+        for (size_t p = 0; p < points->count; p++) value[k * points->count + p] *= span;
+    }
     nh_free(e);
     return value;
 }

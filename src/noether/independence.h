@@ -1,6 +1,6 @@
 /* independence: which currents are functions of the others.
  *
- * The gradient of each on the submanifold, projected off the gradients of those accepted before it, at generic points: the
+ * The gradient of each on the submanifold, in units of the sampling box, projected off the gradients of those accepted before it, at generic points: the
  * median of the remaining fraction decides.  Products of currents are not used: they need their own degree bookkeeping. */
 #ifndef NH_INDEPENDENCE_H
 #define NH_INDEPENDENCE_H

@@ -6,7 +6,7 @@
 #include "expr/normal.h"
 #include "noether/exact.h"
 
-enum { wanted_points = 4, most_tries = 40, double_digits = 12 };
+enum { wanted_points = 4, most_tries = 40, double_digits = 8 };
 
 static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_options *options, nh_proof *proof)
 {

@@ -6,11 +6,13 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-/* A long formula with rounded coefficients, a series, has no simpler form. */
+enum { large_length = 3000 }; /* nh_complexity */
+
+/* A long formula with rounded coefficients, a series, has no simpler form; a very long one none that could be found in reasonable time. */
 static nh_ex tidy(nh_dag *d, nh_ex e)
 {
     enum { lengthy = 200 };
-    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify(d, e);
+    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify_short(d, e, large_length);
 }
 
 static nh_ex *take(nh_model *o, size_t n) { return nh_arena_alloc(o->arena, (n + 1) * sizeof(nh_ex)); }
@@ -40,12 +42,57 @@ void nh_symmetry_equations(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *
     }
 }
 
+/* c or c*w_i with a simple number c, when z is that at all probes of the chart; else z. */
+static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
+{
+    const nh_chart *c = o->chart;
+    nh_tape *tape = nh_model_tape(o, 1, &z);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double number = NAN, factor = NAN, value;
+    bool constant = c->probes > 1, linear = constant;
+    for (size_t p = 0; p < c->probes && (constant || linear); p++) {
+        const double *at = c->probe + p * c->width;
+        double w = at[1 + o->m + i];
+        nh_tape_eval(tape, work, at, &value);
+        if (p == 0) number = round(12 * value) / 12, factor = round(12 * value / w) / 12;
+        constant &= fabs(value - number) <= 1e-9;
+        linear &= fabs(value - factor * w) <= 1e-9 * (1 + fabs(value));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    if (constant) return nh_ratio(o->dag, (int64_t)round(12 * number), 12);
+    return linear ? nh_mul(o->dag, nh_ratio(o->dag, (int64_t)round(12 * factor), 12), c->w[i]) : z;
+}
+
+/* x = M^-1 b (n).  Where that is too long to be simplified: the fields of energies and momenta have simple components.  What is recognised is
+ * proved, M x = b. */
+static void solve(const nh_model *o, const nh_ex *b, nh_ex *x)
+{
+    nh_dag *d = o->dag;
+    bool large = false, good = true;
+    nh_ex *guess = nh_alloc_array(2 * o->n + 1, sizeof *guess), *right = guess + o->n;
+    memcpy(right, b, o->n * sizeof *right);
+    nh_lu_solve(o->M_lu, b, x);
+    for (size_t i = 0; i < o->n; i++) large |= nh_complexity(d, x[i]) > large_length;
+    for (size_t i = 0; i < o->n && large && good; i++) {
+        guess[i] = recognised(o, x[i], i);
+        good = guess[i] != x[i] || nh_complexity(d, x[i]) <= large_length;
+    }
+    for (size_t j = 0; j < o->n && large && good; j++) {
+        nh_ex off = nh_neg(d, right[j]);
+        for (size_t i = 0; i < o->n; i++) off = nh_add(d, off, nh_mul(d, o->M[j * o->n + i], guess[i]));
+        good = nh_normal_is_zero(d, off, 0) == NH_ZERO;
+    }
+    if (large && good) memcpy(x, guess, o->n * sizeof *x);
+    nh_free(guess);
+}
+
 nh_ex nh_symmetry_components(const nh_model *o, nh_ex phi, nh_ex *zeta)
 {
     nh_dag *d = o->dag;
     nh_ex rest = phi;
     for (size_t i = 0; i < o->n; i++) zeta[i] = nh_model_Y(o, i, phi);
-    nh_lu_solve(o->M_lu, zeta, zeta);
+    solve(o, zeta, zeta);
     for (size_t i = 0; i < o->n; i++) {
         zeta[i] = tidy(d, zeta[i]);
         rest = nh_sub(d, rest, nh_mul(d, o->pbar[i], zeta[i]));
@@ -62,9 +109,9 @@ static void solve_components(nh_model *o, nh_symmetry *z)
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
         for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
-        z->W[j] = b;
+        z->W[j] = nh_normal_is_zero(d, b, 0) == NH_ZERO ? nh_int(d, 0) : b; /* zero for an energy; told before M^-1 lengthens it */
     }
-    nh_lu_solve(o->M_lu, z->W, z->W);
+    solve(o, z->W, z->W);
     z->field = (nh_field){z->Z0, take(o, m), take(o, n)};
     for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = tidy(d, z->W[i]);
     for (size_t s = 0; s < m; s++) {

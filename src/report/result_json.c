@@ -78,6 +78,7 @@ static void put_constraint(const writer *w, nh_json *to)
     put_ranks(item, "growth_vector", g->length, g->rank);
     nh_json_put_text(item, "growth_space", g->length ? spaces[g->space] : "none");
     nh_json_put_bool(item, "growth_proved", g->proved);
+    nh_json_put_bool(item, "growth_complete", !g->cut);
     if (g->drops) {
         nh_json *drop = nh_json_put_object(item, "growth_drops");
         nh_json_put_text(drop, "where", g->where ? nh_name_of(w->dag, g->where) : "origin");

@@ -100,6 +100,7 @@ static void kind_of_constraint(nh_summary_writer *w)
     if (g->length > 1) {
         nh_text_add(w->out, "; ");
         ranks(w, spaces[g->space], g->length, g->rank);
+        if (g->cut) nh_text_add(w->out, ",...");
     }
     if (g->drops) {
         if (g->where) nh_text_addf(w->out, ", at %s = 0 ", nh_name_of(w->r->model->dag, g->where));

@@ -279,6 +279,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     nh_state *state = &r->a->initial;
     double *quasi = nh_analysis_take(r, s->quasi, sizeof *quasi);
     bool any_quasi = false, any_velocity = false;
+    state->given = nh_analysis_take(r, s->coordinates, sizeof *state->given);
     for (size_t i = 0; i < map->count; i++) {
         const char *name = map->key[i]->text;
         double value;
@@ -289,6 +290,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
             bool velocity = !strcmp(name, nh_name_of(s->dag, s->coordinate[j].v));
             known = velocity || !strcmp(name, s->coordinate[j].name);
             if (known) (velocity ? state->v : state->q)[j] = value;
+            if (velocity) state->given[j] = true;
             any_velocity |= velocity;
         }
         for (size_t j = 0; j < s->quasi && !known; j++)
@@ -300,6 +302,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     }
     if (any_quasi && any_velocity) return nh_deck_fail(r->a->deck, map, 0, r->error, "give either coordinate velocities or quasi-velocities, not both");
     if (any_quasi) velocities_of(s, quasi, state);
+    if (any_quasi) state->given = NULL;
     r->a->has_initial = true;
     return true;
 }
@@ -310,7 +313,7 @@ static bool read_validate(reader *r)
     const nh_deck_node *map = nh_deck_get(r->root, "validate"), *node;
     nh_analysis *a = r->a;
     size_t m = r->model->m;
-    a->initial = (nh_state){0, nh_analysis_take(r, m, sizeof(double)), nh_analysis_take(r, m, sizeof(double))};
+    a->initial = (nh_state){0, nh_analysis_take(r, m, sizeof(double)), nh_analysis_take(r, m, sizeof(double)), NULL};
     if (!map) return true;
     if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "validate", r->error) || !nh_deck_only(a->deck, map, keys, 3, r->error)) return false;
     if ((node = nh_deck_get(map, "time"))) {

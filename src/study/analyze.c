@@ -53,12 +53,26 @@ static bool read_files(nh_result *r, const nh_analyze_request *q, nh_error *erro
     return r->system != NULL;
 }
 
+/* An initial state on the other branch of a quadratic constraint chooses that. */
+static bool turn_to_initial(nh_result *r, nh_chart_choice choice, const nh_analyze_request *q, nh_error *error)
+{
+    if (!r->analysis || !nh_analysis_resolve(r->analysis, r->model, error)) return !r->analysis;
+    if (!r->analysis->has_initial || !nh_dynamics_other_branch(r->model, &r->analysis->initial)) return true;
+    r->system->branch = -r->model->chart->branch;
+    nh_model_free(r->model);
+    nh_analysis_free(r->analysis);
+    r->model = NULL;
+    r->analysis = nh_analysis_read(q->analysis_path, error);
+    if (r->analysis) r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
+    return r->model && nh_analysis_resolve(r->analysis, r->model, error);
+}
+
 static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *error)
 {
     nh_chart_choice choice = q->chart != NH_CHART_AUTO || !r->analysis ? q->chart : r->analysis->chart;
     uint64_t seed = (uint64_t)r->options.seed;
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, seed, error), error);
-    if (!r->model) return false;
+    if (!r->model || !turn_to_initial(r, choice, q, error)) return false;
     nh_error ignored;
     nh_error_clear(&ignored);
     if (r->model->chart->quasi && r->system->constraints)
@@ -66,7 +80,7 @@ static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *err
     if (ignored.code != NH_OK) nh_result_warn(r, "the chart of coordinate velocities: %s", ignored.what);
     r->local_maximum = 2 * r->model->m - r->model->k;
     r->constraint = nh_distribution_of(r->model);
-    return !r->analysis || nh_analysis_resolve(r->analysis, r->model, error);
+    return true;
 }
 
 /* ---- the linear problem ---- */

@@ -32,6 +32,7 @@ typedef struct {
     candidate candidate[most_candidates];
     nh_measured *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
+    bool project;
 } comparison;
 
 const char *nh_measured_status_name(nh_measured_status status)
@@ -253,12 +254,12 @@ static bool open_formulations(comparison *c, nh_error *error)
     nh_error_clear(&ignored);
     double absolute = c->absolute;
     if (c->model->chart->quasi) c->other = nh_model_create(s->system, nh_chart_create(s->system, NH_CHART_COORDINATES, 1, &ignored), &ignored);
-    if (!nh_formulation_open(&c->formulation[c->formulations++], s->model, s->system, s->model, &c->initial, absolute, c->out->arena, error)) return false;
+    if (!nh_formulation_open(&c->formulation[c->formulations++], s->model, &c->initial, c->project, absolute, c->out->arena, error)) return false;
     if (c->other) {
-        if (nh_formulation_open(&c->formulation[c->formulations], c->other, s->system, s->model, &c->initial, absolute, c->out->arena, &ignored)) c->formulations++;
+        if (nh_formulation_open(&c->formulation[c->formulations], c->other, &c->initial, c->project, absolute, c->out->arena, &ignored)) c->formulations++;
         else nh_formulation_close(&c->formulation[c->formulations]);
     }
-    return nh_formulation_open(&c->formulation[c->formulations++], NULL, s->system, s->model, &c->initial, absolute, c->out->arena, error);
+    return nh_formulation_open_all(&c->formulation[c->formulations++], &c->formulation[0], c->initial.t, c->out->arena, error);
 }
 
 /* One motion with the guard in each chart. */
@@ -303,7 +304,7 @@ nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_
 {
     nh_arena *arena = nh_arena_create();
     nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
-    comparison c = {.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute};
+    comparison c = {.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .project = request->project};
     out->arena = arena;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();

@@ -30,9 +30,10 @@ typedef struct {
     double *current_scale, *current_start;
 } nh_yardstick;
 
-/* The model's chart, the chart of coordinate velocities where that is another, all coordinates.  False when the initial state is refused. */
-bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_system *system, const nh_model *whole, const nh_state *initial, double absolute, nh_arena *arena,
-                         nh_error *error);
+/* In a model's chart.  False when the initial state is refused. */
+bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute, nh_arena *arena, nh_error *error);
+/* In all coordinates, from the initial state of a formulation in a chart. */
+bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t, nh_arena *arena, nh_error *error);
 void nh_formulation_close(nh_formulation *f);
 
 /* (q, v) of a motion of this formulation at its outputs into y (count x 2m); false where they cannot be computed. */

@@ -44,3 +44,63 @@ void nh_integrals_of_constraints(nh_result *r)
     nh_free(current);
     nh_free(phi);
 }
+
+/* ---- a search of its own ---- */
+
+enum { own_stages = 3, most_functions = 60 };
+
+typedef struct {
+    size_t events, functions;
+    nh_ex event[most_functions], function[most_functions]; /* t and the coordinates; functions of them that the system shows, sines, cosines */
+} alphabet;
+
+static void letter(const nh_model *o, alphabet *a, nh_ex e)
+{
+    if (!only_events(o, e) || a->functions == most_functions) return;
+    for (size_t i = 0; i < a->functions; i++)
+        if (a->function[i] == e) return;
+    a->function[a->functions++] = e;
+}
+
+static void letters(const nh_climb *x, alphabet *a)
+{
+    const nh_model *o = x->r->model;
+    nh_dictionary w = x->words;
+    for (size_t j = 0; j <= o->m && a->events < most_functions; j++) a->event[a->events++] = o->chart->symbol[j];
+    for (size_t i = 0; i < w.atoms; i++) letter(o, a, w.atom[i]);
+    for (size_t i = 0; i < w.potentials; i++) letter(o, a, w.potential[i]);
+    for (size_t i = 0; i < w.waves; i++) {
+        letter(o, a, nh_call(o->dag, NH_COS, w.wave[i]));
+        letter(o, a, nh_call(o->dag, NH_SIN, w.wave[i]));
+    }
+}
+
+/* Quadratic in the coordinates, and functions; cubic, and coordinates times functions; of degree four, and squares of the functions. */
+static size_t families_of(const alphabet *a, size_t stage, nh_family *part, nh_family *out)
+{
+    size_t n = 0;
+    part[0] = (nh_family){.kind = NH_POLYNOMIAL, .in = a->event, .in_count = a->events, .degree = stage == 1 ? 1 : 2};
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = a->functions, .term = a->function};
+    part[2] = (nh_family){.kind = NH_POLYNOMIAL, .in = a->function, .in_count = a->functions, .degree = 2};
+    out[n++] = (nh_family){.kind = NH_POLYNOMIAL, .in = a->event, .in_count = a->events, .degree = 2 + stage};
+    if (a->functions == 0) return n;
+    if (stage == 0) out[n++] = part[1];
+    else if (stage == 1) out[n++] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    else out[n++] = part[2];
+    return n;
+}
+
+void nh_integrals_find(nh_climb *x)
+{
+    static const char *const names[own_stages] = {"functions of time and positions: quadratic, and the system's own", "the same, cubic, and times positions",
+                                                  "the same of degree four, and squares of the system's own"};
+    size_t before = x->r->independent;
+    alphabet *a = nh_alloc(sizeof *a);
+    letters(x, a);
+    for (size_t i = 0; i < own_stages && x->r->independent < before + x->r->constraint.integrals && !nh_climb_done(x); i++) {
+        nh_family part[3], family[2];
+        size_t families = families_of(a, i, part, family);
+        nh_climb_stage(x, names[i], families, family);
+    }
+    nh_free(a);
+}

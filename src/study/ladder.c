@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "study/climb.h"
+#include "study/integrals.h"
 #include "study/stages.h"
 
 enum { range_points = 256 };
@@ -69,6 +70,7 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
     }
     x.words = nh_dictionary_of(r->model);
     nh_stage stage;
+    nh_integrals_find(&x);
     single_stages(&x);
     for (size_t i = 0; !nh_climb_done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
         nh_climb_stage(&x, stage.name, stage.families, stage.family);

@@ -6,8 +6,7 @@
 
 enum { default_outputs = 100, most_outputs = 10000000 };
 
-/* "phi=0, omega=2" as the initial state of an analysis file. */
-static nh_analysis *inline_analysis(nh_arena *arena, const char *initial, nh_error *error)
+nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error)
 {
     size_t length = strlen(initial);
     char *text = nh_arena_alloc(arena, 2 * length + 64), *to = text + sprintf(text, "validate:\n  initial: {");
@@ -21,6 +20,26 @@ static nh_analysis *inline_analysis(nh_arena *arena, const char *initial, nh_err
     }
     strcpy(to, "}\n");
     return nh_analysis_text("--initial", text, error);
+}
+
+static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis **own, nh_error *error)
+{
+    s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
+    if (!s->model || (s->analysis && !nh_analysis_resolve(s->analysis, s->model, error))) return false;
+    return !q->initial || ((*own = nh_simulate_initial(s->arena, q->initial, error)) && nh_analysis_resolve(*own, s->model, error));
+}
+
+/* The initial state chooses the branch of a quadratic constraint. */
+static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_analysis **own, nh_error *error)
+{
+    s->system->branch = -s->model->chart->branch;
+    nh_model_free(s->model);
+    nh_analysis_free(*own);
+    nh_analysis_free(s->analysis);
+    s->model = NULL;
+    s->analysis = *own = NULL;
+    if (q->analysis_path && !(s->analysis = nh_analysis_read(q->analysis_path, error))) return false;
+    return resolve(s, q, own, error);
 }
 
 /* A generic state on the constraints: the chart's first probe. */
@@ -50,9 +69,10 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_c
     if (count) memcpy(setting, s->analysis->setting, count * sizeof *setting);
     if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
     if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
-    s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
-    if (!s->model || (s->analysis && !nh_analysis_resolve(s->analysis, s->model, error))) return false;
-    if (q->initial && (!(own = inline_analysis(s->arena, q->initial, error)) || !nh_analysis_resolve(own, s->model, error))) {
+    bool good = resolve(s, q, &own, error);
+    const nh_state *at = own ? &own->initial : s->analysis ? &s->analysis->initial : NULL;
+    if (good && at && nh_dynamics_other_branch(s->model, at)) good = resolve_again(s, q, &own, error);
+    if (!good) {
         nh_analysis_free(own);
         return false;
     }
@@ -64,13 +84,17 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_c
         initial->v = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof(double));
         memcpy(initial->q, from->initial.q, s->model->m * sizeof(double));
         memcpy(initial->v, from->initial.v, s->model->m * sizeof(double));
+        if (from->initial.given) {
+            initial->given = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof(bool));
+            memcpy(initial->given, from->initial.given, s->model->m * sizeof(bool));
+        }
     }
     *until = !q->until_given && s->analysis && s->analysis->has_until ? s->analysis->until : q->options.until;
     s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance : q->options.tolerance;
     nh_analysis_free(own);
     if (given || (may_choose && choose_initial(s, initial))) return true;
     nh_fail(error, NH_USAGE, "", "simulate needs an initial state");
-    return nh_error_hint(error, "--initial \"%s=0, %s=1\"; what is not named is 0", s->system->coordinate[0].name, nh_name_of(s->model->dag, s->model->chart->w[0]));
+    return nh_error_hint(error, "--initial \"%s=0, %s=1\"; what is not named is 0 or follows from the constraints", s->system->coordinate[0].name, nh_name_of(s->model->dag, s->model->chart->w[0]));
 }
 
 /* ---- what is wanted along the motion ---- */
@@ -166,7 +190,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     nh_ex *e = nh_arena_alloc(s->arena, (s->columns + 1) * sizeof *e);
     for (size_t k = 0; k < s->columns; k++) e[k] = s->column[k].value;
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns, .e = e,
-                                     .smallest = q->watch || q->scene};
+                                     .smallest = q->watch || q->scene, .project = q->project};
     s->trajectory = nh_trajectory_create(&request, error);
     if (!s->trajectory) return false;
     s->motion = s->trajectory->motion;

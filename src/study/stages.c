@@ -226,6 +226,44 @@ static void stage_forms_4(shelf *s)
     weighted(s, &u, &f);
 }
 
+/* What separation of variables gives (Euler's two centres, Liouville's systems): squares of velocities with coefficients of higher degree in
+ * the positions, the energy and the system's functions with lower ones. */
+static void stage_separation(shelf *s)
+{
+    list l = {0}, e = {0}, q = positions(s, false, false), f = functions(s, false);
+    bool few = s->w->positions <= 2;
+    if (s->w->positions > 3 || s->w->waves) return;
+    put_all(&l, s->o->n, s->o->chart->w);
+    list v = squares(s, &l);
+    put(&e, s->o->E);
+    put_all(&e, f.n, f.e);
+    add(s, product_of(s, 2, (nh_family[]){terms_of(s, &v), polynomial_of(s, &q, few ? 4 : 2)}));
+    add(s, product_of(s, 2, (nh_family[]){terms_of(s, &e), polynomial_of(s, &q, 2)}));
+    add(s, polynomial_of(s, &q, 4));
+}
+
+/* Squares of positions and velocities with coefficients that depend on time: Ermakov and Lewis. */
+static void stage_time(shelf *s)
+{
+    nh_dag *d = s->o->dag;
+    list l = {0}, f = functions(s, true), g = {0};
+    nh_ex t = s->o->system->t;
+    if (!nh_depends(d, s->o->Lbar, t) || s->w->positions > 3) return;
+    put_all(&l, s->w->positions, s->w->position);
+    put_all(&l, s->o->n, s->o->chart->w);
+    list v = squares(s, &l);
+    put(&g, nh_int(d, 1));
+    put(&g, t);
+    put(&g, nh_powi(d, t, 2));
+    for (size_t i = 0; i < f.n; i++) {
+        bool timely = nh_depends(d, f.e[i], t);
+        for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
+        if (timely) put(&g, f.e[i]);
+    }
+    add_product(s, &v, &g);
+    add_product(s, &l, &g);
+}
+
 /* Rational: P / v with P linear. */
 static void stage_ratios(shelf *s)
 {
@@ -255,6 +293,8 @@ static const struct {
     {"quadratic forms times positions", stage_weights},
     {"weighted degree 4 in the frame of the kinetic energy", stage_weight_4},
     {"weighted degree 4 in the system's own forms", stage_forms_4},
+    {"squares of velocities times positions of higher degree, energy and functions times lower", stage_separation},
+    {"squares of positions and velocities times functions of time", stage_time},
     {"ratios of velocities", stage_ratios},
     {"total degree 3", stage_degree_3},
     {"quadratic forms times first harmonics", stage_quadratic_waves},

@@ -10,24 +10,30 @@ static const double conserved = 1e-9; /* relative rate at the probes below which
 
 /* ---- formulations ---- */
 
-bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_system *system, const nh_model *whole, const nh_state *initial, double absolute, nh_arena *arena,
-                         nh_error *error)
+static void sized(nh_formulation *f, size_t m, double absolute, nh_arena *arena)
 {
-    size_t m = system->coordinates;
-    *f = (nh_formulation){.name = model ? nh_arena_strdup(arena, model->chart->name) : "all coordinates", .model = model, .size = model ? m + model->n : 2 * m};
     f->z0 = nh_arena_alloc(arena, 2 * m * sizeof *f->z0);
     f->scale = nh_arena_alloc(arena, 2 * m * sizeof *f->scale);
     for (size_t i = 0; i < 2 * m; i++) f->scale[i] = absolute;
-    if (!model) {
-        f->bordered = nh_bordered_create(whole);
-        f->problem = nh_bordered_flow(f->bordered);
-        memcpy(f->z0, initial->q, m * sizeof *f->z0);
-        memcpy(f->z0 + m, initial->v, m * sizeof *f->z0);
-        return true;
-    }
+}
+
+bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute, nh_arena *arena, nh_error *error)
+{
+    *f = (nh_formulation){.name = nh_arena_strdup(arena, model->chart->name), .model = model, .size = model->m + model->n};
+    sized(f, model->m, absolute, arena);
     f->dynamics = nh_dynamics_create(model);
     f->problem = nh_dynamics_problem(f->dynamics);
-    return nh_dynamics_start(f->dynamics, initial, false, f->z0, error);
+    return nh_dynamics_start(f->dynamics, initial, project, f->z0, error);
+}
+
+bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t, nh_arena *arena, nh_error *error)
+{
+    const nh_model *o = chart->model;
+    *f = (nh_formulation){.name = "all coordinates", .size = 2 * o->m, .bordered = nh_bordered_create(o)};
+    f->problem = nh_bordered_flow(f->bordered);
+    sized(f, o->m, chart->scale[0], arena);
+    nh_motion start = {.count = 1, .size = chart->size, .time = &t, .state = chart->z0};
+    return nh_formulation_states(chart, &start, f->z0) || nh_fail(error, NH_NUMERIC, "", "the velocities cannot be found at the initial state");
 }
 
 void nh_formulation_close(nh_formulation *f)

@@ -169,6 +169,7 @@ static int branch_of(const nh_cloud *c, size_t which)
 {
     double low, high;
     long balance = 0;
+    if (c->system->branch) return c->system->branch;
     nh_embedding_range(c->system, c->system->coordinate[which].v, &low, &high);
     for (size_t p = 0; p < c->count; p++) {
         const double *z = c->point + p * c->width;

@@ -37,6 +37,7 @@ typedef struct {
 typedef struct {
     const char *name, *text;
     nh_ex value;
+    const char *out_of_reach; /* of a known current: why the program's own ansatz does not hold it, or NULL */
 } nh_named;
 
 typedef struct {
@@ -56,6 +57,7 @@ typedef struct {
     nh_ex lagrangian;        /* with the energies of bodies and joints */
     nh_ex *force;            /* per coordinate; the number 0 where there is none */
     bool has_forces;
+    int branch;              /* of a quadratic constraint: the sign of its root, or 0: the domain chooses */
     size_t dependents;       /* 0 when the user named none */
     size_t *dependent;       /* coordinate indices */
     size_t quasi;            /* number of quasi-velocities, 0 without a chart */

@@ -319,6 +319,10 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
 
 static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *setting, nh_error *error)
 {
+    if (deck && !nh_deck_include(deck, error)) {
+        nh_deck_free(deck);
+        return NULL;
+    }
     if (!deck) return NULL;
     nh_arena *arena = nh_arena_create();
     nh_system *s = nh_arena_alloc(arena, sizeof *s);

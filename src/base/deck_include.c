@@ -1,0 +1,98 @@
+/* deck_include: one file that builds on another. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/deck_source.h"
+
+enum { deepest = 16 };
+
+static const nh_deck_node *merged(nh_arena *arena, const nh_deck_node *base, const nh_deck_node *own);
+
+/* Entries {name: x} of a list stand for the same thing when x is the same. */
+static const char *name_of(const nh_deck_node *item)
+{
+    const nh_deck_node *name = nh_deck_get(item, "name");
+    return name && name->kind == NH_DECK_SCALAR ? name->text : NULL;
+}
+
+static void put_item(nh_deck_node *list, const nh_deck_node *item)
+{
+    const char *name = name_of(item);
+    for (size_t i = 0; name && i < list->count; i++) {
+        const char *other = name_of(list->item[i]);
+        if (!other || strcmp(name, other)) continue;
+        list->item[i] = item;
+        return;
+    }
+    list->item[list->count++] = item;
+}
+
+static void put_entry(nh_arena *arena, nh_deck_node *map, const nh_deck_node *key, const nh_deck_node *value)
+{
+    for (size_t i = 0; i < map->count; i++) {
+        if (strcmp(map->key[i]->text, key->text)) continue;
+        map->key[i] = key;
+        map->item[i] = merged(arena, map->item[i], value);
+        return;
+    }
+    map->key[map->count] = key;
+    map->item[map->count++] = value;
+}
+
+static const nh_deck_node *merged(nh_arena *arena, const nh_deck_node *base, const nh_deck_node *own)
+{
+    if (base->kind != own->kind || own->kind == NH_DECK_SCALAR) return own;
+    nh_deck_node *node = nh_arena_alloc(arena, sizeof *node);
+    *node = *own;
+    node->count = 0;
+    node->item = nh_arena_alloc(arena, (base->count + own->count + 1) * sizeof *node->item);
+    node->key = own->kind == NH_DECK_MAP ? nh_arena_alloc(arena, (base->count + own->count + 1) * sizeof *node->key) : NULL;
+    for (int pass = 0; pass < 2; pass++) {
+        const nh_deck_node *from = pass ? own : base;
+        for (size_t i = 0; i < from->count; i++) {
+            if (node->key) put_entry(arena, node, from->key[i], from->item[i]);
+            else if (pass) put_item(node, from->item[i]);
+            else node->item[node->count++] = from->item[i];
+        }
+    }
+    return node;
+}
+
+static const nh_deck_node *without(nh_arena *arena, const nh_deck_node *map, const char *key)
+{
+    nh_deck_node *node = nh_arena_alloc(arena, sizeof *node);
+    *node = *map;
+    node->item = nh_arena_alloc(arena, (map->count + 1) * sizeof *node->item);
+    node->key = nh_arena_alloc(arena, (map->count + 1) * sizeof *node->key);
+    node->count = 0;
+    for (size_t i = 0; i < map->count; i++) {
+        if (!strcmp(map->key[i]->text, key)) continue;
+        node->key[node->count] = map->key[i];
+        node->item[node->count++] = map->item[i];
+    }
+    return node;
+}
+
+static bool include(nh_deck *deck, int depth, nh_error *error)
+{
+    const nh_deck_node *node = nh_deck_get(deck->root, "include");
+    if (!node) return true;
+    if (!nh_deck_is(deck, node, NH_DECK_SCALAR, "the name of a file", error)) return false;
+    if (depth > deepest) return nh_deck_fail(deck, node, 0, error, "files include each other more than %d deep: does one include itself?", deepest);
+    const char *slash = strrchr(deck->name, '/');
+    int folder = slash && node->text[0] != '/' ? (int)(slash - deck->name) + 1 : 0;
+    char *path = nh_arena_printf(deck->arena, "%.*s%s", folder, deck->name, node->text);
+    FILE *file = fopen(path, "rb"); /* so that the message points at the word that asks for it */
+    if (!file) {
+        nh_deck_fail(deck, node, 0, error, "the file `%s` cannot be opened", path);
+        return nh_error_hint(error, "the name of an included file is relative to the folder of the file that includes it");
+    }
+    fclose(file);
+    deck->included = nh_deck_read(path, error);
+    if (!deck->included || !include(deck->included, depth + 1, error)) return false;
+    if (!nh_deck_is(deck->included, deck->included->root, NH_DECK_MAP, "an included file (name: ..., ...)", error)) return false;
+    deck->root = merged(deck->arena, deck->included->root, without(deck->arena, deck->root, "include"));
+    return true;
+}
+
+bool nh_deck_include(nh_deck *deck, nh_error *error) { return include(deck, 1, error); }

@@ -1,0 +1,39 @@
+#include <string.h>
+
+#include "base/output.h"
+#include "cli/cli.h"
+#include "report/reduction.h"
+
+static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
+{
+    if (cli->operands != 1) {
+        nh_fail(error, NH_USAGE, "", "reduce which system?");
+        return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
+    }
+    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .group = cli->group, .chain = cli->chain, .options = cli->options};
+    q->system_path = nh_cli_find(cli, "systems", cli->operand[0], error);
+    return q->system_path != NULL;
+}
+
+int nh_cli_reduce(nh_cli *cli, nh_error *error)
+{
+    nh_reduce_request request;
+    nh_reduction *r = request_of(cli, &request, error) ? nh_reduce(&request, error) : NULL;
+    if (!r) return error->code;
+    bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
+    if (!to_stdout && !cli->quiet) {
+        nh_text text;
+        nh_text_init(&text);
+        nh_reduction_text(r, cli->verbose, &text);
+        fputs(nh_text_string(&text), stdout);
+        nh_text_clear(&text);
+    }
+    if (cli->json) {
+        char *json = nh_reduction_json(r);
+        if (to_stdout) fputs(json, stdout);
+        else good = nh_output_write(cli->json, json, strlen(json), error);
+        nh_free(json);
+    }
+    nh_reduction_free(r);
+    return good ? NH_OK : (int)error->code;
+}

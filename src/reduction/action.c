@@ -1,0 +1,361 @@
+#include "reduction/action.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/normal.h"
+#include "noether/recognise.h"
+#include "reduction/runge.h"
+#include "reduction/subspace.h"
+
+enum { most_places = 16 };
+
+static size_t places_of(const nh_kinetic *k) { return k->places < most_places ? k->places : most_places; }
+
+void nh_action_values(const nh_action *g, const double *q, double *E)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_ex *e = nh_alloc_array(k->m * g->d + 1, sizeof *e);
+    for (size_t a = 0; a < g->d; a++) memcpy(e + a * k->m, g->generator[a].component, k->m * sizeof *e);
+    if (g->d) nh_kinetic_values(k, k->m * g->d, e, q, E);
+    nh_free(e);
+}
+
+/* ---- brackets ---- */
+
+/* Fields at several places as one long vector each. */
+static double *stacked(const nh_kinetic *k, size_t n, const nh_ex *component)
+{
+    size_t m = k->m, places = places_of(k);
+    double *out = nh_alloc_array(places * m * n + 1, sizeof *out), *value = nh_alloc_array(places * m * n + 1, sizeof *value);
+    nh_kinetic_sample(k, m * n, component, places, value);
+    for (size_t p = 0; p < places; p++)
+        for (size_t j = 0; j < n; j++) memcpy(out + (j * places + p) * m, value + (p * n + j) * m, m * sizeof *out);
+    nh_free(value);
+    return out;
+}
+
+static void find_constants(nh_action *g, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t d = g->d, m = k->m, long_m = places_of(k) * m;
+    nh_ex *e = nh_alloc_array(d * m + 1, sizeof *e), *b = nh_alloc_array(d * d * m + 1, sizeof *b);
+    for (size_t a = 0; a < d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
+    for (size_t i = 0; i < d * d * m; i++) b[i] = nh_int(k->dag, 0);
+    for (size_t a = 0; a < d; a++)
+        for (size_t c = 0; c < a; c++) {
+            nh_field_bracket(k, e + a * m, e + c * m, b + (a * d + c) * m);
+            for (size_t s = 0; s < m; s++) b[(c * d + a) * m + s] = nh_neg(k->dag, b[(a * d + c) * m + s]);
+        }
+    double *E = stacked(k, d, e), *B = stacked(k, d * d, b);
+    g->algebra = nh_algebra_create(d);
+    g->closure = 0;
+    for (size_t pair = 0; pair < d * d; pair++) {
+        double off = nh_coordinates(long_m, d, E, 1, B + pair * long_m, g->algebra.c + pair * d), size = nh_largest(long_m, B + pair * long_m);
+        off = isfinite(off) && size > 0 ? off / (1e-300 + size) : size > 0 ? INFINITY : 0;
+        if (off > g->closure) {
+            g->closure = off;
+            g->worst[0] = pair / d;
+            g->worst[1] = pair % d;
+        }
+    }
+    g->closes = g->closure <= options->group;
+    for (size_t i = 0; i < d * d * d; i++) {
+        nh_num x;
+        double c = g->algebra.c[i];
+        if (nh_recognise_ratio(c, 1000, options->same, &x)) c = nh_num_value(x);
+        g->algebra.c[i] = fabs(c) <= options->group ? 0 : -c;
+    }
+    nh_free(e);
+    nh_free(b);
+    nh_free(E);
+    nh_free(B);
+}
+
+/* ---- ranks ---- */
+
+static void unit_columns(size_t m, size_t n, double *a)
+{
+    for (size_t j = 0; j < n; j++) {
+        double size = 0;
+        for (size_t i = 0; i < m; i++) size = hypot(size, a[i + j * m]);
+        for (size_t i = 0; i < m && size > 0; i++) a[i + j * m] /= size;
+    }
+}
+
+static size_t rank_at(size_t m, size_t n, const double *a, double small, double *ratio)
+{
+    double *s = nh_alloc_array(n + 1, sizeof *s);
+    size_t rank = 0, least = m < n ? m : n;
+    nh_singular_values(m, n, a, s);
+    while (rank < least && s[rank] > small) rank++;
+    if (ratio) *ratio = n && s[0] > 0 ? s[n - 1] / s[0] : n ? 0 : 1;
+    nh_free(s);
+    return rank;
+}
+
+/* Columns in units in which the metric has diagonal one, so that lengths and angles compare. */
+static void scaled(const nh_kinetic *k, const double *q, size_t n, double *a)
+{
+    size_t m = k->m;
+    double *K = nh_alloc_array(m * m, sizeof *K);
+    nh_kinetic_values(k, m * m, k->K, q, K);
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < m; i++) a[i + j * m] *= K[i * (m + 1)] > 0 ? sqrt(K[i * (m + 1)]) : 1;
+    unit_columns(m, n, a);
+    nh_free(K);
+}
+
+/* [E, D] at a place (scaled), and omega on V (f x d, unit rows). */
+static size_t with_distribution(const nh_action *g, const double *q, const double *E, double small, double *transversality)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, f = k->f, d = g->d;
+    double *omega = nh_alloc_array(f * m + 1, sizeof *omega), *forms = nh_alloc_array(f * m + 1, sizeof *forms);
+    double *both = nh_alloc_array(m * (m + d) + 1, sizeof *both), *on = nh_alloc_array(f * d + 1, sizeof *on);
+    if (f) nh_kinetic_values(k, f * m, k->omega, q, omega);
+    for (size_t a = 0; a < f; a++) {
+        double size = 0;
+        for (size_t s = 0; s < m; s++) size = hypot(size, omega[a * m + s]);
+        for (size_t s = 0; s < m; s++) forms[a + s * f] = size > 0 ? omega[a * m + s] / size : 0;
+        for (size_t c = 0; c < d; c++)
+            for (size_t s = 0; s < m; s++) on[a + c * f] += forms[a + s * f] * E[s + c * m];
+    }
+    memcpy(both, E, m * d * sizeof *both);
+    size_t n = nh_kernel(f, m, forms, small, both + m * d, NULL, NULL);
+    scaled(k, q, d + n, both);
+    size_t rank = rank_at(m, d + n, both, small, NULL);
+    unit_columns(f, d, on);
+    if (d == f) rank_at(f, d, on, small, transversality);
+    else *transversality = 0;
+    nh_free(omega);
+    nh_free(forms);
+    nh_free(both);
+    nh_free(on);
+    return rank;
+}
+
+static void find_ranks(nh_action *g, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, d = g->d, joint = 0;
+    double *E = nh_alloc_array(2 * m * d + 1, sizeof *E), *unit = E + m * d;
+    g->free = true;
+    g->least = g->transversality = INFINITY;
+    for (size_t p = 0; p < places_of(k); p++) {
+        const double *q = k->place + p * m;
+        double ratio, transversality;
+        nh_action_values(g, q, E);
+        memcpy(unit, E, m * d * sizeof *unit);
+        scaled(k, q, d, unit);
+        size_t rank = rank_at(m, d, unit, options->group, &ratio), both = k->affine ? with_distribution(g, q, E, options->group, &transversality) : rank;
+        if (!k->affine) transversality = 0;
+        if (rank > g->orbit) g->orbit = rank;
+        if (both > joint) joint = both;
+        g->free &= rank == d;
+        if (ratio < g->least) g->least = ratio, g->least_place = p;
+        g->transversality = fmin(g->transversality, transversality);
+    }
+    size_t n = m - k->f;
+    g->dimension_assumption = k->affine && joint == m;
+    g->intersection = g->orbit + n > joint ? g->orbit + n - joint : 0;
+    g->chaplygin = g->dimension_assumption && g->intersection == 0 && g->orbit == d;
+    nh_free(E);
+}
+
+void nh_action_init(nh_action *g, const nh_kinetic *k, size_t d, const nh_generator *generator, const nh_options *options)
+{
+    *g = (nh_action){.kinetic = k, .d = d, .generator = nh_arena_alloc(k->arena, (d + 1) * sizeof *g->generator)};
+    if (d) memcpy(g->generator, generator, d * sizeof *generator);
+    find_constants(g, options);
+    find_ranks(g, options);
+}
+
+void nh_action_clear(nh_action *g) { nh_algebra_clear(&g->algebra); }
+
+void nh_action_sub(nh_action *out, const nh_action *g, size_t r, const double *t, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *dag = k->dag;
+    nh_generator *sub = nh_alloc_array(r + 1, sizeof *sub);
+    nh_ex *component = nh_alloc_array(k->m, sizeof *component);
+    for (size_t j = 0; j < r; j++) {
+        size_t terms = 0, only = 0;
+        for (size_t a = 0; a < g->d; a++)
+            if (t[a + j * g->d] != 0) terms++, only = a;
+        if (terms == 1 && t[only + j * g->d] == 1) {
+            sub[j] = g->generator[only];
+            continue;
+        }
+        for (size_t s = 0; s < k->m; s++) {
+            component[s] = nh_int(dag, 0);
+            for (size_t a = 0; a < g->d; a++)
+                component[s] = nh_add(dag, component[s], nh_mul(dag, nh_real(dag, t[a + j * g->d]), g->generator[a].component[s]));
+        }
+        nh_generator_init(&sub[j], k, NULL, component, options);
+    }
+    nh_action_init(out, k, r, sub, options);
+    nh_free(sub);
+    nh_free(component);
+}
+
+/* ---- words ---- */
+
+static const char *field_text(const nh_kinetic *k, const nh_generator *g, nh_text *out)
+{
+    if (g->name) nh_text_addf(out, "%s = ", g->name);
+    nh_generator_text(k, g, out);
+    return nh_text_string(out);
+}
+
+static void place_text(const nh_kinetic *k, size_t p, nh_text *out)
+{
+    for (size_t s = 0; s < k->m; s++) nh_text_addf(out, "%s%s = %.4g", s ? ", " : "", k->name[s], k->place[p * k->m + s]);
+}
+
+static bool not_invariant(const nh_action *g, size_t a, nh_error *error)
+{
+    nh_text t;
+    nh_text_init(&t);
+    const nh_generator *x = &g->generator[a];
+    const nh_condition *worst = !x->metric.holds ? &x->metric : !x->potential.holds ? &x->potential : &x->constraints;
+    const char *what = worst == &x->metric ? "kinetic energy" : worst == &x->potential ? "potential" : "constraint distribution";
+    nh_fail(error, NH_INPUT, "", "%s is not a symmetry: it does not leave the %s invariant (off by %.2g of its size)", field_text(g->kinetic, x, &t), what, worst->residual);
+    nh_text_clear(&t);
+    return nh_error_hint(error, "nhsym reduce without a given group lists the symmetries that there are");
+}
+
+static bool not_closed(const nh_action *g, nh_error *error)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_text a, b, c;
+    nh_text_init(&a), nh_text_init(&b), nh_text_init(&c);
+    nh_generator bracket = {.component = nh_arena_alloc(k->arena, k->m * sizeof(nh_ex))};
+    nh_field_bracket(k, g->generator[g->worst[0]].component, g->generator[g->worst[1]].component, bracket.component);
+    nh_fail(error, NH_INPUT, "", "these fields do not generate a group: [%s, %s] = %s is not a combination of them (off by %.2g of its size)",
+            field_text(k, &g->generator[g->worst[0]], &a), field_text(k, &g->generator[g->worst[1]], &b), field_text(k, &bracket, &c), g->closure);
+    nh_text_clear(&a), nh_text_clear(&b), nh_text_clear(&c);
+    return nh_error_hint(error, "add the bracket to the list, or leave one of the two out");
+}
+
+bool nh_action_check(const nh_action *g, nh_error *error)
+{
+    for (size_t a = 0; a < g->d; a++)
+        if (!g->generator[a].invariant) return not_invariant(g, a, error);
+    if (!g->closes) return not_closed(g, error);
+    if (g->free) return true;
+    nh_text t;
+    nh_text_init(&t);
+    place_text(g->kinetic, g->least_place, &t);
+    nh_fail(error, NH_INPUT, "", "the action is not free: the %zu fields span only %zu dimensions at %s", g->d, g->orbit, nh_text_string(&t));
+    nh_text_clear(&t);
+    return nh_error_hint(error, "reduce by a subgroup whose generators are independent everywhere");
+}
+
+/* ---- horizontal symmetries ---- */
+
+size_t nh_action_horizontal(const nh_action *g, const nh_options *options, double *c)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, f = k->f, d = g->d, places = places_of(k), rows = places * f;
+    double *a = nh_alloc_array(rows * d + 1, sizeof *a), *E = nh_alloc_array(m * d + f * m + 1, sizeof *E), *omega = E + m * d;
+    for (size_t p = 0; p < places && f; p++) {
+        nh_action_values(g, k->place + p * m, E);
+        nh_kinetic_values(k, f * m, k->omega, k->place + p * m, omega);
+        for (size_t i = 0; i < f; i++)
+            for (size_t b = 0; b < d; b++)
+                for (size_t s = 0; s < m; s++) a[p * f + i + b * rows] += omega[i * m + s] * E[s + b * m];
+    }
+    size_t n = nh_kernel(rows, d, a, options->group, c, NULL, NULL);
+    nh_column_echelon(d, n, options->group, c);
+    nh_free(a);
+    nh_free(E);
+    return n;
+}
+
+/* ---- flows ---- */
+
+struct nh_flows {
+    const nh_action *action;
+    nh_tape *tape;
+    nh_tape_work *work;
+    double *E;
+    bool *constant;    /* per generator: a translation */
+    const double *c;
+};
+
+nh_flows *nh_flows_create(const nh_action *g)
+{
+    size_t m = g->kinetic->m;
+    nh_flows *f = nh_alloc(sizeof *f);
+    nh_ex *e = nh_alloc_array(m * g->d + 1, sizeof *e);
+    for (size_t a = 0; a < g->d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
+    *f = (nh_flows){.action = g, .tape = nh_kinetic_tape(g->kinetic, m * g->d, e), .E = nh_alloc_array(m * g->d + 1, sizeof *f->E)};
+    f->work = nh_tape_work_create(f->tape);
+    f->constant = nh_alloc_array(g->d + 1, sizeof *f->constant);
+    for (size_t a = 0; a < g->d; a++) {
+        f->constant[a] = true;
+        for (size_t s = 0; s < m; s++)
+            for (size_t j = 0; j < m; j++) f->constant[a] &= !nh_depends(g->kinetic->dag, e[a * m + s], g->kinetic->q[j]);
+    }
+    nh_free(e);
+    return f;
+}
+
+void nh_flows_free(nh_flows *f)
+{
+    if (!f) return;
+    nh_tape_work_free(f->work);
+    nh_tape_free(f->tape);
+    nh_free(f->E);
+    nh_free(f->constant);
+    nh_free(f);
+}
+
+static bool field_rate(double t, const double *q, double *rate, void *context)
+{
+    (void)t;
+    nh_flows *f = context;
+    size_t m = f->action->kinetic->m;
+    nh_tape_eval(f->tape, f->work, q, f->E);
+    memset(rate, 0, m * sizeof *rate);
+    for (size_t a = 0; a < f->action->d; a++)
+        for (size_t s = 0; s < m && f->c[a] != 0; s++) rate[s] += f->c[a] * f->E[s + a * m];
+    return true;
+}
+
+bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
+{
+    static const double tolerance = 1e-14, largest = 1e12;
+    size_t m = f->action->kinetic->m;
+    bool translation = true;
+    f->c = c;
+    for (size_t a = 0; a < f->action->d; a++) translation &= c[a] == 0 || f->constant[a];
+    if (translation) {
+        nh_tape_eval(f->tape, f->work, q, f->E);
+        for (size_t a = 0; a < f->action->d; a++)
+            for (size_t s = 0; s < m && c[a] != 0; s++) q[s] += t * c[a] * f->E[s + a * m];
+        return true;
+    }
+    return t == 0 || nh_runge(m, field_rate, f, 0, t, tolerance, largest, q);
+}
+
+bool nh_flows_closed(nh_flows *f, size_t generator)
+{
+    static const double same = 1e-8, turn = 6.283185307179586;
+    const nh_kinetic *k = f->action->kinetic;
+    double *c = nh_alloc_array(f->action->d + k->m + 1, sizeof *c), *q = c + f->action->d;
+    bool closed = false;
+    c[generator] = 1;
+    memcpy(q, k->place, k->m * sizeof *q);
+    for (int i = 0; i < 2 && !closed; i++) {
+        closed = nh_flows_move(f, c, turn, q);
+        for (size_t s = 0; s < k->m && closed; s++) {
+            double way = q[s] - k->place[s];
+            if (k->angle[s]) way -= turn * round(way / turn);
+            closed = fabs(way) < same * (1 + fabs(q[s]));
+        }
+    }
+    nh_free(c);
+    return closed;
+}

@@ -1,0 +1,58 @@
+/* action: a group by its infinitesimal generators, and what kind of reduction it allows.
+ *
+ * With E = (e_a) (m x d) and D = ker omega, at generic points:
+ *
+ *     free                 rank E = d
+ *     dimension assumption V + D = TQ: rank [E, D] = m                 [ChhabraEmami2014, eq. 2.7], [CendraDiaz2007, sec. 2]
+ *     dim S, S = D cap V   d + (m - f) - rank [E, D]
+ *     Chaplygin            S = 0 and V + D = TQ
+ *
+ * Left action: [e_a, e_b] = c_ab^k e_k as fields gives the Lie algebra constants C_ab^k = -c_ab^k. */
+#ifndef NH_ACTION_H
+#define NH_ACTION_H
+
+#include "reduction/algebra.h"
+#include "reduction/invariance.h"
+
+typedef struct {
+    const nh_kinetic *kinetic;
+    size_t d;
+    nh_generator *generator;   /* d */
+    nh_algebra algebra;        /* C */
+    bool closes;
+    double closure;            /* largest residual of a bracket, relative */
+    size_t worst[2];           /* that bracket */
+    size_t orbit;              /* rank E at generic points; d - orbit: isotropy */
+    bool free;                 /* at every sample point */
+    double least;              /* the least sigma_min / sigma_max of E, columns scaled */
+    size_t least_place;        /* the sample point where */
+    bool dimension_assumption, chaplygin;
+    size_t intersection;       /* dim S */
+    double transversality;     /* Chaplygin: the least sigma_min / sigma_max of omega on V */
+} nh_action;
+
+/* The generators are copied (the expressions live in the kinetic's graph). */
+void nh_action_init(nh_action *action, const nh_kinetic *kinetic, size_t d, const nh_generator *generator, const nh_options *options);
+void nh_action_clear(nh_action *action);
+
+/* Is it fit for reduction: invariant, closed, free?  The message names the condition, the bracket or the point. */
+bool nh_action_check(const nh_action *action, nh_error *error);
+
+/* Combinations f_j = sum_a t[a + j*d] e_a as an action of their own; exact where the numbers are whole. */
+void nh_action_sub(nh_action *out, const nh_action *action, size_t r, const double *t, const nh_options *options);
+
+/* E at a place, m x d, column-major. */
+void nh_action_values(const nh_action *action, const double *q, double *E);
+
+/* Constant combinations of generators that lie in D everywhere (horizontal symmetries): basis columns c (d x count), echelon form. */
+size_t nh_action_horizontal(const nh_action *action, const nh_options *options, double *c);
+
+/* The flow of sum_a c[a] e_a for the time t, of a place q (overwritten). */
+typedef struct nh_flows nh_flows;
+nh_flows *nh_flows_create(const nh_action *action);
+void nh_flows_free(nh_flows *flows);
+bool nh_flows_move(nh_flows *flows, const double *c, double t, double *q);
+/* Does the flow of one generator return after one turn, 2 pi or 4 pi, angles counted modulo 2 pi? */
+bool nh_flows_closed(nh_flows *flows, size_t generator);
+
+#endif

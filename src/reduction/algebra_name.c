@@ -1,0 +1,381 @@
+/* algebra_name: the indecomposable ideals of an algebra, and what they are called.
+ *
+ * An algebra is a direct sum of ideals exactly when its centroid, the matrices T with T[x,y] = [Tx,y], has commuting projections.  The
+ * generalised eigenspaces of a random element of it are therefore ideals, and of several draws the finest valid splitting is kept. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "base/memory.h"
+#include "reduction/algebra.h"
+#include "reduction/subspace.h"
+#include "system/sample.h"
+
+enum { draws = 6 };
+
+static double scale_of(const nh_algebra *g) { return fmax(nh_largest(g->d * g->d * g->d, g->c), 1e-300); }
+
+static void identity(size_t d, double *out)
+{
+    for (size_t i = 0; i < d * d; i++) out[i] = i % (d + 1) == 0;
+}
+
+/* ---- series ---- */
+
+static size_t series(const nh_algebra *g, bool derived, double small, size_t *dimension)
+{
+    size_t d = g->d, n = d, length = 0;
+    double *all = nh_alloc_array(d * d + 1, sizeof *all), *u = nh_alloc_array(d * d + 1, sizeof *u), *next = nh_alloc_array(d * d + 1, sizeof *next);
+    identity(d, all);
+    identity(d, u);
+    for (;;) {
+        dimension[length++] = n;
+        if (length == NH_MOST_SERIES || n == 0) break;
+        size_t r = nh_algebra_brackets(g, derived ? n : d, derived ? u : all, n, u, small, next);
+        if (r == n) break;
+        memcpy(u, next, d * d * sizeof *u);
+        n = r;
+    }
+    nh_free(all);
+    nh_free(u);
+    nh_free(next);
+    return length;
+}
+
+static size_t derived_algebra(const nh_algebra *g, double small, double *out)
+{
+    double *all = nh_alloc_array(g->d * g->d + 1, sizeof *all);
+    identity(g->d, all);
+    size_t n = nh_algebra_brackets(g, g->d, all, g->d, all, small, out);
+    nh_free(all);
+    return n;
+}
+
+/* The radical is what is orthogonal to [g,g] for the Killing form. */
+static size_t radical(const nh_algebra *g, double small, double *out)
+{
+    size_t d = g->d;
+    double *k = nh_alloc_array(d * d + 1, sizeof *k), *d1 = nh_alloc_array(d * d + 1, sizeof *d1), *rows = nh_alloc_array(d * d + 1, sizeof *rows);
+    nh_algebra_killing(g, k);
+    size_t r = derived_algebra(g, small, d1);
+    for (size_t a = 0; a < r; a++)
+        for (size_t j = 0; j < d; j++)
+            for (size_t i = 0; i < d; i++) rows[a + j * r] += d1[i + a * d] * k[i + j * d];
+    double scale = scale_of(g);
+    size_t n = nh_kernel(r, d, rows, small * scale * scale, out, NULL, NULL);
+    nh_free(k);
+    nh_free(d1);
+    nh_free(rows);
+    return n;
+}
+
+/* ---- kinds ---- */
+
+static void killing_signs(const nh_algebra *g, double small, size_t *positive, size_t *negative)
+{
+    size_t d = g->d;
+    double *k = nh_alloc_array(d * d + 1, sizeof *k), *re = nh_alloc_array(2 * d + 1, sizeof *re), zero;
+    nh_algebra_killing(g, k);
+    zero = small * sqrt(small) * nh_largest(d * d, k); /* squares of constants: the eigenvalues spread twice as far as these */
+    *positive = *negative = 0;
+    if (nh_eigen(d, k, re, re + d, NULL))
+        for (size_t i = 0; i < d; i++) {
+            *positive += re[i] > zero;
+            *negative += re[i] < -zero;
+        }
+    nh_free(k);
+    nh_free(re);
+}
+
+/* [g,g] abelian of dimension 2: the eigenvalues of ad_x on it. */
+static nh_algebra_kind plane_kind(const nh_algebra *g, const double *d1, double small, uint64_t *seed)
+{
+    size_t d = g->d;
+    double x[3], image[6], ad[4], re[2], im[2];
+    for (size_t i = 0; i < d; i++) x[i] = 2 * nh_random(seed) - 1;
+    for (size_t j = 0; j < 2; j++) nh_algebra_bracket(g, x, d1 + j * d, image + j * d);
+    nh_coordinates(d, 2, d1, 2, image, ad);
+    if (!nh_eigen(2, ad, re, im, NULL)) return NH_OTHER_ALGEBRA;
+    double size = fmax(hypot(re[0], im[0]), hypot(re[1], im[1]));
+    small = sqrt(small) * size;
+    if (fabs(re[0]) <= small && fabs(re[1]) <= small && fabs(im[0]) > small) return NH_SE2;
+    if (fabs(im[0]) <= small && fabs(re[0] + re[1]) <= small && fabs(re[0]) > small) return NH_E11;
+    return NH_OTHER_ALGEBRA;
+}
+
+static nh_algebra_kind kind_of_three(const nh_algebra *g, const double *d1, size_t r, double small, uint64_t *seed)
+{
+    size_t positive, negative;
+    killing_signs(g, small, &positive, &negative);
+    if (r == 3) return negative == 3 ? NH_SO3 : NH_SL2R;
+    if (r == 2) return plane_kind(g, d1, small, seed);
+    double *centre = nh_alloc_array(9, sizeof *centre), off = 1, x;
+    size_t z = nh_algebra_centre(g, small, centre);
+    if (r == 1 && z == 1) off = nh_coordinates(3, 1, centre, 1, d1, &x);
+    nh_free(centre);
+    return off < sqrt(small) ? NH_HEISENBERG : NH_OTHER_ALGEBRA;
+}
+
+nh_algebra_kind nh_algebra_kind_of(const nh_algebra *g, double small, uint64_t seed)
+{
+    size_t d = g->d, r, positive, negative, span;
+    nh_algebra_kind kind = NH_OTHER_ALGEBRA;
+    double *d1 = nh_alloc_array(2 * d * d + 1, sizeof *d1), *rad = d1 + d * d;
+    r = derived_algebra(g, small, d1);
+    if (d == 1) kind = NH_R;
+    else if (d == 2 && r == 1) kind = NH_AFF1;
+    else if (d == 3) kind = kind_of_three(g, d1, r, small, &seed);
+    else if (d == 6 && r == 6 && (span = radical(g, small, rad)) == 3) {
+        killing_signs(g, small, &positive, &negative);
+        double *out = nh_alloc_array(d * d, sizeof *out);
+        if (negative == 3 && positive == 0 && nh_algebra_brackets(g, span, rad, span, rad, small, out) == 0) kind = NH_SE3;
+        nh_free(out);
+    }
+    nh_free(d1);
+    return kind;
+}
+
+/* ---- splitting ---- */
+
+/* Rows of T[x,y] = [Tx,y] in the w^2 unknown entries of T (column-major), for every pair of basis vectors. */
+static double *centroid_rows(const nh_algebra *g)
+{
+    size_t w = g->d, rows = w * w * w;
+    double *a = nh_alloc_array(rows * w * w + 1, sizeof *a);
+    for (size_t x = 0; x < w; x++)
+        for (size_t y = 0; y < w; y++)
+            for (size_t k = 0; k < w; k++) {
+                size_t row = (x * w + y) * w + k;
+                for (size_t l = 0; l < w; l++) {
+                    a[row + (k + l * w) * rows] += g->c[(x * w + y) * w + l]; /* T^k_l C_xy^l */
+                    a[row + (l + x * w) * rows] -= g->c[(l * w + y) * w + k]; /* T^l_x C_ly^k */
+                }
+            }
+    return a;
+}
+
+typedef struct {
+    size_t count, dimension[64];
+    double *basis; /* w x w, piece after piece */
+} splitting;
+
+/* Null space of a power of (T - ev), or of its real quadratic: the `mul` smallest right singular vectors. */
+static void eigenspace(size_t w, const double *t, double re, double im, size_t mul, double *out)
+{
+    double *a = nh_alloc_array(4 * w * w + 1, sizeof *a), *power = a + w * w, *next = power + w * w, *vt = next + w * w;
+    double *s = nh_alloc_array(w + 1, sizeof *s);
+    memcpy(a, t, w * w * sizeof *a);
+    for (size_t i = 0; i < w; i++) a[i * (w + 1)] -= re;
+    if (im != 0) { /* (T - re)^2 + im^2 */
+        nh_multiply(w, w, w, a, a, next);
+        for (size_t i = 0; i < w; i++) next[i * (w + 1)] += im * im;
+        memcpy(a, next, w * w * sizeof *a);
+    }
+    identity(w, power);
+    for (size_t k = 0; k < mul; k++) {
+        nh_multiply(w, w, w, power, a, next);
+        double size = fmax(nh_largest(w * w, next), 1e-300);
+        for (size_t i = 0; i < w * w; i++) power[i] = next[i] / size;
+    }
+    if (nh_svd(w, w, power, s, NULL, vt))
+        for (size_t j = 0; j < mul; j++)
+            for (size_t i = 0; i < w; i++) out[i + j * w] = vt[(w - mul + j) + i * w];
+    nh_free(a);
+    nh_free(s);
+}
+
+/* The generalised eigenspaces of t, conjugate eigenvalues together. */
+static void split_by(size_t w, const double *t, double cluster, splitting *out)
+{
+    double *a = nh_alloc_array(w * w + 2 * w + 1, sizeof *a), *re = a + w * w, *im = re + w, radius = 0;
+    size_t filled = 0;
+    bool *used = nh_alloc_array(w + 1, sizeof *used);
+    out->count = 0;
+    memcpy(a, t, w * w * sizeof *a);
+    if (!nh_eigen(w, a, re, im, NULL)) w = 0;
+    for (size_t i = 0; i < w; i++) radius = fmax(radius, hypot(re[i], im[i]));
+    for (size_t i = 0; i < w; i++) {
+        if (used[i]) continue;
+        double sum_re = 0, sum_im = 0, size = cluster * radius;
+        size_t mul = 0;
+        for (size_t j = i; j < w; j++)
+            if (!used[j] && hypot(re[j] - re[i], fabs(im[j]) - fabs(im[i])) <= size) {
+                used[j] = true;
+                sum_re += re[j];
+                sum_im += fabs(im[j]);
+                mul++;
+            }
+        sum_im = sum_im / (double)mul > size ? sum_im / (double)mul : 0;
+        eigenspace(w, t, sum_re / (double)mul, sum_im, mul, out->basis + filled * w);
+        filled += mul;
+        if (out->count < 64) out->dimension[out->count++] = mul;
+    }
+    nh_free(a);
+    nh_free(used);
+}
+
+/* Do the pieces span, commute, and are they ideals? */
+static bool valid_splitting(const nh_algebra *g, const splitting *s, double small)
+{
+    size_t w = g->d, at = 0, total = 0;
+    double scale = scale_of(g), *sv = nh_alloc_array(w + 1, sizeof *sv), *out = nh_alloc_array(w * w + 1, sizeof *out);
+    nh_singular_values(w, w, s->basis, sv);
+    bool good = w > 0 && sv[w - 1] > sqrt(small);
+    for (size_t i = 0; i < s->count && good; i++) {
+        total += s->dimension[i];
+        good = nh_algebra_ideal(g, s->dimension[i], s->basis + at * w) <= sqrt(small) * scale;
+        for (size_t j = i + 1, next = at + s->dimension[i]; j < s->count && good; next += s->dimension[j], j++)
+            good = nh_algebra_brackets(g, s->dimension[i], s->basis + at * w, s->dimension[j], s->basis + next * w, sqrt(small), out) == 0;
+        at += s->dimension[i];
+    }
+    nh_free(sv);
+    nh_free(out);
+    return good && total == w;
+}
+
+static void finest_splitting(const nh_algebra *g, double small, double cluster, uint64_t seed, splitting *best)
+{
+    size_t w = g->d, rows = w * w * w, unknowns = w * w;
+    double *a = centroid_rows(g), *kernel = nh_alloc_array(unknowns * unknowns + 1, sizeof *kernel), *t = nh_alloc_array(unknowns + 1, sizeof *t);
+    size_t n = nh_kernel(rows, unknowns, a, small * scale_of(g), kernel, NULL, NULL);
+    splitting s = {.basis = nh_alloc_array(w * w + 1, sizeof(double))};
+    best->count = 1;
+    best->dimension[0] = w;
+    identity(w, best->basis);
+    for (int draw = 0; draw < draws && n > 1; draw++) {
+        memset(t, 0, unknowns * sizeof *t);
+        for (size_t j = 0; j < n; j++) {
+            double x = 2 * nh_random(&seed) - 1;
+            for (size_t i = 0; i < unknowns; i++) t[i] += x * kernel[i + j * unknowns];
+        }
+        split_by(w, t, cluster, &s);
+        if (s.count <= best->count || !valid_splitting(g, &s, small)) continue;
+        best->count = s.count;
+        memcpy(best->dimension, s.dimension, sizeof s.dimension);
+        memcpy(best->basis, s.basis, w * w * sizeof *s.basis);
+    }
+    nh_free(a);
+    nh_free(kernel);
+    nh_free(t);
+    nh_free(s.basis);
+}
+
+/* The part of the centre outside [g,g], and an ideal that complements it: [g,g] with whatever is missing. */
+static size_t central_factor(const nh_algebra *g, double small, double *flat, double *rest, size_t *rest_dimension)
+{
+    size_t d = g->d;
+    double *z = nh_alloc_array(3 * d * d + 1, sizeof *z), *d1 = z + d * d, *both = d1 + d * d;
+    size_t nz = nh_algebra_centre(g, small, z), n1 = derived_algebra(g, small, d1), at = 0;
+    double *off = nh_alloc_array(d * d + 1, sizeof *off), *kernel = nh_alloc_array(d * d + 1, sizeof *kernel);
+    memcpy(off, z, d * nz * sizeof *off);
+    nh_project_off(d, nz, off, n1, d1);
+    size_t nk = nh_kernel(d, nz, off, sqrt(small), kernel, NULL, NULL), nf = 0; /* combinations that lie in [g,g] */
+    double *other = nh_alloc_array(nz * nz + 1, sizeof *other);
+    double *transposed = nh_alloc_array(nz * nz + 1, sizeof *transposed);
+    for (size_t j = 0; j < nk; j++)
+        for (size_t i = 0; i < nz; i++) transposed[j + i * (nk ? nk : 1)] = kernel[i + j * nz];
+    nf = nh_kernel(nk, nz, transposed, 0.5, other, NULL, NULL); /* the combinations orthogonal to these */
+    nh_multiply(d, nf, nz, z, other, flat);
+    memcpy(both, d1, d * n1 * sizeof *both);
+    memcpy(both + d * n1, flat, d * nf * sizeof *both);
+    double *span = nh_alloc_array(d * d + 1, sizeof *span), *rows = nh_alloc_array(d * d + 1, sizeof *rows);
+    size_t ns = nh_span(d, n1 + nf, both, sqrt(small), span);
+    for (size_t j = 0; j < ns; j++)
+        for (size_t i = 0; i < d; i++) rows[j + i * ns] = span[i + j * d];
+    memcpy(rest, d1, d * n1 * sizeof *rest);
+    at = nh_kernel(ns, d, rows, 0.5, rest + d * n1, NULL, NULL);
+    *rest_dimension = n1 + at;
+    nh_free(z);
+    nh_free(off);
+    nh_free(kernel);
+    nh_free(other);
+    nh_free(transposed);
+    nh_free(span);
+    nh_free(rows);
+    return nf;
+}
+
+static int larger_first(const void *a, const void *b)
+{
+    const nh_algebra_piece *x = a, *y = b;
+    if (x->dimension != y->dimension) return x->dimension > y->dimension ? -1 : 1;
+    return (int)x->kind - (int)y->kind;
+}
+
+static void add_piece(nh_algebra_report *r, nh_algebra_kind kind, size_t n, const double *basis)
+{
+    nh_algebra_piece *p = &r->piece[r->pieces++];
+    *p = (nh_algebra_piece){kind, n, nh_alloc_array(r->d * n + 1, sizeof(double))};
+    memcpy(p->basis, basis, r->d * n * sizeof *basis);
+}
+
+void nh_algebra_report_init(nh_algebra_report *r, const nh_algebra *g, double small, double cluster, uint64_t seed)
+{
+    size_t d = g->d, w;
+    double *scratch = nh_alloc_array(5 * d * d + 1, sizeof *scratch), *flat = scratch, *rest = flat + d * d, *basis = rest + d * d, *lifted = basis + d * d;
+    *r = (nh_algebra_report){.d = d, .piece = nh_alloc_array(d + 1, sizeof *r->piece)};
+    r->centre = nh_algebra_centre(g, small, scratch);
+    r->radical = radical(g, small, scratch);
+    r->derived_length = series(g, true, small, r->derived);
+    r->lower_length = series(g, false, small, r->lower);
+    size_t n = central_factor(g, small, flat, rest, &w);
+    for (size_t j = 0; j < n; j++) add_piece(r, NH_R, 1, flat + j * d);
+    if (w) {
+        nh_algebra core = nh_algebra_change(g, w, rest, NULL);
+        splitting s = {.basis = basis};
+        finest_splitting(&core, small, cluster, seed, &s);
+        for (size_t i = 0, at = 0; i < s.count; at += s.dimension[i], i++) {
+            nh_multiply(d, s.dimension[i], w, rest, basis + at * w, lifted);
+            nh_algebra part = nh_algebra_change(g, s.dimension[i], lifted, NULL);
+            add_piece(r, nh_algebra_kind_of(&part, small, seed), s.dimension[i], lifted);
+            nh_algebra_clear(&part);
+        }
+        nh_algebra_clear(&core);
+    }
+    qsort(r->piece, r->pieces, sizeof *r->piece, larger_first);
+    nh_free(scratch);
+}
+
+void nh_algebra_report_clear(nh_algebra_report *r)
+{
+    for (size_t i = 0; i < r->pieces; i++) nh_free(r->piece[i].basis);
+    nh_free(r->piece);
+    *r = (nh_algebra_report){0};
+}
+
+static void put_power(nh_text *out, const char *name, size_t count, bool *first)
+{
+    if (!count) return;
+    nh_text_add(out, *first ? "" : " x ");
+    nh_text_add(out, name);
+    if (count > 1) nh_text_addf(out, "^%zu", count);
+    *first = false;
+}
+
+void nh_algebra_name(const nh_algebra_report *r, const bool *closed, nh_text *out)
+{
+    static const char *const names[] = {"R", "SO(3)", "SL(2,R)", "SE(2)", "E(1,1)", "Heisenberg", "Aff(1)", "SE(3)"};
+    bool first = true;
+    size_t circles = 0, lines = 0;
+    for (size_t i = 0; i < r->pieces; i++) {
+        size_t same = 1;
+        if (r->piece[i].kind == NH_R) {
+            if (closed && closed[i]) circles++;
+            else lines++;
+            continue;
+        }
+        if (r->piece[i].kind == NH_OTHER_ALGEBRA) {
+            char text[80];
+            snprintf(text, sizeof text, "(an algebra of dimension %zu)", r->piece[i].dimension);
+            put_power(out, text, 1, &first);
+            continue;
+        }
+        while (i + 1 < r->pieces && r->piece[i + 1].kind == r->piece[i].kind) i++, same++;
+        put_power(out, names[r->piece[i].kind], same, &first);
+    }
+    put_power(out, "SO(2)", circles, &first);
+    put_power(out, "R", lines, &first);
+    if (first) nh_text_add(out, "trivial");
+}

@@ -1,0 +1,395 @@
+#include "reduction/chain.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/normal.h"
+#include "expr/solve.h"
+#include "expr/tape.h"
+#include "system/sample.h"
+
+enum { states = 30, most_basis = 6 };
+static const double null_bound = 1e-10; /* of singular values; rows are scaled to size one */
+
+typedef struct {
+    const nh_system *system;
+    const nh_chain *chain;
+    nh_dag *dag;
+    nh_wrench *behind;     /* per body: momentum of it and all bodies behind it, in its frame */
+    uint64_t seed;
+    nh_chain_symmetries *out;
+} work;
+
+const char *nh_chain_rule_name(nh_chain_rule rule)
+{
+    static const char *const names[] = {"first joint", "AP1", "AP2", "extremity"};
+    return names[rule];
+}
+
+/* ---- a joint and its algebra ---- */
+
+/* A basis of Lie(Q_i) in the joint's frame: its screws, except that Euler's angles stand for all rotations. */
+static size_t basis_of(const work *w, const nh_joint *j, nh_twist basis[most_basis])
+{
+    nh_dag *d = w->dag;
+    bool euler = j->kind == NH_JOINT_SPHERICAL || j->kind == NH_JOINT_FREE;
+    for (size_t k = 0; k < j->screws; k++) {
+        basis[k] = nh_screw_twist(d, &w->chain->screw[j->first + k]);
+        if (!euler || k + 3 < j->screws) continue;
+        for (size_t i = 0; i < 3; i++) {
+            basis[k].v[i] = nh_int(d, 0);
+            basis[k].w[i] = nh_int(d, i == k + 3 - j->screws);
+        }
+    }
+    return j->screws;
+}
+
+/* [a, b] of twists: (w_a x v_b + v_a x w_b, w_a x w_b). */
+static nh_twist bracket(nh_dag *d, const nh_twist *a, const nh_twist *b)
+{
+    nh_twist out;
+    nh_ex x[3], y[3];
+    nh_cross(d, a->w, b->v, x);
+    nh_cross(d, a->v, b->w, y);
+    nh_cross(d, a->w, b->w, out.w);
+    for (int i = 0; i < 3; i++) out.v[i] = nh_add(d, x[i], y[i]);
+    return out;
+}
+
+static nh_inertia inertia_of(nh_dag *d, const nh_body *b)
+{
+    nh_inertia c = {.m = b->mass};
+    for (int i = 0; i < 3; i++) c.h[i] = nh_int(d, 0);
+    memcpy(c.I, b->inertia, sizeof c.I);
+    nh_pose shift = nh_pose_shift(d, b->center);
+    return nh_inertia_outwards(d, &shift, &c);
+}
+
+static nh_pose pose_of_joint(nh_dag *d, const nh_chain *c, const nh_joint *j)
+{
+    nh_pose a = nh_pose_identity(d);
+    for (size_t k = 0; k < j->screws; k++) {
+        nh_pose step = nh_screw_pose(d, &c->screw[j->first + k]);
+        a = nh_pose_product(d, &a, &step);
+    }
+    return a;
+}
+
+/* F in the joint's frame. */
+static nh_wrench momentum_behind(const work *w, const nh_joint *j)
+{
+    nh_pose a = pose_of_joint(w->dag, w->chain, j);
+    return nh_wrench_outwards(w->dag, &a, &w->behind[j->child]);
+}
+
+static void momenta(work *w)
+{
+    const nh_chain *c = w->chain;
+    nh_dag *d = w->dag;
+    for (size_t b = 0; b < c->bodies; b++) {
+        nh_pose pose;
+        nh_twist twist;
+        nh_inertia own = inertia_of(d, &c->body[b]);
+        nh_chain_frame(c, d, (long)b, 0, &pose, &twist);
+        w->behind[b] = nh_inertia_momentum(d, &own, &twist);
+    }
+    for (size_t i = c->joints; i-- > 0;) {
+        const nh_joint *j = &c->joint[c->order[i]];
+        if (j->parent == NH_GROUND) continue;
+        nh_wrench f = momentum_behind(w, j), *sum = &w->behind[j->parent];
+        f = nh_wrench_outwards(d, &j->placement, &f);
+        for (int e = 0; e < 3; e++) {
+            sum->p[e] = nh_add(d, sum->p[e], f.p[e]);
+            sum->L[e] = nh_add(d, sum->L[e], f.L[e]);
+        }
+    }
+}
+
+static bool carries_nothing(const nh_chain *c, size_t body)
+{
+    for (size_t i = 0; i < c->joints; i++)
+        if (c->joint[i].parent == (long)body) return false;
+    return true;
+}
+
+/* ---- null spaces ---- */
+
+/* Rows (n columns each) at random states, scaled to size one, stacked: `rows` x n expressions; the null space as columns of `null` in reduced
+ * echelon form.  Returns its dimension. */
+static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double *null)
+{
+    const nh_system *s = w->system;
+    size_t m = s->coordinates, width = 1 + 2 * m, total = states * rows;
+    const nh_ex *symbols;
+    const double *values;
+    nh_ex *in = nh_alloc_array(width, sizeof *in);
+    double *point = nh_alloc_array(width + rows * n + total * n + 2 * (total + n) + n * n, sizeof *point), *value = point + width, *a = value + rows * n;
+    double *singular = a + total * n, *vt = singular + total + n;
+    in[0] = s->t;
+    for (size_t i = 0; i < m; i++) in[1 + i] = s->coordinate[i].q, in[1 + m + i] = s->coordinate[i].v;
+    nh_system_bindings(s, &symbols, &values);
+    nh_tape *tape = nh_tape_create(s->dag, width, in, rows * n, e, s->parameters, symbols, values);
+    nh_tape_work *scratch = nh_tape_work_create(tape);
+    for (size_t p = 0; p < states; p++) {
+        for (size_t i = 0; i < width; i++) point[i] = 2 * nh_random(&w->seed) - 1;
+        nh_tape_eval(tape, scratch, point, value);
+        double size = 0;
+        for (size_t i = 0; i < rows * n; i++) size = isfinite(value[i]) ? fmax(size, fabs(value[i])) : INFINITY;
+        for (size_t i = 0; i < rows * n; i++) a[p * rows + i / n + total * (i % n)] = isfinite(size) ? value[i] / fmax(size, 1) : 0;
+    }
+    size_t dimension = 0;
+    if (nh_svd(total, n, a, singular, NULL, vt))
+        while (dimension < n && singular[n - 1 - dimension] <= null_bound * sqrt((double)total)) dimension++;
+    if (dimension) w->out->last_null = fmax(w->out->last_null, singular[n - dimension]);
+    if (dimension < n) w->out->first_other = fmin(w->out->first_other, singular[n - 1 - dimension]);
+    for (size_t k = 0; k < dimension; k++)
+        for (size_t i = 0; i < n; i++) null[k * n + i] = vt[n - 1 - k + n * i];
+    nh_tape_work_free(scratch);
+    nh_tape_free(tape);
+    nh_free(point);
+    nh_free(in);
+    return dimension;
+}
+
+/* Rows to reduced echelon form; what is a whole number up to rounding becomes one. */
+static void reduce(size_t rows, size_t n, double *a)
+{
+    for (size_t r = 0, c = 0; r < rows && c < n; c++) {
+        size_t best = r;
+        for (size_t i = r; i < rows; i++)
+            if (fabs(a[i * n + c]) > fabs(a[best * n + c])) best = i;
+        if (fabs(a[best * n + c]) < 1e-8) continue;
+        for (size_t j = 0; j < n; j++) {
+            double swap = a[best * n + j];
+            a[best * n + j] = a[r * n + j];
+            a[r * n + j] = swap;
+        }
+        double pivot = a[r * n + c];
+        for (size_t j = 0; j < n; j++) a[r * n + j] /= pivot;
+        for (size_t i = 0; i < rows; i++) {
+            double factor = i == r ? 0 : a[i * n + c];
+            for (size_t j = 0; j < n; j++) a[i * n + j] -= factor * a[r * n + j];
+        }
+        r++;
+    }
+    for (size_t i = 0; i < rows * n; i++)
+        if (fabs(a[i] - round(a[i])) < 1e-9) a[i] = round(a[i]);
+}
+
+/* ---- fields ---- */
+
+static double score(void *context, nh_ex e)
+{
+    const work *w = context;
+    const nh_system *s = w->system;
+    const nh_ex *symbols;
+    const double *values;
+    double point[2 * 64 + 1], x = 0;
+    uint64_t seed = 3;
+    size_t m = s->coordinates < 128 ? s->coordinates : 128;
+    nh_ex in[128];
+    for (size_t i = 0; i < m; i++) in[i] = s->coordinate[i].q, point[i] = 0.3 + nh_random(&seed);
+    nh_system_bindings(s, &symbols, &values);
+    nh_tape *tape = nh_tape_create(s->dag, m, in, 1, &e, s->parameters, symbols, values);
+    nh_tape_work *scratch = nh_tape_work_create(tape);
+    nh_tape_eval(tape, scratch, point, &x);
+    nh_tape_work_free(scratch);
+    nh_tape_free(tape);
+    return isfinite(x) && fabs(x) > 1e-12 ? fabs(x) : 0;
+}
+
+/* The rates of the joint's own coordinates with E^-1 E' = xi: columns B_k = Ad(what is behind screw k)^-1 xi_k, s' = (B^T B)^-1 B^T xi. */
+static bool rates_of(work *w, const nh_joint *j, const nh_twist *xi, nh_ex *rate)
+{
+    nh_dag *d = w->dag;
+    size_t n = j->screws;
+    nh_twist B[NH_MOST_SCREWS];
+    nh_ex N[NH_MOST_SCREWS * NH_MOST_SCREWS];
+    nh_pose behind = nh_pose_identity(d);
+    for (size_t k = n; k-- > 0;) {
+        const nh_screw *s = &w->chain->screw[j->first + k];
+        nh_twist own = nh_screw_twist(d, s);
+        nh_pose step = nh_screw_pose(d, s);
+        B[k] = nh_twist_inwards(d, &behind, &own);
+        behind = nh_pose_product(d, &step, &behind);
+    }
+    for (size_t k = 0; k < n; k++) {
+        for (size_t l = 0; l < n; l++) N[k * n + l] = nh_simplify(d, nh_add(d, nh_dot(d, B[k].v, B[l].v), nh_dot(d, B[k].w, B[l].w)));
+        rate[k] = nh_simplify(d, nh_add(d, nh_dot(d, B[k].v, xi->v), nh_dot(d, B[k].w, xi->w)));
+    }
+    nh_lu *lu = nh_lu_create(d, n, N, score, w, NULL);
+    if (!lu) return false;
+    nh_lu_solve(lu, rate, rate);
+    for (size_t k = 0; k < n; k++) rate[k] = nh_simplify(d, rate[k]);
+    nh_lu_free(lu);
+    return true;
+}
+
+static nh_twist combination(nh_dag *d, size_t n, const nh_twist *basis, const double *coefficient)
+{
+    nh_twist sum;
+    for (int i = 0; i < 3; i++) {
+        sum.v[i] = sum.w[i] = nh_int(d, 0);
+        for (size_t k = 0; k < n; k++) {
+            nh_ex c = nh_real(d, coefficient[k]);
+            sum.v[i] = nh_add(d, sum.v[i], nh_mul(d, c, basis[k].v[i]));
+            sum.w[i] = nh_add(d, sum.w[i], nh_mul(d, c, basis[k].w[i]));
+        }
+    }
+    return sum;
+}
+
+/* A field from a twist in the joint's frame (left) or in the body's (right). */
+static void add_field(work *w, nh_chain_rule rule, size_t joint, const nh_twist *a)
+{
+    const nh_joint *j = &w->chain->joint[joint];
+    nh_ex rate[NH_MOST_SCREWS];
+    nh_twist xi = *a;
+    nh_pose pose = pose_of_joint(w->dag, w->chain, j);
+    if (rule != NH_CHAIN_EXTREMITY) xi = nh_twist_inwards(w->dag, &pose, a);
+    if (!rates_of(w, j, &xi, rate)) return;
+    nh_chain_field *f = &w->out->field[w->out->fields++];
+    *f = (nh_chain_field){.rule = rule, .joint = joint};
+    f->component = nh_arena_alloc(w->out->arena, w->system->coordinates * sizeof *f->component);
+    for (size_t i = 0; i < w->system->coordinates; i++) f->component[i] = nh_int(w->dag, 0);
+    for (size_t k = 0; k < j->screws; k++) f->component[w->chain->screw[j->first + k].coordinate] = rate[k];
+    w->out->dimension[joint * NH_CHAIN_RULES + rule]++;
+}
+
+static void add_null_space(work *w, nh_chain_rule rule, size_t joint, size_t rows, size_t n, const nh_twist *basis, const nh_ex *e)
+{
+    double null[most_basis * most_basis];
+    size_t dimension = null_space(w, rows, n, e, null);
+    reduce(dimension, n, null);
+    for (size_t k = 0; k < dimension; k++) {
+        nh_twist a = combination(w->dag, n, basis, null + k * n);
+        add_field(w, rule, joint, &a);
+    }
+}
+
+/* ---- the rules ---- */
+
+/* The inverse Gram matrix of the basis twists, at the parameters' values. */
+static bool dual_basis(const work *w, size_t n, const nh_twist *basis, double *inverse)
+{
+    nh_dag *d = w->dag;
+    nh_ex flat[most_basis * most_basis];
+    double gram[most_basis * most_basis];
+    const nh_ex *symbols;
+    const double *values;
+    for (size_t k = 0; k < n; k++)
+        for (size_t l = 0; l < n; l++) flat[k * n + l] = nh_add(d, nh_dot(d, basis[k].v, basis[l].v), nh_dot(d, basis[k].w, basis[l].w));
+    nh_system_bindings(w->system, &symbols, &values);
+    nh_tape *tape = nh_tape_create(d, 0, NULL, n * n, flat, w->system->parameters, symbols, values);
+    nh_tape_work *scratch = nh_tape_work_create(tape);
+    nh_tape_eval(tape, scratch, NULL, gram);
+    nh_tape_work_free(scratch);
+    nh_tape_free(tape);
+    for (size_t i = 0; i < n * n; i++) inverse[i] = i % (n + 1) == 0;
+    return nh_solve(n, gram, n, inverse, NULL);
+}
+
+/* t less its orthogonal projection on the span of the basis: column c of e (6 x 6). */
+static void part_off(const work *w, size_t n, const nh_twist *basis, const double *inverse, const nh_twist *t, size_t c, nh_ex *e)
+{
+    nh_dag *d = w->dag;
+    nh_twist off = *t;
+    for (size_t k = 0; k < n; k++)
+        for (size_t l = 0; l < n; l++) {
+            nh_ex part = nh_mul(d, nh_real(d, -inverse[k * n + l]), nh_add(d, nh_dot(d, basis[l].v, t->v), nh_dot(d, basis[l].w, t->w)));
+            for (int i = 0; i < 3; i++) {
+                off.v[i] = nh_add(d, off.v[i], nh_mul(d, part, basis[k].v[i]));
+                off.w[i] = nh_add(d, off.w[i], nh_mul(d, part, basis[k].w[i]));
+            }
+        }
+    for (size_t i = 0; i < 3; i++) {
+        e[i * 6 + c] = off.v[i];
+        e[(i + 3) * 6 + c] = off.w[i];
+    }
+}
+
+/* AP1: the part of Ad(pose before the joint)^-1 c off Lie(Q_i), for the six unit twists c of space. */
+static void space_moves(work *w, size_t joint)
+{
+    const nh_joint *j = &w->chain->joint[joint];
+    nh_dag *d = w->dag;
+    nh_twist basis[most_basis], space[6], U;
+    nh_pose before;
+    nh_ex e[36];
+    double inverse[most_basis * most_basis], null[36];
+    size_t n = basis_of(w, j, basis);
+    nh_chain_frame(w->chain, d, j->parent, 0, &before, &U);
+    before = nh_pose_product(d, &before, &j->placement);
+    if (!dual_basis(w, n, basis, inverse)) return;
+    for (size_t c = 0; c < 6; c++) {
+        for (size_t i = 0; i < 3; i++) {
+            space[c].v[i] = nh_int(d, c == i);
+            space[c].w[i] = nh_int(d, c == 3 + i);
+        }
+        nh_twist local = nh_twist_inwards(d, &before, &space[c]);
+        part_off(w, n, basis, inverse, &local, c, e);
+    }
+    size_t dimension = null_space(w, 6, 6, e, null);
+    reduce(dimension, 6, null);
+    for (size_t k = 0; k < dimension; k++) {
+        nh_twist c = combination(d, 6, space, null + 6 * k), a = nh_twist_inwards(d, &before, &c);
+        add_field(w, NH_CHAIN_AP1, joint, &a);
+    }
+}
+
+static void joint_symmetries(work *w, size_t joint)
+{
+    const nh_chain *c = w->chain;
+    const nh_joint *j = &c->joint[joint];
+    nh_dag *d = w->dag;
+    nh_twist basis[most_basis], U, V;
+    nh_pose pose;
+    nh_ex e[most_basis];
+    size_t n = basis_of(w, j, basis);
+    for (size_t k = 0; k < n; k++)
+        if (c->screw[j->first + k].coordinate < 0) return;
+    if (n == 0) return;
+    if (j->parent == NH_GROUND)
+        for (size_t k = 0; k < n; k++) add_field(w, NH_CHAIN_FIRST, joint, &basis[k]);
+    space_moves(w, joint);
+    nh_chain_frame(c, d, j->parent, 0, &pose, &U);
+    U = nh_twist_inwards(d, &j->placement, &U);
+    nh_wrench F = momentum_behind(w, j);
+    for (size_t k = 0; k < n; k++) {
+        nh_twist b = bracket(d, &basis[k], &U);
+        e[k] = nh_pairing(d, &b, &F);
+    }
+    add_null_space(w, NH_CHAIN_AP2, joint, 1, n, basis, e);
+    if (!carries_nothing(c, j->child)) return;
+    nh_chain_frame(c, d, (long)j->child, 0, &pose, &V);
+    for (size_t k = 0; k < n; k++) {
+        nh_twist b = bracket(d, &basis[k], &V);
+        e[k] = nh_pairing(d, &b, &w->behind[j->child]);
+    }
+    add_null_space(w, NH_CHAIN_EXTREMITY, joint, 1, n, basis, e);
+}
+
+nh_chain_symmetries *nh_chain_symmetries_find(const nh_system *system, uint64_t seed, nh_error *error)
+{
+    const nh_chain *c = system->chain;
+    if (!c) {
+        nh_fail(error, NH_USAGE, "", "%s is not given by bodies and joints", system->name);
+        return NULL;
+    }
+    nh_arena *arena = nh_arena_create();
+    nh_chain_symmetries *out = nh_arena_alloc(arena, sizeof *out);
+    *out = (nh_chain_symmetries){.arena = arena, .joints = c->joints, .first_other = INFINITY};
+    out->dimension = nh_arena_alloc(arena, (c->joints * NH_CHAIN_RULES + 1) * sizeof *out->dimension);
+    out->field = nh_arena_alloc(arena, (c->joints * NH_CHAIN_RULES * most_basis + 1) * sizeof *out->field);
+    work w = {system, c, system->dag, nh_alloc_array(c->bodies + 1, sizeof(nh_wrench)), seed, out};
+    momenta(&w);
+    for (size_t i = 0; i < c->joints; i++) joint_symmetries(&w, i);
+    nh_free(w.behind);
+    return out;
+}
+
+void nh_chain_symmetries_free(nh_chain_symmetries *symmetries)
+{
+    if (symmetries) nh_arena_free(symmetries->arena);
+}

@@ -1,0 +1,50 @@
+/* chaplygin: the first stage of reduction where V + D = TQ and V cap D = 0 [ChhabraEmami2014, sec. 2], [Koiller1992].
+ *
+ *     A = om_e^-1 om_x                        connection on the slice: the horizontal lift of x' is (x', -A x') in the frame
+ *     B^a_ij = d_i A^a_j - d_j A^a_i - C_bc^a A^b_i A^c_j                                curvature       [ChhabraEmami2014, eq. 2.12]
+ *     Khat = H^T Kf H,   H = (1; -A)          metric,      Hhat = 1/2 p Khat^-1 p + V                    [ChhabraEmami2014, eq. 2.10]
+ *     J_a = (Kf_e H)_aj x'^j                  momentum of the group in the body frame
+ *     Ups_ij = J_a B^a_ij                     the almost-symplectic form is dx ^ dp + 1/2 Ups dx ^ dx    [ChhabraEmami2014, eq. 2.11]
+ *     p_i' = -d_i Hhat + Ups_ij x'^j,   x' = Khat^-1 p,   zeta = -A x'
+ *
+ * In the paper J is the spatial momentum, which agrees at the identity only. */
+#ifndef NH_CHAPLYGIN_H
+#define NH_CHAPLYGIN_H
+
+#include "reduction/reduced.h"
+
+typedef struct {
+    const nh_slice *slice;
+    nh_dag *dag;
+    size_t n, d;
+    nh_ex *A;        /* d x n */
+    nh_ex *B;        /* d x n x n: B[(a*n + i)*n + j] */
+    nh_ex *K;        /* n x n */
+    nh_ex *J;        /* d x n: J_a = J[a*n + j] x'^j */
+    nh_ex *U;        /* n x n x n: Ups_ij = U[(k*n + i)*n + j] x'^k */
+    nh_ex V;
+    nh_reduced reduced; /* x' as velocities, p their momenta */
+} nh_chaplygin;
+
+/* False with a message when om_e is singular. */
+bool nh_chaplygin_init(nh_chaplygin *chaplygin, const nh_slice *slice, nh_error *error);
+
+/* Invariant measure and Hamiltonization [BorisovMamaev2008].  With T^k_ij = (Khat^-1)^kl U_lij, Theta_j = T^i_ij:
+ *
+ *     exp(sigma(x)) dx dp is invariant  iff  d sigma = -Theta, so that d Theta = 0 is needed
+ *     f with d(f Omega) = 0 exists      iff  T^k_ij = th_j delta^k_i - th_i delta^k_j, th = Theta/(n - 1), and d th = 0;   d log f = -th
+ *
+ * Residuals are relative to the size of T and its derivative over the sample points. */
+typedef struct {
+    bool tested;
+    bool measure, simple, factor;
+    double size;        /* of Theta: 0 means that the Liouville measure is invariant */
+    double curl;        /* largest |d Theta| */
+    double phi_simple;  /* largest residual of the algebraic condition */
+    bool closed_form;
+    nh_ex density;      /* of dx dp, when a closed form was found */
+} nh_chaplygin_measure;
+
+nh_chaplygin_measure nh_chaplygin_measure_of(const nh_chaplygin *chaplygin, const nh_options *options);
+
+#endif

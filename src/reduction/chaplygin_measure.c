@@ -1,0 +1,109 @@
+/* chaplygin_measure: invariant measure and conformal factor of a reduced Chaplygin system (chaplygin.h). */
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "reduction/chaplygin.h"
+#include "reduction/subspace.h"
+
+typedef struct {
+    size_t n;
+    const double *K, *U, *dK, *dU;   /* at a place; derivatives one direction after the other */
+    double *T, *dT;                  /* T^k_ij = T[(k*n + i)*n + j]; n times as many */
+    double *Theta, *dTheta;          /* n; dTheta[l*n + j] = d_l Theta_j */
+} gyro;
+
+/* T = K^-1 U,   d_l T = K^-1 (d_l U - d_l K T). */
+static bool tensor(gyro *g)
+{
+    size_t n = g->n, cube = n * n * n;
+    double *K = nh_alloc_array(n * n + cube, sizeof *K), *right = K + n * n;
+    bool good = true;
+    for (size_t l = 0; l <= n && good; l++) { /* l = 0: T itself */
+        double *out = l ? g->dT + (l - 1) * cube : g->T;
+        for (size_t i = 0; i < n * n; i++) K[i] = g->K[i];
+        for (size_t k = 0; k < n; k++)
+            for (size_t pair = 0; pair < n * n; pair++) {
+                double x = l ? g->dU[(l - 1) * cube + k * n * n + pair] : g->U[k * n * n + pair];
+                for (size_t s = 0; s < n && l; s++) x -= g->dK[(l - 1) * n * n + k * n + s] * g->T[s * n * n + pair];
+                right[k + pair * n] = x;
+            }
+        good = nh_solve(n, K, n * n, right, NULL);
+        for (size_t k = 0; k < n; k++)
+            for (size_t pair = 0; pair < n * n; pair++) out[k * n * n + pair] = right[k + pair * n];
+    }
+    for (size_t j = 0; j < n; j++) {
+        g->Theta[j] = 0;
+        for (size_t i = 0; i < n; i++) g->Theta[j] += g->T[(i * n + i) * n + j];
+        for (size_t l = 0; l < n; l++) {
+            g->dTheta[l * n + j] = 0;
+            for (size_t i = 0; i < n; i++) g->dTheta[l * n + j] += g->dT[l * cube + (i * n + i) * n + j];
+        }
+    }
+    nh_free(K);
+    return good;
+}
+
+static nh_ex *list(const nh_chaplygin *c, size_t *total)
+{
+    size_t n = c->n, cube = n * n * n, at = n * n + cube;
+    *total = at * (1 + n);
+    nh_ex *e = nh_alloc_array(*total, sizeof *e);
+    memcpy(e, c->K, n * n * sizeof *e);
+    memcpy(e + n * n, c->U, cube * sizeof *e);
+    for (size_t l = 0; l < n; l++)
+        for (size_t i = 0; i < n * n; i++) e[at++] = nh_diff(c->dag, c->K[i], c->slice->x[l]);
+    for (size_t l = 0; l < n; l++)
+        for (size_t i = 0; i < cube; i++) e[at++] = nh_diff(c->dag, c->U[i], c->slice->x[l]);
+    return e;
+}
+
+/* The algebraic condition: how far T^k_ij is from th_j delta^k_i - th_i delta^k_j, th = Theta/(n - 1). */
+static double off_simple(const gyro *g)
+{
+    size_t n = g->n;
+    double off = 0;
+    for (size_t k = 0; k < n; k++)
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j < n; j++) {
+                double want = (k == i ? g->Theta[j] : 0) - (k == j ? g->Theta[i] : 0);
+                off = fmax(off, fabs(g->T[(k * n + i) * n + j] - want / (double)(n - 1)));
+            }
+    return off;
+}
+
+nh_chaplygin_measure nh_chaplygin_measure_of(const nh_chaplygin *c, const nh_options *options)
+{
+    enum { most_places = 24 };
+    nh_chaplygin_measure out = {.tested = c->n > 0};
+    size_t n = c->n, cube = n * n * n, total, places = c->slice->kinetic->places;
+    if (!n) return out;
+    if (places > most_places) places = most_places;
+    nh_ex *e = list(c, &total);
+    double *value = nh_alloc_array(places * total, sizeof *value), *work = nh_alloc_array(cube * (1 + n) + n + n * n, sizeof *work), tensor_size = 0, slope_size = 0;
+    nh_kinetic_sample(c->slice->kinetic, total, e, places, value);
+    for (size_t p = 0; p < places; p++) {
+        const double *v = value + p * total;
+        gyro g = {.n = n, .K = v, .U = v + n * n, .dK = v + n * n + cube, .dU = v + n * n + cube + n * n * n, .T = work, .dT = work + cube};
+        g.Theta = g.dT + n * cube;
+        g.dTheta = g.Theta + n;
+        if (!tensor(&g) || !isfinite(nh_largest(cube * n, g.dT))) continue;
+        double size = nh_largest(cube, g.T);
+        tensor_size = fmax(tensor_size, size);
+        slope_size = fmax(slope_size, nh_largest(cube * n, g.dT));
+        out.size = fmax(out.size, nh_largest(n, g.Theta));
+        if (n > 1) out.phi_simple = fmax(out.phi_simple, off_simple(&g));
+        for (size_t l = 0; l < n; l++)
+            for (size_t j = 0; j < l; j++) out.curl = fmax(out.curl, fabs(g.dTheta[l * n + j] - g.dTheta[j * n + l]));
+    }
+    double zero = options->group * (tensor_size + slope_size);
+    out.measure = out.curl <= zero;
+    out.simple = out.phi_simple <= zero;
+    out.factor = out.measure && out.simple;
+    if (tensor_size > 0) out.phi_simple /= tensor_size;
+    nh_free(e);
+    nh_free(value);
+    nh_free(work);
+    return out;
+}

@@ -1,0 +1,191 @@
+#include "reduction/group.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "reduction/subspace.h"
+
+/* ---- circles ---- */
+
+/* Central generators whose flow closes count as circles, up to what lies in [g,g]. */
+static size_t circles(const nh_group *g, const nh_options *options)
+{
+    const nh_algebra *c = &g->action.algebra;
+    size_t d = c->d, count = 0, rank;
+    double *all = nh_alloc_array(3 * d * d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
+    nh_flows *flows = nh_flows_create(&g->action);
+    for (size_t i = 0; i < d * d; i++) all[i] = i % (d + 1) == 0;
+    size_t n1 = nh_algebra_brackets(c, d, all, d, all, options->group, d1);
+    for (size_t a = 0; a < d; a++) {
+        bool commutes = true;
+        for (size_t i = 0; i < d * d; i++) commutes &= c->c[a * d * d + i] == 0;
+        if (!commutes || !nh_flows_closed(flows, a)) continue;
+        for (size_t i = 0; i < d; i++) central[i + count * d] = i == a;
+        count++;
+    }
+    nh_project_off(d, count, central, n1, d1);
+    rank = nh_span(d, count, central, sqrt(options->group), all);
+    nh_flows_free(flows);
+    nh_free(all);
+    return rank;
+}
+
+static void name_group(nh_group *g, const nh_options *options)
+{
+    nh_text name;
+    nh_text_init(&name);
+    const nh_algebra *algebra = g->missing ? &g->jets->algebra : &g->action.algebra;
+    nh_algebra_report_init(&g->report, algebra, options->group, options->cluster, (uint64_t)options->seed);
+    g->closed = nh_alloc_array(g->report.pieces + 1, sizeof *g->closed);
+    size_t n = g->missing || !g->action.closes ? 0 : circles(g, options);
+    for (size_t i = 0; i < g->report.pieces; i++)
+        if (g->report.piece[i].kind == NH_R && n > 0) g->closed[i] = true, n--;
+    nh_algebra_name(&g->report, g->closed, &name);
+    g->name = nh_strdup(nh_text_string(&name));
+    nh_text_clear(&name);
+}
+
+nh_group *nh_group_find(const nh_kinetic *k, const nh_options *options, nh_error *error)
+{
+    nh_group *g = nh_alloc(sizeof *g);
+    g->kinetic = k;
+    if (k->metric && k->linear && !k->magnetic) g->jets = nh_jets_find(k, options, error);
+    if ((k->metric && k->linear && !k->magnetic && !g->jets) || !nh_generators_find(&g->found, k, g->jets, options, error)) {
+        nh_group_free(g);
+        return NULL;
+    }
+    g->missing = g->jets && g->jets->dimension > g->found.count ? g->jets->dimension - g->found.count : 0;
+    nh_action_init(&g->action, k, g->found.count, g->found.generator, options);
+    name_group(g, options);
+    return g;
+}
+
+nh_group *nh_group_of(const nh_kinetic *k, size_t count, const nh_generator *generator, const nh_options *options)
+{
+    nh_group *g = nh_alloc(sizeof *g);
+    *g = (nh_group){.kinetic = k, .given = true};
+    nh_action_init(&g->action, k, count, generator, options);
+    name_group(g, options);
+    return g;
+}
+
+void nh_group_free(nh_group *g)
+{
+    if (!g) return;
+    nh_jets_free(g->jets);
+    nh_action_clear(&g->action);
+    nh_algebra_report_clear(&g->report);
+    nh_free(g->closed);
+    nh_free(g->name);
+    nh_free(g);
+}
+
+/* ---- subgroups ---- */
+
+static bool inside(size_t d, const double *vector, size_t count, const size_t *subset)
+{
+    for (size_t k = 0; k < d; k++) {
+        bool member = false;
+        for (size_t i = 0; i < count; i++) member |= subset[i] == k;
+        if (!member && vector[k] != 0) return false;
+    }
+    return true;
+}
+
+static bool subalgebra(const nh_algebra *g, size_t count, const size_t *subset)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (!inside(g->d, g->c + (subset[i] * g->d + subset[j]) * g->d, count, subset)) return false;
+    return true;
+}
+
+size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, const nh_options *options, size_t *index)
+{
+    (void)options;
+    const nh_algebra *g = &group->action.algebra;
+    size_t n = 0;
+    for (size_t a = 0; a < g->d; a++) {
+        bool good = true;
+        for (size_t i = 0; i < count; i++) good &= subset[i] != a && inside(g->d, g->c + (a * g->d + subset[i]) * g->d, count, subset);
+        if (good) index[n++] = a;
+    }
+    return n;
+}
+
+/* How many of the subset's generators move only coordinates that the system calls dependent. */
+static size_t along_dependents(const nh_group *g, size_t count, const size_t *subset)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool only = true;
+        for (size_t s = 0; s < k->m; s++) only &= k->dependent[s] || nh_is_zero(k->dag, g->action.generator[subset[i]].component[s]);
+        n += only;
+    }
+    return n;
+}
+
+/* Generators of the subset that do not commute with all of it: a group that is not abelian is divided out as a whole. */
+static size_t interacting(const nh_algebra *g, size_t count, const size_t *subset)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool acts = false;
+        for (size_t j = 0; j < count; j++)
+            for (size_t k = 0; k < g->d; k++) acts |= g->c[(subset[i] * g->d + subset[j]) * g->d + k] != 0;
+        n += acts;
+    }
+    return n;
+}
+
+typedef struct {
+    size_t along, normal, interacting;
+    double transversality;
+} merit;
+
+static bool better(merit a, merit b)
+{
+    if (a.normal != b.normal) return a.normal > b.normal;
+    if (a.interacting != b.interacting) return a.interacting > b.interacting;
+    if (a.along != b.along) return a.along > b.along;
+    return a.transversality > 1.05 * b.transversality; /* of nearly equal ones the first */
+}
+
+static bool next_subset(size_t d, size_t count, size_t *index)
+{
+    for (size_t i = count; i-- > 0;) {
+        if (index[i] >= d - count + i) continue;
+        index[i]++;
+        for (size_t j = i + 1; j < count; j++) index[j] = index[j - 1] + 1;
+        return true;
+    }
+    return false;
+}
+
+bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *index)
+{
+    enum { most_trials = 5000 };
+    size_t d = g->action.d, f = g->kinetic->f, trials = 0;
+    size_t *subset = nh_alloc_array(2 * d + 2, sizeof *subset), *rest = subset + d + 1;
+    merit best = {0};
+    bool found = false;
+    for (size_t i = 0; i < f; i++) subset[i] = i;
+    if (f > 0 && f <= d && g->action.closes) do {
+            if (!subalgebra(&g->action.algebra, f, subset)) continue;
+            double *t = nh_alloc_array(d * f, sizeof *t);
+            nh_action sub;
+            for (size_t i = 0; i < f; i++) t[subset[i] + i * d] = 1;
+            nh_action_sub(&sub, &g->action, f, t, options);
+            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), interacting(&g->action.algebra, f, subset), sub.transversality};
+            if (sub.chaplygin && sub.free && m.transversality > options->group && (!found || better(m, best))) {
+                best = m;
+                found = true;
+                memcpy(index, subset, f * sizeof *index);
+            }
+            nh_action_clear(&sub);
+            nh_free(t);
+        } while (++trials < most_trials && next_subset(d, f, subset));
+    nh_free(subset);
+    return found;
+}

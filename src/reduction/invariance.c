@@ -1,0 +1,165 @@
+#include "reduction/invariance.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/print.h"
+#include "noether/prove.h"
+
+nh_ex nh_field_along(const nh_kinetic *k, const nh_ex *xi, nh_ex e) { return nh_diff_along(k->dag, e, k->m, k->q, xi); }
+
+void nh_field_bracket(const nh_kinetic *k, const nh_ex *xi, const nh_ex *eta, nh_ex *out)
+{
+    for (size_t s = 0; s < k->m; s++) out[s] = nh_simplify(k->dag, nh_sub(k->dag, nh_field_along(k, xi, eta[s]), nh_field_along(k, eta, xi[s])));
+}
+
+/* xi, prolonged to velocities, on a function of (t, q, v). */
+static nh_ex prolonged(const nh_kinetic *k, const nh_ex *xi, nh_ex e)
+{
+    nh_ex sum = nh_field_along(k, xi, e);
+    for (size_t s = 0; s < k->m; s++) {
+        nh_ex slope = nh_diff(k->dag, e, k->v[s]);
+        if (!nh_is_zero(k->dag, slope)) sum = nh_add(k->dag, sum, nh_mul(k->dag, slope, nh_diff_along(k->dag, xi[s], k->m, k->q, k->v)));
+    }
+    return sum;
+}
+
+static bool plain(const nh_kinetic *k) { return k->quadratic && !k->magnetic && k->autonomous; }
+
+static nh_ex metric_equation(const nh_kinetic *k, const nh_ex *xi, size_t r, size_t s)
+{
+    nh_dag *d = k->dag;
+    nh_ex sum = nh_field_along(k, xi, k->K[r * k->m + s]);
+    for (size_t l = 0; l < k->m; l++) {
+        sum = nh_add(d, sum, nh_mul(d, k->K[l * k->m + s], nh_diff(d, xi[l], k->q[r])));
+        sum = nh_add(d, sum, nh_mul(d, k->K[r * k->m + l], nh_diff(d, xi[l], k->q[s])));
+    }
+    return sum;
+}
+
+size_t nh_invariance_equations(const nh_kinetic *k, const nh_ex *xi, nh_ex *out)
+{
+    size_t n = 0, of_metric;
+    if (plain(k)) {
+        for (size_t r = 0; r < k->m; r++)
+            for (size_t s = 0; s <= r; s++) out[n++] = metric_equation(k, xi, r, s);
+    } else {
+        out[n++] = prolonged(k, xi, k->model->system->lagrangian);
+    }
+    of_metric = n;
+    out[n++] = plain(k) ? nh_field_along(k, xi, k->V) : nh_int(k->dag, 0);
+    for (size_t a = 0; a < k->f; a++) out[n++] = nh_chart_compose(k->model->chart, prolonged(k, xi, k->force[a]));
+    return of_metric;
+}
+
+/* ---- at the sample points ---- */
+
+/* The terms of an expression apart, so that a sum is compared with what it is made of. */
+static double relative_size(nh_tape *tape, nh_tape_work *work, const double *z, size_t n, double *out)
+{
+    double worst = 0;
+    nh_tape_eval(tape, work, z, out);
+    for (size_t i = 0; i < n; i++) worst = fmax(worst, isfinite(out[2 * i]) && isfinite(out[2 * i + 1]) ? fabs(out[2 * i]) / (1e-300 + out[2 * i + 1]) : INFINITY);
+    return worst;
+}
+
+/* A size for e to be compared with: the sum of the moduli of its terms, plus `unit`. */
+static nh_ex size_of(nh_dag *d, nh_ex e, nh_ex unit)
+{
+    nh_ex sum = unit;
+    if (nh_kind_of(d, e) != NH_SUM) return nh_add(d, unit, nh_call(d, NH_ABS, e));
+    for (size_t i = 0; i < nh_arity(d, e); i++) sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
+    return sum;
+}
+
+static double largest_residual(const nh_kinetic *k, size_t n, const nh_ex *e, const nh_ex *unit)
+{
+    size_t m = k->m, width = 1 + 2 * m;
+    nh_ex *in = nh_alloc_array(width, sizeof *in), *pair = nh_alloc_array(2 * n + 1, sizeof *pair);
+    double *z = nh_alloc_array(width + 2 * n + 1, sizeof *z), worst = 0;
+    in[0] = k->model->system->t;
+    memcpy(in + 1, k->q, m * sizeof *in);
+    memcpy(in + 1 + m, k->v, m * sizeof *in);
+    for (size_t i = 0; i < n; i++) {
+        pair[2 * i] = e[i];
+        pair[2 * i + 1] = size_of(k->dag, e[i], unit[i]);
+    }
+    nh_tape *tape = nh_tape_create(k->dag, width, in, 2 * n, pair, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t p = 0; p < k->places && n; p++) {
+        z[0] = k->time[p];
+        memcpy(z + 1, k->place + p * m, m * sizeof *z);
+        memcpy(z + 1 + m, k->speed + p * m, m * sizeof *z);
+        worst = fmax(worst, relative_size(tape, work, z, n, z + width));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(in);
+    nh_free(pair);
+    nh_free(z);
+    return worst;
+}
+
+static nh_condition condition(const nh_kinetic *k, size_t n, const nh_ex *e, double residual, const nh_options *options)
+{
+    nh_condition c = {.holds = residual <= options->group, .residual = residual};
+    c.proved = c.all_parameters = c.holds;
+    for (size_t i = 0; i < n && c.proved; i++) {
+        if (nh_normal_is_zero(k->dag, e[i], (size_t)options->proof_terms) == NH_ZERO) continue;
+        nh_proof proof = nh_prove_zero(k->model, 1, &e[i], false, options);
+        c.all_parameters = false;
+        c.proved = proof.proved;
+        if (proof.refuted && !proof.proved) c.holds = c.residual <= options->same; /* a number that was fitted, not an exact one */
+    }
+    return c;
+}
+
+void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, const nh_ex *component, const nh_options *options)
+{
+    nh_dag *d = k->dag;
+    size_t m = k->m, h = m * (m + 1) / 2, n = 0, total = h + 1 + k->f;
+    nh_ex *e = nh_alloc_array(2 * total + k->f, sizeof *e), *unit = e + total, *raw = unit + total;
+    *g = (nh_generator){.name = name, .component = nh_arena_alloc(k->arena, m * sizeof *g->component)};
+    memcpy(g->component, component, m * sizeof *component);
+    size_t of_metric = nh_invariance_equations(k, component, e);
+    for (size_t r = 0; r < m && plain(k); r++) /* entries compare with the geometric mean of the diagonal */
+        for (size_t s = 0; s <= r; s++) unit[n++] = nh_sqrt(d, nh_call(d, NH_ABS, nh_mul(d, k->K[r * m + r], k->K[s * m + s])));
+    if (!plain(k)) unit[n++] = nh_int(d, 0);
+    g->metric = condition(k, of_metric, e, largest_residual(k, of_metric, e, unit), options);
+    unit[0] = nh_int(d, 0);
+    g->potential = condition(k, 1, e + of_metric, largest_residual(k, 1, e + of_metric, unit), options);
+    for (size_t a = 0; a < k->f; a++) {
+        raw[a] = prolonged(k, component, k->force[a]);
+        unit[a] = nh_int(d, 0);
+        for (size_t s = 0; s < m; s++) unit[a] = nh_add(d, unit[a], nh_call(d, NH_ABS, nh_diff(d, k->force[a], k->v[s])));
+    }
+    g->constraints = condition(k, k->f, e + of_metric + 1, largest_residual(k, k->f, raw, unit), options);
+    g->invariant = g->metric.holds && g->potential.holds && g->constraints.holds;
+    nh_free(e);
+}
+
+void nh_generator_text(const nh_kinetic *k, const nh_generator *g, nh_text *out)
+{
+    bool first = true;
+    for (size_t s = 0; s < k->m; s++) {
+        nh_ex e = g->component[s];
+        if (nh_is_zero(k->dag, e)) continue;
+        const char *name = k->name[s];
+        nh_ex minus = nh_neg(k->dag, e);
+        bool below = nh_kind_of(k->dag, e) == NH_PRODUCT && nh_num_value(nh_constant_of(k->dag, e)) < 0;
+        below |= nh_kind_of(k->dag, e) == NH_NUMBER && nh_num_value(nh_number_of(k->dag, e)) < 0;
+        nh_text_add(out, first ? (below ? "-" : "") : below ? " - " : " + ");
+        nh_ex shown = below ? minus : e;
+        if (!nh_is_number(k->dag, shown, 1)) {
+            bool sum = nh_kind_of(k->dag, shown) == NH_SUM;
+            nh_text_add(out, sum ? "(" : "");
+            nh_print(k->dag, shown, out);
+            nh_text_add(out, sum ? ") " : " ");
+        }
+        nh_text_addf(out, "d/d%s", name);
+        first = false;
+    }
+    if (first) nh_text_add(out, "0");
+}

@@ -1,0 +1,41 @@
+/* invariance: does a field on configuration space leave the metric, the potential and the constraints alone?
+ *
+ *     (L_xi K)_rs = xi^l d_l K_rs + K_ls d_r xi^l + K_rl d_s xi^l = 0,        xi(V) = 0,
+ *     xi^s d_s f^A + v^r (d_r xi^s) df^A/dv^s = 0   where f = 0               (the field, prolonged to velocities, is tangent to f = 0)
+ *
+ * For linear constraints the last one says that the flow maps D to itself.  Where the Lagrangian is not of the form K - V the first two are
+ * replaced by the invariance of L under the prolonged field. */
+#ifndef NH_INVARIANCE_H
+#define NH_INVARIANCE_H
+
+#include "base/text.h"
+#include "reduction/kinetic.h"
+
+typedef struct {
+    bool holds, proved, all_parameters; /* at the sample points; exactly; for all parameter values */
+    double residual;                    /* largest relative violation over the sample points */
+} nh_condition;
+
+/* A field with its components along the coordinates. */
+typedef struct {
+    const char *name;      /* NULL unless the user gave one */
+    nh_ex *component;      /* m */
+    nh_condition metric, potential, constraints;
+    bool invariant;        /* all three hold */
+} nh_generator;
+
+/* Components along the coordinates, as m expressions, into the generator (in the kinetic's arena), with the three conditions checked. */
+void nh_generator_init(nh_generator *generator, const nh_kinetic *kinetic, const char *name, const nh_ex *component, const nh_options *options);
+
+/* The conditions as expressions: h of the metric (or 1: of L), 1 of the potential, f of the constraints (composed with the chart);
+ * `out` has room for h + 1 + f, h = m(m+1)/2.  Returns the number of those of the metric. */
+size_t nh_invariance_equations(const nh_kinetic *kinetic, const nh_ex *component, nh_ex *out);
+
+/* "-y d/dx + x d/dy + d/dtheta". */
+void nh_generator_text(const nh_kinetic *kinetic, const nh_generator *generator, nh_text *out);
+
+/* xi(e), and [xi, eta] of two fields. */
+nh_ex nh_field_along(const nh_kinetic *kinetic, const nh_ex *component, nh_ex e);
+void nh_field_bracket(const nh_kinetic *kinetic, const nh_ex *xi, const nh_ex *eta, nh_ex *out);
+
+#endif

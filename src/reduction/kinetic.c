@@ -1,0 +1,238 @@
+#include "reduction/kinetic.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "system/cloud.h"
+
+static bool depends_on_any(const nh_dag *d, nh_ex e, size_t n, const nh_ex *symbol)
+{
+    for (size_t i = 0; i < n; i++)
+        if (nh_depends(d, e, symbol[i])) return true;
+    return false;
+}
+
+static nh_ex at_rest(const nh_kinetic *k, nh_ex e)
+{
+    nh_ex *zero = nh_alloc_array(k->m, sizeof *zero);
+    for (size_t s = 0; s < k->m; s++) zero[s] = nh_int(k->dag, 0);
+    e = nh_substitute(k->dag, e, k->m, k->v, zero);
+    nh_free(zero);
+    return e;
+}
+
+/* The derivative by a velocity as an expression of the place alone; false when a velocity stays in it. */
+static bool linear_part(const nh_kinetic *k, nh_ex e, nh_ex v, nh_ex *out)
+{
+    *out = nh_simplify(k->dag, nh_diff(k->dag, e, v));
+    if (!depends_on_any(k->dag, *out, k->m, k->v)) return true;
+    nh_ex rest = at_rest(k, *out);
+    if (nh_normal_is_zero(k->dag, nh_sub(k->dag, *out, rest), 0) != NH_ZERO) return false;
+    *out = rest;
+    return true;
+}
+
+static void read_lagrangian(nh_kinetic *k)
+{
+    nh_dag *d = k->dag;
+    nh_ex L = k->model->system->lagrangian;
+    k->quadratic = true;
+    for (size_t r = 0; r < k->m; r++) {
+        nh_ex p = nh_diff(d, L, k->v[r]);
+        for (size_t s = 0; s <= r; s++) {
+            if (!linear_part(k, p, k->v[s], &k->K[r * k->m + s])) k->quadratic = false;
+            k->K[s * k->m + r] = k->K[r * k->m + s];
+        }
+        k->a[r] = nh_simplify(d, at_rest(k, p));
+        k->magnetic |= !nh_is_zero(d, k->a[r]);
+    }
+    k->V = nh_neg(d, nh_simplify(d, at_rest(k, L)));
+    k->autonomous = !nh_depends(d, L, k->model->system->t);
+    if (k->quadratic && k->autonomous) return;
+    for (size_t i = 0; i < k->m * k->m; i++) k->K[i] = nh_int(d, 0);
+    for (size_t i = 0; i < k->m; i++) k->a[i] = nh_int(d, 0);
+    k->V = nh_int(d, 0);
+}
+
+static void read_constraints(nh_kinetic *k)
+{
+    nh_dag *d = k->dag;
+    k->affine = k->linear = true;
+    for (size_t a = 0; a < k->f; a++) {
+        k->force[a] = nh_numerator(d, nh_chart_constraint(k->model->chart, a));
+        for (size_t s = 0; s < k->m; s++)
+            if (!linear_part(k, k->force[a], k->v[s], &k->omega[a * k->m + s])) k->affine = k->linear = false;
+        k->b[a] = nh_simplify(d, at_rest(k, k->force[a]));
+        k->linear &= nh_is_zero(d, k->b[a]);
+        k->autonomous &= !nh_depends(d, k->force[a], k->model->system->t);
+    }
+    for (size_t i = 0; i < k->f * k->m && !(k->affine && k->autonomous); i++) k->omega[i] = nh_int(d, 0);
+    for (size_t a = 0; a < k->f && !(k->affine && k->autonomous); a++) k->b[a] = nh_int(d, 0);
+}
+
+/* K is positive definite at a place when its Cholesky factor exists. */
+static bool positive(size_t m, double *K)
+{
+    for (size_t j = 0; j < m; j++) {
+        double before = K[j + j * m];
+        for (size_t k = 0; k < j; k++) K[j + j * m] -= K[j + k * m] * K[j + k * m];
+        if (!(K[j + j * m] > 1e-12 * before)) return false;
+        K[j + j * m] = sqrt(K[j + j * m]);
+        for (size_t i = j + 1; i < m; i++) {
+            for (size_t k = 0; k < j; k++) K[i + j * m] -= K[i + k * m] * K[j + k * m];
+            K[i + j * m] /= K[j + j * m];
+        }
+    }
+    return true;
+}
+
+static bool has_metric(const nh_kinetic *k)
+{
+    enum { trials = 8 };
+    bool good = k->quadratic && k->autonomous;
+    double *K = nh_alloc_array(k->m * k->m, sizeof *K);
+    for (size_t p = 0; good && p < trials && p < k->places; p++) {
+        nh_kinetic_values(k, k->m * k->m, k->K, k->place + p * k->m, K);
+        good = positive(k->m, K);
+    }
+    nh_free(K);
+    return good;
+}
+
+/* How far from singular a place is: sigma_min / sigma_max of K with unit diagonal; 0 where something is not finite. */
+static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const double *q, double *K)
+{
+    size_t m = k->m;
+    double *s = K + m * m + k->f * m + 1, *unit = s + m;
+    nh_tape_eval(tape, work, q, K);
+    for (size_t i = 0; i < m * m + k->f * m + 1; i++)
+        if (!isfinite(K[i])) return 0;
+    if (!k->quadratic || !k->autonomous) return 1;
+    for (size_t i = 0; i < m; i++) unit[i] = K[i * (m + 1)] > 0 ? 1 / sqrt(K[i * (m + 1)]) : 0;
+    for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
+    return nh_svd(m, m, K, s, NULL, NULL) && s[0] > 0 ? s[m - 1] / s[0] : 0;
+}
+
+/* Positions and velocities from the box; the places nearest to a singularity of the coordinates are left out, the best one comes first. */
+static void take_places(nh_kinetic *k, uint64_t seed)
+{
+    enum { rounds = 4 };
+    static const double usable = 1e-3; /* part of the best condition */
+    size_t m = k->m, most = 0, total = m * m + k->f * m + 1;
+    nh_cloud cloud[rounds];
+    nh_ex *e = nh_alloc_array(total, sizeof *e);
+    memcpy(e, k->K, m * m * sizeof *e);
+    memcpy(e + m * m, k->omega, k->f * m * sizeof *e);
+    e[total - 1] = k->V;
+    nh_tape *tape = nh_kinetic_tape(k, total, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (int r = 0; r < rounds; r++) {
+        nh_cloud_init(&cloud[r], k->model->system, k->f, seed + 1000 * (uint64_t)r);
+        most += cloud[r].count;
+    }
+    double *K = nh_alloc_array(total + 2 * m, sizeof *K), *good = nh_alloc_array(most + 1, sizeof *good), best = 0;
+    k->place = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->place);
+    k->speed = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->speed);
+    k->time = nh_arena_alloc(k->arena, (most + 1) * sizeof *k->time);
+    for (size_t r = 0, at = 0; r < rounds; r++)
+        for (size_t p = 0; p < cloud[r].count; p++) best = fmax(best, good[at++] = condition(k, tape, work, cloud[r].point + p * cloud[r].width + 1, K));
+    for (size_t r = 0, at = 0; r < rounds; r++) {
+        for (size_t p = 0; p < cloud[r].count; p++, at++) {
+            const double *z = cloud[r].point + p * cloud[r].width;
+            size_t n = k->places;
+            if (!(good[at] > 0) || good[at] < usable * best) continue;
+            k->time[n] = z[0];
+            memcpy(k->place + n * m, z + 1, m * sizeof *z);
+            memcpy(k->speed + n * m, z + 1 + m, m * sizeof *z);
+            k->places++;
+            if (good[at] < best) continue;
+            for (size_t s = 0; s < m; s++) { /* to the front */
+                double x = k->place[s], v = k->speed[s];
+                k->place[s] = k->place[n * m + s], k->place[n * m + s] = x;
+                k->speed[s] = k->speed[n * m + s], k->speed[n * m + s] = v;
+            }
+        }
+        nh_cloud_clear(&cloud[r]);
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(e);
+    nh_free(K);
+    nh_free(good);
+}
+
+static const char *obstacle_of(const nh_kinetic *k)
+{
+    if (!k->quadratic) return "the Lagrangian is not quadratic in the velocities";
+    if (!k->autonomous) return "time occurs in the Lagrangian or in a constraint";
+    if (k->forced) return "there are forces without a potential";
+    if (k->magnetic) return "the Lagrangian has a part linear in the velocities";
+    if (!k->affine) return "a constraint is not linear in the velocities";
+    if (!k->linear) return "a constraint is affine, not linear, in the velocities";
+    if (!k->metric) return "the mass matrix of all velocities is not positive definite";
+    return NULL;
+}
+
+nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *error)
+{
+    enum { least_places = 12 };
+    nh_arena *arena = nh_arena_create();
+    nh_kinetic *k = nh_arena_alloc(arena, sizeof *k);
+    size_t m = model->m, f = model->k;
+    *k = (nh_kinetic){.model = model, .dag = model->dag, .arena = arena, .m = m, .f = f, .forced = model->system->has_forces};
+    nh_ex *all = nh_arena_alloc(arena, (3 * m + m * m + f * (m + 2) + 1) * sizeof *all);
+    k->q = all;
+    k->v = k->q + m;
+    k->a = k->v + m;
+    k->K = k->a + m;
+    k->omega = k->K + m * m;
+    k->b = k->omega + f * m;
+    k->force = k->b + f;
+    k->name = nh_arena_alloc(arena, m * sizeof *k->name);
+    k->angle = nh_arena_alloc(arena, 2 * m * sizeof *k->angle);
+    k->dependent = k->angle + m;
+    for (size_t j = 0; j < model->system->dependents; j++) k->dependent[model->system->dependent[j]] = true;
+    for (size_t s = 0; s < m; s++) {
+        k->name[s] = model->system->coordinate[s].name;
+        k->angle[s] = model->system->coordinate[s].type == NH_ANGLE;
+        k->q[s] = model->system->coordinate[s].q;
+        k->v[s] = model->system->coordinate[s].v;
+    }
+    read_lagrangian(k);
+    read_constraints(k);
+    take_places(k, seed);
+    k->metric = has_metric(k);
+    k->obstacle = obstacle_of(k);
+    k->reducible = !k->obstacle;
+    if (k->places >= least_places) return k;
+    nh_fail(error, NH_NUMERIC, "", "only %zu sample points of the domain are usable", k->places);
+    nh_error_hint(error, "give a domain on which the Lagrangian and the constraints are defined");
+    nh_kinetic_free(k);
+    return NULL;
+}
+
+void nh_kinetic_free(nh_kinetic *k)
+{
+    if (k) nh_arena_free(k->arena);
+}
+
+nh_tape *nh_kinetic_tape(const nh_kinetic *k, size_t count, const nh_ex *out)
+{
+    return nh_tape_create(k->dag, k->m, k->q, count, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
+}
+
+static void run(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, const double *q, double *out)
+{
+    nh_tape *tape = nh_kinetic_tape(k, count, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t p = 0; p < places; p++) nh_tape_eval(tape, work, q + p * k->m, out + p * count);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+}
+
+void nh_kinetic_values(const nh_kinetic *k, size_t count, const nh_ex *e, const double *q, double *out) { run(k, count, e, 1, q, out); }
+
+void nh_kinetic_sample(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, double *out) { run(k, count, e, places, k->place, out); }

@@ -1,0 +1,45 @@
+/* kinetic: a system as kinetic energy, potential and constraint forms, the data that reduction works with.
+ *
+ *     L = 1/2 K_rs(q) v^r v^s + a_s(q) v^s - V(q),      f^A = omega^A_s(q) v^s + b^A(q)
+ *
+ * The constraints are taken without poles (sin instead of tan).  What a system has beyond this (explicit time, forces, a Lagrangian that is not
+ * quadratic, constraints that are not linear) is told. */
+#ifndef NH_KINETIC_H
+#define NH_KINETIC_H
+
+#include "base/option.h"
+#include "geometry/model.h"
+
+typedef struct {
+    const nh_model *model;
+    nh_dag *dag;
+    nh_arena *arena;
+    size_t m, f;           /* coordinates, constraints */
+    nh_ex *q, *v;          /* m symbols each */
+    const char **name;     /* m, of the coordinates */
+    bool *angle, *dependent; /* m: an angle; named under `dependent:` */
+    nh_ex *K, V, *a;       /* m x m (row-major), m; zeros unless quadratic */
+    nh_ex *force;          /* f: the constraints without poles */
+    nh_ex *omega, *b;      /* f x m (row-major), f; zeros unless affine */
+    bool quadratic, magnetic, autonomous, forced, affine, linear;
+    bool metric;           /* quadratic, and K positive definite at the sample points */
+    bool reducible;        /* L = K - V with a metric, linear constraints, no time, no forces */
+    const char *obstacle;  /* why it is not reducible, in words; NULL */
+    size_t places;         /* samples */
+    double *place, *speed; /* places x m: positions, and velocities that satisfy the constraints */
+    double *time;          /* places */
+} nh_kinetic;
+
+/* Keeps the model, which may be bare and must outlive it.  NULL with a message when there are too few usable sample points. */
+nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *error);
+void nh_kinetic_free(nh_kinetic *kinetic);
+
+/* A tape of expressions in the coordinates, parameters bound. */
+nh_tape *nh_kinetic_tape(const nh_kinetic *kinetic, size_t count, const nh_ex *out);
+/* Values of expressions in the coordinates at one place. */
+void nh_kinetic_values(const nh_kinetic *kinetic, size_t count, const nh_ex *e, const double *q, double *out);
+/* At the first `places` sample points, count values each. */
+void nh_kinetic_sample(const nh_kinetic *kinetic, size_t count, const nh_ex *e, size_t places, double *out);
+
+
+#endif

@@ -1,0 +1,212 @@
+#include "reduction/library.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/normal.h"
+
+enum { most_factors = 24, most_found = 64 };
+
+typedef struct {
+    size_t count;
+    nh_ex e[most_factors];
+} factors;
+
+static void put(factors *f, nh_ex e)
+{
+    for (size_t i = 0; i < f->count; i++)
+        if (f->e[i] == e) return;
+    if (f->count < most_factors) f->e[f->count++] = e;
+}
+
+/* Does e depend on coordinate j and on no other? */
+static bool of_one(const nh_kinetic *k, nh_ex e, size_t j)
+{
+    for (size_t s = 0; s < k->m; s++)
+        if (nh_depends(k->dag, e, k->q[s]) != (s == j)) return false;
+    return true;
+}
+
+static size_t functions_of_system(const nh_kinetic *k, nh_ex *out)
+{
+    size_t n = nh_functions_in(k->dag, k->model->system->lagrangian, out, most_found);
+    for (size_t a = 0; a < k->f && n < most_found; a++) n += nh_functions_in(k->dag, k->force[a], out + n, most_found - n);
+    return n;
+}
+
+static bool circular(const nh_dag *d, nh_ex e)
+{
+    nh_function f = nh_function_of(d, e);
+    return f == NH_SIN || f == NH_COS || f == NH_TAN;
+}
+
+static void put_circular(nh_dag *d, factors *f, nh_ex angle, int level)
+{
+    nh_ex s = nh_call(d, NH_SIN, angle), c = nh_call(d, NH_COS, angle), twice = nh_mul(d, nh_int(d, 2), angle);
+    put(f, s);
+    put(f, c);
+    if (level == 2 || level == 4) {
+        put(f, nh_div(d, nh_int(d, 1), s));
+        put(f, nh_div(d, c, s));
+        put(f, nh_div(d, nh_int(d, 1), c));
+        put(f, nh_div(d, s, c));
+    } else if (level == 3) {
+        put(f, nh_mul(d, angle, s));
+        put(f, nh_mul(d, angle, c));
+    } else if (level == 5) {
+        put(f, nh_call(d, NH_SIN, twice));
+        put(f, nh_call(d, NH_COS, twice));
+    }
+}
+
+/* Functions that come near a pole on the sample points would hide the others. */
+static void drop_wild(const nh_kinetic *k, factors *f)
+{
+    static const double tame = 30;
+    double *value = nh_alloc_array(f->count * k->places, sizeof *value);
+    size_t kept = 0;
+    nh_kinetic_sample(k, f->count, f->e, k->places, value);
+    for (size_t i = 0; i < f->count; i++) {
+        double most = 0, mean = 0;
+        for (size_t p = 0; p < k->places; p++) {
+            double x = fabs(value[p * f->count + i]);
+            most = x <= most ? most : x;
+            mean += x / (double)k->places;
+        }
+        if (isfinite(most) && isfinite(mean) && most <= tame * mean) f->e[kept++] = f->e[i];
+    }
+    f->count = kept;
+    nh_free(value);
+}
+
+static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
+{
+    nh_dag *d = k->dag;
+    nh_ex found[most_found];
+    size_t n = functions_of_system(k, found);
+    bool angle = k->angle[j], turned = angle;
+    f->count = 0;
+    for (size_t i = 0; i < n; i++) turned |= circular(d, found[i]) && nh_depends(d, nh_child(d, found[i], 0), k->q[j]);
+    bool powers = !turned || level == 3 || level == 5; /* beside sines they are nearly dependent on a short interval */
+    put(f, nh_int(d, 1));
+    if (powers) put(f, k->q[j]);
+    if (powers && level > 1 && !(angle && level < 5)) put(f, nh_powi(d, k->q[j], 2));
+    if (turned || level == 4) put_circular(d, f, k->q[j], level);
+    for (size_t i = 0; i < n; i++) {
+        if (!of_one(k, found[i], j)) continue;
+        if (circular(d, found[i])) put_circular(d, f, nh_child(d, found[i], 0), level);
+        else if (level == 5) put(f, found[i]);
+    }
+    drop_wild(k, f);
+}
+
+static void add(nh_library *l, const nh_kinetic *k, nh_ex e, size_t component)
+{
+    size_t was = l->capacity, same = l->capacity, also = l->capacity;
+    nh_grow(&l->function, &was, l->count + 1, sizeof *l->function);
+    nh_grow(&l->component, &same, l->count + 1, sizeof *l->component);
+    nh_grow(&l->complexity, &also, l->count + 1, sizeof *l->complexity);
+    l->capacity = was;
+    l->function[l->count] = e;
+    l->component[l->count] = component;
+    l->complexity[l->count++] = nh_is_number(k->dag, e, 1) ? 0 : (double)nh_complexity(k->dag, e);
+}
+
+/* Which coordinates a component depends on, from the jets: B^i_j anywhere.  Scales of the metric make the entries comparable. */
+static bool *dependence(const nh_kinetic *k, const nh_jets *jets, bool *nonzero)
+{
+    static const double small = 1e-7;
+    size_t m = k->m, size = m + m * m;
+    bool *out = nh_alloc_array(m * m, sizeof *out);
+    double *K = nh_alloc_array(m * m + m, sizeof *K), *scale = K + m * m;
+    if (!jets)
+        for (size_t i = 0; i < m * m; i++) out[i] = nonzero[i % m] = true;
+    if (jets) nh_kinetic_values(k, m * m, k->K, jets->place, K);
+    for (size_t i = 0; i < m; i++) scale[i] = 1 / sqrt(K[i * (m + 1)]);
+    for (size_t p = 0; jets && p < jets->places; p++)
+        for (size_t c = 0; c < jets->dimension; c++) {
+            const double *jet = jets->moved + (p * jets->dimension + c) * size;
+            for (size_t i = 0; i < m; i++) {
+                nonzero[i] |= fabs(jet[i]) > small * scale[i];
+                for (size_t j = 0; j < m; j++) out[i + m * j] |= fabs(jet[m + i + m * j]) * scale[j] > small * scale[i];
+            }
+        }
+    nh_free(K);
+    return out;
+}
+
+/* Products over the coordinates in `on`, at most `together` of them not constant. */
+static void products(nh_library *l, const nh_kinetic *k, const factors *f, const bool *on, size_t j, nh_ex so_far, size_t together, size_t component, size_t most)
+{
+    while (j < k->m && !on[j]) j++;
+    if (l->count >= most) return;
+    if (j == k->m) {
+        add(l, k, so_far, component);
+        return;
+    }
+    for (size_t i = 0; i < (together ? f[j].count : 1); i++)
+        products(l, k, f, on, j + 1, nh_mul(k->dag, so_far, f[j].e[i]), together - (i > 0 && together), component, most);
+}
+
+void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, int level, size_t most)
+{
+    size_t m = k->m;
+    *l = (nh_library){0};
+    bool *nonzero = nh_alloc_array(m + m, sizeof *nonzero), *on = nonzero + m, *depends = dependence(k, jets, nonzero);
+    factors *f = nh_alloc_array(m, sizeof *f);
+    for (size_t j = 0; j < m; j++) factors_of(k, j, level, &f[j]);
+    for (size_t i = 0; i < m; i++) {
+        size_t count = 0;
+        for (size_t j = 0; j < m; j++) count += on[j] = depends[i + m * j];
+        if (nonzero[i]) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);
+    }
+    nh_free(nonzero);
+    nh_free(depends);
+    nh_free(f);
+}
+
+static void swap(nh_library *l, size_t i, size_t j)
+{
+    nh_ex e = l->function[i];
+    size_t c = l->component[i];
+    double x = l->complexity[i];
+    l->function[i] = l->function[j], l->function[j] = e;
+    l->component[i] = l->component[j], l->component[j] = c;
+    l->complexity[i] = l->complexity[j], l->complexity[j] = x;
+}
+
+void nh_library_for(nh_library *l, const nh_kinetic *k, size_t components, int level, size_t together, size_t most)
+{
+    size_t m = k->m;
+    bool *on = nh_alloc_array(m, sizeof *on);
+    factors *f = nh_alloc_array(m, sizeof *f);
+    *l = (nh_library){0};
+    for (size_t j = 0; j < m; j++) {
+        factors_of(k, j, level, &f[j]);
+        on[j] = true;
+    }
+    for (size_t a = 0; a < components; a++) products(l, k, f, on, 0, nh_int(k->dag, 1), together, a, (a + 1) * most / (components ? components : 1));
+    for (size_t i = 1; i < l->count; i++) /* the simple ones first: of dependent columns the first ones stay */
+        for (size_t j = i; j > 0 && l->complexity[j - 1] > l->complexity[j]; j--) swap(l, j - 1, j);
+    nh_free(on);
+    nh_free(f);
+}
+
+void nh_library_pick(nh_library *out, const nh_library *l, size_t n, const size_t *index)
+{
+    *out = (nh_library){.count = n, .capacity = n, .function = nh_alloc_array(n + 1, sizeof *out->function),
+                        .component = nh_alloc_array(n + 1, sizeof *out->component), .complexity = nh_alloc_array(n + 1, sizeof *out->complexity)};
+    for (size_t i = 0; i < n; i++) {
+        out->function[i] = l->function[index[i]];
+        out->component[i] = l->component[index[i]];
+        out->complexity[i] = l->complexity[index[i]];
+    }
+}
+
+void nh_library_clear(nh_library *l)
+{
+    nh_free(l->function);
+    nh_free(l->component);
+    nh_free(l->complexity);
+    *l = (nh_library){0};
+}

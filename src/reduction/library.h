@@ -1,0 +1,34 @@
+/* library: functions that the components of infinitesimal generators are made of.
+ *
+ * Component i is looked for among the products, over the coordinates that it depends on, of
+ *
+ *     level 1    1;  sin q, cos q for angles and where the system has such functions of q, else q
+ *     level 2    also 1/sin q, cot q, 1/cos q, tan q (generators of rotations in Euler's angles), else q^2
+ *     level 3    sin q, cos q, q, q^2, q sin q, q cos q together
+ *     level 4    as level 2, every coordinate taken for an angle
+ *     level 5    sin q, cos q, sin 2q, cos 2q, q, q^2, and the system's other functions of q alone
+ *
+ * On which coordinates it depends is known from the jets; without these, any, and at most two at a time. */
+#ifndef NH_LIBRARY_H
+#define NH_LIBRARY_H
+
+#include "reduction/jets.h"
+
+enum { NH_LIBRARY_LEVELS = 5 };
+
+typedef struct {
+    size_t count, capacity;
+    nh_ex *function;      /* b_k */
+    size_t *component;    /* the field is b_k d/dq^component */
+    double *complexity;
+} nh_library;
+
+/* `jets` may be NULL. */
+void nh_library_init(nh_library *library, const nh_kinetic *kinetic, const nh_jets *jets, int level, size_t most);
+/* The same functions, of at most `together` coordinates at a time, for each of `components` coefficients (of sections, see momenta.h). */
+void nh_library_for(nh_library *library, const nh_kinetic *kinetic, size_t components, int level, size_t together, size_t most);
+/* Some columns of another one. */
+void nh_library_pick(nh_library *out, const nh_library *library, size_t n, const size_t *index);
+void nh_library_clear(nh_library *library);
+
+#endif

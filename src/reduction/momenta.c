@@ -1,0 +1,286 @@
+#include "reduction/momenta.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "noether/echelon.h"
+#include "noether/prove.h"
+#include "noether/recognise.h"
+#include "reduction/library.h"
+#include "reduction/subspace.h"
+
+/* Columns: library functions b_j(q) times generators e_a.  The library is that of generators, with `component` the generator's number. */
+typedef struct {
+    const nh_action *g;
+    const nh_kinetic *k;
+    const nh_options *options;
+    nh_library l;
+    size_t m, d, f, n;
+    double *row, *value; /* of A and of B, row by row */
+    size_t rows, values, room, space;
+} search;
+
+static double *new_row(double **block, size_t *count, size_t *capacity, size_t n)
+{
+    nh_grow(block, capacity, (*count + 1) * n, sizeof **block);
+    double *row = *block + (*count)++ * n;
+    memset(row, 0, n * sizeof *row);
+    return row;
+}
+
+/* Orthonormal for K basis of D at a place: X (m x r). */
+static size_t distribution_basis(const search *s, const double *K, const double *omega, double *X)
+{
+    size_t m = s->m, f = s->f;
+    double *forms = nh_alloc_array(f * m + 1, sizeof *forms), *scale = nh_alloc_array(m, sizeof *scale);
+    for (size_t i = 0; i < m; i++) scale[i] = 1 / sqrt(K[i * (m + 1)]);
+    for (size_t a = 0; a < f; a++) {
+        double size = 0;
+        for (size_t i = 0; i < m; i++) size = hypot(size, omega[a * m + i] * scale[i]);
+        for (size_t i = 0; i < m; i++) forms[a + i * f] = size > 0 ? omega[a * m + i] * scale[i] / size : 0;
+    }
+    size_t r = nh_kernel(f, m, forms, s->options->group, X, NULL, NULL);
+    for (size_t j = 0; j < r; j++)
+        for (size_t i = 0; i < m; i++) X[i + j * m] *= scale[i];
+    nh_free(forms);
+    nh_free(scale);
+    return r;
+}
+
+/* Rows at a place from K, omega, E, b and its derivatives: omega(f^a e_a) = 0, sym_ij X_i(f^a) K(X_j, e_a) = 0; values of the field, in units of K. */
+static void place_rows(search *s, const double *K, const double *omega, const double *E, const double *b, const double *db)
+{
+    size_t m = s->m, d = s->d, f = s->f, n = s->n;
+    double *X = nh_alloc_array(m * m + m * d + 1, sizeof *X), *KXe = X + m * m;
+    size_t r = distribution_basis(s, K, omega, X);
+    for (size_t i = 0; i < f; i++) {
+        double *row = new_row(&s->row, &s->rows, &s->room, n), size = 0;
+        for (size_t q = 0; q < m; q++) size = hypot(size, omega[i * m + q] / sqrt(K[q * (m + 1)]));
+        for (size_t c = 0; c < n; c++)
+            for (size_t q = 0; q < m; q++) row[c] += b[c] * omega[i * m + q] * E[q + s->l.component[c] * m] / size;
+    }
+    for (size_t j = 0; j < r; j++)
+        for (size_t a = 0; a < d; a++) {
+            KXe[j + a * r] = 0;
+            for (size_t p = 0; p < m; p++)
+                for (size_t q = 0; q < m; q++) KXe[j + a * r] += X[p + j * m] * K[p * m + q] * E[q + a * m];
+        }
+    for (size_t i = 0; i < r; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double *row = new_row(&s->row, &s->rows, &s->room, n);
+            for (size_t c = 0; c < n; c++) {
+                double along_i = 0, along_j = 0;
+                for (size_t q = 0; q < m; q++) along_i += db[c * m + q] * X[q + i * m], along_j += db[c * m + q] * X[q + j * m];
+                row[c] = (along_i * KXe[j + s->l.component[c] * r] + along_j * KXe[i + s->l.component[c] * r]) / 2;
+            }
+        }
+    for (size_t q = 0; q < m; q++) {
+        double *row = new_row(&s->value, &s->values, &s->space, n);
+        for (size_t c = 0; c < n; c++) row[c] = b[c] * E[q + s->l.component[c] * m] * sqrt(K[q * (m + 1)]);
+    }
+    nh_free(X);
+}
+
+static void collect(search *s)
+{
+    const nh_kinetic *k = s->k;
+    size_t m = s->m, d = s->d, f = s->f, n = s->n, total = m * m + f * m + m * d + n * (1 + m), at = 0;
+    size_t places = k->places;
+    nh_ex *e = nh_alloc_array(total, sizeof *e);
+    memcpy(e, k->K, m * m * sizeof *e), at += m * m;
+    memcpy(e + at, k->omega, f * m * sizeof *e), at += f * m;
+    for (size_t a = 0; a < d; a++, at += m) memcpy(e + at, s->g->generator[a].component, m * sizeof *e);
+    memcpy(e + at, s->l.function, n * sizeof *e), at += n;
+    for (size_t c = 0; c < n; c++)
+        for (size_t q = 0; q < m; q++) e[at++] = nh_diff(k->dag, s->l.function[c], k->q[q]);
+    double *v = nh_alloc_array(total * places, sizeof *v);
+    nh_kinetic_sample(k, total, e, places, v);
+    for (size_t p = 0; p < places && (s->rows < 3 * n + 40 || s->values < 2 * n + 40); p++) {
+        const double *z = v + p * total, *E = z + m * m + f * m, *b = E + m * d;
+        if (isfinite(nh_largest(total, z))) place_rows(s, z, z + m * m, E, b, b + n);
+    }
+    nh_free(e);
+    nh_free(v);
+}
+
+static double *columns_of(size_t rows, size_t n, const double *row)
+{
+    double *a = nh_alloc_array(rows * n + 1, sizeof *a);
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < n; j++) a[i + j * rows] = row[i * n + j];
+    return a;
+}
+
+/* Null vectors of the conditions relative to the size of the field; in echelon form with the complex functions as pivots. */
+static size_t solve(search *s, double **vector, nh_error *error)
+{
+    nh_basis basis;
+    nh_nullspace_options o = nh_nullspace_options_from(s->options);
+    double *a = columns_of(s->rows, s->n, s->row), *b = columns_of(s->values, s->n, s->value);
+    size_t count = 0;
+    *vector = NULL;
+    if (s->values && nh_basis_init(&basis, s->values, s->n, b, s->values, NULL, &o, error)) {
+        size_t n = basis.count;
+        double *kept = nh_alloc_array(s->rows * n + 1, sizeof *kept), *kernel = nh_alloc_array(n * n + 1, sizeof *kernel);
+        nh_basis_gather(&basis, s->rows, a, s->rows, kept);
+        if (n) nh_solve_triangle_right(s->rows, n, basis.r, n, kept);
+        for (size_t i = 0; i < s->rows * n; i++) kept[i] *= sqrt((double)s->values / (double)(s->rows + 1));
+        count = nh_kernel(s->rows, n, kept, s->options->group, kernel, NULL, NULL);
+        *vector = nh_alloc_array(s->n * count + 1, sizeof **vector);
+        if (count) nh_basis_expand(&basis, s->n, count, kernel, *vector);
+        nh_free(kept);
+        nh_free(kernel);
+        nh_basis_clear(&basis);
+    }
+    nh_free(a);
+    nh_free(b);
+    return count;
+}
+
+/* ---- from vectors to momenta ---- */
+
+static void fill(search *s, nh_momentum *p)
+{
+    const nh_kinetic *k = s->k;
+    nh_dag *dag = k->dag;
+    p->field = nh_arena_alloc(k->arena, s->m * sizeof *p->field);
+    p->value = nh_int(dag, 0);
+    for (size_t q = 0; q < s->m; q++) {
+        p->field[q] = nh_int(dag, 0);
+        for (size_t a = 0; a < s->d; a++) p->field[q] = nh_add(dag, p->field[q], nh_mul(dag, p->f[a], s->g->generator[a].component[q]));
+        p->field[q] = nh_simplify(dag, p->field[q]);
+    }
+    for (size_t r = 0; r < s->m; r++)
+        for (size_t q = 0; q < s->m; q++)
+            if (!nh_is_zero(dag, p->field[r]) && !nh_is_zero(dag, k->K[r * s->m + q]))
+                p->value = nh_add(dag, p->value, nh_mul(dag, nh_mul(dag, p->field[r], k->K[r * s->m + q]), k->v[q]));
+    p->value = nh_simplify(dag, p->value);
+}
+
+/* The conditions exactly: omega(field), and (f^a)' J_a for v in D, as functions on the submanifold. */
+static void prove(search *s, nh_momentum *p)
+{
+    const nh_kinetic *k = s->k;
+    nh_dag *d = k->dag;
+    p->proved = true;
+    for (size_t i = 0; i < s->f && p->proved; i++) {
+        nh_ex e = nh_int(d, 0);
+        for (size_t q = 0; q < s->m; q++) e = nh_add(d, e, nh_mul(d, k->omega[i * s->m + q], p->field[q]));
+        p->proved = nh_normal_is_zero(d, e, (size_t)s->options->proof_terms) == NH_ZERO || nh_prove_zero(k->model, 1, &e, false, s->options).proved;
+    }
+    nh_ex rate = nh_int(d, 0);
+    for (size_t a = 0; a < s->d && p->proved; a++) {
+        nh_ex along = nh_diff_along(d, p->f[a], s->m, k->q, k->v), J = nh_int(d, 0);
+        if (nh_is_zero(d, along)) continue;
+        for (size_t r = 0; r < s->m; r++)
+            for (size_t q = 0; q < s->m; q++) J = nh_add(d, J, nh_mul(d, nh_mul(d, s->g->generator[a].component[r], k->K[r * s->m + q]), k->v[q]));
+        rate = nh_add(d, rate, nh_mul(d, along, J));
+    }
+    rate = nh_chart_compose(k->model->chart, rate);
+    if (p->proved) p->proved = nh_normal_is_zero(d, rate, (size_t)s->options->proof_terms) == NH_ZERO || nh_prove_zero(k->model, 1, &rate, false, s->options).proved;
+}
+
+/* Reduced echelon form, the most complex columns as pivots: the rest of each vector is then the simplest. */
+static void reduce(const search *s, size_t count, double *v)
+{
+    static const double small = 1e-6, pivotal = 1e-3;
+    size_t n = s->n, rank = 0, *order = nh_alloc_array(n + 1, sizeof *order);
+    for (size_t i = 0; i < n; i++) {
+        size_t j = i;
+        for (; j > 0 && s->l.complexity[order[j - 1]] > s->l.complexity[i]; j--) order[j] = order[j - 1];
+        order[j] = i;
+    }
+    for (size_t at = n; at-- > 0 && rank < count;) {
+        size_t j = order[at], best = rank;
+        for (size_t r = rank; r < count; r++)
+            if (fabs(v[j + r * n]) > fabs(v[j + best * n])) best = r;
+        double most = nh_largest(n, v + best * n), pivot = v[j + best * n];
+        if (!(fabs(pivot) > pivotal * most)) continue;
+        for (size_t i = 0; i < n; i++) {
+            double x = v[i + best * n] / pivot;
+            v[i + best * n] = v[i + rank * n];
+            v[i + rank * n] = x;
+        }
+        for (size_t r = 0; r < count; r++) {
+            double factor = v[j + r * n];
+            for (size_t i = 0; i < n && r != rank; i++) v[i + r * n] -= factor * v[i + rank * n];
+        }
+        rank++;
+    }
+    for (size_t r = 0; r < count; r++) {
+        double most = nh_largest(n, v + r * n);
+        for (size_t i = 0; i < n; i++)
+            if (fabs(v[i + r * n]) <= small * most) v[i + r * n] = 0;
+    }
+    nh_free(order);
+}
+
+static nh_ex coefficient(const search *s, double value)
+{
+    nh_num x;
+    nh_ex e;
+    if (nh_recognise_ratio(value, 1000, s->options->same, &x)) return nh_number(s->k->dag, x);
+    if (nh_recognise_ratio(value, 100000, s->options->same / 1000, &x)) return nh_number(s->k->dag, x); /* the proof decides */
+    return nh_recognise_number(s->k->dag, value, s->options->recognise, &e) ? e : nh_real(s->k->dag, value);
+}
+
+/* The simplest term, of the last generator, gets a positive coefficient. */
+static void normalise(const search *s, double *v)
+{
+    double sign = 1, complexity = INFINITY;
+    for (size_t c = 0; c < s->n; c++) {
+        if (v[c] == 0 || s->l.complexity[c] > complexity) continue;
+        complexity = s->l.complexity[c];
+        sign = v[c] < 0 ? -1 : 1;
+    }
+    for (size_t c = 0; c < s->n; c++) v[c] *= sign;
+}
+
+static void take(search *s, size_t count, double *v, nh_momenta *out)
+{
+    nh_dag *dag = s->k->dag;
+    reduce(s, count, v);
+    out->momentum = nh_arena_alloc(s->k->arena, (count + 1) * sizeof *out->momentum);
+    for (size_t r = count; r-- > 0;) {
+        nh_momentum *p = &out->momentum[out->count++];
+        normalise(s, v + r * s->n);
+        p->horizontal = true;
+        p->f = nh_arena_alloc(s->k->arena, (s->d + 1) * sizeof *p->f);
+        for (size_t a = 0; a < s->d; a++) p->f[a] = nh_int(dag, 0);
+        for (size_t c = 0; c < s->n; c++) {
+            if (v[c + r * s->n] == 0) continue;
+            size_t a = s->l.component[c];
+            p->f[a] = nh_add(dag, p->f[a], nh_mul(dag, coefficient(s, v[c + r * s->n]), s->l.function[c]));
+            p->horizontal &= s->l.complexity[c] == 0;
+        }
+        fill(s, p);
+        prove(s, p);
+    }
+}
+
+bool nh_momenta_find(nh_momenta *out, const nh_action *g, const nh_options *options, nh_error *error)
+{
+    enum { most_columns = 420 };
+    const nh_kinetic *k = g->kinetic;
+    bool good = true;
+    *out = (nh_momenta){0};
+    for (int level = 1; level <= 3 && good && g->d; level++) { /* 2: with 1/sin and the like; 3: products of two */
+        search s = {.g = g, .k = k, .options = options, .m = k->m, .d = g->d, .f = k->f};
+        nh_momenta found = {0};
+        double *vector;
+        nh_library_for(&s.l, k, g->d, level == 3 ? 1 : level, level == 3 ? 2 : 1, most_columns);
+        s.n = s.l.count;
+        collect(&s);
+        size_t count = solve(&s, &vector, error);
+        good = vector != NULL;
+        if (good && count > out->count) take(&s, count, vector, &found), *out = found;
+        nh_free(vector);
+        nh_free(s.row);
+        nh_free(s.value);
+        nh_library_clear(&s.l);
+    }
+    return good;
+}

@@ -1,0 +1,33 @@
+/* momenta: what of the group's momenta is conserved under the constraints [Bloch1996].
+ *
+ * For a section f^a(q) e_a of V that lies in D, and J_a = e_a^s K_sr v^r, along every motion
+ *
+ *     d/dt (f^a J_a) = (f^a)' J_a                                                                [Bloch1996, eq. 4.2.3]
+ *
+ * so that a horizontal symmetry (f constant) conserves its momentum, and a section with
+ *
+ *     sym_ij X_i(f^a) K(X_j, e_a) = 0,   X a basis of D
+ *
+ * does too: a horizontal gauge momentum [FassoGiacobbeSansonetto2008].  f is sought in a library of functions. */
+#ifndef NH_MOMENTA_H
+#define NH_MOMENTA_H
+
+#include "reduction/action.h"
+
+typedef struct {
+    bool horizontal;       /* f is constant */
+    nh_ex *f;              /* d */
+    nh_ex *field;          /* m: f^a e_a */
+    nh_ex value;           /* f^a J_a as a function of (q, v) */
+    double residual;       /* of the two conditions, relative */
+    bool proved;
+} nh_momentum;
+
+typedef struct {
+    size_t count;
+    nh_momentum *momentum; /* in the kinetic's arena */
+} nh_momenta;
+
+bool nh_momenta_find(nh_momenta *out, const nh_action *action, const nh_options *options, nh_error *error);
+
+#endif

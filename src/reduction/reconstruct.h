@@ -1,0 +1,32 @@
+/* reconstruct: the full motion from a reduced one.
+ *
+ * The group element is written in coordinates of the second kind, g = exp(t_1 e_1) ... exp(t_d e_d), so that no group coordinates are needed:
+ *
+ *     M(t) t' = Ad_g zeta,     column a of M: Ad of the first a - 1 factors on e_a,     Ad_exp(t_a e_a) = exp(t_a ad_a)
+ *
+ * and q = flow_1(t_1) o ... o flow_d(t_d) (sigma(x)).  Where M becomes ill-conditioned the factors so far are kept and g starts again from the
+ * identity. */
+#ifndef NH_RECONSTRUCT_H
+#define NH_RECONSTRUCT_H
+
+#include "base/option.h"
+#include "reduction/reduced.h"
+
+typedef struct {
+    size_t count, m, size; /* output times; coordinates; n + r */
+    double *time, *q;      /* count; count x m */
+    double *z;             /* count x (n + r): x and p along the motion */
+    double *zeta;          /* count x d */
+    size_t restarts;       /* of the coordinates of the group */
+    bool complete;
+    char note[256];
+    long evaluations, steps;
+} nh_reconstruction;
+
+/* The reduced motion from z with g = identity, and the places it stands for.  `slice`: the group divided out, its generators and its slice (whose x are
+ * those of `reduced`).  NULL with a message. */
+nh_reconstruction *nh_reconstruct(const nh_reduced *reduced, const nh_slice *slice, const double *z, size_t count, const double *times,
+                                  const nh_options *options, nh_error *error);
+void nh_reconstruction_free(nh_reconstruction *reconstruction);
+
+#endif

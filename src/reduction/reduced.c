@@ -1,0 +1,272 @@
+#include "reduction/reduced.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/solve.h"
+#include "reduction/subspace.h"
+
+void nh_reduced_init(nh_reduced *o, const nh_kinetic *k, size_t n, const nh_ex *x, size_t r, size_t d)
+{
+    nh_arena *arena = k->arena;
+    *o = (nh_reduced){.kinetic = k, .n = n, .r = r, .d = d};
+    nh_ex *all = nh_arena_alloc(arena, (2 * n + 2 * r + r * r + d + 1) * sizeof *all);
+    o->momentum = nh_arena_alloc(arena, (r + 1) * sizeof *o->momentum);
+    o->x = all;
+    o->w = o->x + n;
+    o->M = o->w + r;
+    o->dx = o->M + r * r;
+    o->F = o->dx + n;
+    o->zeta = o->F + r;
+    memcpy(o->x, x, n * sizeof *x);
+    for (size_t i = 0; i < 2 * n + 2 * r + r * r + d - n; i++) all[n + i] = nh_int(k->dag, 0);
+    o->energy = nh_int(k->dag, 0);
+}
+
+/* ---- the equations on the slice ---- */
+
+void nh_reduced_independent(const nh_slice *s, size_t *independent)
+{
+    static const double group_first = 4; /* a component of the group is taken unless one of the shape is so much better */
+    const nh_kinetic *k = s->kinetic;
+    size_t m = s->m, f = s->f, places = k->places < 6 ? k->places : 6, rows = places * f, count = 0;
+    double *a = nh_alloc_array(rows * m + 1, sizeof *a), *value = nh_alloc_array(f * m + 1, sizeof *value);
+    bool *taken = nh_alloc_array(m, sizeof *taken);
+    for (size_t p = 0; p < places && f; p++) { /* at each place an elimination of its own, with common columns */
+        nh_kinetic_values(k, f * m, s->omega, k->place + p * m, value);
+        for (size_t i = 0; i < f; i++)
+            for (size_t j = 0; j < m; j++) a[p * f + i + j * rows] = value[i * m + j];
+    }
+    for (size_t step = 0; step < f; step++) {
+        size_t best = m;
+        double most = 0;
+        for (size_t j = 0; j < m; j++) {
+            double least = INFINITY;
+            for (size_t p = 0; p < places; p++) {
+                double size = 0;
+                for (size_t i = step; i < f; i++) size = fmax(size, fabs(a[p * f + i + j * rows]));
+                least = fmin(least, size);
+            }
+            if (j >= s->n) least *= group_first;
+            if (!taken[j] && least > most) most = least, best = j;
+        }
+        if (best == m) break;
+        taken[best] = true;
+        for (size_t p = 0; p < places; p++) {
+            double *b = a + p * f;
+            size_t pivot = step;
+            for (size_t i = step; i < f; i++)
+                if (fabs(b[i + best * rows]) > fabs(b[pivot + best * rows])) pivot = i;
+            for (size_t j = 0; j < m; j++) {
+                double x = b[step + j * rows];
+                b[step + j * rows] = b[pivot + j * rows];
+                b[pivot + j * rows] = x;
+            }
+            for (size_t i = step + 1; i < f; i++) {
+                double factor = b[i + best * rows] / b[step + best * rows];
+                for (size_t j = 0; j < m; j++) b[i + j * rows] -= factor * b[step + j * rows];
+            }
+        }
+    }
+    for (size_t j = 0; j < m; j++)
+        if (!taken[j] && count < m - f) independent[count++] = j;
+    nh_free(a);
+    nh_free(value);
+    nh_free(taken);
+}
+
+/* rho (m x r): u = rho w, the dependent components by omf_dep u_dep = -omf_ind w. */
+static bool solve_constraints(const nh_slice *s, const size_t *independent, nh_ex *rho, nh_error *error)
+{
+    nh_dag *d = s->dag;
+    size_t m = s->m, f = s->f, r = m - f, n = 0, *dependent = nh_alloc_array(f + 1, sizeof *dependent);
+    nh_ex *a = nh_alloc_array(f * f + f + 1, sizeof *a), *b = a + f * f;
+    for (size_t j = 0; j < m; j++) {
+        bool free_one = false;
+        for (size_t i = 0; i < r; i++) {
+            free_one |= independent[i] == j;
+            rho[j * r + i] = nh_int(d, independent[i] == j);
+        }
+        if (!free_one && n < f) dependent[n++] = j;
+    }
+    for (size_t i = 0; i < f; i++)
+        for (size_t j = 0; j < f; j++) a[i * f + j] = s->omega[i * m + dependent[j]];
+    nh_lu *lu = nh_lu_create(d, f, a, nh_chart_pivot_score, s->kinetic->model->chart, NULL);
+    for (size_t i = 0; i < r && lu; i++) {
+        for (size_t c = 0; c < f; c++) b[c] = nh_neg(d, s->omega[c * m + independent[i]]);
+        nh_lu_solve(lu, b, b);
+        for (size_t c = 0; c < f; c++) rho[dependent[c] * r + i] = nh_simplify(d, b[c]);
+    }
+    bool good = lu != NULL;
+    nh_lu_free(lu);
+    nh_free(a);
+    nh_free(dependent);
+    return good || nh_fail(error, NH_NUMERIC, "", "the constraints cannot be solved on the slice");
+}
+
+static nh_ex dot(nh_dag *d, size_t n, const nh_ex *a, size_t stride, const nh_ex *b)
+{
+    nh_ex sum = nh_int(d, 0);
+    for (size_t i = 0; i < n; i++)
+        if (!nh_is_zero(d, a[i * stride]) && !nh_is_zero(d, b[i])) sum = nh_add(d, sum, nh_mul(d, a[i * stride], b[i]));
+    return sum;
+}
+
+/* The force on the frame component j: 1/2 u^T d_j Kf u - d_j V along the shape, C_ab^k zeta^a mu_k along the group. */
+static nh_ex frame_force(const nh_slice *s, size_t j, const nh_ex *u, const nh_ex *momentum)
+{
+    nh_dag *d = s->dag;
+    size_t m = s->m, n = s->n;
+    nh_ex sum = nh_int(d, 0);
+    if (j < n) {
+        for (size_t r = 0; r < m; r++)
+            for (size_t c = 0; c <= r; c++) {
+                nh_ex slope = nh_diff(d, s->K[r * m + c], s->x[j]);
+                if (nh_is_zero(d, slope)) continue;
+                sum = nh_add(d, sum, nh_mul(d, nh_mul(d, r == c ? nh_ratio(d, 1, 2) : nh_int(d, 1), slope), nh_mul(d, u[r], u[c])));
+            }
+        return nh_sub(d, sum, nh_diff(d, s->V, s->x[j]));
+    }
+    const nh_algebra *g = &s->action->algebra;
+    for (size_t a = 0; a < g->d; a++)
+        for (size_t k = 0; k < g->d; k++) {
+            double c = g->c[(a * g->d + (j - n)) * g->d + k];
+            if (c != 0) sum = nh_add(d, sum, nh_mul(d, nh_real(d, c), nh_mul(d, u[n + a], momentum[n + k])));
+        }
+    return sum;
+}
+
+static void name_velocities(nh_reduced *o, const nh_slice *s, const size_t *independent)
+{
+    const nh_kinetic *k = s->kinetic;
+    for (size_t i = 0; i < o->r; i++) {
+        bool shape = independent[i] < s->n;
+        const char *name = shape ? k->name[s->shape[independent[i]]] : nh_arena_printf(k->arena, "%zu", independent[i] - s->n + 1);
+        o->w[i] = shape ? k->v[s->shape[independent[i]]] : nh_symbol_fresh(k->dag, nh_arena_printf(k->arena, "zeta%s", name));
+        o->momentum[i] = nh_arena_printf(k->arena, shape ? "p_%s" : "mu_%s", name);
+    }
+}
+
+bool nh_reduced_master(nh_reduced *o, const nh_slice *s, const size_t *independent, nh_error *error)
+{
+    nh_dag *d = s->dag;
+    size_t m = s->m, r = m - s->f, n = s->n;
+    nh_reduced_init(o, s->kinetic, n, s->x, r, s->d);
+    name_velocities(o, s, independent);
+    nh_ex *rho = nh_alloc_array(m * r + 3 * m + m * r + 1, sizeof *rho), *u = rho + m * r, *momentum = u + m, *force = momentum + m, *Krho = force + m;
+    bool good = solve_constraints(s, independent, rho, error);
+    for (size_t j = 0; j < m && good; j++) u[j] = dot(d, r, rho + j * r, 1, o->w);
+    for (size_t j = 0; j < m && good; j++) {
+        momentum[j] = dot(d, m, s->K + j * m, 1, u);
+        for (size_t i = 0; i < r; i++) {
+            Krho[j * r + i] = nh_int(d, 0);
+            for (size_t l = 0; l < m; l++) Krho[j * r + i] = nh_add(d, Krho[j * r + i], nh_mul(d, s->K[j * m + l], rho[l * r + i]));
+        }
+    }
+    for (size_t j = 0; j < m && good; j++) force[j] = frame_force(s, j, u, momentum);
+    for (size_t i = 0; i < r && good; i++) {
+        for (size_t c = 0; c < r; c++) {
+            o->M[i * r + c] = nh_int(d, 0);
+            for (size_t j = 0; j < m; j++) o->M[i * r + c] = nh_add(d, o->M[i * r + c], nh_mul(d, rho[j * r + i], Krho[j * r + c]));
+        }
+        o->F[i] = dot(d, m, rho + i, r, force);
+        for (size_t j = 0; j < m; j++) {
+            nh_ex turn = nh_diff_along(d, rho[j * r + i], n, s->x, u);
+            if (!nh_is_zero(d, turn)) o->F[i] = nh_add(d, o->F[i], nh_mul(d, turn, momentum[j]));
+        }
+    }
+    if (good) {
+        memcpy(o->dx, u, n * sizeof *u);
+        memcpy(o->zeta, u + n, s->d * sizeof *u);
+        o->energy = nh_add(d, nh_mul(d, nh_ratio(d, 1, 2), dot(d, m, u, 1, momentum)), s->V);
+    }
+    nh_free(rho);
+    return good;
+}
+
+/* ---- motions ---- */
+
+struct nh_reduced_flow {
+    const nh_reduced *o;
+    nh_tape *mass, *rest; /* M(x); x', F, zeta, energy of (x, w) */
+    nh_tape_work *mass_work, *rest_work;
+    double *M, *in, *out;
+};
+
+nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *o)
+{
+    const nh_model *y = o->kinetic->model;
+    size_t n = o->n, r = o->r, total = n + r + o->d + 1, p = y->system->parameters;
+    nh_reduced_flow *f = nh_alloc(sizeof *f);
+    nh_ex *in = nh_alloc_array(n + r + 1, sizeof *in), *e = nh_alloc_array(total, sizeof *e);
+    *f = (nh_reduced_flow){.o = o, .M = nh_alloc_array(r * r + 1, sizeof(double)), .in = nh_alloc_array(n + r + 1, sizeof(double)), .out = nh_alloc_array(total, sizeof(double))};
+    memcpy(in, o->x, n * sizeof *in);
+    memcpy(in + n, o->w, r * sizeof *in);
+    memcpy(e, o->dx, n * sizeof *e);
+    memcpy(e + n, o->F, r * sizeof *e);
+    memcpy(e + n + r, o->zeta, o->d * sizeof *e);
+    e[total - 1] = o->energy;
+    f->mass = nh_tape_create(o->kinetic->dag, n, in, r * r, o->M, p, y->parameter, y->parameter_value);
+    f->rest = nh_tape_create(o->kinetic->dag, n + r, in, total, e, p, y->parameter, y->parameter_value);
+    f->mass_work = nh_tape_work_create(f->mass);
+    f->rest_work = nh_tape_work_create(f->rest);
+    nh_free(in);
+    nh_free(e);
+    return f;
+}
+
+void nh_reduced_flow_free(nh_reduced_flow *f)
+{
+    if (!f) return;
+    nh_tape_work_free(f->mass_work);
+    nh_tape_work_free(f->rest_work);
+    nh_tape_free(f->mass);
+    nh_tape_free(f->rest);
+    nh_free(f->M);
+    nh_free(f->in);
+    nh_free(f->out);
+    nh_free(f);
+}
+
+bool nh_reduced_flow_at(nh_reduced_flow *f, const double *z, double *rate, double *w, double *zeta, double *energy)
+{
+    size_t n = f->o->n, r = f->o->r, d = f->o->d;
+    memcpy(f->in, z, (n + r) * sizeof *z);
+    nh_tape_eval(f->mass, f->mass_work, f->in, f->M);
+    if (!nh_solve(r, f->M, 1, f->in + n, NULL)) return false;
+    nh_tape_eval(f->rest, f->rest_work, f->in, f->out);
+    for (size_t i = 0; i < n + r + d; i++)
+        if (!isfinite(f->out[i])) return false;
+    if (rate) memcpy(rate, f->out, (n + r) * sizeof *rate);
+    if (w) memcpy(w, f->in + n, r * sizeof *w);
+    if (zeta && d) memcpy(zeta, f->out + n + r, d * sizeof *zeta);
+    if (energy) *energy = f->out[n + r + d];
+    return true;
+}
+
+static bool rate_of(double t, const double *z, double *rate, void *context)
+{
+    (void)t;
+    return nh_reduced_flow_at(context, z, rate, NULL, NULL, NULL);
+}
+
+nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *f) { return (nh_flow_problem){.size = f->o->n + f->o->r, .context = f, .rate = rate_of}; }
+
+bool nh_reduced_start(const nh_reduced *o, const double *x, const double *w, double *z)
+{
+    nh_reduced_flow *f = nh_reduced_flow_create(o);
+    memcpy(z, x, o->n * sizeof *z);
+    nh_tape_eval(f->mass, f->mass_work, x, f->M);
+    bool good = true;
+    for (size_t i = 0; i < o->r; i++) {
+        double sum = 0;
+        for (size_t j = 0; j < o->r; j++) sum += f->M[i * o->r + j] * w[j];
+        z[o->n + i] = sum;
+        good &= isfinite(sum);
+    }
+    nh_reduced_flow_free(f);
+    return good;
+}

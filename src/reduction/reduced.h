@@ -1,0 +1,47 @@
+/* reduced: equations of motion after a reduction, all of one form.
+ *
+ *     M(x) w = p,      x' = X(x) w,      p' = F(x, w),      zeta = Z(x) w
+ *
+ * x: shape; w: velocities (those of the shape, or quasi-velocities); p: their momenta; zeta: the body velocity of the group that was divided out, by which
+ * the motion in the group is found again (reconstruct.h). */
+#ifndef NH_REDUCED_H
+#define NH_REDUCED_H
+
+#include "motion/flow.h"
+#include "reduction/slice.h"
+
+typedef struct {
+    const nh_kinetic *kinetic;
+    size_t n, r, d;      /* shape coordinates, velocities, dimension of the group divided out */
+    nh_ex *x, *w;        /* symbols */
+    const char **momentum; /* r names of the p */
+    nh_ex *M;            /* r x r, row-major */
+    nh_ex *dx, *F, *zeta; /* n, r, d as functions of (x, w) */
+    nh_ex energy;        /* of (x, w) */
+} nh_reduced;
+
+/* A new one with symbols for the velocities (names[i], or NULL for u1, u2, ...) and everything zero; memory: the kinetic's arena. */
+void nh_reduced_init(nh_reduced *reduced, const nh_kinetic *kinetic, size_t n, const nh_ex *x, size_t r, size_t d);
+
+/* The equations of the whole symmetric system on its slice, any group, any constraints: with u = (x', zeta) = rho(x) w in ker omf, (pi, mu) = Kf u,
+ *
+ *     p_i = rho_i . (pi, mu),   p_i' = rho_i^j (1/2 u^T d_j Kf u - d_j V) + rho_i^b C_ab^k zeta^a mu_k + x'^j d_j rho_i . (pi, mu)
+ *
+ * Hamel's equations in the frame (d/dx, e_a); docs/method.md, sec. 9.  `independent`: the r = m - f components of u that serve as w.
+ * False when the others cannot be solved for. */
+bool nh_reduced_master(nh_reduced *reduced, const nh_slice *slice, const size_t *independent, nh_error *error);
+/* Components of the frame that serve as w: the others' minor of omf is well conditioned; group components are given up first. */
+void nh_reduced_independent(const nh_slice *slice, size_t *independent);
+
+/* (x, p) from the frame components u (m) of a velocity: w are those of `independent`. */
+bool nh_reduced_start(const nh_reduced *reduced, const double *x, const double *w, double *z);
+
+/* z = (x, p); the rate, and zeta or the energy on demand. */
+typedef struct nh_reduced_flow nh_reduced_flow;
+nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *reduced);
+void nh_reduced_flow_free(nh_reduced_flow *flow);
+nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *flow);
+/* All at once at z: rate (n + r), w (r), zeta (d), energy; each may be NULL. */
+bool nh_reduced_flow_at(nh_reduced_flow *flow, const double *z, double *rate, double *w, double *zeta, double *energy);
+
+#endif

@@ -1,0 +1,50 @@
+/* second: further symmetry of a reduced Chaplygin system, and the second stage of its reduction [ChhabraEmami2014, sec. 2.3].
+ *
+ * N acts on Qhat with generators zeta_b (the shape parts of symmetries that normalise the first group).  Conditions, at all points of the slice:
+ *
+ *     (i)   Khat, V and Ups are invariant under N
+ *     (ii)  sym_(lj) zeta^i U_lij = 0         weak: together with (i) the same as the conservation of p(zeta)             [here]
+ *     (ii') zeta^i U_lij = 0                  strong: the paper's hypothesis                                    [ChhabraEmami2014, Prop. 2]
+ *
+ * The equations need (i) and (ii) only.  On a slice of Qhat, frame (d_i, e_a), C the constants of N:
+ *
+ *     I = Khat_ee  locked inertia,   Av = I^-1 Khat_ex  mechanical connection,   Kt = Khat_xx - Av^T I Av,   Bv the curvature of Av
+ *     v = zeta + Av x',   m = I v  momentum in the body frame,   pt = Kt x'
+ *     m_b'  = C_ab^k zeta^a m_k
+ *     pt_i' = 1/2 x'^T d_i Kt x' + 1/2 v^T d_i I v - d_i V + m_a Bv^a_ij x'^j + C_lk^a m_a Av^l_i v^k + g_i - Av^a_i g_a
+ *     g = Fr^T Ups Fr (x', zeta)
+ *
+ * For abelian N, m is constant, m_a Bv^a is the 2-form Xi of [ChhabraEmami2014, eq. 2.17], and the rest is eq. 2.19.  For other N the equations hold on the
+ * bundle of coadjoint orbits: (x, pt) and m on the orbit through its initial value. */
+#ifndef NH_SECOND_H
+#define NH_SECOND_H
+
+#include "reduction/chaplygin.h"
+
+typedef struct {
+    const nh_chaplygin *first;
+    nh_kinetic *hat;        /* Khat and V on the shape space, as a system of its own */
+    nh_action action;       /* N on the shape space */
+    nh_slice slice;         /* of the shape space */
+    size_t n, d;            /* what remains; dimension of N */
+    nh_ex *inertia, *Av, *Kt, *Bv; /* d x d, d x n, n x n, d x n x n */
+    nh_reduced reduced;     /* w = (x', v), p = (pt, m) */
+    size_t orbit;           /* dimension of a generic coadjoint orbit of N */
+    double invariance, weak, strong; /* largest relative residuals of (i) for Ups, (ii), (ii') */
+    bool abelian;
+} nh_second;
+
+/* The shape part of a field that normalises the group of the slice, n components. */
+bool nh_second_descend(const nh_chaplygin *first, const nh_ex *field, nh_ex *out);
+
+/* Combinations c (count columns of length `candidates`) of fields that satisfy the weak condition (ii): echelon form; returns their number.
+ * `field`: candidates x m components. */
+size_t nh_second_candidates(const nh_chaplygin *first, size_t candidates, const nh_ex *field, const nh_options *options, double *c);
+
+/* Find N on the shape space from fields on Q, and check (i) and (ii).  Call nh_second_equations afterwards. */
+bool nh_second_init(nh_second *second, const nh_chaplygin *first, size_t d, const nh_ex *field, const nh_options *options, nh_error *error);
+/* x: a place of the shape space (n of the first stage) through which the slice goes. */
+bool nh_second_equations(nh_second *second, const size_t *shape, const size_t *along, const double *y0, nh_error *error);
+void nh_second_clear(nh_second *second);
+
+#endif

@@ -1,0 +1,179 @@
+#include "reduction/slice.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/normal.h"
+#include "reduction/subspace.h"
+
+enum { trial_places = 10, most_subsets = 4000 };
+
+/* ---- which coordinates ---- */
+
+/* E in units of the metric, columns of length one, at some places: places x (m x d). */
+static double *scaled_generators(const nh_action *g, size_t places)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, d = g->d;
+    double *E = nh_alloc_array(places * m * d + 1, sizeof *E), *K = nh_alloc_array(places * m * m, sizeof *K);
+    nh_kinetic_sample(k, m * m, k->K, places, K);
+    for (size_t p = 0; p < places; p++) {
+        double *e = E + p * m * d;
+        nh_action_values(g, k->place + p * m, e);
+        for (size_t a = 0; a < d; a++) {
+            double size = 0;
+            for (size_t s = 0; s < m; s++) {
+                double unit = K[p * m * m + s * (m + 1)];
+                e[s + a * m] *= unit > 0 ? sqrt(unit) : 1;
+                size = hypot(size, e[s + a * m]);
+            }
+            for (size_t s = 0; s < m && size > 0; s++) e[s + a * m] /= size;
+        }
+    }
+    nh_free(K);
+    return E;
+}
+
+static double worst_minor(size_t m, size_t d, size_t places, const double *E, const size_t *rows)
+{
+    double *minor = nh_alloc_array(d * d + d + 1, sizeof *minor), *s = minor + d * d, least = INFINITY;
+    for (size_t p = 0; p < places && d; p++) {
+        for (size_t i = 0; i < d; i++)
+            for (size_t a = 0; a < d; a++) minor[i + a * d] = E[p * m * d + rows[i] + a * m];
+        nh_singular_values(d, d, minor, s);
+        least = fmin(least, s[d - 1]);
+    }
+    nh_free(minor);
+    return least;
+}
+
+static bool next_subset(size_t m, size_t d, size_t *index)
+{
+    for (size_t i = d; i-- > 0;) {
+        if (index[i] >= m - d + i) continue;
+        index[i]++;
+        for (size_t j = i + 1; j < d; j++) index[j] = index[j - 1] + 1;
+        return true;
+    }
+    return false;
+}
+
+void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
+{
+    static const double nearly = 1.05; /* of nearly equal ones the preferred, then the first */
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, d = g->d, places = k->places < trial_places ? k->places : trial_places, trials = 0;
+    size_t *rows = nh_alloc_array(d + 1, sizeof *rows);
+    double *E = scaled_generators(g, places), best = -1;
+    for (size_t i = 0; i < d; i++) rows[i] = i;
+    do {
+        double value = worst_minor(m, d, places, E, rows);
+        for (size_t i = 0; i < d; i++)
+            if (k->dependent[rows[i]]) value *= 1 + 0.5 / (double)d;
+        if (value <= best * nearly) continue;
+        best = value;
+        memcpy(along, rows, d * sizeof *along);
+    } while (++trials < most_subsets && next_subset(m, d, rows));
+    for (size_t s = 0, n = 0; s < m; s++) {
+        bool group = false;
+        for (size_t a = 0; a < d; a++) group |= along[a] == s;
+        if (!group) shape[n++] = s;
+    }
+    nh_free(rows);
+    nh_free(E);
+}
+
+/* ---- data ---- */
+
+static nh_ex tidy(const nh_slice *s, bool whole, nh_ex e) { return whole ? nh_simplify(s->dag, e) : e; }
+
+/* a^T B c for vectors given as columns of a frame: frame[s*m + j] is component s of vector j. */
+static void frame_metric(nh_slice *s, const nh_ex *frame, const nh_ex *K, bool whole)
+{
+    nh_dag *d = s->dag;
+    size_t m = s->m;
+    nh_ex *half = nh_alloc_array(m * m, sizeof *half);
+    for (size_t r = 0; r < m; r++)
+        for (size_t j = 0; j < m; j++) {
+            half[r * m + j] = nh_int(d, 0);
+            for (size_t q = 0; q < m; q++)
+                if (!nh_is_zero(d, frame[q * m + j])) half[r * m + j] = nh_add(d, half[r * m + j], nh_mul(d, K[r * m + q], frame[q * m + j]));
+        }
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j <= i; j++) {
+            nh_ex sum = nh_int(d, 0);
+            for (size_t r = 0; r < m; r++)
+                if (!nh_is_zero(d, frame[r * m + i])) sum = nh_add(d, sum, nh_mul(d, frame[r * m + i], half[r * m + j]));
+            s->K[i * m + j] = s->K[j * m + i] = tidy(s, whole, sum);
+        }
+    nh_free(half);
+}
+
+static void frame_forms(nh_slice *s, const nh_ex *frame, const nh_ex *omega, bool whole)
+{
+    nh_dag *d = s->dag;
+    for (size_t a = 0; a < s->f; a++)
+        for (size_t j = 0; j < s->m; j++) {
+            nh_ex sum = nh_int(d, 0);
+            for (size_t r = 0; r < s->m; r++)
+                if (!nh_is_zero(d, frame[r * s->m + j])) sum = nh_add(d, sum, nh_mul(d, omega[a * s->m + r], frame[r * s->m + j]));
+            s->omega[a * s->m + j] = tidy(s, whole, sum);
+        }
+}
+
+void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const size_t *along, const double *y0)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *dag = k->dag;
+    size_t m = k->m, d = g->d, f = k->f, n = m - d;
+    *s = (nh_slice){.action = g, .kinetic = k, .dag = dag, .m = m, .f = f, .n = n, .d = d};
+    s->shape = nh_arena_alloc(k->arena, (m + 1) * sizeof *s->shape);
+    s->along = s->shape + n;
+    s->y0 = nh_arena_alloc(k->arena, (d + 1) * sizeof *s->y0);
+    memcpy(s->shape, shape, n * sizeof *shape);
+    memcpy(s->along, along, d * sizeof *along);
+    memcpy(s->y0, y0, d * sizeof *y0);
+    s->x = nh_arena_alloc(k->arena, (n + m * d + m * m + f * m + 1) * sizeof *s->x);
+    s->E = s->x + n;
+    s->K = s->E + m * d;
+    s->omega = s->K + m * m;
+    nh_ex *from = nh_alloc_array(2 * d + 2 * m * m + f * m + 1, sizeof *from), *to = from + d, *frame = to + d, *K = frame + m * m, *omega = K + m * m;
+    bool whole = true;
+    for (size_t a = 0; a < d; a++) {
+        from[a] = k->q[along[a]];
+        to[a] = nh_real(dag, y0[a]);
+        whole &= y0[a] == round(y0[a]);
+    }
+    for (size_t i = 0; i < n; i++) s->x[i] = k->q[shape[i]];
+    for (size_t r = 0; r < m; r++) {
+        for (size_t a = 0; a < d; a++) s->E[r * d + a] = tidy(s, whole, nh_substitute(dag, g->generator[a].component[r], d, from, to));
+        for (size_t i = 0; i < n; i++) frame[r * m + i] = nh_int(dag, shape[i] == r);
+        for (size_t a = 0; a < d; a++) frame[r * m + n + a] = s->E[r * d + a];
+    }
+    for (size_t i = 0; i < m * m; i++) K[i] = nh_substitute(dag, k->K[i], d, from, to);
+    for (size_t i = 0; i < f * m; i++) omega[i] = nh_substitute(dag, k->omega[i], d, from, to);
+    s->V = tidy(s, whole, nh_substitute(dag, k->V, d, from, to));
+    frame_metric(s, frame, K, whole);
+    frame_forms(s, frame, omega, whole);
+    nh_free(from);
+}
+
+bool nh_slice_components(const nh_slice *s, const double *q, const double *v, double *u)
+{
+    size_t m = s->m, d = s->d;
+    double *frame = nh_alloc_array(m * m + m * d + 1, sizeof *frame), *E = frame + m * m, rcond;
+    nh_action_values(s->action, q, E);
+    for (size_t i = 0; i < s->n; i++) frame[s->shape[i] + i * m] = 1;
+    memcpy(frame + s->n * m, E, m * d * sizeof *frame);
+    memcpy(u, v, m * sizeof *u);
+    bool good = nh_solve(m, frame, 1, u, &rcond) && rcond > 1e-12;
+    nh_free(frame);
+    return good;
+}
+
+void nh_slice_place(const nh_slice *s, const double *x, double *q)
+{
+    for (size_t i = 0; i < s->n; i++) q[s->shape[i]] = x[i];
+    for (size_t a = 0; a < s->d; a++) q[s->along[a]] = s->y0[a];
+}

@@ -1,0 +1,39 @@
+/* slice: a system with symmetry on a slice of its configuration space, without group coordinates.
+ *
+ * Coordinates x (shape) and y, as many y as generators; the slice is y = y0.  Then (g, x) -> g . sigma(x) covers a neighbourhood, and everything that is
+ * invariant is known on the slice: in the frame (d/dx^i, e_a) of vectors at sigma(x)
+ *
+ *     Kf = Fr^T K Fr,      omf = omega Fr,      V(sigma(x))
+ *
+ * are functions of x alone.  x need not be invariant under the group: it is a coordinate of the slice. */
+#ifndef NH_SLICE_H
+#define NH_SLICE_H
+
+#include "reduction/action.h"
+
+typedef struct {
+    const nh_action *action;
+    const nh_kinetic *kinetic;
+    nh_dag *dag;
+    size_t m, f, n, d;     /* coordinates, constraints, shape, group; m = n + d */
+    size_t *shape, *along; /* n, d coordinate indices: x and y */
+    double *y0;            /* d */
+    nh_ex *x;              /* n symbols */
+    nh_ex *E;              /* m x d: generators on the slice, E[s*d + a] */
+    nh_ex *K;              /* m x m in the frame, row-major; shape first */
+    nh_ex V;
+    nh_ex *omega;          /* f x m in the frame */
+} nh_slice;
+
+/* The d coordinates y whose rows of E are best conditioned over the sample points (system->dependent breaks ties). */
+void nh_slice_choose(const nh_action *action, size_t *shape, size_t *along);
+
+/* y0 (d values); entries are simplified where y0 is whole numbers.  Memory: the kinetic's arena. */
+void nh_slice_init(nh_slice *slice, const nh_action *action, const size_t *shape, const size_t *along, const double *y0);
+
+/* Components u = (x', zeta) in the frame of a velocity at a place q on the slice (m values each).  False when the frame is singular there. */
+bool nh_slice_components(const nh_slice *slice, const double *q, const double *v, double *u);
+/* The place of a point of the slice: x and y0 as coordinates. */
+void nh_slice_place(const nh_slice *slice, const double *x, double *q);
+
+#endif

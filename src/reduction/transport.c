@@ -1,0 +1,165 @@
+#include "reduction/transport.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "reduction/runge.h"
+
+static size_t packed(size_t i, size_t j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
+
+static nh_tape *metric_tape(const nh_kinetic *k)
+{
+    size_t m = k->m, h = m * (m + 1) / 2, n = 0;
+    nh_ex *e = nh_alloc_array(h * (1 + m + h), sizeof *e);
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j <= i; j++) e[n++] = k->K[i * m + j];
+    for (size_t r = 0; r < m; r++)
+        for (size_t p = 0; p < h; p++) e[n++] = nh_diff(k->dag, e[p], k->q[r]);
+    for (size_t r = 0; r < m; r++)
+        for (size_t s = 0; s <= r; s++)
+            for (size_t p = 0; p < h; p++) e[n++] = nh_diff(k->dag, e[h + r * h + p], k->q[s]);
+    nh_tape *tape = nh_kinetic_tape(k, n, e);
+    nh_free(e);
+    return tape;
+}
+
+void nh_transport_init(nh_transport *t, const nh_kinetic *k, const double *q0)
+{
+    size_t m = k->m, h = m * (m + 1) / 2, cube = m * m * m;
+    *t = (nh_transport){.kinetic = k, .m = m, .h = h, .size = m + m * m, .tape = metric_tape(k)};
+    t->work = nh_tape_work_create(t->tape);
+    t->raw = nh_alloc_array(h * (1 + m + h) + 2 * m + 3 * m * m + 5 * cube, sizeof *t->raw);
+    t->scale = t->raw + h * (1 + m + h);
+    t->q = t->scale + m;
+    t->K = t->q + m;
+    t->Kinv = t->K + m * m;
+    t->G = t->Kinv + m * m;
+    t->dK = t->G + m * m;
+    t->Gamma = t->dK + cube;
+    t->dG = t->Gamma + cube;
+    t->first = t->dG + cube;
+    t->dfirst = t->first + cube;
+    nh_tape_eval(t->tape, t->work, q0, t->raw);
+    for (size_t i = 0; i < m; i++) t->scale[i] = 1 / sqrt(t->raw[packed(i, i)]);
+}
+
+void nh_transport_clear(nh_transport *t)
+{
+    nh_tape_work_free(t->work);
+    nh_tape_free(t->tape);
+    nh_free(t->raw);
+}
+
+static bool invert(size_t m, const double *a, double *inverse)
+{
+    double *copy = nh_alloc_array(m * m, sizeof *copy);
+    memcpy(copy, a, m * m * sizeof *copy);
+    for (size_t i = 0; i < m * m; i++) inverse[i] = i % (m + 1) == 0;
+    bool good = nh_solve(m, copy, m, inverse, NULL);
+    nh_free(copy);
+    return good;
+}
+
+/* d_r d_s K_ij in scaled coordinates, from the tape's output. */
+static double second(const nh_transport *t, size_t i, size_t j, size_t r, size_t s)
+{
+    const double *c = t->scale;
+    return t->raw[t->h * (1 + t->m + packed(r, s)) + packed(i, j)] * c[i] * c[j] * c[r] * c[s];
+}
+
+/* Gamma_l,jk = (d_j K_lk + d_k K_lj - d_l K_jk)/2 in `first`, raised in Gamma. */
+static void christoffel(nh_transport *t)
+{
+    size_t m = t->m;
+    for (size_t l = 0; l < m; l++)
+        for (size_t j = 0; j < m; j++)
+            for (size_t k = 0; k < m; k++)
+                t->first[l + m * (j + m * k)] = 0.5 * (t->dK[l + m * (k + m * j)] + t->dK[l + m * (j + m * k)] - t->dK[j + m * (k + m * l)]);
+    nh_multiply(m, m * m, m, t->Kinv, t->first, t->Gamma);
+}
+
+/* G^i_j = Gamma^i_jk X^k and d_p G^i_j = K^il ( d_p(Gamma_l,jk) X^k - d_p K_ln G^n_j ). */
+static void along(nh_transport *t, const double *x)
+{
+    size_t m = t->m;
+    memset(t->G, 0, m * m * sizeof *t->G);
+    for (size_t k = 0; k < m; k++)
+        for (size_t i = 0; i < m * m; i++) t->G[i] += t->Gamma[i + m * m * k] * x[k];
+    for (size_t p = 0; p < m; p++)
+        for (size_t j = 0; j < m; j++)
+            for (size_t l = 0; l < m; l++) {
+                double sum = 0;
+                for (size_t k = 0; k < m; k++)
+                    sum += 0.5 * x[k] * (second(t, l, k, p, j) + second(t, l, j, p, k) - second(t, j, k, p, l)) - t->dK[l + m * (k + m * p)] * t->G[k + m * j];
+                t->dfirst[l + m * (j + m * p)] = sum;
+            }
+    nh_multiply(m, m * m, m, t->Kinv, t->dfirst, t->dG);
+}
+
+bool nh_transport_at(nh_transport *t, const double *q, const double *x)
+{
+    size_t m = t->m;
+    const double *c = t->scale;
+    nh_tape_eval(t->tape, t->work, q, t->raw);
+    double sum = 0;
+    for (size_t i = 0; i < t->h * (1 + m + t->h); i++) sum += t->raw[i] - t->raw[i];
+    if (sum != 0) return false;
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++) {
+            t->K[i + m * j] = t->raw[packed(i, j)] * c[i] * c[j];
+            for (size_t k = 0; k < m; k++) t->dK[i + m * (j + m * k)] = t->raw[t->h * (1 + k) + packed(i, j)] * c[i] * c[j] * c[k];
+        }
+    if (!invert(m, t->K, t->Kinv)) return false;
+    christoffel(t);
+    along(t, x);
+    return true;
+}
+
+/* xi' = B X,   B' = -( xi^l dG_l - B G + G B + Gamma(., BX) ). */
+void nh_transport_rate(const nh_transport *t, const double *x, const double *jet, double *rate)
+{
+    size_t m = t->m;
+    const double *B = jet + m;
+    double *dB = rate + m;
+    for (size_t i = 0; i < m; i++) {
+        rate[i] = 0;
+        for (size_t j = 0; j < m; j++) rate[i] += B[i + m * j] * x[j];
+    }
+    memset(dB, 0, m * m * sizeof *dB);
+    for (size_t l = 0; l < m; l++)
+        for (size_t i = 0; i < m * m; i++) dB[i] -= jet[l] * t->dG[i + m * m * l] + rate[l] * t->Gamma[i + m * m * l];
+    for (size_t j = 0; j < m; j++)
+        for (size_t l = 0; l < m; l++)
+            for (size_t i = 0; i < m; i++) dB[i + m * j] += B[i + m * l] * t->G[l + m * j] - t->G[i + m * l] * B[l + m * j];
+}
+
+/* ---- along a line ---- */
+
+typedef struct {
+    nh_transport *t;
+    const double *from, *x; /* true coordinates; scaled direction */
+    size_t count;
+} way;
+
+static bool rate_of(double s, const double *y, double *rate, void *context)
+{
+    way *w = context;
+    nh_transport *t = w->t;
+    for (size_t i = 0; i < t->m; i++) t->q[i] = w->from[i] + s * w->x[i] * t->scale[i];
+    if (!nh_transport_at(t, t->q, w->x)) return false;
+    for (size_t j = 0; j < w->count; j++) nh_transport_rate(t, w->x, y + j * t->size, rate + j * t->size);
+    return true;
+}
+
+bool nh_transport_along(nh_transport *t, const double *q0, const double *q1, size_t count, double *y, double tolerance)
+{
+    static const double largest = 1e8; /* a jet that has grown so much has lost its digits */
+    double *x = nh_alloc_array(t->m, sizeof *x);
+    way w = {t, q0, x, count};
+    for (size_t i = 0; i < t->m; i++) x[i] = (q1[i] - q0[i]) / t->scale[i];
+    bool good = nh_runge(t->size * count, rate_of, &w, 0, 1, tolerance, largest, y);
+    nh_free(x);
+    return good;
+}

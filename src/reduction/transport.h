@@ -1,0 +1,33 @@
+/* transport: 1-jets of isometries along straight lines (jets.h).
+ *
+ * Works in coordinates divided by the scales s_i = K_ii(q0)^(-1/2), in which the metric has size one. */
+#ifndef NH_TRANSPORT_H
+#define NH_TRANSPORT_H
+
+#include "reduction/kinetic.h"
+
+typedef struct {
+    const nh_kinetic *kinetic;
+    size_t m, h, size;     /* h = m(m+1)/2; size = m + m^2: length of a jet */
+    nh_tape *tape;         /* K, dK, ddK, packed */
+    nh_tape_work *work;
+    double *scale;         /* m */
+    double *raw, *q;
+    double *K, *dK;        /* m^2; dK[i + m*(j + m*k)] = d_k K_ij; scaled */
+    double *Kinv, *Gamma;  /* m^2; Gamma[i + m*(j + m*k)] */
+    double *G, *dG;        /* along a direction X: Gamma^i_jk X^k (m^2); its derivative by q^l, dG[i + m*(j + m*l)] */
+    double *first, *dfirst;
+} nh_transport;
+
+/* q0 fixes the scales. */
+void nh_transport_init(nh_transport *transport, const nh_kinetic *kinetic, const double *q0);
+void nh_transport_clear(nh_transport *transport);
+
+/* Metric and Christoffel symbols at a place (true coordinates), and what the direction x (scaled) needs; false when not finite. */
+bool nh_transport_at(nh_transport *transport, const double *q, const double *x);
+/* The derivative of a jet along the direction x that nh_transport_at was given. */
+void nh_transport_rate(const nh_transport *transport, const double *x, const double *jet, double *rate);
+/* Take `count` jets (columns of y) from q0 to q1; false when the way is blocked. */
+bool nh_transport_along(nh_transport *transport, const double *q0, const double *q1, size_t count, double *y, double tolerance);
+
+#endif

@@ -1,0 +1,198 @@
+#include "report/reduction.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/normal.h"
+#include "expr/print.h"
+
+/* Simplified unless it is so large that nobody would read it. */
+static nh_ex shortened(const nh_reduction *r, nh_ex e)
+{
+    enum { largest = 4000 };
+    return nh_node_count(r->kinetic->dag, e) < largest ? nh_simplify(r->kinetic->dag, e) : e;
+}
+
+size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s, nh_reduction_equation **out)
+{
+    const nh_reduced *o = s->shown;
+    nh_dag *d = r->kinetic->dag;
+    nh_arena *arena = r->kinetic->arena;
+    size_t n = 0;
+    nh_reduction_equation *e = nh_arena_alloc(arena, (o->n + 2 * o->r + o->d + 1) * sizeof *e);
+    for (size_t i = 0; i < o->r; i++) {
+        nh_ex sum = nh_int(d, 0);
+        for (size_t j = 0; j < o->r; j++) sum = nh_add(d, sum, nh_mul(d, o->M[i * o->r + j], o->w[j]));
+        e[n++] = (nh_reduction_equation){o->momentum[i], shortened(r, sum)};
+    }
+    for (size_t i = 0; i < o->n; i++) {
+        bool trivial = false; /* x' is itself one of the velocities */
+        for (size_t j = 0; j < o->r; j++) trivial |= o->dx[i] == o->w[j];
+        if (!trivial) e[n++] = (nh_reduction_equation){nh_name_of(d, o->x[i]), shortened(r, o->dx[i])};
+        if (!trivial) e[n - 1].name = nh_arena_printf(arena, "%s'", e[n - 1].name);
+    }
+    for (size_t i = 0; i < o->r; i++) e[n++] = (nh_reduction_equation){nh_arena_printf(arena, "%s'", o->momentum[i]), shortened(r, o->F[i])};
+    for (size_t a = 0; a < o->d; a++) e[n++] = (nh_reduction_equation){nh_arena_printf(arena, "%s_%zu", s->kind == NH_STAGE_SECOND ? "eta" : "zeta", a + 1), shortened(r, o->zeta[a])};
+    *out = e;
+    return n;
+}
+
+/* ---- text ---- */
+
+static void put_expression(nh_text *out, const char *indent, const char *name, nh_dag *d, nh_ex e, bool verbose)
+{
+    enum { longest = 600 };
+    char *text = nh_print_string(d, e);
+    size_t length = strlen(text);
+    if (length > longest && !verbose) nh_text_addf(out, "%s%s = (%zu characters; --verbose prints them)\n", indent, name, length);
+    else nh_text_addf(out, "%s%s = %s\n", indent, name, text);
+    nh_free(text);
+}
+
+static void put_condition(nh_text *out, const char *what, const nh_condition *c)
+{
+    nh_text_addf(out, "%s %s", what, !c->holds ? "no" : c->all_parameters ? "proved" : c->proved ? "proved here" : "to rounding");
+}
+
+static void put_generators(const nh_reduction *r, const nh_group *g, bool verbose, nh_text *out)
+{
+    for (size_t a = 0; a < g->action.d; a++) {
+        nh_text_addf(out, "  e%zu  ", a + 1);
+        nh_generator_text(r->kinetic, &g->action.generator[a], out);
+        nh_text_add(out, "\n");
+        if (!verbose) continue;
+        nh_text_add(out, "      leaves invariant: ");
+        put_condition(out, "kinetic energy", &g->action.generator[a].metric);
+        put_condition(out, ", potential", &g->action.generator[a].potential);
+        put_condition(out, ", constraints", &g->action.generator[a].constraints);
+        nh_text_add(out, "\n");
+    }
+}
+
+static void put_brackets(const nh_algebra *g, nh_text *out)
+{
+    bool any = false;
+    for (size_t a = 0; a < g->d; a++)
+        for (size_t b = a + 1; b < g->d; b++) {
+            bool first = true;
+            for (size_t k = 0; k < g->d; k++) {
+                double c = g->c[(a * g->d + b) * g->d + k];
+                if (c == 0) continue;
+                if (first) nh_text_addf(out, "%s[e%zu,e%zu] = ", any ? ", " : "  brackets of the Lie algebra: ", a + 1, b + 1);
+                nh_text_addf(out, "%s", c < 0 ? (first ? "-" : " - ") : first ? "" : " + ");
+                if (fabs(c) != 1) nh_text_addf(out, "%.6g ", fabs(c));
+                nh_text_addf(out, "e%zu", k + 1);
+                first = false;
+                any = true;
+            }
+        }
+    nh_text_add(out, any ? "\n" : g->d > 1 ? "  all brackets vanish\n" : "");
+}
+
+static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh_text *out)
+{
+    nh_text_addf(out, g->given ? "Group given: %s, dimension %zu\n" : "Symmetry group: %s, dimension %zu\n", g->name, g->action.d + g->missing);
+    if (g->jets)
+        nh_text_addf(out, "  local symmetries of kinetic energy, potential and constraints: %zu (counted without an ansatz; of the kinetic energy alone: %zu)\n", g->jets->dimension, g->jets->of_metric);
+    put_generators(r, g, verbose, out);
+    put_brackets(&g->action.algebra, out);
+    if (!g->action.d) return;
+    const nh_algebra_report *p = &g->report;
+    nh_text_addf(out, "  centre of dimension %zu, radical %zu, derived series", p->centre, p->radical);
+    for (size_t i = 0; i < p->derived_length; i++) nh_text_addf(out, "%s%zu", i ? ", " : " ", p->derived[i]);
+    nh_text_addf(out, "\n  %s; orbits of dimension %zu", g->action.free ? "acts freely" : "does not act freely", g->action.orbit);
+    if (r->kinetic->affine)
+        nh_text_addf(out, "; V + D %s TQ, S = V cap D of dimension %zu%s", g->action.dimension_assumption ? "=" : "is not", g->action.intersection, g->action.chaplygin ? ": a Chaplygin system" : "");
+    nh_text_add(out, "\n");
+}
+
+static void put_numbers(const nh_reduction_stage *s, nh_text *out)
+{
+    const char *with = s->kind == NH_STAGE_SECOND ? "the first stage" : "the full motion";
+    if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
+    else nh_text_addf(out, "  not compared with %s", with);
+    nh_text_addf(out, "; energy drifts by %.1e", s->energy_drift);
+    if (s->kind == NH_STAGE_SECOND) nh_text_addf(out, ", the momentum by %.1e", s->momentum_drift);
+    nh_text_add(out, "\n");
+    if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
+}
+
+static void put_measure(const nh_chaplygin_measure *m, nh_text *out)
+{
+    if (!m->tested) return;
+    if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : "");
+    else nh_text_addf(out, "  no invariant measure with a density on the shape space (|d Theta| = %.2g)\n", m->curl);
+    if (m->factor) nh_text_add(out, "  a conformal factor makes it Hamiltonian\n");
+    else nh_text_addf(out, "  no conformal factor makes it Hamiltonian%s\n", m->simple ? "" : " (Ups is not phi-simple)");
+}
+
+static void put_second(const nh_second *t, nh_text *out)
+{
+    nh_text_addf(out, "  condition (ii): weak form %.1e, strong form %.1e%s\n", t->weak, t->strong, t->strong > 1e-6 * (1 + t->weak) && t->strong > 1e-9 ? " (the momentum is conserved all the same)" : "");
+    if (t->abelian) nh_text_add(out, "  the momentum in it is constant: a level set, divided by the whole group\n");
+    else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
+}
+
+static void put_chain(const nh_reduction_stage *s, nh_text *out)
+{
+    const nh_ideals *c = s->chain;
+    const nh_poincare *p = &s->poincare;
+    if (!s->by_stages) return;
+    nh_text_add(out, "  by stages along ");
+    for (size_t j = 0; j < c->blocks; j++) {
+        nh_text_add(out, j ? " > {" : "{");
+        for (size_t i = c->start[j]; i < c->d; i++) nh_text_addf(out, "%s%zu", i > c->start[j] ? ", " : "", c->order[i] + 1);
+        nh_text_add(out, "}");
+    }
+    nh_text_addf(out, " (numbers of the generators above); S of dimension %zu\n", p->dimension);
+    nh_text_addf(out, "  vertical and horizontal equations against the true accelerations at %zu places: in one stage %.1e, by stages %.1e\n", p->places,
+                 fmax(p->one_vertical, p->one_horizontal), fmax(p->stages_vertical, p->stages_horizontal));
+    nh_text_addf(out, "  bracket by stages against the bracket %.1e, Euler-Poincare right-hand side %.1e\n", p->bracket, p->euler_poincare);
+}
+
+static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, bool verbose, nh_text *out)
+{
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of"};
+    nh_text_addf(out, "\nStage %zu: %s %s\n", number, titles[s->kind], s->group);
+    for (size_t a = 0; a < s->action->d; a++) {
+        nh_text_add(out, a ? "; " : "  group    ");
+        nh_generator_text(s->action->kinetic, &s->action->generator[a], out);
+    }
+    nh_text_add(out, "\n  shape    ");
+    for (size_t i = 0; i < s->shown->n; i++) nh_text_addf(out, "%s%s", i ? ", " : "", nh_name_of(r->kinetic->dag, s->shown->x[i]));
+    if (!s->shown->n) nh_text_add(out, "none: a point");
+    nh_text_add(out, "\n");
+    if (s->kind == NH_STAGE_SECOND) put_second(s->second, out);
+    nh_reduction_equation *e;
+    size_t n = nh_reduction_equations(r, s, &e);
+    for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, verbose);
+    if (s->kind == NH_STAGE_CHAPLYGIN) put_measure(&s->measure, out);
+    put_chain(s, out);
+    put_numbers(s, out);
+}
+
+static void put_momenta(const nh_reduction *r, bool verbose, nh_text *out)
+{
+    if (!r->kinetic->reducible) return;
+    nh_text_addf(out, "\n%s\n", r->momenta.count ? "Conserved momenta of the group" : "No momentum of the group is conserved (among the sections that were tried)");
+    for (size_t i = 0; i < r->momenta.count; i++) {
+        const nh_momentum *p = &r->momenta.momentum[i];
+        nh_generator field = {.component = p->field};
+        nh_text_addf(out, "  %s of ", p->horizontal ? "horizontal symmetry: momentum" : "gauge momentum");
+        nh_generator_text(r->kinetic, &field, out);
+        nh_text_add(out, p->proved ? " (proved)\n" : " (to rounding)\n");
+        put_expression(out, "    ", "J", r->kinetic->dag, p->value, verbose);
+    }
+}
+
+void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
+{
+    nh_text_addf(out, "%s   with ", r->system->title);
+    for (size_t i = 0; i < r->system->parameters; i++) nh_text_addf(out, "%s%s = %.6g", i ? ", " : "", r->system->parameter[i].name, r->system->parameter[i].value);
+    nh_text_addf(out, "%s\n%zu coordinates, %zu constraint%s\n\n", r->system->parameters ? "" : "no parameters", r->kinetic->m, r->kinetic->f, r->kinetic->f == 1 ? "" : "s");
+    if (r->all) put_group(r, r->all, verbose, out);
+    if (r->group != r->all) put_group(r, r->group, verbose, out);
+    for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, verbose, out);
+    if (r->group->action.d) put_momenta(r, verbose, out);
+    for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%swarning: %s\n", i ? "" : "\n", r->warning[i]);
+}

@@ -1,0 +1,241 @@
+#include <string.h>
+
+#include "base/json.h"
+#include "expr/print.h"
+#include "report/reduction.h"
+
+static void put_expression(nh_json *to, const char *key, nh_dag *d, nh_ex e)
+{
+    char *text = nh_print_string(d, e);
+    nh_json_put_text(to, key, text);
+    nh_free(text);
+}
+
+static void put_condition(nh_json *to, const char *key, const nh_condition *c)
+{
+    nh_json *item = nh_json_put_object(to, key);
+    nh_json_put_bool(item, "holds", c->holds);
+    nh_json_put_bool(item, "proved", c->proved);
+    nh_json_put_bool(item, "for_all_parameters", c->all_parameters);
+    nh_json_put_number(item, "residual", c->residual);
+}
+
+static void put_fields(nh_json *to, const nh_action *g)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_json *list = nh_json_put_array(to, "generators"), *checks;
+    for (size_t a = 0; a < g->d; a++) {
+        nh_json *item = nh_json_add_object(list);
+        for (size_t s = 0; s < k->m; s++)
+            if (!nh_is_zero(k->dag, g->generator[a].component[s])) put_expression(item, k->name[s], k->dag, g->generator[a].component[s]);
+    }
+    checks = nh_json_put_array(to, "invariance");
+    for (size_t a = 0; a < g->d; a++) {
+        nh_json *item = nh_json_add_object(checks);
+        put_condition(item, "kinetic_energy", &g->generator[a].metric);
+        put_condition(item, "potential", &g->generator[a].potential);
+        put_condition(item, "constraints", &g->generator[a].constraints);
+    }
+}
+
+static void put_algebra(nh_json *to, const nh_algebra *g)
+{
+    nh_json *outer = nh_json_put_array(to, "structure_constants");
+    for (size_t a = 0; a < g->d; a++) {
+        nh_json *row = nh_json_add_array(outer);
+        for (size_t b = 0; b < g->d; b++) {
+            nh_json *entry = nh_json_add_array(row);
+            for (size_t k = 0; k < g->d; k++) nh_json_add_number(entry, g->c[(a * g->d + b) * g->d + k]);
+        }
+    }
+}
+
+static void put_series(nh_json *to, const char *key, size_t n, const size_t *dimension)
+{
+    nh_json *list = nh_json_put_array(to, key);
+    for (size_t i = 0; i < n; i++) nh_json_add_number(list, (double)dimension[i]);
+}
+
+static void put_group(nh_json *root, const char *key, const nh_reduction *r, const nh_group *g)
+{
+    nh_json *to = nh_json_put_object(root, key);
+    nh_json_put_number(to, "dimension", (double)(g->action.d + g->missing));
+    nh_json_put_text(to, "name", g->name);
+    put_fields(to, &g->action);
+    put_algebra(to, &g->action.algebra);
+    nh_json_put_number(to, "centre", (double)g->report.centre);
+    nh_json_put_number(to, "radical", (double)g->report.radical);
+    put_series(to, "derived_series", g->report.derived_length, g->report.derived);
+    put_series(to, "lower_central_series", g->report.lower_length, g->report.lower);
+    nh_json_put_number(to, "closure", g->action.closure);
+    nh_json_put_bool(to, "free", g->action.free);
+    nh_json_put_number(to, "orbit", (double)g->action.orbit);
+    nh_json_put_number(to, "isotropy", (double)(g->action.d - g->action.orbit));
+    if (r->kinetic->affine) {
+        nh_json_put_number(to, "intersection", (double)g->action.intersection);
+    } else {
+        nh_json_put_null(to, "intersection");
+    }
+    if (!g->jets) {
+        nh_json_put_null(to, "local");
+        return;
+    }
+    nh_json *local = nh_json_put_object(to, "local");
+    nh_json_put_number(local, "dimension", (double)g->jets->dimension);
+    nh_json_put_number(local, "of_kinetic_energy", (double)g->jets->of_metric);
+    nh_json_put_number(local, "of_kinetic_energy_and_potential", (double)g->jets->of_potential);
+    nh_json_put_number(local, "of_kinetic_energy_and_constraints", (double)g->jets->of_constraints);
+    nh_json_put_number(local, "without_closed_form", (double)g->missing);
+    nh_json_put_number(local, "largest_null_value", g->jets->last_null);
+    nh_json_put_number(local, "smallest_other_value", g->jets->first_other);
+}
+
+static void put_matrix(nh_json *to, const char *key, nh_dag *d, size_t rows, size_t columns, const nh_ex *e)
+{
+    nh_json *outer = nh_json_put_array(to, key);
+    for (size_t i = 0; i < rows; i++) {
+        nh_json *row = nh_json_add_array(outer);
+        for (size_t j = 0; j < columns; j++) {
+            char *text = nh_print_string(d, e[i * columns + j]);
+            nh_json_add_text(row, text);
+            nh_free(text);
+        }
+    }
+}
+
+static void put_chaplygin(nh_json *to, const nh_reduction_stage *s)
+{
+    const nh_chaplygin *c = s->chaplygin;
+    put_matrix(to, "metric", c->dag, c->n, c->n, c->K);
+    put_matrix(to, "connection", c->dag, c->d, c->n, c->A);
+    put_matrix(to, "body_momentum", c->dag, c->d, c->n, c->J);
+    nh_json *list = nh_json_put_array(to, "curvature"), *ups = nh_json_put_array(to, "upsilon");
+    for (size_t i = 0; i < c->n; i++)
+        for (size_t j = i + 1; j < c->n; j++) {
+            nh_json *item = nh_json_add_object(list), *other = nh_json_add_object(ups);
+            nh_json_put_text(item, "i", nh_name_of(c->dag, c->slice->x[i]));
+            nh_json_put_text(item, "j", nh_name_of(c->dag, c->slice->x[j]));
+            nh_json_put_text(other, "i", nh_name_of(c->dag, c->slice->x[i]));
+            nh_json_put_text(other, "j", nh_name_of(c->dag, c->slice->x[j]));
+            nh_json *values = nh_json_put_array(item, "values");
+            for (size_t a = 0; a < c->d; a++) {
+                char *text = nh_print_string(c->dag, c->B[(a * c->n + i) * c->n + j]);
+                nh_json_add_text(values, text);
+                nh_free(text);
+            }
+            nh_ex sum = nh_int(c->dag, 0);
+            for (size_t k = 0; k < c->n; k++) sum = nh_add(c->dag, sum, nh_mul(c->dag, c->U[(k * c->n + i) * c->n + j], c->reduced.w[k]));
+            put_expression(other, "value", c->dag, sum);
+        }
+    nh_json *m = nh_json_put_object(to, "measure");
+    nh_json_put_bool(m, "exists", s->measure.measure);
+    nh_json_put_bool(m, "liouville", s->measure.measure && s->measure.size == 0);
+    nh_json_put_bool(m, "phi_simple", s->measure.simple);
+    nh_json_put_bool(m, "conformal_factor", s->measure.factor);
+    nh_json_put_number(m, "curl", s->measure.curl);
+}
+
+static void put_second(nh_json *to, const nh_reduction_stage *s)
+{
+    const nh_second *t = s->second;
+    nh_dag *d = t->slice.dag;
+    put_matrix(to, "locked_inertia", d, t->d, t->d, t->inertia);
+    put_matrix(to, "mechanical_connection", d, t->d, t->n, t->Av);
+    put_matrix(to, "metric", d, t->n, t->n, t->Kt);
+    nh_json_put_bool(to, "abelian", t->abelian);
+    nh_json_put_number(to, "coadjoint_orbit", (double)t->orbit);
+    nh_json_put_number(to, "isotropy", (double)(t->d - t->orbit));
+    nh_json_put_number(to, "condition_weak", t->weak);
+    nh_json_put_number(to, "condition_strong", t->strong);
+    nh_json_put_number(to, "momentum_drift", s->momentum_drift);
+}
+
+static void put_chain(nh_json *to, const nh_reduction_stage *s)
+{
+    const nh_ideals *c = s->chain;
+    const nh_poincare *p = &s->poincare;
+    nh_json *list = nh_json_put_array(to, "chain"), *check;
+    for (size_t j = 0; j < c->blocks; j++) {
+        nh_json *block = nh_json_add_array(list);
+        for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) nh_json_add_number(block, (double)c->order[i] + 1);
+    }
+    check = nh_json_put_object(to, "by_stages");
+    nh_json_put_number(check, "intersection", (double)p->dimension);
+    nh_json_put_number(check, "places", (double)p->places);
+    nh_json_put_number(check, "one_stage_vertical", p->one_vertical);
+    nh_json_put_number(check, "one_stage_horizontal", p->one_horizontal);
+    nh_json_put_number(check, "by_stages_vertical", p->stages_vertical);
+    nh_json_put_number(check, "by_stages_horizontal", p->stages_horizontal);
+    nh_json_put_number(check, "bracket", p->bracket);
+    nh_json_put_number(check, "euler_poincare", p->euler_poincare);
+}
+
+static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction_stage *s)
+{
+    nh_json *to = nh_json_add_object(stages), *list = nh_json_put_array(to, "shape");
+    nh_dag *d = r->kinetic->dag;
+    nh_json_put_text(to, "kind", nh_stage_kind_name(s->kind));
+    nh_json_put_text(to, "group", s->group);
+    put_fields(to, s->action);
+    for (size_t i = 0; i < s->shown->n; i++) nh_json_add_text(list, nh_name_of(d, s->shown->x[i]));
+    list = nh_json_put_array(to, "velocities");
+    for (size_t i = 0; i < s->shown->r; i++) nh_json_add_text(list, nh_name_of(d, s->shown->w[i]));
+    nh_reduction_equation *e;
+    size_t n = nh_reduction_equations(r, s, &e);
+    nh_json *momentum = nh_json_put_array(to, "momentum"), *equations = nh_json_put_array(to, "equations"), *group = nh_json_put_array(to, "group_velocity");
+    for (size_t i = 0; i < n; i++) {
+        bool rate = i >= s->shown->r && i + s->shown->d < n;
+        nh_json *item = nh_json_add_object(i < s->shown->r ? momentum : rate ? equations : group);
+        nh_json_put_text(item, "of", rate ? nh_arena_strndup(r->kinetic->arena, e[i].name, strlen(e[i].name) - 1) : e[i].name);
+        put_expression(item, rate ? "rate" : "value", d, e[i].value);
+    }
+    if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, s);
+    if (s->kind == NH_STAGE_SECOND) put_second(to, s);
+    if (s->by_stages) put_chain(to, s);
+    if (s->compared) nh_json_put_number(to, s->kind == NH_STAGE_SECOND ? "agreement_with_first" : "agreement_with_full", s->agreement);
+    else nh_json_put_null(to, "agreement_with_full");
+    nh_json_put_number(to, "reached", s->reached);
+    nh_json_put_number(to, "energy_drift", s->energy_drift);
+    nh_json_put_number(to, "restarts", (double)s->restarts);
+    nh_json_put_number(to, "seconds", s->seconds);
+    nh_json_put_number(to, "speedup", s->speedup);
+}
+
+static void put_momenta(nh_json *root, const nh_reduction *r)
+{
+    nh_json *list = nh_json_put_array(root, "momenta");
+    const nh_kinetic *k = r->kinetic;
+    for (size_t i = 0; i < r->momenta.count; i++) {
+        const nh_momentum *p = &r->momenta.momentum[i];
+        nh_json *item = nh_json_add_object(list), *field = nh_json_put_object(item, "field");
+        nh_json_put_text(item, "kind", p->horizontal ? "horizontal" : "gauge");
+        for (size_t s = 0; s < k->m; s++)
+            if (!nh_is_zero(k->dag, p->field[s])) put_expression(field, k->name[s], k->dag, p->field[s]);
+        put_expression(item, "expression", k->dag, p->value);
+        nh_json_put_bool(item, "proved", p->proved);
+    }
+}
+
+char *nh_reduction_json(const nh_reduction *r)
+{
+    nh_json *root = nh_json_object(), *parameters, *warnings, *stages;
+    nh_json_put_number(root, "schema", 1);
+    nh_json_put_text(root, "version", NH_VERSION);
+    nh_json_put_text(root, "system", r->system->name);
+    parameters = nh_json_put_object(root, "parameters");
+    for (size_t i = 0; i < r->system->parameters; i++) nh_json_put_number(parameters, r->system->parameter[i].name, r->system->parameter[i].value);
+    put_group(root, "group", r, r->all ? r->all : r->group);
+    if (r->all && r->group != r->all) put_group(root, "divided", r, r->group);
+    const nh_action *g = &r->group->action;
+    nh_json_put_bool(root, "dimension_assumption", g->dimension_assumption);
+    bool chaplygin = false;
+    for (size_t i = 0; i < r->stages; i++) chaplygin |= r->stage[i].kind == NH_STAGE_CHAPLYGIN;
+    nh_json_put_bool(root, "chaplygin", chaplygin);
+    stages = nh_json_put_array(root, "stages");
+    for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
+    put_momenta(root, r);
+    nh_json_put_number(root, "seconds", r->seconds);
+    warnings = nh_json_put_array(root, "warnings");
+    for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);
+    return nh_json_finish(root);
+}

@@ -1,0 +1,216 @@
+#include "study/reduce.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/linalg.h"
+#include "study/reduce_internal.h"
+#include "study/simulate.h"
+
+const char *nh_stage_kind_name(nh_stage_kind kind)
+{
+    static const char *const names[] = {"chaplygin", "second", "lagrange-dalembert-poincare", "slice"};
+    return names[kind];
+}
+
+void nh_reduction_warn(nh_reduction *r, const char *format, ...)
+{
+    char text[600];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    if (r->warnings < sizeof r->warning / sizeof *r->warning) r->warning[r->warnings++] = nh_arena_strdup(r->arena, text);
+}
+
+/* ---- the initial state ---- */
+
+/* The nearest velocity (in the metric of the coordinates) that the constraints allow; by how much it moved. */
+static double project(const nh_kinetic *k, const double *q, double *v)
+{
+    size_t m = k->m, f = k->f, ld = m > f ? m : f;
+    double *a = nh_alloc_array(f * m + ld + 1, sizeof *a), *b = a + f * m, *omega = nh_alloc_array(f * m + 1, sizeof *omega), moved = 0;
+    if (f) nh_kinetic_values(k, f * m, k->omega, q, omega);
+    for (size_t i = 0; i < f; i++)
+        for (size_t s = 0; s < m; s++) {
+            a[i + s * f] = omega[i * m + s];
+            b[i] += omega[i * m + s] * v[s];
+        }
+    if (f && nh_least_squares(f, m, a, 1, b, ld, 1e-13) >= 0)
+        for (size_t s = 0; s < m; s++) {
+            v[s] -= b[s];
+            moved = fmax(moved, fabs(b[s]));
+        }
+    nh_free(a);
+    nh_free(omega);
+    return moved;
+}
+
+static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+{
+    static const double allowed = 1e-9;
+    size_t m = r->kinetic->m;
+    r->initial = (nh_state){0, nh_arena_alloc(r->arena, m * sizeof(double)), nh_arena_alloc(r->arena, m * sizeof(double)), NULL};
+    memcpy(r->initial.q, r->kinetic->place, m * sizeof(double));
+    memcpy(r->initial.v, r->kinetic->speed, m * sizeof(double));
+    if (!q->initial) return true;
+    nh_analysis *own = nh_simulate_initial(r->arena, q->initial, error);
+    bool good = own && nh_analysis_resolve(own, r->model, error);
+    if (good) {
+        memcpy(r->initial.q, own->initial.q, m * sizeof(double));
+        memcpy(r->initial.v, own->initial.v, m * sizeof(double));
+        double moved = r->kinetic->linear ? project(r->kinetic, r->initial.q, r->initial.v) : 0;
+        if (moved > allowed) nh_reduction_warn(r, "the initial velocities violated the constraints; the nearest that do not are taken (moved by %.3g)", moved);
+    }
+    nh_analysis_free(own);
+    return good;
+}
+
+/* ---- the group ---- */
+
+static char *trimmed(nh_arena *arena, const char *text, size_t length)
+{
+    while (length && strchr(" \t", *text)) text++, length--;
+    while (length && strchr(" \t", text[length - 1])) length--;
+    return nh_arena_strndup(arena, text, length);
+}
+
+static bool bad_field(const nh_reduction *r, const char *item, nh_error *error)
+{
+    nh_fail(error, NH_USAGE, "--group", "`%.200s` is not a component of a field", item);
+    return nh_error_hint(error, "write fields as `%s=1; ...`: components along coordinates by commas, fields by semicolons", r->kinetic->name[0]);
+}
+
+/* "theta=1, x=-y, y=x" */
+static bool parse_field(nh_reduction *r, const char *text, nh_ex *component, nh_error *error)
+{
+    const nh_kinetic *k = r->kinetic;
+    for (size_t s = 0; s < k->m; s++) component[s] = nh_int(k->dag, 0);
+    for (const char *c = text; *c;) {
+        size_t length = strcspn(c, ",");
+        char *item = trimmed(r->arena, c, length), *equal = strchr(item, '=');
+        if (!equal) return bad_field(r, item, error);
+        char *name = trimmed(r->arena, item, (size_t)(equal - item));
+        long s = nh_system_coordinate(r->system, name);
+        if (s < 0) {
+            nh_fail(error, NH_USAGE, "--group", "`%.100s` is not a coordinate", name);
+            const char *near = nh_text_nearest(name, k->name, k->m);
+            return near ? nh_error_hint(error, "did you mean `%s`?", near) : bad_field(r, item, error);
+        }
+        if (!nh_system_expression_text(r->system, "--group", equal + 1, 0, NULL, &component[s], error)) return false;
+        for (size_t j = 0; j < k->m; j++)
+            if (nh_depends(k->dag, component[s], k->v[j])) return nh_fail(error, NH_USAGE, "--group", "a velocity occurs in the component of `%s`: symmetries are fields on configuration space", name);
+        c += length + (c[length] == ',');
+    }
+    return true;
+}
+
+static bool group_of_fields(nh_reduction *r, const char *text, nh_error *error)
+{
+    size_t most = 1, n = 0;
+    for (const char *c = text; *c; c++) most += *c == ';';
+    nh_generator *g = nh_alloc_array(most, sizeof *g);
+    nh_ex *component = nh_alloc_array(r->kinetic->m, sizeof *component);
+    bool good = true;
+    for (const char *c = text; *c && good;) {
+        size_t length = strcspn(c, ";");
+        char *item = trimmed(r->arena, c, length);
+        if (*item) {
+            good = parse_field(r, item, component, error);
+            if (good) nh_generator_init(&g[n++], r->kinetic, NULL, component, &r->options);
+        }
+        c += length + (c[length] == ';');
+    }
+    if (good && n) r->group = nh_group_of(r->kinetic, n, g, &r->options);
+    if (good && !n) good = nh_fail(error, NH_USAGE, "--group", "no field is given");
+    nh_free(g);
+    nh_free(component);
+    return good && nh_action_check(&r->group->action, error);
+}
+
+/* "1, 2, 5": generators of the group that was found. */
+static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
+{
+    size_t d = r->all->action.d, n = 0;
+    nh_generator *g = nh_alloc_array(strlen(text) + 1, sizeof *g);
+    bool good = true;
+    for (const char *c = text; *c && good;) {
+        char *end;
+        long i = strtol(c, &end, 10);
+        if (end == c) {
+            c++;
+            continue;
+        }
+        good = i >= 1 && (size_t)i <= d;
+        if (good) g[n++] = r->all->action.generator[i - 1];
+        else nh_fail(error, NH_USAGE, "--group", "there is no generator %ld: %zu were found", i, d);
+        c = end;
+    }
+    if (good) r->group = nh_group_of(r->kinetic, n, g, &r->options);
+    nh_free(g);
+    return good && nh_action_check(&r->group->action, error);
+}
+
+static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+{
+    bool numbers = q->group && !q->group[strspn(q->group, "0123456789 ,;")];
+    if (!q->group || numbers) {
+        r->all = nh_group_find(r->kinetic, &r->options, error);
+        if (!r->all) return false;
+        if (r->all->missing) nh_reduction_warn(r, "%zu further local symmetries have no closed form in the functions that were tried", r->all->missing);
+    }
+    if (numbers) return group_of_numbers(r, q->group, error);
+    if (q->group) return group_of_fields(r, q->group, error);
+    r->group = r->all;
+    return true;
+}
+
+/* ---- all of it ---- */
+
+static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+{
+    r->system = nh_system_read(q->system_path, q->settings, q->setting, error);
+    if (!r->system) return false;
+    r->model = nh_model_bare(r->system, nh_chart_create(r->system, q->chart, (uint64_t)q->options.seed, error));
+    if (!r->model) return false;
+    r->kinetic = nh_kinetic_create(r->model, (uint64_t)q->options.seed, error);
+    return r->kinetic != NULL;
+}
+
+nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
+{
+    clock_t begin = clock();
+    nh_arena *arena = nh_arena_create();
+    nh_reduction *r = nh_arena_alloc(arena, sizeof *r);
+    r->arena = arena;
+    r->options = q->options;
+    r->until = q->options.until;
+    r->chain_text = q->chain;
+    nh_linalg_threads(1);
+    bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error);
+    if (good && !r->kinetic->reducible) nh_reduction_warn(r, "the symmetries are found, but the system is not reduced: %s", r->kinetic->obstacle);
+    if (good && r->kinetic->reducible && r->group->action.d) good = nh_reduction_stages(r, error) && nh_momenta_find(&r->momenta, &r->group->action, &r->options, error);
+    r->seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
+    if (good) return r;
+    nh_reduction_free(r);
+    return NULL;
+}
+
+void nh_reduction_free(nh_reduction *r)
+{
+    if (!r) return;
+    for (size_t i = 0; i < 4; i++) nh_action_clear(&r->action[i]);
+    for (size_t i = 0; i < 2; i++) nh_second_clear(&r->second[i]);
+    nh_ideals_clear(&r->chain);
+    for (size_t i = 0; i < r->stages; i++) nh_free(r->stage[i].group);
+    if (r->group != r->all) nh_group_free(r->group);
+    nh_group_free(r->all);
+    nh_kinetic_free(r->kinetic);
+    nh_model_free(r->model);
+    nh_system_free(r->system);
+    nh_arena_free(r->arena);
+}

@@ -1,0 +1,76 @@
+/* reduce: the symmetry group of a system, what kind of reduction it allows, the reduction, and the reduced motions against the full one. */
+#ifndef NH_REDUCE_H
+#define NH_REDUCE_H
+
+#include "motion/dynamics.h"
+#include "reduction/group.h"
+#include "reduction/momenta.h"
+#include "reduction/poincare.h"
+#include "reduction/reconstruct.h"
+#include "reduction/second.h"
+
+typedef struct {
+    const char *system_path;
+    size_t settings;
+    const nh_setting *setting;
+    nh_chart_choice chart;
+    const char *initial;      /* "phi=0, omega=2", or NULL */
+    const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
+    const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
+    nh_options options;
+} nh_reduce_request;
+
+typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE } nh_stage_kind;
+
+/* One stage, written on a slice through the initial state; `shown` is the same on the slice y = 0, where it is regular there. */
+typedef struct {
+    nh_stage_kind kind;
+    char *group;              /* name of the group divided out */
+    const nh_action *action;
+    const nh_slice *slice;
+    const nh_reduced *reduced, *shown;
+    const nh_chaplygin *chaplygin; /* shown; of the first kind */
+    nh_chaplygin_measure measure;
+    const nh_second *second;  /* shown; of the second kind */
+    bool by_stages;           /* third kind: were the equations by stages formed? */
+    const nh_ideals *chain;
+    nh_poincare poincare;
+    double agreement;         /* largest difference of a position from the full motion (second kind: from the first stage), relative to 1 + size */
+    double reached;           /* time up to which */
+    double energy_drift;      /* of the reduced motion, relative */
+    double momentum_drift;    /* second kind: of the spatial momentum */
+    double seconds, speedup;  /* of the reduced motion; full over reduced */
+    size_t restarts;
+    bool compared, complete;
+    char note[256];
+} nh_reduction_stage;
+
+typedef struct {
+    nh_arena *arena;
+    nh_system *system;
+    nh_model *model;          /* bare */
+    nh_kinetic *kinetic;
+    nh_group *all;            /* the whole symmetry group; NULL where fields were given */
+    nh_group *group;          /* the one that is reduced by (may be `all`) */
+    nh_options options;
+    nh_state initial;
+    double until, full_seconds;
+    size_t stages;
+    nh_reduction_stage stage[4];
+    nh_action action[4];      /* of the stages */
+    nh_second second[2];
+    nh_ideals chain;
+    const char *chain_text;
+    nh_momenta momenta;
+    size_t warnings;
+    const char *warning[16];
+    double seconds;
+} nh_reduction;
+
+/* NULL with a message on bad input (a file, fields that are no symmetries or do not close, a singular place). */
+nh_reduction *nh_reduce(const nh_reduce_request *request, nh_error *error);
+void nh_reduction_free(nh_reduction *reduction);
+
+const char *nh_stage_kind_name(nh_stage_kind kind);
+
+#endif

@@ -1,0 +1,33 @@
+/* reduce_internal: shared by reduce.c (the question), reduce_stages.c (the stages and their motions) and reduce_whole.c (the whole group at once). */
+#ifndef NH_REDUCE_INTERNAL_H
+#define NH_REDUCE_INTERNAL_H
+
+#include "study/reduce.h"
+
+enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 20000 };
+
+/* What stages are compared with. */
+typedef struct {
+    nh_reduction *r;
+    double *times;        /* NH_REDUCTION_OUTPUTS */
+    size_t reached;       /* outputs of the full motion */
+    double *full;         /* outputs x 2 m */
+} nh_reduction_bench;
+
+/* The slice through a place, and the one that is shown: y = 0 where that is regular. */
+void nh_reduction_make_slices(nh_reduction *reduction, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown);
+nh_reduction_stage *nh_reduction_new_stage(nh_reduction *reduction, nh_stage_kind kind, const nh_action *action);
+/* Integrate from z, reconstruct, compare with the positions `want` (stride apart) at the first `reached` outputs. */
+void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, const double *z, const double *want, size_t stride, size_t reached);
+
+/* A subset of the generators that acts freely, as large as possible; the whole group when that does. */
+bool nh_reduction_free_subgroup(nh_reduction *reduction, nh_action *out);
+/* Divide a group out at once, with the equations by stages where V + D = TQ. */
+bool nh_reduction_whole(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
+
+/* Add a warning to the result. */
+void nh_reduction_warn(nh_reduction *reduction, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Choose the stages, carry them out and compare their motions with the full one. */
+bool nh_reduction_stages(nh_reduction *reduction, nh_error *error);
+
+#endif

@@ -1,0 +1,362 @@
+/* reduce_stages: which reductions a system allows, carried out, and their motions against the full one. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "reduction/subspace.h"
+#include "study/reduce_internal.h"
+
+
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double difference(size_t n, const double *a, const double *b)
+{
+    double worst = 0;
+    for (size_t i = 0; i < n; i++) worst = fmax(worst, fabs(a[i] - b[i]) / (1 + fabs(b[i])));
+    return worst;
+}
+
+/* ---- the full motion ---- */
+
+/* Motions are computed with a tenth of the tolerance, so that errors that add up along them stay below a hundred tolerances. */
+static double local_tolerance(const nh_reduction *r) { return fmax(r->options.tolerance / 10, 1e-14); }
+
+/* sigma_min / sigma_max of the metric with unit diagonal: small near a pole of the coordinates. */
+static double regularity(const nh_kinetic *k, const double *q)
+{
+    size_t m = k->m;
+    double *K = nh_alloc_array(m * m + m, sizeof *K), *s = K + m * m, *unit = nh_alloc_array(m, sizeof *unit), ratio = 0;
+    nh_kinetic_values(k, m * m, k->K, q, K);
+    for (size_t i = 0; i < m; i++) unit[i] = 1 / sqrt(K[i * (m + 1)]);
+    for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
+    nh_singular_values(m, m, K, s);
+    if (s[0] > 0) ratio = s[m - 1] / s[0];
+    nh_free(K);
+    nh_free(unit);
+    return ratio;
+}
+
+/* How far the coarser of two motions of one system agrees with the finer, and stays away from poles of the coordinates (beyond one, the same
+ * place may have other coordinates): number of NH_REDUCTION_OUTPUTS. */
+static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
+{
+    static const double pole = 0.002; /* of the regularity at the start */
+    size_t n = 0, m = k->m, least = coarse->count < fine->count ? coarse->count : fine->count;
+    double start = regularity(k, fine->state);
+    while (n < least && difference(m, coarse->state + n * 2 * m, fine->state + n * 2 * m) <= allowed && regularity(k, fine->state + n * 2 * m) > pole * start) n++;
+    return n;
+}
+
+/* The reference is computed again with a smaller tolerance: what is compared is then the error of the reduced motion, and where the two part (at a
+ * pole of the coordinates) nothing is compared any more. */
+static bool full_motion(nh_reduction_bench *b, nh_error *error)
+{
+    static const double finest = 1e-13, lost = 1e5; /* in tolerances */
+    nh_reduction *r = b->r;
+    size_t m = r->kinetic->m;
+    nh_bordered *bordered = nh_bordered_create(r->model);
+    nh_flow_problem problem = nh_bordered_flow(bordered);
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    double *z = nh_alloc_array(2 * m, sizeof *z), begin = now();
+    memcpy(z, r->initial.q, m * sizeof *z);
+    memcpy(z + m, r->initial.v, m * sizeof *z);
+    nh_motion *coarse = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error);
+    r->full_seconds = now() - begin;
+    options.rtol = fmin(options.rtol, finest);
+    nh_motion *motion = coarse ? nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error) : NULL;
+    if (motion) {
+        b->reached = reliable(r->kinetic, coarse, motion, lost * r->options.tolerance);
+        if (b->reached < motion->count)
+            nh_reduction_warn(r, "the full motion in these coordinates is followed up to t = %.4g only: there it comes near a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
+        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
+        memcpy(b->full, motion->state, motion->count * 2 * m * sizeof *b->full);
+        if (!motion->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", motion->end_time, motion->note);
+    }
+    nh_motion_free(coarse);
+    nh_motion_free(motion);
+    nh_bordered_free(bordered);
+    nh_free(z);
+    return b->full != NULL;
+}
+
+/* ---- a stage ---- */
+
+static char *name_of(nh_reduction *r, const nh_action *action)
+{
+    nh_group *g = nh_group_of(action->kinetic, action->d, action->generator, &r->options);
+    char *name = nh_strdup(g->name);
+    nh_group_free(g);
+    return name;
+}
+
+static bool slice_is_good(const nh_slice *s)
+{
+    enum { trials = 8 };
+    static const double regular = 1e-3;
+    const nh_kinetic *k = s->kinetic;
+    double *q = nh_alloc_array(k->m, sizeof *q), *minor = nh_alloc_array(s->d * s->d + k->m * s->d + s->d + 1, sizeof *minor), *E = minor + s->d * s->d, *sv = E + k->m * s->d;
+    bool good = true;
+    for (size_t p = 0; p < trials && p < k->places && good && s->d; p++) {
+        memcpy(q, k->place + p * k->m, k->m * sizeof *q);
+        for (size_t a = 0; a < s->d; a++) q[s->along[a]] = s->y0[a];
+        nh_action_values(s->action, q, E);
+        for (size_t i = 0; i < s->d; i++)
+            for (size_t a = 0; a < s->d; a++) minor[i + a * s->d] = E[s->along[i] + a * k->m];
+        good = isfinite(nh_largest(s->d * s->d, minor));
+        nh_singular_values(s->d, s->d, minor, sv);
+        good = good && sv[s->d - 1] > regular * sv[0];
+    }
+    nh_free(q);
+    nh_free(minor);
+    return good;
+}
+
+/* The slice through a place, and the one that is shown: y = 0 where that is regular. */
+void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown)
+{
+    size_t m = action->kinetic->m, d = action->d, *shape = nh_arena_alloc(r->arena, (m + 1) * sizeof *shape), *along = shape + (m - d);
+    double *y = nh_alloc_array(d + 1, sizeof *y), *zero = nh_alloc_array(d + 1, sizeof *zero);
+    nh_slice_choose(action, shape, along);
+    bool same = true;
+    for (size_t a = 0; a < d; a++) same &= (y[a] = q[along[a]]) == 0;
+    *through = nh_arena_alloc(r->arena, sizeof **through);
+    *shown = nh_arena_alloc(r->arena, sizeof **shown);
+    nh_slice_init(*through, action, shape, along, y);
+    **shown = (nh_slice){.kinetic = action->kinetic, .action = action, .n = m - d, .d = d, .shape = shape, .along = along, .y0 = zero};
+    if (!same && slice_is_good(*shown)) nh_slice_init(*shown, action, shape, along, zero);
+    else **shown = **through;
+    nh_free(y);
+    nh_free(zero);
+}
+
+/* Integrate, reconstruct, compare: positions `want` (stride apart) are those of the motion that is to be met. */
+void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const double *z, const double *want, size_t stride, size_t reached)
+{
+    nh_reduction *r = b->r;
+    nh_error trouble = {0};
+    nh_reduced_flow *flow = nh_reduced_flow_create(s->reduced);
+    nh_flow_problem problem = nh_reduced_flow_problem(flow);
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    double begin = now(), e0 = 0, e1 = 0;
+    nh_motion *motion = problem.size ? nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble) : NULL;
+    s->seconds = now() - begin;
+    s->speedup = s->seconds > 0 ? r->full_seconds / s->seconds : 0;
+    if (motion && nh_reduced_flow_at(flow, z, NULL, NULL, NULL, &e0))
+        for (size_t i = 1; i < motion->count; i++)
+            if (nh_reduced_flow_at(flow, motion->state + i * motion->size, NULL, NULL, NULL, &e1)) s->energy_drift = fmax(s->energy_drift, fabs(e1 - e0) / (1 + fabs(e0)));
+    nh_motion_free(motion);
+    nh_reduced_flow_free(flow);
+    nh_options finer = r->options;
+    finer.tolerance = options.rtol;
+    finer.steps = options.max_steps;
+    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, NH_REDUCTION_OUTPUTS, b->times, &finer, &trouble);
+    if (!c) {
+        snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
+        return;
+    }
+    size_t n = c->count < reached ? c->count : reached;
+    s->complete = c->complete;
+    s->restarts = c->restarts;
+    s->compared = n > 1;
+    if (n > 1) s->reached = b->times[n - 1];
+    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, difference(c->m, c->q + i * c->m, want + i * stride));
+    snprintf(s->note, sizeof s->note, "%.250s", c->note);
+    nh_reconstruction_free(c);
+}
+
+nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
+{
+    nh_reduction_stage *s = &r->stage[r->stages++];
+    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action)};
+    return s;
+}
+
+/* ---- Chaplygin ---- */
+
+static const nh_chaplygin *chaplygin_on(nh_reduction *r, const nh_slice *slice, nh_error *error)
+{
+    nh_chaplygin *c = nh_arena_alloc(r->arena, sizeof *c);
+    return nh_chaplygin_init(c, slice, error) ? c : NULL;
+}
+
+static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, const nh_chaplygin **through, nh_error *error)
+{
+    nh_reduction *r = b->r;
+    nh_slice *slice, *shown;
+    size_t m = r->kinetic->m;
+    nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
+    const nh_chaplygin *c = *through = chaplygin_on(r, slice, error), *pretty = slice->K == shown->K ? c : chaplygin_on(r, shown, error);
+    if (!c || !pretty) return false;
+    nh_reduction_stage *s = nh_reduction_new_stage(r, NH_STAGE_CHAPLYGIN, action);
+    s->slice = slice;
+    s->reduced = &c->reduced;
+    s->shown = &pretty->reduced;
+    s->chaplygin = pretty;
+    s->measure = nh_chaplygin_measure_of(c, &r->options);
+    double *x = nh_alloc_array(4 * m + 1, sizeof *x), *w = x + m, *z = w + m;
+    for (size_t i = 0; i < slice->n; i++) { /* x need not be invariant, but x' on the slice is that of the frame */
+        x[i] = r->initial.q[slice->shape[i]];
+    }
+    bool good = nh_slice_components(slice, r->initial.q, r->initial.v, w) && nh_reduced_start(s->reduced, x, w, z);
+    if (good) nh_reduction_compare(b, s, z, b->full, 2 * m, b->reached);
+    nh_free(x);
+    return good || nh_fail(error, NH_NUMERIC, "", "the initial state is a singular place of the slice");
+}
+
+/* ---- the second stage ---- */
+
+/* Combinations of the generators outside the first group that normalise it and satisfy (ii), as fields on Q. */
+static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t rest, const size_t *index, nh_ex *field)
+{
+    nh_dag *d = r->kinetic->dag;
+    size_t m = r->kinetic->m;
+    nh_ex *all = nh_alloc_array(rest * m + 1, sizeof *all);
+    double *c = nh_alloc_array(rest * rest + 1, sizeof *c);
+    for (size_t i = 0; i < rest; i++) memcpy(all + i * m, r->group->action.generator[index[i]].component, m * sizeof *all);
+    size_t n = nh_second_candidates(first, rest, all, &r->options, c);
+    for (size_t j = 0; j < n; j++)
+        for (size_t s = 0; s < m; s++) {
+            field[j * m + s] = nh_int(d, 0);
+            for (size_t i = 0; i < rest; i++)
+                if (c[i + j * rest] != 0) field[j * m + s] = nh_add(d, field[j * m + s], nh_mul(d, nh_real(d, c[i + j * rest]), all[i * m + s]));
+        }
+    nh_free(all);
+    nh_free(c);
+    return n;
+}
+
+/* Drift of e_a^s p_s along the once reduced motion, and that motion's positions. */
+static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, const nh_second *t, const double *z, double *drift, size_t *reached)
+{
+    nh_reduction *r = b->r;
+    size_t n = first->n, d = t->d;
+    nh_error trouble = {0};
+    nh_reduced_flow *flow = nh_reduced_flow_create(&first->reduced);
+    nh_flow_problem problem = nh_reduced_flow_problem(flow);
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
+    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d, sizeof *E), *start = E + n * d, size = 1;
+    *drift = 0;
+    *reached = motion ? motion->count : 0;
+    for (size_t i = 0; i < *reached; i++) {
+        const double *at = motion->state + i * 2 * n;
+        memcpy(out + i * n, at, n * sizeof *out);
+        nh_action_values(&t->action, at, E);
+        for (size_t a = 0; a < d; a++) {
+            double momentum = 0;
+            for (size_t k = 0; k < n; k++) momentum += E[k + a * n] * at[n + k];
+            if (i == 0) start[a] = momentum, size = fmax(size, fabs(momentum));
+            *drift = fmax(*drift, fabs(momentum - start[a]) / size);
+        }
+    }
+    nh_motion_free(motion);
+    nh_reduced_flow_free(flow);
+    nh_free(E);
+    return out;
+}
+
+/* (x, w) of the second stage from those of the first: v = zeta + Av x'. */
+static bool second_state(const nh_second *t, const double *x, const double *w, double *z)
+{
+    size_t n = t->n, d = t->d, m = n + d;
+    double *u = nh_alloc_array(3 * m + d * n + 1, sizeof *u), *x2 = u + m, *w2 = x2 + m, *Av = w2 + m;
+    bool good = nh_slice_components(&t->slice, x, w, u);
+    nh_kinetic_values(t->hat, d * n, t->Av, x, Av);
+    for (size_t i = 0; i < n; i++) x2[i] = x[t->slice.shape[i]], w2[i] = u[i];
+    for (size_t a = 0; a < d; a++) {
+        w2[n + a] = u[n + a];
+        for (size_t i = 0; i < n; i++) w2[n + a] += Av[a * n + i] * u[i];
+    }
+    good = good && nh_reduced_start(&t->reduced, x2, w2, z);
+    nh_free(u);
+    return good;
+}
+
+static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_t d, const nh_ex *field, nh_error *error)
+{
+    nh_reduction *r = b->r;
+    nh_second *t = &r->second[0], *pretty = t;
+    const nh_slice *s1 = first->slice;
+    size_t n = first->n, *shape = nh_alloc_array(2 * n + 2, sizeof *shape), *along = shape + n + 1;
+    double *x = nh_alloc_array(8 * n + 8, sizeof *x), *u = x + n, *z = u + s1->m + 1, *y0 = nh_alloc_array(n + 1, sizeof *y0);
+    bool good = nh_second_init(t, first, d, field, &r->options, error);
+    if (good) {
+        nh_slice_choose(&t->action, shape, along);
+        for (size_t i = 0; i < n; i++) x[i] = r->initial.q[s1->shape[i]];
+        for (size_t a = 0; a < d; a++) y0[a] = x[along[a]];
+        good = nh_second_equations(t, shape, along, y0, error) && nh_slice_components(s1, r->initial.q, r->initial.v, u) && nh_reduced_start(&first->reduced, x, u, z);
+    }
+    const nh_chaplygin *simple = good ? r->stage[0].chaplygin : NULL;
+    if (simple && simple != first && r->stage[0].kind == NH_STAGE_CHAPLYGIN) { /* the same on the slices y = 0 */
+        nh_error trouble = {0};
+        memset(y0, 0, n * sizeof *y0);
+        if (nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) && nh_second_equations(&r->second[1], shape, along, y0, &trouble) && slice_is_good(&r->second[1].slice)) pretty = &r->second[1];
+    }
+    if (good) {
+        size_t reached;
+        nh_reduction_stage *s = nh_reduction_new_stage(r, NH_STAGE_SECOND, &t->action);
+        s->second = pretty;
+        s->slice = &t->slice;
+        s->reduced = &t->reduced;
+        s->shown = &pretty->reduced;
+        double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
+        good = second_state(t, x, u, z);
+        if (good) nh_reduction_compare(b, s, z, want, n, reached);
+    }
+    nh_free(shape);
+    nh_free(x);
+    nh_free(y0);
+    return good;
+}
+
+static bool first_and_second(nh_reduction_bench *b, nh_error *error)
+{
+    nh_reduction *r = b->r;
+    const nh_action *g = &r->group->action;
+    size_t f = r->kinetic->f, m = r->kinetic->m, *index = nh_alloc_array(2 * g->d + 2, sizeof *index), *rest = index + g->d + 1;
+    const nh_chaplygin *first = NULL;
+    bool good = true;
+    if (nh_group_chaplygin(r->group, &r->options, index)) {
+        double *t = nh_alloc_array(g->d * f + 1, sizeof *t);
+        for (size_t i = 0; i < f; i++) t[index[i] + i * g->d] = 1;
+        nh_action_sub(&r->action[0], g, f, t, &r->options);
+        good = chaplygin_stage(b, &r->action[0], &first, error);
+        nh_free(t);
+        size_t n = good ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
+        nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
+        size_t d = n ? second_fields(r, first, n, rest, field) : 0;
+        nh_error trouble = {0};
+        if (d && d < first->n + 1 && !second_stage(b, first, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
+        nh_free(field);
+    }
+    nh_free(index);
+    return good;
+}
+
+bool nh_reduction_stages(nh_reduction *r, nh_error *error)
+{
+    nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
+    for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
+    if (!full_motion(&b, error) || !first_and_second(&b, error)) return false;
+    const nh_action *g = &r->group->action;
+    if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
+    if (!nh_reduction_free_subgroup(r, &r->action[1])) {
+        nh_reduction_warn(r, "no subgroup acts freely on the sample points");
+        return true;
+    }
+    if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); a subgroup of dimension %zu is divided out at once", g->d - g->orbit, r->action[1].d);
+    nh_error trouble = {0};
+    if (!nh_reduction_whole(&b, &r->action[1], &trouble) && r->chain_text) {
+        if (error) *error = trouble;
+        return false;
+    }
+    if (trouble.code != NH_OK) nh_reduction_warn(r, "the whole group is not divided out: %s", trouble.what);
+    return true;
+}

@@ -1,0 +1,109 @@
+/* reduce_whole: the whole group divided out at once, and the equations by stages. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/reduce_internal.h"
+
+/* "3; 1, 2" as blocks; numbers are those of the generators of the action, from 1. */
+static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order, nh_error *error)
+{
+    size_t blocks = 0, n = 0;
+    bool *used = nh_alloc_array(d + 1, sizeof *used), good = true;
+    size[0] = 0;
+    for (const char *c = text; *c && good;) {
+        char *end;
+        long i = strtol(c, &end, 10);
+        if (end != c) {
+            good = i >= 1 && (size_t)i <= d && !used[i - 1];
+            if (good) used[i - 1] = true, order[n++] = (size_t)i - 1, size[blocks]++;
+            c = end;
+        } else if (*c == ';') {
+            if (size[blocks] && blocks + 1 < d) size[++blocks] = 0;
+            c++;
+        } else {
+            good = strchr(", \t", *c) != NULL;
+            c++;
+        }
+    }
+    nh_free(used);
+    if (good && n == d) return blocks + (size[blocks] > 0);
+    nh_fail(error, NH_USAGE, "--chain", "a chain names every generator of the group once, found `%.100s`", text);
+    nh_error_hint(error, "--chain \"3; 1, 2\": generators of the quotient first, those of the smallest normal subgroup last");
+    return 0;
+}
+
+/* The equations by stages, with the locked inertia at a sample point as inner product on the Lie algebra. */
+static bool by_stages(nh_reduction *r, nh_reduction_stage *s, nh_error *error)
+{
+    const nh_slice *slice = s->slice;
+    size_t d = slice->d, m = slice->m, *size = nh_alloc_array(2 * d + 2, sizeof *size), *order = size + d + 1;
+    double *K = nh_alloc_array(m * m + d * d + 1, sizeof *K), *metric = K + m * m;
+    size_t blocks = r->chain_text ? read_chain(r->chain_text, d, size, order, error) : nh_ideals_find(&slice->action->algebra, size, order);
+    nh_kinetic_values(r->kinetic, m * m, slice->K, r->initial.q, K);
+    for (size_t a = 0; a < d * d; a++) metric[a] = K[(slice->n + a / d) * m + slice->n + a % d];
+    bool good = blocks > 0 && nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
+    if (good) good = s->by_stages = nh_poincare_check(&s->poincare, slice, &r->chain, &r->options, error);
+    s->chain = &r->chain;
+    nh_free(size);
+    nh_free(K);
+    return good;
+}
+
+bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error *error)
+{
+    nh_reduction *r = b->r;
+    nh_slice *slice, *shown;
+    size_t m = r->kinetic->m, rank = m - r->kinetic->f, *independent = nh_alloc_array(m + 1, sizeof *independent);
+    nh_reduced *o = nh_arena_alloc(r->arena, 2 * sizeof *o), *pretty = o;
+    double *x = nh_alloc_array(6 * m + 1, sizeof *x), *w = x + m, *u = w + m, *z = u + m;
+    nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
+    nh_reduced_independent(slice, independent);
+    bool good = nh_reduced_master(o, slice, independent, error);
+    if (good && slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, error) ? o + 1 : o;
+    good = good && nh_slice_components(slice, r->initial.q, r->initial.v, u);
+    for (size_t i = 0; i < rank && good; i++) w[i] = u[independent[i]];
+    for (size_t i = 0; i < slice->n; i++) x[i] = r->initial.q[slice->shape[i]];
+    if (good && nh_reduced_start(o, x, w, z)) {
+        nh_reduction_stage *s = nh_reduction_new_stage(r, action->dimension_assumption ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
+        s->slice = slice;
+        s->reduced = o;
+        s->shown = pretty;
+        nh_reduction_compare(b, s, z, b->full, 2 * m, b->reached);
+        nh_error trouble = {0};
+        if (s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {
+            if (r->chain_text) good = false;
+            else nh_reduction_warn(r, "no equations by stages: %s", trouble.what);
+        }
+    } else {
+        good = nh_fail(error, NH_NUMERIC, "", "the initial state is a singular place of the slice");
+    }
+    nh_free(independent);
+    nh_free(x);
+    return good;
+}
+
+/* A subset of the generators that acts freely, as large as possible; the whole group when that does. */
+bool nh_reduction_free_subgroup(nh_reduction *r, nh_action *out)
+{
+    const nh_action *g = &r->group->action;
+    size_t d = g->d;
+    double *t = nh_alloc_array(d * d + 1, sizeof *t);
+    bool found = false;
+    for (size_t size = g->orbit; size > 0 && !found; size--) {
+        for (unsigned long set = 0; set < 1ul << (d < 16 ? d : 16) && !found; set++) {
+            size_t n = 0;
+            memset(t, 0, d * d * sizeof *t);
+            for (size_t a = 0; a < d; a++)
+                if (set >> a & 1) {
+                    if (n < size) t[a + n * d] = 1;
+                    n++;
+                }
+            if (n != size) continue;
+            nh_action_sub(out, g, n, t, &r->options);
+            found = out->closes && out->free;
+            if (!found) nh_action_clear(out);
+        }
+    }
+    nh_free(t);
+    return found;
+}

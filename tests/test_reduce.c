@@ -1,0 +1,198 @@
+/* reduce: the command's whole pipeline on every shipped system, its JSON, and what it says about groups that will not do. */
+#include "oracle.h"
+#include "reduced.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "report/reduction.h"
+
+static nh_reduction *reduce_path(const char *path, const char *group, const char *chain, const char *initial, uint64_t seed, nh_error *error)
+{
+    nh_reduce_request q = {.system_path = path, .group = group, .chain = chain, .initial = initial};
+    nh_options_default(&q.options);
+    q.options.seed = (double)seed;
+    return nh_reduce(&q, error);
+}
+
+/* A system written to a file of its own. */
+static nh_reduction *reduce_text(const char *text, const char *group, uint64_t seed, nh_error *error)
+{
+    char path[] = "/tmp/nhsym-reduce-XXXXXX";
+    int file = mkstemp(path);
+    cr_assert(file >= 0);
+    FILE *out = fdopen(file, "w");
+    fputs(text, out);
+    fclose(out);
+    nh_reduction *r = reduce_path(path, group, NULL, NULL, seed, error);
+    remove(path);
+    return r;
+}
+
+static const struct {
+    const char *system, *group;
+    size_t dimension;
+} catalogue[] = {
+    {"appell_hamel", "SE(2)", 3},     {"ball_on_turntable", "SO(2)^2", 2},  {"chaplygin_ball", "SE(2)", 3},      {"contact_oscillator", "R", 1},
+    {"crane", "SE(2) x SO(2)^3", 6},  {"euler_top", "SO(3)", 3},            {"free_particle", "SE(3)", 6},       {"heisenberg_particle", "SO(2) x R", 2},
+    {"henon_heiles", "trivial", 0},   {"isotropic_oscillator", "SO(3)", 3}, {"kepler", "SO(3)", 3},              {"knife_edge", "SE(2)", 3},
+    {"nonholonomic_particle", "R^2", 2}, {"rolling_ball", "SO(3) x SE(2)", 6}, {"rolling_disk", "SE(2) x SO(2)", 4}, {"routh_sphere", "SE(2) x SO(2)", 4},
+    {"sleigh", "SE(2)", 3},           {"sleigh_inertia", "SE(2)", 3},       {"suslov", "SO(3)", 3},              {"two_wheel_carriage", "SE(2) x R^2", 5},
+    {"vertical_disk", "SE(2) x R", 4}, {"neumann", "trivial", 0},
+};
+
+Test(reduce, groups_and_motions_of_the_shipped_systems)
+{
+    for (size_t i = 0; i < sizeof catalogue / sizeof *catalogue; i++) {
+        char path[100];
+        nh_error error = {0};
+        snprintf(path, sizeof path, "systems/%s.yaml", catalogue[i].system);
+        nh_reduction *r = reduce_path(path, NULL, NULL, NULL, 1, &error);
+        must(r != NULL, &error, path);
+        cr_expect_str_eq(r->all->name, catalogue[i].group, "%s: %s", catalogue[i].system, r->all->name);
+        cr_expect_eq(r->all->action.d, catalogue[i].dimension, "%s: %zu generators", catalogue[i].system, r->all->action.d);
+        for (size_t a = 0; a < r->all->action.d; a++) {
+            const nh_generator *g = &r->all->action.generator[a];
+            cr_expect(g->metric.proved && g->potential.proved && g->constraints.proved, "%s: generator %zu is not proved", catalogue[i].system, a + 1);
+        }
+        for (size_t s = 0; s < r->stages; s++) {
+            const nh_reduction_stage *t = &r->stage[s];
+            cr_expect(t->compared, "%s, stage %zu: %s", catalogue[i].system, s + 1, t->note);
+            cr_expect(t->agreement <= 100 * r->options.tolerance, "%s, stage %zu (%s): %g", catalogue[i].system, s + 1, nh_stage_kind_name(t->kind), t->agreement);
+            cr_expect(t->energy_drift <= 100 * r->options.tolerance, "%s, stage %zu: energy drifts by %g", catalogue[i].system, s + 1, t->energy_drift);
+        }
+        for (size_t k = 0; k < r->momenta.count; k++) cr_expect(r->momenta.momentum[k].proved, "%s: momentum %zu", catalogue[i].system, k + 1);
+        nh_reduction_free(r);
+    }
+}
+
+/* The crane: three kinds of stages, each over ten units of time. */
+Test(reduce, crane)
+{
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        nh_error error = {0};
+        nh_reduction *r = reduce_path("systems/crane.yaml", NULL, NULL, NULL, seed, &error);
+        must(r != NULL, &error, "crane");
+        cr_assert_eq(r->stages, 3);
+        cr_expect_eq(r->stage[0].kind, NH_STAGE_CHAPLYGIN);
+        cr_expect_str_eq(r->stage[0].group, "SE(2) x SO(2)");
+        cr_expect_eq(r->stage[1].kind, NH_STAGE_SECOND);
+        cr_expect_eq(r->stage[2].kind, NH_STAGE_POINCARE);
+        for (size_t s = 0; s < 3; s++) {
+            cr_expect_eq(r->stage[s].reached, 10.0, "seed %d, stage %zu: up to %g", (int)seed, s + 1, r->stage[s].reached);
+            cr_expect(r->stage[s].agreement <= 1e-8);
+        }
+        cr_expect(r->stage[2].by_stages && r->stage[2].poincare.stages_vertical < 1e-12 && r->stage[2].poincare.stages_horizontal < 1e-12);
+        cr_expect_eq(r->momenta.count, 1);
+        cr_expect(r->momenta.momentum[0].horizontal);
+        cr_expect_eq(r->all->jets->of_metric, 22);
+        nh_reduction_free(r);
+    }
+}
+
+/* The same numbers of a group whatever the seed: dimension, and the structure constants of the closed forms. */
+Test(reduce, structure_constants_do_not_depend_on_the_seed)
+{
+    double c[216];
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        nh_error error = {0};
+        nh_reduction *r = reduce_path("systems/crane.yaml", NULL, NULL, NULL, seed, &error);
+        must(r != NULL, &error, "crane");
+        cr_assert_eq(r->all->action.d, 6);
+        if (seed == 1) memcpy(c, r->all->action.algebra.c, sizeof c);
+        for (size_t i = 0; i < 216; i++) cr_expect_eq(c[i], r->all->action.algebra.c[i]);
+        nh_reduction_free(r);
+    }
+}
+
+/* Perturbed systems have no symmetry, or only the one that is left. */
+Test(reduce, perturbed_systems)
+{
+    static const char head[] = "name: s\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.7}, {name: a, value: 0.4}]\n"
+                               "coordinates:\n  - {name: x, type: length}\n  - {name: y, type: length}\n  - {name: h, type: angle}\n"
+                               "constraints: [\"x'*sin(h) - y'*cos(h) = 0\"]\nlagrangian: J*h'^2/2 + m*((x' - a*h'*sin(h))^2 + (y' + a*h'*cos(h))^2)/2";
+    static const struct {
+        const char *more;
+        size_t dimension;
+    } cases[] = {{"\n", 3}, {" - x\n", 1}, {" - x*y - 0.3*cos(h)\n", 0}, {" + 0.01*x^2*h'^2 + 0.02*y*x'^2\n", 0}, {" - x^2 - y^2\n", 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_error error = {0};
+        char text[1200];
+        snprintf(text, sizeof text, "%s%s", head, cases[i].more);
+        nh_reduction *r = reduce_text(text, NULL, 1, &error);
+        must(r != NULL, &error, cases[i].more);
+        cr_expect_eq(r->all->action.d + r->all->missing, cases[i].dimension, "%s: %zu", cases[i].more, r->all->action.d);
+        nh_reduction_free(r);
+    }
+}
+
+static void refused(const char *system, const char *group, const char *chain, const char *words)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_path(system, group, chain, NULL, 1, &error);
+    cr_expect(r == NULL, "%s is accepted", group ? group : chain);
+    cr_expect(strstr(error.what, words) != NULL, "%s: %s", group ? group : chain, error.what);
+    nh_reduction_free(r);
+}
+
+Test(reduce, bad_groups_are_explained)
+{
+    refused("systems/sleigh.yaml", "x=1; phi=1, x=-y, y=x", NULL, "[d/dx, d/dphi - y d/dx + x d/dy] = d/dy is not a combination of them");
+    refused("systems/sleigh.yaml", "phi=1", NULL, "does not leave the kinetic energy invariant");
+    refused("systems/rolling_disk.yaml", "p=1", NULL, "does not leave the constraint distribution invariant");
+    refused("systems/kepler.yaml", "x=-y, y=x; y=-z, z=y; z=-x, x=z", NULL, "the action is not free: the 3 fields span only 2 dimensions");
+    refused("systems/sleigh.yaml", "1, 7", NULL, "there is no generator 7");
+    refused("systems/sleigh.yaml", "phj=1", NULL, "`phj` is not a coordinate");
+    refused("systems/sleigh.yaml", "x", NULL, "is not a component of a field");
+    refused("systems/sleigh.yaml", "x=y'", NULL, "a velocity occurs");
+    refused("systems/sleigh.yaml", "x=1+", NULL, "");
+    refused("systems/vertical_disk.yaml", NULL, "1; 4; 2, 3", "the chain is not one of normal subgroups");
+    refused("systems/vertical_disk.yaml", NULL, "1, 2", "names every generator of the group once");
+}
+
+/* A smaller group, given: its own stage and momenta. */
+Test(reduce, given_groups)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_path("systems/two_wheel_carriage.yaml", "x=1; y=1; p=1, x=-y, y=x", NULL, "x=0.3, p=0.2, x'=0.7, y'=0.1, p'=0.5, a'=1", 1, &error);
+    must(r != NULL, &error, "given");
+    cr_expect(r->group->given && r->all == NULL);
+    cr_expect_str_eq(r->group->name, "SE(2)");
+    cr_assert_eq(r->stages, 1);
+    cr_expect_eq(r->stage[0].kind, NH_STAGE_CHAPLYGIN);
+    cr_expect(r->stage[0].compared && r->stage[0].agreement < 1e-8, "%g", r->stage[0].agreement);
+    cr_expect_eq(r->warnings, 1, "the velocities had to be moved");
+    cr_expect(r->stage[0].measure.measure && r->stage[0].measure.factor);
+    nh_reduction_free(r);
+}
+
+Test(reduce, json)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_path("systems/chaplygin_ball.yaml", NULL, NULL, NULL, 1, &error);
+    must(r != NULL, &error, "json");
+    char *text = nh_reduction_json(r);
+    cJSON *json = cJSON_Parse(text);
+    cr_assert(json != NULL);
+    cr_expect(!strstr(text, "nan") && !strstr(text, "inf\""));
+    const cJSON *group = oracle_get(json, "group"), *stages = oracle_get(json, "stages");
+    cr_expect_eq(oracle_number(group, "dimension"), 3);
+    cr_expect_eq(cJSON_GetArraySize(oracle_get(group, "generators")), 3);
+    cr_expect_eq(cJSON_GetArraySize(oracle_get(group, "structure_constants")), 3);
+    cr_assert_eq(cJSON_GetArraySize(stages), 3);
+    cr_expect_str_eq(oracle_get(stages->child, "kind")->valuestring, "chaplygin");
+    cr_expect_eq(cJSON_GetArraySize(oracle_get(stages->child, "shape")), 3);
+    cr_expect_eq(cJSON_GetArraySize(oracle_get(stages->child, "equations")), 3);
+    cr_expect(oracle_number(stages->child, "agreement_with_full") < 1e-8);
+    cr_expect(oracle_number(stages->child->next, "agreement_with_first") < 1e-8);
+    cr_expect(cJSON_IsTrue(oracle_get(json, "chaplygin")));
+    cr_expect(cJSON_IsTrue(oracle_get(json, "dimension_assumption")));
+    cJSON_Delete(json);
+    nh_free(text);
+    nh_text out;
+    nh_text_init(&out);
+    nh_reduction_text(r, true, &out);
+    cr_expect(strstr(nh_text_string(&out), "Symmetry group: SE(2), dimension 3") != NULL);
+    nh_text_clear(&out);
+    nh_reduction_free(r);
+}
