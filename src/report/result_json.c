@@ -334,6 +334,12 @@ static void put_validation(const writer *w, nh_json *to)
     nh_json *watch = nh_json_put_object(item, "watch");
     if (v->watches) nh_json_put_numbers(watch, "t", v->count, v->time, 1);
     for (size_t j = 0; j < v->watches; j++) nh_json_put_numbers(watch, v->watch_name[j], v->count, v->watch + j, v->watches);
+    if (v->scene) {
+        nh_json *scene = nh_json_put_object(item, "scene");
+        nh_json_put_text(scene, "model", v->scene);
+        nh_json_put_number(scene, "difference", v->scene_difference);
+        nh_json_put_number(scene, "evaluations", (double)v->scene_evaluations);
+    }
 }
 
 static void put_timing(const nh_timing *t, nh_json *to)
