@@ -195,7 +195,7 @@ static nh_ex of_parts(contest *c, nh_ex e)
     return arity == 1 ? nh_call(c->dag, f, a) : nh_call2(c->dag, f, a, part(c, nh_child(c->dag, e, 1)));
 }
 
-/* A polynomial in symbols? */
+/* A polynomial in symbols and their inverses? */
 static bool polynomial(const nh_dag *dag, nh_ex e)
 {
     nh_kind kind = nh_kind_of(dag, e);
@@ -204,12 +204,13 @@ static bool polynomial(const nh_dag *dag, nh_ex e)
         if (!polynomial(dag, nh_child(dag, e, i))) return false;
         if (kind != NH_PRODUCT) continue;
         nh_ex x = nh_exponent_of(dag, e, i);
-        if (nh_kind_of(dag, x) != NH_NUMBER || nh_number_of(dag, x).q != 1 || nh_number_of(dag, x).p < 0) return false;
+        if (nh_kind_of(dag, x) != NH_NUMBER || nh_number_of(dag, x).q != 1) return false;
+        if (nh_number_of(dag, x).p < 0 && nh_kind_of(dag, nh_child(dag, e, i)) != NH_SYMBOL) return false;
     }
     return true;
 }
 
-/* A sum's polynomial terms by themselves: with k/r beside them the common denominator makes everything longer. */
+/* A sum's polynomial terms by themselves: with k/sqrt(..) beside them the common denominator makes everything longer. */
 static nh_ex apart(contest *c, nh_ex e)
 {
     nh_ex plain = nh_int(c->dag, 0), rest = nh_int(c->dag, 0);

@@ -55,6 +55,6 @@ void nh_tracks_list(nh_result *r)
 const nh_watch *nh_tracks_watches(const nh_result *r)
 {
     nh_watch *watch = nh_arena_alloc(r->arena, (r->tracks + 1) * sizeof *watch);
-    for (size_t i = 0; i < r->tracks; i++) watch[i] = (nh_watch){r->track[i].name, r->track[i].value};
+    for (size_t i = 0; i < r->tracks; i++) watch[i] = (nh_watch){r->track[i].name, r->track[i].value, r->track[i].kind == NH_TRACK_WATCH};
     return watch;
 }
