@@ -21,6 +21,7 @@ typedef struct {
     const char *group, *chain;   /* of reduce */
     const char *watch;           /* of simulate */
     bool scene;
+    double accuracy;
     const char *svg;             /* of chart */
     double budget;
     double step;

@@ -11,7 +11,7 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
         return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .project = cli->project,
+    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .accuracy = cli->accuracy, .project = cli->project,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
     q->system_path = nh_cli_find(cli, "systems", name, error);
     if (!q->system_path) return false;
@@ -40,6 +40,8 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
     }
+    if (s->checked && s->accuracy.held && !cli->json && !cli->quiet) fprintf(stderr, "nhsym: %s\n", s->accuracy.why);
+    if (s->checked && !s->accuracy.held && complete && good) nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy.why);
     if (!complete && good) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->motion->note);
     nh_simulation_free(s);
     return error->code;

@@ -27,6 +27,24 @@ void nh_motion_csv(const nh_simulation *s, nh_text *out)
     }
 }
 
+static void put_accuracy(const nh_simulation *s, nh_json *root)
+{
+    if (!s->checked) {
+        nh_json_put_null(root, "accuracy");
+        return;
+    }
+    const nh_accuracy *a = &s->accuracy;
+    nh_json *item = nh_json_put_object(root, "accuracy");
+    nh_json_put_number(item, "wanted", a->wanted);
+    nh_json_put_bool(item, "held", a->held);
+    nh_json_put_number(item, "estimate", a->estimate);
+    nh_json_put_text(item, "second", a->second);
+    nh_json_put_number(item, "difference", a->difference);
+    nh_json_put_number(item, "runs", a->runs);
+    nh_json_put_number(item, "evaluations", (double)a->evaluations);
+    nh_json_put_text(item, "why", a->why);
+}
+
 char *nh_motion_json(const nh_simulation *s)
 {
     static const char *const groups[] = {"states", "currents", "multipliers", "energies", "watch"};
@@ -37,6 +55,7 @@ char *nh_motion_json(const nh_simulation *s)
     nh_json_put_text(root, "scene", s->scene);
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", s->motion->complete);
+    put_accuracy(s, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
     for (int kind = NH_COLUMN_STATE; kind <= NH_COLUMN_WATCH; kind++) {
         nh_json *group = nh_json_put_object(root, groups[kind]);

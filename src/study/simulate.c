@@ -191,8 +191,10 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     for (size_t k = 0; k < s->columns; k++) e[k] = s->column[k].value;
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns, .e = e,
                                      .smallest = q->watch || q->scene, .project = q->project};
-    s->trajectory = nh_trajectory_create(&request, error);
+    s->checked = q->accuracy > 0;
+    s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, &s->accuracy, error) : nh_trajectory_create(&request, error);
     if (!s->trajectory) return false;
+    if (s->checked) s->tolerance = s->accuracy.tolerance;
     s->motion = s->trajectory->motion;
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;

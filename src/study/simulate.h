@@ -2,6 +2,7 @@
 #ifndef NH_SIMULATE_H
 #define NH_SIMULATE_H
 
+#include "motion/accuracy.h"
 #include "motion/drift.h"
 #include "study/analysis.h"
 
@@ -15,6 +16,7 @@ typedef struct {
     bool scene;                              /* the same with what the analysis file watches */
     bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
     double step;                             /* output spacing; 0: a hundredth of the time */
+    double accuracy;                         /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
     nh_options options;
 } nh_simulate_request;
 
@@ -39,6 +41,8 @@ typedef struct {
     double *value;        /* motion->count x columns, row by row */
     nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
+    bool checked;              /* an accuracy was asked for */
+    nh_accuracy accuracy;
 } nh_simulation;
 
 nh_simulation *nh_simulate(const nh_simulate_request *request, nh_error *error);
