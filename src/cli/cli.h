@@ -21,7 +21,8 @@ typedef struct {
     const char *group, *chain;   /* of reduce */
     const char *watch;           /* of simulate */
     bool scene;
-    double accuracy;
+    double accuracy, spread;
+    size_t ensemble;
     const char *svg;             /* of chart */
     double budget;
     double step;

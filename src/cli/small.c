@@ -22,6 +22,7 @@ int nh_cli_help(nh_cli *cli, nh_error *error)
          "  nhsym simulate SYSTEM|FILE --initial \"phi=0, omega=2\" --until T --step H    a motion, as CSV or --json\n"
          "                              --watch \"x, T = m/2*v^2\": only these, by the smallest model for them; --scene: those of the analysis file\n"
          "                              --accuracy 1e-8: the error of what is printed; method and tolerance are chosen, and checked\n"
+         "                              --ensemble N --spread 0.1: many motions at once, from states around the initial one\n"
          "  nhsym chart SYSTEM|FILE [--budget 5s] [--svg FILE]    every integrator on one motion: time against error\n"
          "  nhsym reduce SYSTEM|FILE    its symmetry group, and the reduced equations; --group \"1, 2\" or \"x=1; theta=1, x=-y, y=x\" chooses,\n"
          "                              --chain \"3; 1, 2\" the stages\n"

@@ -27,6 +27,48 @@ void nh_motion_csv(const nh_simulation *s, nh_text *out)
     }
 }
 
+void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
+{
+    const nh_ensemble *e = s->ensemble;
+    nh_text_add(out, "member,t");
+    for (size_t k = 0; k < s->columns; k++) nh_text_addf(out, ",%s", s->column[k].name);
+    nh_text_add(out, "\n");
+    for (size_t j = 0; j < e->members * e->count; j++) {
+        nh_text_addf(out, "%zu,", j / e->count);
+        put(out, e->time[j % e->count]);
+        for (size_t k = 0; k < e->n; k++) {
+            nh_text_add(out, ",");
+            put(out, e->value[j * e->n + k]);
+        }
+        nh_text_add(out, "\n");
+    }
+}
+
+char *nh_ensemble_json(const nh_simulation *s)
+{
+    const nh_ensemble *e = s->ensemble;
+    nh_json *root = nh_json_object();
+    nh_json_put_number(root, "schema", 1);
+    nh_json_put_text(root, "method", s->method);
+    nh_json_put_text(root, "formulation", s->formulation);
+    nh_json_put_text(root, "scene", s->scene);
+    nh_json_put_number(root, "tolerance", s->tolerance);
+    nh_json_put_bool(root, "complete", e->incomplete == 0);
+    nh_json_put_numbers(root, "time", e->count, e->time, 1);
+    nh_json *members = nh_json_put_array(root, "members");
+    for (size_t i = 0; i < e->members; i++) {
+        nh_json *member = nh_json_add_object(members);
+        for (size_t k = 0; k < e->n; k++) nh_json_put_numbers(member, s->column[k].name, e->count, e->value + i * e->count * e->n + k, e->n);
+    }
+    nh_json *stats = nh_json_put_object(root, "stats");
+    nh_json_put_number(stats, "evaluations", (double)e->evaluations);
+    nh_json_put_number(stats, "alone", (double)e->alone);
+    nh_json_put_number(stats, "seconds", e->seconds);
+    nh_json *warnings = nh_json_put_array(root, "warnings");
+    if (e->incomplete) nh_json_add_text(warnings, e->note);
+    return nh_json_finish(root);
+}
+
 static void put_accuracy(const nh_simulation *s, nh_json *root)
 {
     if (!s->checked) {

@@ -4,6 +4,7 @@
 
 #include "motion/accuracy.h"
 #include "motion/drift.h"
+#include "motion/ensemble.h"
 #include "study/analysis.h"
 
 typedef struct {
@@ -17,6 +18,8 @@ typedef struct {
     bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
     double step;                             /* output spacing; 0: a hundredth of the time */
     double accuracy;                         /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
+    size_t ensemble;                         /* members; 0: one motion */
+    double spread;                           /* of their initial states about the given one, relative to max(|z_i|, 1) */
     nh_options options;
 } nh_simulate_request;
 
@@ -41,6 +44,7 @@ typedef struct {
     double *value;        /* motion->count x columns, row by row */
     nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
+    nh_ensemble *ensemble;     /* instead of motion, value and trajectory; NULL: one motion */
     bool checked;              /* an accuracy was asked for */
     nh_accuracy accuracy;
 } nh_simulation;
