@@ -88,7 +88,7 @@ static size_t compare(const char *path, nh_chart_choice choice, size_t members, 
 
 Test(ensemble, members_are_motions_of_their_own)
 {
-    const double sleigh[5] = {0.3, 0, 0, 2, 0.7}, contact[5] = {1, 0.2, 0.3, 0.9, 0.5};
+    const double sleigh[5] = {0.3, 0, 0, 2, 0.7}, contact[8] = {1, 0.2, 0.3, 0.9, 0.5, -0.4, 0.7, 0.1};
     cr_expect_eq(compare("systems/sleigh.yaml", NH_CHART_QUASI, 300, sleigh, 0.3, 4, 2), 0);
     cr_expect_eq(compare("systems/contact_oscillator.yaml", NH_CHART_AUTO, 131, contact, 0.2, 7, 1), 0);
     cr_expect_eq(compare("systems/isotropic_oscillator.yaml", NH_CHART_AUTO, 1, contact, 0.2, 3, 1), 0);

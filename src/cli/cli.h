@@ -24,6 +24,7 @@ typedef struct {
     double accuracy, spread;
     size_t ensemble;
     const char *svg;             /* of chart */
+    bool stress;
     double budget;
     double step;
     bool no_analysis;
