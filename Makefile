@@ -38,7 +38,7 @@ SYSTEMS = 200
 SEED    = 1
 SECONDS = 60
 
-.PHONY: all sleigh check tests install bench catalogue random perturbed fuzz clean packages test-packages
+.PHONY: all sleigh check tests install bench catalogue random perturbed fuzz print-libraries clean packages test-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -67,6 +67,13 @@ catalogue: test-packages
 random perturbed: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@$(BUILD)/tests/bench_$@ $(if $(filter random,$@),$(SYSTEMS),systems) $(SEED)
+
+fuzz:
+	@sh tests/packages.sh $(PACKAGES) clang
+	@sh tests/fuzz/fuzz.sh $(SECONDS)
+
+print-libraries:
+	@echo $(LDLIBS)
 
 packages:
 	@sh tests/packages.sh $(PACKAGES)
@@ -102,6 +109,6 @@ install: all
 	install -m 644 analyses/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/analyses/
 
 clean:
-	rm -rf build build-sanitize
+	rm -rf build build-sanitize build-fuzz
 
 -include $(OBJECTS:.o=.d) $(CLI:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)

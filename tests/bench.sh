@@ -94,14 +94,14 @@ else
     say "Not measured: build/tests/bench_nullspace was not built." ""
 fi
 
-say "## Chains of bodies"  ""
+say "## Chains of bodies" ""
 ten=""
 if [ -s "$work/chain" ]; then
     ten=$(awk -F'|' '$2 + 0 == 10 { print $3 + 0 }' "$work/chain")
     say "\`build/tests/bench_chain\`" "" \
         "Chains of n bodies on revolute joints, axes turned against each other. Building: from text to mass matrix and accelerations. By hand: composite" \
-        "rigid bodies, recursive Newton and Euler and Cholesky in C (\`tests/chain.h\`). The tape is interpreted, and does not know what a body is," \
-        "one point at a time. The difference is that of the accelerations, relative." ""
+        "rigid bodies, recursive Newton and Euler and Cholesky in C (\`tests/chain.h\`). The tape is interpreted, one point or a batch of 256 points at a" \
+        "time. Nanoseconds per point, the least of many short runs. The difference is that of the accelerations, relative." ""
     cat "$work/chain" >>"$work/page"
     say ""
 else

@@ -3,6 +3,7 @@
 #define NH_TESTS_REDUCED_H
 
 #include "mechanics.h"
+#include "base/linalg.h"
 #include "reduction/jets.h"
 
 /* A crane on a four-wheel car [ChhabraEmami2014, sec. 6], kinetic energy with the corrections that a derivation from the bodies gives. */
@@ -86,6 +87,7 @@ typedef struct {
 static inline reducible reducible_make(nh_system *system, uint64_t seed, nh_error *error)
 {
     must(system != NULL, error, "the system");
+    nh_linalg_threads(1);
     reducible x = {.system = system, .model = nh_model_bare(system, nh_chart_create(system, NH_CHART_AUTO, 1, error))};
     must(x.model != NULL, error, system->name);
     x.kinetic = nh_kinetic_create(x.model, seed, error);

@@ -508,3 +508,66 @@ Test(bodies, energies_written_by_hand)
         mechanics_clear(&x);
     }
 }
+
+/* Newton and Euler against Lagrange: c = X_0(dL/dq') - dL/dq with X_0 = d/dt + q' d/dq, also where joints are driven or geared. */
+Test(bodies, bias_agrees_with_the_lagrangian)
+{
+    nh_system *s = parsed("gravity: [0.4, -1, -9]\n"
+                          "bodies:\n"
+                          "  - {name: a, mass: 1.2, center: [0.1, 0.2, 0.3], inertia: [[0.5, 0.1, 0], [0.1, 0.6, -0.05], [0, -0.05, 0.7]]}\n"
+                          "  - {name: b, mass: 0.8, center: [0, -0.3, 0.1], inertia: [0.2, 0.3, 0.4]}\n"
+                          "  - {name: c, mass: 0.5, center: [0.4, 0, 0], inertia: 0.1}\n"
+                          "joints:\n"
+                          "  - {type: spherical, child: a, at: [0, 0, 1], coordinates: [u, v, w]}\n"
+                          "  - {type: helical, pitch: 0.3, axis: [1, 1, 0], parent: a, child: b, at: [0.5, 0, 0], values: [t^2/3 + sin(u)*r]}\n"
+                          "  - {type: cylindrical, axis: y, parent: a, child: c, rotation: {x: 0.4}, coordinates: [r, h]}\n");
+    nh_dag *d = s->dag;
+    size_t m = s->coordinates;
+    nh_ex q[8], v[8], bias[8], other[8];
+    double z[17], got[8], want[8];
+    cr_assert_eq(m, 5);
+    for (size_t i = 0; i < m; i++) q[i] = s->coordinate[i].q, v[i] = s->coordinate[i].v;
+    nh_chain_bias(s->chain, &(nh_chain_scope){.dag = d, .arena = s->arena, .t = s->t, .m = m, .q = q, .v = v}, bias);
+    for (size_t i = 0; i < m; i++) other[i] = nh_sub(d, rate(s, nh_diff(d, s->lagrangian, v[i])), nh_diff(d, s->lagrangian, q[i]));
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        random_state(s, seed, z);
+        at(s, m, bias, z, got);
+        at(s, m, other, z, want);
+        for (size_t i = 0; i < m; i++) cr_expect_leq(fabs(got[i] - want[i]), 1e-13 * (5 + fabs(want[i])), "component %zu: %.17g, %.17g", i, got[i], want[i]);
+    }
+    nh_system_free(s);
+}
+
+/* A large chain in a chart that moves, with a further term in its Lagrangian: M a = A is Lagrange's equation of the whole. */
+Test(bodies, large_chains_with_wheels)
+{
+    mechanics x = mechanics_of_text("parameters: [{name: W, value: 0.7}, {name: l, value: 0.8}]\n"
+                                    "gravity: [0.3, 0.2, -9]\n"
+                                    "bodies:\n  - {name: disc}\n  - {name: car, mass: 1.1, inertia: 0.3, center: [0.2, 0.1, 0]}\n  - {name: one, mass: 0.9, inertia: 0.2, center: [-0.4, 0, 0.2]}\n"
+                                    "  - {name: two, mass: 0.7, inertia: [0.1, 0.2, 0.3], center: [-0.3, 0.1, 0.3]}\n  - {name: arm, mass: 0.6, inertia: [0.2, 0.1, 0.1], center: [0.1, 0.2, 0.5]}\n"
+                                    "joints:\n  - {type: revolute, child: disc, values: [W*t]}\n  - {type: planar, child: car, coordinates: [x, y, h]}\n"
+                                    "  - {type: revolute, parent: car, child: one, at: [-l, 0, 0], coordinates: [a]}\n  - {type: revolute, axis: [0, 1, 1], parent: one, child: two, at: [-l, 0, 0], coordinates: [b]}\n"
+                                    "  - {type: spherical, parent: two, child: arm, at: [0, 0, 1], coordinates: [u, v, w]}\n"
+                                    "wheels: [{type: knife-edge, body: car, axis: y, on: disc}]\n"
+                                    "dependent: [y]\ndomain: {h: [-1, 1]}\nlagrangian: x*a'*cos(b) - b^2*x^2\n", NH_CHART_AUTO);
+    const nh_model *o = x.model;
+    nh_dag *d = o->dag;
+    cr_assert_gt(nh_complexity(d, x.system->lagrangian), 3000);
+    nh_points *points = points_of(o, 6, 3);
+    for (size_t p = 0; p < points->count; p++) {
+        double z[40], size = 0;
+        point_of(points, p, z);
+        for (size_t i = 0; i < o->n; i++) {
+            nh_ex want = nh_int(d, 0);
+            for (size_t s = 0; s < o->m; s++) {
+                nh_ex force = nh_sub(d, nh_model_compose(o, nh_diff(d, x.system->lagrangian, x.system->coordinate[s].q)), nh_model_X0(o, o->p[s]));
+                want = nh_add(d, want, nh_mul(d, o->R[s * o->n + i], force));
+            }
+            double a = value_at(o, o->A[i], z), b = value_at(o, want, z);
+            size = fmax(size, fabs(b));
+            cr_expect_leq(fabs(a - b), 1e-12 * (1 + size), "A_%zu: %.17g, %.17g", i, a, b);
+        }
+    }
+    nh_points_free(points);
+    mechanics_clear(&x);
+}

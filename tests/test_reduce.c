@@ -154,15 +154,31 @@ Test(reduce, bad_groups_are_explained)
 Test(reduce, given_groups)
 {
     nh_error error = {0};
-    nh_reduction *r = reduce_path("systems/two_wheel_carriage.yaml", "x=1; y=1; p=1, x=-y, y=x", NULL, "x=0.3, p=0.2, x'=0.7, y'=0.1, p'=0.5, a'=1", 1, &error);
+    nh_reduction *r = reduce_path("systems/two_wheel_carriage.yaml", "x=1; y=1; p=1, x=-y, y=x", NULL, "x=0.3, p=0.2, x'=0.7, p'=0.5", 1, &error);
     must(r != NULL, &error, "given");
     cr_expect(r->group->given && r->all == NULL);
     cr_expect_str_eq(r->group->name, "SE(2)");
     cr_assert_eq(r->stages, 1);
     cr_expect_eq(r->stage[0].kind, NH_STAGE_CHAPLYGIN);
     cr_expect(r->stage[0].compared && r->stage[0].agreement < 1e-8, "%g", r->stage[0].agreement);
-    cr_expect_eq(r->warnings, 1, "the velocities had to be moved");
+    cr_expect_float_eq(r->initial.v[1], 0.7 * tan(0.2), 1e-12, "what is not named follows from the constraints");
+    cr_expect_eq(r->initial.v[0], 0.7);
+    cr_expect_eq(r->warnings, 0);
     cr_expect(r->stage[0].measure.measure && r->stage[0].measure.factor);
+    nh_reduction_free(r);
+}
+
+Test(reduce, velocities_off_the_constraints)
+{
+    nh_error error = {0};
+    cr_expect(reduce_path("systems/sleigh_inertia.yaml", NULL, NULL, "h=0.3, x'=1, y'=1, h'=0.2", 1, &error) == NULL);
+    cr_expect(strstr(error.what, "violate the constraints") != NULL, "%s", error.what);
+    nh_reduce_request q = {.system_path = "systems/sleigh_inertia.yaml", .initial = "h=0.3, x'=1, y'=1, h'=0.2", .project = true};
+    nh_options_default(&q.options);
+    nh_error_clear(&error);
+    nh_reduction *r = nh_reduce(&q, &error);
+    must(r != NULL, &error, "projected");
+    cr_expect_float_eq(r->initial.v[0] * sin(0.3) - r->initial.v[1] * cos(0.3), 0, 1e-12);
     nh_reduction_free(r);
 }
 
@@ -194,5 +210,52 @@ Test(reduce, json)
     nh_reduction_text(r, true, &out);
     cr_expect(strstr(nh_text_string(&out), "Symmetry group: SE(2), dimension 3") != NULL);
     nh_text_clear(&out);
+    nh_reduction_free(r);
+}
+
+/* The C code of every stage, compiled, against the equations themselves. */
+Test(reduce, c_code_computes_the_reduced_equations)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_path("systems/crane.yaml", NULL, NULL, NULL, 1, &error);
+    must(r != NULL, &error, "crane");
+    char folder[] = "/tmp/nhsym-c-XXXXXX", name[200], command[700], line[100];
+    cr_assert(mkdtemp(folder));
+    snprintf(name, sizeof name, "%s/code.c", folder);
+    FILE *file = fopen(name, "w");
+    nh_text code;
+    nh_text_init(&code);
+    nh_reduction_c(r, &code);
+    fprintf(file, "%s#include <stdio.h>\nint main(void)\n{\n    double z[20], rate[20] = {0}, zeta[20] = {0};\n", nh_text_string(&code));
+    double z[20];
+    for (size_t i = 0; i < 20; i++) z[i] = 0.3 + 0.11 * (double)i - 0.007 * (double)(i * i);
+    for (size_t i = 0; i < 20; i++) fprintf(file, "    z[%zu] = %.17g;\n", i, z[i]);
+    for (size_t s = 0; s < r->stages; s++) fprintf(file, "    stage%zu(z, rate, zeta);\n    for (int i = 0; i < 20; i++) printf(\"%%.17g\\n%%.17g\\n\", rate[i], zeta[i]);\n", s + 1);
+    fprintf(file, "    return 0;\n}\n");
+    fclose(file);
+    snprintf(command, sizeof command, "cd %s && ${CC:-cc} -std=c99 -Wall -Wextra -Werror code.c -o code -lm && ./code", folder);
+    FILE *pipe = popen(command, "r");
+    cr_assert(pipe != NULL);
+    for (size_t s = 0; s < r->stages; s++) {
+        const nh_reduced *o = r->stage[s].shown;
+        double rate[20] = {0}, zeta[20] = {0};
+        nh_reduced_flow *flow = nh_reduced_flow_create(o);
+        cr_assert(nh_reduced_flow_at(flow, z, rate, NULL, zeta, NULL));
+        nh_reduced_flow_free(flow);
+        for (size_t i = 0; i < 20; i++)
+            for (int which = 0; which < 2; which++) {
+                double want = which ? zeta[i] : rate[i];
+                cr_assert(fgets(line, sizeof line, pipe));
+                if (i < (which ? o->d : o->n + o->r)) cr_expect_float_eq(strtod(line, NULL), want, 1e-11 * (1 + fabs(want)), "stage %zu, %d %zu: %s, not %g", s + 1, which, i, line, want);
+            }
+    }
+    cr_expect_eq(pclose(pipe), 0);
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    cr_expect_eq(system(command), 0);
+    nh_text_clear(&code);
+    nh_text_init(&code);
+    nh_reduction_latex(r, &code);
+    cr_expect(strstr(nh_text_string(&code), "\\dot{p}_{\\psi_{1}} &= ") != NULL);
+    nh_text_clear(&code);
     nh_reduction_free(r);
 }

@@ -8,6 +8,8 @@
 #include "motion/dynamics.h"
 #include "reduction/chaplygin.h"
 #include "reduction/group.h"
+#include "reduction/linear.h"
+#include "reduction/momenta.h"
 #include "reduction/reconstruct.h"
 #include "reduction/second.h"
 #include "reduction/subspace.h"
@@ -447,4 +449,123 @@ Test(reduction, second_stage_with_a_rotation_group)
     nh_error error = {0};
     static const size_t cart[] = {0, 1, 4}, rotations[] = {3, 5, 6};
     twice_against_once("cart and free body", nh_system_parse("body", CART_AND_BODY, 0, NULL, &error), cart, 3, rotations, true, 1, 1e-10);
+}
+
+/* ---- momenta ---- */
+
+/* The current of a section of V in D is that of the constraint symmetry with Z^0 = 0 and the section as its part on configuration space. */
+static void momenta_of(const char *name, nh_system *system, size_t count, size_t horizontal)
+{
+    nh_error error = {0};
+    nh_options options = sharp();
+    must(system != NULL, &error, name);
+    nh_model *o = nh_model_create(system, nh_chart_create(system, NH_CHART_COORDINATES, 1, &error), &error);
+    must(o != NULL, &error, name);
+    nh_kinetic *k = nh_kinetic_create(o, 9, &error);
+    nh_group *g = nh_group_find(k, &options, &error);
+    must(g != NULL, &error, name);
+    nh_momenta p;
+    must(nh_momenta_find(&p, &g->action, &options, &error), &error, name);
+    size_t constant = 0;
+    nh_points *points = points_of(o, 30, 77);
+    for (size_t i = 0; i < p.count; i++) {
+        nh_symmetry z;
+        nh_ex phi = nh_model_compose(o, p.momentum[i].value);
+        constant += p.momentum[i].horizontal;
+        cr_expect(p.momentum[i].proved, "%s: momentum %zu", name, i);
+        must(nh_symmetry_of(o, points, phi, 1e-9, &z, &error), &error, name);
+        cr_expect(z.noether_residual < 1e-9, "%s: %g", name, z.noether_residual);
+        double at[30], want[12], got[12];
+        for (size_t n = 0; n < 10; n++) {
+            point_of(points, n, at);
+            cr_expect_float_eq(value_at(o, z.field.time, at), 0, 1e-9, "%s: Z^0", name);
+            values_at(o, o->m, z.field.space, at, got);
+            values_at(o, o->m, p.momentum[i].field, at, want);
+            cr_expect(distance(o->m, got, want) < 1e-9, "%s: the field of momentum %zu is another", name, i);
+        }
+    }
+    cr_expect_eq(p.count, count, "%s: %zu momenta", name, p.count);
+    cr_expect_eq(constant, horizontal, "%s: %zu horizontal symmetries", name, constant);
+    nh_points_free(points);
+    nh_group_free(g);
+    nh_kinetic_free(k);
+    nh_model_free(o);
+    nh_system_free(system);
+}
+
+Test(reduction, conserved_momenta_come_from_constraint_symmetries)
+{
+    nh_error error = {0};
+    momenta_of("vertical disk", nh_system_read("systems/vertical_disk.yaml", 0, NULL, &error), 2, 0);
+    momenta_of("snakeboard", nh_system_parse("snakeboard", SNAKEBOARD, 0, NULL, &error), 1, 1);
+    momenta_of("Chaplygin ball", nh_system_read("systems/chaplygin_ball.yaml", 0, NULL, &error), 1, 0);
+    momenta_of("rolling ball", nh_system_read("systems/rolling_ball.yaml", 0, NULL, &error), 2, 0);
+    momenta_of("top", nh_system_read("systems/euler_top.yaml", 0, NULL, &error), 3, 3);
+    momenta_of("sleigh", nh_system_read("systems/sleigh_inertia.yaml", 0, NULL, &error), 0, 0);
+}
+
+/* ---- Euler's disk ---- */
+
+/* The motions of the reference data, found again from one shape coordinate and three velocities; the two linear integrals are not elementary. */
+Test(reduction, disk_reference_motions)
+{
+    nh_error error = {0};
+    static const char *const parameter[] = {"r", "e", "M", "I1", "I3", "g"};
+    static const size_t all[] = {0, 1, 2, 3};
+    cJSON *data = oracle_read("tests/data/disk_oracle.json");
+    tally tz = {.what = "q(T)"}, te = {.what = "energy"};
+    double drift = 0, change = 0;
+    for (const cJSON *set = oracle_get(data, "sets")->child; set; set = set->next)
+        for (const cJSON *motion = oracle_get(set, "trajectories")->child; motion; motion = motion->next) {
+            nh_setting setting[6];
+            for (size_t i = 0; i < 6; i++) setting[i] = (nh_setting){.name = parameter[i], .value = oracle_number(set, parameter[i])};
+            reducible x = reducible_make(nh_system_parse("disk", DISK, 6, setting, &error), 3, &error);
+            nh_options options = sharp();
+            nh_group *g = nh_group_find(x.kinetic, &options, &error);
+            must(g != NULL, &error, "disk");
+            cr_assert_eq(g->action.d, 4);
+            nh_action action = subgroup(g, 4, all, &options);
+            size_t shape[5], along[5], independent[5];
+            nh_slice slice;
+            nh_reduced reduced;
+            double z0[8], q[5], v[5], u[5], w[5], z[10], y0[5], want[8], times[2] = {0, oracle_number(motion, "T")}, c, s;
+            oracle_flat(oracle_get(motion, "z0"), z0);
+            memcpy(q, z0, sizeof q);
+            c = cos(q[1]), s = sin(q[1]);
+            memcpy(v, z0 + 5, 3 * sizeof *v);
+            v[3] = -setting[0].value * v[2] * c;
+            v[4] = -setting[0].value * v[2] * s;
+            nh_slice_choose(&action, shape, along);
+            for (size_t a = 0; a < 4; a++) y0[a] = q[along[a]];
+            nh_slice_init(&slice, &action, shape, along, y0);
+            nh_reduced_independent(&slice, independent);
+            must(nh_reduced_master(&reduced, &slice, independent, &error), &error, "disk");
+            cr_assert(slice.n == 1 && shape[0] == 0 && reduced.r == 3);
+            cr_assert(nh_slice_components(&slice, q, v, u));
+            for (size_t i = 0; i < 3; i++) w[i] = u[independent[i]];
+            cr_assert(nh_reduced_start(&reduced, q, w, z));
+            nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, 2, times, &options, &error);
+            must(r && r->complete, &error, "disk");
+            oracle_flat(oracle_get(motion, "zT"), want);
+            tally_add(&tz, 5, r->q + 5, want, 0);
+            nh_reduced_flow *flow = nh_reduced_flow_create(&reduced);
+            double energy, expected = oracle_number(motion, "E");
+            cr_assert(nh_reduced_flow_at(flow, r->z + 4, NULL, NULL, NULL, &energy));
+            tally_add(&te, 1, &energy, &expected, 0);
+            nh_linear_momenta linear;
+            nh_linear_momenta_find(&linear, &reduced, &options);
+            cr_assert_eq(linear.count, 2, "off by %g", linear.off);
+            drift = fmax(drift, fabs(nh_linear_momenta_drift(&linear, &reduced, 2, r->z)));
+            for (size_t i = 0; i < 2; i++) change = fmax(change, fabs(r->z[4 + 1 + linear.index[i]] - r->z[1 + linear.index[i]]));
+            nh_reduced_flow_free(flow);
+            nh_reconstruction_free(r);
+            nh_action_clear(&action);
+            nh_group_free(g);
+            reducible_clear(&x);
+        }
+    cr_expect(drift < 1e-9, "the linear currents drift by %g", drift);
+    cr_expect(change > 0.1, "the momenta themselves change by %g only", change);
+    tally_check(&tz, 1e-10, "disk");
+    tally_check(&te, 1e-11, "disk");
+    cJSON_Delete(data);
 }

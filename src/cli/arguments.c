@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_accuracy, opt_ensemble, opt_spread, opt_stress };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_to };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -20,6 +20,7 @@ static const struct option long_options[] = {
     {"step", required_argument, NULL, opt_step},         {"threads", required_argument, NULL, opt_threads},
     {"project", no_argument, NULL, opt_project},
     {"group", required_argument, NULL, opt_group},       {"chain", required_argument, NULL, opt_chain},
+    {"to", required_argument, NULL, opt_to},
     {"watch", required_argument, NULL, opt_watch},       {"scene", no_argument, NULL, opt_scene},
     {"svg", required_argument, NULL, opt_svg},           {"budget", required_argument, NULL, opt_budget},
     {"accuracy", required_argument, NULL, opt_accuracy}, {"ensemble", required_argument, NULL, opt_ensemble},
@@ -122,6 +123,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_initial: cli->initial = value; return true;
     case opt_project: return cli->project = true;
     case opt_step: return positive(value, "step", &cli->step, error);
+    case opt_to: cli->to = value; return true;
     case opt_watch: cli->watch = value; return true;
     case opt_svg: cli->svg = value; return true;
     case opt_budget: return seconds(value, &cli->budget, error);

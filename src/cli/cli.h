@@ -17,8 +17,8 @@ typedef struct {
     const char *analysis, *json; /* files; json may be "-" */
     const char *current, *field; /* questions of verify */
     const char *initial;         /* of simulate and reduce */
+    const char *group, *chain, *to; /* of reduce */
     bool project;
-    const char *group, *chain;   /* of reduce */
     const char *watch;           /* of simulate */
     bool scene;
     double accuracy, spread;

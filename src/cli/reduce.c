@@ -10,9 +10,25 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "reduce which system?");
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
-    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .group = cli->group, .chain = cli->chain, .options = cli->options};
+    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .project = cli->project, .group = cli->group, .chain = cli->chain, .options = cli->options};
+    if (cli->to && strcmp(cli->to, "c") && strcmp(cli->to, "latex")) {
+        nh_fail(error, NH_USAGE, "", "reduce does not write `%s`", cli->to);
+        return nh_error_hint(error, "--to takes c or latex");
+    }
     q->system_path = nh_cli_find(cli, "systems", cli->operand[0], error);
     return q->system_path != NULL;
+}
+
+/* The summary, or the equations as code. */
+static void print(const nh_cli *cli, const nh_reduction *r)
+{
+    nh_text text;
+    nh_text_init(&text);
+    if (cli->to && !strcmp(cli->to, "c")) nh_reduction_c(r, &text);
+    else if (cli->to) nh_reduction_latex(r, &text);
+    else nh_reduction_text(r, cli->verbose, &text);
+    fputs(nh_text_string(&text), stdout);
+    nh_text_clear(&text);
 }
 
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
@@ -21,13 +37,7 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     nh_reduction *r = request_of(cli, &request, error) ? nh_reduce(&request, error) : NULL;
     if (!r) return error->code;
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
-    if (!to_stdout && !cli->quiet) {
-        nh_text text;
-        nh_text_init(&text);
-        nh_reduction_text(r, cli->verbose, &text);
-        fputs(nh_text_string(&text), stdout);
-        nh_text_clear(&text);
-    }
+    if (!to_stdout && !cli->quiet) print(cli, r);
     if (cli->json) {
         char *json = nh_reduction_json(r);
         if (to_stdout) fputs(json, stdout);

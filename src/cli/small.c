@@ -26,7 +26,7 @@ int nh_cli_help(nh_cli *cli, nh_error *error)
          "  nhsym chart SYSTEM|FILE [--budget 5s] [--svg FILE]    every integrator on one motion: time against error;\n"
          "                              --stress: maps of where they fail\n"
          "  nhsym reduce SYSTEM|FILE    its symmetry group, and the reduced equations; --group \"1, 2\" or \"x=1; theta=1, x=-y, y=x\" chooses,\n"
-         "                              --chain \"3; 1, 2\" the stages\n"
+         "                              --chain \"3; 1, 2\" the stages, --to c|latex writes the equations\n"
          "  nhsym list                  systems that are here\n"
          "  nhsym show SYSTEM           a system file\n"
          "  nhsym explain [TOPIC]       what a word of the report means; `explain options` lists all numbers that decide\n"

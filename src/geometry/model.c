@@ -85,6 +85,7 @@ nh_tape *nh_model_tape(const nh_model *o, size_t count, const nh_ex *out)
 typedef struct {
     bool large;
     nh_ex *dq, *dv; /* m: dL/dq^s, dL/dv^s */
+    nh_ex *inertial; /* m: dL/dq^s - X_0(p_s), of bodies and joints; NULL */
     nh_ex tau;
 } slopes;
 
@@ -104,6 +105,29 @@ static slopes slopes_of(const nh_model *o)
     nh_diff_rule(d, y->t, s.tau, nh_int(d, 1));
     for (size_t i = 0; i < o->m; i++) nh_diff_rule(d, y->coordinate[i].q, s.tau, o->rho[i]);
     return s;
+}
+
+/* dL/dq^s - X_0(p_s) of a chain of bodies, by recursion: -(c_s + K_sr X_0(rho^r)), and the same of what the file adds to its Lagrangian. */
+static void inertial_forces(nh_model *o, slopes *slope)
+{
+    nh_dag *d = o->dag;
+    const nh_system *y = o->system;
+    const nh_chain *c = y->chain;
+    if (!slope->large || !c) return;
+    nh_ex *q = take(o, 3 * o->m), *v = q + o->m, *bias = v + o->m;
+    nh_ex rest = nh_sub(d, y->lagrangian, nh_sub(d, c->kinetic, c->potential));
+    for (size_t s = 0; s < o->m; s++) q[s] = y->coordinate[s].q, v[s] = y->coordinate[s].v;
+    nh_chain_bias(c, &(nh_chain_scope){.dag = d, .arena = o->arena, .t = y->t, .m = o->m, .q = q, .v = v}, bias);
+    slope->inertial = take(o, o->m);
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex e = nh_neg(d, nh_model_compose(o, bias[s]));
+        for (size_t r = 0; r < o->m; r++) {
+            nh_ex a = nh_model_X0(o, o->rho[r]);
+            if (!nh_is_zero(d, a)) e = nh_sub(d, e, nh_mul(d, c->K[s * o->m + r], a));
+        }
+        e = nh_add(d, e, nh_model_compose(o, nh_diff(d, rest, q[s])));
+        slope->inertial[s] = nh_sub(d, e, nh_model_X0(o, nh_model_compose(o, nh_diff(d, rest, v[s]))));
+    }
 }
 
 static void momenta(nh_model *o, const slopes *slope)
@@ -146,7 +170,9 @@ static void matrices(nh_model *o, const slopes *slope)
         for (size_t s = 0; s < o->m; s++) {
             nh_ex R = o->R[s * n + i];
             if (nh_is_zero(d, R)) continue;
-            o->A[i] = nh_add(d, o->A[i], nh_mul(d, R, nh_sub(d, applied_force(o, slope, s), rate_of_momentum(o, slope, s))));
+            nh_ex force = slope->inertial ? nh_add(d, slope->inertial[s], nh_model_compose(o, o->system->force[s]))
+                                          : nh_sub(d, applied_force(o, slope, s), rate_of_momentum(o, slope, s));
+            o->A[i] = nh_add(d, o->A[i], nh_mul(d, R, force));
         }
         o->A[i] = simple(o, o->A[i]);
         for (size_t j = 0; j < n; j++) {
@@ -223,7 +249,14 @@ static bool singular(const nh_model *o, nh_error *error)
     nh_text which;
     nh_text_init(&which);
     print_direction(o, direction, &which);
-    nh_deck_fail(y->deck, nh_deck_get(nh_deck_root(y->deck), "lagrangian"), 0, error,
+    const nh_deck_node *where = nh_deck_get(nh_deck_root(y->deck), "lagrangian");
+    if (!nh_text_string(&which)[0]) { /* it could be evaluated nowhere */
+        nh_text_clear(&which);
+        nh_free(direction);
+        nh_deck_fail(y->deck, where, 0, error, "the mass matrix of the Lagrangian is not finite at any point of the sampling domain");
+        return nh_error_hint(error, "is it divided by a parameter that is 0, or a root taken of something negative?  Or does `domain:` lie outside of where it is defined?");
+    }
+    nh_deck_fail(y->deck, where, 0, error,
                  rank < o->n ? "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu; no inertia in the direction %.300s"
                              : "the mass matrix of the Lagrangian has rank %zu of %zu but is singular in places of the sampling domain, in the direction %.300s",
                  rank, o->n, nh_text_string(&which));
@@ -305,6 +338,7 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     o->reaction = take(o, m);
     slopes slope = slopes_of(o);
     momenta(o, &slope);
+    inertial_forces(o, &slope);
     matrices(o, &slope);
     if (accelerations(o, error) && multipliers(o, &slope, error)) return o;
     nh_model_free(o);

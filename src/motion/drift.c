@@ -183,15 +183,23 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
 
 /* ---- the scene ---- */
 
-/* What is watched, from the smallest model for it: the same values? */
+/* What the user asked to see, from the smallest model for it: the same values? */
 static void smallest_model(run *r, const nh_state *initial, const nh_ex *watched)
 {
     nh_validation *v = r->out;
+    size_t n = 0, *column = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *column);
+    nh_ex *asked = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *asked);
+    for (size_t j = 0; j < r->watches; j++) {
+        if (!r->watch[j].asked) continue;
+        column[n] = j;
+        asked[n++] = watched[j];
+    }
+    if (n == 0) return;
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_options options = *r->options;
     options.tolerance = v->tolerance[NH_DRIFT_RUNS - 1];
-    nh_trajectory_request q = {.model = r->model, .initial = initial, .count = v->count, .times = v->time, .options = &options, .n = r->watches, .e = watched, .smallest = true};
+    nh_trajectory_request q = {.model = r->model, .initial = initial, .count = v->count, .times = v->time, .options = &options, .n = n, .e = asked, .smallest = true};
     nh_trajectory *t = nh_trajectory_create(&q, &ignored);
     if (t && t->scene && t->motion->complete) {
         nh_text words;
@@ -199,8 +207,10 @@ static void smallest_model(run *r, const nh_state *initial, const nh_ex *watched
         nh_scene_words(t->scene, &words);
         v->scene = nh_arena_strdup(v->arena, nh_text_string(&words));
         v->scene_evaluations = t->motion->evaluations;
-        for (size_t i = 0; i < v->count * r->watches; i++)
-            if (isfinite(v->watch[i])) v->scene_difference = fmax(v->scene_difference, fabs(t->value[i] - v->watch[i]) / (1 + fabs(v->watch[i])));
+        for (size_t i = 0; i < v->count * n; i++) {
+            double full = v->watch[i / n * r->watches + column[i % n]];
+            if (isfinite(full)) v->scene_difference = fmax(v->scene_difference, fabs(t->value[i] - full) / (1 + fabs(full)));
+        }
         nh_text_clear(&words);
     }
     nh_trajectory_free(t);

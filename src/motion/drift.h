@@ -45,6 +45,7 @@ typedef struct {
 typedef struct {
     const char *name;
     nh_ex value;
+    bool asked; /* by the user: what the scene is made for */
 } nh_watch;
 
 /* Where a current makes sense: while `coordinate` lies between low and high; coordinate 0: everywhere. */

@@ -27,7 +27,7 @@ static bool is_in(size_t n, const nh_ex *list, nh_ex e)
 static void add(harvester *h, size_t *n, nh_ex *list, nh_ex e)
 {
     nh_dag *d = h->o->dag;
-    e = nh_simplify(d, nh_model_compose(h->o, e));
+    e = nh_simplify_short(d, nh_model_compose(h->o, e), 0);
     if (nh_kind_of(d, e) == NH_PRODUCT) {
         nh_num c = nh_constant_of(d, e);
         if (!nh_num_is(c, 1)) e = nh_mul(d, e, nh_number(d, nh_num_inv(c)));
@@ -221,7 +221,7 @@ static void frame(harvester *h)
         add(h, &h->out->frames, h->out->frame, nh_mul(d, even_root(o, pivot), form));
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++)
-                if (!done[i] && !done[j]) M[i * n + j] = nh_simplify(d, nh_sub(d, M[i * n + j], nh_div(d, nh_mul(d, M[i * n + p], M[p * n + j]), pivot)));
+                if (!done[i] && !done[j]) M[i * n + j] = nh_simplify_short(d, nh_sub(d, M[i * n + j], nh_div(d, nh_mul(d, M[i * n + p], M[p * n + j]), pivot)), 0);
     }
 }
 
@@ -230,7 +230,7 @@ static void add_roots(harvester *h)
 {
     nh_model *o = h->o;
     nh_dag *d = o->dag;
-    nh_ex det = nh_simplify(d, determinant(o));
+    nh_ex det = nh_simplify_short(d, determinant(o), 0);
     add_root(h, det);
     for (size_t j = 0; nh_kind_of(d, det) == NH_PRODUCT && j < nh_arity(d, det); j++) add_root(h, nh_child(d, det, j));
     for (size_t i = 0; i < o->n; i++) {
@@ -283,17 +283,25 @@ static void potentials(harvester *h)
     potential_terms(h, V, 3);
 }
 
-static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
+/* Outside sines and cosines; `seen`: per node, looked at already (a shared graph has exponentially many paths). */
+static bool plainly(const nh_dag *d, nh_ex e, nh_ex q, bool *seen)
 {
-    nh_dag *d = h->o->dag;
     nh_kind kind = nh_kind_of(d, e);
     if (e == q) return true;
-    if (kind == NH_NUMBER || kind == NH_SYMBOL || !nh_depends(d, e, q)) return false;
+    if (kind == NH_NUMBER || kind == NH_SYMBOL || seen[e]) return false;
+    seen[e] = true;
     nh_function f = kind == NH_FUNCTION ? nh_function_of(d, e) : NH_PI;
     if (f == NH_SIN || f == NH_COS || f == NH_TAN) return false;
     for (size_t i = 0; i < nh_arity(d, e); i++)
-        if (occurs_plainly(h, nh_child(d, e, i), q)) return true;
+        if (plainly(d, nh_child(d, e, i), q, seen)) return true;
     return false;
+}
+
+static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
+{
+    bool *seen = nh_alloc_array((size_t)e + 1, sizeof *seen), result = plainly(h->o->dag, e, q, seen);
+    nh_free(seen);
+    return result;
 }
 
 static void shapes(harvester *h)

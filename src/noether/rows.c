@@ -182,11 +182,11 @@ size_t nh_rows_field_columns(const nh_model *o, size_t n, const nh_ex *b, nh_fie
         for (size_t i = 0; i < o->n; i++) zeta[i] = nh_model_Y(o, i, b[j]);
         nh_lu_solve(o->M_lu, zeta, zeta);
         for (size_t i = 0; i < o->n; i++) {
-            zeta[i] = nh_simplify(d, zeta[i]);
+            zeta[i] = nh_simplify_short(d, zeta[i], 0);
             z0 = nh_sub(d, z0, nh_mul(d, o->pbar[i], zeta[i]));
             add_column(list, &count, i + 1, zeta[i], d);
         }
-        add_column(list, &count, 0, nh_simplify(d, z0), d);
+        add_column(list, &count, 0, nh_simplify_short(d, z0, 0), d);
     }
     nh_free(zeta);
     *out = list;

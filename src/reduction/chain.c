@@ -57,15 +57,6 @@ static nh_twist bracket(nh_dag *d, const nh_twist *a, const nh_twist *b)
     return out;
 }
 
-static nh_inertia inertia_of(nh_dag *d, const nh_body *b)
-{
-    nh_inertia c = {.m = b->mass};
-    for (int i = 0; i < 3; i++) c.h[i] = nh_int(d, 0);
-    memcpy(c.I, b->inertia, sizeof c.I);
-    nh_pose shift = nh_pose_shift(d, b->center);
-    return nh_inertia_outwards(d, &shift, &c);
-}
-
 static nh_pose pose_of_joint(nh_dag *d, const nh_chain *c, const nh_joint *j)
 {
     nh_pose a = nh_pose_identity(d);
@@ -90,7 +81,7 @@ static void momenta(work *w)
     for (size_t b = 0; b < c->bodies; b++) {
         nh_pose pose;
         nh_twist twist;
-        nh_inertia own = inertia_of(d, &c->body[b]);
+        nh_inertia own = nh_body_inertia(d, &c->body[b]);
         nh_chain_frame(c, d, (long)b, 0, &pose, &twist);
         w->behind[b] = nh_inertia_momentum(d, &own, &twist);
     }

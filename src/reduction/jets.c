@@ -243,6 +243,30 @@ static void conclude(search *s, const double *jets, const double *moved, nh_jets
     nh_free(xi);
 }
 
+/* After the first ray only those jets are carried on that leave the metric alone there too (with a generous bound: what is kept without need is
+ * sorted out later).  Jets, their images at the end of that ray and the rows so far are expressed in them. */
+static void thin_out(search *s, double *jets, double *moved)
+{
+    size_t n = s->columns, size = s->t.size;
+    double *basis = nh_alloc_array(n * n + 1, sizeof *basis), *a = nh_alloc_array(s->c.rows[0] * n + 1, sizeof *a), *out = nh_alloc_array(size * n + 1, sizeof *out);
+    for (size_t r = 0; r < s->c.rows[0]; r++)
+        for (size_t c = 0; c < n; c++) a[r + c * s->c.rows[0]] = s->c.row[0][r * n + c];
+    size_t kept = nh_kernel(s->c.rows[0], n, a, sqrt(s->options->group), basis, NULL, NULL);
+    for (int which = 0; which < 2; which++) {
+        nh_multiply(size, kept, n, which ? moved : jets, basis, out);
+        memcpy(which ? moved : jets, out, size * kept * sizeof *out);
+    }
+    for (int kind = 0; kind < 3; kind++)
+        for (size_t r = 0; r < s->c.rows[kind]; r++) {
+            nh_multiply(1, kept, n, s->c.row[kind] + r * n, basis, out);
+            memmove(s->c.row[kind] + r * kept, out, kept * sizeof *out);
+        }
+    s->columns = s->c.columns = kept;
+    nh_free(basis);
+    nh_free(a);
+    nh_free(out);
+}
+
 static void run(search *s, nh_jets *out)
 {
     size_t m = s->m, length = s->t.size * s->columns;
@@ -251,11 +275,15 @@ static void run(search *s, nh_jets *out)
     nh_transport_at(&s->t, out->place, s->x);
     first_jets(s, jets);
     conditions_at(s, out->place, jets);
-    for (size_t p = 1; p < s->kinetic->places && out->places < rays; p++) {
+    for (size_t p = 1; p < s->kinetic->places && out->places < rays && s->columns; p++) {
         double *end = out->end + out->places * m, *here = moved + out->places * length;
         if (follow_ray(s, out->place, s->kinetic->place + p * m, jets, end, here) && conditions_at(s, end, here)) out->places++;
+        if (out->places == 1 && length == s->t.size * m * (m + 1) / 2) {
+            thin_out(s, jets, here);
+            length = s->t.size * s->columns;
+        }
     }
-    for (size_t p = 0; p + 1 < out->places && p < triangles; p++)
+    for (size_t p = 0; p + 1 < out->places && p < triangles && s->columns; p++)
         triangle_rows(s, out->end + p * m, out->end + (p + 1) * m, moved + p * length, moved + (p + 1) * length);
     if (out->places) conclude(s, jets, moved, out);
     nh_free(jets);

@@ -1,6 +1,7 @@
 #include "report/reduction.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "expr/normal.h"
@@ -133,6 +134,25 @@ static void put_second(const nh_second *t, nh_text *out)
     else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
 }
 
+static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, bool verbose, nh_text *out)
+{
+    const nh_linear_momenta *l = &s->linear;
+    nh_dag *d = r->kinetic->dag;
+    if (!l->count) return;
+    const char *x = nh_name_of(d, s->shown->x[0]);
+    nh_text_addf(out, "  %zu currents linear in the velocities: Y(%s)^-1 p with dY/d%s = N Y, p = (", l->count, x, x);
+    for (size_t a = 0; a < l->count; a++) nh_text_addf(out, "%s%s", a ? ", " : "", s->shown->momentum[l->index[a]]);
+    nh_text_add(out, ")");
+    if (s->linear_drift >= 0) nh_text_addf(out, "; they drift by %.1e", s->linear_drift);
+    nh_text_add(out, "\n");
+    for (size_t a = 0; a < l->count * l->count; a++)
+        if (!nh_is_zero(d, l->N[a])) {
+            char name[64];
+            snprintf(name, sizeof name, "N_%zu%zu", a / l->count + 1, a % l->count + 1);
+            put_expression(out, "    ", name, d, l->N[a], verbose);
+        }
+}
+
 static void put_chain(const nh_reduction_stage *s, nh_text *out)
 {
     const nh_ideals *c = s->chain;
@@ -167,6 +187,7 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
     size_t n = nh_reduction_equations(r, s, &e);
     for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, verbose);
     if (s->kind == NH_STAGE_CHAPLYGIN) put_measure(&s->measure, out);
+    put_linear(r, s, verbose, out);
     put_chain(s, out);
     put_numbers(s, out);
 }

@@ -192,6 +192,13 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, s);
     if (s->kind == NH_STAGE_SECOND) put_second(to, s);
     if (s->by_stages) put_chain(to, s);
+    if (s->linear.count) {
+        nh_json *linear = nh_json_put_object(to, "linear_momenta"), *which = nh_json_put_array(linear, "momenta");
+        for (size_t a = 0; a < s->linear.count; a++) nh_json_add_text(which, s->shown->momentum[s->linear.index[a]]);
+        put_matrix(linear, "equation", d, s->linear.count, s->linear.count, s->linear.N);
+        if (s->linear_drift >= 0) nh_json_put_number(linear, "drift", s->linear_drift);
+        else nh_json_put_null(linear, "drift");
+    }
     if (s->compared) nh_json_put_number(to, s->kind == NH_STAGE_SECOND ? "agreement_with_first" : "agreement_with_full", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
     nh_json_put_number(to, "reached", s->reached);

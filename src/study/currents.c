@@ -60,7 +60,7 @@ static void normalise(nh_model *o, nh_found *f)
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta), Z0 = nh_symmetry_components(o, f->phi, zeta);
     nh_ex unit = unit_of(o, Z0, zeta);
     nh_free(zeta);
-    f->phi = nh_simplify(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit));
+    f->phi = nh_simplify_short(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit), 0);
 }
 
 static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh_error *error)
@@ -127,7 +127,7 @@ static bool proportional(nh_model *o, nh_ex phi, nh_ex e)
 {
     nh_dag *d = o->dag;
     if (nh_is_zero(d, e)) return false;
-    nh_ex ratio = nh_simplify(d, nh_div(d, phi, e));
+    nh_ex ratio = nh_simplify_short(d, nh_div(d, phi, e), 0);
     return is_parametric(o, ratio);
 }
 
@@ -148,7 +148,7 @@ static void in_velocities(nh_result *r, nh_found *f, const nh_ex *inverse, bool 
     f->has_in_velocities = invertible;
     f->in_velocities = nh_substitute(o->dag, f->phi, o->chart->implicit, o->chart->u, v);
     if (invertible && o->chart->quasi)
-        f->in_velocities = nh_simplify(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, inverse));
+        f->in_velocities = nh_simplify_short(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, inverse), 0);
     if (o->chart->branch) f->in_velocities = nh_chart_both_branches(o->chart, f->in_velocities);
     nh_free(v);
 }

@@ -97,7 +97,7 @@ static size_t wave_families(nh_climb *x, const nh_family *base, size_t which, si
     part[1] = (nh_family){.kind = NH_TERMS, .terms = terms, .term = wave};
     out[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
     out[1] = *base;
-    return which == NH_PENCIL_BASES - 1 ? 2 : 1;
+    return which == NH_PENCIL_PLAIN - 1 ? 2 : 1;
 }
 
 /* Returns whether something new was found. */
@@ -128,13 +128,23 @@ static bool pencil_stage(nh_climb *x, nh_ex q, const char *name, size_t which)
     return r->independent > before;
 }
 
-/* The smallest base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
+/* The equations of motion do not depend on it (time included: whether they do is seen soon enough). */
+static bool is_cyclic(const nh_climb *x, nh_ex q)
+{
+    for (size_t i = 0; i < x->words.shapes; i++)
+        if (x->words.shape[i] == q) return false;
+    return true;
+}
+
+/* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
 void nh_climb_rates(nh_climb *x)
 {
     const nh_model *o = x->r->model;
     for (size_t i = 0; i <= o->m; i++) {
         nh_ex q = i == 0 ? o->system->t : o->system->coordinate[i - 1].q;
-        for (size_t base = 0; base < NH_PENCIL_BASES && !nh_climb_done(x); base++)
-            if (pencil_stage(x, q, nh_name_of(o->dag, q), base)) break;
+        const char *name = nh_name_of(o->dag, q);
+        for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_climb_done(x); base++)
+            if (pencil_stage(x, q, name, base)) break;
+        for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, name, base);
     }
 }

@@ -29,32 +29,51 @@ void nh_reduction_warn(nh_reduction *r, const char *format, ...)
 
 /* ---- the initial state ---- */
 
-/* The nearest velocity (in the metric of the coordinates) that the constraints allow; by how much it moved. */
-static double project(const nh_kinetic *k, const double *q, double *v)
+/* Change the velocities that are not `fixed` (NULL: none is) as little as possible so that they satisfy the constraints; returns the largest
+ * omega^A(v) that is left, forms of length one. */
+static double satisfy(const nh_kinetic *k, const double *q, const bool *fixed, double *v)
 {
     size_t m = k->m, f = k->f, ld = m > f ? m : f;
-    double *a = nh_alloc_array(f * m + ld + 1, sizeof *a), *b = a + f * m, *omega = nh_alloc_array(f * m + 1, sizeof *omega), moved = 0;
+    double *a = nh_alloc_array(f * m + ld + 1, sizeof *a), *b = a + f * m, *omega = nh_alloc_array(f * m + 1, sizeof *omega), left = 0;
     if (f) nh_kinetic_values(k, f * m, k->omega, q, omega);
-    for (size_t i = 0; i < f; i++)
-        for (size_t s = 0; s < m; s++) {
-            a[i + s * f] = omega[i * m + s];
+    for (size_t i = 0; i < f; i++) {
+        double size = 0;
+        for (size_t s = 0; s < m; s++) size = hypot(size, omega[i * m + s]);
+        for (size_t s = 0; s < m && size > 0; s++) {
+            omega[i * m + s] /= size;
+            a[i + s * f] = fixed && fixed[s] ? 0 : omega[i * m + s];
             b[i] += omega[i * m + s] * v[s];
         }
+    }
     if (f && nh_least_squares(f, m, a, 1, b, ld, 1e-13) >= 0)
-        for (size_t s = 0; s < m; s++) {
-            v[s] -= b[s];
-            moved = fmax(moved, fabs(b[s]));
-        }
+        for (size_t s = 0; s < m; s++)
+            if (!fixed || !fixed[s]) v[s] -= b[s];
+    for (size_t i = 0; i < f; i++) {
+        double rest = 0;
+        for (size_t s = 0; s < m; s++) rest += omega[i * m + s] * v[s];
+        left = fmax(left, fabs(rest));
+    }
     nh_free(a);
     nh_free(omega);
-    return moved;
+    return left;
+}
+
+static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *given, nh_error *error)
+{
+    static const double allowed = 1e-9;
+    bool *all = nh_arena_alloc(r->arena, r->kinetic->m * sizeof *all);
+    for (size_t s = 0; s < r->kinetic->m; s++) all[s] = true;
+    double left = satisfy(r->kinetic, r->initial.q, given ? given : all, r->initial.v);
+    if (left <= allowed) return true;
+    if (q->project) return satisfy(r->kinetic, r->initial.q, NULL, r->initial.v) <= allowed || nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g", left);
+    return nh_error_hint(error, "leave out velocities that the constraints determine, or --project them to the nearest allowed ones");
 }
 
 static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
-    static const double allowed = 1e-9;
     size_t m = r->kinetic->m;
-    r->initial = (nh_state){0, nh_arena_alloc(r->arena, m * sizeof(double)), nh_arena_alloc(r->arena, m * sizeof(double)), NULL};
+    r->initial = (nh_state){.q = nh_arena_alloc(r->arena, m * sizeof(double)), .v = nh_arena_alloc(r->arena, m * sizeof(double))};
     memcpy(r->initial.q, r->kinetic->place, m * sizeof(double));
     memcpy(r->initial.v, r->kinetic->speed, m * sizeof(double));
     if (!q->initial) return true;
@@ -63,8 +82,7 @@ static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *
     if (good) {
         memcpy(r->initial.q, own->initial.q, m * sizeof(double));
         memcpy(r->initial.v, own->initial.v, m * sizeof(double));
-        double moved = r->kinetic->linear ? project(r->kinetic, r->initial.q, r->initial.v) : 0;
-        if (moved > allowed) nh_reduction_warn(r, "the initial velocities violated the constraints; the nearest that do not are taken (moved by %.3g)", moved);
+        if (r->kinetic->linear) good = velocities(r, q, own->initial.given, error);
     }
     nh_analysis_free(own);
     return good;

@@ -4,6 +4,7 @@
 
 #include "motion/dynamics.h"
 #include "reduction/group.h"
+#include "reduction/linear.h"
 #include "reduction/momenta.h"
 #include "reduction/poincare.h"
 #include "reduction/reconstruct.h"
@@ -14,7 +15,8 @@ typedef struct {
     size_t settings;
     const nh_setting *setting;
     nh_chart_choice chart;
-    const char *initial;      /* "phi=0, omega=2", or NULL */
+    const char *initial;      /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
+    bool project;             /* move velocities that violate the constraints to the nearest that do not */
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     nh_options options;
@@ -35,6 +37,8 @@ typedef struct {
     bool by_stages;           /* third kind: were the equations by stages formed? */
     const nh_ideals *chain;
     nh_poincare poincare;
+    nh_linear_momenta linear; /* of the shown equations; third and fourth kind */
+    double linear_drift;      /* of these currents along the reduced motion; negative: not followed */
     double agreement;         /* largest difference of a position from the full motion (second kind: from the first stage), relative to 1 + size */
     double reached;           /* time up to which */
     double energy_drift;      /* of the reduced motion, relative */

@@ -151,6 +151,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const do
     if (motion && nh_reduced_flow_at(flow, z, NULL, NULL, NULL, &e0))
         for (size_t i = 1; i < motion->count; i++)
             if (nh_reduced_flow_at(flow, motion->state + i * motion->size, NULL, NULL, NULL, &e1)) s->energy_drift = fmax(s->energy_drift, fabs(e1 - e0) / (1 + fabs(e0)));
+    if (motion && s->linear.count) s->linear_drift = nh_linear_momenta_drift(&s->linear, s->reduced, motion->count, motion->state);
     nh_motion_free(motion);
     nh_reduced_flow_free(flow);
     nh_options finer = r->options;

@@ -68,6 +68,7 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
         s->slice = slice;
         s->reduced = o;
         s->shown = pretty;
+        nh_linear_momenta_find(&s->linear, pretty, &r->options);
         nh_reduction_compare(b, s, z, b->full, 2 * m, b->reached);
         nh_error trouble = {0};
         if (s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {

@@ -128,6 +128,45 @@ static list squares(const shelf *s, const list *a)
 
 /* ---- the stages ---- */
 
+/* Products of components along the frame of the kinetic energy with lengths and harmonics: in polar coordinates the components of vectors. */
+static list lengths(const shelf *s, bool squares_too, bool time)
+{
+    nh_dag *d = s->o->dag;
+    list l = {0};
+    put(&l, nh_int(d, 1));
+    for (size_t i = 0; i < s->w->lengths; i++) put(&l, s->w->length[i]);
+    for (size_t i = 0; i < s->w->lengths && squares_too; i++)
+        for (size_t j = 0; j <= i; j++) put(&l, nh_mul(d, s->w->length[i], s->w->length[j]));
+    if (time) put(&l, s->o->system->t);
+    return l;
+}
+
+static list times(const shelf *s, const list *a, const list *b)
+{
+    list l = {0};
+    for (size_t i = 0; i < a->n; i++)
+        for (size_t j = 0; j < b->n; j++) put(&l, nh_mul(s->o->dag, a->e[i], b->e[j]));
+    return l;
+}
+
+static list frame_products(const shelf *s, bool squares_too)
+{
+    list f = {0}, w = waves(s, 1), some = lengths(s, false, !squares_too), all = lengths(s, true, false), g = functions(s, false);
+    put_all(&f, s->w->frames, s->w->frame);
+    list out = times(s, &f, &some), sq = squares(s, &f), more = times(s, &sq, &all);
+    if (squares_too) put_all(&out, more.n, more.e);
+    put_all(&out, all.n, all.e);
+    if (squares_too) put_all(&out, g.n, g.e);
+    return times(s, &out, &w);
+}
+
+static void stage_frame(shelf *s)
+{
+    if (s->w->frames < s->o->n) return;
+    list l = frame_products(s, true);
+    add(s, terms_of(s, &l));
+}
+
 static void stage_words(shelf *s)
 {
     list l = words(s), q = positions(s, false, true), f = functions(s, false);
@@ -295,6 +334,7 @@ static const struct {
     {"weighted degree 4 in the system's own forms", stage_forms_4},
     {"squares of velocities times positions of higher degree, energy and functions times lower", stage_separation},
     {"squares of positions and velocities times functions of time", stage_time},
+    {"squares of the frame times lengths and first harmonics", stage_frame},
     {"ratios of velocities", stage_ratios},
     {"total degree 3", stage_degree_3},
     {"quadratic forms times first harmonics", stage_quadratic_waves},
@@ -316,6 +356,11 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
 {
     enum { most_with_waves = 110 };
     shelf s = {arena, o, w, NULL, 0};
+    if (base >= NH_PENCIL_PLAIN) {
+        list l = {0};
+        if (w->frames == o->n) l = frame_products(&s, base > NH_PENCIL_PLAIN);
+        return terms_of(&s, &l);
+    }
     list l = {0}, v = waves(&s, 1), q = positions(&s, false, false), f = functions(&s, false);
     put_all(&l, w->velocities, w->velocity);
     if (base == 2) put_all(&l, w->forms, w->form);

@@ -97,7 +97,7 @@ void nh_chain_jacobian(const nh_chain *c, nh_dag *d, size_t body, nh_twist *out)
 
 /* ---- from the leaves to the root ---- */
 
-static nh_inertia own_inertia(nh_dag *d, const nh_body *b)
+nh_inertia nh_body_inertia(nh_dag *d, const nh_body *b)
 {
     nh_inertia c = {.m = b->mass};
     for (int i = 0; i < 3; i++) c.h[i] = nh_int(d, 0);
@@ -128,7 +128,7 @@ static void build_metric(nh_chain *c, nh_dag *d, nh_arena *arena, nh_ex moment[3
     nh_inertia *composite = nh_arena_alloc(arena, (c->bodies + 1) * sizeof *composite);
     for (int i = 0; i < 3; i++) moment[i] = nh_int(d, 0);
     for (size_t i = 0; i < c->screws * c->screws; i++) c->metric[i] = nh_int(d, 0);
-    for (size_t b = 0; b < c->bodies; b++) composite[b] = own_inertia(d, &c->body[b]);
+    for (size_t b = 0; b < c->bodies; b++) composite[b] = nh_body_inertia(d, &c->body[b]);
     for (size_t i = c->joints; i-- > 0;) {
         const nh_joint *j = &c->joint[c->order[i]];
         nh_inertia behind = composite[j->child];

@@ -105,6 +105,12 @@ void nh_chain_frame(const nh_chain *chain, nh_dag *dag, long body, size_t skip, 
 /* Body Jacobian (eq. 3.22): column k of `out` (screws columns) is the twist of the body's frame for the rate 1 of screw k alone. */
 void nh_chain_jacobian(const nh_chain *chain, nh_dag *dag, size_t body, nh_twist *out);
 
+/* What holds all q'' at zero, gravity included: d/dt dL/dq' - dL/dq = K q'' + out (m) for L = kinetic - potential. */
+void nh_chain_bias(const nh_chain *chain, const nh_chain_scope *scope, nh_ex *out);
+
+/* Of one body about the origin of its frame. */
+nh_inertia nh_body_inertia(nh_dag *dag, const nh_body *body);
+
 /* The conditions of a wheel, linear in the rates, as expressions that vanish: at most 3; returns how many. */
 size_t nh_wheel_conditions(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel, nh_ex out[3]);
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "expr/diff.h"
-#include "expr/print.h"
+#include "expr/tape.h"
 #include "system/bodies_internal.h"
 
 typedef nh_system_reader reader;
@@ -140,9 +140,30 @@ static bool inertia_of(reader *r, const nh_deck_node *item, nh_ex I[9])
     return true;
 }
 
+/* A constant at the values of the parameters. */
+static double value_at_parameters(const nh_system *s, nh_ex e)
+{
+    const nh_ex *symbols;
+    const double *values;
+    double value;
+    nh_system_bindings(s, &symbols, &values);
+    nh_tape *tape = nh_tape_create(s->dag, 0, NULL, 1, &e, s->parameters, symbols, values);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, NULL, &value);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return value;
+}
+
+static bool not_negative(reader *r, const nh_deck_node *map, const char *key, const char *what, nh_ex e)
+{
+    double value = value_at_parameters(r->system, e);
+    return value >= 0 || nh_deck_fail(r->deck, nh_deck_get(map, key), 0, r->error, "%s cannot be negative, but it is %.10g here", what, value);
+}
+
 static bool body_values(reader *r, nh_body *b)
 {
-    return constant_of(r, b->node, "mass", "the mass of a body", 0, &b->mass) && vector_of(r, b->node, "center", "the centre of mass", b->center)
+    return constant_of(r, b->node, "mass", "the mass of a body", 0, &b->mass) && not_negative(r, b->node, "mass", "the mass of a body", b->mass) && vector_of(r, b->node, "center", "the centre of mass", b->center)
            && inertia_of(r, b->node, b->inertia);
 }
 
@@ -253,7 +274,7 @@ static bool wheel_values(reader *r, const nh_deck_node *item, nh_wheel *w)
     if (normal) w->normal = (int)nh_system_word(r, normal, "the normal of a surface", 3, axis_names);
     if (w->normal < 0 || !nh_system_text_of(r, item, "doc", "", &doc) || !nh_system_text_of(r, item, "name", types[kind], &w->name)) return false;
     return vector_of(r, item, "at", "a position", w->at) && direction_of(r, item, kind ? "axle" : "axis", kind ? "an axle" : "an axis", 1, w->axis)
-           && constant_of(r, item, "radius", "a radius", 0, &w->radius);
+           && constant_of(r, item, "radius", "a radius", 0, &w->radius) && not_negative(r, item, "radius", "a radius", w->radius);
 }
 
 static bool read_wheels(reader *r)

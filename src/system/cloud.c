@@ -163,7 +163,7 @@ bool nh_cloud_check_rank(const nh_cloud *c, uint64_t seed, nh_error *error)
     if (rank < c->k) {
         nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
                      "this constraint says nothing new about the velocities: the %zu constraints have rank %zu", c->k, rank);
-        return nh_error_hint(error, "it repeats the others; remove it");
+        return nh_error_hint(error, s->constraint[redundant].position ? "as an equation between positions it repeats the others or contradicts them; remove it" : "it repeats the others; remove it");
     }
     if (c->k < c->m) return true;
     nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "%zu independent constraints on %zu coordinates leave no freedom to move", c->k, c->m);

@@ -101,6 +101,7 @@ static bool read_type(reader *r, const nh_deck_node *node, nh_coordinate_type *o
 
 static bool read_coordinates(reader *r)
 {
+    enum { most_coordinates = 100 };
     static const char *const keys[] = {"name", "type", "doc", "unit"};
     const nh_deck_node *list;
     size_t n;
@@ -109,6 +110,10 @@ static bool read_coordinates(reader *r)
     if (n + (s->chain ? s->chain->screws : 0) == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
+    }
+    if (n > most_coordinates) {
+        nh_deck_fail(r->deck, list, 0, r->error, "there are %zu coordinates, more than the %d that can be worked with", n, most_coordinates);
+        return nh_error_hint(r->error, "matrices of this size are inverted as formulas: leave out what does not move");
     }
     s->coordinate = nh_system_take(r, n + (s->chain ? s->chain->screws : 0), sizeof *s->coordinate);
     for (size_t i = 0; i < n; i++) {

@@ -1,0 +1,119 @@
+#include "reduction/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/solve.h"
+#include "reduction/runge.h"
+#include "reduction/subspace.h"
+
+/* H_bc = d2 F / dw_b dw_c. */
+static nh_ex second(nh_dag *d, const nh_reduced *o, nh_ex F, size_t b, size_t c) { return nh_diff(d, nh_diff(d, F, o->w[b]), o->w[c]); }
+
+/* N = b M_GG^-1 row by row (M is symmetric: M_GG N^T = b^T), b_ab the coefficient of x' nu_b in p_a'; and what must vanish beside it. */
+static bool coefficients(const nh_reduced *o, size_t shape, size_t g, const size_t *index, nh_ex *N, nh_ex *rest)
+{
+    nh_dag *d = o->kinetic->dag;
+    size_t r = o->r, n = 0;
+    nh_ex *M = nh_alloc_array(g * g + g + 1, sizeof *M), *b = M + g * g;
+    for (size_t i = 0; i < g; i++)
+        for (size_t j = 0; j < g; j++) M[i * g + j] = o->M[index[i] * r + index[j]];
+    nh_lu *lu = nh_lu_create(d, g, M, nh_chart_pivot_score, o->kinetic->model->chart, NULL);
+    for (size_t a = 0; a < g && lu; a++) {
+        nh_ex F = o->F[index[a]], leftover = nh_mul(d, nh_ratio(d, 1, 2), second(d, o, F, shape, shape));
+        for (size_t j = 0; j < g; j++) b[j] = second(d, o, F, shape, index[j]);
+        nh_lu_solve(lu, b, b);
+        for (size_t j = 0; j < g; j++) {
+            N[a * g + j] = nh_simplify(d, b[j]);
+            leftover = nh_sub(d, leftover, nh_mul(d, N[a * g + j], o->M[index[j] * r + shape]));
+            for (size_t k = 0; k <= j; k++) rest[n++] = second(d, o, F, index[j], index[k]);
+        }
+        rest[n++] = leftover;
+    }
+    bool good = lu != NULL;
+    nh_lu_free(lu);
+    nh_free(M);
+    return good;
+}
+
+/* Values at shapes of the sample points; coordinates of the group do not occur. */
+static double largest_at_samples(const nh_reduced *o, size_t n, const nh_ex *e)
+{
+    const nh_kinetic *k = o->kinetic;
+    size_t places = k->places < 16 ? k->places : 16;
+    double *value = nh_alloc_array(places * n + 1, sizeof *value), most;
+    nh_kinetic_sample(k, n, e, places, value);
+    most = nh_largest(places * n, value);
+    nh_free(value);
+    return most;
+}
+
+void nh_linear_momenta_find(nh_linear_momenta *out, const nh_reduced *o, const nh_options *options)
+{
+    nh_arena *arena = o->kinetic->arena;
+    size_t r = o->r, shape = r, g = 0;
+    *out = (nh_linear_momenta){.index = nh_arena_alloc(arena, (r + 1) * sizeof *out->index)};
+    for (size_t i = 0; i < r; i++) {
+        if (o->n == 1 && o->w[i] == o->dx[0]) shape = i;
+        else out->index[g++] = i;
+    }
+    if (o->n != 1 || shape == r || g == 0) return;
+    size_t rows = g * (g * (g + 1) / 2 + 1);
+    nh_ex *rest = nh_alloc_array(rows + 1, sizeof *rest);
+    out->N = nh_arena_alloc(arena, (g * g + 1) * sizeof *out->N);
+    if (coefficients(o, shape, g, out->index, out->N, rest)) {
+        double size = 1 + largest_at_samples(o, g * g, out->N);
+        out->off = largest_at_samples(o, rows, rest) / size;
+        if (out->off <= options->group) out->count = g;
+    }
+    nh_free(rest);
+}
+
+typedef struct {
+    size_t g;
+    nh_tape *tape;
+    nh_tape_work *work;
+    double *N;
+} equation;
+
+static bool rate_of(double x, const double *Y, double *rate, void *context)
+{
+    equation *q = context;
+    size_t g = q->g;
+    nh_tape_eval(q->tape, q->work, &x, q->N);
+    for (size_t i = 0; i < g; i++)
+        for (size_t j = 0; j < g; j++) {
+            rate[i + j * g] = 0;
+            for (size_t k = 0; k < g; k++) rate[i + j * g] += q->N[i * g + k] * Y[k + j * g];
+        }
+    return true;
+}
+
+double nh_linear_momenta_drift(const nh_linear_momenta *l, const nh_reduced *o, size_t count, const double *z)
+{
+    static const double tolerance = 1e-13, largest = 1e12;
+    const nh_model *y = o->kinetic->model;
+    size_t g = l->count, size = o->n + o->r;
+    equation q = {g, nh_tape_create(o->kinetic->dag, 1, o->x, g * g, l->N, y->system->parameters, y->parameter, y->parameter_value), NULL, nh_alloc_array(g * g + 1, sizeof(double))};
+    double *Y = nh_alloc_array(2 * g * g + 3 * g + 1, sizeof *Y), *copy = Y + g * g, *p = copy + g * g, *start = p + g, worst = 0, norm = 1e-300;
+    q.work = nh_tape_work_create(q.tape);
+    for (size_t i = 0; i < g * g; i++) Y[i] = i % (g + 1) == 0;
+    for (size_t a = 0; a < g; a++) norm = fmax(norm, fabs(start[a] = z[o->n + l->index[a]]));
+    bool good = true;
+    for (size_t i = 1; i < count && good; i++) { /* from state to state, so that Y is followed along the motion */
+        double from = z[(i - 1) * size], to = z[i * size];
+        good = from == to || nh_runge(g * g, rate_of, &q, from, to, tolerance, largest, Y);
+        memcpy(copy, Y, g * g * sizeof *copy);
+        for (size_t a = 0; a < g; a++) p[a] = z[i * size + o->n + l->index[a]];
+        good = good && nh_solve(g, copy, 1, p, NULL);
+        for (size_t a = 0; a < g && good; a++) worst = fmax(worst, fabs(p[a] - start[a]) / norm);
+    }
+    nh_tape_work_free(q.work);
+    nh_tape_free(q.tape);
+    nh_free(q.N);
+    nh_free(Y);
+    return good ? worst : -1;
+}

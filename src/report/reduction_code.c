@@ -1,0 +1,115 @@
+/* reduction_code: the reduced equations as C and as LaTeX. */
+#include <string.h>
+
+#include "expr/typeset_code.h"
+#include "report/reduction.h"
+
+static const char c_head[] =
+    "#include <math.h>\n"
+    "\n"
+    "/* Solves M w = p for a symmetric positive definite M (r x r, row by row; overwritten); p becomes w.  0, or -1 where M is singular. */\n"
+    "static int nh_solve_mass(int r, double *M, double *p)\n"
+    "{\n"
+    "    for (int j = 0; j < r; j++) {\n"
+    "        for (int k = 0; k < j; k++) M[j*r + j] -= M[j*r + k]*M[j*r + k];\n"
+    "        if (!(M[j*r + j] > 0)) return -1;\n"
+    "        M[j*r + j] = sqrt(M[j*r + j]);\n"
+    "        for (int i = j + 1; i < r; i++) {\n"
+    "            for (int k = 0; k < j; k++) M[i*r + j] -= M[i*r + k]*M[j*r + k];\n"
+    "            M[i*r + j] /= M[j*r + j];\n"
+    "        }\n"
+    "    }\n"
+    "    for (int i = 0; i < r; i++) {\n"
+    "        for (int k = 0; k < i; k++) p[i] -= M[i*r + k]*p[k];\n"
+    "        p[i] /= M[i*r + i];\n"
+    "    }\n"
+    "    for (int i = r - 1; i >= 0; i--) {\n"
+    "        for (int k = i + 1; k < r; k++) p[i] -= M[k*r + i]*p[k];\n"
+    "        p[i] /= M[i*r + i];\n"
+    "    }\n"
+    "    return 0;\n"
+    "}\n";
+
+static void put_unpacked(nh_text *out, nh_dag *d, size_t n, const nh_ex *symbol, const char *array, size_t from)
+{
+    for (size_t i = 0; i < n; i++) {
+        nh_text_add(out, "    const double ");
+        nh_typeset_c_name(nh_name_of(d, symbol[i]), out);
+        nh_text_addf(out, " = %s[%zu];\n", array, from + i);
+        nh_text_add(out, "    (void)");
+        nh_typeset_c_name(nh_name_of(d, symbol[i]), out);
+        nh_text_add(out, ";\n");
+    }
+}
+
+static const char *const *targets(nh_arena *arena, const char *array, size_t n)
+{
+    const char **out = nh_arena_alloc(arena, (n + 1) * sizeof *out);
+    for (size_t i = 0; i < n; i++) out[i] = nh_arena_printf(arena, "%s[%zu]", array, i);
+    return out;
+}
+
+static void put_names(nh_text *out, const nh_reduction *r, const nh_reduced *o)
+{
+    for (size_t i = 0; i < o->n; i++) nh_text_addf(out, "%s, ", nh_name_of(r->kinetic->dag, o->x[i]));
+    for (size_t i = 0; i < o->r; i++) nh_text_addf(out, "%s%s", o->momentum[i], i + 1 < o->r ? ", " : "");
+}
+
+static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, nh_text *out)
+{
+    const nh_reduced *o = s->shown;
+    nh_dag *d = r->kinetic->dag;
+    nh_arena *arena = r->kinetic->arena;
+    size_t n = o->n, w = o->r, temporaries = 0, total = n + w;
+    nh_text_addf(out, "\n/* Stage %zu (%s), by %s.  z = (", number, nh_stage_kind_name(s->kind), s->group);
+    put_names(out, r, o);
+    nh_text_addf(out, "): %zu values;\n * rate: their derivatives; zeta: the %zu components of the group's body velocity.  0, or -1 where the mass matrix is singular. */\n", total, o->d);
+    nh_text_addf(out, "int stage%zu(const double *z, double *rate, double *zeta)\n{\n", number);
+    for (size_t i = 0; i < r->system->parameters; i++) {
+        char text[40];
+        nh_text_number(r->system->parameter[i].value, text, sizeof text);
+        nh_text_add(out, "    const double ");
+        nh_typeset_c_name(r->system->parameter[i].name, out);
+        nh_text_addf(out, " = %s;\n    (void)", text);
+        nh_typeset_c_name(r->system->parameter[i].name, out);
+        nh_text_add(out, ";\n");
+    }
+    put_unpacked(out, d, n, o->x, "z", 0);
+    nh_text_addf(out, "    double mass_[%zu], w_[%zu];\n", w * w, w);
+    nh_typeset_c(d, w * w, o->M, targets(arena, "mass_", w * w), &temporaries, out);
+    nh_text_addf(out, "    for (int i_ = 0; i_ < %zu; i_++) w_[i_] = z[%zu + i_];\n    if (nh_solve_mass(%zu, mass_, w_)) return -1;\n", w, n, w);
+    put_unpacked(out, d, w, o->w, "w_", 0);
+    nh_ex *all = nh_arena_alloc(arena, (total + o->d + 1) * sizeof *all);
+    const char **name = nh_arena_alloc(arena, (total + o->d + 1) * sizeof *name);
+    memcpy(all, o->dx, n * sizeof *all);
+    memcpy(all + n, o->F, w * sizeof *all);
+    memcpy(all + total, o->zeta, o->d * sizeof *all);
+    memcpy(name, targets(arena, "rate", total), total * sizeof *name);
+    memcpy(name + total, targets(arena, "zeta", o->d), o->d * sizeof *name);
+    nh_typeset_c(d, total + o->d, all, name, &temporaries, out);
+    nh_text_add(out, "    (void)zeta;\n    return 0;\n}\n");
+}
+
+void nh_reduction_c(const nh_reduction *r, nh_text *out)
+{
+    nh_text_addf(out, "/* %s: reduced equations of motion, written by nhsym " NH_VERSION ". */\n", r->system->title);
+    nh_text_add(out, c_head);
+    for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, out);
+}
+
+void nh_reduction_latex(const nh_reduction *r, nh_text *out)
+{
+    nh_text_addf(out, "%% %s: reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n", r->system->title);
+    for (size_t i = 0; i < r->stages; i++) {
+        nh_reduction_equation *e;
+        size_t n = nh_reduction_equations(r, &r->stage[i], &e);
+        nh_text_addf(out, "\n%% Stage %zu (%s), by %s\n\\begin{align*}\n", i + 1, nh_stage_kind_name(r->stage[i].kind), r->stage[i].group);
+        for (size_t k = 0; k < n; k++) {
+            nh_typeset_latex_name(e[k].name, out);
+            nh_text_add(out, " &= ");
+            nh_typeset_latex(r->kinetic->dag, e[k].value, out);
+            nh_text_add(out, k + 1 < n ? " \\\\\n" : "\n");
+        }
+        nh_text_add(out, "\\end{align*}\n");
+    }
+}

@@ -1,0 +1,128 @@
+/* typeset: C that computes what the tape computes, and LaTeX that a reader would write. */
+#include <criterion/criterion.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "expr/parse.h"
+#include "expr/tape.h"
+#include "expr/typeset_code.h"
+
+static bool any_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
+{
+    (void)fault;
+    *out = nh_symbol(context, name);
+    return true;
+}
+
+static nh_ex read_it(nh_dag *d, const char *text)
+{
+    nh_ex e;
+    nh_parse_fault fault = {0};
+    cr_assert(nh_parse(d, text, any_name, d, &e, &fault), "%s: %s", text, fault.what);
+    return e;
+}
+
+/* Compile and run; the numbers that it prints. */
+static size_t run_c(const char *code, double *out, size_t most)
+{
+    char folder[] = "/tmp/nhsym-c-XXXXXX", name[200], command[700], line[100];
+    size_t n = 0;
+    cr_assert(mkdtemp(folder));
+    snprintf(name, sizeof name, "%s/code.c", folder);
+    FILE *file = fopen(name, "w");
+    fputs(code, file);
+    fclose(file);
+    snprintf(command, sizeof command, "cd %s && ${CC:-cc} -std=c99 -Wall -Wextra -Werror code.c -o code -lm && ./code", folder);
+    FILE *pipe = popen(command, "r");
+    while (pipe && n < most && fgets(line, sizeof line, pipe)) out[n++] = strtod(line, NULL);
+    cr_expect_eq(pclose(pipe), 0, "this does not compile:\n%s", code);
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    cr_expect_eq(system(command), 0);
+    return n;
+}
+
+Test(typeset, c_computes_the_same)
+{
+    static const char *const formulas[] = {
+        "x'^2/2 + y*sin(x)^3", "sqrt(1 + x^2)*exp(-y/3)", "(x + y)^-2 + 1/(x + y)", "atan2(y, x) + abs(x - y)", "2^x*x^y", "-x + 3*y - 7/4", "pi*x/(2*y) - 1e-3",
+        "tan(x + y)/(cosh(x') + log(y))", "int*double^2 - x'*(int + double)", "(x + y)^(1/2)*(x + y)^(1/3)", "4", "x/y/x'", "-(x*y)^3/(1 + (x*y)^2)"};
+    enum { count = sizeof formulas / sizeof *formulas };
+    nh_dag *d = nh_dag_create();
+    nh_ex e[count], in[5];
+    static const char *const names[5] = {"x", "y", "x'", "int", "double"};
+    const double value[5] = {0.7315, 1.618, -0.377, 2.25, 0.915};
+    const char *target[count];
+    char buffer[count][20];
+    nh_text code;
+    size_t temporaries = 0;
+    nh_text_init(&code);
+    for (size_t i = 0; i < 5; i++) in[i] = nh_symbol(d, names[i]);
+    nh_text_add(&code, "#include <math.h>\n#include <stdio.h>\nint main(void)\n{\n");
+    for (size_t i = 0; i < 5; i++) {
+        nh_text_add(&code, "    double ");
+        nh_typeset_c_name(names[i], &code);
+        nh_text_addf(&code, " = %.17g;\n", value[i]);
+    }
+    nh_text_addf(&code, "    double out[%d];\n", count);
+    for (size_t i = 0; i < count; i++) {
+        e[i] = read_it(d, formulas[i]);
+        snprintf(buffer[i], sizeof buffer[i], "out[%zu]", i);
+        target[i] = buffer[i];
+    }
+    nh_typeset_c(d, count, e, target, &temporaries, &code);
+    nh_text_addf(&code, "    for (int i = 0; i < %d; i++) printf(\"%%.17g\\n\", out[i]);\n    return 0;\n}\n", count);
+    double got[count], want[count];
+    cr_assert_eq(run_c(nh_text_string(&code), got, count), count);
+    nh_tape *tape = nh_tape_create(d, 5, in, count, e, 0, NULL, NULL);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, value, want);
+    for (size_t i = 0; i < count; i++) cr_expect_float_eq(got[i], want[i], 4e-15 * (1 + fabs(want[i])), "%s: %.17g, not %.17g", formulas[i], got[i], want[i]);
+    cr_expect_geq(temporaries, 1, "common subexpressions are computed once");
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_text_clear(&code);
+    nh_dag_free(d);
+}
+
+Test(typeset, latex)
+{
+    static const struct {
+        const char *text, *latex;
+    } cases[] = {
+        {"psi1'", "\\dot{\\psi}_{1}"},
+        {"a/(b + c)", "\\frac{a}{b + c}"},
+        {"(a + b)*c/2", "\\frac{c \\left(a + b\\right)}{2}"},
+        {"-x^2", "-x^{2}"},
+        {"sqrt(x)", "\\sqrt{x}"},
+        {"sin(theta)^2", "\\left(\\sin\\left(\\theta\\right)\\right)^{2}"},
+        {"mass*pi", "\\mathrm{mass} \\pi"},
+        {"asin(x)", "\\operatorname{asin}\\left(x\\right)"},
+    };
+    nh_dag *d = nh_dag_create();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_text out;
+        nh_text_init(&out);
+        for (const char *c = "abcx"; *c; c++) nh_symbol(d, (char[]){*c, 0});
+        nh_typeset_latex(d, read_it(d, cases[i].text), &out);
+        cr_expect_str_eq(nh_text_string(&out), cases[i].latex, "%s: %s", cases[i].text, nh_text_string(&out));
+        nh_text_clear(&out);
+    }
+    nh_dag_free(d);
+}
+
+Test(typeset, names)
+{
+    static const char *const cases[][2] = {{"p_psi1'", "\\dot{p}_{\\psi_{1}}"}, {"mu_3", "\\mu_{3}"}, {"x", "x"}, {"jx2", "\\mathrm{jx}_{2}"}, {"phi'", "\\dot{\\phi}"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_text out;
+        nh_text_init(&out);
+        nh_typeset_latex_name(cases[i][0], &out);
+        cr_expect_str_eq(nh_text_string(&out), cases[i][1], "%s: %s", cases[i][0], nh_text_string(&out));
+        nh_text_clear(&out);
+    }
+}
