@@ -94,6 +94,7 @@ static void put_front(const nh_comparison *c, nh_text *out)
 void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
 {
     nh_text_addf(out, "%s: a motion from t = %g to %g\n", c->question->system->title ? c->question->system->title : c->question->system->name, c->begin, c->end);
+    if (c->shortened) nh_text_add(out, "The time was shortened until two methods reached its end.\n");
     nh_text_addf(out, "Reference: %s; %s agrees to %.0e\n\nMicroseconds (evaluations) to an error below", c->reference, c->second, c->agreement);
     nh_text_addf(out, "\n%34s", "");
     for (int g = 0; g < goals; g++) nh_text_addf(out, "%18.0e", goal[g]);
@@ -190,6 +191,7 @@ char *nh_comparison_json(const nh_comparison *c, const nh_stress *s)
     nh_json_put_bool(root, "partial", c->partial);
     nh_json *stress = nh_json_put_array(root, "stress");
     for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], stress);
-    nh_json_put_array(root, "warnings");
+    nh_json *warnings = nh_json_put_array(root, "warnings");
+    if (c->shortened) nh_json_add_text(warnings, "the time was shortened until two methods reached its end");
     return nh_json_finish(root);
 }

@@ -5,7 +5,7 @@
 
 #include "study/chart_internal.h"
 
-enum { levels = NH_CHART_LEVELS, most_repeats = 7 };
+enum { levels = NH_CHART_LEVELS, most_repeats = 7, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 static const double reference_tolerance = 1e-14, second_tolerance = 1e-13;
 static const double step_ratio = 4, fewest_steps = 32; /* of fixed steps, from level to level */
@@ -302,19 +302,43 @@ void nh_bench_close(nh_bench *c)
     nh_model_free(c->other);
 }
 
+static void end_bench(nh_bench *c)
+{
+    nh_bench_close(c);
+    nh_comparison_free(c->out);
+}
+
+/* A final time that nobody chose may lie behind a singularity: it is halved until there is a motion. */
+static bool open_somewhere(nh_bench *c, const nh_simulate_request *request, double budget, nh_error *error)
+{
+    nh_simulate_request q = *request;
+    for (int i = 0; i < most_halvings; i++) {
+        nh_error_clear(error);
+        if (!nh_bench_open(c, &q, budget, error)) break;
+        if (nh_bench_reference(c, error)) {
+            c->out->shortened = i > 0;
+            return true;
+        }
+        bool chosen = request->until_given || (c->out->question->analysis && c->out->question->analysis->has_until);
+        if (chosen || i + 1 == most_halvings) break;
+        q.until_given = true;
+        q.options.until = c->out->begin + (c->out->end - c->out->begin) / 2;
+        end_bench(c);
+    }
+    end_bench(c);
+    return false;
+}
+
 nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_error *error)
 {
     nh_bench c;
-    bool good = nh_bench_open(&c, request, budget, error) && nh_bench_reference(&c, error);
-    if (good) {
-        list_candidates(&c);
-        measure_all(&c);
-        collect(&c);
-    }
+    if (!open_somewhere(&c, request, budget, error)) return NULL;
+    c.begun = now(); /* the budget is for measuring: what came before is needed in any case */
+    list_candidates(&c);
+    measure_all(&c);
+    collect(&c);
     nh_bench_close(&c);
-    if (good) return c.out;
-    nh_comparison_free(c.out);
-    return NULL;
+    return c.out;
 }
 
 void nh_comparison_free(nh_comparison *c)
