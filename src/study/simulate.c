@@ -130,7 +130,9 @@ static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
         if (!nh_analysis_to_chart(o, e, &e, error)) return false;
         add(s, name, NH_COLUMN_WATCH, e);
     }
-    return true;
+    if (s->columns) return true;
+    nh_fail(error, NH_USAGE, "", "--watch names no quantity");
+    return nh_error_hint(error, "--watch \"%s, E\"", s->system->coordinate[0].name);
 }
 
 static bool read_scene(nh_simulation *s, nh_error *error)
