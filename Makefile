@@ -91,6 +91,8 @@ $(BUILD)/nhsym: $(CLI) $(BUILD)/libnhsym.a
 # The loops over batches of points; see the head of the file for why no -ffast-math.
 $(BUILD)/src/expr/tape_batch.o: CFLAGS += -O3 -fno-math-errno -fno-trapping-math
 
+$(BUILD)/src/motion/ensemble.o: CFLAGS += -O3
+
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  cc   $<"

@@ -87,7 +87,7 @@ Test(chart, a_short_budget_is_told)
 
 static void check_document(const nh_comparison *c)
 {
-    char *text = nh_comparison_json(c);
+    char *text = nh_comparison_json(c, NULL);
     cJSON *root = cJSON_Parse(text), *motion = cJSON_GetObjectItem(root, "motion"), *item;
     cr_assert_not_null(root);
     cr_expect_eq((size_t)cJSON_GetArraySize(motion), c->count);
@@ -130,4 +130,73 @@ Test(chart, what_cannot_be_computed_is_explained)
     q.options.until = 0;
     cr_expect_null(nh_compare(&q, 1, &error));
     cr_expect_not_null(strstr(error.what, "ends where it begins"), "%s", error.what);
+}
+
+/* ---- stress ---- */
+
+static nh_stress *stress_of(const char *path, const char *initial, double until, double budget)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = path, .initial = initial, .until_given = true};
+    nh_options_default(&q.options);
+    q.options.until = until;
+    nh_stress *s = nh_stress_create(&q, budget, &error);
+    must(s != NULL, &error, path);
+    return s;
+}
+
+static const nh_stress_map *map_of(const nh_stress *s, const char *words)
+{
+    for (size_t i = 0; i < s->maps; i++)
+        if (strstr(s->map[i].name, words)) return &s->map[i];
+    cr_assert_fail("no map %s", words);
+    return NULL;
+}
+
+Test(chart, stress_calls_right_only_what_is)
+{
+    nh_stress *s = stress_of("systems/sleigh.yaml", "omega=2", 5, 20);
+    size_t all = 0, sum = 0;
+    for (size_t i = 0; i < s->maps; i++)
+        for (size_t j = 0; j < s->map[i].cells; j++) {
+            const nh_stress_cell *c = &s->map[i].cell[j];
+            all++;
+            if (c->status == NH_RIGHT) cr_expect(c->error <= s->accuracy, "%s at %g, %s: %g", s->map[i].name, c->at, c->method, c->error);
+            if (c->status == NH_WARNED || c->status == NH_CAUGHT || c->status == NH_FAILED) cr_expect(c->note && c->note[0], "%s at %g, %s", s->map[i].name, c->at, c->method);
+        }
+    for (int k = 0; k <= NH_WRONG; k++) sum += s->count[k];
+    cr_expect(all > 100 && sum == all, "%zu, %zu", all, sum);
+    /* the heading turns by pi: wherever it starts, it crosses cos phi = 0 */
+    const nh_stress_map *turned = map_of(s, "phi turned");
+    for (size_t j = 0; j < turned->cells; j++)
+        cr_expect(turned->cell[j].status != NH_RIGHT && turned->cell[j].status != NH_WRONG, "%g, %s: %s", turned->cell[j].at, turned->cell[j].method,
+                  nh_measured_status_name(turned->cell[j].status));
+    cr_expect(map_of(s, "parameter m")->cells == 7 * turned->methods && map_of(s, "long times") && map_of(s, "badly scaled"));
+    nh_stress_free(s);
+}
+
+Test(chart, stress_as_text_and_json)
+{
+    nh_stress *s = stress_of("systems/isotropic_oscillator.yaml", NULL, 3, 3);
+    nh_comparison *c = compare("systems/isotropic_oscillator.yaml", NULL, 3, 1);
+    nh_text text;
+    nh_text_init(&text);
+    nh_stress_text(s, true, &text);
+    cr_expect(strstr(nh_text_string(&text), "long times") && strstr(nh_text_string(&text), "in all:"));
+    char *json = nh_comparison_json(c, s);
+    cJSON *root = cJSON_Parse(json), *list = cJSON_GetObjectItem(root, "stress"), *map;
+    cr_assert_eq((size_t)cJSON_GetArraySize(list), s->maps);
+    size_t i = 0;
+    cJSON_ArrayForEach(map, list)
+    {
+        cr_expect_eq((size_t)cJSON_GetArraySize(cJSON_GetObjectItem(map, "cells")), s->map[i].cells);
+        cr_expect(cJSON_IsArray(cJSON_GetObjectItem(map, "axes")) && cJSON_IsArray(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(map, "cells"), 0), "at")));
+        i++;
+    }
+    cr_expect(!strstr(json, "nan") && !strstr(json, "inf"));
+    cJSON_Delete(root);
+    nh_free(json);
+    nh_text_clear(&text);
+    nh_comparison_free(c);
+    nh_stress_free(s);
 }

@@ -262,3 +262,31 @@ Test(verify, rounded_numbers, .timeout = 60)
         nh_verdict_free(v);
     }
 }
+
+Test(simulate, watch_reads_a_list)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = SLEIGH, .initial = "omega=2", .until_given = true, .tolerance_given = true, .step = 1, .options = defaults(), .watch = "phi, T = m/2*v^2, atan2(v, omega)"};
+    q.options.until = 3;
+    nh_simulation *s = nh_simulate(&q, &error);
+    cr_assert(s && s->columns == 3 && s->scene, "%s", error.what);
+    cr_expect(!strcmp(s->column[1].name, "T") && !strcmp(s->column[2].name, "atan2(v, omega)"), "%s, %s", s->column[1].name, s->column[2].name);
+    cr_expect_eq(s->motion->size, 3); /* omega, v and, by quadrature, phi */
+    const double *last = s->value + (s->motion->count - 1) * 3;
+    cr_expect_float_eq(last[0], 4 * atan(tanh(1.5)), 1e-7);
+    cr_expect_float_eq(last[1], 16 * tanh(3.0) * tanh(3.0), 1e-6);
+    cr_expect_float_eq(last[2], atan2(4 * tanh(3.0), 2 / cosh(3.0)), 1e-7);
+    nh_simulation_free(s);
+    static const struct { const char *watch, *says; } wrong[] = {{"", "--watch names no quantity"}, {"nothing", "unknown name"}, {"phi=", "expression ends here"}};
+    for (int i = 0; i < 3; i++) {
+        nh_error_clear(&error);
+        q.watch = wrong[i].watch;
+        cr_expect_null(nh_simulate(&q, &error));
+        cr_expect(strstr(error.what, wrong[i].says), "%s", error.what);
+    }
+    nh_error_clear(&error);
+    q.watch = NULL;
+    q.scene = true;
+    cr_expect_null(nh_simulate(&q, &error));
+    cr_expect(strstr(error.what, "--scene needs an analysis file"), "%s", error.what);
+}

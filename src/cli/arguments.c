@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_to };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_to };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -23,6 +23,8 @@ static const struct option long_options[] = {
     {"to", required_argument, NULL, opt_to},
     {"watch", required_argument, NULL, opt_watch},       {"scene", no_argument, NULL, opt_scene},
     {"svg", required_argument, NULL, opt_svg},           {"budget", required_argument, NULL, opt_budget},
+    {"accuracy", required_argument, NULL, opt_accuracy}, {"ensemble", required_argument, NULL, opt_ensemble},
+    {"spread", required_argument, NULL, opt_spread},     {"stress", no_argument, NULL, opt_stress},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -68,6 +70,14 @@ static bool seconds(const char *text, double *out, nh_error *error)
     *out *= unit;
     if (end != text && *out > 0 && *out - *out == 0) return true;
     return nh_fail(error, NH_USAGE, "", "--budget needs a time such as 5s or 200ms, found `%s`", text);
+}
+
+static bool members(const char *text, size_t *out, nh_error *error)
+{
+    double x;
+    if (!positive(text, "ensemble", &x, error)) return false;
+    *out = (size_t)x;
+    return (x == (double)*out && x <= 1e7) || nh_fail(error, NH_USAGE, "", "--ensemble needs a whole number of members up to 1e7, found `%s`", text);
 }
 
 static bool set_chart(nh_cli *cli, const char *text, nh_error *error)
@@ -117,6 +127,10 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_watch: cli->watch = value; return true;
     case opt_svg: cli->svg = value; return true;
     case opt_budget: return seconds(value, &cli->budget, error);
+    case opt_accuracy: return positive(value, "accuracy", &cli->accuracy, error);
+    case opt_ensemble: return members(value, &cli->ensemble, error);
+    case opt_spread: return positive(value, "spread", &cli->spread, error);
+    case opt_stress: return cli->stress = true;
     case opt_scene: return cli->scene = true;
     case opt_chain: cli->chain = value; return true;
     case opt_group: cli->group = value; return true;

@@ -4,13 +4,14 @@
 #include "cli/cli.h"
 #include "report/chart.h"
 
-static bool write_all(nh_cli *cli, const nh_comparison *c, nh_error *error)
+static bool write_all(nh_cli *cli, const nh_comparison *c, const nh_stress *s, nh_error *error)
 {
     bool good = true;
     nh_text text;
     nh_text_init(&text);
     if (!(cli->json && !strcmp(cli->json, "-")) && !cli->quiet) {
         nh_comparison_text(c, cli->verbose, &text);
+        if (s) nh_stress_text(s, cli->verbose, &text);
         fputs(nh_text_string(&text), stdout);
     }
     nh_text_clear(&text);
@@ -21,7 +22,7 @@ static bool write_all(nh_cli *cli, const nh_comparison *c, nh_error *error)
         nh_text_clear(&text);
     }
     if (cli->json && good) {
-        char *json = nh_comparison_json(c);
+        char *json = nh_comparison_json(c, s);
         if (!strcmp(cli->json, "-")) fputs(json, stdout);
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
@@ -33,9 +34,11 @@ int nh_cli_chart(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
     if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error)) return error->code;
-    nh_comparison *c = nh_compare(&request, cli->budget > 0 ? cli->budget : 5, error);
-    if (!c) return error->code;
-    write_all(cli, c, error);
+    double budget = cli->budget > 0 ? cli->budget : 5;
+    nh_comparison *c = nh_compare(&request, cli->stress ? budget / 2 : budget, error);
+    nh_stress *s = c && cli->stress ? nh_stress_create(&request, budget / 2, error) : NULL;
+    if (c && error->code == NH_OK) write_all(cli, c, s, error);
+    nh_stress_free(s);
     nh_comparison_free(c);
     return error->code;
 }

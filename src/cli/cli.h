@@ -21,7 +21,10 @@ typedef struct {
     bool project;
     const char *watch;           /* of simulate */
     bool scene;
+    double accuracy, spread;
+    size_t ensemble;
     const char *svg;             /* of chart */
+    bool stress;
     double budget;
     double step;
     bool no_analysis;

@@ -11,7 +11,7 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
         return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .project = cli->project,
+    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
     q->system_path = nh_cli_find(cli, "systems", name, error);
     if (!q->system_path) return false;
@@ -20,27 +20,45 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
     return true;
 }
 
+/* The table, unless JSON or silence is wanted, and what is told beside it. */
+static void put_table(const nh_cli *cli, const nh_simulation *s)
+{
+    if (cli->json || cli->quiet) return;
+    nh_text text;
+    nh_text_init(&text);
+    if (s->ensemble) nh_ensemble_csv(s, &text);
+    else nh_motion_csv(s, &text);
+    fputs(nh_text_string(&text), stdout);
+    nh_text_clear(&text);
+    if (s->scene && (cli->watch || cli->scene)) fprintf(stderr, "nhsym: %s\n", s->scene);
+    if (s->checked && s->accuracy.held) fprintf(stderr, "nhsym: %s\n", s->accuracy.why);
+    if (s->ensemble && s->ensemble->alone) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
+}
+
+/* What did not come to its end, or is not as accurate as was asked for. */
+static void complain(const nh_simulation *s, nh_error *error)
+{
+    if (s->ensemble && s->ensemble->incomplete) nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete, s->ensemble->note);
+    if (s->ensemble) return;
+    if (s->checked && !s->accuracy.held && s->motion->complete) nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy.why);
+    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->motion->note);
+}
+
 int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
+    static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
-    nh_simulation *s = nh_cli_motion_request(cli, "nhsym simulate sleigh --initial \"omega=2\" --until 10", &request, error) ? nh_simulate(&request, error) : NULL;
+    nh_simulation *s = nh_cli_motion_request(cli, example, &request, error) ? nh_simulate(&request, error) : NULL;
     if (!s) return error->code;
-    bool good = true, complete = s->motion->complete;
-    if (!cli->json && !cli->quiet) {
-        nh_text text;
-        nh_text_init(&text);
-        nh_motion_csv(s, &text);
-        fputs(nh_text_string(&text), stdout);
-        nh_text_clear(&text);
-        if (s->scene) fprintf(stderr, "nhsym: %s\n", s->scene);
-    }
+    bool good = true;
+    put_table(cli, s);
     if (cli->json) {
-        char *json = nh_motion_json(s);
+        char *json = s->ensemble ? nh_ensemble_json(s) : nh_motion_json(s);
         if (!strcmp(cli->json, "-")) fputs(json, stdout);
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
     }
-    if (!complete && good) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->motion->note);
+    if (good) complain(s, error);
     nh_simulation_free(s);
     return error->code;
 }

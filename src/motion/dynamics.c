@@ -62,11 +62,13 @@ static nh_ex without_poles(nh_dag *d, nh_ex f)
     return length <= short_enough || length <= growth * nh_complexity(d, f) ? numerator : f;
 }
 
+bool nh_dynamics_watched(const nh_model *o) { return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch; }
+
 /* A chart of coordinate velocities ends where its dependent velocities are no longer determined. */
 static void watch_pivot(nh_dynamics *d)
 {
     const nh_model *o = d->model;
-    if (o->chart->quasi || !o->k || o->chart->implicit || o->chart->branch) return;
+    if (!nh_dynamics_watched(o)) return;
     nh_ex *e = nh_alloc_array(o->k * o->m, sizeof *e);
     for (size_t a = 0; a < o->k; a++) {
         nh_ex f = without_poles(o->dag, nh_chart_constraint(o->chart, a));

@@ -17,6 +17,8 @@ typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
+/* Does the model's chart have a pivot to watch? */
+bool nh_dynamics_watched(const nh_model *model);
 const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);
 
 /* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v over the velocities that are given (of least norm where these leave a choice);

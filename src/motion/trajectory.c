@@ -2,7 +2,9 @@
 
 #include <math.h>
 #include <string.h>
+#include <time.h>
 
+static const char *const usual = "CVODE Adams";
 static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
 
 /* ---- expressions along a motion ---- */
@@ -132,7 +134,7 @@ static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion
     return any || !good;
 }
 
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const double *z0, size_t count, const double *times, const nh_flow_options *given, nh_error *error)
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *given, nh_error *error)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
     size_t m = o->m;
@@ -145,7 +147,7 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const double *z0, size_t 
     for (size_t s = 0; s < 2 * m; s++) scale[s] = given->scale[0];
     options.scale = scale;
     bool good = nh_along(dynamics, &first, m, o->rho, y + m);
-    nh_motion *motion = good ? nh_flow(&problem, y, count, times, &options, error) : NULL;
+    nh_motion *motion = good ? nh_method_flow(method ? method : nh_method_find(usual), &problem, y, count, times, &options, error) : NULL;
     nh_free(scale);
     nh_free(y);
     nh_bordered_free(b);
@@ -158,9 +160,35 @@ typedef struct {
     const nh_trajectory_request *q;
     nh_dynamics *dynamics;
     nh_trajectory *out;
-    double *z0;
+    const nh_method *method;
+    double *z0, deadline;
     nh_flow_options how;
+    bool leave; /* the chart ends on the way */
 } job;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool late(void *context) { return now() > *(double *)context; }
+
+/* CVODE watches the pivot of the chart; before another method runs, it looks whether there is anything to watch for. */
+static void look_ahead(job *j)
+{
+    const double ends[2] = {j->q->times[0], j->q->times[j->q->count - 1]};
+    nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
+    nh_flow_options how = j->how;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (j->method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(j->q->model)) return;
+    how.rtol = fmax(how.rtol, 1e-7);
+    nh_motion *motion = nh_flow(&problem, j->z0, 2, ends, &how, &ignored);
+    j->leave = motion && motion->guard_hit >= 0;
+    nh_motion_free(motion);
+}
 
 /* The scene's states from the start of all. */
 static bool in_scene(job *j, nh_error *error)
@@ -170,7 +198,7 @@ static bool in_scene(job *j, nh_error *error)
     nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_scene_problem(run, &whole);
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
-    nh_motion *motion = s->kept ? nh_flow(&problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
+    nh_motion *motion = s->kept ? nh_method_flow(j->method, &problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
     bool good = motion && !(nh_may_leave_chart(j->q->model) && (!motion->complete || scene_is_steep(s, run, motion)));
     if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
     j->out->motion = motion;
@@ -188,13 +216,14 @@ static void in_all_states(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
     nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
-    nh_motion *motion = nh_flow(&problem, j->z0, q->count, q->times, &j->how, error);
-    bool any = false;
+    nh_motion *motion = j->leave ? NULL : nh_method_flow(j->method, &problem, j->z0, q->count, q->times, &j->how, error);
+    bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
-    if (motion && nh_may_leave_chart(q->model) && (any || !motion->complete)) {
+    bool out_of_time = q->max_seconds > 0 && late(&j->deadline);
+    if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
-        motion = nh_motion_everywhere(j->dynamics, j->z0, q->count, q->times, &j->how, error);
+        motion = nh_motion_everywhere(j->dynamics, j->method, j->z0, q->count, q->times, &j->how, error);
     }
     j->out->motion = motion;
     if (motion && q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
@@ -204,14 +233,19 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
 {
     size_t size = q->model->m + q->model->n;
     nh_trajectory *out = nh_alloc(sizeof *out);
-    *out = (nh_trajectory){.method = "CVODE Adams", .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
-    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0)};
+    *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
+    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = now() + q->max_seconds};
     double *scale = nh_alloc_array(size + 1, sizeof *scale);
     for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
+    if (q->max_seconds > 0) j.how.cancelled = late;
+    j.how.cancel_context = &j.deadline;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error) && !(q->smallest && in_scene(&j, &ignored))) in_all_states(&j, error);
+    if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error)) {
+        look_ahead(&j);
+        if (!(q->smallest && !j.leave && in_scene(&j, &ignored))) in_all_states(&j, error);
+    }
     nh_dynamics_free(j.dynamics);
     nh_free(scale);
     nh_free(j.z0);

@@ -3,6 +3,7 @@
 #define NH_TRAJECTORY_H
 
 #include "base/option.h"
+#include "motion/method.h"
 #include "motion/scene.h"
 
 typedef struct {
@@ -15,6 +16,8 @@ typedef struct {
     const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
     bool smallest;            /* integrate only what they need */
     bool project;             /* velocities that violate the constraints are replaced by the nearest that satisfy them */
+    const nh_method *method;  /* with error control; NULL: CVODE Adams */
+    double max_seconds;       /* 0: none; a motion that takes longer is not complete */
 } nh_trajectory_request;
 
 typedef struct {
@@ -36,8 +39,8 @@ bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh
 /* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
 
-/* The motion in all coordinates, in (q, v), with accelerations from the bordered system. */
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const double *z0, size_t count, const double *times, const nh_flow_options *options, nh_error *error);
+/* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: CVODE Adams. */
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *options, nh_error *error);
 
 /* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
 bool nh_may_leave_chart(const nh_model *model);

@@ -94,6 +94,7 @@ static void put_front(const nh_comparison *c, nh_text *out)
 void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
 {
     nh_text_addf(out, "%s: a motion from t = %g to %g\n", c->question->system->title ? c->question->system->title : c->question->system->name, c->begin, c->end);
+    if (c->shortened) nh_text_add(out, "The time was shortened until two methods reached its end.\n");
     nh_text_addf(out, "Reference: %s; %s agrees to %.0e\n\nMicroseconds (evaluations) to an error below", c->reference, c->second, c->agreement);
     nh_text_addf(out, "\n%34s", "");
     for (int g = 0; g < goals; g++) nh_text_addf(out, "%18.0e", goal[g]);
@@ -110,6 +111,29 @@ void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
     if (c->partial) nh_text_add(out, "  the budget ended before every method had all its runs; --budget allows more\n");
     if (verbose) nh_text_add(out, "\nAll runs (* nothing is both faster and more accurate)\n");
     for (size_t i = 0; i < c->count && verbose; i++) put_run(c, &c->item[i], out);
+}
+
+/* ---- stress ---- */
+
+void nh_stress_text(const nh_stress *s, bool verbose, nh_text *out)
+{
+    nh_text_addf(out, "\nStress at tolerance %.0e: right is an error below %.0e\n", s->tolerance, s->accuracy);
+    for (size_t i = 0; i < s->maps; i++) {
+        const nh_stress_map *map = &s->map[i];
+        nh_text_addf(out, "\n  %s\n  %14s", map->name, "");
+        for (size_t j = 0; j < map->methods; j++) nh_text_addf(out, "%23s", map->cell[j].method);
+        for (size_t j = 0; j < map->cells; j++) {
+            if (j % map->methods == 0) nh_text_addf(out, "\n  %14.6g", map->cell[j].at);
+            nh_text_addf(out, "%23s", nh_measured_status_name(map->cell[j].status));
+        }
+        nh_text_add(out, "\n");
+        for (size_t j = 0; j < map->cells && verbose; j++)
+            if (map->cell[j].note && map->cell[j].note[0])
+                nh_text_addf(out, "    %.6g, %s: %s: %s\n", map->cell[j].at, map->cell[j].method, nh_measured_status_name(map->cell[j].status), map->cell[j].note);
+    }
+    nh_text_add(out, "\n  in all:");
+    for (int k = 0; k <= NH_WRONG; k++) nh_text_addf(out, "%s %zu %s", k ? "," : "", s->count[k], nh_measured_status_name((nh_measured_status)k));
+    nh_text_add(out, "\n");
 }
 
 /* ---- JSON ---- */
@@ -132,7 +156,23 @@ static void put_item(const nh_comparison *c, const nh_measured *m, nh_json *list
     nh_json_put_text(item, "note", m->note ? m->note : "");
 }
 
-char *nh_comparison_json(const nh_comparison *c)
+static void put_map(const nh_stress_map *map, nh_json *list)
+{
+    nh_json *item = nh_json_add_object(list);
+    nh_json_put_text(item, "name", map->name);
+    nh_json_add_text(nh_json_put_array(item, "axes"), map->axis);
+    nh_json *cells = nh_json_put_array(item, "cells");
+    for (size_t i = 0; i < map->cells; i++) {
+        nh_json *cell = nh_json_add_object(cells);
+        nh_json_put_numbers(cell, "at", 1, &map->cell[i].at, 1);
+        nh_json_put_text(cell, "method", map->cell[i].method);
+        nh_json_put_text(cell, "status", nh_measured_status_name(map->cell[i].status));
+        nh_json_put_number(cell, "error", map->cell[i].error);
+        nh_json_put_text(cell, "note", map->cell[i].note ? map->cell[i].note : "");
+    }
+}
+
+char *nh_comparison_json(const nh_comparison *c, const nh_stress *s)
 {
     nh_json *root = nh_json_object();
     nh_json_put_number(root, "schema", 1);
@@ -149,7 +189,9 @@ char *nh_comparison_json(const nh_comparison *c)
     nh_json *refused = nh_json_put_array(root, "refused");
     for (size_t i = 0; i < c->refused; i++) nh_json_add_text(refused, c->refusal[i]);
     nh_json_put_bool(root, "partial", c->partial);
-    nh_json_put_array(root, "stress");
-    nh_json_put_array(root, "warnings");
+    nh_json *stress = nh_json_put_array(root, "stress");
+    for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], stress);
+    nh_json *warnings = nh_json_put_array(root, "warnings");
+    if (c->shortened) nh_json_add_text(warnings, "the time was shortened until two methods reached its end");
     return nh_json_finish(root);
 }

@@ -27,6 +27,66 @@ void nh_motion_csv(const nh_simulation *s, nh_text *out)
     }
 }
 
+void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
+{
+    const nh_ensemble *e = s->ensemble;
+    nh_text_add(out, "member,t");
+    for (size_t k = 0; k < s->columns; k++) nh_text_addf(out, ",%s", s->column[k].name);
+    nh_text_add(out, "\n");
+    for (size_t j = 0; j < e->members * e->count; j++) {
+        nh_text_addf(out, "%zu,", j / e->count);
+        put(out, e->time[j % e->count]);
+        for (size_t k = 0; k < e->n; k++) {
+            nh_text_add(out, ",");
+            put(out, e->value[j * e->n + k]);
+        }
+        nh_text_add(out, "\n");
+    }
+}
+
+char *nh_ensemble_json(const nh_simulation *s)
+{
+    const nh_ensemble *e = s->ensemble;
+    nh_json *root = nh_json_object();
+    nh_json_put_number(root, "schema", 1);
+    nh_json_put_text(root, "method", s->method);
+    nh_json_put_text(root, "formulation", s->formulation);
+    nh_json_put_text(root, "scene", s->scene);
+    nh_json_put_number(root, "tolerance", s->tolerance);
+    nh_json_put_bool(root, "complete", e->incomplete == 0);
+    nh_json_put_numbers(root, "time", e->count, e->time, 1);
+    nh_json *members = nh_json_put_array(root, "members");
+    for (size_t i = 0; i < e->members; i++) {
+        nh_json *member = nh_json_add_object(members);
+        for (size_t k = 0; k < e->n; k++) nh_json_put_numbers(member, s->column[k].name, e->count, e->value + i * e->count * e->n + k, e->n);
+    }
+    nh_json *stats = nh_json_put_object(root, "stats");
+    nh_json_put_number(stats, "evaluations", (double)e->evaluations);
+    nh_json_put_number(stats, "alone", (double)e->alone);
+    nh_json_put_number(stats, "seconds", e->seconds);
+    nh_json *warnings = nh_json_put_array(root, "warnings");
+    if (e->incomplete) nh_json_add_text(warnings, e->note);
+    return nh_json_finish(root);
+}
+
+static void put_accuracy(const nh_simulation *s, nh_json *root)
+{
+    if (!s->checked) {
+        nh_json_put_null(root, "accuracy");
+        return;
+    }
+    const nh_accuracy *a = &s->accuracy;
+    nh_json *item = nh_json_put_object(root, "accuracy");
+    nh_json_put_number(item, "wanted", a->wanted);
+    nh_json_put_bool(item, "held", a->held);
+    nh_json_put_number(item, "estimate", a->estimate);
+    nh_json_put_text(item, "second", a->second);
+    nh_json_put_number(item, "difference", a->difference);
+    nh_json_put_number(item, "runs", a->runs);
+    nh_json_put_number(item, "evaluations", (double)a->evaluations);
+    nh_json_put_text(item, "why", a->why);
+}
+
 char *nh_motion_json(const nh_simulation *s)
 {
     static const char *const groups[] = {"states", "currents", "multipliers", "energies", "watch"};
@@ -37,6 +97,7 @@ char *nh_motion_json(const nh_simulation *s)
     nh_json_put_text(root, "scene", s->scene);
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", s->motion->complete);
+    put_accuracy(s, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
     for (int kind = NH_COLUMN_STATE; kind <= NH_COLUMN_WATCH; kind++) {
         nh_json *group = nh_json_put_object(root, groups[kind]);

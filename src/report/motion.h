@@ -8,4 +8,9 @@
 void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head line, then a row per output time */
 char *nh_motion_json(const nh_simulation *simulation);             /* a heap string (nh_free), ending in a newline */
 
+
+/* The same of an ensemble: a column `member` in front; a list of objects. */
+void nh_ensemble_csv(const nh_simulation *simulation, nh_text *out);
+char *nh_ensemble_json(const nh_simulation *simulation);
+
 #endif

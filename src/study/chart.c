@@ -5,35 +5,13 @@
 
 #include "study/chart_internal.h"
 
-enum { most_formulations = 3, most_candidates = 64, levels = 5, most_repeats = 7 };
+enum { levels = NH_CHART_LEVELS, most_repeats = 7, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 static const double reference_tolerance = 1e-14, second_tolerance = 1e-13;
 static const double step_ratio = 4, fewest_steps = 32; /* of fixed steps, from level to level */
 static const double enough_seconds = 3e-3;             /* repetitions stop after this time */
 static const double trusted = 1e-4;                    /* worst agreement of a reference that is looked for no further */
 static const double far_off = 1e-2, far_from_tolerance = 1e4, far_off_fixed = 0.1; /* errors that nobody asked for */
-
-typedef struct {
-    const nh_method *method; /* NULL: multipliers by IDA */
-    size_t formulation;
-    bool projected;
-    double last;             /* seconds of its last run with all repetitions */
-    bool given_up;
-} candidate;
-
-typedef struct {
-    nh_comparison *out;
-    const nh_model *model;
-    nh_model *other;
-    nh_state initial;
-    nh_yardstick yard;
-    size_t formulations, candidates;
-    nh_formulation formulation[most_formulations];
-    candidate candidate[most_candidates];
-    nh_measured *grid; /* candidates x levels; method NULL: not run */
-    double begun, budget, deadline, absolute;
-    bool project;
-} comparison;
 
 const char *nh_measured_status_name(nh_measured_status status)
 {
@@ -48,11 +26,11 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static bool late(void *context) { return now() > ((comparison *)context)->deadline; }
+static bool late(void *context) { return now() > ((nh_bench *)context)->deadline; }
 
 /* ---- one motion ---- */
 
-static nh_motion *integrate(comparison *c, const candidate *k, double tolerance, double step, nh_error *error)
+static nh_motion *integrate(nh_bench *c, const nh_contender *k, double tolerance, double step, nh_error *error)
 {
     nh_formulation *f = &c->formulation[k->formulation];
     nh_flow_options how = {.rtol = tolerance, .step = step, .scale = f->scale, .max_steps = 1e8, .cancelled = late, .cancel_context = c};
@@ -92,7 +70,7 @@ static nh_measured_status status_of(const nh_measured *m, bool complete, bool ca
     return wrong ? NH_WRONG : NH_RIGHT;
 }
 
-static void judge(comparison *c, const candidate *k, nh_motion *motion, nh_measured *m)
+static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_measured *m)
 {
     nh_formulation *f = &c->formulation[k->formulation];
     size_t n = c->yard.currents;
@@ -113,7 +91,7 @@ static void judge(comparison *c, const candidate *k, nh_motion *motion, nh_measu
 }
 
 /* The least time of some repetitions; everything else from the first. */
-static void measure(comparison *c, candidate *k, double tolerance, double step, nh_measured *m)
+void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double step, nh_measured *m)
 {
     nh_error error;
     nh_error_clear(&error);
@@ -122,7 +100,7 @@ static void measure(comparison *c, candidate *k, double tolerance, double step, 
     *m = (nh_measured){.method = !k->method ? "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
                        .step = step, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
-    for (int i = 0; i < most_repeats && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && now() - begin < enough_seconds)); i++) {
+    for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && now() - begin < enough_seconds)); i++) {
         nh_motion *motion = integrate(c, k, tolerance, step, &error);
         if (motion && i == 0) judge(c, k, motion, m);
         if (motion) m->seconds = fmin(m->seconds, motion->seconds);
@@ -138,9 +116,9 @@ static void measure(comparison *c, candidate *k, double tolerance, double step, 
 
 /* ---- the reference ---- */
 
-static bool states_of(comparison *c, size_t formulation, const char *method, double tolerance, double *states)
+static bool states_of(nh_bench *c, size_t formulation, const char *method, double tolerance, double *states)
 {
-    candidate k = {.method = nh_method_find(method), .formulation = formulation};
+    nh_contender k = {.method = nh_method_find(method), .formulation = formulation};
     nh_error ignored;
     nh_error_clear(&ignored);
     c->deadline = now() + c->budget / 4;
@@ -151,7 +129,7 @@ static bool states_of(comparison *c, size_t formulation, const char *method, dou
 }
 
 /* In the chart; in all coordinates where the chart breaks down or the two methods disagree. */
-static bool find_reference(comparison *c, nh_error *error)
+bool nh_bench_reference(nh_bench *c, nh_error *error)
 {
     static const char *const first = "GSL rk8pd", *const second = "CVODE Adams";
     size_t size = NH_CHART_OUTPUTS * 2 * c->model->m;
@@ -182,9 +160,9 @@ static bool find_reference(comparison *c, nh_error *error)
 
 /* ---- all methods in all formulations ---- */
 
-static void add(comparison *c, const nh_method *method, size_t formulation, bool projected)
+static void add(nh_bench *c, const nh_method *method, size_t formulation, bool projected)
 {
-    if (c->candidates < most_candidates) c->candidate[c->candidates++] = (candidate){.method = method, .formulation = formulation, .projected = projected};
+    if (c->candidates < NH_CHART_CANDIDATES) c->candidate[c->candidates++] = (nh_contender){.method = method, .formulation = formulation, .projected = projected};
 }
 
 static void refuse(nh_comparison *out, const char *method, const char *why)
@@ -192,7 +170,7 @@ static void refuse(nh_comparison *out, const char *method, const char *why)
     out->refusal[out->refused++] = nh_arena_printf(out->arena, "%s: %s", method, why);
 }
 
-static void list_candidates(comparison *c)
+static void list_candidates(nh_bench *c)
 {
     static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF"}; /* in the other formulations */
     c->out->refusal = nh_arena_alloc(c->out->arena, (nh_method_count() + 1) * sizeof *c->out->refusal);
@@ -211,13 +189,13 @@ static void list_candidates(comparison *c)
 }
 
 /* Level by level, so that a short budget still gives every method its loose runs. */
-static void measure_all(comparison *c)
+static void measure_all(nh_bench *c)
 {
     double span = fabs(c->out->end - c->out->begin);
     c->grid = nh_arena_alloc(c->out->arena, c->candidates * levels * sizeof *c->grid);
     for (size_t level = 0; level < levels; level++)
         for (size_t i = 0; i < c->candidates; i++) {
-            candidate *k = &c->candidate[i];
+            nh_contender *k = &c->candidate[i];
             bool fixed = k->method && k->method->fixed;
             double left = c->begun + c->budget - now();
             if (k->given_up) continue;
@@ -226,11 +204,11 @@ static void measure_all(comparison *c)
                 continue;
             }
             double step = fixed ? span / (fewest_steps * pow(step_ratio, (double)level)) : NAN;
-            measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
+            nh_bench_measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
         }
 }
 
-static void collect(comparison *c)
+static void collect(nh_bench *c)
 {
     nh_comparison *out = c->out;
     out->item = nh_arena_alloc(out->arena, (c->candidates * levels + 1) * sizeof *out->item);
@@ -247,7 +225,7 @@ static void collect(comparison *c)
     }
 }
 
-static bool open_formulations(comparison *c, nh_error *error)
+static bool open_formulations(nh_bench *c, nh_error *error)
 {
     const nh_simulation *s = c->out->question;
     nh_error ignored;
@@ -263,11 +241,11 @@ static bool open_formulations(comparison *c, nh_error *error)
 }
 
 /* One motion with the guard in each chart. */
-static void watch_charts(comparison *c)
+static void watch_charts(nh_bench *c)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    candidate k = {.method = nh_method_find("CVODE Adams")};
+    nh_contender k = {.method = nh_method_find("CVODE Adams")};
     for (k.formulation = 0; k.formulation < c->formulations; k.formulation++) {
         nh_formulation *f = &c->formulation[k.formulation];
         if (!f->problem.guards) continue;
@@ -278,43 +256,89 @@ static void watch_charts(comparison *c)
     }
 }
 
-static bool compare(comparison *c, nh_error *error)
+bool nh_bench_open(nh_bench *c, const nh_simulate_request *request, double budget, nh_error *error)
 {
-    nh_comparison *out = c->out;
+    return nh_bench_open_turned(c, request, 0, 0, budget, error);
+}
+
+bool nh_bench_open_turned(nh_bench *c, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
+    *c = (nh_bench){.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .project = request->project};
+    out->arena = arena;
+    out->question = nh_arena_alloc(arena, sizeof *out->question);
+    out->question->arena = nh_arena_create();
+    if (!nh_simulate_read(out->question, request, true, &c->initial, &out->end, error)) return false;
     c->model = out->question->model;
+    c->initial.q[coordinate] += turn;
+    if (turn != 0) c->project = true;
     c->yard.model = c->model;
-    c->yard.state = nh_arena_alloc(out->arena, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *c->yard.state);
+    c->yard.state = nh_arena_alloc(arena, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *c->yard.state);
     out->begin = c->initial.t;
     for (size_t i = 0; i < NH_CHART_OUTPUTS; i++)
         c->yard.times[i] = i + 1 == NH_CHART_OUTPUTS ? out->end : out->begin + (out->end - out->begin) * (double)i / (NH_CHART_OUTPUTS - 1);
     if (!(fabs(out->end - out->begin) > 0)) return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
-    nh_yardstick_currents(&c->yard, out->arena);
+    nh_yardstick_currents(&c->yard, arena);
     out->currents = c->yard.currents;
     out->current = c->yard.name;
     if (!open_formulations(c, error)) return false;
     watch_charts(c);
-    if (!find_reference(c, error)) return false;
-    list_candidates(c);
-    measure_all(c);
-    collect(c);
     return true;
+}
+
+void nh_bench_no_reference(nh_bench *c)
+{
+    size_t m2 = 2 * c->model->m;
+    const nh_formulation *all = &c->formulation[c->formulations - 1];
+    for (size_t i = 0; i < NH_CHART_OUTPUTS; i++) memcpy(c->yard.state + i * m2, all->z0, m2 * sizeof(double));
+    nh_yardstick_scales(&c->yard, c->out->arena, c->absolute);
+}
+
+void nh_bench_close(nh_bench *c)
+{
+    for (size_t f = 0; f < c->formulations; f++) nh_formulation_close(&c->formulation[f]);
+    nh_yardstick_close(&c->yard);
+    nh_model_free(c->other);
+}
+
+static void end_bench(nh_bench *c)
+{
+    nh_bench_close(c);
+    nh_comparison_free(c->out);
+}
+
+/* A final time that nobody chose may lie behind a singularity: it is halved until there is a motion. */
+static bool open_somewhere(nh_bench *c, const nh_simulate_request *request, double budget, nh_error *error)
+{
+    nh_simulate_request q = *request;
+    for (int i = 0; i < most_halvings; i++) {
+        nh_error_clear(error);
+        if (!nh_bench_open(c, &q, budget, error)) break;
+        if (nh_bench_reference(c, error)) {
+            c->out->shortened = i > 0;
+            return true;
+        }
+        bool chosen = request->until_given || (c->out->question->analysis && c->out->question->analysis->has_until);
+        if (chosen || i + 1 == most_halvings) break;
+        q.until_given = true;
+        q.options.until = c->out->begin + (c->out->end - c->out->begin) / 2;
+        end_bench(c);
+    }
+    end_bench(c);
+    return false;
 }
 
 nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_error *error)
 {
-    nh_arena *arena = nh_arena_create();
-    nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
-    comparison c = {.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .project = request->project};
-    out->arena = arena;
-    out->question = nh_arena_alloc(arena, sizeof *out->question);
-    out->question->arena = nh_arena_create();
-    bool good = nh_simulate_read(out->question, request, true, &c.initial, &out->end, error) && compare(&c, error);
-    for (size_t f = 0; f < c.formulations; f++) nh_formulation_close(&c.formulation[f]);
-    nh_yardstick_close(&c.yard);
-    nh_model_free(c.other);
-    if (good) return out;
-    nh_comparison_free(out);
-    return NULL;
+    nh_bench c;
+    if (!open_somewhere(&c, request, budget, error)) return NULL;
+    c.begun = now(); /* the budget is for measuring: what came before is needed in any case */
+    list_candidates(&c);
+    measure_all(&c);
+    collect(&c);
+    nh_bench_close(&c);
+    return c.out;
 }
 
 void nh_comparison_free(nh_comparison *c)

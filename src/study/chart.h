@@ -35,9 +35,10 @@ typedef struct {
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */
+    bool shortened;              /* the motion did not reach the time that was meant, and nobody had chosen that */
 } nh_comparison;
 
-/* `budget`: seconds.  NULL with a message when no motion can be computed at all. */
+/* `budget`: seconds for the measurements.  NULL with a message when no motion can be computed at all. */
 nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_error *error);
 void nh_comparison_free(nh_comparison *comparison);
 

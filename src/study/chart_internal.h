@@ -6,7 +6,7 @@
 #include "motion/projection.h"
 #include "study/chart.h"
 
-enum { NH_CHART_OUTPUTS = 9 };
+enum { NH_CHART_OUTPUTS = 9, NH_CHART_LEVELS = 5, NH_CHART_FORMULATIONS = 3, NH_CHART_CANDIDATES = 64 };
 
 typedef struct {
     const char *name;
@@ -47,5 +47,42 @@ void nh_yardstick_close(nh_yardstick *y);
 /* Largest error over the first `count` outputs, and the drifts (currents values). */
 double nh_yardstick_error(const nh_yardstick *y, size_t count, const double *states);
 void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *states, double *drift);
+
+/* ---- one motion, ready to be computed by any method ---- */
+
+typedef struct {
+    const nh_method *method; /* NULL: multipliers by IDA */
+    size_t formulation;
+    bool projected;
+    double last;             /* seconds of its last run with all repetitions */
+    bool given_up;
+} nh_contender;
+
+/* `out` is owned until it is handed over. */
+typedef struct {
+    nh_comparison *out;
+    const nh_model *model;
+    nh_model *other;
+    nh_state initial;
+    nh_yardstick yard;
+    size_t formulations, candidates;
+    nh_formulation formulation[NH_CHART_FORMULATIONS];
+    nh_contender candidate[NH_CHART_CANDIDATES];
+    nh_measured *grid; /* candidates x levels; method NULL: not run */
+    double begun, budget, deadline, absolute;
+    bool project, once; /* once: no repetitions, the time does not matter */
+} nh_bench;
+
+/* System, formulations and charts of a request; close it also on failure (and free `out`). */
+bool nh_bench_open(nh_bench *bench, const nh_simulate_request *request, double budget, nh_error *error);
+/* The same with one coordinate of the initial state moved, and velocities that the constraints allow there. */
+bool nh_bench_open_turned(nh_bench *bench, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error);
+void nh_bench_close(nh_bench *bench);
+/* The reference: in the chart; in all coordinates where the chart breaks down or the two methods disagree. */
+bool nh_bench_reference(nh_bench *bench, nh_error *error);
+/* Where there is none: errors are then infinite, drifts those from the initial state. */
+void nh_bench_no_reference(nh_bench *bench);
+/* One run, with repetitions for its time unless bench->once. */
+void nh_bench_measure(nh_bench *bench, nh_contender *candidate, double tolerance, double step, nh_measured *measured);
 
 #endif

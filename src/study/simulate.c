@@ -130,7 +130,9 @@ static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
         if (!nh_analysis_to_chart(o, e, &e, error)) return false;
         add(s, name, NH_COLUMN_WATCH, e);
     }
-    return true;
+    if (s->columns) return true;
+    nh_fail(error, NH_USAGE, "", "--watch names no quantity");
+    return nh_error_hint(error, "--watch \"%s, E\"", s->system->coordinate[0].name);
 }
 
 static bool read_scene(nh_simulation *s, nh_error *error)
@@ -183,6 +185,34 @@ static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_er
     return true;
 }
 
+static const char *words_of(nh_simulation *s, const nh_scene *scene)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_scene_words(scene, &words);
+    const char *kept = nh_arena_strdup(s->arena, nh_text_string(&words));
+    nh_text_clear(&words);
+    return kept;
+}
+
+static bool integrate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *request, nh_error *error)
+{
+    size_t size = s->model->m + s->model->n;
+    double *z0 = nh_arena_alloc(s->arena, size * sizeof *z0), *initial = nh_alloc_array(q->ensemble, size * sizeof *initial);
+    nh_dynamics *d = nh_dynamics_create(s->model);
+    if (nh_dynamics_start(d, request->initial, request->project, z0, error)) {
+        nh_ensemble_states(size, z0, q->ensemble, q->spread, (uint64_t)q->options.seed, initial);
+        s->ensemble = nh_ensemble_create(request, q->ensemble, initial, (size_t)q->options.threads, error);
+    }
+    nh_dynamics_free(d);
+    nh_free(initial);
+    if (!s->ensemble) return false;
+    s->method = "Prince-Dormand 8, in batches";
+    s->formulation = "reduced equations";
+    s->scene = words_of(s, s->ensemble->scene);
+    return true;
+}
+
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
 {
     nh_options options = q->options;
@@ -191,18 +221,17 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     for (size_t k = 0; k < s->columns; k++) e[k] = s->column[k].value;
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns, .e = e,
                                      .smallest = q->watch || q->scene, .project = q->project};
-    s->trajectory = nh_trajectory_create(&request, error);
+    if (q->ensemble && q->accuracy > 0) return nh_fail(error, NH_USAGE, "", "--ensemble and --accuracy do not go together; --tolerance sets that of the members");
+    if (q->ensemble) return integrate_many(s, q, &request, error);
+    s->checked = q->accuracy > 0;
+    s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, &s->accuracy, error) : nh_trajectory_create(&request, error);
     if (!s->trajectory) return false;
+    if (s->checked) s->tolerance = s->accuracy.tolerance;
     s->motion = s->trajectory->motion;
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
-    if (!s->trajectory->scene) return true;
-    nh_text words;
-    nh_text_init(&words);
-    nh_scene_words(s->trajectory->scene, &words);
-    s->scene = nh_arena_strdup(s->arena, nh_text_string(&words));
-    nh_text_clear(&words);
+    if (s->trajectory->scene) s->scene = words_of(s, s->trajectory->scene);
     return true;
 }
 
@@ -224,6 +253,7 @@ void nh_simulation_free(nh_simulation *s)
 {
     if (!s) return;
     nh_trajectory_free(s->trajectory);
+    nh_ensemble_free(s->ensemble);
     nh_model_free(s->model);
     nh_analysis_free(s->analysis);
     nh_system_free(s->system);

@@ -2,7 +2,9 @@
 #ifndef NH_SIMULATE_H
 #define NH_SIMULATE_H
 
+#include "motion/accuracy.h"
 #include "motion/drift.h"
+#include "motion/ensemble.h"
 #include "study/analysis.h"
 
 typedef struct {
@@ -15,6 +17,9 @@ typedef struct {
     bool scene;                              /* the same with what the analysis file watches */
     bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
     double step;                             /* output spacing; 0: a hundredth of the time */
+    double accuracy;                         /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
+    size_t ensemble;                         /* members; 0: one motion */
+    double spread;                           /* of their initial states about the given one, relative to max(|z_i|, 1) */
     nh_options options;
 } nh_simulate_request;
 
@@ -39,6 +44,9 @@ typedef struct {
     double *value;        /* motion->count x columns, row by row */
     nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
+    nh_ensemble *ensemble;     /* instead of motion, value and trajectory; NULL: one motion */
+    bool checked;              /* an accuracy was asked for */
+    nh_accuracy accuracy;
 } nh_simulation;
 
 nh_simulation *nh_simulate(const nh_simulate_request *request, nh_error *error);

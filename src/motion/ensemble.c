@@ -1,0 +1,364 @@
+#include "motion/ensemble.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/parallel.h"
+#include "motion/tableau.h"
+#include "system/sample.h"
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define CLONES
+#endif
+
+enum { lanes = 128 };                                                     /* members of a batch */
+static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* of the step */
+static const double order = 8;
+static const double too_slow = 20;                                        /* a member that needs so much smaller steps than its batch goes alone */
+
+typedef struct {
+    const nh_trajectory_request *request;
+    nh_ensemble *out;
+    const double *initial;
+    nh_tableau tableau;
+    nh_tape *values;
+    bool *alone;
+    long *evaluations; /* per batch */
+} plan;
+
+/* One batch: arrays of `lanes` values, state after state. */
+typedef struct {
+    const plan *p;
+    size_t first, members, kept, width;
+    nh_tape_work *rate, *values;
+    double *z, *stage, *k, *next, *error, *fixed; /* kept x lanes; k: stages of it; fixed: width x lanes */
+    const double **in;                            /* width: where the tape reads */
+    double **out;                                 /* kept: where it writes */
+    double *lane_error;
+    bool *alive;
+    double t, h;
+    nh_dynamics *dynamics; /* of a chart whose pivot is watched; else NULL */
+    double *pivot, *whole;
+} batch;
+
+/* ---- kernels over all lanes ---- */
+
+CLONES static void add_stages(size_t count, int stages, const double *weight, double h, const double *k, size_t stride, const double *z, double *to)
+{
+    memcpy(to, z, count * sizeof *to);
+    for (int j = 0; j < stages; j++) {
+        double x = h * weight[j];
+        if (x == 0) continue;
+        const double *from = k + (size_t)j * stride;
+        for (size_t i = 0; i < count; i++) to[i] += x * from[i];
+    }
+}
+
+CLONES static void error_of_lanes(size_t kept, double rtol, double atol, const double *error, const double *z, const double *next, double *lane)
+{
+    for (size_t l = 0; l < lanes; l++) lane[l] = 0;
+    for (size_t i = 0; i < kept; i++)
+        for (size_t l = 0; l < lanes; l++) {
+            double x = fabs(z[i * lanes + l]), y = fabs(next[i * lanes + l]), e = fabs(error[i * lanes + l]) / (atol + rtol * (x > y ? x : y));
+            lane[l] = e > lane[l] || e != e ? e : lane[l];
+        }
+}
+
+/* ---- one batch ---- */
+
+static void rates(batch *b, double t, const double *z, double *k)
+{
+    const nh_scene *s = b->p->out->scene;
+    for (size_t l = 0; l < lanes; l++) b->fixed[l] = t;
+    for (size_t i = 0; i < b->kept; i++) b->in[1 + s->state[i]] = z + i * lanes;
+    for (size_t i = 0; i < b->kept; i++) b->out[i] = k + i * lanes;
+    nh_tape_eval_batch(s->rate, b->rate, lanes, b->in, b->out);
+}
+
+/* Try a step; the largest lane error of those alive. */
+static double try_step(batch *b)
+{
+    const nh_tableau *r = &b->p->tableau;
+    const nh_options *o = b->p->request->options;
+    size_t count = b->kept * lanes;
+    for (int i = 0; i < r->stages; i++) {
+        add_stages(count, i, r->a[i], b->h, b->k, count, b->z, b->stage);
+        rates(b, b->t + r->c[i] * b->h, b->stage, b->k + (size_t)i * count);
+    }
+    add_stages(count, r->stages, r->b, b->h, b->k, count, b->z, b->next);
+    memset(b->stage, 0, count * sizeof *b->stage);
+    add_stages(count, r->stages, r->e, b->h, b->k, count, b->stage, b->error);
+    error_of_lanes(b->kept, o->tolerance, o->tolerance * o->absolute, b->error, b->z, b->next, b->lane_error);
+    double worst = 0;
+    for (size_t l = 0; l < b->members; l++)
+        if (b->alive[l]) worst = fmax(worst, isfinite(b->lane_error[l]) ? b->lane_error[l] : INFINITY);
+    return worst;
+}
+
+static void leave_out(batch *b, size_t lane)
+{
+    b->alive[lane] = false;
+    b->p->alone[b->first + lane] = true;
+    for (size_t i = 0; i < b->kept; i++) b->z[i * lanes + lane] = b->z[i * lanes]; /* any values that can be computed with */
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Members whose error is so far above the middle one that they would hold up the others. */
+static bool leave_out_the_slow(batch *b)
+{
+    double sorted[lanes];
+    size_t n = 0;
+    bool any = false;
+    for (size_t l = 0; l < b->members; l++)
+        if (b->alive[l] && isfinite(b->lane_error[l])) sorted[n++] = b->lane_error[l];
+    qsort(sorted, n, sizeof *sorted, by_value);
+    double limit = n ? fmax(sorted[n / 2], DBL_MIN) * pow(too_slow, order) : 0;
+    for (size_t l = 0; l < b->members; l++)
+        if (b->alive[l] && b->lane_error[l] > 1 && b->lane_error[l] > limit) {
+            leave_out(b, l);
+            any = true;
+        }
+    return any;
+}
+
+static bool leave_out_the_undefined(batch *b)
+{
+    bool any = false;
+    for (size_t l = 0; l < b->members; l++)
+        if (b->alive[l] && !isfinite(b->lane_error[l])) {
+            leave_out(b, l);
+            any = true;
+        }
+    return any;
+}
+
+/* A chart of coordinate velocities ends where its pivot changes sign. */
+static void watch_pivots(batch *b)
+{
+    const nh_scene *s = b->p->out->scene;
+    if (!b->dynamics) return;
+    nh_flow_problem problem = nh_dynamics_problem(b->dynamics);
+    for (size_t l = 0; l < b->members; l++) {
+        if (!b->alive[l]) continue;
+        memcpy(b->whole, b->p->initial + (b->first + l) * s->states, s->states * sizeof *b->whole);
+        for (size_t i = 0; i < b->kept; i++) b->whole[s->state[i]] = b->z[i * lanes + l];
+        double now;
+        if (!problem.guard(b->t, b->whole, &now, problem.context) || now * b->pivot[l] < 0 || fabs(now) < 0.1) leave_out(b, l);
+        b->pivot[l] = now;
+    }
+}
+
+static void store(batch *b, size_t output)
+{
+    nh_ensemble *e = b->p->out;
+    const nh_scene *s = e->scene;
+    double *to[64], *buffer = nh_alloc_array(e->n * lanes + 1, sizeof *buffer);
+    double **rows = e->n > 64 ? nh_alloc_array(e->n, sizeof *rows) : to;
+    for (size_t k = 0; k < e->n; k++) rows[k] = buffer + k * lanes;
+    for (size_t l = 0; l < lanes; l++) b->fixed[l] = b->t;
+    for (size_t i = 0; i < b->kept; i++) b->in[1 + s->state[i]] = b->z + i * lanes;
+    if (e->n) nh_tape_eval_batch(b->p->values, b->values, lanes, b->in, rows);
+    for (size_t l = 0; l < b->members; l++)
+        for (size_t k = 0; k < e->n; k++) e->value[((b->first + l) * e->count + output) * e->n + k] = rows[k][l];
+    if (rows != to) nh_free(rows);
+    nh_free(buffer);
+}
+
+/* Up to `target`; false when no step is small enough. */
+static bool go_to(batch *b, double target, long *steps)
+{
+    const nh_options *o = b->p->request->options;
+    while (b->t != target) {
+        double wanted = b->h, left = target - b->t;
+        bool last = fabs(b->h) >= fabs(left) * (1 - 1e-12);
+        if (last) b->h = left;
+        double worst = try_step(b);
+        b->p->evaluations[b->first / lanes] += b->p->tableau.stages;
+        double growth = worst > 0 && isfinite(worst) ? fmin(most_growth, fmax(least_growth, safety * pow(worst, -1 / order))) : isfinite(worst) ? most_growth : least_growth;
+        if (worst <= 1) {
+            b->t = last ? target : b->t + b->h;
+            double *swap = b->z;
+            b->z = b->next;
+            b->next = swap;
+            b->h = last ? (fabs(b->h * growth) > fabs(wanted) ? b->h * growth : wanted) : b->h * growth;
+            watch_pivots(b);
+        } else {
+            if (leave_out_the_slow(b)) growth = 1;
+            b->h *= growth;
+            if (fabs(b->h) < 16 * DBL_EPSILON * fabs(b->t) + DBL_MIN || (fabs(b->h) < 1e-12 * fabs(target - b->p->request->times[0]) && !isfinite(worst))) {
+                if (!leave_out_the_undefined(b)) return false;
+                b->h = wanted;
+            }
+        }
+        if ((double)++*steps > o->steps) return false;
+    }
+    return true;
+}
+
+static void open_batch(batch *b, const plan *p, size_t index)
+{
+    const nh_scene *s = p->out->scene;
+    const nh_model *o = p->request->model;
+    size_t count = s->kept * lanes;
+    *b = (batch){.p = p, .first = index * lanes, .kept = s->kept, .width = o->width, .t = p->request->times[0]};
+    b->members = p->out->members - b->first < lanes ? p->out->members - b->first : lanes;
+    b->rate = nh_tape_work_create(s->rate);
+    b->values = nh_tape_work_create(p->values);
+    b->z = nh_alloc_array(count * 4 + (size_t)p->tableau.stages * count, sizeof *b->z);
+    b->next = b->z + count, b->stage = b->next + count, b->error = b->stage + count, b->k = b->error + count;
+    b->fixed = nh_alloc_array(b->width * lanes, sizeof *b->fixed);
+    b->in = nh_alloc_array(b->width, sizeof *b->in);
+    b->out = nh_alloc_array(s->kept, sizeof *b->out);
+    b->lane_error = nh_alloc_array(3 * lanes, sizeof *b->lane_error);
+    b->pivot = b->lane_error + lanes;
+    b->whole = nh_alloc_array(s->states, sizeof *b->whole);
+    b->alive = nh_alloc_array(lanes, sizeof *b->alive);
+    for (size_t i = 0; i < b->width; i++) b->in[i] = b->fixed + i * lanes;
+    for (size_t l = 0; l < lanes; l++) {
+        const double *from = p->initial + (b->first + (l < b->members ? l : 0)) * s->states; /* empty lanes repeat the first */
+        for (size_t i = 0; i < s->states; i++) b->fixed[(1 + i) * lanes + l] = from[i];
+        for (size_t i = 0; i < s->kept; i++) b->z[i * lanes + l] = from[s->state[i]];
+        b->alive[l] = l < b->members;
+    }
+}
+
+static void close_batch(batch *b, double *block)
+{
+    nh_tape_work_free(b->rate);
+    nh_tape_work_free(b->values);
+    nh_free(block);
+    nh_free(b->fixed);
+    nh_free(b->in);
+    nh_free(b->out);
+    nh_free(b->lane_error);
+    nh_free(b->whole);
+    nh_free(b->alive);
+    nh_dynamics_free(b->dynamics);
+}
+
+static void do_batch(size_t index, void *context)
+{
+    const plan *p = context;
+    batch b;
+    open_batch(&b, p, index);
+    double *block = b.z, span = p->request->times[p->out->count - 1] - b.t;
+    long steps = 0;
+    if (nh_dynamics_watched(p->request->model)) {
+        b.dynamics = nh_dynamics_create(p->request->model);
+        for (size_t l = 0; l < lanes; l++) b.pivot[l] = 0;
+        watch_pivots(&b);
+    }
+    b.h = span / 1000;
+    for (size_t i = 0; i < p->out->count; i++) {
+        if (!go_to(&b, p->request->times[i], &steps)) {
+            for (size_t l = 0; l < b.members; l++)
+                if (b.alive[l]) leave_out(&b, l);
+            break;
+        }
+        store(&b, i);
+    }
+    close_batch(&b, block);
+}
+
+/* ---- members alone ---- */
+
+static void do_alone(const plan *p, size_t member, nh_error *error)
+{
+    nh_ensemble *e = p->out;
+    const nh_model *o = p->request->model;
+    size_t each = e->count * e->n;
+    double *z = nh_alloc_array(2 * o->m, sizeof *z), *v = z + o->m, *target = e->value + member * each;
+    nh_dynamics *d = nh_dynamics_create(o);
+    nh_motion start = {.count = 1, .size = o->m + o->n, .time = (double *)p->request->times, .state = (double *)p->initial + member * (o->m + o->n)};
+    nh_trajectory_request q = *p->request;
+    nh_state state = {.t = q.times[0], .q = z, .v = v};
+    memcpy(z, start.state, o->m * sizeof *z);
+    q.initial = &state;
+    q.method = NULL;
+    nh_trajectory *t = nh_along(d, &start, o->m, o->rho, v) ? nh_trajectory_create(&q, error) : NULL;
+    size_t reached = t ? t->motion->count : 0;
+    for (size_t i = 0; i < each; i++) target[i] = i < reached * e->n ? t->value[i] : NAN;
+    if (reached < e->count && !e->incomplete++) snprintf(e->note, sizeof e->note, "member %zu: %.200s", member, t ? t->motion->note : error->what);
+    if (t) e->evaluations += t->motion->evaluations;
+    nh_trajectory_free(t);
+    nh_dynamics_free(d);
+    nh_free(z);
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void integrate(plan *p, size_t threads)
+{
+    nh_ensemble *e = p->out;
+    size_t batches = (e->members + lanes - 1) / lanes;
+    double begin = now();
+    nh_error ignored;
+    p->evaluations = nh_alloc_array(batches, sizeof *p->evaluations);
+    p->alone = nh_alloc_array(e->members, sizeof *p->alone);
+    bool together = !e->scene->implicit && e->scene->kept && nh_tableau_rk8pd(&p->tableau);
+    if (together) nh_parallel(batches, threads, do_batch, p);
+    for (size_t i = 0; i < batches; i++) e->evaluations += p->evaluations[i] * lanes;
+    for (size_t i = 0; i < e->members; i++) {
+        if (together && !p->alone[i]) continue;
+        nh_error_clear(&ignored);
+        do_alone(p, i, &ignored);
+        e->alone++;
+    }
+    e->seconds = now() - begin;
+    nh_free(p->alone);
+    nh_free(p->evaluations);
+}
+
+nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, const double *initial, size_t threads, nh_error *error)
+{
+    if (members == 0 || q->count == 0) return nh_fail(error, NH_USAGE, "", "an ensemble needs at least one member and one output time"), NULL;
+    nh_ensemble *e = nh_alloc(sizeof *e);
+    *e = (nh_ensemble){.members = members, .count = q->count, .n = q->n, .scene = nh_scene_create(q->model, q->n, q->e)};
+    e->time = nh_alloc_array(q->count, sizeof *e->time);
+    memcpy(e->time, q->times, q->count * sizeof *e->time);
+    e->value = nh_alloc_array(members * q->count, (q->n ? q->n : 1) * sizeof *e->value);
+    plan p = {.request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e)};
+    integrate(&p, threads);
+    nh_tape_free(p.values);
+    return e;
+}
+
+void nh_ensemble_free(nh_ensemble *e)
+{
+    if (!e) return;
+    nh_scene_free(e->scene);
+    nh_free(e->time);
+    nh_free(e->value);
+    nh_free(e);
+}
+
+void nh_ensemble_states(size_t size, const double *z0, size_t members, double spread, uint64_t seed, double *initial)
+{
+    double *low = nh_alloc_array(2 * size, sizeof *low), *high = low + size;
+    for (size_t i = 0; i < size; i++) {
+        double reach = spread * fmax(fabs(z0[i]), 1);
+        low[i] = z0[i] - reach;
+        high[i] = z0[i] + reach;
+    }
+    nh_sampler *sampler = nh_sampler_create(size, low, high, seed);
+    memcpy(initial, z0, size * sizeof *initial);
+    for (size_t k = 1; k < members; k++) nh_sampler_next(sampler, initial + k * size);
+    nh_sampler_free(sampler);
+    nh_free(low);
+}

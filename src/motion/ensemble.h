@@ -1,0 +1,30 @@
+/* ensemble: the same model from many initial states at once.
+ *
+ * Members are integrated in batches that take common steps, by an explicit Runge-Kutta pair of order 8 (Prince and Dormand) whose right-hand
+ * side is evaluated for the whole batch at once; the member that needs the smallest step decides it.  The coefficients are read from GSL's
+ * own stepper.  A member that cannot go on (a singularity, a chart that ends), or one that holds up its batch, is computed alone afterwards, in all
+ * coordinates if need be.  Each result is that of a motion of its own to the tolerance.                             [Galassi2009] */
+#ifndef NH_ENSEMBLE_H
+#define NH_ENSEMBLE_H
+
+#include "motion/trajectory.h"
+
+typedef struct {
+    size_t members, count, n;
+    double *time;            /* count */
+    double *value;           /* value[(member * count + i) * n + k]: expression k at output i; NAN where a member did not come so far */
+    nh_scene *scene;         /* what was integrated; owned */
+    size_t alone, incomplete; /* members that were computed alone; that did not reach the end */
+    long evaluations;        /* of the right-hand side, per member and stage */
+    double seconds;          /* of the integration, without preparations */
+    char note[256];          /* why the first incomplete member ended */
+} nh_ensemble;
+
+/* `request`: as for one trajectory (method and smallest do not matter).  initial: members x (m + n) values (q, w) at times[0]. */
+nh_ensemble *nh_ensemble_create(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, nh_error *error);
+void nh_ensemble_free(nh_ensemble *ensemble);
+
+/* members x (m + n) values: the first is z0, the others lie around it within spread * max(|z0_i|, 1) in every state. */
+void nh_ensemble_states(size_t size, const double *z0, size_t members, double spread, uint64_t seed, double *initial);
+
+#endif

@@ -1,0 +1,201 @@
+#include "study/stress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "study/chart_internal.h"
+
+enum { most_values = 12, most_parameters = 12 };
+static const char *const methods[] = {"GSL rk8pd", "GSL rkf45", "ARKODE Dormand-Prince", "CVODE Adams", "CVODE BDF"};
+enum { method_count = sizeof methods / sizeof *methods };
+static const double tolerance = 1e-8, allowed = 1e4; /* right: an error below allowed * tolerance */
+static const double longer[] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6}, parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
+static const double least_cell = 0.02; /* seconds that a value has at least */
+
+typedef struct {
+    nh_stress *out;
+    const nh_simulate_request *request;
+    double begun, budget;
+    size_t values_left;
+} stress_work;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- one cell ---- */
+
+static double drift_of(const nh_measured *m) { return isnan(m->worst_drift) ? 0 : m->worst_drift; }
+
+/* Which guard complains about a run that ended? NULL: none. */
+static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measured *m)
+{
+    nh_arena *arena = b->out->arena;
+    nh_measured tight;
+    nh_contender again = *k;
+    if (m->status == NH_WARNED || m->status == NH_CAUGHT) return "the pivot of the chart";
+    if (drift_of(m) > allowed * tolerance) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
+    nh_bench_measure(b, &again, tolerance / 10, NAN, &tight);
+    if (tight.status == NH_FAILED || tight.status == NH_TIMEOUT) return "a tighter tolerance does not reach the end";
+    /* both against the same reference, so that the difference of the errors bounds that of the states from below */
+    if (fabs(tight.error - m->error) > allowed * tolerance / 4) return "a tighter tolerance gives another motion";
+    return NULL;
+}
+
+static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool reference, nh_arena *arena, nh_stress_cell *cell)
+{
+    const char *guard = m->status == NH_FAILED || m->status == NH_TIMEOUT ? NULL : guard_of(b, k, m);
+    bool good = m->error <= allowed * tolerance;
+    cell->error = reference ? m->error : NAN;
+    cell->note = nh_arena_strdup(arena, guard ? guard : m->note);
+    if (m->status == NH_FAILED || m->status == NH_TIMEOUT) cell->status = m->status;
+    else if (!reference) {
+        cell->status = guard ? NH_CAUGHT : NH_WARNED;
+        if (!guard) cell->note = "no two methods agree on this motion";
+    } else cell->status = good ? guard ? NH_WARNED : NH_RIGHT : guard ? NH_CAUGHT : NH_WRONG;
+}
+
+/* All methods on one motion. */
+static void try_value(stress_work *w, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_stress_cell *cell)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    double left = w->begun + w->budget - now(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
+    nh_bench b;
+    bool opened = nh_bench_open_turned(&b, request, coordinate, turn, budget, &error);
+    b.once = true;
+    bool reference = opened && nh_bench_reference(&b, &error);
+    if (opened && !reference) nh_bench_no_reference(&b);
+    for (size_t i = 0; i < method_count; i++) {
+        cell[i].method = methods[i];
+        cell[i].error = NAN;
+        cell[i].status = NH_FAILED;
+        if (!opened) {
+            cell[i].note = nh_arena_strdup(w->out->arena, error.what);
+            continue;
+        }
+        nh_contender k = {.method = nh_method_find(methods[i]), .formulation = in_coordinates && b.formulations == NH_CHART_FORMULATIONS ? 1 : 0};
+        nh_measured m;
+        nh_bench_measure(&b, &k, tolerance, NAN, &m);
+        decide(&b, &k, &m, reference, w->out->arena, &cell[i]);
+    }
+    if (w->values_left) w->values_left--;
+    nh_bench_close(&b);
+    nh_comparison_free(b.out);
+}
+
+/* ---- maps ---- */
+
+static nh_stress_map *add_map(stress_work *w, const char *name, const char *axis, size_t values)
+{
+    nh_arena *arena = w->out->arena;
+    nh_stress_map *map = &w->out->map[w->out->maps++];
+    *map = (nh_stress_map){.name = nh_arena_strdup(arena, name), .axis = nh_arena_strdup(arena, axis), .methods = method_count, .cells = values * method_count};
+    map->cell = nh_arena_alloc(arena, map->cells * sizeof *map->cell);
+    return map;
+}
+
+static void set_at(nh_stress_map *map, size_t value, double at)
+{
+    for (size_t i = 0; i < map->methods; i++) map->cell[value * map->methods + i].at = at;
+}
+
+static void map_time(stress_work *w, double begin, double end)
+{
+    enum { count = sizeof longer / sizeof *longer };
+    nh_stress_map *map = add_map(w, "long times", "end of the motion", count);
+    for (size_t v = 0; v < count; v++) {
+        nh_simulate_request q = *w->request;
+        q.until_given = true;
+        q.options.until = begin + (end - begin) * longer[v];
+        set_at(map, v, q.options.until);
+        try_value(w, &q, 0, 0, false, map->cell + v * method_count);
+    }
+}
+
+static void map_absolute(stress_work *w)
+{
+    enum { count = sizeof absolute / sizeof *absolute };
+    nh_stress_map *map = add_map(w, "badly scaled", "size below which errors are absolute", count);
+    for (size_t v = 0; v < count; v++) {
+        nh_simulate_request q = *w->request;
+        q.options.absolute = absolute[v];
+        set_at(map, v, absolute[v]);
+        try_value(w, &q, 0, 0, false, map->cell + v * method_count);
+    }
+}
+
+static void map_parameter(stress_work *w, const char *name, double value)
+{
+    enum { count = sizeof parameter / sizeof *parameter };
+    nh_stress_map *map = add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count);
+    nh_setting *setting = nh_arena_alloc(w->out->arena, (w->request->settings + 1) * sizeof *setting);
+    if (w->request->settings) memcpy(setting, w->request->setting, w->request->settings * sizeof *setting);
+    for (size_t v = 0; v < count; v++) {
+        nh_simulate_request q = *w->request;
+        setting[q.settings] = (nh_setting){.name = nh_arena_strdup(w->out->arena, name), .value = value * parameter[v]};
+        q.setting = setting;
+        q.settings++;
+        set_at(map, v, value * parameter[v]);
+        try_value(w, &q, 0, 0, false, map->cell + v * method_count);
+    }
+}
+
+static void map_angle(stress_work *w, const char *name, size_t coordinate)
+{
+    nh_stress_map *map = add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name), name, most_values);
+    for (size_t v = 0; v < most_values; v++) {
+        double turn = 2 * acos(-1) * (double)v / most_values;
+        set_at(map, v, turn);
+        try_value(w, w->request, turn, coordinate, true, map->cell + v * method_count);
+    }
+}
+
+static size_t angles_of(const nh_system *s, bool charts)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < s->coordinates && charts; i++) n += s->coordinate[i].type == NH_ANGLE;
+    return n;
+}
+
+static void all_maps(stress_work *w, const nh_bench *plain)
+{
+    const nh_system *s = plain->out->question->system;
+    bool charts = plain->formulations == NH_CHART_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
+    size_t parameters = s->parameters < most_parameters ? s->parameters : most_parameters, angles = angles_of(s, charts);
+    w->out->map = nh_arena_alloc(w->out->arena, (2 + parameters + angles) * sizeof *w->out->map);
+    w->values_left = sizeof longer / sizeof *longer + sizeof absolute / sizeof *absolute + parameters * (sizeof parameter / sizeof *parameter) + angles * most_values;
+    map_absolute(w);
+    for (size_t i = 0; i < s->coordinates && angles; i++)
+        if (s->coordinate[i].type == NH_ANGLE) map_angle(w, s->coordinate[i].name, i);
+    for (size_t i = 0; i < parameters; i++) map_parameter(w, s->parameter[i].name, s->parameter[i].value);
+    map_time(w, plain->out->begin, plain->out->end);
+}
+
+nh_stress *nh_stress_create(const nh_simulate_request *request, double budget, nh_error *error)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_stress *out = nh_arena_alloc(arena, sizeof *out);
+    *out = (nh_stress){.arena = arena, .tolerance = tolerance, .accuracy = allowed * tolerance};
+    stress_work w = {.out = out, .request = request, .begun = now(), .budget = budget};
+    nh_bench plain;
+    bool good = nh_bench_open(&plain, request, budget, error);
+    if (good) all_maps(&w, &plain);
+    nh_bench_close(&plain);
+    nh_comparison_free(plain.out);
+    for (size_t i = 0; i < out->maps; i++)
+        for (size_t j = 0; j < out->map[i].cells; j++) out->count[out->map[i].cell[j].status]++;
+    if (good) return out;
+    nh_stress_free(out);
+    return NULL;
+}
+
+void nh_stress_free(nh_stress *stress)
+{
+    if (stress) nh_arena_free(stress->arena);
+}
