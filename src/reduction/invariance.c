@@ -129,6 +129,7 @@ void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, c
     if (!plain(k)) unit[n++] = nh_int(d, 0);
     g->metric = condition(k, of_metric, e, largest_residual(k, of_metric, e, unit), options);
     unit[0] = nh_int(d, 0);
+    for (size_t r = 0; r < m; r++) unit[0] = nh_add(d, unit[0], nh_call(d, NH_ABS, nh_mul(d, component[r], nh_diff(d, k->V, k->q[r]))));
     g->potential = condition(k, 1, e + of_metric, largest_residual(k, 1, e + of_metric, unit), options);
     for (size_t a = 0; a < k->f; a++) {
         raw[a] = prolonged(k, component, k->force[a]);
@@ -153,10 +154,10 @@ void nh_generator_text(const nh_kinetic *k, const nh_generator *g, nh_text *out)
         nh_text_add(out, first ? (below ? "-" : "") : below ? " - " : " + ");
         nh_ex shown = below ? minus : e;
         if (!nh_is_number(k->dag, shown, 1)) {
-            bool sum = nh_kind_of(k->dag, shown) == NH_SUM;
-            nh_text_add(out, sum ? "(" : "");
-            nh_print(k->dag, shown, out);
-            nh_text_add(out, sum ? ") " : " ");
+            char *text = nh_print_string(k->dag, shown);
+            bool sum = strchr(text, ' ') != NULL; /* also a number times a sum */
+            nh_text_addf(out, sum ? "(%s) " : "%s ", text);
+            nh_free(text);
         }
         nh_text_addf(out, "d/d%s", name);
         first = false;

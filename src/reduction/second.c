@@ -22,7 +22,7 @@ bool nh_second_descend(const nh_chaplygin *f, const nh_ex *field, nh_ex *out)
     nh_dag *d = f->dag;
     size_t n = f->n, g = f->d;
     nh_ex *a = nh_alloc_array(g * g + 2 * g + 1, sizeof *a), *c = a + g * g, *y = c + g;
-    for (size_t r = 0; r < g; r++) y[r] = nh_real(d, s->y0[r]);
+    for (size_t r = 0; r < g; r++) y[r] = s->y[r];
     for (size_t r = 0; r < g; r++) {
         for (size_t b = 0; b < g; b++) a[r * g + b] = s->E[s->along[r] * g + b];
         c[r] = field[s->along[r]];
@@ -200,14 +200,7 @@ void nh_second_clear(nh_second *s) { nh_action_clear(&s->action); }
 
 /* ---- equations ---- */
 
-static bool whole(const nh_slice *s)
-{
-    bool all = true;
-    for (size_t a = 0; a < s->d; a++) all &= s->y0[a] == round(s->y0[a]);
-    return all;
-}
-
-static nh_ex tidy(const nh_second *s, nh_ex e) { return whole(&s->slice) ? nh_simplify(s->slice.dag, e) : e; }
+static nh_ex tidy(const nh_second *s, nh_ex e) { return s->slice.tidy ? nh_simplify(s->slice.dag, e) : e; }
 
 static bool connection(nh_second *s)
 {
@@ -264,7 +257,7 @@ static void gyroscopic(const nh_second *s, const nh_ex *u, nh_ex *g)
     nh_ex *speed = nh_alloc_array(2 * m + 2 * s->d + 1, sizeof *speed), *force = speed + m, *from = force + m, *to = from + s->d;
     for (size_t a = 0; a < s->d; a++) {
         from[a] = s->hat->q[c->along[a]];
-        to[a] = nh_real(d, c->y0[a]);
+        to[a] = c->y[a];
     }
     for (size_t i = 0; i < m; i++) speed[i] = nh_int(d, 0);
     for (size_t i = 0; i < n; i++) speed[c->shape[i]] = u[i];
