@@ -123,6 +123,11 @@ static void equations(nh_chaplygin *c)
     for (size_t a = 0; a < c->d; a++)
         for (size_t i = 0; i < n; i++) o->zeta[a] = plus(d, o->zeta[a], nh_neg(d, c->A[a * n + i]), o->w[i]);
     o->energy = energy;
+    size_t *columns = nh_alloc_array(c->d + 1, sizeof *columns);
+    for (size_t a = 0; a < c->d; a++) columns[a] = n + a;
+    nh_reduced_guard_slice(o, s);
+    nh_reduced_guard_constraints(o, s, columns);
+    nh_free(columns);
 }
 
 bool nh_chaplygin_init(nh_chaplygin *c, const nh_slice *s, nh_error *error)

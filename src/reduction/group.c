@@ -178,7 +178,7 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
             for (size_t i = 0; i < f; i++) t[subset[i] + i * d] = 1;
             nh_action_sub(&sub, &g->action, f, t, options);
             merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), interacting(&g->action.algebra, f, subset), sub.transversality};
-            if (sub.chaplygin && sub.free && m.transversality > options->group && (!found || better(m, best))) {
+            if (sub.chaplygin && sub.free && m.transversality > options->transversal && (!found || better(m, best))) {
                 best = m;
                 found = true;
                 memcpy(index, subset, f * sizeof *index);

@@ -46,17 +46,19 @@ static bool rate_of(double time, const double *z, double *rate, void *context)
     return d == 0 || nh_solve(d, f->M, 1, rate + f->inner, NULL);
 }
 
-/* sigma_min / sigma_max of M, above what is tolerated. */
+/* What must stay regular in the reduced equations, and sigma_min / sigma_max of M, above what is tolerated. */
 static bool guard_of(double time, const double *z, double *value, void *context)
 {
     (void)time;
     static const double least = 0.1;
     group_flow *f = context;
     double *s = f->zeta;
+    if (!nh_reduced_flow_guards(f->flow, z, value)) return false;
+    if (!f->d) return true;
     second_kind(f, z + f->inner);
     nh_singular_values(f->d, f->d, f->M, s);
-    *value = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
-    return isfinite(*value);
+    value[2] = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
+    return isfinite(value[2]);
 }
 
 static void group_flow_init(group_flow *f, const nh_reduced *o, const nh_slice *slice)
@@ -118,11 +120,12 @@ static bool store(group_flow *f, nh_flows *flows, const stretches *done, const n
     bool good = true;
     for (size_t i = from; i < motion->count && good; i++) {
         const double *z = motion->state + i * motion->size;
-        size_t at = out->count++;
+        size_t at = out->count;
         out->time[at] = motion->time[i];
         memcpy(out->z + at * f->inner, z, f->inner * sizeof *z);
         if (!nh_reduced_flow_at(f->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, NULL)) return false;
         good = place_of(f, flows, done, z, out->q + at * out->m);
+        out->count += good;
     }
     return good;
 }
@@ -131,7 +134,7 @@ static bool run(group_flow *f, nh_flows *flows, const double *z, size_t count, c
 {
     enum { most_stretches = 10000 };
     nh_flow_options flow_options = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = options->steps};
-    nh_flow_problem problem = {.size = f->inner + f->d, .context = f, .rate = rate_of, .guards = f->d > 0, .guard = guard_of};
+    nh_flow_problem problem = {.size = f->inner + f->d, .context = f, .rate = rate_of, .guards = 2 + (f->d > 0), .guard = guard_of};
     double *state = nh_alloc_array(problem.size, sizeof *state), *left = nh_alloc_array(count + 1, sizeof *left);
     stretches done = {0};
     bool good = true;
@@ -145,10 +148,13 @@ static bool run(group_flow *f, nh_flows *flows, const double *z, size_t count, c
         if (!good) break;
         out->evaluations += motion->evaluations;
         out->steps += motion->steps;
-        good = store(f, flows, &done, motion, first, out);
-        out->complete = motion->complete;
-        if (!motion->complete && motion->guard_hit < 0) {
-            snprintf(out->note, sizeof out->note, "%s", motion->note);
+        bool found = store(f, flows, &done, motion, first, out);
+        out->complete = motion->complete && found;
+        if (!found) snprintf(out->note, sizeof out->note, "the flows of the generators meet a singularity of the coordinates at t = %.4g", times[out->count]);
+        else if (motion->guard_hit >= 0 && motion->guard_hit < 2)
+            snprintf(out->note, sizeof out->note, "%s singular at t = %.6g", motion->guard_hit == 0 ? "the constraints on the orbits become" : "the slice becomes", motion->end_time);
+        else if (!motion->complete && motion->guard_hit < 0) snprintf(out->note, sizeof out->note, "%s", motion->note);
+        if (!found || (!motion->complete && motion->guard_hit < 2)) {
             nh_motion_free(motion);
             break;
         }

@@ -316,6 +316,21 @@ static nh_ex shape_force(const nh_second *s, size_t i, const nh_ex *momentum)
     return sum;
 }
 
+/* The slice of the shape space, and the first stage's connection on it. */
+static void guard(nh_second *s)
+{
+    const nh_reduced *first = &s->first->reduced;
+    nh_reduced *o = &s->reduced;
+    size_t d = s->d, n = first->guard_size[0] * first->guard_size[0];
+    nh_ex *from = nh_alloc_array(d + 1, sizeof *from);
+    for (size_t a = 0; a < d; a++) from[a] = s->hat->q[s->slice.along[a]];
+    nh_reduced_guard_slice(o, &s->slice);
+    o->guard_size[0] = first->guard_size[0];
+    o->guard[0] = nh_arena_alloc(s->hat->arena, (n + 1) * sizeof *o->guard[0]);
+    for (size_t i = 0; i < n; i++) o->guard[0][i] = nh_substitute(s->slice.dag, first->guard[0][i], d, from, s->slice.y);
+    nh_free(from);
+}
+
 static void equations(nh_second *s)
 {
     nh_reduced *o = &s->reduced;
@@ -347,6 +362,7 @@ static void equations(nh_second *s)
                 double c = g->c[(a * dim + b) * dim + k];
                 if (c != 0) o->F[n + b] = plus(d, o->F[n + b], nh_mul(d, nh_real(d, c), o->zeta[a]), momentum[k]);
             }
+    guard(s);
     o->energy = s->slice.V;
     for (size_t i = 0; i < r; i++)
         for (size_t j = 0; j < r; j++) o->energy = plus(d, o->energy, nh_mul(d, nh_ratio(d, 1, 2), o->M[i * r + j]), nh_mul(d, o->w[i], o->w[j]));

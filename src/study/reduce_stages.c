@@ -118,6 +118,26 @@ static bool slice_is_good(const nh_slice *s)
     return good;
 }
 
+/* The first y of zeros, then right angles, then ones, at which the slice is regular. */
+static bool nice_place(nh_slice *s, double *y)
+{
+    static const double values[] = {0, 1.5707963267948966, 1};
+    enum { most = 2000 };
+    size_t d = s->d, trials = 1;
+    for (size_t a = 0; a < d && trials < most; a++) trials *= 3;
+    s->y0 = y;
+    for (size_t trial = 0; trial < trials && trial < most; trial++) {
+        size_t code = trial;
+        bool allowed = true;
+        for (size_t a = 0; a < d; a++, code /= 3) {
+            y[a] = values[code % 3];
+            allowed &= code % 3 != 1 || s->kinetic->angle[s->along[a]];
+        }
+        if (allowed && slice_is_good(s)) return true;
+    }
+    return false;
+}
+
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
 void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown)
 {
@@ -130,7 +150,7 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
     *shown = nh_arena_alloc(r->arena, sizeof **shown);
     nh_slice_init(*through, action, shape, along, y);
     **shown = (nh_slice){.kinetic = action->kinetic, .action = action, .n = m - d, .d = d, .shape = shape, .along = along, .y0 = zero};
-    if (!same && slice_is_good(*shown)) nh_slice_init(*shown, action, shape, along, zero);
+    if (!same && nice_place(*shown, zero)) nh_slice_init(*shown, action, shape, along, zero);
     else **shown = **through;
     nh_free(y);
     nh_free(zero);

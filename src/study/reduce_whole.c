@@ -59,7 +59,8 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
     nh_reduced_independent(slice, independent);
     bool good = nh_reduced_master(o, slice, independent, error);
-    if (good && slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, error) ? o + 1 : o;
+    nh_error ignored = {0};
+    if (good && slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, &ignored) ? o + 1 : o;
     good = good && nh_slice_components(slice, r->initial.q, r->initial.v, u);
     for (size_t i = 0; i < rank && good; i++) w[i] = u[independent[i]];
     for (size_t i = 0; i < slice->n; i++) x[i] = r->initial.q[slice->shape[i]];
