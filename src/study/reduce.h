@@ -29,7 +29,7 @@ typedef struct {
     nh_stage_kind kind;
     char *group;              /* name of the group divided out */
     const nh_action *action;
-    const nh_slice *slice;
+    const nh_slice *slice, *shown_slice;
     const nh_reduced *reduced, *shown;
     const nh_chaplygin *chaplygin; /* shown; of the first kind */
     nh_chaplygin_measure measure;

@@ -69,6 +69,7 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
         s->slice = slice;
         s->reduced = o;
         s->shown = pretty;
+        s->shown_slice = pretty == o ? slice : shown;
         nh_linear_momenta_find(&s->linear, pretty, &r->options);
         nh_reduction_compare(b, s, z, b->full, 2 * m, b->reached);
         nh_error trouble = {0};
