@@ -279,6 +279,31 @@ static void gyroscopic(const nh_second *s, const nh_ex *u, nh_ex *g)
     nh_free(speed);
 }
 
+/* U_kij of the first stage on the horizontal vectors h_i = d_i - Av^a_i e_a. */
+static void horizontal_form(nh_second *s)
+{
+    const nh_slice *c = &s->slice;
+    nh_dag *d = c->dag;
+    size_t m = c->m, n = c->n, cube = m * m * m;
+    nh_ex *h = nh_alloc_array(m * n + cube + s->d + 1, sizeof *h), *U = h + m * n, *from = U + cube;
+    for (size_t a = 0; a < s->d; a++) from[a] = s->hat->q[c->along[a]];
+    for (size_t i = 0; i < cube; i++) U[i] = nh_substitute(d, s->first->U[i], s->d, from, c->y);
+    for (size_t r = 0; r < m; r++)
+        for (size_t i = 0; i < n; i++) {
+            h[r * n + i] = nh_int(d, c->shape[i] == r);
+            for (size_t a = 0; a < s->d; a++) h[r * n + i] = plus(d, h[r * n + i], nh_neg(d, c->E[r * s->d + a]), s->Av[a * n + i]);
+        }
+    for (size_t at = 0; at < n * n * n; at++) {
+        size_t k = at / (n * n), i = at / n % n, j = at % n;
+        s->U[at] = nh_int(d, 0);
+        for (size_t r = 0; r < cube; r++) {
+            size_t a = r / (m * m), b = r / m % m, e = r % m;
+            if (!nh_is_zero(d, U[r])) s->U[at] = plus(d, s->U[at], nh_mul(d, U[r], h[a * n + k]), nh_mul(d, h[b * n + i], h[e * n + j]));
+        }
+    }
+    nh_free(h);
+}
+
 static void names(nh_second *s)
 {
     nh_reduced *o = &s->reduced;
@@ -388,12 +413,14 @@ bool nh_second_equations(nh_second *s, const size_t *shape, const size_t *along,
     nh_arena *arena = s->hat->arena;
     size_t n = s->n, d = s->d;
     nh_slice_init(&s->slice, &s->action, shape, along, y0);
-    s->inertia = nh_arena_alloc(arena, (d * d + d * n + n * n + d * n * n + 1) * sizeof *s->inertia);
+    s->inertia = nh_arena_alloc(arena, (d * d + d * n + n * n + d * n * n + n * n * n + 1) * sizeof *s->inertia);
     s->Av = s->inertia + d * d;
     s->Kt = s->Av + d * n;
     s->Bv = s->Kt + n * n;
+    s->U = s->Bv + d * n * n;
     if (!connection(s)) return nh_fail(error, NH_NUMERIC, "", "the locked inertia of the second group is singular");
     curvature(s);
+    horizontal_form(s);
     equations(s);
     s->orbit = orbit_dimension(&s->action.algebra);
     return true;

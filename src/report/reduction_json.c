@@ -121,6 +121,18 @@ static void put_matrix(nh_json *to, const char *key, nh_dag *d, size_t rows, siz
     }
 }
 
+static void put_measure(nh_json *to, const nh_reduction_stage *s)
+{
+    if (!s->measure.tested) return;
+    nh_json *m = nh_json_put_object(to, "measure");
+    nh_json_put_bool(m, "exists", s->measure.measure);
+    nh_json_put_bool(m, "liouville", s->measure.measure && s->measure.size == 0);
+    nh_json_put_bool(m, "phi_simple", s->measure.simple);
+    if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) nh_json_put_null(m, "conformal_factor");
+    else nh_json_put_bool(m, "conformal_factor", s->measure.factor);
+    nh_json_put_number(m, "curl", s->measure.curl);
+}
+
 static void put_chaplygin(nh_json *to, const nh_reduction_stage *s)
 {
     const nh_chaplygin *c = s->chaplygin;
@@ -145,12 +157,7 @@ static void put_chaplygin(nh_json *to, const nh_reduction_stage *s)
             for (size_t k = 0; k < c->n; k++) sum = nh_add(c->dag, sum, nh_mul(c->dag, c->U[(k * c->n + i) * c->n + j], c->reduced.w[k]));
             put_expression(other, "value", c->dag, sum);
         }
-    nh_json *m = nh_json_put_object(to, "measure");
-    nh_json_put_bool(m, "exists", s->measure.measure);
-    nh_json_put_bool(m, "liouville", s->measure.measure && s->measure.size == 0);
-    nh_json_put_bool(m, "phi_simple", s->measure.simple);
-    nh_json_put_bool(m, "conformal_factor", s->measure.factor);
-    nh_json_put_number(m, "curl", s->measure.curl);
+    put_measure(to, s);
 }
 
 static void put_second(nh_json *to, const nh_reduction_stage *s)
@@ -166,6 +173,7 @@ static void put_second(nh_json *to, const nh_reduction_stage *s)
     nh_json_put_number(to, "condition_weak", t->weak);
     nh_json_put_number(to, "condition_strong", t->strong);
     nh_json_put_number(to, "momentum_drift", s->momentum_drift);
+    put_measure(to, s);
 }
 
 static void put_chain(nh_json *to, const nh_reduction_stage *s)

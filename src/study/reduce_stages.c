@@ -220,7 +220,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->reduced = &c->reduced;
     s->shown = &pretty->reduced;
     s->chaplygin = pretty;
-    s->measure = nh_chaplygin_measure_of(c, &r->options);
+    s->measure = nh_chaplygin_measure_of(slice, c->K, c->U, &r->options);
     double *x = nh_alloc_array(4 * m + 1, sizeof *x), *w = x + m, *z = w + m;
     for (size_t i = 0; i < slice->n; i++) { /* x need not be invariant, but x' on the slice is that of the frame */
         x[i] = r->initial.q[slice->shape[i]];
@@ -327,6 +327,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         s->slice = &t->slice;
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
+        if (t->abelian) s->measure = nh_chaplygin_measure_of(&t->slice, t->Kt, t->U, &r->options);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         good = second_state(t, x, u, z);
         if (good) nh_reduction_compare(b, s, z, want, n, reached);
