@@ -22,7 +22,7 @@ SANE     = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-om
 OPT      = $(if $(SANITIZE),-O1 -g $(SANE),-O2 -g)
 CFLAGS   = -std=c17 $(OPT) $(WARN)
 CPPFLAGS = -Isrc -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -DNH_DATADIR='"$(PREFIX)/share/nhsym"' -MMD -MP
-LDLIBS   = -lsundials_cvode -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense \
+LDLIBS   = -lsundials_cvode -lsundials_arkode -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense \
            -lnlopt -lgsl -lflint-arb -lflint -lgmp -lyaml -lcjson -llapacke -lopenblas -lm
 
 PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-dev libflint-arb-dev

@@ -116,7 +116,7 @@ static void check_no_word(const char *text, const char *word)
 static size_t null_numbers(const cJSON *item)
 {
     static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "symmetry_route",
-                                        "chart_crossing", "nullspace", "series"};
+                                        "chart_crossing", "nullspace", "series", "command", "analysis_file"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {
         for (size_t i = 0; i < COUNT(texts); i++)

@@ -312,3 +312,24 @@ void nh_solve_triangle(size_t n, size_t nrhs, const double *r, size_t ldr, doubl
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)n, (lapack_int)nrhs, 1.0, r,
                 (lapack_int)ldr, x, (lapack_int)ldx);
 }
+
+double nh_determinant(size_t n, double *a)
+{
+    double det = 1;
+    for (size_t k = 0; k < n; k++) {
+        size_t best = k;
+        for (size_t i = k + 1; i < n; i++)
+            if (fabs(a[i + k * n]) > fabs(a[best + k * n])) best = i;
+        if (a[best + k * n] == 0) return 0;
+        for (size_t j = 0; j < n && best != k; j++) {
+            double x = a[k + j * n];
+            a[k + j * n] = a[best + j * n];
+            a[best + j * n] = x;
+        }
+        if (best != k) det = -det;
+        det *= a[k + k * n];
+        for (size_t i = k + 1; i < n; i++)
+            for (size_t j = n; j-- > k;) a[i + j * n] -= a[i + k * n] / a[k + k * n] * a[k + j * n];
+    }
+    return det;
+}

@@ -38,6 +38,9 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond);
  * Returns the rank, or -1 when the iteration fails. */
 int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size_t ldb, double rcond);
 
+/* The determinant of a (n x n, overwritten), by elimination with row pivots. */
+double nh_determinant(size_t n, double *a);
+
 /* c = a b  (m x k times k x n). */
 void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b, double *c);
 

@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_to };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_to };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -21,6 +21,8 @@ static const struct option long_options[] = {
     {"project", no_argument, NULL, opt_project},
     {"group", required_argument, NULL, opt_group},       {"chain", required_argument, NULL, opt_chain},
     {"to", required_argument, NULL, opt_to},
+    {"watch", required_argument, NULL, opt_watch},       {"scene", no_argument, NULL, opt_scene},
+    {"svg", required_argument, NULL, opt_svg},           {"budget", required_argument, NULL, opt_budget},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -55,6 +57,17 @@ static bool positive(const char *text, const char *option, double *out, nh_error
     *out = strtod(text, &end);
     if (end != text && !*end && *out > 0 && *out - *out == 0) return true;
     return nh_fail(error, NH_USAGE, "", "--%s needs a positive number, found `%s`", option, text);
+}
+
+/* "5", "5s" or "200ms". */
+static bool seconds(const char *text, double *out, nh_error *error)
+{
+    char *end;
+    *out = strtod(text, &end);
+    double unit = !strcmp(end, "ms") ? 1e-3 : !*end || !strcmp(end, "s") ? 1 : 0;
+    *out *= unit;
+    if (end != text && *out > 0 && *out - *out == 0) return true;
+    return nh_fail(error, NH_USAGE, "", "--budget needs a time such as 5s or 200ms, found `%s`", text);
 }
 
 static bool set_chart(nh_cli *cli, const char *text, nh_error *error)
@@ -101,6 +114,10 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_project: return cli->project = true;
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_to: cli->to = value; return true;
+    case opt_watch: cli->watch = value; return true;
+    case opt_svg: cli->svg = value; return true;
+    case opt_budget: return seconds(value, &cli->budget, error);
+    case opt_scene: return cli->scene = true;
     case opt_chain: cli->chain = value; return true;
     case opt_group: cli->group = value; return true;
     case opt_current: cli->current = value; return true;

@@ -8,6 +8,7 @@
 #include "base/option.h"
 #include "base/text.h"
 #include "study/analyze.h"
+#include "study/simulate.h"
 
 typedef struct {
     const char *command;
@@ -18,6 +19,10 @@ typedef struct {
     const char *initial;         /* of simulate and reduce */
     const char *group, *chain, *to; /* of reduce */
     bool project;
+    const char *watch;           /* of simulate */
+    bool scene;
+    const char *svg;             /* of chart */
+    double budget;
     double step;
     bool no_analysis;
     size_t settings;
@@ -34,7 +39,10 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help;
+nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_chart, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help;
+
+/* What simulate and chart ask for; `example` is the hint when no system is named. */
+bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);
 
 /* The file of a system or analysis: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
  * `kind` is "systems" or "analyses".  NULL with a suggestion. */

@@ -4,14 +4,14 @@
 #include "cli/cli.h"
 #include "report/motion.h"
 
-static bool request_of(nh_cli *cli, nh_simulate_request *q, nh_error *error)
+bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *q, nh_error *error)
 {
     if (cli->operands != 1) {
-        nh_fail(error, NH_USAGE, "", "simulate which system?");
-        return nh_error_hint(error, "nhsym simulate sleigh --initial \"omega=2\" --until 10");
+        nh_fail(error, NH_USAGE, "", "%s which system?", cli->command);
+        return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .project = cli->project,
+    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .project = cli->project,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
     q->system_path = nh_cli_find(cli, "systems", name, error);
     if (!q->system_path) return false;
@@ -23,7 +23,7 @@ static bool request_of(nh_cli *cli, nh_simulate_request *q, nh_error *error)
 int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
-    nh_simulation *s = request_of(cli, &request, error) ? nh_simulate(&request, error) : NULL;
+    nh_simulation *s = nh_cli_motion_request(cli, "nhsym simulate sleigh --initial \"omega=2\" --until 10", &request, error) ? nh_simulate(&request, error) : NULL;
     if (!s) return error->code;
     bool good = true, complete = s->motion->complete;
     if (!cli->json && !cli->quiet) {
@@ -32,6 +32,7 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
         nh_motion_csv(s, &text);
         fputs(nh_text_string(&text), stdout);
         nh_text_clear(&text);
+        if (s->scene) fprintf(stderr, "nhsym: %s\n", s->scene);
     }
     if (cli->json) {
         char *json = nh_motion_json(s);

@@ -20,6 +20,8 @@ int nh_cli_help(nh_cli *cli, nh_error *error)
          "  nhsym analyze SYSTEM|FILE   currents, their symmetries, and how they were checked\n"
          "  nhsym verify SYSTEM|FILE --current EXPR | --field \"Z0=..; x=..\"    is it conserved? a constraint symmetry?\n"
          "  nhsym simulate SYSTEM|FILE --initial \"phi=0, omega=2\" --until T --step H    a motion, as CSV or --json\n"
+         "                              --watch \"x, T = m/2*v^2\": only these, by the smallest model for them; --scene: those of the analysis file\n"
+         "  nhsym chart SYSTEM|FILE [--budget 5s] [--svg FILE]    every integrator on one motion: time against error\n"
          "  nhsym reduce SYSTEM|FILE    its symmetry group, and the reduced equations; --group \"1, 2\" or \"x=1; theta=1, x=-y, y=x\" chooses,\n"
          "                              --chain \"3; 1, 2\" the stages, --to c|latex writes the equations\n"
          "  nhsym list                  systems that are here\n"

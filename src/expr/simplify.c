@@ -195,6 +195,36 @@ static nh_ex of_parts(contest *c, nh_ex e)
     return arity == 1 ? nh_call(c->dag, f, a) : nh_call2(c->dag, f, a, part(c, nh_child(c->dag, e, 1)));
 }
 
+/* A polynomial in symbols and their inverses? */
+static bool polynomial(const nh_dag *dag, nh_ex e)
+{
+    nh_kind kind = nh_kind_of(dag, e);
+    if (kind == NH_FUNCTION) return false;
+    for (size_t i = 0; i < nh_arity(dag, e) && kind != NH_SYMBOL && kind != NH_NUMBER; i++) {
+        if (!polynomial(dag, nh_child(dag, e, i))) return false;
+        if (kind != NH_PRODUCT) continue;
+        nh_ex x = nh_exponent_of(dag, e, i);
+        if (nh_kind_of(dag, x) != NH_NUMBER || nh_number_of(dag, x).q != 1) return false;
+        if (nh_number_of(dag, x).p < 0 && nh_kind_of(dag, nh_child(dag, e, i)) != NH_SYMBOL) return false;
+    }
+    return true;
+}
+
+/* A sum's polynomial terms by themselves: with k/sqrt(..) beside them the common denominator makes everything longer. */
+static nh_ex apart(contest *c, nh_ex e)
+{
+    nh_ex plain = nh_int(c->dag, 0), rest = nh_int(c->dag, 0);
+    if (nh_kind_of(c->dag, e) != NH_SUM) return e;
+    for (size_t i = 0; i < nh_arity(c->dag, e); i++) {
+        nh_ex term = nh_child(c->dag, e, i), scaled = nh_mul(c->dag, nh_number(c->dag, nh_coefficient_of(c->dag, e, i)), term);
+        nh_ex *to = polynomial(c->dag, term) ? &plain : &rest;
+        *to = nh_add(c->dag, *to, scaled);
+    }
+    if (nh_is_zero(c->dag, plain) || nh_is_zero(c->dag, rest)) return e;
+    plain = nh_add(c->dag, plain, nh_number(c->dag, nh_constant_of(c->dag, e)));
+    return nh_add(c->dag, simplify(c->shared, rest), simplify(c->shared, plain));
+}
+
 static nh_ex simplify(context *shared, nh_ex e)
 {
     uint32_t known;
@@ -205,6 +235,7 @@ static nh_ex simplify(context *shared, nh_ex e)
     c.inexact = !nh_is_exact(c.dag, e);
     if (compete(&c, e, true)) compete(&c, e, false);
     if (c.best == e) offer(&c, of_parts(&c, e));
+    if (c.best == e) offer(&c, apart(&c, e));
     shared->depth--;
     if (!nh_index_get(&shared->done, e, &known)) nh_index_put(&shared->done, e, c.best);
     return c.best;

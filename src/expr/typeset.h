@@ -1,20 +1,22 @@
-/* typeset: expressions as C and as LaTeX. */
+/* typeset: formulas for the eye.
+ *
+ * From the text of an expression or equation, as a user wrote it or as nh_print wrote it, to MathML [w3.org/TR/mathml-core] or LaTeX: the
+ * choices of the text (order of terms, what is factored out) are kept.  x' becomes a dot, Greek names become letters, x_1 and x1 get subscripts. */
 #ifndef NH_TYPESET_H
 #define NH_TYPESET_H
 
+#include <stdbool.h>
+
 #include "base/text.h"
-#include "expr/dag.h"
 
-/* A name of the expression language as a C identifier: x' becomes x_dot, keywords get an underscore. */
-void nh_typeset_c_name(const char *name, nh_text *out);
+typedef enum { NH_MATHML, NH_LATEX } nh_typeset_form;
 
-/* Assignments `target[i] = e_i;` in C99 with <math.h>, indented by four blanks.  What occurs more than once is computed once, into constants t0, t1, ...,
- * numbered from *temporaries on, which is advanced. */
-void nh_typeset_c(nh_dag *dag, size_t n, const nh_ex *e, const char *const *target, size_t *temporaries, nh_text *out);
+/* Adds the formula, without <math> or $, to `out`.  False, and nothing added, when the text is not one of the language, or nested too deep. */
+bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out);
 
-/* In the mathematics mode of LaTeX: \psi_{1}, \dot{x}, \frac{..}{..}. */
-void nh_typeset_latex(nh_dag *dag, nh_ex e, nh_text *out);
-/* The same for a name, with its prime: p_psi1 becomes p_{\psi_{1}}, psi1' becomes \dot{\psi}_{1}. */
-void nh_typeset_latex_name(const char *name, nh_text *out);
+/* The pieces that a line may be broken before: the terms of a sum, each with its sign.  Returns how many there are, calling `piece` for
+ * each with the formula of it; 0 as above. */
+typedef void nh_typeset_piece(void *context, const char *formula);
+size_t nh_typeset_pieces(const char *text, nh_typeset_form form, nh_typeset_piece *piece, void *context);
 
 #endif

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/typeset.h"
+#include "expr/typeset_code.h"
 
 enum { in_sum, in_product, in_power };
 

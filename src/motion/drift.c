@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
+#include "base/linalg.h"
 
 typedef struct {
     const nh_model *model;
@@ -21,72 +21,6 @@ typedef struct {
 } run;
 
 /* ---- currents along a motion ---- */
-
-/* An expression of the chart in (t, q, v), where it holds beyond the chart: implicit velocities and roots are velocities there.  `inverse`:
- * quasi-velocities in v. */
-static nh_ex everywhere(const nh_model *o, const nh_ex *inverse, nh_ex e)
-{
-    const nh_chart *c = o->chart;
-    for (size_t s = 0; s < o->m; s++)
-        if (e == o->rho[s]) return o->system->coordinate[s].v;
-    nh_ex *v = nh_alloc_array(c->implicit + 1, sizeof *v);
-    for (size_t a = 0; a < c->implicit; a++) v[a] = o->system->coordinate[c->dependent[a]].v;
-    e = nh_substitute(o->dag, e, c->implicit, c->u, v);
-    nh_free(v);
-    if (c->quasi) e = nh_substitute(o->dag, e, o->n, c->w, inverse);
-    return c->branch ? nh_chart_both_branches(c, e) : e;
-}
-
-/* Along a motion in (q, v). */
-static void along_everywhere(const run *r, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
-{
-    const nh_model *o = r->model;
-    size_t m = o->m;
-    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(n + 1, sizeof *out);
-    double *point = nh_alloc_array(1 + 2 * m, sizeof *point);
-    in[0] = o->system->t;
-    for (size_t s = 0; s < m; s++) {
-        in[1 + s] = o->system->coordinate[s].q;
-        in[1 + m + s] = o->system->coordinate[s].v;
-    }
-    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
-    if (o->chart->quasi) nh_chart_inverse(o->chart, inverse);
-    for (size_t k = 0; k < n; k++) out[k] = everywhere(o, inverse, e[k]);
-    nh_free(inverse);
-    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * m, in, n, out, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    for (size_t i = 0; i < motion->count; i++) {
-        point[0] = motion->time[i];
-        memcpy(point + 1, motion->state + i * 2 * m, 2 * m * sizeof *point);
-        nh_tape_eval(tape, work, point, value + i * n);
-    }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(point);
-    nh_free(out);
-    nh_free(in);
-}
-
-/* value[i * n + k]: expression k at output i. */
-static bool along(run *r, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
-{
-    if (motion->size > r->model->m + r->model->n) {
-        along_everywhere(r, motion, n, e, value);
-        return true;
-    }
-    nh_tape *tape = nh_model_tape(r->model, n, e);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    double *point = nh_alloc_array(r->model->width, sizeof *point);
-    bool good = true;
-    for (size_t i = 0; i < motion->count && good; i++) {
-        good = nh_dynamics_point(r->dynamics, motion->time[i], motion->state + i * motion->size, point);
-        if (good) nh_tape_eval(tape, work, point, value + i * n);
-    }
-    nh_free(point);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return good;
-}
 
 /* The current, then its terms: those of a sum, also under a common factor. */
 static size_t terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
@@ -107,23 +41,6 @@ static size_t terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
     return 1 + n;
 }
 
-/* Where does the chart lose digits?  One flag per output. */
-static bool *steep_points(run *r, const nh_motion *motion, bool *any)
-{
-    const nh_model *o = r->model;
-    size_t n = o->m * o->n;
-    bool *steep = nh_alloc_array(motion->count + 1, sizeof *steep);
-    double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
-    *any = false;
-    bool good = !o->chart->quasi && o->k && along(r, motion, n, o->R, R);
-    for (size_t i = 0; i < motion->count && good; i++) {
-        for (size_t j = 0; j < n; j++) steep[i] |= !(fabs(R[i * n + j]) < steepest);
-        *any |= steep[i];
-    }
-    nh_free(R);
-    return steep;
-}
-
 /* How many outputs there are before the motion leaves the interval of current k. */
 static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
 {
@@ -140,7 +57,7 @@ static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
 /* Each current and, for its scale, its terms. */
 static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi, size_t which)
 {
-    bool any, *steep = steep_points(r, motion, &any);
+    bool any, *steep = nh_steep_points(r->dynamics, motion, &any);
     for (size_t k = 0; k < n; k++) {
         nh_ex *e;
         size_t per = terms_of(r->model->dag, phi[k], &e);
@@ -148,7 +65,7 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
         nh_drift *d = &r->out->current[k];
         double scale = 0, worst = 0;
         size_t inside = outputs_inside(r, motion, k);
-        bool good = along(r, motion, per, e, value);
+        bool good = nh_along(r->dynamics, motion, per, e, value);
         d->until = inside ? motion->time[inside - 1] : r->out->begin;
         for (size_t i = 0; i < inside && good; i++) {
             if (steep[i]) continue;
@@ -187,7 +104,7 @@ static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, con
     head.count = count;
     double *velocity = nh_alloc_array(count * m + 1, sizeof *velocity), *reaction = nh_alloc_array(count * m + 1, sizeof *reaction);
     double *force = nh_alloc_array(m + 1, sizeof *force);
-    bool good = along(r, &head, m, o->rho, velocity) && along(r, &head, m, o->reaction, reaction);
+    bool good = nh_along(r->dynamics, &head, m, o->rho, velocity) && nh_along(r->dynamics, &head, m, o->reaction, reaction);
     for (size_t i = 0; i < count && good; i++) {
         const double *z = reduced->state + i * reduced->size, *y = full->motion->state + i * full->motion->size;
         bool forced = nh_bordered_force(bordered, full->motion->time[i], y, y + m, y + 2 * m, force);
@@ -215,7 +132,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     memcpy(y, initial->q, o->m * sizeof *y);
     nh_motion first = *reduced;
     first.count = 1;
-    bool good = along(r, &first, o->m, o->rho, y + o->m);
+    bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
     double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
     nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps)};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
@@ -236,27 +153,6 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
 
 /* ---- the other chart's pivot ---- */
 
-static double determinant(size_t n, double *a)
-{
-    double det = 1;
-    for (size_t k = 0; k < n; k++) {
-        size_t best = k;
-        for (size_t i = k + 1; i < n; i++)
-            if (fabs(a[i + k * n]) > fabs(a[best + k * n])) best = i;
-        if (a[best + k * n] == 0) return 0;
-        for (size_t j = 0; j < n && best != k; j++) {
-            double x = a[k + j * n];
-            a[k + j * n] = a[best + j * n];
-            a[best + j * n] = x;
-        }
-        if (best != k) det = -det;
-        det *= a[k + k * n];
-        for (size_t i = k + 1; i < n; i++)
-            for (size_t j = n; j-- > k;) a[i + j * n] -= a[i + k * n] / a[k + k * n] * a[k + j * n];
-    }
-    return det;
-}
-
 /* det d(independent coordinate velocities)/dw changes sign where the coordinate chart breaks down. */
 static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
 {
@@ -271,9 +167,9 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
                 row++;
             }
     double *value = nh_alloc_array(motion->count * n * n + 1, sizeof *value), last = 0;
-    bool good = row == n && along(r, motion, n * n, e, value);
+    bool good = row == n && nh_along(r->dynamics, motion, n * n, e, value);
     for (size_t i = 0; i < motion->count && good; i++) {
-        double det = determinant(n, value + i * n * n);
+        double det = nh_determinant(n, value + i * n * n);
         if (last * det < 0 && isnan(r->out->crossing)) {
             double t0 = motion->time[i - 1], t1 = motion->time[i];
             r->out->crossing = t0 + (t1 - t0) * last / (last - det);
@@ -285,9 +181,44 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
     nh_free(e);
 }
 
+/* ---- the scene ---- */
+
+/* What the user asked to see, from the smallest model for it: the same values? */
+static void smallest_model(run *r, const nh_state *initial, const nh_ex *watched)
+{
+    nh_validation *v = r->out;
+    size_t n = 0, *column = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *column);
+    nh_ex *asked = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *asked);
+    for (size_t j = 0; j < r->watches; j++) {
+        if (!r->watch[j].asked) continue;
+        column[n] = j;
+        asked[n++] = watched[j];
+    }
+    if (n == 0) return;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_options options = *r->options;
+    options.tolerance = v->tolerance[NH_DRIFT_RUNS - 1];
+    nh_trajectory_request q = {.model = r->model, .initial = initial, .count = v->count, .times = v->time, .options = &options, .n = n, .e = asked, .smallest = true};
+    nh_trajectory *t = nh_trajectory_create(&q, &ignored);
+    if (t && t->scene && t->motion->complete) {
+        nh_text words;
+        nh_text_init(&words);
+        nh_scene_words(t->scene, &words);
+        v->scene = nh_arena_strdup(v->arena, nh_text_string(&words));
+        v->scene_evaluations = t->motion->evaluations;
+        for (size_t i = 0; i < v->count * n; i++) {
+            double full = v->watch[i / n * r->watches + column[i % n]];
+            if (isfinite(full)) v->scene_difference = fmax(v->scene_difference, fabs(t->value[i] - full) / (1 + fabs(full)));
+        }
+        nh_text_clear(&words);
+    }
+    nh_trajectory_free(t);
+}
+
 /* ---- all runs ---- */
 
-static void keep(run *r, const nh_motion *motion)
+static void keep(run *r, const nh_state *initial, const nh_motion *motion)
 {
     nh_validation *v = r->out;
     const nh_model *o = r->model;
@@ -298,7 +229,7 @@ static void keep(run *r, const nh_motion *motion)
     v->multiplier = nh_arena_alloc(v->arena, (motion->count * o->k + 1) * sizeof *v->multiplier);
     memcpy(v->time, motion->time, motion->count * sizeof *v->time);
     memcpy(v->state, motion->state, motion->count * motion->size * sizeof *v->state);
-    if (o->k) along(r, motion, o->k, o->mu, v->multiplier);
+    if (o->k) nh_along(r->dynamics, motion, o->k, o->mu, v->multiplier);
     v->watches = r->watches;
     v->watch_name = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *v->watch_name);
     v->watch = nh_arena_alloc(v->arena, (r->watches * motion->count + 1) * sizeof *v->watch);
@@ -307,7 +238,8 @@ static void keep(run *r, const nh_motion *motion)
         v->watch_name[i] = nh_arena_strdup(v->arena, r->watch[i].name);
         e[i] = r->watch[i].value;
     }
-    if (r->watches) along(r, motion, r->watches, e, v->watch);
+    if (r->watches) nh_along(r->dynamics, motion, r->watches, e, v->watch);
+    if (r->watches && !r->everywhere && motion->complete) smallest_model(r, initial, e);
     nh_free(e);
     v->evaluations = motion->evaluations;
     v->steps = motion->steps;
@@ -322,44 +254,15 @@ static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_erro
     return nh_flow(&problem, r->z0, r->outputs, r->times, options, error);
 }
 
-/* The motion in (q, v). */
-static nh_motion *full_motion(run *r, nh_flow_options options, nh_error *error)
-{
-    const nh_model *o = r->model;
-    size_t m = o->m, n = o->n;
-    nh_bordered *b = nh_bordered_create(o);
-    nh_flow_problem problem = nh_bordered_flow(b);
-    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
-    nh_motion first = {.count = 1, .size = m + n, .time = r->times, .state = r->z0};
-    memcpy(y, r->z0, m * sizeof *y);
-    for (size_t s = 0; s < 2 * m; s++) scale[s] = r->scale[0];
-    options.scale = scale;
-    bool good = along(r, &first, m, o->rho, y + m);
-    nh_motion *motion = good ? nh_flow(&problem, y, r->outputs, r->times, &options, error) : NULL;
-    nh_free(scale);
-    nh_free(y);
-    nh_bordered_free(b);
-    return motion;
-}
-
-/* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
-static bool may_leave_chart(const nh_model *o)
-{
-    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
-    bool may = o->k && (!o->chart->quasi || nh_chart_inverse(o->chart, inverse));
-    nh_free(inverse);
-    return may;
-}
-
 static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
         nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps};
-        nh_motion *motion = r->everywhere ? full_motion(r, options, error) : reduced_motion(r, &options, error);
+        nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, r->z0, r->outputs, r->times, &options, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
         bool steep;
-        nh_free(steep_points(r, motion, &steep));
-        if (!r->everywhere && (steep || !motion->complete) && may_leave_chart(r->model)) {
+        nh_free(nh_steep_points(r->dynamics, motion, &steep));
+        if (!r->everywhere && (steep || !motion->complete) && nh_may_leave_chart(r->model)) {
             r->everywhere = true; /* begin again, in a formulation that is regular there */
             r->out->chart = "all coordinates (the chart breaks down on the way)";
             nh_motion_free(motion);
@@ -367,7 +270,7 @@ static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *curre
         }
         measure(r, motion, n, current, i);
         if (i == NH_DRIFT_RUNS - 1) {
-            keep(r, motion);
+            keep(r, initial, motion);
             watch_pivot(r, other, motion);
             multiplier_form(r, initial, motion);
         }
@@ -399,32 +302,6 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     if (good) return v;
     nh_validation_free(v);
     return NULL;
-}
-
-nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, bool project, size_t count, const double *times, const nh_options *options,
-                        const char **formulation, size_t n, const nh_ex *e, double **value, nh_error *error)
-{
-    size_t size = model->m + model->n;
-    run r = {.model = model, .dynamics = nh_dynamics_create(model), .options = options, .outputs = count, .times = (double *)times};
-    r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
-    r.scale = nh_alloc_array(size + 1, sizeof *r.scale);
-    for (size_t i = 0; i < size; i++) r.scale[i] = options->absolute;
-    nh_flow_options how = {.method = NH_ADAMS, .rtol = options->tolerance, .scale = r.scale, .max_steps = options->steps};
-    nh_motion *motion = nh_dynamics_start(r.dynamics, initial, project, r.z0, error) ? reduced_motion(&r, &how, error) : NULL;
-    *formulation = "reduced equations";
-    bool steep = false;
-    if (motion) nh_free(steep_points(&r, motion, &steep));
-    if (motion && may_leave_chart(model) && (steep || !motion->complete)) {
-        nh_motion_free(motion);
-        *formulation = "all coordinates, accelerations from the bordered system";
-        motion = full_motion(&r, how, error);
-    }
-    *value = nh_alloc_array(n * count + 1, sizeof **value);
-    if (motion && n) along(&r, motion, n, e, *value);
-    nh_dynamics_free(r.dynamics);
-    nh_free(r.scale);
-    nh_free(r.z0);
-    return motion;
 }
 
 void nh_validation_free(nh_validation *validation)

@@ -7,7 +7,7 @@
 #define NH_DRIFT_H
 
 #include "base/option.h"
-#include "motion/dynamics.h"
+#include "motion/trajectory.h"
 
 enum { NH_DRIFT_RUNS = 3 };
 
@@ -37,11 +37,15 @@ typedef struct {
     size_t watches;
     const char **watch_name;
     double *watch;             /* count x watches, along the tightest run */
+    const char *scene;         /* the smallest model for what is watched, in words; NULL: nothing is watched, or it could not be integrated */
+    double scene_difference;   /* of the watched values, relative to 1 + size */
+    long scene_evaluations;
 } nh_validation;
 
 typedef struct {
     const char *name;
     nh_ex value;
+    bool asked; /* by the user: what the scene is made for */
 } nh_watch;
 
 /* Where a current makes sense: while `coordinate` lies between low and high; coordinate 0: everywhere. */
@@ -53,12 +57,6 @@ typedef struct {
 /* valid: n intervals, or NULL.  `other` may be NULL: a second chart whose pivot is watched (its independent velocities as functions of this chart's). */
 nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, const nh_valid *valid, size_t watches, const nh_watch *watch,
                            const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error);
-/* One motion at options->tolerance, in (q, w): in the chart, or in all coordinates where the chart breaks down on the way; *formulation says
- * which.  value[i * n + k]: expression k at output i (n may be 0).  `project`: velocities that violate the constraints are replaced by
- * the nearest that satisfy them.  NULL with a message when nothing could be computed. */
-nh_motion *nh_motion_of(const nh_model *model, const nh_state *initial, bool project, size_t count, const double *times, const nh_options *options,
-                        const char **formulation, size_t n, const nh_ex *e, double **value, nh_error *error);
-
 void nh_validation_free(nh_validation *validation);
 
 #endif

@@ -15,6 +15,9 @@ struct nh_dynamics {
     nh_tape *rate, *jacobian, *velocity; /* velocity: rho and R */
     nh_tape_work *rate_work, *jacobian_work, *velocity_work;
     double *point, *out, *dense;
+    nh_tape *constraint; /* df^a/dv^s (k x m, row-major), of constraints without poles; NULL: no pivot to watch */
+    nh_tape_work *constraint_work;
+    double *slope;       /* its values, and the k x k part of the dependent velocities */
 };
 
 static nh_tape *rate_tape(const nh_model *o)
@@ -50,6 +53,31 @@ static nh_tape *velocity_tape(const nh_model *o)
     return tape;
 }
 
+/* y' = x' tan phi has no pole as y' cos phi = x' sin phi.  A formula that becomes much longer is left as it is: it is evaluated at every step. */
+static nh_ex without_poles(nh_dag *d, nh_ex f)
+{
+    enum { short_enough = 300, growth = 2 };
+    nh_ex numerator = nh_numerator(d, f);
+    size_t length = nh_complexity(d, numerator);
+    return length <= short_enough || length <= growth * nh_complexity(d, f) ? numerator : f;
+}
+
+/* A chart of coordinate velocities ends where its dependent velocities are no longer determined. */
+static void watch_pivot(nh_dynamics *d)
+{
+    const nh_model *o = d->model;
+    if (o->chart->quasi || !o->k || o->chart->implicit || o->chart->branch) return;
+    nh_ex *e = nh_alloc_array(o->k * o->m, sizeof *e);
+    for (size_t a = 0; a < o->k; a++) {
+        nh_ex f = without_poles(o->dag, nh_chart_constraint(o->chart, a));
+        for (size_t s = 0; s < o->m; s++) e[a * o->m + s] = nh_chart_compose(o->chart, nh_diff(o->dag, f, o->system->coordinate[s].v));
+    }
+    d->constraint = nh_model_tape(o, o->k * o->m, e);
+    d->constraint_work = nh_tape_work_create(d->constraint);
+    d->slope = nh_alloc_array(o->k * o->m + o->k * o->k, sizeof *d->slope);
+    nh_free(e);
+}
+
 nh_dynamics *nh_dynamics_create(const nh_model *o)
 {
     nh_dynamics *d = nh_alloc(sizeof *d);
@@ -63,6 +91,7 @@ nh_dynamics *nh_dynamics_create(const nh_model *o)
     d->point = nh_alloc_array(d->width, sizeof *d->point);
     d->out = nh_alloc_array(d->m * (1 + d->n) + 1, sizeof *d->out);
     d->dense = nh_alloc_array(d->m * d->n + d->m + d->n + 1, sizeof *d->dense);
+    watch_pivot(d);
     return d;
 }
 
@@ -72,6 +101,9 @@ void nh_dynamics_free(nh_dynamics *d)
     nh_tape_work_free(d->rate_work);
     nh_tape_work_free(d->jacobian_work);
     nh_tape_work_free(d->velocity_work);
+    nh_tape_work_free(d->constraint_work);
+    nh_tape_free(d->constraint);
+    nh_free(d->slope);
     nh_tape_free(d->rate);
     nh_tape_free(d->jacobian);
     nh_tape_free(d->velocity);
@@ -80,6 +112,8 @@ void nh_dynamics_free(nh_dynamics *d)
     nh_free(d->dense);
     nh_free(d);
 }
+
+const nh_model *nh_dynamics_model(const nh_dynamics *d) { return d->model; }
 
 /* The implicit velocities start from their last values, so that a motion stays on its branch. */
 bool nh_dynamics_point(nh_dynamics *d, double t, const double *z, double *point)
@@ -117,9 +151,26 @@ static bool jacobian_of(double t, const double *z, double *jacobian, void *conte
     return finite_all(d->size * d->size, jacobian);
 }
 
+/* det(df^a/dv^dependent) with rows of |df/dv| = 1: integrators step over its zeros without a word. */
+static bool pivot_of(double t, const double *z, double *value, void *context)
+{
+    nh_dynamics *d = context;
+    size_t m = d->m, k = d->model->k;
+    double *part = d->slope + k * m;
+    if (!nh_dynamics_point(d, t, z, d->point)) return false;
+    nh_tape_eval(d->constraint, d->constraint_work, d->point, d->slope);
+    for (size_t a = 0; a < k; a++) {
+        double norm = 0;
+        for (size_t s = 0; s < m; s++) norm = hypot(norm, d->slope[a * m + s]);
+        for (size_t b = 0; b < k; b++) part[a + b * k] = d->slope[a * m + d->model->chart->dependent[b]] / (norm > 0 ? norm : 1);
+    }
+    *value = nh_determinant(k, part);
+    return isfinite(*value);
+}
+
 nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 {
-    return (nh_flow_problem){.size = d->size, .context = d, .rate = rate_of, .jacobian = jacobian_of};
+    return (nh_flow_problem){.size = d->size, .context = d, .rate = rate_of, .jacobian = jacobian_of, .guards = d->constraint ? 1 : 0, .guard = d->constraint ? pivot_of : NULL};
 }
 
 /* ---- initial states ---- */
@@ -204,15 +255,6 @@ bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
     nh_free(z);
     nh_free(in);
     return root < 0;
-}
-
-/* y' = x' tan phi has no pole as y' cos phi = x' sin phi.  A formula that becomes much longer is left as it is: it is evaluated at every step. */
-static nh_ex without_poles(nh_dag *d, nh_ex f)
-{
-    enum { short_enough = 300, growth = 2 };
-    nh_ex numerator = nh_numerator(d, f);
-    size_t length = nh_complexity(d, numerator);
-    return length <= short_enough || length <= growth * nh_complexity(d, f) ? numerator : f;
 }
 
 /* ---- multiplier form ---- */

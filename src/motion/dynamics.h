@@ -12,11 +12,12 @@ typedef struct {
     bool *given;   /* per velocity: it was named; the others follow from the constraints.  NULL: all were */
 } nh_state;
 
-/* Reduced equations: z = (q, w), z' = (rho, a), with their exact Jacobian. */
+/* Reduced equations: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot of a chart of coordinate velocities is a guard. */
 typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
+const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);
 
 /* (q, w) of a state, w by Gauss-Newton on rho(t, q, w) = v over the velocities that are given (of least norm where these leave a choice);
  * refuses a velocity off the constraints, saying by how much, unless `project` is set.  z has m + n entries. */

@@ -34,6 +34,10 @@ typedef struct {
     double max_steps;        /* in total; 0: the default of 1e7 */
     bool (*cancelled)(void *context); /* polled; may be NULL */
     void *cancel_context;
+    double step;             /* of methods with a fixed step */
+    /* Called after every step of a one-step method with the new state, which it may change (a projection); false: it could not. */
+    bool (*after)(double t, double *z, void *context);
+    void *after_context;
 } nh_flow_options;
 
 typedef struct {

@@ -6,7 +6,7 @@
 #include "expr/normal.h"
 #include "noether/exact.h"
 
-enum { spare_rows = 8, heldout_points = 4, most_tries = 4 };
+enum { spare_rows = 8, heldout_points = 4, most_tries = 4, series_spare = 24 };
 
 /* The normal equations halve the digits: twice the bits. */
 static nh_ball *ball_for(const nh_model *o, const nh_options *options) { return nh_ball_create(o->dag, 2 * (long)options->bits); }
@@ -84,7 +84,7 @@ nh_refined nh_refine_series(const nh_model *o, size_t words, const nh_ex *word, 
     value[words] = s;
     nh_ball_series series = {.words = words, .degree = degree, .value = value, .slope = slope, .s = s};
     if (rates(o, words, word, slope) && rates(o, 1, &s, &series.s_slope)) {
-        nh_ball *ball = ball_for(o, options);
+        nh_ball *ball = nh_ball_create(o->dag, (long)(2 * (options->digits / log10(2) + series_spare))); /* they are many, and dear */
         out = run(o, ball, nh_ball_fit_create_series(ball, &series, leading), words * (degree + 1), rows, options);
     }
     nh_free(value);

@@ -32,8 +32,9 @@ char *nh_motion_json(const nh_simulation *s)
     static const char *const groups[] = {"states", "currents", "multipliers", "energies", "watch"};
     nh_json *root = nh_json_object();
     nh_json_put_number(root, "schema", 1);
-    nh_json_put_text(root, "method", "CVODE Adams");
+    nh_json_put_text(root, "method", s->method);
     nh_json_put_text(root, "formulation", s->formulation);
+    nh_json_put_text(root, "scene", s->scene);
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", s->motion->complete);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);

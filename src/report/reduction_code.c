@@ -1,7 +1,7 @@
 /* reduction_code: the reduced equations as C and as LaTeX. */
 #include <string.h>
 
-#include "expr/typeset.h"
+#include "expr/typeset_code.h"
 #include "report/reduction.h"
 
 static const char c_head[] =

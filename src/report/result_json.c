@@ -6,6 +6,8 @@
 
 #include "base/json.h"
 #include "expr/print.h"
+#include "expr/typeset.h"
+#include "report/result_json_internal.h"
 
 typedef struct {
     const nh_result *r;
@@ -198,6 +200,7 @@ static void put_search(const writer *w, nh_json *to)
     nh_json_put_number(samples, "rejected", (double)r->rejected);
     nh_json_put_number(samples, "seed", r->options.seed);
     put_unknowns(w, to);
+    nh_result_json_stages(r, to);
 }
 
 /* ---- currents ---- */
@@ -254,6 +257,18 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
     }
 }
 
+/* As LaTeX; null when it is too long to be shown. */
+static void put_latex(const writer *w, nh_json *to, nh_ex e)
+{
+    char *text = nh_print_short(w->dag, e, w->r->options.shown);
+    nh_text latex;
+    nh_text_init(&latex);
+    bool good = text && nh_typeset(text, NH_LATEX, &latex);
+    nh_json_put_text(to, "latex", good ? nh_text_string(&latex) : NULL);
+    nh_text_clear(&latex);
+    nh_free(text);
+}
+
 static void put_current(const writer *w, nh_json *currents, const nh_found *f)
 {
     nh_json *item = nh_json_add_object(currents);
@@ -261,6 +276,7 @@ static void put_current(const writer *w, nh_json *currents, const nh_found *f)
     put_expression(w, item, "expression", f->phi);
     if (f->has_in_velocities) put_expression(w, item, "in_velocities", f->in_velocities);
     else nh_json_put_null(item, "in_velocities");
+    put_latex(w, item, f->phi);
     nh_json_put_text(item, "meaning", f->meaning);
     nh_json_put_number(item, "residual", f->quotient);
     nh_json_put_number(item, "heldout_residual", f->heldout);
@@ -298,43 +314,7 @@ static void put_almost(const writer *w, nh_json *root)
     }
 }
 
-/* ---- the motion ---- */
-
-static void put_validation(const writer *w, nh_json *to)
-{
-    const nh_validation *v = w->r->validation;
-    if (!v) {
-        nh_json_put_null(to, "validation");
-        return;
-    }
-    nh_json *item = nh_json_put_object(to, "validation");
-    nh_json_put_text(item, "method", v->method);
-    nh_json_put_text(item, "chart", v->chart);
-    nh_json_put_number(item, "begin", v->begin);
-    nh_json_put_number(item, "end", v->end);
-    nh_json_put_bool(item, "complete", v->complete);
-    nh_json_put_number(item, "evaluations", (double)v->evaluations);
-    nh_json_put_numbers(item, "tolerances", NH_DRIFT_RUNS, v->tolerance, 1);
-    nh_json *drift = nh_json_put_object(item, "drift");
-    for (size_t k = 0; k < v->currents; k++) nh_json_put_numbers(drift, w->r->found[k].name, NH_DRIFT_RUNS, v->current[k].drift, 1);
-    if (v->multiplier_form) {
-        nh_json *full = nh_json_put_object(item, "multiplier_form");
-        nh_json_put_text(full, "method", v->multiplier_method);
-        nh_json_put_number(full, "state_difference", v->state_difference);
-        nh_json_put_number(full, "multiplier_difference", v->multiplier_difference);
-        nh_json_put_number(full, "constraint_violation", v->violation);
-    } else {
-        nh_json_put_null(item, "multiplier_form");
-    }
-    if (v->crossing_chart) {
-        nh_json *crossing = nh_json_put_object(item, "chart_crossing");
-        nh_json_put_text(crossing, "chart", v->crossing_chart);
-        nh_json_put_number(crossing, "time", v->crossing);
-    }
-    nh_json *watch = nh_json_put_object(item, "watch");
-    if (v->watches) nh_json_put_numbers(watch, "t", v->count, v->time, 1);
-    for (size_t j = 0; j < v->watches; j++) nh_json_put_numbers(watch, v->watch_name[j], v->count, v->watch + j, v->watches);
-}
+/* ---- all of it ---- */
 
 static void put_timing(const nh_timing *t, nh_json *to)
 {
@@ -361,8 +341,9 @@ char *nh_result_json(const nh_result *r)
     put_almost(&w, root);
     nh_json_put_number(root, "independent_currents", (double)r->independent);
     nh_json_put_number(root, "local_maximum", (double)r->local_maximum);
-    put_validation(&w, root);
+    nh_result_json_validation(r, root);
     nh_json_put_bool(root, "partial", r->partial);
+    nh_result_json_run(r, root);
     put_timing(&r->timing, root);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);

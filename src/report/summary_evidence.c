@@ -83,13 +83,15 @@ void nh_summary_evidence(nh_summary_writer *w)
 static void watched(nh_summary_writer *w, const nh_validation *v)
 {
     enum { rows = 5 };
-    if (!v->watches || v->count < rows) return;
+    size_t first = w->r->tracks;
+    while (first > 0 && w->r->track[first - 1].kind == NH_TRACK_WATCH) first--;
+    if (first == v->watches || v->count < rows) return;
     nh_text_addf(w->out, "  %10s", "t");
-    for (size_t j = 0; j < v->watches; j++) nh_text_addf(w->out, "%14s", v->watch_name[j]);
+    for (size_t j = first; j < v->watches; j++) nh_text_addf(w->out, "%14s", v->watch_name[j]);
     for (size_t i = 0; i < rows; i++) {
         size_t at = i * (v->count - 1) / (rows - 1);
         nh_text_addf(w->out, "\n  %10.4g", v->time[at]);
-        for (size_t j = 0; j < v->watches; j++) nh_text_addf(w->out, "%14.8g", v->watch[at * v->watches + j]);
+        for (size_t j = first; j < v->watches; j++) nh_text_addf(w->out, "%14.8g", v->watch[at * v->watches + j]);
     }
     nh_text_add(w->out, "\n");
 }
@@ -112,6 +114,8 @@ void nh_summary_motion(nh_summary_writer *w)
         }
     }
     watched(w, v);
+    if (v->scene)
+        nh_text_addf(w->out, "  scene: %s\n         the same values to %.0e, %ld evaluations\n", v->scene, v->scene_difference, v->scene_evaluations);
     if (v->multiplier_form)
         nh_text_addf(w->out, "  multiplier form (%s): states agree to %.0e, multipliers to %.0e, constraints hold to %.0e\n", v->multiplier_method,
                      v->state_difference, v->multiplier_difference, v->violation);

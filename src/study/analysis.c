@@ -339,7 +339,7 @@ static bool read_scene(reader *r)
     const nh_deck_node *map = nh_deck_get(r->root, "scene");
     if (!map) return true;
     if (!nh_deck_is(r->a->deck, map, NH_DECK_MAP, "scene", r->error) || !nh_deck_only(r->a->deck, map, keys, 2, r->error)) return false;
-    return read_assignments(r, nh_deck_get(map, "watch"), "watch", false, &r->a->watch, &r->a->watches);
+    return read_assignments(r, nh_deck_get(map, "watch"), "watch", false, &r->a->watch, &r->a->watches) && nh_analysis_read_drawing(r, nh_deck_get(map, "draw"));
 }
 
 bool nh_analysis_resolve(nh_analysis *a, const nh_model *model, nh_error *error)

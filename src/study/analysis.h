@@ -4,6 +4,7 @@
 
 #include "motion/dynamics.h"
 #include "noether/unknowns.h"
+#include "study/shape.h"
 
 typedef enum { NH_ROUTE_BOTH, NH_ROUTE_SYMMETRY, NH_ROUTE_CURRENT } nh_route;
 
@@ -23,6 +24,8 @@ typedef struct {
     nh_family *family;
     nh_unknown *unknown;
     nh_named *definition, *watch;
+    size_t shapes;
+    nh_shape *shape;          /* to be drawn */
     bool has_initial, has_until;
     nh_state initial;
     double until;

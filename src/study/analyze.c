@@ -12,6 +12,7 @@
 #include "study/ladder.h"
 #include "study/routes.h"
 #include "study/specials.h"
+#include "study/tracks.h"
 
 enum { least_samples = 256, samples_per_column = 4, motion_outputs = 401 };
 
@@ -180,10 +181,8 @@ static void validate(nh_result *r)
         phi[k] = r->found[k].phi;
         if (series) valid[k] = (nh_valid){series->coordinate, series->low, series->high};
     }
-    size_t watches = r->analysis ? r->analysis->watches : 0;
-    nh_watch *watch = nh_arena_alloc(r->arena, (watches + 1) * sizeof *watch);
-    for (size_t i = 0; i < watches; i++) watch[i] = (nh_watch){r->analysis->watch[i].name, r->analysis->watch[i].value};
-    r->validation = nh_validate(r->model, r->other, r->count, phi, valid, watches, watch, &initial, r->options.until, motion_outputs, &r->options, &trouble);
+    nh_tracks_list(r);
+    r->validation = nh_validate(r->model, r->other, r->count, phi, valid, r->tracks, nh_tracks_watches(r), &initial, r->options.until, motion_outputs, &r->options, &trouble);
     if (!r->validation) {
         nh_result_warn(r, "no motion was computed: %s", trouble.what);
         return;
@@ -203,6 +202,9 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
 {
     double start = now(), clock = start;
     r->options = q->options;
+    r->command = q->command ? nh_arena_strdup(r->arena, q->command) : NULL;
+    r->system_path = nh_arena_strdup(r->arena, q->system_path);
+    r->analysis_path = q->analysis_path ? nh_arena_strdup(r->arena, q->analysis_path) : NULL;
     if (!read_files(r, q, error)) return false;
     merge_options(r, q);
     r->route = r->analysis ? r->analysis->route : NH_ROUTE_BOTH;

@@ -7,6 +7,7 @@
 #include "study/result.h"
 
 typedef struct {
+    const char *command;         /* as it was typed, to be told in reports; may be NULL */
     const char *system_path;     /* a file */
     const char *analysis_path;   /* or NULL: the program chooses */
     size_t settings;             /* --set, after the analysis' own */

@@ -170,16 +170,28 @@ static table find(problem *p, nh_tried *note)
 
 /* ---- the certificate ---- */
 
+/* The degree from which on all coefficients are below 1e-12 of the largest: with geometric decay `digits` digits need digits/12 times that. */
+static double decay(const problem *p, const table *t)
+{
+    size_t rows = t->degree + 1, last = 1;
+    double largest = 0;
+    for (size_t j = 0; j < t->count * p->words * rows; j++) largest = fmax(largest, fabs(t->c[j]));
+    for (size_t j = 0; j < t->count * p->words * rows; j++)
+        if (fabs(t->c[j]) > 1e-12 * largest && j % rows > last) last = j % rows;
+    return (double)last;
+}
+
 /* The same vectors at a degree that gives as many digits as are asked for; false when none could be reached. */
 static bool certify(const problem *p, const table *t, table *fine, double **digits)
 {
     const nh_options *options = &p->x->r->options;
-    for (double factor = 3.4; factor < 8; factor *= 1.5) {
-        size_t degree = (size_t)ceil(factor * (double)t->degree), rows = degree + 1, n = p->words * rows;
+    double least = 1.1 * options->digits / 12 * decay(p, t);
+    for (double factor = 1; factor < 2; factor *= 1.3) {
+        size_t degree = (size_t)ceil(factor * least), rows = degree + 1, n = p->words * rows;
         if (n > most_unknowns) return false;
         bool *leading = nh_alloc_array(n + 1, sizeof *leading);
         for (size_t v = 0; v < t->count; v++) leading[t->pivot[v] / (t->degree + 1) * rows + t->pivot[v] % (t->degree + 1)] = true;
-        nh_refined r = nh_refine_series(p->x->r->model, p->words, p->word, p->s, degree, leading, 1.5, options);
+        nh_refined r = nh_refine_series(p->x->r->model, p->words, p->word, p->s, degree, leading, 1.15, options);
         bool good = r.count == t->count;
         for (size_t v = 0; v < r.count; v++) good &= r.digits[v] >= options->digits;
         nh_free(leading);

@@ -42,7 +42,25 @@ static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_ana
     return resolve(s, q, own, error);
 }
 
-static bool read_all(nh_simulation *s, const nh_simulate_request *q, nh_state *initial, double *until, nh_error *error)
+/* A generic state on the constraints: the chart's first probe. */
+static bool choose_initial(nh_simulation *s, nh_state *initial)
+{
+    const nh_model *o = s->model;
+    if (!o->chart->probes) return false;
+    const double *point = o->chart->probe;
+    nh_tape *tape = nh_model_tape(o, o->m, o->rho);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    initial->t = point[0];
+    initial->q = nh_arena_alloc(s->arena, o->m * sizeof(double));
+    initial->v = nh_arena_alloc(s->arena, o->m * sizeof(double));
+    memcpy(initial->q, point + 1, o->m * sizeof(double));
+    nh_tape_eval(tape, work, point, initial->v);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return true;
+}
+
+bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_choose, nh_state *initial, double *until, nh_error *error)
 {
     nh_analysis *own = NULL;
     if (q->analysis_path && !(s->analysis = nh_analysis_read(q->analysis_path, error))) return false;
@@ -74,12 +92,56 @@ static bool read_all(nh_simulation *s, const nh_simulate_request *q, nh_state *i
     *until = !q->until_given && s->analysis && s->analysis->has_until ? s->analysis->until : q->options.until;
     s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance : q->options.tolerance;
     nh_analysis_free(own);
-    if (given) return true;
+    if (given || (may_choose && choose_initial(s, initial))) return true;
     nh_fail(error, NH_USAGE, "", "simulate needs an initial state");
     return nh_error_hint(error, "--initial \"%s=0, %s=1\"; what is not named is 0 or follows from the constraints", s->system->coordinate[0].name, nh_name_of(s->model->dag, s->model->chart->w[0]));
 }
 
+/* ---- what is wanted along the motion ---- */
+
 static void add(nh_simulation *s, const char *name, nh_column_kind kind, nh_ex value) { s->column[s->columns++] = (nh_simulated){name, kind, value}; }
+
+/* The end of the quantity that begins at `text`: a comma outside parentheses, or the end. */
+static const char *end_of_quantity(const char *text)
+{
+    int depth = 0;
+    for (; *text && (*text != ',' || depth > 0); text++) depth += (*text == '(') - (*text == ')');
+    return text;
+}
+
+/* "y, T = m/2*v^2" */
+static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
+{
+    const nh_model *o = s->model;
+    nh_ex taken;
+    nh_named extra[2];
+    size_t extras = 0;
+    if (!nh_symbol_find(o->dag, "E", &taken)) extra[extras++] = (nh_named){.name = "E", .value = o->E};
+    if (!nh_symbol_find(o->dag, "Lbar", &taken)) extra[extras++] = (nh_named){.name = "Lbar", .value = o->Lbar};
+    s->column = nh_arena_alloc(s->arena, (strlen(text) + 2) * sizeof *s->column);
+    for (const char *end; *text; text = end + (*end == ',')) {
+        end = end_of_quantity(text);
+        const char *equal = memchr(text, '=', (size_t)(end - text)), *to = equal ? equal : end;
+        while (text < to && *text == ' ') text++;
+        while (to > text && to[-1] == ' ') to--;
+        nh_ex e;
+        const char *name = nh_arena_strndup(s->arena, text, (size_t)(to - text)), *right = equal ? equal + 1 : text;
+        if (!nh_system_expression_text(s->system, "--watch", nh_arena_strndup(s->arena, right, (size_t)(end - right)), extras, extra, &e, error)) return false;
+        if (!nh_analysis_to_chart(o, e, &e, error)) return false;
+        add(s, name, NH_COLUMN_WATCH, e);
+    }
+    return true;
+}
+
+static bool read_scene(nh_simulation *s, nh_error *error)
+{
+    size_t watches = s->analysis ? s->analysis->watches : 0;
+    s->column = nh_arena_alloc(s->arena, (watches + 1) * sizeof *s->column);
+    for (size_t i = 0; i < watches; i++) add(s, s->analysis->watch[i].name, NH_COLUMN_WATCH, s->analysis->watch[i].value);
+    if (watches) return true;
+    nh_fail(error, NH_USAGE, "", "--scene needs an analysis file that says what is watched");
+    return nh_error_hint(error, "--watch \"%s\" names it here", s->system->coordinate[0].name);
+}
 
 static void list_columns(nh_simulation *s)
 {
@@ -113,6 +175,37 @@ static double *output_times(nh_simulation *s, const nh_simulate_request *q, doub
     return times;
 }
 
+static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_error *error)
+{
+    if (q->watch) return read_watch(s, q->watch, error);
+    if (q->scene) return read_scene(s, error);
+    list_columns(s);
+    return true;
+}
+
+static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
+{
+    nh_options options = q->options;
+    options.tolerance = s->tolerance;
+    nh_ex *e = nh_arena_alloc(s->arena, (s->columns + 1) * sizeof *e);
+    for (size_t k = 0; k < s->columns; k++) e[k] = s->column[k].value;
+    nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns, .e = e,
+                                     .smallest = q->watch || q->scene, .project = q->project};
+    s->trajectory = nh_trajectory_create(&request, error);
+    if (!s->trajectory) return false;
+    s->motion = s->trajectory->motion;
+    s->value = s->trajectory->value;
+    s->method = s->trajectory->method;
+    s->formulation = s->trajectory->formulation;
+    if (!s->trajectory->scene) return true;
+    nh_text words;
+    nh_text_init(&words);
+    nh_scene_words(s->trajectory->scene, &words);
+    s->scene = nh_arena_strdup(s->arena, nh_text_string(&words));
+    nh_text_clear(&words);
+    return true;
+}
+
 nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
@@ -121,16 +214,8 @@ nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
     double until, *times = NULL;
     size_t count;
     s->arena = arena;
-    if (read_all(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
-    if (times) {
-        nh_options options = q->options;
-        options.tolerance = s->tolerance;
-        list_columns(s);
-        nh_ex *e = nh_arena_alloc(arena, (s->columns + 1) * sizeof *e);
-        for (size_t k = 0; k < s->columns; k++) e[k] = s->column[k].value;
-        s->motion = nh_motion_of(s->model, &initial, q->project, count, times, &options, &s->formulation, s->columns, e, &s->value, error);
-        if (s->motion) return s;
-    }
+    if (nh_simulate_read(s, q, false, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
+    if (times && choose_columns(s, q, error) && integrate(s, q, &initial, count, times, error)) return s;
     nh_simulation_free(s);
     return NULL;
 }
@@ -138,8 +223,7 @@ nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
 void nh_simulation_free(nh_simulation *s)
 {
     if (!s) return;
-    nh_motion_free(s->motion);
-    nh_free(s->value);
+    nh_trajectory_free(s->trajectory);
     nh_model_free(s->model);
     nh_analysis_free(s->analysis);
     nh_system_free(s->system);

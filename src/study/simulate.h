@@ -11,6 +11,8 @@ typedef struct {
     const nh_setting *setting;
     nh_chart_choice chart;
     const char *initial;                     /* "phi=0, omega=2", or NULL */
+    const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
+    bool scene;                              /* the same with what the analysis file watches */
     bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
     double step;                             /* output spacing; 0: a hundredth of the time */
     nh_options options;
@@ -29,18 +31,23 @@ typedef struct {
     nh_system *system;
     nh_analysis *analysis;
     nh_model *model;
-    const char *formulation;
+    const char *method, *formulation;
+    const char *scene;    /* the smallest model in words; NULL: all states were integrated */
     size_t columns;
     nh_simulated *column;
-    nh_motion *motion;
+    nh_motion *motion;    /* its states are those of the scene, where there is one */
     double *value;        /* motion->count x columns, row by row */
+    nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
 } nh_simulation;
 
+nh_simulation *nh_simulate(const nh_simulate_request *request, nh_error *error);
 /* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model). */
 nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error);
 
-nh_simulation *nh_simulate(const nh_simulate_request *request, nh_error *error);
+/* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the initial state
+ * (a generic one where none is given and `may_choose`) and the final time.  Also on failure: nh_simulation_free. */
+bool nh_simulate_read(nh_simulation *simulation, const nh_simulate_request *request, bool may_choose, nh_state *initial, double *until, nh_error *error);
 void nh_simulation_free(nh_simulation *simulation);
 
 #endif

@@ -38,7 +38,7 @@ for target in fuzz_expression fuzz_system; do
         sed -n 's/^lagrangian: *//p; s/.*expr: "\(.*\)".*/\1/p; s/^  - \(.*=.*\)$/\1/p' systems/*.yaml | split -l 1 - "$seeds/e"
     fi
     echo "$target for $seconds seconds"
-    ASAN_OPTIONS=detect_leaks=1 "$build/$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -dict=tests/fuzz/words.dict -artifact_prefix="$build/$target-" \
+    ASAN_OPTIONS=detect_leaks=1 "$build/$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=3000 -dict=tests/fuzz/words.dict -artifact_prefix="$build/$target-" \
         -print_final_stats=1 -close_fd_mask=1 "$corpus" $seeds >"$build/$target.log" 2>&1 || failed=1
     grep -a -q 'stat::number_of_executed_units' "$build/$target.log" || failed=1
     grep -a -e 'stat::number_of_executed_units' -e 'SUMMARY' -e 'Test unit written' "$build/$target.log"

@@ -9,7 +9,7 @@
 #include "geometry/distribution.h"
 #include "geometry/model.h"
 
-enum { longest = 4000, most_coordinates = 5, most_nodes = 300 };
+enum { longest = 4000, most_coordinates = 4, most_nodes = 150 };
 
 static void check(bool fine)
 {

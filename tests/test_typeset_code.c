@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "expr/parse.h"
 #include "expr/tape.h"
-#include "expr/typeset.h"
+#include "expr/typeset_code.h"
 
 static bool any_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
 {

@@ -1,0 +1,286 @@
+#include <ctype.h>
+#include <string.h>
+
+#include "expr/typeset_internal.h"
+
+/* How one form writes what formulas are made of. */
+typedef struct {
+    const char *group[2], *fraction[3], *root[2], *power[3], *below[3], *dot[2], *ddot[2], *open, *close, *bar[2];
+    const char *plus, *minus, *equal, *times, *dot_times, *apply, *comma, *number[2], *italic[2], *upright[2], *pi;
+} script;
+
+static const script scripts[] = {
+    [NH_MATHML] = {{"<mrow>", "</mrow>"}, {"<mfrac>", "", "</mfrac>"}, {"<msqrt>", "</msqrt>"}, {"<msup>", "", "</msup>"}, {"<msub>", "", "</msub>"},
+                   {"<mover accent=\"true\">", "<mo>\u02d9</mo></mover>"}, {"<mover accent=\"true\">", "<mo>\u00a8</mo></mover>"}, "<mo>(</mo>", "<mo>)</mo>",
+                   {"<mo>|</mo>", "<mo>|</mo>"}, "<mo>+</mo>", "<mo>\u2212</mo>", "<mo>=</mo>", "<mo>\u2062</mo>", "<mo>\u00b7</mo>", "<mo>\u2061</mo>",
+                   "<mo>,</mo>", {"<mn>", "</mn>"}, {"<mi>", "</mi>"}, {"<mi mathvariant=\"normal\">", "</mi>"}, "<mi>\u03c0</mi>"},
+    [NH_LATEX] = {{"{", "}"}, {"\\frac", "", ""}, {"\\sqrt{", "}"}, {"", "^", ""}, {"", "_", ""}, {"\\dot{", "}"}, {"\\ddot{", "}"}, "\\left(", "\\right)",
+                  {"\\left|", "\\right|"}, " + ", " - ", " = ", "\\,", "\\cdot ", "", ", ", {"", ""}, {"", ""}, {"\\mathrm{", "}"}, "\\pi "},
+};
+
+static const struct {
+    const char *name, *letter, *command;
+} greek[] = {
+    {"alpha", "α", "\\alpha "},    {"beta", "β", "\\beta "},     {"gamma", "γ", "\\gamma "},   {"delta", "δ", "\\delta "},    {"epsilon", "ε", "\\varepsilon "},
+    {"zeta", "ζ", "\\zeta "},      {"eta", "η", "\\eta "},       {"theta", "θ", "\\theta "},   {"iota", "ι", "\\iota "},      {"kappa", "κ", "\\kappa "},
+    {"lambda", "λ", "\\lambda "},  {"mu", "μ", "\\mu "},         {"nu", "ν", "\\nu "},         {"xi", "ξ", "\\xi "},          {"rho", "ρ", "\\rho "},
+    {"sigma", "σ", "\\sigma "},    {"tau", "τ", "\\tau "},       {"phi", "φ", "\\varphi "},    {"chi", "χ", "\\chi "},        {"psi", "ψ", "\\psi "},
+    {"omega", "ω", "\\omega "},    {"Gamma", "Γ", "\\Gamma "},   {"Delta", "Δ", "\\Delta "},   {"Theta", "Θ", "\\Theta "},    {"Lambda", "Λ", "\\Lambda "},
+    {"Xi", "Ξ", "\\Xi "},          {"Sigma", "Σ", "\\Sigma "},   {"Phi", "Φ", "\\Phi "},       {"Psi", "Ψ", "\\Psi "},        {"Omega", "Ω", "\\Omega "},
+    {"varphi", "φ", "\\varphi "},  {"Pi", "Π", "\\Pi "},         {"upsilon", "υ", "\\upsilon "},
+};
+
+typedef struct {
+    nh_typeset_form form;
+    const script *s;
+    nh_text *out;
+} writer;
+
+static void put(const writer *w, const nh_seen *e);
+
+static void add(const writer *w, const char *text) { nh_text_add(w->out, text); }
+
+static void grouped(const writer *w, const nh_seen *e)
+{
+    add(w, w->s->group[0]);
+    put(w, e);
+    add(w, w->s->group[1]);
+}
+
+static void parenthesised(const writer *w, const nh_seen *e)
+{
+    add(w, w->s->group[0]);
+    add(w, w->s->open);
+    put(w, e);
+    add(w, w->s->close);
+    add(w, w->s->group[1]);
+}
+
+/* ---- names and numbers ---- */
+
+/* A letter, or a word set upright.  Names are made of letters, digits and _ only. */
+static void word(const writer *w, const char *text, size_t length)
+{
+    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++) {
+        if (strlen(greek[i].name) != length || strncmp(greek[i].name, text, length)) continue;
+        add(w, w->s->italic[0]);
+        add(w, w->form == NH_MATHML ? greek[i].letter : greek[i].command);
+        add(w, w->s->italic[1]);
+        return;
+    }
+    bool digits = length && isdigit((unsigned char)text[0]);
+    const char *const *around = digits ? w->s->number : length == 1 ? w->s->italic : w->s->upright;
+    add(w, around[0]);
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] == '_' && w->form == NH_LATEX) add(w, "\\_");
+        else nh_text_add_n(w->out, text + i, 1);
+    }
+    add(w, around[1]);
+}
+
+static void name(const writer *w, const char *text)
+{
+    size_t length = strlen(text), base = strcspn(text + 1, "_") + 1, below;
+    if (base == length)
+        while (base > 1 && isdigit((unsigned char)text[base - 1])) base--;
+    below = base + (base < length && text[base] == '_' && base + 1 < length);
+    if (base == length || below == length) {
+        word(w, text, length);
+        return;
+    }
+    add(w, w->s->below[0]);
+    add(w, w->s->group[0]);
+    word(w, text, base);
+    add(w, w->s->group[1]);
+    add(w, w->s->below[1]);
+    add(w, w->s->group[0]);
+    word(w, text + below, length - below);
+    add(w, w->s->group[1]);
+    add(w, w->s->below[2]);
+}
+
+static void dotted(const writer *w, const nh_seen *e)
+{
+    const char *const *dot = e->primes == 2 ? w->s->ddot : w->s->dot;
+    if (!strcmp(e->text, "pi") && !e->primes) {
+        add(w, w->s->pi);
+        return;
+    }
+    if (e->primes) add(w, dot[0]);
+    if (e->primes) add(w, w->s->group[0]);
+    name(w, e->text);
+    if (e->primes) add(w, w->s->group[1]);
+    if (e->primes) add(w, dot[1]);
+}
+
+/* 1.5e-7 as 1.5 times a power of ten. */
+static void number(const writer *w, const char *text)
+{
+    size_t mantissa = strcspn(text, "eE");
+    add(w, w->s->number[0]);
+    nh_text_add_n(w->out, text, mantissa);
+    add(w, w->s->number[1]);
+    if (!text[mantissa]) return;
+    const char *exponent = text + mantissa + 1;
+    bool minus = *exponent == '-';
+    exponent += *exponent == '-' || *exponent == '+';
+    add(w, w->s->dot_times);
+    add(w, w->s->power[0]);
+    nh_text_addf(w->out, "%s%s10%s%s", w->s->group[0], w->s->number[0], w->s->number[1], w->s->group[1]);
+    add(w, w->s->power[1]);
+    nh_text_addf(w->out, "%s%s%s%s%s%s", w->s->group[0], minus ? w->s->minus : "", w->s->number[0], exponent, w->s->number[1], w->s->group[1]);
+    add(w, w->s->power[2]);
+}
+
+/* ---- functions and powers ---- */
+
+static void function_name(const writer *w, const char *text)
+{
+    static const char *const known[] = {"sin", "cos", "tan", "sinh", "cosh", "tanh", "exp"};
+    static const char *const inverse[][2] = {{"asin", "arcsin"}, {"acos", "arccos"}, {"atan", "arctan"}, {"log", "ln"}};
+    const char *shown = text;
+    bool command = false;
+    for (size_t i = 0; i < sizeof inverse / sizeof *inverse; i++)
+        if (!strcmp(text, inverse[i][0])) shown = inverse[i][1], command = true;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) command |= !strcmp(text, known[i]);
+    if (w->form == NH_MATHML) nh_text_addf(w->out, "<mi mathvariant=\"normal\">%s</mi>", shown);
+    else nh_text_addf(w->out, command ? "\\%s" : "\\operatorname{%s}", shown);
+}
+
+static void arguments(const writer *w, const nh_seen *e)
+{
+    add(w, w->s->apply);
+    bool bare = e->child && !e->child->next && e->child->kind == NH_SEEN_NAME;
+    if (bare && w->form == NH_LATEX) add(w, " ");
+    if (bare) {
+        put(w, e->child);
+        return;
+    }
+    add(w, w->s->open);
+    for (const nh_seen *c = e->child; c; c = c->next) {
+        put(w, c);
+        if (c->next) add(w, w->s->comma);
+    }
+    add(w, w->s->close);
+}
+
+static void call(const writer *w, const nh_seen *e)
+{
+    const char *const *around = !strcmp(e->text, "sqrt") ? w->s->root : !strcmp(e->text, "abs") ? w->s->bar : NULL;
+    if (around && e->child && !e->child->next) {
+        add(w, around[0]);
+        put(w, e->child);
+        add(w, around[1]);
+        return;
+    }
+    function_name(w, e->text);
+    arguments(w, e);
+}
+
+/* sin(x)^2 carries its power on the function. */
+static void power(const writer *w, const nh_seen *e)
+{
+    const nh_seen *base = e->child, *exponent = base->next;
+    bool on_function = base->kind == NH_SEEN_CALL && exponent->kind == NH_SEEN_NUMBER && strcmp(base->text, "sqrt") && strcmp(base->text, "abs");
+    bool plain = base->kind == NH_SEEN_NAME || base->kind == NH_SEEN_NUMBER || (base->kind == NH_SEEN_CALL && !strcmp(base->text, "abs"));
+    add(w, w->s->power[0]);
+    if (on_function) {
+        add(w, w->s->group[0]);
+        function_name(w, base->text);
+        add(w, w->s->group[1]);
+    } else if (plain) {
+        grouped(w, base);
+    } else {
+        parenthesised(w, base);
+    }
+    add(w, w->s->power[1]);
+    grouped(w, exponent);
+    add(w, w->s->power[2]);
+    if (on_function) arguments(w, base);
+}
+
+/* ---- sums and products ---- */
+
+static void factor(const writer *w, const nh_seen *e)
+{
+    if (e->kind == NH_SEEN_SUM || e->kind == NH_SEEN_MINUS) parenthesised(w, e);
+    else put(w, e);
+}
+
+static bool starts_with_number(const nh_seen *e)
+{
+    while (e->kind == NH_SEEN_POWER || e->kind == NH_SEEN_PRODUCT) e = e->child;
+    return e->kind == NH_SEEN_NUMBER;
+}
+
+static void product(const writer *w, const nh_seen *e)
+{
+    for (const nh_seen *c = e->child; c; c = c->next) {
+        if (c != e->child) add(w, starts_with_number(c) ? w->s->dot_times : w->s->times);
+        factor(w, c);
+    }
+}
+
+static void term(const writer *w, const nh_seen *e, bool first)
+{
+    if (e->minus) add(w, w->s->minus);
+    else if (!first) add(w, w->s->plus);
+    factor(w, e);
+}
+
+static void put(const writer *w, const nh_seen *e)
+{
+    switch (e->kind) {
+    case NH_SEEN_NUMBER: number(w, e->text); break;
+    case NH_SEEN_NAME: dotted(w, e); break;
+    case NH_SEEN_CALL: call(w, e); break;
+    case NH_SEEN_POWER: power(w, e); break;
+    case NH_SEEN_PRODUCT: product(w, e); break;
+    case NH_SEEN_MINUS:
+        add(w, w->s->minus);
+        factor(w, e->child);
+        break;
+    case NH_SEEN_SUM:
+        for (const nh_seen *c = e->child; c; c = c->next) term(w, c, c == e->child);
+        break;
+    case NH_SEEN_FRACTION:
+        add(w, w->s->fraction[0]);
+        grouped(w, e->child);
+        grouped(w, e->child->next);
+        add(w, w->s->fraction[2]);
+        break;
+    case NH_SEEN_EQUATION:
+        put(w, e->child);
+        add(w, w->s->equal);
+        put(w, e->child->next);
+        break;
+    }
+}
+
+bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out)
+{
+    nh_arena *arena = nh_arena_create();
+    const nh_seen *e = nh_typeset_read(arena, text);
+    if (e) put(&(writer){form, &scripts[form], out}, e);
+    nh_arena_free(arena);
+    return e != NULL;
+}
+
+size_t nh_typeset_pieces(const char *text, nh_typeset_form form, nh_typeset_piece *piece, void *context)
+{
+    nh_arena *arena = nh_arena_create();
+    const nh_seen *e = nh_typeset_read(arena, text), *first = e && e->kind == NH_SEEN_SUM ? e->child : e;
+    size_t count = 0;
+    for (const nh_seen *c = first; c; c = e == first ? NULL : c->next) {
+        nh_text one;
+        nh_text_init(&one);
+        writer w = {form, &scripts[form], &one};
+        if (e == first) put(&w, c);
+        else term(&w, c, c == first);
+        piece(context, nh_text_string(&one));
+        nh_text_clear(&one);
+        count++;
+    }
+    nh_arena_free(arena);
+    return count;
+}

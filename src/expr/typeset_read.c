@@ -1,0 +1,181 @@
+#include <ctype.h>
+#include <string.h>
+
+#include "expr/typeset_internal.h"
+
+enum { deepest = 300 };
+
+typedef struct {
+    nh_arena *arena;
+    const char *at;
+    int depth;
+} reader;
+
+static nh_seen *sum(reader *r);
+static nh_seen *unary(reader *r);
+
+static nh_seen *make(reader *r, nh_seen_kind kind, nh_seen *child)
+{
+    nh_seen *s = nh_arena_alloc(r->arena, sizeof *s);
+    s->kind = kind;
+    s->child = child;
+    return s;
+}
+
+static void skip(reader *r)
+{
+    while (isspace((unsigned char)*r->at)) r->at++;
+}
+
+static bool take(reader *r, char c)
+{
+    skip(r);
+    if (*r->at != c) return false;
+    r->at++;
+    return true;
+}
+
+static nh_seen *number(reader *r)
+{
+    const char *begin = r->at;
+    while (isdigit((unsigned char)*r->at) || *r->at == '.') r->at++;
+    if (*r->at == 'e' || *r->at == 'E') {
+        size_t sign = r->at[1] == '-' || r->at[1] == '+';
+        if (isdigit((unsigned char)r->at[1 + sign])) {
+            r->at += 1 + sign;
+            while (isdigit((unsigned char)*r->at)) r->at++;
+        }
+    }
+    nh_seen *s = make(r, NH_SEEN_NUMBER, NULL);
+    s->text = nh_arena_strndup(r->arena, begin, (size_t)(r->at - begin));
+    return s;
+}
+
+static bool arguments(reader *r, nh_seen *call)
+{
+    nh_seen **last = &call->child;
+    if (take(r, ')')) return true;
+    do {
+        *last = sum(r);
+        if (!*last) return false;
+        last = &(*last)->next;
+    } while (take(r, ','));
+    return take(r, ')');
+}
+
+static nh_seen *name(reader *r)
+{
+    const char *begin = r->at;
+    while (isalnum((unsigned char)*r->at) || *r->at == '_') r->at++;
+    nh_seen *s = make(r, NH_SEEN_NAME, NULL);
+    s->text = nh_arena_strndup(r->arena, begin, (size_t)(r->at - begin));
+    for (; *r->at == '\''; r->at++) s->primes++;
+    if (s->primes || !take(r, '(')) return s;
+    s->kind = NH_SEEN_CALL;
+    return arguments(r, s) ? s : NULL;
+}
+
+static nh_seen *atom(reader *r)
+{
+    skip(r);
+    if (isdigit((unsigned char)*r->at) || (*r->at == '.' && isdigit((unsigned char)r->at[1]))) return number(r);
+    if (isalpha((unsigned char)*r->at) || *r->at == '_') return name(r);
+    if (!take(r, '(')) return NULL;
+    nh_seen *s = sum(r);
+    return s && take(r, ')') ? s : NULL;
+}
+
+static nh_seen *power(reader *r)
+{
+    nh_seen *base = atom(r);
+    if (!base || !take(r, '^')) return base;
+    nh_seen *exponent = unary(r);
+    if (!exponent) return NULL;
+    base->next = exponent;
+    return make(r, NH_SEEN_POWER, base);
+}
+
+static nh_seen *unary(reader *r)
+{
+    if (++r->depth > deepest) return NULL;
+    nh_seen *s;
+    if (take(r, '-')) {
+        nh_seen *inner = unary(r);
+        s = inner ? make(r, NH_SEEN_MINUS, inner) : NULL;
+    } else {
+        take(r, '+');
+        s = power(r);
+    }
+    r->depth--;
+    return s;
+}
+
+static nh_seen *times(reader *r, nh_seen *left, nh_seen *right)
+{
+    if (left->kind != NH_SEEN_PRODUCT) left = make(r, NH_SEEN_PRODUCT, left);
+    nh_seen *last = left->child;
+    while (last->next) last = last->next;
+    last->next = right;
+    return left;
+}
+
+/* a/b/c is one fraction. */
+static nh_seen *over(reader *r, nh_seen *left, nh_seen *right)
+{
+    if (left->kind == NH_SEEN_FRACTION) {
+        left->child->next = times(r, left->child->next, right);
+        return left;
+    }
+    left->next = right;
+    return make(r, NH_SEEN_FRACTION, left);
+}
+
+/* A parenthesis that holds a product or a fraction stays one factor. */
+static nh_seen *factor(reader *r)
+{
+    nh_seen *s = unary(r);
+    bool wrapped = s && (s->kind == NH_SEEN_PRODUCT || s->kind == NH_SEEN_FRACTION);
+    return wrapped ? make(r, NH_SEEN_PRODUCT, s) : s;
+}
+
+static nh_seen *term(reader *r)
+{
+    nh_seen *left = factor(r);
+    while (left) {
+        bool star = take(r, '*'), slash = !star && take(r, '/');
+        if (!star && !slash) return left;
+        nh_seen *right = slash ? unary(r) : factor(r);
+        if (!right) return NULL;
+        left = star ? times(r, left, right) : over(r, left, right);
+    }
+    return NULL;
+}
+
+static nh_seen *sum(reader *r)
+{
+    if (++r->depth > deepest) return NULL;
+    nh_seen *first = NULL, **last = &first;
+    for (size_t count = 0;; count++) {
+        bool minus = take(r, '-');
+        if (!minus && !take(r, '+') && count) break;
+        nh_seen *s = term(r);
+        if (!s) return NULL;
+        s->minus = minus;
+        *last = s;
+        last = &s->next;
+    }
+    r->depth--;
+    return first->next || first->minus ? make(r, NH_SEEN_SUM, first) : first;
+}
+
+nh_seen *nh_typeset_read(nh_arena *arena, const char *text)
+{
+    reader r = {.arena = arena, .at = text};
+    nh_seen *left = sum(&r);
+    if (left && take(&r, '=')) {
+        left->next = sum(&r);
+        left = left->next ? make(&r, NH_SEEN_EQUATION, left) : NULL;
+    }
+    skip(&r);
+    return left && !*r.at ? left : NULL;
+}

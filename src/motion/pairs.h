@@ -1,0 +1,14 @@
+/* pairs: motions of z' = f(t, z) by ARKODE's explicit Runge-Kutta pairs.  Steps end at the output times: the interpolation of the pairs has a
+ * lower order than their steps.  Guards are not watched.                                                            [Hindmarsh2005] */
+#ifndef NH_PAIRS_H
+#define NH_PAIRS_H
+
+#include "motion/flow.h"
+
+typedef enum { NH_DORMAND_PRINCE_5, NH_VERNER_6, NH_FEHLBERG_8 } nh_pairs_method;
+
+/* As nh_flow. */
+nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
+                    const nh_flow_options *options, nh_error *error);
+
+#endif

@@ -1,0 +1,97 @@
+#include "motion/projection.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+
+enum { most_steps = 3 };
+static const double independent = 1e-6; /* relative size of a singular value below which rows depend on each other */
+
+struct nh_projection {
+    const nh_model *model;
+    size_t size, currents;
+    nh_tape *tape; /* values, then d Phi_k / dz_j at [k + j * currents] */
+    nh_tape_work *work;
+    double *point, *out, *wanted, *scale, *matrix, *right;
+    long evaluations;
+};
+
+nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh_ex *current, double t, const double *z0)
+{
+    nh_projection *p = nh_alloc(sizeof *p);
+    size_t size = o->m + o->n, total = currents * (1 + size), tall = currents > size ? currents : size;
+    *p = (nh_projection){.model = o, .size = size, .currents = currents};
+    nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
+    for (size_t k = 0; k < currents; k++) {
+        e[k] = current[k];
+        for (size_t j = 0; j < size; j++) e[currents + k + j * currents] = nh_diff(o->dag, current[k], o->chart->symbol[1 + j]);
+    }
+    p->tape = nh_model_tape(o, total, e);
+    p->work = nh_tape_work_create(p->tape);
+    nh_free(e);
+    p->point = nh_alloc_array(o->width, sizeof *p->point);
+    p->out = nh_alloc_array(total + 1, sizeof *p->out);
+    p->wanted = nh_alloc_array(currents + 1, sizeof *p->wanted);
+    p->scale = nh_alloc_array(size, sizeof *p->scale);
+    p->matrix = nh_alloc_array(total + 1, sizeof *p->matrix);
+    p->right = nh_alloc_array(tall + 1, sizeof *p->right);
+    p->point[0] = t;
+    memcpy(p->point + 1, z0, size * sizeof *z0);
+    nh_tape_eval(p->tape, p->work, p->point, p->out);
+    memcpy(p->wanted, p->out, currents * sizeof *p->wanted);
+    for (size_t j = 0; j < size; j++) p->scale[j] = fmax(1, fabs(z0[j]));
+    return p;
+}
+
+void nh_projection_free(nh_projection *p)
+{
+    if (!p) return;
+    nh_tape_work_free(p->work);
+    nh_tape_free(p->tape);
+    nh_free(p->point);
+    nh_free(p->out);
+    nh_free(p->wanted);
+    nh_free(p->scale);
+    nh_free(p->matrix);
+    nh_free(p->right);
+    nh_free(p);
+}
+
+/* One Gauss-Newton step; its size, or infinity.  Rows have norm 1, so that the rank does not depend on the currents' units. */
+static double project_once(nh_projection *p, double *z)
+{
+    size_t r = p->currents, n = p->size;
+    double worst = 0;
+    nh_tape_eval(p->tape, p->work, p->point, p->out);
+    p->evaluations++;
+    for (size_t k = 0; k < r; k++) {
+        double norm = 0;
+        for (size_t j = 0; j < n; j++) norm = hypot(norm, p->out[r + k + j * r] * p->scale[j]);
+        if (!isfinite(norm) || !isfinite(p->out[k])) return INFINITY;
+        norm = norm > 0 ? norm : 1;
+        for (size_t j = 0; j < n; j++) p->matrix[k + j * r] = p->out[r + k + j * r] * p->scale[j] / norm;
+        p->right[k] = (p->wanted[k] - p->out[k]) / norm;
+    }
+    if (nh_least_squares(r, n, p->matrix, 1, p->right, r > n ? r : n, independent) < 0) return INFINITY;
+    for (size_t j = 0; j < n; j++) {
+        z[j] += p->scale[j] * p->right[j];
+        worst = fmax(worst, fabs(p->right[j]));
+    }
+    return worst;
+}
+
+bool nh_projection_apply(double t, double *z, void *context)
+{
+    nh_projection *p = context;
+    double change = 1;
+    for (int i = 0; i < most_steps && change > 1e-15; i++) {
+        p->point[0] = t;
+        memcpy(p->point + 1, z, p->size * sizeof *z);
+        change = project_once(p, z);
+    }
+    return isfinite(change);
+}
+
+long nh_projection_evaluations(const nh_projection *p) { return p->evaluations; }

@@ -1,0 +1,22 @@
+/* projection: bring a state back to where the currents have their initial values, by the smallest change [HairerLubichWanner2006].
+ *
+ *     z1 = z + D J^T l,   Phi(z1) = Phi(z0),     J = d Phi / dz,  D = diag(max(1, |z0_i|)^2)
+ *
+ * by at most three Gauss-Newton steps of least norm; rows that depend on others on the way are left out by a rank decision, so that
+ * dependent currents do no harm. */
+#ifndef NH_PROJECTION_H
+#define NH_PROJECTION_H
+
+#include "motion/dynamics.h"
+
+typedef struct nh_projection nh_projection;
+
+/* `currents` expressions of the model's chart, which must have no implicit velocities; z0: m + n values at time t. */
+nh_projection *nh_projection_create(const nh_model *model, size_t currents, const nh_ex *current, double t, const double *z0);
+void nh_projection_free(nh_projection *projection);
+
+/* For nh_flow_options.after: context is the projection.  False when the values are not finite. */
+bool nh_projection_apply(double t, double *z, void *context);
+long nh_projection_evaluations(const nh_projection *projection);
+
+#endif

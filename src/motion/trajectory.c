@@ -1,0 +1,230 @@
+#include "motion/trajectory.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
+
+/* ---- expressions along a motion ---- */
+
+typedef bool to_point(void *context, double t, const double *z, double *point);
+
+static bool point_of_all(void *context, double t, const double *z, double *point) { return nh_dynamics_point(context, t, z, point); }
+static bool point_of_scene(void *context, double t, const double *z, double *point) { return nh_scene_point(context, t, z, point); }
+
+static bool values_along(const nh_model *model, to_point *place, void *context, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
+{
+    nh_tape *tape = nh_model_tape(model, n, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *point = nh_alloc_array(model->width, sizeof *point);
+    bool good = true;
+    for (size_t i = 0; i < motion->count && good; i++) {
+        good = place(context, motion->time[i], motion->state + i * motion->size, point);
+        if (good) nh_tape_eval(tape, work, point, value + i * n);
+    }
+    nh_free(point);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return good;
+}
+
+/* An expression of the chart in (t, q, v), where it holds beyond the chart: implicit velocities and roots are velocities there.  `inverse`:
+ * quasi-velocities in v. */
+static nh_ex everywhere(const nh_model *o, const nh_ex *inverse, nh_ex e)
+{
+    const nh_chart *c = o->chart;
+    for (size_t s = 0; s < o->m; s++)
+        if (e == o->rho[s]) return o->system->coordinate[s].v;
+    nh_ex *v = nh_alloc_array(c->implicit + 1, sizeof *v);
+    for (size_t a = 0; a < c->implicit; a++) v[a] = o->system->coordinate[c->dependent[a]].v;
+    e = nh_substitute(o->dag, e, c->implicit, c->u, v);
+    nh_free(v);
+    if (c->quasi) e = nh_substitute(o->dag, e, o->n, c->w, inverse);
+    return c->branch ? nh_chart_both_branches(c, e) : e;
+}
+
+/* Along a motion in (q, v). */
+static void along_everywhere(const nh_model *o, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
+{
+    size_t m = o->m;
+    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(n + 1, sizeof *out);
+    double *point = nh_alloc_array(1 + 2 * m, sizeof *point);
+    in[0] = o->system->t;
+    for (size_t s = 0; s < m; s++) {
+        in[1 + s] = o->system->coordinate[s].q;
+        in[1 + m + s] = o->system->coordinate[s].v;
+    }
+    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
+    if (o->chart->quasi) nh_chart_inverse(o->chart, inverse);
+    for (size_t k = 0; k < n; k++) out[k] = everywhere(o, inverse, e[k]);
+    nh_free(inverse);
+    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * m, in, n, out, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t i = 0; i < motion->count; i++) {
+        point[0] = motion->time[i];
+        memcpy(point + 1, motion->state + i * 2 * m, 2 * m * sizeof *point);
+        nh_tape_eval(tape, work, point, value + i * n);
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(point);
+    nh_free(out);
+    nh_free(in);
+}
+
+bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    if (motion->size <= o->m + o->n) return values_along(o, point_of_all, dynamics, motion, n, e, value);
+    along_everywhere(o, motion, n, e, value);
+    return true;
+}
+
+/* ---- charts that break down ---- */
+
+bool nh_may_leave_chart(const nh_model *o)
+{
+    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
+    bool may = o->k && (!o->chart->quasi || nh_chart_inverse(o->chart, inverse));
+    nh_free(inverse);
+    return may;
+}
+
+static bool *steep(size_t count, size_t n, const double *R, bool *any)
+{
+    bool *flag = nh_alloc_array(count + 1, sizeof *flag);
+    *any = false;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = 0; j < n; j++) flag[i] |= !(fabs(R[i * n + j]) < steepest);
+        *any |= flag[i];
+    }
+    return flag;
+}
+
+bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t n = o->m * o->n;
+    double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
+    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R), *flag = steep(good ? motion->count : 0, n, R, any);
+    if (!good) flag = (nh_free(flag), nh_alloc_array(motion->count + 1, sizeof *flag));
+    nh_free(R);
+    return flag;
+}
+
+/* The entries of R that kept states alone decide; the others do not enter their equations. */
+static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion *motion)
+{
+    const nh_model *o = s->model;
+    if (o->chart->quasi || !o->k) return false;
+    nh_ex *e = nh_alloc_array(o->m * o->n + 1, sizeof *e);
+    size_t n = 0;
+    for (size_t i = 0; i < o->m * o->n; i++) {
+        bool known = true;
+        for (size_t j = s->kept; j < s->states; j++) known &= !nh_depends(o->dag, o->R[i], o->chart->symbol[1 + s->state[j]]);
+        if (known) e[n++] = o->R[i];
+    }
+    double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
+    bool any = false, good = values_along(o, point_of_scene, run, motion, n, e, R);
+    if (good) nh_free(steep(motion->count, n, R, &any));
+    nh_free(R);
+    nh_free(e);
+    return any || !good;
+}
+
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const double *z0, size_t count, const double *times, const nh_flow_options *given, nh_error *error)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t m = o->m;
+    nh_bordered *b = nh_bordered_create(o);
+    nh_flow_problem problem = nh_bordered_flow(b);
+    nh_flow_options options = *given;
+    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
+    nh_motion first = {.count = 1, .size = m + o->n, .time = (double *)times, .state = (double *)z0};
+    memcpy(y, z0, m * sizeof *y);
+    for (size_t s = 0; s < 2 * m; s++) scale[s] = given->scale[0];
+    options.scale = scale;
+    bool good = nh_along(dynamics, &first, m, o->rho, y + m);
+    nh_motion *motion = good ? nh_flow(&problem, y, count, times, &options, error) : NULL;
+    nh_free(scale);
+    nh_free(y);
+    nh_bordered_free(b);
+    return motion;
+}
+
+/* ---- one motion ---- */
+
+typedef struct {
+    const nh_trajectory_request *q;
+    nh_dynamics *dynamics;
+    nh_trajectory *out;
+    double *z0;
+    nh_flow_options how;
+} job;
+
+/* The scene's states from the start of all. */
+static bool in_scene(job *j, nh_error *error)
+{
+    nh_scene *s = j->out->scene = nh_scene_create(j->q->model, j->q->n, j->q->e);
+    nh_scene_run *run = nh_scene_run_create(s, j->z0);
+    nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_scene_problem(run, &whole);
+    double *small = nh_alloc_array(s->kept + 1, sizeof *small);
+    for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
+    nh_motion *motion = s->kept ? nh_flow(&problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
+    bool good = motion && !(nh_may_leave_chart(j->q->model) && (!motion->complete || scene_is_steep(s, run, motion)));
+    if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
+    j->out->motion = motion;
+    nh_free(small);
+    nh_scene_run_free(run);
+    if (good) return true;
+    nh_motion_free(motion);
+    nh_scene_free(s);
+    j->out->motion = NULL;
+    j->out->scene = NULL;
+    return false;
+}
+
+static void in_all_states(job *j, nh_error *error)
+{
+    const nh_trajectory_request *q = j->q;
+    nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
+    nh_motion *motion = nh_flow(&problem, j->z0, q->count, q->times, &j->how, error);
+    bool any = false;
+    if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
+    if (motion && nh_may_leave_chart(q->model) && (any || !motion->complete)) {
+        nh_motion_free(motion);
+        j->out->formulation = "all coordinates, accelerations from the bordered system";
+        motion = nh_motion_everywhere(j->dynamics, j->z0, q->count, q->times, &j->how, error);
+    }
+    j->out->motion = motion;
+    if (motion && q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
+}
+
+nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *error)
+{
+    size_t size = q->model->m + q->model->n;
+    nh_trajectory *out = nh_alloc(sizeof *out);
+    *out = (nh_trajectory){.method = "CVODE Adams", .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
+    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0)};
+    double *scale = nh_alloc_array(size + 1, sizeof *scale);
+    for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;
+    j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error) && !(q->smallest && in_scene(&j, &ignored))) in_all_states(&j, error);
+    nh_dynamics_free(j.dynamics);
+    nh_free(scale);
+    nh_free(j.z0);
+    if (out->motion) return out;
+    nh_trajectory_free(out);
+    return NULL;
+}
+
+void nh_trajectory_free(nh_trajectory *trajectory)
+{
+    if (!trajectory) return;
+    nh_motion_free(trajectory->motion);
+    nh_scene_free(trajectory->scene);
+    nh_free(trajectory->value);
+    nh_free(trajectory);
+}

@@ -1,0 +1,45 @@
+/* trajectory: one motion of a model, in whichever formulation carries it to the end, with the values of expressions along it. */
+#ifndef NH_TRAJECTORY_H
+#define NH_TRAJECTORY_H
+
+#include "base/option.h"
+#include "motion/scene.h"
+
+typedef struct {
+    const nh_model *model;
+    const nh_state *initial;
+    size_t count;             /* output times */
+    const double *times;
+    const nh_options *options; /* tolerance, absolute, steps */
+    size_t n;
+    const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
+    bool smallest;            /* integrate only what they need */
+    bool project;             /* velocities that violate the constraints are replaced by the nearest that satisfy them */
+} nh_trajectory_request;
+
+typedef struct {
+    nh_motion *motion;        /* in (q, w), in (q, v), or in the kept states of the scene */
+    const char *method, *formulation;
+    double *value;            /* count x n, row by row: value[i * n + k] */
+    nh_scene *scene;          /* NULL: all states were integrated */
+} nh_trajectory;
+
+/* In the chart, or in all coordinates where the chart breaks down on the way.  NULL with a message when nothing could be computed. */
+nh_trajectory *nh_trajectory_create(const nh_trajectory_request *request, nh_error *error);
+void nh_trajectory_free(nh_trajectory *trajectory);
+
+/* ---- parts, also for the validation ---- */
+
+/* value[i * n + k]: expression k of the chart at output i of a motion in (q, w) or in (q, v).  False where implicit velocities cannot be found. */
+bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value);
+
+/* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
+bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
+
+/* The motion in all coordinates, in (q, v), with accelerations from the bordered system. */
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const double *z0, size_t count, const double *times, const nh_flow_options *options, nh_error *error);
+
+/* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
+bool nh_may_leave_chart(const nh_model *model);
+
+#endif

@@ -1,0 +1,155 @@
+#include "report/chart.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/json.h"
+#include "base/memory.h"
+
+enum { goals = 4 };
+static const double goal[goals] = {1e-3, 1e-6, 1e-9, 1e-12};
+
+static bool same_line(const nh_measured *a, const nh_measured *b) { return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation); }
+
+static void time_text(double seconds, char out[16])
+{
+    double us = 1e6 * seconds;
+    snprintf(out, 16, us < 9.95 ? "%.1f" : "%.0f", us);
+}
+
+/* ---- text ---- */
+
+/* The fastest run of the line from..to-1 whose error is below the goal. */
+static const nh_measured *fastest(const nh_comparison *c, size_t from, size_t to, double below)
+{
+    const nh_measured *best = NULL;
+    for (size_t i = from; i < to; i++) {
+        const nh_measured *m = &c->item[i];
+        if (m->status <= NH_WARNED && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
+    }
+    return best;
+}
+
+static void put_line(const nh_comparison *c, size_t from, size_t to, nh_text *out)
+{
+    nh_text_addf(out, "    %-30s", c->item[from].method);
+    for (int g = 0; g < goals; g++) {
+        const nh_measured *m = fastest(c, from, to, goal[g]);
+        char us[16], cell[48];
+        if (m) {
+            time_text(m->seconds, us);
+            snprintf(cell, sizeof cell, "%s (%ld)", us, m->evaluations);
+        }
+        nh_text_addf(out, "%18s", m ? cell : "-");
+    }
+    const nh_measured *last = NULL;
+    for (size_t i = from; i < to; i++)
+        if (c->item[i].status >= NH_WARNED && !(last && last->status == NH_WRONG)) last = &c->item[i];
+    if (last) nh_text_addf(out, "   %s", nh_measured_status_name(last->status));
+    nh_text_add(out, "\n");
+}
+
+static void put_lines(const nh_comparison *c, nh_text *out)
+{
+    const char *formulation = "";
+    for (size_t i = 0, next; i < c->count; i = next) {
+        for (next = i; next < c->count && same_line(&c->item[i], &c->item[next]);) next++;
+        if (strcmp(formulation, c->item[i].formulation)) nh_text_addf(out, "  %s\n", formulation = c->item[i].formulation);
+        put_line(c, i, next, out);
+    }
+}
+
+static void put_run(const nh_comparison *c, const nh_measured *m, nh_text *out)
+{
+    char us[16];
+    time_text(m->seconds, us);
+    nh_text_addf(out, "  %-30s %-36s ", m->method, m->formulation);
+    if (isnan(m->step)) nh_text_addf(out, "tolerance %-8.0e", m->tolerance);
+    else nh_text_addf(out, "step %-13.3g", m->step);
+    nh_text_addf(out, " %-8s", nh_measured_status_name(m->status));
+    if (isfinite(m->error)) nh_text_addf(out, " error %-9.1e", m->error);
+    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++) nh_text_addf(out, " %s %.0e", c->current[k], m->drift[k]);
+    nh_text_addf(out, " %s us %ld%s", isfinite(m->seconds) ? us : "-", m->evaluations, m->front ? " *" : "");
+    if (m->note && m->note[0]) nh_text_addf(out, "  %s", m->note);
+    nh_text_add(out, "\n");
+}
+
+static void put_front(const nh_comparison *c, nh_text *out)
+{
+    for (int g = 0; g < goals; g++) {
+        const nh_measured *m = fastest(c, 0, c->count, goal[g]);
+        if (!m) continue;
+        char us[16];
+        time_text(m->seconds, us);
+        nh_text_addf(out, "  below %.0e: %s in %s, ", goal[g], m->method, m->formulation);
+        if (isnan(m->step)) nh_text_addf(out, "tolerance %.0e", m->tolerance);
+        else nh_text_addf(out, "step %.3g", m->step);
+        nh_text_addf(out, ": error %.0e", m->error);
+        if (isfinite(m->worst_drift)) nh_text_addf(out, ", drift %.0e", m->worst_drift);
+        nh_text_addf(out, ", %s us, %ld evaluations\n", us, m->evaluations);
+    }
+}
+
+void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
+{
+    nh_text_addf(out, "%s: a motion from t = %g to %g\n", c->question->system->title ? c->question->system->title : c->question->system->name, c->begin, c->end);
+    nh_text_addf(out, "Reference: %s; %s agrees to %.0e\n\nMicroseconds (evaluations) to an error below", c->reference, c->second, c->agreement);
+    nh_text_addf(out, "\n%34s", "");
+    for (int g = 0; g < goals; g++) nh_text_addf(out, "%18.0e", goal[g]);
+    nh_text_add(out, "\n");
+    put_lines(c, out);
+    nh_text_add(out, "\nFastest\n");
+    put_front(c, out);
+    if (c->currents) {
+        nh_text_add(out, "  currents watched: ");
+        for (size_t k = 0; k < c->currents; k++) nh_text_addf(out, "%s%s", k ? ", " : "", c->current[k]);
+        nh_text_add(out, "\n");
+    }
+    for (size_t i = 0; i < c->refused; i++) nh_text_addf(out, "  not used, %s\n", c->refusal[i]);
+    if (c->partial) nh_text_add(out, "  the budget ended before every method had all its runs; --budget allows more\n");
+    if (verbose) nh_text_add(out, "\nAll runs (* nothing is both faster and more accurate)\n");
+    for (size_t i = 0; i < c->count && verbose; i++) put_run(c, &c->item[i], out);
+}
+
+/* ---- JSON ---- */
+
+static void put_item(const nh_comparison *c, const nh_measured *m, nh_json *list)
+{
+    nh_json *item = nh_json_add_object(list);
+    nh_json_put_text(item, "method", m->method);
+    nh_json_put_text(item, "formulation", m->formulation);
+    nh_json_put_number(item, "tolerance", m->tolerance);
+    nh_json_put_number(item, "step", m->step);
+    nh_json_put_number(item, "error", m->error);
+    nh_json_put_number(item, "drift", m->worst_drift);
+    nh_json *drifts = nh_json_put_object(item, "drifts");
+    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++) nh_json_put_number(drifts, c->current[k], m->drift[k]);
+    nh_json_put_number(item, "seconds", m->seconds);
+    nh_json_put_number(item, "evaluations", (double)m->evaluations);
+    nh_json_put_text(item, "status", nh_measured_status_name(m->status));
+    nh_json_put_bool(item, "front", m->front);
+    nh_json_put_text(item, "note", m->note ? m->note : "");
+}
+
+char *nh_comparison_json(const nh_comparison *c)
+{
+    nh_json *root = nh_json_object();
+    nh_json_put_number(root, "schema", 1);
+    nh_json_put_text(root, "version", NH_VERSION);
+    nh_json_put_text(root, "system", c->question->system->name);
+    nh_json_put_number(root, "begin", c->begin);
+    nh_json_put_number(root, "end", c->end);
+    nh_json *reference = nh_json_put_object(root, "reference");
+    nh_json_put_text(reference, "method", c->reference);
+    nh_json_put_text(reference, "second", c->second);
+    nh_json_put_number(reference, "agreement", c->agreement);
+    nh_json *motion = nh_json_put_array(root, "motion");
+    for (size_t i = 0; i < c->count; i++) put_item(c, &c->item[i], motion);
+    nh_json *refused = nh_json_put_array(root, "refused");
+    for (size_t i = 0; i < c->refused; i++) nh_json_add_text(refused, c->refusal[i]);
+    nh_json_put_bool(root, "partial", c->partial);
+    nh_json_put_array(root, "stress");
+    nh_json_put_array(root, "warnings");
+    return nh_json_finish(root);
+}

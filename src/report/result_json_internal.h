@@ -1,0 +1,12 @@
+/* What the files of the JSON of a result share. */
+#ifndef NH_RESULT_JSON_INTERNAL_H
+#define NH_RESULT_JSON_INTERNAL_H
+
+#include "base/json.h"
+#include "report/result_json.h"
+
+void nh_result_json_validation(const nh_result *result, nh_json *to); /* the motion, and what stayed constant on it */
+void nh_result_json_stages(const nh_result *result, nh_json *to);     /* what was tried */
+void nh_result_json_run(const nh_result *result, nh_json *to);        /* command, files, libraries, machine */
+
+#endif

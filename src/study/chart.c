@@ -1,0 +1,325 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "study/chart_internal.h"
+
+enum { most_formulations = 3, most_candidates = 64, levels = 5, most_repeats = 7 };
+static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+static const double reference_tolerance = 1e-14, second_tolerance = 1e-13;
+static const double step_ratio = 4, fewest_steps = 32; /* of fixed steps, from level to level */
+static const double enough_seconds = 3e-3;             /* repetitions stop after this time */
+static const double trusted = 1e-4;                    /* worst agreement of a reference that is looked for no further */
+static const double far_off = 1e-2, far_from_tolerance = 1e4, far_off_fixed = 0.1; /* errors that nobody asked for */
+
+typedef struct {
+    const nh_method *method; /* NULL: multipliers by IDA */
+    size_t formulation;
+    bool projected;
+    double last;             /* seconds of its last run with all repetitions */
+    bool given_up;
+} candidate;
+
+typedef struct {
+    nh_comparison *out;
+    const nh_model *model;
+    nh_model *other;
+    nh_state initial;
+    nh_yardstick yard;
+    size_t formulations, candidates;
+    nh_formulation formulation[most_formulations];
+    candidate candidate[most_candidates];
+    nh_measured *grid; /* candidates x levels; method NULL: not run */
+    double begun, budget, deadline, absolute;
+    bool project;
+} comparison;
+
+const char *nh_measured_status_name(nh_measured_status status)
+{
+    static const char *const names[] = {"right", "warned", "caught", "failed", "timeout", "wrong"};
+    return names[status];
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool late(void *context) { return now() > ((comparison *)context)->deadline; }
+
+/* ---- one motion ---- */
+
+static nh_motion *integrate(comparison *c, const candidate *k, double tolerance, double step, nh_error *error)
+{
+    nh_formulation *f = &c->formulation[k->formulation];
+    nh_flow_options how = {.rtol = tolerance, .step = step, .scale = f->scale, .max_steps = 1e8, .cancelled = late, .cancel_context = c};
+    const double *times = c->yard.times;
+    if (!k->method) {
+        nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
+        nh_chetaev_motion *full = nh_chetaev(&problem, f->z0, NH_CHART_OUTPUTS, times, &how, error);
+        nh_motion *motion = full ? full->motion : NULL;
+        if (full) full->motion = NULL;
+        nh_chetaev_motion_free(full);
+        return motion;
+    }
+    if (k->method->family == NH_METHOD_MIDPOINT)
+        return nh_midpoint(f->model, (nh_midpoint_rule)k->method->kind, k->method->composed, f->z0, NH_CHART_OUTPUTS, times, &how, error);
+    nh_projection *p = k->projected ? nh_projection_create(f->model, c->yard.currents, c->yard.current, times[0], f->z0) : NULL;
+    if (p) how.after = nh_projection_apply;
+    how.after_context = p;
+    nh_motion *motion = nh_method_flow(k->method, &f->problem, f->z0, NH_CHART_OUTPUTS, times, &how, error);
+    if (motion && p) motion->evaluations += nh_projection_evaluations(p);
+    nh_projection_free(p);
+    return motion;
+}
+
+/* Does the chart end on the way?  Most integrators step over that without a word, CVODE watches the pivot. */
+static bool breaks_down(nh_formulation *f, const nh_motion *motion)
+{
+    bool any = motion->guard_hit >= 0;
+    if (f->model && !any) nh_free(nh_steep_points(f->dynamics, motion, &any));
+    return any || f->breaks;
+}
+
+static nh_measured_status status_of(const nh_measured *m, bool complete, bool cancelled, bool guarded)
+{
+    if (!complete) return guarded ? NH_CAUGHT : cancelled ? NH_TIMEOUT : NH_FAILED;
+    bool wrong = isnan(m->tolerance) ? !(m->error <= far_off_fixed) : !(m->error <= fmax(far_off, far_from_tolerance * m->tolerance));
+    if (guarded) return wrong ? NH_CAUGHT : NH_WARNED;
+    return wrong ? NH_WRONG : NH_RIGHT;
+}
+
+static void judge(comparison *c, const candidate *k, nh_motion *motion, nh_measured *m)
+{
+    nh_formulation *f = &c->formulation[k->formulation];
+    size_t n = c->yard.currents;
+    double *states = nh_alloc_array(NH_CHART_OUTPUTS * 2 * c->model->m, sizeof *states);
+    m->drift = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *m->drift);
+    m->evaluations = motion->evaluations;
+    bool good = nh_formulation_states(f, motion, states);
+    if (motion->complete && good) {
+        m->error = nh_yardstick_error(&c->yard, motion->count, states);
+        nh_yardstick_drifts(&c->yard, motion->count, states, m->drift);
+        m->worst_drift = n ? 0 : NAN;
+        for (size_t i = 0; i < n; i++) m->worst_drift = fmax(m->worst_drift, m->drift[i]);
+    }
+    bool steep = breaks_down(f, motion);
+    m->status = status_of(m, motion->complete && good, late(c) || now() > c->deadline, steep);
+    m->note = nh_arena_strdup(c->out->arena, steep && !motion->note[0] ? "the chart breaks down on the way" : motion->note);
+    nh_free(states);
+}
+
+/* The least time of some repetitions; everything else from the first. */
+static void measure(comparison *c, candidate *k, double tolerance, double step, nh_measured *m)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    double begin = now(), left = c->begun + c->budget - begin;
+    c->deadline = begin + fmax(left / 4, 0.01);
+    *m = (nh_measured){.method = !k->method ? "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
+                       .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
+                       .step = step, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
+    for (int i = 0; i < most_repeats && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && now() - begin < enough_seconds)); i++) {
+        nh_motion *motion = integrate(c, k, tolerance, step, &error);
+        if (motion && i == 0) judge(c, k, motion, m);
+        if (motion) m->seconds = fmin(m->seconds, motion->seconds);
+        nh_motion_free(motion);
+    }
+    if (!isfinite(m->seconds)) {
+        m->seconds = NAN;
+        m->note = nh_arena_strdup(c->out->arena, error.what);
+    }
+    k->last = now() - begin;
+    k->given_up = m->status == NH_TIMEOUT; /* a smaller step or tolerance may still succeed after a failure */
+}
+
+/* ---- the reference ---- */
+
+static bool states_of(comparison *c, size_t formulation, const char *method, double tolerance, double *states)
+{
+    candidate k = {.method = nh_method_find(method), .formulation = formulation};
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    c->deadline = now() + c->budget / 4;
+    nh_motion *motion = integrate(c, &k, tolerance, 0, &ignored);
+    bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) && nh_formulation_states(&c->formulation[formulation], motion, states);
+    nh_motion_free(motion);
+    return good;
+}
+
+/* In the chart; in all coordinates where the chart breaks down or the two methods disagree. */
+static bool find_reference(comparison *c, nh_error *error)
+{
+    static const char *const first = "GSL rk8pd", *const second = "CVODE Adams";
+    size_t size = NH_CHART_OUTPUTS * 2 * c->model->m;
+    double *states = nh_alloc_array(size, sizeof *states), *other = nh_alloc_array(size, sizeof *other);
+    c->out->agreement = INFINITY;
+    for (size_t f = 0; f < c->formulations && !(c->out->agreement < trusted); f++) {
+        if (!states_of(c, f, first, reference_tolerance, states) || !states_of(c, f, second, second_tolerance, other)) continue;
+        double *before = c->yard.state;
+        c->yard.state = states;
+        nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
+        double agreement = nh_yardstick_error(&c->yard, NH_CHART_OUTPUTS, other);
+        c->yard.state = before;
+        if (!(agreement < c->out->agreement)) continue;
+        memcpy(c->yard.state, states, size * sizeof *states);
+        c->out->agreement = agreement;
+        c->out->reference = nh_arena_printf(c->out->arena, "%s at %.0e in %s", first, reference_tolerance, c->formulation[f].name);
+        c->out->second = nh_arena_printf(c->out->arena, "%s at %.0e", second, second_tolerance);
+    }
+    nh_free(states);
+    nh_free(other);
+    if (isfinite(c->out->agreement)) {
+        nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
+        return true;
+    }
+    nh_fail(error, NH_NUMERIC, "", "no reference could be computed: the motion does not reach t = %g by two methods", c->out->end);
+    return nh_error_hint(error, "choose an earlier --until, another --initial or another --chart");
+}
+
+/* ---- all methods in all formulations ---- */
+
+static void add(comparison *c, const nh_method *method, size_t formulation, bool projected)
+{
+    if (c->candidates < most_candidates) c->candidate[c->candidates++] = (candidate){.method = method, .formulation = formulation, .projected = projected};
+}
+
+static void refuse(nh_comparison *out, const char *method, const char *why)
+{
+    out->refusal[out->refused++] = nh_arena_printf(out->arena, "%s: %s", method, why);
+}
+
+static void list_candidates(comparison *c)
+{
+    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF"}; /* in the other formulations */
+    c->out->refusal = nh_arena_alloc(c->out->arena, (nh_method_count() + 1) * sizeof *c->out->refusal);
+    for (size_t i = 0; i < nh_method_count(); i++) {
+        const nh_method *m = nh_method_at(i);
+        const char *why = m->fixed ? nh_midpoint_refused(c->model, (nh_midpoint_rule)m->kind) : NULL;
+        if (why) refuse(c->out, m->name, why);
+        else add(c, m, 0, false);
+    }
+    if (!c->yard.currents) refuse(c->out, "projection", "no current of this system is known");
+    else if (c->model->chart->implicit) refuse(c->out, "projection", "the constraints are solved by Newton's method inside the equations of motion");
+    else add(c, nh_method_find("GSL rk8pd"), 0, true);
+    for (size_t f = 1; f < c->formulations; f++)
+        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) add(c, nh_method_find(elsewhere[i]), f, false);
+    add(c, NULL, c->formulations - 1, false);
+}
+
+/* Level by level, so that a short budget still gives every method its loose runs. */
+static void measure_all(comparison *c)
+{
+    double span = fabs(c->out->end - c->out->begin);
+    c->grid = nh_arena_alloc(c->out->arena, c->candidates * levels * sizeof *c->grid);
+    for (size_t level = 0; level < levels; level++)
+        for (size_t i = 0; i < c->candidates; i++) {
+            candidate *k = &c->candidate[i];
+            bool fixed = k->method && k->method->fixed;
+            double left = c->begun + c->budget - now();
+            if (k->given_up) continue;
+            if (k->last * step_ratio > left / 2 || left <= 0) {
+                c->out->partial = k->given_up = true;
+                continue;
+            }
+            double step = fixed ? span / (fewest_steps * pow(step_ratio, (double)level)) : NAN;
+            measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
+        }
+}
+
+static void collect(comparison *c)
+{
+    nh_comparison *out = c->out;
+    out->item = nh_arena_alloc(out->arena, (c->candidates * levels + 1) * sizeof *out->item);
+    for (size_t i = 0; i < c->candidates * levels; i++)
+        if (c->grid[i].method) out->item[out->count++] = c->grid[i];
+    for (size_t i = 0; i < out->count; i++) {
+        nh_measured *m = &out->item[i];
+        m->front = m->status <= NH_WARNED;
+        for (size_t j = 0; j < out->count && m->front; j++) {
+            const nh_measured *o = &out->item[j];
+            double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement); /* smaller ones cannot be told apart */
+            if (o->status <= NH_WARNED && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
+        }
+    }
+}
+
+static bool open_formulations(comparison *c, nh_error *error)
+{
+    const nh_simulation *s = c->out->question;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    double absolute = c->absolute;
+    if (c->model->chart->quasi) c->other = nh_model_create(s->system, nh_chart_create(s->system, NH_CHART_COORDINATES, 1, &ignored), &ignored);
+    if (!nh_formulation_open(&c->formulation[c->formulations++], s->model, &c->initial, c->project, absolute, c->out->arena, error)) return false;
+    if (c->other) {
+        if (nh_formulation_open(&c->formulation[c->formulations], c->other, &c->initial, c->project, absolute, c->out->arena, &ignored)) c->formulations++;
+        else nh_formulation_close(&c->formulation[c->formulations]);
+    }
+    return nh_formulation_open_all(&c->formulation[c->formulations++], &c->formulation[0], c->initial.t, c->out->arena, error);
+}
+
+/* One motion with the guard in each chart. */
+static void watch_charts(comparison *c)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    candidate k = {.method = nh_method_find("CVODE Adams")};
+    for (k.formulation = 0; k.formulation < c->formulations; k.formulation++) {
+        nh_formulation *f = &c->formulation[k.formulation];
+        if (!f->problem.guards) continue;
+        c->deadline = now() + c->budget / 10;
+        nh_motion *motion = integrate(c, &k, tolerances[2], 0, &ignored);
+        f->breaks = motion && breaks_down(f, motion);
+        nh_motion_free(motion);
+    }
+}
+
+static bool compare(comparison *c, nh_error *error)
+{
+    nh_comparison *out = c->out;
+    c->model = out->question->model;
+    c->yard.model = c->model;
+    c->yard.state = nh_arena_alloc(out->arena, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *c->yard.state);
+    out->begin = c->initial.t;
+    for (size_t i = 0; i < NH_CHART_OUTPUTS; i++)
+        c->yard.times[i] = i + 1 == NH_CHART_OUTPUTS ? out->end : out->begin + (out->end - out->begin) * (double)i / (NH_CHART_OUTPUTS - 1);
+    if (!(fabs(out->end - out->begin) > 0)) return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
+    nh_yardstick_currents(&c->yard, out->arena);
+    out->currents = c->yard.currents;
+    out->current = c->yard.name;
+    if (!open_formulations(c, error)) return false;
+    watch_charts(c);
+    if (!find_reference(c, error)) return false;
+    list_candidates(c);
+    measure_all(c);
+    collect(c);
+    return true;
+}
+
+nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_error *error)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
+    comparison c = {.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .project = request->project};
+    out->arena = arena;
+    out->question = nh_arena_alloc(arena, sizeof *out->question);
+    out->question->arena = nh_arena_create();
+    bool good = nh_simulate_read(out->question, request, true, &c.initial, &out->end, error) && compare(&c, error);
+    for (size_t f = 0; f < c.formulations; f++) nh_formulation_close(&c.formulation[f]);
+    nh_yardstick_close(&c.yard);
+    nh_model_free(c.other);
+    if (good) return out;
+    nh_comparison_free(out);
+    return NULL;
+}
+
+void nh_comparison_free(nh_comparison *c)
+{
+    if (!c) return;
+    nh_simulation_free(c->question);
+    nh_arena_free(c->arena);
+}

@@ -1,0 +1,46 @@
+/* chart: speed against accuracy.  One motion of one system by every integrator in every formulation, at several tolerances or steps, measured
+ * now on this machine: error against a reference, drift of every known current, time, evaluations.
+ *
+ * The reference is a Runge-Kutta motion of order 8 at the smallest tolerance; a second method at a tight tolerance says how far it can be
+ * trusted.  Errors are the largest over output times, coordinates and velocities, relative to the largest value of each along the motion. */
+#ifndef NH_STUDY_CHART_H
+#define NH_STUDY_CHART_H
+
+#include "study/simulate.h"
+
+typedef enum { NH_RIGHT, NH_WARNED, NH_CAUGHT, NH_FAILED, NH_TIMEOUT, NH_WRONG } nh_measured_status;
+
+typedef struct {
+    const char *method, *formulation;
+    double tolerance, step;      /* one of them is NAN */
+    double error, worst_drift;   /* NAN where there is none */
+    double *drift;               /* per current */
+    double seconds;              /* the least of some repetitions, without preparations */
+    long evaluations;
+    nh_measured_status status;
+    bool front;                  /* nothing measured is both faster and more accurate */
+    const char *note;            /* why it failed, or empty */
+} nh_measured;
+
+typedef struct {
+    nh_arena *arena;
+    nh_simulation *question;     /* system, model, analysis */
+    double begin, end;
+    const char *reference, *second;
+    double agreement;            /* of these two: smaller errors mean nothing */
+    size_t currents;
+    const char **current;        /* names */
+    size_t count, capacity;
+    nh_measured *item;           /* by method and formulation, loosest first */
+    size_t refused;
+    const char **refusal;        /* "energy-preserving: it would converge ..." */
+    bool partial;                /* the budget ended it */
+} nh_comparison;
+
+/* `budget`: seconds.  NULL with a message when no motion can be computed at all. */
+nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_error *error);
+void nh_comparison_free(nh_comparison *comparison);
+
+const char *nh_measured_status_name(nh_measured_status status);
+
+#endif

@@ -1,0 +1,51 @@
+/* chart_internal: formulations of one motion, and how a computed motion is judged. */
+#ifndef NH_STUDY_CHART_INTERNAL_H
+#define NH_STUDY_CHART_INTERNAL_H
+
+#include "motion/method.h"
+#include "motion/projection.h"
+#include "study/chart.h"
+
+enum { NH_CHART_OUTPUTS = 9 };
+
+typedef struct {
+    const char *name;
+    nh_model *model;        /* NULL: all coordinates (q, v) */
+    nh_dynamics *dynamics;
+    nh_bordered *bordered;
+    size_t size;
+    double *z0, *scale;
+    nh_flow_problem problem;
+    bool breaks;            /* the chart ends on the way */
+} nh_formulation;
+
+/* What every run is compared with: (q, v) at the output times, scales, and the currents as functions of (t, q, v). */
+typedef struct {
+    const nh_model *model;
+    double times[NH_CHART_OUTPUTS], *state, *scale; /* outputs x 2m; 2m */
+    size_t currents;
+    const char **name;
+    nh_ex *current;          /* in the model's chart */
+    nh_tape *tape;           /* currents, then d current_k / d y_j, over (t, q, v) */
+    double *current_scale, *current_start;
+} nh_yardstick;
+
+/* In a model's chart.  False when the initial state is refused. */
+bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute, nh_arena *arena, nh_error *error);
+/* In all coordinates, from the initial state of a formulation in a chart. */
+bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t, nh_arena *arena, nh_error *error);
+void nh_formulation_close(nh_formulation *f);
+
+/* (q, v) of a motion of this formulation at its outputs into y (count x 2m); false where they cannot be computed. */
+bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y);
+
+/* Known currents of the system file that are conserved, and the energy if it is. */
+void nh_yardstick_currents(nh_yardstick *y, nh_arena *arena);
+/* After the reference states are there. */
+void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least);
+void nh_yardstick_close(nh_yardstick *y);
+/* Largest error over the first `count` outputs, and the drifts (currents values). */
+double nh_yardstick_error(const nh_yardstick *y, size_t count, const double *states);
+void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *states, double *drift);
+
+#endif

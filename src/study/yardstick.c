@@ -1,0 +1,218 @@
+/* yardstick: what a computed motion is compared with. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "expr/diff.h"
+#include "study/chart_internal.h"
+
+static const double conserved = 1e-9; /* relative rate at the probes below which a known current is taken for conserved with these parameters */
+
+/* ---- formulations ---- */
+
+static void sized(nh_formulation *f, size_t m, double absolute, nh_arena *arena)
+{
+    f->z0 = nh_arena_alloc(arena, 2 * m * sizeof *f->z0);
+    f->scale = nh_arena_alloc(arena, 2 * m * sizeof *f->scale);
+    for (size_t i = 0; i < 2 * m; i++) f->scale[i] = absolute;
+}
+
+bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute, nh_arena *arena, nh_error *error)
+{
+    *f = (nh_formulation){.name = nh_arena_strdup(arena, model->chart->name), .model = model, .size = model->m + model->n};
+    sized(f, model->m, absolute, arena);
+    f->dynamics = nh_dynamics_create(model);
+    f->problem = nh_dynamics_problem(f->dynamics);
+    return nh_dynamics_start(f->dynamics, initial, project, f->z0, error);
+}
+
+bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t, nh_arena *arena, nh_error *error)
+{
+    const nh_model *o = chart->model;
+    *f = (nh_formulation){.name = "all coordinates", .size = 2 * o->m, .bordered = nh_bordered_create(o)};
+    f->problem = nh_bordered_flow(f->bordered);
+    sized(f, o->m, chart->scale[0], arena);
+    nh_motion start = {.count = 1, .size = chart->size, .time = &t, .state = chart->z0};
+    return nh_formulation_states(chart, &start, f->z0) || nh_fail(error, NH_NUMERIC, "", "the velocities cannot be found at the initial state");
+}
+
+void nh_formulation_close(nh_formulation *f)
+{
+    nh_dynamics_free(f->dynamics);
+    nh_bordered_free(f->bordered);
+}
+
+bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y)
+{
+    if (!f->model) {
+        size_t m2 = f->size; /* multipliers may follow */
+        for (size_t i = 0; i < motion->count; i++) memcpy(y + i * m2, motion->state + i * motion->size, m2 * sizeof *y);
+        return true;
+    }
+    size_t m = f->model->m;
+    double *v = nh_alloc_array(motion->count * m + 1, sizeof *v);
+    bool good = nh_along(f->dynamics, motion, m, f->model->rho, v);
+    for (size_t i = 0; i < motion->count; i++) {
+        memcpy(y + 2 * i * m, motion->state + i * motion->size, m * sizeof *y);
+        memcpy(y + (2 * i + 1) * m, v + i * m, m * sizeof *y);
+    }
+    nh_free(v);
+    return good;
+}
+
+/* ---- currents ---- */
+
+static bool is_conserved(const nh_model *o, nh_ex phi)
+{
+    nh_ex e[2] = {nh_model_gamma(o, phi), phi};
+    double value[2];
+    nh_tape *tape = nh_model_tape(o, 2, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    bool good = o->chart->probes > 0;
+    for (size_t p = 0; p < o->chart->probes && good; p++) {
+        nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, value);
+        good = fabs(value[0]) <= conserved * (1 + fabs(value[1]));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return good;
+}
+
+/* The chart's velocities, implicit ones too, replaced by those of the coordinates. */
+static bool to_coordinates(const nh_model *o, size_t n, const nh_ex *e, nh_ex *out)
+{
+    const nh_chart *c = o->chart;
+    nh_ex *from = nh_alloc_array(o->n + c->implicit + 1, sizeof *from), *to = nh_alloc_array(o->n + c->implicit + 1, sizeof *to);
+    bool good = !c->quasi || nh_chart_inverse(c, to);
+    for (size_t i = 0; i < o->n; i++) {
+        from[i] = c->w[i];
+        if (!c->quasi) to[i] = c->w[i];
+    }
+    for (size_t a = 0; a < c->implicit; a++) {
+        from[o->n + a] = c->u[a];
+        to[o->n + a] = o->system->coordinate[c->dependent[a]].v;
+    }
+    for (size_t k = 0; k < n && good; k++) out[k] = nh_substitute(o->dag, e[k], o->n + c->implicit, from, to);
+    nh_free(to);
+    nh_free(from);
+    return good;
+}
+
+static void compile(nh_yardstick *y, const nh_ex *e)
+{
+    const nh_model *o = y->model;
+    size_t m = o->m, n = y->currents;
+    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(n * (1 + 2 * m) + 1, sizeof *out);
+    in[0] = o->system->t;
+    for (size_t s = 0; s < m; s++) {
+        in[1 + s] = o->system->coordinate[s].q;
+        in[1 + m + s] = o->system->coordinate[s].v;
+    }
+    for (size_t k = 0; k < n; k++) {
+        out[k] = e[k];
+        for (size_t j = 0; j < 2 * m; j++) out[n + k * 2 * m + j] = nh_diff(o->dag, e[k], in[1 + j]);
+    }
+    y->tape = nh_tape_create(o->dag, 1 + 2 * m, in, n * (1 + 2 * m), out, o->system->parameters, o->parameter, o->parameter_value);
+    nh_free(in);
+    nh_free(out);
+}
+
+/* Is b a multiple of a at the probes? */
+static bool same_current(const nh_model *o, nh_ex a, nh_ex b)
+{
+    nh_ex e[2] = {a, b};
+    double value[2], ratio = NAN;
+    nh_tape *tape = nh_model_tape(o, 2, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    bool same = true;
+    for (size_t p = 0; p < o->chart->probes && same; p++) {
+        nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, value);
+        if (p == 0) ratio = value[1] / value[0];
+        same = fabs(value[1] - ratio * value[0]) <= conserved * (1 + fabs(value[1]));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return same;
+}
+
+void nh_yardstick_currents(nh_yardstick *y, nh_arena *arena)
+{
+    const nh_model *o = y->model;
+    const nh_system *s = o->system;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    y->current = nh_arena_alloc(arena, (s->currents + 1) * sizeof *y->current);
+    y->name = nh_arena_alloc(arena, (s->currents + 1) * sizeof *y->name);
+    nh_ex *e = nh_alloc_array(s->currents + 1, sizeof *e);
+    for (size_t k = 0; k <= s->currents; k++) {
+        nh_ex phi = o->E;
+        if (k && !nh_analysis_to_chart(o, s->current[k - 1].value, &phi, &ignored)) continue;
+        if (k && y->currents && y->current[0] == o->E && same_current(o, o->E, phi)) continue;
+        if (!is_conserved(o, phi) || !to_coordinates(o, 1, &phi, &e[y->currents])) continue;
+        y->name[y->currents] = k ? s->current[k - 1].name : "E";
+        y->current[y->currents++] = phi;
+    }
+    compile(y, e);
+    nh_free(e);
+}
+
+/* The size of a current is that of what it is made of: |Phi| and |dPhi/dy_j y_j|. */
+void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
+{
+    size_t m2 = 2 * y->model->m, n = y->currents;
+    double *in = nh_alloc_array(1 + m2, sizeof *in), *out = nh_alloc_array(n * (1 + m2) + 1, sizeof *out);
+    nh_tape_work *work = nh_tape_work_create(y->tape);
+    y->scale = nh_arena_alloc(arena, m2 * sizeof *y->scale);
+    y->current_scale = nh_arena_alloc(arena, (n + 1) * sizeof *y->current_scale);
+    y->current_start = nh_arena_alloc(arena, (n + 1) * sizeof *y->current_start);
+    for (size_t j = 0; j < m2; j++) y->scale[j] = least;
+    for (size_t i = 0; i < NH_CHART_OUTPUTS; i++) {
+        const double *at = y->state + i * m2;
+        in[0] = y->times[i];
+        memcpy(in + 1, at, m2 * sizeof *in);
+        nh_tape_eval(y->tape, work, in, out);
+        for (size_t j = 0; j < m2; j++) y->scale[j] = fmax(y->scale[j], fabs(at[j]));
+        for (size_t k = 0; k < n; k++) {
+            double size = fabs(out[k]);
+            for (size_t j = 0; j < m2; j++) size = fmax(size, fabs(out[n + k * m2 + j] * at[j]));
+            if (isfinite(size)) y->current_scale[k] = fmax(y->current_scale[k], size);
+            if (i == 0) y->current_start[k] = out[k];
+        }
+    }
+    nh_tape_work_free(work);
+    nh_free(in);
+    nh_free(out);
+}
+
+void nh_yardstick_close(nh_yardstick *y) { nh_tape_free(y->tape); }
+
+double nh_yardstick_error(const nh_yardstick *y, size_t count, const double *states)
+{
+    size_t m2 = 2 * y->model->m;
+    double worst = 0;
+    for (size_t i = 0; i < count * m2; i++) {
+        double e = fabs(states[i] - y->state[i]) / y->scale[i % m2];
+        if (!(e <= worst)) worst = isfinite(e) ? e : INFINITY;
+    }
+    return worst;
+}
+
+void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *states, double *drift)
+{
+    size_t m2 = 2 * y->model->m, n = y->currents;
+    double *in = nh_alloc_array(1 + m2, sizeof *in), *out = nh_alloc_array(n * (1 + m2) + 1, sizeof *out);
+    nh_tape_work *work = nh_tape_work_create(y->tape);
+    for (size_t k = 0; k < n; k++) drift[k] = 0;
+    for (size_t i = 0; i < count; i++) {
+        in[0] = y->times[i];
+        memcpy(in + 1, states + i * m2, m2 * sizeof *in);
+        nh_tape_eval(y->tape, work, in, out);
+        for (size_t k = 0; k < n; k++) {
+            double d = fabs(out[k] - y->current_start[k]) / fmax(y->current_scale[k], DBL_MIN);
+            if (!(d <= drift[k])) drift[k] = isfinite(d) ? d : INFINITY;
+        }
+    }
+    nh_tape_work_free(work);
+    nh_free(in);
+    nh_free(out);
+}

@@ -1,0 +1,133 @@
+/* chart: errors, drifts and statuses of the methods against what is known of them; the text, JSON and drawing of it. */
+#include <cjson/cJSON.h>
+#include <stdio.h>
+
+#include "mechanics.h"
+#include "report/chart.h"
+
+static nh_comparison *compare(const char *path, const char *initial, double until, double budget)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = path, .initial = initial, .until_given = true};
+    nh_options_default(&q.options);
+    q.options.until = until;
+    nh_comparison *c = nh_compare(&q, budget, &error);
+    must(c != NULL, &error, path);
+    return c;
+}
+
+static const nh_measured *find(const nh_comparison *c, const char *method, const char *formulation, double tolerance)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        const nh_measured *m = &c->item[i];
+        if (!strcmp(m->method, method) && strstr(m->formulation, formulation) && m->tolerance == tolerance) return m;
+    }
+    return NULL;
+}
+
+/* With error control the error follows the tolerance; the reference is the closed form's equal. */
+Test(chart, errors_follow_the_tolerance)
+{
+    nh_comparison *c = compare("systems/sleigh.yaml", "omega=2", 5, 20);
+    cr_expect(c->agreement < 1e-10, "%g", c->agreement);
+    cr_expect_geq(c->currents, 2);
+    for (size_t i = 0; i < c->count; i++) {
+        const nh_measured *m = &c->item[i];
+        if (m->status != NH_RIGHT || isnan(m->tolerance)) continue;
+        cr_expect(m->error < 1e4 * m->tolerance + c->agreement && m->worst_drift < 1e4 * m->tolerance, "%s in %s at %g: %g, %g", m->method, m->formulation, m->tolerance,
+                  m->error, m->worst_drift);
+        cr_expect(m->seconds > 0 && m->evaluations > 0);
+    }
+    const nh_measured *loose = find(c, "GSL rkf45", "quasi", 1e-6), *tight = find(c, "GSL rkf45", "quasi", 1e-10);
+    cr_assert(loose && tight);
+    cr_expect(tight->error < loose->error / 100 && tight->evaluations > loose->evaluations);
+    nh_comparison_free(c);
+}
+
+/* The heading passes pi/2, where the chart (phi', x') ends: never called right. */
+Test(chart, a_chart_that_breaks_down_is_not_called_right)
+{
+    nh_comparison *c = compare("systems/sleigh.yaml", "omega=2", 5, 20);
+    size_t seen = 0;
+    for (size_t i = 0; i < c->count; i++)
+        if (strstr(c->item[i].formulation, "coordinate velocities")) {
+            seen++;
+            cr_expect(c->item[i].status != NH_RIGHT, "%s at %g: %s", c->item[i].method, c->item[i].tolerance, nh_measured_status_name(c->item[i].status));
+        }
+    cr_expect_geq(seen, 5);
+    nh_comparison_free(c);
+}
+
+Test(chart, projection_has_no_drift)
+{
+    nh_comparison *c = compare("systems/contact_oscillator.yaml", NULL, 8, 20);
+    const nh_measured *plain = find(c, "GSL rk8pd", "", 1e-4), *projected = find(c, "GSL rk8pd, projected", "", 1e-4);
+    cr_assert(plain && projected);
+    cr_expect(projected->worst_drift < 1e-12 && plain->worst_drift > 1e-9, "%g, %g", projected->worst_drift, plain->worst_drift);
+    nh_comparison_free(c);
+}
+
+Test(chart, what_would_be_wrong_is_refused)
+{
+    nh_comparison *c = compare("systems/ball_on_turntable.yaml", NULL, 3, 2);
+    bool refused = false;
+    for (size_t i = 0; i < c->refused; i++) refused |= strstr(c->refusal[i], "energy-preserving: it would converge to another motion") != NULL;
+    for (size_t i = 0; i < c->count; i++) cr_expect(!strstr(c->item[i].method, "energy"));
+    cr_expect(refused);
+    nh_comparison_free(c);
+}
+
+/* A budget of nearly nothing still gives a document, which says that it is partial. */
+Test(chart, a_short_budget_is_told)
+{
+    nh_comparison *c = compare("systems/rolling_disk.yaml", NULL, 5, 0.15);
+    cr_expect(c->partial);
+    nh_comparison_free(c);
+}
+
+static void check_document(const nh_comparison *c)
+{
+    char *text = nh_comparison_json(c);
+    cJSON *root = cJSON_Parse(text), *motion = cJSON_GetObjectItem(root, "motion"), *item;
+    cr_assert_not_null(root);
+    cr_expect_eq((size_t)cJSON_GetArraySize(motion), c->count);
+    cJSON_ArrayForEach(item, motion)
+    {
+        cr_expect(cJSON_IsString(cJSON_GetObjectItem(item, "method")) && cJSON_IsString(cJSON_GetObjectItem(item, "formulation")));
+        cr_expect(cJSON_IsNull(cJSON_GetObjectItem(item, "tolerance")) != cJSON_IsNull(cJSON_GetObjectItem(item, "step")));
+        cr_expect(cJSON_IsString(cJSON_GetObjectItem(item, "status")) && cJSON_IsBool(cJSON_GetObjectItem(item, "front")));
+    }
+    cr_expect(cJSON_IsArray(cJSON_GetObjectItem(root, "stress")));
+    cr_expect(!strstr(text, "nan") && !strstr(text, "inf"));
+    cJSON_Delete(root);
+    nh_free(text);
+}
+
+Test(chart, text_json_and_drawing)
+{
+    nh_comparison *c = compare("systems/nonholonomic_particle.yaml", NULL, 4, 3);
+    nh_text text, svg;
+    nh_text_init(&text);
+    nh_text_init(&svg);
+    nh_comparison_text(c, true, &text);
+    nh_comparison_svg(c, &svg);
+    check_document(c);
+    cr_expect(strstr(nh_text_string(&text), "GSL rk8pd") && !strstr(nh_text_string(&text), "nan"), "%s", nh_text_string(&text));
+    cr_expect(strstr(nh_text_string(&svg), "<svg") && strstr(nh_text_string(&svg), "</svg>") && !strstr(nh_text_string(&svg), "nan") && !strstr(nh_text_string(&svg), "inf"));
+    size_t fronts = 0;
+    for (size_t i = 0; i < c->count; i++) fronts += c->item[i].front;
+    cr_expect(fronts >= 1 && fronts < c->count);
+    nh_text_clear(&text);
+    nh_text_clear(&svg);
+    nh_comparison_free(c);
+}
+
+Test(chart, what_cannot_be_computed_is_explained)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
+    nh_options_default(&q.options);
+    q.options.until = 0;
+    cr_expect_null(nh_compare(&q, 1, &error));
+    cr_expect_not_null(strstr(error.what, "ends where it begins"), "%s", error.what);
+}

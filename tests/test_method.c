@@ -1,0 +1,211 @@
+/* Every integrator on motions with a closed form, their orders, what they conserve, and where they refuse. */
+#include <stdio.h>
+
+#include "base/linalg.h"
+#include "mechanics.h"
+#include "motion/method.h"
+#include "motion/projection.h"
+
+static const char *const pendulum =
+    "name: test\ncoordinates: [{name: x, type: angle}, {name: y}]\n"
+    "lagrangian: (1 + sin(y)^2/3)*x'^2/2 + y'^2/2 + cos(x) - y^2*(0.8 + cos(x)/4)\n";
+static const char *const affine =
+    "name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\n"
+    "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2 + z^2)/2\nconstraints: [\"z' = y*x' + 0.4\"]\n";
+static const char *const rolling =
+    "name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\n"
+    "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + 1.7*y^2 + z^2)/2\nconstraints: [\"z' = y*x'\"]\n";
+
+static nh_motion *run_method(const nh_model *o, const nh_method *method, const double *z0, size_t count, const double *times, double tolerance, double step)
+{
+    nh_error error = {0};
+    nh_flow_options how = {.rtol = tolerance, .step = step};
+    nh_dynamics *d = nh_dynamics_create(o);
+    nh_flow_problem problem = nh_dynamics_problem(d);
+    nh_motion *motion = method->fixed ? nh_midpoint(o, (nh_midpoint_rule)method->kind, method->composed, z0, count, times, &how, &error)
+                                      : nh_method_flow(method, &problem, z0, count, times, &how, &error);
+    must(motion != NULL, &error, method->name);
+    cr_assert(motion->complete && motion->count == count, "%s: %s", method->name, motion->note);
+    cr_expect_gt(motion->evaluations, 10);
+    nh_dynamics_free(d);
+    return motion;
+}
+
+/* omega, v, phi of the sleigh: z = omega0 t/k. */
+static double sleigh_error(const nh_model *o, const nh_method *method, double tolerance, double step)
+{
+    enum { COUNT = 6 };
+    double times[COUNT], z0[5] = {0, 0, 0, 2, 0}, worst = 0;
+    for (int i = 0; i < COUNT; i++) times[i] = 0.83 * i;
+    nh_motion *motion = run_method(o, method, z0, COUNT, times, tolerance, step);
+    for (size_t i = 0; i < COUNT; i++) {
+        const double *z = motion->state + 5 * i;
+        double s = times[i];
+        cr_expect_eq(motion->time[i], times[i]);
+        worst = fmax(worst, fabs(z[0] - 4 * atan(tanh(s / 2))));
+        worst = fmax(worst, fmax(fabs(z[3] - 2 / cosh(s)), fabs(z[4] - 4 * tanh(s))));
+    }
+    nh_motion_free(motion);
+    return worst;
+}
+
+Test(method, every_one_with_error_control_meets_the_closed_form)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 0, NULL);
+    for (size_t i = 0; i < nh_method_count(); i++) {
+        const nh_method *m = nh_method_at(i);
+        if (m->fixed) continue;
+        double loose = sleigh_error(x.model, m, 1e-5, 0), tight = sleigh_error(x.model, m, 1e-10, 0);
+        cr_expect(tight < 3e-8 && tight < loose / 50, "%s: %g, %g", m->name, loose, tight);
+        cr_expect_eq(nh_method_find(m->name), m);
+    }
+    cr_expect_null(nh_method_find("Euler"));
+    mechanics_clear(&x);
+}
+
+Test(method, fixed_steps_have_their_order)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 0, NULL);
+    for (size_t i = 0; i < nh_method_count(); i++) {
+        const nh_method *m = nh_method_at(i);
+        if (!m->fixed) continue;
+        double coarse = sleigh_error(x.model, m, 1e-8, 0.083), fine = sleigh_error(x.model, m, 1e-8, 0.0415), order = log2(coarse / fine), want = m->composed ? 4 : 2;
+        cr_expect(fabs(order - want) < 0.3, "%s: errors %g, %g, order %.2f", m->name, coarse, fine, order);
+    }
+    mechanics_clear(&x);
+}
+
+/* Forward and back along the same steps: the implicit methods are symmetric. */
+Test(method, symmetric_steps_come_back)
+{
+    mechanics x = mechanics_of_text(rolling, NH_CHART_AUTO);
+    const double start[5] = {0.4, -0.3, 0.2, 0.7, 0.5};
+    double there[] = {0, 3.1}, back[] = {3.1, 0};
+    for (size_t i = 0; i < nh_method_count(); i++) {
+        const nh_method *m = nh_method_at(i);
+        if (!m->fixed) continue;
+        nh_motion *a = run_method(x.model, m, start, 2, there, 0, 0.1), *b = run_method(x.model, m, a->state + 5, 2, back, 0, 0.1);
+        for (size_t j = 0; j < 5; j++) cr_expect_float_eq(b->state[5 + j], start[j], 1e-11, "%s, %zu: %g", m->name, j, b->state[5 + j] - start[j]);
+        nh_motion_free(a);
+        nh_motion_free(b);
+    }
+    mechanics_clear(&x);
+}
+
+static double energy_drift(const nh_model *o, const nh_motion *motion)
+{
+    double worst = 0, first = 0, *point = nh_alloc_array(o->width, sizeof *point);
+    for (size_t i = 0; i < motion->count; i++) {
+        point[0] = motion->time[i];
+        memcpy(point + 1, motion->state + i * motion->size, motion->size * sizeof *point);
+        double e = value_at(o, o->E, point);
+        if (i == 0) first = e;
+        worst = fmax(worst, fabs(e - first));
+    }
+    nh_free(point);
+    return worst;
+}
+
+Test(method, energy_is_kept_where_it_is_promised)
+{
+    const char *const texts[] = {pendulum, rolling};
+    for (int k = 0; k < 2; k++) {
+        mechanics x = mechanics_of_text(texts[k], NH_CHART_AUTO);
+        const double start[5] = {0.4, -0.3, 0.2, 0.7, 0.5};
+        double times[] = {0, 10, 20, 40};
+        const nh_method *energy = nh_method_find("energy-preserving"), *plain = nh_method_find("midpoint");
+        nh_motion *a = run_method(x.model, energy, start, 4, times, 0, 0.2), *b = run_method(x.model, plain, start, 4, times, 0, 0.2);
+        cr_expect(energy_drift(x.model, a) < 1e-11, "%g", energy_drift(x.model, a));
+        cr_expect_gt(energy_drift(x.model, b), 1e-6);
+        nh_motion_free(a);
+        nh_motion_free(b);
+        mechanics_clear(&x);
+    }
+}
+
+Test(method, a_wrong_motion_is_refused)
+{
+    nh_error error = {0};
+    mechanics x = mechanics_of_text(affine, NH_CHART_AUTO);
+    const double start[5] = {0.4, -0.3, 0.2, 0.7, 0.5};
+    double times[] = {0, 1};
+    nh_flow_options how = {.rtol = 1e-6, .step = 0.1};
+    cr_expect_not_null(nh_midpoint_refused(x.model, NH_ENERGY));
+    cr_expect_null(nh_midpoint_refused(x.model, NH_LAGRANGE_DALEMBERT));
+    cr_expect_null(nh_midpoint(x.model, NH_ENERGY, false, start, 2, times, &how, &error));
+    cr_expect_not_null(strstr(error.what, "another motion"), "%s", error.what);
+    mechanics_clear(&x);
+}
+
+/* The discrete principle of affine constraints converges to the motion of the reduced equations. */
+Test(method, lagrange_dalembert_of_affine_constraints)
+{
+    mechanics x = mechanics_of_text(affine, NH_CHART_AUTO);
+    const double start[5] = {0.4, -0.3, 0.2, 0.7, 0.5};
+    double times[] = {0, 2.3}, last = 0;
+    nh_motion *exact = run_method(x.model, nh_method_find("GSL rk8pd"), start, 2, times, 1e-12, 0);
+    for (double h = 0.1; h > 0.02; h /= 2) {
+        nh_motion *a = run_method(x.model, nh_method_find("Lagrange-d'Alembert"), start, 2, times, 0, h);
+        double worst = 0;
+        for (size_t j = 0; j < 5; j++) worst = fmax(worst, fabs(a->state[5 + j] - exact->state[5 + j]));
+        if (last > 0) cr_expect(fabs(log2(last / worst) - 2) < 0.2, "%g, %g", last, worst);
+        last = worst;
+        nh_motion_free(a);
+    }
+    nh_motion_free(exact);
+    mechanics_clear(&x);
+}
+
+/* Energy, twice it and a multiple with an angular part: dependent rows do no harm. */
+Test(method, projection_holds_dependent_currents)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 0, NULL);
+    nh_model *o = x.model;
+    nh_error error = {0};
+    nh_ex current[] = {o->E, nh_mul(o->dag, nh_int(o->dag, 2), o->E), formula(o, "v*sin(phi/k) + a*k*omega*cos(phi/k)"), formula(o, "v*cos(phi/k) - a*k*omega*sin(phi/k)")};
+    double z0[5] = {0.3, 0, 0, 2, 0.6}, times[] = {0, 5}, drift[2];
+    for (int with = 0; with < 2; with++) {
+        nh_dynamics *d = nh_dynamics_create(o);
+        nh_projection *p = nh_projection_create(o, 4, current, 0, z0);
+        nh_flow_problem problem = nh_dynamics_problem(d);
+        nh_flow_options how = {.rtol = 1e-5, .after = with ? nh_projection_apply : NULL, .after_context = p};
+        nh_motion *motion = nh_explicit(NH_RKF45, &problem, z0, 2, times, &how, &error);
+        cr_assert(motion && motion->complete);
+        drift[with] = energy_drift(o, motion);
+        if (with) {
+            double at[2], point[6] = {0}, end[6] = {5};
+            memcpy(point + 1, z0, sizeof z0);
+            memcpy(end + 1, motion->state + 5, 5 * sizeof *end);
+            at[0] = value_at(o, current[2], point), at[1] = value_at(o, current[2], end);
+            cr_expect_float_eq(at[0], at[1], 1e-12, "%g", at[1] - at[0]);
+            cr_expect_float_eq(motion->state[5 + 3], 2 / cosh(5.0) , 0.5); /* the same motion */
+            cr_expect_gt(nh_projection_evaluations(p), 5);
+        }
+        nh_motion_free(motion);
+        nh_projection_free(p);
+        nh_dynamics_free(d);
+    }
+    cr_expect(drift[0] > 1e-8 && drift[1] < 1e-12, "%g, %g", drift[0], drift[1]);
+    mechanics_clear(&x);
+}
+
+/* Many output times change the motion of a one-step method only where steps end there. */
+Test(method, outputs_do_not_change_the_motion)
+{
+    enum { COUNT = 201 };
+    mechanics x = mechanics_of_text(pendulum, NH_CHART_AUTO);
+    const double start[4] = {1.1, -0.3, 0.2, 0.7};
+    double times[COUNT], two[] = {0, 20};
+    for (int i = 0; i < COUNT; i++) times[i] = 0.1 * i;
+    two[1] = times[COUNT - 1];
+    const nh_method *m = nh_method_find("GSL rk8pd");
+    nh_motion *many = run_method(x.model, m, start, COUNT, times, 1e-9, 0), *few = run_method(x.model, m, start, 2, two, 1e-9, 0);
+    cr_expect_eq(many->steps, few->steps);
+    for (size_t j = 0; j < 4; j++) cr_expect_float_eq(many->state[(COUNT - 1) * 4 + j], few->state[4 + j], 1e-12);
+    nh_motion *exact = run_method(x.model, m, start, COUNT, times, 1e-13, 0);
+    for (size_t i = 0; i < COUNT * 4; i++) cr_expect_float_eq(many->state[i], exact->state[i], 1e-5);
+    nh_motion_free(many);
+    nh_motion_free(few);
+    nh_motion_free(exact);
+    mechanics_clear(&x);
+}

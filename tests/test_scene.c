@@ -1,0 +1,170 @@
+/* The smallest model for what is watched: the same values as the whole model, and really the smallest. */
+#include <dirent.h>
+#include <stdio.h>
+
+#include "mechanics.h"
+#include "motion/trajectory.h"
+
+static const char *const planar =
+    "name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\n"
+    "lagrangian: (x'^2 + y'^2 + z'^2)/2 - 1.3*(1 - cos(x)) - y^2*(0.7 + x/5)\n";
+
+/* y' appears in the rate of x and cancels only through sin^2 + cos^2 = 1. */
+static const char *const cancelling =
+    "name: test\ncoordinates: [{name: x}, {name: y}]\n"
+    "lagrangian: (x'^2 + y'^2)/2 + (sin(x)^2 + cos(x)^2)*y - x^2*(cosh(y)^2 - sinh(y)^2)\n";
+
+static nh_trajectory *motion_of(const nh_model *model, const nh_state *initial, size_t n, const nh_ex *e, bool smallest)
+{
+    enum { COUNT = 7 };
+    double times[COUNT];
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    options.tolerance = 1e-9;
+    options.steps = 20000;
+    for (int i = 0; i < COUNT; i++) times[i] = initial->t + 0.137 * i;
+    nh_trajectory_request q = {.model = model, .initial = initial, .count = COUNT, .times = times, .options = &options, .n = n, .e = e, .smallest = smallest};
+    return nh_trajectory_create(&q, &error);
+}
+
+/* A place and a velocity from one of the chart's probes. */
+static void start_at_probe(const nh_model *o, size_t p, nh_state *out)
+{
+    const double *point = o->chart->probe + p * o->chart->width;
+    out->t = point[0];
+    memcpy(out->q, point + 1, o->m * sizeof *out->q);
+    values_at(o, o->m, o->rho, point, out->v);
+}
+
+static nh_scene *scene_of(const nh_model *o, const char *text)
+{
+    nh_ex e = formula(o, text);
+    return nh_scene_create(o, 1, &e);
+}
+
+static void expect_scene(const nh_model *o, const char *watched, size_t core, size_t quadratures)
+{
+    nh_scene *s = scene_of(o, watched);
+    nh_text words;
+    nh_text_init(&words);
+    nh_scene_words(s, &words);
+    cr_expect(s->core == core && s->quadratures == quadratures && s->kept == core + quadratures, "%s: %s", watched, nh_text_string(&words));
+    cr_expect_leq(s->instructions, s->instructions_of_all);
+    nh_text_clear(&words);
+    nh_scene_free(s);
+}
+
+Test(scene, what_feeds_what)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_AUTO, 0, NULL);
+    expect_scene(x.model, "m/2*v^2 + omega", 2, 0);
+    expect_scene(x.model, "phi", 2, 1);
+    expect_scene(x.model, "phi + 3*x", 2, 2);
+    expect_scene(x.model, "x*y", 2, 3);
+    expect_scene(x.model, "x'", 2, 1); /* v cos(phi) */
+    mechanics_clear(&x);
+    x = mechanics_of_text(planar, NH_CHART_AUTO);
+    expect_scene(x.model, "z'", 0, 1);
+    expect_scene(x.model, "z", 0, 2); /* z' stays constant: nobody reads it but z */
+    expect_scene(x.model, "y'*2.5", 4, 0);
+    mechanics_clear(&x);
+}
+
+Test(scene, what_cancels_is_not_read)
+{
+    mechanics x = mechanics_of_text(cancelling, NH_CHART_AUTO);
+    expect_scene(x.model, "x", 2, 0);
+    expect_scene(x.model, "y", 0, 2);
+    expect_scene(x.model, "y' + 0.3*(sin(x)^2 + cos(x)^2)", 0, 1);
+    mechanics_clear(&x);
+}
+
+/* Quadratures come in an order in which each reads only what stands before it. */
+Test(scene, quadratures_are_in_order)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_AUTO, 0, NULL);
+    nh_scene *s = scene_of(x.model, "x + y");
+    cr_assert_eq(s->kept, 5);
+    cr_expect_str_eq(nh_scene_state_name(s, s->state[2]), "phi", "%s", nh_scene_state_name(s, s->state[2]));
+    nh_scene_free(s);
+    mechanics_clear(&x);
+}
+
+/* Watched in the chart (phi', x'), which ends at cos phi = 0 between two outputs: all coordinates take over. */
+Test(scene, a_chart_that_ends_between_outputs_is_left)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_COORDINATES, 0, NULL);
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    double q[3] = {0}, v[3] = {2, 0, 0}, times[2] = {0, 5};
+    nh_state initial = {.q = q, .v = v};
+    nh_ex e = formula(x.model, "phi'");
+    for (int smallest = 0; smallest < 2; smallest++) {
+        nh_trajectory_request r = {.model = x.model, .initial = &initial, .count = 2, .times = times, .options = &options, .n = 1, .e = &e, .smallest = smallest};
+        nh_trajectory *t = nh_trajectory_create(&r, &error);
+        cr_assert(t && t->motion->complete);
+        cr_expect(strstr(t->formulation, "all coordinates"), "%s", t->formulation);
+        cr_expect_float_eq(t->value[1], 2 / cosh(5.0), 1e-7, "%.12g", t->value[1]);
+        nh_trajectory_free(t);
+    }
+    mechanics_clear(&x);
+}
+
+/* ---- the same values as the whole model, for every system ---- */
+
+static uint64_t state = 88172645463325252u;
+
+static double chance(void)
+{
+    state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+    return (double)(state >> 11) * 0x1p-53;
+}
+
+static nh_ex random_quantity(const nh_model *o)
+{
+    nh_dag *d = o->dag;
+    nh_ex a = o->chart->symbol[1 + (size_t)(chance() * (double)(o->m + o->n))], b = o->rho[(size_t)(chance() * (double)o->m)];
+    return chance() < 0.4 ? a : chance() < 0.5 ? b : nh_add(d, nh_mul(d, a, nh_real(d, 0.31 + chance())), nh_mul(d, b, b));
+}
+
+static size_t compared, smaller;
+
+static void compare_on(const char *path)
+{
+    mechanics x = mechanics_of_file(path, NH_CHART_AUTO, 0, NULL);
+    nh_model *o = x.model;
+    double *at = nh_alloc_array(2 * o->m, sizeof *at);
+    nh_state initial = {.q = at, .v = at + o->m};
+    for (size_t trial = 0; trial < 3 && trial < o->chart->probes; trial++) {
+        nh_ex e = random_quantity(o);
+        start_at_probe(o, trial, &initial);
+        nh_trajectory *all = motion_of(o, &initial, 1, &e, false), *few = motion_of(o, &initial, 1, &e, true);
+        cr_expect_eq(all == NULL, few == NULL, "%s", path);
+        if (all && few && all->motion->complete && few->motion->complete && few->scene) {
+            compared++;
+            smaller += few->scene->kept < few->scene->states;
+            cr_expect_eq(few->motion->size, few->scene->kept);
+            for (size_t i = 0; i < all->motion->count; i++)
+                cr_expect_float_eq(few->value[i], all->value[i], 1e-5 * (1 + fabs(all->value[i])), "%s, output %zu: %.12g, not %.12g", path, i, few->value[i], all->value[i]);
+        }
+        nh_trajectory_free(all);
+        nh_trajectory_free(few);
+    }
+    nh_free(at);
+    mechanics_clear(&x);
+}
+
+Test(scene, the_same_values_for_every_system)
+{
+    DIR *folder = opendir("systems");
+    cr_assert_not_null(folder);
+    for (struct dirent *entry; (entry = readdir(folder));) {
+        char path[400];
+        snprintf(path, sizeof path, "systems/%s", entry->d_name);
+        if (strstr(entry->d_name, ".yaml")) compare_on(path);
+    }
+    closedir(folder);
+    cr_expect(compared > 50 && smaller > 15, "%zu compared, %zu of them smaller", compared, smaller);
+}
