@@ -168,6 +168,32 @@ Test(reduce, given_groups)
     nh_reduction_free(r);
 }
 
+static const char SKATE[] = "name: s\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.7}]\n"
+    "coordinates:\n  - {name: x, type: length}\n  - {name: y, type: length}\n  - {name: h, type: angle}\n"
+    "constraints: [\"x'*sin(h) - y'*cos(h) = 0\"]\nlagrangian: J*h'^2/2 + m*(x'^2 + y'^2)/2\n";
+
+Test(reduce, groups_of_the_system_file)
+{
+    char text[900];
+    nh_error error = {0};
+    snprintf(text, sizeof text, "%ssymmetry:\n  - {x: 1}\n  - {y: 1}\n", SKATE);
+    nh_reduction *r = reduce_text(text, NULL, 1, &error);
+    must(r != NULL, &error, "symmetry");
+    cr_expect_str_eq(r->group->name, "R^2");
+    cr_expect(r->stages > 0 && r->stage[0].agreement < 1e-8);
+    nh_reduction_free(r);
+    snprintf(text, sizeof text, "%ssymmetry:\n  - {x: 1}\n  - {z: 1}\n", SKATE);
+    cr_expect(reduce_text(text, NULL, 1, &error) == NULL);
+    cr_expect(strstr(error.what, "`z` is not a coordinate") && strstr(error.where, ":11:6"), "%s at %s", error.what, error.where);
+    nh_error_clear(&error);
+    snprintf(text, sizeof text, "%ssymmetry:\n  - {x: y'}\n", SKATE);
+    cr_expect(reduce_text(text, NULL, 1, &error) == NULL);
+    nh_error_clear(&error);
+    snprintf(text, sizeof text, "%ssymmetry: [{h: 1}]\n", SKATE);
+    cr_expect(reduce_text(text, NULL, 1, &error) == NULL);
+    cr_expect(strstr(error.what, "does not leave the constraint distribution invariant") != NULL, "%s", error.what);
+}
+
 Test(reduce, velocities_off_the_constraints)
 {
     nh_error error = {0};

@@ -244,8 +244,8 @@ bool nh_reduced_flow_guards(nh_reduced_flow *f, const double *x, double value[2]
 {
     const size_t *size = f->o->guard_size;
     nh_tape_eval(f->guard, f->guard_work, x, f->regular);
-    value[0] = nh_determinant(size[0], f->regular);
-    value[1] = nh_determinant(size[1], f->regular + size[0] * size[0]);
+    value[0] = nh_relative_determinant(size[0], f->regular);
+    value[1] = nh_relative_determinant(size[1], f->regular + size[0] * size[0]);
     return isfinite(value[0]) && isfinite(value[1]);
 }
 

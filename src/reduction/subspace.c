@@ -122,29 +122,15 @@ void nh_column_echelon(size_t d, size_t n, double small, double *c)
         if (fabs(c[i] - round(c[i])) < small) c[i] = round(c[i]);
 }
 
-double nh_determinant(size_t n, const double *a)
+double nh_relative_determinant(size_t n, const double *a)
 {
-    double *b = nh_alloc_array(n * n + 1, sizeof *b), det = 1;
+    double *b = nh_alloc_array(n * n + 1, sizeof *b), det;
     for (size_t j = 0; j < n; j++) {
         double size = 0;
         for (size_t i = 0; i < n; i++) size = hypot(size, a[i + j * n]);
         for (size_t i = 0; i < n; i++) b[i + j * n] = size > 0 ? a[i + j * n] / size : 0;
     }
-    for (size_t k = 0; k < n; k++) {
-        size_t pivot = k;
-        for (size_t i = k + 1; i < n; i++)
-            if (fabs(b[i + k * n]) > fabs(b[pivot + k * n])) pivot = i;
-        for (size_t j = 0; j < n && pivot != k; j++) {
-            double x = b[k + j * n];
-            b[k + j * n] = b[pivot + j * n];
-            b[pivot + j * n] = x;
-        }
-        det *= pivot != k ? -b[k + k * n] : b[k + k * n];
-        for (size_t i = k + 1; i < n && b[k + k * n] != 0; i++) {
-            double factor = b[i + k * n] / b[k + k * n];
-            for (size_t j = k; j < n; j++) b[i + j * n] -= factor * b[k + j * n];
-        }
-    }
+    det = n ? nh_determinant(n, b) : 1;
     nh_free(b);
     return det;
 }
