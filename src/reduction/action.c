@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/linalg.h"
+#include "expr/diff.h"
 #include "expr/normal.h"
 #include "noether/recognise.h"
 #include "reduction/runge.h"
@@ -339,22 +341,49 @@ bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
     return t == 0 || nh_runge(m, field_rate, f, 0, t, tolerance, largest, q);
 }
 
-bool nh_flows_closed(nh_flows *f, size_t generator)
+static bool returns(nh_flows *f, const double *c, double time)
 {
     static const double same = 1e-8, turn = 6.283185307179586;
     const nh_kinetic *k = f->action->kinetic;
-    double *c = nh_alloc_array(f->action->d + k->m + 1, sizeof *c), *q = c + f->action->d;
-    bool closed = false;
-    c[generator] = 1;
+    double *q = nh_alloc_array(k->m, sizeof *q);
     memcpy(q, k->place, k->m * sizeof *q);
-    for (int i = 0; i < 2 && !closed; i++) {
-        closed = nh_flows_move(f, c, turn, q);
-        for (size_t s = 0; s < k->m && closed; s++) {
-            double way = q[s] - k->place[s];
-            if (k->angle[s]) way -= turn * round(way / turn);
-            closed = fabs(way) < same * (1 + fabs(q[s]));
-        }
+    bool closed = nh_flows_move(f, c, time, q);
+    for (size_t s = 0; s < k->m && closed; s++) {
+        double way = q[s] - k->place[s];
+        if (k->angle[s]) way -= turn * round(way / turn);
+        closed = fabs(way) < same * (1 + fabs(q[s]));
     }
-    nh_free(c);
+    nh_free(q);
+    return closed;
+}
+
+/* The slowest rotation among the eigenvalues of the Jacobian at the first place; 0 when there is none. */
+static double frequency(const nh_flows *f, const double *c)
+{
+    const nh_kinetic *k = f->action->kinetic;
+    size_t m = k->m;
+    nh_ex *e = nh_alloc_array(m * m, sizeof *e);
+    double *J = nh_alloc_array(m * m + 2 * m, sizeof *J), *re = J + m * m, *im = re + m, least = 0;
+    for (size_t s = 0; s < m; s++)
+        for (size_t r = 0; r < m; r++) {
+            e[s + r * m] = nh_int(k->dag, 0);
+            for (size_t a = 0; a < f->action->d; a++)
+                if (c[a] != 0) e[s + r * m] = nh_add(k->dag, e[s + r * m], nh_mul(k->dag, nh_real(k->dag, c[a]), nh_diff(k->dag, f->action->generator[a].component[s], k->q[r])));
+        }
+    nh_kinetic_values(k, m * m, e, k->place, J);
+    if (nh_eigen(m, J, re, im, NULL))
+        for (size_t i = 0; i < m; i++)
+            if (fabs(im[i]) > 1e-6 && (least == 0 || fabs(im[i]) < least)) least = fabs(im[i]);
+    nh_free(e);
+    nh_free(J);
+    return least;
+}
+
+bool nh_flows_closed(nh_flows *f, const double *c)
+{
+    static const double turn = 6.283185307179586;
+    double omega = frequency(f, c);
+    bool closed = false;
+    for (int i = 1; i <= 4 && !closed; i++) closed = (i <= 2 && returns(f, c, i * turn)) || (omega > 0 && returns(f, c, i * turn / omega));
     return closed;
 }

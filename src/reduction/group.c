@@ -7,22 +7,22 @@
 
 /* ---- circles ---- */
 
-/* Central generators whose flow closes count as circles, up to what lies in [g,g]. */
+/* Central fields whose flow closes count as circles, up to what lies in [g,g]: generators, and the pieces of the algebra that are lines. */
 static size_t circles(const nh_group *g, const nh_options *options)
 {
     const nh_algebra *c = &g->action.algebra;
     size_t d = c->d, count = 0, rank;
-    double *all = nh_alloc_array(3 * d * d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
+    double *all = nh_alloc_array(4 * d * d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
     nh_flows *flows = nh_flows_create(&g->action);
     for (size_t i = 0; i < d * d; i++) all[i] = i % (d + 1) == 0;
     size_t n1 = nh_algebra_brackets(c, d, all, d, all, options->group, d1);
     for (size_t a = 0; a < d; a++) {
         bool commutes = true;
         for (size_t i = 0; i < d * d; i++) commutes &= c->c[a * d * d + i] == 0;
-        if (!commutes || !nh_flows_closed(flows, a)) continue;
-        for (size_t i = 0; i < d; i++) central[i + count * d] = i == a;
-        count++;
+        if (commutes && nh_flows_closed(flows, all + a * d)) memcpy(central + count++ * d, all + a * d, d * sizeof *central);
     }
+    for (size_t i = 0; i < g->report.pieces; i++)
+        if (g->report.piece[i].kind == NH_R && nh_flows_closed(flows, g->report.piece[i].basis)) memcpy(central + count++ * d, g->report.piece[i].basis, d * sizeof *central);
     nh_project_off(d, count, central, n1, d1);
     rank = nh_span(d, count, central, sqrt(options->group), all);
     nh_flows_free(flows);

@@ -109,7 +109,7 @@ static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh
 
 static void put_numbers(const nh_reduction_stage *s, nh_text *out)
 {
-    const char *with = s->kind == NH_STAGE_SECOND ? "the first stage" : "the full motion";
+    const char *with = s->against_full ? "the full motion" : "the first stage";
     if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
     else nh_text_addf(out, "  not compared with %s", with);
     nh_text_addf(out, "; energy drifts by %.1e", s->energy_drift);

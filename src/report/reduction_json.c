@@ -234,7 +234,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
         if (s->linear_drift >= 0) nh_json_put_number(linear, "drift", s->linear_drift);
         else nh_json_put_null(linear, "drift");
     }
-    if (s->compared) nh_json_put_number(to, s->kind == NH_STAGE_SECOND ? "agreement_with_first" : "agreement_with_full", s->agreement);
+    if (s->compared) nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
     nh_json_put_number(to, "reached", s->reached);
     nh_json_put_number(to, "energy_drift", s->energy_drift);

@@ -39,7 +39,8 @@ typedef struct {
     nh_poincare poincare;
     nh_linear_momenta linear; /* of the shown equations; third and fourth kind */
     double linear_drift;      /* of these currents along the reduced motion; negative: not followed */
-    double agreement;         /* largest difference of a position from the full motion (second kind: from the first stage), relative to 1 + size */
+    bool against_full;        /* compared with the full motion; false: a second stage whose shape moves under the first group, compared with the first */
+    double agreement;         /* largest difference of a position, relative to 1 + size */
     double reached;           /* time up to which */
     double energy_drift;      /* of the reduced motion, relative */
     double momentum_drift;    /* second kind: of the spatial momentum */

@@ -195,7 +195,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const do
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
     nh_reduction_stage *s = &r->stage[r->stages++];
-    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action)};
+    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action), .against_full = true};
     return s;
 }
 
@@ -300,6 +300,19 @@ static bool second_state(const nh_second *t, const double *x, const double *w, d
     return good;
 }
 
+/* The full motion's shape coordinates, where the first group leaves these alone; NULL where it does not. */
+static double *full_shape(const nh_reduction_bench *b, const nh_slice *s)
+{
+    const nh_action *g = s->action;
+    for (size_t a = 0; a < g->d; a++)
+        for (size_t i = 0; i < s->n; i++)
+            if (!nh_is_zero(s->dag, g->generator[a].component[s->shape[i]])) return NULL;
+    double *out = nh_arena_alloc(b->r->arena, (b->reached * s->n + 1) * sizeof *out);
+    for (size_t k = 0; k < b->reached; k++)
+        for (size_t i = 0; i < s->n; i++) out[k * s->n + i] = b->full[k * 2 * s->m + s->shape[i]];
+    return out;
+}
+
 static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_t d, const nh_ex *field, nh_error *error)
 {
     nh_reduction *r = b->r;
@@ -329,8 +342,10 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         s->shown = &pretty->reduced;
         if (t->abelian) s->measure = nh_chaplygin_measure_of(&t->slice, t->Kt, t->U, &r->options);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
+        double *full = full_shape(b, s1);
+        s->against_full = full != NULL;
         good = second_state(t, x, u, z);
-        if (good) nh_reduction_compare(b, s, z, want, n, reached);
+        if (good) nh_reduction_compare(b, s, z, full ? full : want, n, full ? b->reached : reached);
     }
     nh_free(shape);
     nh_free(x);
