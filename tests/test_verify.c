@@ -244,3 +244,21 @@ Test(simulate, what_cannot_be_started_is_explained)
     cr_expect_null(motion("psi=1", 1, 0.5, NH_CHART_QUASI, &error));
     cr_expect_not_null(strstr(error.what, "`psi`"), "%s", error.what);
 }
+
+/* Numbers that are too long for exact rationals: true to a double's digits is all that can be said, and must be said; false stays false. */
+Test(verify, rounded_numbers, .timeout = 60)
+{
+    static const struct { const char *current; bool conserved; } list[] = {
+        {"0.1234567890123456789*m*(v*sin(phi/k) + a*k*omega*cos(phi/k))", true},
+        {"m*(v*sin(phi/k) + 1.0000001234567890123*a*k*omega*cos(phi/k))", false},
+    };
+    for (size_t i = 0; i < 2; i++) {
+        nh_error error = {0};
+        nh_options options = defaults();
+        nh_system *system = nh_system_read(SLEIGH, 0, NULL, &error);
+        nh_verdict_of_one *v = system ? nh_verify_current(system, NH_CHART_AUTO, list[i].current, &options, &error) : NULL;
+        cr_assert_not_null(v, "%s", error.what);
+        cr_expect_eq(v->conserved, list[i].conserved, "%s: %g digits", list[i].current, v->proof.digits);
+        nh_verdict_free(v);
+    }
+}

@@ -40,6 +40,7 @@ nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool para
     }
     cancel(o, n, valued, options, &proof);
     double doubt = options->digits / 2; /* numbers too long for exact rationals were rounded to doubles when the rate was formed */
+    proof.rounded = !exact;
     if (!exact && doubt > double_digits) doubt = double_digits;
     proof.refuted = !proof.proved && proof.points > 0 && proof.digits < doubt;
     nh_free(valued);

@@ -15,6 +15,7 @@ typedef struct {
     bool all_parameters;  /* for all parameter values */
     double digits;        /* of cancellation, least over the points; 0 when it could not be evaluated */
     size_t points;        /* that could be evaluated */
+    bool rounded;         /* numbers in it were too long for exact rationals: more than a double's digits cannot be asked for */
     bool refuted;         /* a ball excludes zero: Phi with these coefficients is not conserved */
 } nh_proof;
 

@@ -53,7 +53,7 @@ void nh_verdict_text(const nh_verdict_of_one *v, bool field, nh_text *out)
     nh_text_add(out, field ? "YES: this is a constraint symmetry" : "YES: this is conserved");
     if (v->proof.all_parameters) nh_text_add(out, ", proved for all parameter values");
     else if (v->proof.proved) nh_text_add(out, ", proved for these parameter values");
-    else nh_text_addf(out, ", to %.0f digits", v->proof.digits);
+    else nh_text_addf(out, ", to %.0f digits%s", v->proof.digits, v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
     nh_text_addf(out, "%s\n", v->trivial ? "; but it is trivial: the current is constant" : "");
     if (v->has_symmetry && !v->trivial) put_field(v, out);
 }

