@@ -225,3 +225,41 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
     nh_free(on);
     return found;
 }
+
+/* The least sigma_min / sigma_max of some columns of E, made of length one, over places (m x d each). */
+static double independence(size_t m, size_t d, size_t places, const double *E, size_t count, const size_t *subset)
+{
+    double *a = nh_alloc_array(m * count + count + 1, sizeof *a), *s = a + m * count, least = INFINITY;
+    for (size_t p = 0; p < places; p++) {
+        for (size_t j = 0; j < count; j++) {
+            const double *e = E + p * m * d + subset[j] * m;
+            double size = 0;
+            for (size_t i = 0; i < m; i++) size = hypot(size, e[i]);
+            for (size_t i = 0; i < m; i++) a[i + j * m] = size > 0 ? e[i] / size : 0;
+        }
+        nh_singular_values(m, count, a, s);
+        least = fmin(least, s[0] > 0 ? s[count - 1] / s[0] : 0);
+    }
+    nh_free(a);
+    return least;
+}
+
+size_t nh_group_free_subset(const nh_group *g, const nh_options *options, size_t *index)
+{
+    enum { most_trials = 20000 };
+    const nh_kinetic *k = g->kinetic;
+    size_t d = g->action.d, trials = 0, found = 0;
+    nh_ex *e = nh_alloc_array(k->m * d + 1, sizeof *e);
+    double *E = nh_alloc_array(k->places * k->m * d + 1, sizeof *E);
+    for (size_t a = 0; a < d; a++) memcpy(e + a * k->m, g->action.generator[a].component, k->m * sizeof *e);
+    nh_kinetic_sample(k, k->m * d, e, k->places, E);
+    for (size_t size = g->action.orbit; size > 0 && !found; size--) {
+        for (size_t i = 0; i < size; i++) index[i] = i;
+        do {
+            if (subalgebra(&g->action.algebra, size, index) && independence(k->m, d, k->places, E, size, index) > options->group) found = size;
+        } while (!found && ++trials < most_trials && next_subset(d, size, index));
+    }
+    nh_free(e);
+    nh_free(E);
+    return found;
+}
