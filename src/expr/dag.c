@@ -1,6 +1,7 @@
 #include "expr/dag.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -62,10 +63,10 @@ static void rehash(nh_dag *dag)
 }
 
 /* Which symbols occur, folded to 64 bits: a clear bit proves absence. */
-static uint64_t mask_of(const nh_dag *dag, unsigned kind, uint32_t self, size_t count, const uint32_t *arg)
+static uint64_t mask_of(const nh_dag *dag, unsigned kind, size_t count, const uint32_t *arg)
 {
     if (kind == NH_NUMBER) return 0;
-    if (kind == NH_SYMBOL) return (uint64_t)1 << (self % 64);
+    if (kind == NH_SYMBOL) return (uint64_t)1 << (arg[0] % 64);
     uint64_t mask = 0;
     for (size_t i = 0; i < count; i++) mask |= dag->node[arg[i]].mask;
     return mask;
@@ -91,7 +92,7 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
     if (count) memcpy(dag->arg + dag->arg_count, arg, count * sizeof *arg);
     dag->arg_count += count;
     /* Children of numbers and symbols are table indices, not nodes. */
-    n->mask = mask_of(dag, kind, self, count, arg);
+    n->mask = mask_of(dag, kind, count, arg);
     uint32_t *head = &dag->bucket[hash & (dag->bucket_count - 1)];
     n->next = *head;
     *head = self + 1;
@@ -210,32 +211,62 @@ bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value)
 }
 
 /* The indices of all nodes below `e`, each once, children first. */
-static size_t reach(const nh_dag *dag, nh_ex e, uint32_t **out)
+typedef struct {
+    size_t count, capacity, slots;
+    uint32_t *node, *slot; /* found, in order of discovery; hash table of index + 1 */
+} found_nodes;
+
+static bool discover(found_nodes *f, uint32_t e)
 {
-    uint8_t *seen = nh_alloc(e + 1);
-    size_t count = 0;
-    seen[e] = 1;
-    for (uint32_t i = e + 1; i-- > 0;) { /* children have smaller indices than their parents */
-        if (!seen[i]) continue;
-        count++;
-        const nh_node *n = &dag->node[i];
-        if (n->kind <= NH_SYMBOL) continue;
-        for (uint32_t j = 0; j < n->count; j++) seen[dag->arg[n->first + j]] = 1;
+    if (2 * f->count >= f->slots) {
+        size_t slots = f->slots ? 4 * f->slots : 64;
+        uint32_t *slot = nh_alloc_array(slots, sizeof *slot);
+        for (size_t i = 0; i < f->count; i++) {
+            size_t at = f->node[i] * 2654435761u & (slots - 1);
+            while (slot[at]) at = (at + 1) & (slots - 1);
+            slot[at] = f->node[i] + 1;
+        }
+        nh_free(f->slot);
+        f->slot = slot;
+        f->slots = slots;
     }
-    *out = nh_alloc_array(count ? count : 1, sizeof **out);
-    size_t k = 0;
-    for (uint32_t i = 0; i <= e; i++)
-        if (seen[i]) (*out)[k++] = i;
-    nh_free(seen);
-    return count;
+    size_t at = e * 2654435761u & (f->slots - 1);
+    for (; f->slot[at]; at = (at + 1) & (f->slots - 1))
+        if (f->slot[at] == e + 1) return false;
+    f->slot[at] = e + 1;
+    nh_grow(&f->node, &f->capacity, f->count + 1, sizeof *f->node);
+    f->node[f->count++] = e;
+    return true;
 }
 
+static int ascending(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Time grows with what is below e, not with the graph: a search among all nodes would be quadratic in large systems. */
+static size_t reach(const nh_dag *dag, nh_ex e, uint32_t **out)
+{
+    found_nodes f = {0};
+    discover(&f, e);
+    for (size_t i = 0; i < f.count; i++) {
+        const nh_node *n = &dag->node[f.node[i]];
+        for (uint32_t j = 0; n->kind > NH_SYMBOL && j < n->count; j++) discover(&f, dag->arg[n->first + j]);
+    }
+    qsort(f.node, f.count, sizeof *f.node, ascending); /* children have smaller indices than their parents */
+    nh_free(f.slot);
+    *out = f.node;
+    return f.count;
+}
+
+/* The mask tells everything while there are no more symbols than bits. */
 bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol)
 {
     if (e == symbol) return true;
-    if (e < symbol || !(dag->node[e].mask & ((uint64_t)1 << (symbol % 64)))) return false;
-    const nh_node *n = &dag->node[e];
-    if (n->kind <= NH_SYMBOL) return false;
+    if (e < symbol || !(dag->node[e].mask & dag->node[symbol].mask)) return false;
+    if (dag->node[e].kind <= NH_SYMBOL) return false;
+    if (dag->name_count <= 64) return true;
     uint32_t *node;
     size_t count = reach(dag, e, &node);
     bool found = false;
