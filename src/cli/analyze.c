@@ -2,6 +2,7 @@
 
 #include "base/output.h"
 #include "cli/cli.h"
+#include "report/html.h"
 #include "report/result_json.h"
 #include "report/summary.h"
 
@@ -15,7 +16,7 @@ static const char *analysis_of(nh_cli *cli, const char *system)
 static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
 {
     if (cli->operands > 1) return nh_fail(error, NH_USAGE, "", "`nhsym analyze` takes one system, found `%s` too", cli->operand[1]);
-    *q = (nh_analyze_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options,
+    *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options,
                               .seed_given = cli->seed_given, .samples_given = cli->samples_given, .tolerance_given = cli->tolerance_given,
                               .until_given = cli->until_given};
     if (cli->analysis && !(q->analysis_path = nh_cli_find(cli, "analyses", cli->analysis, error))) return false;
@@ -46,6 +47,16 @@ static bool write_json(nh_cli *cli, const nh_result *result, nh_error *error)
     return good;
 }
 
+static bool write_html(nh_cli *cli, const nh_result *result, nh_error *error)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_html(result, &text);
+    bool good = nh_output_write(cli->html, nh_text_string(&text), text.length, error);
+    nh_text_clear(&text);
+    return good;
+}
+
 int nh_cli_analyze(nh_cli *cli, nh_error *error)
 {
     nh_analyze_request request;
@@ -61,6 +72,7 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
         nh_text_clear(&text);
     }
     if (cli->json) good = write_json(cli, result, error);
+    if (cli->html && good) good = write_html(cli, result, error);
     bool partial = result->partial;
     nh_result_free(result);
     return !good ? (int)error->code : partial ? NH_LIMIT : NH_OK;

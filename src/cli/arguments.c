@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_to };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_to, opt_html, opt_tex };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -19,10 +19,15 @@ static const struct option long_options[] = {
     {"max-seconds", required_argument, NULL, opt_max_seconds}, {"initial", required_argument, NULL, opt_initial},
     {"step", required_argument, NULL, opt_step},         {"threads", required_argument, NULL, opt_threads},
     {"project", no_argument, NULL, opt_project},
-    {"group", required_argument, NULL, opt_group},       {"chain", required_argument, NULL, opt_chain},
+    {"group", required_argument, NULL, opt_group},
+    {"chain", required_argument, NULL, opt_chain},
     {"to", required_argument, NULL, opt_to},
-    {"watch", required_argument, NULL, opt_watch},       {"scene", no_argument, NULL, opt_scene},
-    {"svg", required_argument, NULL, opt_svg},           {"budget", required_argument, NULL, opt_budget},
+    {"watch", required_argument, NULL, opt_watch},
+    {"scene", no_argument, NULL, opt_scene},
+    {"svg", required_argument, NULL, opt_svg},
+    {"budget", required_argument, NULL, opt_budget},
+    {"html", required_argument, NULL, opt_html},
+    {"tex", required_argument, NULL, opt_tex},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -126,6 +131,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_option: return assignment(cli, value, "option", &name, &text, error) && nh_options_set(&cli->options, name, text, error);
     case opt_chart: return set_chart(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
+    case opt_html: cli->html = value; return true;
+    case opt_tex: cli->tex = value; return true;
     case opt_analysis: cli->analysis = value; return true;
     case opt_no_analysis: return cli->no_analysis = true;
     case opt_no_color: cli->colour = false; return true;

@@ -14,7 +14,8 @@ typedef struct {
     const char *command;
     size_t operands;
     const char **operand;
-    const char *analysis, *json; /* files; json may be "-" */
+    const char *line;            /* the whole command, as it was typed */
+    const char *analysis, *json, *html, *tex; /* files; json may be "-" */
     const char *current, *field; /* questions of verify */
     const char *initial;         /* of simulate and reduce */
     const char *group, *chain, *to; /* of reduce */

@@ -37,12 +37,33 @@ static int run(nh_cli *cli, nh_error *error)
     return NH_USAGE;
 }
 
+/* The command as one line; words with other characters than a shell passes on are quoted. */
+static const char *line_of(nh_cli *cli, int argc, char **argv)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_add(&text, "nhsym");
+    for (int i = 1; i < argc; i++) {
+        bool bare = argv[i][0] && !argv[i][strspn(argv[i], plain)];
+        nh_text_add(&text, bare ? " " : " '");
+        for (const char *c = argv[i]; *c; c++)
+            if (*c == '\'') nh_text_add(&text, "'\\''");
+            else nh_text_add_n(&text, c, 1);
+        nh_text_add(&text, bare ? "" : "'");
+    }
+    const char *line = nh_arena_strdup(cli->arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return line;
+}
+
 int main(int argc, char **argv)
 {
     nh_error error;
     nh_error_clear(&error);
     nh_memory_set_handler(out_of_memory);
     nh_cli cli = {.arena = nh_arena_create()};
+    cli.line = line_of(&cli, argc, argv);
     int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
     if (error.code != NH_OK) {
         char text[4096];

@@ -1,0 +1,13 @@
+/* html: an analysis as one page that needs nothing else: no network, no other file.
+ *
+ * Well-formed as XML too.  Every number stands in <data value="..."> with all its digits, as the JSON has it; plots are inline SVG, formulas
+ * MathML.  Text from files is escaped.  The script on the page draws what nh_result_json tells under validation.motion. */
+#ifndef NH_HTML_H
+#define NH_HTML_H
+
+#include "base/text.h"
+#include "study/result.h"
+
+void nh_html(const nh_result *result, nh_text *out);
+
+#endif
