@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_to, opt_html, opt_tex };
+enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_to, opt_html, opt_tex, opt_progress };
 
 static const struct option long_options[] = {
     {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
@@ -28,6 +28,8 @@ static const struct option long_options[] = {
     {"budget", required_argument, NULL, opt_budget},
     {"html", required_argument, NULL, opt_html},
     {"tex", required_argument, NULL, opt_tex},
+    {"progress", required_argument, NULL, opt_progress},
+    {"output", required_argument, NULL, 'o'},
     {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
     {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
     {NULL, 0, NULL, 0}};
@@ -87,6 +89,18 @@ static bool set_chart(nh_cli *cli, const char *text, nh_error *error)
     return nh_error_hint(error, "--chart takes auto, quasi or coordinates");
 }
 
+static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
+{
+    static const char *const names[] = {"auto", "always", "never"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i])) continue;
+        cli->progress = (nh_cli_progress)i;
+        return true;
+    }
+    nh_fail(error, NH_USAGE, "", "--progress does not know `%s`", text);
+    return nh_error_hint(error, "--progress takes auto, always or never");
+}
+
 static bool unknown_option(const char *word, nh_error *error)
 {
     const char *names[sizeof long_options / sizeof *long_options];
@@ -131,6 +145,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_option: return assignment(cli, value, "option", &name, &text, error) && nh_options_set(&cli->options, name, text, error);
     case opt_chart: return set_chart(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
+    case opt_progress: return set_progress(cli, value, error);
+    case 'o': cli->folder = value; return true;
     case opt_html: cli->html = value; return true;
     case opt_tex: cli->tex = value; return true;
     case opt_analysis: cli->analysis = value; return true;
@@ -164,7 +180,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     nh_options_default(&cli->options);
     opterr = 0;
     optind = 1;
-    for (int code; (code = getopt_long(argc, argv, "-:qvh", long_options, NULL)) != -1;) {
+    for (int code; (code = getopt_long(argc, argv, "-:qvho:", long_options, NULL)) != -1;) {
         if (code == 1) {
             if (!cli->command) cli->command = optarg;
             else cli->operand[cli->operands++] = optarg;

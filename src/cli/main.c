@@ -9,8 +9,8 @@ static const struct {
     const char *name;
     nh_cli_command *run;
 } commands[] = {
-    {"analyze", nh_cli_analyze}, {"verify", nh_cli_verify}, {"simulate", nh_cli_simulate}, {"chart", nh_cli_chart}, {"reduce", nh_cli_reduce}, {"list", nh_cli_list},       {"show", nh_cli_show},
-    {"explain", nh_cli_explain}, {"version", nh_cli_version}, {"help", nh_cli_help},
+    {"analyze", nh_cli_analyze}, {"verify", nh_cli_verify}, {"simulate", nh_cli_simulate}, {"chart", nh_cli_chart}, {"reduce", nh_cli_reduce},
+    {"list", nh_cli_list}, {"show", nh_cli_show}, {"new", nh_cli_new}, {"explain", nh_cli_explain}, {"version", nh_cli_version}, {"help", nh_cli_help},
 };
 enum { command_count = sizeof commands / sizeof *commands };
 

@@ -91,3 +91,13 @@ void nh_html(const nh_result *r, nh_text *out)
     nh_html_add(&w, nh_html_script);
     nh_html_add(&w, "//]]></script>\n</body>\n</html>\n");
 }
+
+const char *nh_html_next_figure(const char **at, size_t *length)
+{
+    static const char begin[] = "<svg xmlns=", end[] = "</svg>"; /* text cannot hold them: it is escaped */
+    const char *first = strstr(*at, begin), *last = first ? strstr(first, end) : NULL;
+    if (!last) return NULL;
+    *at = last + sizeof end - 1;
+    *length = (size_t)(*at - first);
+    return first;
+}

@@ -10,4 +10,7 @@
 
 void nh_html(const nh_result *result, nh_text *out);
 
+/* The figures of a page one by one, each a stand-alone SVG document: where the next begins, NULL after the last.  Moves *at on. */
+const char *nh_html_next_figure(const char **at, size_t *length);
+
 #endif
