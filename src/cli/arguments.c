@@ -5,34 +5,13 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
+#include "cli/words.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_to, opt_html, opt_tex, opt_progress };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version };
 
-static const struct option long_options[] = {
-    {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
-    {"samples", required_argument, NULL, opt_samples},   {"tolerance", required_argument, NULL, opt_tolerance},
-    {"until", required_argument, NULL, opt_until},       {"json", optional_argument, NULL, opt_json},
-    {"analysis", required_argument, NULL, opt_analysis}, {"no-analysis", no_argument, NULL, opt_no_analysis},
-    {"chart", required_argument, NULL, opt_chart},       {"option", required_argument, NULL, opt_option},
-    {"columns", required_argument, NULL, opt_columns},   {"no-color", no_argument, NULL, opt_no_color},
-    {"current", required_argument, NULL, opt_current},   {"field", required_argument, NULL, opt_field},
-    {"max-seconds", required_argument, NULL, opt_max_seconds}, {"initial", required_argument, NULL, opt_initial},
-    {"step", required_argument, NULL, opt_step},         {"threads", required_argument, NULL, opt_threads},
-    {"project", no_argument, NULL, opt_project},
-    {"group", required_argument, NULL, opt_group},
-    {"chain", required_argument, NULL, opt_chain},
-    {"to", required_argument, NULL, opt_to},
-    {"watch", required_argument, NULL, opt_watch},
-    {"scene", no_argument, NULL, opt_scene},
-    {"svg", required_argument, NULL, opt_svg},
-    {"budget", required_argument, NULL, opt_budget},
-    {"html", required_argument, NULL, opt_html},
-    {"tex", required_argument, NULL, opt_tex},
-    {"progress", required_argument, NULL, opt_progress},
-    {"output", required_argument, NULL, 'o'},
-    {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
-    {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
-    {NULL, 0, NULL, 0}};
+#define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
+static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X){NULL, 0, NULL, 0}};
+#undef X
 
 /* "name=value" cut at the sign. */
 static bool assignment(nh_cli *cli, const char *text, const char *option, char **name, const char **value, nh_error *error)

@@ -3,14 +3,16 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
+#include "cli/words.h"
 #include "expr/normal.h"
 
 static const struct {
     const char *name;
     nh_cli_command *run;
 } commands[] = {
-    {"analyze", nh_cli_analyze}, {"verify", nh_cli_verify}, {"simulate", nh_cli_simulate}, {"chart", nh_cli_chart}, {"reduce", nh_cli_reduce},
-    {"list", nh_cli_list}, {"show", nh_cli_show}, {"new", nh_cli_new}, {"explain", nh_cli_explain}, {"version", nh_cli_version}, {"help", nh_cli_help},
+#define X(name, operand, meaning, example) {#name, nh_cli_##name},
+    NH_CLI_COMMAND_TABLE(X)
+#undef X
 };
 enum { command_count = sizeof commands / sizeof *commands };
 
