@@ -99,12 +99,10 @@ static void path_plot(nh_html_writer *w)
     if (!n) return;
     nh_plot plot = {.title = "Path in the plane", .description = "The path of the test motion in the plane, both axes on one scale", .x_label = "first axis", .y_label = "second axis",
                     .equal = true, .curves = n, .curve = curve};
-    if (r->shape_chosen) {
-        const nh_system *s = r->system;
-        for (size_t i = s->coordinates; i-- > 0;) {
-            if (s->coordinate[i].q == r->shape[0].value[0]) plot.x_label = s->coordinate[i].name;
-            if (s->coordinate[i].q == r->shape[0].value[1]) plot.y_label = s->coordinate[i].name;
-        }
+    const nh_system *s = r->system;
+    for (size_t i = s->coordinates; i-- > 0;) {
+        if (s->coordinate[i].q == r->shape[0].value[0]) plot.x_label = s->coordinate[i].name;
+        if (s->coordinate[i].q == r->shape[0].value[1]) plot.y_label = s->coordinate[i].name;
     }
     nh_html_figure(w, &plot, "Path of the test motion; the marks show where a body heads, at equal steps of time.");
 }
