@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "base/linalg.h"
+#include "base/progress.h"
 
 typedef struct {
     const nh_model *model;
@@ -146,7 +147,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     first.count = 1;
     bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
     double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps), .seconds = time_left(r)};
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps), .seconds = time_left(r), .cancelled = nh_interrupted_callback};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
@@ -269,7 +270,7 @@ static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_erro
 static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
-        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps, .seconds = time_left(r)};
+        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps, .seconds = time_left(r), .cancelled = nh_interrupted_callback};
         nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, NULL, r->z0, r->outputs, r->times, &options, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
         bool steep;
