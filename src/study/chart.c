@@ -337,6 +337,7 @@ nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_
     list_candidates(&c);
     measure_all(&c);
     collect(&c);
+    nh_chart_derivatives(&c.formulation[0], c.out);
     nh_bench_close(&c);
     return c.out;
 }

@@ -48,6 +48,9 @@ void nh_yardstick_close(nh_yardstick *y);
 double nh_yardstick_error(const nh_yardstick *y, size_t count, const double *states);
 void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *states, double *drift);
 
+/* Exact derivatives and differences, in a chart. */
+void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out);
+
 /* ---- one motion, ready to be computed by any method ---- */
 
 typedef struct {
