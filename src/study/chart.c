@@ -123,6 +123,7 @@ static bool states_of(nh_bench *c, size_t formulation, const char *method, doubl
     nh_error_clear(&ignored);
     c->deadline = now() + c->budget / 4;
     nh_motion *motion = integrate(c, &k, tolerance, 0, &ignored);
+    c->hurried |= motion && !motion->complete && late(c);
     bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) && nh_formulation_states(&c->formulation[formulation], motion, states);
     nh_motion_free(motion);
     return good;

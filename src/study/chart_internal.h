@@ -74,6 +74,7 @@ typedef struct {
     nh_measured *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
     bool project, once; /* once: no repetitions, the time does not matter */
+    bool hurried;       /* the reference ran out of time */
 } nh_bench;
 
 /* System, formulations and charts of a request; close it also on failure (and free `out`). */
