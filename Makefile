@@ -107,6 +107,13 @@ install: all
 	install -m 755 $(BUILD)/nhsym $(DESTDIR)$(PREFIX)/bin/
 	install -m 644 systems/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/systems/
 	install -m 644 analyses/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/analyses/
+	install -d $(DESTDIR)$(PREFIX)/share/nhsym/schema
+	install -m 644 docs/schema/*.json $(DESTDIR)$(PREFIX)/share/nhsym/schema/
+	install -d $(addprefix $(DESTDIR)$(PREFIX)/share/,man/man1 bash-completion/completions zsh/site-functions fish/vendor_completions.d)
+	$(BUILD)/nhsym help man >$(DESTDIR)$(PREFIX)/share/man/man1/nhsym.1
+	$(BUILD)/nhsym help bash >$(DESTDIR)$(PREFIX)/share/bash-completion/completions/nhsym
+	$(BUILD)/nhsym help zsh >$(DESTDIR)$(PREFIX)/share/zsh/site-functions/_nhsym
+	$(BUILD)/nhsym help fish >$(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d/nhsym.fish
 
 clean:
 	rm -rf build build-sanitize build-fuzz

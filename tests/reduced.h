@@ -78,6 +78,28 @@ static const char CART_AND_BODY[] = "name: body\n" CART_HEAD
     "  - cos(theta)*x' + sin(theta)*y' - c*theta' - r*psi2' = 0\n"
     "domain: {h: [0.7, 1.9]}\n";
 
+/* A Chaplygin system with the group SO(3): a left-invariant constraint on the body angular velocity, an inertia that depends on the shape. */
+static const char ROTATIONS[] =
+    "name: so3\n"
+    "parameters: [{name: m, value: 1.2}]\n"
+    "coordinates:\n"
+    "  - {name: u, type: length}\n"
+    "  - {name: w, type: length}\n"
+    "  - {name: p, type: angle}\n"
+    "  - {name: h, type: angle}\n"
+    "  - {name: s, type: angle}\n"
+    "definitions:\n"
+    "  - w1 = h'*cos(s) + p'*sin(h)*sin(s)\n"
+    "  - w2 = -h'*sin(s) + p'*sin(h)*cos(s)\n"
+    "  - w3 = p'*cos(h) + s'\n"
+    "lagrangian: >-\n"
+    "  m/2*(u'^2 + w'^2) + (1.1 + u^2/4)/2*w1^2 + 0.85*w2^2 + (1.15 + w/5)*w3^2 + 0.3*u'*w1 + 0.2*w'*w2 - 0.4*u^2 - 0.3*cos(w)\n"
+    "constraints:\n"
+    "  - w1 = (0.3 + 0.2*w)*u' + 0.1*u*w'\n"
+    "  - w2 = 0.4*u' - 0.3*sin(u)*w'\n"
+    "  - w3 = 0.2*u*w*u' + (0.5 + 0.1*u^2)*w'\n"
+    "domain: {h: [0.7, 1.9]}\n";
+
 typedef struct {
     nh_system *system;
     nh_model *model; /* bare */

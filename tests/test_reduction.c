@@ -111,6 +111,7 @@ Test(reduction, equations_on_a_slice_and_reconstruction_agree_with_the_full_moti
     master_against_full("twisted cart", TWISTED_CART, NULL, 5, FIRST, 1, 1e-10);
     master_against_full("disk", DISK, NULL, 4, FIRST, 0.3, 1e-10);
     master_against_full("Chaplygin ball", NULL, "systems/chaplygin_ball.yaml", 3, FIRST, 0.5, 1e-10);
+    master_against_full("rotations", ROTATIONS, NULL, 3, FIRST, 1, 1e-10);
     master_against_full("top", NULL, "systems/euler_top.yaml", 3, FIRST, 0.5, 1e-10);
     master_against_full("Routh sphere", NULL, "systems/routh_sphere.yaml", 4, FIRST, 0.5, 1e-10);
     master_against_full("sleigh", NULL, "systems/sleigh_inertia.yaml", 3, FIRST, 5, 1e-10);
@@ -141,6 +142,11 @@ static void stage_open(stage *s, const char *name, nh_system *system, const size
     nh_slice_choose(&s->action, shape, along);
     for (size_t a = 0; a < s->action.d; a++) y0[a] = q ? q[along[a]] : 0;
     nh_slice_init(&s->slice, &s->action, shape, along, y0);
+    if (!q && !nh_chaplygin_init(&s->c, &s->slice, error)) { /* zero is a pole of the coordinates */
+        nh_error_clear(error);
+        for (size_t a = 0; a < s->action.d; a++) y0[a] = s->x.kinetic->place[along[a]];
+        nh_slice_init(&s->slice, &s->action, shape, along, y0);
+    }
     must(nh_chaplygin_init(&s->c, &s->slice, error), error, name);
 }
 
@@ -279,24 +285,25 @@ Test(reduction, almost_symplectic_equations_agree_with_those_in_the_frame)
     chaplygin_against_master("cart", nh_system_parse("cart", CART, 0, NULL, &error), cart, 1e-10); /* Ups comes from the bracket alone */
     chaplygin_against_master("twisted cart", nh_system_parse("twisted", TWISTED_CART, 0, NULL, &error), (size_t[]){2, 3, 4}, 1e-10);
     chaplygin_against_master("Chaplygin ball", nh_system_read("systems/chaplygin_ball.yaml", 0, NULL, &error), ball, 1e-10);
+    chaplygin_against_master("rotations", nh_system_parse("so3", ROTATIONS, 0, NULL, &error), (size_t[]){0, 1, 2}, 1e-10);
     chaplygin_against_master("particle", nh_system_read("systems/nonholonomic_particle.yaml", 0, NULL, &error), particle, 1e-10);
 }
 
 Test(reduction, measure_and_factor)
 {
-    static const size_t cart[] = {0, 1, 4}, two[] = {0, 1}, one[] = {0}, particle[] = {1};
+    static const size_t cart[] = {0, 1, 4}, two[] = {0, 1}, one[] = {0}, three[] = {0, 1, 2}, particle[] = {1};
     static const struct {
         const char *name, *text, *file;
         const size_t *index;
         bool measure, factor;
     } known[] = {{"particle", NULL, "systems/nonholonomic_particle.yaml", particle, true, true}, {"cart", CART, NULL, cart, true, true},
                  {"vertical disk", NULL, "systems/vertical_disk.yaml", two, true, true}, {"Chaplygin ball", NULL, "systems/chaplygin_ball.yaml", two, true, false},
-                 {"sleigh", NULL, "systems/sleigh_inertia.yaml", one, false, false},     {"crane", CRANE, NULL, CRANE_FOUR, false, false}};
+                 {"sleigh", NULL, "systems/sleigh_inertia.yaml", one, false, false}, {"rotations", ROTATIONS, NULL, three, false, false},     {"crane", CRANE, NULL, CRANE_FOUR, false, false}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         nh_error error = {0};
         stage s;
         stage_open(&s, known[i].name, known[i].text ? nh_system_parse(known[i].name, known[i].text, 0, NULL, &error) : nh_system_read(known[i].file, 0, NULL, &error), known[i].index, NULL, &error);
-        nh_chaplygin_measure m = nh_chaplygin_measure_of(&s.c, &s.options);
+        nh_chaplygin_measure m = nh_chaplygin_measure_of(&s.slice, s.c.K, s.c.U, &s.options);
         if (getenv("NHSYM_TEST_FIGURES")) printf("%-30s |Theta| %.2e, |dTheta| %.1e, phi-simple %.1e\n", known[i].name, m.size, m.curl, m.phi_simple);
         cr_expect_eq(m.measure, known[i].measure, "%s: measure, |dTheta| = %g", known[i].name, m.curl);
         cr_expect_eq(m.factor, known[i].factor, "%s: factor, %g", known[i].name, m.phi_simple);
@@ -441,6 +448,22 @@ Test(reduction, twice_reduced_motions_agree_with_once_reduced_ones)
     static const size_t ball[] = {0, 1}, turn[] = {2}, phi1[] = {2};
     twice_against_once("crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, 1, phi1, true, 2, 1e-10);
     twice_against_once("Chaplygin ball", nh_system_read("systems/chaplygin_ball.yaml", 0, NULL, &error), ball, 1, turn, false, 1, 1e-10);
+}
+
+/* Chaplygin's theorem: on the sphere, after the turn about the vertical, the ball is Hamiltonian in another time; on SO(3) it is not. */
+Test(reduction, ball_becomes_hamiltonian_after_the_second_stage)
+{
+    nh_error error = {0};
+    static const size_t plane[] = {0, 1}, turn[] = {2};
+    stage s;
+    nh_second t;
+    stage_open(&s, "ball", nh_system_read("systems/chaplygin_ball.yaml", 0, NULL, &error), plane, NULL, &error);
+    second_open(&t, &s, "ball", 1, turn, NULL, &error);
+    nh_chaplygin_measure first = nh_chaplygin_measure_of(&s.slice, s.c.K, s.c.U, &s.options), second = nh_chaplygin_measure_of(&t.slice, t.Kt, t.U, &s.options);
+    cr_expect(first.measure && !first.factor);
+    cr_expect(second.measure && second.factor && second.size > 1e-3, "%g %g %g", second.curl, second.phi_simple, second.size);
+    nh_second_clear(&t);
+    stage_close(&s);
 }
 
 /* N = SO(3), not abelian: momentum on coadjoint orbits of dimension two, curved mechanical connection. */

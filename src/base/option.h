@@ -43,8 +43,10 @@
     X(drift,            100,     1,      1e6,   real,  "tolerance", "a true current drifts by less than this many tolerances")               \
     X(steps,            2e5,     10,     1e9,   whole, "steps",    "a motion that needs more steps than this is ended and said to be so")    \
     X(group,            1e-7,   0,      1,     real,  "",         "equations of a symmetry group, scaled to size one: what is below this vanishes") \
+    X(transversal,      5e-3,   0,      1,     real,  "",         "a group is divided out by Chaplygin reduction when its orbits stay so far from the distribution") \
     X(cluster,          2e-3,   0,      1,     real,  "",         "eigenvalues nearer than this part of the largest belong to one ideal of an algebra") \
     X(transport,        1e-11,  1e-14,  1e-4,  real,  "",         "tolerance to which 1-jets of symmetries are transported")             \
+    X(check_seconds,    4,       0.01,   1e7,   real,  "s",        "time that the motions of the check may take together")                   \
     X(until,            10,      -1e9,   1e9,   real,  "time",     "end of the validation motion")
 
 typedef enum { NH_OPTION_real, NH_OPTION_whole } nh_option_kind;

@@ -1,9 +1,14 @@
+#include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/output.h"
+#include "base/progress.h"
 #include "cli/cli.h"
+#include "report/html.h"
 #include "report/result_json.h"
 #include "report/summary.h"
+#include "report/tex.h"
 
 /* A system by name brings the analysis of that name with it; a file is taken alone. */
 static const char *analysis_of(nh_cli *cli, const char *system)
@@ -15,7 +20,7 @@ static const char *analysis_of(nh_cli *cli, const char *system)
 static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
 {
     if (cli->operands > 1) return nh_fail(error, NH_USAGE, "", "`nhsym analyze` takes one system, found `%s` too", cli->operand[1]);
-    *q = (nh_analyze_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options,
+    *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options,
                               .seed_given = cli->seed_given, .samples_given = cli->samples_given, .tolerance_given = cli->tolerance_given,
                               .until_given = cli->until_given};
     if (cli->analysis && !(q->analysis_path = nh_cli_find(cli, "analyses", cli->analysis, error))) return false;
@@ -36,8 +41,27 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
     return q->system_path != NULL;
 }
 
+/* ---- what is written ---- */
+
+static const char *in_folder(nh_cli *cli, const char *name) { return nh_arena_printf(cli->arena, "%s/%s", cli->folder, name); }
+
+/* -o DIR: everything goes there, but for what has a place of its own. */
+static bool use_folder(nh_cli *cli, nh_error *error)
+{
+    if (!cli->folder) return true;
+    if (mkdir(cli->folder, 0777) && errno != EEXIST) {
+        nh_fail(error, NH_NUMERIC, cli->folder, "the folder could not be made: %s", strerror(errno));
+        return nh_error_hint(error, "-o takes a folder; the one that holds it must exist");
+    }
+    if (!cli->json) cli->json = in_folder(cli, "result.json");
+    if (!cli->html) cli->html = in_folder(cli, "report.html");
+    if (!cli->tex) cli->tex = in_folder(cli, "report.tex");
+    return true;
+}
+
 static bool write_json(nh_cli *cli, const nh_result *result, nh_error *error)
 {
+    if (!cli->json) return true;
     char *json = nh_result_json(result);
     bool good = true;
     if (!strcmp(cli->json, "-")) fputs(json, stdout);
@@ -46,22 +70,67 @@ static bool write_json(nh_cli *cli, const nh_result *result, nh_error *error)
     return good;
 }
 
+static bool write_figures(nh_cli *cli, const char *page, nh_error *error)
+{
+    size_t length, count = 0;
+    bool good = true;
+    for (const char *figure; good && (figure = nh_html_next_figure(&page, &length));) {
+        char name[40];
+        snprintf(name, sizeof name, "figure%zu.svg", ++count);
+        good = nh_output_write(in_folder(cli, name), figure, length, error);
+    }
+    return good;
+}
+
+static bool write_html(nh_cli *cli, const nh_result *result, nh_error *error)
+{
+    if (!cli->html) return true;
+    nh_text text;
+    nh_text_init(&text);
+    nh_html(result, &text);
+    bool good = nh_output_write(cli->html, nh_text_string(&text), text.length, error);
+    if (cli->folder) good = good && write_figures(cli, nh_text_string(&text), error);
+    nh_text_clear(&text);
+    return good;
+}
+
+static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
+{
+    if (!cli->tex) return true;
+    nh_text text;
+    nh_text_init(&text);
+    nh_tex(result, &text);
+    bool good = nh_output_write(cli->tex, nh_text_string(&text), text.length, error);
+    nh_text_clear(&text);
+    return good;
+}
+
+static bool write_summary(nh_cli *cli, const nh_result *result, nh_error *error)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_summary(result, (nh_summary_style){cli->colour, cli->verbose}, &text);
+    bool shown = !cli->quiet && !(cli->json && !strcmp(cli->json, "-")), good = true;
+    if (shown) fputs(nh_text_string(&text), stdout);
+    nh_text_clear(&text);
+    if (!cli->folder) return true;
+    nh_summary(result, (nh_summary_style){false, cli->verbose}, &text);
+    good = nh_output_write(in_folder(cli, "summary.txt"), nh_text_string(&text), text.length, error);
+    nh_text_clear(&text);
+    return good;
+}
+
 int nh_cli_analyze(nh_cli *cli, nh_error *error)
 {
     nh_analyze_request request;
-    if (!request_of(cli, &request, error)) return error->code;
+    if (!request_of(cli, &request, error) || !use_folder(cli, error)) return error->code;
+    nh_cli_watch_begin(cli);
     nh_result *result = nh_analyze(&request, error);
-    if (!result) return error->code;
-    bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
-    if (!to_stdout && !cli->quiet) {
-        nh_text text;
-        nh_text_init(&text);
-        nh_summary(result, (nh_summary_style){cli->colour, cli->verbose}, &text);
-        fputs(nh_text_string(&text), stdout);
-        nh_text_clear(&text);
-    }
-    if (cli->json) good = write_json(cli, result, error);
+    nh_cli_watch_end();
+    if (!result) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
+    bool good = write_summary(cli, result, error) && write_json(cli, result, error) && write_html(cli, result, error) && write_tex(cli, result, error);
     bool partial = result->partial;
     nh_result_free(result);
-    return !good ? (int)error->code : partial ? NH_LIMIT : NH_OK;
+    if (!good) return error->code;
+    return nh_interrupted() ? NH_INTERRUPTED : partial ? NH_LIMIT : NH_OK;
 }

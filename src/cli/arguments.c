@@ -5,29 +5,13 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
+#include "cli/words.h"
 
-enum { opt_set = 256, opt_seed, opt_samples, opt_tolerance, opt_until, opt_json, opt_analysis, opt_no_analysis, opt_chart, opt_option, opt_no_color, opt_columns, opt_version, opt_current, opt_field, opt_max_seconds, opt_initial, opt_step, opt_threads, opt_project, opt_group, opt_chain, opt_watch, opt_scene, opt_svg, opt_budget, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_to };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress };
 
-static const struct option long_options[] = {
-    {"set", required_argument, NULL, opt_set},           {"seed", required_argument, NULL, opt_seed},
-    {"samples", required_argument, NULL, opt_samples},   {"tolerance", required_argument, NULL, opt_tolerance},
-    {"until", required_argument, NULL, opt_until},       {"json", optional_argument, NULL, opt_json},
-    {"analysis", required_argument, NULL, opt_analysis}, {"no-analysis", no_argument, NULL, opt_no_analysis},
-    {"chart", required_argument, NULL, opt_chart},       {"option", required_argument, NULL, opt_option},
-    {"columns", required_argument, NULL, opt_columns},   {"no-color", no_argument, NULL, opt_no_color},
-    {"current", required_argument, NULL, opt_current},   {"field", required_argument, NULL, opt_field},
-    {"max-seconds", required_argument, NULL, opt_max_seconds}, {"initial", required_argument, NULL, opt_initial},
-    {"step", required_argument, NULL, opt_step},         {"threads", required_argument, NULL, opt_threads},
-    {"project", no_argument, NULL, opt_project},
-    {"group", required_argument, NULL, opt_group},       {"chain", required_argument, NULL, opt_chain},
-    {"to", required_argument, NULL, opt_to},
-    {"watch", required_argument, NULL, opt_watch},       {"scene", no_argument, NULL, opt_scene},
-    {"svg", required_argument, NULL, opt_svg},           {"budget", required_argument, NULL, opt_budget},
-    {"accuracy", required_argument, NULL, opt_accuracy}, {"ensemble", required_argument, NULL, opt_ensemble},
-    {"spread", required_argument, NULL, opt_spread},     {"stress", no_argument, NULL, opt_stress},
-    {"quiet", no_argument, NULL, 'q'},                   {"verbose", no_argument, NULL, 'v'},
-    {"help", no_argument, NULL, 'h'},                    {"version", no_argument, NULL, opt_version},
-    {NULL, 0, NULL, 0}};
+#define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
+static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X){NULL, 0, NULL, 0}};
+#undef X
 
 /* "name=value" cut at the sign. */
 static bool assignment(nh_cli *cli, const char *text, const char *option, char **name, const char **value, nh_error *error)
@@ -92,6 +76,18 @@ static bool set_chart(nh_cli *cli, const char *text, nh_error *error)
     return nh_error_hint(error, "--chart takes auto, quasi or coordinates");
 }
 
+static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
+{
+    static const char *const names[] = {"auto", "always", "never"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i])) continue;
+        cli->progress = (nh_cli_progress)i;
+        return true;
+    }
+    nh_fail(error, NH_USAGE, "", "--progress does not know `%s`", text);
+    return nh_error_hint(error, "--progress takes auto, always or never");
+}
+
 static bool unknown_option(const char *word, nh_error *error)
 {
     const char *names[sizeof long_options / sizeof *long_options];
@@ -140,6 +136,10 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_option: return assignment(cli, value, "option", &name, &text, error) && nh_options_set(&cli->options, name, text, error);
     case opt_chart: return set_chart(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
+    case opt_progress: return set_progress(cli, value, error);
+    case 'o': cli->folder = value; return true;
+    case opt_html: cli->html = value; return true;
+    case opt_tex: cli->tex = value; return true;
     case opt_analysis: cli->analysis = value; return true;
     case opt_no_analysis: return cli->no_analysis = true;
     case opt_no_color: cli->colour = false; return true;
@@ -171,7 +171,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     nh_options_default(&cli->options);
     opterr = 0;
     optind = 1;
-    for (int code; (code = getopt_long(argc, argv, "-:qvh", long_options, NULL)) != -1;) {
+    for (int code; (code = getopt_long(argc, argv, "-:qvho:", long_options, NULL)) != -1;) {
         if (code == 1) {
             if (!cli->command) cli->command = optarg;
             else cli->operand[cli->operands++] = optarg;

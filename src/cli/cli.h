@@ -10,11 +10,16 @@
 #include "study/analyze.h"
 #include "study/simulate.h"
 
+typedef enum { NH_PROGRESS_AUTO, NH_PROGRESS_ALWAYS, NH_PROGRESS_NEVER } nh_cli_progress;
+
 typedef struct {
     const char *command;
     size_t operands;
     const char **operand;
-    const char *analysis, *json; /* files; json may be "-" */
+    const char *line;            /* the whole command, as it was typed */
+    const char *analysis, *json, *html, *tex; /* files; json may be "-" */
+    const char *folder;          /* for all of them, or NULL */
+    nh_cli_progress progress;
     const char *current, *field; /* questions of verify */
     const char *initial;         /* of simulate and reduce */
     const char *group, *chain, *to; /* of reduce */
@@ -42,10 +47,14 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_chart, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help;
+nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_chart, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
 
 /* What simulate and chart ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);
+
+/* Show on stderr what is being done, as --progress says, and end soon with what there is on SIGINT and SIGTERM; a second signal ends at once. */
+void nh_cli_watch_begin(const nh_cli *cli);
+void nh_cli_watch_end(void);
 
 /* The file of a system or analysis: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
  * `kind` is "systems" or "analyses".  NULL with a suggestion. */

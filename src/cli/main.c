@@ -3,14 +3,16 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
+#include "cli/words.h"
 #include "expr/normal.h"
 
 static const struct {
     const char *name;
     nh_cli_command *run;
 } commands[] = {
-    {"analyze", nh_cli_analyze}, {"verify", nh_cli_verify}, {"simulate", nh_cli_simulate}, {"chart", nh_cli_chart}, {"reduce", nh_cli_reduce}, {"list", nh_cli_list},       {"show", nh_cli_show},
-    {"explain", nh_cli_explain}, {"version", nh_cli_version}, {"help", nh_cli_help},
+#define X(name, operand, meaning, example) {#name, nh_cli_##name},
+    NH_CLI_COMMAND_TABLE(X)
+#undef X
 };
 enum { command_count = sizeof commands / sizeof *commands };
 
@@ -37,12 +39,33 @@ static int run(nh_cli *cli, nh_error *error)
     return NH_USAGE;
 }
 
+/* The command as one line; words with other characters than a shell passes on are quoted. */
+static const char *line_of(nh_cli *cli, int argc, char **argv)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_add(&text, "nhsym");
+    for (int i = 1; i < argc; i++) {
+        bool bare = argv[i][0] && !argv[i][strspn(argv[i], plain)];
+        nh_text_add(&text, bare ? " " : " '");
+        for (const char *c = argv[i]; *c; c++)
+            if (*c == '\'') nh_text_add(&text, "'\\''");
+            else nh_text_add_n(&text, c, 1);
+        nh_text_add(&text, bare ? "" : "'");
+    }
+    const char *line = nh_arena_strdup(cli->arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return line;
+}
+
 int main(int argc, char **argv)
 {
     nh_error error;
     nh_error_clear(&error);
     nh_memory_set_handler(out_of_memory);
     nh_cli cli = {.arena = nh_arena_create()};
+    cli.line = line_of(&cli, argc, argv);
     int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
     if (error.code != NH_OK) {
         char text[4096];

@@ -11,40 +11,6 @@ int nh_cli_version(nh_cli *cli, nh_error *error)
     return NH_OK;
 }
 
-int nh_cli_help(nh_cli *cli, nh_error *error)
-{
-    (void)cli;
-    (void)error;
-    puts("nhsym: symmetries and conservation laws of mechanical systems with constraints\n"
-         "\n"
-         "  nhsym analyze SYSTEM|FILE   currents, their symmetries, and how they were checked\n"
-         "  nhsym verify SYSTEM|FILE --current EXPR | --field \"Z0=..; x=..\"    is it conserved? a constraint symmetry?\n"
-         "  nhsym simulate SYSTEM|FILE --initial \"phi=0, omega=2\" --until T --step H    a motion, as CSV or --json\n"
-         "                              --watch \"x, T = m/2*v^2\": only these, by the smallest model for them; --scene: those of the analysis file\n"
-         "                              --accuracy 1e-8: the error of what is printed; method and tolerance are chosen, and checked\n"
-         "                              --ensemble N --spread 0.1: many motions at once, from states around the initial one\n"
-         "  nhsym chart SYSTEM|FILE [--budget 5s] [--svg FILE]    every integrator on one motion: time against error;\n"
-         "                              --stress: maps of where they fail\n"
-         "  nhsym reduce SYSTEM|FILE    its symmetry group, and the reduced equations; --group \"1, 2\" or \"x=1; theta=1, x=-y, y=x\" chooses,\n"
-         "                              --chain \"3; 1, 2\" the stages, --to c|latex writes the equations\n"
-         "  nhsym list                  systems that are here\n"
-         "  nhsym show SYSTEM           a system file\n"
-         "  nhsym explain [TOPIC]       what a word of the report means; `explain options` lists all numbers that decide\n"
-         "  nhsym version\n"
-         "\n"
-         "  --set NAME=VALUE            another parameter value (repeatable)\n"
-         "  --analysis FILE             the ansatz and the motion; --no-analysis: choose them\n"
-         "  --chart quasi|coordinates   which velocities to compute in\n"
-         "  --json [FILE|-]             the result as JSON; with - nothing else is printed\n"
-         "  --seed N --samples N --columns N --tolerance EPS --until T --max-seconds S --threads N --option NAME=VALUE\n"
-         "  --quiet --verbose --no-color --help\n"
-         "\n"
-         "Examples\n"
-         "  nhsym analyze sleigh --set k=3\n"
-         "  nhsym analyze mine.yaml --json result.json");
-    return NH_OK;
-}
-
 int nh_cli_list(nh_cli *cli, nh_error *error)
 {
     const char **names;
@@ -94,6 +60,10 @@ static const struct {
     {"drift", "The largest change of a current along a computed motion, relative to the size of its terms."},
     {"local", "The current changes when an angle goes once around: it is defined on a part of the configuration space only."},
     {"independent", "Its gradient is not a combination of the gradients of the currents before it."},
+    {"group", "The symmetries that leave kinetic energy, potential and constraints invariant: fields on configuration space (nhsym reduce)."},
+    {"Chaplygin", "A system whose group's orbits and constraint distribution are complementary: V + D = TQ, V cap D = 0.  It reduces to the shape space."},
+    {"shape", "Coordinates of a slice through the orbits of a group; the reduced equations are written in them."},
+    {"stage", "A reduction by a group: Chaplygin's, a second one by further symmetry, or the whole group at once (Lagrange-d'Alembert-Poincare)."},
     {"holonomic", "A constraint between positions, as it was given."},
     {"integrable", "The constraints on velocities say no more than that as many functions of time and positions stay constant."},
     {"partly", "Partly integrable: some combinations of the constraints hold a function of time and positions constant, others do not."},

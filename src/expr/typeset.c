@@ -213,10 +213,17 @@ static bool starts_with_number(const nh_seen *e)
     return e->kind == NH_SEEN_NUMBER;
 }
 
+static bool starts_with_name_of_function(const nh_seen *e)
+{
+    if (e->kind == NH_SEEN_POWER) e = e->child;
+    return e->kind == NH_SEEN_CALL && strcmp(e->text, "sqrt") && strcmp(e->text, "abs");
+}
+
 static void product(const writer *w, const nh_seen *e)
 {
     for (const nh_seen *c = e->child; c; c = c->next) {
         if (c != e->child) add(w, starts_with_number(c) ? w->s->dot_times : w->s->times);
+        if (c != e->child && w->form == NH_MATHML && starts_with_name_of_function(c)) add(w, "<mspace width=\"0.17em\"/>");
         factor(w, c);
     }
 }

@@ -4,8 +4,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/linalg.h"
+#include "base/progress.h"
 
 typedef struct {
     const nh_model *model;
@@ -17,8 +19,19 @@ typedef struct {
     size_t watches;
     const nh_watch *watch;
     const nh_valid *valid;
+    double start;     /* when the check began */
     bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
 } run;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Of the time for all motions of the check; some is left for each. */
+static double time_left(const run *r) { return fmax(r->options->check_seconds / 20, r->options->check_seconds + r->start - now()); }
 
 /* ---- currents along a motion ---- */
 
@@ -134,7 +147,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     first.count = 1;
     bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
     double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps)};
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps), .seconds = time_left(r), .cancelled = nh_interrupted_callback};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
@@ -257,7 +270,7 @@ static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_erro
 static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
-        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps};
+        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps, .seconds = time_left(r), .cancelled = nh_interrupted_callback};
         nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, NULL, r->z0, r->outputs, r->times, &options, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
         bool steep;
@@ -287,7 +300,7 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     *v = (nh_validation){.arena = arena, .method = "CVODE Adams", .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, model->chart->name),
                          .begin = initial->t, .end = until, .currents = n, .current = nh_arena_alloc(arena, (n + 1) * sizeof *v->current), .crossing = NAN};
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, options->tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
-    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid};
+    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid, .start = now()};
     r.times = nh_alloc_array(outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(model->m + model->n + 1, sizeof *r.z0);
     for (size_t i = 0; i < outputs; i++) r.times[i] = initial->t + (until - initial->t) * (double)i / (double)(outputs - 1);

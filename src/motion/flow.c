@@ -129,9 +129,21 @@ static bool store_reached(nh_motion *motion, size_t count, const double *times, 
     return true;
 }
 
-/* Whether the motion may take another step. */
-static bool may_go_on(nh_motion *motion, const nh_flow_options *options)
+static double since(const struct timespec *begin)
 {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - begin->tv_sec) + 1e-9 * (double)(now.tv_nsec - begin->tv_nsec);
+}
+
+/* Whether the motion may take another step. */
+static bool may_go_on(nh_motion *motion, const nh_flow_options *options, const struct timespec *begin)
+{
+    enum { steps_between_looks = 16 };
+    if (options->seconds > 0 && motion->steps % steps_between_looks == 0 && since(begin) > options->seconds) {
+        nh_motion_note(motion, "the limit of %.2g s was reached at t = %.10g", options->seconds, motion->end_time);
+        return false;
+    }
     double limit = options->max_steps > 0 ? options->max_steps : default_max_steps;
     if (options->cancelled && options->cancelled(options->cancel_context))
         nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
@@ -152,11 +164,11 @@ static void keep_end_state(nh_motion *motion, double *work, const nh_stepper *st
 void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
                    const nh_stepper *stepper)
 {
-    struct timespec begin, end;
+    struct timespec begin;
     clock_gettime(CLOCK_MONOTONIC, &begin);
     double *work = nh_alloc_array(motion->size, sizeof *work);
     nh_step step = NH_STEP_ON;
-    for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options);) {
+    for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, &begin);) {
         double time = motion->end_time;
         step = stepper->advance(&time, motion, stepper->context);
         if (step == NH_STEP_FAILED)
@@ -175,8 +187,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
         keep_end_state(motion, work, stepper);
     motion->complete = motion->count == count;
     nh_free(work);
-    clock_gettime(CLOCK_MONOTONIC, &end);
-    motion->seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
+    motion->seconds = since(&begin);
 }
 
 /* ---- CVODE ----

@@ -32,6 +32,7 @@ typedef struct {
     double rtol;
     const double *scale;     /* size entries; NULL: all 1 */
     double max_steps;        /* in total; 0: the default of 1e7 */
+    double seconds;          /* of wall-clock time; 0: no limit */
     bool (*cancelled)(void *context); /* polled; may be NULL */
     void *cancel_context;
     double step;             /* of methods with a fixed step */

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "noether/pencil.h"
 #include "system/sample.h"
 
@@ -127,6 +128,10 @@ static double evaluate(unsigned n, const double *theta, double *gradient, void *
 {
     objective *o = context;
     (void)gradient;
+    if (nh_interrupted()) {
+        if (o->running) nlopt_force_stop(o->running);
+        return HUGE_VAL;
+    }
     for (unsigned i = 0; i < n; i++)
         if (!isfinite(theta[i])) { /* NLopt may not return at all on NaN */
             if (o->running) nlopt_force_stop(o->running);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/linalg.h"
+#include "expr/diff.h"
 #include "expr/normal.h"
 #include "noether/recognise.h"
 #include "reduction/runge.h"
@@ -95,25 +97,17 @@ static size_t rank_at(size_t m, size_t n, const double *a, double small, double 
 }
 
 /* Columns in units in which the metric has diagonal one, so that lengths and angles compare. */
-static void scaled(const nh_kinetic *k, const double *q, size_t n, double *a)
+static void scaled(size_t m, const double *K, size_t n, double *a)
 {
-    size_t m = k->m;
-    double *K = nh_alloc_array(m * m, sizeof *K);
-    nh_kinetic_values(k, m * m, k->K, q, K);
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < m; i++) a[i + j * m] *= K[i * (m + 1)] > 0 ? sqrt(K[i * (m + 1)]) : 1;
     unit_columns(m, n, a);
-    nh_free(K);
 }
 
-/* [E, D] at a place (scaled), and omega on V (f x d, unit rows). */
-static size_t with_distribution(const nh_action *g, const double *q, const double *E, double small, double *transversality)
+/* Rank of [E, D] at a place (scaled), and sigma_min / sigma_max of omega on V (unit columns) when there are as many generators as constraints. */
+static size_t with_distribution(size_t m, size_t f, size_t d, const double *K, const double *omega, const double *E, double small, double *transversality)
 {
-    const nh_kinetic *k = g->kinetic;
-    size_t m = k->m, f = k->f, d = g->d;
-    double *omega = nh_alloc_array(f * m + 1, sizeof *omega), *forms = nh_alloc_array(f * m + 1, sizeof *forms);
-    double *both = nh_alloc_array(m * (m + d) + 1, sizeof *both), *on = nh_alloc_array(f * d + 1, sizeof *on);
-    if (f) nh_kinetic_values(k, f * m, k->omega, q, omega);
+    double *forms = nh_alloc_array(f * m + 1, sizeof *forms), *both = nh_alloc_array(m * (m + d) + 1, sizeof *both), *on = nh_alloc_array(f * d + 1, sizeof *on);
     for (size_t a = 0; a < f; a++) {
         double size = 0;
         for (size_t s = 0; s < m; s++) size = hypot(size, omega[a * m + s]);
@@ -121,14 +115,17 @@ static size_t with_distribution(const nh_action *g, const double *q, const doubl
         for (size_t c = 0; c < d; c++)
             for (size_t s = 0; s < m; s++) on[a + c * f] += forms[a + s * f] * E[s + c * m];
     }
+    for (size_t c = 0; c < d; c++) { /* relative to the generators: a column that D nearly contains stays small */
+        double size = 0;
+        for (size_t s = 0; s < m; s++) size = hypot(size, E[s + c * m]);
+        for (size_t a = 0; a < f && size > 0; a++) on[a + c * f] /= size;
+    }
     memcpy(both, E, m * d * sizeof *both);
     size_t n = nh_kernel(f, m, forms, small, both + m * d, NULL, NULL);
-    scaled(k, q, d + n, both);
+    scaled(m, K, d + n, both);
     size_t rank = rank_at(m, d + n, both, small, NULL);
-    unit_columns(f, d, on);
+    *transversality = 0;
     if (d == f) rank_at(f, d, on, small, transversality);
-    else *transversality = 0;
-    nh_free(omega);
     nh_free(forms);
     nh_free(both);
     nh_free(on);
@@ -138,29 +135,33 @@ static size_t with_distribution(const nh_action *g, const double *q, const doubl
 static void find_ranks(nh_action *g, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
-    size_t m = k->m, d = g->d, joint = 0;
-    double *E = nh_alloc_array(2 * m * d + 1, sizeof *E), *unit = E + m * d;
+    size_t m = k->m, d = g->d, f = k->f, joint = 0, total = m * d + m * m + f * m;
+    nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
+    double *z = nh_alloc_array(k->places * total + m * d + 1, sizeof *z), *unit = z + k->places * total;
+    for (size_t a = 0; a < d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
+    memcpy(e + m * d, k->K, m * m * sizeof *e);
+    memcpy(e + m * d + m * m, k->omega, f * m * sizeof *e);
+    nh_kinetic_sample(k, total, e, k->places, z);
     g->free = true;
     g->least = g->transversality = INFINITY;
-    for (size_t p = 0; p < places_of(k); p++) {
-        const double *q = k->place + p * m;
-        double ratio, transversality;
-        nh_action_values(g, q, E);
+    for (size_t p = 0; p < k->places; p++) {
+        const double *E = z + p * total, *K = E + m * d, *omega = K + m * m;
+        double ratio, transversality = 0;
         memcpy(unit, E, m * d * sizeof *unit);
-        scaled(k, q, d, unit);
-        size_t rank = rank_at(m, d, unit, options->group, &ratio), both = k->affine ? with_distribution(g, q, E, options->group, &transversality) : rank;
-        if (!k->affine) transversality = 0;
+        scaled(m, K, d, unit);
+        size_t rank = rank_at(m, d, unit, options->group, &ratio), both = k->affine ? with_distribution(m, f, d, K, omega, E, options->group, &transversality) : rank;
         if (rank > g->orbit) g->orbit = rank;
         if (both > joint) joint = both;
         g->free &= rank == d;
         if (ratio < g->least) g->least = ratio, g->least_place = p;
         g->transversality = fmin(g->transversality, transversality);
     }
-    size_t n = m - k->f;
+    size_t n = m - f;
     g->dimension_assumption = k->affine && joint == m;
     g->intersection = g->orbit + n > joint ? g->orbit + n - joint : 0;
     g->chaplygin = g->dimension_assumption && g->intersection == 0 && g->orbit == d;
-    nh_free(E);
+    nh_free(e);
+    nh_free(z);
 }
 
 void nh_action_init(nh_action *g, const nh_kinetic *k, size_t d, const nh_generator *generator, const nh_options *options)
@@ -340,22 +341,49 @@ bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
     return t == 0 || nh_runge(m, field_rate, f, 0, t, tolerance, largest, q);
 }
 
-bool nh_flows_closed(nh_flows *f, size_t generator)
+static bool returns(nh_flows *f, const double *c, double time)
 {
     static const double same = 1e-8, turn = 6.283185307179586;
     const nh_kinetic *k = f->action->kinetic;
-    double *c = nh_alloc_array(f->action->d + k->m + 1, sizeof *c), *q = c + f->action->d;
-    bool closed = false;
-    c[generator] = 1;
+    double *q = nh_alloc_array(k->m, sizeof *q);
     memcpy(q, k->place, k->m * sizeof *q);
-    for (int i = 0; i < 2 && !closed; i++) {
-        closed = nh_flows_move(f, c, turn, q);
-        for (size_t s = 0; s < k->m && closed; s++) {
-            double way = q[s] - k->place[s];
-            if (k->angle[s]) way -= turn * round(way / turn);
-            closed = fabs(way) < same * (1 + fabs(q[s]));
-        }
+    bool closed = nh_flows_move(f, c, time, q);
+    for (size_t s = 0; s < k->m && closed; s++) {
+        double way = q[s] - k->place[s];
+        if (k->angle[s]) way -= turn * round(way / turn);
+        closed = fabs(way) < same * (1 + fabs(q[s]));
     }
-    nh_free(c);
+    nh_free(q);
+    return closed;
+}
+
+/* The slowest rotation among the eigenvalues of the Jacobian at the first place; 0 when there is none. */
+static double frequency(const nh_flows *f, const double *c)
+{
+    const nh_kinetic *k = f->action->kinetic;
+    size_t m = k->m;
+    nh_ex *e = nh_alloc_array(m * m, sizeof *e);
+    double *J = nh_alloc_array(m * m + 2 * m, sizeof *J), *re = J + m * m, *im = re + m, least = 0;
+    for (size_t s = 0; s < m; s++)
+        for (size_t r = 0; r < m; r++) {
+            e[s + r * m] = nh_int(k->dag, 0);
+            for (size_t a = 0; a < f->action->d; a++)
+                if (c[a] != 0) e[s + r * m] = nh_add(k->dag, e[s + r * m], nh_mul(k->dag, nh_real(k->dag, c[a]), nh_diff(k->dag, f->action->generator[a].component[s], k->q[r])));
+        }
+    nh_kinetic_values(k, m * m, e, k->place, J);
+    if (nh_eigen(m, J, re, im, NULL))
+        for (size_t i = 0; i < m; i++)
+            if (fabs(im[i]) > 1e-6 && (least == 0 || fabs(im[i]) < least)) least = fabs(im[i]);
+    nh_free(e);
+    nh_free(J);
+    return least;
+}
+
+bool nh_flows_closed(nh_flows *f, const double *c)
+{
+    static const double turn = 6.283185307179586;
+    double omega = frequency(f, c);
+    bool closed = false;
+    for (int i = 1; i <= 4 && !closed; i++) closed = (i <= 2 && returns(f, c, i * turn)) || (omega > 0 && returns(f, c, i * turn / omega));
     return closed;
 }

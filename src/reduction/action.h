@@ -52,7 +52,8 @@ typedef struct nh_flows nh_flows;
 nh_flows *nh_flows_create(const nh_action *action);
 void nh_flows_free(nh_flows *flows);
 bool nh_flows_move(nh_flows *flows, const double *c, double t, double *q);
-/* Does the flow of one generator return after one turn, 2 pi or 4 pi, angles counted modulo 2 pi? */
-bool nh_flows_closed(nh_flows *flows, size_t generator);
+/* Does the flow of sum_a c[a] e_a return, angles counted modulo 2 pi?  Tried are the times 2 pi and 4 pi, and the periods that the eigenvalues of its
+ * Jacobian suggest. */
+bool nh_flows_closed(nh_flows *flows, const double *c);
 
 #endif

@@ -13,14 +13,6 @@ static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
     return nh_is_zero(d, a) || nh_is_zero(d, b) ? sum : nh_add(d, sum, nh_mul(d, a, b));
 }
 
-/* Only where the slice is made of whole numbers do expressions become short. */
-static bool whole(const nh_slice *s)
-{
-    for (size_t a = 0; a < s->d; a++)
-        if (s->y0[a] != round(s->y0[a])) return false;
-    return true;
-}
-
 static bool connection(nh_chaplygin *c, nh_error *error)
 {
     const nh_slice *s = c->slice;
@@ -47,7 +39,7 @@ static void curvature(nh_chaplygin *c)
     const nh_algebra *g = &c->slice->action->algebra;
     const nh_ex *x = c->slice->x;
     size_t n = c->n, dim = c->d;
-    bool tidy = whole(c->slice);
+    bool tidy = c->slice->tidy;
     for (size_t a = 0; a < dim; a++)
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j <= i; j++) {
@@ -68,7 +60,7 @@ static void metric(nh_chaplygin *c)
     const nh_slice *s = c->slice;
     nh_dag *d = c->dag;
     size_t n = c->n, m = s->m;
-    bool tidy = whole(s);
+    bool tidy = s->tidy;
     for (size_t a = 0; a < c->d; a++)
         for (size_t j = 0; j < n; j++) {
             nh_ex e = s->K[(n + a) * m + j];
@@ -90,7 +82,7 @@ static void gyroscopic(nh_chaplygin *c)
 {
     nh_dag *d = c->dag;
     size_t n = c->n;
-    bool tidy = whole(c->slice);
+    bool tidy = c->slice->tidy;
     for (size_t k = 0; k < n; k++)
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j <= i; j++) {
@@ -131,6 +123,11 @@ static void equations(nh_chaplygin *c)
     for (size_t a = 0; a < c->d; a++)
         for (size_t i = 0; i < n; i++) o->zeta[a] = plus(d, o->zeta[a], nh_neg(d, c->A[a * n + i]), o->w[i]);
     o->energy = energy;
+    size_t *columns = nh_alloc_array(c->d + 1, sizeof *columns);
+    for (size_t a = 0; a < c->d; a++) columns[a] = n + a;
+    nh_reduced_guard_slice(o, s);
+    nh_reduced_guard_constraints(o, s, columns);
+    nh_free(columns);
 }
 
 bool nh_chaplygin_init(nh_chaplygin *c, const nh_slice *s, nh_error *error)

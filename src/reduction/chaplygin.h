@@ -41,10 +41,9 @@ typedef struct {
     double size;        /* of Theta: 0 means that the Liouville measure is invariant */
     double curl;        /* largest |d Theta| */
     double phi_simple;  /* largest residual of the algebraic condition */
-    bool closed_form;
-    nh_ex density;      /* of dx dp, when a closed form was found */
 } nh_chaplygin_measure;
 
-nh_chaplygin_measure nh_chaplygin_measure_of(const nh_chaplygin *chaplygin, const nh_options *options);
+/* K (n x n) and U (n x n x n, Ups_ij = U_kij x'^k) as functions of the slice's x: those of the first stage, or of the second (second.h). */
+nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_options *options);
 
 #endif

@@ -45,17 +45,17 @@ static bool tensor(gyro *g)
     return good;
 }
 
-static nh_ex *list(const nh_chaplygin *c, size_t *total)
+static nh_ex *list(const nh_slice *s, const nh_ex *K, const nh_ex *U, size_t *total)
 {
-    size_t n = c->n, cube = n * n * n, at = n * n + cube;
+    size_t n = s->n, cube = n * n * n, at = n * n + cube;
     *total = at * (1 + n);
     nh_ex *e = nh_alloc_array(*total, sizeof *e);
-    memcpy(e, c->K, n * n * sizeof *e);
-    memcpy(e + n * n, c->U, cube * sizeof *e);
+    memcpy(e, K, n * n * sizeof *e);
+    memcpy(e + n * n, U, cube * sizeof *e);
     for (size_t l = 0; l < n; l++)
-        for (size_t i = 0; i < n * n; i++) e[at++] = nh_diff(c->dag, c->K[i], c->slice->x[l]);
+        for (size_t i = 0; i < n * n; i++) e[at++] = nh_diff(s->dag, K[i], s->x[l]);
     for (size_t l = 0; l < n; l++)
-        for (size_t i = 0; i < cube; i++) e[at++] = nh_diff(c->dag, c->U[i], c->slice->x[l]);
+        for (size_t i = 0; i < cube; i++) e[at++] = nh_diff(s->dag, U[i], s->x[l]);
     return e;
 }
 
@@ -73,16 +73,16 @@ static double off_simple(const gyro *g)
     return off;
 }
 
-nh_chaplygin_measure nh_chaplygin_measure_of(const nh_chaplygin *c, const nh_options *options)
+nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U, const nh_options *options)
 {
     enum { most_places = 24 };
-    nh_chaplygin_measure out = {.tested = c->n > 0};
-    size_t n = c->n, cube = n * n * n, total, places = c->slice->kinetic->places;
+    nh_chaplygin_measure out = {.tested = s->n > 0};
+    size_t n = s->n, cube = n * n * n, total, places = s->kinetic->places;
     if (!n) return out;
     if (places > most_places) places = most_places;
-    nh_ex *e = list(c, &total);
+    nh_ex *e = list(s, K, U, &total);
     double *value = nh_alloc_array(places * total, sizeof *value), *work = nh_alloc_array(cube * (1 + n) + n + n * n, sizeof *work), tensor_size = 0, slope_size = 0;
-    nh_kinetic_sample(c->slice->kinetic, total, e, places, value);
+    nh_kinetic_sample(s->kinetic, total, e, places, value);
     for (size_t p = 0; p < places; p++) {
         const double *v = value + p * total;
         gyro g = {.n = n, .K = v, .U = v + n * n, .dK = v + n * n + cube, .dU = v + n * n + cube + n * n * n, .T = work, .dT = work + cube};

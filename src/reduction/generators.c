@@ -128,7 +128,7 @@ static double unit_of(const fit *s, const double *e)
     return size > 0 ? 1 / size : 0;
 }
 
-static bool place_rows(const fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double steepest, double *z, rows *out)
+static bool place_rows(const fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z, rows *out)
 {
     const nh_kinetic *k = s->k;
     size_t m = s->m, width = 1 + 2 * m;
@@ -141,7 +141,7 @@ static bool place_rows(const fit *s, layout y, nh_tape *tape, nh_tape_work *work
     for (size_t i = 0; i < y.total; i++) sum += z[i] - z[i];
     if (sum == 0) {
         if (plain(k)) metric_rows(s, y, z, out);
-        if (plain(k) && steepest > 0) function_row(s, y, z, z + y.dV, z + y.Lv, v, 1 / steepest, out);
+        if (plain(k)) function_row(s, y, z, z + y.dV, z + y.Lv, v, unit_of(s, z + y.dV), out); /* of its own size: V may be steep elsewhere */
         for (size_t a = 0; a < k->f; a++) function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, unit_of(s, z + y.fv + a * m), out);
         for (size_t c = 0; c < m; c++) {
             double *row = next_row(&out->b, &out->values, &out->room, s->n);
@@ -171,19 +171,11 @@ static void collect(fit *s, rows *out)
     layout y = lay_out(s);
     nh_tape *tape = row_tape(s, y);
     nh_tape_work *work = nh_tape_work_create(tape);
-    double *z = nh_alloc_array(y.total, sizeof *z), steepest = 0, *slope = nh_alloc_array(s->m, sizeof *slope);
-    nh_ex *dV = nh_alloc_array(s->m, sizeof *dV);
-    for (size_t r = 0; r < s->m; r++) dV[r] = nh_diff(s->k->dag, s->k->V, s->k->q[r]);
-    for (size_t p = 0; p < s->k->places && p < 12; p++) {
-        nh_kinetic_values(s->k, s->m, dV, s->k->place + p * s->m, slope);
-        for (size_t r = 0; r < s->m; r++) steepest = fmax(steepest, fabs(slope[r]) * s->scale[r]);
-    }
-    for (size_t p = 0; p < s->k->places && (out->rows < 3 * s->n + 40 || out->values < 2 * s->n + 40); p++) place_rows(s, y, tape, work, p, steepest, z, out);
+    double *z = nh_alloc_array(y.total, sizeof *z);
+    for (size_t p = 0; p < s->k->places && (out->rows < 3 * s->n + 40 || out->values < 2 * s->n + 40); p++) place_rows(s, y, tape, work, p, z, out);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(z);
-    nh_free(slope);
-    nh_free(dV);
 }
 
 /* Null vectors of A relative to B. */

@@ -7,22 +7,22 @@
 
 /* ---- circles ---- */
 
-/* Central generators whose flow closes count as circles, up to what lies in [g,g]. */
+/* Central fields whose flow closes count as circles, up to what lies in [g,g]: generators, and the pieces of the algebra that are lines. */
 static size_t circles(const nh_group *g, const nh_options *options)
 {
     const nh_algebra *c = &g->action.algebra;
     size_t d = c->d, count = 0, rank;
-    double *all = nh_alloc_array(3 * d * d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
+    double *all = nh_alloc_array(4 * d * d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
     nh_flows *flows = nh_flows_create(&g->action);
     for (size_t i = 0; i < d * d; i++) all[i] = i % (d + 1) == 0;
     size_t n1 = nh_algebra_brackets(c, d, all, d, all, options->group, d1);
     for (size_t a = 0; a < d; a++) {
         bool commutes = true;
         for (size_t i = 0; i < d * d; i++) commutes &= c->c[a * d * d + i] == 0;
-        if (!commutes || !nh_flows_closed(flows, a)) continue;
-        for (size_t i = 0; i < d; i++) central[i + count * d] = i == a;
-        count++;
+        if (commutes && nh_flows_closed(flows, all + a * d)) memcpy(central + count++ * d, all + a * d, d * sizeof *central);
     }
+    for (size_t i = 0; i < g->report.pieces; i++)
+        if (g->report.piece[i].kind == NH_R && nh_flows_closed(flows, g->report.piece[i].basis)) memcpy(central + count++ * d, g->report.piece[i].basis, d * sizeof *central);
     nh_project_off(d, count, central, n1, d1);
     rank = nh_span(d, count, central, sqrt(options->group), all);
     nh_flows_free(flows);
@@ -163,29 +163,103 @@ static bool next_subset(size_t d, size_t count, size_t *index)
     return false;
 }
 
+/* omega(e_a) at every sample point, forms and generators of length one: f x d each, column by column. */
+static double *on_constraints(const nh_action *g)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, f = k->f, d = g->d, total = m * d + f * m;
+    nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
+    double *z = nh_alloc_array(k->places * total + 1, sizeof *z), *out = nh_alloc_array(k->places * f * d + 1, sizeof *out);
+    for (size_t a = 0; a < d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
+    memcpy(e + m * d, k->omega, f * m * sizeof *e);
+    nh_kinetic_sample(k, total, e, k->places, z);
+    for (size_t p = 0; p < k->places; p++)
+        for (size_t i = 0; i < f; i++)
+            for (size_t a = 0; a < d; a++) {
+                const double *E = z + p * total + a * m, *omega = z + p * total + m * d + i * m;
+                double sum = 0, length = 0, size = 0;
+                for (size_t s = 0; s < m; s++) {
+                    sum += omega[s] * E[s];
+                    length = hypot(length, E[s]);
+                    size = hypot(size, omega[s]);
+                }
+                out[p * f * d + i + a * f] = length > 0 && size > 0 ? sum / (length * size) : 0;
+            }
+    nh_free(e);
+    nh_free(z);
+    return out;
+}
+
+/* The least sigma_min / sigma_max of omega on the subset: not zero means that its orbits complement D everywhere. */
+static double transversality(const nh_action *g, const double *on, const size_t *subset)
+{
+    size_t f = g->kinetic->f, d = g->d;
+    double *a = nh_alloc_array(f * f + f + 1, sizeof *a), *s = a + f * f, least = INFINITY;
+    for (size_t p = 0; p < g->kinetic->places; p++) {
+        for (size_t j = 0; j < f; j++) memcpy(a + j * f, on + p * f * d + subset[j] * f, f * sizeof *a);
+        nh_singular_values(f, f, a, s);
+        least = fmin(least, s[0] > 0 ? s[f - 1] / s[0] : 0);
+    }
+    nh_free(a);
+    return least;
+}
+
 bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *index)
 {
-    enum { most_trials = 5000 };
+    enum { most_trials = 20000 };
     size_t d = g->action.d, f = g->kinetic->f, trials = 0;
-    size_t *subset = nh_alloc_array(2 * d + 2, sizeof *subset), *rest = subset + d + 1;
+    size_t *subset = nh_alloc_array(2 * (d + f) + 2, sizeof *subset), *rest = subset + d + f + 1;
+    double *on = on_constraints(&g->action);
     merit best = {0};
     bool found = false;
-    for (size_t i = 0; i < f; i++) subset[i] = i;
+    for (size_t i = 0; i < f && i <= d; i++) subset[i] = i;
     if (f > 0 && f <= d && g->action.closes) do {
             if (!subalgebra(&g->action.algebra, f, subset)) continue;
-            double *t = nh_alloc_array(d * f, sizeof *t);
-            nh_action sub;
-            for (size_t i = 0; i < f; i++) t[subset[i] + i * d] = 1;
-            nh_action_sub(&sub, &g->action, f, t, options);
-            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), interacting(&g->action.algebra, f, subset), sub.transversality};
-            if (sub.chaplygin && sub.free && m.transversality > options->group && (!found || better(m, best))) {
-                best = m;
-                found = true;
-                memcpy(index, subset, f * sizeof *index);
-            }
-            nh_action_clear(&sub);
-            nh_free(t);
+            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), interacting(&g->action.algebra, f, subset), transversality(&g->action, on, subset)};
+            if (m.transversality <= options->transversal || (found && !better(m, best))) continue;
+            best = m;
+            found = true;
+            memcpy(index, subset, f * sizeof *index);
         } while (++trials < most_trials && next_subset(d, f, subset));
     nh_free(subset);
+    nh_free(on);
+    return found;
+}
+
+/* The least sigma_min / sigma_max of some columns of E, made of length one, over places (m x d each). */
+static double independence(size_t m, size_t d, size_t places, const double *E, size_t count, const size_t *subset)
+{
+    double *a = nh_alloc_array(m * count + count + 1, sizeof *a), *s = a + m * count, least = INFINITY;
+    for (size_t p = 0; p < places; p++) {
+        for (size_t j = 0; j < count; j++) {
+            const double *e = E + p * m * d + subset[j] * m;
+            double size = 0;
+            for (size_t i = 0; i < m; i++) size = hypot(size, e[i]);
+            for (size_t i = 0; i < m; i++) a[i + j * m] = size > 0 ? e[i] / size : 0;
+        }
+        nh_singular_values(m, count, a, s);
+        least = fmin(least, s[0] > 0 ? s[count - 1] / s[0] : 0);
+    }
+    nh_free(a);
+    return least;
+}
+
+size_t nh_group_free_subset(const nh_group *g, const nh_options *options, size_t *index)
+{
+    enum { most_trials = 20000 };
+    const nh_kinetic *k = g->kinetic;
+    size_t d = g->action.d, trials = 0, found = 0;
+    nh_ex *e = nh_alloc_array(k->m * d + 1, sizeof *e);
+    double *E = nh_alloc_array(k->places * k->m * d + 1, sizeof *E);
+    for (size_t a = 0; a < d; a++) memcpy(e + a * k->m, g->action.generator[a].component, k->m * sizeof *e);
+    nh_kinetic_sample(k, k->m * d, e, k->places, E);
+    for (size_t size = g->action.orbit; size > 0 && !found; size--) {
+        for (size_t i = 0; i < size; i++) index[i] = i;
+        do {
+            if (subalgebra(&g->action.algebra, size, index) && independence(k->m, d, k->places, E, size, index) > options->group) found = size;
+        } while (!found && ++trials < most_trials && next_subset(d, size, index));
+    }
+    nh_free(e);
+    nh_free(E);
     return found;
 }

@@ -116,6 +116,22 @@ static nh_condition condition(const nh_kinetic *k, size_t n, const nh_ex *e, dou
     return c;
 }
 
+/* A potential of many terms may be too large for one proof: xi of each term vanishes by itself, often. */
+static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_options *options, nh_condition *c)
+{
+    nh_dag *d = k->dag;
+    bool minus = nh_kind_of(d, k->V) == NH_PRODUCT && nh_arity(d, k->V) == 1 && nh_is_number(d, nh_exponent_of(d, k->V, 0), 1);
+    nh_ex V = minus ? nh_child(d, k->V, 0) : k->V;
+    if (!c->holds || c->proved || nh_kind_of(d, V) != NH_SUM) return;
+    c->proved = c->all_parameters = true;
+    for (size_t i = 0; i < nh_arity(d, V) && c->proved; i++) {
+        nh_ex rate = nh_field_along(k, xi, nh_child(d, V, i));
+        if (nh_normal_is_zero(d, rate, (size_t)options->proof_terms) == NH_ZERO) continue;
+        c->all_parameters = false;
+        c->proved = nh_prove_zero(k->model, 1, &rate, false, options).proved;
+    }
+}
+
 void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, const nh_ex *component, const nh_options *options)
 {
     nh_dag *d = k->dag;
@@ -129,7 +145,9 @@ void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, c
     if (!plain(k)) unit[n++] = nh_int(d, 0);
     g->metric = condition(k, of_metric, e, largest_residual(k, of_metric, e, unit), options);
     unit[0] = nh_int(d, 0);
+    for (size_t r = 0; r < m; r++) unit[0] = nh_add(d, unit[0], nh_call(d, NH_ABS, nh_mul(d, component[r], nh_diff(d, k->V, k->q[r]))));
     g->potential = condition(k, 1, e + of_metric, largest_residual(k, 1, e + of_metric, unit), options);
+    prove_by_terms(k, component, options, &g->potential);
     for (size_t a = 0; a < k->f; a++) {
         raw[a] = prolonged(k, component, k->force[a]);
         unit[a] = nh_int(d, 0);
@@ -153,10 +171,10 @@ void nh_generator_text(const nh_kinetic *k, const nh_generator *g, nh_text *out)
         nh_text_add(out, first ? (below ? "-" : "") : below ? " - " : " + ");
         nh_ex shown = below ? minus : e;
         if (!nh_is_number(k->dag, shown, 1)) {
-            bool sum = nh_kind_of(k->dag, shown) == NH_SUM;
-            nh_text_add(out, sum ? "(" : "");
-            nh_print(k->dag, shown, out);
-            nh_text_add(out, sum ? ") " : " ");
+            char *text = nh_print_string(k->dag, shown);
+            bool sum = strchr(text, ' ') != NULL; /* also a number times a sum */
+            nh_text_addf(out, sum ? "(%s) " : "%s ", text);
+            nh_free(text);
         }
         nh_text_addf(out, "d/d%s", name);
         first = false;

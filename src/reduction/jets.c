@@ -8,7 +8,7 @@
 #include "reduction/subspace.h"
 #include "reduction/transport.h"
 
-enum { rays = 5, triangles = 2, halvings = 8, most_blocks = rays + 1 + triangles };
+enum { rays = 5, most_rays = 40, triangles = 2, halvings = 8 };
 
 /* Rows of the conditions, apart, so that each can be left out. */
 typedef struct {
@@ -20,7 +20,7 @@ typedef struct {
     const nh_kinetic *kinetic;
     const nh_options *options;
     nh_transport t;
-    nh_tape *tape; /* V's gradient, omega, its derivatives */
+    nh_tape *tape; /* V's gradient and second derivatives, omega and its derivatives */
     nh_tape_work *work;
     double *out, *x;
     size_t m, f, columns;
@@ -37,8 +37,10 @@ static double *new_row(search *s, int kind)
 static nh_tape *forms_tape(const nh_kinetic *k)
 {
     size_t m = k->m, f = k->f, n = 0;
-    nh_ex *e = nh_alloc_array(m + f * m * (1 + m) + 1, sizeof *e);
+    nh_ex *e = nh_alloc_array(m + m * m + f * m * (1 + m) + 1, sizeof *e);
     for (size_t s = 0; s < m; s++) e[n++] = nh_diff(k->dag, k->V, k->q[s]);
+    for (size_t s = 0; s < m; s++)
+        for (size_t r = 0; r < m; r++) e[n++] = nh_diff(k->dag, e[s], k->q[r]);
     for (size_t i = 0; i < f * m; i++) e[n++] = k->omega[i];
     for (size_t s = 0; s < m; s++)
         for (size_t i = 0; i < f * m; i++) e[n++] = nh_diff(k->dag, k->omega[i], k->q[s]);
@@ -64,12 +66,25 @@ static void metric_rows(search *s, const double *jets)
         }
 }
 
-static void potential_row(search *s, const double *jets)
+/* xi(V) = 0 and its derivatives B^l_k d_l V + xi^l d_k d_l V = 0, divided by the size of dV at the place: near a singularity of V it would hide
+ * all the others. */
+static void potential_rows(search *s, const double *jets)
 {
-    double *row = new_row(s, 1);
-    for (size_t c = 0; c < s->columns; c++) {
-        row[c] = 0;
-        for (size_t l = 0; l < s->m; l++) row[c] += jets[c * s->t.size + l] * s->out[l] * s->t.scale[l];
+    size_t m = s->m;
+    const double *c = s->t.scale, *dV = s->out, *ddV = s->out + m;
+    double slope = 0;
+    for (size_t l = 0; l < m; l++) {
+        slope = fmax(slope, fabs(dV[l]) * c[l]);
+        for (size_t k = 0; k < m; k++) slope = fmax(slope, fabs(ddV[l * m + k]) * c[l] * c[k]);
+    }
+    for (size_t k = 0; k <= m && slope > 0; k++) { /* k = m: the value itself */
+        double *row = new_row(s, 1);
+        for (size_t col = 0; col < s->columns; col++) {
+            const double *xi = jets + col * s->t.size, *B = xi + m;
+            row[col] = 0;
+            for (size_t l = 0; l < m; l++)
+                row[col] += k == m ? xi[l] * dV[l] * c[l] / slope : (B[l + m * k] * dV[l] * c[l] + xi[l] * ddV[l * m + k] * c[l] * c[k]) / slope;
+        }
     }
 }
 
@@ -77,7 +92,7 @@ static void potential_row(search *s, const double *jets)
 static void constraint_rows(search *s, const double *jets)
 {
     size_t m = s->m, f = s->f, size = s->t.size;
-    const double *c = s->t.scale, *omega = s->out + m, *domega = omega + f * m;
+    const double *c = s->t.scale, *omega = s->out + m + m * m, *domega = omega + f * m;
     double *forms = nh_alloc_array(f * m + m * m + m + 1, sizeof *forms), *X = forms + f * m, *lie = X + m * m, *norm = nh_alloc_array(f + 1, sizeof *norm);
     for (size_t a = 0; a < f; a++) {
         for (size_t i = 0; i < m; i++) norm[a] = hypot(norm[a], omega[a * m + i] * c[i]);
@@ -109,7 +124,7 @@ static bool conditions_at(search *s, const double *q, const double *jets)
     if (!nh_transport_at(&s->t, q, s->x)) return false;
     nh_tape_eval(s->tape, s->work, q, s->out);
     metric_rows(s, jets);
-    potential_row(s, jets);
+    potential_rows(s, jets);
     constraint_rows(s, jets);
     return true;
 }
@@ -158,13 +173,6 @@ static void triangle_rows(search *s, const double *from, const double *to, const
             for (size_t c = 0; c < s->columns; c++) row[c] = round[i + c * size] - direct[i + c * size];
         }
     nh_free(round);
-}
-
-/* The gradient of V has the size one at the steepest place. */
-static void scale_potential(search *s)
-{
-    double *row = s->c.row[1], most = nh_largest(s->c.rows[1] * s->columns, row);
-    for (size_t i = 0; i < s->c.rows[1] * s->columns && most > 0; i++) row[i] /= most;
 }
 
 static size_t null_space(search *s, bool potential, bool constraints, double *basis, double *last, double *first)
@@ -222,7 +230,6 @@ static void conclude(search *s, const double *jets, const double *moved, nh_jets
 {
     size_t n = s->columns, size = s->t.size, length = size * n;
     double *basis = nh_alloc_array(n * n + 1, sizeof *basis), *sv = nh_alloc_array(n + 1, sizeof *sv);
-    scale_potential(s);
     out->of_metric = null_space(s, false, false, basis, NULL, NULL);
     out->of_potential = null_space(s, true, false, basis, NULL, NULL);
     out->of_constraints = null_space(s, false, true, basis, NULL, NULL);
@@ -267,20 +274,29 @@ static void thin_out(search *s, double *jets, double *moved)
     nh_free(out);
 }
 
+/* As many rays as give half again as many rows as there are unknowns, of the potential and of the constraints each. */
+static size_t rays_wanted(const search *s)
+{
+    size_t least = s->c.rows[1] && s->c.rows[2] ? (s->c.rows[1] < s->c.rows[2] ? s->c.rows[1] : s->c.rows[2]) : s->c.rows[1] + s->c.rows[2];
+    size_t wanted = least ? 2 + 3 * s->columns / least : rays; /* the rows so far are those of two places */
+    return wanted < rays ? rays : wanted > most_rays ? most_rays : wanted;
+}
+
 static void run(search *s, nh_jets *out)
 {
-    size_t m = s->m, length = s->t.size * s->columns;
-    double *jets = nh_alloc_array(length * (1 + rays), sizeof *jets), *moved = jets + length;
-    out->end = nh_alloc_array(rays * m, sizeof *out->end);
+    size_t m = s->m, length = s->t.size * s->columns, wanted = rays;
+    double *jets = nh_alloc_array(length * (1 + most_rays), sizeof *jets), *moved = jets + length;
+    out->end = nh_alloc_array(most_rays * m, sizeof *out->end);
     nh_transport_at(&s->t, out->place, s->x);
     first_jets(s, jets);
     conditions_at(s, out->place, jets);
-    for (size_t p = 1; p < s->kinetic->places && out->places < rays && s->columns; p++) {
+    for (size_t p = 1; p < s->kinetic->places && out->places < wanted && s->columns; p++) {
         double *end = out->end + out->places * m, *here = moved + out->places * length;
         if (follow_ray(s, out->place, s->kinetic->place + p * m, jets, end, here) && conditions_at(s, end, here)) out->places++;
         if (out->places == 1 && length == s->t.size * m * (m + 1) / 2) {
             thin_out(s, jets, here);
             length = s->t.size * s->columns;
+            wanted = rays_wanted(s);
         }
     }
     for (size_t p = 0; p + 1 < out->places && p < triangles && s->columns; p++)
@@ -292,7 +308,7 @@ static void run(search *s, nh_jets *out)
 nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *error)
 {
     nh_jets *out = nh_alloc(sizeof *out);
-    size_t m = k->m, total = m + k->f * m * (1 + m);
+    size_t m = k->m, total = m + m * m + k->f * m * (1 + m);
     *out = (nh_jets){.m = m, .place = nh_alloc_array(m, sizeof *out->place)};
     search s = {.kinetic = k, .options = options, .m = m, .f = k->f, .columns = m * (m + 1) / 2, .tape = forms_tape(k)};
     s.work = nh_tape_work_create(s.tape);

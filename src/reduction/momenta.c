@@ -239,6 +239,18 @@ static void normalise(const search *s, double *v)
     for (size_t c = 0; c < s->n; c++) v[c] *= sign;
 }
 
+/* A coefficient that is not constant but constant along D: a momentum that is known, times a function of the leaf of an integrable distribution. */
+static bool multiple(const search *s, const nh_momentum *p)
+{
+    const nh_kinetic *k = s->k;
+    nh_dag *d = k->dag;
+    for (size_t a = 0; a < s->d; a++) {
+        nh_ex rate = nh_chart_compose(k->model->chart, nh_diff_along(d, p->f[a], s->m, k->q, k->v));
+        if (!nh_is_zero(d, rate) && nh_normal_is_zero(d, rate, (size_t)s->options->proof_terms) != NH_ZERO) return false;
+    }
+    return !p->horizontal;
+}
+
 static void take(search *s, size_t count, double *v, nh_momenta *out)
 {
     nh_dag *dag = s->k->dag;
@@ -258,6 +270,7 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
         }
         fill(s, p);
         prove(s, p);
+        out->count -= multiple(s, p);
     }
 }
 

@@ -17,7 +17,24 @@ typedef struct {
     double *ad;                     /* d matrices d x d */
     bool *acts;                     /* ad_a is not zero */
     double *M, *P, *E, *next, *zeta; /* work */
+    bool direct;                    /* the place itself is integrated beside (x, p, t) */
+    nh_tape *field;                 /* generators at a place */
+    nh_tape_work *field_work;
+    double *e, *before, *spatial;   /* their values; Ad of the factors kept; g' g^-1 */
 } group_flow;
+
+/* Where the generators do not depend on the shape coordinates, T g d/dx^i = d/dx^i, and the place follows the equation
+ *     q' = x'^i d/dx^i + (Ad_g zeta)^a e_a(q),
+ * which stays on the path of the motion: the flows of the factors take another one, round a pole of the coordinates perhaps. */
+static bool independent_of_shape(const nh_slice *s)
+{
+    const nh_kinetic *k = s->kinetic;
+    for (size_t a = 0; a < s->d; a++)
+        for (size_t r = 0; r < s->m; r++)
+            for (size_t i = 0; i < s->n; i++)
+                if (nh_depends(k->dag, s->action->generator[a].component[r], s->x[i])) return false;
+    return true;
+}
 
 /* M(t) into f->M and Ad_g into f->P. */
 static void second_kind(group_flow *f, const double *t)
@@ -34,6 +51,19 @@ static void second_kind(group_flow *f, const double *t)
     }
 }
 
+/* rate holds x' and, from `inner` on, Ad_h zeta of the factor in hand. */
+static void place_rate(group_flow *f, const double *q, double *rate)
+{
+    const nh_slice *s = f->slice;
+    double *out = rate + f->inner + f->d;
+    nh_multiply(f->d, 1, f->d, f->before, rate + f->inner, f->spatial);
+    nh_tape_eval(f->field, f->field_work, q, f->e);
+    memset(out, 0, s->m * sizeof *out);
+    for (size_t i = 0; i < s->n; i++) out[s->shape[i]] = rate[i];
+    for (size_t a = 0; a < f->d; a++)
+        for (size_t r = 0; r < s->m; r++) out[r] += f->spatial[a] * f->e[r + a * s->m];
+}
+
 static bool rate_of(double time, const double *z, double *rate, void *context)
 {
     (void)time;
@@ -43,20 +73,23 @@ static bool rate_of(double time, const double *z, double *rate, void *context)
     second_kind(f, z + f->inner);
    
     nh_multiply(d, 1, d, f->P, f->zeta, rate + f->inner);
+    if (f->direct) place_rate(f, z + f->inner + d, rate);
     return d == 0 || nh_solve(d, f->M, 1, rate + f->inner, NULL);
 }
 
-/* sigma_min / sigma_max of M, above what is tolerated. */
+/* What must stay regular in the reduced equations, and sigma_min / sigma_max of M, above what is tolerated. */
 static bool guard_of(double time, const double *z, double *value, void *context)
 {
     (void)time;
     static const double least = 0.1;
     group_flow *f = context;
     double *s = f->zeta;
+    if (!nh_reduced_flow_guards(f->flow, z, value)) return false;
+    if (!f->d) return true;
     second_kind(f, z + f->inner);
     nh_singular_values(f->d, f->d, f->M, s);
-    *value = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
-    return isfinite(*value);
+    value[2] = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
+    return isfinite(value[2]);
 }
 
 static void group_flow_init(group_flow *f, const nh_reduced *o, const nh_slice *slice)
@@ -76,11 +109,25 @@ static void group_flow_init(group_flow *f, const nh_reduced *o, const nh_slice *
         nh_algebra_ad(g, f->zeta, f->ad + a * d * d);
         f->acts[a] = nh_largest(d * d, f->ad + a * d * d) > 0;
     }
+    size_t m = slice->m;
+    nh_ex *e = nh_alloc_array(m * d + 1, sizeof *e);
+    for (size_t a = 0; a < d; a++) memcpy(e + a * m, slice->action->generator[a].component, m * sizeof *e);
+    f->direct = independent_of_shape(slice);
+    f->field = nh_kinetic_tape(slice->kinetic, m * d, e);
+    f->field_work = nh_tape_work_create(f->field);
+    f->e = nh_alloc_array(m * d + d * d + d + 1, sizeof *f->e);
+    f->before = f->e + m * d;
+    f->spatial = f->before + d * d;
+    for (size_t i = 0; i < d * d; i++) f->before[i] = i % (d + 1) == 0;
+    nh_free(e);
 }
 
 static void group_flow_clear(group_flow *f)
 {
     nh_reduced_flow_free(f->flow);
+    nh_tape_work_free(f->field_work);
+    nh_tape_free(f->field);
+    nh_free(f->e);
     nh_free(f->ad);
     nh_free(f->acts);
 }
@@ -106,6 +153,10 @@ typedef struct {
 
 static bool place_of(const group_flow *f, nh_flows *flows, const stretches *done, const double *z, double *q)
 {
+    if (f->direct) {
+        memcpy(q, z + f->inner + f->d, f->slice->m * sizeof *q);
+        return true;
+    }
     nh_slice_place(f->slice, z, q);
     bool good = move(flows, f->d, z + f->inner, q);
     for (size_t i = done->count; i-- > 0 && good;) good = move(flows, f->d, done->factor + i * f->d, q);
@@ -118,24 +169,38 @@ static bool store(group_flow *f, nh_flows *flows, const stretches *done, const n
     bool good = true;
     for (size_t i = from; i < motion->count && good; i++) {
         const double *z = motion->state + i * motion->size;
-        size_t at = out->count++;
+        size_t at = out->count;
         out->time[at] = motion->time[i];
         memcpy(out->z + at * f->inner, z, f->inner * sizeof *z);
         if (!nh_reduced_flow_at(f->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, NULL)) return false;
         good = place_of(f, flows, done, z, out->q + at * out->m);
+        out->count += good;
     }
     return good;
+}
+
+/* Keep the factors of g; the next stretch starts from the identity. */
+static void start_again(group_flow *f, const nh_motion *motion, stretches *done, double *state)
+{
+    nh_grow(&done->factor, &done->capacity, (done->count + 1) * f->d, sizeof *done->factor);
+    memcpy(done->factor + done->count++ * f->d, motion->end_state + f->inner, f->d * sizeof *done->factor);
+    second_kind(f, motion->end_state + f->inner);
+    nh_multiply(f->d, f->d, f->d, f->before, f->P, f->next);
+    memcpy(f->before, f->next, f->d * f->d * sizeof *f->before);
+    memcpy(state, motion->end_state, motion->size * sizeof *state);
+    memset(state + f->inner, 0, f->d * sizeof *state);
 }
 
 static bool run(group_flow *f, nh_flows *flows, const double *z, size_t count, const double *times, const nh_options *options, nh_reconstruction *out, nh_error *error)
 {
     enum { most_stretches = 10000 };
     nh_flow_options flow_options = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = options->steps};
-    nh_flow_problem problem = {.size = f->inner + f->d, .context = f, .rate = rate_of, .guards = f->d > 0, .guard = guard_of};
+    nh_flow_problem problem = {.size = f->inner + f->d + (f->direct ? f->slice->m : 0), .context = f, .rate = rate_of, .guards = 2 + (f->d > 0), .guard = guard_of};
     double *state = nh_alloc_array(problem.size, sizeof *state), *left = nh_alloc_array(count + 1, sizeof *left);
     stretches done = {0};
     bool good = true;
     memcpy(state, z, f->inner * sizeof *state);
+    if (f->direct) nh_slice_place(f->slice, z, state + f->inner + f->d);
     memcpy(left, times, count * sizeof *left);
     while (good && !out->complete && done.count < most_stretches) {
         size_t n = count - out->count, first = out->count > 0 || done.count > 0; /* a later stretch begins where the last one ended */
@@ -145,18 +210,18 @@ static bool run(group_flow *f, nh_flows *flows, const double *z, size_t count, c
         if (!good) break;
         out->evaluations += motion->evaluations;
         out->steps += motion->steps;
-        good = store(f, flows, &done, motion, first, out);
-        out->complete = motion->complete;
-        if (!motion->complete && motion->guard_hit < 0) {
-            snprintf(out->note, sizeof out->note, "%s", motion->note);
+        bool found = store(f, flows, &done, motion, first, out);
+        out->complete = motion->complete && found;
+        if (!found) snprintf(out->note, sizeof out->note, "the flows of the generators meet a singularity of the coordinates at t = %.4g", times[out->count]);
+        else if (motion->guard_hit >= 0 && motion->guard_hit < 2)
+            snprintf(out->note, sizeof out->note, "%s singular at t = %.6g", motion->guard_hit == 0 ? "the constraints on the orbits become" : "the slice becomes", motion->end_time);
+        else if (!motion->complete && motion->guard_hit < 0) snprintf(out->note, sizeof out->note, "%s", motion->note);
+        if (!found || (!motion->complete && motion->guard_hit < 2)) {
             nh_motion_free(motion);
             break;
         }
-        if (!motion->complete) { /* keep the factors, start again from the identity */
-            nh_grow(&done.factor, &done.capacity, (done.count + 1) * f->d, sizeof *done.factor);
-            memcpy(done.factor + done.count++ * f->d, motion->end_state + f->inner, f->d * sizeof *done.factor);
-            memcpy(state, motion->end_state, f->inner * sizeof *state);
-            memset(state + f->inner, 0, f->d * sizeof *state);
+        if (!motion->complete) {
+            start_again(f, motion, &done, state);
             left[0] = motion->end_time;
             out->restarts++;
         }

@@ -26,6 +26,22 @@ void nh_reduced_init(nh_reduced *o, const nh_kinetic *k, size_t n, const nh_ex *
     o->energy = nh_int(k->dag, 0);
 }
 
+void nh_reduced_guard_slice(nh_reduced *o, const nh_slice *s)
+{
+    o->guard_size[1] = s->d;
+    o->guard[1] = nh_arena_alloc(o->kinetic->arena, (s->d * s->d + 1) * sizeof *o->guard[1]);
+    for (size_t i = 0; i < s->d; i++)
+        for (size_t a = 0; a < s->d; a++) o->guard[1][i + a * s->d] = s->E[s->along[i] * s->d + a];
+}
+
+void nh_reduced_guard_constraints(nh_reduced *o, const nh_slice *s, const size_t *columns)
+{
+    o->guard_size[0] = s->f;
+    o->guard[0] = nh_arena_alloc(o->kinetic->arena, (s->f * s->f + 1) * sizeof *o->guard[0]);
+    for (size_t i = 0; i < s->f; i++)
+        for (size_t j = 0; j < s->f; j++) o->guard[0][i + j * s->f] = s->omega[i * s->m + columns[j]];
+}
+
 /* ---- the equations on the slice ---- */
 
 void nh_reduced_independent(const nh_slice *s, size_t *independent)
@@ -150,6 +166,19 @@ static void name_velocities(nh_reduced *o, const nh_slice *s, const size_t *inde
     }
 }
 
+static void guard(nh_reduced *o, const nh_slice *s, const size_t *independent)
+{
+    size_t n = 0, *columns = nh_alloc_array(s->f + 1, sizeof *columns);
+    for (size_t j = 0; j < s->m; j++) {
+        bool free_one = false;
+        for (size_t i = 0; i < o->r; i++) free_one |= independent[i] == j;
+        if (!free_one && n < s->f) columns[n++] = j;
+    }
+    nh_reduced_guard_slice(o, s);
+    nh_reduced_guard_constraints(o, s, columns);
+    nh_free(columns);
+}
+
 bool nh_reduced_master(nh_reduced *o, const nh_slice *s, const size_t *independent, nh_error *error)
 {
     nh_dag *d = s->dag;
@@ -182,6 +211,7 @@ bool nh_reduced_master(nh_reduced *o, const nh_slice *s, const size_t *independe
         memcpy(o->dx, u, n * sizeof *u);
         memcpy(o->zeta, u + n, s->d * sizeof *u);
         o->energy = nh_add(d, nh_mul(d, nh_ratio(d, 1, 2), dot(d, m, u, 1, momentum)), s->V);
+        guard(o, s, independent);
     }
     nh_free(rho);
     return good;
@@ -191,10 +221,39 @@ bool nh_reduced_master(nh_reduced *o, const nh_slice *s, const size_t *independe
 
 struct nh_reduced_flow {
     const nh_reduced *o;
-    nh_tape *mass, *rest; /* M(x); x', F, zeta, energy of (x, w) */
-    nh_tape_work *mass_work, *rest_work;
-    double *M, *in, *out;
+    nh_tape *mass, *rest, *guard; /* M(x); x', F, zeta, energy of (x, w); matrices that must stay regular */
+    nh_tape_work *mass_work, *rest_work, *guard_work;
+    double *M, *in, *out, *regular;
 };
+
+static void guard_tape(nh_reduced_flow *f)
+{
+    const nh_reduced *o = f->o;
+    const nh_model *y = o->kinetic->model;
+    size_t first = o->guard_size[0] * o->guard_size[0], total = first + o->guard_size[1] * o->guard_size[1];
+    nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
+    if (first) memcpy(e, o->guard[0], first * sizeof *e);
+    if (total > first) memcpy(e + first, o->guard[1], (total - first) * sizeof *e);
+    f->guard = nh_tape_create(o->kinetic->dag, o->n, o->x, total, e, y->system->parameters, y->parameter, y->parameter_value);
+    f->guard_work = nh_tape_work_create(f->guard);
+    f->regular = nh_alloc_array(total + 1, sizeof *f->regular);
+    nh_free(e);
+}
+
+bool nh_reduced_flow_guards(nh_reduced_flow *f, const double *x, double value[2])
+{
+    const size_t *size = f->o->guard_size;
+    nh_tape_eval(f->guard, f->guard_work, x, f->regular);
+    value[0] = nh_relative_determinant(size[0], f->regular);
+    value[1] = nh_relative_determinant(size[1], f->regular + size[0] * size[0]);
+    return isfinite(value[0]) && isfinite(value[1]);
+}
+
+static bool guards_of(double t, const double *z, double *value, void *context)
+{
+    (void)t;
+    return nh_reduced_flow_guards(context, z, value);
+}
 
 nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *o)
 {
@@ -213,6 +272,7 @@ nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *o)
     f->rest = nh_tape_create(o->kinetic->dag, n + r, in, total, e, p, y->parameter, y->parameter_value);
     f->mass_work = nh_tape_work_create(f->mass);
     f->rest_work = nh_tape_work_create(f->rest);
+    guard_tape(f);
     nh_free(in);
     nh_free(e);
     return f;
@@ -225,6 +285,9 @@ void nh_reduced_flow_free(nh_reduced_flow *f)
     nh_tape_work_free(f->rest_work);
     nh_tape_free(f->mass);
     nh_tape_free(f->rest);
+    nh_tape_work_free(f->guard_work);
+    nh_tape_free(f->guard);
+    nh_free(f->regular);
     nh_free(f->M);
     nh_free(f->in);
     nh_free(f->out);
@@ -253,7 +316,7 @@ static bool rate_of(double t, const double *z, double *rate, void *context)
     return nh_reduced_flow_at(context, z, rate, NULL, NULL, NULL);
 }
 
-nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *f) { return (nh_flow_problem){.size = f->o->n + f->o->r, .context = f, .rate = rate_of}; }
+nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *f) { return (nh_flow_problem){.size = f->o->n + f->o->r, .context = f, .rate = rate_of, .guards = 2, .guard = guards_of}; }
 
 bool nh_reduced_start(const nh_reduced *o, const double *x, const double *w, double *z)
 {

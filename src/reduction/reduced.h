@@ -18,6 +18,8 @@ typedef struct {
     nh_ex *M;            /* r x r, row-major */
     nh_ex *dx, *F, *zeta; /* n, r, d as functions of (x, w) */
     nh_ex energy;        /* of (x, w) */
+    size_t guard_size[2]; /* matrices of functions of x that must stay regular: of the constraints, and of the generators on the slice (0: none) */
+    nh_ex *guard[2];     /* column by column */
 } nh_reduced;
 
 /* A new one with symbols for the velocities (names[i], or NULL for u1, u2, ...) and everything zero; memory: the kinetic's arena. */
@@ -40,7 +42,13 @@ bool nh_reduced_start(const nh_reduced *reduced, const double *x, const double *
 typedef struct nh_reduced_flow nh_reduced_flow;
 nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *reduced);
 void nh_reduced_flow_free(nh_reduced_flow *flow);
+/* A motion ends where a guard's determinant changes sign: beyond a singularity of the slice or of the connection it would mean nothing. */
 nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *flow);
+/* The two determinants at x (1 where there is no matrix); false when they are not finite. */
+bool nh_reduced_flow_guards(nh_reduced_flow *flow, const double *x, double value[2]);
+/* For who fills the equations: what must stay regular on a slice, its generators' minor; and the constraints' columns (f of them). */
+void nh_reduced_guard_slice(nh_reduced *reduced, const nh_slice *slice);
+void nh_reduced_guard_constraints(nh_reduced *reduced, const nh_slice *slice, const size_t *columns);
 /* All at once at z: rate (n + r), w (r), zeta (d), energy; each may be NULL. */
 bool nh_reduced_flow_at(nh_reduced_flow *flow, const double *z, double *rate, double *w, double *zeta, double *energy);
 

@@ -22,7 +22,7 @@ bool nh_second_descend(const nh_chaplygin *f, const nh_ex *field, nh_ex *out)
     nh_dag *d = f->dag;
     size_t n = f->n, g = f->d;
     nh_ex *a = nh_alloc_array(g * g + 2 * g + 1, sizeof *a), *c = a + g * g, *y = c + g;
-    for (size_t r = 0; r < g; r++) y[r] = nh_real(d, s->y0[r]);
+    for (size_t r = 0; r < g; r++) y[r] = s->y[r];
     for (size_t r = 0; r < g; r++) {
         for (size_t b = 0; b < g; b++) a[r * g + b] = s->E[s->along[r] * g + b];
         c[r] = field[s->along[r]];
@@ -200,14 +200,7 @@ void nh_second_clear(nh_second *s) { nh_action_clear(&s->action); }
 
 /* ---- equations ---- */
 
-static bool whole(const nh_slice *s)
-{
-    bool all = true;
-    for (size_t a = 0; a < s->d; a++) all &= s->y0[a] == round(s->y0[a]);
-    return all;
-}
-
-static nh_ex tidy(const nh_second *s, nh_ex e) { return whole(&s->slice) ? nh_simplify(s->slice.dag, e) : e; }
+static nh_ex tidy(const nh_second *s, nh_ex e) { return s->slice.tidy ? nh_simplify(s->slice.dag, e) : e; }
 
 static bool connection(nh_second *s)
 {
@@ -264,7 +257,7 @@ static void gyroscopic(const nh_second *s, const nh_ex *u, nh_ex *g)
     nh_ex *speed = nh_alloc_array(2 * m + 2 * s->d + 1, sizeof *speed), *force = speed + m, *from = force + m, *to = from + s->d;
     for (size_t a = 0; a < s->d; a++) {
         from[a] = s->hat->q[c->along[a]];
-        to[a] = nh_real(d, c->y0[a]);
+        to[a] = c->y[a];
     }
     for (size_t i = 0; i < m; i++) speed[i] = nh_int(d, 0);
     for (size_t i = 0; i < n; i++) speed[c->shape[i]] = u[i];
@@ -284,6 +277,31 @@ static void gyroscopic(const nh_second *s, const nh_ex *u, nh_ex *g)
         for (size_t i = 0; i < m; i++) g[n + a] = plus(d, g[n + a], c->E[i * s->d + a], force[i]);
     }
     nh_free(speed);
+}
+
+/* U_kij of the first stage on the horizontal vectors h_i = d_i - Av^a_i e_a. */
+static void horizontal_form(nh_second *s)
+{
+    const nh_slice *c = &s->slice;
+    nh_dag *d = c->dag;
+    size_t m = c->m, n = c->n, cube = m * m * m;
+    nh_ex *h = nh_alloc_array(m * n + cube + s->d + 1, sizeof *h), *U = h + m * n, *from = U + cube;
+    for (size_t a = 0; a < s->d; a++) from[a] = s->hat->q[c->along[a]];
+    for (size_t i = 0; i < cube; i++) U[i] = nh_substitute(d, s->first->U[i], s->d, from, c->y);
+    for (size_t r = 0; r < m; r++)
+        for (size_t i = 0; i < n; i++) {
+            h[r * n + i] = nh_int(d, c->shape[i] == r);
+            for (size_t a = 0; a < s->d; a++) h[r * n + i] = plus(d, h[r * n + i], nh_neg(d, c->E[r * s->d + a]), s->Av[a * n + i]);
+        }
+    for (size_t at = 0; at < n * n * n; at++) {
+        size_t k = at / (n * n), i = at / n % n, j = at % n;
+        s->U[at] = nh_int(d, 0);
+        for (size_t r = 0; r < cube; r++) {
+            size_t a = r / (m * m), b = r / m % m, e = r % m;
+            if (!nh_is_zero(d, U[r])) s->U[at] = plus(d, s->U[at], nh_mul(d, U[r], h[a * n + k]), nh_mul(d, h[b * n + i], h[e * n + j]));
+        }
+    }
+    nh_free(h);
 }
 
 static void names(nh_second *s)
@@ -323,6 +341,21 @@ static nh_ex shape_force(const nh_second *s, size_t i, const nh_ex *momentum)
     return sum;
 }
 
+/* The slice of the shape space, and the first stage's connection on it. */
+static void guard(nh_second *s)
+{
+    const nh_reduced *first = &s->first->reduced;
+    nh_reduced *o = &s->reduced;
+    size_t d = s->d, n = first->guard_size[0] * first->guard_size[0];
+    nh_ex *from = nh_alloc_array(d + 1, sizeof *from);
+    for (size_t a = 0; a < d; a++) from[a] = s->hat->q[s->slice.along[a]];
+    nh_reduced_guard_slice(o, &s->slice);
+    o->guard_size[0] = first->guard_size[0];
+    o->guard[0] = nh_arena_alloc(s->hat->arena, (n + 1) * sizeof *o->guard[0]);
+    for (size_t i = 0; i < n; i++) o->guard[0][i] = nh_substitute(s->slice.dag, first->guard[0][i], d, from, s->slice.y);
+    nh_free(from);
+}
+
 static void equations(nh_second *s)
 {
     nh_reduced *o = &s->reduced;
@@ -354,6 +387,7 @@ static void equations(nh_second *s)
                 double c = g->c[(a * dim + b) * dim + k];
                 if (c != 0) o->F[n + b] = plus(d, o->F[n + b], nh_mul(d, nh_real(d, c), o->zeta[a]), momentum[k]);
             }
+    guard(s);
     o->energy = s->slice.V;
     for (size_t i = 0; i < r; i++)
         for (size_t j = 0; j < r; j++) o->energy = plus(d, o->energy, nh_mul(d, nh_ratio(d, 1, 2), o->M[i * r + j]), nh_mul(d, o->w[i], o->w[j]));
@@ -379,12 +413,14 @@ bool nh_second_equations(nh_second *s, const size_t *shape, const size_t *along,
     nh_arena *arena = s->hat->arena;
     size_t n = s->n, d = s->d;
     nh_slice_init(&s->slice, &s->action, shape, along, y0);
-    s->inertia = nh_arena_alloc(arena, (d * d + d * n + n * n + d * n * n + 1) * sizeof *s->inertia);
+    s->inertia = nh_arena_alloc(arena, (d * d + d * n + n * n + d * n * n + n * n * n + 1) * sizeof *s->inertia);
     s->Av = s->inertia + d * d;
     s->Kt = s->Av + d * n;
     s->Bv = s->Kt + n * n;
+    s->U = s->Bv + d * n * n;
     if (!connection(s)) return nh_fail(error, NH_NUMERIC, "", "the locked inertia of the second group is singular");
     curvature(s);
+    horizontal_form(s);
     equations(s);
     s->orbit = orbit_dimension(&s->action.algebra);
     return true;

@@ -28,6 +28,7 @@ typedef struct {
     nh_slice slice;         /* of the shape space */
     size_t n, d;            /* what remains; dimension of N */
     nh_ex *inertia, *Av, *Kt, *Bv; /* d x d, d x n, n x n, d x n x n */
+    nh_ex *U;               /* n x n x n: the gyroscopic form on vectors horizontal for Av, U_kij x'^k; what m adds to it does not matter for a measure */
     nh_reduced reduced;     /* w = (x', v), p = (pt, m) */
     size_t orbit;           /* dimension of a generic coadjoint orbit of N */
     double invariance, weak, strong; /* largest relative residuals of (i) for Ups, (ii), (ii') */

@@ -86,10 +86,10 @@ void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
 
 /* ---- data ---- */
 
-static nh_ex tidy(const nh_slice *s, bool whole, nh_ex e) { return whole ? nh_simplify(s->dag, e) : e; }
+static nh_ex tidy(const nh_slice *s, nh_ex e) { return s->tidy ? nh_simplify(s->dag, e) : e; }
 
 /* a^T B c for vectors given as columns of a frame: frame[s*m + j] is component s of vector j. */
-static void frame_metric(nh_slice *s, const nh_ex *frame, const nh_ex *K, bool whole)
+static void frame_metric(nh_slice *s, const nh_ex *frame, const nh_ex *K)
 {
     nh_dag *d = s->dag;
     size_t m = s->m;
@@ -105,12 +105,12 @@ static void frame_metric(nh_slice *s, const nh_ex *frame, const nh_ex *K, bool w
             nh_ex sum = nh_int(d, 0);
             for (size_t r = 0; r < m; r++)
                 if (!nh_is_zero(d, frame[r * m + i])) sum = nh_add(d, sum, nh_mul(d, frame[r * m + i], half[r * m + j]));
-            s->K[i * m + j] = s->K[j * m + i] = tidy(s, whole, sum);
+            s->K[i * m + j] = s->K[j * m + i] = tidy(s, sum);
         }
     nh_free(half);
 }
 
-static void frame_forms(nh_slice *s, const nh_ex *frame, const nh_ex *omega, bool whole)
+static void frame_forms(nh_slice *s, const nh_ex *frame, const nh_ex *omega)
 {
     nh_dag *d = s->dag;
     for (size_t a = 0; a < s->f; a++)
@@ -118,8 +118,16 @@ static void frame_forms(nh_slice *s, const nh_ex *frame, const nh_ex *omega, boo
             nh_ex sum = nh_int(d, 0);
             for (size_t r = 0; r < s->m; r++)
                 if (!nh_is_zero(d, frame[r * s->m + j])) sum = nh_add(d, sum, nh_mul(d, omega[a * s->m + r], frame[r * s->m + j]));
-            s->omega[a * s->m + j] = tidy(s, whole, sum);
+            s->omega[a * s->m + j] = tidy(s, sum);
         }
+}
+
+static nh_ex exact(nh_slice *s, double y)
+{
+    static const double right_angle = 1.5707963267948966;
+    if (y == right_angle) return nh_mul(s->dag, nh_ratio(s->dag, 1, 2), nh_pi(s->dag));
+    s->tidy &= y == round(y);
+    return nh_real(s->dag, y);
 }
 
 void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const size_t *along, const double *y0)
@@ -134,28 +142,28 @@ void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const s
     memcpy(s->shape, shape, n * sizeof *shape);
     memcpy(s->along, along, d * sizeof *along);
     memcpy(s->y0, y0, d * sizeof *y0);
-    s->x = nh_arena_alloc(k->arena, (n + m * d + m * m + f * m + 1) * sizeof *s->x);
+    s->x = nh_arena_alloc(k->arena, (n + m * d + m * m + f * m + d + 1) * sizeof *s->x);
     s->E = s->x + n;
     s->K = s->E + m * d;
     s->omega = s->K + m * m;
+    s->y = s->omega + f * m;
     nh_ex *from = nh_alloc_array(2 * d + 2 * m * m + f * m + 1, sizeof *from), *to = from + d, *frame = to + d, *K = frame + m * m, *omega = K + m * m;
-    bool whole = true;
+    s->tidy = true;
     for (size_t a = 0; a < d; a++) {
         from[a] = k->q[along[a]];
-        to[a] = nh_real(dag, y0[a]);
-        whole &= y0[a] == round(y0[a]);
+        to[a] = s->y[a] = exact(s, y0[a]);
     }
     for (size_t i = 0; i < n; i++) s->x[i] = k->q[shape[i]];
     for (size_t r = 0; r < m; r++) {
-        for (size_t a = 0; a < d; a++) s->E[r * d + a] = tidy(s, whole, nh_substitute(dag, g->generator[a].component[r], d, from, to));
+        for (size_t a = 0; a < d; a++) s->E[r * d + a] = tidy(s, nh_substitute(dag, g->generator[a].component[r], d, from, to));
         for (size_t i = 0; i < n; i++) frame[r * m + i] = nh_int(dag, shape[i] == r);
         for (size_t a = 0; a < d; a++) frame[r * m + n + a] = s->E[r * d + a];
     }
     for (size_t i = 0; i < m * m; i++) K[i] = nh_substitute(dag, k->K[i], d, from, to);
     for (size_t i = 0; i < f * m; i++) omega[i] = nh_substitute(dag, k->omega[i], d, from, to);
-    s->V = tidy(s, whole, nh_substitute(dag, k->V, d, from, to));
-    frame_metric(s, frame, K, whole);
-    frame_forms(s, frame, omega, whole);
+    s->V = tidy(s, nh_substitute(dag, k->V, d, from, to));
+    frame_metric(s, frame, K);
+    frame_forms(s, frame, omega);
     nh_free(from);
 }
 

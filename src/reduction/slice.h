@@ -18,6 +18,8 @@ typedef struct {
     size_t m, f, n, d;     /* coordinates, constraints, shape, group; m = n + d */
     size_t *shape, *along; /* n, d coordinate indices: x and y */
     double *y0;            /* d */
+    nh_ex *y;              /* d: the same as expressions, exact where they are whole numbers or pi/2 */
+    bool tidy;             /* all of them are exact: expressions are worth simplifying */
     nh_ex *x;              /* n symbols */
     nh_ex *E;              /* m x d: generators on the slice, E[s*d + a] */
     nh_ex *K;              /* m x m in the frame, row-major; shape first */
@@ -28,7 +30,7 @@ typedef struct {
 /* The d coordinates y whose rows of E are best conditioned over the sample points (system->dependent breaks ties). */
 void nh_slice_choose(const nh_action *action, size_t *shape, size_t *along);
 
-/* y0 (d values); entries are simplified where y0 is whole numbers.  Memory: the kinetic's arena. */
+/* y0 (d values); entries are simplified where y0 is exact (whole numbers, pi/2).  Memory: the kinetic's arena. */
 void nh_slice_init(nh_slice *slice, const nh_action *action, const size_t *shape, const size_t *along, const double *y0);
 
 /* Components u = (x', zeta) in the frame of a velocity at a place q on the slice (m values each).  False when the frame is singular there. */

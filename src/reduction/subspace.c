@@ -122,6 +122,19 @@ void nh_column_echelon(size_t d, size_t n, double small, double *c)
         if (fabs(c[i] - round(c[i])) < small) c[i] = round(c[i]);
 }
 
+double nh_relative_determinant(size_t n, const double *a)
+{
+    double *b = nh_alloc_array(n * n + 1, sizeof *b), det;
+    for (size_t j = 0; j < n; j++) {
+        double size = 0;
+        for (size_t i = 0; i < n; i++) size = hypot(size, a[i + j * n]);
+        for (size_t i = 0; i < n; i++) b[i + j * n] = size > 0 ? a[i + j * n] / size : 0;
+    }
+    det = n ? nh_determinant(n, b) : 1;
+    nh_free(b);
+    return det;
+}
+
 void nh_matrix_exp(size_t n, const double *a, double *out)
 {
     enum { terms = 20 }; /* 0.5^20/20! is far below rounding */

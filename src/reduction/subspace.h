@@ -31,6 +31,9 @@ double nh_largest(size_t n, const double *a);
 /* n independent columns of length d in reduced echelon form (first entries as pivots); what is within `small` of a whole number becomes that. */
 void nh_column_echelon(size_t d, size_t n, double small, double *c);
 
+/* The determinant of a (n x n, left alone) divided by the product of the lengths of its columns: 0 singular, 1 orthogonal. */
+double nh_relative_determinant(size_t n, const double *a);
+
 /* exp(a) of an n x n matrix, by scaling and squaring of the Taylor series. */
 void nh_matrix_exp(size_t n, const double *a, double *out);
 

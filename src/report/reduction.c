@@ -109,7 +109,7 @@ static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh
 
 static void put_numbers(const nh_reduction_stage *s, nh_text *out)
 {
-    const char *with = s->kind == NH_STAGE_SECOND ? "the first stage" : "the full motion";
+    const char *with = s->against_full ? "the full motion" : "the first stage";
     if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
     else nh_text_addf(out, "  not compared with %s", with);
     nh_text_addf(out, "; energy drifts by %.1e", s->energy_drift);
@@ -118,11 +118,13 @@ static void put_numbers(const nh_reduction_stage *s, nh_text *out)
     if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
 }
 
-static void put_measure(const nh_chaplygin_measure *m, nh_text *out)
+static void put_measure(const nh_reduction_stage *s, nh_text *out)
 {
+    const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
     if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : "");
     else nh_text_addf(out, "  no invariant measure with a density on the shape space (|d Theta| = %.2g)\n", m->curl);
+    if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) return; /* what the momentum adds to the form would have to be closed, too */
     if (m->factor) nh_text_add(out, "  a conformal factor makes it Hamiltonian\n");
     else nh_text_addf(out, "  no conformal factor makes it Hamiltonian%s\n", m->simple ? "" : " (Ups is not phi-simple)");
 }
@@ -186,7 +188,7 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
     for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, verbose);
-    if (s->kind == NH_STAGE_CHAPLYGIN) put_measure(&s->measure, out);
+    put_measure(s, out);
     put_linear(r, s, verbose, out);
     put_chain(s, out);
     put_numbers(s, out);

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "base/json.h"
+#include "expr/normal.h"
 #include "expr/print.h"
 #include "report/reduction.h"
 
@@ -56,6 +57,22 @@ static void put_series(nh_json *to, const char *key, size_t n, const size_t *dim
     for (size_t i = 0; i < n; i++) nh_json_add_number(list, (double)dimension[i]);
 }
 
+/* J_a = e_a^s K_sr v^r, the spatial momenta. */
+static void put_momentum_map(nh_json *to, const nh_action *g)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_json *list = nh_json_put_array(to, "momentum_map");
+    for (size_t a = 0; a < g->d && k->quadratic && k->autonomous; a++) {
+        nh_ex sum = nh_int(k->dag, 0);
+        for (size_t s = 0; s < k->m; s++)
+            for (size_t r = 0; r < k->m && !nh_is_zero(k->dag, g->generator[a].component[s]); r++)
+                sum = nh_add(k->dag, sum, nh_mul(k->dag, nh_mul(k->dag, g->generator[a].component[s], k->K[s * k->m + r]), k->v[r]));
+        char *text = nh_print_string(k->dag, nh_simplify(k->dag, sum));
+        nh_json_add_text(list, text);
+        nh_free(text);
+    }
+}
+
 static void put_group(nh_json *root, const char *key, const nh_reduction *r, const nh_group *g)
 {
     nh_json *to = nh_json_put_object(root, key);
@@ -63,6 +80,7 @@ static void put_group(nh_json *root, const char *key, const nh_reduction *r, con
     nh_json_put_text(to, "name", g->name);
     put_fields(to, &g->action);
     put_algebra(to, &g->action.algebra);
+    put_momentum_map(to, &g->action);
     nh_json_put_number(to, "centre", (double)g->report.centre);
     nh_json_put_number(to, "radical", (double)g->report.radical);
     put_series(to, "derived_series", g->report.derived_length, g->report.derived);
@@ -103,6 +121,18 @@ static void put_matrix(nh_json *to, const char *key, nh_dag *d, size_t rows, siz
     }
 }
 
+static void put_measure(nh_json *to, const nh_reduction_stage *s)
+{
+    if (!s->measure.tested) return;
+    nh_json *m = nh_json_put_object(to, "measure");
+    nh_json_put_bool(m, "exists", s->measure.measure);
+    nh_json_put_bool(m, "liouville", s->measure.measure && s->measure.size == 0);
+    nh_json_put_bool(m, "phi_simple", s->measure.simple);
+    if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) nh_json_put_null(m, "conformal_factor");
+    else nh_json_put_bool(m, "conformal_factor", s->measure.factor);
+    nh_json_put_number(m, "curl", s->measure.curl);
+}
+
 static void put_chaplygin(nh_json *to, const nh_reduction_stage *s)
 {
     const nh_chaplygin *c = s->chaplygin;
@@ -127,12 +157,7 @@ static void put_chaplygin(nh_json *to, const nh_reduction_stage *s)
             for (size_t k = 0; k < c->n; k++) sum = nh_add(c->dag, sum, nh_mul(c->dag, c->U[(k * c->n + i) * c->n + j], c->reduced.w[k]));
             put_expression(other, "value", c->dag, sum);
         }
-    nh_json *m = nh_json_put_object(to, "measure");
-    nh_json_put_bool(m, "exists", s->measure.measure);
-    nh_json_put_bool(m, "liouville", s->measure.measure && s->measure.size == 0);
-    nh_json_put_bool(m, "phi_simple", s->measure.simple);
-    nh_json_put_bool(m, "conformal_factor", s->measure.factor);
-    nh_json_put_number(m, "curl", s->measure.curl);
+    put_measure(to, s);
 }
 
 static void put_second(nh_json *to, const nh_reduction_stage *s)
@@ -148,6 +173,7 @@ static void put_second(nh_json *to, const nh_reduction_stage *s)
     nh_json_put_number(to, "condition_weak", t->weak);
     nh_json_put_number(to, "condition_strong", t->strong);
     nh_json_put_number(to, "momentum_drift", s->momentum_drift);
+    put_measure(to, s);
 }
 
 static void put_chain(nh_json *to, const nh_reduction_stage *s)
@@ -168,6 +194,14 @@ static void put_chain(nh_json *to, const nh_reduction_stage *s)
     nh_json_put_number(check, "by_stages_horizontal", p->stages_horizontal);
     nh_json_put_number(check, "bracket", p->bracket);
     nh_json_put_number(check, "euler_poincare", p->euler_poincare);
+}
+
+static void put_locked_inertia(nh_json *to, const nh_slice *s)
+{
+    nh_ex *e = nh_alloc_array(s->d * s->d + 1, sizeof *e);
+    for (size_t a = 0; a < s->d * s->d; a++) e[a] = s->K[(s->n + a / s->d) * s->m + s->n + a % s->d];
+    put_matrix(to, "locked_inertia", s->dag, s->d, s->d, e);
+    nh_free(e);
 }
 
 static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction_stage *s)
@@ -192,6 +226,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, s);
     if (s->kind == NH_STAGE_SECOND) put_second(to, s);
     if (s->by_stages) put_chain(to, s);
+    if (s->kind == NH_STAGE_POINCARE || s->kind == NH_STAGE_SLICE) put_locked_inertia(to, s->shown_slice);
     if (s->linear.count) {
         nh_json *linear = nh_json_put_object(to, "linear_momenta"), *which = nh_json_put_array(linear, "momenta");
         for (size_t a = 0; a < s->linear.count; a++) nh_json_add_text(which, s->shown->momentum[s->linear.index[a]]);
@@ -199,7 +234,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
         if (s->linear_drift >= 0) nh_json_put_number(linear, "drift", s->linear_drift);
         else nh_json_put_null(linear, "drift");
     }
-    if (s->compared) nh_json_put_number(to, s->kind == NH_STAGE_SECOND ? "agreement_with_first" : "agreement_with_full", s->agreement);
+    if (s->compared) nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
     nh_json_put_number(to, "reached", s->reached);
     nh_json_put_number(to, "energy_drift", s->energy_drift);

@@ -350,5 +350,8 @@ char *nh_result_json(const nh_result *r)
     char note[200];
     snprintf(note, sizeof note, "%zu formula%s longer than %.0f symbols and null here (option `written`)", left_out, left_out == 1 ? " is" : "s are", r->options.written);
     if (left_out) nh_json_add_text(warnings, note);
+    size_t holes = nh_result_json_holes(r);
+    snprintf(note, sizeof note, "%zu values along the motion are not finite, as at a pole of the chart, and null here", holes);
+    if (holes) nh_json_add_text(warnings, note);
     return nh_json_finish(root);
 }

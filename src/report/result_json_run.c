@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdio.h>
 
 #include "base/versions.h"
@@ -89,6 +90,15 @@ void nh_result_json_validation(const nh_result *r, nh_json *to)
         nh_json_put_number(scene, "difference", v->scene_difference);
         nh_json_put_number(scene, "evaluations", (double)v->scene_evaluations);
     }
+}
+
+size_t nh_result_json_holes(const nh_result *r)
+{
+    const nh_validation *v = r->validation;
+    size_t holes = 0, k = r->model->k;
+    for (size_t i = 0; v && i < v->count * v->watches; i++) holes += !isfinite(v->watch[i]);
+    for (size_t i = 0; v && i < v->count * k; i++) holes += !isfinite(v->multiplier[i]);
+    return holes;
 }
 
 /* ---- how it was computed ---- */

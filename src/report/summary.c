@@ -6,6 +6,7 @@
 
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/formula.h"
 
 enum { line_width = 100 };
 
@@ -17,22 +18,6 @@ void nh_summary_heading(nh_summary_writer *w, const char *text)
 static void faint(nh_summary_writer *w, bool on)
 {
     if (w->style.colour) nh_text_add(w->out, on ? "\033[2m" : "\033[0m");
-}
-
-/* The user's own abbreviations, from the analysis file, instead of what they stand for. */
-static nh_ex abbreviate(const nh_summary_writer *w, nh_ex e)
-{
-    const nh_analysis *a = w->r->analysis;
-    nh_dag *d = w->r->model->dag;
-    for (size_t i = a ? a->definitions : 0; i-- > 0;) {
-        nh_kind kind = nh_kind_of(d, a->definition[i].value);
-        if (kind == NH_NUMBER || kind == NH_SYMBOL) continue;
-        nh_ex name = nh_symbol(d, a->definition[i].name), value = a->definition[i].value;
-        bool root = kind == NH_PRODUCT && nh_arity(d, value) == 1 && nh_num_is(nh_constant_of(d, value), 1)
-                    && nh_exponent_of(d, value, 0) == nh_ratio(d, 1, 2);
-        e = root ? nh_substitute_root(d, e, nh_child(d, value, 0), name) : nh_substitute(d, e, 1, &value, &name);
-    }
-    return e;
 }
 
 static void abbreviations(nh_summary_writer *w)
@@ -75,7 +60,7 @@ static char *text_of(const nh_summary_writer *w, nh_ex e)
 /* "label = formula" */
 static void formula(nh_summary_writer *w, int indent, const char *label, nh_ex e)
 {
-    char *text = text_of(w, abbreviate(w, e));
+    char *text = text_of(w, nh_formula_abbreviate(w->r, e));
     int at = indent + (int)nh_text_width(label);
     nh_text_addf(w->out, "%*s%s", indent, "", label);
     wrapped(w, at < 24 ? at : indent + 4, text);
@@ -208,7 +193,7 @@ static void component(nh_summary_writer *w, nh_ex e, const char *along, bool *fi
 {
     nh_dag *d = w->r->model->dag;
     if (nh_is_zero(d, e)) return;
-    e = abbreviate(w, e);
+    e = nh_formula_abbreviate(w->r, e);
     nh_text_addf(w->out, "%s", *first ? "        Z = " : "          + ");
     *first = false;
     if (nh_is_number(d, e, 1)) {

@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "base/linalg.h"
+#include "base/progress.h"
 #include "study/coefficients.h"
 #include "study/currents.h"
 #include "study/defaults.h"
@@ -220,13 +221,19 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
         r->timing.nullspace = lap(&clock);
     } else {
         r->ansatz_note = "as given in the analysis file";
+        nh_progress("the ansatz of the analysis file", -1);
         if (!nh_specials_find(r, &families, &family, error)) return false;
         r->timing.unknowns = lap(&clock);
         if (!linear_problem(r, families, family, &clock, error)) return false;
     }
     conclude(r);
     nh_integrals_of_constraints(r);
-    validate(r);
+    nh_progress("a motion to check it", -1);
+    if (!nh_interrupted()) validate(r);
+    if (nh_interrupted()) {
+        r->partial = true;
+        nh_result_warn(r, "interrupted: this is what was found until then%s", r->validation ? "" : ", and no motion was computed");
+    }
     r->timing.validation = lap(&clock);
     r->timing.total = now() - start;
     return true;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <time.h>
 
+#include "base/progress.h"
 #include "expr/normal.h"
 
 enum { least_points = 256, most_tested = 60, short_factor = 14 };
@@ -54,7 +55,7 @@ static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
 
 bool nh_climb_done(const nh_climb *x)
 {
-    return x->r->independent >= x->r->local_maximum || nh_climb_clock() - x->start > x->r->options.max_seconds;
+    return nh_interrupted() || x->r->independent >= x->r->local_maximum || nh_climb_clock() - x->start > x->r->options.max_seconds;
 }
 
 /* Certificates of vectors that are only likely are dear and mostly refused: the time limit ends them too, and leaves the question open. */
@@ -167,6 +168,7 @@ static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certai
 
 void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_family *family)
 {
+    nh_progress(name, (nh_climb_clock() - x->start) / x->r->options.max_seconds);
     nh_result *r = x->r;
     if (families == 0) return;
     double start = nh_climb_clock();

@@ -150,6 +150,17 @@ static bool group_of_fields(nh_reduction *r, const char *text, nh_error *error)
     return good && nh_action_check(&r->group->action, error);
 }
 
+/* The fields of the system file. */
+static bool group_of_file(nh_reduction *r, nh_error *error)
+{
+    const nh_system *s = r->system;
+    nh_generator *g = nh_alloc_array(s->symmetries, sizeof *g);
+    for (size_t i = 0; i < s->symmetries; i++) nh_generator_init(&g[i], r->kinetic, NULL, s->symmetry + i * s->coordinates, &r->options);
+    r->group = nh_group_of(r->kinetic, s->symmetries, g, &r->options);
+    nh_free(g);
+    return nh_action_check(&r->group->action, error);
+}
+
 /* "1, 2, 5": generators of the group that was found. */
 static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
 {
@@ -176,6 +187,7 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
 static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
     bool numbers = q->group && !q->group[strspn(q->group, "0123456789 ,;")];
+    if (!q->group && r->system->symmetries) return group_of_file(r, error);
     if (!q->group || numbers) {
         r->all = nh_group_find(r->kinetic, &r->options, error);
         if (!r->all) return false;

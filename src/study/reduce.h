@@ -29,17 +29,18 @@ typedef struct {
     nh_stage_kind kind;
     char *group;              /* name of the group divided out */
     const nh_action *action;
-    const nh_slice *slice;
+    const nh_slice *slice, *shown_slice;
     const nh_reduced *reduced, *shown;
     const nh_chaplygin *chaplygin; /* shown; of the first kind */
-    nh_chaplygin_measure measure;
+    nh_chaplygin_measure measure;  /* of the first kind, and of the second for an abelian group (its factor: for two shape coordinates at most) */
     const nh_second *second;  /* shown; of the second kind */
     bool by_stages;           /* third kind: were the equations by stages formed? */
     const nh_ideals *chain;
     nh_poincare poincare;
     nh_linear_momenta linear; /* of the shown equations; third and fourth kind */
     double linear_drift;      /* of these currents along the reduced motion; negative: not followed */
-    double agreement;         /* largest difference of a position from the full motion (second kind: from the first stage), relative to 1 + size */
+    bool against_full;        /* compared with the full motion; false: a second stage whose shape moves under the first group, compared with the first */
+    double agreement;         /* largest difference of a position, relative to 1 + size */
     double reached;           /* time up to which */
     double energy_drift;      /* of the reduced motion, relative */
     double momentum_drift;    /* second kind: of the spatial momentum */

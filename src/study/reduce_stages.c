@@ -118,6 +118,26 @@ static bool slice_is_good(const nh_slice *s)
     return good;
 }
 
+/* The first y of zeros, then right angles, then ones, at which the slice is regular. */
+static bool nice_place(nh_slice *s, double *y)
+{
+    static const double values[] = {0, 1.5707963267948966, 1};
+    enum { most = 2000 };
+    size_t d = s->d, trials = 1;
+    for (size_t a = 0; a < d && trials < most; a++) trials *= 3;
+    s->y0 = y;
+    for (size_t trial = 0; trial < trials && trial < most; trial++) {
+        size_t code = trial;
+        bool allowed = true;
+        for (size_t a = 0; a < d; a++, code /= 3) {
+            y[a] = values[code % 3];
+            allowed &= code % 3 != 1 || s->kinetic->angle[s->along[a]];
+        }
+        if (allowed && slice_is_good(s)) return true;
+    }
+    return false;
+}
+
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
 void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown)
 {
@@ -130,7 +150,7 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
     *shown = nh_arena_alloc(r->arena, sizeof **shown);
     nh_slice_init(*through, action, shape, along, y);
     **shown = (nh_slice){.kinetic = action->kinetic, .action = action, .n = m - d, .d = d, .shape = shape, .along = along, .y0 = zero};
-    if (!same && slice_is_good(*shown)) nh_slice_init(*shown, action, shape, along, zero);
+    if (!same && nice_place(*shown, zero)) nh_slice_init(*shown, action, shape, along, zero);
     else **shown = **through;
     nh_free(y);
     nh_free(zero);
@@ -175,7 +195,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const do
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
     nh_reduction_stage *s = &r->stage[r->stages++];
-    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action)};
+    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action), .against_full = true};
     return s;
 }
 
@@ -200,7 +220,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->reduced = &c->reduced;
     s->shown = &pretty->reduced;
     s->chaplygin = pretty;
-    s->measure = nh_chaplygin_measure_of(c, &r->options);
+    s->measure = nh_chaplygin_measure_of(slice, c->K, c->U, &r->options);
     double *x = nh_alloc_array(4 * m + 1, sizeof *x), *w = x + m, *z = w + m;
     for (size_t i = 0; i < slice->n; i++) { /* x need not be invariant, but x' on the slice is that of the frame */
         x[i] = r->initial.q[slice->shape[i]];
@@ -280,6 +300,19 @@ static bool second_state(const nh_second *t, const double *x, const double *w, d
     return good;
 }
 
+/* The full motion's shape coordinates, where the first group leaves these alone; NULL where it does not. */
+static double *full_shape(const nh_reduction_bench *b, const nh_slice *s)
+{
+    const nh_action *g = s->action;
+    for (size_t a = 0; a < g->d; a++)
+        for (size_t i = 0; i < s->n; i++)
+            if (!nh_is_zero(s->dag, g->generator[a].component[s->shape[i]])) return NULL;
+    double *out = nh_arena_alloc(b->r->arena, (b->reached * s->n + 1) * sizeof *out);
+    for (size_t k = 0; k < b->reached; k++)
+        for (size_t i = 0; i < s->n; i++) out[k * s->n + i] = b->full[k * 2 * s->m + s->shape[i]];
+    return out;
+}
+
 static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_t d, const nh_ex *field, nh_error *error)
 {
     nh_reduction *r = b->r;
@@ -307,9 +340,12 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         s->slice = &t->slice;
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
+        if (t->abelian) s->measure = nh_chaplygin_measure_of(&t->slice, t->Kt, t->U, &r->options);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
+        double *full = full_shape(b, s1);
+        s->against_full = full != NULL;
         good = second_state(t, x, u, z);
-        if (good) nh_reduction_compare(b, s, z, want, n, reached);
+        if (good) nh_reduction_compare(b, s, z, full ? full : want, n, full ? b->reached : reached);
     }
     nh_free(shape);
     nh_free(x);

@@ -59,7 +59,8 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
     nh_reduced_independent(slice, independent);
     bool good = nh_reduced_master(o, slice, independent, error);
-    if (good && slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, error) ? o + 1 : o;
+    nh_error ignored = {0};
+    if (good && slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, &ignored) ? o + 1 : o;
     good = good && nh_slice_components(slice, r->initial.q, r->initial.v, u);
     for (size_t i = 0; i < rank && good; i++) w[i] = u[independent[i]];
     for (size_t i = 0; i < slice->n; i++) x[i] = r->initial.q[slice->shape[i]];
@@ -68,6 +69,7 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
         s->slice = slice;
         s->reduced = o;
         s->shown = pretty;
+        s->shown_slice = pretty == o ? slice : shown;
         nh_linear_momenta_find(&s->linear, pretty, &r->options);
         nh_reduction_compare(b, s, z, b->full, 2 * m, b->reached);
         nh_error trouble = {0};
@@ -83,28 +85,15 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
     return good;
 }
 
-/* A subset of the generators that acts freely, as large as possible; the whole group when that does. */
 bool nh_reduction_free_subgroup(nh_reduction *r, nh_action *out)
 {
     const nh_action *g = &r->group->action;
-    size_t d = g->d;
-    double *t = nh_alloc_array(d * d + 1, sizeof *t);
-    bool found = false;
-    for (size_t size = g->orbit; size > 0 && !found; size--) {
-        for (unsigned long set = 0; set < 1ul << (d < 16 ? d : 16) && !found; set++) {
-            size_t n = 0;
-            memset(t, 0, d * d * sizeof *t);
-            for (size_t a = 0; a < d; a++)
-                if (set >> a & 1) {
-                    if (n < size) t[a + n * d] = 1;
-                    n++;
-                }
-            if (n != size) continue;
-            nh_action_sub(out, g, n, t, &r->options);
-            found = out->closes && out->free;
-            if (!found) nh_action_clear(out);
-        }
-    }
+    size_t d = g->d, *index = nh_alloc_array(d + 1, sizeof *index), n = nh_group_free_subset(r->group, &r->options, index);
+    double *t = nh_alloc_array(d * n + 1, sizeof *t);
+    for (size_t i = 0; i < n; i++) t[index[i] + i * d] = 1;
+    if (n) nh_action_sub(out, g, n, t, &r->options);
+    bool good = n && out->closes && out->free;
+    nh_free(index);
     nh_free(t);
-    return found;
+    return good;
 }

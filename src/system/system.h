@@ -54,6 +54,8 @@ typedef struct {
     nh_interval *interval;   /* the sampling box as far as the user gave it */
     nh_named *current, *trap; /* known currents; functions known not to be conserved */
     nh_chain *chain;         /* bodies and joints; NULL when the file has none */
+    size_t symmetries;       /* fields on configuration space that the file names as generators of a group */
+    nh_ex *symmetry;         /* symmetries x coordinates: components */
     nh_ex lagrangian;        /* with the energies of bodies and joints */
     nh_ex *force;            /* per coordinate; the number 0 where there is none */
     bool has_forces;

@@ -131,6 +131,42 @@ bool nh_system_read_domain(nh_system_reader *r)
     return true;
 }
 
+static bool read_field(nh_system_reader *r, const nh_deck_node *map, nh_ex *component)
+{
+    nh_system *s = r->system;
+    if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a field {coordinate: component, ...}", r->error)) return false;
+    const char **names = nh_system_take(r, s->coordinates, sizeof *names);
+    for (size_t i = 0; i < s->coordinates; i++) {
+        names[i] = s->coordinate[i].name;
+        component[i] = nh_int(s->dag, 0);
+    }
+    for (size_t i = 0; i < map->count; i++) {
+        long index = nh_system_coordinate(s, map->key[i]->text);
+        if (index < 0) {
+            nh_deck_fail(r->deck, map->key[i], 0, r->error, "`%s` is not a coordinate", map->key[i]->text);
+            const char *near = nh_text_nearest(map->key[i]->text, names, s->coordinates);
+            return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : nh_error_hint(r->error, "a symmetry is a field on configuration space: {x: 1}");
+        }
+        if (!nh_deck_is(r->deck, map->item[i], NH_DECK_SCALAR, "an expression", r->error)) return false;
+        if (!nh_system_read_expression(s, r->deck, map->item[i], 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL, &component[index], r->error)) return false;
+    }
+    return true;
+}
+
+/* symmetry: generators of a group, each a map from coordinates to components. */
+bool nh_system_read_symmetry(nh_system_reader *r)
+{
+    nh_system *s = r->system;
+    const nh_deck_node *list;
+    size_t n;
+    if (!nh_system_list_of(r, r->root, "symmetry", &list, &n)) return false;
+    s->symmetry = nh_system_take(r, n * s->coordinates, sizeof *s->symmetry);
+    for (size_t i = 0; i < n; i++)
+        if (!read_field(r, list->item[i], s->symmetry + i * s->coordinates)) return false;
+    s->symmetries = n;
+    return true;
+}
+
 static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out, size_t *count)
 {
     static const char *const keys[] = {"name", "expr", "doc", "out_of_reach"};

@@ -1,0 +1,211 @@
+/* help: screens, the manual page and completions, all from the two tables. */
+#include <getopt.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "cli/cli.h"
+#include "cli/words.h"
+
+typedef struct {
+    const char *name;
+    int argument;
+    const char *shown, *commands, *meaning;
+} option_word;
+
+typedef struct {
+    const char *name, *operand, *meaning, *example;
+} command_word;
+
+#define X(code, name, argument, shown, commands, meaning) {name, argument, shown, commands, meaning},
+static const option_word options[] = {NH_CLI_OPTION_TABLE(X)};
+#undef X
+#define X(name, operand, meaning, example) {#name, operand, meaning, example},
+static const command_word commands[] = {NH_CLI_COMMAND_TABLE(X)};
+#undef X
+enum { option_count = sizeof options / sizeof *options, command_count = sizeof commands / sizeof *commands };
+
+/* The letter of "-q: no summary", or 0. */
+static char letter(const option_word *o) { return o->meaning[0] == '-' && o->meaning[2] == ':' ? o->meaning[1] : 0; }
+static const char *meaning(const option_word *o) { return letter(o) ? o->meaning + 4 : o->meaning; }
+
+static bool takes(const command_word *c, const option_word *o)
+{
+    size_t n = strlen(c->name);
+    for (const char *at = o->commands; (at = strstr(at, c->name)); at += n)
+        if ((at == o->commands || at[-1] == ' ') && (!at[n] || at[n] == ' ')) return true;
+    return false;
+}
+
+/* ---- screens ---- */
+
+static void put_option(const option_word *o)
+{
+    char head[80], first[6] = "";
+    if (letter(o)) snprintf(first, sizeof first, "-%c, ", letter(o));
+    snprintf(head, sizeof head, "%s--%s%s%s", first, o->name, o->shown[0] ? " " : "", o->shown);
+    printf("  %-31s %s\n", head, meaning(o));
+}
+
+static void one_command(const command_word *c)
+{
+    printf("nhsym %s%s%s   %s\n\n", c->name, c->operand[0] ? " " : "", c->operand, c->meaning);
+    for (size_t i = 0; i < option_count; i++)
+        if (takes(c, &options[i])) put_option(&options[i]);
+    printf("\nExample\n  %s\n", c->example);
+}
+
+static void all_commands(void)
+{
+    puts("nhsym: symmetries and conservation laws of mechanical systems with constraints\n");
+    for (size_t i = 0; i < command_count; i++) {
+        char head[60];
+        snprintf(head, sizeof head, "nhsym %s %s", commands[i].name, commands[i].operand);
+        printf("  %-28s %s\n", head, commands[i].meaning);
+    }
+    puts("\n  --set NAME=VALUE             another parameter value; repeatable\n"
+         "  --json [FILE|-]  --html FILE  --tex FILE  -o DIR     the result as a file\n"
+         "  --quiet  --verbose  --no-color  --help      `nhsym help COMMAND` lists all\n"
+         "\nExamples");
+    for (size_t i = 0; i < 3; i++) printf("  %s\n", commands[i == 2 ? 7 : i].example);
+}
+
+/* ---- the manual page ---- */
+
+static void roff(const char *text)
+{
+    if (*text == '.' || *text == '\'') fputs("\\&", stdout);
+    for (; *text; text++) {
+        if (*text == '-') fputs("\\-", stdout);
+        else if (*text == '\\') fputs("\\e", stdout);
+        else putchar(*text);
+    }
+}
+
+static void manual_page(void)
+{
+    puts(".TH NHSYM 1 \"\" \"nhsym " NH_VERSION "\" \"User Commands\"\n.SH NAME\nnhsym \\- symmetries and conservation laws of mechanical systems with constraints\n.SH SYNOPSIS");
+    for (size_t i = 0; i < command_count; i++) printf(".B nhsym %s\n.I %s\n.br\n", commands[i].name, commands[i].operand[0] ? commands[i].operand : "\\&");
+    puts(".SH COMMANDS");
+    for (size_t i = 0; i < command_count; i++) {
+        printf(".TP\n.B %s\n", commands[i].name);
+        roff(commands[i].meaning);
+        fputs("\n.br\n", stdout);
+        roff(commands[i].example);
+        putchar('\n');
+    }
+    puts(".SH OPTIONS");
+    for (size_t i = 0; i < option_count; i++) {
+        fputs(".TP\n\\fB\\-\\-", stdout);
+        roff(options[i].name);
+        fputs("\\fR ", stdout);
+        roff(options[i].shown);
+        putchar('\n');
+        roff(options[i].meaning);
+        if (options[i].commands[0]) printf(" (%s)", options[i].commands);
+        putchar('\n');
+    }
+    puts(".SH EXIT STATUS\n0 done; 1 verify says no; 2 a wrong command line; 3 a wrong file; 4 a computation failed for a reason that is told; 5 a limit was reached; 130 interrupted. "
+         "With 5 and 130 partial results are written and marked partial.\n.SH ENVIRONMENT\n.TP\n.B NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NO_COLOR\n"
+         "no colours");
+}
+
+/* ---- completions ---- */
+
+static void bash(void)
+{
+    puts("# bash completion for nhsym; written by `nhsym help bash`\n_nhsym() {\n    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\"\n    case $before in");
+    for (size_t i = 0; i < option_count; i++) {
+        bool choice = strchr(options[i].shown, '|') && options[i].shown[0] != '[';
+        if (options[i].argument != required_argument) continue;
+        printf("    --%s) ", options[i].name);
+        if (choice) printf("COMPREPLY=($(compgen -W \"$(echo '%s' | tr '|' ' ')\" -- \"$word\"))", options[i].shown);
+        else if (!strcmp(options[i].shown, "FILE") || !strcmp(options[i].shown, "DIR")) fputs("COMPREPLY=($(compgen -f -- \"$word\"))", stdout);
+        else fputs("COMPREPLY=()", stdout);
+        puts("; return ;;");
+    }
+    fputs("    esac\n    if [ \"$COMP_CWORD\" = 1 ]; then COMPREPLY=($(compgen -W \"", stdout);
+    for (size_t i = 0; i < command_count; i++) printf("%s%s", i ? " " : "", commands[i].name);
+    puts("\" -- \"$word\")); return; fi\n    case ${COMP_WORDS[1]} in");
+    for (size_t i = 0; i < command_count; i++) {
+        printf("    %s) options=\"", commands[i].name);
+        for (size_t j = 0; j < option_count; j++)
+            if (takes(&commands[i], &options[j])) printf("--%s ", options[j].name);
+        puts("\" ;;");
+    }
+    puts("    esac\n    case $word in\n    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
+         "    *) COMPREPLY=($(compgen -W \"$(nhsym list 2>/dev/null | cut -d' ' -f1)\" -- \"$word\") $(compgen -f -X '!*.yaml' -- \"$word\")) ;;\n    esac\n}\ncomplete -F _nhsym nhsym");
+}
+
+/* In single quotes of a shell. */
+static void quoted(const char *text)
+{
+    for (; *text; text++)
+        if (*text == '\'') fputs("'\\''", stdout);
+        else putchar(*text);
+}
+
+static void zsh(void)
+{
+    puts("#compdef nhsym\n# written by `nhsym help zsh`\nlocal -a commands systems\ncommands=(");
+    for (size_t i = 0; i < command_count; i++) {
+        printf("    '%s:", commands[i].name);
+        quoted(commands[i].meaning);
+        puts("'");
+    }
+    puts(")\nif (( CURRENT == 2 )); then _describe command commands; return; fi\nsystems=(${(f)\"$(nhsym list 2>/dev/null | cut -d' ' -f1)\"})\ncase $words[2] in");
+    for (size_t i = 0; i < command_count; i++) {
+        printf("%s) _arguments", commands[i].name);
+        for (size_t j = 0; j < option_count; j++) {
+            if (!takes(&commands[i], &options[j])) continue;
+            printf(" \\\n    '--%s%s[", options[j].name, options[j].argument == required_argument ? "=" : "");
+            for (const char *c = meaning(&options[j]); *c; c++) {
+                char one[2] = {*c, 0};
+                if (strchr("[]:", *c)) putchar('\\');
+                quoted(one);
+            }
+            bool file = !strcmp(options[j].shown, "FILE") || !strcmp(options[j].shown, "DIR");
+            printf("]%s'", options[j].argument != required_argument ? "" : file ? ":file:_files" : ":value:");
+        }
+        puts(" \\\n    '*:system:->system' ;;");
+    }
+    puts("esac\nif [[ $state == system ]]; then compadd -a systems; _files -g '*.yaml'; fi");
+}
+
+static void fish(void)
+{
+    puts("# fish completion for nhsym; written by `nhsym help fish`\ncomplete -c nhsym -f");
+    for (size_t i = 0; i < command_count; i++) {
+        printf("complete -c nhsym -n __fish_use_subcommand -a %s -d '", commands[i].name);
+        for (const char *c = commands[i].meaning; *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
+        puts("'");
+    }
+    for (size_t j = 0; j < option_count; j++) {
+        bool file = !strcmp(options[j].shown, "FILE") || !strcmp(options[j].shown, "DIR") || options[j].argument == optional_argument;
+        printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -l %s %s -d '", options[j].commands, options[j].name,
+               file ? "-r -F" : options[j].argument == required_argument ? "-r" : "");
+        for (const char *c = meaning(&options[j]); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
+        puts("'");
+    }
+    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate chart reduce show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
+         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate chart reduce' -k -a '(__fish_complete_suffix .yaml)'");
+}
+
+int nh_cli_help(nh_cli *cli, nh_error *error)
+{
+    static const struct {
+        const char *name;
+        void (*print)(void);
+    } files[] = {{"man", manual_page}, {"bash", bash}, {"zsh", zsh}, {"fish", fish}};
+    bool asked = cli->command && !strcmp(cli->command, "help");
+    const char *about = asked ? (cli->operands ? cli->operand[0] : NULL) : cli->command, *names[command_count];
+    if (!about) return all_commands(), NH_OK;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (!strcmp(about, files[i].name)) return files[i].print(), NH_OK;
+    for (size_t i = 0; i < command_count; i++) {
+        names[i] = commands[i].name;
+        if (!strcmp(about, names[i])) return one_command(&commands[i]), NH_OK;
+    }
+    nh_fail(error, NH_USAGE, "", "there is no command `%s`", about);
+    const char *near = nh_text_nearest(about, names, command_count);
+    return near ? nh_error_hint(error, "did you mean `nhsym help %s`?", near) : nh_error_hint(error, "`nhsym help` lists the commands"), NH_USAGE;
+}

@@ -1,0 +1,226 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/print.h"
+#include "report/html_internal.h"
+
+/* ---- the formula ---- */
+
+static void series(nh_html_writer *w, const nh_series *s)
+{
+    nh_dag *d = w->r->model->dag;
+    const char *q = nh_name_of(d, s->coordinate);
+    nh_text text;
+    nh_text_init(&text);
+    for (size_t i = 0; i < s->words; i++) {
+        nh_text_addf(&text, "%sf%zu(%s)", i ? " + " : "", i + 1, q);
+        if (nh_is_number(d, s->word[i], 1)) continue;
+        nh_text_add(&text, "*");
+        nh_print(d, s->word[i], &text);
+    }
+    nh_html_add(w, "<div class=\"formula main\">");
+    nh_html_source(w, nh_text_string(&text));
+    nh_html_add(w, "</div>\n<p>f: Chebyshev series of degree ");
+    nh_html_count(w, s->degree);
+    nh_html_add(w, " in ");
+    nh_html_source(w, q);
+    nh_html_add(w, " on [");
+    nh_html_number(w, s->low, 4);
+    nh_html_add(w, ", ");
+    nh_html_number(w, s->high, 4);
+    nh_html_add(w, "]; they have no closed form here.</p>\n");
+    nh_text_clear(&text);
+}
+
+static void as_text(nh_html_writer *w, const nh_found *f)
+{
+    nh_dag *d = w->r->model->dag;
+    char *text = nh_print_short(d, f->phi, w->r->options.shown), *plain = f->has_in_velocities ? nh_print_short(d, f->in_velocities, w->r->options.shown) : NULL;
+    if (text || plain) nh_html_add(w, "<details><summary>As text, to copy</summary>\n");
+    if (text) nh_html_tagged(w, "pre", text);
+    if (plain) nh_html_add(w, "<p>in coordinate velocities</p>\n");
+    if (plain) nh_html_tagged(w, "pre", plain);
+    if (text || plain) nh_html_add(w, "</details>\n");
+    nh_free(plain);
+    nh_free(text);
+}
+
+/* ---- what is known of it ---- */
+
+static void certificate(nh_html_writer *w, const nh_found *f)
+{
+    const nh_system *s = w->r->system;
+    nh_html_add(w, "<dt>Certified</dt><dd>");
+    if (f->proof.all_parameters) nh_html_add(w, s->parameters ? "proved for all parameter values" : "proved");
+    else if (f->proof.proved) nh_html_add(w, "proved for these parameter values");
+    else {
+        nh_html_add(w, "its rate cancels to ");
+        nh_html_number(w, floor(f->proof.digits), 6);
+        nh_html_add(w, f->asked ? " digits, after its coefficients were refined" : " digits");
+    }
+    nh_html_add(w, "</dd>\n<dt>Residual</dt><dd>");
+    nh_html_number(w, f->heldout, 2);
+    nh_html_add(w, " at points not used to find it</dd>\n");
+}
+
+static void drift_line(nh_html_writer *w, const nh_found *f)
+{
+    const nh_validation *v = w->r->validation;
+    if (!v) return;
+    nh_html_add(w, "<dt>Drift</dt><dd>");
+    nh_html_number(w, f->drift.drift[NH_DRIFT_RUNS - 1], 2);
+    nh_html_add(w, " along a motion computed with tolerance ");
+    nh_html_number(w, v->tolerance[NH_DRIFT_RUNS - 1], 2);
+    nh_html_add(w, f->drift.falls ? "; it falls with the tolerance</dd>\n" : "; it does not fall with the tolerance</dd>\n");
+}
+
+static void standing(nh_html_writer *w, const nh_found *f)
+{
+    nh_html_add(w, "<p class=\"tags\">");
+    if (f->meaning[0]) nh_html_tagged(w, "span", f->meaning);
+    if (f->independence == NH_INDEPENDENT) nh_html_tagged(w, "span", "independent");
+    if (f->independence == NH_DEPENDENT) nh_html_tagged(w, "span", "depends on the others");
+    if (f->independence == NH_DOUBTFUL) nh_html_tagged(w, "span", "perhaps dependent on the others");
+    if (f->independence == NH_CONSTANT) nh_html_tagged(w, "span", "constant on the submanifold");
+    if (f->local) nh_html_tagged(w, "span", "local: many-valued on an angle");
+    nh_html_add(w, "</p>\n");
+    if (!f->relation) return;
+    nh_html_add(w, "<div class=\"formula\">");
+    nh_html_source(w, f->relation);
+    nh_html_add(w, "</div>\n");
+}
+
+static const char *case_text(int kase)
+{
+    switch (kase) {
+    case 1: return "case 1: Z is also a symmetry of the equations of motion";
+    case 2: return "case 2: [\u0393,\u2009Z] lies in the span of \u0393 and Z";
+    case 3: return "case 3: Z is not a symmetry of the equations of motion";
+    default: return "the case could not be decided";
+    }
+}
+
+static void component(nh_html_writer *w, const char *along, nh_ex e)
+{
+    char label[200];
+    if (nh_is_zero(w->r->model->dag, e)) return;
+    snprintf(label, sizeof label, "Z_%.180s", along);
+    if (strchr(along, '\'')) {
+        nh_html_add(w, "<div class=\"along\">along ");
+        nh_html_source(w, along);
+        nh_html_add(w, "</div>");
+        nh_html_formula(w, "", e);
+        return;
+    }
+    nh_html_formula(w, label, e);
+}
+
+static void symmetry(nh_html_writer *w, const nh_found *f)
+{
+    const nh_result *r = w->r;
+    const nh_model *o = r->model, *basis = r->other ? r->other : o;
+    nh_html_add(w, "<details><summary>Its symmetry Z</summary>\n");
+    component(w, "t", f->symmetry.Z0);
+    for (size_t s = 0; s < o->m; s++) component(w, r->system->coordinate[s].name, f->symmetry.field.space[s]);
+    for (size_t i = 0; i < basis->n; i++) {
+        nh_ex e = r->other ? 0 : f->symmetry.W[i];
+        for (size_t s = 0; s < o->m && r->other; s++)
+            if (basis->chart->w[i] == r->system->coordinate[s].v) e = f->symmetry.coordinate_rate[s];
+        component(w, nh_name_of(o->dag, basis->chart->w[i]), e);
+    }
+    for (size_t a = 0; a < o->k && !f->symmetry.bracket_in_distribution; a++) {
+        nh_html_add(w, "<p>By how much [\u0393,\u2009Z] leaves the canonical distribution:</p>\n");
+        nh_html_formula(w, "", f->symmetry.bracket_form[a]);
+    }
+    nh_html_add(w, "</details>\n");
+}
+
+/* |Phi - Phi(0)| over the size of its terms. */
+static void drift_plot(nh_html_writer *w, const nh_found *f)
+{
+    const nh_result *r = w->r;
+    const nh_validation *v = r->validation;
+    size_t j = 0;
+    if (!v || v->count < 2 || !(f->drift.scale > 0)) return;
+    while (j < v->watches && r->track[j].value != f->phi) j++;
+    while (j < v->watches && r->track[j].kind != NH_TRACK_CURRENT) j++;
+    if (j == v->watches) return;
+    double *y = nh_alloc_array(v->count, sizeof *y), first = v->watch[j];
+    for (size_t i = 0; i < v->count; i++) y[i] = fabs(v->watch[i * v->watches + j] - first) / f->drift.scale;
+    nh_curve curve = {.name = f->name, .count = v->count, .x = v->time, .x_stride = 1, .y = y, .y_stride = 1};
+    char title[200];
+    snprintf(title, sizeof title, "Drift of %.100s along the test motion", f->name);
+    nh_plot plot = {.title = title, .description = "Absolute change since the start, relative to the size of the terms of the current, on a logarithmic scale",
+                    .x_label = "t", .y_label = "relative change", .log_y = true, .floor = 1e-17, .timed = true, .curves = 1, .curve = &curve};
+    nh_html_add(w, "<details><summary>Drift plot</summary>\n");
+    nh_html_figure(w, &plot, "Change of the current since the start, relative to the size of its terms; rounding is near 1e-16.");
+    nh_html_add(w, "</details>\n");
+    nh_free(y);
+}
+
+static void card(nh_html_writer *w, const nh_found *f)
+{
+    nh_html_add(w, "<article class=\"card\">\n<h3>");
+    nh_html_source(w, f->name);
+    nh_html_add(w, "</h3>\n");
+    standing(w, f);
+    if (f->series) series(w, f->series);
+    else nh_html_formula(w, f->name, f->phi);
+    nh_html_add(w, "<dl>\n");
+    certificate(w, f);
+    drift_line(w, f);
+    if (f->has_symmetry) {
+        nh_text_addf(w->out, "<dt>Symmetry</dt><dd>%s; [\u0393,\u2009Z] %s the canonical distribution%s</dd>\n", case_text(f->symmetry.kase),
+                     f->symmetry.bracket_in_distribution ? "lies in" : "leaves", f->symmetry.projectable ? "; Z is a point symmetry" : "");
+    }
+    nh_html_add(w, "</dl>\n");
+    if (f->has_symmetry && !f->series) symmetry(w, f);
+    drift_plot(w, f);
+    if (!f->series) as_text(w, f);
+    nh_html_add(w, "</article>\n");
+}
+
+/* ---- abbreviations, and what is only nearly conserved ---- */
+
+static void abbreviations(nh_html_writer *w)
+{
+    const nh_analysis *a = w->r->analysis;
+    if (!a || !a->definitions || !w->r->count) return;
+    nh_html_add(w, "<p>where</p>\n");
+    for (size_t i = 0; i < a->definitions; i++) {
+        nh_html_add(w, "<div class=\"formula\">");
+        nh_html_source(w, a->definition[i].name);
+        nh_html_add(w, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\"><mo>=</mo></math> ");
+        nh_html_source(w, a->definition[i].text);
+        nh_html_add(w, "</div>\n");
+    }
+}
+
+static void almost(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    if (!r->almosts) return;
+    nh_html_add(w, "<h3>Almost conserved, not currents</h3>\n<p>In double precision these look constant. With more digits they are not.</p>\n");
+    for (size_t k = 0; k < r->almosts; k++) {
+        nh_html_add(w, "<article class=\"card almost\">\n");
+        nh_html_formula(w, "", r->almost[k].phi);
+        nh_html_add(w, "<p>Its rate cancels to ");
+        nh_html_number(w, floor(r->almost[k].digits), 6);
+        nh_html_add(w, " digits and no further; it changes by ");
+        nh_html_number(w, r->almost[k].rate, 2);
+        nh_html_add(w, " of its own variation per unit of time.</p>\n</article>\n");
+    }
+}
+
+void nh_html_currents(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    nh_html_add(w, "<section id=\"currents\"><h2>Currents</h2>\n<p>A current is a function of time, coordinates and velocities that stays constant along every motion.</p>\n");
+    if (!r->count) nh_html_add(w, "<p>None was found. What was tried is listed below.</p>\n");
+    for (size_t k = 0; k < r->count; k++) card(w, &r->found[k]);
+    abbreviations(w);
+    almost(w);
+    nh_html_add(w, "</section>\n");
+}

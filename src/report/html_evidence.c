@@ -1,0 +1,126 @@
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "expr/print.h"
+#include "report/html_internal.h"
+
+/* Spectra of both routes over the index, with null values on the floor. */
+static void spectrum_plot(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    const nh_spectrum *s[] = {&r->current, &r->symmetry};
+    static const char *const names[] = {"current route", "symmetry route"};
+    nh_curve curve[2];
+    size_t most = 0, curves = 0;
+    for (int i = 0; i < 2; i++)
+        if (s[i]->done && s[i]->rank > most) most = s[i]->rank;
+    if (most == 0) return;
+    double *index = nh_alloc_array(most, sizeof *index);
+    for (size_t i = 0; i < most; i++) index[i] = (double)(i + 1);
+    for (int i = 0; i < 2; i++)
+        if (s[i]->done && s[i]->rank)
+            curve[curves++] = (nh_curve){.name = names[i], .count = s[i]->rank, .x = index, .x_stride = 1, .y = s[i]->spectrum, .y_stride = 1, .dots = true};
+    nh_plot plot = {.title = "Singular spectrum", .description = "Generalized singular values in ascending order on a logarithmic scale; the values below the gap belong to currents",
+                    .x_label = "index", .y_label = "singular value", .log_y = true, .floor = 1e-18, .curves = curves, .curve = curve};
+    nh_html_figure(w, &plot, "Generalized singular values. Those below the gap, at rounding, belong to currents.");
+    nh_free(index);
+}
+
+static void spectrum(nh_html_writer *w, const char *name, const nh_spectrum *s)
+{
+    if (!s->done) return;
+    nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th><td>", name);
+    nh_html_count(w, s->columns);
+    nh_html_add(w, "</td><td>");
+    nh_html_count(w, s->rank);
+    nh_html_add(w, "</td><td>");
+    nh_html_count(w, s->rows);
+    nh_html_add(w, "</td><td>");
+    nh_html_count(w, s->dimension);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, s->dimension && s->dimension <= s->rank ? s->spectrum[s->dimension - 1] : NAN, 2);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, s->dimension < s->rank ? s->spectrum[s->dimension] : NAN, 2);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, s->gap, 2);
+    nh_html_add(w, "</td></tr>\n");
+}
+
+static void spectra(nh_html_writer *w)
+{
+    if (!w->r->current.done && !w->r->symmetry.done) return;
+    nh_html_add(w, "<div class=\"wide\"><table><caption>Linear problems</caption><thead><tr><th scope=\"col\">route</th><th scope=\"col\">columns</th><th scope=\"col\">independent</th>"
+                   "<th scope=\"col\">rows</th><th scope=\"col\">null values</th><th scope=\"col\">up to</th><th scope=\"col\">then</th><th scope=\"col\">gap</th></tr></thead><tbody>\n");
+    spectrum(w, "current", &w->r->current);
+    spectrum(w, "symmetry", &w->r->symmetry);
+    nh_html_add(w, "</tbody></table></div>\n");
+    if (!w->r->routes_compared) return;
+    nh_html_add(w, w->r->routes_agree ? "<p>The two routes agree: the angle between the spaces that they find is " : "<p>The two routes DISAGREE: the angle between the spaces that they find is ");
+    nh_html_number(w, w->r->routes_angle, 1);
+    nh_html_add(w, ".</p>\n");
+}
+
+static void unknowns(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    for (size_t k = 0; r->hits && k < r->specials; k++)
+        for (size_t j = 0; j < r->hits->unknowns; j++) {
+            nh_html_add(w, "<p>Unknown ");
+            nh_html_source(w, nh_name_of(r->model->dag, r->analysis->unknown[j].symbol));
+            nh_html_add(w, " = ");
+            if (r->special[k].recognised[j]) {
+                char *text = nh_print_string(r->model->dag, r->special[k].recognised[j]);
+                nh_html_source(w, text);
+                nh_html_add(w, "= ");
+                nh_free(text);
+            }
+            nh_html_number(w, r->special[k].value[j], 15);
+            nh_html_add(w, r->special[k].hit->by_pencil && r->special[k].hit->by_search ? ", by the eigenvalues of a pencil and by a search" : "");
+            nh_html_add(w, "</p>\n");
+        }
+    if (r->hits && !r->specials) nh_html_add(w, "<p>No value of the unknowns gives a current.</p>\n");
+}
+
+static void stages(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    if (!r->stages) return;
+    nh_html_add(w, "<div class=\"wide\"><table><caption>What was tried</caption><thead><tr><th scope=\"col\">stage</th><th scope=\"col\">columns</th><th scope=\"col\">null values</th>"
+                   "<th scope=\"col\">new currents</th></tr></thead><tbody>\n");
+    for (size_t i = 0; i < r->stages; i++) {
+        const nh_tried *s = &r->stage[i];
+        nh_html_add(w, "<tr><th scope=\"row\">");
+        nh_html_text(w, s->name);
+        nh_html_add(w, "</th>");
+        if (s->skipped) {
+            nh_html_add(w, "<td colspan=\"3\">not tried: too large</td></tr>\n");
+            continue;
+        }
+        nh_html_add(w, "<td>");
+        nh_html_count(w, s->columns);
+        nh_html_add(w, "</td><td>");
+        nh_html_count(w, s->dimension);
+        nh_html_add(w, s->undecided ? " (undecided)</td><td>" : "</td><td>");
+        nh_html_count(w, s->found);
+        nh_html_add(w, "</td></tr>\n");
+    }
+    nh_html_add(w, "</tbody></table></div>\n");
+}
+
+void nh_html_evidence(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    nh_html_add(w, "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz: ");
+    nh_html_text(w, r->ansatz_note);
+    nh_html_add(w, ". ");
+    nh_html_count(w, r->samples);
+    nh_html_add(w, " sample points, ");
+    nh_html_count(w, r->rejected);
+    nh_html_add(w, " rejected.</p>\n");
+    unknowns(w);
+    spectrum_plot(w);
+    spectra(w);
+    stages(w);
+    nh_html_add(w, "</section>\n");
+}

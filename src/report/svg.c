@@ -1,0 +1,270 @@
+#include "report/svg.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { width = 640, height = 300, left = 74, right = 14, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
+
+static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A7A7A"};
+static const char *const dashes[] = {"none", "7 3", "2 3", "9 3 2 3", "14 4"};
+
+/* One axis: value -> pixel. */
+typedef struct {
+    double low, high, from, to;
+    bool logarithmic;
+} axis;
+
+typedef struct {
+    const nh_plot *plot;
+    nh_text *out;
+    axis x, y;
+    double legend, height;
+} canvas;
+
+void nh_svg_escape(const char *text, nh_text *out)
+{
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        switch (*c) {
+        case '<': nh_text_add(out, "&lt;"); break;
+        case '>': nh_text_add(out, "&gt;"); break;
+        case '&': nh_text_add(out, "&amp;"); break;
+        case '"': nh_text_add(out, "&quot;"); break;
+        case '\'': nh_text_add(out, "&#39;"); break;
+        default:
+            if (*c >= 0x20 || *c == '\n' || *c == '\t') nh_text_add_n(out, (const char *)c, 1);
+        }
+    }
+}
+
+bool nh_svg_range(size_t count, const double *value, size_t stride, double *low, double *high)
+{
+    bool any = false;
+    for (size_t i = 0; i < count; i++) {
+        double v = value[i * stride];
+        if (!isfinite(v)) continue;
+        *low = any ? fmin(*low, v) : v;
+        *high = any ? fmax(*high, v) : v;
+        any = true;
+    }
+    return any;
+}
+
+static double place(const axis *a, double v)
+{
+    double low = a->logarithmic ? log10(a->low) : a->low, high = a->logarithmic ? log10(a->high) : a->high;
+    return a->from + (a->to - a->from) * ((a->logarithmic ? log10(v) : v) - low) / (high - low);
+}
+
+/* ---- ranges and ticks ---- */
+
+/* 1, 2 or 5 times a power of ten, so that there are at most so many ticks. */
+static double tick_step(double span, int most)
+{
+    double raw = span / most, power = pow(10, floor(log10(raw))), part = raw / power;
+    return power * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
+}
+
+static void widen(axis *a)
+{
+    double size = fmax(fabs(a->low), fabs(a->high)), span = a->high - a->low;
+    if (!(span > 1e-5 * size)) span = size > 0 ? 0.1 * size : 1;
+    else span = 0.05 * span;
+    a->low -= span;
+    a->high += span;
+}
+
+static void ranges(canvas *c)
+{
+    const nh_plot *p = c->plot;
+    bool any = false;
+    for (size_t k = 0; k < p->curves; k++) {
+        const nh_curve *f = &p->curve[k];
+        double x0, x1, y0, y1;
+        if (!nh_svg_range(f->count, f->x, f->x_stride, &x0, &x1) || !nh_svg_range(f->count, f->y, f->y_stride, &y0, &y1)) continue;
+        c->x.low = any ? fmin(c->x.low, x0) : x0;
+        c->x.high = any ? fmax(c->x.high, x1) : x1;
+        c->y.low = any ? fmin(c->y.low, y0) : y0;
+        c->y.high = any ? fmax(c->y.high, y1) : y1;
+        any = true;
+    }
+    if (!any) c->x = (axis){0, 1, 0, 0, false}, c->y = c->x;
+    c->y.logarithmic = p->log_y;
+    if (p->log_y) {
+        c->y.low = pow(10, floor(log10(fmax(c->y.low, p->floor)) - 0.2));
+        c->y.high = pow(10, ceil(log10(fmax(c->y.high, 10 * p->floor)) + 0.2));
+    } else {
+        widen(&c->y);
+    }
+    if (!p->timed || !(c->x.high > c->x.low)) widen(&c->x);
+}
+
+/* One scale for both: the tighter axis gives way. */
+static void equalise(canvas *c)
+{
+    double sx = (c->x.high - c->x.low) / (c->x.to - c->x.from), sy = (c->y.high - c->y.low) / (c->y.from - c->y.to), s = fmax(sx, sy);
+    double x = (c->x.low + c->x.high) / 2, y = (c->y.low + c->y.high) / 2, half_x = s * (c->x.to - c->x.from) / 2, half_y = s * (c->y.from - c->y.to) / 2;
+    c->x.low = x - half_x;
+    c->x.high = x + half_x;
+    c->y.low = y - half_y;
+    c->y.high = y + half_y;
+}
+
+static void label(const canvas *c, double x, double y, const char *anchor, const char *class, const char *text)
+{
+    nh_text_addf(c->out, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"12\" fill=\"#808080\" font-family=\"sans-serif\">", class, x, y, anchor);
+    nh_svg_escape(text, c->out);
+    nh_text_add(c->out, "</text>");
+}
+
+static void line(const canvas *c, double x1, double y1, double x2, double y2, const char *class)
+{
+    nh_text_addf(c->out, "<line class=\"%s\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#808080\" stroke-opacity=\"%s\"/>", class, x1, y1, x2, y2,
+                 strcmp(class, "grid") ? "1" : "0.25");
+}
+
+static void tick(const canvas *c, bool vertical, double v, const char *text)
+{
+    double at = place(vertical ? &c->y : &c->x, v);
+    if (vertical) {
+        line(c, c->x.from, at, c->x.to, at, "grid");
+        label(c, c->x.from - 6, at + 4, "end", "tick", text);
+    } else {
+        line(c, at, c->y.from, at, c->y.to, "grid");
+        label(c, at, c->y.from + 16, "middle", "tick", text);
+    }
+}
+
+static void linear_ticks(const canvas *c, bool vertical)
+{
+    const axis *a = vertical ? &c->y : &c->x;
+    double step = tick_step(a->high - a->low, vertical ? most_ticks : most_ticks + 2), first = ceil(a->low / step - 1e-9);
+    if (!(fabs(first) < 1e9)) return;
+    for (double i = first; i * step <= a->high + 1e-9 * step; i++) {
+        char text[40];
+        snprintf(text, sizeof text, "%.10g", i * step);
+        if (strlen(text) > 9) snprintf(text, sizeof text, "%.6g", i * step);
+        tick(c, vertical, i * step, i == 0 ? "0" : text);
+    }
+}
+
+static void decades(const canvas *c)
+{
+    double first = ceil(log10(c->y.low) - 1e-9), last = floor(log10(c->y.high) + 1e-9), step = fmax(1, ceil((last - first) / most_ticks));
+    for (double e = first; e <= last; e += step) {
+        char text[40];
+        snprintf(text, sizeof text, "1e%.0f", e);
+        tick(c, true, pow(10, e), text);
+    }
+}
+
+/* ---- curves ---- */
+
+static bool visible(const canvas *c, const nh_curve *f, size_t i, double *x, double *y)
+{
+    double v = f->y[i * f->y_stride];
+    if (!isfinite(v) || !isfinite(f->x[i * f->x_stride])) return false;
+    *x = place(&c->x, f->x[i * f->x_stride]);
+    *y = place(&c->y, c->plot->log_y ? fmax(v, c->y.low) : v);
+    return true;
+}
+
+static void dots(const canvas *c, const nh_curve *f, size_t k)
+{
+    double x, y;
+    for (size_t i = 0; i < f->count; i++)
+        if (visible(c, f, i, &x, &y)) nh_text_addf(c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>", x, y, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
+}
+
+/* Triangles that point where the body heads. */
+static void headings(const canvas *c, const nh_curve *f, size_t k)
+{
+    enum { marks = 16, size = 9 };
+    double x, y;
+    size_t step = f->count / marks + 1;
+    for (size_t i = 0; i < f->count; i += step) {
+        double angle = f->heading[i * f->y_stride], a = size * cos(angle), b = -size * sin(angle);
+        if (!visible(c, f, i, &x, &y) || !isfinite(angle)) continue;
+        nh_text_addf(c->out, "<path fill=\"%s\" d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\"/>", colour[k % colours], x + a, y + b, x - a / 2 + b / 2, y - b / 2 - a / 2, x - a / 2 - b / 2,
+                     y - b / 2 + a / 2);
+    }
+}
+
+static void curve(const canvas *c, const nh_curve *f, size_t k)
+{
+    double x, y;
+    bool on = false;
+    size_t step = f->count / most_points + 1;
+    nh_text_addf(c->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"", colour[k % colours],
+                 dashes[k % (sizeof dashes / sizeof *dashes)]);
+    for (size_t i = 0; i < f->count; i += step) {
+        bool here = visible(c, f, i, &x, &y);
+        if (here) nh_text_addf(c->out, "%s%.1f %.1f", on ? "L" : "M", x, y);
+        on = here;
+    }
+    nh_text_add(c->out, "\"/>");
+    if (f->heading) headings(c, f, k);
+}
+
+/* Rows of names above the plot; returns the height that they take.  With `draw` false only that. */
+static double legend(const canvas *c, bool draw)
+{
+    double x = left, y = legend_row;
+    if (c->plot->curves < 2) return 0;
+    for (size_t k = 0; k < c->plot->curves; k++) {
+        double room = 40 + 7.5 * (double)nh_text_width(c->plot->curve[k].name);
+        if (x + room > width - right && x > left) x = left, y += legend_row;
+        if (draw) {
+            bool is_dots = c->plot->curve[k].dots;
+            if (is_dots) nh_text_addf(c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>", x + 11, y - 4, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
+            else
+                nh_text_addf(c->out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.8\" stroke-dasharray=\"%s\"/>", x, y - 4, x + 24, y - 4,
+                             colour[k % colours], dashes[k % (sizeof dashes / sizeof *dashes)]);
+            label(c, x + 28, y, "start", "legend", c->plot->curve[k].name);
+        }
+        x += room;
+    }
+    return y;
+}
+
+static void head(const canvas *c)
+{
+    const nh_plot *p = c->plot;
+    nh_text_addf(c->out, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" id=\"%s\" role=\"img\" aria-labelledby=\"%s-t %s-d\" viewBox=\"0 0 %d %.0f\" width=\"%d\" height=\"%.0f\"", p->id,
+                 p->id, p->id, width, c->height, width, c->height);
+    if (p->timed) nh_text_addf(c->out, " data-t0=\"%.9g\" data-t1=\"%.9g\" data-x0=\"%.1f\" data-x1=\"%.1f\"", c->x.low, c->x.high, c->x.from, c->x.to);
+    nh_text_addf(c->out, "><title id=\"%s-t\">", p->id);
+    nh_svg_escape(p->title, c->out);
+    nh_text_addf(c->out, "</title><desc id=\"%s-d\">", p->id);
+    nh_svg_escape(p->description, c->out);
+    nh_text_add(c->out, "</desc>");
+}
+
+void nh_svg_plot(const nh_plot *p, nh_text *out)
+{
+    canvas c = {.plot = p, .out = out};
+    ranges(&c);
+    c.legend = legend(&c, false);
+    c.height = c.legend + (p->equal ? 1.5 : 1) * height;
+    c.x.from = left;
+    c.x.to = width - right;
+    c.y.from = c.height - bottom;
+    c.y.to = c.legend + top;
+    if (p->equal) equalise(&c);
+    head(&c);
+    legend(&c, true);
+    linear_ticks(&c, false);
+    if (p->log_y) decades(&c);
+    else linear_ticks(&c, true);
+    line(&c, c.x.from, c.y.from, c.x.to, c.y.from, "axis");
+    line(&c, c.x.from, c.y.from, c.x.from, c.y.to, "axis");
+    label(&c, (c.x.from + c.x.to) / 2, c.height - 10, "middle", "label", p->x_label);
+    nh_text_addf(out, "<g transform=\"translate(14 %.1f) rotate(-90)\">", (c.y.from + c.y.to) / 2);
+    label(&c, 0, 0, "middle", "label", p->y_label);
+    nh_text_add(out, "</g>");
+    for (size_t k = 0; k < p->curves; k++)
+        if (p->curve[k].dots) dots(&c, &p->curve[k], k);
+        else curve(&c, &p->curve[k], k);
+    if (p->timed) nh_text_addf(out, "<line class=\"now\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#D55E00\" visibility=\"hidden\"/>", c.x.from, c.y.from, c.x.from, c.y.to);
+    nh_text_add(out, "</svg>\n");
+}

@@ -1,0 +1,38 @@
+/* svg: plots with axes, ticks and a legend as stand-alone SVG elements.
+ *
+ * Colours are those of Okabe and Ito, told apart by people who see few colours; lines differ by dashes too.  What is not finite interrupts
+ * a line.  Text is escaped.  Classes let a page change the colours of axes and text; without a style sheet they are grey. */
+#ifndef NH_SVG_H
+#define NH_SVG_H
+
+#include <stdbool.h>
+
+#include "base/text.h"
+
+typedef struct {
+    const char *name;
+    size_t count;
+    const double *x, *y;         /* x[i * x_stride], y[i * y_stride] */
+    size_t x_stride, y_stride;
+    bool dots;                   /* points instead of a line */
+    const double *heading;       /* NULL, or an angle per point with y_stride: marks show it at equal steps */
+} nh_curve;
+
+typedef struct {
+    const char *id, *title, *description, *x_label, *y_label;
+    bool log_y, equal;           /* equal: both axes have one scale */
+    double floor;                /* with log_y: smaller values are shown there */
+    bool timed;                  /* x is the time: a page may move a cursor along it */
+    size_t curves;
+    const nh_curve *curve;
+} nh_plot;
+
+void nh_svg_plot(const nh_plot *plot, nh_text *out);
+
+/* The range of what is finite; false when there is none. */
+bool nh_svg_range(size_t count, const double *value, size_t stride, double *low, double *high);
+
+/* Characters that mean something in XML become entities; what no XML document may hold is left out. */
+void nh_svg_escape(const char *text, nh_text *out);
+
+#endif

@@ -1,0 +1,187 @@
+/* How the program behaves at a terminal: help, new files, folders, progress, interruption.  (What it prints: test_cli.c.) */
+#include <cjson/cJSON.h>
+#include <time.h>
+
+#include "program.h"
+
+static place place_with_systems(void)
+{
+    place p = place_make();
+    char link[PATH_MAX + 20], path[PATH_MAX + 20];
+    const char *folders[] = {"systems", "analyses"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%.4000s/%s", p.project, folders[i]);
+        snprintf(link, sizeof link, "%.4000s/%s", p.folder, folders[i]);
+        cr_assert_eq(symlink(path, link), 0);
+    }
+    return p;
+}
+
+Test(cli_manners, help_fits_a_screen)
+{
+    place p = place_make();
+    finished all = run_expecting(&p, "help", 0);
+    int lines = 0;
+    for (const char *c = all.out; *c; c = strchr(c, '\n') + 1, lines++) cr_expect_leq(strcspn(c, "\n"), 80u, "%.100s", c);
+    cr_expect_leq(lines, 24);
+    int commands = 0;
+    for (const char *c = all.out; (c = strstr(c, "\n  nhsym ")) && commands < 11; c++, commands++) {
+        char name[40], line[60];
+        cr_assert_eq(sscanf(c + 9, "%39s", name), 1);
+        snprintf(line, sizeof line, "help %s", name);
+        finished one = run_expecting(&p, line, 0), same;
+        snprintf(line, sizeof line, "%s --help", name);
+        if (strcmp(name, "help")) {
+            same = run_expecting(&p, line, 0);
+            cr_expect_str_eq(one.out, same.out, "%s", name);
+            finished_clear(&same);
+        }
+        cr_expect_not_null(strstr(one.out, "Example\n  nhsym "), "%s", one.out);
+        finished_clear(&one);
+    }
+    cr_expect_eq(commands, 11);
+    finished_clear(&all);
+    finished wrong = run_expecting(&p, "help analyse", 2);
+    cr_expect_not_null(strstr(wrong.err, "did you mean `nhsym help analyze`?"));
+    finished_clear(&wrong);
+    place_clear(&p);
+}
+
+/* Every option that a help screen names is taken by the command line, and completed. */
+Test(cli_manners, completions_know_every_option)
+{
+    place p = place_make();
+    static const char *const commands[] = {"analyze", "verify", "simulate", "chart", "reduce"}, *const shells[] = {"bash", "zsh", "fish", "man"};
+    for (size_t s = 0; s < 4; s++) {
+        char line[60];
+        snprintf(line, sizeof line, "help %s", shells[s]);
+        finished f = run_expecting(&p, line, 0);
+        for (size_t i = 0; i < 5; i++) {
+            snprintf(line, sizeof line, "help %s", commands[i]);
+            finished help = run_expecting(&p, line, 0);
+            size_t options = 0;
+            for (const char *c = help.out; (c = strstr(c, "--")); options++) {
+                char name[60], escaped[130] = "";
+                size_t n = strcspn(c, " \n"), k = 0;
+                snprintf(name, sizeof name, "%.*s", (int)(n - (s == 2 ? 2 : 0)), c + (s == 2 ? 2 : 0)); /* fish leaves the dashes out */
+                for (const char *from = name; *from; from++) {
+                    if (s == 3 && *from == '-') escaped[k++] = '\\';
+                    escaped[k++] = *from;
+                }
+                escaped[k] = 0;
+                cr_expect_not_null(strstr(f.out, escaped), "%s: %s", shells[s], escaped);
+                c += n;
+            }
+            cr_expect_gt(options, 4u);
+            finished_clear(&help);
+        }
+        if (s == 0) {
+            write_here(&p, "complete.sh", f.out);
+            char *argument[] = {"sh", "-c", "if command -v bash >/dev/null; then bash -n complete.sh; fi", NULL};
+            finished syntax = run_vector(&p, &(manner){0}, argument);
+            cr_expect_eq(syntax.code, 0, "%s", syntax.err);
+            finished_clear(&syntax);
+        }
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+Test(cli_manners, new_writes_a_system_that_works_and_never_over_another)
+{
+    place p = place_make();
+    finished f = run_expecting(&p, "new skate", 0);
+    cr_expect_not_null(strstr(f.out, "nhsym analyze skate.yaml"));
+    finished_clear(&f);
+    f = run_expecting(&p, "analyze skate.yaml", 0);
+    cr_expect_not_null(strstr(f.out, "(momentum of phi)"), "%s", f.out);
+    finished_clear(&f);
+    write_here(&p, "mine.yaml", "my own work\n");
+    f = run_expecting(&p, "new mine", 3);
+    cr_expect_not_null(strstr(f.err, "mine.yaml"));
+    finished_clear(&f);
+    char *text = read_here(&p, "mine.yaml");
+    cr_expect_str_eq(text, "my own work\n");
+    free(text);
+    f = run_expecting(&p, "new ../escape", 2);
+    finished_clear(&f);
+    f = run_expecting(&p, "new", 2);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(cli_manners, a_folder_takes_all_outputs)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "analyze sleigh -o out --no-color", 0);
+    char *summary = read_here(&p, "out/summary.txt"), *page = read_here(&p, "out/report.html"), *json = read_here(&p, "out/result.json"), *tex = read_here(&p, "out/report.tex"),
+         *figure = read_here(&p, "out/figure1.svg");
+    cr_assert(summary && page && json && tex && figure);
+    cr_expect_str_eq(summary, f.out);
+    cr_expect(!strncmp(figure, "<svg xmlns=", 11) && strstr(page, figure), "a figure of the page");
+    cJSON *root = cJSON_Parse(json);
+    cr_expect_not_null(root);
+    cr_expect_str_eq(cJSON_GetStringValue(cJSON_GetObjectItem(cJSON_GetObjectItem(root, "run"), "command")), "nhsym analyze sleigh -o out --no-color");
+    cJSON_Delete(root);
+    int depth = 0, begin = 0, end = 0; /* LaTeX: groups and environments are closed */
+    for (const char *c = tex; *c; c++) {
+        if (*c == '\\' && c[1]) {
+            begin += !strncmp(c, "\\begin{", 7);
+            end += !strncmp(c, "\\end{", 5);
+            c++;
+            continue;
+        }
+        depth += (*c == '{') - (*c == '}');
+        cr_assert_geq(depth, 0);
+    }
+    cr_expect(depth == 0 && begin == end && begin > 10, "%d open groups, %d environments, %d closed", depth, begin, end);
+    cr_expect_not_null(strstr(tex, "\\dot{{y}} = \\dot{{x}}\\,\\tan \\varphi"));
+    free(summary), free(page), free(json), free(tex), free(figure);
+    finished_clear(&f);
+    f = run_expecting(&p, "analyze sleigh -o nowhere/out", 4);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(cli_manners, progress_goes_to_standard_error_when_asked)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "analyze free_particle --progress always --json -", 0), silent = run_expecting(&p, "analyze free_particle --json -", 0);
+    cr_expect_not_null(strstr(f.err, "% of the time"), "%s", f.err);
+    cr_expect_str_empty(silent.err, "no terminal: no progress");
+    cJSON *root = cJSON_Parse(f.out);
+    cr_expect_not_null(root);
+    cJSON_Delete(root);
+    finished_clear(&f);
+    finished_clear(&silent);
+    f = run_expecting(&p, "analyze free_particle --progress sometimes", 2);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* The signal comes once the search says what it is doing; what was found is written and marked. */
+static void interrupt(int number)
+{
+    place p = place_with_systems();
+    char command[600];
+    snprintf(command, sizeof command,
+             "'%.200s' analyze crane --no-analysis --max-seconds 600 --progress always --json i.json >out 2>err & p=$!\n"
+             "while ! grep -q 'of the time' err; do sleep 0.02; done\nkill -%d $p\nwait $p", p.program, number);
+    char *argument[] = {"sh", "-c", command, NULL};
+    finished f = run_vector(&p, &(manner){0}, argument);
+    cr_expect_eq(f.code, 130, "exit code %d: %s", f.code, f.err);
+    char *json = read_here(&p, "i.json");
+    cJSON *root = json ? cJSON_Parse(json) : NULL;
+    cr_assert_not_null(root);
+    cr_expect(cJSON_IsTrue(cJSON_GetObjectItem(root, "partial")));
+    bool told = false;
+    for (const cJSON *w = cJSON_GetObjectItem(root, "warnings")->child; w; w = w->next) told |= strstr(w->valuestring, "interrupted") != NULL;
+    cr_expect(told);
+    cJSON_Delete(root);
+    free(json);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(cli_manners, sigterm_ends_with_what_there_is) { interrupt(SIGTERM); }
+Test(cli_manners, sigint_ends_with_what_there_is) { interrupt(SIGINT); }

@@ -1,0 +1,280 @@
+/* The page of an analysis: what it says is what the JSON says, it is well-formed, and no file can make it run anything. */
+#include <cjson/cJSON.h>
+#include <ctype.h>
+#include <math.h>
+
+#include "expr/typeset.h"
+#include "program.h"
+
+/* ---- a reader of XML, as strict as a parser: tags match, attributes are quoted and distinct from text, entities are known ---- */
+
+typedef struct {
+    const char *at;
+    char open[200][40];
+    int depth;
+    char fault[200];
+} reader;
+
+static bool fail(reader *r, const char *why)
+{
+    snprintf(r->fault, sizeof r->fault, "%s at: %.80s", why, r->at);
+    return false;
+}
+
+static bool entity(reader *r)
+{
+    static const char *const known[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&#39;"};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (!strncmp(r->at, known[i], strlen(known[i]))) return r->at += strlen(known[i]), true;
+    return fail(r, "unknown entity");
+}
+
+static bool attribute(reader *r)
+{
+    size_t name = strspn(r->at, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-0123456789");
+    if (!name || strncmp(r->at + name, "=\"", 2)) return fail(r, "attribute");
+    for (r->at += name + 2; *r->at != '"';) {
+        if (!*r->at || *r->at == '<') return fail(r, "attribute value");
+        if (*r->at == '&' ? !entity(r) : !r->at++) return false;
+    }
+    r->at++;
+    return true;
+}
+
+static bool tag(reader *r)
+{
+    bool closing = r->at[1] == '/';
+    r->at += 1 + closing;
+    size_t n = strspn(r->at, "abcdefghijklmnopqrstuvwxyz0123456789");
+    if (!n || n >= sizeof r->open[0]) return fail(r, "tag");
+    const char *name = r->at;
+    r->at += n;
+    if (closing) {
+        if (r->depth == 0 || strlen(r->open[r->depth - 1]) != n || strncmp(r->open[r->depth - 1], name, n)) return fail(r, "closing tag");
+        r->depth--;
+        return *r->at++ == '>' || fail(r, "closing tag");
+    }
+    while (isspace((unsigned char)*r->at)) {
+        while (isspace((unsigned char)*r->at)) r->at++;
+        if (*r->at != '>' && *r->at != '/' && !attribute(r)) return false;
+    }
+    if (*r->at == '/') return r->at++, *r->at++ == '>' || fail(r, "empty tag");
+    if (*r->at++ != '>' || r->depth == 200) return fail(r, "tag");
+    snprintf(r->open[r->depth++], sizeof r->open[0], "%.*s", (int)n, name);
+    return true;
+}
+
+static bool well_formed(reader *r, const char *page)
+{
+    *r = (reader){.at = page};
+    if (strncmp(page, "<!DOCTYPE html>", 15)) return fail(r, "no doctype");
+    for (r->at += 15; *r->at;) {
+        unsigned char c = (unsigned char)*r->at;
+        if (!strncmp(r->at, "<![CDATA[", 9)) {
+            const char *end = strstr(r->at, "]]>");
+            if (!end) return fail(r, "CDATA");
+            r->at = end + 3;
+        } else if (c == '<') {
+            if (!tag(r)) return false;
+        } else if (c == '&') {
+            if (!entity(r)) return false;
+        } else if (c < 0x20 && c != '\n' && c != '\t') {
+            return fail(r, "control character");
+        } else {
+            r->at++;
+        }
+    }
+    return r->depth == 0 || fail(r, "open tags at the end");
+}
+
+/* ---- pages ---- */
+
+static char *page_of(const place *p, const char *line, int code)
+{
+    char all[600];
+    snprintf(all, sizeof all, "%s --quiet --html page.html --json page.json", line);
+    finished f = run_expecting(p, all, code);
+    cr_assert_str_empty(f.out, "--quiet prints nothing");
+    finished_clear(&f);
+    char *page = read_here(p, "page.html");
+    cr_assert_not_null(page);
+    reader r;
+    cr_assert(well_formed(&r, page), "%s", r.fault);
+    cr_expect_lt(strlen(page), 1500000u);
+    return page;
+}
+
+static const char *const SYSTEMS[] = {"sleigh", "rolling_ball --max-seconds 3", "heisenberg_particle", "appell_hamel", "kepler --max-seconds 3", "free_particle", "spherical_pendulum"};
+
+static place place_with_systems(void)
+{
+    place p = place_make();
+    char link[PATH_MAX + 20], path[PATH_MAX + 20];
+    const char *folders[] = {"systems", "analyses"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%.4000s/%s", p.project, folders[i]);
+        snprintf(link, sizeof link, "%.4000s/%s", p.folder, folders[i]);
+        cr_assert_eq(symlink(path, link), 0);
+    }
+    return p;
+}
+
+static bool has_number(const cJSON *item, double value)
+{
+    if (cJSON_IsNumber(item) && item->valuedouble == value) return true;
+    for (const cJSON *child = item->child; child; child = child->next)
+        if (has_number(child, value)) return true;
+    return false;
+}
+
+/* The whole page, number by number: <data value="x"> is in the JSON, to the last digit, and what is shown is x rounded. */
+Test(html, every_number_is_in_the_json)
+{
+    place p = place_with_systems();
+    for (size_t s = 0; s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
+        char line[200];
+        snprintf(line, sizeof line, "analyze %s --quiet --html page.html --json page.json", SYSTEMS[s]);
+        finished f = run(&p, line);
+        finished_clear(&f);
+        char *page = read_here(&p, "page.html"), *text = read_here(&p, "page.json");
+        cr_assert(page && text, "%s", line);
+        reader r;
+        cr_assert(well_formed(&r, page), "%s: %s", line, r.fault);
+        cJSON *json = cJSON_Parse(text);
+        size_t numbers = 0;
+        for (const char *c = page; (c = strstr(c, "<data value=\"")); c++, numbers++) {
+            double value = strtod(c + 13, NULL), shown = strtod(strchr(c, '>') + 1, NULL);
+            cr_expect(has_number(json, value), "%s: the page has %.17g, the JSON has not", line, value);
+            const char *power = strstr(c, "<sup>"), *end = strstr(c, "</data>");
+            if (power && power < end) shown *= pow(10, strncmp(power + 5, "\u2212", 3) ? strtod(power + 5, NULL) : -strtod(power + 8, NULL));
+            if (value >= 0) cr_expect_float_eq(shown, value, 0.35 * value, "%s: %.17g is shown as %g", line, value, shown);
+        }
+        cr_expect_gt(numbers, 15u, "%s: %zu numbers", line, numbers);
+        int currents = cJSON_GetArraySize(cJSON_GetObjectItem(json, "currents")), cards = 0;
+        for (const char *c = page; (c = strstr(c, "<article class=\"card\">")); c++) cards++;
+        cr_expect_eq(cards, currents, "%s: %d cards, %d currents", line, cards, currents);
+        cJSON_Delete(json);
+        free(text);
+        free(page);
+    }
+    place_clear(&p);
+}
+
+/* Titles, documentation, units and file names come from files that anyone may have written. */
+Test(html, a_hostile_file_runs_nothing)
+{
+    place p = place_make();
+    write_here(&p, "a&b<img src=x>.yaml",
+               "name: x\ntitle: \"<script>alert(1)</script> & ]]> \\\" onload='alert(2)'\"\nsource: \"</p><iframe src='http://x.invalid'>\"\n"
+               "parameters:\n  - {name: m, value: 1.25, unit: \"<b onclick=alert(3)>kg\", doc: \"</table><svg onload=alert(4)>\"}\n"
+               "coordinates:\n  - {name: x, type: length, doc: \"<!-- <script>\"}\n  - {name: y, type: length}\nlagrangian: m/2*(x'^2 + y'^2)\n");
+    char *argument[] = {p.program, "analyze", "a&b<img src=x>.yaml", "--quiet", "--html", "page.html", NULL};
+    finished f = run_vector(&p, &(manner){0}, argument);
+    cr_assert_eq(f.code, 0, "%s", f.err);
+    char *page = read_here(&p, "page.html");
+    reader r;
+    cr_assert(page && well_formed(&r, page), "%s", r.fault);
+    cr_expect_null(strstr(page, "<script>alert"));
+    cr_expect_null(strstr(page, "<iframe"));
+    cr_expect_null(strstr(page, "<b onclick"));
+    cr_expect_null(strstr(page, "<img"));
+    cr_expect_null(strstr(page, "<svg onload"));
+    cr_expect_not_null(strstr(page, "&lt;script&gt;alert(1)"));
+    cr_expect_not_null(strstr(page, "default-src 'none'"), "the page itself forbids the network");
+    size_t scripts = 0;
+    for (const char *c = page; (c = strstr(c, "<script")); c++) scripts++;
+    cr_expect_eq(scripts, 2u, "the data and the script of the page");
+    free(page);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* No reference to anything outside the file; namespaces and the meta element are not fetched. */
+Test(html, the_page_needs_nothing_else)
+{
+    place p = place_with_systems();
+    char *page = page_of(&p, "analyze sleigh", 0);
+    cr_expect_null(strstr(page, "src="));
+    cr_expect_null(strstr(page, "url("));
+    cr_expect_null(strstr(page, "@import"));
+    cr_expect_null(strstr(page, "https:"));
+    for (const char *c = page; (c = strstr(c, "http:")); c++) cr_expect(!strncmp(c, "http://www.w3.org/", 18), "%.60s", c);
+    for (const char *c = page; (c = strstr(c, "href=\"")); c++) cr_expect_eq(c[6], '#');
+    for (const char *c = page; (c = strstr(c, "<svg ")); c++) cr_expect(!strncmp(strstr(c, "role="), "role=\"img\"", 10), "%.100s", c);
+    cr_expect_not_null(strstr(page, "3</data> independent currents"));
+    free(page);
+    place_clear(&p);
+}
+
+/* A disk that is full leaves the page that was there. */
+Test(html, a_page_is_written_whole_or_not_at_all)
+{
+    place p = place_with_systems();
+    write_here(&p, "page.html", "an older page");
+    finished f = run_so(&p, &(manner){.file_limit = 20000}, "analyze sleigh --quiet --html page.html");
+    cr_expect_eq(f.code, 4, "code %d: %s", f.code, f.err);
+    cr_expect_not_null(strstr(f.err, "page.html"));
+    finished_clear(&f);
+    char *page = read_here(&p, "page.html");
+    cr_expect_str_eq(page, "an older page");
+    free(page);
+    place_clear(&p);
+}
+
+/* ---- formulas ---- */
+
+static const struct {
+    const char *text, *latex;
+} FORMULAS[] = {
+    {"a + b*c", "a + b\\,c"},
+    {"-x^2/(2*k_12)", " - \\frac{{x}^{2}}{2\\,{k}_{12}}"},
+    {"m/2*(x' + y'')", "\\frac{m}{2}\\,{\\left(\\dot{{x}} + \\ddot{{y}}\\right)}"},
+    {"sqrt(phi)*sin(omega)^3", "\\sqrt{\\varphi }\\,{\\sin}^{3} \\omega "},
+    {"log(abs(u - 1))", "\\ln\\left(\\left|u - 1\\right|\\right)"},
+    {"a/b/c", "\\frac{a}{b\\,c}"},
+    {"a/(b/c)", "\\frac{a}{\\frac{b}{c}}"},
+    {"(a/b)^2", "{\\left(\\frac{a}{b}\\right)}^{2}"},
+    {"a*(-b)", "a\\,{\\left( - b\\right)}"},
+    {"2.5e-7*q1", "2.5\\cdot {10}^{ - 7}\\,{q}_{1}"},
+    {"y' = x'*tan(phi)", "\\dot{{y}} = \\dot{{x}}\\,\\tan \\varphi "},
+    {"2^-n", "{2}^{ - n}"},
+    {"atan2(y, x)", "\\operatorname{atan2}\\left(y, x\\right)"},
+    {"E_TC - mass", "{E}_{\\mathrm{TC}} - \\mathrm{mass}"},
+};
+
+Test(html, formulas_are_set_as_they_are_written)
+{
+    for (size_t i = 0; i < sizeof FORMULAS / sizeof *FORMULAS; i++) {
+        nh_text latex, mathml;
+        nh_text_init(&latex);
+        nh_text_init(&mathml);
+        cr_expect(nh_typeset(FORMULAS[i].text, NH_LATEX, &latex) && nh_typeset(FORMULAS[i].text, NH_MATHML, &mathml), "%s", FORMULAS[i].text);
+        cr_expect_str_eq(nh_text_string(&latex), FORMULAS[i].latex, "%s: %s", FORMULAS[i].text, nh_text_string(&latex));
+        char page[4000];
+        snprintf(page, sizeof page, "<!DOCTYPE html><math>%s</math>", nh_text_string(&mathml));
+        reader r;
+        cr_expect(well_formed(&r, page), "%s: %s", FORMULAS[i].text, r.fault);
+        nh_text_clear(&mathml);
+        nh_text_clear(&latex);
+    }
+}
+
+Test(html, what_is_no_formula_is_refused)
+{
+    static const char *const bad[] = {"", "a +", "(a", "a b", "a = b = c", "<b>", "a*/b", "sin(", "...", "a..."};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        nh_text out;
+        nh_text_init(&out);
+        cr_expect_not(nh_typeset(bad[i], NH_MATHML, &out), "%s", bad[i]);
+        cr_expect_eq(out.length, 0u);
+        nh_text_clear(&out);
+    }
+    char deep[2001];
+    memset(deep, '(', 1000);
+    memset(deep + 1000, ')', 1000);
+    deep[2000] = 0;
+    nh_text out;
+    nh_text_init(&out);
+    cr_expect_not(nh_typeset(deep, NH_MATHML, &out));
+    nh_text_clear(&out);
+}

@@ -1,0 +1,110 @@
+/* docs/schema/analyze.json says what `analyze --json` writes: checked by the part of JSON Schema that it uses. */
+#include <cjson/cJSON.h>
+
+#include "program.h"
+
+typedef struct {
+    char fault[400];
+} verdict;
+
+static const char *type_of(const cJSON *v)
+{
+    return cJSON_IsNull(v) ? "null" : cJSON_IsBool(v) ? "boolean" : cJSON_IsNumber(v) ? "number" : cJSON_IsString(v) ? "string" : cJSON_IsArray(v) ? "array" : "object";
+}
+
+static bool is_type(const cJSON *type, const char *name)
+{
+    if (cJSON_IsString(type)) return !strcmp(type->valuestring, name);
+    for (const cJSON *t = type->child; t; t = t->next)
+        if (!strcmp(t->valuestring, name)) return true;
+    return false;
+}
+
+static bool no(verdict *out, const char *where, const char *why, const char *detail)
+{
+    snprintf(out->fault, sizeof out->fault, "%s: %s %s", where, why, detail);
+    return false;
+}
+
+static bool fits(const cJSON *schema, const cJSON *v, const char *where, verdict *out);
+
+static bool members_fit(const cJSON *schema, const cJSON *v, const char *where, verdict *out)
+{
+    const cJSON *properties = cJSON_GetObjectItemCaseSensitive(schema, "properties"), *others = cJSON_GetObjectItemCaseSensitive(schema, "additionalProperties");
+    for (const cJSON *m = v->child; m; m = m->next) {
+        char path[300];
+        snprintf(path, sizeof path, "%.200s.%.80s", where, m->string);
+        const cJSON *own = cJSON_GetObjectItemCaseSensitive(properties, m->string);
+        if (!own && cJSON_IsFalse(others)) return no(out, path, "is not in the schema", "");
+        if (own || cJSON_IsObject(others)) {
+            if (!fits(own ? own : others, m, path, out)) return false;
+        }
+    }
+    const cJSON *required = cJSON_GetObjectItemCaseSensitive(schema, "required");
+    for (const cJSON *k = required ? required->child : NULL; k; k = k->next)
+        if (!cJSON_GetObjectItemCaseSensitive(v, k->valuestring)) return no(out, where, "lacks", k->valuestring);
+    return true;
+}
+
+static bool fits(const cJSON *schema, const cJSON *v, const char *where, verdict *out)
+{
+    const cJSON *type = cJSON_GetObjectItemCaseSensitive(schema, "type"), *items = cJSON_GetObjectItemCaseSensitive(schema, "items");
+    const cJSON *fixed = cJSON_GetObjectItemCaseSensitive(schema, "const"), *choices = cJSON_GetObjectItemCaseSensitive(schema, "enum");
+    if (type && !is_type(type, type_of(v))) return no(out, where, "is a", type_of(v));
+    if (fixed && !cJSON_Compare(fixed, v, true)) return no(out, where, "is another value", "");
+    bool chosen = !choices;
+    for (const cJSON *c = choices ? choices->child : NULL; c; c = c->next) chosen |= cJSON_Compare(c, v, true);
+    if (!chosen) return no(out, where, "is none of the values", cJSON_IsString(v) ? v->valuestring : "");
+    if (cJSON_IsObject(v)) return members_fit(schema, v, where, out);
+    for (const cJSON *e = cJSON_IsArray(v) && cJSON_IsObject(items) ? v->child : NULL; e; e = e->next)
+        if (!fits(items, e, where, out)) return false;
+    return true;
+}
+
+static cJSON *read_json(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    cr_assert_not_null(file, "%s", path);
+    char *text = read_stream(file);
+    fclose(file);
+    cJSON *root = cJSON_Parse(text);
+    cr_assert_not_null(root, "%s", path);
+    free(text);
+    return root;
+}
+
+/* With and without constraints, unknowns, stages, a drawing, a second chart, a motion, nearly conserved quantities, series. */
+static const char *const LINES[] = {
+    "sleigh", "sleigh --no-analysis --max-seconds 2", "free_particle", "heisenberg_particle --max-seconds 2", "appell_hamel --max-seconds 2", "lagrange_top --max-seconds 2",
+    "routh_sphere --max-seconds 4", "henon_heiles --max-seconds 2", "spherical_pendulum --max-seconds 2", "rolling_disk --max-seconds 4", "contact_oscillator --max-seconds 2",
+};
+
+Test(schema, what_analyze_writes_fits)
+{
+    cJSON *schema = read_json("docs/schema/analyze.json");
+    place p = place_make();
+    for (size_t i = 0; i < sizeof LINES / sizeof *LINES; i++) {
+        char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
+        snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
+        snprintf(line, sizeof line, "analyze %s --quiet --json r.json", LINES[i]);
+        finished f = run_so(&p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+        cr_assert(f.code == 0 || f.code == 5, "%s: %s", line, f.err);
+        snprintf(path, sizeof path, "%s/r.json", p.folder);
+        cJSON *root = read_json(path);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", LINES[i], v.fault);
+        /* the check can fail: a key too many, a key too few, another type */
+        cJSON_AddNumberToObject(cJSON_GetObjectItem(root, "samples"), "more", 1);
+        cr_expect_not(fits(schema, root, "", &v), "an unknown key");
+        cJSON_DeleteItemFromObject(cJSON_GetObjectItem(root, "samples"), "more");
+        cJSON *seed = cJSON_DetachItemFromObject(cJSON_GetObjectItem(root, "samples"), "seed");
+        cr_expect_not(fits(schema, root, "", &v), "a missing key");
+        cJSON_Delete(seed);
+        cJSON_AddStringToObject(cJSON_GetObjectItem(root, "samples"), "seed", "one");
+        cr_expect_not(fits(schema, root, "", &v), "a text for a number");
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(schema);
+    place_clear(&p);
+}
