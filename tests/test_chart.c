@@ -77,6 +77,22 @@ Test(chart, what_would_be_wrong_is_refused)
     nh_comparison_free(c);
 }
 
+/* Differences are off by about their order's share of rounding; the exact Jacobian by nothing, for less work. */
+Test(chart, derivatives_by_differences)
+{
+    nh_comparison *c = compare("systems/sleigh.yaml", "omega=2", 1, 0.2);
+    static const double least[] = {0, 1e-10, 1e-13, 0}, most[] = {0, 1e-6, 1e-8, 1e-10};
+    static const long work[] = {1, 6, 10, 20}; /* 5 states */
+    cr_assert_eq(c->derivatives, 4);
+    for (size_t i = 0; i < 4; i++) {
+        const nh_derivative *d = &c->derivative[i];
+        cr_expect(d->error >= least[i] && d->error <= most[i], "%s: %g", d->method, d->error);
+        cr_expect_eq(d->evaluations, work[i], "%s: %ld", d->method, d->evaluations);
+        cr_expect(d->seconds > 0 && isfinite(d->seconds));
+    }
+    nh_comparison_free(c);
+}
+
 /* A budget of nearly nothing still gives a document, which says that it is partial. */
 Test(chart, a_short_budget_is_told)
 {

@@ -109,6 +109,13 @@ void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
     }
     for (size_t i = 0; i < c->refused; i++) nh_text_addf(out, "  not used, %s\n", c->refusal[i]);
     if (c->partial) nh_text_add(out, "  the budget ended before every method had all its runs; --budget allows more\n");
+    if (c->derivatives) nh_text_add(out, "\nDerivatives: one Jacobian of the reduced equations\n");
+    for (size_t i = 0; i < c->derivatives; i++) {
+        const nh_derivative *d = &c->derivative[i];
+        char us[16];
+        time_text(d->seconds, us);
+        if (isfinite(d->seconds)) nh_text_addf(out, "    %-34s%10s us %6ld evaluations   off by %.0e\n", d->method, us, d->evaluations, d->error);
+    }
     if (verbose) nh_text_add(out, "\nAll runs (* nothing is both faster and more accurate)\n");
     for (size_t i = 0; i < c->count && verbose; i++) put_run(c, &c->item[i], out);
 }
@@ -186,6 +193,14 @@ char *nh_comparison_json(const nh_comparison *c, const nh_stress *s)
     nh_json_put_number(reference, "agreement", c->agreement);
     nh_json *motion = nh_json_put_array(root, "motion");
     for (size_t i = 0; i < c->count; i++) put_item(c, &c->item[i], motion);
+    nh_json *derivatives = nh_json_put_array(root, "derivatives");
+    for (size_t i = 0; i < c->derivatives; i++) {
+        nh_json *item = nh_json_add_object(derivatives);
+        nh_json_put_text(item, "method", c->derivative[i].method);
+        nh_json_put_number(item, "error", c->derivative[i].error);
+        nh_json_put_number(item, "seconds", c->derivative[i].seconds);
+        nh_json_put_number(item, "evaluations", (double)c->derivative[i].evaluations);
+    }
     nh_json *refused = nh_json_put_array(root, "refused");
     for (size_t i = 0; i < c->refused; i++) nh_json_add_text(refused, c->refusal[i]);
     nh_json_put_bool(root, "partial", c->partial);

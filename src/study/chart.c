@@ -123,6 +123,7 @@ static bool states_of(nh_bench *c, size_t formulation, const char *method, doubl
     nh_error_clear(&ignored);
     c->deadline = now() + c->budget / 4;
     nh_motion *motion = integrate(c, &k, tolerance, 0, &ignored);
+    c->hurried |= motion && !motion->complete && late(c);
     bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) && nh_formulation_states(&c->formulation[formulation], motion, states);
     nh_motion_free(motion);
     return good;
@@ -337,6 +338,7 @@ nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_
     list_candidates(&c);
     measure_all(&c);
     collect(&c);
+    nh_chart_derivatives(&c.formulation[0], c.out);
     nh_bench_close(&c);
     return c.out;
 }

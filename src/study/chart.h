@@ -22,6 +22,14 @@ typedef struct {
     const char *note;            /* why it failed, or empty */
 } nh_measured;
 
+/* The Jacobian of the reduced equations at the chart's probes. */
+typedef struct {
+    const char *method;
+    double error;     /* the largest difference from the exact one, relative to its largest entry (or 1); NAN where none could be computed */
+    double seconds;   /* of one Jacobian */
+    long evaluations; /* of the right-hand side (of the exact derivatives: 1) */
+} nh_derivative;
+
 typedef struct {
     nh_arena *arena;
     nh_simulation *question;     /* system, model, analysis */
@@ -32,6 +40,8 @@ typedef struct {
     const char **current;        /* names */
     size_t count, capacity;
     nh_measured *item;           /* by method and formulation, loosest first */
+    size_t derivatives;
+    nh_derivative *derivative;
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */

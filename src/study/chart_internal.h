@@ -48,6 +48,9 @@ void nh_yardstick_close(nh_yardstick *y);
 double nh_yardstick_error(const nh_yardstick *y, size_t count, const double *states);
 void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *states, double *drift);
 
+/* Exact derivatives and differences, in a chart. */
+void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out);
+
 /* ---- one motion, ready to be computed by any method ---- */
 
 typedef struct {
@@ -71,6 +74,7 @@ typedef struct {
     nh_measured *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
     bool project, once; /* once: no repetitions, the time does not matter */
+    bool hurried;       /* the reference ran out of time */
 } nh_bench;
 
 /* System, formulations and charts of a request; close it also on failure (and free `out`). */

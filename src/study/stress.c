@@ -41,7 +41,9 @@ static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measure
     if (m->status == NH_WARNED || m->status == NH_CAUGHT) return "the pivot of the chart";
     if (drift_of(m) > allowed * tolerance) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
     nh_bench_measure(b, &again, tolerance / 10, NAN, &tight);
-    if (tight.status == NH_FAILED || tight.status == NH_TIMEOUT) return "a tighter tolerance does not reach the end";
+    if (tight.status == NH_TIMEOUT) b->hurried = true; /* it says nothing */
+    if (tight.status == NH_TIMEOUT) return NULL;
+    if (tight.status == NH_FAILED) return "a tighter tolerance does not reach the end";
     /* both against the same reference, so that the difference of the errors bounds that of the states from below */
     if (fabs(tight.error - m->error) > allowed * tolerance / 4) return "a tighter tolerance gives another motion";
     return NULL;
@@ -49,12 +51,16 @@ static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measure
 
 static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool reference, nh_arena *arena, nh_stress_cell *cell)
 {
-    const char *guard = m->status == NH_FAILED || m->status == NH_TIMEOUT ? NULL : guard_of(b, k, m);
+    bool ended = m->status != NH_FAILED && m->status != NH_TIMEOUT;
+    const char *guard = ended && (reference || !b->hurried) ? guard_of(b, k, m) : NULL;
     bool good = m->error <= allowed * tolerance;
     cell->error = reference ? m->error : NAN;
     cell->note = nh_arena_strdup(arena, guard ? guard : m->note);
-    if (m->status == NH_FAILED || m->status == NH_TIMEOUT) cell->status = m->status;
-    else if (!reference) {
+    if (!ended) cell->status = m->status;
+    else if (b->hurried && !guard && !(reference && good)) {
+        cell->status = NH_TIMEOUT;
+        cell->note = "there was no time for a reference, or for a tighter run";
+    } else if (!reference) {
         cell->status = guard ? NH_CAUGHT : NH_WARNED;
         if (!guard) cell->note = "no two methods agree on this motion";
     } else cell->status = good ? guard ? NH_WARNED : NH_RIGHT : guard ? NH_CAUGHT : NH_WRONG;
@@ -81,6 +87,7 @@ static void try_value(stress_work *w, const nh_simulate_request *request, double
         }
         nh_contender k = {.method = nh_method_find(methods[i]), .formulation = in_coordinates && b.formulations == NH_CHART_FORMULATIONS ? 1 : 0};
         nh_measured m;
+        b.hurried &= !reference; /* what one method had no time for does not concern the next */
         nh_bench_measure(&b, &k, tolerance, NAN, &m);
         decide(&b, &k, &m, reference, w->out->arena, &cell[i]);
     }

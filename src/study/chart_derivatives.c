@@ -1,0 +1,110 @@
+/* chart_derivatives: the Jacobian of the reduced equations, exact from the graph or by differences of the right-hand side: what each costs, and how
+ * far the differences are off.  At the chart's probes; exact derivatives are the reference. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "study/chart_internal.h"
+
+enum { kinds = 4 };
+static const char *const names[kinds] = {"exact, from the graph", "forward differences", "central differences", "central differences, extrapolated"};
+static const double enough_seconds = 2e-3; /* repetitions stop after this time */
+
+typedef struct {
+    nh_flow_problem problem;
+    size_t n;
+    double *z, *low, *high, *coarse;
+    long evaluations;
+} differences;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool rate_at(differences *d, double t, size_t j, double step, double *out)
+{
+    double kept = d->z[j];
+    d->z[j] = kept + step;
+    bool good = d->problem.rate(t, d->z, out, d->problem.context);
+    d->z[j] = kept;
+    d->evaluations++;
+    return good;
+}
+
+/* (f(z + h) - f(z - h)) / 2h into `out`. */
+static bool central(differences *d, double t, size_t j, double h, double *out)
+{
+    if (!rate_at(d, t, j, h, d->high) || !rate_at(d, t, j, -h, d->low)) return false;
+    for (size_t i = 0; i < d->n; i++) out[i] = (d->high[i] - d->low[i]) / (2 * h);
+    return true;
+}
+
+/* Steps near the best for errors of order 1, 2 and 4 and rounding: eps^(1/2), eps^(1/3), eps^(1/5), times max(1, |z_j|). */
+static bool jacobian(differences *d, int kind, double t, double *J)
+{
+    size_t n = d->n;
+    if (kind == 0) return d->evaluations++, d->problem.jacobian(t, d->z, J, d->problem.context);
+    if (kind == 1 && !rate_at(d, t, 0, 0, d->low)) return false;
+    for (size_t j = 0; j < n; j++) {
+        double *column = J + j * n, h = fmax(1, fabs(d->z[j])) * pow(DBL_EPSILON, kind == 1 ? 1.0 / 2 : kind == 2 ? 1.0 / 3 : 1.0 / 5);
+        if (kind == 1) {
+            if (!rate_at(d, t, j, h, d->high)) return false;
+            for (size_t i = 0; i < n; i++) column[i] = (d->high[i] - d->low[i]) / h;
+        } else if (!central(d, t, j, h, column)) {
+            return false;
+        }
+        if (kind < 3) continue;
+        if (!central(d, t, j, 2 * h, d->coarse)) return false;
+        for (size_t i = 0; i < n; i++) column[i] = (4 * column[i] - d->coarse[i]) / 3;
+    }
+    return true;
+}
+
+static double largest_difference(size_t count, const double *a, const double *exact)
+{
+    double worst = 0, scale = 1;
+    for (size_t i = 0; i < count; i++) scale = fmax(scale, fabs(exact[i]));
+    for (size_t i = 0; i < count; i++) worst = fmax(worst, fabs(a[i] - exact[i]) / scale);
+    return worst;
+}
+
+static void measure(differences *d, const nh_chart *c, int kind, double *J, double *exact, nh_derivative *out)
+{
+    size_t n = d->n, done = 0;
+    *out = (nh_derivative){.method = names[kind], .seconds = INFINITY};
+    for (size_t p = 0; p < c->probes; p++) {
+        const double *point = c->probe + p * c->width;
+        memcpy(d->z, point + 1, n * sizeof *d->z);
+        if (!jacobian(d, 0, point[0], exact)) continue;
+        d->evaluations = 0;
+        if (!jacobian(d, kind, point[0], J)) continue;
+        out->evaluations = d->evaluations;
+        out->error = fmax(out->error, largest_difference(n * n, J, exact));
+        double begin = now(), last = begin;
+        for (int i = 0; i < 100 && last - begin < enough_seconds / (double)c->probes; i++) {
+            jacobian(d, kind, point[0], J);
+            double t = now();
+            out->seconds = fmin(out->seconds, t - last);
+            last = t;
+        }
+        done++;
+    }
+    if (!done) out->seconds = out->error = NAN;
+}
+
+void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out)
+{
+    size_t n = f->size;
+    if (!f->model || !f->problem.jacobian) return;
+    differences d = {.problem = f->problem, .n = n, .z = nh_alloc_array(4 * n, sizeof *d.z)};
+    d.low = d.z + n, d.high = d.low + n, d.coarse = d.high + n;
+    double *J = nh_alloc_array(2 * n * n, sizeof *J);
+    out->derivative = nh_arena_alloc(out->arena, kinds * sizeof *out->derivative);
+    for (int k = 0; k < kinds; k++) measure(&d, f->model->chart, k, J, J + n * n, &out->derivative[out->derivatives++]);
+    nh_free(J);
+    nh_free(d.z);
+}
