@@ -259,6 +259,33 @@ Test(html, formulas_are_set_as_they_are_written)
     }
 }
 
+static void join(void *context, const char *piece)
+{
+    nh_text_add(context, piece);
+    nh_text_add(context, " | ");
+}
+
+/* Long sums break between their terms, also under a common factor; short ones stay as they are. */
+Test(html, long_formulas_come_in_pieces)
+{
+    static const char *const cases[][2] = {
+        {"-m*(a + b - c)/(2*k)", "- \\frac{m\\,{\\left(a + b - c\\right)}}{2\\,k} | "},
+        {"-m*(alpha1*beta1 + alpha2*beta2 - alpha3*beta3 + alpha4*beta4)/(2*k)",
+         "- \\frac{m}{2\\,k}\\bigl({\\alpha }_{1}\\,{\\beta }_{1} |  + {\\alpha }_{2}\\,{\\beta }_{2} |  - {\\alpha }_{3}\\,{\\beta }_{3} |  + {\\alpha }_{4}\\,{\\beta }_{4}\\bigr) | "},
+        {"(alpha1*beta1 + alpha2*beta2 - alpha3*beta3 + alpha4*beta4)/17",
+         "\\frac{1}{17}\\bigl({\\alpha }_{1}\\,{\\beta }_{1} |  + {\\alpha }_{2}\\,{\\beta }_{2} |  - {\\alpha }_{3}\\,{\\beta }_{3} |  + {\\alpha }_{4}\\,{\\beta }_{4}\\bigr) | "},
+        {"x^2 - y", "{x}^{2} |  - y | "},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_text out;
+        nh_text_init(&out);
+        cr_expect_gt(nh_typeset_pieces(cases[i][0], NH_LATEX, join, &out), 0u);
+        const char *got = nh_text_string(&out);
+        cr_expect_str_eq(got + strspn(got, " "), cases[i][1], "%s: %s", cases[i][0], got);
+        nh_text_clear(&out);
+    }
+}
+
 Test(html, what_is_no_formula_is_refused)
 {
     static const char *const bad[] = {"", "a +", "(a", "a b", "a = b = c", "<b>", "a*/b", "sin(", "...", "a..."};

@@ -273,21 +273,92 @@ bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out)
     return e != NULL;
 }
 
+/* ---- pieces ---- */
+
+typedef struct {
+    nh_typeset_piece *piece;
+    void *context;
+    size_t count;
+} pieces;
+
+static void hand_over(pieces *p, nh_text *one)
+{
+    p->piece(p->context, nh_text_string(one));
+    p->count++;
+    nh_text_clear(one);
+}
+
+/* The sum with the most terms among the factors, or NULL. */
+static const nh_seen *longest_sum(const nh_seen *factors, size_t *terms)
+{
+    const nh_seen *best = NULL;
+    for (const nh_seen *c = factors; c; c = c->next) {
+        size_t n = 0;
+        for (const nh_seen *t = c->kind == NH_SEEN_SUM ? c->child : NULL; t; t = t->next) n++;
+        if (n <= *terms) continue;
+        best = c;
+        *terms = n;
+    }
+    return best;
+}
+
+/* (a + b + ...) f/d, where it is too long for a line, is (f/d) (a + b + ...) in pieces. */
+static bool open_product(nh_typeset_form form, const nh_seen *e, pieces *p)
+{
+    bool minus = e->kind == NH_SEEN_SUM;
+    const nh_seen *n = minus ? e->child : e, *below = NULL;
+    size_t terms = 2;
+    if (minus && (e->child->next || !e->child->minus)) return false;
+    if (n->kind == NH_SEEN_FRACTION) {
+        below = n->child->next;
+        n = n->child;
+    }
+    nh_seen alone = *n;
+    alone.next = NULL;
+    const nh_seen *factors = n->kind == NH_SEEN_PRODUCT ? n->child : &alone, *sum = longest_sum(factors, &terms);
+    if (!sum || (!below && !factors->next && !minus)) return false;
+    nh_text one, above;
+    nh_text_init(&one);
+    nh_text_init(&above);
+    writer w = {form, &scripts[form], &above};
+    bool any = false;
+    for (const nh_seen *c = factors; c; c = c->next) {
+        if (c == sum) continue;
+        if (any) add(&w, w.s->times);
+        factor(&w, c);
+        any = true;
+    }
+    if (!any && below) nh_text_addf(&above, "%s1%s", w.s->number[0], w.s->number[1]);
+    w.out = &one;
+    if (minus) add(&w, w.s->minus);
+    if (below) nh_text_addf(&one, "%s%s%s%s", w.s->fraction[0], w.s->group[0], nh_text_string(&above), w.s->group[1]);
+    if (below) grouped(&w, below);
+    nh_text_add(&one, below ? w.s->fraction[2] : nh_text_string(&above));
+    nh_text_clear(&above);
+    add(&w, form == NH_MATHML ? "<mo stretchy=\"false\">(</mo>" : "\\bigl(");
+    for (const nh_seen *c = sum->child; c; c = c->next) {
+        term(&w, c, c == sum->child);
+        if (!c->next) add(&w, form == NH_MATHML ? "<mo stretchy=\"false\">)</mo>" : "\\bigr)");
+        hand_over(p, &one);
+    }
+    return true;
+}
+
 size_t nh_typeset_pieces(const char *text, nh_typeset_form form, nh_typeset_piece *piece, void *context)
 {
+    enum { long_text = 60 }; /* characters that fit on a line when set */
     nh_arena *arena = nh_arena_create();
     const nh_seen *e = nh_typeset_read(arena, text), *first = e && e->kind == NH_SEEN_SUM ? e->child : e;
-    size_t count = 0;
-    for (const nh_seen *c = first; c; c = e == first ? NULL : c->next) {
+    pieces p = {piece, context, 0};
+    bool opened = e && strlen(text) > long_text && open_product(form, e, &p);
+    for (const nh_seen *c = opened ? NULL : first; c; c = e == first ? NULL : c->next) {
         nh_text one;
         nh_text_init(&one);
         writer w = {form, &scripts[form], &one};
         if (e == first) put(&w, c);
         else term(&w, c, c == first);
-        piece(context, nh_text_string(&one));
-        nh_text_clear(&one);
-        count++;
+        hand_over(&p, &one);
     }
     nh_arena_free(arena);
-    return count;
+    return p.count;
 }

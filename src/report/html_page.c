@@ -18,8 +18,8 @@ const char *const nh_html_style =
     "th,td{border-bottom:1px solid var(--line);padding:.25rem .9rem .25rem 0;text-align:left;vertical-align:top}thead th{color:var(--soft);font-weight:500}tbody th{font-weight:500}sup{line-height:0}\n"
     "figure{margin:1.2rem 0}figcaption{font-size:.86rem;color:var(--soft)}svg.plot{display:block;width:100%;height:auto}svg text{fill:var(--soft)}svg .grid,svg .axis{stroke:var(--soft)}\n"
     ".controls{display:flex;align-items:center;gap:.8rem;position:sticky;bottom:0;background:var(--paper);padding:.5rem 0;z-index:1}#when{flex:1}button{font-size:1rem;min-width:5rem;padding:.45rem .9rem;border:1px solid var(--line);border-radius:6px;background:var(--card);color:var(--ink)}output{min-width:6.5rem;font-size:.9rem}\n"
-    "@media (max-width:34rem){dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}body{font-size:16px}}\n"
-    "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player{display:none}body{font-size:10.5pt}main{max-width:none;padding:0}.card,figure{break-inside:avoid}h2,h3{break-after:avoid}.formula{overflow:visible}}\n";
+    "@media (max-width:34rem){dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}body{font-size:16px}svg .tick,svg .label{font-size:18px}svg .legend{font-size:14px}}\n"
+    "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player{display:none}body{font-size:10.5pt}main{max-width:none;padding:0}.card,figure{break-inside:avoid}h2,h3{break-after:avoid}.formula{overflow:visible}details::details-content{content-visibility:visible}}\n";
 
 const char *const nh_html_script =
     "'use strict';\n"

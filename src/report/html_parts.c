@@ -9,7 +9,7 @@
 #include "report/formula.h"
 #include "report/html_internal.h"
 
-enum { widest = 130 }; /* symbols of a piece that is not broken */
+enum { widest = 60 }; /* symbols of a piece that is not broken */
 
 void nh_html_add(nh_html_writer *w, const char *markup) { nh_text_add(w->out, markup); }
 void nh_html_text(nh_html_writer *w, const char *text) { nh_svg_escape(text, w->out); }

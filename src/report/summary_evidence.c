@@ -18,11 +18,26 @@ static void spectrum_line(nh_summary_writer *w, const char *name, const nh_spect
     }
 }
 
+/* One bar per value, by its logarithm from rounding to the largest. */
+static void bars(nh_summary_writer *w, const nh_spectrum *s)
+{
+    static const char *const bar[] = {"\u2581", "\u2582", "\u2583", "\u2584", "\u2585", "\u2586", "\u2587", "\u2588"};
+    enum { heights = sizeof bar / sizeof *bar, per_line = 72 };
+    static const double lowest = -17; /* decades */
+    double top = s->rank ? log10(fmax(s->spectrum[s->rank - 1], 1e-16)) : 0;
+    for (size_t i = 0; i < s->rank; i++) {
+        double part = (log10(fmax(s->spectrum[i], 1e-17)) - lowest) / (top - lowest);
+        int height = (int)fmin(heights - 1, fmax(0, floor(part * heights)));
+        nh_text_addf(w->out, "%s%s%s", i % per_line ? "" : "    ", bar[height], i % per_line == per_line - 1 || i + 1 == s->rank ? "\n" : "");
+    }
+}
+
 /* The whole spectrum, ascending, with --verbose. */
 static void spectrum_values(nh_summary_writer *w, const nh_spectrum *s)
 {
     enum { per_line = 10 };
     if (!w->style.verbose || !s->done) return;
+    bars(w, s);
     for (size_t i = 0; i < s->rank; i++) nh_text_addf(w->out, "%s%9.1e%s", i % per_line ? "" : "    ", s->spectrum[i], i % per_line == per_line - 1 || i + 1 == s->rank ? "\n" : "");
 }
 
