@@ -365,7 +365,7 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     }
     list l = {0}, v = waves(&s, 1), q = positions(&s, false, false), f = functions(&s, false);
     put_all(&l, w->velocities, w->velocity);
-    put_all(&l, w->frames, w->frame);
+    if (base == 2) put_all(&l, w->frames, w->frame);
     if (base == 2) put_all(&l, w->forms, w->form);
     size_t words_count = l.n;
     for (size_t i = 0; i < words_count && base > 0 && words_count * v.n <= most_with_waves; i++)
