@@ -600,3 +600,17 @@ Test(analyze, polar_coordinates, .timeout = 120)
         nh_result_free(r);
     }
 }
+
+/* An exponent that the program must find: y^c x' with the force -c x' y'/y, and it must be recognised as c. */
+Test(analyze, unknown_exponents)
+{
+    const char *text = "name: power\nparameters: [{name: c, value: 0.7}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                       "lagrangian: (x'^2 + y'^2)/2\nforces: [\"x = -c*x'*y'/y\"]\ndomain: {y: [0.5, 2]}\n";
+    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    cr_expect(r->verdict == NH_FOUND && r->independent == 4, "%zu independent", r->independent);
+    const nh_found *f = find(r, "y^c*x'");
+    cr_assert_not_null(f);
+    cr_expect(f->proof.all_parameters, "for all c");
+    nothing_false(r);
+    nh_result_free(r);
+}

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "expr/print.h"
 #include "noether/pencil.h"
 #include "study/climb.h"
 #include "study/naming.h"
@@ -15,6 +16,7 @@ typedef struct {
     nh_climb *x;
     const nh_ansatz *base;
     nh_ex q; /* t or a coordinate */
+    nh_ex base_of_power; /* Q, when q = log Q: exp(-lambda log Q) = Q^-lambda; 0: none */
     bool periodic, imaginary;
 } rate_context;
 
@@ -77,7 +79,8 @@ static size_t wave_terms(rate_context *c, size_t n, const double *re, const doub
     size_t count = 0;
     for (size_t k = 0; k < n; k++) {
         bool waves = fabs(im[k]) > 1e-9 * fabs(re[k]), decays = fabs(re[k]) > 1e-9 * fabs(im[k]);
-        nh_ex decay = decays ? nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, rate_of(c, re[k], false, trial), c->q))) : nh_int(d, 1);
+        nh_ex rate = decays ? nh_neg(d, rate_of(c, re[k], false, trial)) : 0;
+        nh_ex decay = !decays ? nh_int(d, 1) : c->base_of_power ? nh_pow(d, c->base_of_power, rate) : nh_call(d, NH_EXP, nh_mul(d, rate, c->q));
         nh_ex angle = waves ? nh_mul(d, rate_of(c, im[k], true, trial), c->q) : 0;
         if (!waves) out[count++] = decay;
         else {
@@ -101,7 +104,7 @@ static size_t wave_families(nh_climb *x, const nh_family *base, size_t which, si
 }
 
 /* Returns whether something new was found. */
-static bool pencil_stage(nh_climb *x, nh_ex q, const char *name, size_t which)
+static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, size_t which)
 {
     enum { most_rates = 4 };
     nh_result *r = x->r;
@@ -111,7 +114,7 @@ static bool pencil_stage(nh_climb *x, nh_ex q, const char *name, size_t which)
     nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, which), family[2];
     nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &ignored);
     if (!a) return false;
-    rate_context c = {.x = x, .base = a, .q = q};
+    rate_context c = {.x = x, .base = a, .q = q, .base_of_power = power};
     for (size_t i = 0; i < x->words.waves; i++) c.periodic |= x->words.wave[i] == q;
     double re[most_values], im[most_values];
     size_t n = rates(r->model, &c, re, im, most_values);
@@ -120,7 +123,7 @@ static bool pencil_stage(nh_climb *x, nh_ex q, const char *name, size_t which)
     size_t terms = wave_terms(&c, n, re, im, true, wave);
     if (terms && nh_climb_promising(x, wave_families(x, &base, which, terms, wave, family), family)) {
         char text[120];
-        snprintf(text, sizeof text, "exponentials and waves in %s with rates found by the pencil", name);
+        snprintf(text, sizeof text, power ? "powers of %.60s with exponents found by the pencil" : "exponentials and waves in %.60s with rates found by the pencil", name);
         wave_terms(&c, n, re, im, false, wave);
         nh_climb_stage(x, text, wave_families(x, &base, which, terms, wave, family), family);
     }
@@ -136,6 +139,36 @@ static bool is_cyclic(const nh_climb *x, nh_ex q)
     return true;
 }
 
+static bool positive_everywhere(const nh_climb *x, nh_ex e)
+{
+    const nh_points *p = x->ranges;
+    double *value = nh_alloc_array(p->count + 1, sizeof *value);
+    bool positive = true;
+    nh_points_evaluate(p, x->r->model, 1, &e, value);
+    for (size_t i = 0; i < p->count && positive; i++) positive = value[i] > 0 && isfinite(value[i]);
+    nh_free(value);
+    return positive;
+}
+
+/* Gamma f = nu (Gamma(Q)/Q) f: then Q^-nu f is an integral.  Q: positive lengths and functions of the system, one of Q and 1/Q. */
+static void powers(nh_climb *x)
+{
+    enum { most = 6 };
+    nh_dag *d = x->r->model->dag;
+    nh_ex tried[most];
+    size_t n = 0;
+    for (size_t i = 0; i < x->words.lengths + x->words.atoms && n < most && !nh_climb_done(x); i++) {
+        nh_ex Q = i < x->words.lengths ? x->words.length[i] : x->words.atom[i - x->words.lengths];
+        bool old = nh_function_of(d, Q) == NH_EXP;
+        for (size_t j = 0; j < n && !old; j++) old = Q == tried[j] || nh_mul(d, Q, tried[j]) == nh_int(d, 1);
+        if (old || !positive_everywhere(x, Q)) continue;
+        tried[n++] = Q;
+        char *name = nh_print_string(d, Q);
+        if (!pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 0)) pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 2);
+        nh_free(name);
+    }
+}
+
 /* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
 void nh_climb_rates(nh_climb *x)
 {
@@ -144,7 +177,8 @@ void nh_climb_rates(nh_climb *x)
         nh_ex q = i == 0 ? o->system->t : o->system->coordinate[i - 1].q;
         const char *name = nh_name_of(o->dag, q);
         for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_climb_done(x); base++)
-            if (pencil_stage(x, q, name, base)) break;
-        for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, name, base);
+            if (pencil_stage(x, q, 0, name, base)) break;
+        for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
+    powers(x);
 }
