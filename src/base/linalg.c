@@ -333,3 +333,15 @@ double nh_determinant(size_t n, double *a)
     }
     return det;
 }
+
+double nh_norm(size_t count, const double *x)
+{
+    double largest = 0, sum = 0;
+    for (size_t i = 0; i < count; i++)
+        largest = fmax(largest, fabs(x[i]));
+    if (largest == 0)
+        return 0;
+    for (size_t i = 0; i < count; i++)
+        sum += x[i] / largest * (x[i] / largest);
+    return largest * sqrt(sum);
+}

@@ -41,6 +41,9 @@ int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size
 /* The determinant of a (n x n, overwritten), by elimination with row pivots. */
 double nh_determinant(size_t n, double *a);
 
+/* Euclidean norm, safe against overflow. */
+double nh_norm(size_t count, const double *x);
+
 /* c = a b  (m x k times k x n). */
 void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b, double *c);
 

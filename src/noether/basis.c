@@ -1,0 +1,182 @@
+#include "noether/basis.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "base/memory.h"
+
+/* scale_j = |b_j|, or 0 when that is below trivial * size_j (constant) or the column is empty.  Lists the others in
+ * basis->column and returns how many they are. */
+static size_t equilibrate(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, const double *size,
+                          double trivial)
+{
+    size_t count = 0;
+    for (size_t j = 0; j < columns; j++) {
+        double length = nh_norm(rows, b + j * ld);
+        bool constant = length == 0 || (size && length <= trivial * size[j]);
+        basis->scale[j] = constant ? 0 : length;
+        if (!constant)
+            basis->column[count++] = j;
+    }
+    return count;
+}
+
+/* Column `kept` of R has come: with it the distance of each column from the span of all others, 1 / |row i of R^-1|, falls.  (A slowly
+ * growing dependence, cos x = T_0 + T_2 + ..., leaves no small pivot.)  square[i]: |row i of R^-1|^2; returns the column with the largest. */
+static size_t watch_rows(size_t kept, const double *r, size_t ld, double *square, double *y)
+{
+    size_t worst = kept;
+    double rest = r[kept + kept * ld];
+    memcpy(y, r + kept * ld, kept * sizeof *y);
+    if (kept) nh_solve_triangle(kept, 1, r, ld, y, kept);
+    square[kept] = 1 / (rest * rest);
+    for (size_t i = 0; i < kept; i++) {
+        square[i] += y[i] / rest * (y[i] / rest);
+        if (square[i] > square[worst]) worst = i;
+    }
+    return worst;
+}
+
+/* Gram-Schmidt, twice for round-off, in the given order: a column that depends on those before it is dropped, so that the caller's
+ * order (simplest first) decides which of dependent columns stay.  q: rows x available, unit columns; overwritten by the orthonormal ones
+ * that are kept.  r gets the triangle with leading dimension `available`.  Returns a column that must go first because, much more than any
+ * later one, it depends on the others; `available` when there is none. */
+static size_t keep_independent(nh_basis *basis, size_t rows, size_t available, double *q, double *r, double rank)
+{
+    double *h = nh_alloc_array(2 * available, sizeof *h), *square = h + available, *shadow = nh_alloc_array(rows + available, sizeof *shadow);
+    size_t kept = 0, *from = nh_alloc_array(available, sizeof *from), intruder = available;
+    basis->smallest_kept = 1;
+    for (size_t j = 0; j < available && intruder == available; j++) {
+        double *x = q + j * rows, *column = r + kept * available;
+        memset(column, 0, available * sizeof *column);
+        for (int pass = 0; pass < 2 && kept; pass++) {
+            nh_multiply(1, kept, rows, x, q, h);
+            nh_multiply(rows, 1, kept, q, h, shadow);
+            for (size_t i = 0; i < rows; i++) x[i] -= shadow[i];
+            for (size_t i = 0; i < kept; i++) column[i] += h[i];
+        }
+        double rest = kept < rows ? nh_norm(rows, x) : 0;
+        if (rest < rank) {
+            basis->largest_dropped = fmax(basis->largest_dropped, rest);
+            continue;
+        }
+        basis->smallest_kept = fmin(basis->smallest_kept, rest);
+        column[kept] = rest;
+        for (size_t i = 0; i < rows; i++) q[i + kept * rows] = x[i] / rest;
+        from[kept] = j;
+        size_t worst = watch_rows(kept, r, available, square, shadow);
+        if (sqrt(square[worst]) * rank > 1) {
+            basis->largest_dropped = fmax(basis->largest_dropped, 1 / sqrt(square[worst]));
+            intruder = from[worst];
+        }
+        basis->column[kept++] = basis->column[j];
+    }
+    basis->count = kept;
+    nh_free(from);
+    nh_free(shadow);
+    nh_free(h);
+    return intruder;
+}
+
+/* b is a triangle, and every column keeps a good part of itself apart from all others (1/|row i of R^-1|): then it is the answer, and
+ * Gram-Schmidt, which is slower than the whole QR at a thousand columns, has nothing to add. */
+static bool already_independent(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, double rank)
+{
+    size_t n = basis->count;
+    double safe = sqrt(rank), least = 1;
+    if (n != columns || n != rows) return false;
+    for (size_t j = 0; j < n; j++) {
+        for (size_t i = j + 1; i < n; i++)
+            if (b[i + j * ld] != 0) return false;
+        least = fmin(least, fabs(b[j + j * ld]) / basis->scale[j]);
+    }
+    if (!(least > safe)) return false;
+    double *r = nh_alloc_array(n * n, sizeof *r), *inverse = nh_alloc_array(n * n, sizeof *inverse), apart = 1;
+    nh_basis_gather(basis, n, b, ld, r);
+    for (size_t j = 0; j < n; j++) inverse[j + j * n] = 1;
+    nh_solve_triangle(n, n, r, n, inverse, n);
+    for (size_t i = 0; i < n; i++) {
+        double square = 0;
+        for (size_t j = i; j < n; j++) square += inverse[i + j * n] * inverse[i + j * n];
+        apart = fmin(apart, 1 / sqrt(square));
+    }
+    nh_free(inverse);
+    if (apart > safe) {
+        basis->r = r;
+        basis->smallest_kept = least;
+        return true;
+    }
+    nh_free(r);
+    return false;
+}
+
+/* The independent columns of those listed in basis->column, with their triangle. */
+static bool choose_columns(nh_basis *basis, size_t rows, size_t available, const double *b, size_t ld, double rank)
+{
+    double *q = nh_alloc_array(rows * available, sizeof *q), *r = nh_alloc_array(available * available, sizeof *r);
+    size_t *candidate = nh_alloc_array(available, sizeof *candidate), intruder = 0;
+    memcpy(candidate, basis->column, available * sizeof *candidate);
+    for (bool again = true; again && available > 0;) {
+        memcpy(basis->column, candidate, available * sizeof *candidate);
+        basis->count = available;
+        nh_basis_gather(basis, rows, b, ld, q);
+        if (!isfinite(nh_norm(rows * available, q))) break;
+        intruder = keep_independent(basis, rows, available, q, r, rank);
+        again = intruder < available;
+        if (!again) break;
+        memmove(candidate + intruder, candidate + intruder + 1, (available - intruder - 1) * sizeof *candidate);
+        available--;
+    }
+    bool good = intruder == available && available > 0;
+    basis->r = nh_alloc_array(basis->count * basis->count + 1, sizeof(double));
+    for (size_t j = 0; j < basis->count && good; j++) memcpy(basis->r + j * basis->count, r + j * available, (j + 1) * sizeof *r);
+    nh_free(candidate);
+    nh_free(q);
+    nh_free(r);
+    return good;
+}
+
+bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b, size_t ld, const double *size,
+                   const nh_nullspace_options *options, nh_error *error)
+{
+    *basis = (nh_basis){0};
+    basis->scale = nh_alloc_array(columns, sizeof(double));
+    basis->column = nh_alloc_array(columns, sizeof(size_t));
+    size_t available = equilibrate(basis, rows, columns, b, ld, size, options->trivial);
+    if (available == 0)
+        return true;
+    basis->count = available;
+    if (already_independent(basis, rows, columns, b, ld, options->rank)) return true;
+    if (choose_columns(basis, rows, available, b, ld, options->rank)) return true;
+    nh_basis_clear(basis);
+    return nh_fail(error, NH_NUMERIC, "", "the columns of the ansatz are too large to be compared (overflow in the QR)");
+}
+
+void nh_basis_clear(nh_basis *basis)
+{
+    nh_free(basis->column);
+    nh_free(basis->r);
+    nh_free(basis->scale);
+    *basis = (nh_basis){0};
+}
+
+void nh_basis_gather(const nh_basis *basis, size_t rows, const double *a, size_t ld, double *out)
+{
+    for (size_t j = 0; j < basis->count; j++) {
+        size_t from = basis->column[j];
+        for (size_t i = 0; i < rows; i++)
+            out[i + j * rows] = a[i + from * ld] / basis->scale[from];
+    }
+}
+
+void nh_basis_expand(const nh_basis *basis, size_t columns, size_t count_of_x, double *x, double *c)
+{
+    nh_solve_triangle(basis->count, count_of_x, basis->r, basis->count, x, basis->count);
+    memset(c, 0, columns * count_of_x * sizeof *c);
+    for (size_t k = 0; k < count_of_x; k++)
+        for (size_t j = 0; j < basis->count; j++) {
+            size_t to = basis->column[j];
+            c[to + k * columns] = x[j + k * basis->count] / basis->scale[to];
+        }
+}
