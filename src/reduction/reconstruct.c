@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdio.h>
-
 #include <string.h>
 
 #include "base/linalg.h"
@@ -10,10 +9,10 @@
 #include "reduction/subspace.h"
 
 typedef struct {
-    const nh_reduced *o;
-    const nh_slice *slice;
-    nh_reduced_flow *flow;
-    size_t inner, d;
+    const nh_reduced_chart *chart;
+    const nh_action *action;
+    bool group;                     /* its motion is wanted, too */
+    size_t inner, d, m;
     double *ad;                     /* d matrices d x d */
     bool *acts;                     /* ad_a is not zero */
     double *M, *P, *E, *next, *zeta; /* work */
@@ -54,7 +53,7 @@ static void second_kind(group_flow *f, const double *t)
 /* rate holds x' and, from `inner` on, Ad_h zeta of the factor in hand. */
 static void place_rate(group_flow *f, const double *q, double *rate)
 {
-    const nh_slice *s = f->slice;
+    const nh_slice *s = f->chart->slice;
     double *out = rate + f->inner + f->d;
     nh_multiply(f->d, 1, f->d, f->before, rate + f->inner, f->spatial);
     nh_tape_eval(f->field, f->field_work, q, f->e);
@@ -69,9 +68,9 @@ static bool rate_of(double time, const double *z, double *rate, void *context)
     (void)time;
     group_flow *f = context;
     size_t d = f->d;
-    if (!nh_reduced_flow_at(f->flow, z, rate, NULL, f->zeta, NULL)) return false;
+    if (!nh_reduced_flow_at(f->chart->flow, z, rate, NULL, f->zeta, NULL)) return false;
+    if (!f->group) return true;
     second_kind(f, z + f->inner);
-   
     nh_multiply(d, 1, d, f->P, f->zeta, rate + f->inner);
     if (f->direct) place_rate(f, z + f->inner + d, rate);
     return d == 0 || nh_solve(d, f->M, 1, rate + f->inner, NULL);
@@ -84,19 +83,19 @@ static bool guard_of(double time, const double *z, double *value, void *context)
     static const double least = 0.1;
     group_flow *f = context;
     double *s = f->zeta;
-    if (!nh_reduced_flow_guards(f->flow, z, value)) return false;
-    if (!f->d) return true;
+    if (!nh_reduced_flow_guards(f->chart->flow, z, value)) return false;
+    if (!f->d || !f->group) return true;
     second_kind(f, z + f->inner);
     nh_singular_values(f->d, f->d, f->M, s);
     value[2] = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
     return isfinite(value[2]);
 }
 
-static void group_flow_init(group_flow *f, const nh_reduced *o, const nh_slice *slice)
+static void group_flow_init(group_flow *f, const nh_action *action, bool group)
 {
-    const nh_algebra *g = &slice->action->algebra;
-    size_t d = g->d;
-    *f = (group_flow){.o = o, .slice = slice, .flow = nh_reduced_flow_create(o), .inner = o->n + o->r, .d = d};
+    const nh_algebra *g = &action->algebra;
+    size_t d = g->d, m = action->kinetic->m;
+    *f = (group_flow){.action = action, .group = group, .d = d, .m = m};
     f->ad = nh_alloc_array(d * d * d + 4 * d * d + d + 1, sizeof *f->ad);
     f->M = f->ad + d * d * d;
     f->P = f->M + d * d;
@@ -109,11 +108,9 @@ static void group_flow_init(group_flow *f, const nh_reduced *o, const nh_slice *
         nh_algebra_ad(g, f->zeta, f->ad + a * d * d);
         f->acts[a] = nh_largest(d * d, f->ad + a * d * d) > 0;
     }
-    size_t m = slice->m;
     nh_ex *e = nh_alloc_array(m * d + 1, sizeof *e);
-    for (size_t a = 0; a < d; a++) memcpy(e + a * m, slice->action->generator[a].component, m * sizeof *e);
-    f->direct = independent_of_shape(slice);
-    f->field = nh_kinetic_tape(slice->kinetic, m * d, e);
+    for (size_t a = 0; a < d; a++) memcpy(e + a * m, action->generator[a].component, m * sizeof *e);
+    f->field = nh_kinetic_tape(action->kinetic, m * d, e);
     f->field_work = nh_tape_work_create(f->field);
     f->e = nh_alloc_array(m * d + d * d + d + 1, sizeof *f->e);
     f->before = f->e + m * d;
@@ -122,9 +119,15 @@ static void group_flow_init(group_flow *f, const nh_reduced *o, const nh_slice *
     nh_free(e);
 }
 
+static void group_flow_chart(group_flow *f, const nh_reduced_chart *chart)
+{
+    f->chart = chart;
+    f->inner = chart->reduced->n + chart->reduced->r;
+    f->direct = f->group && independent_of_shape(chart->slice);
+}
+
 static void group_flow_clear(group_flow *f)
 {
-    nh_reduced_flow_free(f->flow);
     nh_tape_work_free(f->field_work);
     nh_tape_free(f->field);
     nh_free(f->e);
@@ -146,112 +149,208 @@ static bool move(nh_flows *flows, size_t d, const double *t, double *q)
     return good;
 }
 
+/* One motion in hand. */
 typedef struct {
-    double *factor; /* finished stretches: d numbers each, the first one outermost */
+    group_flow f;
+    nh_flows *flows;
+    nh_atlas *atlas;          /* NULL: one chart only */
+    double *factor;           /* of finished stretches: d numbers each, the first one outermost */
     size_t count, capacity;
-} stretches;
+    double *state, *left;
+    nh_reconstruction *out;
+} course;
 
-static bool place_of(const group_flow *f, nh_flows *flows, const stretches *done, const double *z, double *q)
+static size_t size_of(const group_flow *f) { return f->inner + (f->group ? f->d + (f->direct ? f->m : 0) : 0); }
+
+/* The place in Q of a state. */
+static bool place_of(const course *c, const double *z, double *q)
 {
+    const group_flow *f = &c->f;
     if (f->direct) {
-        memcpy(q, z + f->inner + f->d, f->slice->m * sizeof *q);
+        memcpy(q, z + f->inner + f->d, f->m * sizeof *q);
         return true;
     }
-    nh_slice_place(f->slice, z, q);
-    bool good = move(flows, f->d, z + f->inner, q);
-    for (size_t i = done->count; i-- > 0 && good;) good = move(flows, f->d, done->factor + i * f->d, q);
+    nh_slice_place(f->chart->slice, z, q);
+    bool good = move(c->flows, f->d, z + f->inner, q);
+    for (size_t i = c->count; i-- > 0 && good;) good = move(c->flows, f->d, c->factor + i * f->d, q);
     return good;
 }
 
 /* Copy what a stretch of the motion reached, from its output `from` on; the places of its points. */
-static bool store(group_flow *f, nh_flows *flows, const stretches *done, const nh_motion *motion, size_t from, nh_reconstruction *out)
+static bool store(course *c, const nh_motion *motion, size_t from)
 {
+    group_flow *f = &c->f;
+    nh_reconstruction *out = c->out;
     bool good = true;
     for (size_t i = from; i < motion->count && good; i++) {
         const double *z = motion->state + i * motion->size;
         size_t at = out->count;
         out->time[at] = motion->time[i];
         memcpy(out->z + at * f->inner, z, f->inner * sizeof *z);
-        if (!nh_reduced_flow_at(f->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, NULL)) return false;
-        good = place_of(f, flows, done, z, out->q + at * out->m);
+        if (!nh_reduced_flow_at(f->chart->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, out->energy + at)) return false;
+        if (f->group) good = place_of(c, z, out->q + at * out->m);
         out->count += good;
     }
     return good;
 }
 
 /* Keep the factors of g; the next stretch starts from the identity. */
-static void start_again(group_flow *f, const nh_motion *motion, stretches *done, double *state)
+static void keep_factors(course *c, const double *t)
 {
-    nh_grow(&done->factor, &done->capacity, (done->count + 1) * f->d, sizeof *done->factor);
-    memcpy(done->factor + done->count++ * f->d, motion->end_state + f->inner, f->d * sizeof *done->factor);
-    second_kind(f, motion->end_state + f->inner);
+    group_flow *f = &c->f;
+    nh_grow(&c->factor, &c->capacity, (c->count + 1) * f->d, sizeof *c->factor);
+    memcpy(c->factor + c->count++ * f->d, t, f->d * sizeof *t);
+    second_kind(f, t);
     nh_multiply(f->d, f->d, f->d, f->before, f->P, f->next);
     memcpy(f->before, f->next, f->d * f->d * sizeof *f->before);
-    memcpy(state, motion->end_state, motion->size * sizeof *state);
-    memset(state + f->inner, 0, f->d * sizeof *state);
 }
 
-static bool run(group_flow *f, nh_flows *flows, const double *z, size_t count, const double *times, const nh_options *options, nh_reconstruction *out, nh_error *error)
+static void limit_guards(course *c, const double *x)
+{
+    static const double part = 0.5, most = 0.1; /* of what the guards are here */
+    if (c->atlas) nh_reduced_flow_limit(c->f.chart->flow, x, part, most);
+}
+
+/* The rest of the state for the inner one: g = identity, and the place where that is integrated. */
+static void begin_stretch(course *c, const double *place)
+{
+    group_flow *f = &c->f;
+    if (f->group) memset(c->state + f->inner, 0, f->d * sizeof *c->state);
+    if (f->direct) memcpy(c->state + f->inner + f->d, place, f->m * sizeof *c->state);
+    limit_guards(c, c->state);
+}
+
+/* From the state where a guard stopped the motion to a chart that is regular there. */
+static bool change_chart(course *c, const double *z, double *place)
+{
+    static const double lost = 1e-4; /* no chart is any good */
+    group_flow *f = &c->f;
+    double *q = nh_alloc_array(2 * f->m + f->inner + 1, sizeof *q), *v = q + f->m, *next = v + f->m, value[2];
+    nh_error trouble = {0};
+    bool good = (!f->group || place_of(c, z, place)) && nh_chart_leave(f->chart, z, q, v);
+    const nh_reduced_chart *chart = good ? nh_atlas_at(c->atlas, q, v, next, &trouble) : NULL;
+    nh_error_clear(&trouble);
+    if (chart) {
+        nh_reduced_flow_limit(chart->flow, next, 0, 0);
+        good = nh_reduced_flow_guards(chart->flow, next, value) && value[0] > lost && value[1] > lost;
+        c->out->charts += chart != f->chart;
+        if (c->out->charts == 1 && chart != f->chart) c->out->first_chart = c->out->count;
+        if (f->group) keep_factors(c, z + f->inner);
+        group_flow_chart(f, chart);
+        memcpy(c->state, next, f->inner * sizeof *next);
+    }
+    nh_free(q);
+    return good && chart;
+}
+
+/* After a stretch that a guard has ended: go on from there. */
+static bool go_on(course *c, const nh_motion *motion)
+{
+    group_flow *f = &c->f;
+    double *place = nh_alloc_array(f->m + 1, sizeof *place);
+    bool good = true;
+    c->left[0] = motion->end_time;
+    if (motion->guard_hit == 2) {
+        keep_factors(c, motion->end_state + f->inner);
+        memcpy(c->state, motion->end_state, f->inner * sizeof *c->state);
+        if (f->direct) memcpy(place, motion->end_state + f->inner + f->d, f->m * sizeof *place);
+        c->out->restarts++;
+    } else {
+        good = change_chart(c, motion->end_state, place);
+    }
+    if (good) begin_stretch(c, place);
+    nh_free(place);
+    return good;
+}
+
+static void explain(course *c, const nh_motion *motion, bool found, const double *times)
+{
+    nh_reconstruction *out = c->out;
+    if (!found) snprintf(out->note, sizeof out->note, "the flows of the generators meet a singularity of the coordinates at t = %.4g", times[out->count]);
+    else if (motion->guard_hit >= 0) snprintf(out->note, sizeof out->note, "%s singular at t = %.6g", motion->guard_hit == 0 ? "the constraints on the orbits become" : "the slice becomes", motion->end_time);
+    else snprintf(out->note, sizeof out->note, "%s", motion->note);
+}
+
+static bool run(course *c, size_t count, const double *times, const nh_options *options, nh_error *error)
 {
     enum { most_stretches = 10000 };
-    nh_flow_options flow_options = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = options->steps};
-    nh_flow_problem problem = {.size = f->inner + f->d + (f->direct ? f->slice->m : 0), .context = f, .rate = rate_of, .guards = 2 + (f->d > 0), .guard = guard_of};
-    double *state = nh_alloc_array(problem.size, sizeof *state), *left = nh_alloc_array(count + 1, sizeof *left);
-    stretches done = {0};
-    bool good = true;
-    memcpy(state, z, f->inner * sizeof *state);
-    if (f->direct) nh_slice_place(f->slice, z, state + f->inner + f->d);
-    memcpy(left, times, count * sizeof *left);
-    while (good && !out->complete && done.count < most_stretches) {
-        size_t n = count - out->count, first = out->count > 0 || done.count > 0; /* a later stretch begins where the last one ended */
-        if (first) memcpy(left + 1, times + out->count, n * sizeof *left);
-        nh_motion *motion = nh_flow(&problem, state, n + first, left, &flow_options, error);
-        good = motion != NULL;
-        if (!good) break;
+    nh_reconstruction *out = c->out;
+    group_flow *f = &c->f;
+    size_t stretches = 0;
+    memcpy(c->left, times, count * sizeof *times);
+    for (; !out->complete && stretches < most_stretches; stretches++) {
+        nh_flow_options o = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = options->steps};
+        nh_flow_problem problem = {.size = size_of(f), .context = f, .rate = rate_of, .guards = 2 + (f->d > 0 && f->group), .guard = guard_of};
+        size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
+        if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);
+        nh_motion *motion = nh_flow(&problem, c->state, n + first, c->left, &o, error);
+        if (!motion) return false;
         out->evaluations += motion->evaluations;
         out->steps += motion->steps;
-        bool found = store(f, flows, &done, motion, first, out);
+        out->seconds += motion->seconds;
+        bool found = store(c, motion, first), guarded = !motion->complete && motion->guard_hit >= 0 && (c->atlas || motion->guard_hit == 2);
         out->complete = motion->complete && found;
-        if (!found) snprintf(out->note, sizeof out->note, "the flows of the generators meet a singularity of the coordinates at t = %.4g", times[out->count]);
-        else if (motion->guard_hit >= 0 && motion->guard_hit < 2)
-            snprintf(out->note, sizeof out->note, "%s singular at t = %.6g", motion->guard_hit == 0 ? "the constraints on the orbits become" : "the slice becomes", motion->end_time);
-        else if (!motion->complete && motion->guard_hit < 0) snprintf(out->note, sizeof out->note, "%s", motion->note);
-        if (!found || (!motion->complete && motion->guard_hit < 2)) {
-            nh_motion_free(motion);
-            break;
-        }
-        if (!motion->complete) {
-            start_again(f, motion, &done, state);
-            left[0] = motion->end_time;
-            out->restarts++;
-        }
+        bool on = found && guarded && go_on(c, motion);
+        if (!out->complete && !on) explain(c, motion, found, times);
         nh_motion_free(motion);
+        if (!out->complete && !on) break;
     }
-    nh_free(state);
-    nh_free(left);
-    nh_free(done.factor);
-    return good;
+    if (!out->charts) out->first_chart = out->count;
+    return true;
+}
+
+static nh_reconstruction *follow(nh_atlas *atlas, const nh_reduced_chart *chart, const double *z, const double *q, bool group, size_t count, const double *times,
+                                 const nh_options *options, nh_error *error)
+{
+    const nh_slice *slice = chart->slice;
+    size_t m = slice->m, inner = chart->reduced->n + chart->reduced->r;
+    nh_reconstruction *out = nh_alloc(sizeof *out);
+    *out = (nh_reconstruction){.m = m, .size = inner};
+    course c = {.flows = nh_flows_create(slice->action), .atlas = atlas, .out = out};
+    group_flow_init(&c.f, slice->action, group);
+    group_flow_chart(&c.f, chart);
+    c.state = nh_alloc_array(inner + c.f.d + m + 1, sizeof *c.state);
+    c.left = nh_alloc_array(count + 2, sizeof *c.left);
+    out->time = nh_alloc_array(count + 1, sizeof *out->time);
+    out->q = group ? nh_alloc_array(count * m + 1, sizeof *out->q) : NULL;
+    out->z = nh_alloc_array(count * inner + 1, sizeof *out->z);
+    out->zeta = nh_alloc_array(count * c.f.d + 1, sizeof *out->zeta);
+    out->energy = nh_alloc_array(count + 1, sizeof *out->energy);
+    memcpy(c.state, z, inner * sizeof *z);
+    begin_stretch(&c, q);
+    bool good = run(&c, count, times, options, error);
+    group_flow_clear(&c.f);
+    nh_flows_free(c.flows);
+    nh_free(c.factor);
+    nh_free(c.state);
+    nh_free(c.left);
+    if (good) return out;
+    nh_reconstruction_free(out);
+    nh_fail(error, NH_NUMERIC, "", "the motion of the group could not be found again from the reduced one");
+    return NULL;
 }
 
 nh_reconstruction *nh_reconstruct(const nh_reduced *o, const nh_slice *slice, const double *z, size_t count, const double *times, const nh_options *options,
                                   nh_error *error)
 {
-    group_flow f;
-    nh_flows *flows = nh_flows_create(slice->action);
-    nh_reconstruction *out = nh_alloc(sizeof *out);
-    group_flow_init(&f, o, slice);
-    *out = (nh_reconstruction){.m = slice->m, .size = f.inner};
-    out->time = nh_alloc_array(count + 1, sizeof *out->time);
-    out->q = nh_alloc_array(count * slice->m + 1, sizeof *out->q);
-    out->z = nh_alloc_array(count * f.inner + 1, sizeof *out->z);
-    out->zeta = nh_alloc_array(count * f.d + 1, sizeof *out->zeta);
-    bool good = run(&f, flows, z, count, times, options, out, error);
-    group_flow_clear(&f);
-    nh_flows_free(flows);
-    if (good) return out;
-    nh_reconstruction_free(out);
-    nh_fail(error, NH_NUMERIC, "", "the motion of the group could not be found again from the reduced one");
-    return NULL;
+    nh_reduced_chart chart = {.slice = slice, .reduced = o, .flow = nh_reduced_flow_create(o)};
+    double *q = nh_alloc_array(slice->m, sizeof *q);
+    nh_slice_place(slice, z, q);
+    nh_reconstruction *out = follow(NULL, &chart, z, q, true, count, times, options, error);
+    nh_reduced_flow_free(chart.flow);
+    nh_free(q);
+    return out;
+}
+
+nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count, const double *times, const nh_options *options,
+                                       nh_error *error)
+{
+    size_t m = nh_atlas_action(atlas)->kinetic->m;
+    double *z = nh_alloc_array(2 * m + 1, sizeof *z);
+    const nh_reduced_chart *chart = nh_atlas_at(atlas, q, v, z, error);
+    nh_reconstruction *out = chart ? follow(atlas, chart, z, q, group, count, times, options, error) : NULL;
+    nh_free(z);
+    return out;
 }
 
 void nh_reconstruction_free(nh_reconstruction *r)
@@ -261,5 +360,6 @@ void nh_reconstruction_free(nh_reconstruction *r)
     nh_free(r->q);
     nh_free(r->z);
     nh_free(r->zeta);
+    nh_free(r->energy);
     nh_free(r);
 }

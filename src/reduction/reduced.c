@@ -26,36 +26,53 @@ void nh_reduced_init(nh_reduced *o, const nh_kinetic *k, size_t n, const nh_ex *
     o->energy = nh_int(k->dag, 0);
 }
 
+static void guard_create(nh_guard *g, nh_arena *arena, size_t rows, size_t columns)
+{
+    *g = (nh_guard){.rows = rows, .columns = columns};
+    g->e = nh_arena_alloc(arena, (rows * columns + 1) * sizeof *g->e);
+    g->chosen = nh_arena_alloc(arena, (rows + 1) * sizeof *g->chosen);
+    g->unit = nh_arena_alloc(arena, (columns + 1) * sizeof *g->unit);
+}
+
+/* sqrt(K_jj) at the best sample point to the given power: the unit of a coordinate or of a component in the frame. */
+static void guard_units(nh_guard *g, const nh_kinetic *k, const nh_ex *K, double power)
+{
+    double *value = nh_alloc_array(g->columns * g->columns + 1, sizeof *value);
+    nh_kinetic_values(k, g->columns * g->columns, K, k->place, value);
+    for (size_t j = 0; j < g->columns; j++) {
+        double square = value[j * (g->columns + 1)];
+        g->unit[j] = isfinite(square) && square > 0 ? pow(square, power / 2) : 1;
+    }
+    nh_free(value);
+}
+
 void nh_reduced_guard_slice(nh_reduced *o, const nh_slice *s)
 {
-    o->guard_size[1] = s->d;
-    o->guard[1] = nh_arena_alloc(o->kinetic->arena, (s->d * s->d + 1) * sizeof *o->guard[1]);
-    for (size_t i = 0; i < s->d; i++)
-        for (size_t a = 0; a < s->d; a++) o->guard[1][i + a * s->d] = s->E[s->along[i] * s->d + a];
+    nh_guard *g = &o->guard[1];
+    guard_create(g, o->kinetic->arena, s->d, s->m);
+    for (size_t a = 0; a < s->d; a++)
+        for (size_t i = 0; i < s->m; i++) g->e[a * s->m + i] = s->E[i * s->d + a];
+    memcpy(g->chosen, s->along, s->d * sizeof *s->along);
+    guard_units(g, s->kinetic, s->kinetic->K, 1);
 }
 
 void nh_reduced_guard_constraints(nh_reduced *o, const nh_slice *s, const size_t *columns)
 {
-    o->guard_size[0] = s->f;
-    o->guard[0] = nh_arena_alloc(o->kinetic->arena, (s->f * s->f + 1) * sizeof *o->guard[0]);
-    for (size_t i = 0; i < s->f; i++)
-        for (size_t j = 0; j < s->f; j++) o->guard[0][i + j * s->f] = s->omega[i * s->m + columns[j]];
+    nh_guard *g = &o->guard[0];
+    guard_create(g, o->kinetic->arena, s->f, s->m);
+    memcpy(g->e, s->omega, s->f * s->m * sizeof *s->omega);
+    memcpy(g->chosen, columns, s->f * sizeof *columns);
+    guard_units(g, s->kinetic, s->K, -1);
 }
 
 /* ---- the equations on the slice ---- */
 
-void nh_reduced_independent(const nh_slice *s, size_t *independent)
+/* At each place an elimination of its own, with common columns: a is places x f rows of m, column by column. */
+static void choose_independent(const nh_slice *s, size_t places, double *a, size_t *independent)
 {
-    static const double group_first = 4; /* a component of the group is taken unless one of the shape is so much better */
-    const nh_kinetic *k = s->kinetic;
-    size_t m = s->m, f = s->f, places = k->places < 6 ? k->places : 6, rows = places * f, count = 0;
-    double *a = nh_alloc_array(rows * m + 1, sizeof *a), *value = nh_alloc_array(f * m + 1, sizeof *value);
+    static const double group_first = 4; /* a component of the group is given up unless one of the shape is so much better */
+    size_t m = s->m, f = s->f, rows = places * f, count = 0;
     bool *taken = nh_alloc_array(m, sizeof *taken);
-    for (size_t p = 0; p < places && f; p++) { /* at each place an elimination of its own, with common columns */
-        nh_kinetic_values(k, f * m, s->omega, k->place + p * m, value);
-        for (size_t i = 0; i < f; i++)
-            for (size_t j = 0; j < m; j++) a[p * f + i + j * rows] = value[i * m + j];
-    }
     for (size_t step = 0; step < f; step++) {
         size_t best = m;
         double most = 0;
@@ -89,9 +106,36 @@ void nh_reduced_independent(const nh_slice *s, size_t *independent)
     }
     for (size_t j = 0; j < m; j++)
         if (!taken[j] && count < m - f) independent[count++] = j;
+    nh_free(taken);
+}
+
+void nh_reduced_independent(const nh_slice *s, size_t *independent)
+{
+    const nh_kinetic *k = s->kinetic;
+    size_t m = s->m, f = s->f, places = k->places < 6 ? k->places : 6, rows = places * f;
+    double *a = nh_alloc_array(rows * m + 1, sizeof *a), *value = nh_alloc_array(f * m + 1, sizeof *value);
+    for (size_t p = 0; p < places && f; p++) {
+        nh_kinetic_values(k, f * m, s->omega, k->place + p * m, value);
+        for (size_t i = 0; i < f; i++)
+            for (size_t j = 0; j < m; j++) a[p * f + i + j * rows] = value[i * m + j];
+    }
+    choose_independent(s, places, a, independent);
     nh_free(a);
     nh_free(value);
-    nh_free(taken);
+}
+
+void nh_reduced_independent_at(const nh_slice *s, const double *q, size_t *independent)
+{
+    const nh_kinetic *k = s->kinetic;
+    size_t m = s->m, f = s->f;
+    double *a = nh_alloc_array(f * m + 1, sizeof *a), *value = nh_alloc_array(f * m + m * m + 1, sizeof *value), *K = value + f * m;
+    if (f) nh_kinetic_values(k, f * m, s->omega, q, value);
+    nh_kinetic_values(k, m * m, s->K, q, K);
+    for (size_t i = 0; i < f; i++)
+        for (size_t j = 0; j < m; j++) a[i + j * f] = value[i * m + j] / (K[j * (m + 1)] > 0 ? sqrt(K[j * (m + 1)]) : 1);
+    choose_independent(s, 1, a, independent);
+    nh_free(a);
+    nh_free(value);
 }
 
 /* rho (m x r): u = rho w, the dependent components by omf_dep u_dep = -omf_ind w. */
@@ -224,29 +268,56 @@ struct nh_reduced_flow {
     nh_tape *mass, *rest, *guard; /* M(x); x', F, zeta, energy of (x, w); matrices that must stay regular */
     nh_tape_work *mass_work, *rest_work, *guard_work;
     double *M, *in, *out, *regular;
+    double sign[2], limit[2];
 };
 
 static void guard_tape(nh_reduced_flow *f)
 {
     const nh_reduced *o = f->o;
     const nh_model *y = o->kinetic->model;
-    size_t first = o->guard_size[0] * o->guard_size[0], total = first + o->guard_size[1] * o->guard_size[1];
+    size_t first = o->guard[0].rows * o->guard[0].columns, total = first + o->guard[1].rows * o->guard[1].columns;
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
-    if (first) memcpy(e, o->guard[0], first * sizeof *e);
-    if (total > first) memcpy(e + first, o->guard[1], (total - first) * sizeof *e);
+    if (first) memcpy(e, o->guard[0].e, first * sizeof *e);
+    if (total > first) memcpy(e + first, o->guard[1].e, (total - first) * sizeof *e);
     f->guard = nh_tape_create(o->kinetic->dag, o->n, o->x, total, e, y->system->parameters, y->parameter, y->parameter_value);
     f->guard_work = nh_tape_work_create(f->guard);
     f->regular = nh_alloc_array(total + 1, sizeof *f->regular);
+    f->sign[0] = f->sign[1] = 1;
     nh_free(e);
+}
+
+/* The chosen columns' minor over the root of the sum of the squares of all minors. */
+static double guard_value(const nh_guard *g, double *value)
+{
+    for (size_t i = 0; i < g->rows * g->columns; i++) value[i] *= g->unit[i % g->columns];
+    return g->rows ? nh_relative_minor(g->rows, g->columns, value, g->chosen) : 1;
+}
+
+static bool plain_guards(nh_reduced_flow *f, const double *x, double value[2])
+{
+    const nh_guard *g = f->o->guard;
+    nh_tape_eval(f->guard, f->guard_work, x, f->regular);
+    value[0] = guard_value(&g[0], f->regular);
+    value[1] = guard_value(&g[1], f->regular + g[0].rows * g[0].columns);
+    return isfinite(value[0]) && isfinite(value[1]);
 }
 
 bool nh_reduced_flow_guards(nh_reduced_flow *f, const double *x, double value[2])
 {
-    const size_t *size = f->o->guard_size;
-    nh_tape_eval(f->guard, f->guard_work, x, f->regular);
-    value[0] = nh_relative_determinant(size[0], f->regular);
-    value[1] = nh_relative_determinant(size[1], f->regular + size[0] * size[0]);
-    return isfinite(value[0]) && isfinite(value[1]);
+    bool good = plain_guards(f, x, value);
+    for (int i = 0; i < 2; i++) value[i] = f->sign[i] * value[i] - f->limit[i];
+    return good;
+}
+
+double nh_reduced_flow_limit(nh_reduced_flow *f, const double *x, double part, double most)
+{
+    double value[2];
+    if (!plain_guards(f, x, value)) return 0;
+    for (int i = 0; i < 2; i++) {
+        f->sign[i] = value[i] < 0 ? -1 : 1;
+        f->limit[i] = fmin(part * fabs(value[i]), most);
+    }
+    return fmin(fabs(value[0]), fabs(value[1]));
 }
 
 static bool guards_of(double t, const double *z, double *value, void *context)

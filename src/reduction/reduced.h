@@ -10,6 +10,14 @@
 #include "motion/flow.h"
 #include "reduction/slice.h"
 
+/* Functions of x in a matrix (rows x columns, row-major) whose chosen columns, as many as rows, must stay independent. */
+typedef struct {
+    size_t rows, columns;
+    nh_ex *e;
+    size_t *chosen;      /* rows */
+    double *unit;        /* columns: makes lengths and angles comparable */
+} nh_guard;
+
 typedef struct {
     const nh_kinetic *kinetic;
     size_t n, r, d;      /* shape coordinates, velocities, dimension of the group divided out */
@@ -18,8 +26,7 @@ typedef struct {
     nh_ex *M;            /* r x r, row-major */
     nh_ex *dx, *F, *zeta; /* n, r, d as functions of (x, w) */
     nh_ex energy;        /* of (x, w) */
-    size_t guard_size[2]; /* matrices of functions of x that must stay regular: of the constraints, and of the generators on the slice (0: none) */
-    nh_ex *guard[2];     /* column by column */
+    nh_guard guard[2];   /* of the constraints, and of the generators on the slice; rows 0: none */
 } nh_reduced;
 
 /* A new one with symbols for the velocities (names[i], or NULL for u1, u2, ...) and everything zero; memory: the kinetic's arena. */
@@ -34,6 +41,8 @@ void nh_reduced_init(nh_reduced *reduced, const nh_kinetic *kinetic, size_t n, c
 bool nh_reduced_master(nh_reduced *reduced, const nh_slice *slice, const size_t *independent, nh_error *error);
 /* Components of the frame that serve as w: the others' minor of omf is well conditioned; group components are given up first. */
 void nh_reduced_independent(const nh_slice *slice, size_t *independent);
+/* The same for one place on the slice, lengths and angles in units of the metric. */
+void nh_reduced_independent_at(const nh_slice *slice, const double *q, size_t *independent);
 
 /* (x, p) from the frame components u (m) of a velocity: w are those of `independent`. */
 bool nh_reduced_start(const nh_reduced *reduced, const double *x, const double *w, double *z);
@@ -42,10 +51,14 @@ bool nh_reduced_start(const nh_reduced *reduced, const double *x, const double *
 typedef struct nh_reduced_flow nh_reduced_flow;
 nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *reduced);
 void nh_reduced_flow_free(nh_reduced_flow *flow);
-/* A motion ends where a guard's determinant changes sign: beyond a singularity of the slice or of the connection it would mean nothing. */
+/* A motion ends where a guard changes sign: beyond a singularity of the slice or of the connection it would mean nothing; or earlier, where its modulus
+ * falls below the limit that nh_reduced_flow_limit sets. */
 nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *flow);
-/* The two determinants at x (1 where there is no matrix); false when they are not finite. */
+/* The two guards at x: the minor of the chosen columns over the root of the sum of the squares of all (between -1 and 1; 1 where there is no matrix), less
+ * their limit; false when they are not finite. */
 bool nh_reduced_flow_guards(nh_reduced_flow *flow, const double *x, double value[2]);
+/* The limits for a motion from x: `part` of what the guards are there, `most` at most.  Returns the smaller modulus of the two; 0 when not finite. */
+double nh_reduced_flow_limit(nh_reduced_flow *flow, const double *x, double part, double most);
 /* For who fills the equations: what must stay regular on a slice, its generators' minor; and the constraints' columns (f of them). */
 void nh_reduced_guard_slice(nh_reduced *reduced, const nh_slice *slice);
 void nh_reduced_guard_constraints(nh_reduced *reduced, const nh_slice *slice, const size_t *columns);

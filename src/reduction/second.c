@@ -346,13 +346,14 @@ static void guard(nh_second *s)
 {
     const nh_reduced *first = &s->first->reduced;
     nh_reduced *o = &s->reduced;
-    size_t d = s->d, n = first->guard_size[0] * first->guard_size[0];
+    nh_guard *g = &o->guard[0];
+    size_t d = s->d, n = first->guard[0].rows * first->guard[0].columns;
     nh_ex *from = nh_alloc_array(d + 1, sizeof *from);
     for (size_t a = 0; a < d; a++) from[a] = s->hat->q[s->slice.along[a]];
     nh_reduced_guard_slice(o, &s->slice);
-    o->guard_size[0] = first->guard_size[0];
-    o->guard[0] = nh_arena_alloc(s->hat->arena, (n + 1) * sizeof *o->guard[0]);
-    for (size_t i = 0; i < n; i++) o->guard[0][i] = nh_substitute(s->slice.dag, first->guard[0][i], d, from, s->slice.y);
+    *g = first->guard[0];
+    g->e = nh_arena_alloc(s->hat->arena, (n + 1) * sizeof *g->e);
+    for (size_t i = 0; i < n; i++) g->e[i] = nh_substitute(s->slice.dag, first->guard[0].e[i], d, from, s->slice.y);
     nh_free(from);
 }
 

@@ -11,16 +11,16 @@ enum { trial_places = 10, most_subsets = 4000 };
 
 /* ---- which coordinates ---- */
 
-/* E in units of the metric, columns of length one, at some places: places x (m x d). */
-static double *scaled_generators(const nh_action *g, size_t places)
+/* E in units of the metric, columns of length one, at some places (places x m): places x (m x d). */
+static double *scaled_generators(const nh_action *g, size_t places, const double *place)
 {
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d;
     double *E = nh_alloc_array(places * m * d + 1, sizeof *E), *K = nh_alloc_array(places * m * m, sizeof *K);
-    nh_kinetic_sample(k, m * m, k->K, places, K);
+    for (size_t p = 0; p < places; p++) nh_kinetic_values(k, m * m, k->K, place + p * m, K + p * m * m);
     for (size_t p = 0; p < places; p++) {
         double *e = E + p * m * d;
-        nh_action_values(g, k->place + p * m, e);
+        nh_action_values(g, place + p * m, e);
         for (size_t a = 0; a < d; a++) {
             double size = 0;
             for (size_t s = 0; s < m; s++) {
@@ -59,13 +59,13 @@ static bool next_subset(size_t m, size_t d, size_t *index)
     return false;
 }
 
-void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
+static void choose(const nh_action *g, size_t places, const double *place, size_t *shape, size_t *along)
 {
     static const double nearly = 1.05; /* of nearly equal ones the preferred, then the first */
     const nh_kinetic *k = g->kinetic;
-    size_t m = k->m, d = g->d, places = k->places < trial_places ? k->places : trial_places, trials = 0;
+    size_t m = k->m, d = g->d, trials = 0;
     size_t *rows = nh_alloc_array(d + 1, sizeof *rows);
-    double *E = scaled_generators(g, places), best = -1;
+    double *E = scaled_generators(g, places, place), best = -1;
     for (size_t i = 0; i < d; i++) rows[i] = i;
     do {
         double value = worst_minor(m, d, places, E, rows);
@@ -83,6 +83,14 @@ void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
     nh_free(rows);
     nh_free(E);
 }
+
+void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
+{
+    const nh_kinetic *k = g->kinetic;
+    choose(g, k->places < trial_places ? k->places : trial_places, k->place, shape, along);
+}
+
+void nh_slice_choose_at(const nh_action *g, const double *q, size_t *shape, size_t *along) { choose(g, 1, q, shape, along); }
 
 /* ---- data ---- */
 

@@ -122,17 +122,17 @@ void nh_column_echelon(size_t d, size_t n, double small, double *c)
         if (fabs(c[i] - round(c[i])) < small) c[i] = round(c[i]);
 }
 
-double nh_relative_determinant(size_t n, const double *a)
+double nh_relative_minor(size_t rows, size_t columns, const double *a, const size_t *chosen)
 {
-    double *b = nh_alloc_array(n * n + 1, sizeof *b), det;
-    for (size_t j = 0; j < n; j++) {
-        double size = 0;
-        for (size_t i = 0; i < n; i++) size = hypot(size, a[i + j * n]);
-        for (size_t i = 0; i < n; i++) b[i + j * n] = size > 0 ? a[i + j * n] / size : 0;
-    }
-    det = n ? nh_determinant(n, b) : 1;
-    nh_free(b);
-    return det;
+    double *minor = nh_alloc_array(2 * rows * rows + 1, sizeof *minor), *gram = minor + rows * rows;
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < rows; j++) {
+            minor[i + j * rows] = a[i * columns + chosen[j]];
+            for (size_t c = 0; c < columns; c++) gram[i + j * rows] += a[i * columns + c] * a[j * columns + c];
+        }
+    double all = nh_determinant(rows, gram), one = nh_determinant(rows, minor);
+    nh_free(minor);
+    return all > 0 ? one / sqrt(all) : 0;
 }
 
 void nh_matrix_exp(size_t n, const double *a, double *out)

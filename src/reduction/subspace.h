@@ -31,8 +31,9 @@ double nh_largest(size_t n, const double *a);
 /* n independent columns of length d in reduced echelon form (first entries as pivots); what is within `small` of a whole number becomes that. */
 void nh_column_echelon(size_t d, size_t n, double small, double *c);
 
-/* The determinant of a (n x n, left alone) divided by the product of the lengths of its columns: 0 singular, 1 orthogonal. */
-double nh_relative_determinant(size_t n, const double *a);
+/* det of the chosen columns (`rows` of them) of a (rows x columns, row-major) over sqrt(det(a a^T)), which is the root of the sum of the squares of all such
+ * minors: 0 singular, 1 the only one that is not. */
+double nh_relative_minor(size_t rows, size_t columns, const double *a, const size_t *chosen);
 
 /* exp(a) of an n x n matrix, by scaling and squaring of the Taylor series. */
 void nh_matrix_exp(size_t n, const double *a, double *out);

@@ -45,7 +45,7 @@ typedef struct {
     double energy_drift;      /* of the reduced motion, relative */
     double momentum_drift;    /* second kind: of the spatial momentum */
     double seconds, speedup;  /* of the reduced motion; full over reduced */
-    size_t restarts;
+    size_t restarts, charts;  /* of the group's coordinates; changes of the slice or of the velocities */
     bool compared, complete;
     char note[256];
 } nh_reduction_stage;

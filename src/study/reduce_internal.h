@@ -17,8 +17,9 @@ typedef struct {
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
 void nh_reduction_make_slices(nh_reduction *reduction, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown);
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *reduction, nh_stage_kind kind, const nh_action *action);
-/* Integrate from z, reconstruct, compare with the positions `want` (stride apart) at the first `reached` outputs. */
-void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, const double *z, const double *want, size_t stride, size_t reached);
+/* Integrate from a place and its velocity (in the coordinates of the action's kinetic), reconstruct, compare with the positions `want` (stride apart) at
+ * the first `reached` outputs. */
+void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, nh_atlas *atlas, const double *q, const double *v, const double *want, size_t stride, size_t reached);
 
 /* A subset of the generators that acts freely, as large as possible; the whole group when that does. */
 bool nh_reduction_free_subgroup(nh_reduction *reduction, nh_action *out);

@@ -156,35 +156,39 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
     nh_free(zero);
 }
 
+/* The reduced motion alone, for its time and its energy. */
+static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas *atlas, const double *q, const double *v, const nh_options *options)
+{
+    nh_error trouble = {0};
+    nh_reconstruction *c = nh_reconstruct_over(atlas, q, v, false, NH_REDUCTION_OUTPUTS, b->times, options, &trouble);
+    nh_error_clear(&trouble);
+    if (!c) return;
+    for (size_t i = 1; i < c->count; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + fabs(c->energy[0])));
+    if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, s->reduced, c->first_chart, c->z);
+    s->seconds = c->seconds;
+    s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
+    nh_reconstruction_free(c);
+}
+
 /* Integrate, reconstruct, compare: positions `want` (stride apart) are those of the motion that is to be met. */
-void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const double *z, const double *want, size_t stride, size_t reached)
+void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas *atlas, const double *q, const double *v, const double *want, size_t stride, size_t reached)
 {
     nh_reduction *r = b->r;
     nh_error trouble = {0};
-    nh_reduced_flow *flow = nh_reduced_flow_create(s->reduced);
-    nh_flow_problem problem = nh_reduced_flow_problem(flow);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
-    double begin = now(), e0 = 0, e1 = 0;
-    nh_motion *motion = problem.size ? nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble) : NULL;
-    s->seconds = now() - begin;
-    s->speedup = s->seconds > 0 ? r->full_seconds / s->seconds : 0;
-    if (motion && nh_reduced_flow_at(flow, z, NULL, NULL, NULL, &e0))
-        for (size_t i = 1; i < motion->count; i++)
-            if (nh_reduced_flow_at(flow, motion->state + i * motion->size, NULL, NULL, NULL, &e1)) s->energy_drift = fmax(s->energy_drift, fabs(e1 - e0) / (1 + fabs(e0)));
-    if (motion && s->linear.count) s->linear_drift = nh_linear_momenta_drift(&s->linear, s->reduced, motion->count, motion->state);
-    nh_motion_free(motion);
-    nh_reduced_flow_free(flow);
     nh_options finer = r->options;
-    finer.tolerance = options.rtol;
-    finer.steps = options.max_steps;
-    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, NH_REDUCTION_OUTPUTS, b->times, &finer, &trouble);
+    finer.tolerance = local_tolerance(r);
+    finer.steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
+    reduced_alone(b, s, atlas, q, v, &finer);
+    nh_reconstruction *c = nh_reconstruct_over(atlas, q, v, true, NH_REDUCTION_OUTPUTS, b->times, &finer, &trouble);
     if (!c) {
         snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
+        nh_error_clear(&trouble);
         return;
     }
     size_t n = c->count < reached ? c->count : reached;
     s->complete = c->complete;
     s->restarts = c->restarts;
+    s->charts = c->charts;
     s->compared = n > 1;
     if (n > 1) s->reached = b->times[n - 1];
     for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, difference(c->m, c->q + i * c->m, want + i * stride));
@@ -221,14 +225,13 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->shown = &pretty->reduced;
     s->chaplygin = pretty;
     s->measure = nh_chaplygin_measure_of(slice, c->K, c->U, &r->options);
-    double *x = nh_alloc_array(4 * m + 1, sizeof *x), *w = x + m, *z = w + m;
-    for (size_t i = 0; i < slice->n; i++) { /* x need not be invariant, but x' on the slice is that of the frame */
-        x[i] = r->initial.q[slice->shape[i]];
-    }
-    bool good = nh_slice_components(slice, r->initial.q, r->initial.v, w) && nh_reduced_start(s->reduced, x, w, z);
-    if (good) nh_reduction_compare(b, s, z, b->full, 2 * m, b->reached);
-    nh_free(x);
-    return good || nh_fail(error, NH_NUMERIC, "", "the initial state is a singular place of the slice");
+    nh_atlas *atlas = nh_atlas_create(action, true);
+    size_t *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
+    for (size_t i = 0; i < slice->n; i++) independent[i] = i;
+    nh_atlas_add(atlas, slice, &c->reduced, independent, NULL);
+    nh_reduction_compare(b, s, atlas, r->initial.q, r->initial.v, b->full, 2 * m, b->reached);
+    nh_atlas_free(atlas);
+    return true;
 }
 
 /* ---- the second stage ---- */
@@ -283,23 +286,6 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
     return out;
 }
 
-/* (x, w) of the second stage from those of the first: v = zeta + Av x'. */
-static bool second_state(const nh_second *t, const double *x, const double *w, double *z)
-{
-    size_t n = t->n, d = t->d, m = n + d;
-    double *u = nh_alloc_array(3 * m + d * n + 1, sizeof *u), *x2 = u + m, *w2 = x2 + m, *Av = w2 + m;
-    bool good = nh_slice_components(&t->slice, x, w, u);
-    nh_kinetic_values(t->hat, d * n, t->Av, x, Av);
-    for (size_t i = 0; i < n; i++) x2[i] = x[t->slice.shape[i]], w2[i] = u[i];
-    for (size_t a = 0; a < d; a++) {
-        w2[n + a] = u[n + a];
-        for (size_t i = 0; i < n; i++) w2[n + a] += Av[a * n + i] * u[i];
-    }
-    good = good && nh_reduced_start(&t->reduced, x2, w2, z);
-    nh_free(u);
-    return good;
-}
-
 /* The full motion's shape coordinates, where the first group leaves these alone; NULL where it does not. */
 static double *full_shape(const nh_reduction_bench *b, const nh_slice *s)
 {
@@ -344,8 +330,10 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
         s->against_full = full != NULL;
-        good = second_state(t, x, u, z);
-        if (good) nh_reduction_compare(b, s, z, full ? full : want, n, full ? b->reached : reached);
+        nh_atlas *atlas = nh_atlas_create_second(t);
+        nh_atlas_add(atlas, &t->slice, &t->reduced, NULL, t);
+        nh_reduction_compare(b, s, atlas, x, u, full ? full : want, n, full ? b->reached : reached);
+        nh_atlas_free(atlas);
     }
     nh_free(shape);
     nh_free(x);

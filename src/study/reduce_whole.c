@@ -53,35 +53,29 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
 {
     nh_reduction *r = b->r;
     nh_slice *slice, *shown;
-    size_t m = r->kinetic->m, rank = m - r->kinetic->f, *independent = nh_alloc_array(m + 1, sizeof *independent);
+    size_t m = r->kinetic->m, *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
     nh_reduced *o = nh_arena_alloc(r->arena, 2 * sizeof *o), *pretty = o;
-    double *x = nh_alloc_array(6 * m + 1, sizeof *x), *w = x + m, *u = w + m, *z = u + m;
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
     nh_reduced_independent(slice, independent);
     bool good = nh_reduced_master(o, slice, independent, error);
     nh_error ignored = {0};
-    if (good && slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, &ignored) ? o + 1 : o;
-    good = good && nh_slice_components(slice, r->initial.q, r->initial.v, u);
-    for (size_t i = 0; i < rank && good; i++) w[i] = u[independent[i]];
-    for (size_t i = 0; i < slice->n; i++) x[i] = r->initial.q[slice->shape[i]];
-    if (good && nh_reduced_start(o, x, w, z)) {
-        nh_reduction_stage *s = nh_reduction_new_stage(r, action->dimension_assumption ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
-        s->slice = slice;
-        s->reduced = o;
-        s->shown = pretty;
-        s->shown_slice = pretty == o ? slice : shown;
-        nh_linear_momenta_find(&s->linear, pretty, &r->options);
-        nh_reduction_compare(b, s, z, b->full, 2 * m, b->reached);
-        nh_error trouble = {0};
-        if (s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {
-            if (r->chain_text) good = false;
-            else nh_reduction_warn(r, "no equations by stages: %s", trouble.what);
-        }
-    } else {
-        good = nh_fail(error, NH_NUMERIC, "", "the initial state is a singular place of the slice");
+    if (!good) return false;
+    if (slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, &ignored) ? o + 1 : o;
+    nh_reduction_stage *s = nh_reduction_new_stage(r, action->dimension_assumption ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
+    s->slice = slice;
+    s->reduced = o;
+    s->shown = pretty;
+    s->shown_slice = pretty == o ? slice : shown;
+    nh_linear_momenta_find(&s->linear, pretty, &r->options);
+    nh_atlas *atlas = nh_atlas_create(action, false);
+    nh_atlas_add(atlas, slice, o, independent, NULL);
+    nh_reduction_compare(b, s, atlas, r->initial.q, r->initial.v, b->full, 2 * m, b->reached);
+    nh_atlas_free(atlas);
+    nh_error trouble = {0};
+    if (s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {
+        if (r->chain_text) good = false;
+        else nh_reduction_warn(r, "no equations by stages: %s", trouble.what);
     }
-    nh_free(independent);
-    nh_free(x);
     return good;
 }
 

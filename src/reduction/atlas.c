@@ -1,0 +1,211 @@
+#include "reduction/atlas.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "reduction/subspace.h"
+
+static const double usable = 0.25; /* of a guard: a chart that is known is taken again, and the connection is used */
+
+struct nh_atlas {
+    const nh_action *action;
+    const nh_second *second;  /* of a second stage */
+    bool chaplygin;
+    nh_reduced_chart **chart;
+    size_t count, capacity;
+};
+
+nh_atlas *nh_atlas_create(const nh_action *action, bool chaplygin)
+{
+    nh_atlas *a = nh_alloc(sizeof *a);
+    *a = (nh_atlas){.action = action, .chaplygin = chaplygin};
+    return a;
+}
+
+nh_atlas *nh_atlas_create_second(const nh_second *second)
+{
+    nh_atlas *a = nh_alloc(sizeof *a);
+    *a = (nh_atlas){.action = &second->action, .second = second};
+    return a;
+}
+
+void nh_atlas_free(nh_atlas *a)
+{
+    if (!a) return;
+    for (size_t i = 0; i < a->count; i++) {
+        nh_reduced_flow_free(a->chart[i]->flow);
+        nh_free(a->chart[i]);
+    }
+    nh_free(a->chart);
+    nh_free(a);
+}
+
+size_t nh_atlas_count(const nh_atlas *a) { return a->count; }
+
+const nh_action *nh_atlas_action(const nh_atlas *a) { return a->action; }
+
+void nh_atlas_add(nh_atlas *a, const nh_slice *slice, const nh_reduced *reduced, const size_t *independent, const nh_second *second)
+{
+    nh_grow(&a->chart, &a->capacity, a->count + 1, sizeof *a->chart);
+    nh_reduced_chart *c = a->chart[a->count++] = nh_alloc(sizeof *c);
+    *c = (nh_reduced_chart){slice, reduced, independent, second, nh_reduced_flow_create(reduced)};
+}
+
+/* ---- states ---- */
+
+bool nh_chart_leave(const nh_reduced_chart *c, const double *z, double *q, double *v)
+{
+    const nh_slice *s = c->slice;
+    size_t m = s->m, d = s->d;
+    double *rate = nh_alloc_array(c->reduced->n + c->reduced->r + d + m * d + 1, sizeof *rate), *zeta = rate + c->reduced->n + c->reduced->r, *E = zeta + d;
+    bool good = nh_reduced_flow_at(c->flow, z, rate, NULL, zeta, NULL);
+    nh_slice_place(s, z, q);
+    nh_action_values(s->action, q, E);
+    memset(v, 0, m * sizeof *v);
+    for (size_t i = 0; i < s->n; i++) v[s->shape[i]] = rate[i];
+    for (size_t a = 0; a < d; a++)
+        for (size_t i = 0; i < m; i++) v[i] += E[i + a * m] * zeta[a];
+    nh_free(rate);
+    return good;
+}
+
+static bool enter(const nh_reduced_chart *c, const double *q, const double *v, double *z)
+{
+    const nh_slice *s = c->slice;
+    size_t m = s->m, n = s->n, d = s->d;
+    double *u = nh_alloc_array(3 * m + d * n + 1, sizeof *u), *x = u + m, *w = x + m, *Av = w + m;
+    bool good = nh_slice_components(s, q, v, u);
+    for (size_t i = 0; i < n; i++) x[i] = q[s->shape[i]];
+    if (c->second) {
+        nh_kinetic_values(s->kinetic, d * n, c->second->Av, q, Av);
+        memcpy(w, u, m * sizeof *w);
+        for (size_t a = 0; a < d; a++)
+            for (size_t i = 0; i < n; i++) w[n + a] += Av[a * n + i] * u[i];
+    } else {
+        for (size_t i = 0; i < c->reduced->r; i++) w[i] = u[c->independent[i]];
+    }
+    good = good && nh_reduced_start(c->reduced, x, w, z);
+    nh_free(u);
+    return good;
+}
+
+static bool passes(const nh_slice *s, const double *q)
+{
+    for (size_t a = 0; a < s->d; a++)
+        if (q[s->along[a]] != s->y0[a]) return false;
+    return true;
+}
+
+/* The smaller modulus of the guards at a place; 0 where they are not finite. */
+static double regularity(const nh_reduced_chart *c, const double *q)
+{
+    double *x = nh_alloc_array(c->slice->n + 1, sizeof *x);
+    for (size_t i = 0; i < c->slice->n; i++) x[i] = q[c->slice->shape[i]];
+    double value = nh_reduced_flow_limit(c->flow, x, 0, 0);
+    nh_free(x);
+    return value;
+}
+
+/* ---- new charts ---- */
+
+/* The generators' minor on a slice at a place. */
+static double slice_regularity(const nh_reduced_chart *c, const double *q)
+{
+    const nh_slice *s = c->slice;
+    const nh_guard *g = &c->reduced->guard[1];
+    double *E = nh_alloc_array(2 * s->m * s->d + 1, sizeof *E), *rows = E + s->m * s->d, value;
+    nh_action_values(s->action, q, E);
+    for (size_t a = 0; a < s->d; a++)
+        for (size_t i = 0; i < s->m; i++) rows[a * s->m + i] = E[i + a * s->m] * g->unit[i];
+    value = s->d ? fabs(nh_relative_minor(s->d, s->m, rows, g->chosen)) : 1;
+    nh_free(E);
+    return isfinite(value) ? value : 0;
+}
+
+/* A slice that passes through the place, and is far from singular there. */
+static const nh_slice *slice_at(nh_atlas *a, const double *q)
+{
+    const nh_kinetic *k = a->action->kinetic;
+    for (size_t i = a->count; i-- > 0;)
+        if (passes(a->chart[i]->slice, q) && slice_regularity(a->chart[i], q) > usable) return a->chart[i]->slice;
+    size_t m = k->m, d = a->action->d, *shape = nh_alloc_array(m + 1, sizeof *shape), *along = shape + (m - d);
+    double *y = nh_alloc_array(d + 1, sizeof *y);
+    nh_slice *s = nh_arena_alloc(k->arena, sizeof *s);
+    nh_slice_choose_at(a->action, q, shape, along);
+    for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
+    nh_slice_init(s, a->action, shape, along, y);
+    nh_free(shape);
+    nh_free(y);
+    return s;
+}
+
+/* The constraints on the orbits at a place, as a guard. */
+static double connection_regularity(const nh_slice *s, const double *q)
+{
+    size_t m = s->m, f = s->f, *columns = nh_alloc_array(f + 1, sizeof *columns);
+    double *omega = nh_alloc_array(f * m + m * m + 1, sizeof *omega), *K = omega + f * m, value;
+    nh_kinetic_values(s->kinetic, f * m, s->omega, q, omega);
+    nh_kinetic_values(s->kinetic, m * m, s->K, q, K);
+    for (size_t i = 0; i < f * m; i++) omega[i] /= K[i % m * (m + 1)] > 0 ? sqrt(K[i % m * (m + 1)]) : 1;
+    for (size_t i = 0; i < f; i++) columns[i] = s->n + i;
+    value = fabs(nh_relative_minor(f, m, omega, columns));
+    nh_free(columns);
+    nh_free(omega);
+    return isfinite(value) ? value : 0;
+}
+
+static bool build_second(nh_atlas *a, const double *q, nh_error *error)
+{
+    const nh_kinetic *k = a->action->kinetic;
+    size_t m = k->m, d = a->action->d, *shape = nh_alloc_array(m + 1, sizeof *shape), *along = shape + (m - d);
+    double *y = nh_alloc_array(d + 1, sizeof *y);
+    nh_second *t = nh_arena_alloc(k->arena, sizeof *t);
+    *t = *a->second;
+    nh_slice_choose_at(a->action, q, shape, along);
+    for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
+    bool good = nh_second_equations(t, shape, along, y, error);
+    if (good) nh_atlas_add(a, &t->slice, &t->reduced, NULL, t);
+    nh_free(shape);
+    nh_free(y);
+    return good;
+}
+
+static bool build(nh_atlas *a, const double *q, nh_error *error)
+{
+    if (a->second) return build_second(a, q, error);
+    const nh_slice *s = slice_at(a, q);
+    nh_arena *arena = s->kinetic->arena;
+    size_t *independent = nh_arena_alloc(arena, (s->m + 1) * sizeof *independent);
+    if (a->chaplygin && connection_regularity(s, q) > usable) {
+        nh_chaplygin *c = nh_arena_alloc(arena, sizeof *c);
+        for (size_t i = 0; i < s->n; i++) independent[i] = i;
+        if (!nh_chaplygin_init(c, s, error)) return false;
+        nh_atlas_add(a, s, &c->reduced, independent, NULL);
+        return true;
+    }
+    nh_reduced *o = nh_arena_alloc(arena, sizeof *o);
+    nh_reduced_independent_at(s, q, independent);
+    if (!nh_reduced_master(o, s, independent, error)) return false;
+    nh_atlas_add(a, s, o, independent, NULL);
+    return true;
+}
+
+const nh_reduced_chart *nh_atlas_at(nh_atlas *a, const double *q, const double *v, double *z, nh_error *error)
+{
+    enum { most_charts = 400 };
+    const nh_reduced_chart *best = NULL;
+    double most = 0;
+    for (size_t i = 0; i < a->count && most < usable; i++) {
+        double value = passes(a->chart[i]->slice, q) ? regularity(a->chart[i], q) : 0;
+        if (value > most) most = value, best = a->chart[i];
+    }
+    if (most < usable && a->count < most_charts) {
+        nh_error trouble = {0};
+        if (build(a, q, &trouble) && regularity(a->chart[a->count - 1], q) > most) best = a->chart[a->count - 1];
+        nh_error_clear(&trouble);
+    }
+    if (best && enter(best, q, v, z)) return best;
+    nh_fail(error, NH_NUMERIC, "", "no slice and no choice of velocities is regular at this place");
+    return NULL;
+}

@@ -1,0 +1,42 @@
+/* atlas: the charts in which one reduced motion is computed, one after the other.
+ *
+ * The equations of a stage hold where the slice is transversal to the orbits and the constraints can be solved for the velocities that are not among w.  Where
+ * one of the two is lost the motion goes on: on another slice through the place that was reached, or with other components of (x', zeta) as w.  For a
+ * Chaplygin group the equations with multipliers eliminated by the connection are used as long as there is a connection; near a place where the orbits
+ * are tangent to D the same reduced motion has quasi-velocities, by the equations of any group (reduced.h).  Neither changes the group that is divided out.
+ * Of a second stage only the slice can be changed: where the first stage has no connection it ends. */
+#ifndef NH_ATLAS_H
+#define NH_ATLAS_H
+
+#include "reduction/second.h"
+
+typedef struct {
+    const nh_slice *slice;
+    const nh_reduced *reduced;
+    const size_t *independent; /* the components of u = (x', zeta) that are w; NULL for a second stage */
+    const nh_second *second;   /* w = (x', zeta + Av x'); NULL for others */
+    nh_reduced_flow *flow;
+} nh_reduced_chart;
+
+typedef struct nh_atlas nh_atlas;
+
+/* Of a stage that divides out an action: as a Chaplygin system where that goes, or by the equations of any group. */
+nh_atlas *nh_atlas_create(const nh_action *action, bool chaplygin);
+/* Of a second stage (initialised; its slice is not used). */
+nh_atlas *nh_atlas_create_second(const nh_second *second);
+void nh_atlas_free(nh_atlas *atlas);
+
+/* Charts that are known, the preferred first.  Slice and equations must outlive the atlas. */
+void nh_atlas_add(nh_atlas *atlas, const nh_slice *slice, const nh_reduced *reduced, const size_t *independent, const nh_second *second);
+/* How many charts there are. */
+size_t nh_atlas_count(const nh_atlas *atlas);
+const nh_action *nh_atlas_action(const nh_atlas *atlas);
+
+/* A chart that is regular at a place q with the velocity v (in the coordinates of the action's kinetic), one that is known or a new one, and the state
+ * z = (x, p) there.  NULL with a message where there is none. */
+const nh_reduced_chart *nh_atlas_at(nh_atlas *atlas, const double *q, const double *v, double *z, nh_error *error);
+
+/* The place on the slice and the velocity there of a state. */
+bool nh_chart_leave(const nh_reduced_chart *chart, const double *z, double *q, double *v);
+
+#endif
