@@ -12,6 +12,7 @@ typedef struct {
     double *times;        /* NH_REDUCTION_OUTPUTS */
     size_t reached;       /* outputs of the full motion */
     double *full;         /* outputs x 2 m */
+    double rtol;          /* of every motion that is compared */
 } nh_reduction_bench;
 
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */

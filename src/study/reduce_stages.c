@@ -2,87 +2,91 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "reduction/subspace.h"
 #include "study/reduce_internal.h"
 
 
-
-static double now(void)
+/* How far two places are apart: angles modulo 2 pi, relative to 1 + size, measured by the metric with unit diagonal.  Near a pole of the coordinates large
+ * differences of two angles may mean nearly the same place, and only the metric tells. */
+static double distance(const nh_kinetic *k, const double *a, const double *b)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    static const double turn = 6.283185307179586;
+    size_t m = k->m;
+    double *K = nh_alloc_array(m * m + 2 * m, sizeof *K), *off = K + m * m, *unit = off + m, size = 1, square = 0;
+    nh_kinetic_values(k, m * m, k->K, b, K);
+    for (size_t s = 0; s < m; s++)
+        if (k->angle[s]) size = fmax(size, 1 + fabs(b[s]));
+    for (size_t s = 0; s < m; s++) {
+        off[s] = a[s] - b[s];
+        if (k->angle[s]) off[s] -= turn * round(off[s] / turn);
+        off[s] /= k->angle[s] ? size : 1 + fabs(b[s]);
+        unit[s] = K[s * (m + 1)] > 0 ? 1 / sqrt(K[s * (m + 1)]) : 0;
+    }
+    for (size_t i = 0; i < m * m; i++) square += K[i] * unit[i / m] * unit[i % m] * off[i / m] * off[i % m];
+    nh_free(K);
+    return isfinite(square) ? sqrt(fmax(square, 0)) : INFINITY;
 }
 
-static double difference(size_t n, const double *a, const double *b)
+static double farthest(const nh_kinetic *k, const nh_motion *a, const nh_motion *b)
 {
     double worst = 0;
-    for (size_t i = 0; i < n; i++) worst = fmax(worst, fabs(a[i] - b[i]) / (1 + fabs(b[i])));
+    for (size_t i = 0; i < a->count && i < b->count; i++) worst = fmax(worst, distance(k, a->state + i * a->size, b->state + i * b->size));
     return worst;
 }
 
 /* ---- the full motion ---- */
 
-/* Motions are computed with a tenth of the tolerance, so that errors that add up along them stay below a hundred tolerances. */
-static double local_tolerance(const nh_reduction *r) { return fmax(r->options.tolerance / 10, 1e-14); }
-
-/* sigma_min / sigma_max of the metric with unit diagonal: small near a pole of the coordinates. */
-static double regularity(const nh_kinetic *k, const double *q)
+static nh_motion *full_with(nh_reduction_bench *b, double rtol, nh_error *error)
 {
-    size_t m = k->m;
-    double *K = nh_alloc_array(m * m + m, sizeof *K), *s = K + m * m, *unit = nh_alloc_array(m, sizeof *unit), ratio = 0;
-    nh_kinetic_values(k, m * m, k->K, q, K);
-    for (size_t i = 0; i < m; i++) unit[i] = 1 / sqrt(K[i * (m + 1)]);
-    for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
-    nh_singular_values(m, m, K, s);
-    if (s[0] > 0) ratio = s[m - 1] / s[0];
-    nh_free(K);
-    nh_free(unit);
-    return ratio;
-}
-
-/* How far the coarser of two motions of one system agrees with the finer, and stays away from poles of the coordinates (beyond one, the same
- * place may have other coordinates): number of NH_REDUCTION_OUTPUTS. */
-static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
-{
-    static const double pole = 0.002; /* of the regularity at the start */
-    size_t n = 0, m = k->m, least = coarse->count < fine->count ? coarse->count : fine->count;
-    double start = regularity(k, fine->state);
-    while (n < least && difference(m, coarse->state + n * 2 * m, fine->state + n * 2 * m) <= allowed && regularity(k, fine->state + n * 2 * m) > pole * start) n++;
-    return n;
-}
-
-/* The reference is computed again with a smaller tolerance: what is compared is then the error of the reduced motion, and where the two part (at a
- * pole of the coordinates) nothing is compared any more. */
-static bool full_motion(nh_reduction_bench *b, nh_error *error)
-{
-    static const double finest = 1e-13, lost = 1e5; /* in tolerances */
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
     nh_bordered *bordered = nh_bordered_create(r->model);
     nh_flow_problem problem = nh_bordered_flow(bordered);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
-    double *z = nh_alloc_array(2 * m, sizeof *z), begin = now();
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    double *z = nh_alloc_array(2 * m, sizeof *z);
     memcpy(z, r->initial.q, m * sizeof *z);
     memcpy(z + m, r->initial.v, m * sizeof *z);
-    nh_motion *coarse = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error);
-    r->full_seconds = now() - begin;
-    options.rtol = fmin(options.rtol, finest);
-    nh_motion *motion = coarse ? nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error) : NULL;
-    if (motion) {
-        b->reached = reliable(r->kinetic, coarse, motion, lost * r->options.tolerance);
-        if (b->reached < motion->count)
-            nh_reduction_warn(r, "the full motion in these coordinates is followed up to t = %.4g only: there it comes near a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
-        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
-        memcpy(b->full, motion->state, motion->count * 2 * m * sizeof *b->full);
-        if (!motion->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", motion->end_time, motion->note);
-    }
-    nh_motion_free(coarse);
-    nh_motion_free(motion);
+    nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error);
     nh_bordered_free(bordered);
     nh_free(z);
+    return motion;
+}
+
+/* The number of outputs up to which the reference is known well enough to judge by it. */
+static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
+{
+    size_t n = 0, least = coarse->count < fine->count ? coarse->count : fine->count;
+    while (n < least && distance(k, coarse->state + n * coarse->size, fine->state + n * fine->size) <= allowed) n++;
+    return n;
+}
+
+/* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up along a motion: the tolerance with which
+ * all are computed is a tenth of the one that is asked for, or less where the full motion shows that this would not do. */
+static bool full_motion(nh_reduction_bench *b, nh_error *error)
+{
+    static const double finest = 2e-14, least = 1e-13, aim = 20, allowed = 100; /* in tolerances */
+    nh_reduction *r = b->r;
+    size_t m = r->kinetic->m;
+    b->rtol = fmax(r->options.tolerance / 10, least);
+    nh_motion *coarse = full_with(b, b->rtol, error), *fine = coarse ? full_with(b, finest, error) : NULL;
+    double off = fine ? farthest(r->kinetic, coarse, fine) : 0;
+    if (fine && off > aim * r->options.tolerance && b->rtol > least) {
+        b->rtol = fmax(b->rtol * aim * r->options.tolerance / off, least);
+        nh_motion_free(coarse);
+        coarse = full_with(b, b->rtol, error);
+    }
+    if (coarse && fine) {
+        r->full_seconds = coarse->seconds;
+        b->reached = reliable(r->kinetic, coarse, fine, allowed * r->options.tolerance);
+        if (b->reached < fine->count)
+            nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
+        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
+        memcpy(b->full, fine->state, fine->count * 2 * m * sizeof *b->full);
+        if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
+    }
+    nh_motion_free(coarse);
+    nh_motion_free(fine);
     return b->full != NULL;
 }
 
@@ -176,7 +180,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas
     nh_reduction *r = b->r;
     nh_error trouble = {0};
     nh_options finer = r->options;
-    finer.tolerance = local_tolerance(r);
+    finer.tolerance = b->rtol;
     finer.steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
     reduced_alone(b, s, atlas, q, v, &finer);
     nh_reconstruction *c = nh_reconstruct_over(atlas, q, v, true, NH_REDUCTION_OUTPUTS, b->times, &finer, &trouble);
@@ -191,7 +195,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas
     s->charts = c->charts;
     s->compared = n > 1;
     if (n > 1) s->reached = b->times[n - 1];
-    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, difference(c->m, c->q + i * c->m, want + i * stride));
+    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, distance(s->action->kinetic, c->q + i * c->m, want + i * stride));
     snprintf(s->note, sizeof s->note, "%.250s", c->note);
     nh_reconstruction_free(c);
 }
@@ -264,7 +268,7 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
     nh_error trouble = {0};
     nh_reduced_flow *flow = nh_reduced_flow_create(&first->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = b->rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
     double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d, sizeof *E), *start = E + n * d, size = 1;
     *drift = 0;
