@@ -230,13 +230,36 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     return NULL;
 }
 
-void nh_reduction_free(nh_reduction *r)
+static void clear_stages(nh_reduction *r)
 {
-    if (!r) return;
     for (size_t i = 0; i < 4; i++) nh_action_clear(&r->action[i]);
     for (size_t i = 0; i < 2; i++) nh_second_clear(&r->second[i]);
     nh_ideals_clear(&r->chain);
     for (size_t i = 0; i < r->stages; i++) nh_free(r->stage[i].group);
+    memset(r->action, 0, sizeof r->action);
+    memset(r->second, 0, sizeof r->second);
+    memset(&r->chain, 0, sizeof r->chain);
+    memset(r->stage, 0, sizeof r->stage);
+    r->stages = 0;
+}
+
+bool nh_reduction_again(nh_reduction *r, size_t place, nh_error *error)
+{
+    const nh_kinetic *k = r->kinetic;
+    if (place >= k->places) return nh_fail(error, NH_USAGE, "", "there are %zu sample points only", k->places);
+    if (!k->reducible || !r->group->action.d) return nh_fail(error, NH_USAGE, "", "the system is not reduced");
+    clear_stages(r);
+    r->warnings = 0;
+    r->brief = true;
+    memcpy(r->initial.q, k->place + place * k->m, k->m * sizeof(double));
+    memcpy(r->initial.v, k->speed + place * k->m, k->m * sizeof(double));
+    return nh_reduction_stages(r, error);
+}
+
+void nh_reduction_free(nh_reduction *r)
+{
+    if (!r) return;
+    clear_stages(r);
     if (r->group != r->all) nh_group_free(r->group);
     nh_group_free(r->all);
     nh_kinetic_free(r->kinetic);

@@ -60,6 +60,8 @@ typedef struct {
     nh_options options;
     nh_state initial;
     double until, full_seconds;
+    double full_reached;      /* time up to which the full motion is known well enough to be compared with */
+    bool brief;               /* motions only: no equations to show, no tests of measures and stages */
     size_t stages;
     nh_reduction_stage stage[4];
     nh_action action[4];      /* of the stages */
@@ -75,6 +77,8 @@ typedef struct {
 /* NULL with a message on bad input (a file, fields that are no symmetries or do not close, a singular place). */
 nh_reduction *nh_reduce(const nh_reduce_request *request, nh_error *error);
 void nh_reduction_free(nh_reduction *reduction);
+/* The stages once more from another initial state, the sample point `place` of r->kinetic, with all that is compared (what is shown is not made again). */
+bool nh_reduction_again(nh_reduction *reduction, size_t place, nh_error *error);
 
 const char *nh_stage_kind_name(nh_stage_kind kind);
 

@@ -79,6 +79,7 @@ static bool full_motion(nh_reduction_bench *b, nh_error *error)
     if (coarse && fine) {
         r->full_seconds = coarse->seconds;
         b->reached = reliable(r->kinetic, coarse, fine, allowed * r->options.tolerance);
+        r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
         if (b->reached < fine->count)
             nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
         b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
@@ -154,7 +155,7 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
     *shown = nh_arena_alloc(r->arena, sizeof **shown);
     nh_slice_init(*through, action, shape, along, y);
     **shown = (nh_slice){.kinetic = action->kinetic, .action = action, .n = m - d, .d = d, .shape = shape, .along = along, .y0 = zero};
-    if (!same && nice_place(*shown, zero)) nh_slice_init(*shown, action, shape, along, zero);
+    if (!same && !r->brief && nice_place(*shown, zero)) nh_slice_init(*shown, action, shape, along, zero);
     else **shown = **through;
     nh_free(y);
     nh_free(zero);
@@ -228,7 +229,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->reduced = &c->reduced;
     s->shown = &pretty->reduced;
     s->chaplygin = pretty;
-    s->measure = nh_chaplygin_measure_of(slice, c->K, c->U, &r->options);
+    if (!r->brief) s->measure = nh_chaplygin_measure_of(slice, c->K, c->U, &r->options);
     nh_atlas *atlas = nh_atlas_create(action, true);
     size_t *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
     for (size_t i = 0; i < slice->n; i++) independent[i] = i;
@@ -330,7 +331,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         s->slice = &t->slice;
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
-        if (t->abelian) s->measure = nh_chaplygin_measure_of(&t->slice, t->Kt, t->U, &r->options);
+        if (t->abelian && !r->brief) s->measure = nh_chaplygin_measure_of(&t->slice, t->Kt, t->U, &r->options);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
         s->against_full = full != NULL;

@@ -66,13 +66,13 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
     s->reduced = o;
     s->shown = pretty;
     s->shown_slice = pretty == o ? slice : shown;
-    nh_linear_momenta_find(&s->linear, pretty, &r->options);
+    if (!r->brief) nh_linear_momenta_find(&s->linear, pretty, &r->options);
     nh_atlas *atlas = nh_atlas_create(action, false);
     nh_atlas_add(atlas, slice, o, independent, NULL);
     nh_reduction_compare(b, s, atlas, r->initial.q, r->initial.v, b->full, 2 * m, b->reached);
     nh_atlas_free(atlas);
     nh_error trouble = {0};
-    if (s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {
+    if (!r->brief && s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {
         if (r->chain_text) good = false;
         else nh_reduction_warn(r, "no equations by stages: %s", trouble.what);
     }
