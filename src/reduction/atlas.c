@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/diff.h"
+#include "reduction/runge.h"
 #include "reduction/subspace.h"
 
 static const double usable = 0.25; /* of a guard: a chart that is known is taken again, and the connection is used */
@@ -155,28 +157,39 @@ static double connection_regularity(const nh_slice *s, const double *q)
     return isfinite(value) ? value : 0;
 }
 
-static bool build_second(nh_atlas *a, const double *q, nh_error *error)
+static const double *copied(const nh_kinetic *k, const double *q)
+{
+    double *out = nh_arena_alloc(k->arena, k->m * sizeof *out);
+    memcpy(out, q, k->m * sizeof *out);
+    return out;
+}
+
+/* `pivots`: the place for which linear systems are eliminated, or NULL. */
+static bool build_second(nh_atlas *a, const double *q, const double *pivots, nh_error *error)
 {
     const nh_kinetic *k = a->action->kinetic;
     size_t m = k->m, d = a->action->d, *shape = nh_alloc_array(m + 1, sizeof *shape), *along = shape + (m - d);
     double *y = nh_alloc_array(d + 1, sizeof *y);
     nh_second *t = nh_arena_alloc(k->arena, sizeof *t);
-    *t = *a->second;
+    bool good = nh_second_renew(t, a->second, pivots, error);
     nh_slice_choose_at(a->action, q, shape, along);
     for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
-    bool good = nh_second_equations(t, shape, along, y, error);
+    good = good && nh_second_equations(t, shape, along, y, error);
     if (good) nh_atlas_add(a, &t->slice, &t->reduced, NULL, t);
     nh_free(shape);
     nh_free(y);
     return good;
 }
 
-static bool build(nh_atlas *a, const double *q, nh_error *error)
+static bool build(nh_atlas *a, const double *q, const double *pivots, nh_error *error)
 {
-    if (a->second) return build_second(a, q, error);
-    const nh_slice *s = slice_at(a, q);
-    nh_arena *arena = s->kinetic->arena;
-    size_t *independent = nh_arena_alloc(arena, (s->m + 1) * sizeof *independent);
+    if (a->second) return build_second(a, q, pivots, error);
+    const nh_slice *found = slice_at(a, q);
+    nh_arena *arena = found->kinetic->arena;
+    nh_slice *s = nh_arena_alloc(arena, sizeof *s);
+    size_t *independent = nh_arena_alloc(arena, (found->m + 1) * sizeof *independent);
+    *s = *found;
+    s->pivots = pivots;
     if (a->chaplygin && connection_regularity(s, q) > usable) {
         nh_chaplygin *c = nh_arena_alloc(arena, sizeof *c);
         for (size_t i = 0; i < s->n; i++) independent[i] = i;
@@ -191,21 +204,113 @@ static bool build(nh_atlas *a, const double *q, nh_error *error)
     return true;
 }
 
+/* sigma_min / sigma_max of the metric with unit diagonal: small near a pole of the coordinates. */
+static double coordinates_regularity(const nh_kinetic *k, const double *q)
+{
+    size_t m = k->m;
+    double *K = nh_alloc_array(m * m + 2 * m, sizeof *K), *s = K + m * m, *unit = s + m, ratio = 0;
+    nh_kinetic_values(k, m * m, k->K, q, K);
+    bool good = isfinite(nh_largest(m * m, K));
+    for (size_t i = 0; i < m; i++) unit[i] = K[i * (m + 1)] > 0 ? 1 / sqrt(K[i * (m + 1)]) : 0;
+    for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
+    if (good) nh_singular_values(m, m, K, s);
+    if (good && s[0] > 0) ratio = s[m - 1] / s[0];
+    nh_free(K);
+    return ratio;
+}
+
+enum { most_charts = 400 };
+
 const nh_reduced_chart *nh_atlas_at(nh_atlas *a, const double *q, const double *v, double *z, nh_error *error)
 {
-    enum { most_charts = 400 };
+    static const double pole = 1e-3; /* of the best sample point */
+    const nh_kinetic *k = a->action->kinetic;
     const nh_reduced_chart *best = NULL;
     double most = 0;
+    if (!(coordinates_regularity(k, q) >= pole * coordinates_regularity(k, k->place))) {
+        nh_fail(error, NH_NUMERIC, "", "the coordinates are singular at this place");
+        return NULL;
+    }
     for (size_t i = 0; i < a->count && most < usable; i++) {
         double value = passes(a->chart[i]->slice, q) ? regularity(a->chart[i], q) : 0;
         if (value > most) most = value, best = a->chart[i];
     }
     if (most < usable && a->count < most_charts) {
         nh_error trouble = {0};
-        if (build(a, q, &trouble) && regularity(a->chart[a->count - 1], q) > most) best = a->chart[a->count - 1];
+        if (build(a, q, NULL, &trouble) && regularity(a->chart[a->count - 1], q) > most) best = a->chart[a->count - 1];
         nh_error_clear(&trouble);
     }
     if (best && enter(best, q, v, z)) return best;
+    nh_fail(error, NH_NUMERIC, "", "no slice and no choice of velocities is regular at this place");
+    return NULL;
+}
+
+/* ---- along the orbits ---- */
+
+typedef struct {
+    size_t m;
+    nh_tape *tape;
+    nh_tape_work *work;
+} push;
+
+static bool push_rate(double t, const double *z, double *rate, void *context)
+{
+    (void)t;
+    push *p = context;
+    nh_tape_eval(p->tape, p->work, z, rate);
+    return true;
+}
+
+/* A place and a vector there by the flow of a generator: q' = X, v' = dX v. */
+static bool pushed(const nh_action *g, size_t a, double time, double *z)
+{
+    static const double tolerance = 1e-14, largest = 1e12;
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m;
+    nh_ex *in = nh_alloc_array(4 * m, sizeof *in), *out = in + 2 * m;
+    memcpy(in, k->q, m * sizeof *in);
+    memcpy(in + m, k->v, m * sizeof *in);
+    memcpy(out, g->generator[a].component, m * sizeof *out);
+    for (size_t s = 0; s < m; s++) out[m + s] = nh_diff_along(k->dag, out[s], m, k->q, k->v);
+    push p = {.m = m, .tape = nh_tape_create(k->dag, 2 * m, in, 2 * m, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value)};
+    p.work = nh_tape_work_create(p.tape);
+    bool good = nh_runge(2 * m, push_rate, &p, 0, time, tolerance, largest, z);
+    nh_tape_work_free(p.work);
+    nh_tape_free(p.tape);
+    nh_free(in);
+    return good;
+}
+
+/* To the place of the orbit, among a few, where the coordinates are most regular, unless they are much less so than here or the same along the orbit. */
+static void move_along_orbit(const nh_action *g, size_t attempt, double *q, double *v, double *moved)
+{
+    static const double times[] = {0.7, -0.7, 1.4, -1.4}, better = 0.1, same = 1e-3;
+    double stretch = 1 + 0.37 * (double)attempt;
+    size_t m = g->kinetic->m;
+    double *z = nh_alloc_array(4 * m, sizeof *z), *best = z + 2 * m, here = coordinates_regularity(g->kinetic, q), most = better * here;
+    memset(moved, 0, g->d * sizeof *moved);
+    for (size_t i = 0; i < 4 * g->d; i++) {
+        memcpy(z, q, m * sizeof *z);
+        memcpy(z + m, v, m * sizeof *z);
+        if (!pushed(g, i / 4, times[i % 4] * stretch, z)) continue;
+        double value = coordinates_regularity(g->kinetic, z);
+        if (value <= most || fabs(value - here) < same * here) continue;
+        most = value;
+        memcpy(best, z, 2 * m * sizeof *z);
+        memset(moved, 0, g->d * sizeof *moved);
+        moved[i / 4] = -times[i % 4] * stretch;
+    }
+    if (nh_largest(g->d, moved) > 0) {
+        memcpy(q, best, m * sizeof *q);
+        memcpy(v, best + m, m * sizeof *v);
+    }
+    nh_free(z);
+}
+
+const nh_reduced_chart *nh_atlas_renew(nh_atlas *a, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error)
+{
+    move_along_orbit(a->action, attempt, q, v, moved);
+    if (a->count < most_charts && build(a, q, copied(a->action->kinetic, q), error) && enter(a->chart[a->count - 1], q, v, z)) return a->chart[a->count - 1];
     nh_fail(error, NH_NUMERIC, "", "no slice and no choice of velocities is regular at this place");
     return NULL;
 }

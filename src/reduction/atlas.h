@@ -4,7 +4,7 @@
  * one of the two is lost the motion goes on: on another slice through the place that was reached, or with other components of (x', zeta) as w.  For a
  * Chaplygin group the equations with multipliers eliminated by the connection are used as long as there is a connection; near a place where the orbits
  * are tangent to D the same reduced motion has quasi-velocities, by the equations of any group (reduced.h).  Neither changes the group that is divided out.
- * Of a second stage only the slice can be changed: where the first stage has no connection it ends. */
+ * The slice may lie nearer to a singularity of the coordinates than the motion itself does: then it is moved along the orbits.  Of a second stage only the slice can be changed: where the first stage has no connection it ends. */
 #ifndef NH_ATLAS_H
 #define NH_ATLAS_H
 
@@ -35,6 +35,11 @@ const nh_action *nh_atlas_action(const nh_atlas *atlas);
 /* A chart that is regular at a place q with the velocity v (in the coordinates of the action's kinetic), one that is known or a new one, and the state
  * z = (x, p) there.  NULL with a message where there is none. */
 const nh_reduced_chart *nh_atlas_at(nh_atlas *atlas, const double *q, const double *v, double *z, nh_error *error);
+
+/* Where the equations of a chart could not be integrated although its guards are good: a chart that is made for this place.  Linear systems are eliminated
+ * for it; and where the coordinates are nearly singular the place is moved along its orbit: to exp(-moved_a e_a) q for one of the generators (moved: d values, all
+ * but one are zero), by another way in another attempt (from 0).  q and v are overwritten with what was moved. */
+const nh_reduced_chart *nh_atlas_renew(nh_atlas *atlas, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error);
 
 /* The place on the slice and the velocity there of a state. */
 bool nh_chart_leave(const nh_reduced_chart *chart, const double *z, double *q, double *v);

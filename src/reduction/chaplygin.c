@@ -21,7 +21,7 @@ static bool connection(nh_chaplygin *c, nh_error *error)
     nh_ex *a = nh_alloc_array(f * f + f + 1, sizeof *a), *b = a + f * f;
     for (size_t i = 0; i < f; i++)
         for (size_t j = 0; j < f; j++) a[i * f + j] = s->omega[i * s->m + n + j];
-    nh_lu *lu = nh_lu_create(d, f, a, nh_chart_pivot_score, s->kinetic->model->chart, NULL);
+    nh_lu *lu = nh_lu_create(d, f, a, nh_slice_pivot_score, (void *)s, NULL);
     for (size_t i = 0; i < n && lu; i++) {
         for (size_t r = 0; r < f; r++) b[r] = s->omega[r * s->m + i];
         nh_lu_solve(lu, b, b);

@@ -155,7 +155,7 @@ typedef struct {
     nh_flows *flows;
     nh_atlas *atlas;          /* NULL: one chart only */
     double *factor;           /* of finished stretches: d numbers each, the first one outermost */
-    size_t count, capacity;
+    size_t count, capacity, failures; /* new charts for one and the same output */
     double *state, *left;
     nh_reconstruction *out;
 } course;
@@ -220,44 +220,56 @@ static void begin_stretch(course *c, const double *place)
     limit_guards(c, c->state);
 }
 
-/* From the state where a guard stopped the motion to a chart that is regular there. */
-static bool change_chart(course *c, const double *z, double *place)
+/* From a state to a chart that is regular there: known or new after a guard, made for this place (`renew`, counted in c->failures) where the equations could not be integrated. */
+static bool change_chart(course *c, const double *z, bool renew, double *place)
 {
     static const double lost = 1e-4; /* no chart is any good */
     group_flow *f = &c->f;
-    double *q = nh_alloc_array(2 * f->m + f->inner + 1, sizeof *q), *v = q + f->m, *next = v + f->m, value[2];
+    double *q = nh_alloc_array(2 * f->m + f->inner + f->d + 1, sizeof *q), *v = q + f->m, *next = v + f->m, *moved = next + f->inner, value[2];
     nh_error trouble = {0};
-    bool good = (!f->group || place_of(c, z, place)) && nh_chart_leave(f->chart, z, q, v);
-    const nh_reduced_chart *chart = good ? nh_atlas_at(c->atlas, q, v, next, &trouble) : NULL;
+    bool good = nh_chart_leave(f->chart, z, q, v), placed = f->group && good && place_of(c, z, place);
+    const nh_reduced_chart *chart = !good ? NULL : renew ? nh_atlas_renew(c->atlas, c->failures, q, v, moved, next, &trouble) : nh_atlas_at(c->atlas, q, v, next, &trouble);
     nh_error_clear(&trouble);
-    if (chart) {
-        nh_reduced_flow_limit(chart->flow, next, 0, 0);
-        good = nh_reduced_flow_guards(chart->flow, next, value) && value[0] > lost && value[1] > lost;
+    if (chart) nh_reduced_flow_limit(chart->flow, next, 0, 0);
+    good = chart && nh_reduced_flow_guards(chart->flow, next, value) && value[0] > lost && value[1] > lost;
+    if (good) {
         c->out->charts += chart != f->chart;
         if (c->out->charts == 1 && chart != f->chart) c->out->first_chart = c->out->count;
         if (f->group) keep_factors(c, z + f->inner);
+        if (f->group && renew) keep_factors(c, moved);
         group_flow_chart(f, chart);
+        f->direct &= placed;
         memcpy(c->state, next, f->inner * sizeof *next);
     }
     nh_free(q);
-    return good && chart;
+    return good;
 }
 
-/* After a stretch that a guard has ended: go on from there. */
-static bool go_on(course *c, const nh_motion *motion)
+/* From the last output on in a chart that is made for it. */
+static bool renew_chart(course *c, const nh_motion *motion, double *place)
+{
+    size_t last = motion->count - 1;
+    c->left[0] = motion->time[last];
+    return change_chart(c, motion->state + last * motion->size, true, place);
+}
+
+/* After a stretch that a guard has ended: go on from there; where that fails, or the equations could not be integrated, from the last output. */
+static bool go_on(course *c, const nh_motion *motion, bool renew)
 {
     group_flow *f = &c->f;
     double *place = nh_alloc_array(f->m + 1, sizeof *place);
-    bool good = true;
+    bool good = false;
     c->left[0] = motion->end_time;
     if (motion->guard_hit == 2) {
         keep_factors(c, motion->end_state + f->inner);
         memcpy(c->state, motion->end_state, f->inner * sizeof *c->state);
         if (f->direct) memcpy(place, motion->end_state + f->inner + f->d, f->m * sizeof *place);
         c->out->restarts++;
-    } else {
-        good = change_chart(c, motion->end_state, place);
+        good = true;
+    } else if (motion->guard_hit >= 0) {
+        good = change_chart(c, motion->end_state, false, place);
     }
+    if (!good && renew) good = renew_chart(c, motion, place);
     if (good) begin_stretch(c, place);
     nh_free(place);
     return good;
@@ -271,15 +283,25 @@ static void explain(course *c, const nh_motion *motion, bool found, const double
     else snprintf(out->note, sizeof out->note, "%s", motion->note);
 }
 
+/* May a new chart be made for the last output?  Several times without another output in between is once too often. */
+static bool may_renew(course *c, const nh_motion *motion)
+{
+    enum { most_failures = 4 };
+    if (motion->complete || motion->guard_hit == 2 || !c->atlas) return false;
+    c->failures = motion->count > 1 ? 0 : c->failures + 1;
+    return c->failures < most_failures;
+}
+
 static bool run(course *c, size_t count, const double *times, const nh_options *options, nh_error *error)
 {
-    enum { most_stretches = 10000 };
+    enum { most_stretches = 10000, patience = 3000 };
     nh_reconstruction *out = c->out;
     group_flow *f = &c->f;
     size_t stretches = 0;
     memcpy(c->left, times, count * sizeof *times);
     for (; !out->complete && stretches < most_stretches; stretches++) {
-        nh_flow_options o = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = options->steps};
+        double steps = options->steps - (double)out->steps;
+        nh_flow_options o = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = fmax(c->atlas && c->failures < 2 ? fmin(steps, patience) : steps, 1)};
         nh_flow_problem problem = {.size = size_of(f), .context = f, .rate = rate_of, .guards = 2 + (f->d > 0 && f->group), .guard = guard_of};
         size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
         if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);
@@ -288,9 +310,11 @@ static bool run(course *c, size_t count, const double *times, const nh_options *
         out->evaluations += motion->evaluations;
         out->steps += motion->steps;
         out->seconds += motion->seconds;
-        bool found = store(c, motion, first), guarded = !motion->complete && motion->guard_hit >= 0 && (c->atlas || motion->guard_hit == 2);
+        bool found = store(c, motion, first);
         out->complete = motion->complete && found;
-        bool on = found && guarded && go_on(c, motion);
+        bool renew = may_renew(c, motion);
+        bool guarded = motion->guard_hit >= 0 && (c->atlas || motion->guard_hit == 2);
+        bool on = !out->complete && found && (double)out->steps < options->steps && (guarded || renew) && go_on(c, motion, renew);
         if (!out->complete && !on) explain(c, motion, found, times);
         nh_motion_free(motion);
         if (!out->complete && !on) break;

@@ -154,7 +154,7 @@ static bool solve_constraints(const nh_slice *s, const size_t *independent, nh_e
     }
     for (size_t i = 0; i < f; i++)
         for (size_t j = 0; j < f; j++) a[i * f + j] = s->omega[i * m + dependent[j]];
-    nh_lu *lu = nh_lu_create(d, f, a, nh_chart_pivot_score, s->kinetic->model->chart, NULL);
+    nh_lu *lu = nh_lu_create(d, f, a, nh_slice_pivot_score, (void *)s, NULL);
     for (size_t i = 0; i < r && lu; i++) {
         for (size_t c = 0; c < f; c++) b[c] = nh_neg(d, s->omega[c * m + independent[i]]);
         nh_lu_solve(lu, b, b);

@@ -21,7 +21,7 @@ static int rate_of(double t, const double *y, double *rate, void *context)
 
 bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, double *y)
 {
-    enum { most_steps = 2000 };
+    enum { most_steps = 20000 };
     problem p = {n, rate, context};
     double t = t0, step = (t1 - t0) / 10;
     gsl_odeiv2_system system = {rate_of, NULL, n, &p};

@@ -196,6 +196,28 @@ bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *
     return nh_error_hint(error, "a cyclic coordinate of the reduced metric is not enough");
 }
 
+bool nh_second_renew(nh_second *out, const nh_second *s, const double *pivots, nh_error *error)
+{
+    const nh_slice *old = s->first->slice;
+    nh_arena *arena = s->hat->arena;
+    *out = *s;
+    out->pivots = pivots;
+    if (!pivots) return true;
+    nh_slice *slice = nh_arena_alloc(arena, sizeof *slice);
+    double *place = nh_arena_alloc(arena, old->m * sizeof *place);
+    nh_chaplygin *first = nh_arena_alloc(arena, sizeof *first);
+    nh_slice_place(old, pivots, place);
+    *slice = *old;
+    slice->pivots = place;
+    if (!nh_chaplygin_init(first, slice, error)) return false;
+    out->first = first;
+    out->hat = nh_arena_alloc(arena, sizeof *out->hat);
+    *out->hat = *s->hat;
+    out->hat->K = first->K;
+    out->action.kinetic = out->hat;
+    return true;
+}
+
 void nh_second_clear(nh_second *s) { nh_action_clear(&s->action); }
 
 /* ---- equations ---- */
@@ -209,7 +231,7 @@ static bool connection(nh_second *s)
     size_t n = s->n, g = s->d, m = c->m;
     nh_ex *b = nh_alloc_array(g + 1, sizeof *b);
     for (size_t a = 0; a < g * g; a++) s->inertia[a] = c->K[(n + a / g) * m + n + a % g];
-    nh_lu *lu = nh_lu_create(d, g, s->inertia, nh_chart_pivot_score, s->hat->model->chart, NULL);
+    nh_lu *lu = nh_lu_create(d, g, s->inertia, nh_slice_pivot_score, &s->slice, NULL);
     for (size_t i = 0; i < n && lu; i++) {
         for (size_t a = 0; a < g; a++) b[a] = c->K[(n + a) * m + i];
         nh_lu_solve(lu, b, b);
@@ -414,6 +436,7 @@ bool nh_second_equations(nh_second *s, const size_t *shape, const size_t *along,
     nh_arena *arena = s->hat->arena;
     size_t n = s->n, d = s->d;
     nh_slice_init(&s->slice, &s->action, shape, along, y0);
+    s->slice.pivots = s->pivots;
     s->inertia = nh_arena_alloc(arena, (d * d + d * n + n * n + d * n * n + n * n * n + 1) * sizeof *s->inertia);
     s->Av = s->inertia + d * d;
     s->Kt = s->Av + d * n;

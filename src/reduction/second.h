@@ -33,6 +33,7 @@ typedef struct {
     size_t orbit;           /* dimension of a generic coadjoint orbit of N */
     double invariance, weak, strong; /* largest relative residuals of (i) for Ups, (ii), (ii') */
     bool abelian;
+    const double *pivots;   /* as of a slice */
 } nh_second;
 
 /* The shape part of a field that normalises the group of the slice, n components. */
@@ -46,6 +47,9 @@ size_t nh_second_candidates(const nh_chaplygin *first, size_t candidates, const 
 bool nh_second_init(nh_second *second, const nh_chaplygin *first, size_t d, const nh_ex *field, const nh_options *options, nh_error *error);
 /* x: a place of the shape space (n of the first stage) through which the slice goes. */
 bool nh_second_equations(nh_second *second, const size_t *shape, const size_t *along, const double *y0, nh_error *error);
+/* The same group on the same shape space, with the first stage's linear systems eliminated for a place of its (pivots: n of the first stage, kept; NULL: as they
+ * are).  The equations are to be made next; nothing is to be cleared. */
+bool nh_second_renew(nh_second *out, const nh_second *second, const double *pivots, nh_error *error);
 void nh_second_clear(nh_second *second);
 
 #endif

@@ -175,6 +175,15 @@ void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const s
     nh_free(from);
 }
 
+double nh_slice_pivot_score(void *slice, nh_ex e)
+{
+    const nh_slice *s = slice;
+    double value;
+    if (!s->pivots) return nh_chart_pivot_score(s->kinetic->model->chart, e);
+    nh_kinetic_values(s->kinetic, 1, &e, s->pivots, &value);
+    return isfinite(value) ? fabs(value) : 0;
+}
+
 bool nh_slice_components(const nh_slice *s, const double *q, const double *v, double *u)
 {
     size_t m = s->m, d = s->d;

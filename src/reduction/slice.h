@@ -25,7 +25,11 @@ typedef struct {
     nh_ex *K;              /* m x m in the frame, row-major; shape first */
     nh_ex V;
     nh_ex *omega;          /* f x m in the frame */
+    const double *pivots;  /* m: the place for which linear systems are eliminated; NULL: for all the sample points together */
 } nh_slice;
+
+/* nh_pivot_score of a slice (`slice` is one). */
+double nh_slice_pivot_score(void *slice, nh_ex e);
 
 /* The d coordinates y whose rows of E are best conditioned over the sample points (system->dependent breaks ties). */
 void nh_slice_choose(const nh_action *action, size_t *shape, size_t *along);

@@ -4,7 +4,7 @@
 
 #include "study/reduce.h"
 
-enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 20000 };
+enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000 };
 
 /* What stages are compared with. */
 typedef struct {

@@ -62,13 +62,13 @@ static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_mo
 }
 
 /* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up along a motion: the tolerance with which
- * all are computed is a tenth of the one that is asked for, or less where the full motion shows that this would not do. */
+ * all are computed is a hundredth of the one that is asked for, or less where the full motion shows that this would not do. */
 static bool full_motion(nh_reduction_bench *b, nh_error *error)
 {
-    static const double finest = 2e-14, least = 1e-13, aim = 20, allowed = 100; /* in tolerances */
+    static const double part = 0.01, finest = 1e-14, least = 5e-14, aim = 10, allowed = 50; /* in tolerances */
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
-    b->rtol = fmax(r->options.tolerance / 10, least);
+    b->rtol = fmax(r->options.tolerance * part, least);
     nh_motion *coarse = full_with(b, b->rtol, error), *fine = coarse ? full_with(b, finest, error) : NULL;
     double off = fine ? farthest(r->kinetic, coarse, fine) : 0;
     if (fine && off > aim * r->options.tolerance && b->rtol > least) {
