@@ -115,7 +115,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
     case opt_threads: return nh_options_set(&cli->options, "threads", value, error);
-    case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error);
+    case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error) && nh_options_set(&cli->options, "reduce_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
     case opt_project: return cli->project = true;
     case opt_step: return positive(value, "step", &cli->step, error);

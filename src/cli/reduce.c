@@ -44,6 +44,7 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
     }
+    bool partial = r->partial;
     nh_reduction_free(r);
-    return good ? NH_OK : (int)error->code;
+    return !good ? (int)error->code : partial ? NH_LIMIT : NH_OK;
 }

@@ -5,7 +5,7 @@
 
 #include "expr/normal.h"
 
-enum { most_factors = 24, most_found = 64 };
+enum { most_factors = 24 };
 
 typedef struct {
     size_t count;
@@ -27,11 +27,20 @@ static bool of_one(const nh_kinetic *k, nh_ex e, size_t j)
     return true;
 }
 
-static size_t functions_of_system(const nh_kinetic *k, nh_ex *out)
+/* Those of the Lagrangian and of the constraints; the caller frees them. */
+static nh_ex *functions_of_system(const nh_kinetic *k, size_t *count)
 {
-    size_t n = nh_functions_in(k->dag, k->model->system->lagrangian, out, most_found);
-    for (size_t a = 0; a < k->f && n < most_found; a++) n += nh_functions_in(k->dag, k->force[a], out + n, most_found - n);
-    return n;
+    nh_ex *out = NULL, e;
+    size_t capacity = 0, n = 0;
+    for (size_t a = 0; a <= k->f; a++) {
+        nh_ex of = a < k->f ? k->force[a] : k->model->system->lagrangian;
+        size_t more = nh_functions_in(k->dag, of, &e, 1); /* how many there are */
+        nh_grow(&out, &capacity, n + more + 1, sizeof *out);
+        nh_functions_in(k->dag, of, out + n, more);
+        n += more;
+    }
+    *count = n;
+    return out;
 }
 
 static bool circular(const nh_dag *d, nh_ex e)
@@ -82,8 +91,8 @@ static void drop_wild(const nh_kinetic *k, factors *f)
 static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
 {
     nh_dag *d = k->dag;
-    nh_ex found[most_found];
-    size_t n = functions_of_system(k, found);
+    size_t n;
+    nh_ex *found = functions_of_system(k, &n);
     bool angle = k->angle[j], turned = angle;
     f->count = 0;
     for (size_t i = 0; i < n; i++) turned |= circular(d, found[i]) && nh_depends(d, nh_child(d, found[i], 0), k->q[j]);
@@ -98,6 +107,7 @@ static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
         else if (level == 5) put(f, found[i]);
     }
     drop_wild(k, f);
+    nh_free(found);
 }
 
 static void add(nh_library *l, const nh_kinetic *k, nh_ex e, size_t component)

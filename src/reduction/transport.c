@@ -62,13 +62,6 @@ static bool invert(size_t m, const double *a, double *inverse)
     return good;
 }
 
-/* d_r d_s K_ij in scaled coordinates, from the tape's output. */
-static double second(const nh_transport *t, size_t i, size_t j, size_t r, size_t s)
-{
-    const double *c = t->scale;
-    return t->raw[t->h * (1 + t->m + packed(r, s)) + packed(i, j)] * c[i] * c[j] * c[r] * c[s];
-}
-
 /* Gamma_l,jk = (d_j K_lk + d_k K_lj - d_l K_jk)/2 in `first`, raised in Gamma. */
 static void christoffel(nh_transport *t)
 {
@@ -80,22 +73,47 @@ static void christoffel(nh_transport *t)
     nh_multiply(m, m * m, m, t->Kinv, t->first, t->Gamma);
 }
 
+/* For one p, in scaled coordinates: D_lj = d_p d_j K_lk X^k and S_lj = d_p d_k K_lj X^k (m x m, column-major), from the tape's output. */
+static void second_derivatives(const nh_transport *t, size_t p, const double *x, double *D, double *S)
+{
+    size_t m = t->m, h = t->h;
+    const double *c = t->scale;
+    memset(S, 0, m * m * sizeof *S);
+    for (size_t k = 0; k < m; k++) {
+        const double *block = t->raw + h * (1 + m + packed(p, k));
+        for (size_t l = 0; l < m; l++) {
+            const double *row = block + l * (l + 1) / 2;
+            double sum = 0;
+            for (size_t i = 0; i <= l; i++) {
+                sum += row[i] * x[i] * c[i];
+                S[i + m * l] += row[i] * x[k] * c[k];
+            }
+            for (size_t i = l + 1; i < m; i++) sum += block[i * (i + 1) / 2 + l] * x[i] * c[i];
+            D[l + m * k] = sum * c[l] * c[k] * c[p];
+        }
+    }
+    for (size_t l = 0; l < m; l++)
+        for (size_t j = 0; j <= l; j++) S[l + m * j] = S[j + m * l] *= c[l] * c[j] * c[p];
+}
+
 /* G^i_j = Gamma^i_jk X^k and d_p G^i_j = K^il ( d_p(Gamma_l,jk) X^k - d_p K_ln G^n_j ). */
 static void along(nh_transport *t, const double *x)
 {
     size_t m = t->m;
+    double *D = t->first, *S = D + m * m, *KG = S + m * m; /* the symbols of the first kind are not needed any more; m >= 3 of these fit */
+    double *own = m < 3 ? nh_alloc_array(3 * m * m, sizeof *own) : NULL;
+    if (own) D = own, S = D + m * m, KG = S + m * m;
     memset(t->G, 0, m * m * sizeof *t->G);
     for (size_t k = 0; k < m; k++)
         for (size_t i = 0; i < m * m; i++) t->G[i] += t->Gamma[i + m * m * k] * x[k];
-    for (size_t p = 0; p < m; p++)
+    for (size_t p = 0; p < m; p++) {
+        second_derivatives(t, p, x, D, S);
+        nh_multiply(m, m, m, t->dK + m * m * p, t->G, KG);
         for (size_t j = 0; j < m; j++)
-            for (size_t l = 0; l < m; l++) {
-                double sum = 0;
-                for (size_t k = 0; k < m; k++)
-                    sum += 0.5 * x[k] * (second(t, l, k, p, j) + second(t, l, j, p, k) - second(t, j, k, p, l)) - t->dK[l + m * (k + m * p)] * t->G[k + m * j];
-                t->dfirst[l + m * (j + m * p)] = sum;
-            }
+            for (size_t l = 0; l < m; l++) t->dfirst[l + m * (j + m * p)] = 0.5 * (D[l + m * j] + S[l + m * j] - D[j + m * l]) - KG[l + m * j];
+    }
     nh_multiply(m, m * m, m, t->Kinv, t->dfirst, t->dG);
+    nh_free(own);
 }
 
 bool nh_transport_at(nh_transport *t, const double *q, const double *x)
@@ -122,17 +140,16 @@ void nh_transport_rate(const nh_transport *t, const double *x, const double *jet
 {
     size_t m = t->m;
     const double *B = jet + m;
-    double *dB = rate + m;
-    for (size_t i = 0; i < m; i++) {
-        rate[i] = 0;
-        for (size_t j = 0; j < m; j++) rate[i] += B[i + m * j] * x[j];
-    }
-    memset(dB, 0, m * m * sizeof *dB);
-    for (size_t l = 0; l < m; l++)
-        for (size_t i = 0; i < m * m; i++) dB[i] -= jet[l] * t->dG[i + m * m * l] + rate[l] * t->Gamma[i + m * m * l];
-    for (size_t j = 0; j < m; j++)
-        for (size_t l = 0; l < m; l++)
-            for (size_t i = 0; i < m; i++) dB[i + m * j] += B[i + m * l] * t->G[l + m * j] - t->G[i + m * l] * B[l + m * j];
+    double *dB = rate + m, *GB = nh_alloc_array(2 * m * m, sizeof *GB), *part = GB + m * m;
+    nh_multiply(m, 1, m, B, x, rate);
+    nh_multiply(m, m, m, B, t->G, dB);
+    nh_multiply(m, m, m, t->G, B, GB);
+    for (size_t i = 0; i < m * m; i++) dB[i] -= GB[i];
+    nh_multiply(m * m, 1, m, t->dG, jet, part);
+    for (size_t i = 0; i < m * m; i++) dB[i] -= part[i];
+    nh_multiply(m * m, 1, m, t->Gamma, rate, part);
+    for (size_t i = 0; i < m * m; i++) dB[i] -= part[i];
+    nh_free(GB);
 }
 
 /* ---- along a line ---- */

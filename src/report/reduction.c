@@ -38,6 +38,12 @@ size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s
     return n;
 }
 
+const char *nh_reduction_joint_name(const nh_reduction *r, size_t joint)
+{
+    const nh_chain *c = r->system->chain;
+    return nh_arena_printf(r->kinetic->arena, "joint of %s", c->body[c->joint[joint].child].name);
+}
+
 /* ---- text ---- */
 
 static void put_expression(nh_text *out, const char *indent, const char *name, nh_dag *d, nh_ex e, bool verbose)
@@ -107,6 +113,38 @@ static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh
     nh_text_add(out, "\n");
 }
 
+static bool same_field(const nh_reduction *r, size_t i, size_t j)
+{
+    const nh_chain_field *a = &r->joints->field[i], *b = &r->joints->field[j];
+    return a->joint == b->joint && !memcmp(a->component, b->component, r->kinetic->m * sizeof *a->component);
+}
+
+/* By another rule. */
+static bool same_before(const nh_reduction *r, size_t i)
+{
+    for (size_t j = 0; j < i; j++)
+        if (same_field(r, i, j)) return true;
+    return false;
+}
+
+/* Of a chain of bodies: [ChhabraEmami2014, sec. 4]. */
+static void put_joints(const nh_reduction *r, nh_text *out)
+{
+    const nh_chain_symmetries *c = r->joints;
+    if (!c) return;
+    nh_text_addf(out, "\nSymmetries of the kinetic energy, joint by joint%s\n", c->fields ? "" : ": none");
+    for (size_t i = 0; i < c->fields; i++) {
+        const nh_generator *g = &r->of_joint[i];
+        if (same_before(r, i)) continue;
+        nh_text_addf(out, "  %s: ", nh_reduction_joint_name(r, c->field[i].joint));
+        nh_generator_text(r->kinetic, g, out);
+        for (size_t j = i; j < c->fields; j++)
+            if (same_field(r, i, j)) nh_text_addf(out, "%s%s", j > i ? ", " : " (", nh_chain_rule_name(c->field[j].rule));
+        const char *also = g->potential.holds ? g->constraints.holds ? "a symmetry of the system" : "not of the constraints" : g->constraints.holds ? "not of the potential" : "neither of the potential nor of the constraints";
+        nh_text_addf(out, "): %s\n", also);
+    }
+}
+
 static void put_numbers(const nh_reduction_stage *s, nh_text *out)
 {
     const char *with = s->against_full ? "the full motion" : "the first stage";
@@ -115,6 +153,7 @@ static void put_numbers(const nh_reduction_stage *s, nh_text *out)
     nh_text_addf(out, "; energy drifts by %.1e", s->energy_drift);
     if (s->kind == NH_STAGE_SECOND) nh_text_addf(out, ", the momentum by %.1e", s->momentum_drift);
     nh_text_add(out, "\n");
+    if (s->charts) nh_text_addf(out, "  on the way the slice or the velocities are changed %zu time%s\n", s->charts, s->charts == 1 ? "" : "s");
     if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
 }
 
@@ -196,7 +235,7 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
 
 static void put_momenta(const nh_reduction *r, bool verbose, nh_text *out)
 {
-    if (!r->kinetic->reducible) return;
+    if (!r->kinetic->reducible || (r->partial && !r->momenta.count)) return;
     nh_text_addf(out, "\n%s\n", r->momenta.count ? "Conserved momenta of the group" : "No momentum of the group is conserved (among the sections that were tried)");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
@@ -215,6 +254,7 @@ void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
     nh_text_addf(out, "%s\n%zu coordinates, %zu constraint%s\n\n", r->system->parameters ? "" : "no parameters", r->kinetic->m, r->kinetic->f, r->kinetic->f == 1 ? "" : "s");
     if (r->all) put_group(r, r->all, verbose, out);
     if (r->group != r->all) put_group(r, r->group, verbose, out);
+    put_joints(r, out);
     for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, verbose, out);
     if (r->group->action.d) put_momenta(r, verbose, out);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%swarning: %s\n", i ? "" : "\n", r->warning[i]);

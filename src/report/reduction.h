@@ -20,4 +20,7 @@ typedef struct {
 } nh_reduction_equation;
 size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_reduction_equation **out);
 
+/* "joint of wheel", of a joint of the chain. */
+const char *nh_reduction_joint_name(const nh_reduction *reduction, size_t joint);
+
 #endif

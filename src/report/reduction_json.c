@@ -239,6 +239,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     nh_json_put_number(to, "reached", s->reached);
     nh_json_put_number(to, "energy_drift", s->energy_drift);
     nh_json_put_number(to, "restarts", (double)s->restarts);
+    nh_json_put_number(to, "charts", (double)s->charts);
     nh_json_put_number(to, "seconds", s->seconds);
     nh_json_put_number(to, "speedup", s->speedup);
 }
@@ -258,6 +259,25 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
     }
 }
 
+static void put_joints(nh_json *root, const nh_reduction *r)
+{
+    const nh_chain_symmetries *c = r->joints;
+    if (!c) return;
+    nh_json *list = nh_json_put_array(root, "joints");
+    for (size_t i = 0; i < c->fields; i++) {
+        const nh_generator *g = &r->of_joint[i];
+        nh_json *item = nh_json_add_object(list), *field;
+        nh_json_put_text(item, "joint", nh_reduction_joint_name(r, c->field[i].joint));
+        nh_json_put_text(item, "rule", nh_chain_rule_name(c->field[i].rule));
+        field = nh_json_put_object(item, "field");
+        for (size_t s = 0; s < r->kinetic->m; s++)
+            if (!nh_is_zero(r->kinetic->dag, g->component[s])) put_expression(field, r->kinetic->name[s], r->kinetic->dag, g->component[s]);
+        nh_json_put_bool(item, "kinetic_energy", g->metric.holds);
+        nh_json_put_bool(item, "potential", g->potential.holds);
+        nh_json_put_bool(item, "constraints", g->constraints.holds);
+    }
+}
+
 char *nh_reduction_json(const nh_reduction *r)
 {
     nh_json *root = nh_json_object(), *parameters, *warnings, *stages;
@@ -273,6 +293,8 @@ char *nh_reduction_json(const nh_reduction *r)
     bool chaplygin = false;
     for (size_t i = 0; i < r->stages; i++) chaplygin |= r->stage[i].kind == NH_STAGE_CHAPLYGIN;
     nh_json_put_bool(root, "chaplygin", chaplygin);
+    put_joints(root, r);
+    nh_json_put_bool(root, "partial", r->partial);
     stages = nh_json_put_array(root, "stages");
     for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
     put_momenta(root, r);

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/linalg.h"
 #include "study/reduce_internal.h"
@@ -25,6 +24,13 @@ void nh_reduction_warn(nh_reduction *r, const char *format, ...)
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
     if (r->warnings < sizeof r->warning / sizeof *r->warning) r->warning[r->warnings++] = nh_arena_strdup(r->arena, text);
+}
+
+bool nh_reduction_late(nh_reduction *r, const char *what)
+{
+    if ((double)(clock() - r->begin) / CLOCKS_PER_SEC <= r->options.reduce_seconds) return false;
+    nh_reduction_warn(r, "the time limit of %g s left out %s; --max-seconds raises it", r->options.reduce_seconds, what);
+    return r->partial = true;
 }
 
 /* ---- the initial state ---- */
@@ -199,6 +205,17 @@ static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     return true;
 }
 
+/* Of a system of bodies: which displacements of its joints leave the kinetic energy alone, and what else they do. */
+static bool joint_by_joint(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+{
+    if (!r->system->chain || nh_reduction_late(r, "the symmetries joint by joint")) return true;
+    r->joints = nh_chain_symmetries_find(r->system, (uint64_t)q->options.seed, error);
+    if (!r->joints) return false;
+    r->of_joint = nh_arena_alloc(r->arena, (r->joints->fields + 1) * sizeof *r->of_joint);
+    for (size_t i = 0; i < r->joints->fields; i++) nh_generator_init(&r->of_joint[i], r->kinetic, NULL, r->joints->field[i].component, &r->options);
+    return true;
+}
+
 /* ---- all of it ---- */
 
 static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
@@ -213,18 +230,18 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
 
 nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
 {
-    clock_t begin = clock();
     nh_arena *arena = nh_arena_create();
     nh_reduction *r = nh_arena_alloc(arena, sizeof *r);
     r->arena = arena;
+    r->begin = clock();
     r->options = q->options;
     r->until = q->options.until;
     r->chain_text = q->chain;
     nh_linalg_threads(1);
-    bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error);
+    bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && joint_by_joint(r, q, error);
     if (good && !r->kinetic->reducible) nh_reduction_warn(r, "the symmetries are found, but the system is not reduced: %s", r->kinetic->obstacle);
-    if (good && r->kinetic->reducible && r->group->action.d) good = nh_reduction_stages(r, error) && nh_momenta_find(&r->momenta, &r->group->action, &r->options, error);
-    r->seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
+    if (good && r->kinetic->reducible && r->group->action.d) good = nh_reduction_stages(r, error) && (nh_reduction_late(r, "the conserved momenta") || nh_momenta_find(&r->momenta, &r->group->action, &r->options, error));
+    r->seconds = (double)(clock() - r->begin) / CLOCKS_PER_SEC;
     if (good) return r;
     nh_reduction_free(r);
     return NULL;
@@ -249,6 +266,7 @@ bool nh_reduction_again(nh_reduction *r, size_t place, nh_error *error)
     if (place >= k->places) return nh_fail(error, NH_USAGE, "", "there are %zu sample points only", k->places);
     if (!k->reducible || !r->group->action.d) return nh_fail(error, NH_USAGE, "", "the system is not reduced");
     clear_stages(r);
+    r->begin = clock();
     r->warnings = 0;
     r->brief = true;
     memcpy(r->initial.q, k->place + place * k->m, k->m * sizeof(double));
@@ -260,6 +278,7 @@ void nh_reduction_free(nh_reduction *r)
 {
     if (!r) return;
     clear_stages(r);
+    nh_chain_symmetries_free(r->joints);
     if (r->group != r->all) nh_group_free(r->group);
     nh_group_free(r->all);
     nh_kinetic_free(r->kinetic);

@@ -2,7 +2,10 @@
 #ifndef NH_REDUCE_H
 #define NH_REDUCE_H
 
+#include <time.h>
+
 #include "motion/dynamics.h"
+#include "reduction/chain.h"
 #include "reduction/group.h"
 #include "reduction/linear.h"
 #include "reduction/momenta.h"
@@ -69,6 +72,10 @@ typedef struct {
     nh_ideals chain;
     const char *chain_text;
     nh_momenta momenta;
+    nh_chain_symmetries *joints; /* of the kinetic energy, joint by joint; NULL unless the system is given by bodies */
+    nh_generator *of_joint;      /* joints->fields: those, with what they leave invariant */
+    clock_t begin;
+    bool partial;             /* the time limit left something out; a warning says so */
     size_t warnings;
     const char *warning[16];
     double seconds;

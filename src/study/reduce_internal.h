@@ -27,6 +27,8 @@ bool nh_reduction_free_subgroup(nh_reduction *reduction, nh_action *out);
 /* Divide a group out at once, with the equations by stages where V + D = TQ. */
 bool nh_reduction_whole(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
 
+/* Is the time limit passed?  Then what is about to be left out is told. */
+bool nh_reduction_late(nh_reduction *reduction, const char *what);
 /* Add a warning to the result. */
 void nh_reduction_warn(nh_reduction *reduction, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Choose the stages, carry them out and compare their motions with the full one. */

@@ -183,6 +183,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas
     nh_options finer = r->options;
     finer.tolerance = b->rtol;
     finer.steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
+    if (nh_reduction_late(r, "the motion of a stage")) return;
     reduced_alone(b, s, atlas, q, v, &finer);
     nh_reconstruction *c = nh_reconstruct_over(atlas, q, v, true, NH_REDUCTION_OUTPUTS, b->times, &finer, &trouble);
     if (!c) {
@@ -359,7 +360,7 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_action_sub(&r->action[0], g, f, t, &r->options);
         good = chaplygin_stage(b, &r->action[0], &first, error);
         nh_free(t);
-        size_t n = good ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
+        size_t n = good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
@@ -374,9 +375,11 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
 {
     nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
     for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
+    if (nh_reduction_late(r, "the reduction")) return true;
     if (!full_motion(&b, error) || !first_and_second(&b, error)) return false;
     const nh_action *g = &r->group->action;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
+    if (nh_reduction_late(r, "the whole group divided out at once")) return true;
     if (!nh_reduction_free_subgroup(r, &r->action[1])) {
         nh_reduction_warn(r, "no subgroup acts freely on the sample points");
         return true;
