@@ -219,8 +219,8 @@ static bool not_invariant(const nh_action *g, size_t a, nh_error *error)
     nh_text t;
     nh_text_init(&t);
     const nh_generator *x = &g->generator[a];
-    const nh_condition *worst = !x->metric.holds ? &x->metric : !x->potential.holds ? &x->potential : &x->constraints;
-    const char *what = worst == &x->metric ? "kinetic energy" : worst == &x->potential ? "potential" : "constraint distribution";
+    const nh_condition *worst = !x->metric.holds ? &x->metric : !x->potential.holds ? &x->potential : !x->constraints.holds ? &x->constraints : &x->forces;
+    const char *what = worst == &x->metric ? "kinetic energy" : worst == &x->potential ? "potential" : worst == &x->constraints ? "constraint distribution" : "law of force";
     nh_fail(error, NH_INPUT, "", "%s is not a symmetry: it does not leave the %s invariant (off by %.2g of its size)", field_text(g->kinetic, x, &t), what, worst->residual);
     nh_text_clear(&t);
     return nh_error_hint(error, "nhsym reduce without a given group lists the symmetries that there are");
@@ -272,6 +272,39 @@ size_t nh_action_horizontal(const nh_action *g, const nh_options *options, doubl
     nh_free(a);
     nh_free(E);
     return n;
+}
+
+bool nh_action_moving(const nh_action *g, double *c)
+{
+    static const double small = 1e-9;
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, f = k->f, d = g->d, places = places_of(k), rows = places * f, ld = rows > d ? rows : d;
+    double *a = nh_alloc_array(rows * d + 1, sizeof *a), *b = nh_alloc_array(ld + 1, sizeof *b), *E = nh_alloc_array(m * d + f * m + f + 1, sizeof *E), *omega = E + m * d, *value = omega + f * m, off = 0, size = 0;
+    double *kept = nh_alloc_array(rows * (d + 1) + 1, sizeof *kept);
+    for (size_t p = 0; p < places && f; p++) {
+        nh_action_values(g, k->place + p * m, E);
+        nh_kinetic_values(k, f * m, k->omega, k->place + p * m, omega);
+        nh_kinetic_values(k, f, k->b, k->place + p * m, value);
+        for (size_t i = 0; i < f; i++) {
+            b[p * f + i] = kept[rows * d + p * f + i] = -value[i];
+            for (size_t e = 0; e < d; e++)
+                for (size_t s = 0; s < m; s++) a[p * f + i + e * rows] += omega[i * m + s] * E[s + e * m];
+        }
+    }
+    memcpy(kept, a, rows * d * sizeof *a);
+    bool good = d && f && nh_least_squares(rows, d, a, 1, b, ld, small) >= 0;
+    for (size_t i = 0; i < rows && good; i++) {
+        double sum = -kept[rows * d + i];
+        for (size_t e = 0; e < d; e++) sum += kept[i + e * rows] * b[e];
+        off = fmax(off, fabs(sum));
+        size = fmax(size, fabs(kept[rows * d + i]));
+    }
+    if (good) memcpy(c, b, d * sizeof *c);
+    nh_free(a);
+    nh_free(b);
+    nh_free(E);
+    nh_free(kept);
+    return good && off <= small * (1 + size);
 }
 
 /* ---- flows ---- */

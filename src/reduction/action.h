@@ -47,6 +47,10 @@ void nh_action_values(const nh_action *action, const double *q, double *E);
 /* Constant combinations of generators that lie in D everywhere (horizontal symmetries): basis columns c (d x count), echelon form. */
 size_t nh_action_horizontal(const nh_action *action, const nh_options *options, double *c);
 
+/* Constants c (d) with omega(c^a e_a) + b = 0 everywhere: a symmetry that satisfies affine constraints itself, so that E - c^a e_a . p is conserved
+ * [FassoSansonetto2016].  False when there are none. */
+bool nh_action_moving(const nh_action *action, double *c);
+
 /* The flow of sum_a c[a] e_a for the time t, of a place q (overwritten). */
 typedef struct nh_flows nh_flows;
 nh_flows *nh_flows_create(const nh_action *action);

@@ -132,6 +132,24 @@ static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_option
     }
 }
 
+static nh_condition forces_invariant(const nh_kinetic *k, const nh_ex *xi, const nh_options *options)
+{
+    nh_dag *d = k->dag;
+    nh_ex *e = nh_alloc_array(2 * k->m + 1, sizeof *e), *unit = e + k->m, size = nh_int(d, 0);
+    for (size_t s = 0; s < k->m; s++) {
+        e[s] = prolonged(k, xi, k->Q[s]);
+        for (size_t l = 0; l < k->m; l++) {
+            nh_ex slope = nh_diff(d, xi[l], k->q[s]);
+            if (!nh_is_zero(d, slope)) e[s] = nh_add(d, e[s], nh_mul(d, k->Q[l], slope));
+        }
+        size = nh_add(d, size, nh_call(d, NH_ABS, k->Q[s]));
+    }
+    for (size_t s = 0; s < k->m; s++) unit[s] = size;
+    nh_condition c = condition(k, k->m, e, largest_residual(k, k->m, e, unit), options);
+    nh_free(e);
+    return c;
+}
+
 void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, const nh_ex *component, const nh_options *options)
 {
     nh_dag *d = k->dag;
@@ -154,7 +172,8 @@ void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, c
         for (size_t s = 0; s < m; s++) unit[a] = nh_add(d, unit[a], nh_call(d, NH_ABS, nh_diff(d, k->force[a], k->v[s])));
     }
     g->constraints = condition(k, k->f, e + of_metric + 1, largest_residual(k, k->f, raw, unit), options);
-    g->invariant = g->metric.holds && g->potential.holds && g->constraints.holds;
+    g->forces = k->forced ? forces_invariant(k, component, options) : (nh_condition){.holds = true, .proved = true, .all_parameters = true};
+    g->invariant = g->metric.holds && g->potential.holds && g->constraints.holds && g->forces.holds;
     nh_free(e);
 }
 

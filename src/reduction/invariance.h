@@ -3,7 +3,9 @@
  *     (L_xi K)_rs = xi^l d_l K_rs + K_ls d_r xi^l + K_rl d_s xi^l = 0,        xi(V) = 0,
  *     xi^s d_s f^A + v^r (d_r xi^s) df^A/dv^s = 0   where f = 0               (the field, prolonged to velocities, is tangent to f = 0)
  *
- * For linear constraints the last one says that the flow maps D to itself.  Where the Lagrangian is not of the form K - V the first two are
+ *     (L_xi Q)_s = xi(Q_s), prolonged to velocities, + Q_l d_s xi^l = 0,      for forces without a potential
+ *
+ * For linear constraints the third one says that the flow maps D to itself.  Where the Lagrangian is not of the form K - V the first two are
  * replaced by the invariance of L under the prolonged field. */
 #ifndef NH_INVARIANCE_H
 #define NH_INVARIANCE_H
@@ -20,8 +22,8 @@ typedef struct {
 typedef struct {
     const char *name;      /* NULL unless the user gave one */
     nh_ex *component;      /* m */
-    nh_condition metric, potential, constraints;
-    bool invariant;        /* all three hold */
+    nh_condition metric, potential, constraints, forces;
+    bool invariant;        /* all of them hold */
 } nh_generator;
 
 /* Components along the coordinates, as m expressions, into the generator (in the kinetic's arena), with the three conditions checked. */

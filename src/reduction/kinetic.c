@@ -164,6 +164,13 @@ static void take_places(nh_kinetic *k, uint64_t seed)
     nh_free(good);
 }
 
+static bool forces_autonomous(const nh_kinetic *k)
+{
+    for (size_t s = 0; s < k->m && k->forced; s++)
+        if (nh_depends(k->dag, k->Q[s], k->model->system->t)) return false;
+    return true;
+}
+
 static const char *obstacle_of(const nh_kinetic *k)
 {
     if (!k->quadratic) return "the Lagrangian is not quadratic in the velocities";
@@ -191,6 +198,7 @@ nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *er
     k->omega = k->K + m * m;
     k->b = k->omega + f * m;
     k->force = k->b + f;
+    k->Q = model->system->force;
     k->name = nh_arena_alloc(arena, m * sizeof *k->name);
     k->angle = nh_arena_alloc(arena, 2 * m * sizeof *k->angle);
     k->dependent = k->angle + m;
@@ -207,6 +215,7 @@ nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *er
     k->metric = has_metric(k);
     k->obstacle = obstacle_of(k);
     k->reducible = !k->obstacle;
+    k->general = k->metric && k->affine && k->autonomous && forces_autonomous(k);
     if (k->places >= least_places) return k;
     nh_fail(error, NH_NUMERIC, "", "only %zu sample points of the domain are usable", k->places);
     nh_error_hint(error, "give a domain on which the Lagrangian and the constraints are defined");

@@ -21,9 +21,11 @@ typedef struct {
     nh_ex *K, V, *a;       /* m x m (row-major), m; zeros unless quadratic */
     nh_ex *force;          /* f: the constraints without poles */
     nh_ex *omega, *b;      /* f x m (row-major), f; zeros unless affine */
+    const nh_ex *Q;        /* m: forces without a potential */
     bool quadratic, magnetic, autonomous, forced, affine, linear;
     bool metric;           /* quadratic, and K positive definite at the sample points */
     bool reducible;        /* L = K - V with a metric, linear constraints, no time, no forces */
+    bool general;          /* a metric, no time, constraints that are at most affine: it has reduced equations, though no connection is used */
     const char *obstacle;  /* why it is not reducible, in words; NULL */
     size_t places;         /* samples */
     double *place, *speed; /* places x m: positions, and velocities that satisfy the constraints */

@@ -274,12 +274,104 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
     }
 }
 
+/* ---- other systems: affine constraints, a part of L linear in the velocities, forces ---- */
+
+/* f^a e_a and f^a e_a . (K v + a). */
+static void fill_general(const nh_action *g, nh_momentum *p)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *d = k->dag;
+    p->field = nh_arena_alloc(k->arena, k->m * sizeof *p->field);
+    p->value = nh_int(d, 0);
+    for (size_t s = 0; s < k->m; s++) {
+        nh_ex component = nh_int(d, 0), momentum = k->a[s];
+        for (size_t a = 0; a < g->d; a++) component = nh_add(d, component, nh_mul(d, p->f[a], g->generator[a].component[s]));
+        for (size_t r = 0; r < k->m; r++) momentum = nh_add(d, momentum, nh_mul(d, k->K[s * k->m + r], k->v[r]));
+        p->field[s] = nh_simplify(d, component);
+        if (!nh_is_zero(d, p->field[s])) p->value = nh_add(d, p->value, nh_mul(d, p->field[s], momentum));
+    }
+}
+
+static bool vanishes(const nh_kinetic *k, nh_ex e, const nh_options *options)
+{
+    return nh_normal_is_zero(k->dag, e, (size_t)options->proof_terms) == NH_ZERO || nh_prove_zero(k->model, 1, &e, false, options).proved;
+}
+
+/* omega(field) + offset b = 0 and field . Q = 0. */
+static bool proved_general(const nh_kinetic *k, const nh_momentum *p, bool offset, const nh_options *options)
+{
+    nh_dag *d = k->dag;
+    bool good = true;
+    for (size_t i = 0; i < k->f && good; i++) {
+        nh_ex e = offset ? k->b[i] : nh_int(d, 0);
+        for (size_t s = 0; s < k->m; s++) e = nh_add(d, e, nh_mul(d, k->omega[i * k->m + s], p->field[s]));
+        good = vanishes(k, e, options);
+    }
+    nh_ex power = nh_int(d, 0);
+    for (size_t s = 0; s < k->m && k->forced; s++) power = nh_add(d, power, nh_mul(d, p->field[s], k->Q[s]));
+    return good && vanishes(k, power, options);
+}
+
+/* A number, or the parameter (or its negative) whose value it is. */
+static nh_ex named(const nh_kinetic *k, double c, const nh_options *options)
+{
+    nh_num x;
+    for (size_t i = 0; i < k->model->system->parameters; i++) {
+        double value = k->model->parameter_value[i];
+        if (value != 0 && fabs(fabs(c) - fabs(value)) <= options->same * fabs(value)) return c * value > 0 ? k->model->parameter[i] : nh_neg(k->dag, k->model->parameter[i]);
+    }
+    return nh_recognise_ratio(c, 1000, options->same, &x) ? nh_number(k->dag, x) : nh_real(k->dag, c);
+}
+
+static nh_ex energy_of(const nh_kinetic *k)
+{
+    nh_dag *d = k->dag;
+    nh_ex E = k->V;
+    for (size_t r = 0; r < k->m; r++)
+        for (size_t s = 0; s <= r; s++)
+            E = nh_add(d, E, nh_mul(d, nh_mul(d, nh_ratio(d, r == s ? 1 : 2, 2), k->K[r * k->m + s]), nh_mul(d, k->v[r], k->v[s])));
+    return E;
+}
+
+/* Only what is proved is taken: nothing else of a system of this kind is known. */
+static void find_general(nh_momenta *out, const nh_action *g, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *d = k->dag;
+    double *c = nh_alloc_array(g->d * g->d + g->d + 1, sizeof *c);
+    size_t n = nh_action_horizontal(g, options, c);
+    out->momentum = nh_arena_alloc(k->arena, (n + 2) * sizeof *out->momentum);
+    for (size_t j = 0; j < n; j++) {
+        nh_momentum *p = &out->momentum[out->count];
+        *p = (nh_momentum){.horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + 1) * sizeof *p->f)};
+        for (size_t a = 0; a < g->d; a++) p->f[a] = named(k, c[a + j * g->d], options);
+        fill_general(g, p);
+        p->value = nh_simplify(d, p->value);
+        p->proved = proved_general(k, p, false, options);
+        out->count += p->proved;
+    }
+    if (!k->linear && !k->forced && nh_action_moving(g, c)) {
+        nh_momentum *p = &out->momentum[out->count];
+        *p = (nh_momentum){.moving = true, .f = nh_arena_alloc(k->arena, (g->d + 1) * sizeof *p->f)};
+        for (size_t a = 0; a < g->d; a++) p->f[a] = fabs(c[a]) <= options->same ? nh_int(d, 0) : named(k, c[a], options);
+        fill_general(g, p);
+        p->value = nh_simplify(d, nh_sub(d, energy_of(k), p->value));
+        p->proved = proved_general(k, p, true, options);
+        out->count += p->proved;
+    }
+    nh_free(c);
+}
+
 bool nh_momenta_find(nh_momenta *out, const nh_action *g, const nh_options *options, nh_error *error)
 {
     enum { most_columns = 420 };
     const nh_kinetic *k = g->kinetic;
     bool good = true;
     *out = (nh_momenta){0};
+    if (!k->reducible) {
+        if (g->d) find_general(out, g, options);
+        return true;
+    }
     for (int level = 1; level <= 3 && good && g->d; level++) { /* 2: with 1/sin and the like; 3: products of two */
         search s = {.g = g, .k = k, .options = options, .m = k->m, .d = g->d, .f = k->f};
         nh_momenta found = {0};

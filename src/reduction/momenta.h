@@ -8,7 +8,10 @@
  *
  *     sym_ij X_i(f^a) K(X_j, e_a) = 0,   X a basis of D
  *
- * does too: a horizontal gauge momentum [FassoGiacobbeSansonetto2008].  f is sought in a library of functions. */
+ * does too: a horizontal gauge momentum [FassoGiacobbeSansonetto2008].  f is sought in a library of functions.
+ *
+ * With a in L = 1/2 v K v + a v - V, J_a = e_a . (K v + a), and forces add f^a e_a . Q; then only constant f are sought.  Where the constraints are
+ * affine, omega(v) + b = 0, and c^a e_a satisfies them itself, E - c^a J_a is conserved, the moving energy [FassoSansonetto2016]. */
 #ifndef NH_MOMENTA_H
 #define NH_MOMENTA_H
 
@@ -16,9 +19,10 @@
 
 typedef struct {
     bool horizontal;       /* f is constant */
+    bool moving;           /* not a momentum: the moving energy, f = c */
     nh_ex *f;              /* d */
     nh_ex *field;          /* m: f^a e_a */
-    nh_ex value;           /* f^a J_a as a function of (q, v) */
+    nh_ex value;           /* f^a J_a (or E - f^a J_a) as a function of (q, v) */
     double residual;       /* of the two conditions, relative */
     bool proved;
 } nh_momentum;

@@ -4,9 +4,6 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
 #include "reduction/subspace.h"
 
 void nh_reduced_init(nh_reduced *o, const nh_kinetic *k, size_t n, const nh_ex *x, size_t r, size_t d)
@@ -24,6 +21,7 @@ void nh_reduced_init(nh_reduced *o, const nh_kinetic *k, size_t n, const nh_ex *
     memcpy(o->x, x, n * sizeof *x);
     for (size_t i = 0; i < 2 * n + 2 * r + r * r + d - n; i++) all[n + i] = nh_int(k->dag, 0);
     o->energy = nh_int(k->dag, 0);
+    o->conservative = true;
 }
 
 static void guard_create(nh_guard *g, nh_arena *arena, size_t rows, size_t columns)
@@ -136,129 +134,6 @@ void nh_reduced_independent_at(const nh_slice *s, const double *q, size_t *indep
     choose_independent(s, 1, a, independent);
     nh_free(a);
     nh_free(value);
-}
-
-/* rho (m x r): u = rho w, the dependent components by omf_dep u_dep = -omf_ind w. */
-static bool solve_constraints(const nh_slice *s, const size_t *independent, nh_ex *rho, nh_error *error)
-{
-    nh_dag *d = s->dag;
-    size_t m = s->m, f = s->f, r = m - f, n = 0, *dependent = nh_alloc_array(f + 1, sizeof *dependent);
-    nh_ex *a = nh_alloc_array(f * f + f + 1, sizeof *a), *b = a + f * f;
-    for (size_t j = 0; j < m; j++) {
-        bool free_one = false;
-        for (size_t i = 0; i < r; i++) {
-            free_one |= independent[i] == j;
-            rho[j * r + i] = nh_int(d, independent[i] == j);
-        }
-        if (!free_one && n < f) dependent[n++] = j;
-    }
-    for (size_t i = 0; i < f; i++)
-        for (size_t j = 0; j < f; j++) a[i * f + j] = s->omega[i * m + dependent[j]];
-    nh_lu *lu = nh_lu_create(d, f, a, nh_slice_pivot_score, (void *)s, NULL);
-    for (size_t i = 0; i < r && lu; i++) {
-        for (size_t c = 0; c < f; c++) b[c] = nh_neg(d, s->omega[c * m + independent[i]]);
-        nh_lu_solve(lu, b, b);
-        for (size_t c = 0; c < f; c++) rho[dependent[c] * r + i] = nh_simplify(d, b[c]);
-    }
-    bool good = lu != NULL;
-    nh_lu_free(lu);
-    nh_free(a);
-    nh_free(dependent);
-    return good || nh_fail(error, NH_NUMERIC, "", "the constraints cannot be solved on the slice");
-}
-
-static nh_ex dot(nh_dag *d, size_t n, const nh_ex *a, size_t stride, const nh_ex *b)
-{
-    nh_ex sum = nh_int(d, 0);
-    for (size_t i = 0; i < n; i++)
-        if (!nh_is_zero(d, a[i * stride]) && !nh_is_zero(d, b[i])) sum = nh_add(d, sum, nh_mul(d, a[i * stride], b[i]));
-    return sum;
-}
-
-/* The force on the frame component j: 1/2 u^T d_j Kf u - d_j V along the shape, C_ab^k zeta^a mu_k along the group. */
-static nh_ex frame_force(const nh_slice *s, size_t j, const nh_ex *u, const nh_ex *momentum)
-{
-    nh_dag *d = s->dag;
-    size_t m = s->m, n = s->n;
-    nh_ex sum = nh_int(d, 0);
-    if (j < n) {
-        for (size_t r = 0; r < m; r++)
-            for (size_t c = 0; c <= r; c++) {
-                nh_ex slope = nh_diff(d, s->K[r * m + c], s->x[j]);
-                if (nh_is_zero(d, slope)) continue;
-                sum = nh_add(d, sum, nh_mul(d, nh_mul(d, r == c ? nh_ratio(d, 1, 2) : nh_int(d, 1), slope), nh_mul(d, u[r], u[c])));
-            }
-        return nh_sub(d, sum, nh_diff(d, s->V, s->x[j]));
-    }
-    const nh_algebra *g = &s->action->algebra;
-    for (size_t a = 0; a < g->d; a++)
-        for (size_t k = 0; k < g->d; k++) {
-            double c = g->c[(a * g->d + (j - n)) * g->d + k];
-            if (c != 0) sum = nh_add(d, sum, nh_mul(d, nh_real(d, c), nh_mul(d, u[n + a], momentum[n + k])));
-        }
-    return sum;
-}
-
-static void name_velocities(nh_reduced *o, const nh_slice *s, const size_t *independent)
-{
-    const nh_kinetic *k = s->kinetic;
-    for (size_t i = 0; i < o->r; i++) {
-        bool shape = independent[i] < s->n;
-        const char *name = shape ? k->name[s->shape[independent[i]]] : nh_arena_printf(k->arena, "%zu", independent[i] - s->n + 1);
-        o->w[i] = shape ? k->v[s->shape[independent[i]]] : nh_symbol_fresh(k->dag, nh_arena_printf(k->arena, "zeta%s", name));
-        o->momentum[i] = nh_arena_printf(k->arena, shape ? "p_%s" : "mu_%s", name);
-    }
-}
-
-static void guard(nh_reduced *o, const nh_slice *s, const size_t *independent)
-{
-    size_t n = 0, *columns = nh_alloc_array(s->f + 1, sizeof *columns);
-    for (size_t j = 0; j < s->m; j++) {
-        bool free_one = false;
-        for (size_t i = 0; i < o->r; i++) free_one |= independent[i] == j;
-        if (!free_one && n < s->f) columns[n++] = j;
-    }
-    nh_reduced_guard_slice(o, s);
-    nh_reduced_guard_constraints(o, s, columns);
-    nh_free(columns);
-}
-
-bool nh_reduced_master(nh_reduced *o, const nh_slice *s, const size_t *independent, nh_error *error)
-{
-    nh_dag *d = s->dag;
-    size_t m = s->m, r = m - s->f, n = s->n;
-    nh_reduced_init(o, s->kinetic, n, s->x, r, s->d);
-    name_velocities(o, s, independent);
-    nh_ex *rho = nh_alloc_array(m * r + 3 * m + m * r + 1, sizeof *rho), *u = rho + m * r, *momentum = u + m, *force = momentum + m, *Krho = force + m;
-    bool good = solve_constraints(s, independent, rho, error);
-    for (size_t j = 0; j < m && good; j++) u[j] = dot(d, r, rho + j * r, 1, o->w);
-    for (size_t j = 0; j < m && good; j++) {
-        momentum[j] = dot(d, m, s->K + j * m, 1, u);
-        for (size_t i = 0; i < r; i++) {
-            Krho[j * r + i] = nh_int(d, 0);
-            for (size_t l = 0; l < m; l++) Krho[j * r + i] = nh_add(d, Krho[j * r + i], nh_mul(d, s->K[j * m + l], rho[l * r + i]));
-        }
-    }
-    for (size_t j = 0; j < m && good; j++) force[j] = frame_force(s, j, u, momentum);
-    for (size_t i = 0; i < r && good; i++) {
-        for (size_t c = 0; c < r; c++) {
-            o->M[i * r + c] = nh_int(d, 0);
-            for (size_t j = 0; j < m; j++) o->M[i * r + c] = nh_add(d, o->M[i * r + c], nh_mul(d, rho[j * r + i], Krho[j * r + c]));
-        }
-        o->F[i] = dot(d, m, rho + i, r, force);
-        for (size_t j = 0; j < m; j++) {
-            nh_ex turn = nh_diff_along(d, rho[j * r + i], n, s->x, u);
-            if (!nh_is_zero(d, turn)) o->F[i] = nh_add(d, o->F[i], nh_mul(d, turn, momentum[j]));
-        }
-    }
-    if (good) {
-        memcpy(o->dx, u, n * sizeof *u);
-        memcpy(o->zeta, u + n, s->d * sizeof *u);
-        o->energy = nh_add(d, nh_mul(d, nh_ratio(d, 1, 2), dot(d, m, u, 1, momentum)), s->V);
-        guard(o, s, independent);
-    }
-    nh_free(rho);
-    return good;
 }
 
 /* ---- motions ---- */

@@ -25,16 +25,19 @@ typedef struct {
     const char **momentum; /* r names of the p */
     nh_ex *M;            /* r x r, row-major */
     nh_ex *dx, *F, *zeta; /* n, r, d as functions of (x, w) */
-    nh_ex energy;        /* of (x, w) */
+    nh_ex energy;        /* of (x, w); of a master equation with affine constraints the moving energy */
+    bool conservative;   /* it is conserved */
     nh_guard guard[2];   /* of the constraints, and of the generators on the slice; rows 0: none */
 } nh_reduced;
 
 /* A new one with symbols for the velocities (names[i], or NULL for u1, u2, ...) and everything zero; memory: the kinetic's arena. */
 void nh_reduced_init(nh_reduced *reduced, const nh_kinetic *kinetic, size_t n, const nh_ex *x, size_t r, size_t d);
 
-/* The equations of the whole symmetric system on its slice, any group, any constraints: with u = (x', zeta) = rho(x) w in ker omf, (pi, mu) = Kf u,
+/* The equations of the whole symmetric system on its slice, any group, any constraints affine in the velocities, L = 1/2 v K v + a v - V, forces Q: with
+ * u = (x', zeta) = rho(x) w + c(x) and omf u + bf = 0, (pi, mu) = Kf u + af,
  *
- *     p_i = rho_i . (pi, mu),   p_i' = rho_i^j (1/2 u^T d_j Kf u - d_j V) + rho_i^b C_ab^k zeta^a mu_k + x'^j d_j rho_i . (pi, mu)
+ *     rho_i . (pi, mu)' = rho_i^j (1/2 u^T d_j Kf u + d_j af u - d_j V) + rho_i^b C_ab^k zeta^a mu_k + x'^j d_j rho_i . (pi, mu) + rho_i . Qf
+ *     p_i = rho_i . Kf rho w,      of rho_i . (pi, mu) the part that depends on the velocities
  *
  * Hamel's equations in the frame (d/dx, e_a); docs/method.md, sec. 9.  `independent`: the r = m - f components of u that serve as w.
  * False when the others cannot be solved for. */

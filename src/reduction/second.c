@@ -100,7 +100,7 @@ static nh_kinetic *hat_system(const nh_chaplygin *f)
     size_t n = f->n;
     nh_kinetic *h = nh_arena_alloc(arena, sizeof *h);
     *h = (nh_kinetic){.model = k->model, .dag = k->dag, .arena = arena, .m = n, .V = f->V, .quadratic = true, .autonomous = true, .affine = true, .linear = true,
-                      .metric = true, .reducible = true, .places = k->places, .time = k->time};
+                      .metric = true, .reducible = true, .general = true, .places = k->places, .time = k->time};
     h->q = nh_arena_alloc(arena, (3 * n + 1) * sizeof *h->q);
     h->v = h->q + n;
     h->a = h->v + n;

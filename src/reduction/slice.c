@@ -150,11 +150,13 @@ void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const s
     memcpy(s->shape, shape, n * sizeof *shape);
     memcpy(s->along, along, d * sizeof *along);
     memcpy(s->y0, y0, d * sizeof *y0);
-    s->x = nh_arena_alloc(k->arena, (n + m * d + m * m + f * m + d + 1) * sizeof *s->x);
+    s->x = nh_arena_alloc(k->arena, (n + m * d + m * m + f * m + d + m + f + 1) * sizeof *s->x);
     s->E = s->x + n;
     s->K = s->E + m * d;
     s->omega = s->K + m * m;
     s->y = s->omega + f * m;
+    s->a = s->y + d;
+    s->b = s->a + m;
     nh_ex *from = nh_alloc_array(2 * d + 2 * m * m + f * m + 1, sizeof *from), *to = from + d, *frame = to + d, *K = frame + m * m, *omega = K + m * m;
     s->tidy = true;
     for (size_t a = 0; a < d; a++) {
@@ -172,6 +174,13 @@ void nh_slice_init(nh_slice *s, const nh_action *g, const size_t *shape, const s
     s->V = tidy(s, nh_substitute(dag, k->V, d, from, to));
     frame_metric(s, frame, K);
     frame_forms(s, frame, omega);
+    for (size_t i = 0; i < f; i++) s->b[i] = nh_substitute(dag, k->b[i], d, from, to);
+    for (size_t j = 0; j < m; j++) {
+        s->a[j] = nh_int(dag, 0);
+        for (size_t r = 0; r < m; r++)
+            if (!nh_is_zero(dag, frame[r * m + j])) s->a[j] = nh_add(dag, s->a[j], nh_mul(dag, frame[r * m + j], nh_substitute(dag, k->a[r], d, from, to)));
+        s->a[j] = tidy(s, s->a[j]);
+    }
     nh_free(from);
 }
 

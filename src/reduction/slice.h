@@ -25,6 +25,7 @@ typedef struct {
     nh_ex *K;              /* m x m in the frame, row-major; shape first */
     nh_ex V;
     nh_ex *omega;          /* f x m in the frame */
+    nh_ex *a, *b;          /* m, f: Fr^T a and b of L and of affine constraints */
     const double *pivots;  /* m: the place for which linear systems are eliminated; NULL: for all the sample points together */
 } nh_slice;
 

@@ -72,6 +72,7 @@ static void put_generators(const nh_reduction *r, const nh_group *g, bool verbos
         put_condition(out, "kinetic energy", &g->action.generator[a].metric);
         put_condition(out, ", potential", &g->action.generator[a].potential);
         put_condition(out, ", constraints", &g->action.generator[a].constraints);
+        if (r->kinetic->forced) put_condition(out, ", forces", &g->action.generator[a].forces);
         nh_text_add(out, "\n");
     }
 }
@@ -145,12 +146,12 @@ static void put_joints(const nh_reduction *r, nh_text *out)
     }
 }
 
-static void put_numbers(const nh_reduction_stage *s, nh_text *out)
+static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_text *out)
 {
     const char *with = s->against_full ? "the full motion" : "the first stage";
     if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
     else nh_text_addf(out, "  not compared with %s", with);
-    nh_text_addf(out, "; energy drifts by %.1e", s->energy_drift);
+    if (s->reduced->conservative) nh_text_addf(out, r->kinetic->linear ? "; energy drifts by %.1e" : "; the moving energy drifts by %.1e", s->energy_drift);
     if (s->kind == NH_STAGE_SECOND) nh_text_addf(out, ", the momentum by %.1e", s->momentum_drift);
     nh_text_add(out, "\n");
     if (s->charts) nh_text_addf(out, "  on the way the slice or the velocities are changed %zu time%s\n", s->charts, s->charts == 1 ? "" : "s");
@@ -230,20 +231,20 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
     put_measure(s, out);
     put_linear(r, s, verbose, out);
     put_chain(s, out);
-    put_numbers(s, out);
+    put_numbers(r, s, out);
 }
 
 static void put_momenta(const nh_reduction *r, bool verbose, nh_text *out)
 {
-    if (!r->kinetic->reducible || (r->partial && !r->momenta.count)) return;
+    if (!(r->kinetic->reducible || r->kinetic->general) || (r->partial && !r->momenta.count)) return;
     nh_text_addf(out, "\n%s\n", r->momenta.count ? "Conserved momenta of the group" : "No momentum of the group is conserved (among the sections that were tried)");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_generator field = {.component = p->field};
-        nh_text_addf(out, "  %s of ", p->horizontal ? "horizontal symmetry: momentum" : "gauge momentum");
+        nh_text_addf(out, "  %s of ", p->moving ? "energy less the momentum" : p->horizontal ? "horizontal symmetry: momentum" : "gauge momentum");
         nh_generator_text(r->kinetic, &field, out);
         nh_text_add(out, p->proved ? " (proved)\n" : " (to rounding)\n");
-        put_expression(out, "    ", "J", r->kinetic->dag, p->value, verbose);
+        put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, verbose);
     }
 }
 

@@ -237,7 +237,8 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (s->compared) nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
     nh_json_put_number(to, "reached", s->reached);
-    nh_json_put_number(to, "energy_drift", s->energy_drift);
+    if (s->reduced->conservative) nh_json_put_number(to, "energy_drift", s->energy_drift);
+    else nh_json_put_null(to, "energy_drift");
     nh_json_put_number(to, "restarts", (double)s->restarts);
     nh_json_put_number(to, "charts", (double)s->charts);
     nh_json_put_number(to, "seconds", s->seconds);
@@ -251,7 +252,7 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_json *item = nh_json_add_object(list), *field = nh_json_put_object(item, "field");
-        nh_json_put_text(item, "kind", p->horizontal ? "horizontal" : "gauge");
+        nh_json_put_text(item, "kind", p->moving ? "moving energy" : p->horizontal ? "horizontal" : "gauge");
         for (size_t s = 0; s < k->m; s++)
             if (!nh_is_zero(k->dag, p->field[s])) put_expression(field, k->name[s], k->dag, p->field[s]);
         put_expression(item, "expression", k->dag, p->value);

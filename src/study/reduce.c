@@ -36,15 +36,18 @@ bool nh_reduction_late(nh_reduction *r, const char *what)
 /* ---- the initial state ---- */
 
 /* Change the velocities that are not `fixed` (NULL: none is) as little as possible so that they satisfy the constraints; returns the largest
- * omega^A(v) that is left, forms of length one. */
+ * omega^A(v) + b^A that is left, forms of length one. */
 static double satisfy(const nh_kinetic *k, const double *q, const bool *fixed, double *v)
 {
     size_t m = k->m, f = k->f, ld = m > f ? m : f;
     double *a = nh_alloc_array(f * m + ld + 1, sizeof *a), *b = a + f * m, *omega = nh_alloc_array(f * m + 1, sizeof *omega), left = 0;
+    double *offset = nh_alloc_array(f + 1, sizeof *offset);
     if (f) nh_kinetic_values(k, f * m, k->omega, q, omega);
+    if (f) nh_kinetic_values(k, f, k->b, q, offset);
     for (size_t i = 0; i < f; i++) {
         double size = 0;
         for (size_t s = 0; s < m; s++) size = hypot(size, omega[i * m + s]);
+        if (size > 0) b[i] = offset[i] /= size;
         for (size_t s = 0; s < m && size > 0; s++) {
             omega[i * m + s] /= size;
             a[i + s * f] = fixed && fixed[s] ? 0 : omega[i * m + s];
@@ -55,12 +58,13 @@ static double satisfy(const nh_kinetic *k, const double *q, const bool *fixed, d
         for (size_t s = 0; s < m; s++)
             if (!fixed || !fixed[s]) v[s] -= b[s];
     for (size_t i = 0; i < f; i++) {
-        double rest = 0;
+        double rest = offset[i];
         for (size_t s = 0; s < m; s++) rest += omega[i * m + s] * v[s];
         left = fmax(left, fabs(rest));
     }
     nh_free(a);
     nh_free(omega);
+    nh_free(offset);
     return left;
 }
 
@@ -88,7 +92,7 @@ static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *
     if (good) {
         memcpy(r->initial.q, own->initial.q, m * sizeof(double));
         memcpy(r->initial.v, own->initial.v, m * sizeof(double));
-        if (r->kinetic->linear) good = velocities(r, q, own->initial.given, error);
+        if (r->kinetic->affine && r->kinetic->autonomous) good = velocities(r, q, own->initial.given, error);
     }
     nh_analysis_free(own);
     return good;
@@ -239,8 +243,9 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     r->chain_text = q->chain;
     nh_linalg_threads(1);
     bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && joint_by_joint(r, q, error);
-    if (good && !r->kinetic->reducible) nh_reduction_warn(r, "the symmetries are found, but the system is not reduced: %s", r->kinetic->obstacle);
-    if (good && r->kinetic->reducible && r->group->action.d) good = nh_reduction_stages(r, error) && (nh_reduction_late(r, "the conserved momenta") || nh_momenta_find(&r->momenta, &r->group->action, &r->options, error));
+    bool some = r->kinetic && (r->kinetic->reducible || r->kinetic->general);
+    if (good && !some) nh_reduction_warn(r, "the symmetries are found, but the system is not reduced: %s", r->kinetic->obstacle);
+    if (good && some && r->group->action.d) good = nh_reduction_stages(r, error) && (nh_reduction_late(r, "the conserved momenta") || nh_momenta_find(&r->momenta, &r->group->action, &r->options, error));
     r->seconds = (double)(clock() - r->begin) / CLOCKS_PER_SEC;
     if (good) return r;
     nh_reduction_free(r);
@@ -264,7 +269,7 @@ bool nh_reduction_again(nh_reduction *r, size_t place, nh_error *error)
 {
     const nh_kinetic *k = r->kinetic;
     if (place >= k->places) return nh_fail(error, NH_USAGE, "", "there are %zu sample points only", k->places);
-    if (!k->reducible || !r->group->action.d) return nh_fail(error, NH_USAGE, "", "the system is not reduced");
+    if (!(k->reducible || k->general) || !r->group->action.d) return nh_fail(error, NH_USAGE, "", "the system is not reduced");
     clear_stages(r);
     r->begin = clock();
     r->warnings = 0;

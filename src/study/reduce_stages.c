@@ -168,7 +168,7 @@ static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas
     nh_reconstruction *c = nh_reconstruct_over(atlas, q, v, false, NH_REDUCTION_OUTPUTS, b->times, options, &trouble);
     nh_error_clear(&trouble);
     if (!c) return;
-    for (size_t i = 1; i < c->count; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + fabs(c->energy[0])));
+    for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + fabs(c->energy[0])));
     if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, s->reduced, c->first_chart, c->z);
     s->seconds = c->seconds;
     s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
@@ -376,7 +376,7 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
     for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
     if (nh_reduction_late(r, "the reduction")) return true;
-    if (!full_motion(&b, error) || !first_and_second(&b, error)) return false;
+    if (!full_motion(&b, error) || (r->kinetic->reducible && !first_and_second(&b, error))) return false;
     const nh_action *g = &r->group->action;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
     if (nh_reduction_late(r, "the whole group divided out at once")) return true;

@@ -60,13 +60,18 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
     bool good = nh_reduced_master(o, slice, independent, error);
     nh_error ignored = {0};
     if (!good) return false;
-    if (slice->K != shown->K) pretty = nh_reduced_master(o + 1, shown, independent, &ignored) ? o + 1 : o;
-    nh_reduction_stage *s = nh_reduction_new_stage(r, action->dimension_assumption ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
+    if (slice->K != shown->K) {
+        size_t *own = nh_arena_alloc(r->arena, (m + 1) * sizeof *own);
+        nh_reduced_independent(shown, own);
+        pretty = nh_reduced_master(o + 1, shown, own, &ignored) ? o + 1 : o;
+        nh_error_clear(&ignored);
+    }
+    nh_reduction_stage *s = nh_reduction_new_stage(r, action->dimension_assumption && r->kinetic->reducible ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
     s->slice = slice;
     s->reduced = o;
     s->shown = pretty;
     s->shown_slice = pretty == o ? slice : shown;
-    if (!r->brief) nh_linear_momenta_find(&s->linear, pretty, &r->options);
+    if (!r->brief && r->kinetic->reducible) nh_linear_momenta_find(&s->linear, pretty, &r->options);
     nh_atlas *atlas = nh_atlas_create(action, false);
     nh_atlas_add(atlas, slice, o, independent, NULL);
     nh_reduction_compare(b, s, atlas, r->initial.q, r->initial.v, b->full, 2 * m, b->reached);
