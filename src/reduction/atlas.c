@@ -13,6 +13,7 @@ static const double usable = 0.25; /* of a guard: a chart that is known is taken
 struct nh_atlas {
     const nh_action *action;
     const nh_second *second;  /* of a second stage */
+    const nh_action *both;
     bool chaplygin;
     nh_reduced_chart **chart;
     size_t count, capacity;
@@ -25,10 +26,10 @@ nh_atlas *nh_atlas_create(const nh_action *action, bool chaplygin)
     return a;
 }
 
-nh_atlas *nh_atlas_create_second(const nh_second *second)
+nh_atlas *nh_atlas_create_second(const nh_second *second, const nh_action *both)
 {
     nh_atlas *a = nh_alloc(sizeof *a);
-    *a = (nh_atlas){.action = &second->action, .second = second};
+    *a = (nh_atlas){.action = &second->action, .second = second, .both = both};
     return a;
 }
 
@@ -51,7 +52,7 @@ void nh_atlas_add(nh_atlas *a, const nh_slice *slice, const nh_reduced *reduced,
 {
     nh_grow(&a->chart, &a->capacity, a->count + 1, sizeof *a->chart);
     nh_reduced_chart *c = a->chart[a->count++] = nh_alloc(sizeof *c);
-    *c = (nh_reduced_chart){slice, reduced, independent, second, nh_reduced_flow_create(reduced)};
+    *c = (nh_reduced_chart){.slice = slice, .reduced = reduced, .independent = independent, .second = second, .flow = nh_reduced_flow_create(reduced)};
 }
 
 /* ---- states ---- */
@@ -72,12 +73,31 @@ bool nh_chart_leave(const nh_reduced_chart *c, const double *z, double *q, doubl
     return good;
 }
 
-static bool enter(const nh_reduced_chart *c, const double *q, const double *v, double *z)
+/* Velocities in the frame of both groups from one on the shape space of the first: its horizontal lift u = (x', -A x'). */
+static bool lift(const nh_chaplygin *first, const nh_slice *both, const double *q, const double *v, double *u)
+{
+    const nh_slice *s = first->slice;
+    size_t m = s->m, n = s->n, d = s->d;
+    double *place = nh_alloc_array(2 * m + d * n + m * d + 1, sizeof *place), *speed = place + m, *A = speed + m, *E = A + d * n;
+    nh_slice_place(s, q, place);
+    nh_kinetic_values(s->kinetic, d * n, first->A, place, A);
+    nh_action_values(s->action, place, E);
+    for (size_t i = 0; i < n; i++) speed[s->shape[i]] = v[i];
+    for (size_t a = 0; a < d; a++)
+        for (size_t i = 0; i < n; i++)
+            for (size_t r = 0; r < m; r++) speed[r] -= E[r + a * m] * A[a * n + i] * v[i];
+    bool good = isfinite(nh_largest(m, speed)) && nh_slice_components(both, place, speed, u);
+    nh_free(place);
+    return good;
+}
+
+static bool enter(const nh_atlas *atlas, const nh_reduced_chart *c, const double *q, const double *v, double *z)
 {
     const nh_slice *s = c->slice;
     size_t m = s->m, n = s->n, d = s->d;
-    double *u = nh_alloc_array(3 * m + d * n + 1, sizeof *u), *x = u + m, *w = x + m, *Av = w + m;
-    bool good = nh_slice_components(s, q, v, u);
+    size_t all = c->both ? c->both->m : m;
+    double *u = nh_alloc_array(3 * all + d * n + 1, sizeof *u), *x = u + all, *w = x + all, *Av = w + all;
+    bool good = c->both ? lift(atlas->second->first, c->both, q, v, u) : nh_slice_components(s, q, v, u);
     for (size_t i = 0; i < n; i++) x[i] = q[s->shape[i]];
     if (c->second) {
         nh_kinetic_values(s->kinetic, d * n, c->second->Av, q, Av);
@@ -181,8 +201,50 @@ static bool build_second(nh_atlas *a, const double *q, const double *pivots, nh_
     return good;
 }
 
+/* The equations of both groups at once, of whose velocities those of the second are kept: at a place q of the shape space. */
+static bool build_both(nh_atlas *a, const double *q, const double *pivots, nh_error *error)
+{
+    const nh_slice *first = a->second->first->slice;
+    nh_arena *arena = first->kinetic->arena;
+    size_t m = first->m, n = first->n, d = a->action->d, *shape = nh_alloc_array(2 * m + 1, sizeof *shape), *along = shape + m, *own = nh_alloc_array(2 * m + 1, sizeof *own), *across = own + m;
+    double *y = nh_alloc_array(m + 1, sizeof *y), *place = nh_arena_alloc(arena, m * sizeof *place);
+    nh_slice *hat = nh_arena_alloc(arena, sizeof *hat), *both = nh_arena_alloc(arena, sizeof *both);
+    nh_reduced *o = nh_arena_alloc(arena, sizeof *o);
+    size_t *independent = nh_arena_alloc(arena, (m + 1) * sizeof *independent);
+    nh_slice_choose_at(a->action, q, shape, along);
+    for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
+    nh_slice_init(hat, a->action, shape, along, y);
+    for (size_t i = 0; i < n - d; i++) own[i] = first->shape[shape[i]];
+    for (size_t i = 0; i < first->d; i++) across[i] = first->along[i], y[i] = first->y0[i];
+    for (size_t i = 0; i < d; i++) across[first->d + i] = first->shape[along[i]], y[first->d + i] = q[along[i]];
+    nh_slice_init(both, a->both, own, across, y);
+    nh_slice_place(first, q, place);
+    both->pivots = pivots ? place : NULL;
+    nh_reduced_independent_at(both, place, independent);
+    bool good = nh_reduced_master(o, both, independent, error);
+    o->zeta += first->d;
+    o->d = d;
+    if (good) nh_atlas_add(a, hat, o, independent, NULL);
+    if (good) a->chart[a->count - 1]->both = both;
+    nh_free(shape);
+    nh_free(own);
+    nh_free(y);
+    return good;
+}
+
+/* Is there a connection at a place of the shape space? */
+static bool connected(const nh_slice *first, const double *q)
+{
+    double *place = nh_alloc_array(first->m, sizeof *place);
+    nh_slice_place(first, q, place);
+    bool good = connection_regularity(first, place) > usable;
+    nh_free(place);
+    return good;
+}
+
 static bool build(nh_atlas *a, const double *q, const double *pivots, nh_error *error)
 {
+    if (a->second && a->both && !connected(a->second->first->slice, q)) return build_both(a, q, pivots, error);
     if (a->second) return build_second(a, q, pivots, error);
     const nh_slice *found = slice_at(a, q);
     nh_arena *arena = found->kinetic->arena;
@@ -240,7 +302,7 @@ const nh_reduced_chart *nh_atlas_at(nh_atlas *a, const double *q, const double *
         if (build(a, q, NULL, &trouble) && regularity(a->chart[a->count - 1], q) > most) best = a->chart[a->count - 1];
         nh_error_clear(&trouble);
     }
-    if (best && enter(best, q, v, z)) return best;
+    if (best && enter(a, best, q, v, z)) return best;
     nh_fail(error, NH_NUMERIC, "", "no slice and no choice of velocities is regular at this place");
     return NULL;
 }
@@ -310,7 +372,7 @@ static void move_along_orbit(const nh_action *g, size_t attempt, double *q, doub
 const nh_reduced_chart *nh_atlas_renew(nh_atlas *a, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error)
 {
     move_along_orbit(a->action, attempt, q, v, moved);
-    if (a->count < most_charts && build(a, q, copied(a->action->kinetic, q), error) && enter(a->chart[a->count - 1], q, v, z)) return a->chart[a->count - 1];
+    if (a->count < most_charts && build(a, q, copied(a->action->kinetic, q), error) && enter(a, a->chart[a->count - 1], q, v, z)) return a->chart[a->count - 1];
     nh_fail(error, NH_NUMERIC, "", "no slice and no choice of velocities is regular at this place");
     return NULL;
 }

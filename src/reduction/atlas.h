@@ -15,6 +15,7 @@ typedef struct {
     const nh_reduced *reduced;
     const size_t *independent; /* the components of u = (x', zeta) that are w; NULL for a second stage */
     const nh_second *second;   /* w = (x', zeta + Av x'); NULL for others */
+    const nh_slice *both;      /* of a second stage without a connection: the slice of both groups, to whose frame `independent` belongs; NULL for others */
     nh_reduced_flow *flow;
 } nh_reduced_chart;
 
@@ -22,8 +23,8 @@ typedef struct nh_atlas nh_atlas;
 
 /* Of a stage that divides out an action: as a Chaplygin system where that goes, or by the equations of any group. */
 nh_atlas *nh_atlas_create(const nh_action *action, bool chaplygin);
-/* Of a second stage (initialised; its slice is not used). */
-nh_atlas *nh_atlas_create_second(const nh_second *second);
+/* Of a second stage (initialised; its slice is not used).  `both`: the first group's generators, then those of the second on Q. */
+nh_atlas *nh_atlas_create_second(const nh_second *second, const nh_action *both);
 void nh_atlas_free(nh_atlas *atlas);
 
 /* Charts that are known, the preferred first.  Slice and equations must outlive the atlas. */

@@ -305,6 +305,18 @@ static double *full_shape(const nh_reduction_bench *b, const nh_slice *s)
     return out;
 }
 
+/* The first group and the second as one action on Q. */
+static nh_action both_groups(const nh_action *first, size_t d, const nh_ex *field, const nh_options *options)
+{
+    nh_generator *g = nh_alloc_array(first->d + d + 1, sizeof *g);
+    nh_action both;
+    memcpy(g, first->generator, first->d * sizeof *g);
+    for (size_t b = 0; b < d; b++) nh_generator_init(&g[first->d + b], first->kinetic, NULL, field + b * first->kinetic->m, options);
+    nh_action_init(&both, first->kinetic, first->d + d, g, options);
+    nh_free(g);
+    return both;
+}
+
 static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_t d, const nh_ex *field, nh_error *error)
 {
     nh_reduction *r = b->r;
@@ -336,10 +348,12 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
         s->against_full = full != NULL;
-        nh_atlas *atlas = nh_atlas_create_second(t);
+        nh_action both = both_groups(s1->action, d, field, &r->options);
+        nh_atlas *atlas = nh_atlas_create_second(t, both.closes ? &both : NULL);
         nh_atlas_add(atlas, &t->slice, &t->reduced, NULL, t);
         nh_reduction_compare(b, s, atlas, x, u, full ? full : want, n, full ? b->reached : reached);
         nh_atlas_free(atlas);
+        nh_action_clear(&both);
     }
     nh_free(shape);
     nh_free(x);
