@@ -285,7 +285,7 @@ enum { most_charts = 400 };
 
 const nh_reduced_chart *nh_atlas_at(nh_atlas *a, const double *q, const double *v, double *z, nh_error *error)
 {
-    static const double pole = 1e-6; /* of the best sample point */
+    static const double pole = 1e-10; /* of the best sample point */
     const nh_kinetic *k = a->action->kinetic;
     const nh_reduced_chart *best = NULL;
     double most = 0;

@@ -14,7 +14,7 @@ typedef struct {
     bool *closed;               /* per piece of the report: a circle */
     char *name;                 /* "SE(2) x SO(2)^3" */
     bool given;                 /* the user named the fields */
-    size_t missing;             /* local symmetries without a closed form */
+    size_t missing;             /* local symmetries without a closed form; 0 with forces, of which the jets know nothing */
 } nh_group;
 
 /* NULL on failure. */

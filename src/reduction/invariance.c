@@ -132,6 +132,19 @@ static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_option
     }
 }
 
+/* What the change of L is made of, coordinate by coordinate: sum |xi^s dL/dq^s| + |xi^s' dL/dv^s|. */
+static nh_ex size_of_change(const nh_kinetic *k, const nh_ex *xi)
+{
+    nh_dag *d = k->dag;
+    nh_ex L = k->model->system->lagrangian, sum = nh_int(d, 0);
+    for (size_t s = 0; s < k->m; s++) {
+        nh_ex rate = nh_diff_along(d, xi[s], k->m, k->q, k->v);
+        sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, xi[s], nh_diff(d, L, k->q[s]))));
+        sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, rate, nh_diff(d, L, k->v[s]))));
+    }
+    return sum;
+}
+
 static nh_condition forces_invariant(const nh_kinetic *k, const nh_ex *xi, const nh_options *options)
 {
     nh_dag *d = k->dag;
@@ -160,7 +173,7 @@ void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, c
     size_t of_metric = nh_invariance_equations(k, component, e);
     for (size_t r = 0; r < m && plain(k); r++) /* entries compare with the geometric mean of the diagonal */
         for (size_t s = 0; s <= r; s++) unit[n++] = nh_sqrt(d, nh_call(d, NH_ABS, nh_mul(d, k->K[r * m + r], k->K[s * m + s])));
-    if (!plain(k)) unit[n++] = nh_int(d, 0);
+    if (!plain(k)) unit[n++] = size_of_change(k, component);
     g->metric = condition(k, of_metric, e, largest_residual(k, of_metric, e, unit), options);
     unit[0] = nh_int(d, 0);
     for (size_t r = 0; r < m; r++) unit[0] = nh_add(d, unit[0], nh_call(d, NH_ABS, nh_mul(d, component[r], nh_diff(d, k->V, k->q[r]))));
