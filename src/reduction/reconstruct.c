@@ -286,7 +286,7 @@ static void explain(course *c, const nh_motion *motion, bool found, const double
 /* May a new chart be made for the last output?  Several times without another output in between is once too often. */
 static bool may_renew(course *c, const nh_motion *motion)
 {
-    enum { most_failures = 4 };
+    enum { most_failures = 6 };
     if (motion->complete || motion->guard_hit == 2 || !c->atlas) return false;
     c->failures = motion->count > 1 ? 0 : c->failures + 1;
     return c->failures < most_failures;
@@ -301,7 +301,7 @@ static bool run(course *c, size_t count, const double *times, const nh_options *
     memcpy(c->left, times, count * sizeof *times);
     for (; !out->complete && stretches < most_stretches; stretches++) {
         double steps = options->steps - (double)out->steps;
-        nh_flow_options o = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = fmax(c->atlas && c->failures < 2 ? fmin(steps, patience) : steps, 1)};
+        nh_flow_options o = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1)};
         nh_flow_problem problem = {.size = size_of(f), .context = f, .rate = rate_of, .guards = 2 + (f->d > 0 && f->group), .guard = guard_of};
         size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
         if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);

@@ -143,8 +143,17 @@ struct nh_reduced_flow {
     nh_tape *mass, *rest, *guard; /* M(x); x', F, zeta, energy of (x, w); matrices that must stay regular */
     nh_tape_work *mass_work, *rest_work, *guard_work;
     double *M, *in, *out, *regular;
-    double sign[2], limit[2];
+    double sign[2], limit[2], fixed[2];
+    bool constant[2];             /* a guard that does not depend on x */
 };
+
+static bool is_constant(const nh_reduced *o, const nh_guard *g)
+{
+    for (size_t j = 0; j < g->rows * g->columns; j++)
+        for (size_t i = 0; i < o->n; i++)
+            if (nh_depends(o->kinetic->dag, g->e[j], o->x[i])) return false;
+    return true;
+}
 
 static void guard_tape(nh_reduced_flow *f)
 {
@@ -158,6 +167,7 @@ static void guard_tape(nh_reduced_flow *f)
     f->guard_work = nh_tape_work_create(f->guard);
     f->regular = nh_alloc_array(total + 1, sizeof *f->regular);
     f->sign[0] = f->sign[1] = 1;
+    for (int i = 0; i < 2; i++) f->constant[i] = is_constant(o, &o->guard[i]);
     nh_free(e);
 }
 
@@ -171,9 +181,11 @@ static double guard_value(const nh_guard *g, double *value)
 static bool plain_guards(nh_reduced_flow *f, const double *x, double value[2])
 {
     const nh_guard *g = f->o->guard;
-    nh_tape_eval(f->guard, f->guard_work, x, f->regular);
-    value[0] = guard_value(&g[0], f->regular);
-    value[1] = guard_value(&g[1], f->regular + g[0].rows * g[0].columns);
+    if (!(f->fixed[0] != 0 && f->fixed[1] != 0)) nh_tape_eval(f->guard, f->guard_work, x, f->regular);
+    for (int i = 0; i < 2; i++) {
+        value[i] = f->fixed[i] != 0 ? f->fixed[i] : guard_value(&g[i], f->regular + (i ? g[0].rows * g[0].columns : 0));
+        if (f->constant[i]) f->fixed[i] = value[i];
+    }
     return isfinite(value[0]) && isfinite(value[1]);
 }
 

@@ -1,0 +1,202 @@
+/* reductions: reduced motions from many initial states through every chart they need, and systems with affine constraints, magnetic terms and forces. */
+#include "mechanics.h"
+
+#include <stdlib.h>
+
+#include "expr/normal.h"
+#include "reduction/subspace.h"
+#include "reductions.h"
+
+static nh_reduction *reduce_file(const char *path, const char *initial, double seconds, nh_error *error)
+{
+    nh_reduce_request q = {.system_path = path, .initial = initial};
+    nh_options_default(&q.options);
+    if (seconds >= 0) q.options.reduce_seconds = seconds;
+    return nh_reduce(&q, error);
+}
+
+static nh_reduction *reduce_text(const char *text, nh_error *error)
+{
+    char path[] = "/tmp/nhsym-reductions-XXXXXX";
+    int file = mkstemp(path);
+    cr_assert(file >= 0);
+    FILE *out = fdopen(file, "w");
+    fputs(text, out);
+    fclose(out);
+    nh_reduction *r = reduce_file(path, NULL, -1, error);
+    remove(path);
+    return r;
+}
+
+/* Up to the end, at 100 tolerances. */
+static void followed(const nh_reduction *r, const char *name)
+{
+    cr_assert(r->stages > 0, "%s", name);
+    for (size_t s = 0; s < r->stages; s++) {
+        const nh_reduction_stage *t = &r->stage[s];
+        cr_expect(t->compared && t->reached == r->until, "%s, stage %zu: up to %g, %s", name, s + 1, t->reached, t->note);
+        cr_expect(t->agreement <= 100 * r->options.tolerance, "%s, stage %zu: %g", name, s + 1, t->agreement);
+    }
+}
+
+Test(reductions, many_states)
+{
+    static const struct {
+        const char *system;
+        size_t states;
+        bool changes; /* some chart does not last */
+    } cases[] = {{"sleigh", 6, true}, {"knife_edge", 5, true}, {"cart_rotor", 4, true}, {"ball_in_cylinder", 3, true}, {"nonholonomic_particle", 4, true}, {"heisenberg_particle", 3, true},
+                 {"crane_lagrangian", 2, false}, {"two_wheel_cart", 4, false}, {"veselova", 3, false}, {"ball_on_turntable", 3, true}, {"charged_particle", 4, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char path[100];
+        nh_error error = {0};
+        snprintf(path, sizeof path, "systems/%s.yaml", cases[i].system);
+        reductions_row all = reductions_of(path, cases[i].states, &error);
+        cr_assert(error.code == NH_OK, "%s: %s", path, error.what);
+        cr_expect(all.open && all.states == cases[i].states && all.known == all.states, "%s: %zu of %zu full motions are known", path, all.known, all.states);
+        size_t charts = 0;
+        for (size_t s = 0; s < all.stages; s++) {
+            const stage_row *o = &all.stage[s];
+            cr_expect(o->whole == o->states, "%s, %s by %s: %zu of %zu are followed", path, nh_stage_kind_name(o->kind), o->group, o->whole, o->states);
+            cr_expect_eq(o->apart, 0, "%s, %s by %s: %g", path, nh_stage_kind_name(o->kind), o->group, o->worst);
+            charts += o->charts;
+        }
+        cr_expect(!cases[i].changes || charts > 0, "%s: every chart lasts", path);
+    }
+}
+
+/* The blade of the sleigh stands across the line by which it is reduced: there is no connection at the start. */
+Test(reductions, starts_at_a_singular_place_of_the_connection)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_file("systems/sleigh_inertia.yaml", "h=1.5707963267948966, y'=0.8, h'=0.5", -1, &error);
+    must(r != NULL, &error, "sleigh");
+    followed(r, "sleigh");
+    nh_reduction_free(r);
+}
+
+/* L_r = L_magnetic + affine constraint, friction: groups, motions, and what is conserved. */
+static const struct {
+    const char *name, *text, *group;
+    size_t momenta, moving;
+} general[] = {
+    {"skater",
+     "name: s\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.7}, {name: a, value: 0.4}, {name: U, value: 0.6}, {name: B, value: 0.5}]\n"
+     "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}]\nconstraints: [\"x'*sin(h) - y'*cos(h) = U\"]\n"
+     "lagrangian: J*h'^2/2 + m*((x' - a*h'*sin(h))^2 + (y' + a*h'*cos(h))^2)/2 + B*(x'*sin(h) - y'*cos(h))\n",
+     "SE(2)", 0, 0},
+    {"sphere",
+     "name: s\nparameters: [{name: B, value: 0.8}]\ncoordinates: [{name: th, type: angle}, {name: ph, type: angle}]\n"
+     "lagrangian: th'^2/2 + sin(th)^2*ph'^2/2 + B*cos(th)*ph' - cos(th)\ndomain: {th: [0.3, 2.5]}\n",
+     "SO(2)", 1, 0},
+    {"escalator",
+     "name: s\nparameters: [{name: B, value: 0.8}, {name: U, value: 0.3}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 + B*(x*y' - y*x')\nconstraints: [\"z' = x*y' - y*x' + U\"]\n",
+     "SO(2) x R", 0, 1},
+    {"drag",
+     "name: s\nparameters: [{name: m, value: 1.3}, {name: c, value: 0.3}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
+     "lagrangian: m*(x'^2 + y'^2 + z'^2)/2 - x^2 - y^2\nforces: [\"x = -c*x'\", \"y = -2*c*y'\"]\n",
+     "R", 1, 0},
+    {"even drag",
+     "name: s\nparameters: [{name: m, value: 1.3}, {name: c, value: 0.3}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
+     "lagrangian: m*(x'^2 + y'^2 + z'^2)/2 - x^2 - y^2\nforces: [\"x = -c*x'\", \"y = -c*y'\", \"z = -c*z'\"]\n",
+     "SO(2) x R", 0, 0},
+};
+
+Test(reductions, affine_constraints_magnetic_terms_and_forces)
+{
+    for (size_t i = 0; i < sizeof general / sizeof *general; i++) {
+        nh_error error = {0};
+        nh_reduction *r = reduce_text(general[i].text, &error);
+        must(r != NULL, &error, general[i].name);
+        cr_expect_str_eq(r->all->name, general[i].group, "%s: %s", general[i].name, r->all->name);
+        followed(r, general[i].name);
+        size_t momenta = 0, moving = 0;
+        for (size_t k = 0; k < r->momenta.count; k++) {
+            cr_expect(r->momenta.momentum[k].proved);
+            momenta += !r->momenta.momentum[k].moving;
+            moving += r->momenta.momentum[k].moving;
+        }
+        cr_expect_eq(momenta, general[i].momenta, "%s: %zu momenta", general[i].name, momenta);
+        cr_expect_eq(moving, general[i].moving, "%s: %zu moving energies", general[i].name, moving);
+        if (r->stage[0].reduced->conservative) cr_expect(r->stage[0].energy_drift < 1e-8, "%s: energy drifts by %g", general[i].name, r->stage[0].energy_drift);
+        nh_reduction_free(r);
+    }
+}
+
+/* Against what is known about shipped systems: the moving energy, and the momentum with its magnetic part. */
+Test(reductions, known_integrals)
+{
+    static const struct {
+        const char *system, *known;
+    } cases[] = {{"systems/cart_on_disc.yaml", "moving energy"}, {"systems/charged_particle.yaml", "angular momentum"}, {"systems/ball_on_turntable.yaml", "Emov"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_error error = {0};
+        nh_reduction *r = reduce_file(cases[i].system, NULL, -1, &error);
+        must(r != NULL, &error, cases[i].system);
+        bool found = false;
+        for (size_t c = 0; c < r->system->currents; c++)
+            for (size_t k = 0; k < r->momenta.count && !strcmp(r->system->current[c].name, cases[i].known); k++)
+                found |= nh_normal_is_zero(r->kinetic->dag, nh_sub(r->kinetic->dag, r->system->current[c].value, r->momenta.momentum[k].value), 0) == NH_ZERO;
+        cr_expect(found, "%s: %s", cases[i].system, cases[i].known);
+        nh_reduction_free(r);
+    }
+}
+
+Test(reductions, time_limit)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_file("systems/crane.yaml", NULL, 0, &error);
+    must(r != NULL, &error, "crane");
+    cr_expect(r->partial && r->stages == 0 && r->warnings > 0 && strstr(r->warning[0], "time limit"));
+    cr_expect_eq(r->all->action.d, 6, "the group is found all the same");
+    nh_reduction_free(r);
+}
+
+/* Section 4 of the paper: which displacements of the joints leave the kinetic energy alone, and which of these are symmetries. */
+Test(reductions, joint_by_joint)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_file("systems/crane.yaml", NULL, -1, &error);
+    must(r != NULL, &error, "crane");
+    cr_assert(r->joints != NULL && r->joints->fields > 0);
+    size_t symmetries[NH_CHAIN_RULES] = {0}, others = 0;
+    for (size_t i = 0; i < r->joints->fields; i++) {
+        const nh_generator *g = &r->of_joint[i];
+        cr_expect(g->metric.holds && g->potential.holds);
+        symmetries[r->joints->field[i].rule] += g->constraints.holds;
+        others += !g->constraints.holds;
+    }
+    cr_expect_eq(symmetries[NH_CHAIN_FIRST], 3);
+    cr_expect_eq(symmetries[NH_CHAIN_EXTREMITY], 2, "psi2 and psi3");
+    cr_expect_eq(others, 1, "psi1 is an isometry, but turns the constraints");
+    nh_reduction_free(r);
+}
+
+/* More functions than a fixed buffer would hold. */
+Test(reductions, many_functions)
+{
+    char text[8000];
+    int at = snprintf(text, sizeof text, "name: s\ncoordinates: [");
+    for (int i = 1; i <= 9; i++) at += snprintf(text + at, sizeof text - (size_t)at, "%s{name: q%d, type: angle}", i > 1 ? ", " : "", i);
+    at += snprintf(text + at, sizeof text - (size_t)at, "]\nlagrangian: >-\n  q1'^2/2");
+    for (int i = 2; i <= 9; i++) {
+        at += snprintf(text + at, sizeof text - (size_t)at, "\n  + q%d'^2/2", i);
+        for (int k = 1; k <= 9; k++) at += snprintf(text + at, sizeof text - (size_t)at, " - cos(%d*q%d)/%d", k, i, 10 * k);
+    }
+    snprintf(text + at, sizeof text - (size_t)at, "\n");
+    nh_error error = {0};
+    nh_reduction *r = reduce_text(text, &error);
+    must(r != NULL, &error, "many functions");
+    cr_expect_str_eq(r->all->name, "SO(2)", "%s", r->all->name);
+    nh_reduction_free(r);
+}
+
+Test(reductions, relative_minor)
+{
+    static const double a[] = {1, 0, 0, 0, 2, 0}, b[] = {3, 4};
+    static const size_t first[] = {0, 1}, other[] = {0, 2}, second[] = {1};
+    cr_expect_float_eq(nh_relative_minor(2, 3, a, first), 1, 1e-15);
+    cr_expect_float_eq(nh_relative_minor(2, 3, a, other), 0, 1e-15);
+    cr_expect_float_eq(nh_relative_minor(1, 2, b, second), 0.8, 1e-15);
+}
