@@ -5,6 +5,7 @@
 #   make           build only            make install PREFIX=/usr/local
 #   make bench     measure, and write docs/performance.md
 #   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
+#   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
 #   make perturbed analyse copies of every system with a small term added, and print the table
 #   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
@@ -35,10 +36,11 @@ TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
 BENCHES = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/bench_*.c))
 
 SYSTEMS = 200
+STATES  = 50
 SEED    = 1
 SECONDS = 60
 
-.PHONY: all sleigh check tests install bench catalogue random perturbed fuzz print-libraries clean packages test-packages
+.PHONY: all sleigh check tests install bench catalogue reductions random perturbed fuzz print-libraries clean packages test-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -63,6 +65,11 @@ catalogue: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points.\n\n'; \
 	   $(BUILD)/tests/bench_catalogue systems; } >docs/catalogue.md; code=$$?; tail -n 1 docs/catalogue.md; exit $$code
+
+reductions: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@{ printf '# Reductions\n\nWritten by `make reductions`: every system of `systems/` that has a group to reduce by, from $(STATES) initial states of its domain, over ten units of time at the tolerance 1e-10. The last column is a ratio of times on one machine in one run.\n\nKnown: full motions that are known to 100 tolerances up to the end (the others are compared as far as they are known). Followed: reduced motions that go as far, or until the constraints become dependent. Apart: those that are further than 100 tolerances from the full motion somewhere. Charts changed: how often another slice or other velocities took over ([method.md](method.md), section 9). Times faster: the time of the full motions divided by that of the reduced ones, with equal tolerances.\n\n'; \
+	   $(BUILD)/tests/bench_reductions systems $(STATES); } >docs/reductions.md; code=$$?; tail -n 1 docs/reductions.md; exit $$code
 
 random perturbed: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests

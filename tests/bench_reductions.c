@@ -2,7 +2,8 @@
  *
  *     bench_reductions systems [STATES]
  *
- * Known: full motions that are known to 100 tolerances up to the end (the others are compared as far as they are known).  Followed: reduced motions that go as far.
+ * Known: full motions that are known to 100 tolerances up to the end (the others are compared as far as they are known).  Followed: reduced motions that go as far, or until the constraints become
+ * dependent.
  * Apart: those whose places differ by more than 100 tolerances somewhere.  Times faster: the time of the full motions over that of the reduced ones, equal
  * tolerances, one run.  The exit code is 1 when a motion is apart or not followed. */
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 typedef struct {
     nh_stage_kind kind;
     char group[64];
-    size_t states, whole;   /* started; followed as far as the full motion is known */
+    size_t states, whole;   /* started; followed as far as the full motion is known, or until the constraints become dependent */
     size_t apart;           /* further from it than 100 tolerances */
     size_t charts;          /* changes of slice or velocities */
     double worst;           /* largest distance */
@@ -50,7 +50,7 @@ static inline reductions_row reductions_of(const char *path, size_t states, nh_e
                 snprintf(o->group, sizeof o->group, "%s", t->group);
             }
             o->states++;
-            o->whole += t->compared && t->reached >= r->full_reached;
+            o->whole += t->compared && (t->reached >= r->full_reached || t->dependent);
             o->apart += t->agreement > 100 * r->options.tolerance;
             o->charts += t->charts;
             o->worst = fmax(o->worst, t->agreement);

@@ -278,7 +278,9 @@ static bool go_on(course *c, const nh_motion *motion, bool renew)
 static void explain(course *c, const nh_motion *motion, bool found, const double *times)
 {
     nh_reconstruction *out = c->out;
-    if (!found) snprintf(out->note, sizeof out->note, "the flows of the generators meet a singularity of the coordinates at t = %.4g", times[out->count]);
+    out->dependent = !motion->complete && nh_reduced_flow_dependent(c->f.chart->flow, motion->end_state);
+    if (out->dependent) snprintf(out->note, sizeof out->note, "the constraints become dependent at t = %.6g: beyond that the motion is not determined", motion->end_time);
+    else if (!found) snprintf(out->note, sizeof out->note, "the flows of the generators meet a singularity of the coordinates at t = %.4g", times[out->count]);
     else if (motion->guard_hit >= 0) snprintf(out->note, sizeof out->note, "%s singular at t = %.6g", motion->guard_hit == 0 ? "the constraints on the orbits become" : "the slice becomes", motion->end_time);
     else snprintf(out->note, sizeof out->note, "%s", motion->note);
 }

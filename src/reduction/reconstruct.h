@@ -23,6 +23,7 @@ typedef struct {
     size_t charts;         /* changes of the chart */
     size_t first_chart;    /* outputs before the first of them */
     bool complete;
+    bool dependent;        /* it ended where the constraints become dependent: no equations go on there */
     char note[256];
     long evaluations, steps;
     double seconds;        /* of integration, without the building of charts */

@@ -196,6 +196,26 @@ bool nh_reduced_flow_guards(nh_reduced_flow *f, const double *x, double value[2]
     return good;
 }
 
+bool nh_reduced_flow_dependent(nh_reduced_flow *f, const double *x)
+{
+    static const double small = 1e-5;
+    const nh_guard *g = &f->o->guard[0];
+    size_t rows = g->rows, columns = g->columns;
+    if (rows < 2) return false;
+    double *a = nh_alloc_array(rows * columns + columns + 1, sizeof *a), *s = a + rows * columns;
+    nh_tape_eval(f->guard, f->guard_work, x, f->regular);
+    for (size_t i = 0; i < rows; i++) {
+        double size = 0;
+        for (size_t j = 0; j < columns; j++) size = hypot(size, f->regular[i * columns + j] * g->unit[j]);
+        for (size_t j = 0; j < columns; j++) a[i + j * rows] = size > 0 ? f->regular[i * columns + j] * g->unit[j] / size : 0;
+    }
+    bool good = isfinite(nh_largest(rows * columns, a));
+    if (good) nh_singular_values(rows, columns, a, s);
+    bool dependent = good && s[rows - 1] <= small * s[0];
+    nh_free(a);
+    return dependent;
+}
+
 double nh_reduced_flow_limit(nh_reduced_flow *f, const double *x, double part, double most)
 {
     double value[2];

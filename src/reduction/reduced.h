@@ -62,6 +62,8 @@ nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *flow);
 bool nh_reduced_flow_guards(nh_reduced_flow *flow, const double *x, double value[2]);
 /* The limits for a motion from x: `part` of what the guards are there, `most` at most.  Returns the smaller modulus of the two; 0 when not finite. */
 double nh_reduced_flow_limit(nh_reduced_flow *flow, const double *x, double part, double most);
+/* Are the constraints themselves dependent at x, or nearly so? */
+bool nh_reduced_flow_dependent(nh_reduced_flow *flow, const double *x);
 /* For who fills the equations: what must stay regular on a slice, its generators' minor; and the constraints' columns (f of them). */
 void nh_reduced_guard_slice(nh_reduced *reduced, const nh_slice *slice);
 void nh_reduced_guard_constraints(nh_reduced *reduced, const nh_slice *slice, const size_t *columns);

@@ -50,6 +50,7 @@ typedef struct {
     double seconds, speedup;  /* of the reduced motion; full over reduced */
     size_t restarts, charts;  /* of the group's coordinates; changes of the slice or of the velocities */
     bool compared, complete;
+    bool dependent;           /* it ended where the constraints become dependent */
     char note[256];
 } nh_reduction_stage;
 

@@ -185,6 +185,7 @@ static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, nh_a
     if (!c) return false;
     size_t n = c->count < reached ? c->count : reached;
     s->complete = c->complete;
+    s->dependent = c->dependent;
     s->restarts = c->restarts;
     s->charts = c->charts;
     s->compared = n > 1;
