@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "expr/normal.h"
+#include "expr/print.h"
 #include "reduction/subspace.h"
 #include "reductions.h"
 
@@ -139,6 +140,26 @@ Test(reductions, known_integrals)
             for (size_t k = 0; k < r->momenta.count && !strcmp(r->system->current[c].name, cases[i].known); k++)
                 found |= nh_normal_is_zero(r->kinetic->dag, nh_sub(r->kinetic->dag, r->system->current[c].value, r->momenta.momentum[k].value), 0) == NH_ZERO;
         cr_expect(found, "%s: %s", cases[i].system, cases[i].known);
+        nh_reduction_free(r);
+    }
+}
+
+/* Closed forms of invariant measures: of Chaplygin's ball and of Veselova's system, and of particles; each proved as an identity. */
+Test(reductions, densities)
+{
+    static const struct {
+        const char *system, *density; /* where it is short */
+    } cases[] = {{"systems/nonholonomic_oscillator.yaml", "1/sqrt(y^2 + 1)"}, {"systems/contact_oscillator.yaml", "1/sqrt(1/y^2 + 1)"}, {"systems/chaplygin_ball.yaml", NULL}, {"systems/veselova.yaml", NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_error error = {0};
+        nh_reduction *r = reduce_file(cases[i].system, NULL, -1, &error);
+        must(r != NULL, &error, cases[i].system);
+        const nh_chaplygin_measure *m = &r->stage[0].measure;
+        cr_assert(m->measure && m->closed, "%s", cases[i].system);
+        cr_expect(m->proved, "%s", cases[i].system);
+        char *text = nh_print_string(r->kinetic->dag, m->density);
+        if (cases[i].density) cr_expect_str_eq(text, cases[i].density);
+        nh_free(text);
         nh_reduction_free(r);
     }
 }

@@ -41,6 +41,8 @@ typedef struct {
     double size;        /* of Theta: 0 means that the Liouville measure is invariant */
     double curl;        /* largest |d Theta| */
     double phi_simple;  /* largest residual of the algebraic condition */
+    bool closed, proved; /* density.h: the density is known in closed form; as an identity */
+    nh_ex density;      /* exp(sigma); the factor is its (n - 1)th root */
 } nh_chaplygin_measure;
 
 /* K (n x n) and U (n x n x n, Ups_ij = U_kij x'^k) as functions of the slice's x: those of the first stage, or of the second (second.h). */

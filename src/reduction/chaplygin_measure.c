@@ -98,6 +98,7 @@ nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, 
             for (size_t j = 0; j < l; j++) out.curl = fmax(out.curl, fabs(g.dTheta[l * n + j] - g.dTheta[j * n + l]));
     }
     double zero = options->group * (tensor_size + slope_size);
+    if (out.size <= zero) out.size = 0;
     out.measure = out.curl <= zero;
     out.simple = out.phi_simple <= zero;
     out.factor = out.measure && out.simple;

@@ -158,14 +158,20 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
     if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
 }
 
-static void put_measure(const nh_reduction_stage *s, nh_text *out)
+static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, bool verbose, nh_text *out)
 {
     const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
     if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : "");
-    else nh_text_addf(out, "  no invariant measure with a density on the shape space (|d Theta| = %.2g)\n", m->curl);
+    if (m->measure && m->closed) {
+        put_expression(out, "    ", "density", r->kinetic->dag, m->density, verbose);
+        if (!m->proved) nh_text_add(out, "      (to rounding)\n");
+    }
+    if (!m->measure) nh_text_addf(out, "  no invariant measure with a density on the shape space (|d Theta| = %.2g)\n", m->curl);
     if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) return; /* what the momentum adds to the form would have to be closed, too */
-    if (m->factor) nh_text_add(out, "  a conformal factor makes it Hamiltonian\n");
+    if (m->factor && m->closed && s->shown->n == 2) nh_text_add(out, "  the density is a conformal factor that makes it Hamiltonian, in the time d tau = density dt\n");
+    else if (m->factor && m->closed && s->shown->n > 2) nh_text_addf(out, "  density^(1/%zu) is a conformal factor that makes it Hamiltonian\n", s->shown->n - 1);
+    else if (m->factor) nh_text_add(out, "  a conformal factor makes it Hamiltonian\n");
     else nh_text_addf(out, "  no conformal factor makes it Hamiltonian%s\n", m->simple ? "" : " (Ups is not phi-simple)");
 }
 
@@ -228,7 +234,7 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
     for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, verbose);
-    put_measure(s, out);
+    put_measure(r, s, verbose, out);
     put_linear(r, s, verbose, out);
     put_chain(s, out);
     put_numbers(r, s, out);

@@ -121,7 +121,7 @@ static void put_matrix(nh_json *to, const char *key, nh_dag *d, size_t rows, siz
     }
 }
 
-static void put_measure(nh_json *to, const nh_reduction_stage *s)
+static void put_measure(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)
 {
     if (!s->measure.tested) return;
     nh_json *m = nh_json_put_object(to, "measure");
@@ -131,9 +131,11 @@ static void put_measure(nh_json *to, const nh_reduction_stage *s)
     if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) nh_json_put_null(m, "conformal_factor");
     else nh_json_put_bool(m, "conformal_factor", s->measure.factor);
     nh_json_put_number(m, "curl", s->measure.curl);
+    if (s->measure.closed) put_expression(m, "density", r->kinetic->dag, s->measure.density);
+    if (s->measure.closed) nh_json_put_bool(m, "density_proved", s->measure.proved);
 }
 
-static void put_chaplygin(nh_json *to, const nh_reduction_stage *s)
+static void put_chaplygin(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)
 {
     const nh_chaplygin *c = s->chaplygin;
     put_matrix(to, "metric", c->dag, c->n, c->n, c->K);
@@ -157,10 +159,10 @@ static void put_chaplygin(nh_json *to, const nh_reduction_stage *s)
             for (size_t k = 0; k < c->n; k++) sum = nh_add(c->dag, sum, nh_mul(c->dag, c->U[(k * c->n + i) * c->n + j], c->reduced.w[k]));
             put_expression(other, "value", c->dag, sum);
         }
-    put_measure(to, s);
+    put_measure(to, r, s);
 }
 
-static void put_second(nh_json *to, const nh_reduction_stage *s)
+static void put_second(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)
 {
     const nh_second *t = s->second;
     nh_dag *d = t->slice.dag;
@@ -173,7 +175,7 @@ static void put_second(nh_json *to, const nh_reduction_stage *s)
     nh_json_put_number(to, "condition_weak", t->weak);
     nh_json_put_number(to, "condition_strong", t->strong);
     nh_json_put_number(to, "momentum_drift", s->momentum_drift);
-    put_measure(to, s);
+    put_measure(to, r, s);
 }
 
 static void put_chain(nh_json *to, const nh_reduction_stage *s)
@@ -223,8 +225,8 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
         nh_json_put_text(item, "of", rate ? nh_arena_strndup(r->kinetic->arena, e[i].name, strlen(e[i].name) - 1) : e[i].name);
         put_expression(item, rate ? "rate" : "value", d, e[i].value);
     }
-    if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, s);
-    if (s->kind == NH_STAGE_SECOND) put_second(to, s);
+    if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, r, s);
+    if (s->kind == NH_STAGE_SECOND) put_second(to, r, s);
     if (s->by_stages) put_chain(to, s);
     if (s->kind == NH_STAGE_POINCARE || s->kind == NH_STAGE_SLICE) put_locked_inertia(to, s->shown_slice);
     if (s->linear.count) {

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "reduction/density.h"
 #include "reduction/subspace.h"
 #include "study/reduce_internal.h"
 
@@ -229,6 +230,14 @@ static const nh_chaplygin *chaplygin_on(nh_reduction *r, const nh_slice *slice, 
     return nh_chaplygin_init(c, slice, error) ? c : NULL;
 }
 
+/* Existence on the slice through the initial state, the closed form on the one that is shown. */
+static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_slice *shown, const nh_ex *Ks, const nh_ex *Us)
+{
+    nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, &r->options);
+    if (m.tested && m.measure && m.size > r->options.group) m.closed = nh_density_find(shown, Ks, Us, &r->options, &m.density, &m.proved);
+    return m;
+}
+
 static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, const nh_chaplygin **through, nh_error *error)
 {
     nh_reduction *r = b->r;
@@ -242,7 +251,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->reduced = &c->reduced;
     s->shown = &pretty->reduced;
     s->chaplygin = pretty;
-    if (!r->brief) s->measure = nh_chaplygin_measure_of(slice, c->K, c->U, &r->options);
+    if (!r->brief) s->measure = measure_of(r, slice, c->K, c->U, pretty->slice, pretty->K, pretty->U);
     nh_atlas *atlas = nh_atlas_create(action, true);
     size_t *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
     for (size_t i = 0; i < slice->n; i++) independent[i] = i;
@@ -356,7 +365,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         s->slice = &t->slice;
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
-        if (t->abelian && !r->brief) s->measure = nh_chaplygin_measure_of(&t->slice, t->Kt, t->U, &r->options);
+        if (t->abelian && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
         s->against_full = full != NULL;
