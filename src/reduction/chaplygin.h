@@ -38,6 +38,7 @@ bool nh_chaplygin_init(nh_chaplygin *chaplygin, const nh_slice *slice, nh_error 
 typedef struct {
     bool tested;
     bool measure, simple, factor;
+    bool local;         /* the density has no single value on an angle: a measure (and a factor) exists locally only */
     double size;        /* of Theta: 0 means that the Liouville measure is invariant */
     double curl;        /* largest |d Theta| */
     double phi_simple;  /* largest residual of the algebraic condition */

@@ -73,6 +73,58 @@ static double off_simple(const gyro *g)
     return off;
 }
 
+/* The mean of Theta_j over a full turn of an angle x^j, the others as at the first sample point: not zero means that sigma has no single value.  False when the
+ * turn meets a singularity. */
+static bool period(const nh_slice *s, const nh_ex *K, const nh_ex *U, size_t j, double *mean)
+{
+    enum { steps = 48 };
+    static const double turn = 6.283185307179586, regular = 0.02; /* of the metric: a pole lies between */
+    const nh_kinetic *k = s->kinetic;
+    size_t n = s->n, cube = n * n * n;
+    nh_ex *e = nh_alloc_array(n * n + cube, sizeof *e);
+    double *value = nh_alloc_array(2 * n * n + cube + k->m, sizeof *value), *q = value + n * n + cube, *copy = q + k->m, low = INFINITY, high = 0;
+    bool good = true;
+    memcpy(e, K, n * n * sizeof *e);
+    memcpy(e + n * n, U, cube * sizeof *e);
+    memcpy(q, k->place, k->m * sizeof *q);
+    nh_tape *tape = nh_kinetic_tape(k, n * n + cube, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    *mean = 0;
+    for (size_t i = 0; i < steps && good; i++) {
+        q[s->shape[j]] = turn * ((double)i + 0.37) / steps;
+        nh_tape_eval(tape, work, q, value);
+        good = isfinite(nh_largest(n * n + cube, value));
+        if (good) memcpy(copy, value, n * n * sizeof *copy);
+        double det = good ? nh_determinant(n, copy) : 0;
+        for (size_t l = 0; l < n && good; l++) det /= value[l * (n + 1)];
+        low = fmin(low, det);
+        high = fmax(high, det);
+        good = good && nh_solve(n, value, n * n, value + n * n, NULL);
+        for (size_t l = 0; l < n && good; l++) *mean += value[n * n + (l + (l * n + j) * n)] / steps;
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(e);
+    nh_free(value);
+    return good && low > regular * high;
+}
+
+/* K^-1 acts on the first index of U_kij: the columns are the pairs (i, j), as nh_solve wants them. */
+static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, double small)
+{
+    size_t n = s->n;
+    nh_ex *turned = nh_alloc_array(n * n * n + 1, sizeof *turned); /* U with the first index running fastest */
+    bool many = false;
+    for (size_t k = 0; k < n; k++)
+        for (size_t pair = 0; pair < n * n; pair++) turned[k + pair * n] = U[k * n * n + pair];
+    for (size_t j = 0; j < n && !many; j++) {
+        double mean;
+        if (s->kinetic->angle[s->shape[j]] && period(s, K, turned, j, &mean)) many = fabs(mean) > small;
+    }
+    nh_free(turned);
+    return many;
+}
+
 nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U, const nh_options *options)
 {
     enum { most_places = 24 };
@@ -100,6 +152,7 @@ nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, 
     double zero = options->group * (tensor_size + slope_size);
     if (out.size <= zero) out.size = 0;
     out.measure = out.curl <= zero;
+    out.local = out.measure && out.size > 0 && many_valued(s, K, U, options->group * (1 + out.size));
     out.simple = out.phi_simple <= zero;
     out.factor = out.measure && out.simple;
     if (tensor_size > 0) out.phi_simple /= tensor_size;

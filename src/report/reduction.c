@@ -162,7 +162,7 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, bool
 {
     const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
-    if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : "");
+    if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : m->local ? ", but locally only: its density has no single value on an angle" : "");
     if (m->measure && m->closed) {
         put_expression(out, "    ", "density", r->kinetic->dag, m->density, verbose);
         if (!m->proved) nh_text_add(out, "      (to rounding)\n");

@@ -127,6 +127,7 @@ static void put_measure(nh_json *to, const nh_reduction *r, const nh_reduction_s
     nh_json *m = nh_json_put_object(to, "measure");
     nh_json_put_bool(m, "exists", s->measure.measure);
     nh_json_put_bool(m, "liouville", s->measure.measure && s->measure.size == 0);
+    nh_json_put_bool(m, "local", s->measure.local);
     nh_json_put_bool(m, "phi_simple", s->measure.simple);
     if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) nh_json_put_null(m, "conformal_factor");
     else nh_json_put_bool(m, "conformal_factor", s->measure.factor);
