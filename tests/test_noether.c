@@ -72,6 +72,17 @@ Test(points, another_chart_takes_over)
     mechanics_clear(&x);
 }
 
+/* On one branch of a quadratic constraint no point of the other is taken. */
+Test(points, another_chart_knows_no_branches)
+{
+    mechanics x = mechanics_of_text(PARTICLE_WITH_HEADING "constraints: [\"x'^2*sin(phi)^2 - y'^2*cos(phi)^2 = 0\"]\ndependent: [y]\n", NH_CHART_AUTO);
+    nh_points *p = nh_points_cover(x.model, 400, 4, NULL);
+    cr_assert(x.model->chart->branch && p && p->degenerate > 0);
+    cr_assert_null(p->beyond);
+    nh_points_free(p);
+    mechanics_clear(&x);
+}
+
 /* The rows from beyond the chart vanish for a current and for nothing else: energy against energy + x'^2/100. */
 Test(rows, equations_from_beyond_the_chart)
 {

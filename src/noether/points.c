@@ -184,7 +184,7 @@ typedef struct {
     bool natural;
     guard guard;
     nh_bordered *bordered; /* NULL: points beyond the chart are not wanted, or none was met yet */
-    bool cover;
+    bool cover;      /* not of one branch of a quadratic constraint: all coordinates do not tell it from the other */
     size_t count; /* points wanted, and room for those beyond */
     double *z, *v, *low, *high;
 } sampling;
@@ -211,7 +211,7 @@ static void take(sampling *s, nh_points *p)
     if (weight > 0) {
         for (size_t j = 0; j < o->width; j++) p->column[j][p->count] = z[j];
         p->weight[p->count++] = weight;
-    } else if (s->cover && s->natural && p->beyond->count < s->count) {
+    } else if (s->cover && p->beyond->count < s->count) {
         if (!s->bordered) s->bordered = nh_bordered_create(o);
         add_beyond(p, o, s->bordered, z[0], z + 1, s->v, steepness, s->guard.steepest);
     }
@@ -229,12 +229,12 @@ static nh_points *create(const nh_model *o, size_t count, double stretch, uint64
 {
     nh_points *p = empty(count, o->width);
     size_t room = 1 + 2 * o->m + o->width;
-    sampling s = {.o = o, .natural = is_natural(o), .guard = guard_create(o, nh_chart_least_pivot), .cover = cover, .count = count};
+    sampling s = {.o = o, .natural = is_natural(o), .guard = guard_create(o, nh_chart_least_pivot), .cover = cover && is_natural(o) && !o->chart->branch, .count = count};
     s.low = nh_alloc_array(4 * room, sizeof *s.low);
     s.high = s.low + room;
     s.z = s.high + room;
     s.v = s.z + room;
-    if (cover && s.natural) p->beyond = empty(count, o->width + o->m + o->n);
+    if (s.cover) p->beyond = empty(count, o->width + o->m + o->n);
     stretched_box(o, s.natural, stretch, s.low, s.high);
     nh_sampler *sampler = nh_sampler_create(s.natural ? 1 + 2 * o->m : o->width, s.low, s.high, seed);
     for (size_t most = most_tries_per_point * count + 200; p->count < count && p->tried < most; p->tried++) {
