@@ -37,14 +37,14 @@ static nh_motion *integrate(nh_bench *c, const nh_contender *k, double tolerance
     const double *times = c->yard.times;
     if (!k->method) {
         nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
+        problem.holds = k->index == 2;
         nh_chetaev_motion *full = nh_chetaev(&problem, f->z0, NH_CHART_OUTPUTS, times, &how, error);
         nh_motion *motion = full ? full->motion : NULL;
         if (full) full->motion = NULL;
         nh_chetaev_motion_free(full);
         return motion;
     }
-    if (k->method->family == NH_METHOD_MIDPOINT)
-        return nh_midpoint(f->model, (nh_midpoint_rule)k->method->kind, k->method->composed, f->z0, NH_CHART_OUTPUTS, times, &how, error);
+    if (k->method->order) return nh_method_steps(k->method, f->programs, f->z0, NH_CHART_OUTPUTS, times, &how, error);
     nh_projection *p = k->projected ? nh_projection_create(f->model, c->yard.currents, c->yard.current, times[0], f->z0) : NULL;
     if (p) how.after = nh_projection_apply;
     how.after_context = p;
@@ -97,7 +97,7 @@ void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double ste
     nh_error_clear(&error);
     double begin = now(), left = c->begun + c->budget - begin;
     c->deadline = begin + fmax(left / 4, 0.01);
-    *m = (nh_measured){.method = !k->method ? "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
+    *m = (nh_measured){.method = !k->method ? k->index == 2 ? "IDA, index 2" : "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
                        .step = step, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
     for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && now() - begin < enough_seconds)); i++) {
@@ -177,7 +177,7 @@ static void list_candidates(nh_bench *c)
     c->out->refusal = nh_arena_alloc(c->out->arena, (nh_method_count() + 1) * sizeof *c->out->refusal);
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
-        const char *why = m->fixed ? nh_midpoint_refused(c->model, (nh_midpoint_rule)m->kind) : NULL;
+        const char *why = nh_method_refused(m, c->formulation[0].programs);
         if (why) refuse(c->out, m->name, why);
         else add(c, m, 0, false);
     }
@@ -186,7 +186,10 @@ static void list_candidates(nh_bench *c)
     else add(c, nh_method_find("GSL rk8pd"), 0, true);
     for (size_t f = 1; f < c->formulations; f++)
         for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) add(c, nh_method_find(elsewhere[i]), f, false);
-    add(c, NULL, c->formulations - 1, false);
+    for (int index = 1; index <= (c->model->k ? 2 : 1); index++) {
+        add(c, NULL, c->formulations - 1, false);
+        c->candidate[c->candidates - 1].index = index;
+    }
 }
 
 /* Level by level, so that a short budget still gives every method its loose runs. */
@@ -197,7 +200,7 @@ static void measure_all(nh_bench *c)
     for (size_t level = 0; level < levels; level++)
         for (size_t i = 0; i < c->candidates; i++) {
             nh_contender *k = &c->candidate[i];
-            bool fixed = k->method && k->method->fixed;
+            bool fixed = k->method && k->method->order;
             double left = c->begun + c->budget - now();
             if (k->given_up) continue;
             if (k->last * step_ratio > left / 2 || left <= 0) {

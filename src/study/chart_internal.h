@@ -13,6 +13,7 @@ typedef struct {
     nh_model *model;        /* NULL: all coordinates (q, v) */
     nh_dynamics *dynamics;
     nh_bordered *bordered;
+    nh_programs *programs;  /* of the model: for methods with a fixed step, compiled once for all their runs */
     size_t size;
     double *z0, *scale;
     nh_flow_problem problem;
@@ -55,6 +56,7 @@ void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out);
 
 typedef struct {
     const nh_method *method; /* NULL: multipliers by IDA */
+    int index;               /* of that: 1 or 2 */
     size_t formulation;
     bool projected;
     double last;             /* seconds of its last run with all repetitions */

@@ -23,6 +23,7 @@ bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *ini
     sized(f, model->m, absolute, arena);
     f->dynamics = nh_dynamics_create(model);
     f->problem = nh_dynamics_problem(f->dynamics);
+    f->programs = nh_programs_create(model);
     return nh_dynamics_start(f->dynamics, initial, project, f->z0, error);
 }
 
@@ -38,6 +39,7 @@ bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t,
 
 void nh_formulation_close(nh_formulation *f)
 {
+    nh_programs_free(f->programs);
     nh_dynamics_free(f->dynamics);
     nh_bordered_free(f->bordered);
 }
