@@ -38,7 +38,7 @@ static const double multiplier_width = 10;
 static const double iteration_share = 0.003;
 /* Of index 2 the multipliers are left out of the error test, and Newton's iteration needs no digits of theirs: their noise is the iteration's
  * divided by the step. */
-static const double multiplier_width_2 = 1e4;
+static const double multiplier_width_2 = 1e10;
 
 _Static_assert(sizeof(realtype) == sizeof(double), "SUNDIALS must be built for double precision");
 

@@ -9,6 +9,7 @@
 enum { most_iterations = 20, most_halvings = 3 };
 static const double conserved = 1e-9; /* relative rate of the energy at the probes that is rounding */
 static const double farthest = 0.1;   /* of the factor from 1 */
+static const double rounding = 64 * DBL_EPSILON; /* of the energy, relative to the terms that it is made of */
 
 static const nh_tableau classical = {.stages = 4, .a = {[1] = {0.5}, [2] = {0, 0.5}, [3] = {0, 0, 1}}, .b = {1. / 6, 1. / 3, 1. / 3, 1. / 6}, .c = {0, 0.5, 0.5, 1}};
 
@@ -55,10 +56,11 @@ static bool direction(relaxation_work *k, double h)
     return true;
 }
 
-/* Newton's method for E(z + g h d) = E at the start; NAN where there is no such g near 1. */
+/* Newton's method for E(z + g h d) = E at the start; NAN where there is no such g near 1.  Where the motion is nearly steady E hardly depends on g:
+ * a step that keeps the energy to rounding by itself is left as it is. */
 static double factor(relaxation_work *k, double h)
 {
-    double g = 1, last = INFINITY;
+    double g = 1, last = INFINITY, before = nh_programs_at(k->programs, NH_PROGRAM_GRADIENT, k->t, k->z)[k->size], small = 0, alone = INFINITY;
     for (int i = 0; i < most_iterations; i++) {
         for (size_t j = 0; j < k->size; j++) k->z1[j] = k->z[j] + g * h * k->d[j];
         const double *e = nh_programs_at(k->programs, NH_PROGRAM_GRADIENT, k->t, k->z1);
@@ -68,12 +70,14 @@ static double factor(relaxation_work *k, double h)
             sum += fabs(e[j] * k->z1[j]);
         }
         if (!isfinite(off)) return NAN;
-        if (fabs(off) <= 2 * DBL_EPSILON * sum || fabs(off) >= last) return fabs(off) <= 64 * DBL_EPSILON * sum ? g : NAN;
+        if (i == 0) small = rounding * sum, alone = fabs(e[k->size] - before);
+        if (fabs(off) <= 2 * DBL_EPSILON * sum) return g;
+        if (fabs(off) >= last) break;
         last = fabs(off);
         g -= off / slope;
-        if (!(fabs(g - 1) <= farthest)) return NAN;
+        if (!(fabs(g - 1) <= farthest)) return alone <= small ? 1 : NAN;
     }
-    return NAN;
+    return last <= small ? g : alone <= small ? 1 : NAN;
 }
 
 /* One relaxed step of about *h; *h becomes the time that has passed. */
@@ -95,9 +99,9 @@ static nh_step relaxation_advance(double *time, nh_motion *motion, void *context
 {
     relaxation_work *k = context;
     double target = k->times[motion->count], left = target - *time, steps = fmax(1, ceil(fabs(left) / k->step * (1 - 1e-3)));
-    double h = left / steps, passed = h, rounding = 4 * DBL_EPSILON * fmax(fabs(target), fabs(left));
+    double h = left / steps, passed = h, exact = 4 * DBL_EPSILON * fmax(fabs(target), fabs(left));
     bool last = steps < 2, good = relaxed(k, &passed);
-    for (int i = 0; last && good && i < most_iterations && fabs(passed - left) > rounding && fabs(passed) > fabs(left) / 2; i++) {
+    for (int i = 0; last && good && i < most_iterations && fabs(passed - left) > exact && fabs(passed) > fabs(left) / 2; i++) {
         h *= left / passed;
         passed = h;
         good = relaxed(k, &passed);
@@ -108,7 +112,7 @@ static nh_step relaxation_advance(double *time, nh_motion *motion, void *context
         return NH_STEP_FAILED;
     }
     memcpy(k->z, k->z1, k->size * sizeof *k->z);
-    *time = k->t = last && fabs(passed - left) <= 1e3 * rounding ? target : *time + passed;
+    *time = k->t = last && fabs(passed - left) <= 1e3 * exact ? target : *time + passed;
     return *time == k->times[k->count - 1] ? NH_STEP_LAST : NH_STEP_ON;
 }
 
