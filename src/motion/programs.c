@@ -113,3 +113,9 @@ const double *nh_programs_at(nh_programs *s, nh_program which, double t, const d
     s->evaluations++;
     return p->out;
 }
+
+const nh_tape *nh_programs_tape(nh_programs *s, nh_program which)
+{
+    if (!s->program[which].tape) compile(s, which);
+    return s->program[which].tape;
+}
