@@ -40,7 +40,7 @@ static void start_at_probe(const nh_model *o, size_t p, nh_state *out)
 static nh_scene *scene_of(const nh_model *o, const char *text)
 {
     nh_ex e = formula(o, text);
-    return nh_scene_create(o, 1, &e);
+    return nh_scene_create(o, 1, &e, 0, NULL);
 }
 
 static void expect_scene(const nh_model *o, const char *watched, size_t core, size_t quadratures)
