@@ -271,6 +271,17 @@ void nh_network_init(nh_network *w, const nh_model *o, size_t watches, const nh_
     nh_network_clear(better ? &plain : &small);
 }
 
+bool nh_network_conserved(const nh_model *o, nh_ex current)
+{
+    nh_network w = {.model = o};
+    nh_ex e[2] = {nh_model_gamma(o, current), current};
+    double *value = at_probes(&w, 2, e);
+    bool good = o->chart->probes > 0;
+    for (size_t p = 0; p < o->chart->probes && good; p++) good = fabs(value[2 * p]) <= seems_zero * (1 + fabs(value[2 * p + 1]));
+    nh_free(value);
+    return good && is_zero(&w, e[0]);
+}
+
 size_t nh_network_cyclic(const nh_model *o, nh_ex *out)
 {
     const nh_system *s = o->system;

@@ -31,6 +31,9 @@ typedef struct {
 void nh_network_init(nh_network *network, const nh_model *model, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current);
 void nh_network_clear(nh_network *network);
 
+/* Does Gamma(Phi) vanish identically, by the same test? */
+bool nh_network_conserved(const nh_model *model, nh_ex current);
+
 /* Momenta dL/dv^s of coordinates that do not occur in the Lagrangian, whose velocities occur in no constraint, and without force: expressions of the
  * chart into `out` (m entries); returns their number. */
 size_t nh_network_cyclic(const nh_model *model, nh_ex *out);

@@ -8,6 +8,8 @@
 
 static const double smallest_slope = 1e-3; /* of a current's, relative to the start, below which its velocity is no longer determined */
 
+static const double same_rows = 1e-9;      /* relative difference of two forms of one row that is rounding */
+
 static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
 
 /* ---- core, quadratures, rest ---- */
@@ -47,6 +49,44 @@ static void sort_states(nh_scene *s, const nh_network *w)
     nh_free(left);
 }
 
+static bool finite_all(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) return false;
+    return true;
+}
+
+/* The kept rows with zero for what is dropped, which makes most of them short.  False where that is no regular value. */
+static bool rows_at_zero(const nh_scene *s, nh_ex *e)
+{
+    const nh_model *o = s->model;
+    size_t n = s->kept, from = n + s->levels, count = s->states - from, width = o->width + s->levels;
+    nh_ex *symbol = nh_alloc_array(count + 1, sizeof *symbol), *zero = nh_alloc_array(count + 1, sizeof *zero);
+    for (size_t i = 0; i < count; i++) symbol[i] = symbol_of(o, s->state[from + i]), zero[i] = nh_int(o->dag, 0);
+    for (size_t i = 0; i < n; i++) {
+        e[i] = nh_substitute(o->dag, s->network.row[s->state[i]], count, symbol, zero);
+        e[n + i] = s->network.row[s->state[i]];
+    }
+    double *value = nh_alloc_array(2 * n + 1, sizeof *value), *point = nh_alloc_array(width + 1, sizeof *point);
+    nh_tape *tape = nh_network_tape(&s->network, 2 * n, e, 0, NULL, NULL);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    bool good = !s->implicit && o->chart->probes > 0;
+    for (size_t p = 0; p < o->chart->probes && good; p++) {
+        memcpy(point, o->chart->probe + p * o->width, o->width * sizeof *point);
+        for (size_t k = 0; k < s->levels; k++) point[o->width + k] = 0.7385 + 0.31 * (double)(p + k); /* any */
+        nh_tape_eval(tape, work, point, value);
+        good = finite_all(2 * n, value);
+        for (size_t i = 0; i < n && good; i++) good = fabs(value[i] - value[n + i]) <= same_rows * (1 + fabs(value[n + i]));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(point);
+    nh_free(value);
+    nh_free(zero);
+    nh_free(symbol);
+    return good;
+}
+
 /* Dropped states feed nothing: any regular values will do for them, and what is then constant need not be computed. */
 static nh_tape *frozen_tape(const nh_scene *s, size_t n, const nh_ex *e)
 {
@@ -68,12 +108,13 @@ static void make_tapes(nh_scene *s)
 {
     const nh_model *o = s->model;
     size_t n = s->kept, levels = s->levels;
-    nh_ex *e = nh_alloc_array(s->states + n * n + 2 * levels + 1, sizeof *e);
+    nh_ex *e = nh_alloc_array(s->states + n * (n + 1) + 2 * levels + 1, sizeof *e);
     memcpy(e, o->rho, o->m * sizeof *e);
     memcpy(e + o->m, o->a, o->n * sizeof *e);
     s->rate_of_all = nh_model_tape(o, s->states, e);
     s->instructions_of_all = nh_tape_length(s->rate_of_all);
-    for (size_t i = 0; i < n; i++) e[i] = s->network.row[s->state[i]];
+    bool zero = rows_at_zero(s, e);
+    for (size_t i = 0; i < n && !zero; i++) e[i] = s->network.row[s->state[i]];
     s->rate = n ? frozen_tape(s, n, e) : NULL;
     s->instructions = n ? nh_tape_length(s->rate) : 0;
     for (size_t j = 0; j < n; j++)
@@ -183,13 +224,6 @@ bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point)
     bool good = place(run, t, z) && place_removed(run);
     memcpy(point, run->point, run->scene->model->width * sizeof *point);
     return good;
-}
-
-static bool finite_all(size_t n, const double *x)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i])) return false;
-    return true;
 }
 
 static bool scene_rate(double t, const double *z, double *rate, void *context)

@@ -219,7 +219,8 @@ static bool in_scene(job *j, nh_error *error)
     const nh_trajectory_request *q = j->q;
     nh_ex *current = nh_alloc_array(q->currents + q->model->m + 1, sizeof *current);
     size_t n = nh_network_cyclic(q->model, current);
-    for (size_t k = 0; k < q->currents; k++) current[n++] = q->current[k];
+    for (size_t k = 0; k < q->currents; k++)
+        if (nh_network_conserved(q->model, q->current[k])) current[n++] = q->current[k];
     bool good = in_scene_of(j, n, current, error);
     nh_free(current);
     return good;

@@ -213,6 +213,19 @@ static bool integrate_many(nh_simulation *s, const nh_simulate_request *q, const
     return true;
 }
 
+/* What the system file knows, in the model's chart. */
+static size_t known_currents(nh_simulation *s, nh_ex **out)
+{
+    nh_error ignored;
+    size_t n = 0;
+    *out = nh_arena_alloc(s->arena, (s->system->currents + 1) * sizeof **out);
+    for (size_t k = 0; k < s->system->currents; k++) {
+        nh_error_clear(&ignored);
+        n += nh_analysis_to_chart(s->model, s->system->current[k].value, &(*out)[n], &ignored);
+    }
+    return n;
+}
+
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
 {
     nh_options options = q->options;
@@ -221,6 +234,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     for (size_t k = 0; k < s->columns; k++) e[k] = s->column[k].value;
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns, .e = e,
                                      .smallest = q->watch || q->scene, .project = q->project};
+    nh_ex *known;
+    if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
     if (q->ensemble && q->accuracy > 0) return nh_fail(error, NH_USAGE, "", "--ensemble and --accuracy do not go together; --tolerance sets that of the members");
     if (q->ensemble) return integrate_many(s, q, &request, error);
     s->checked = q->accuracy > 0;
