@@ -271,6 +271,26 @@ void nh_network_init(nh_network *w, const nh_model *o, size_t watches, const nh_
     nh_network_clear(better ? &plain : &small);
 }
 
+bool nh_network_ignores(const nh_network *w, nh_ex symbol)
+{
+    nh_dag *d = w->model->dag;
+    size_t probes = w->model->chart->probes;
+    for (size_t k = 0; k < w->levels; k++)
+        if (nh_depends(d, w->level[k].current, symbol)) return false;
+    for (size_t a = 0; a < w->model->chart->implicit && w->implicit; a++)
+        if (nh_depends(d, w->model->chart->residual[a], symbol)) return false;
+    for (size_t i = 0; i < w->states + w->watches; i++) {
+        nh_ex e[2] = {i < w->states && !w->kept[i] ? nh_int(d, 0) : nh_diff(d, w->row[i], symbol), w->row[i]};
+        if (nh_is_zero(d, e[0])) continue;
+        double *value = at_probes(w, 2, e);
+        bool zero = probes > 0;
+        for (size_t p = 0; p < probes && zero; p++) zero = fabs(value[2 * p]) <= seems_zero * (1 + fabs(value[2 * p + 1]));
+        nh_free(value);
+        if (!zero || !is_zero(w, e[0])) return false;
+    }
+    return true;
+}
+
 bool nh_network_conserved(const nh_model *o, nh_ex current)
 {
     nh_network w = {.model = o};

@@ -31,6 +31,9 @@ typedef struct {
 void nh_network_init(nh_network *network, const nh_model *model, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current);
 void nh_network_clear(nh_network *network);
 
+/* Is nothing that is watched, no equation of a kept state and no current that is used a function of this symbol? */
+bool nh_network_ignores(const nh_network *network, nh_ex symbol);
+
 /* Does Gamma(Phi) vanish identically, by the same test? */
 bool nh_network_conserved(const nh_model *model, nh_ex current);
 

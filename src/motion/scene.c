@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "expr/diff.h"
 
@@ -258,40 +257,4 @@ nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole
     run->whole = whole;
     size_t guards = (whole ? whole->guards : 0) + run->scene->levels;
     return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = scene_jacobian, .guards = guards, .guard = guards ? scene_guard : NULL};
-}
-
-/* ---- in words ---- */
-
-const char *nh_scene_state_name(const nh_scene *s, size_t i) { return nh_name_of(s->model->dag, symbol_of(s->model, i)); }
-
-static void list(const nh_scene *s, size_t from, size_t to, nh_text *out)
-{
-    for (size_t i = from; i < to; i++)
-        nh_text_addf(out, "%s%s", i == from ? "" : i + 1 == to ? " and " : ", ", nh_scene_state_name(s, s->state[i]));
-}
-
-void nh_scene_words(const nh_scene *s, nh_text *out)
-{
-    nh_text_addf(out, "%zu of %zu states integrated", s->core, s->states);
-    if (s->core) {
-        nh_text_add(out, " (");
-        list(s, 0, s->core, out);
-        nh_text_add(out, ")");
-    }
-    if (s->quadratures) {
-        nh_text_add(out, ", ");
-        list(s, s->core, s->kept, out);
-        nh_text_add(out, " by quadrature");
-    }
-    if (s->levels) {
-        nh_text_add(out, ", ");
-        list(s, s->kept, s->kept + s->levels, out);
-        nh_text_add(out, s->levels == 1 ? " by a conserved current" : " by conserved currents");
-    }
-    if (s->kept + s->levels < s->states) {
-        nh_text_add(out, ", ");
-        list(s, s->kept + s->levels, s->states, out);
-        nh_text_add(out, " dropped");
-    }
-    nh_text_addf(out, "; %zu of %zu instructions", s->instructions, s->instructions_of_all);
 }

@@ -46,6 +46,8 @@ bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point)
 
 /* "2 of 5 states integrated (omega, v), phi and x by quadrature, y dropped; 5 of 8 instructions" */
 void nh_scene_words(const nh_scene *scene, nh_text *out);
+/* "the parameters jz3 and l2 have no influence, nor the body column"; empty when all matter. */
+void nh_scene_idle_words(const nh_scene *scene, nh_text *out);
 /* The name of state i of (q, w). */
 const char *nh_scene_state_name(const nh_scene *scene, size_t i);
 

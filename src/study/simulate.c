@@ -5,6 +5,7 @@
 #include <string.h>
 
 enum { default_outputs = 100, most_outputs = 10000000 };
+static const double shortest_time = 0.1, longest_comparison = 1; /* seconds: a shorter motion is compared with the whole model's, which may take so long */
 
 nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error)
 {
@@ -195,6 +196,35 @@ static const char *words_of(nh_simulation *s, const nh_scene *scene)
     return kept;
 }
 
+/* What the smallest model saves, and whether it is right: the whole model beside it, while that costs little. */
+static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
+{
+    nh_trajectory_request whole = *q;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    whole.smallest = false;
+    whole.max_seconds = longest_comparison;
+    if (!s->trajectory->scene || s->motion->seconds > shortest_time || !s->motion->complete) return;
+    nh_trajectory *t = nh_trajectory_create(&whole, &ignored);
+    s->compared = t && t->motion->complete;
+    for (size_t i = 0; s->compared && i < s->columns * t->motion->count; i++) {
+        double off = fabs(s->value[i] - t->value[i]) / fmax(1, fabs(t->value[i]));
+        if (isfinite(off)) s->whole_difference = fmax(s->whole_difference, off);
+    }
+    if (s->compared) s->whole_seconds = t->motion->seconds, s->whole_evaluations = t->motion->evaluations;
+    nh_trajectory_free(t);
+}
+
+static const char *idle_words_of(nh_simulation *s, const nh_scene *scene)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_scene_idle_words(scene, &words);
+    const char *kept = nh_arena_strdup(s->arena, nh_text_string(&words));
+    nh_text_clear(&words);
+    return kept;
+}
+
 static bool integrate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *request, nh_error *error)
 {
     size_t size = s->model->m + s->model->n;
@@ -246,7 +276,10 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
-    if (s->trajectory->scene) s->scene = words_of(s, s->trajectory->scene);
+    if (!s->trajectory->scene) return true;
+    s->scene = words_of(s, s->trajectory->scene);
+    s->idle = idle_words_of(s, s->trajectory->scene);
+    if (!s->checked) compare_with_whole(s, &request);
     return true;
 }
 
