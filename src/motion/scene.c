@@ -5,7 +5,7 @@
 
 #include "expr/diff.h"
 
-static const double smallest_slope = 1e-3; /* of a current's, relative to the start, below which its velocity is no longer determined */
+static const double smallest_slope = 0.03; /* of a current, relative to the start, below which its velocity loses digits */
 
 static const double same_rows = 1e-9;      /* relative difference of two forms of one row that is rounding */
 

@@ -21,12 +21,12 @@ static void time_text(double seconds, char out[16])
 /* ---- text ---- */
 
 /* The fastest run of the line from..to-1 whose error is below the goal. */
-static const nh_measured *fastest(const nh_comparison *c, size_t from, size_t to, double below)
+static const nh_measured *fastest(const nh_comparison *c, size_t from, size_t to, double below, bool reduced)
 {
     const nh_measured *best = NULL;
     for (size_t i = from; i < to; i++) {
         const nh_measured *m = &c->item[i];
-        if (m->status <= NH_WARNED && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
+        if (m->status <= NH_WARNED && (reduced || !m->reduced) && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
     }
     return best;
 }
@@ -35,7 +35,7 @@ static void put_line(const nh_comparison *c, size_t from, size_t to, nh_text *ou
 {
     nh_text_addf(out, "    %-30s", c->item[from].method);
     for (int g = 0; g < goals; g++) {
-        const nh_measured *m = fastest(c, from, to, goal[g]);
+        const nh_measured *m = fastest(c, from, to, goal[g], true);
         char us[16], cell[48];
         if (m) {
             time_text(m->seconds, us);
@@ -78,7 +78,7 @@ static void put_run(const nh_comparison *c, const nh_measured *m, nh_text *out)
 static void put_front(const nh_comparison *c, nh_text *out)
 {
     for (int g = 0; g < goals; g++) {
-        const nh_measured *m = fastest(c, 0, c->count, goal[g]);
+        const nh_measured *m = fastest(c, 0, c->count, goal[g], false);
         if (!m) continue;
         char us[16];
         time_text(m->seconds, us);
@@ -108,6 +108,9 @@ void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
         nh_text_add(out, "\n");
     }
     for (size_t i = 0; i < c->refused; i++) nh_text_addf(out, "  not used, %s\n", c->refusal[i]);
+    bool reduced = false;
+    for (size_t i = 0; i < c->count; i++) reduced |= c->item[i].reduced;
+    if (reduced) nh_text_add(out, "  reduced equations compute shape and momenta only, and are left out here; errors are those of their own states\n");
     if (c->partial) nh_text_add(out, "  the budget ended before every method had all its runs; --budget allows more\n");
     if (c->derivatives) nh_text_add(out, "\nDerivatives: one Jacobian of the reduced equations\n");
     for (size_t i = 0; i < c->derivatives; i++) {
@@ -159,6 +162,7 @@ static void put_item(const nh_comparison *c, const nh_measured *m, nh_json *list
     nh_json_put_number(item, "seconds", m->seconds);
     nh_json_put_number(item, "evaluations", (double)m->evaluations);
     nh_json_put_text(item, "status", nh_measured_status_name(m->status));
+    nh_json_put_bool(item, "reduced", m->reduced);
     nh_json_put_bool(item, "front", m->front);
     nh_json_put_text(item, "note", m->note ? m->note : "");
 }

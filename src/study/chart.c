@@ -77,8 +77,11 @@ static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_meas
     double *states = nh_alloc_array(NH_CHART_OUTPUTS * 2 * c->model->m, sizeof *states);
     m->drift = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *m->drift);
     m->evaluations = motion->evaluations;
-    bool good = nh_formulation_states(f, motion, states);
-    if (motion->complete && good) {
+    bool good = f->reduced || nh_formulation_states(f, motion, states);
+    if (motion->complete && f->reduced) {
+        m->error = nh_reduced_error(f, motion);
+        for (size_t i = 0; i < n; i++) m->drift[i] = c->yard.current[i] == c->model->E ? (m->worst_drift = nh_reduced_drift(f, motion)) : NAN;
+    } else if (motion->complete && good) {
         m->error = nh_yardstick_error(&c->yard, motion->count, states);
         nh_yardstick_drifts(&c->yard, motion->count, states, m->drift);
         m->worst_drift = n ? 0 : NAN;
@@ -99,7 +102,7 @@ void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double ste
     c->deadline = begin + fmax(left / 4, 0.01);
     *m = (nh_measured){.method = !k->method ? k->index == 2 ? "IDA, index 2" : "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
-                       .step = step, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
+                       .step = step, .reduced = c->formulation[k->formulation].reduced != NULL, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
     for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && now() - begin < enough_seconds)); i++) {
         nh_motion *motion = integrate(c, k, tolerance, step, &error);
         if (motion && i == 0) judge(c, k, motion, m);
@@ -166,26 +169,31 @@ static void add(nh_bench *c, const nh_method *method, size_t formulation, bool p
     if (c->candidates < NH_CHART_CANDIDATES) c->candidate[c->candidates++] = (nh_contender){.method = method, .formulation = formulation, .projected = projected};
 }
 
-static void refuse(nh_comparison *out, const char *method, const char *why)
+void nh_bench_add(nh_bench *c, const nh_method *method, size_t formulation) { add(c, method, formulation, false); }
+
+void nh_bench_refuse(nh_bench *c, const char *method, const char *why)
 {
-    out->refusal[out->refused++] = nh_arena_printf(out->arena, "%s: %s", method, why);
+    c->out->refusal[c->out->refused++] = nh_arena_printf(c->out->arena, "%s: %s", method, why);
 }
 
 static void list_candidates(nh_bench *c)
 {
-    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF"}; /* in the other formulations */
-    c->out->refusal = nh_arena_alloc(c->out->arena, (nh_method_count() + 1) * sizeof *c->out->refusal);
+    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF", "Lagrange-d'Alembert, order 4", "relaxation, order 8"}; /* in the other formulations */
+    c->out->refusal = nh_arena_alloc(c->out->arena, (nh_method_count() + 2 + NH_CHART_REDUCED) * sizeof *c->out->refusal);
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
         const char *why = nh_method_refused(m, c->formulation[0].programs);
-        if (why) refuse(c->out, m->name, why);
+        if (why) nh_bench_refuse(c, m->name, why);
         else add(c, m, 0, false);
     }
-    if (!c->yard.currents) refuse(c->out, "projection", "no current of this system is known");
-    else if (c->model->chart->implicit) refuse(c->out, "projection", "the constraints are solved by Newton's method inside the equations of motion");
+    if (!c->yard.currents) nh_bench_refuse(c, "projection", "no current of this system is known");
+    else if (c->model->chart->implicit) nh_bench_refuse(c, "projection", "the constraints are solved by Newton's method inside the equations of motion");
     else add(c, nh_method_find("GSL rk8pd"), 0, true);
     for (size_t f = 1; f < c->formulations; f++)
-        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) add(c, nh_method_find(elsewhere[i]), f, false);
+        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
+            const nh_method *m = nh_method_find(elsewhere[i]);
+            if (!m->order || (c->formulation[f].model && !nh_method_refused(m, c->formulation[f].programs))) add(c, m, f, false);
+        }
     for (int index = 1; index <= (c->model->k ? 2 : 1); index++) {
         add(c, NULL, c->formulations - 1, false);
         c->candidate[c->candidates - 1].index = index;
@@ -220,11 +228,11 @@ static void collect(nh_bench *c)
         if (c->grid[i].method) out->item[out->count++] = c->grid[i];
     for (size_t i = 0; i < out->count; i++) {
         nh_measured *m = &out->item[i];
-        m->front = m->status <= NH_WARNED;
+        m->front = m->status <= NH_WARNED && !m->reduced;
         for (size_t j = 0; j < out->count && m->front; j++) {
             const nh_measured *o = &out->item[j];
             double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement); /* smaller ones cannot be told apart */
-            if (o->status <= NH_WARNED && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
+            if (o->status <= NH_WARNED && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
         }
     }
 }
@@ -303,6 +311,7 @@ void nh_bench_close(nh_bench *c)
 {
     for (size_t f = 0; f < c->formulations; f++) nh_formulation_close(&c->formulation[f]);
     nh_yardstick_close(&c->yard);
+    nh_reduction_free(c->reduction);
     nh_model_free(c->other);
 }
 
@@ -337,8 +346,9 @@ nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_
 {
     nh_bench c;
     if (!open_somewhere(&c, request, budget, error)) return NULL;
-    c.begun = now(); /* the budget is for measuring: what came before is needed in any case */
     list_candidates(&c);
+    nh_chart_reduced(&c, request);
+    c.begun = now(); /* the budget is for measuring: what came before is needed in any case */
     measure_all(&c);
     collect(&c);
     nh_chart_derivatives(&c.formulation[0], c.out);

@@ -18,6 +18,7 @@ typedef struct {
     double seconds;              /* the least of some repetitions, without preparations */
     long evaluations;
     nh_measured_status status;
+    bool reduced;                /* of reduced equations, which compute less: errors are of their own states, and it does not count below */
     bool front;                  /* nothing measured is both faster and more accurate */
     const char *note;            /* why it failed, or empty */
 } nh_measured;

@@ -4,9 +4,11 @@
 
 #include "motion/method.h"
 #include "motion/projection.h"
+#include "reduction/reduced.h"
 #include "study/chart.h"
+#include "study/reduce.h"
 
-enum { NH_CHART_OUTPUTS = 9, NH_CHART_LEVELS = 5, NH_CHART_FORMULATIONS = 3, NH_CHART_CANDIDATES = 64 };
+enum { NH_CHART_OUTPUTS = 9, NH_CHART_LEVELS = 5, NH_CHART_FORMULATIONS = 3, NH_CHART_REDUCED = 4, NH_CHART_CANDIDATES = 64 };
 
 typedef struct {
     const char *name;
@@ -18,6 +20,8 @@ typedef struct {
     double *z0, *scale;
     nh_flow_problem problem;
     bool breaks;            /* the chart ends on the way */
+    nh_reduced_flow *reduced; /* reduced equations in (x, p); NULL: not reduced.  With a reference of their own: */
+    double *reference, *reference_scale, agreement; /* outputs x size; size; of two methods */
 } nh_formulation;
 
 /* What every run is compared with: (q, v) at the output times, scales, and the currents as functions of (t, q, v). */
@@ -52,6 +56,10 @@ void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *stat
 /* Exact derivatives and differences, in a chart. */
 void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out);
 
+/* Of a motion in reduced equations: the largest error in (x, p), and the drift of the energy. */
+double nh_reduced_error(const nh_formulation *f, const nh_motion *motion);
+double nh_reduced_drift(nh_formulation *f, const nh_motion *motion);
+
 /* ---- one motion, ready to be computed by any method ---- */
 
 typedef struct {
@@ -71,7 +79,8 @@ typedef struct {
     nh_state initial;
     nh_yardstick yard;
     size_t formulations, candidates;
-    nh_formulation formulation[NH_CHART_FORMULATIONS];
+    nh_formulation formulation[NH_CHART_FORMULATIONS + NH_CHART_REDUCED]; /* the reduced ones last */
+    nh_reduction *reduction;
     nh_contender candidate[NH_CHART_CANDIDATES];
     nh_measured *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
@@ -88,7 +97,12 @@ void nh_bench_close(nh_bench *bench);
 bool nh_bench_reference(nh_bench *bench, nh_error *error);
 /* Where there is none: errors are then infinite, drifts those from the initial state. */
 void nh_bench_no_reference(nh_bench *bench);
+/* Another candidate; a method that is not used, with the reason. */
+void nh_bench_add(nh_bench *bench, const nh_method *method, size_t formulation);
+void nh_bench_refuse(nh_bench *bench, const char *method, const char *why);
 /* One run, with repetitions for its time unless bench->once. */
 void nh_bench_measure(nh_bench *bench, nh_contender *candidate, double tolerance, double step, nh_measured *measured);
+/* The stages of the system's reduction as further formulations, where there is time for it. */
+void nh_chart_reduced(nh_bench *bench, const nh_simulate_request *request);
 
 #endif

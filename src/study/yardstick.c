@@ -39,6 +39,7 @@ bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t,
 
 void nh_formulation_close(nh_formulation *f)
 {
+    nh_reduced_flow_free(f->reduced);
     nh_programs_free(f->programs);
     nh_dynamics_free(f->dynamics);
     nh_bordered_free(f->bordered);
