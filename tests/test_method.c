@@ -223,6 +223,23 @@ Test(method, projection_holds_dependent_currents)
     mechanics_clear(&x);
 }
 
+/* Functions of others are not projected onto, nor what has no gradient of its own where the motion starts; each is told which. */
+Test(method, projection_chooses_independent_currents)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 0, NULL);
+    nh_model *o = x.model;
+    nh_ex a = formula(o, "v*sin(phi/k) + a*k*omega*cos(phi/k)"), b = formula(o, "v*cos(phi/k) - a*k*omega*sin(phi/k)");
+    nh_ex current[] = {o->E, nh_mul(o->dag, nh_int(o->dag, 2), o->E), a, b};
+    const double generic[5] = {0.3, 0, 0, 2, 0.6}, turning[5] = {0, 0, 0, 2, 0}, *start[] = {generic, turning};
+    static const char *const says[2][4] = {{NULL, "depends on the currents before", NULL, "depends on the currents before"}, {NULL, "depends on the currents before", "initial state", NULL}};
+    for (int i = 0; i < 2; i++) {
+        const char *why[4];
+        cr_expect_eq(nh_projection_choose(o, 4, current, 0, start[i], why), 2);
+        for (int k = 0; k < 4; k++) cr_expect(says[i][k] ? why[k] && strstr(why[k], says[i][k]) : !why[k], "%d, %d: %s", i, k, why[k] ? why[k] : "chosen");
+    }
+    mechanics_clear(&x);
+}
+
 /* Many output times change the motion of a one-step method only where steps end there. */
 Test(method, outputs_do_not_change_the_motion)
 {

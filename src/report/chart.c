@@ -1,4 +1,5 @@
 #include "report/chart.h"
+#include "report/chart_internal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -69,7 +70,8 @@ static void put_run(const nh_comparison *c, const nh_measured *m, nh_text *out)
     else nh_text_addf(out, "step %-13.3g", m->step);
     nh_text_addf(out, " %-8s", nh_measured_status_name(m->status));
     if (isfinite(m->error)) nh_text_addf(out, " error %-9.1e", m->error);
-    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++) nh_text_addf(out, " %s %.0e", c->current[k], m->drift[k]);
+    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++)
+        if (!isnan(m->drift[k])) nh_text_addf(out, " %s %.0e", c->current[k], m->drift[k]);
     nh_text_addf(out, " %s us %ld%s", isfinite(m->seconds) ? us : "-", m->evaluations, m->front ? " *" : "");
     if (m->note && m->note[0]) nh_text_addf(out, "  %s", m->note);
     nh_text_add(out, "\n");
@@ -119,6 +121,7 @@ void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
         time_text(d->seconds, us);
         if (isfinite(d->seconds)) nh_text_addf(out, "    %-34s%10s us %6ld evaluations   off by %.0e\n", d->method, us, d->evaluations, d->error);
     }
+    nh_fits_text(c, verbose, out);
     if (verbose) nh_text_add(out, "\nAll runs (* nothing is both faster and more accurate)\n");
     for (size_t i = 0; i < c->count && verbose; i++) put_run(c, &c->item[i], out);
 }
@@ -158,7 +161,8 @@ static void put_item(const nh_comparison *c, const nh_measured *m, nh_json *list
     nh_json_put_number(item, "error", m->error);
     nh_json_put_number(item, "drift", m->worst_drift);
     nh_json *drifts = nh_json_put_object(item, "drifts");
-    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++) nh_json_put_number(drifts, c->current[k], m->drift[k]);
+    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++)
+        if (!isnan(m->drift[k])) nh_json_put_number(drifts, c->current[k], m->drift[k]);
     nh_json_put_number(item, "seconds", m->seconds);
     nh_json_put_number(item, "evaluations", (double)m->evaluations);
     nh_json_put_text(item, "status", nh_measured_status_name(m->status));
@@ -205,6 +209,7 @@ char *nh_comparison_json(const nh_comparison *c, const nh_stress *s)
         nh_json_put_number(item, "seconds", c->derivative[i].seconds);
         nh_json_put_number(item, "evaluations", (double)c->derivative[i].evaluations);
     }
+    nh_fits_json(c, root);
     nh_json *refused = nh_json_put_array(root, "refused");
     for (size_t i = 0; i < c->refused; i++) nh_json_add_text(refused, c->refusal[i]);
     nh_json_put_bool(root, "partial", c->partial);

@@ -31,6 +31,17 @@ typedef struct {
     long evaluations; /* of the right-hand side (of the exact derivatives: 1) */
 } nh_derivative;
 
+/* The null space of the sampled equations, solved in one way. */
+typedef struct {
+    size_t functions, columns, samples; /* of the ansatz; of the matrix (the symmetry route has more); points */
+    const char *basis, *route, *solver;
+    size_t rank, dimension, wanted; /* independent columns; of the null space; the same by the most careful way */
+    double gap;                  /* of the spectrum after the null values */
+    double error;                /* distance of the known currents from the space, at points not used; NAN: none is in the span */
+    double seconds;              /* rows and solution, without sampling */
+    bool good, undecided, right, front;
+} nh_fitted;
+
 typedef struct {
     nh_arena *arena;
     nh_simulation *question;     /* system, model, analysis */
@@ -43,6 +54,8 @@ typedef struct {
     nh_measured *item;           /* by method and formulation, loosest first */
     size_t derivatives;
     nh_derivative *derivative;
+    size_t fits;
+    nh_fitted *fit;              /* by functions and samples */
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */

@@ -81,9 +81,12 @@ typedef struct {
     size_t formulations, candidates;
     nh_formulation formulation[NH_CHART_FORMULATIONS + NH_CHART_REDUCED]; /* the reduced ones last */
     nh_reduction *reduction;
+    size_t held_currents;   /* those that a projection holds */
+    nh_ex *held;
     nh_contender candidate[NH_CHART_CANDIDATES];
     nh_measured *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
+    const nh_options *options;
     bool project, once; /* once: no repetitions, the time does not matter */
     bool hurried;       /* the reference ran out of time */
 } nh_bench;
@@ -102,6 +105,9 @@ void nh_bench_add(nh_bench *bench, const nh_method *method, size_t formulation);
 void nh_bench_refuse(nh_bench *bench, const char *method, const char *why);
 /* One run, with repetitions for its time unless bench->once. */
 void nh_bench_measure(nh_bench *bench, nh_contender *candidate, double tolerance, double step, nh_measured *measured);
+/* The discrete problem, in about so many seconds. */
+void nh_chart_fit(nh_bench *bench, double seconds);
+
 /* The stages of the system's reduction as further formulations, where there is time for it. */
 void nh_chart_reduced(nh_bench *bench, const nh_simulate_request *request);
 

@@ -159,7 +159,7 @@ void nh_yardstick_currents(nh_yardstick *y, nh_arena *arena)
     nh_free(e);
 }
 
-/* The size of a current is that of what it is made of: |Phi| and |dPhi/dy_j y_j|. */
+/* The size of a current is that of what it is made of: |Phi| and |dPhi/dy_j y_j|, y_j not below its least size. */
 void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
 {
     size_t m2 = 2 * y->model->m, n = y->currents;
@@ -177,11 +177,12 @@ void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
         for (size_t j = 0; j < m2; j++) y->scale[j] = fmax(y->scale[j], fabs(at[j]));
         for (size_t k = 0; k < n; k++) {
             double size = fabs(out[k]);
-            for (size_t j = 0; j < m2; j++) size = fmax(size, fabs(out[n + k * m2 + j] * at[j]));
+            for (size_t j = 0; j < m2; j++) size = fmax(size, fabs(out[n + k * m2 + j]) * fmax(fabs(at[j]), least));
             if (isfinite(size)) y->current_scale[k] = fmax(y->current_scale[k], size);
             if (i == 0) y->current_start[k] = out[k];
         }
     }
+    for (size_t k = 0; k < n; k++) y->current_scale[k] = y->current_scale[k] > 0 ? y->current_scale[k] : 1; /* zero, with all that it is made of */
     nh_tape_work_free(work);
     nh_free(in);
     nh_free(out);
