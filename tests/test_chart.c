@@ -11,6 +11,7 @@ static nh_comparison *compare(const char *path, const char *initial, double unti
     nh_simulate_request q = {.system_path = path, .initial = initial, .until_given = true};
     nh_options_default(&q.options);
     q.options.until = until;
+    q.options.chart_columns = 40; /* of the discrete problem */
     nh_comparison *c = nh_compare(&q, budget, &error);
     must(c != NULL, &error, path);
     return c;

@@ -26,7 +26,7 @@ static void put_scene(const nh_simulation *s)
     fprintf(stderr, "nhsym: %s\n", s->scene);
     if (s->idle && s->idle[0]) fprintf(stderr, "nhsym: %s\n", s->idle);
     if (s->compared)
-        fprintf(stderr, "nhsym: %.3g ms and %ld evaluations; the whole model takes %.3g ms and %ld, and differs by %.0e\n", 1e3 * s->motion->seconds, s->motion->evaluations,
+        fprintf(stderr, "nhsym: %.3g ms and %ld evaluations; the whole model takes %.3g ms and %ld, and differs by %.0e\n", 1e3 * s->scene_seconds, s->motion->evaluations,
                 1e3 * s->whole_seconds, s->whole_evaluations, s->whole_difference);
 }
 

@@ -44,6 +44,7 @@ void nh_fits_text(const nh_comparison *c, bool verbose, nh_text *out)
         }
     }
     nh_text_addf(out, "  * right, and no other of as many functions is both faster and more exact%s\n", verbose ? "" : "; --verbose shows all");
+    if (c->fits_partial) nh_text_add(out, "  there was no time for more functions; --budget allows more\n");
 }
 
 void nh_fits_json(const nh_comparison *c, nh_json *root)

@@ -56,6 +56,7 @@ typedef struct {
     nh_derivative *derivative;
     size_t fits;
     nh_fitted *fit;              /* by functions and samples */
+    bool fits_partial;           /* there was no time for more of them */
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */

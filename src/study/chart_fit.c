@@ -172,7 +172,7 @@ static void measure_level(fit *f)
             m->right = known[symmetry] && !m->undecided && m->dimension == m->wanted && !(m->error > f->options.agreement);
         }
     }
-    out->partial |= now() >= f->deadline;
+    out->fits_partial |= now() >= f->deadline;
 }
 
 static void mark_front(nh_comparison *out)
