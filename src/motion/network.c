@@ -67,7 +67,7 @@ static bool vanishes_in_balls(const nh_network *w, nh_ex d)
     bool zero = points > 0;
     for (size_t p = 0; p < points && zero; p++) {
         double bound;
-        for (size_t i = 0; i < o->system->parameters; i++) nh_ball_set_double(ball, o->parameter[i], o->parameter_value[i]);
+        for (size_t i = 0; i < o->system->parameters; i++) nh_ball_set_expression(ball, o->parameter[i], nh_number(o->dag, nh_num_decimal(o->parameter_value[i])));
         for (size_t i = 0; i < o->width; i++) nh_ball_set_double(ball, o->chart->symbol[i], o->chart->probe[p * o->width + i]);
         for (size_t k = 0; k < w->levels; k++) nh_ball_set_double(ball, w->level[k].constant, 0.7385 + 0.31 * (double)(p + k));
         zero = nh_ball_log10_bound(ball, d, &bound) && bound < -ball_digits;
