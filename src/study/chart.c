@@ -87,7 +87,7 @@ static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_meas
         for (size_t i = 0; i < n; i++) m->worst_drift = fmax(m->worst_drift, m->drift[i]);
     }
     bool steep = breaks_down(f, motion);
-    m->status = status_of(c->options, m, motion->complete && good, late(c) || now() > c->deadline, steep);
+    m->status = status_of(&c->options, m, motion->complete && good, late(c) || now() > c->deadline, steep);
     m->note = nh_arena_strdup(c->out->arena, steep && !motion->note[0] ? "the chart breaks down on the way" : motion->note);
     nh_free(states);
 }
@@ -138,7 +138,7 @@ bool nh_bench_reference(nh_bench *c, nh_error *error)
     size_t size = NH_CHART_OUTPUTS * 2 * c->model->m;
     double *states = nh_alloc_array(size, sizeof *states), *other = nh_alloc_array(size, sizeof *other);
     c->out->agreement = INFINITY;
-    for (size_t f = 0; f < c->formulations && !(c->out->agreement < c->options->chart_trusted); f++) {
+    for (size_t f = 0; f < c->formulations && !(c->out->agreement < c->options.chart_trusted); f++) {
         if (!states_of(c, f, first, reference_tolerance, states) || !states_of(c, f, second, second_tolerance, other)) continue;
         double *before = c->yard.state;
         c->yard.state = states;
@@ -230,7 +230,7 @@ static void measure_all(nh_bench *c)
                 c->out->partial = k->given_up = true;
                 continue;
             }
-            double step = fixed ? span / (c->options->chart_steps * pow(step_ratio, (double)level)) : NAN;
+            double step = fixed ? span / (c->options.chart_steps * pow(step_ratio, (double)level)) : NAN;
             nh_bench_measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
         }
 }
@@ -292,7 +292,7 @@ bool nh_bench_open_turned(nh_bench *c, const nh_simulate_request *request, size_
 {
     nh_arena *arena = nh_arena_create();
     nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
-    *c = (nh_bench){.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .options = &request->options, .project = request->project};
+    *c = (nh_bench){.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .options = request->options, .project = request->project};
     out->arena = arena;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();

@@ -242,7 +242,7 @@ void nh_chart_fit(nh_bench *c, double seconds)
     nh_comparison *out = c->out;
     nh_error ignored;
     nh_error_clear(&ignored);
-    fit f = {.c = c, .model = out->question->model, .options = *c->options, .deadline = now() + seconds};
+    fit f = {.c = c, .model = out->question->model, .options = c->options, .deadline = now() + seconds};
     uint64_t seed = (uint64_t)f.options.seed;
     nh_ex *letter = nh_alloc_array(3 * f.model->m + 1, sizeof *letter);
     size_t letters = letters_of(f.model, letter);

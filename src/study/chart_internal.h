@@ -86,7 +86,7 @@ typedef struct {
     nh_contender candidate[NH_CHART_CANDIDATES];
     nh_measured *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
-    const nh_options *options;
+    nh_options options;
     bool project, once; /* once: no repetitions, the time does not matter */
     bool hurried;       /* the reference ran out of time */
 } nh_bench;
