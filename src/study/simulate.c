@@ -259,12 +259,18 @@ static bool integrate_many(nh_simulation *s, const nh_simulate_request *q, const
     return true;
 }
 
-/* What the system file knows, in the model's chart. */
+/* What the system file knows, in the model's chart: currents, and the momenta p_s xi^s of its symmetries (which the scene tests). */
 static size_t known_currents(nh_simulation *s, nh_ex **out)
 {
     nh_error ignored;
-    size_t n = 0;
-    *out = nh_arena_alloc(s->arena, (s->system->currents + 1) * sizeof **out);
+    nh_dag *d = s->model->dag;
+    size_t n = 0, m = s->model->m;
+    *out = nh_arena_alloc(s->arena, (s->system->currents + s->system->symmetries + 1) * sizeof **out);
+    for (size_t i = 0; i < s->system->symmetries; i++) {
+        nh_ex momentum = nh_int(d, 0);
+        for (size_t j = 0; j < m; j++) momentum = nh_add(d, momentum, nh_mul(d, s->model->p[j], s->system->symmetry[i * m + j]));
+        (*out)[n++] = momentum;
+    }
     for (size_t k = 0; k < s->system->currents; k++) {
         nh_error_clear(&ignored);
         n += nh_analysis_to_chart(s->model, s->system->current[k].value, &(*out)[n], &ignored);
