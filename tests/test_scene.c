@@ -134,6 +134,33 @@ Test(scene, cyclic_momenta)
     mechanics_clear(&x);
 }
 
+/* Centre of mass and momentum remove a place and a velocity each, the angular momentum does not determine anything for long; a current that is not
+ * defined at the initial state is of no use there. */
+Test(scene, places_and_useless_currents)
+{
+    mechanics x = mechanics_of_file("systems/three_bodies.yaml", NH_CHART_AUTO, 0, NULL);
+    nh_ex current[8], e = formula(x.model, "x1");
+    nh_error error = {0};
+    size_t n = 0;
+    for (size_t k = 0; k < x.system->currents; k++) n += nh_analysis_to_chart(x.model, x.system->current[k].value, &current[n], &error);
+    double at[12] = {1, 0, -1, 0, 0, 1.3, 0.1, 0, 0, 0.4, 0, 0};
+    nh_state initial = {.q = at, .v = at + 6};
+    nh_trajectory *few = motion_of(x.model, &initial, 1, &e, true, n, current), *all = motion_of(x.model, &initial, 1, &e, false, 0, NULL);
+    cr_assert(few && all && few->scene && few->motion->complete);
+    cr_expect(few->scene->kept == 8 && few->scene->levels == 4, "%zu, %zu", few->scene->kept, few->scene->levels);
+    for (size_t i = 0; i < all->motion->count; i++) cr_expect_float_eq(few->value[i], all->value[i], 1e-7);
+    nh_trajectory_free(few);
+    nh_trajectory_free(all);
+    mechanics_clear(&x);
+    x = mechanics_of_file("systems/knife_edge.yaml", NH_CHART_AUTO, 0, NULL);
+    const double still[6] = {0.3, 0.2, 0.1, cos(0.1), sin(0.1), 0}; /* without turning: X has a pole */
+    nh_trajectory *t;
+    scene_along(&t, x.model, still, "x", "x - (x'*cos(p) + y'*sin(p))*sin(p)/p'");
+    for (size_t i = 0; i < t->motion->count; i++) cr_expect_float_eq(t->value[i], 0.3 + cos(0.1) * t->motion->time[i], 1e-8, "%g", t->value[i]);
+    nh_trajectory_free(t);
+    mechanics_clear(&x);
+}
+
 /* p = cos(x) y' + ... determines y' only until cos(x) = 0: the motion goes on with all that is needed. */
 Test(scene, a_current_that_ceases_to_determine)
 {

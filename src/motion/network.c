@@ -9,8 +9,8 @@
 
 static const double seems_zero = 1e-11; /* relative size below which a derivative may be identically zero */
 static const double ball_digits = 40;   /* to which it must vanish when its normal form is too large */
-static const double steady = 0.02;      /* least ratio of |A| at the probes to its largest: a velocity is determined everywhere */
-enum { ball_bits = 256, ball_points = 4, most_terms = 4000 };
+static const double steady = 0.02;      /* least ratio of |A| at the probes to its largest: a state is determined everywhere */
+enum { ball_bits = 256, ball_points = 4, most_terms = 4000, cost_of_state = 10 };
 
 static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
 
@@ -163,14 +163,26 @@ static void close_network(nh_network *w, bool proved)
     nh_free(row);
 }
 
-/* ---- velocities that currents determine ---- */
+static void estimate_cost(nh_network *w)
+{
+    nh_ex *e = nh_alloc_array(w->count + 1, sizeof *e);
+    size_t n = 0;
+    for (size_t j = 0; j < w->states; j++)
+        if (w->kept[j]) e[n++] = w->row[j];
+    nh_tape *tape = nh_network_tape(w, n, e, 0, NULL, NULL);
+    w->cost = nh_tape_length(tape) + cost_of_state * n;
+    nh_tape_free(tape);
+    nh_free(e);
+}
+
+/* ---- states that currents determine ---- */
 
 static void copy_network(nh_network *to, const nh_network *from)
 {
     size_t n = from->states, total = n + from->watches;
     *to = *from;
     to->row = nh_alloc_array(total + 1, sizeof *to->row);
-    to->level = nh_alloc_array(from->model->n + 1, sizeof *to->level);
+    to->level = nh_alloc_array(n + 1, sizeof *to->level);
     to->feeds = nh_alloc_array(total * n + 1, sizeof *to->feeds);
     to->kept = nh_alloc_array(n + 1, sizeof *to->kept);
     memcpy(to->row, from->row, total * sizeof *to->row);
@@ -204,8 +216,8 @@ static bool determines(const nh_network *w, nh_ex slope, nh_ex curvature)
     return good && least > steady * most && is_zero(w, curvature);
 }
 
-/* Remove velocity j by this current; false when it does not determine it. */
-static bool remove_velocity(nh_network *w, nh_ex current, size_t j)
+/* Remove state j by this current; false when it does not determine it, or not at every time. */
+static bool remove_state(nh_network *w, nh_ex current, size_t j)
 {
     const nh_model *o = w->model;
     nh_dag *d = o->dag;
@@ -215,7 +227,7 @@ static bool remove_velocity(nh_network *w, nh_ex current, size_t j)
         phi = nh_substitute(d, phi, 1, &v, &w->level[k].value);
     }
     nh_ex slope = nh_diff(d, phi, x);
-    if (nh_is_zero(d, slope) || !determines(w, slope, nh_diff(d, slope, x))) return false;
+    if (nh_is_zero(d, slope) || nh_depends(d, slope, o->system->t) || !determines(w, slope, nh_diff(d, slope, x))) return false;
     slope = nh_substitute(d, slope, 1, &x, &zero);
     nh_level *l = &w->level[w->levels];
     *l = (nh_level){.current = current, .constant = nh_symbol_fresh(d, "c"), .state = j, .slope = slope};
@@ -234,13 +246,15 @@ static bool improve(nh_network *w, size_t n, const nh_ex *current)
     for (size_t c = 0; c < n; c++) {
         bool used = false;
         for (size_t k = 0; k < w->levels; k++) used |= w->level[k].current == current[c];
-        for (size_t j = w->model->m; j < w->states && !used; j++) {
+        for (size_t j = 0; j < w->states && !used; j++) {
             nh_network trial;
             if (!w->kept[j]) continue;
             copy_network(&trial, w);
-            bool better = remove_velocity(&trial, current[c], j);
+            bool better = remove_state(&trial, current[c], j);
             if (better) close_network(&trial, false);
-            better = better && trial.count < w->count && (!best.row || trial.count < best.count);
+            better = better && trial.count < w->count && (!best.row || trial.count <= best.count);
+            if (better) estimate_cost(&trial);
+            better = better && trial.cost < w->cost && (!best.row || trial.count < best.count || trial.cost < best.cost);
             if (better) nh_network_clear(&best), best = trial;
             else nh_network_clear(&trial);
         }
@@ -256,15 +270,16 @@ void nh_network_init(nh_network *w, const nh_model *o, size_t watches, const nh_
     nh_network plain = {.model = o, .states = o->m + o->n, .watches = watches}, small;
     size_t total = plain.states + watches;
     plain.row = nh_alloc_array(total + 1, sizeof *plain.row);
-    plain.level = nh_alloc_array(o->n + 1, sizeof *plain.level);
+    plain.level = nh_alloc_array(plain.states + 1, sizeof *plain.level);
     plain.feeds = nh_alloc_array(total * plain.states + 1, sizeof *plain.feeds);
     plain.kept = nh_alloc_array(plain.states + 1, sizeof *plain.kept);
     memcpy(plain.row, o->rho, o->m * sizeof *plain.row);
     memcpy(plain.row + o->m, o->a, o->n * sizeof *plain.row);
     memcpy(plain.row + plain.states, watched, watches * sizeof *plain.row);
     close_network(&plain, true);
+    estimate_cost(&plain);
     copy_network(&small, &plain);
-    while (small.levels < o->n && !o->chart->implicit && improve(&small, n, current)) continue;
+    while (small.levels < small.states && !o->chart->implicit && improve(&small, n, current)) continue;
     if (small.levels) close_network(&small, true);
     bool better = small.count < plain.count;
     *w = better ? small : plain;

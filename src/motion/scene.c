@@ -5,7 +5,7 @@
 
 #include "expr/diff.h"
 
-static const double smallest_slope = 0.03; /* of a current, relative to the start, below which its velocity loses digits */
+static const double smallest_slope = 0.03; /* of a current, relative to the start, below which its state loses digits */
 
 static const double same_rows = 1e-9;      /* relative difference of two forms of one row that is rounding */
 
@@ -163,14 +163,15 @@ struct nh_scene_run {
     nh_tape_work *rate, *jacobian, *removed;
     const nh_flow_problem *whole;
     double *point; /* (t, q, w, u, c): dropped states at their initial values, implicit velocities at their last ones */
-    double *level, *slope; /* velocities that currents determine, and the slopes after them; the slopes at the start */
+    long failed;           /* the level that does not determine its state; -1 */
+    double *level, *slope; /* states that currents determine, and the slopes after them; the slopes at the start */
 };
 
 nh_scene_run *nh_scene_run_create(const nh_scene *s, double t, const double *z0)
 {
     size_t width = s->model->width;
     nh_scene_run *run = nh_alloc(sizeof *run);
-    *run = (nh_scene_run){.scene = s, .point = nh_alloc_array(width + s->levels + 1, sizeof *run->point), .level = nh_alloc_array(3 * s->levels + 1, sizeof *run->level)};
+    *run = (nh_scene_run){.scene = s, .failed = -1, .point = nh_alloc_array(width + s->levels + 1, sizeof *run->point), .level = nh_alloc_array(3 * s->levels + 1, sizeof *run->level)};
     run->slope = run->level + 2 * s->levels;
     if (s->rate) run->rate = nh_tape_work_create(s->rate);
     if (s->jacobian) run->jacobian = nh_tape_work_create(s->jacobian);
@@ -183,8 +184,14 @@ nh_scene_run *nh_scene_run_create(const nh_scene *s, double t, const double *z0)
     nh_tape_work_free(work);
     nh_tape_eval(s->removed, run->removed, run->point, run->level);
     memcpy(run->slope, run->level + s->levels, s->levels * sizeof *run->slope);
+    for (size_t k = 0; k < s->levels && run->failed < 0; k++) { /* does it give back what was there? */
+        double at = z0[s->state[s->kept + k]];
+        if (!(fabs(run->level[k] - at) <= same_rows * (1 + fabs(at)))) run->failed = (long)k;
+    }
     return run;
 }
+
+long nh_scene_run_failed(const nh_scene_run *run) { return run->failed; }
 
 void nh_scene_run_free(nh_scene_run *run)
 {
@@ -205,7 +212,7 @@ static bool place(nh_scene_run *run, double t, const double *z)
     return !s->implicit || nh_chart_complete(s->model->chart, run->point);
 }
 
-/* The velocities that currents determine, into the point; false when one is not determined there. */
+/* The states that currents determine, into the point; false when one is not determined there. */
 static bool place_removed(nh_scene_run *run)
 {
     const nh_scene *s = run->scene;
@@ -213,7 +220,7 @@ static bool place_removed(nh_scene_run *run)
     nh_tape_eval(s->removed, run->removed, run->point, run->level);
     for (size_t k = 0; k < s->levels; k++) {
         run->point[1 + s->state[s->kept + k]] = run->level[k];
-        if (!(run->level[s->levels + k] / run->slope[k] > smallest_slope)) return false;
+        if (!(run->level[s->levels + k] / run->slope[k] > smallest_slope)) return run->failed = (long)k, false;
     }
     return true;
 }

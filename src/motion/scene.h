@@ -1,7 +1,7 @@
 /* scene: the smallest closed part of a model that what is watched needs.
  *
  * The states are z = (q, w), z' = f(t, z) = (rho, a).  The states that feed a watched quantity, directly or through others (network.h), are a
- * closed system: the rest of the model cannot change what is watched.  Conserved currents may determine some velocities, which then need no
+ * closed system: the rest of the model cannot change what is watched.  Conserved currents may determine some of them, which then need no
  * equation.  Of the states that are kept, those that no other kept state reads are quadratures: they follow from the others by integration alone,
  * in layers.  What is left is the core.
  *
@@ -18,7 +18,7 @@ typedef struct {
     nh_arena *arena;
     size_t states;                  /* m + n of the whole model */
     size_t core, quadratures, kept; /* kept = core + quadratures */
-    size_t levels;                  /* velocities that conserved currents determine */
+    size_t levels;                  /* states that conserved currents determine */
     size_t *state;                  /* states, as indices into (q, w): the core, then the quadratures in an order in which they can be
                                        integrated, then those that currents determine, then those dropped */
     bool implicit;                  /* implicit velocities are needed */
@@ -38,10 +38,12 @@ void nh_scene_free(nh_scene *scene);
 typedef struct nh_scene_run nh_scene_run;
 nh_scene_run *nh_scene_run_create(const nh_scene *scene, double t, const double *z0);
 void nh_scene_run_free(nh_scene_run *run);
+/* The level whose current does not determine its state: at the start or at the last point that was asked for; -1: none. */
+long nh_scene_run_failed(const nh_scene_run *run);
 /* `whole`: the problem of the whole model, whose guards are watched; it must live as long as the run.  May be NULL. */
 nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole);
 /* The point (t, q, w, u) that belongs to the kept states z; width entries.  False when the implicit velocities cannot be found, or a current no longer
- * determines its velocity. */
+ * determines its state. */
 bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point);
 
 /* "2 of 5 states integrated (omega, v), phi and x by quadrature, y dropped; 5 of 8 instructions" */
