@@ -307,6 +307,8 @@ const nh_reduced_chart *nh_atlas_at(nh_atlas *a, const double *q, const double *
     return NULL;
 }
 
+bool nh_atlas_start(const nh_atlas *a, const double *q, const double *v, double *z) { return a->count > 0 && enter(a, a->chart[0], q, v, z); }
+
 /* ---- along the orbits ---- */
 
 typedef struct {

@@ -37,6 +37,9 @@ const nh_action *nh_atlas_action(const nh_atlas *atlas);
  * z = (x, p) there.  NULL with a message where there is none. */
 const nh_reduced_chart *nh_atlas_at(nh_atlas *atlas, const double *q, const double *v, double *z, nh_error *error);
 
+/* The state z in the first chart that was added; false where that is singular. */
+bool nh_atlas_start(const nh_atlas *atlas, const double *q, const double *v, double *z);
+
 /* Where the equations of a chart could not be integrated although its guards are good: a chart that is made for this place.  Linear systems are eliminated
  * for it; and where the coordinates are nearly singular the place is moved along its orbit: to exp(-moved_a e_a) q for one of the generators (moved: d values, all
  * but one are zero), by another way in another attempt (from 0).  q and v are overwritten with what was moved. */

@@ -208,6 +208,8 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas
     options.tolerance = b->rtol;
     options.steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
     if (nh_reduction_late(r, "the motion of a stage")) return;
+    double *start = nh_arena_alloc(r->arena, (s->reduced->n + s->reduced->r + 1) * sizeof *start);
+    if (nh_atlas_start(atlas, q, v, start)) s->start = start;
     reduced_alone(b, s, atlas, q, v, &options);
     if (!reduced_and_group(b, s, atlas, &options, q, v, want, stride, reached) || s->agreement <= apart * r->options.tolerance) return;
     nh_reduction_stage before = *s;
