@@ -122,6 +122,7 @@ void nh_chart_reduced(nh_bench *c, const nh_simulate_request *q)
         const char *name = nh_arena_printf(c->out->arena, "reduced by %s", s->group);
         if (!s->start || !s->compared) nh_bench_refuse(c, name, s->note[0] ? s->note : "its motion could not be compared with the full one");
         else if (!(s->agreement < same_motion)) nh_bench_refuse(c, name, nh_arena_printf(c->out->arena, "its motion differs from the full one by %.0e", s->agreement));
+        else if (!s->reduced->conservative) nh_bench_refuse(c, name, "with forces, or a constraint that does work, its energy says nothing about its error");
         else if (!open_stage(c, s)) nh_bench_refuse(c, name, "its motion does not reach the end by two methods that agree");
         else
             for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) nh_bench_add(c, nh_method_find(methods[k]), c->formulations - 1);
