@@ -46,6 +46,7 @@
     X(transversal,      5e-3,   0,      1,     real,  "",         "a group is divided out by Chaplygin reduction when its orbits stay so far from the distribution") \
     X(cluster,          2e-3,   0,      1,     real,  "",         "eigenvalues nearer than this part of the largest belong to one ideal of an algebra") \
     X(transport,        1e-11,  1e-14,  1e-4,  real,  "",         "tolerance to which 1-jets of symmetries are transported")             \
+    X(compile,          1,       0,      1e6,   real,  "",         "a motion's equations are compiled once interpreting them took so many times what compiling takes; 0: never") \
     X(check_seconds,    4,       0.01,   1e7,   real,  "s",        "time that the motions of the check may take together")                   \
     X(until,            10,      -1e9,   1e9,   real,  "time",     "end of the validation motion")
 

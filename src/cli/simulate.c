@@ -31,6 +31,7 @@ static void put_table(const nh_cli *cli, const nh_simulation *s)
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (s->scene && (cli->watch || cli->scene)) fprintf(stderr, "nhsym: %s\n", s->scene);
+    if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
     if (s->checked && s->accuracy.held) fprintf(stderr, "nhsym: %s\n", s->accuracy.why);
     if (s->ensemble && s->ensemble->alone) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
 }

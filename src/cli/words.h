@@ -40,7 +40,7 @@
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate chart reduce", "any number of `nhsym explain options`")    \
     X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze", "what is being done, on standard error")                                 \
     X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate chart reduce new", "-q: no summary")                       \
-    X('v',             "verbose",     no_argument,       "",                   "analyze chart reduce", "-v: more of it")                                           \
+    X('v',             "verbose",     no_argument,       "",                   "analyze simulate chart reduce", "-v: more of it")                                    \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate chart reduce", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: the options of the command")                                               \
     X(opt_version,     "version",     no_argument,       "",                   "", "the version")

@@ -17,6 +17,10 @@ typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
+/* Long motions pass to machine code (nh_tape_hasten).  The words say whether they have; NULL: nothing was tried. */
+void nh_dynamics_hasten(nh_dynamics *dynamics, double patience);
+double nh_dynamics_patience(const nh_dynamics *dynamics);
+const char *nh_dynamics_words(const nh_dynamics *dynamics);
 /* Does the model's chart have a pivot to watch? */
 bool nh_dynamics_watched(const nh_model *model);
 const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);
@@ -36,6 +40,8 @@ bool nh_dynamics_point(nh_dynamics *dynamics, double t, const double *z, double 
 typedef struct nh_bordered nh_bordered;
 nh_bordered *nh_bordered_create(const nh_model *model);
 void nh_bordered_free(nh_bordered *bordered);
+void nh_bordered_hasten(nh_bordered *bordered, double patience);
+const char *nh_bordered_words(const nh_bordered *bordered);
 nh_chetaev_problem nh_bordered_problem(nh_bordered *bordered);
 /* The same equations solved for the accelerations: (q, v)' = (v, v'(t, q, v)), regular wherever the constraints are independent,
  * whatever the charts do. */

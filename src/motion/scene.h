@@ -32,6 +32,9 @@ void nh_scene_free(nh_scene *scene);
 typedef struct nh_scene_run nh_scene_run;
 nh_scene_run *nh_scene_run_create(const nh_scene *scene, const double *z0);
 void nh_scene_run_free(nh_scene_run *run);
+/* As nh_dynamics_hasten. */
+void nh_scene_run_hasten(nh_scene_run *run, double patience);
+const char *nh_scene_run_words(const nh_scene_run *run);
 /* `whole`: the problem of the whole model, whose guards are watched; it must live as long as the run.  May be NULL. */
 nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole);
 /* The point (t, q, w, u) that belongs to the kept states z; width entries.  False when the implicit velocities cannot be found. */

@@ -1,6 +1,7 @@
 #include "motion/trajectory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -134,11 +135,18 @@ static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion
     return any || !good;
 }
 
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *given, nh_error *error)
+static void say_machine(const char *words, char *machine)
+{
+    enum { room = 320 };
+    snprintf(machine, room, "%s", words ? words : "interpreted");
+}
+
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *given, char *machine, nh_error *error)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
     size_t m = o->m;
     nh_bordered *b = nh_bordered_create(o);
+    nh_bordered_hasten(b, nh_dynamics_patience(dynamics));
     nh_flow_problem problem = nh_bordered_flow(b);
     nh_flow_options options = *given;
     double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
@@ -148,6 +156,7 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, 
     options.scale = scale;
     bool good = nh_along(dynamics, &first, m, o->rho, y + m);
     nh_motion *motion = good ? nh_method_flow(method ? method : nh_method_find(usual), &problem, y, count, times, &options, error) : NULL;
+    if (machine) say_machine(nh_bordered_words(b), machine);
     nh_free(scale);
     nh_free(y);
     nh_bordered_free(b);
@@ -198,10 +207,12 @@ static bool in_scene(job *j, nh_error *error)
     nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_scene_problem(run, &whole);
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
+    nh_scene_run_hasten(run, j->q->options->compile);
     nh_motion *motion = s->kept ? nh_method_flow(j->method, &problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
     bool good = motion && !(nh_may_leave_chart(j->q->model) && (!motion->complete || scene_is_steep(s, run, motion)));
     if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
     j->out->motion = motion;
+    say_machine(nh_scene_run_words(run), j->out->machine);
     nh_free(small);
     nh_scene_run_free(run);
     if (good) return true;
@@ -217,13 +228,14 @@ static void in_all_states(job *j, nh_error *error)
     const nh_trajectory_request *q = j->q;
     nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
     nh_motion *motion = j->leave ? NULL : nh_method_flow(j->method, &problem, j->z0, q->count, q->times, &j->how, error);
+    say_machine(nh_dynamics_words(j->dynamics), j->out->machine);
     bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
     bool out_of_time = q->max_seconds > 0 && late(&j->deadline);
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
-        motion = nh_motion_everywhere(j->dynamics, j->method, j->z0, q->count, q->times, &j->how, error);
+        motion = nh_motion_everywhere(j->dynamics, j->method, j->z0, q->count, q->times, &j->how, j->out->machine, error);
     }
     j->out->motion = motion;
     if (motion && q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
@@ -236,6 +248,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
     job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = now() + q->max_seconds};
     double *scale = nh_alloc_array(size + 1, sizeof *scale);
+    nh_dynamics_hasten(j.dynamics, q->options->compile);
     for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
     if (q->max_seconds > 0) j.how.cancelled = late;
