@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "base/output.h"
+#include "base/progress.h"
 #include "cli/cli.h"
 #include "report/motion.h"
 
@@ -49,8 +50,11 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
-    nh_simulation *s = nh_cli_motion_request(cli, example, &request, error) ? nh_simulate(&request, error) : NULL;
-    if (!s) return error->code;
+    bool asked = nh_cli_motion_request(cli, example, &request, error);
+    if (asked) nh_cli_watch_begin(cli);
+    nh_simulation *s = asked ? nh_simulate(&request, error) : NULL;
+    if (asked) nh_cli_watch_end();
+    if (!s) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
     bool good = true;
     put_table(cli, s);
     if (cli->json) {
@@ -61,5 +65,5 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     }
     if (good) complain(s, error);
     nh_simulation_free(s);
-    return error->code;
+    return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
 }

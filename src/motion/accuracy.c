@@ -12,7 +12,7 @@ static const double usual_exponent = 0.7, least_exponent = 0.2, most_exponent = 
 static const double step = 0.1;           /* at most, from one tolerance to the next */
 static const double disturbance = 1e-15;  /* relative, of the start of every second run: what rounding errors grow to is then seen in the differences */
 static const double amplified = 1e3;      /* an error so many times the tolerance is confirmed by another method */
-static const double quick = 0.1, faster = 5; /* a first run that takes longer than these seconds is compared with CVODE BDF, which must be so many times faster */
+static const double quick = 0.25, faster = 20; /* a first run that takes longer than these seconds is compared with CVODE BDF, which must be so many times faster */
 
 typedef struct {
     const nh_trajectory_request *request;

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/progress.h"
+
 static const char *const usual = "CVODE Adams";
 static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
 
@@ -182,7 +184,7 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static bool late(void *context) { return now() > *(double *)context; }
+static bool late(void *context) { return nh_interrupted() || now() > *(double *)context; }
 
 /* CVODE watches the pivot of the chart; before another method runs, it looks whether there is anything to watch for. */
 static void look_ahead(job *j)
@@ -231,7 +233,7 @@ static void in_all_states(job *j, nh_error *error)
     say_machine(nh_dynamics_words(j->dynamics), j->out->machine);
     bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
-    bool out_of_time = q->max_seconds > 0 && late(&j->deadline);
+    bool out_of_time = late(&j->deadline);
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
@@ -246,12 +248,12 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     size_t size = q->model->m + q->model->n;
     nh_trajectory *out = nh_alloc(sizeof *out);
     *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
-    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = now() + q->max_seconds};
+    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? now() + q->max_seconds : INFINITY};
     double *scale = nh_alloc_array(size + 1, sizeof *scale);
     nh_dynamics_hasten(j.dynamics, q->options->compile);
     for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
-    if (q->max_seconds > 0) j.how.cancelled = late;
+    j.how.cancelled = late;
     j.how.cancel_context = &j.deadline;
     nh_error ignored;
     nh_error_clear(&ignored);
