@@ -49,6 +49,8 @@ for name in tape nullspace chain ensemble stress; do
     if [ -x "$build/tests/bench_$name" ]; then "$build/tests/bench_$name" >"$work/$name" || exit 1; fi
 done
 
+echo "  bench: growth" >&2
+sh tests/bench_growth.sh "$build" >"$work/growth" || exit 1
 echo "  bench: accuracy" >&2
 "$build/tests/bench_accuracy" systems >"$work/accuracy" || exit 1
 
@@ -144,6 +146,11 @@ if [ -s "$work/chain" ]; then
 else
     say "Not measured: build/tests/bench_chain was not built." ""
 fi
+
+say "## Growth" "" "\`tests/bench_growth.sh build\`" "" \
+    "Medians of three whole runs of \`nhsym analyze\`, less that of \`nhsym version\`. How chains of bodies grow stands in the section before." ""
+cat "$work/growth" >>"$work/page"
+say ""
 
 say "## Many motions at once" ""
 many=""
