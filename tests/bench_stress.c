@@ -98,7 +98,8 @@ static void put_growth(const nh_model *o, const char *name, nh_midpoint_rule rul
     nh_error error;
     nh_error_clear(&error);
     nh_flow_options how = {.step = step, .scale = scale, .max_steps = 1e9, .rtol = 1e-10};
-    nh_motion *motion = nh_midpoint(o, rule, composed, z0, outputs, times, &how, &error);
+    nh_programs *programs = nh_programs_create(o);
+    nh_motion *motion = nh_midpoint(programs, rule, composed, z0, outputs, times, &how, &error);
     nh_tape *tape = nh_model_tape(o, 1, &o->E);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t i = 0; i < outputs; i++) {
@@ -116,6 +117,7 @@ static void put_growth(const nh_model *o, const char *name, nh_midpoint_rule rul
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_motion_free(motion);
+    nh_programs_free(programs);
 }
 
 static void nonreversible(void)
