@@ -18,8 +18,10 @@ field() { sed -n "${1}p" "$work/run" | cut -d' ' -f"$2"; }
 
 python=""
 for candidate in /usr/bin/python3 python3; do
-    "$candidate" -c 'import sympy, scipy' 2>/dev/null && python=$candidate && break
+    "$candidate" -c 'import numpy, sympy, scipy' 2>/dev/null && python=$candidate && break
 done
+octave=""
+command -v octave >/dev/null && octave --no-gui -qf --eval '[t, y] = ode45(@(t, y) -y, [0 1], 1);' >/dev/null 2>&1 && octave=octave
 
 # ---- measure ----
 echo "  bench: whole runs" >&2
@@ -31,10 +33,26 @@ if [ -n "$python" ]; then
     echo "  bench: SymPy and SciPy" >&2
     "$build/tests/bench_run" 10 -- "$build/nhsym" simulate sleigh -- "$build/nhsym" analyze sleigh -- "$python" tests/bench_sympy.py >"$work/sympy" || python=""
 fi
-for name in tape nullspace chain ensemble; do
+echo "  bench: side by side" >&2
+: >"$work/octave"
+[ -n "$octave" ] && { octave --no-gui -qf tests/bench_octave.m >"$work/octave" 2>/dev/null || : >"$work/octave"; }
+: >"$work/scipy"
+if [ -n "$python" ]; then
+    "$python" tests/bench_sympy.py 2>/dev/null | tail -n 1 >"$work/scipy"
+    OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 "$python" tests/bench_nullspace.py 1000 20000 >"$work/numpy" 2>/dev/null || : >"$work/numpy"
+fi
+# to the smallest of the errors that the others reached
+least=$(cat "$work/scipy" "$work/octave" | awk '{ if (x == "" || $NF + 0 < x + 0) x = $NF } END { print x == "" ? 1e-10 : x }')
+"$build/tests/bench_side" "$least" >"$work/side" || exit 1
+for name in tape nullspace chain ensemble stress; do
     echo "  bench: $name" >&2
     if [ -x "$build/tests/bench_$name" ]; then "$build/tests/bench_$name" >"$work/$name" || exit 1; fi
 done
+
+echo "  bench: growth" >&2
+sh tests/bench_growth.sh "$build" >"$work/growth" || exit 1
+echo "  bench: accuracy" >&2
+"$build/tests/bench_accuracy" systems >"$work/accuracy" || exit 1
 
 # ---- the page ----
 model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1)
@@ -69,14 +87,35 @@ if [ -n "$python" ]; then
          { printf "| `%s` | %s | %s | %s | %s |\n", n, $1, $2, $3, $4 }' "$work/sympy" >>"$work/page"
     say "" "Ratio of the medians: $ratio to \`simulate\`, $whole to the whole analysis." ""
 else
-    say "Not measured: python3 with SymPy and SciPy was not found (Debian: \`apt-get install python3-sympy python3-scipy\`)." ""
+    say "Not measured: python3 with NumPy, SymPy and SciPy was not found (Debian: \`apt-get install python3-numpy python3-sympy python3-scipy\`)." ""
 fi
+
+say "## Side by side, part by part" "" \
+    "\`build/tests/bench_side $least\`, \`python3 tests/bench_sympy.py\`, \`octave tests/bench_octave.m\`, \`python3 tests/bench_nullspace.py 1000 20000\`" "" \
+    "Inside one process each, without its start. The motion of the sleigh to t = 10, nhsym's to the least of the errors of the others; Octave gets equations derived by hand." \
+    "The null space is that of a matrix of 20 000 rows and 1000 columns, by the singular values of the matrix (as \`scipy.linalg.null_space\` does) and by those of R" \
+    "of its QR decomposition; nhsym's (see below) is that of a pair of matrices. One thread." "" \
+    "| | nhsym | SymPy and SciPy, NumPy | Octave ode45 |" "|---|---|---|---|"
+read -r side_derive side_move side_error <"$work/side"
+read -r scipy_derive scipy_move scipy_error <"$work/scipy"
+read -r octave_move octave_error <"$work/octave"
+read -r numpy_svd numpy_qr numpy_dimension <"$work/numpy"
+null_here=$(awk -F'|' '$2 + 0 == 1000 { print $6 + 0 }' "$work/nullspace")
+say "| derivation, ms | $side_derive | ${scipy_derive:-not installed} | by hand |" \
+    "| motion, ms (error) | $side_move ($side_error) | ${scipy_move:-not installed} ${scipy_error:+($scipy_error)} | ${octave_move:-not installed} ${octave_error:+($octave_error)} |" \
+    "| null space, s | $null_here | ${numpy_svd:-not installed}${numpy_qr:+, by QR first $numpy_qr} | |" ""
+ratio_of() { [ -n "$1" ] && [ -n "$2" ] && awk -v x="$1" -v y="$2" 'BEGIN { printf "%.1f", x / y }'; }
+derive_ratio=$(ratio_of "$scipy_derive" "$side_derive")
+move_ratio=$(ratio_of "$scipy_move" "$side_move")
+octave_ratio=$(ratio_of "$octave_move" "$side_move")
+numpy_ratio=$(ratio_of "$numpy_svd" "$null_here")
 
 say "## Evaluation of a right-hand side" ""
 batch=""
 if [ -s "$work/tape" ]; then
-    batch=$(awk -F'|' '/^\| sleigh/ && $4 + 0 == 256 && $8 + 0 > worst { worst = $8 + 0 } END { if (worst) print worst }' "$work/tape")
-    say "\`build/tests/bench_tape\`" ""
+    batch=$(awk -F'|' '/^\| sleigh/ && $4 + 0 == 256 && $10 + 0 > worst { worst = $10 + 0 } END { if (worst) print worst }' "$work/tape")
+    compiled=$(awk -F'|' '/^\| sleigh/ && $9 + 0 > worst { worst = $9 + 0 } END { if (worst) print worst }' "$work/tape")
+    say "\`build/tests/bench_tape\`" "" "Compiled: by the C compiler of this machine from the tape, the same bits ([motions.md](motions.md), section 6)." ""
     cat "$work/tape" >>"$work/page"
     say ""
 else
@@ -100,31 +139,63 @@ if [ -s "$work/chain" ]; then
     ten=$(awk -F'|' '$2 + 0 == 10 { print $3 + 0 }' "$work/chain")
     say "\`build/tests/bench_chain\`" "" \
         "Chains of n bodies on revolute joints, axes turned against each other. Building: from text to mass matrix and accelerations. By hand: composite" \
-        "rigid bodies, recursive Newton and Euler and Cholesky in C (\`tests/chain.h\`). The tape is interpreted, one point or a batch of 256 points at a" \
-        "time. Nanoseconds per point, the least of many short runs. The difference is that of the accelerations, relative." ""
+        "rigid bodies, recursive Newton and Euler and Cholesky in C (\`tests/chain.h\`). The tape is interpreted or compiled, one point, or interpreted for a batch of 256 points" \
+        "at a time. Nanoseconds per point, the least of many short runs. The difference is that of the accelerations, relative." ""
     cat "$work/chain" >>"$work/page"
     say ""
 else
     say "Not measured: build/tests/bench_chain was not built." ""
 fi
 
+say "## Growth" "" "\`tests/bench_growth.sh build\`" "" \
+    "Medians of three whole runs of \`nhsym analyze\`, less that of \`nhsym version\`. How chains of bodies grow stands in the section before." ""
+cat "$work/growth" >>"$work/page"
+say ""
+
 say "## Many motions at once" ""
 many=""
 if [ -s "$work/ensemble" ]; then
-    many=$(awk -F'|' '$3 + 0 > 0 && (least == "" || $7 + 0 < least) { least = $7 + 0 } END { print least }' "$work/ensemble")
+    many=$(awk -F'|' '$3 + 0 > 0 && (least == "" || $9 + 0 < least) { least = $9 + 0 } END { print least }' "$work/ensemble")
+    sleighs=$(awk -F'|' '/^\| sleigh/ { print $8 + 0 }' "$work/ensemble")
     say "\`build/tests/bench_ensemble\`" "" \
-        "The same motions by the same Runge-Kutta pair of order 8 at tolerance 1e-8: each alone, and in batches that take common steps. One thread; medians" \
-        "of 5. The difference is the largest of a final state, relative to 1 + its size." ""
+        "The same motions at tolerance 1e-8: each alone by CVODE Adams, each alone by a Runge-Kutta pair of order 8, and by this in batches that take common steps. One thread;" \
+        "medians of 3. The difference is the largest of a final state, relative to 1 + its size." ""
     cat "$work/ensemble" >>"$work/page"
     say ""
 else
     say "Not measured: build/tests/bench_ensemble was not built." ""
 fi
 
+say "## A wanted accuracy" "" "\`build/tests/bench_accuracy systems\`" "" \
+    "\`--accuracy\` on every shipped system, three starts and times each. Truth: Runge-Kutta of order 8 at 1e-14 where another pair agrees to a tenth of eps; of what is accepted" \
+    "nothing may be wrong. Cheapest: the run of rk8pd, rkf45 or CVODE Adams with the loosest tolerance that has an error below eps, found by trying; evaluations and time of all runs that" \
+    "\`--accuracy\` makes, over those of it. Not accepted are motions that end in a singularity, and some whose rounding errors grow beyond eps." ""
+cat "$work/accuracy" >>"$work/page"
+say ""
+accuracy_time=$(awk -F'|' '/^\| all/ { print $11 + 0 }' "$work/accuracy")
+accuracy_cases=$(awk -F'|' '/^\| all/ { print $3 + 0 }' "$work/accuracy")
+accuracy_wrong=$(awk -F'|' '/^\| all/ { print $5 + 0 }' "$work/accuracy")
+
+say "## Stress" "" "\`build/tests/bench_stress\`" "" \
+    "Cells of the maps that \`nhsym chart --over\` makes ([motions.md](motions.md), section 4), five methods on every value. Below: the energy of a motion that nothing turns round in time" \
+    "(a pendulum that rotates drives the direction of a velocity), and of one that is (it librates), by methods of fixed steps [ModinVerdier2020]." ""
+cat "$work/stress" >>"$work/page"
+say ""
+silent=$(awk -F'|' 'NR > 2 && NF == 10 { n += $9 } END { print n + 0 }' "$work/stress")
+
 say "## Aims" "" "| aim | measured | |" "|---|---|---|" \
     "| a whole run of \`nhsym analyze sleigh\` below 50 ms (median) | $median ms | $(holds "$median" 50) |" \
     "| and below 50 MB | $memory MB | $(holds "$memory" 50) |" \
     "| SymPy and SciPy, deriving and integrating the same sleigh, beaten by a factor of 40 | ${ratio:-not measured} | $([ -n "$ratio" ] && holds 40 "$ratio") |" \
+    "| the derivation by SymPy beaten by a factor of 40 | ${derive_ratio:-not measured} | $([ -n "$derive_ratio" ] && holds 40 "$derive_ratio") |" \
+    "| the motion by SciPy at no larger error beaten by a factor of 50 | ${move_ratio:-not measured} | $([ -n "$move_ratio" ] && holds 50 "$move_ratio") |" \
+    "| and that by Octave | ${octave_ratio:-not measured} | $([ -n "$octave_ratio" ] && holds 50 "$octave_ratio") |" \
+    "| the null space by NumPy's singular values beaten by a factor of 2 | ${numpy_ratio:-not measured} | $([ -n "$numpy_ratio" ] && holds 2 "$numpy_ratio") |" \
+    "| a compiled right-hand side at most 1.5 times as long as C by hand | ${compiled:-not measured} | $([ -n "$compiled" ] && holds "$compiled" 1.5) |" \
+    "| 10 000 sleighs at once at least 10 times as fast as one by one by CVODE | ${sleighs:-not measured} | $([ -n "$sleighs" ] && holds 10 "$sleighs") |" \
+    "| --accuracy: of $accuracy_cases motions none accepted and wrong | $accuracy_wrong | $(holds "$accuracy_wrong" 0) |" \
+    "| and its median time below 4 times that of the cheapest run that suffices | $accuracy_time | $(holds "$accuracy_time" 4) |" \
+    "| silently wrong cells in the maps of stress: none | $silent | $(holds "$silent" 0) |" \
     "| a batch of 256 points at most 1.2 times as long as scalar C by hand, per point | ${batch:-not measured} | $([ -n "$batch" ] && holds "$batch" 1.2) |" \
     "| a chain of ten bodies from text to its equations below 1 s | $([ -n "$ten" ] && echo "$ten s" || echo "not measured") | $([ -n "$ten" ] && holds "$ten" 1) |" \
     "| many motions at once at least 2 times as fast as one by one | ${many:-not measured} | $([ -n "$many" ] && holds 2 "$many") |" \

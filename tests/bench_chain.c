@@ -96,9 +96,9 @@ static double growth(size_t n, const double *bodies, const double *y)
 
 int main(int argc, char **argv)
 {
-    static double bodies[most_bodies], hand[most_bodies], tape[most_bodies], batch[most_bodies], build[most_bodies];
+    static double bodies[most_bodies], hand[most_bodies], tape[most_bodies], machine[most_bodies], batch[most_bodies], build[most_bodies];
     size_t rows = 0, last = argc > 1 ? (size_t)atoi(argv[1]) : most_bodies;
-    printf("| bodies | building, s | instructions | by hand, ns | tape, ns | tape / hand | batch, ns | batch / hand | difference |\n|---|---|---|---|---|---|---|---|---|\n");
+    printf("| bodies | building, s | instructions | by hand, ns | tape, ns | tape / hand | compiling, s | compiled, ns | compiled / hand | batch, ns | batch / hand | difference |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (size_t n = least_bodies; n <= last; n++) {
         tree t;
         nh_error error;
@@ -120,8 +120,12 @@ int main(int argc, char **argv)
         hand[rows] = measure(&j, by_hand);
         tape[rows] = measure(&j, by_tape);
         batch[rows] = measure_batch(&j);
-        printf("| %zu | %.3f | %zu | %.0f | %.0f | %.2f | %.0f | %.2f | %.0e |\n", n, build[rows], nh_tape_length(j.tape), hand[rows], tape[rows],
-               tape[rows] / hand[rows], batch[rows], batch[rows] / hand[rows], difference);
+        start = now();
+        bool compiled = nh_tape_compile(j.tape, j.work);
+        double compiling = now() - start;
+        machine[rows] = compiled ? measure(&j, by_tape) : NAN;
+        printf("| %zu | %.3f | %zu | %.0f | %.0f | %.2f | %.2f | %.0f | %.2f | %.0f | %.2f | %.0e |\n", n, build[rows], nh_tape_length(j.tape), hand[rows], tape[rows],
+               tape[rows] / hand[rows], compiling, machine[rows], machine[rows] / hand[rows], batch[rows], batch[rows] / hand[rows], difference);
         fflush(stdout);
         rows++;
         nh_tape_work_free(j.work);
@@ -130,7 +134,7 @@ int main(int argc, char **argv)
         nh_system_free(s);
         free(text);
     }
-    printf("\nFitted growth with the number n of bodies: by hand n^%.1f, tape n^%.1f, batch n^%.1f, building n^%.1f.\n", growth(rows, bodies, hand), growth(rows, bodies, tape),
-           growth(rows, bodies, batch), growth(rows, bodies, build));
+    printf("\nFitted growth with the number n of bodies: by hand n^%.1f, tape n^%.1f, compiled n^%.1f, batch n^%.1f, building n^%.1f.\n", growth(rows, bodies, hand), growth(rows, bodies, tape),
+           growth(rows, bodies, machine), growth(rows, bodies, batch), growth(rows, bodies, build));
     return 0;
 }

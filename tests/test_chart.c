@@ -226,7 +226,7 @@ static nh_stress *stress_of(const char *path, const char *initial, double until,
     nh_simulate_request q = {.system_path = path, .initial = initial, .until_given = true};
     nh_options_default(&q.options);
     q.options.until = until;
-    nh_stress *s = nh_stress_create(&q, budget, &error);
+    nh_stress *s = nh_stress_create(&q, NULL, budget, &error);
     must(s != NULL, &error, path);
     return s;
 }
@@ -259,6 +259,52 @@ Test(chart, stress_calls_right_only_what_is)
                   nh_measured_status_name(turned->cell[j].status));
     cr_expect(map_of(s, "parameter m")->cells == 7 * turned->methods && map_of(s, "long times") && map_of(s, "badly scaled"));
     nh_stress_free(s);
+}
+
+/* A map over two things that the user names: a range over decades is divided by ratios, one from 0 evenly. */
+Test(chart, stress_over_what_is_named)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "phi=0.1, omega=2", .until_given = true};
+    nh_options_default(&q.options);
+    q.options.until = 3;
+    nh_stress *s = nh_stress_create(&q, "a=1e-3:10:3, phi=0:6:4", 10, &error);
+    must(s != NULL, &error, "sleigh");
+    cr_assert(s->maps == 1 && s->map[0].cells == 12 * s->map[0].methods && !strcmp(s->map[0].axis, "a") && !strcmp(s->map[0].second_axis, "phi"));
+    static const double a[] = {1e-3, 0.1, 10}, phi[] = {0, 2, 4, 6};
+    for (size_t i = 0; i < s->map[0].cells; i++) {
+        const nh_stress_cell *c = &s->map[0].cell[i];
+        size_t value = i / s->map[0].methods;
+        cr_expect_float_eq(c->at, a[value / 4], 1e-12);
+        cr_expect_float_eq(c->second_at, phi[value % 4], 1e-12);
+        cr_expect(c->status != NH_WRONG && c->status != NH_FAILED, "%g, %g: %s", c->at, c->second_at, c->note);
+    }
+    nh_text text;
+    nh_text_init(&text);
+    nh_stress_text(s, true, &text);
+    cr_expect(strstr(nh_text_string(&text), "a and phi") && !strstr(nh_text_string(&text), "nan"));
+    nh_text_clear(&text);
+    nh_stress_free(s);
+}
+
+static void expect_no_map(const char *initial, const char *over, const char *what)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = initial};
+    nh_options_default(&q.options);
+    cr_expect_null(nh_stress_create(&q, over, 1, &error));
+    cr_expect(strstr(error.what, what) && error.hint[0], "%s: %s", over, error.what);
+}
+
+Test(chart, stress_over_what_is_not_there)
+{
+    expect_no_map("omega=2", "nothing=1:2", "no such parameter, coordinate, velocity or option");
+    expect_no_map(NULL, "omega=1:2", "not given");
+    expect_no_map("omega=2", "a", "is no range");
+    expect_no_map("omega=2", "a=1", "is no range");
+    expect_no_map("omega=2", "a=1:2:0", "is no range");
+    expect_no_map("omega=2", "a=1:2:x", "is no range");
+    expect_no_map("omega=2", "a=1:2, k=1:2, m=1:2", "at most 2");
 }
 
 Test(chart, stress_as_text_and_json)

@@ -36,7 +36,7 @@ int nh_cli_chart(nh_cli *cli, nh_error *error)
     if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error)) return error->code;
     double budget = cli->budget > 0 ? cli->budget : cli->stress ? 30 : 5;
     nh_comparison *c = nh_compare(&request, cli->stress ? budget / 2 : budget, error);
-    nh_stress *s = c && cli->stress ? nh_stress_create(&request, budget / 2, error) : NULL;
+    nh_stress *s = c && cli->stress ? nh_stress_create(&request, cli->over, budget / 2, error) : NULL;
     if (c && error->code == NH_OK) write_all(cli, c, s, error);
     nh_stress_free(s);
     nh_comparison_free(c);

@@ -25,6 +25,7 @@ typedef struct {
     const char *group, *chain, *to; /* of reduce */
     bool project;
     const char *watch;           /* of simulate */
+    const char *over;            /* of chart */
     bool scene;
     double accuracy, spread;
     size_t ensemble;

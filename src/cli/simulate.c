@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "base/output.h"
+#include "base/progress.h"
 #include "cli/cli.h"
 #include "report/motion.h"
 
@@ -41,6 +42,7 @@ static void put_table(const nh_cli *cli, const nh_simulation *s)
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (s->scene && (cli->watch || cli->scene)) put_scene(s);
+    if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
     if (s->checked && s->accuracy.held) fprintf(stderr, "nhsym: %s\n", s->accuracy.why);
     if (s->ensemble && s->ensemble->alone) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
 }
@@ -58,8 +60,11 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
-    nh_simulation *s = nh_cli_motion_request(cli, example, &request, error) ? nh_simulate(&request, error) : NULL;
-    if (!s) return error->code;
+    bool asked = nh_cli_motion_request(cli, example, &request, error);
+    if (asked) nh_cli_watch_begin(cli);
+    nh_simulation *s = asked ? nh_simulate(&request, error) : NULL;
+    if (asked) nh_cli_watch_end();
+    if (!s) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
     bool good = true;
     put_table(cli, s);
     if (cli->json) {
@@ -70,5 +75,5 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     }
     if (good) complain(s, error);
     nh_simulation_free(s);
-    return error->code;
+    return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
 }

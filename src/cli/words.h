@@ -9,7 +9,7 @@
     X(opt_set,         "set",         required_argument, "NAME=VALUE",         "analyze verify simulate chart reduce", "another parameter value; repeatable")      \
     X(opt_analysis,    "analysis",    required_argument, "FILE",               "analyze simulate chart", "the ansatz and the motion")                              \
     X(opt_no_analysis, "no-analysis", no_argument,       "",                   "analyze simulate chart", "the program chooses them, whatever files there are")     \
-    X(opt_chart,       "chart",       required_argument, "auto|quasi|coordinates", "analyze verify simulate", "which velocities to compute in")                        \
+    X(opt_chart,       "chart",       required_argument, "auto|quasi|coordinates", "analyze verify simulate chart", "which velocities to compute in")                  \
     X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate chart reduce", "the result as JSON; with - nothing else is printed") \
     X(opt_html,        "html",        required_argument, "FILE",               "analyze", "the result as one page that needs nothing else")                        \
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze", "the result as a LaTeX document")                                        \
@@ -25,6 +25,7 @@
     X(opt_ensemble,    "ensemble",    required_argument, "N",                  "simulate", "many motions at once, from states around the initial one")             \
     X(opt_spread,      "spread",      required_argument, "S",                  "simulate", "how far around")                                                       \
     X(opt_stress,      "stress",      no_argument,       "",                   "chart", "maps of where the methods fail")                                          \
+    X(opt_over,        "over",        required_argument, "\"a=1e-9:1, omega=1:9\"", "chart", "the stress map of these ranges: parameters, initial values, options")    \
     X(opt_budget,      "budget",      required_argument, "TIME",               "chart", "how long to measure: 5s, 200ms")                                          \
     X(opt_svg,         "svg",         required_argument, "FILE",               "chart", "time against error as a picture")                                         \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce", "\"1, 2\" or \"x=1; theta=1\": what to reduce by")                        \
@@ -40,7 +41,7 @@
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate chart reduce", "any number of `nhsym explain options`")    \
     X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze", "what is being done, on standard error")                                 \
     X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate chart reduce new", "-q: no summary")                       \
-    X('v',             "verbose",     no_argument,       "",                   "analyze chart reduce", "-v: more of it")                                           \
+    X('v',             "verbose",     no_argument,       "",                   "analyze simulate chart reduce", "-v: more of it")                                    \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate chart reduce", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: the options of the command")                                               \
     X(opt_version,     "version",     no_argument,       "",                   "", "the version")

@@ -370,6 +370,11 @@ void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, dou
 {
     static void *const plain[] = {[NH_OP_ADD] = &&add, [NH_OP_SUB] = &&sub, [NH_OP_MUL] = &&mul, [NH_OP_DIV] = &&div, [NH_OP_NEG] = &&other,
                                   [NH_OP_INV] = &&other, [NH_OP_SQUARE] = &&square, [NH_OP_SQRT] = &&other, [NH_OP_POW] = &&other};
+    if (work->code) {
+        work->code(in, out);
+        return;
+    }
+    if (work->left && --work->left == 0) nh_tape_look(tape, work, in);
     double *r = work->scalar;
     const nh_instruction *x = tape->code, *end = x + tape->length;
     if (tape->inputs) memcpy(r, in, tape->inputs * sizeof *r);

@@ -2,6 +2,7 @@
 #ifndef NH_TAPE_INTERNAL_H
 #define NH_TAPE_INTERNAL_H
 
+#include "expr/machine.h"
 #include "expr/tape.h"
 
 typedef enum {
@@ -27,6 +28,15 @@ struct nh_tape_work {
     double *scalar;  /* registers, for one point */
     double *batch;   /* (registers - inputs) rows of NH_BATCH */
     double **row;    /* registers: pointers into batch or to the inputs */
+    nh_machine_code *code; /* instead of the instructions; NULL: these are interpreted */
+    nh_machine *machine;   /* where the code comes from, or will */
+    double patience;       /* it is compiled after so many times what compiling costs */
+    uint64_t left;         /* evaluations until the next look at it; 0: never */
+    double each;           /* seconds of an evaluation; 0: not measured yet */
+    const char *words;     /* why there is no machine; or NULL */
 };
+
+/* One look: time an evaluation, start the compiler, or see whether it is ready (tape_hasten.c). */
+void nh_tape_look(const nh_tape *tape, nh_tape_work *work, const double *in);
 
 #endif

@@ -273,7 +273,7 @@ static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *curre
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
         nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps, .seconds = time_left(r), .cancelled = nh_interrupted_callback};
-        nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, NULL, r->z0, r->outputs, r->times, &options, error) : reduced_motion(r, &options, error);
+        nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, NULL, r->z0, r->outputs, r->times, &options, NULL, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
         bool steep;
         nh_free(nh_steep_points(r->dynamics, motion, &steep));

@@ -17,6 +17,7 @@ struct nh_dynamics {
     nh_tape *constraint; /* df^a/dv^s (k x m, row-major), of constraints without poles; NULL: no pivot to watch */
     nh_tape_work *constraint_work;
     double *slope;       /* its values, and the k x k part of the dependent velocities */
+    double patience;
 };
 
 static nh_tape *rate_tape(const nh_model *o)
@@ -104,6 +105,17 @@ void nh_dynamics_free(nh_dynamics *d)
     nh_free(d->dense);
     nh_free(d);
 }
+
+void nh_dynamics_hasten(nh_dynamics *d, double patience)
+{
+    d->patience = patience;
+    nh_tape_hasten(d->rate_work, patience);
+    nh_tape_hasten(d->jacobian_work, patience);
+    if (d->constraint_work) nh_tape_hasten(d->constraint_work, patience);
+}
+
+double nh_dynamics_patience(const nh_dynamics *d) { return d->patience; }
+const char *nh_dynamics_words(const nh_dynamics *d) { return nh_tape_words(d->rate_work); }
 
 const nh_model *nh_dynamics_model(const nh_dynamics *d) { return d->model; }
 

@@ -17,6 +17,10 @@ typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
+/* Long motions pass to machine code (nh_tape_hasten).  The words say whether they have; NULL: nothing was tried. */
+void nh_dynamics_hasten(nh_dynamics *dynamics, double patience);
+double nh_dynamics_patience(const nh_dynamics *dynamics);
+const char *nh_dynamics_words(const nh_dynamics *dynamics);
 /* Does the model's chart have a pivot to watch? */
 bool nh_dynamics_watched(const nh_model *model);
 const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);

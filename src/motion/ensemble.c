@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "motion/tableau.h"
 #include "system/sample.h"
 
@@ -201,7 +202,7 @@ static bool go_to(batch *b, double target, long *steps)
                 b->h = wanted;
             }
         }
-        if ((double)++*steps > o->steps) return false;
+        if ((double)++*steps > o->steps || nh_interrupted()) return false;
     }
     return true;
 }
@@ -273,6 +274,14 @@ static void do_batch(size_t index, void *context)
 
 /* ---- members alone ---- */
 
+/* After an interruption: nothing more is computed. */
+static void give_up(nh_ensemble *e, size_t member)
+{
+    size_t each = e->count * e->n;
+    for (size_t i = 0; i < each; i++) e->value[member * each + i] = NAN;
+    if (!e->incomplete++) snprintf(e->note, sizeof e->note, "member %zu: interrupted", member);
+}
+
 static void do_alone(const plan *p, size_t member, nh_error *error)
 {
     nh_ensemble *e = p->out;
@@ -317,7 +326,8 @@ static void integrate(plan *p, size_t threads)
     for (size_t i = 0; i < e->members; i++) {
         if (together && !p->alone[i]) continue;
         nh_error_clear(&ignored);
-        do_alone(p, i, &ignored);
+        if (nh_interrupted()) give_up(e, i);
+        else do_alone(p, i, &ignored);
         e->alone++;
     }
     e->seconds = now() - begin;

@@ -191,6 +191,14 @@ nh_scene_run *nh_scene_run_create(const nh_scene *s, double t, const double *z0)
     return run;
 }
 
+void nh_scene_run_hasten(nh_scene_run *run, double patience)
+{
+    if (run->rate) nh_tape_hasten(run->rate, patience);
+    if (run->jacobian) nh_tape_hasten(run->jacobian, patience);
+}
+
+const char *nh_scene_run_words(const nh_scene_run *run) { return run->rate ? nh_tape_words(run->rate) : NULL; }
+
 long nh_scene_run_failed(const nh_scene_run *run) { return run->failed; }
 
 void nh_scene_run_free(nh_scene_run *run)

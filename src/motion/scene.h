@@ -38,6 +38,9 @@ void nh_scene_free(nh_scene *scene);
 typedef struct nh_scene_run nh_scene_run;
 nh_scene_run *nh_scene_run_create(const nh_scene *scene, double t, const double *z0);
 void nh_scene_run_free(nh_scene_run *run);
+/* As nh_dynamics_hasten. */
+void nh_scene_run_hasten(nh_scene_run *run, double patience);
+const char *nh_scene_run_words(const nh_scene_run *run);
 /* The level whose current does not determine its state: at the start or at the last point that was asked for; -1: none. */
 long nh_scene_run_failed(const nh_scene_run *run);
 /* `whole`: the problem of the whole model, whose guards are watched; it must live as long as the run.  May be NULL. */

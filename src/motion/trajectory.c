@@ -1,8 +1,11 @@
 #include "motion/trajectory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
+
+#include "base/progress.h"
 
 static const char *const usual = "CVODE Adams";
 static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
@@ -134,11 +137,18 @@ static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion
     return any || !good;
 }
 
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *given, nh_error *error)
+static void say_machine(const char *words, char *machine)
+{
+    enum { room = 320 };
+    snprintf(machine, room, "%s", words ? words : "interpreted");
+}
+
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *given, char *machine, nh_error *error)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
     size_t m = o->m;
     nh_bordered *b = nh_bordered_create(o);
+    nh_bordered_hasten(b, nh_dynamics_patience(dynamics));
     nh_flow_problem problem = nh_bordered_flow(b);
     nh_flow_options options = *given;
     double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
@@ -148,6 +158,7 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, 
     options.scale = scale;
     bool good = nh_along(dynamics, &first, m, o->rho, y + m);
     nh_motion *motion = good ? nh_method_flow(method ? method : nh_method_find(usual), &problem, y, count, times, &options, error) : NULL;
+    if (machine) say_machine(nh_bordered_words(b), machine);
     nh_free(scale);
     nh_free(y);
     nh_bordered_free(b);
@@ -173,7 +184,7 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static bool late(void *context) { return now() > *(double *)context; }
+static bool late(void *context) { return nh_interrupted() || now() > *(double *)context; }
 
 /* CVODE watches the pivot of the chart; before another method runs, it looks whether there is anything to watch for. */
 static void look_ahead(job *j)
@@ -198,6 +209,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_scene_problem(run, &whole);
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
+    nh_scene_run_hasten(run, j->q->options->compile);
     bool starts = s->kept && nh_scene_run_failed(run) < 0;
     nh_motion *motion = starts ? nh_method_flow(j->method, &problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
     bool good = motion && !(nh_may_leave_chart(j->q->model) && (!motion->complete || scene_is_steep(s, run, motion)));
@@ -211,6 +223,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
             if (current[k] == s->network.level[level].current) *failed = (long)k;
     }
     j->out->motion = motion;
+    say_machine(nh_scene_run_words(run), j->out->machine);
     nh_free(small);
     nh_scene_run_free(run);
     if (good) return true;
@@ -243,13 +256,14 @@ static void in_all_states(job *j, nh_error *error)
     const nh_trajectory_request *q = j->q;
     nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
     nh_motion *motion = j->leave ? NULL : nh_method_flow(j->method, &problem, j->z0, q->count, q->times, &j->how, error);
+    say_machine(nh_dynamics_words(j->dynamics), j->out->machine);
     bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
-    bool out_of_time = q->max_seconds > 0 && late(&j->deadline);
+    bool out_of_time = late(&j->deadline);
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
-        motion = nh_motion_everywhere(j->dynamics, j->method, j->z0, q->count, q->times, &j->how, error);
+        motion = nh_motion_everywhere(j->dynamics, j->method, j->z0, q->count, q->times, &j->how, j->out->machine, error);
     }
     j->out->motion = motion;
     if (motion && q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
@@ -260,11 +274,12 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     size_t size = q->model->m + q->model->n;
     nh_trajectory *out = nh_alloc(sizeof *out);
     *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
-    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = now() + q->max_seconds};
+    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? now() + q->max_seconds : INFINITY};
     double *scale = nh_alloc_array(size + 1, sizeof *scale);
+    nh_dynamics_hasten(j.dynamics, q->options->compile);
     for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
-    if (q->max_seconds > 0) j.how.cancelled = late;
+    j.how.cancelled = late;
     j.how.cancel_context = &j.deadline;
     nh_error ignored;
     nh_error_clear(&ignored);

@@ -11,7 +11,7 @@ typedef struct {
     const nh_state *initial;
     size_t count;             /* output times */
     const double *times;
-    const nh_options *options; /* tolerance, absolute, steps */
+    const nh_options *options; /* tolerance, absolute, steps, compile */
     size_t n;
     const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
     bool smallest;            /* integrate only what they need */
@@ -27,6 +27,7 @@ typedef struct {
     const char *method, *formulation;
     double *value;            /* count x n, row by row: value[i * n + k] */
     nh_scene *scene;          /* NULL: all states were integrated */
+    char machine[320];        /* how the equations were evaluated, in words */
 } nh_trajectory;
 
 /* In the chart, or in all coordinates where the chart breaks down on the way.  NULL with a message when nothing could be computed. */
@@ -41,8 +42,10 @@ bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh
 /* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
 
-/* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: CVODE Adams. */
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *options, nh_error *error);
+/* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: CVODE Adams.  `machine`: 320 bytes for how the
+ * equations were evaluated, or NULL. */
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *options, char *machine,
+                                nh_error *error);
 
 /* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
 bool nh_may_leave_chart(const nh_model *model);

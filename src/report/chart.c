@@ -128,6 +128,12 @@ void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
 
 /* ---- stress ---- */
 
+static void put_at(const nh_stress_map *map, const nh_stress_cell *cell, char *out, size_t size)
+{
+    if (map->second_axis) snprintf(out, size, "%.4g, %.4g", cell->at, cell->second_at);
+    else snprintf(out, size, "%.6g", cell->at);
+}
+
 void nh_stress_text(const nh_stress *s, bool verbose, nh_text *out)
 {
     nh_text_addf(out, "\nStress at tolerance %.0e: right is an error below %.0e\n", s->tolerance, s->accuracy);
@@ -136,13 +142,18 @@ void nh_stress_text(const nh_stress *s, bool verbose, nh_text *out)
         nh_text_addf(out, "\n  %s\n  %14s", map->name, "");
         for (size_t j = 0; j < map->methods; j++) nh_text_addf(out, "%23s", map->cell[j].method);
         for (size_t j = 0; j < map->cells; j++) {
-            if (j % map->methods == 0) nh_text_addf(out, "\n  %14.6g", map->cell[j].at);
+            char at[40];
+            put_at(map, &map->cell[j], at, sizeof at);
+            if (j % map->methods == 0) nh_text_addf(out, "\n  %14s", at);
             nh_text_addf(out, "%23s", nh_measured_status_name(map->cell[j].status));
         }
         nh_text_add(out, "\n");
-        for (size_t j = 0; j < map->cells && verbose; j++)
+        for (size_t j = 0; j < map->cells && verbose; j++) {
+            char at[40];
+            put_at(map, &map->cell[j], at, sizeof at);
             if (map->cell[j].note && map->cell[j].note[0])
-                nh_text_addf(out, "    %.6g, %s: %s: %s\n", map->cell[j].at, map->cell[j].method, nh_measured_status_name(map->cell[j].status), map->cell[j].note);
+                nh_text_addf(out, "    %s, %s: %s: %s\n", at, map->cell[j].method, nh_measured_status_name(map->cell[j].status), map->cell[j].note);
+        }
     }
     nh_text_add(out, "\n  in all:");
     for (int k = 0; k <= NH_WRONG; k++) nh_text_addf(out, "%s %zu %s", k ? "," : "", s->count[k], nh_measured_status_name((nh_measured_status)k));
@@ -175,11 +186,13 @@ static void put_map(const nh_stress_map *map, nh_json *list)
 {
     nh_json *item = nh_json_add_object(list);
     nh_json_put_text(item, "name", map->name);
-    nh_json_add_text(nh_json_put_array(item, "axes"), map->axis);
+    nh_json *axes = nh_json_put_array(item, "axes");
+    nh_json_add_text(axes, map->axis);
+    if (map->second_axis) nh_json_add_text(axes, map->second_axis);
     nh_json *cells = nh_json_put_array(item, "cells");
     for (size_t i = 0; i < map->cells; i++) {
         nh_json *cell = nh_json_add_object(cells);
-        nh_json_put_numbers(cell, "at", 1, &map->cell[i].at, 1);
+        nh_json_put_numbers(cell, "at", map->second_axis ? 2 : 1, (double[]){map->cell[i].at, map->cell[i].second_at}, 1);
         nh_json_put_text(cell, "method", map->cell[i].method);
         nh_json_put_text(cell, "status", nh_measured_status_name(map->cell[i].status));
         nh_json_put_number(cell, "error", map->cell[i].error);

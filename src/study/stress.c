@@ -1,25 +1,15 @@
-#include "study/stress.h"
+#include "study/stress_internal.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
-#include "study/chart_internal.h"
-
 enum { most_values = 12, most_parameters = 12 };
 static const char *const methods[] = {"GSL rk8pd", "GSL rkf45", "ARKODE Dormand-Prince", "CVODE Adams", "CVODE BDF"};
 enum { method_count = sizeof methods / sizeof *methods };
-static const double tolerance = 1e-8, allowed = 1e4; /* right: an error below allowed * tolerance */
 static const double longer[] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6}, parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
 static const double least_cell = 0.02; /* seconds that a value has at least */
-
-typedef struct {
-    nh_stress *out;
-    const nh_simulate_request *request;
-    double begun, budget;
-    size_t values_left;
-} stress_work;
 
 static double now(void)
 {
@@ -33,27 +23,27 @@ static double now(void)
 static double drift_of(const nh_measured *m) { return isnan(m->worst_drift) ? 0 : m->worst_drift; }
 
 /* Which guard complains about a run that ended? NULL: none. */
-static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measured *m)
+static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measured *m, const nh_options *o)
 {
     nh_arena *arena = b->out->arena;
     nh_measured tight;
     nh_contender again = *k;
     if (m->status == NH_WARNED || m->status == NH_CAUGHT) return "the pivot of the chart";
-    if (drift_of(m) > allowed * tolerance) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
-    nh_bench_measure(b, &again, tolerance / 10, NAN, &tight);
+    if (drift_of(m) > o->stress_error) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
+    nh_bench_measure(b, &again, o->stress_tolerance / 10, NAN, &tight);
     if (tight.status == NH_TIMEOUT) b->hurried = true; /* it says nothing */
     if (tight.status == NH_TIMEOUT) return NULL;
     if (tight.status == NH_FAILED) return "a tighter tolerance does not reach the end";
     /* both against the same reference, so that the difference of the errors bounds that of the states from below */
-    if (fabs(tight.error - m->error) > allowed * tolerance / 4) return "a tighter tolerance gives another motion";
+    if (fabs(tight.error - m->error) > o->stress_error / 4) return "a tighter tolerance gives another motion";
     return NULL;
 }
 
-static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool reference, nh_arena *arena, nh_stress_cell *cell)
+static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool reference, const nh_options *o, nh_arena *arena, nh_stress_cell *cell)
 {
     bool ended = m->status != NH_FAILED && m->status != NH_TIMEOUT;
-    const char *guard = ended && (reference || !b->hurried) ? guard_of(b, k, m) : NULL;
-    bool good = m->error <= allowed * tolerance;
+    const char *guard = ended && (reference || !b->hurried) ? guard_of(b, k, m, o) : NULL;
+    bool good = m->error <= o->stress_error;
     cell->error = reference ? m->error : NAN;
     cell->note = nh_arena_strdup(arena, guard ? guard : m->note);
     if (!ended) cell->status = m->status;
@@ -66,8 +56,7 @@ static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool refe
     } else cell->status = good ? guard ? NH_WARNED : NH_RIGHT : guard ? NH_CAUGHT : NH_WRONG;
 }
 
-/* All methods on one motion. */
-static void try_value(stress_work *w, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_stress_cell *cell)
+void nh_stress_try(nh_stress_work *w, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_stress_cell *cell)
 {
     nh_error error;
     nh_error_clear(&error);
@@ -88,8 +77,8 @@ static void try_value(stress_work *w, const nh_simulate_request *request, double
         nh_contender k = {.method = nh_method_find(methods[i]), .formulation = in_coordinates && b.formulations == NH_CHART_FORMULATIONS ? 1 : 0};
         nh_measured m;
         b.hurried &= !reference; /* what one method had no time for does not concern the next */
-        nh_bench_measure(&b, &k, tolerance, NAN, &m);
-        decide(&b, &k, &m, reference, w->out->arena, &cell[i]);
+        nh_bench_measure(&b, &k, request->options.stress_tolerance, NAN, &m);
+        decide(&b, &k, &m, reference, &request->options, w->out->arena, &cell[i]);
     }
     if (w->values_left) w->values_left--;
     nh_bench_close(&b);
@@ -98,7 +87,7 @@ static void try_value(stress_work *w, const nh_simulate_request *request, double
 
 /* ---- maps ---- */
 
-static nh_stress_map *add_map(stress_work *w, const char *name, const char *axis, size_t values)
+nh_stress_map *nh_stress_add_map(nh_stress_work *w, const char *name, const char *axis, size_t values)
 {
     nh_arena *arena = w->out->arena;
     nh_stress_map *map = &w->out->map[w->out->maps++];
@@ -112,35 +101,35 @@ static void set_at(nh_stress_map *map, size_t value, double at)
     for (size_t i = 0; i < map->methods; i++) map->cell[value * map->methods + i].at = at;
 }
 
-static void map_time(stress_work *w, double begin, double end)
+static void map_time(nh_stress_work *w, double begin, double end)
 {
     enum { count = sizeof longer / sizeof *longer };
-    nh_stress_map *map = add_map(w, "long times", "end of the motion", count);
+    nh_stress_map *map = nh_stress_add_map(w, "long times", "end of the motion", count);
     for (size_t v = 0; v < count; v++) {
         nh_simulate_request q = *w->request;
         q.until_given = true;
         q.options.until = begin + (end - begin) * longer[v];
         set_at(map, v, q.options.until);
-        try_value(w, &q, 0, 0, false, map->cell + v * method_count);
+        nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
     }
 }
 
-static void map_absolute(stress_work *w)
+static void map_absolute(nh_stress_work *w)
 {
     enum { count = sizeof absolute / sizeof *absolute };
-    nh_stress_map *map = add_map(w, "badly scaled", "size below which errors are absolute", count);
+    nh_stress_map *map = nh_stress_add_map(w, "badly scaled", "size below which errors are absolute", count);
     for (size_t v = 0; v < count; v++) {
         nh_simulate_request q = *w->request;
         q.options.absolute = absolute[v];
         set_at(map, v, absolute[v]);
-        try_value(w, &q, 0, 0, false, map->cell + v * method_count);
+        nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
     }
 }
 
-static void map_parameter(stress_work *w, const char *name, double value)
+static void map_parameter(nh_stress_work *w, const char *name, double value)
 {
     enum { count = sizeof parameter / sizeof *parameter };
-    nh_stress_map *map = add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count);
+    nh_stress_map *map = nh_stress_add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count);
     nh_setting *setting = nh_arena_alloc(w->out->arena, (w->request->settings + 1) * sizeof *setting);
     if (w->request->settings) memcpy(setting, w->request->setting, w->request->settings * sizeof *setting);
     for (size_t v = 0; v < count; v++) {
@@ -149,17 +138,17 @@ static void map_parameter(stress_work *w, const char *name, double value)
         q.setting = setting;
         q.settings++;
         set_at(map, v, value * parameter[v]);
-        try_value(w, &q, 0, 0, false, map->cell + v * method_count);
+        nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
     }
 }
 
-static void map_angle(stress_work *w, const char *name, size_t coordinate)
+static void map_angle(nh_stress_work *w, const char *name, size_t coordinate)
 {
-    nh_stress_map *map = add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name), name, most_values);
+    nh_stress_map *map = nh_stress_add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name), name, most_values);
     for (size_t v = 0; v < most_values; v++) {
         double turn = 2 * acos(-1) * (double)v / most_values;
         set_at(map, v, turn);
-        try_value(w, w->request, turn, coordinate, true, map->cell + v * method_count);
+        nh_stress_try(w, w->request, turn, coordinate, true, map->cell + v * method_count);
     }
 }
 
@@ -170,7 +159,7 @@ static size_t angles_of(const nh_system *s, bool charts)
     return n;
 }
 
-static void all_maps(stress_work *w, const nh_bench *plain)
+static void all_maps(nh_stress_work *w, const nh_bench *plain)
 {
     const nh_system *s = plain->out->question->system;
     bool charts = plain->formulations == NH_CHART_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
@@ -184,15 +173,16 @@ static void all_maps(stress_work *w, const nh_bench *plain)
     map_time(w, plain->out->begin, plain->out->end);
 }
 
-nh_stress *nh_stress_create(const nh_simulate_request *request, double budget, nh_error *error)
+nh_stress *nh_stress_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_stress *out = nh_arena_alloc(arena, sizeof *out);
-    *out = (nh_stress){.arena = arena, .tolerance = tolerance, .accuracy = allowed * tolerance};
-    stress_work w = {.out = out, .request = request, .begun = now(), .budget = budget};
+    *out = (nh_stress){.arena = arena, .tolerance = request->options.stress_tolerance, .accuracy = request->options.stress_error};
+    nh_stress_work w = {.out = out, .request = request, .begun = now(), .budget = budget};
     nh_bench plain;
     bool good = nh_bench_open(&plain, request, budget, error);
-    if (good) all_maps(&w, &plain);
+    if (good && over) good = nh_stress_axes(&w, &plain, over, error);
+    else if (good) all_maps(&w, &plain);
     nh_bench_close(&plain);
     nh_comparison_free(plain.out);
     for (size_t i = 0; i < out->maps; i++)

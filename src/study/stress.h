@@ -18,7 +18,7 @@
 #include "study/chart.h"
 
 typedef struct {
-    double at;
+    double at, second_at; /* on the axes; the second 0 where there is none */
     const char *method;
     nh_measured_status status;
     double error;      /* NAN where there is no reference or no result */
@@ -26,7 +26,7 @@ typedef struct {
 } nh_stress_cell;
 
 typedef struct {
-    const char *name, *axis;
+    const char *name, *axis, *second_axis; /* second_axis: NULL when there is one only */
     size_t methods, cells; /* cells: value by value, `methods` each */
     nh_stress_cell *cell;
 } nh_stress_map;
@@ -39,8 +39,10 @@ typedef struct {
     size_t count[NH_WRONG + 1]; /* cells per status */
 } nh_stress;
 
-/* `budget`: seconds for all.  NULL with a message when the system itself cannot be read. */
-nh_stress *nh_stress_create(const nh_simulate_request *request, double budget, nh_error *error);
+/* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these parameters, numbers of the initial state or
+ * options instead of all others; NULL: all others.  `budget`: seconds for all.  NULL with a message when the system itself cannot be read.  The tolerance of
+ * every run and the error that counts as right are request->options.stress_tolerance and stress_error. */
+nh_stress *nh_stress_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error);
 void nh_stress_free(nh_stress *stress);
 
 #endif

@@ -1,0 +1,144 @@
+/* stress_axes: a map over one or two things that the user names. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/stress_internal.h"
+
+enum { most_axes = 2, values_of_one = 10, values_of_two = 6, most_values = 100 };
+static const double decades = 100; /* a range from x to 100 x or more is divided by ratios */
+
+typedef enum { AXIS_PARAMETER, AXIS_INITIAL, AXIS_OPTION } axis_kind;
+
+typedef struct {
+    const char *name;
+    double low, high;
+    size_t count; /* 0: not given */
+    axis_kind kind;
+} axis;
+
+/* ---- reading ---- */
+
+static bool unreadable(const char *text, nh_error *error)
+{
+    nh_fail(error, NH_USAGE, "", "--over `%s` is no range", text);
+    return nh_error_hint(error, "it is written --over \"NAME=LOW:HIGH\", or NAME=LOW:HIGH:VALUES, one or two of them with a comma between");
+}
+
+static bool read_axis(nh_arena *arena, const char *text, axis *a, nh_error *error)
+{
+    const char *equal = strchr(text, '=');
+    char *end;
+    if (!equal || equal == text) return unreadable(text, error);
+    *a = (axis){.name = nh_arena_strndup(arena, text, (size_t)(equal - text))};
+    a->low = strtod(equal + 1, &end);
+    if (end == equal + 1 || *end != ':') return unreadable(text, error);
+    const char *high = end + 1;
+    a->high = strtod(high, &end);
+    if (end == high || !isfinite(a->low) || !isfinite(a->high)) return unreadable(text, error);
+    if (!*end) return true;
+    long count = *end == ':' ? strtol(end + 1, &end, 10) : 0;
+    if (*end || count < 1 || count > most_values) return unreadable(text, error);
+    a->count = (size_t)count;
+    return true;
+}
+
+/* A parameter, part of the initial state, or an option. */
+static bool know(const nh_bench *plain, const nh_simulate_request *request, axis *a, nh_error *error)
+{
+    const nh_model *o = plain->model;
+    const nh_system *s = o->system;
+    for (size_t i = 0; i < s->parameters; i++)
+        if (!strcmp(a->name, s->parameter[i].name)) return true; /* AXIS_PARAMETER */
+    bool initial = false;
+    for (size_t i = 0; i < s->coordinates; i++) initial |= !strcmp(a->name, s->coordinate[i].name) || !strcmp(a->name, nh_name_of(o->dag, s->coordinate[i].v));
+    for (size_t i = 0; i < o->n; i++) initial |= !strcmp(a->name, nh_name_of(o->dag, o->chart->w[i]));
+    a->kind = initial ? AXIS_INITIAL : AXIS_OPTION;
+    if (initial && request->initial) return true;
+    if (initial) {
+        nh_fail(error, NH_USAGE, "", "--over `%s` changes the initial state, which is not given", a->name);
+        return nh_error_hint(error, "--initial \"%s=0\" gives it; what is not named is 0 or follows from the constraints", a->name);
+    }
+    for (size_t i = 0; i < nh_option_count(); i++)
+        if (!strcmp(a->name, nh_option_at(i).name)) return true;
+    nh_fail(error, NH_USAGE, "", "--over `%s`: there is no such parameter, coordinate, velocity or option", a->name);
+    return nh_error_hint(error, "`nhsym show` prints the system; options are those of `nhsym explain options`, such as until or absolute");
+}
+
+/* Up to two; 0 with a message when something is wrong. */
+static size_t read_axes(nh_arena *arena, const nh_bench *plain, const nh_simulate_request *request, const char *over, axis *a, nh_error *error)
+{
+    size_t n = 0;
+    char *text = nh_arena_strdup(arena, over), *rest = text;
+    for (char *part; (part = strsep(&rest, ","));) {
+        while (*part == ' ') part++;
+        if (n == most_axes) return nh_fail(error, NH_USAGE, "", "--over takes at most %d ranges", most_axes), nh_error_hint(error, "further ones can be tried in turn with --set"), 0;
+        if (!read_axis(arena, part, &a[n], error) || !know(plain, request, &a[n], error)) return 0;
+        n++;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (!a[i].count) a[i].count = n == 1 ? values_of_one : values_of_two;
+    return n;
+}
+
+/* ---- values ---- */
+
+static double value_at(const axis *a, size_t i)
+{
+    double part = a->count > 1 ? (double)i / (double)(a->count - 1) : 0, ratio = a->low != 0 ? a->high / a->low : 0;
+    if (i + 1 == a->count && a->count > 1) return a->high;
+    if (a->low != 0 && (ratio >= decades || (ratio > 0 && ratio <= 1 / decades))) return a->low * pow(ratio, part);
+    return a->low + (a->high - a->low) * part;
+}
+
+/* "phi=0, omega=2" with one value replaced or added. */
+static const char *with_initial(nh_arena *arena, const char *initial, const char *name, double value)
+{
+    char *text = nh_arena_strdup(arena, initial), *rest = text;
+    const char *out = nh_arena_printf(arena, "%s=%.17g", name, value);
+    for (char *part; (part = strsep(&rest, ","));) {
+        part += strspn(part, " ");
+        size_t length = strcspn(part, "= ");
+        if (*part && (length != strlen(name) || strncmp(part, name, length))) out = nh_arena_printf(arena, "%s, %s", out, part);
+    }
+    return out;
+}
+
+static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_request *q, nh_setting *setting, nh_error *error)
+{
+    if (a->kind == AXIS_INITIAL) {
+        q->initial = with_initial(arena, q->initial, a->name, value);
+        q->project = true; /* velocities that are given may no longer fit */
+        return true;
+    }
+    if (a->kind == AXIS_OPTION) {
+        q->until_given |= !strcmp(a->name, "until");
+        return nh_options_set(&q->options, a->name, nh_arena_printf(arena, "%.17g", value), error);
+    }
+    setting[q->settings++] = (nh_setting){.name = a->name, .value = value};
+    return true;
+}
+
+bool nh_stress_axes(nh_stress_work *w, const nh_bench *plain, const char *over, nh_error *error)
+{
+    nh_arena *arena = w->out->arena;
+    axis a[most_axes];
+    size_t n = read_axes(arena, plain, w->request, over, a, error), second = n == most_axes ? a[1].count : 1;
+    if (!n) return false;
+    w->out->map = nh_arena_alloc(arena, sizeof *w->out->map);
+    w->values_left = a[0].count * second;
+    nh_stress_map *map = nh_stress_add_map(w, n == 1 ? a[0].name : nh_arena_printf(arena, "%s and %s", a[0].name, a[1].name), a[0].name, w->values_left);
+    map->second_axis = n == 1 ? NULL : a[1].name;
+    nh_setting *setting = nh_arena_alloc(arena, (w->request->settings + most_axes) * sizeof *setting);
+    if (w->request->settings) memcpy(setting, w->request->setting, w->request->settings * sizeof *setting);
+    for (size_t i = 0, cells = a[0].count * second; i < cells; i++) {
+        nh_simulate_request q = *w->request;
+        nh_stress_cell *cell = map->cell + i * map->methods;
+        double x = value_at(&a[0], i / second), y = n == 1 ? 0 : value_at(&a[1], i % second);
+        q.setting = setting;
+        if (!change(arena, &a[0], x, &q, setting, error) || (n > 1 && !change(arena, &a[1], y, &q, setting, error))) return false;
+        for (size_t k = 0; k < map->methods; k++) cell[k].at = x, cell[k].second_at = y;
+        nh_stress_try(w, &q, 0, 0, false, cell);
+    }
+    return true;
+}
