@@ -78,39 +78,57 @@ static void word(const writer *w, const char *text, size_t length)
     add(w, around[1]);
 }
 
-static void name(const writer *w, const char *text)
+/* The dots of a derivative stand above the letter, not above its index. */
+static void letter(const writer *w, const char *text, size_t length, size_t primes)
+{
+    const char *const *dot = primes == 2 ? w->s->ddot : w->s->dot;
+    if (primes) add(w, dot[0]);
+    if (primes) add(w, w->s->group[0]);
+    word(w, text, length);
+    if (primes) add(w, w->s->group[1]);
+    if (primes) add(w, dot[1]);
+}
+
+static void name(const writer *w, const char *text, size_t primes)
 {
     size_t length = strlen(text), base = strcspn(text + 1, "_") + 1, below;
     if (base == length)
         while (base > 1 && isdigit((unsigned char)text[base - 1])) base--;
     below = base + (base < length && text[base] == '_' && base + 1 < length);
     if (base == length || below == length) {
-        word(w, text, length);
+        letter(w, text, length, primes);
         return;
     }
     add(w, w->s->below[0]);
     add(w, w->s->group[0]);
-    word(w, text, base);
+    letter(w, text, base, primes);
     add(w, w->s->group[1]);
     add(w, w->s->below[1]);
     add(w, w->s->group[0]);
-    word(w, text + below, length - below);
+    if (isdigit((unsigned char)text[below])) word(w, text + below, length - below);
+    else name(w, text + below, 0);
     add(w, w->s->group[1]);
     add(w, w->s->below[2]);
 }
 
 static void dotted(const writer *w, const nh_seen *e)
 {
-    const char *const *dot = e->primes == 2 ? w->s->ddot : w->s->dot;
-    if (!strcmp(e->text, "pi") && !e->primes) {
-        add(w, w->s->pi);
-        return;
-    }
-    if (e->primes) add(w, dot[0]);
-    if (e->primes) add(w, w->s->group[0]);
-    name(w, e->text);
-    if (e->primes) add(w, w->s->group[1]);
-    if (e->primes) add(w, dot[1]);
+    if (!strcmp(e->text, "pi") && !e->primes) add(w, w->s->pi);
+    else name(w, e->text, e->primes);
+}
+
+void nh_typeset_plain(const char *text, nh_text *out)
+{
+    size_t length = strcspn(text, "'_0123456789");
+    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
+        if (strlen(greek[i].name) == length && !strncmp(greek[i].name, text, length)) {
+            nh_text_add(out, greek[i].letter);
+            text += length;
+            break;
+        }
+    for (; *text; text++)
+        if (*text == '\'') nh_text_add(out, "\u2032");
+        else nh_text_add_n(out, text, 1);
 }
 
 /* 1.5e-7 as 1.5 times a power of ten. */
@@ -151,7 +169,7 @@ static void arguments(const writer *w, const nh_seen *e)
 {
     add(w, w->s->apply);
     bool bare = e->child && !e->child->next && e->child->kind == NH_SEEN_NAME;
-    if (bare && w->form == NH_LATEX) add(w, " ");
+    if (bare) add(w, w->form == NH_LATEX ? " " : "<mspace width=\"0.17em\"/>");
     if (bare) {
         put(w, e->child);
         return;
@@ -263,6 +281,8 @@ static void put(const writer *w, const nh_seen *e)
         break;
     }
 }
+
+void nh_typeset_seen(const nh_seen *e, nh_typeset_form form, nh_text *out) { put(&(writer){form, &scripts[form], out}, e); }
 
 bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out)
 {

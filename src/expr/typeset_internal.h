@@ -20,5 +20,7 @@ struct nh_seen {
 
 /* NULL when the text is not of the language. */
 nh_seen *nh_typeset_read(nh_arena *arena, const char *text);
+/* As nh_typeset, of what was read. */
+void nh_typeset_seen(const nh_seen *e, nh_typeset_form form, nh_text *out);
 
 #endif

@@ -4,7 +4,6 @@
 
 #include "motion/dynamics.h"
 #include "noether/unknowns.h"
-#include "study/shape.h"
 
 typedef enum { NH_ROUTE_BOTH, NH_ROUTE_SYMMETRY, NH_ROUTE_CURRENT } nh_route;
 

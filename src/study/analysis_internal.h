@@ -21,7 +21,5 @@ bool nh_analysis_parse(nh_analysis_reader *r, const nh_deck_node *node, nh_ex *o
 bool nh_analysis_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error);
 /* ansatz: the list of families. */
 bool nh_analysis_read_ansatz(nh_analysis_reader *r);
-/* scene: draw: the list of shapes; it may be absent. */
-bool nh_analysis_read_drawing(nh_analysis_reader *r, const nh_deck_node *list);
 
 #endif
