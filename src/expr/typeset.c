@@ -119,7 +119,7 @@ static void dotted(const writer *w, const nh_seen *e)
 
 void nh_typeset_plain(const char *text, nh_text *out)
 {
-    size_t length = strcspn(text, "'_0123456789");
+    size_t length = strcspn(text, "'_0123456789, =.(");
     for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
         if (strlen(greek[i].name) == length && !strncmp(greek[i].name, text, length)) {
             nh_text_add(out, greek[i].letter);

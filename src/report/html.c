@@ -49,10 +49,13 @@ void nh_html(const nh_result *r, nh_text *out)
     nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
     nh_html_begin(&w, NULL);
     answer(&w);
-    nh_html_links(&w, r->validation ? "currents|Currents|motion|Motion|system|System|search|How it was found|repeat|Repeat it" : "currents|Currents|system|System|search|How it was found|repeat|Repeat it");
+    nh_html_links(&w, r->figures      ? "currents|Currents|motion|Motion|figures|Figures|system|System|search|How it was found|repeat|Repeat it"
+                      : r->validation ? "currents|Currents|motion|Motion|system|System|search|How it was found|repeat|Repeat it"
+                                      : "currents|Currents|system|System|search|How it was found|repeat|Repeat it");
     warnings(&w);
     nh_html_currents(&w);
     nh_html_motion(&w);
+    nh_html_figures(&w);
     nh_html_system(&w);
     nh_html_evidence(&w);
     nh_html_repeat(&w, &run);

@@ -52,6 +52,7 @@ void nh_html_written(nh_html_writer *w);                          /* the system 
 void nh_html_equations(nh_html_writer *w, const nh_model *model); /* and as it was understood */
 void nh_html_system(nh_html_writer *w);
 void nh_html_currents(nh_html_writer *w);
+void nh_html_figures(nh_html_writer *w);
 void nh_html_evidence(nh_html_writer *w);
 void nh_html_motion(nh_html_writer *w);
 void nh_html_course(nh_html_writer *w, const nh_course *course);  /* the slider with the drawing, and every line over time */

@@ -252,9 +252,11 @@ static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_s
     nh_html_add(w, "</article>\n");
 }
 
+static bool has_momenta(const nh_reduction *r) { return r->kinetic->reducible && r->group->action.d; }
+
 static void momenta(nh_html_writer *w, const nh_reduction *r)
 {
-    if (!r->kinetic->reducible || !r->group->action.d) return;
+    if (!has_momenta(r)) return;
     nh_html_add(w, r->momenta.count ? "<section id=\"momenta\"><h2>Conserved momenta</h2>\n" : "<section id=\"momenta\"><h2>Conserved momenta</h2>\n<p>No momentum of the group is conserved, among the sections that were tried.</p>\n");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
@@ -291,7 +293,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     nh_html_writer w = {.out = out, .system = r->system, .dag = r->kinetic->dag, .shown = run->shown, .written = INFINITY};
     nh_html_begin(&w, "reduction by symmetry");
     answer(&w, r);
-    nh_html_links(&w, "group|Group|stages|Reduced equations|momenta|Momenta|system|System|repeat|Repeat it");
+    nh_html_links(&w, has_momenta(r) ? "group|Group|stages|Reduced equations|momenta|Momenta|system|System|repeat|Repeat it" : "group|Group|stages|Reduced equations|system|System|repeat|Repeat it");
     for (size_t i = 0; i < r->warnings; i++) nh_html_warning(&w, r->warning[i]);
     nh_html_add(&w, "<section id=\"group\"><h2>The group</h2>\n");
     if (r->all) group(&w, r, r->all, "The whole group");

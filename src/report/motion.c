@@ -64,6 +64,7 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
         for (size_t k = 0; k < e->n; k++) nh_json_put_numbers(member, s->columns.track[k].name, e->count, e->value + i * e->count * e->n + k, e->n);
     }
     nh_json *stats = nh_json_put_object(root, "stats");
+    nh_json_put_number(stats, "members", (double)e->members);
     nh_json_put_number(stats, "evaluations", (double)e->evaluations);
     nh_json_put_number(stats, "alone", (double)e->alone);
     nh_json_put_number(stats, "seconds", e->seconds);

@@ -343,6 +343,7 @@ char *nh_result_json(const nh_result *r)
     nh_json_put_number(root, "independent_currents", (double)r->independent);
     nh_json_put_number(root, "local_maximum", (double)r->local_maximum);
     nh_result_json_validation(r, root);
+    nh_result_json_figures(r, root);
     nh_json_put_bool(root, "partial", r->partial);
     nh_run_json(&(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total}, r->system, root);
     put_timing(&r->timing, root);

@@ -61,6 +61,29 @@ void nh_result_json_validation(const nh_result *r, nh_json *to)
     }
 }
 
+void nh_result_json_figures(const nh_result *r, nh_json *to)
+{
+    static const char *const kinds[] = {"path", "plot", "scan"};
+    nh_json *list = nh_json_put_array(to, "figures");
+    for (size_t i = 0; i < r->figures; i++) {
+        const nh_figure *f = &r->figure[i];
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_text(item, "title", f->request->title);
+        nh_json_put_text(item, "kind", kinds[f->request->kind]);
+        nh_json_put_text(item, "parameter", f->request->vary);
+        nh_json *curves = nh_json_put_array(item, "curves");
+        for (size_t k = 0; k < f->curves; k++) {
+            const nh_figure_curve *c = &f->curve[k];
+            nh_json *curve = nh_json_add_object(curves);
+            nh_json_put_text(curve, "name", c->name);
+            nh_json_put_number(curve, "value", c->value);
+            nh_json_put_numbers(curve, "x", c->count, c->x, 1);
+            nh_json_put_numbers(curve, "y", c->count, c->y, 1);
+            if (c->heading) nh_json_put_numbers(curve, "heading", c->count, c->heading, 1);
+        }
+    }
+}
+
 size_t nh_result_json_holes(const nh_result *r)
 {
     const nh_validation *v = r->validation;

@@ -10,7 +10,7 @@
 /* ---- before the system ---- */
 
 static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz", "unknowns", "samples", "seed", "validate", "scene",
-                                       "definitions", "chart", "title", "doc"};
+                                       "definitions", "chart", "title", "doc", "figures"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
@@ -216,6 +216,8 @@ static bool read_assignments(reader *r, const nh_deck_node *list, const char *wh
     return true;
 }
 
+bool nh_analysis_watches(reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count) { return read_assignments(r, list, what, false, out, count); }
+
 /* ---- the motion ---- */
 
 /* A number, or an expression of the parameters. */
@@ -367,5 +369,5 @@ bool nh_analysis_resolve(nh_analysis *a, const nh_model *model, nh_error *error)
     if (!nh_symbol_find(model->dag, "Lbar", &taken)) r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     r.own = r.extras;
     return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && nh_analysis_read_ansatz(&r)
-           && read_validate(&r) && read_scene(&r);
+           && read_validate(&r) && read_scene(&r) && nh_analysis_read_figures(&r);
 }

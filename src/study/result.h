@@ -77,6 +77,21 @@ typedef struct {
     double read, geometry, samples, unknowns, nullspace, currents, validation, total; /* seconds */
 } nh_timing;
 
+/* A curve of a figure: y over x; a path has a heading where one is drawn. */
+typedef struct {
+    const char *name;         /* "E_T", "k = 2", "E_T, k = 2" */
+    size_t quantity;          /* of the request; of a path 0 */
+    double value;             /* of the parameter that is varied; NAN: none is */
+    size_t count;
+    double *x, *y, *heading;  /* heading: NULL: none */
+} nh_figure_curve;
+
+typedef struct {
+    const nh_figure_request *request;
+    size_t curves;
+    nh_figure_curve *curve;
+} nh_figure;
+
 typedef struct {
     nh_arena *arena;
     const char *command, *system_path, *analysis_path; /* to repeat it; command and analysis_path may be NULL */
@@ -105,6 +120,8 @@ typedef struct {
     size_t *integral;         /* found[integral[i]] */
     nh_verdict verdict;
     nh_tracks tracks;         /* validation->watch holds their values, row by row */
+    size_t figures;
+    nh_figure *figure;        /* those that the analysis asks for */
     nh_validation *validation; /* NULL when no motion could be computed */
     size_t warnings;
     const char **warning;
