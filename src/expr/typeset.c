@@ -58,11 +58,20 @@ static void parenthesised(const writer *w, const nh_seen *e)
 
 /* ---- names and numbers ---- */
 
+static size_t greek_letter(const char *text, size_t length)
+{
+    size_t i = 0, n = sizeof greek / sizeof *greek;
+    while (i < n && (strlen(greek[i].name) != length || strncmp(greek[i].name, text, length))) i++;
+    return i;
+}
+
+bool nh_typeset_is_greek(const char *text, size_t length) { return greek_letter(text, length) < sizeof greek / sizeof *greek; }
+
 /* A letter, or a word set upright.  Names are made of letters, digits and _ only. */
 static void word(const writer *w, const char *text, size_t length)
 {
-    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++) {
-        if (strlen(greek[i].name) != length || strncmp(greek[i].name, text, length)) continue;
+    if (nh_typeset_is_greek(text, length)) {
+        size_t i = greek_letter(text, length);
         add(w, w->s->italic[0]);
         add(w, w->form == NH_MATHML ? greek[i].letter : greek[i].command);
         add(w, w->s->italic[1]);
@@ -120,12 +129,10 @@ static void dotted(const writer *w, const nh_seen *e)
 void nh_typeset_plain(const char *text, nh_text *out)
 {
     size_t length = strcspn(text, "'_0123456789, =.(");
-    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
-        if (strlen(greek[i].name) == length && !strncmp(greek[i].name, text, length)) {
-            nh_text_add(out, greek[i].letter);
-            text += length;
-            break;
-        }
+    if (nh_typeset_is_greek(text, length)) {
+        nh_text_add(out, greek[greek_letter(text, length)].letter);
+        text += length;
+    }
     for (; *text; text++)
         if (*text == '\'') nh_text_add(out, "\u2032");
         else nh_text_add_n(out, text, 1);

@@ -13,26 +13,35 @@ typedef struct {
     void *context;
     size_t count;
     nh_text one;      /* the piece that is being written */
-    size_t filled;    /* its width */
+    size_t filled;    /* its width so far */
 } breaker;
 
-/* Symbols side by side; a fraction is as wide as its wider part. */
+enum { symbol = 2, index_digit = 1, around_operator = 3 }; /* widths, in halves of a letter */
+
+static size_t width_of_name(const char *text)
+{
+    size_t length = strlen(text), base = strcspn(text, "_0123456789"), below = length - base;
+    return (base > 1 && !nh_typeset_is_greek(text, base) ? symbol * base : symbol) + index_digit * below;
+}
+
+/* Of what stands side by side; a fraction is as wide as its wider part. */
 static size_t width(const nh_seen *e)
 {
     size_t sum = 0, most = 0, parts = 0;
     for (const nh_seen *c = e->child; c; c = c->next, parts++) {
-        size_t n = width(c) + (c->kind == NH_SEEN_SUM && e->kind != NH_SEEN_FRACTION ? 2 : 0);
+        size_t n = width(c) + (c->kind == NH_SEEN_SUM && e->kind != NH_SEEN_FRACTION && e->kind != NH_SEEN_CALL ? symbol : 0);
         sum += n;
         if (n > most) most = n;
     }
     switch (e->kind) {
-    case NH_SEEN_NUMBER: return strlen(e->text);
-    case NH_SEEN_NAME: return 1;
-    case NH_SEEN_CALL: return strlen(e->text) + sum + parts;
-    case NH_SEEN_FRACTION: return most + 1;
-    case NH_SEEN_SUM: return sum + parts;
-    case NH_SEEN_POWER: return sum;
-    default: return sum + 1;
+    case NH_SEEN_NUMBER: return symbol * strlen(e->text);
+    case NH_SEEN_NAME: return width_of_name(e->text);
+    case NH_SEEN_CALL: return symbol * strlen(e->text) + sum + parts * symbol;
+    case NH_SEEN_FRACTION: return most + symbol / 2;
+    case NH_SEEN_SUM: return sum + around_operator * parts;
+    case NH_SEEN_POWER: return width(e->child) + (e->child->kind == NH_SEEN_SUM || e->child->kind == NH_SEEN_FRACTION ? symbol : 0) + (sum - width(e->child)) / 2;
+    case NH_SEEN_PRODUCT: return sum + parts / 2;
+    default: return sum + around_operator;
     }
 }
 
@@ -58,9 +67,12 @@ static void open(breaker *b, const nh_seen *e);
 
 static void in_parentheses(breaker *b, const nh_seen *e)
 {
+    if (b->filled + 6 * symbol > b->widest) cut(b);
     add(b, "<mo stretchy=\"false\">(</mo>");
+    b->filled += symbol / 2;
     open(b, e);
     add(b, "<mo stretchy=\"false\">)</mo>");
+    b->filled += symbol / 2;
 }
 
 static bool fits(const breaker *b, const nh_seen *e) { return width(e) <= b->widest; }
@@ -84,6 +96,7 @@ static void terms(breaker *b, const nh_seen *e)
 {
     for (const nh_seen *c = e->child; c; c = c->next) {
         if (c != e->child) cut(b);
+        b->filled += around_operator;
         if (c->minus) add(b, c == e->child ? "<mo>\u2212</mo>" : "<mo form=\"infix\">\u2212</mo>");
         else if (c != e->child) add(b, "<mo form=\"infix\">+</mo>");
         factor(b, c);
@@ -99,13 +112,14 @@ static void factors(breaker *b, const nh_seen *first)
     }
 }
 
-static bool short_factor(const nh_seen *e) { return e->kind != NH_SEEN_SUM && e->kind != NH_SEEN_MINUS && width(e) < 8; }
+static bool short_factor(const nh_seen *e) { return e->kind != NH_SEEN_SUM && e->kind != NH_SEEN_MINUS && width(e) < 8 * symbol; }
 
 /* What is short among the factors stays above the line. */
 static void fraction(breaker *b, const nh_seen *e)
 {
     const nh_seen *below = e->child->next, *first = e->child->kind == NH_SEEN_PRODUCT ? e->child->child : e->child;
     bool line = fits(b, below), any = false;
+    if (line && b->filled + width(below) > b->widest) cut(b);
     if (line) add(b, "<mfrac><mrow>");
     for (const nh_seen *c = first; line && c; c = first == e->child ? NULL : c->next) {
         if (!short_factor(c)) continue;
@@ -182,7 +196,7 @@ size_t nh_typeset_lines(const char *text, size_t widest, nh_typeset_piece *piece
 {
     nh_arena *arena = nh_arena_create();
     const nh_seen *e = nh_typeset_read(arena, text);
-    breaker b = {.widest = widest, .piece = piece, .context = context};
+    breaker b = {.widest = widest * symbol, .piece = piece, .context = context};
     nh_text_init(&b.one);
     if (e) open(&b, e);
     cut(&b);

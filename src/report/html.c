@@ -14,8 +14,10 @@ static void meanings(nh_html_writer *w)
     size_t told = 0;
     for (size_t k = 0; k < r->count; k++) {
         if (!r->found[k].meaning[0] || r->found[k].independence != NH_INDEPENDENT) continue;
-        nh_html_add(w, told++ ? ", one the " : "; one is the ");
-        nh_html_text(w, r->found[k].meaning);
+        bool one_of_many = !strncmp(r->found[k].meaning, "integral", 8);
+        nh_html_add(w, told++ ? ", one " : "; one is ");
+        nh_html_add(w, one_of_many ? "an " : "the ");
+        nh_html_meaning(w, r->found[k].meaning);
     }
 }
 

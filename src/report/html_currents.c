@@ -79,7 +79,11 @@ static void drift_line(nh_html_writer *w, const nh_found *f)
 static void standing(nh_html_writer *w, const nh_found *f)
 {
     nh_html_add(w, "<p class=\"tags\">");
-    if (f->meaning[0]) nh_html_tagged(w, "span", f->meaning);
+    if (f->meaning[0]) {
+        nh_html_add(w, "<span>");
+        nh_html_meaning(w, f->meaning);
+        nh_html_add(w, "</span>");
+    }
     if (f->independence == NH_INDEPENDENT) nh_html_tagged(w, "span", "independent");
     if (f->independence == NH_DEPENDENT) nh_html_tagged(w, "span", "depends on the others");
     if (f->independence == NH_DOUBTFUL) nh_html_tagged(w, "span", "perhaps dependent on the others");

@@ -109,7 +109,7 @@ static void stages(nh_html_writer *w)
 void nh_html_evidence(nh_html_writer *w)
 {
     const nh_result *r = w->r;
-    nh_html_add(w, "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz: ");
+    nh_html_add(w, r->count ? "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz: " : "<section id=\"search\"><h2>What was tried</h2>\n<p>Ansatz: ");
     nh_html_text(w, r->ansatz_note);
     nh_html_add(w, ". ");
     nh_html_count(w, r->samples);

@@ -8,7 +8,7 @@
 #include "report/formula.h"
 #include "report/html_internal.h"
 
-enum { widest = 34 }; /* symbols of a piece: what a phone holds */
+enum { widest = 22 }; /* symbols of a piece: what a phone holds */
 
 /* Without rows of a single symbol, which are most of a formula's text. */
 static void add_compact(nh_text *out, const char *piece)
@@ -38,6 +38,18 @@ static void write_piece(void *context, const char *piece)
 void nh_html_source(nh_html_writer *w, const char *text)
 {
     if (!nh_typeset_lines(text, widest, write_piece, w)) nh_html_tagged(w, "code", text);
+}
+
+void nh_html_meaning(nh_html_writer *w, const char *meaning)
+{
+    static const char of[] = "momentum of ";
+    nh_text plain;
+    nh_text_init(&plain);
+    bool named = !strncmp(meaning, of, sizeof of - 1);
+    if (named) nh_html_add(w, of);
+    if (named) nh_typeset_plain(meaning + sizeof of - 1, &plain);
+    nh_html_text(w, named ? nh_text_string(&plain) : meaning);
+    nh_text_clear(&plain);
 }
 
 static void equal(nh_html_writer *w) { nh_html_add(w, "<math><mo>=</mo></math> "); }

@@ -58,6 +58,7 @@ void nh_html_motion(nh_html_writer *w);
 void nh_html_course(nh_html_writer *w, const nh_course *course);  /* the slider with the drawing, and every line over time */
 /* The components of a field along n coordinates and velocities that do not vanish, as Z with an index. */
 void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const nh_ex *e);
+void nh_html_meaning(nh_html_writer *w, const char *meaning); /* "momentum of phi", with the letter */
 const char *nh_html_case(int kase); /* case 1, 2 or 3 in words */
 
 extern const char *const nh_html_style;

@@ -29,7 +29,7 @@ static void term(nh_html_writer *w, const char *coordinate, nh_ex c, bool first)
     char *text = nh_print_string(w->dag, c);
     bool sum = nh_kind_of(w->dag, c) == NH_SUM, minus = !sum && text[0] == '-';
     const char *rest = text + minus;
-    nh_text_addf(w->out, "<math><mrow>%s%s</mrow></math>", minus ? "<mo>\u2212</mo>" : first ? "" : "<mo>+</mo>", sum ? "<mo>(</mo>" : "");
+    if (minus || sum || !first) nh_text_addf(w->out, "<math><mrow>%s%s</mrow></math>", minus ? "<mo>\u2212</mo>" : first ? "" : "<mo>+</mo>", sum ? "<mo>(</mo>" : "");
     if (strcmp(rest, "1")) nh_html_source(w, rest);
     nh_text_addf(w->out, "<math><mrow>%s<mfrac><mo>\u2202</mo><mrow><mo>\u2202</mo>", sum ? "<mo>)</mo>" : "");
     nh_typeset(coordinate, NH_MATHML, w->out);

@@ -240,7 +240,7 @@ static double legend(const canvas *c, bool draw)
     double x = left, y = legend_row;
     if (c->plot->curves < 2 || c->plot->fan) return 0;
     for (size_t k = 0; k < c->plot->curves; k++) {
-        double room = 40 + 7.5 * (double)nh_text_width(c->plot->curve[k].name);
+        double room = 40 + 9.2 * (double)nh_text_width(c->plot->curve[k].name);
         if (x + room > width - right && x > left) x = left, y += legend_row;
         if (draw) {
             bool is_dots = c->plot->curve[k].dots;
