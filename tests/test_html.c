@@ -233,7 +233,7 @@ static const double *numbers_of(const cJSON *array, size_t *count, double *out, 
  * path is symmetric in time about the cusp; and the frequency's scan falls at 1/k. */
 Test(html, figures_of_the_paper_are_computed)
 {
-    enum { most = 500 };
+    enum { most = 2000 };
     place p = place_with_systems();
     cJSON *json;
     char *page = both(&p, "analyze sleigh", NULL, &json);

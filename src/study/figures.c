@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "study/simulate.h"
 
-enum { outputs = 161, scan_points = 128, scan_values = 401 };
+enum { outputs = 601, scan_points = 128, scan_values = 401 };
 
 /* ---- one motion ---- */
 
