@@ -107,7 +107,7 @@ static void put_product(nh_dag *d, nh_ex e, nh_num c, nh_text *out)
         nh_ex exponent = nh_exponent_of(d, e, i);
         below += nh_kind_of(d, exponent) == NH_NUMBER && nh_num_value(nh_number_of(d, exponent)) < 0;
     }
-    nh_num top = c.q ? nh_num_int(c.p) : c, bottom = nh_num_int(c.q ? c.q : 1);
+    nh_num top = nh_num_short(c) ? nh_num_int(c.p) : c, bottom = nh_num_int(nh_num_short(c) ? c.q : 1);
     bool fraction = below || !nh_num_is(bottom, 1);
     if (fraction) nh_text_add(out, "\\frac{");
     bool number = !nh_num_is(top, 1) || below == n;
