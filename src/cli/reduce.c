@@ -2,6 +2,7 @@
 
 #include "base/output.h"
 #include "cli/cli.h"
+#include "report/html.h"
 #include "report/reduction.h"
 
 static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
@@ -36,13 +37,20 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     nh_reduce_request request;
     nh_reduction *r = request_of(cli, &request, error) ? nh_reduce(&request, error) : NULL;
     if (!r) return error->code;
+    nh_run run = nh_cli_run(cli, request.system_path, NULL);
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
     if (!to_stdout && !cli->quiet) print(cli, r);
     if (cli->json) {
-        char *json = nh_reduction_json(r);
+        char *json = nh_reduction_json(r, &run);
         if (to_stdout) fputs(json, stdout);
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
+    }
+    if (cli->html && good) {
+        nh_text page;
+        nh_text_init(&page);
+        nh_html_reduction(r, &run, &page);
+        good = nh_cli_write(cli->html, &page, error);
     }
     bool partial = r->partial;
     nh_reduction_free(r);

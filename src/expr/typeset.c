@@ -58,11 +58,20 @@ static void parenthesised(const writer *w, const nh_seen *e)
 
 /* ---- names and numbers ---- */
 
+static size_t greek_letter(const char *text, size_t length)
+{
+    size_t i = 0, n = sizeof greek / sizeof *greek;
+    while (i < n && (strlen(greek[i].name) != length || strncmp(greek[i].name, text, length))) i++;
+    return i;
+}
+
+bool nh_typeset_is_greek(const char *text, size_t length) { return greek_letter(text, length) < sizeof greek / sizeof *greek; }
+
 /* A letter, or a word set upright.  Names are made of letters, digits and _ only. */
 static void word(const writer *w, const char *text, size_t length)
 {
-    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++) {
-        if (strlen(greek[i].name) != length || strncmp(greek[i].name, text, length)) continue;
+    if (nh_typeset_is_greek(text, length)) {
+        size_t i = greek_letter(text, length);
         add(w, w->s->italic[0]);
         add(w, w->form == NH_MATHML ? greek[i].letter : greek[i].command);
         add(w, w->s->italic[1]);
@@ -78,39 +87,55 @@ static void word(const writer *w, const char *text, size_t length)
     add(w, around[1]);
 }
 
-static void name(const writer *w, const char *text)
+/* The dots of a derivative stand above the letter, not above its index. */
+static void letter(const writer *w, const char *text, size_t length, size_t primes)
+{
+    const char *const *dot = primes == 2 ? w->s->ddot : w->s->dot;
+    if (primes) add(w, dot[0]);
+    if (primes) add(w, w->s->group[0]);
+    word(w, text, length);
+    if (primes) add(w, w->s->group[1]);
+    if (primes) add(w, dot[1]);
+}
+
+static void name(const writer *w, const char *text, size_t primes)
 {
     size_t length = strlen(text), base = strcspn(text + 1, "_") + 1, below;
     if (base == length)
         while (base > 1 && isdigit((unsigned char)text[base - 1])) base--;
     below = base + (base < length && text[base] == '_' && base + 1 < length);
     if (base == length || below == length) {
-        word(w, text, length);
+        letter(w, text, length, primes);
         return;
     }
     add(w, w->s->below[0]);
     add(w, w->s->group[0]);
-    word(w, text, base);
+    letter(w, text, base, primes);
     add(w, w->s->group[1]);
     add(w, w->s->below[1]);
     add(w, w->s->group[0]);
-    word(w, text + below, length - below);
+    if (isdigit((unsigned char)text[below])) word(w, text + below, length - below);
+    else name(w, text + below, 0);
     add(w, w->s->group[1]);
     add(w, w->s->below[2]);
 }
 
 static void dotted(const writer *w, const nh_seen *e)
 {
-    const char *const *dot = e->primes == 2 ? w->s->ddot : w->s->dot;
-    if (!strcmp(e->text, "pi") && !e->primes) {
-        add(w, w->s->pi);
-        return;
+    if (!strcmp(e->text, "pi") && !e->primes) add(w, w->s->pi);
+    else name(w, e->text, e->primes);
+}
+
+void nh_typeset_plain(const char *text, nh_text *out)
+{
+    size_t length = strcspn(text, "'_0123456789, =.(");
+    if (nh_typeset_is_greek(text, length)) {
+        nh_text_add(out, greek[greek_letter(text, length)].letter);
+        text += length;
     }
-    if (e->primes) add(w, dot[0]);
-    if (e->primes) add(w, w->s->group[0]);
-    name(w, e->text);
-    if (e->primes) add(w, w->s->group[1]);
-    if (e->primes) add(w, dot[1]);
+    for (; *text; text++)
+        if (*text == '\'') nh_text_add(out, "\u2032");
+        else nh_text_add_n(out, text, 1);
 }
 
 /* 1.5e-7 as 1.5 times a power of ten. */
@@ -151,7 +176,7 @@ static void arguments(const writer *w, const nh_seen *e)
 {
     add(w, w->s->apply);
     bool bare = e->child && !e->child->next && e->child->kind == NH_SEEN_NAME;
-    if (bare && w->form == NH_LATEX) add(w, " ");
+    if (bare) add(w, w->form == NH_LATEX ? " " : "<mspace width=\"0.17em\"/>");
     if (bare) {
         put(w, e->child);
         return;
@@ -263,6 +288,8 @@ static void put(const writer *w, const nh_seen *e)
         break;
     }
 }
+
+void nh_typeset_seen(const nh_seen *e, nh_typeset_form form, nh_text *out) { put(&(writer){form, &scripts[form], out}, e); }
 
 bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out)
 {

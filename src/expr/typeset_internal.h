@@ -20,5 +20,9 @@ struct nh_seen {
 
 /* NULL when the text is not of the language. */
 nh_seen *nh_typeset_read(nh_arena *arena, const char *text);
+/* Do the first `length` characters spell a Greek letter? */
+bool nh_typeset_is_greek(const char *text, size_t length);
+/* As nh_typeset, of what was read. */
+void nh_typeset_seen(const nh_seen *e, nh_typeset_form form, nh_text *out);
 
 #endif

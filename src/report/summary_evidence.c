@@ -100,8 +100,8 @@ void nh_summary_evidence(nh_summary_writer *w)
 static void watched(nh_summary_writer *w, const nh_validation *v)
 {
     enum { rows = 5 };
-    size_t first = w->r->tracks;
-    while (first > 0 && w->r->track[first - 1].kind == NH_TRACK_WATCH) first--;
+    size_t first = w->r->tracks.count;
+    while (first > 0 && w->r->tracks.track[first - 1].kind == NH_TRACK_WATCH) first--;
     if (first == v->watches || v->count < rows) return;
     nh_text_addf(w->out, "  %10s", "t");
     for (size_t j = first; j < v->watches; j++) nh_text_addf(w->out, "%14s", v->watch_name[j]);
