@@ -99,7 +99,7 @@ static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
     if (!cli->tex) return true;
     nh_text text;
     nh_text_init(&text);
-    nh_tex(result, &text);
+    nh_tex(result, cli->fragment, &text);
     bool good = nh_output_write(cli->tex, nh_text_string(&text), text.length, error);
     nh_text_clear(&text);
     return good;

@@ -13,6 +13,7 @@
     X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate chart reduce", "the result as JSON; with - nothing else is printed") \
     X(opt_html,        "html",        required_argument, "FILE",               "analyze", "the result as one page that needs nothing else")                        \
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze", "the result as a LaTeX document")                                        \
+    X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "the LaTeX without a preamble, to be read by another")                      \
     X('o',             "output",      required_argument, "DIR",                "analyze", "-o: all of these and every figure, into a folder")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \

@@ -92,6 +92,16 @@ void nh_html(const nh_result *r, nh_text *out)
     nh_html_add(&w, "//]]></script>\n</body>\n</html>\n");
 }
 
+void nh_html_motion_figures(const nh_result *r, nh_figure_sink *sink, void *context)
+{
+    nh_html_motion_plots(&(nh_html_writer){.r = r, .sink = sink, .context = context});
+}
+
+void nh_html_search_figures(const nh_result *r, nh_figure_sink *sink, void *context)
+{
+    nh_html_evidence_plots(&(nh_html_writer){.r = r, .sink = sink, .context = context});
+}
+
 const char *nh_html_next_figure(const char **at, size_t *length)
 {
     static const char begin[] = "<svg xmlns=", end[] = "</svg>"; /* text cannot hold them: it is escaped */

@@ -108,6 +108,8 @@ static void stages(nh_html_writer *w)
     nh_html_add(w, "</tbody></table></div>\n");
 }
 
+void nh_html_evidence_plots(nh_html_writer *w) { spectrum_plot(w); }
+
 void nh_html_evidence(nh_html_writer *w)
 {
     const nh_result *r = w->r;

@@ -9,6 +9,8 @@ typedef struct {
     const nh_result *r;
     nh_text *out;
     size_t figures;
+    nh_figure_sink *sink; /* NULL: figures go onto the page */
+    void *context;
 } nh_html_writer;
 
 /* ---- parts ---- */
@@ -33,6 +35,10 @@ void nh_html_currents(nh_html_writer *w);
 void nh_html_evidence(nh_html_writer *w);
 void nh_html_motion(nh_html_writer *w);
 void nh_html_repeat(nh_html_writer *w);
+
+/* The plots of these sections alone. */
+void nh_html_motion_plots(nh_html_writer *w);
+void nh_html_evidence_plots(nh_html_writer *w);
 
 extern const char *const nh_html_style;
 extern const char *const nh_html_script;

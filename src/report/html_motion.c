@@ -196,12 +196,25 @@ static void second_opinion(nh_html_writer *w)
     nh_html_add(w, ".</p>\n");
 }
 
+void nh_html_motion_plots(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    size_t m = r->model->m, all = r->tracks;
+    if (!r->validation || r->validation->count < 2) return;
+    path_plot(w);
+    positions(w);
+    if (r->model->chart->quasi) tracks(w, NH_TRACK_STATE, 2 * m, all, "Quasi-velocities", "quasi-velocity", "Quasi-velocities over time.");
+    else tracks(w, NH_TRACK_STATE, m, m, "Velocities", "velocity", "Velocities over time.");
+    tracks(w, NH_TRACK_ENERGY, 0, all, "Energy", "E", "The energy function over time.");
+    tracks(w, NH_TRACK_WATCH, 0, all, "Watched quantities", "value", "What the analysis file asks to watch, over time.");
+    if (r->model->k) multipliers(w);
+}
+
 void nh_html_motion(nh_html_writer *w)
 {
     const nh_result *r = w->r;
     const nh_validation *v = r->validation;
     if (!v || v->count < 2) return;
-    size_t m = r->model->m, all = r->tracks;
     nh_text_addf(w->out, "<section id=\"motion\"><h2>A motion</h2>\n<p>%s in ", v->method);
     nh_html_text(w, v->chart);
     nh_html_add(w, ", t = ");
@@ -210,13 +223,7 @@ void nh_html_motion(nh_html_writer *w)
     nh_html_number(w, v->end, 6);
     nh_html_add(w, ".</p>\n");
     player(w);
-    path_plot(w);
-    positions(w);
-    if (r->model->chart->quasi) tracks(w, NH_TRACK_STATE, 2 * m, all, "Quasi-velocities", "quasi-velocity", "Quasi-velocities over time.");
-    else tracks(w, NH_TRACK_STATE, m, m, "Velocities", "velocity", "Velocities over time.");
-    tracks(w, NH_TRACK_ENERGY, 0, all, "Energy", "E", "The energy function over time.");
-    tracks(w, NH_TRACK_WATCH, 0, all, "Watched quantities", "value", "What the analysis file asks to watch, over time.");
-    if (r->model->k) multipliers(w);
+    nh_html_motion_plots(w);
     drifts(w);
     second_opinion(w);
     nh_html_add(w, "</section>\n");
