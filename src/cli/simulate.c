@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "base/output.h"
+#include "base/progress.h"
 #include "cli/cli.h"
 #include "report/motion.h"
 
@@ -48,8 +49,11 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
-    nh_simulation *s = nh_cli_motion_request(cli, example, &request, error) ? nh_simulate(&request, error) : NULL;
-    if (!s) return error->code;
+    if (!nh_cli_motion_request(cli, example, &request, error)) return error->code;
+    nh_cli_watch_begin(cli);
+    nh_simulation *s = nh_simulate(&request, error);
+    nh_cli_watch_end();
+    if (!s) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
     bool good = true;
     put_table(cli, s);
     if (cli->json) {
@@ -60,5 +64,5 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     }
     if (good) complain(s, error);
     nh_simulation_free(s);
-    return error->code;
+    return good && nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
 }

@@ -39,7 +39,7 @@
     X(opt_threads,     "threads",     required_argument, "N",                  "analyze", "processors to use; they do not change the result")                      \
     X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze", "time after which the search ends, with what there is")                  \
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate chart reduce", "any number of `nhsym explain options`")    \
-    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze", "what is being done, on standard error")                                 \
+    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze simulate chart reduce", "what is being done, on standard error")           \
     X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate chart reduce new", "-q: no summary")                       \
     X('v',             "verbose",     no_argument,       "",                   "analyze chart reduce", "-v: more of it")                                           \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate chart reduce", "no colours; NO_COLOR does the same")       \

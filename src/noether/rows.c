@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/progress.h"
 #include "expr/normal.h"
 
 /* The derivative of log(R - s), with a difference that cancels, is often a quotient in which nothing cancels: worth the simplification,
@@ -117,7 +118,7 @@ void nh_rows_current(nh_rows *r, const nh_points *points, const double *theta, n
 {
     for (size_t j = 0; j < r->unknowns; j++)
         for (size_t p = 0; p < NH_BATCH; p++) r->theta[j * NH_BATCH + p] = theta[j];
-    for (size_t start = 0; start < points->count; start += NH_BATCH) {
+    for (size_t start = 0; start < points->count && !nh_interrupted(); start += NH_BATCH) {
         size_t count = run(r, points, start);
         for (size_t j = 0; j < r->ansatz->columns; j++)
             for (size_t p = 0; p < count; p++) r->rate[j * NH_BATCH + p] *= points->weight[start + p];
