@@ -231,3 +231,33 @@ Test(cli_manners, an_interrupted_reduction_keeps_the_group)
 
 Test(cli_manners, sigterm_ends_with_what_there_is) { interrupt(SIGTERM); }
 Test(cli_manners, sigint_ends_with_what_there_is) { interrupt(SIGINT); }
+
+/* ---- plots in the terminal ---- */
+
+/* Bars (U+2581 to U+2588) from `text` to the end of the line: their heights 1 to 8. */
+static size_t read_bars(const char *text, int *height, size_t most)
+{
+    size_t n = 0;
+    for (const char *c = text; *c && *c != '\n' && n < most; c++)
+        if (!strncmp(c, "\xe2\x96", 2)) height[n++] = (unsigned char)c[2] - 0x80;
+    return n;
+}
+
+Test(cli_manners, spectrum_and_drifts_are_drawn)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "analyze sleigh", 0);
+    int height[200];
+    const char *line = strstr(f.out, "current route "), *bars = line ? strchr(line, '\n') + 1 : "";
+    cr_assert_eq(read_bars(bars, height, 200), 17u, "one bar for every independent column: %.200s", bars);
+    for (size_t i = 0; i < 17; i++) cr_expect(i < 4 ? height[i] <= 2 : height[i] >= 7, "bar %zu is %d high", i, height[i]);
+    const char *drift = strstr(f.out, "  drift at tolerance"), *phi = drift ? strstr(drift, "  Phi1 ") : NULL;
+    cr_assert(phi);
+    cr_expect_eq(read_bars(phi, height, 200), 24u, "%.200s", phi);
+    for (size_t i = 0; i < 24; i++) cr_expect(height[i] >= 1 && height[i] <= 5, "a drift of 1e-10 between 1e-16 and 1: %d", height[i]);
+    finished_clear(&f);
+    f = run_expecting(&p, "analyze sleigh --quiet", 0);
+    cr_expect_str_empty(f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
