@@ -63,7 +63,7 @@ static void drift_over_time(nh_summary_writer *w, const nh_validation *v, size_t
 static void spectrum_values(nh_summary_writer *w, const nh_spectrum *s)
 {
     enum { per_line = 10 };
-    if (!s->done) return;
+    if (!s->done || s->rank < 2) return;
     bars(w, s, w->style.verbose);
     if (!w->style.verbose) return;
     for (size_t i = 0; i < s->rank; i++) nh_text_addf(w->out, "%s%9.1e%s", i % per_line ? "" : "    ", s->spectrum[i], i % per_line == per_line - 1 || i + 1 == s->rank ? "\n" : "");
