@@ -25,7 +25,7 @@ CPPFLAGS = -Isrc -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -DNH_DATADIR='"$(PREF
 LDLIBS   = -lsundials_cvode -lsundials_arkode -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense \
            -lnlopt -lgsl -lflint-arb -lflint -lgmp -lyaml -lcjson -llapacke -lopenblas -lm
 
-PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-dev libflint-arb-dev
+PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-dev libflint-arb-dev libgmp-dev
 TEST_PACKAGES = $(PACKAGES) libcriterion-dev
 BROWSER       = chromium
 

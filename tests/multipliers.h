@@ -17,6 +17,7 @@
 
 #include "base/memory.h"
 #include "expr/diff.h"
+#include "expr/num_long.h"
 #include "expr/normal.h"
 #include "noether/points.h"
 
@@ -52,8 +53,15 @@ static void arb_number(arb_t out, nh_num c, slong bits)
         arb_set_d(out, c.d);
         return;
     }
-    arb_set_si(out, c.p);
-    arb_div_si(out, out, c.q, bits);
+    fmpq_t ratio;
+    mpq_t v;
+    fmpq_init(ratio);
+    mpq_init(v);
+    nh_num_get_mpq(v, c);
+    fmpq_set_mpq(ratio, v);
+    arb_set_fmpq(out, ratio, bits);
+    mpq_clear(v);
+    fmpq_clear(ratio);
 }
 
 static arb_srcptr arb_graph_value(arb_graph *g, nh_ex e);
@@ -79,10 +87,10 @@ static void arb_product(arb_graph *g, nh_ex e, arb_t out)
         nh_ex exponent = nh_exponent_of(g->dag, e, i);
         nh_num x = nh_kind_of(g->dag, exponent) == NH_NUMBER ? nh_number_of(g->dag, exponent) : nh_num_real(0.1);
         arb_srcptr base = arb_graph_value(g, nh_child(g->dag, e, i));
-        if (nh_num_exact(x) && x.q == 1 && llabs(x.p) < 1000) {
+        if (nh_num_short(x) && x.q == 1 && llabs(x.p) < 1000) {
             arb_pow_ui(power, base, (ulong)llabs(x.p), g->bits);
             if (x.p < 0) arb_inv(power, power, g->bits);
-        } else if (nh_num_exact(x) && x.q == 2 && llabs(x.p) < 1000) {
+        } else if (nh_num_short(x) && x.q == 2 && llabs(x.p) < 1000) {
             arb_sqrt(power, base, g->bits);
             arb_pow_ui(power, power, (ulong)llabs(x.p), g->bits);
             if (x.p < 0) arb_inv(power, power, g->bits);

@@ -23,21 +23,56 @@ Test(dag, numbers_are_exact_rationals)
     cr_expect(nh_num_equal(nh_num_pow(nh_num_ratio(2, 3), -3), nh_num_ratio(27, 8)));
     cr_expect(nh_num_is(nh_num_mul(nh_num_ratio(7, 3), nh_num_inv(nh_num_ratio(7, 3))), 1));
     cr_expect(nh_num_is(nh_num_real(-0.0), 0));
-    cr_expect(nh_num_exact(nh_num_real(9007199254740991.0)));
+    cr_expect(nh_num_short(nh_num_real(9007199254740991.0)));
     cr_expect_not(nh_num_exact(nh_num_real(9007199254740992.0)));
     cr_expect_not(nh_num_exact(nh_num_real(0.1)));
+    cr_expect(nh_num_equal(nh_num_decimal(0.1), nh_num_ratio(1, 10)) && nh_num_equal(nh_num_decimal(-1250), nh_num_int(-1250)));
 }
 
-Test(dag, numbers_that_do_not_fit_become_doubles)
+/* Rationals too long for 64 bits go on exactly: sums, products, inverses and powers lead back to short ones. */
+Test(dag, long_rationals)
+{
+    nh_num a = nh_num_ratio(INT64_MAX, 3), b = nh_num_ratio(INT64_MAX - 1, 7), product = nh_num_mul(a, b), tiny = nh_num_pow(nh_num_int(10), -25);
+    cr_expect(nh_num_exact(product) && !nh_num_short(product));
+    cr_expect(nh_num_equal(nh_num_mul(product, nh_num_inv(b)), a));
+    cr_expect(nh_num_is(nh_num_add(nh_num_add(product, a), nh_num_mul(nh_num_int(-1), nh_num_add(a, product))), 0));
+    cr_expect(nh_num_equal(nh_num_mul(b, a), product), "equal numbers are the same number");
+    cr_expect(nh_num_is(nh_num_mul(tiny, nh_num_pow(nh_num_int(10), 25)), 1));
+    cr_expect_eq(nh_num_value(tiny), 1e-25);
+    cr_expect(nh_num_equal(nh_num_decimal(1e-25), tiny));
+    cr_expect_eq(nh_num_value(nh_num_mul(nh_num_int(-1), product)), -nh_num_value(product));
+    nh_num near = nh_num_add(nh_num_int(1), tiny); /* not 1, although its double is */
+    cr_expect(nh_num_exact(near) && !nh_num_is(near, 1) && nh_num_value(near) == 1);
+    cr_expect_not(nh_num_exact(nh_num_pow(nh_num_int(3), 100000)), "there is a limit");
+}
+
+/* What is printed is read again as the same number: short decimals, fractions of long numbers. */
+Test(dag, long_rationals_are_printed_exactly)
+{
+    nh_dag *d = nh_dag_create();
+    nh_num third = nh_num_mul(nh_num_ratio(INT64_MAX, 3), nh_num_int(1000)), tiny = nh_num_pow(nh_num_int(10), -25), huge = nh_num_pow(nh_num_int(7), 40);
+    nh_num each[] = {third, tiny, huge, nh_num_mul(tiny, nh_num_int(-125)), nh_num_mul(huge, nh_num_ratio(1, 11)), nh_num_add(huge, nh_num_ratio(1, 3))};
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
+        nh_ex x = nh_symbol(d, "x"), e[3] = {nh_number(d, each[i]), nh_mul(d, nh_number(d, each[i]), x), nh_powi(d, nh_add(d, nh_number(d, each[i]), x), 2)};
+        for (size_t k = 0; k < 3; k++) {
+            char *text = nh_print_string(d, e[k]);
+            cr_expect_eq(parsed(d, text), e[k], "%s", text);
+            nh_free(text);
+        }
+    }
+    nh_dag_free(d);
+}
+
+Test(dag, numbers_past_the_limits_become_doubles)
 {
     nh_num big = nh_num_int(INT64_MAX), sum = nh_num_add(big, big);
-    cr_expect_not(nh_num_exact(sum));
+    cr_expect(nh_num_exact(sum));
     cr_expect_eq(nh_num_value(sum), 18446744073709551616.0);
     cr_expect_eq(nh_num_value(nh_num_int(INT64_MIN)), -9223372036854775808.0);
     cr_expect_eq(nh_num_value(nh_num_mul(big, big)), 0x1p126);
     nh_num two = nh_num_add(nh_num_ratio(INT64_MAX, INT64_MAX - 1), nh_num_ratio(INT64_MAX, INT64_MAX - 2));
     cr_expect_eq(nh_num_value(two), 2);
-    cr_expect(nh_num_is(two, 2), "a whole double is the whole number, so that it has one node");
+    cr_expect(nh_num_is(nh_num_real(2), 2), "a whole double is the whole number, so that it has one node");
     cr_expect_eq(nh_num_value(nh_num_pow(nh_num_int(3), 100)), pow(3, 100));
     cr_expect_eq(nh_num_value(nh_num_pow(nh_num_int(2), INT64_MIN)), 0);
     cr_expect(isinf(nh_num_value(nh_num_pow(nh_num_int(-2), INT64_MAX))));
@@ -157,7 +192,7 @@ Test(dag, large_coefficients_stay_exact)
     nh_ex term[] = {x, y};
     nh_ex e = nh_linear(d, 2, (nh_num[]){nh_num_int(INT64_MAX - 1), nh_num_ratio(1, 7)}, term);
     cr_assert_eq(nh_kind_of(d, e), NH_SUM, "not 1/7 of a sum with 7 times the coefficients");
-    cr_expect(nh_num_exact(nh_coefficient_of(d, e, 0)) && nh_num_exact(nh_coefficient_of(d, e, 1)));
+    cr_expect(nh_num_short(nh_coefficient_of(d, e, 0)) && nh_num_short(nh_coefficient_of(d, e, 1)));
     nh_ex rest = nh_sub(d, e, nh_mul(d, nh_int(d, INT64_MAX - 1), x));
     cr_expect_eq(rest, nh_div(d, y, nh_int(d, 7)));
     nh_dag_free(d);

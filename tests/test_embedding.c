@@ -283,6 +283,20 @@ Test(embedding, equally_good_velocities_leave_the_first_ones_free)
     check_chart(SPACE "constraints: [\"x' + y' + z' = 0\"]\n", 0, "z");
 }
 
+/* y' is named, and nowhere on the domain determined by x': another chart takes over.  Where it breaks down at points only, it stays. */
+Test(embedding, a_named_chart_that_breaks_down_everywhere_is_replaced)
+{
+    static const char by_x[] = "constraints: [\"x'*sin(z) - y'*cos(z) = 0\"]\ndependent: [y]\n";
+    for (int near = 0; near <= 1; near++) {
+        char text[1000];
+        snprintf(text, sizeof text, SPACE "%sdomain: {z: %s}\n", by_x, near ? "[1.565, 1.575]" : "[1.0, 2.0]");
+        embedded e = embed(text, NH_CHART_COORDINATES);
+        cr_expect_eq(e.chart->replaced, near);
+        cr_expect_eq(e.chart->dependent[0], (size_t)(near ? 0 : 1));
+        embed_clear(&e);
+    }
+}
+
 Test(embedding, the_pivot_measures_the_choice)
 {
     embedded good = embed(SPACE "constraints: [\"x*x' + (4 + x^2)*y' = 0\"]\n", NH_CHART_COORDINATES);

@@ -41,6 +41,70 @@ Test(points, too_few_are_an_error_that_counts)
     mechanics_clear(&x);
 }
 
+/* ---- beyond the chart ---- */
+
+#define SKATE_BY_X(domain) PARTICLE_WITH_HEADING "constraints: [\"x'*sin(phi) - y'*cos(phi) = 0\"]\ndependent: [y]\ndomain: {phi: " domain "}\n"
+#define PARTICLE_WITH_HEADING "name: skate\ncoordinates:\n  - {name: x, type: length}\n  - {name: y, type: length}\n  - {name: phi, type: angle}\n" \
+    "lagrangian: (x'^2 + y'^2)/2 + phi'^2/4 - sin(phi)*x\n"
+
+/* Near phi = pi/2 the chart of x' breaks down: points there satisfy the constraint and the equations of motion in all coordinates. */
+Test(points, another_chart_takes_over)
+{
+    mechanics x = mechanics_of_text(SKATE_BY_X("[1.0, 2.1]"), NH_CHART_AUTO);
+    nh_points *plain = points_of(x.model, 400, 4), *p = nh_points_cover(x.model, 400, 4, NULL);
+    cr_assert_not_null(p);
+    const nh_points *b = p->beyond;
+    cr_assert_not_null(b);
+    cr_assert_eq(p->tried - nh_points_equations(p), 0, "none is lost");
+    cr_assert_eq(plain->tried, p->tried);
+    cr_assert_null(plain->beyond);
+    size_t width = x.model->width, m = x.model->m;
+    for (size_t i = 0; i < b->count; i++) {
+        double phi = b->column[3][i], vx = b->column[width][i], vy = b->column[width + 1][i], turn = b->column[width + 2][i];
+        double along = vx * cos(phi) + vy * sin(phi), rate = -cos(phi) * sin(phi); /* v' = F_x cos phi on the blade, x'' = (v cos phi)' */
+        cr_assert(fabs(cos(phi)) < 0.05 && fabs(vx * sin(phi) - vy * cos(phi)) < 1e-13, "at %g", phi);
+        cr_assert_float_eq(b->column[width + m][i], rate * cos(phi) - along * turn * sin(phi), 1e-12);
+        cr_assert_eq(b->column[4][i], vx);
+        cr_assert(b->weight[i] > 0 && b->weight[i] <= 1);
+    }
+    nh_points_free(plain);
+    nh_points_free(p);
+    mechanics_clear(&x);
+}
+
+/* On one branch of a quadratic constraint no point of the other is taken. */
+Test(points, another_chart_knows_no_branches)
+{
+    mechanics x = mechanics_of_text(PARTICLE_WITH_HEADING "constraints: [\"x'^2*sin(phi)^2 - y'^2*cos(phi)^2 = 0\"]\ndependent: [y]\n", NH_CHART_AUTO);
+    nh_points *p = nh_points_cover(x.model, 400, 4, NULL);
+    cr_assert(x.model->chart->branch && p && p->degenerate > 0);
+    cr_assert_null(p->beyond);
+    nh_points_free(p);
+    mechanics_clear(&x);
+}
+
+/* The rows from beyond the chart vanish for a current and for nothing else: energy against energy + x'^2/100. */
+Test(rows, equations_from_beyond_the_chart)
+{
+    mechanics x = mechanics_of_text(SKATE_BY_X("[1.0, 2.1]"), NH_CHART_AUTO);
+    nh_points *p = nh_points_cover(x.model, 400, 4, NULL);
+    nh_ex e[2] = {x.model->E, nh_add(x.model->dag, x.model->E, formula(x.model, "x'^2/100"))};
+    nh_family family = {.kind = NH_TERMS, .terms = 2, .term = e};
+    nh_ansatz *a = ansatz_of(x.model, p, 1, &family);
+    cr_assert_eq(a->columns, 2);
+    size_t rows = nh_points_equations(p);
+    double *A = nh_alloc_array(2 * rows, sizeof *A), *B = nh_alloc_array(2 * p->count, sizeof *B), largest[2] = {0};
+    nh_rows_all(x.model, a, p, A, B);
+    for (size_t j = 0; j < 2; j++)
+        for (size_t i = p->count; i < rows; i++) largest[j] = fmax(largest[j], fabs(A[j * rows + i]));
+    cr_assert(largest[0] < 1e-12 && largest[1] > 1e-6, "%g %g", largest[0], largest[1]);
+    nh_free(A);
+    nh_free(B);
+    nh_ansatz_free(a);
+    nh_points_free(p);
+    mechanics_clear(&x);
+}
+
 /* weight = 1 / (1 + max|a| + max|v|), everywhere on the submanifold. */
 Test(points, weights_and_constraints)
 {

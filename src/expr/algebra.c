@@ -96,7 +96,7 @@ static nh_num content_of(const bag *b)
     int64_t p = 0, q = 1;
     for (size_t i = 0; i <= b->count; i++) {
         nh_num c = i < b->count ? b->list[i].c : b->c;
-        if (!nh_num_exact(c)) return sign;
+        if (!nh_num_short(c)) return sign;
         p = gcd64(p, c.p);
         __int128 l = (__int128)q / gcd64(q, c.q) * c.q;
         if (l > INT64_MAX) return sign;
@@ -104,7 +104,7 @@ static nh_num content_of(const bag *b)
     }
     nh_num content = nh_num_mul(sign, nh_num_ratio(p, q)), inverse = nh_num_inv(content);
     for (size_t i = 0; i <= b->count; i++)
-        if (!nh_num_exact(nh_num_mul(inverse, i < b->count ? b->list[i].c : b->c))) return sign;
+        if (!nh_num_short(nh_num_mul(inverse, i < b->count ? b->list[i].c : b->c))) return sign;
     return content;
 }
 
@@ -245,7 +245,7 @@ static void push_roots(nh_dag *dag, bag *b, int64_t n, nh_num x)
     while (n > 1) {
         int64_t times, prime = prime_in(n, &times);
         for (int64_t i = 0; i < times; i++) n /= prime;
-        nh_num y = nh_num_mul(x, nh_num_int(times)), whole = nh_num_exact(y) ? nh_num_int(floor_of(y)) : nh_num_int(0);
+        nh_num y = nh_num_mul(x, nh_num_int(times)), whole = nh_num_short(y) ? nh_num_int(floor_of(y)) : nh_num_int(0);
         b->c = nh_num_mul(b->c, nh_num_pow(nh_num_int(prime), whole.p));
         nh_num part = nh_num_add(y, nh_num_int(-whole.p));
         if (!nh_num_is(part, 0)) bag_push(b, (item){.e = nh_int(dag, prime), .x = nh_number(dag, part)});
@@ -262,6 +262,7 @@ static bool split_number(nh_dag *dag, bag *b, item power)
         return true;
     }
     if (nh_num_value(n) < 0) return false;
+    if (n.q == NH_LONG || x.q == NH_LONG) return false;
     if (n.p == 0 || !x.q) { /* inexact or zero */
         b->c = nh_num_mul(b->c, nh_num_real(pow(nh_num_value(n), nh_num_value(x))));
         return true;
@@ -300,7 +301,7 @@ static int64_t steps_in(const nh_dag *dag, nh_ex x, int64_t s)
         if (nh_kind_of(dag, sum) == NH_SUM) c = nh_num_mul(nh_constant_of(dag, x), nh_constant_of(dag, sum));
     }
     c = nh_num_mul(c, nh_num_ratio(1, s));
-    if (!nh_num_exact(c) || fabs(nh_num_value(c)) > 1e18) return 0;
+    if (!nh_num_short(c) || fabs(nh_num_value(c)) > 1e18) return 0;
     return floor_of(c);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "expr/ball_internal.h"
+#include "expr/num_long.h"
 
 enum { deepest = 3000 }; /* nesting that the stack surely bears */
 
@@ -89,9 +90,24 @@ void nh_ball_set_double(nh_ball *ball, nh_ex symbol, double value) { arb_set_d(p
 
 static bool eval(nh_ball *ball, nh_ex e, arb_t out);
 
+static void set_long(arb_t out, nh_num c, long bits)
+{
+    mpq_t v;
+    fmpq_t ratio;
+    mpq_init(v);
+    fmpq_init(ratio);
+    nh_num_get_mpq(v, c);
+    fmpz_set_mpz(fmpq_numref(ratio), mpq_numref(v));
+    fmpz_set_mpz(fmpq_denref(ratio), mpq_denref(v));
+    arb_set_fmpq(out, ratio, bits);
+    fmpq_clear(ratio);
+    mpq_clear(v);
+}
+
 static void set_number(nh_ball *ball, arb_t out, nh_num c)
 {
-    if (nh_num_exact(c)) set_ratio(out, c.p, c.q, ball->bits);
+    if (nh_num_short(c)) set_ratio(out, c.p, c.q, ball->bits);
+    else if (nh_num_exact(c)) set_long(out, c, ball->bits);
     else arb_set_d(out, c.d);
 }
 

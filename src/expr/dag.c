@@ -124,7 +124,7 @@ nh_ex nh_number(nh_dag *dag, nh_num value)
 {
     uint32_t word[6];
     memset(word, 0, sizeof word);
-    if (value.q) value.d = 0;
+    if (value.q > 0) value.d = 0;
     else if (isnan(value.d)) value.d = NAN; /* one nan, whatever its sign */
     memcpy(word, &value.p, 8);
     memcpy(word + 2, &value.q, 8);

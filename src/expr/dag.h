@@ -29,22 +29,27 @@ typedef enum {
     NH_EXP, NH_LOG, NH_ABS, NH_SIGN, NH_ATAN2, NH_PI, NH_FUNCTION_COUNT
 } nh_function;
 
-/* An exact rational p/q with q > 0 in lowest terms, or (q == 0) the double d. */
+/* An exact rational p/q with q > 0 in lowest terms; or (q == NH_LONG) one too long for 64 bits, which expr/num_long keeps under the
+ * index p, with d the nearest double; or (q == 0) the double d. */
 typedef struct {
     int64_t p, q;
     double d;
 } nh_num;
 
+enum { NH_LONG = -1 };
+
 nh_num nh_num_int(int64_t value);
 nh_num nh_num_ratio(int64_t p, int64_t q);
 nh_num nh_num_real(double value); /* exact when the double is a whole number below 2^53 */
+nh_num nh_num_decimal(double value); /* the shortest decimal that rounds to the double: 0.1 is 1/10 */
 nh_num nh_num_add(nh_num a, nh_num b);
 nh_num nh_num_mul(nh_num a, nh_num b);
 nh_num nh_num_inv(nh_num a); /* of zero: not a number */
 nh_num nh_num_pow(nh_num a, int64_t n);
 double nh_num_value(nh_num a);
 bool nh_num_is(nh_num a, int64_t p);
-bool nh_num_exact(nh_num a);
+bool nh_num_exact(nh_num a); /* a rational */
+bool nh_num_short(nh_num a); /* one of 64 bits: p and q can be used */
 bool nh_num_equal(nh_num a, nh_num b);
 
 nh_dag *nh_dag_create(void);

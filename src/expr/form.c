@@ -66,7 +66,7 @@ static bool make_argument(nh_forms *s, nh_ex e, nh_form *form)
 static bool is_sound(const nh_dag *dag, nh_ex result, nh_ex source)
 {
     if (nh_kind_of(dag, result) == NH_NUMBER && isnan(nh_num_value(nh_number_of(dag, result)))) return false;
-    return nh_is_exact(dag, result) || !nh_is_exact(dag, source);
+    return nh_is_short(dag, result) || !nh_is_short(dag, source);
 }
 
 /* e = *content * (result), both canonical, content positive. */
@@ -82,7 +82,7 @@ static nh_ex canonical_parts(nh_forms *s, nh_ex e, nh_num *content)
         nh_num size = minus ? nh_num_mul(pieces.constant, nh_num_int(-1)) : pieces.constant;
         pieces.constant = nh_num_int(zero ? 0 : minus ? -1 : 1);
         nh_ex candidate = nh_emit_terms(&form.kernels, &pieces);
-        if (nh_num_exact(size) && is_sound(s->dag, candidate, e)) {
+        if (nh_num_short(size) && is_sound(s->dag, candidate, e)) {
             rest = candidate;
             *content = zero ? nh_num_int(1) : size;
         }
@@ -144,7 +144,7 @@ static nh_ex whole_root(nh_dag *dag, int64_t n, nh_num x)
 
 static nh_ex number_root(nh_dag *dag, nh_num c, nh_num x)
 {
-    if (!nh_num_exact(c) || c.p <= 0) return nh_pow(dag, nh_number(dag, c), nh_number(dag, x));
+    if (!nh_num_short(c) || c.p <= 0) return nh_pow(dag, nh_number(dag, c), nh_number(dag, x));
     nh_ex bottom = whole_root(dag, c.q, nh_num_mul(x, nh_num_int(-1)));
     return nh_mul(dag, whole_root(dag, c.p, x), bottom);
 }
@@ -157,7 +157,7 @@ static nh_ex rewrite_root(nh_forms *s, nh_ex base, nh_num x)
     nh_num content = nh_num_int(1);
     if (!is_plain(dag, base)) {
         base = canonical_parts(s, base, &content);
-    } else if (nh_kind_of(dag, base) == NH_PRODUCT && nh_num_exact(nh_constant_of(dag, base))) {
+    } else if (nh_kind_of(dag, base) == NH_PRODUCT && nh_num_short(nh_constant_of(dag, base))) {
         content = nh_constant_of(dag, base);
         if (content.p < 0) content.p = -content.p;
         base = nh_mul(dag, nh_number(dag, nh_num_inv(content)), base);

@@ -6,9 +6,9 @@ typedef const nh_quotient *quotient;
 
 static quotient eval_number(nh_form *f, nh_num c)
 {
-    if (nh_num_exact(c) || !f->kernels.opaque) return nh_quotient_number(f->field, c);
+    if (nh_num_short(c) || !f->kernels.opaque) return nh_quotient_number(f->field, c);
     bool minus = c.d < 0;
-    nh_ex size = nh_real(f->kernels.dag, minus ? -c.d : c.d);
+    nh_ex size = nh_number(f->kernels.dag, minus ? nh_num_mul(c, nh_num_int(-1)) : c);
     quotient q = nh_quotient_power_of(f->field, nh_kernel_plain(&f->kernels, size), 1);
     return minus ? nh_quotient_scale(f->field, q, nh_num_int(-1)) : q;
 }

@@ -65,7 +65,7 @@ static void add_part(nh_parts *parts, nh_ex atom, nh_num c)
 static void add_scaled(nh_dag *dag, nh_parts *parts, nh_ex atom, nh_num c, nh_num scale)
 {
     nh_num product = nh_num_mul(scale, c);
-    if (nh_num_exact(product)) {
+    if (nh_num_short(product)) {
         add_part(parts, atom, product);
         return;
     }
@@ -80,7 +80,7 @@ static void split(nh_dag *dag, nh_parts *parts, nh_ex e)
     nh_num scale = nh_num_int(1), one = scale;
     if (nh_kind_of(dag, e) == NH_PRODUCT) {
         scale = nh_constant_of(dag, e);
-        if (!nh_num_exact(scale)) scale = nh_num_int(scale.d < 0 ? -1 : 1);
+        if (!nh_num_short(scale)) scale = nh_num_int(scale.d < 0 ? -1 : 1);
         e = nh_mul(dag, nh_number(dag, nh_num_inv(scale)), e);
     }
     if (nh_kind_of(dag, e) == NH_SUM) {
@@ -103,7 +103,7 @@ void nh_parts_make(nh_dag *dag, bool whole, nh_ex argument, nh_parts *parts)
     }
     nh_num c = nh_num_int(1);
     if (nh_kind_of(dag, argument) == NH_PRODUCT) c = nh_constant_of(dag, argument);
-    if (!nh_num_exact(c)) c = nh_num_int(c.d < 0 ? -1 : 1);
+    if (!nh_num_short(c)) c = nh_num_int(c.d < 0 ? -1 : 1);
     add_part(parts, nh_mul(dag, nh_number(dag, nh_num_inv(c)), argument), c);
 }
 
@@ -123,7 +123,7 @@ nh_exponent_kind nh_exponent_kind_of(const nh_dag *dag, nh_ex exponent)
 {
     if (nh_kind_of(dag, exponent) != NH_NUMBER) return NH_EXPONENT_SYMBOLIC;
     nh_num x = nh_number_of(dag, exponent);
-    if (!nh_num_exact(x) || fabs(nh_num_value(x)) > most_power || x.q > most_order) return NH_EXPONENT_OPAQUE;
+    if (!nh_num_short(x) || fabs(nh_num_value(x)) > most_power || x.q > most_order) return NH_EXPONENT_OPAQUE;
     return x.q == 1 ? NH_EXPONENT_WHOLE : NH_EXPONENT_ROOT;
 }
 
@@ -163,7 +163,7 @@ static nh_num magnitude(nh_num c) { return nh_num_value(c) < 0 ? nh_num_mul(c, n
 
 static void note_number(nh_kernels *k, nh_num c)
 {
-    if (nh_num_exact(c)) return;
+    if (nh_num_short(c)) return;
     if (!isfinite(c.d)) k->broken = true;
     else if (k->opaque) note_plain(k, nh_number(k->dag, magnitude(c)));
 }

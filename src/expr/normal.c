@@ -31,7 +31,7 @@ static size_t number_length(nh_num c) { return (c.q > 1 ? 3 : 1) + (nh_num_value
 /* A number in front of something: what it adds, with its operators. */
 static size_t coefficient_length(nh_num c)
 {
-    if (!nh_num_exact(c)) return 2;
+    if (!nh_num_short(c)) return 2;
     return (c.p != 1 && c.p != -1 ? 2 : 0) + (c.q != 1 ? 2 : 0);
 }
 
@@ -67,7 +67,7 @@ static size_t product_length(const nh_dag *dag, nh_ex e, nh_index *known)
 {
     size_t above = 0, below = 0, length = 0;
     nh_num c = nh_constant_of(dag, e);
-    if (!nh_num_exact(c) || (c.p != 1 && c.p != -1)) above++;
+    if (!nh_num_short(c) || (c.p != 1 && c.p != -1)) above++;
     if (c.q > 1) below++;
     length = above + below + (nh_num_value(c) < 0);
     for (size_t i = 0; i < nh_arity(dag, e); i++) {

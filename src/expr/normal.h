@@ -29,9 +29,10 @@ nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most);
  * sin(x) - y*cos(x)); e itself when the size bound is met. */
 nh_ex nh_numerator(nh_dag *dag, nh_ex e);
 
-/* Is every number in e an exact rational?  Where an expression has others while its source has none, arithmetic overflowed and was rounded to
- * doubles. */
+/* Is every number in e a rational?  Is it one of 64 bits, which can be printed as such?  Where an expression has longer ones while its source
+ * has none, it is no simpler form. */
 bool nh_is_exact(const nh_dag *dag, nh_ex e);
+bool nh_is_short(const nh_dag *dag, nh_ex e);
 
 /* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);

@@ -5,6 +5,7 @@
 
 #include "expr/normal.h"
 #include "expr/normal_flint.h"
+#include "expr/num_long.h"
 
 /* Products are refused when they need more than this many term products per admitted term; a whole computation may
  * do `patience` times that. */
@@ -289,12 +290,29 @@ static void set_double(nh_field *f, nh_quotient *q, double value)
     fmpz_clear(power);
 }
 
+static void set_long(nh_field *f, nh_quotient *q, nh_num value)
+{
+    mpq_t v;
+    fmpz_t z;
+    mpq_init(v);
+    fmpz_init(z);
+    nh_num_get_mpq(v, value);
+    fmpz_set_mpz(z, mpq_numref(v));
+    fmpz_mpoly_set_fmpz(q->num, z, f->ctx);
+    fmpz_set_mpz(z, mpq_denref(v));
+    fmpz_mpoly_set_fmpz(q->den, z, f->ctx);
+    fmpz_clear(z);
+    mpq_clear(v);
+}
+
 const nh_quotient *nh_quotient_number(nh_field *field, nh_num value)
 {
     nh_quotient *q = fresh(field);
-    if (nh_num_exact(value)) {
+    if (nh_num_short(value)) {
         fmpz_mpoly_set_si(q->num, value.p, field->ctx);
         fmpz_mpoly_set_si(q->den, value.q, field->ctx);
+    } else if (nh_num_exact(value)) {
+        set_long(field, q, value);
     } else {
         set_double(field, q, value.d);
         cancel(field, q);

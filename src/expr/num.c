@@ -1,8 +1,11 @@
-#include "expr/dag.h"
-
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-/* Exact arithmetic in 128 bit; what does not fit into 64 bit becomes a double. */
+#include "expr/num_long.h"
+
+/* Exact arithmetic in 128 bit; what does not fit into 64 goes on in GMP. */
 typedef __int128 wide;
 
 static wide wide_gcd(wide a, wide b)
@@ -19,6 +22,15 @@ static wide wide_gcd(wide a, wide b)
 
 static nh_num inexact(double value) { return (nh_num){0, 0, value}; }
 
+static void set_wide(mpz_t out, wide x)
+{
+    unsigned __int128 size = x < 0 ? -(unsigned __int128)x : (unsigned __int128)x;
+    mpz_set_ui(out, (unsigned long)(size >> 64));
+    mpz_mul_2exp(out, out, 64);
+    mpz_add_ui(out, out, (unsigned long)size);
+    if (x < 0) mpz_neg(out, out);
+}
+
 static nh_num reduced(wide p, wide q)
 {
     if (q == 0) return inexact(p == 0 ? NAN : p > 0 ? INFINITY : -INFINITY);
@@ -31,8 +43,31 @@ static nh_num reduced(wide p, wide q)
         p /= g;
         q /= g;
     }
-    if (p > INT64_MAX || p < -INT64_MAX || q > INT64_MAX) return nh_num_real((double)p / (double)q);
-    return (nh_num){(int64_t)p, (int64_t)q, 0};
+    if (p <= INT64_MAX && p >= -INT64_MAX && q <= INT64_MAX) return (nh_num){(int64_t)p, (int64_t)q, 0};
+    mpq_t v;
+    mpq_init(v);
+    set_wide(mpq_numref(v), p);
+    set_wide(mpq_denref(v), q);
+    nh_num result = nh_num_of_mpq(v);
+    mpq_clear(v);
+    return result;
+}
+
+typedef void operation(mpq_t, const mpq_t, const mpq_t);
+
+/* The same operation in as many bits as it needs. */
+static nh_num at_length(operation *f, nh_num a, nh_num b)
+{
+    mpq_t x, y;
+    mpq_init(x);
+    mpq_init(y);
+    nh_num_get_mpq(x, a);
+    nh_num_get_mpq(y, b);
+    f(x, x, y);
+    nh_num result = nh_num_of_mpq(x);
+    mpq_clear(x);
+    mpq_clear(y);
+    return result;
 }
 
 nh_num nh_num_int(int64_t value) { return value == INT64_MIN ? inexact((double)value) : (nh_num){value, 1, 0}; }
@@ -45,12 +80,28 @@ nh_num nh_num_real(double value)
     return inexact(value);
 }
 
-bool nh_num_exact(nh_num a) { return a.q > 0; }
+nh_num nh_num_decimal(double value)
+{
+    char text[40];
+    int precision = 15, exponent;
+    if (!isfinite(value)) return inexact(value);
+    do snprintf(text, sizeof text, "%.*e", precision - 1, value);
+    while (strtod(text, NULL) != value && ++precision <= 17);
+    char *e = strchr(text, 'e'), *point = strchr(text, '.');
+    exponent = atoi(e + 1) - (int)(e - point - 1);
+    *e = 0;
+    memmove(point, point + 1, strlen(point));
+    return nh_num_mul(nh_num_int(strtoll(text, NULL, 10)), nh_num_pow(nh_num_int(10), exponent));
+}
+
+bool nh_num_exact(nh_num a) { return a.q != 0; }
+
+bool nh_num_short(nh_num a) { return a.q > 0; }
 
 /* Rounded once: a decimal of 17 digits is the double it was printed from. */
 double nh_num_value(nh_num a)
 {
-    if (a.q == 0) return a.d;
+    if (a.q <= 0) return a.d;
     return a.q == 1 ? (double)a.p : (double)((long double)a.p / (long double)a.q);
 }
 
@@ -66,8 +117,7 @@ nh_num nh_num_add(nh_num a, nh_num b)
 {
     if (!a.q || !b.q) return nh_num_real(nh_num_value(a) + nh_num_value(b));
     wide p;
-    if (__builtin_add_overflow((wide)a.p * b.q, (wide)b.p * a.q, &p))
-        return nh_num_real(nh_num_value(a) + nh_num_value(b));
+    if (a.q < 0 || b.q < 0 || __builtin_add_overflow((wide)a.p * b.q, (wide)b.p * a.q, &p)) return at_length(mpq_add, a, b);
     return reduced(p, (wide)a.q * b.q);
 }
 
@@ -75,6 +125,7 @@ nh_num nh_num_mul(nh_num a, nh_num b)
 {
     if (nh_num_is(a, 0) || nh_num_is(b, 0)) return nh_num_int(0);
     if (!a.q || !b.q) return nh_num_real(nh_num_value(a) * nh_num_value(b));
+    if (a.q < 0 || b.q < 0) return at_length(mpq_mul, a, b);
     return reduced((wide)a.p * b.p, (wide)a.q * b.q);
 }
 
@@ -82,6 +133,7 @@ nh_num nh_num_inv(nh_num a)
 {
     if (!a.q) return nh_num_real(1 / a.d);
     if (a.p == 0) return inexact(NAN);
+    if (a.q < 0) return at_length(mpq_div, nh_num_int(1), a);
     return reduced(a.q, a.p);
 }
 

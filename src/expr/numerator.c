@@ -28,7 +28,7 @@ nh_ex nh_numerator(nh_dag *dag, nh_ex e)
     if (state == NH_FIELD_FINE && nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
         keep_numerator(&pieces);
         nh_ex top = nh_emit_product(&form.kernels, &pieces, false);
-        if (nh_is_exact(dag, top)) result = top;
+        if (nh_is_short(dag, top)) result = top;
     }
     nh_form_clear(&form);
     nh_forms_clear(&forms);

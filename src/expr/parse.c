@@ -8,8 +8,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/num_long.h"
 
-enum { max_depth = 200, max_name = 63, max_power = 18 /* of ten, that is exact */ };
+enum { max_depth = 200, max_name = 63, max_power = 18 /* of ten, that is exact */, max_typed_power = 310, max_digits = 80 };
+static const int64_t typed_digits = 1000000000000000;
 
 static const char DIGITS[] = "0123456789",
                   WORD[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
@@ -159,7 +161,11 @@ static bool number(parser *p, nh_ex *out)
     if (value == 0 && digits) return fail(p, p->at, "this number is too small: it would become 0");
     p->at = (size_t)(s - p->text);
     bool moderate = exponent > -1000 && exponent < 1000; /* so that the sum below cannot overflow */
-    if (exact && moderate && labs(exponent + scale) <= max_power) {
+    bool typed = llabs(digits) < typed_digits && labs(exponent + scale) <= max_typed_power; /* 16 digits or more are what some double was rounded to */
+    size_t length = (size_t)(s - start);
+    if (!exact && strspn(start, DIGITS) == length && length <= max_digits) {
+        *out = nh_number(p->dag, nh_num_of_digits(start, length));
+    } else if (exact && moderate && (typed || labs(exponent + scale) <= max_power)) {
         nh_num ten = nh_num_pow(nh_num_int(10), exponent + scale);
         *out = nh_number(p->dag, nh_num_mul(nh_num_int(digits), ten));
     } else {

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "expr/normal.h"
+#include "expr/num_long.h"
 
 /* Binding strength of what surrounds an expression. */
 enum { in_sum = 0, in_product = 1, in_power = 2 };
@@ -23,13 +24,12 @@ static void put(printer *p, nh_ex e, int context);
 
 static void put_number(printer *p, nh_num x)
 {
-    char buffer[40];
-    if (x.q == 1) nh_text_addf(p->out, "%" PRId64, x.p);
-    else if (x.q) nh_text_addf(p->out, "%" PRId64 "/%" PRId64, x.p, x.q);
-    else {
-        nh_text_number(x.d, buffer, sizeof buffer);
-        nh_text_add(p->out, buffer);
-    }
+    nh_num top, bottom;
+    nh_num_split(x, &top, &bottom);
+    nh_num_write(top, p->out);
+    if (nh_num_is(bottom, 1)) return;
+    nh_text_add(p->out, "/");
+    nh_num_write(bottom, p->out);
 }
 
 static void open_if(printer *p, bool needed)
@@ -117,13 +117,13 @@ static void join_roots(nh_dag *dag, factor *f, size_t *count, nh_num *c)
     for (size_t i = 0; i < *count;) {
         nh_num n = is_root(dag, &f[i]) ? nh_number_of(dag, f[i].base) : nh_num_int(1);
         size_t j = n.p > 1 ? same_power(f, *count, i, f[i].power, false) : *count;
-        if (n.p > 1 && j == *count && nh_num_exact(*c) && c->q % n.p == 0) {
+        if (n.p > 1 && j == *count && nh_num_short(*c) && c->q % n.p == 0) {
             nh_num other = nh_num_add(nh_num_int(1), nh_num_mul(f[i].power, nh_num_int(-1)));
             j = same_power(f, *count, i, other, true);
             if (j < *count) *c = nh_num_mul(*c, n);
         }
         nh_ex joined = j < *count ? nh_mul(dag, f[i].base, f[j].base) : 0;
-        if (j == *count || (nh_kind_of(dag, joined) == NH_NUMBER && !nh_num_exact(nh_number_of(dag, joined)))) {
+        if (j == *count || (nh_kind_of(dag, joined) == NH_NUMBER && !nh_num_short(nh_number_of(dag, joined)))) {
             i++;
             continue;
         }
@@ -186,7 +186,8 @@ static void put_product(printer *p, nh_ex e, nh_ex negated)
     join_roots(p->dag, f, &n, &c);
     for (size_t i = 0; i < n; i++)
         if (negated && f[i].base == negated) f[i].base = nh_neg(p->dag, negated);
-    nh_num top = nh_num_exact(c) ? nh_num_int(c.p) : c, bottom = nh_num_int(nh_num_exact(c) ? c.q : 1);
+    nh_num top, bottom;
+    nh_num_split(c, &top, &bottom);
     for (size_t i = 0; i < n; i++) below += f[i].below;
     size_t written = 0;
     if (!nh_num_is(top, 1) || below == n) {
@@ -249,7 +250,7 @@ static size_t digits_of(int64_t n)
 /* The characters of a coefficient, about; 1 is not written. */
 static size_t width_of(nh_num c)
 {
-    if (!nh_num_exact(c)) return 20;
+    if (!nh_num_short(c)) return 20;
     size_t above = c.p == 1 || c.p == -1 ? 0 : 1 + digits_of(c.p);
     return above + (c.q == 1 ? 0 : 1 + digits_of(c.q));
 }
@@ -260,7 +261,7 @@ static bool scales_exactly(const nh_dag *dag, nh_num c, nh_ex sum)
     static const double longest = 4e18; /* of the numbers in a 64-bit rational */
     nh_num first = nh_constant_of(dag, sum);
     double size = fabs((double)first.p) * (double)first.q;
-    if (!nh_num_exact(c)) return true;
+    if (!nh_num_short(c)) return true;
     for (size_t i = 0; i < nh_arity(dag, sum); i++) {
         nh_num k = nh_coefficient_of(dag, sum, i);
         size = fmax(size, fabs((double)k.p) * (double)k.q);
@@ -300,7 +301,9 @@ static void put_function(printer *p, nh_ex e)
 
 static void put_real(printer *p, nh_num x, int context)
 {
-    bool wrap = context > in_sum && (nh_num_value(x) < 0 || x.q > 1 || (context == in_power && !x.q));
+    nh_num top, bottom;
+    nh_num_split(x, &top, &bottom);
+    bool wrap = context > in_sum && (nh_num_value(x) < 0 || !nh_num_is(bottom, 1) || (context == in_power && !nh_num_short(x)));
     open_if(p, wrap);
     put_number(p, x);
     close_if(p, wrap);

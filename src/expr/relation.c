@@ -179,7 +179,7 @@ static bool emit(question *q, const nh_quotient *value, nh_ex *out)
         *out = shortest(q->dag, 3, candidate);
     }
     nh_arena_free(arena);
-    return fits && nh_is_exact(q->dag, *out);
+    return fits && nh_is_short(q->dag, *out);
 }
 
 static bool emit_all(question *q, nh_ex *coefficient)
@@ -199,7 +199,7 @@ static bool rewrite_all(question *q, const nh_ex *e)
 {
     for (size_t j = 0; j < q->n; j++) {
         q->e[j] = nh_form_rewrite(&q->forms, e[j]);
-        if (!nh_is_exact(q->dag, q->e[j])) return false;
+        if (!nh_is_short(q->dag, q->e[j])) return false;
     }
     return true;
 }

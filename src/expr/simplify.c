@@ -37,7 +37,7 @@ static void offer(contest *c, nh_ex candidate)
     if (candidate == c->last || candidate == c->best) return;
     c->last = candidate;
     size_t length = nh_complexity(c->dag, candidate);
-    if (length >= c->length || (!c->inexact && !nh_is_exact(c->dag, candidate))) return;
+    if (length >= c->length || (!c->inexact && !nh_is_short(c->dag, candidate))) return;
     c->best = candidate;
     c->length = length;
 }
@@ -232,7 +232,7 @@ static nh_ex simplify(context *shared, nh_ex e)
     if (c.length <= shortest || shared->depth > deepest) return e;
     if (nh_index_get(&shared->done, e, &known)) return known;
     shared->depth++;
-    c.inexact = !nh_is_exact(c.dag, e);
+    c.inexact = !nh_is_short(c.dag, e);
     if (compete(&c, e, true)) compete(&c, e, false);
     if (c.best == e) offer(&c, of_parts(&c, e));
     if (c.best == e) offer(&c, apart(&c, e));

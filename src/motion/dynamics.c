@@ -5,7 +5,6 @@
 
 #include "base/linalg.h"
 #include "expr/diff.h"
-#include "expr/normal.h"
 
 /* ---- reduced equations ---- */
 
@@ -53,15 +52,6 @@ static nh_tape *velocity_tape(const nh_model *o)
     return tape;
 }
 
-/* y' = x' tan phi has no pole as y' cos phi = x' sin phi.  A formula that becomes much longer is left as it is: it is evaluated at every step. */
-static nh_ex without_poles(nh_dag *d, nh_ex f)
-{
-    enum { short_enough = 300, growth = 2 };
-    nh_ex numerator = nh_numerator(d, f);
-    size_t length = nh_complexity(d, numerator);
-    return length <= short_enough || length <= growth * nh_complexity(d, f) ? numerator : f;
-}
-
 bool nh_dynamics_watched(const nh_model *o) { return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch; }
 
 /* A chart of coordinate velocities ends where its dependent velocities are no longer determined. */
@@ -71,7 +61,7 @@ static void watch_pivot(nh_dynamics *d)
     if (!nh_dynamics_watched(o)) return;
     nh_ex *e = nh_alloc_array(o->k * o->m, sizeof *e);
     for (size_t a = 0; a < o->k; a++) {
-        nh_ex f = without_poles(o->dag, nh_chart_constraint(o->chart, a));
+        nh_ex f = nh_constraint_without_poles(o, a);
         for (size_t s = 0; s < o->m; s++) e[a * o->m + s] = nh_chart_compose(o->chart, nh_diff(o->dag, f, o->system->coordinate[s].v));
     }
     d->constraint = nh_model_tape(o, o->k * o->m, e);
@@ -261,131 +251,24 @@ bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
 
 /* ---- multiplier form ---- */
 
-struct nh_bordered {
-    size_t m, k;
-    nh_tape *tape; /* K, h, F, g, f */
-    nh_tape_work *work;
-    double *in, *out;
-    double *terms, *matrix, *right; /* of the bordered system, for the accelerations */
-};
-
-nh_bordered *nh_bordered_create(const nh_model *o)
-{
-    const nh_system *y = o->system;
-    nh_dag *d = o->dag;
-    size_t m = o->m, k = o->k, total = m * m + m + k * m + 2 * k;
-    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(total + 1, sizeof *out);
-    nh_ex *K = out, *h = K + m * m, *F = h + m, *g = F + k * m, *f = g + k;
-    in[0] = y->t;
-    for (size_t s = 0; s < m; s++) {
-        in[1 + s] = y->coordinate[s].q;
-        in[1 + m + s] = y->coordinate[s].v;
-    }
-    for (size_t s = 0; s < m; s++) {
-        nh_ex p = nh_diff(d, y->lagrangian, in[1 + m + s]);
-        h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, y->lagrangian, in[1 + s]), y->force[s]));
-        h[s] = nh_add(d, h[s], nh_diff_along(d, p, m, in + 1, in + 1 + m));
-        for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, in[1 + m + r]);
-    }
-    for (size_t a = 0; a < k; a++) {
-        f[a] = without_poles(d, nh_chart_constraint(o->chart, a));
-        g[a] = nh_add(d, nh_diff(d, f[a], y->t), nh_diff_along(d, f[a], m, in + 1, in + 1 + m));
-        for (size_t s = 0; s < m; s++) F[a + s * k] = nh_diff(d, f[a], in[1 + m + s]);
-    }
-    nh_bordered *b = nh_alloc(sizeof *b);
-    *b = (nh_bordered){.m = m, .k = k, .in = nh_alloc_array(1 + 2 * m, sizeof *b->in), .out = nh_alloc_array(total + 1, sizeof *b->out)};
-    b->terms = nh_alloc_array(total + 1, sizeof *b->terms);
-    b->matrix = nh_alloc_array((m + k) * (m + k), sizeof *b->matrix);
-    b->right = nh_alloc_array(m + k, sizeof *b->right);
-    b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
-    b->work = nh_tape_work_create(b->tape);
-    nh_free(in);
-    nh_free(out);
-    return b;
-}
-
-void nh_bordered_free(nh_bordered *b)
-{
-    if (!b) return;
-    nh_tape_work_free(b->work);
-    nh_tape_free(b->tape);
-    nh_free(b->in);
-    nh_free(b->out);
-    nh_free(b->terms);
-    nh_free(b->matrix);
-    nh_free(b->right);
-    nh_free(b);
-}
-
-/* Every constraint divided by |df/dv|, so that the multiplier has the size of the reaction. */
-static void normalise(size_t m, size_t k, double *F)
-{
-    double *g = F + k * m, *f = g + k;
-    for (size_t a = 0; a < k; a++) {
-        double norm = 0;
-        for (size_t s = 0; s < m; s++) norm += F[a + s * k] * F[a + s * k];
-        norm = sqrt(norm);
-        if (!(norm > 0)) continue;
-        for (size_t s = 0; s < m; s++) F[a + s * k] /= norm;
-        g[a] /= norm;
-        f[a] /= norm;
-    }
-}
-
 static bool terms_of(double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f, void *context)
 {
-    nh_bordered *b = context;
-    size_t m = b->m, k = b->k;
-    b->in[0] = t;
-    memcpy(b->in + 1, q, m * sizeof *q);
-    memcpy(b->in + 1 + m, v, m * sizeof *v);
-    nh_tape_eval(b->tape, b->work, b->in, b->out);
-    double *x = b->out;
-    normalise(m, k, x + m * m + m);
-    memcpy(K, x, m * m * sizeof *x);
-    memcpy(h, x + m * m, m * sizeof *x);
-    memcpy(F, x + m * m + m, k * m * sizeof *x);
-    memcpy(g, x + m * m + m + k * m, k * sizeof *x);
-    memcpy(f, x + m * m + m + k * m + k, k * sizeof *x);
-    return finite_all(m * m + m + k * m + 2 * k, x);
+    return nh_bordered_terms(context, t, q, v, K, h, F, g, f);
 }
 
 nh_chetaev_problem nh_bordered_problem(nh_bordered *b)
 {
-    return (nh_chetaev_problem){.coordinates = b->m, .constraints = b->k, .context = b, .terms = terms_of};
+    return (nh_chetaev_problem){.coordinates = nh_bordered_coordinates(b), .constraints = nh_bordered_constraints(b), .context = b, .terms = terms_of};
 }
 
-/*     [ K  F^T ] [ v' ]     [ h ]
- *     [ F   0  ] [ mu ] = - [ g ]                                                                                        */
 static bool bordered_rate(double t, const double *z, double *rate, void *context)
 {
-    nh_bordered *b = context;
-    size_t m = b->m, k = b->k, n = m + k;
-    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
-    if (!terms_of(t, z, z + m, b->terms, h, F, g, f, b)) return false;
-    memset(b->matrix, 0, n * n * sizeof *b->matrix);
-    for (size_t s = 0; s < m; s++) {
-        for (size_t r = 0; r < m; r++) b->matrix[s + r * n] = b->terms[s + r * m];
-        for (size_t a = 0; a < k; a++) b->matrix[m + a + s * n] = b->matrix[s + (m + a) * n] = F[a + s * k];
-        b->right[s] = -h[s];
-    }
-    for (size_t a = 0; a < k; a++) b->right[m + a] = -g[a];
-    if (!nh_solve(n, b->matrix, 1, b->right, NULL)) return false;
+    size_t m = nh_bordered_coordinates(context);
     memcpy(rate, z + m, m * sizeof *rate);
-    memcpy(rate + m, b->right, m * sizeof *rate);
-    return finite_all(2 * m, rate);
+    return nh_bordered_accelerations(context, t, z, z + m, rate + m);
 }
 
-nh_flow_problem nh_bordered_flow(nh_bordered *b) { return (nh_flow_problem){.size = 2 * b->m, .context = b, .rate = bordered_rate}; }
-
-bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *v, const double *mu, double *force)
+nh_flow_problem nh_bordered_flow(nh_bordered *b)
 {
-    size_t m = b->m, k = b->k;
-    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
-    bool good = terms_of(t, q, v, b->terms, h, F, g, f, b);
-    for (size_t s = 0; s < m; s++) {
-        force[s] = 0;
-        for (size_t a = 0; a < k; a++) force[s] += mu[a] * F[a + s * k];
-    }
-    return good;
+    return (nh_flow_problem){.size = 2 * nh_bordered_coordinates(b), .context = b, .rate = bordered_rate};
 }

@@ -2,7 +2,7 @@
 #ifndef NH_DYNAMICS_H
 #define NH_DYNAMICS_H
 
-#include "geometry/model.h"
+#include "geometry/bordered.h"
 #include "motion/chetaev.h"
 
 /* A place and velocity in coordinates. */
@@ -31,17 +31,9 @@ bool nh_dynamics_other_branch(const nh_model *model, const nh_state *state);
 /* The point (t, q, w, u) that belongs to (t, z); width entries.  False when the implicit velocities cannot be found. */
 bool nh_dynamics_point(nh_dynamics *dynamics, double t, const double *z, double *point);
 
-/* Multiplier form in (q, v, mu).  The constraints are taken without poles and normalised to |df/dv| = 1: its multipliers are not those of
- * the model, but the force mu_a df^a/dv^s is the same. */
-typedef struct nh_bordered nh_bordered;
-nh_bordered *nh_bordered_create(const nh_model *model);
-void nh_bordered_free(nh_bordered *bordered);
+/* The multiplier form (geometry/bordered.h) as a problem with multipliers, and solved for the accelerations: (q, v)' = (v, v'(t, q, v)),
+ * regular wherever the constraints are independent, whatever the charts do. */
 nh_chetaev_problem nh_bordered_problem(nh_bordered *bordered);
-/* The same equations solved for the accelerations: (q, v)' = (v, v'(t, q, v)), regular wherever the constraints are independent,
- * whatever the charts do. */
 nh_flow_problem nh_bordered_flow(nh_bordered *bordered);
-
-/* force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
-bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu, double *force);
 
 #endif

@@ -225,19 +225,25 @@ static void frame(harvester *h)
     }
 }
 
-/* Roots of the mass matrix' diagonal and of the factors of its determinant: densities of invariant measures, and currents with them. */
+/* The root of the whole and of its factors; those of the numerator too: which velocities are independent, hence whether 1 + y^2 or
+ * 1 + 1/y^2 is the mass, must not matter. */
+static void add_roots_of(harvester *h, nh_ex e)
+{
+    nh_dag *d = h->o->dag;
+    nh_ex numerator = nh_complexity(d, e) <= longest ? nh_numerator(d, e) : e;
+    nh_ex each[2] = {e, numerator};
+    for (size_t k = 0; k < (numerator == e ? 1 : 2); k++) {
+        add_root(h, each[k]);
+        for (size_t j = 0; nh_kind_of(d, each[k]) == NH_PRODUCT && j < nh_arity(d, each[k]); j++) add_root(h, nh_child(d, each[k], j));
+    }
+}
+
+/* Roots of the mass matrix' diagonal and of its determinant: densities of invariant measures, and currents with them. */
 static void add_roots(harvester *h)
 {
     nh_model *o = h->o;
-    nh_dag *d = o->dag;
-    nh_ex det = nh_simplify_short(d, determinant(o), 0);
-    add_root(h, det);
-    for (size_t j = 0; nh_kind_of(d, det) == NH_PRODUCT && j < nh_arity(d, det); j++) add_root(h, nh_child(d, det, j));
-    for (size_t i = 0; i < o->n; i++) {
-        nh_ex M = o->M[i * o->n + i];
-        add_root(h, M);
-        for (size_t j = 0; nh_kind_of(d, M) == NH_PRODUCT && j < nh_arity(d, M); j++) add_root(h, nh_child(d, M, j));
-    }
+    add_roots_of(h, nh_simplify_short(o->dag, determinant(o), 0));
+    for (size_t i = 0; i < o->n; i++) add_roots_of(h, o->M[i * o->n + i]);
 }
 
 /* One term, and its derivatives by the angles in it. */

@@ -9,13 +9,7 @@ nh_ex nh_exact_values(const nh_model *o, nh_ex e)
 {
     size_t n = o->system->parameters;
     nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
-    for (size_t i = 0; i < n; i++) {
-        double x = o->parameter_value[i];
-        int64_t scale = 1;
-        while (scale < 1000000000 && x * (double)scale != round(x * (double)scale)) scale *= 10;
-        bool decimal = fabs(x * (double)scale - round(x * (double)scale)) == 0 && fabs(x) * (double)scale < 9e15;
-        value[i] = decimal ? nh_ratio(o->dag, (int64_t)round(x * (double)scale), scale) : nh_real(o->dag, x);
-    }
+    for (size_t i = 0; i < n; i++) value[i] = nh_number(o->dag, nh_num_decimal(o->parameter_value[i]));
     e = nh_substitute(o->dag, e, n, o->parameter, value);
     nh_free(value);
     return e;

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "geometry/bordered.h"
 #include "system/sample.h"
 
 enum { most_tries_per_point = 40 };
-static const double least_pivot = 0.02; /* nearer to where a chart of coordinate velocities breaks down, its formulas lose digits */
 
 static nh_points *empty(size_t count, size_t width)
 {
@@ -21,11 +21,14 @@ static nh_points *empty(size_t count, size_t width)
 void nh_points_free(nh_points *points)
 {
     if (!points) return;
+    nh_points_free(points->beyond);
     for (size_t j = 0; j < points->width; j++) nh_free(points->column[j]);
     nh_free(points->column);
     nh_free(points->weight);
     nh_free(points);
 }
+
+size_t nh_points_equations(const nh_points *points) { return points->count + (points->beyond ? points->beyond->count : 0); }
 
 void nh_points_run(const nh_points *points, const nh_tape *tape, double *const *out)
 {
@@ -110,10 +113,12 @@ static bool project(guard *g, double *z, const double *v)
     return true;
 }
 
-/* Weight of a point, or 0 to reject it. */
-static double accept(guard *g, const double *z, nh_points *p)
+static const double too_fast = 1e8; /* nearer to a singularity than doubles can use */
+
+/* Weight of a point, or 0 to reject it; *steepness gets |R| where everything is finite, else 0. */
+static double accept(guard *g, const double *z, nh_points *p, double *steepness)
 {
-    static const double too_fast = 1e8; /* nearer to a singularity than doubles can use */
+    *steepness = 0;
     size_t m = g->o->m, n = g->o->n;
     double fast = 0, steep = 0, strong = 0;
     nh_tape_eval(g->tape, g->work, z, g->out);
@@ -126,6 +131,7 @@ static double accept(guard *g, const double *z, nh_points *p)
         double *largest = i < m ? &fast : i < m + m * n ? &steep : &strong;
         *largest = fmax(*largest, fabs(g->out[i]));
     }
+    *steepness = steep;
     if (fast < too_fast && strong < too_fast && steep < g->steepest) return 1 / (1 + strong + fast);
     p->degenerate++;
     return 0;
@@ -145,38 +151,101 @@ static void stretched_box(const nh_model *o, bool natural, double stretch, doubl
     }
 }
 
-nh_points *nh_points_create(const nh_model *o, size_t count, double stretch, uint64_t seed, nh_error *error)
+/* ---- beyond the chart ---- */
+
+/* A point (t, q, v) near a zero of the chart's pivot: v is moved onto the constraints, v' solved from the multiplier form.  A function of
+ * the chart may have poles of the pivot there, whose rates cancel to pivot^2 times what doubles hold: the weight allows for it. */
+static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v, double steepness, double steepest)
+{
+    static const double too_steep = 1e6;
+    size_t m = o->m, n = o->n, width = o->width, at = p->beyond->count;
+    double fast = 0, *rate = nh_alloc_array(m, sizeof *rate);
+    bool good = steepness > steepest && steepness < too_steep && nh_bordered_project(b, t, q, v) && nh_bordered_accelerations(b, t, q, v, rate);
+    for (size_t s = 0; s < m && good; s++) fast = fmax(fast, fmax(fabs(v[s]), fabs(rate[s])));
+    if (good && fast < too_fast) {
+        double **to = p->beyond->column;
+        to[0][at] = t;
+        for (size_t s = 0; s < m; s++) to[1 + s][at] = q[s];
+        for (size_t i = 0; i < n; i++) to[1 + m + i][at] = v[o->chart->free[i]];
+        for (size_t s = 0; s < m; s++) to[width + s][at] = v[s];
+        for (size_t i = 0; i < n; i++) to[width + m + i][at] = rate[o->chart->free[i]];
+        p->beyond->weight[p->beyond->count++] = pow(steepest / steepness, 2) / (1 + fast);
+    }
+    nh_free(rate);
+}
+
+/* ---- sampling ---- */
+
+/* Velocities in the box are moved onto the constraints, where the chart leaves them a choice. */
+static bool is_natural(const nh_model *o) { return !o->chart->quasi && o->k > 0 && o->chart->implicit == 0; }
+
+typedef struct {
+    const nh_model *o;
+    bool natural;
+    guard guard;
+    nh_bordered *bordered; /* NULL: points beyond the chart are not wanted, or none was met yet */
+    bool cover;      /* not of one branch of a quadratic constraint: all coordinates do not tell it from the other */
+    size_t count; /* points wanted, and room for those beyond */
+    double *z, *v, *low, *high;
+} sampling;
+
+/* The point in z into the list; in a natural sampling z is (t, q, v). */
+static void take(sampling *s, nh_points *p)
+{
+    const nh_model *o = s->o;
+    size_t m = o->m;
+    double steepness = 0, *z = s->z;
+    if (s->natural) {
+        memcpy(s->v, z + 1 + m, m * sizeof *s->v);
+        for (size_t i = 0; i < o->n; i++) z[1 + m + i] = s->v[o->chart->free[i]];
+        if (!project(&s->guard, z, s->v)) {
+            p->not_finite++;
+            return;
+        }
+    }
+    if (!nh_chart_complete(o->chart, z)) {
+        p->not_solved++;
+        return;
+    }
+    double weight = accept(&s->guard, z, p, &steepness);
+    if (weight > 0) {
+        for (size_t j = 0; j < o->width; j++) p->column[j][p->count] = z[j];
+        p->weight[p->count++] = weight;
+    } else if (s->cover && p->beyond->count < s->count) {
+        if (!s->bordered) s->bordered = nh_bordered_create(o);
+        add_beyond(p, o, s->bordered, z[0], z + 1, s->v, steepness, s->guard.steepest);
+    }
+}
+
+static void sampling_clear(sampling *s, nh_sampler *sampler)
+{
+    guard_clear(&s->guard);
+    nh_bordered_free(s->bordered);
+    nh_sampler_free(sampler);
+    nh_free(s->low);
+}
+
+static nh_points *create(const nh_model *o, size_t count, double stretch, uint64_t seed, bool cover, nh_error *error)
 {
     nh_points *p = empty(count, o->width);
     size_t room = 1 + 2 * o->m + o->width;
-    double *low = nh_alloc_array(4 * room, sizeof *low), *high = low + room, *z = high + room, *v = z + room;
-    guard g = guard_create(o, least_pivot);
-    bool natural = !o->chart->quasi && o->k > 0 && o->chart->implicit == 0; /* velocities in the box, then moved onto the constraints */
-    size_t m = o->m, dimension = natural ? 1 + 2 * m : o->width;
-    stretched_box(o, natural, stretch, low, high);
-    nh_sampler *sampler = nh_sampler_create(dimension, low, high, seed);
+    sampling s = {.o = o, .natural = is_natural(o), .guard = guard_create(o, nh_chart_least_pivot), .cover = cover && is_natural(o) && !o->chart->branch, .count = count};
+    s.low = nh_alloc_array(4 * room, sizeof *s.low);
+    s.high = s.low + room;
+    s.z = s.high + room;
+    s.v = s.z + room;
+    if (s.cover) p->beyond = empty(count, o->width + o->m + o->n);
+    stretched_box(o, s.natural, stretch, s.low, s.high);
+    nh_sampler *sampler = nh_sampler_create(s.natural ? 1 + 2 * o->m : o->width, s.low, s.high, seed);
     for (size_t most = most_tries_per_point * count + 200; p->count < count && p->tried < most; p->tried++) {
-        nh_sampler_next(sampler, z);
-        if (natural) {
-            memcpy(v, z + 1 + m, m * sizeof *v);
-            for (size_t i = 0; i < o->n; i++) z[1 + m + i] = v[o->chart->free[i]];
-            if (!project(&g, z, v)) {
-                p->not_finite++;
-                continue;
-            }
-        }
-        if (!nh_chart_complete(o->chart, z)) {
-            p->not_solved++;
-            continue;
-        }
-        double weight = accept(&g, z, p);
-        if (weight == 0) continue;
-        for (size_t j = 0; j < o->width; j++) p->column[j][p->count] = z[j];
-        p->weight[p->count++] = weight;
+        nh_sampler_next(sampler, s.z);
+        take(&s, p);
     }
-    guard_clear(&g);
-    nh_sampler_free(sampler);
-    nh_free(low);
+    sampling_clear(&s, sampler);
+    if (p->beyond && p->beyond->count == 0) {
+        nh_points_free(p->beyond);
+        p->beyond = NULL;
+    }
     if (p->count == count) return p;
     nh_fail(error, NH_NUMERIC, "", "only %zu of %zu sample points were usable (%zu not finite, %zu without a solution of the constraints, %zu near a singularity)",
             p->count, p->tried, p->not_finite, p->not_solved, p->degenerate);
@@ -184,3 +253,10 @@ nh_points *nh_points_create(const nh_model *o, size_t count, double stretch, uin
     nh_points_free(p);
     return NULL;
 }
+
+nh_points *nh_points_create(const nh_model *model, size_t count, double stretch, uint64_t seed, nh_error *error)
+{
+    return create(model, count, stretch, seed, false, error);
+}
+
+nh_points *nh_points_cover(const nh_model *model, size_t count, uint64_t seed, nh_error *error) { return create(model, count, 1, seed, true, error); }

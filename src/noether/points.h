@@ -1,21 +1,28 @@
 /* points: samples of the constraint submanifold, in blocks that tapes can run over.
  *
- * Points where the chart, the equations of motion or a guard expression degenerate are rejected and counted. */
+ * Points where the equations of motion or a guard expression degenerate are rejected and counted.  Where only the chart does, because a
+ * pivot of its elimination is near zero, the multiplier form takes over (geometry/bordered.h): there q' and w' are values, not formulas. */
 #ifndef NH_POINTS_H
 #define NH_POINTS_H
 
 #include "geometry/model.h"
 
-typedef struct {
+typedef struct nh_points nh_points;
+struct nh_points {
     size_t count, width;      /* width = model->width */
     double **column;          /* column[j][p]: coordinate j of (t, q, w, u) at point p; rows padded to whole batches */
     double *weight;           /* per point: 1 / (1 + max|a| + max|v|), so that equations are relative to the local speed */
     size_t tried, not_finite, not_solved, degenerate; /* rejections by reason */
-} nh_points;
+    nh_points *beyond;        /* points near where the chart breaks down; width + m + n columns: (t, q, w), q', w'; NULL: none */
+};
 
 /* `stretch` widens the velocities' box (held-out points use 1.7).  NULL with a message when too few points are usable. */
 nh_points *nh_points_create(const nh_model *model, size_t count, double stretch, uint64_t seed, nh_error *error);
+/* The same with the points beyond the chart, as many as the sampling meets on the way. */
+nh_points *nh_points_cover(const nh_model *model, size_t count, uint64_t seed, nh_error *error);
 void nh_points_free(nh_points *points);
+/* All of them, those beyond the chart too. */
+size_t nh_points_equations(const nh_points *points);
 
 /* Run a tape (inputs: the model's symbols) over all points: out[k][p].  `out` rows must hold points->count values. */
 void nh_points_run(const nh_points *points, const nh_tape *tape, double *const *out);

@@ -1,8 +1,10 @@
 #include "noether/rows.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/progress.h"
+#include "expr/diff.h"
 #include "expr/normal.h"
 
 /* The derivative of log(R - s), with a difference that cancels, is often a quotient in which nothing cancels: worth the simplification,
@@ -22,10 +24,12 @@ static nh_ex without_logarithms(nh_dag *d, nh_ex of, nh_ex derivative)
 /* ---- current route ---- */
 
 struct nh_rows {
+    const nh_model *model;
     const nh_ansatz *ansatz;
-    nh_tape *tape;
-    nh_tape_work *work;
-    size_t width, unknowns;
+    nh_tape *tape, *beyond; /* beyond the chart, where q' and w' are inputs: made when such points come */
+    nh_tape_work *work, *beyond_work;
+    size_t unknowns;
+    nh_ex *unknown;
     double **row;          /* values, then rates of the factors, then kappa */
     double *store, *theta; /* rows of NH_BATCH */
     double *value, *rate;  /* columns x NH_BATCH */
@@ -50,19 +54,42 @@ static nh_tape *factor_tape(const nh_model *o, const nh_ansatz *a, nh_ex kappa, 
     return tape;
 }
 
+/* The same beyond the chart, where (q', w') are values: f' = f_t + f_q q' + f_w w'. */
+static nh_tape *beyond_tape(const nh_model *o, const nh_ansatz *a, size_t unknowns, const nh_ex *unknown)
+{
+    nh_dag *d = o->dag;
+    size_t n = a->factors, moving = o->m + o->n, width = o->width + moving;
+    nh_ex *out = nh_alloc_array(2 * n + 1, sizeof *out), *in = nh_alloc_array(width + unknowns, sizeof *in);
+    memcpy(in, o->chart->symbol, o->width * sizeof *in);
+    for (size_t i = 0; i < moving; i++) in[o->width + i] = nh_symbol_fresh(d, "rate");
+    if (unknowns) memcpy(in + width, unknown, unknowns * sizeof *in);
+    for (size_t i = 0; i < n; i++) {
+        nh_ex rate = nh_add(d, nh_diff(d, a->factor[i], in[0]), nh_diff_along(d, a->factor[i], moving, in + 1, in + o->width));
+        out[i] = a->factor[i];
+        out[n + i] = without_logarithms(d, a->factor[i], rate);
+    }
+    out[2 * n] = nh_int(d, 0);
+    nh_tape *tape = nh_tape_create(d, width + unknowns, in, 2 * n + 1, out, o->system->parameters, o->parameter, o->parameter_value);
+    nh_free(in);
+    nh_free(out);
+    return tape;
+}
+
 static nh_rows *prepare(const nh_model *o, const nh_ansatz *a, nh_ex kappa, size_t unknowns, const nh_ex *unknown)
 {
     nh_rows *r = nh_alloc(sizeof *r);
     size_t rows = 2 * a->factors + 1;
-    *r = (nh_rows){.ansatz = a, .tape = factor_tape(o, a, kappa, unknowns, unknown), .width = o->width, .unknowns = unknowns};
+    *r = (nh_rows){.model = o, .ansatz = a, .tape = factor_tape(o, a, kappa, unknowns, unknown), .unknowns = unknowns};
     r->work = nh_tape_work_create(r->tape);
+    r->unknown = nh_alloc_array(unknowns + 1, sizeof *r->unknown);
+    if (unknowns) memcpy(r->unknown, unknown, unknowns * sizeof *unknown);
     r->row = nh_alloc_array(rows, sizeof *r->row);
     r->store = nh_alloc_array(rows * NH_BATCH, sizeof *r->store);
     for (size_t i = 0; i < rows; i++) r->row[i] = r->store + i * NH_BATCH;
     r->theta = nh_alloc_array(unknowns * NH_BATCH + 1, sizeof *r->theta);
     r->value = nh_alloc_array(a->columns * NH_BATCH + 1, sizeof *r->value);
     r->rate = nh_alloc_array(a->columns * NH_BATCH + 1, sizeof *r->rate);
-    r->in = nh_alloc_array(o->width + unknowns, sizeof *r->in);
+    r->in = nh_alloc_array(o->width + o->m + o->n + unknowns, sizeof *r->in);
     return r;
 }
 
@@ -75,7 +102,10 @@ void nh_rows_free(nh_rows *r)
 {
     if (!r) return;
     nh_tape_work_free(r->work);
+    nh_tape_work_free(r->beyond_work);
     nh_tape_free(r->tape);
+    nh_tape_free(r->beyond);
+    nh_free(r->unknown);
     nh_free(r->row);
     nh_free(r->store);
     nh_free(r->theta);
@@ -102,56 +132,85 @@ static void leibniz(const nh_column *c, size_t count, double *const *f, double *
 }
 
 /* Columns' values and rates at points start .. start+count-1, column-major with leading dimension NH_BATCH. */
-static size_t run(nh_rows *r, const nh_points *points, size_t start)
+static size_t run(nh_rows *r, const nh_tape *tape, nh_tape_work *work, const nh_points *points, size_t start)
 {
     const nh_ansatz *a = r->ansatz;
     size_t left = points->count - start, count = left < NH_BATCH ? left : NH_BATCH;
     for (size_t j = 0; j < points->width; j++) r->in[j] = points->column[j] + start;
     for (size_t j = 0; j < r->unknowns; j++) r->in[points->width + j] = r->theta + j * NH_BATCH;
-    nh_tape_eval_batch(r->tape, r->work, count, r->in, r->row);
+    nh_tape_eval_batch(tape, work, count, r->in, r->row);
     for (size_t j = 0; j < a->columns; j++)
         leibniz(&a->column[j], count, r->row, r->row + a->factors, r->value + j * NH_BATCH, r->rate + j * NH_BATCH);
     return count;
 }
 
+/* Rates at the points beyond the chart; a point where a factor of the ansatz has no value says nothing. */
+static size_t run_beyond(nh_rows *r, const nh_points *points, size_t start)
+{
+    if (!r->beyond) {
+        r->beyond = beyond_tape(r->model, r->ansatz, r->unknowns, r->unknown);
+        r->beyond_work = nh_tape_work_create(r->beyond);
+    }
+    size_t count = run(r, r->beyond, r->beyond_work, points, start), columns = r->ansatz->columns;
+    for (size_t p = 0; p < count; p++) {
+        bool good = true;
+        for (size_t j = 0; j < columns; j++) good &= isfinite(r->rate[j * NH_BATCH + p]) != 0;
+        for (size_t j = 0; j < columns; j++) r->rate[j * NH_BATCH + p] *= good ? points->weight[start + p] : 0;
+        for (size_t j = 0; j < columns && !good; j++) r->rate[j * NH_BATCH + p] = 0;
+    }
+    return count;
+}
+
 void nh_rows_current(nh_rows *r, const nh_points *points, const double *theta, nh_equations *equations)
 {
+    const nh_points *beyond = points->beyond;
     for (size_t j = 0; j < r->unknowns; j++)
         for (size_t p = 0; p < NH_BATCH; p++) r->theta[j * NH_BATCH + p] = theta[j];
     for (size_t start = 0; start < points->count && !nh_interrupted(); start += NH_BATCH) {
-        size_t count = run(r, points, start);
+        size_t count = run(r, r->tape, r->work, points, start);
         for (size_t j = 0; j < r->ansatz->columns; j++)
             for (size_t p = 0; p < count; p++) r->rate[j * NH_BATCH + p] *= points->weight[start + p];
         nh_equations_add(equations, count, r->rate, NH_BATCH);
         nh_equations_add_values(equations, count, r->value, NH_BATCH);
     }
+    for (size_t start = 0; beyond && start < beyond->count; start += NH_BATCH)
+        nh_equations_add(equations, run_beyond(r, beyond, start), r->rate, NH_BATCH);
 }
 
-/* w Gamma(b_j) and w kappa b_j, or b_j alone, of every column at every point. */
-static void whole(const nh_model *o, const nh_ansatz *a, nh_ex kappa, bool weigh, const nh_points *points, double *A, double *B)
+/* w Gamma(b_j) and w kappa b_j, or b_j alone, of every column at every point of the chart, into arrays of leading dimension ld. */
+static void whole(nh_rows *r, bool weigh, const nh_points *points, size_t ld, double *A, double *B)
 {
-    nh_rows *r = prepare(o, a, kappa, 0, NULL);
+    const nh_ansatz *a = r->ansatz;
     const double *k = r->row[2 * a->factors];
     for (size_t start = 0; start < points->count; start += NH_BATCH) {
-        size_t count = run(r, points, start);
+        size_t count = run(r, r->tape, r->work, points, start);
         for (size_t j = 0; j < a->columns; j++)
             for (size_t p = 0; p < count; p++) {
                 double w = points->weight[start + p], unit = weigh ? w * k[p] : 1;
-                A[j * points->count + start + p] = w * r->rate[j * NH_BATCH + p];
+                A[j * ld + start + p] = w * r->rate[j * NH_BATCH + p];
                 B[j * points->count + start + p] = unit * r->value[j * NH_BATCH + p];
             }
     }
-    nh_rows_free(r);
 }
 
 void nh_rows_pencil(const nh_model *o, const nh_ansatz *a, nh_ex kappa, const nh_points *points, double *A, double *B)
 {
-    whole(o, a, kappa, true, points, A, B);
+    nh_rows *r = prepare(o, a, kappa, 0, NULL);
+    whole(r, true, points, points->count, A, B);
+    nh_rows_free(r);
 }
 
 void nh_rows_all(const nh_model *o, const nh_ansatz *a, const nh_points *points, double *A, double *B)
 {
-    whole(o, a, nh_int(o->dag, 1), false, points, A, B);
+    const nh_points *beyond = points->beyond;
+    size_t ld = nh_points_equations(points);
+    nh_rows *r = nh_rows_create(o, a, 0, NULL);
+    whole(r, false, points, ld, A, B);
+    for (size_t start = 0; beyond && start < beyond->count; start += NH_BATCH) {
+        size_t count = run_beyond(r, beyond, start);
+        for (size_t j = 0; j < a->columns; j++) memcpy(A + j * ld + points->count + start, r->rate + j * NH_BATCH, count * sizeof *A);
+    }
+    nh_rows_free(r);
 }
 
 /* ---- symmetry route ---- */

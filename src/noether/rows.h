@@ -22,10 +22,11 @@ typedef struct nh_rows nh_rows;
 nh_rows *nh_rows_create(const nh_model *model, const nh_ansatz *ansatz, size_t unknowns, const nh_ex *unknown);
 void nh_rows_free(nh_rows *rows);
 
-/* Feed A and B for all points, with the unknowns at theta. */
+/* Feed A and B for all points, with the unknowns at theta.  Points beyond the chart give equations (A), no values (B): a function of the
+ * chart may be as large as it likes there, which says nothing about how much it varies. */
 void nh_rows_current(nh_rows *rows, const nh_points *points, const double *theta, nh_equations *equations);
 
-/* The same as whole matrices: weighted rates into a, values into b, count x columns (column-major). */
+/* The same as whole matrices: weighted rates into a (nh_points_equations x columns), values into b (count x columns), column-major. */
 void nh_rows_all(const nh_model *model, const nh_ansatz *ansatz, const nh_points *points, double *a, double *b);
 
 /* kappa b_j and Gamma(b_j) for the pencil, into count x columns arrays (column-major). */

@@ -157,8 +157,8 @@ void nh_sectors_clear(nh_sectors *s)
 typedef struct {
     const nh_sectors *sectors;
     const nh_nullspace_options *options;
-    size_t points;
-    double *a, *b; /* columns x points: weighted rates, values */
+    size_t equations, points;
+    double *a, *b; /* weighted rates, equations x columns; values, points x columns */
     nh_nullspace **part;
     nh_error *error; /* one per sector */
 } task;
@@ -169,7 +169,7 @@ static void solve_sector(size_t s, void *context)
     size_t from = t->sectors->first[s], columns = t->sectors->first[s + 1] - from;
     nh_equations *equations = nh_equations_create(columns);
     nh_equations_leave_out(equations);
-    nh_equations_add(equations, t->points, t->a + from * t->points, t->points);
+    nh_equations_add(equations, t->equations, t->a + from * t->equations, t->equations);
     nh_equations_add_values(equations, t->points, t->b + from * t->points, t->points);
     t->part[s] = nh_nullspace_solve(equations, t->options, &t->error[s]);
     nh_equations_free(equations);
@@ -235,9 +235,9 @@ nh_nullspace *nh_sectors_solve(const nh_model *o, const nh_ansatz *a, const nh_s
                                const nh_nullspace_options *options, size_t threads, nh_error *error)
 {
     size_t n = a->columns, count = sectors->count;
-    task t = {.sectors = sectors, .options = options, .points = points->count};
-    t.a = nh_alloc_array(2 * n * points->count + 1, sizeof *t.a);
-    t.b = t.a + n * points->count;
+    task t = {.sectors = sectors, .options = options, .equations = nh_points_equations(points), .points = points->count};
+    t.a = nh_alloc_array(n * (t.equations + t.points) + 1, sizeof *t.a);
+    t.b = t.a + n * t.equations;
     t.part = nh_alloc_array(count + 1, sizeof *t.part);
     t.error = nh_alloc_array(count + 1, sizeof *t.error);
     nh_rows_all(o, a, points, t.a, t.b);

@@ -12,7 +12,7 @@ enum { large_length = 3000 }; /* nh_complexity */
 static nh_ex tidy(nh_dag *d, nh_ex e)
 {
     enum { lengthy = 200 };
-    return nh_complexity(d, e) > lengthy && !nh_is_exact(d, e) ? e : nh_simplify_short(d, e, large_length);
+    return nh_complexity(d, e) > lengthy && !nh_is_short(d, e) ? e : nh_simplify_short(d, e, large_length);
 }
 
 static nh_ex *take(nh_model *o, size_t n) { return nh_arena_alloc(o->arena, (n + 1) * sizeof(nh_ex)); }

@@ -331,6 +331,7 @@ nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t
     *h = (nh_hits){.arena = arena, .unknowns = unknowns, .hit = nh_arena_alloc(arena, (most_basins + 1) * sizeof *h->hit), .best = INFINITY};
     nh_points few = *points; /* a search looks thousands of times: three rows per column are enough to see a minimum */
     if (few.count > search_rows && few.count > 3 * o.ansatz->columns) few.count = 3 * o.ansatz->columns > search_rows ? 3 * o.ansatz->columns : search_rows;
+    few.beyond = NULL;
     o.points = &few;
     generic_dimension(&o, (uint64_t)options->seed);
     h->generic = o.generic;

@@ -117,7 +117,13 @@ void nh_html_evidence(nh_html_writer *w)
     nh_html_text(w, r->ansatz_note);
     nh_html_add(w, ". ");
     nh_html_count(w, r->samples);
-    nh_html_add(w, " sample points, ");
+    nh_html_add(w, " sample points");
+    if (r->beyond) {
+        nh_html_add(w, " and, near where the chart breaks down, ");
+        nh_html_count(w, r->beyond);
+        nh_html_add(w, " in all coordinates");
+    }
+    nh_html_add(w, ", ");
     nh_html_count(w, r->rejected);
     nh_html_add(w, " rejected.</p>\n");
     unknowns(w);

@@ -197,6 +197,7 @@ static void put_search(const writer *w, nh_json *to)
     }
     nh_json *samples = nh_json_put_object(to, "samples");
     nh_json_put_number(samples, "used", (double)r->samples);
+    nh_json_put_number(samples, "beyond_chart", (double)r->beyond);
     nh_json_put_number(samples, "rejected", (double)r->rejected);
     nh_json_put_number(samples, "seed", r->options.seed);
     put_unknowns(w, to);

@@ -111,7 +111,9 @@ void nh_summary_evidence(nh_summary_writer *w)
 {
     const nh_result *r = w->r;
     nh_summary_heading(w, "How it was found");
-    nh_text_addf(w->out, "  ansatz          %s\n  samples         %zu points, %zu rejected\n", r->ansatz_note, r->samples, r->rejected);
+    nh_text_addf(w->out, "  ansatz          %s\n  samples         %zu points", r->ansatz_note, r->samples);
+    if (r->beyond) nh_text_addf(w->out, " and %zu where the chart breaks down", r->beyond);
+    nh_text_addf(w->out, ", %zu rejected\n", r->rejected);
     stages(w);
     unknowns(w);
     spectrum_line(w, "current route", &r->current);

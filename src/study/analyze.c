@@ -75,6 +75,9 @@ static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *err
     uint64_t seed = (uint64_t)r->options.seed;
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, seed, error), error);
     if (!r->model || !turn_to_initial(r, choice, q, error)) return false;
+    if (r->model->chart->replaced)
+        nh_result_warn(r, "the dependent velocities of the system file are hardly determined by the others anywhere on the sampling domain (pivots below %g): the chart is %s instead",
+                       nh_chart_least_pivot, r->model->chart->name);
     nh_error ignored;
     nh_error_clear(&ignored);
     if (r->model->chart->quasi && r->system->constraints)
@@ -93,7 +96,7 @@ static nh_points *fit_points(nh_result *r, size_t columns, nh_error *error)
     if (count == 0) count = samples_per_column * columns;
     if (count < least_samples) count = least_samples;
     if (count < columns + 16) count = columns + 16;
-    return nh_points_create(r->model, count, 1, (uint64_t)r->options.seed, error);
+    return nh_points_cover(r->model, count, (uint64_t)r->options.seed, error);
 }
 
 static nh_nullspace *current_route(nh_result *r, const nh_ansatz *a, const nh_points *points, nh_error *error)
@@ -132,7 +135,8 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
     bool good = s != NULL;
     if (good) {
         r->samples = points->count;
-        r->rejected = points->tried - points->count;
+        r->beyond = nh_points_equations(points) - points->count;
+        r->rejected = points->tried - nh_points_equations(points);
         if (r->route != NH_ROUTE_CURRENT) nh_routes_compare(r, a, points, s);
         r->timing.nullspace = lap(clock);
         nh_workbench *bench = nh_workbench_create(r, error);

@@ -127,7 +127,7 @@ nh_solved nh_climb_solve(nh_climb *x, size_t families, const nh_family *family)
     } else if (sectors.count) {
         size_t count = (size_t)fmax(least_points, points_per_column * (double)sectors.largest);
         nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
-        s.fit = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed + r->stages, &ignored);
+        s.fit = nh_points_cover(r->model, count, (uint64_t)r->options.seed + r->stages, &ignored);
         if (s.fit) s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, (size_t)r->options.threads, &ignored);
     }
     nh_sectors_clear(&sectors);
@@ -182,7 +182,8 @@ void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_fam
         note->gap = s.nullspace->gap;
         note->undecided = s.nullspace->likely > s.nullspace->dimension;
         r->samples = s.fit->count > r->samples ? s.fit->count : r->samples;
-        r->rejected += s.fit->tried - s.fit->count;
+        r->beyond += nh_points_equations(s.fit) - s.fit->count;
+        r->rejected += s.fit->tried - nh_points_equations(s.fit);
         note->found = harvest(x, &s, s.nullspace->dimension, true);
         if (s.nullspace->likely > s.nullspace->dimension) note->found += harvest(x, &s, s.nullspace->likely, false);
         nh_climb_keep_spectrum(x, s.nullspace, note->found > 0);

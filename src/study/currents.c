@@ -414,8 +414,19 @@ static void miss_energy(nh_workbench *b)
     nh_free(text);
 }
 
+/* What only approximates a function of the currents found since is no news. */
+static void forget_known_almosts(nh_workbench *b)
+{
+    nh_result *r = b->result;
+    size_t kept = 0;
+    for (size_t k = 0; k < r->almosts; k++)
+        if (!nh_currents_known(b, r->almost[k].phi)) r->almost[kept++] = r->almost[k];
+    r->almosts = kept;
+}
+
 void nh_currents_finish(nh_workbench *b)
 {
+    forget_known_almosts(b);
     sort(b->result);
     independence(b->result, b->generic);
     miss_energy(b);

@@ -96,7 +96,7 @@ typedef struct {
     nh_options options;
     nh_route route;
     const char *ansatz_note;  /* what was tried, in words */
-    size_t samples, rejected;
+    size_t samples, beyond, rejected; /* beyond: where the chart's pivot is near zero, from the multiplier form */
     size_t stages;
     nh_tried *stage;          /* the ladder's; empty with an analysis file */
     nh_spectrum current, symmetry;

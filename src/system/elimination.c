@@ -25,16 +25,20 @@ static double volume(size_t rows, size_t columns, double *a)
     return product;
 }
 
-static double subset_score(const nh_cloud *c, const size_t *subset)
+/* The least over the probes; *largest gets the largest. */
+static double subset_score(const nh_cloud *c, const size_t *subset, double *largest)
 {
     double least = INFINITY;
+    *largest = 0;
     double *a = nh_alloc_array(c->k * c->m + 1, sizeof *a);
     for (size_t p = 0; p < c->count; p++) {
         const double *F = c->F + p * c->k * c->m;
         for (size_t j = 0; j < c->k; j++) memcpy(a + j * c->k, F + subset[j] * c->k, c->k * sizeof *a);
         double part = volume(c->k, c->k, a);
         memcpy(a, F, c->k * c->m * sizeof *a);
-        least = fmin(least, part / fmax(volume(c->k, c->m, a), 1e-300));
+        double whole = fmax(volume(c->k, c->m, a), 1e-300);
+        least = fmin(least, part / whole);
+        *largest = fmax(*largest, part / whole);
     }
     nh_free(a);
     return least;
@@ -69,19 +73,13 @@ static bool written_explicitly(const nh_cloud *c, size_t *out)
     return true;
 }
 
-static double choose_dependent(const nh_cloud *c, size_t *out)
+static double best_dependent(const nh_cloud *c, size_t *out)
 {
-    const nh_system *s = c->system;
-    if (s->dependents) {
-        memcpy(out, s->dependent, c->k * sizeof *out);
-        return subset_score(c, out);
-    }
-    if (written_explicitly(c, out)) return subset_score(c, out);
     size_t *subset = nh_alloc_array(c->k + 1, sizeof *subset), tried = 0;
-    double best = -1;
+    double best = -1, largest;
     for (size_t i = 0; i < c->k; i++) subset[i] = i;
     do {
-        double score = subset_score(c, subset);
+        double score = subset_score(c, subset, &largest);
         if (score > best * (1 - 1e-9) || best < 0) { /* later coordinates win ties: users list first what moves freely */
             best = score;
             memcpy(out, subset, c->k * sizeof *out);
@@ -89,6 +87,20 @@ static double choose_dependent(const nh_cloud *c, size_t *out)
     } while (++tried < most_subsets && next_subset(c->k, c->m, subset));
     nh_free(subset);
     return best;
+}
+
+/* What the user named or wrote, unless that breaks down all over the sampling domain: then another chart takes over. */
+static double choose_dependent(const nh_cloud *c, size_t *out, bool *replaced)
+{
+    static const double undetermined = 1e-12;
+    const nh_system *s = c->system;
+    double largest;
+    if (s->dependents) memcpy(out, s->dependent, c->k * sizeof *out);
+    *replaced = false;
+    if (!s->dependents && !written_explicitly(c, out)) return best_dependent(c, out);
+    double least = subset_score(c, out, &largest);
+    *replaced = largest > undetermined && largest < nh_chart_least_pivot;
+    return *replaced ? best_dependent(c, out) : least;
 }
 
 /* ---- building the chart ---- */
@@ -277,13 +289,15 @@ nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *e
     nh_cloud_init(&c, system, system->constraints, seed);
     nh_chart *chart = NULL;
     size_t *dependent = nh_alloc_array(c.k + 1, sizeof *dependent);
+    bool replaced = false;
     if (c.k == 0 || nh_cloud_check_rank(&c, seed, error)) {
-        double pivot = c.k ? choose_dependent(&c, dependent) : 1;
+        double pivot = c.k ? choose_dependent(&c, dependent, &replaced) : 1;
         if (pivot < 1e-12) {
             nh_deck_fail(system->deck, system->constraint[0].node, 0, error, "the constraints do not determine the velocities named under `dependent:`");
             nh_error_hint(error, "name others, or leave `dependent:` out");
         } else {
             chart = build(&c, dependent, pivot, error);
+            if (chart) chart->replaced = replaced;
         }
     }
     nh_free(dependent);

@@ -11,6 +11,8 @@
 #include "system/embedding_internal.h"
 #include "system/sample.h"
 
+const double nh_chart_least_pivot = 0.02;
+
 enum { probe_count = 24, newton_steps = 40 };
 
 /* ---- the sampling box ---- */

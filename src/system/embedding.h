@@ -33,7 +33,11 @@ typedef struct {
     int branch;               /* of a quadratic constraint: the sign of its root; 0 otherwise */
     nh_ex radicand, root;     /* of that root, and the root in coordinate velocities: branch*(2 a u + b), valid on both branches */
     double pivot;             /* least pivot of the elimination over the probes, relative */
+    bool replaced;            /* the dependent velocities that the user had in mind are not determined anywhere near the domain: others were chosen */
 } nh_chart;
+
+/* Nearer to a zero of its pivot a chart of coordinate velocities has formulas that lose too many digits. */
+extern const double nh_chart_least_pivot;
 
 /* NULL on failure; the message names the constraint and the rank. */
 nh_chart *nh_chart_create(nh_system *system, nh_chart_choice choice, uint64_t seed, nh_error *error);

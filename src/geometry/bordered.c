@@ -1,0 +1,166 @@
+#include "geometry/bordered.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+
+/* A formula that becomes much longer is left as it is: it is evaluated at every step. */
+nh_ex nh_constraint_without_poles(const nh_model *o, size_t a)
+{
+    enum { short_enough = 300, growth = 2 };
+    nh_dag *d = o->dag;
+    nh_ex f = nh_chart_constraint(o->chart, a), numerator = nh_numerator(d, f);
+    size_t length = nh_complexity(d, numerator);
+    return length <= short_enough || length <= growth * nh_complexity(d, f) ? numerator : f;
+}
+
+struct nh_bordered {
+    size_t m, k;
+    nh_tape *tape; /* K, h, F, g, f */
+    nh_tape_work *work;
+    double *in, *out;
+    double *terms, *matrix, *right; /* of the bordered system, for the accelerations */
+};
+
+nh_bordered *nh_bordered_create(const nh_model *o)
+{
+    const nh_system *y = o->system;
+    nh_dag *d = o->dag;
+    size_t m = o->m, k = o->k, total = m * m + m + k * m + 2 * k;
+    nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(total + 1, sizeof *out);
+    nh_ex *K = out, *h = K + m * m, *F = h + m, *g = F + k * m, *f = g + k;
+    in[0] = y->t;
+    for (size_t s = 0; s < m; s++) {
+        in[1 + s] = y->coordinate[s].q;
+        in[1 + m + s] = y->coordinate[s].v;
+    }
+    for (size_t s = 0; s < m; s++) {
+        nh_ex p = nh_diff(d, y->lagrangian, in[1 + m + s]);
+        h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, y->lagrangian, in[1 + s]), y->force[s]));
+        h[s] = nh_add(d, h[s], nh_diff_along(d, p, m, in + 1, in + 1 + m));
+        for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, in[1 + m + r]);
+    }
+    for (size_t a = 0; a < k; a++) {
+        f[a] = nh_constraint_without_poles(o, a);
+        g[a] = nh_add(d, nh_diff(d, f[a], y->t), nh_diff_along(d, f[a], m, in + 1, in + 1 + m));
+        for (size_t s = 0; s < m; s++) F[a + s * k] = nh_diff(d, f[a], in[1 + m + s]);
+    }
+    nh_bordered *b = nh_alloc(sizeof *b);
+    *b = (nh_bordered){.m = m, .k = k, .in = nh_alloc_array(1 + 2 * m, sizeof *b->in), .out = nh_alloc_array(total + 1, sizeof *b->out)};
+    b->terms = nh_alloc_array(total + 1, sizeof *b->terms);
+    b->matrix = nh_alloc_array((m + k) * (m + k), sizeof *b->matrix);
+    b->right = nh_alloc_array(m + k, sizeof *b->right);
+    b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
+    b->work = nh_tape_work_create(b->tape);
+    nh_free(in);
+    nh_free(out);
+    return b;
+}
+
+void nh_bordered_free(nh_bordered *b)
+{
+    if (!b) return;
+    nh_tape_work_free(b->work);
+    nh_tape_free(b->tape);
+    nh_free(b->in);
+    nh_free(b->out);
+    nh_free(b->terms);
+    nh_free(b->matrix);
+    nh_free(b->right);
+    nh_free(b);
+}
+
+/* Every constraint divided by |df/dv|, so that the multiplier has the size of the reaction. */
+static void normalise(size_t m, size_t k, double *F)
+{
+    double *g = F + k * m, *f = g + k;
+    for (size_t a = 0; a < k; a++) {
+        double norm = 0;
+        for (size_t s = 0; s < m; s++) norm += F[a + s * k] * F[a + s * k];
+        norm = sqrt(norm);
+        if (!(norm > 0)) continue;
+        for (size_t s = 0; s < m; s++) F[a + s * k] /= norm;
+        g[a] /= norm;
+        f[a] /= norm;
+    }
+}
+
+size_t nh_bordered_coordinates(const nh_bordered *b) { return b->m; }
+
+size_t nh_bordered_constraints(const nh_bordered *b) { return b->k; }
+
+static bool finite_all(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) return false;
+    return true;
+}
+
+bool nh_bordered_terms(nh_bordered *b, double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f)
+{
+    size_t m = b->m, k = b->k;
+    b->in[0] = t;
+    memcpy(b->in + 1, q, m * sizeof *q);
+    memcpy(b->in + 1 + m, v, m * sizeof *v);
+    nh_tape_eval(b->tape, b->work, b->in, b->out);
+    double *x = b->out;
+    normalise(m, k, x + m * m + m);
+    memcpy(K, x, m * m * sizeof *x);
+    memcpy(h, x + m * m, m * sizeof *x);
+    memcpy(F, x + m * m + m, k * m * sizeof *x);
+    memcpy(g, x + m * m + m + k * m, k * sizeof *x);
+    memcpy(f, x + m * m + m + k * m + k, k * sizeof *x);
+    return finite_all(m * m + m + k * m + 2 * k, x);
+}
+
+bool nh_bordered_accelerations(nh_bordered *b, double t, const double *q, const double *v, double *acceleration)
+{
+    size_t m = b->m, k = b->k, n = m + k;
+    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
+    if (!nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f)) return false;
+    memset(b->matrix, 0, n * n * sizeof *b->matrix);
+    for (size_t s = 0; s < m; s++) {
+        for (size_t r = 0; r < m; r++) b->matrix[s + r * n] = b->terms[s + r * m];
+        for (size_t a = 0; a < k; a++) b->matrix[m + a + s * n] = b->matrix[s + (m + a) * n] = F[a + s * k];
+        b->right[s] = -h[s];
+    }
+    for (size_t a = 0; a < k; a++) b->right[m + a] = -g[a];
+    if (!nh_solve(n, b->matrix, 1, b->right, NULL)) return false;
+    memcpy(acceleration, b->right, m * sizeof *acceleration);
+    return finite_all(m, acceleration);
+}
+
+bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *v, const double *mu, double *force)
+{
+    size_t m = b->m, k = b->k;
+    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
+    bool good = nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f);
+    for (size_t s = 0; s < m; s++) {
+        force[s] = 0;
+        for (size_t a = 0; a < k; a++) force[s] += mu[a] * F[a + s * k];
+    }
+    return good;
+}
+
+bool nh_bordered_project(nh_bordered *b, double t, const double *q, double *v)
+{
+    enum { most_steps = 12 };
+    size_t m = b->m, k = b->k;
+    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
+    for (int step = 0; step < most_steps && k; step++) {
+        double size = 0;
+        if (!nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f)) return false;
+        memset(b->right, 0, (m + k) * sizeof *b->right);
+        for (size_t a = 0; a < k; a++) b->right[a] = -f[a];
+        if (nh_least_squares(k, m, F, 1, b->right, m + k, 1e-12) < 0) return false; /* the shortest of the solutions */
+        for (size_t s = 0; s < m; s++) {
+            v[s] += b->right[s];
+            size = fmax(size, fabs(b->right[s]));
+        }
+        if (size < 1e-12) return true;
+    }
+    return k == 0;
+}

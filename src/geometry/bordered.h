@@ -1,0 +1,37 @@
+/* bordered: the equations of motion in all coordinates, with multipliers.
+ *
+ *     [ K  F^T ] [ v' ]     [ h ]        K = d2L/dv dv,  F = df/dv
+ *     [ F   0  ] [ mu ] = - [ g ]        h: d/dt-part of p_s without v' minus dL/dq - Q;  g: d/dt-part of f without v'
+ *
+ * They are regular wherever the constraints are independent, whatever the charts of independent velocities do: the chart that takes over
+ * where the pivot of another vanishes.  The constraints are taken without poles and normalised to |df/dv| = 1: the multipliers are not
+ * those of the model, but the force mu_a df^a/dv^s is the same.
+ *
+ * Reference: [Chetaev equations: CechMusilova2014, eq. 10]. */
+#ifndef NH_BORDERED_H
+#define NH_BORDERED_H
+
+#include "geometry/model.h"
+
+typedef struct nh_bordered nh_bordered;
+nh_bordered *nh_bordered_create(const nh_model *model);
+void nh_bordered_free(nh_bordered *bordered);
+size_t nh_bordered_coordinates(const nh_bordered *bordered); /* m */
+size_t nh_bordered_constraints(const nh_bordered *bordered); /* k */
+
+/* At (t, q, v): K (m x m, column-major), h (m), F (k x m, column-major), g (k), f (k).  False when not finite. */
+bool nh_bordered_terms(nh_bordered *bordered, double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f);
+
+/* v' (m values).  False when not finite or the bordered matrix is singular. */
+bool nh_bordered_accelerations(nh_bordered *bordered, double t, const double *q, const double *v, double *acceleration);
+
+/* force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
+bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu, double *force);
+
+/* The velocities on the constraints that are nearest to v, by Gauss-Newton; v is overwritten.  False when that does not converge. */
+bool nh_bordered_project(nh_bordered *bordered, double t, const double *q, double *v);
+
+/* f^a = lhs - rhs in coordinate velocities, without its poles: y' = x' tan phi as y' cos phi = x' sin phi. */
+nh_ex nh_constraint_without_poles(const nh_model *model, size_t a);
+
+#endif
