@@ -103,7 +103,7 @@ Test(chart, a_short_budget_is_told)
 
 static void check_document(const nh_comparison *c)
 {
-    char *text = nh_comparison_json(c, NULL);
+    char *text = nh_comparison_json(c, NULL, NULL);
     cJSON *root = cJSON_Parse(text), *motion = cJSON_GetObjectItem(root, "motion"), *item;
     cr_assert_not_null(root);
     cr_expect_eq((size_t)cJSON_GetArraySize(motion), c->count);
@@ -199,7 +199,7 @@ Test(chart, stress_as_text_and_json)
     nh_text_init(&text);
     nh_stress_text(s, true, &text);
     cr_expect(strstr(nh_text_string(&text), "long times") && strstr(nh_text_string(&text), "in all:"));
-    char *json = nh_comparison_json(c, s);
+    char *json = nh_comparison_json(c, s, NULL);
     cJSON *root = cJSON_Parse(json), *list = cJSON_GetObjectItem(root, "stress"), *map;
     cr_assert_eq((size_t)cJSON_GetArraySize(list), s->maps);
     size_t i = 0;

@@ -127,36 +127,146 @@ static bool has_number(const cJSON *item, double value)
     return false;
 }
 
-/* The whole page, number by number: <data value="x"> is in the JSON, to the last digit, and what is shown is x rounded. */
+/* The whole page, number by number: <data value="x"> is in the JSON, to the last digit, and what is shown is x rounded.  Returns how many. */
+static size_t compare_numbers(const char *page, const cJSON *json, const char *line)
+{
+    size_t numbers = 0;
+    for (const char *c = page; (c = strstr(c, "<data value=\"")); c++, numbers++) {
+        double value = strtod(c + 13, NULL), shown = strtod(strchr(c, '>') + 1, NULL);
+        cr_expect(has_number(json, value), "%s: the page has %.17g, the JSON has not", line, value);
+        const char *power = strstr(c, "<sup>"), *end = strstr(c, "</data>");
+        if (power && power < end && !strncmp(strchr(c, '>') + 1, "10<sup>", 7)) shown = 1; /* 10^-9, without a factor */
+        if (power && power < end) shown *= pow(10, strncmp(power + 5, "\u2212", 3) ? strtod(power + 5, NULL) : -strtod(power + 8, NULL));
+        if (value >= 0) cr_expect_float_eq(shown, value, 0.35 * value, "%s: %.17g is shown as %g", line, value, shown);
+    }
+    return numbers;
+}
+
+/* A page that is not well-formed, or shows a formula as code, is refused here; besides, the page and the JSON of a command. */
+static char *both(const place *p, const char *command, const char *const *also, cJSON **json)
+{
+    char line[400];
+    snprintf(line, sizeof line, "%s --quiet --html page.html --json page.json", command);
+    finished f;
+    if (also) { /* with words that hold blanks */
+        char *argument[12] = {(char *)p->program, "verify", "sleigh", (char *)also[0], (char *)also[1], "--quiet", "--html", "page.html", "--json", "page.json", NULL};
+        f = run_vector(p, &(manner){0}, argument);
+    } else {
+        f = run(p, line);
+    }
+    char *page = read_here(p, "page.html"), *text = read_here(p, "page.json");
+    cr_assert(page && text, "%s: %s", line, f.err);
+    finished_clear(&f);
+    reader r;
+    cr_assert(well_formed(&r, page), "%s: %s", line, r.fault);
+    cr_expect_null(strstr(page, "<div class=\"formula\"><code>"), "%s: a formula as code", line);
+    cr_expect_null(strstr(page, "NaN"), "%s", line);
+    *json = cJSON_Parse(text);
+    cr_assert_not_null(*json, "%s", line);
+    free(text);
+    return page;
+}
+
 Test(html, every_number_is_in_the_json)
 {
     place p = place_with_systems();
     for (size_t s = 0; s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
         char line[200];
-        snprintf(line, sizeof line, "analyze %s --quiet --html page.html --json page.json", SYSTEMS[s]);
-        finished f = run(&p, line);
-        finished_clear(&f);
-        char *page = read_here(&p, "page.html"), *text = read_here(&p, "page.json");
-        cr_assert(page && text, "%s", line);
-        reader r;
-        cr_assert(well_formed(&r, page), "%s: %s", line, r.fault);
-        cJSON *json = cJSON_Parse(text);
-        size_t numbers = 0;
-        for (const char *c = page; (c = strstr(c, "<data value=\"")); c++, numbers++) {
-            double value = strtod(c + 13, NULL), shown = strtod(strchr(c, '>') + 1, NULL);
-            cr_expect(has_number(json, value), "%s: the page has %.17g, the JSON has not", line, value);
-            const char *power = strstr(c, "<sup>"), *end = strstr(c, "</data>");
-            if (power && power < end) shown *= pow(10, strncmp(power + 5, "\u2212", 3) ? strtod(power + 5, NULL) : -strtod(power + 8, NULL));
-            if (value >= 0) cr_expect_float_eq(shown, value, 0.35 * value, "%s: %.17g is shown as %g", line, value, shown);
-        }
+        cJSON *json;
+        snprintf(line, sizeof line, "analyze %s", SYSTEMS[s]);
+        char *page = both(&p, line, NULL, &json);
+        size_t numbers = compare_numbers(page, json, line);
         cr_expect_gt(numbers, 15u, "%s: %zu numbers", line, numbers);
         int currents = cJSON_GetArraySize(cJSON_GetObjectItem(json, "currents")), cards = 0;
         for (const char *c = page; (c = strstr(c, "<article class=\"card\">")); c++) cards++;
         cr_expect_eq(cards, currents, "%s: %d cards, %d currents", line, cards, currents);
         cJSON_Delete(json);
-        free(text);
         free(page);
     }
+    place_clear(&p);
+}
+
+/* The pages of the other commands, in the same way; each answers first and ends with what it takes to repeat it. */
+Test(html, every_command_has_its_page)
+{
+    static const struct {
+        const char *line, *also[2], *answer;
+    } cases[] = {
+        {"simulate sleigh", {NULL}, "A motion from t = "},
+        {"simulate sleigh --ensemble 3 --until 1", {NULL}, " motions from t = "},
+        {"chart sleigh --budget 200ms --stress", {NULL}, "Fastest below"},
+        {"reduce vertical_disk", {NULL}, "Symmetry group "},
+        {"reduce henon_heiles", {NULL}, "No symmetry"},
+        {"verify", {"--current", "m*v*sin(phi/k) + m*a*k*omega*cos(phi/k)"}, "Yes: this is conserved, proved for all parameter values."},
+        {"verify", {"--current", "v"}, "No: this is not conserved."},
+        {"verify", {"--field", "Z0=1; phi=phi'; x=x'"}, "constraint symmetry"},
+    };
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        cJSON *json;
+        char *page = both(&p, cases[i].line, cases[i].also[0] ? cases[i].also : NULL, &json);
+        const char *line = cases[i].also[1] ? cases[i].also[1] : cases[i].line, *answer = strstr(page, "<p class=\"answer");
+        cr_expect_gt(compare_numbers(page, json, line), 1u, "%s", line);
+        cr_expect(answer && strstr(answer, cases[i].answer), "%s: %.200s", line, answer ? answer : "no answer");
+        cr_expect_not_null(strstr(page, "<h2>Repeat it</h2>"), "%s", line);
+        cr_expect_not_null(cJSON_GetObjectItem(json, "run"), "%s", line);
+        cr_expect_lt(strlen(page), 1500000u, "%s", line);
+        for (const char *c = page; (c = strstr(c, "href=\"#")); c++) {
+            char id[80];
+            snprintf(id, sizeof id, "id=\"%.*s\"", (int)strcspn(c + 7, "\""), c + 7);
+            cr_expect_not_null(strstr(page, id), "%s: a link to %s, which is not there", line, id);
+        }
+        cJSON_Delete(json);
+        free(page);
+    }
+    place_clear(&p);
+}
+
+static const double *numbers_of(const cJSON *array, size_t *count, double *out, size_t most)
+{
+    *count = 0;
+    for (const cJSON *v = array->child; v && *count < most; v = v->next) out[(*count)++] = v->valuedouble;
+    return out;
+}
+
+/* Figures 2 to 7 of Cech and Musilova 2014: the heading is k asin tanh t, the energies are E0 tanh^2 t and E0 / cosh^2 t (eq. 37 and 38 with omega0 = k), the
+ * path is symmetric in time about the cusp; and the frequency's scan falls at 1/k. */
+Test(html, figures_of_the_paper_are_computed)
+{
+    enum { most = 500 };
+    place p = place_with_systems();
+    cJSON *json;
+    char *page = both(&p, "analyze sleigh", NULL, &json);
+    const cJSON *figures = cJSON_GetObjectItem(json, "figures");
+    size_t paths = 0, headings = 0, energies = 0, scans = 0;
+    static double x[most], y[most];
+    for (const cJSON *f = figures->child; f; f = f->next)
+        for (const cJSON *c = cJSON_GetObjectItem(f, "curves")->child; c; c = c->next) {
+            const char *kind = cJSON_GetObjectItem(f, "kind")->valuestring, *name = cJSON_GetObjectItem(c, "name")->valuestring;
+            double k = cJSON_GetObjectItem(c, "value")->valuedouble, e0 = k * k * k * k;
+            size_t n;
+            numbers_of(cJSON_GetObjectItem(c, "x"), &n, x, most);
+            numbers_of(cJSON_GetObjectItem(c, "y"), &n, y, most);
+            cr_expect_gt(n, 100u);
+            for (size_t i = 0; i < n && !strcmp(kind, "path"); i++) {
+                cr_expect_float_eq(x[i], x[n - 1 - i], 1e-6, "%s: %g, %g", name, x[i], x[n - 1 - i]);
+                cr_expect_float_eq(y[i], -y[n - 1 - i], 1e-6, "%s", name);
+            }
+            for (size_t i = 0; i < n && !strncmp(name, "phi, ", 5); i++) cr_expect_float_eq(y[i], k * asin(tanh(x[i])), 1e-6, "%s at %g", name, x[i]);
+            for (size_t i = 0; i < n && !strncmp(name, "E_T, ", 5); i++) cr_expect_float_eq(y[i], e0 * pow(tanh(x[i]), 2), 1e-6 * e0, "%s at %g", name, x[i]);
+            for (size_t i = 0; i < n && !strncmp(name, "E_RC, ", 6); i++) cr_expect_float_eq(y[i], e0 * (1 - 1 / (k * k)) / pow(cosh(x[i]), 2), 1e-6 * e0, "%s at %g", name, x[i]);
+            size_t low = 0;
+            for (size_t i = 0; i < n && !strcmp(kind, "scan"); i++) low = y[i] < y[low] ? i : low;
+            if (!strcmp(kind, "scan")) cr_expect_float_eq(x[low], 0.5, 0.01);
+            paths += !strcmp(kind, "path");
+            scans += !strcmp(kind, "scan");
+            headings += !strncmp(name, "phi, ", 5);
+            energies += !strncmp(name, "E_", 2);
+        }
+    cr_expect(paths == 4 && headings == 4 && energies == 6 && scans == 1, "%zu, %zu, %zu, %zu", paths, headings, energies, scans);
+    cr_expect_not_null(strstr(page, "<section id=\"figures\">"));
+    cJSON_Delete(json);
+    free(page);
     place_clear(&p);
 }
 
@@ -258,6 +368,49 @@ Test(html, formulas_are_set_as_they_are_written)
         cr_expect(well_formed(&r, page), "%s: %s", FORMULAS[i].text, r.fault);
         nh_text_clear(&mathml);
         nh_text_clear(&latex);
+    }
+}
+
+static void join(void *context, const char *piece)
+{
+    nh_text_add(context, piece);
+    nh_text_add(context, " | ");
+}
+
+static void widest_piece(void *context, const char *piece)
+{
+    size_t *most = context, symbols = 0;
+    for (const char *c = piece; (c = strstr(c, "<m")); c++) symbols += c[2] == 'i' || c[2] == 'n';
+    if (symbols > *most) *most = symbols;
+    cr_expect_null(strstr(piece, "<mrow></mrow>"), "an empty box in %s", piece);
+}
+
+/* What has one term only breaks inside: products, fractions, powers, arguments. */
+Test(html, a_long_term_is_opened)
+{
+    static const char *const cases[] = {
+        "(a1 + a2 + a3 + a4 + a5 + a6 + a7 + a8)*(b1 + b2 + b3 + b4 + b5 + b6 + b7 + b8)*(c1 + c2 + c3 + c4 + c5)",
+        "(a1 + a2 + a3 + a4 + a5 + a6 + a7 + a8 + a9)/(b1 + b2 + b3 + b4 + b5 + b6 + b7 + b8 + b9)",
+        "-m*sqrt(a1*a2*a3 + b1*b2*b3 + c1*c2*c3 + d1*d2*d3)*sin(a1 + a2 + a3 + a4 + a5 + a6 + a7 + a8)/(2*k)",
+        "(a1 + a2 + a3 + a4 + a5 + a6 + a7 + a8 + a9)^2*abs(b1 + b2 + b3 + b4 + b5 + b6 + b7 + b8 + b9)",
+        "x' = log((a1 + a2*(b1 + b2*(c1 + c2*(d1 + d2*(e1 + e2*(f1 + f2)))))) + g1 + g2 + g3 + g4)",
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t most = 0, pieces = nh_typeset_pieces(cases[i], NH_MATHML, 12, widest_piece, &most);
+        cr_expect_gt(pieces, 3u, "%s", cases[i]);
+        cr_expect_leq(most, 30u, "%s: a piece of %zu symbols", cases[i], most); /* an index counts here, not there */
+        nh_text all;
+        nh_text_init(&all);
+        nh_text_add(&all, "<!DOCTYPE html><math>");
+        nh_typeset_pieces(cases[i], NH_MATHML, 12, join, &all);
+        nh_text_add(&all, "</math>");
+        reader r;
+        cr_expect(well_formed(&r, nh_text_string(&all)), "%s: %s", cases[i], r.fault);
+        size_t open = 0, closed = 0;
+        for (const char *c = nh_text_string(&all); (c = strstr(c, ">(<")); c++) open++;
+        for (const char *c = nh_text_string(&all); (c = strstr(c, ">)<")); c++) closed++;
+        cr_expect(open == closed && open > 0, "%s: %zu and %zu parentheses", cases[i], open, closed);
+        nh_text_clear(&all);
     }
 }
 

@@ -218,7 +218,7 @@ Test(reduce, json)
     nh_error error = {0};
     nh_reduction *r = reduce_path("systems/chaplygin_ball.yaml", NULL, NULL, NULL, 1, &error);
     must(r != NULL, &error, "json");
-    char *text = nh_reduction_json(r);
+    char *text = nh_reduction_json(r, NULL);
     cJSON *json = cJSON_Parse(text);
     cr_assert(json != NULL);
     cr_expect(!strstr(text, "nan") && !strstr(text, "inf\""));

@@ -38,7 +38,7 @@ Test(tex, long_formulas_come_in_pieces)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         nh_text out;
         nh_text_init(&out);
-        cr_expect_gt(nh_typeset_pieces(cases[i][0], NH_LATEX, join, &out), 0u);
+        cr_expect_gt(nh_typeset_pieces(cases[i][0], NH_LATEX, 46, join, &out), 0u);
         const char *got = nh_text_string(&out);
         cr_expect_str_eq(got + strspn(got, " "), cases[i][1], "%s: %s", cases[i][0], got);
         nh_text_clear(&out);
@@ -79,7 +79,7 @@ Test(tex, no_piece_is_wide_and_all_are_whole)
         nh_ex e = random_expression(&random, 6);
         char *text = nh_print_string(d, e);
         seen s = {0};
-        size_t n = nh_typeset_pieces(text, NH_LATEX, look, &s);
+        size_t n = nh_typeset_pieces(text, NH_LATEX, 46, look, &s);
         cr_expect_gt(n, 0u, "%s", text);
         wide += nh_typeset_width(text) > 80;
         cr_expect(!s.unbalanced && !s.open, "%s", text);

@@ -77,7 +77,7 @@ Test(verify, a_false_current_is_refuted_with_a_point)
     double omega = v->counterexample[4], expected = 2.0 * 1.0 * omega * omega;
     cr_expect_float_eq(v->rate, expected, 1e-12 * fabs(expected));
     cr_expect_gt(v->residual, 0.1);
-    char *json = nh_verdict_json(v);
+    char *json = nh_verdict_json(v, NULL);
     cr_expect_not_null(strstr(json, "\"conserved\":\tfalse"), "%s", json);
     cr_expect_not_null(strstr(json, "\"rate\":"), "%s", json);
     nh_free(json);
@@ -169,8 +169,8 @@ static nh_simulation *motion(const char *initial, double until, double step, nh_
 
 static double last(const nh_simulation *s, const char *name)
 {
-    for (size_t k = 0; k < s->columns; k++)
-        if (!strcmp(s->column[k].name, name)) return s->value[(s->motion->count - 1) * s->columns + k];
+    for (size_t k = 0; k < s->columns.count; k++)
+        if (!strcmp(s->columns.track[k].name, name)) return s->value[(s->motion->count - 1) * s->columns.count + k];
     cr_expect_fail("no column %s", name);
     return NAN;
 }
@@ -218,12 +218,12 @@ Test(simulate, a_motion_leaves_its_chart_and_its_branch)
         const double *first = s->value + 3;
         double c = atanh(first[2]);
         for (size_t i = 0; i < s->motion->count; i++) {
-            const double *v = s->value + i * s->columns + 3, t = s->motion->time[i], ratio = cosh(c) / cosh(c - 1.3 * t);
+            const double *v = s->value + i * s->columns.count + 3, t = s->motion->time[i], ratio = cosh(c) / cosh(c - 1.3 * t);
             cr_expect_float_eq(v[2], tanh(c - 1.3 * t), 2e-9, "z' at %g: %.17g instead of %.17g", t, v[2], tanh(c - 1.3 * t));
             cr_expect_float_eq(v[0], first[0] * ratio, 2e-9);
             cr_expect_float_eq(v[1], first[1] * ratio, 2e-9);
         }
-        if (k != 1) cr_expect(first[2] > 0 && s->value[16 * s->columns + 5] < -0.9, "no apex was passed");
+        if (k != 1) cr_expect(first[2] > 0 && s->value[16 * s->columns.count + 5] < -0.9, "no apex was passed");
         nh_simulation_free(s);
     }
     remove(path);
@@ -269,8 +269,8 @@ Test(simulate, watch_reads_a_list)
     nh_simulate_request q = {.system_path = SLEIGH, .initial = "omega=2", .until_given = true, .tolerance_given = true, .step = 1, .options = defaults(), .watch = "phi, T = m/2*v^2, atan2(v, omega)"};
     q.options.until = 3;
     nh_simulation *s = nh_simulate(&q, &error);
-    cr_assert(s && s->columns == 3 && s->scene, "%s", error.what);
-    cr_expect(!strcmp(s->column[1].name, "T") && !strcmp(s->column[2].name, "atan2(v, omega)"), "%s, %s", s->column[1].name, s->column[2].name);
+    cr_assert(s && s->columns.count == 3 && s->scene, "%s", error.what);
+    cr_expect(!strcmp(s->columns.track[1].name, "T") && !strcmp(s->columns.track[2].name, "atan2(v, omega)"), "%s, %s", s->columns.track[1].name, s->columns.track[2].name);
     cr_expect_eq(s->motion->size, 3); /* omega, v and, by quadrature, phi */
     const double *last = s->value + (s->motion->count - 1) * 3;
     cr_expect_float_eq(last[0], 4 * atan(tanh(1.5)), 1e-7);

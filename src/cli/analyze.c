@@ -88,10 +88,8 @@ static bool write_html(nh_cli *cli, const nh_result *result, nh_error *error)
     nh_text text;
     nh_text_init(&text);
     nh_html(result, &text);
-    bool good = nh_output_write(cli->html, nh_text_string(&text), text.length, error);
-    if (cli->folder) good = good && write_figures(cli, nh_text_string(&text), error);
-    nh_text_clear(&text);
-    return good;
+    bool good = !cli->folder || write_figures(cli, nh_text_string(&text), error);
+    return nh_cli_write(good ? cli->html : NULL, &text, error) && good;
 }
 
 static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
@@ -100,9 +98,7 @@ static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
     nh_text text;
     nh_text_init(&text);
     nh_tex(result, cli->fragment, &text);
-    bool good = nh_output_write(cli->tex, nh_text_string(&text), text.length, error);
-    nh_text_clear(&text);
-    return good;
+    return nh_cli_write(cli->tex, &text, error);
 }
 
 static bool write_summary(nh_cli *cli, const nh_result *result, nh_error *error)

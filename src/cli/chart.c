@@ -4,8 +4,9 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "report/chart.h"
+#include "report/html.h"
 
-static bool write_all(nh_cli *cli, const nh_comparison *c, const nh_stress *s, nh_error *error)
+static bool write_all(nh_cli *cli, const nh_run *run, const nh_comparison *c, const nh_stress *s, nh_error *error)
 {
     bool good = true;
     nh_text text;
@@ -17,13 +18,15 @@ static bool write_all(nh_cli *cli, const nh_comparison *c, const nh_stress *s, n
     }
     nh_text_clear(&text);
     if (cli->svg) {
-        nh_text_init(&text);
         nh_comparison_svg(c, &text);
-        good = nh_output_write(cli->svg, nh_text_string(&text), text.length, error);
-        nh_text_clear(&text);
+        good = nh_cli_write(cli->svg, &text, error);
+    }
+    if (cli->html && good) {
+        nh_html_comparison(c, s, run, &text);
+        good = nh_cli_write(cli->html, &text, error);
     }
     if (cli->json && good) {
-        char *json = nh_comparison_json(c, s);
+        char *json = nh_comparison_json(c, s, run);
         if (!strcmp(cli->json, "-")) fputs(json, stdout);
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
@@ -40,7 +43,8 @@ int nh_cli_chart(nh_cli *cli, nh_error *error)
     nh_comparison *c = nh_compare(&request, cli->stress ? budget / 2 : budget, error);
     nh_stress *s = c && cli->stress && !nh_interrupted() ? nh_stress_create(&request, budget / 2, error) : NULL;
     nh_cli_watch_end();
-    if (c && error->code == NH_OK) write_all(cli, c, s, error);
+    nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
+    if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);
     nh_stress_free(s);
     if (c && error->code == NH_OK && nh_interrupted()) nh_fail(error, NH_INTERRUPTED, "", "interrupted: this is what was measured until then");
     nh_comparison_free(c);

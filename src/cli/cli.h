@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/option.h"
 #include "base/text.h"
+#include "report/run.h"
 #include "study/analyze.h"
 #include "study/simulate.h"
 
@@ -56,6 +57,11 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
 /* Show on stderr what is being done, as --progress says, and end soon with what there is on SIGINT and SIGTERM; a second signal ends at once. */
 void nh_cli_watch_begin(const nh_cli *cli);
 void nh_cli_watch_end(void);
+
+/* To repeat this command. */
+nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);
+/* Write a text to a file and clear it; path NULL: only that. */
+bool nh_cli_write(const char *path, nh_text *text, nh_error *error);
 
 /* The file of a system or analysis: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
  * `kind` is "systems" or "analyses".  NULL with a suggestion. */

@@ -3,6 +3,7 @@
 #include "base/output.h"
 #include "base/progress.h"
 #include "cli/cli.h"
+#include "report/html.h"
 #include "report/reduction.h"
 
 static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
@@ -40,13 +41,20 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     nh_reduction *r = nh_reduce(&request, error);
     nh_cli_watch_end();
     if (!r) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
+    nh_run run = nh_cli_run(cli, request.system_path, NULL);
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
     if (!to_stdout && !cli->quiet) print(cli, r);
     if (cli->json) {
-        char *json = nh_reduction_json(r);
+        char *json = nh_reduction_json(r, &run);
         if (to_stdout) fputs(json, stdout);
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
+    }
+    if (cli->html && good) {
+        nh_text page;
+        nh_text_init(&page);
+        nh_html_reduction(r, &run, &page);
+        good = nh_cli_write(cli->html, &page, error);
     }
     nh_reduction_free(r);
     return !good ? (int)error->code : nh_interrupted() ? NH_INTERRUPTED : NH_OK;

@@ -3,6 +3,7 @@
 #include "base/output.h"
 #include "base/progress.h"
 #include "cli/cli.h"
+#include "report/html.h"
 #include "report/motion.h"
 
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *q, nh_error *error)
@@ -12,7 +13,7 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
         return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project,
+    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html != NULL,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
     q->system_path = nh_cli_find(cli, "systems", name, error);
     if (!q->system_path) return false;
@@ -54,13 +55,20 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     nh_simulation *s = nh_simulate(&request, error);
     nh_cli_watch_end();
     if (!s) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
+    nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     bool good = true;
     put_table(cli, s);
     if (cli->json) {
-        char *json = s->ensemble ? nh_ensemble_json(s) : nh_motion_json(s);
+        char *json = s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run);
         if (!strcmp(cli->json, "-")) fputs(json, stdout);
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
+    }
+    if (cli->html && good) {
+        nh_text page;
+        nh_text_init(&page);
+        nh_html_simulation(s, &run, &page);
+        good = nh_cli_write(cli->html, &page, error);
     }
     if (good) complain(s, error);
     nh_simulation_free(s);

@@ -2,9 +2,10 @@
 
 #include "base/output.h"
 #include "cli/cli.h"
+#include "report/html.h"
 #include "report/verdict.h"
 
-static bool ask(nh_cli *cli, nh_verdict_of_one **out, nh_error *error)
+static bool ask(nh_cli *cli, nh_run *run, nh_verdict_of_one **out, nh_error *error)
 {
     if (cli->operands != 1 || !cli->current == !cli->field) {
         nh_fail(error, NH_USAGE, "", "verify needs one system and either --current or --field");
@@ -13,6 +14,7 @@ static bool ask(nh_cli *cli, nh_verdict_of_one **out, nh_error *error)
     const char *path = nh_cli_find(cli, "systems", cli->operand[0], error);
     nh_system *system = path ? nh_system_read(path, cli->settings, cli->setting, error) : NULL;
     if (!system) return false;
+    *run = nh_cli_run(cli, path, NULL);
     if (cli->current) *out = nh_verify_current(system, cli->chart, cli->current, &cli->options, error);
     else *out = nh_verify_field(system, cli->chart, cli->field, &cli->options, error);
     return *out != NULL;
@@ -21,7 +23,8 @@ static bool ask(nh_cli *cli, nh_verdict_of_one **out, nh_error *error)
 int nh_cli_verify(nh_cli *cli, nh_error *error)
 {
     nh_verdict_of_one *v = NULL;
-    if (!ask(cli, &v, error) || !v) return error->code;
+    nh_run run;
+    if (!ask(cli, &run, &v, error) || !v) return error->code;
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true, conserved = v->conserved;
     if (!to_stdout && !cli->quiet) {
         nh_text text;
@@ -31,10 +34,16 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
         nh_text_clear(&text);
     }
     if (cli->json) {
-        char *json = nh_verdict_json(v);
+        char *json = nh_verdict_json(v, &run);
         if (to_stdout) fputs(json, stdout);
         else good = nh_output_write(cli->json, json, strlen(json), error);
         nh_free(json);
+    }
+    if (cli->html && good) {
+        nh_text page;
+        nh_text_init(&page);
+        nh_html_verdict(v, cli->field != NULL, &run, &page);
+        good = nh_cli_write(cli->html, &page, error);
     }
     nh_verdict_free(v);
     return !good ? (int)error->code : conserved ? NH_OK : NH_REFUTED;

@@ -11,7 +11,7 @@
     X(opt_no_analysis, "no-analysis", no_argument,       "",                   "analyze simulate chart", "the program chooses them, whatever files there are")     \
     X(opt_chart,       "chart",       required_argument, "auto|quasi|coordinates", "analyze verify simulate", "which velocities to compute in")                        \
     X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate chart reduce", "the result as JSON; with - nothing else is printed") \
-    X(opt_html,        "html",        required_argument, "FILE",               "analyze", "the result as one page that needs nothing else")                        \
+    X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate chart reduce", "the result as one page that needs nothing else") \
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze", "the result as a LaTeX document")                                        \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "the LaTeX without a preamble, to be read by another")                      \
     X('o',             "output",      required_argument, "DIR",                "analyze", "-o: all of these and every figure, into a folder")                      \

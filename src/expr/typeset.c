@@ -8,10 +8,10 @@ static const nh_typeset_script scripts[] = {
                    {"<mover accent=\"true\">", "<mo>\u02d9</mo></mover>"}, {"<mover accent=\"true\">", "<mo>\u00a8</mo></mover>"}, "<mo>(</mo>", "<mo>)</mo>",
                    {"<mo>|</mo>", "<mo>|</mo>"}, "<mo>+</mo>", "<mo>\u2212</mo>", "<mo>=</mo>", "<mo>\u2062</mo>", "<mo>\u00b7</mo>", "<mo>\u2061</mo>",
                    "<mo>,</mo>", {"<mn>", "</mn>"}, {"<mi>", "</mi>"}, {"<mi mathvariant=\"normal\">", "</mi>"}, "<mi>\u03c0</mi>",
-                   "<mo stretchy=\"false\">(</mo>", "<mo stretchy=\"false\">)</mo>", "<mo stretchy=\"false\">|</mo>", "<mo>/</mo>"},
+                   "<mo stretchy=\"false\">(</mo>", "<mo stretchy=\"false\">)</mo>", "<mo stretchy=\"false\">|</mo>", "<mo>/</mo>", "<mo form=\"infix\">+</mo>", "<mo form=\"infix\">\u2212</mo>"},
     [NH_LATEX] = {{"{", "}"}, {"", ""}, {"\\frac", "", ""}, {"\\sqrt{", "}"}, {"", "^", ""}, {"", "_", ""}, {"\\dot{", "}"}, {"\\ddot{", "}"}, "\\left(", "\\right)",
                   {"\\left|", "\\right|"}, " + ", " - ", " = ", "\\,", "\\cdot ", "", ", ", {"", ""}, {"", ""}, {"\\mathrm{", "}"}, "\\pi ",
-                  "\\bigl(", "\\bigr)", "\\bigm|", "\\big/"},
+                  "\\bigl(", "\\bigr)", "\\bigm|", "\\big/", " + ", " - "},
 };
 
 static const struct {
@@ -50,11 +50,20 @@ static void parenthesised(const writer *w, const nh_seen *e)
 
 /* ---- names and numbers ---- */
 
+static size_t greek_letter(const char *text, size_t length)
+{
+    size_t i = 0, n = sizeof greek / sizeof *greek;
+    while (i < n && (strlen(greek[i].name) != length || strncmp(greek[i].name, text, length))) i++;
+    return i;
+}
+
+bool nh_typeset_is_greek(const char *text, size_t length) { return greek_letter(text, length) < sizeof greek / sizeof *greek; }
+
 /* A letter, or a word set upright.  Names are made of letters, digits and _ only. */
 static void word(const writer *w, const char *text, size_t length)
 {
-    for (size_t i = 0; i < sizeof greek / sizeof *greek; i++) {
-        if (strlen(greek[i].name) != length || strncmp(greek[i].name, text, length)) continue;
+    if (nh_typeset_is_greek(text, length)) {
+        size_t i = greek_letter(text, length);
         add(w, w->s->italic[0]);
         add(w, w->form == NH_MATHML ? greek[i].letter : greek[i].command);
         add(w, w->s->italic[1]);
@@ -107,6 +116,18 @@ static void dotted(const writer *w, const nh_seen *e)
     else name(w, e->text, e->primes == 0 ? NULL : e->primes == 2 ? w->s->ddot : w->s->dot);
 }
 
+void nh_typeset_plain(const char *text, nh_text *out)
+{
+    size_t length = strcspn(text, "'_0123456789, =.(");
+    if (nh_typeset_is_greek(text, length)) {
+        nh_text_add(out, greek[greek_letter(text, length)].letter);
+        text += length;
+    }
+    for (; *text; text++)
+        if (*text == '\'') nh_text_add(out, "\u2032");
+        else nh_text_add_n(out, text, 1);
+}
+
 /* 1.5e-7 as 1.5 times a power of ten. */
 static void number(const writer *w, const char *text)
 {
@@ -145,7 +166,7 @@ static void arguments(const writer *w, const nh_seen *e)
 {
     add(w, w->s->apply);
     bool bare = e->child && !e->child->next && e->child->kind == NH_SEEN_NAME;
-    if (bare && w->form == NH_LATEX) add(w, " ");
+    if (bare) add(w, w->form == NH_LATEX ? " " : "<mspace width=\"0.17em\"/>");
     if (bare) {
         put(w, e->child);
         return;

@@ -14,11 +14,14 @@ typedef enum { NH_MATHML, NH_LATEX } nh_typeset_form;
 /* Adds the formula, without <math> or $, to `out`.  False, and nothing added, when the text is not one of the language, or nested too deep. */
 bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out);
 
-/* The pieces that a line may be broken between, none of them much wider than half a line: the terms of a sum, each with its sign, and the insides of
+/* A name for labels of plots, as plain text: phi1' becomes φ1′. */
+void nh_typeset_plain(const char *name, nh_text *out);
+
+/* The pieces that a line may be broken between, none of them much wider than `widest` letters: the terms of a sum, each with its sign, and the insides of
  * what is wide.  Put together they are the formula; in LaTeX each but the first begins with a penalty, as for TeX's own breaking of paragraphs.
  * Returns how many there are, calling `piece` for each; 0 as above. */
 typedef void nh_typeset_piece(void *context, const char *formula);
-size_t nh_typeset_pieces(const char *text, nh_typeset_form form, nh_typeset_piece *piece, void *context);
+size_t nh_typeset_pieces(const char *text, nh_typeset_form form, double widest, nh_typeset_piece *piece, void *context);
 
 /* How wide a formula is, in letters, about; 0 when the text is none. */
 double nh_typeset_width(const char *text);

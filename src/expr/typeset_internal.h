@@ -23,6 +23,7 @@ typedef struct {
     const char *group[2], *base[2], *fraction[3], *root[2], *power[3], *below[3], *dot[2], *ddot[2], *open, *close, *bar[2];
     const char *plus, *minus, *equal, *times, *dot_times, *apply, *comma, *number[2], *italic[2], *upright[2], *pi;
     const char *wide_open, *wide_close, *wide_bar, *slash; /* parentheses and bars that a line may end between */
+    const char *next_plus, *next_minus; /* at the beginning of a piece */
 } nh_typeset_script;
 
 const nh_typeset_script *nh_typeset_script_of(nh_typeset_form form);
@@ -42,5 +43,7 @@ void nh_typeset_times(const nh_typeset_writer *w, const nh_seen *factor);
 
 /* NULL when the text is not of the language. */
 nh_seen *nh_typeset_read(nh_arena *arena, const char *text);
+/* Do the first `length` characters spell a Greek letter? */
+bool nh_typeset_is_greek(const char *text, size_t length);
 
 #endif

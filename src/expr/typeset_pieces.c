@@ -4,10 +4,8 @@
 
 #include "expr/typeset_internal.h"
 
-/* Width of a piece, in letters: well within a line of a page, and on a telephone's screen. */
-static const double most[] = {[NH_MATHML] = 32, [NH_LATEX] = 46};
-
 typedef struct {
+    double widest;        /* width of a piece, in letters */
     nh_typeset_writer w;  /* into the piece at hand */
     nh_text text;
     nh_typeset_piece *piece;
@@ -26,8 +24,7 @@ static double width(const nh_seen *e);
 static double width_of_name(const char *text)
 {
     size_t length = strlen(text), base = strcspn(text, "_0123456789");
-    bool letter = base > 2 && base < 8; /* the name of a Greek one, or a word about as wide as two of them */
-    return (letter ? 1.5 : (double)base) + 0.6 * (double)(length - base);
+    return (nh_typeset_is_greek(text, base) ? 1.2 : (double)base) + 0.6 * (double)(length - base);
 }
 
 static double widths(const nh_seen *first, double between)
@@ -57,7 +54,7 @@ static double width(const nh_seen *e)
     return 0.5 + (above > below ? above : below);
 }
 
-static bool wide(const flow *f, const nh_seen *e) { return width(e) > most[f->w.form]; }
+static bool wide(const flow *f, const nh_seen *e) { return width(e) > f->widest; }
 
 /* ---- breaks ---- */
 
@@ -101,8 +98,8 @@ static void sum(flow *f, const nh_seen *e, int depth)
 {
     for (const nh_seen *c = e->child; c; c = c->next) {
         if (c != e->child) may_break(f, of_sum(depth));
-        if (c->minus) add(f, f->w.s->minus);
-        else if (c != e->child) add(f, f->w.s->plus);
+        if (c->minus) add(f, c == e->child ? f->w.s->minus : f->w.s->next_minus);
+        else if (c != e->child) add(f, f->w.s->next_plus);
         factor(f, c, true, depth);
     }
 }
@@ -112,7 +109,7 @@ static bool apart(const flow *f, const nh_seen *first, const nh_seen *c)
 {
     bool any = false;
     for (const nh_seen *other = first; other; other = other->next) any = any || wide(f, other);
-    return width(c) > (any ? 1 : 0.25) * most[f->w.form];
+    return width(c) > (any ? 1 : 0.25) * f->widest;
 }
 
 /* The factors that stand beside the fraction, or the others. */
@@ -135,7 +132,7 @@ static void beside(flow *f, const nh_seen *above, const nh_seen *below, int dept
     const nh_seen *first = above->kind == NH_SEEN_PRODUCT ? above->child : &alone;
     double left = 0;
     for (const nh_seen *c = first; c; c = c->next) left += apart(f, first, c) ? 0 : 0.4 + width(c);
-    bool split = left > 0 && left <= most[f->w.form];
+    bool split = left > 0 && left <= f->widest;
     add(f, f->w.s->fraction[0]);
     add(f, f->w.s->group[0]);
     if (split) factors(f, first, false, false, false, depth);
@@ -219,11 +216,11 @@ static void open_up(flow *f, const nh_seen *e, int depth)
     }
 }
 
-size_t nh_typeset_pieces(const char *text, nh_typeset_form form, nh_typeset_piece *piece, void *context)
+size_t nh_typeset_pieces(const char *text, nh_typeset_form form, double widest, nh_typeset_piece *piece, void *context)
 {
     nh_arena *arena = nh_arena_create();
     const nh_seen *e = nh_typeset_read(arena, text);
-    flow f = {.piece = piece, .context = context};
+    flow f = {.widest = widest, .piece = piece, .context = context};
     f.w = (nh_typeset_writer){form, nh_typeset_script_of(form), &f.text};
     nh_text_init(&f.text);
     if (e) open_up(&f, e, 0);

@@ -173,7 +173,7 @@ void nh_rows_current(nh_rows *r, const nh_points *points, const double *theta, n
         nh_equations_add(equations, count, r->rate, NH_BATCH);
         nh_equations_add_values(equations, count, r->value, NH_BATCH);
     }
-    for (size_t start = 0; beyond && start < beyond->count; start += NH_BATCH)
+    for (size_t start = 0; beyond && start < beyond->count && !nh_interrupted(); start += NH_BATCH)
         nh_equations_add(equations, run_beyond(r, beyond, start), r->rate, NH_BATCH);
 }
 

@@ -321,6 +321,16 @@ static void close_objective(objective *o)
     nh_free(o->seen);
 }
 
+bool nh_unknowns_scan(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *unknown, const nh_options *options,
+                      size_t index, size_t count, const double *theta, double *sigma, nh_error *error)
+{
+    objective o = {.n = 1, .unknown = unknown, .points = points, .limits = nh_nullspace_options_from(options)};
+    bool good = open_objective(&o, model, families, family, options, error);
+    for (size_t i = 0; i < count && good; i++) sigma[i] = nh_interrupted() ? NAN : sigma_at(&o, &theta[i], index, NULL);
+    if (good) close_objective(&o);
+    return good;
+}
+
 nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, size_t unknowns,
                           const nh_unknown *unknown, const nh_options *options, nh_error *error)
 {

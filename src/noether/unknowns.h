@@ -41,6 +41,11 @@ void nh_hits_free(nh_hits *hits);
 size_t nh_unknowns_pencil(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
                           const nh_unknown *unknown, const nh_options *options, size_t most, double *value, bool *applied);
 
+/* The objective of the search over one unknown: sigma[i] is the generalized singular value number `index` (hits->generic: the first that is not null for
+ * every value) at theta[i], infinite where the problem has no answer. */
+bool nh_unknowns_scan(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *unknown, const nh_options *options,
+                      size_t index, size_t count, const double *theta, double *sigma, nh_error *error);
+
 /* Does a family contain the unknown? */
 bool nh_family_contains(const nh_model *model, const nh_family *family, nh_ex unknown);
 

@@ -20,8 +20,7 @@ static void time_text(double seconds, char out[16])
 
 /* ---- text ---- */
 
-/* The fastest run of the line from..to-1 whose error is below the goal. */
-static const nh_measured *fastest(const nh_comparison *c, size_t from, size_t to, double below)
+const nh_measured *nh_comparison_fastest(const nh_comparison *c, size_t from, size_t to, double below)
 {
     const nh_measured *best = NULL;
     for (size_t i = from; i < to; i++) {
@@ -35,7 +34,7 @@ static void put_line(const nh_comparison *c, size_t from, size_t to, nh_text *ou
 {
     nh_text_addf(out, "    %-30s", c->item[from].method);
     for (int g = 0; g < goals; g++) {
-        const nh_measured *m = fastest(c, from, to, goal[g]);
+        const nh_measured *m = nh_comparison_fastest(c, from, to, goal[g]);
         char us[16], cell[48];
         if (m) {
             time_text(m->seconds, us);
@@ -78,7 +77,7 @@ static void put_run(const nh_comparison *c, const nh_measured *m, nh_text *out)
 static void put_front(const nh_comparison *c, nh_text *out)
 {
     for (int g = 0; g < goals; g++) {
-        const nh_measured *m = fastest(c, 0, c->count, goal[g]);
+        const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g]);
         if (!m) continue;
         char us[16];
         time_text(m->seconds, us);
@@ -179,7 +178,7 @@ static void put_map(const nh_stress_map *map, nh_json *list)
     }
 }
 
-char *nh_comparison_json(const nh_comparison *c, const nh_stress *s)
+char *nh_comparison_json(const nh_comparison *c, const nh_stress *s, const nh_run *run)
 {
     nh_json *root = nh_json_object();
     nh_json_put_number(root, "schema", 1);
@@ -208,5 +207,6 @@ char *nh_comparison_json(const nh_comparison *c, const nh_stress *s)
     for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], stress);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     if (c->shortened) nh_json_add_text(warnings, "the time was shortened until two methods reached its end");
+    if (run) nh_run_json(run, c->question->system, root);
     return nh_json_finish(root);
 }

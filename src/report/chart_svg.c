@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "report/chart.h"
+#include "report/svg.h"
 
 enum { wide = 1000, high = 560, left = 70, right = 330, top = 48, bottom = 56, line_height = 17, shades = 12 };
 static const char *const colour[shades] = {"#1b6ca8", "#d1495b", "#2e933c", "#8e5ea2", "#c77c02", "#00798c",
@@ -19,16 +20,6 @@ static bool shown(const nh_measured *m) { return m->status <= NH_WARNED && isfin
 static double error_of(const drawing *d, const nh_measured *m) { return log10(fmax(fmax(m->error, d->c->agreement), 1e-16)); }
 static double x_of(const drawing *d, double decade) { return left + (decade - d->x0) / (d->x1 - d->x0) * (wide - left - right); }
 static double y_of(const drawing *d, double decade) { return high - bottom - (decade - d->y0) / (d->y1 - d->y0) * (high - top - bottom); }
-
-static void escaped(nh_text *out, const char *text)
-{
-    for (; *text; text++) {
-        if (*text == '&') nh_text_add(out, "&amp;");
-        else if (*text == '<') nh_text_add(out, "&lt;");
-        else if (*text == '>') nh_text_add(out, "&gt;");
-        else nh_text_add_n(out, text, 1);
-    }
-}
 
 static void limits(drawing *d)
 {
@@ -79,17 +70,17 @@ static void put_series(drawing *d, size_t from, size_t to, size_t index)
         const nh_measured *m = &d->c->item[i];
         if (!shown(m)) continue;
         nh_text_addf(d->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>", x_of(d, error_of(d, m)), y_of(d, log10(m->seconds)), m->front ? "4.2" : "2.4");
-        escaped(d->out, m->method);
+        nh_svg_escape(m->method, d->out);
         nh_text_addf(d->out, ", %s %.3g: error %.1e, %.3g s, %ld evaluations</title></circle>\n", isnan(m->step) ? "tolerance" : "step", isnan(m->step) ? m->tolerance : m->step,
                      m->error, m->seconds, m->evaluations);
     }
     double y = top + 6 + line_height * (double)index;
     nh_text_addf(d->out, "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\" stroke-dasharray=\"%s\"/></g>\n<text x=\"%d\" y=\"%.1f\">", wide - right + 14,
                  wide - right + 38, y - 4, y - 4, dash, wide - right + 44, y);
-    escaped(d->out, first->method);
+    nh_svg_escape(first->method, d->out);
     if (strcmp(first->formulation, d->c->item[0].formulation)) {
         nh_text_add(d->out, ", ");
-        escaped(d->out, first->formulation);
+        nh_svg_escape(first->formulation, d->out);
     }
     nh_text_add(d->out, "</text>\n");
 }
@@ -122,7 +113,7 @@ void nh_comparison_svg(const nh_comparison *c, nh_text *out)
     nh_text_addf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" font-family=\"sans-serif\" font-size=\"12\">\n"
                       "<style>.grid{stroke:#ddd}.front{fill:none;stroke:#000;stroke-opacity:.18;stroke-width:9;stroke-linejoin:round;stroke-linecap:round}</style>\n"
                       "<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n<text x=\"%d\" y=\"26\" font-size=\"15\">", wide, tall, wide, tall, left);
-    escaped(out, c->question->system->title ? c->question->system->title : c->question->system->name);
+    nh_svg_escape(c->question->system->title ? c->question->system->title : c->question->system->name, out);
     nh_text_addf(out, ", t = %g to %g: time against error</text>\n", c->begin, c->end);
     axes(&d);
     put_front(&d);

@@ -1,10 +1,13 @@
 #include "report/formula.h"
 
-/* The user's own abbreviations, from the analysis file, instead of what they stand for. */
-nh_ex nh_formula_abbreviate(const nh_result *r, nh_ex e)
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/normal.h"
+
+nh_ex nh_formula_shortened(const nh_analysis *a, nh_dag *d, nh_ex e)
 {
-    const nh_analysis *a = r->analysis;
-    nh_dag *d = r->model->dag;
     for (size_t i = a ? a->definitions : 0; i-- > 0;) {
         nh_kind kind = nh_kind_of(d, a->definition[i].value);
         if (kind == NH_NUMBER || kind == NH_SYMBOL) continue;
@@ -14,4 +17,84 @@ nh_ex nh_formula_abbreviate(const nh_result *r, nh_ex e)
         e = root ? nh_substitute_root(d, e, nh_child(d, value, 0), name) : nh_substitute(d, e, 1, &value, &name);
     }
     return e;
+}
+
+nh_ex nh_formula_abbreviate(const nh_result *r, nh_ex e) { return nh_formula_shortened(r->analysis, r->model->dag, e); }
+
+/* ---- names for what is repeated ---- */
+
+enum { long_formula = 120, largest_graph = 20000, least_gain = 12 };
+
+/* How often does each node below n stand in the text of the formulas?  A child has a smaller index than what it stands in. */
+static void occurrences(const nh_dag *d, size_t n, double *times)
+{
+    for (size_t e = n; e-- > 0;) {
+        if (times[e] == 0) continue;
+        nh_kind kind = nh_kind_of(d, (nh_ex)e);
+        if (kind == NH_NUMBER || kind == NH_SYMBOL) continue;
+        for (size_t i = 0; i < nh_arity(d, (nh_ex)e); i++) {
+            times[nh_child(d, (nh_ex)e, i)] += times[e];
+            if (kind == NH_PRODUCT) times[nh_exponent_of(d, (nh_ex)e, i)] += times[e];
+        }
+    }
+}
+
+/* The node whose name saves the most; false when nothing saves enough.  What stands alone on a line needs no name. */
+static bool most_repeated(const nh_dag *d, size_t formulas, const nh_ex *e, size_t parts, const nh_formula_part *part, nh_ex *best)
+{
+    size_t n = nh_dag_size(d);
+    double *times = nh_alloc_array(n + 1, sizeof *times), gain = least_gain;
+    bool found = false;
+    for (size_t i = 0; i < formulas; i++) times[e[i]] += 1;
+    for (size_t i = 0; i < parts; i++) times[part[i].value] += 1;
+    occurrences(d, n, times);
+    for (size_t j = 0; j < n; j++) {
+        if (times[j] < 2 || nh_kind_of(d, (nh_ex)j) == NH_NUMBER || nh_kind_of(d, (nh_ex)j) == NH_SYMBOL) continue;
+        double saved = (times[j] - 1) * ((double)nh_complexity(d, (nh_ex)j) - 2);
+        if (!(saved > gain)) continue;
+        gain = saved;
+        *best = (nh_ex)j;
+        found = true;
+    }
+    nh_free(times);
+    return found;
+}
+
+/* A letter that no name of the graph begins with, so far as A_1, A_2, ... go. */
+static char free_letter(const nh_dag *d)
+{
+    static const char letters[] = "ABCDGHKNPQSUVWXY";
+    for (const char *c = letters; *c; c++) {
+        char name[16];
+        nh_ex taken;
+        bool used = false;
+        for (int i = 0; i <= NH_FORMULA_PARTS && !used; i++) {
+            snprintf(name, sizeof name, i ? "%c_%d" : "%c", *c, i);
+            used = nh_symbol_find(d, name, &taken);
+        }
+        if (!used) return *c;
+    }
+    return 'Z';
+}
+
+size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS])
+{
+    size_t count = 0, longest = 0, nodes = 0;
+    char letter = free_letter(d);
+    for (size_t i = 0; i < n; i++) {
+        size_t length = nh_complexity(d, e[i]);
+        if (length > longest) longest = length;
+        nodes += nh_node_count(d, e[i]);
+    }
+    if (longest < long_formula || nodes > largest_graph) return 0;
+    for (nh_ex best; count < NH_FORMULA_PARTS && most_repeated(d, n, e, count, part, &best);) {
+        nh_formula_part *p = &part[count];
+        snprintf(p->name, sizeof p->name, "%c_%zu", letter, count + 1);
+        p->value = best;
+        nh_ex name = p->symbol = nh_symbol_fresh(d, p->name);
+        for (size_t i = 0; i < n; i++) e[i] = nh_substitute(d, e[i], 1, &best, &name);
+        for (size_t i = 0; i < count; i++) part[i].value = nh_substitute(d, part[i].value, 1, &best, &name);
+        count++;
+    }
+    return count;
 }

@@ -4,7 +4,17 @@
 
 #include "study/result.h"
 
-/* e with the user's own abbreviations, from the analysis file, instead of what they stand for. */
+/* e with the user's own abbreviations, from the analysis file (or NULL), instead of what they stand for. */
+nh_ex nh_formula_shortened(const nh_analysis *analysis, nh_dag *dag, nh_ex e);
 nh_ex nh_formula_abbreviate(const nh_result *result, nh_ex e);
+
+/* Long formulas with names for what occurs in them more than once: the n formulas are changed, part[i] = {name, value} in an order in which each uses only
+ * names that come later.  Names are new to the graph.  Returns their number, at most NH_FORMULA_PARTS; 0 when all are short. */
+enum { NH_FORMULA_PARTS = 12 };
+typedef struct {
+    char name[16];
+    nh_ex symbol, value;
+} nh_formula_part;
+size_t nh_formula_parts(nh_dag *dag, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS]);
 
 #endif

@@ -14,8 +14,10 @@ static void meanings(nh_html_writer *w)
     size_t told = 0;
     for (size_t k = 0; k < r->count; k++) {
         if (!r->found[k].meaning[0] || r->found[k].independence != NH_INDEPENDENT) continue;
-        nh_html_add(w, told++ ? ", one the " : "; one is the ");
-        nh_html_text(w, r->found[k].meaning);
+        bool one_of_many = !strncmp(r->found[k].meaning, "integral", 8);
+        nh_html_add(w, told++ ? ", one " : "; one is ");
+        nh_html_add(w, one_of_many ? "an " : "the ");
+        nh_html_meaning(w, r->found[k].meaning);
     }
 }
 
@@ -40,66 +42,44 @@ static void answer(nh_html_writer *w)
 
 static void warnings(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
-    for (size_t i = 0; i < r->warnings; i++) {
-        nh_html_add(w, "<p class=\"warning\"><strong>Warning:</strong> ");
-        nh_html_text(w, r->warning[i]);
-        nh_html_add(w, "</p>\n");
-    }
+    for (size_t i = 0; i < w->r->warnings; i++) nh_html_warning(w, w->r->warning[i]);
 }
 
-static void head(nh_html_writer *w)
+static nh_html_writer writer_of(const nh_result *r, nh_text *out)
 {
-    nh_html_add(w, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
-                   "<meta name=\"generator\" content=\"nhsym " NH_VERSION "\"/>\n<title>");
-    nh_html_text(w, w->r->system->title);
-    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n");
-    nh_html_add(w, nh_html_style);
-    nh_html_add(w, "/*]]>*/</style>\n</head>\n<body>\n<main>\n");
-}
-
-static void title(nh_html_writer *w)
-{
-    const nh_system *s = w->r->system;
-    nh_html_add(w, "<header>\n");
-    nh_html_tagged(w, "h1", s->title);
-    answer(w);
-    if (s->source && s->source[0]) {
-        nh_html_add(w, "<p class=\"source\">System: ");
-        nh_html_text(w, s->source);
-        nh_html_add(w, "</p>\n");
-    }
-    nh_html_add(w, "<nav aria-label=\"Sections\"><a href=\"#currents\">Currents</a> <a href=\"#system\">System</a> ");
-    if (w->r->validation) nh_html_add(w, "<a href=\"#motion\">Motion</a> ");
-    nh_html_add(w, "<a href=\"#search\">How it was found</a> <a href=\"#repeat\">Repeat it</a></nav>\n</header>\n");
+    return (nh_html_writer){.out = out, .system = r->system, .analysis = r->analysis, .dag = r->model->dag, .shown = r->options.shown, .written = r->options.written, .r = r};
 }
 
 void nh_html(const nh_result *r, nh_text *out)
 {
-    nh_html_writer w = {.r = r, .out = out};
-    head(&w);
-    title(&w);
+    nh_html_writer w = writer_of(r, out);
+    nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
+    nh_html_begin(&w, NULL);
+    answer(&w);
+    nh_html_links(&w, r->figures      ? "currents|Currents|motion|Motion|figures|Figures|system|System|search|How it was found|repeat|Repeat it"
+                      : r->validation ? "currents|Currents|motion|Motion|system|System|search|How it was found|repeat|Repeat it"
+                                      : "currents|Currents|system|System|search|How it was found|repeat|Repeat it");
     warnings(&w);
     nh_html_currents(&w);
     nh_html_motion(&w);
+    nh_html_figures(&w);
     nh_html_system(&w);
     nh_html_evidence(&w);
-    nh_html_repeat(&w);
-    nh_html_add(&w, "</main>\n<script>//<![CDATA[\n");
-    nh_html_add(&w, nh_html_script);
-    nh_html_add(&w, "//]]></script>\n</body>\n</html>\n");
+    nh_html_repeat(&w, &run);
+    nh_html_end(&w);
 }
 
-void nh_html_motion_figures(const nh_result *r, nh_figure_sink *sink, void *context)
+void nh_html_plots(const nh_result *r, nh_html_section section, nh_figure_sink *sink, void *context)
 {
-    nh_html_motion_plots(&(nh_html_writer){.r = r, .sink = sink, .context = context});
-}
-
-void nh_html_search_figures(const nh_result *r, nh_figure_sink *sink, void *context)
-{
-    nh_html_evidence_plots(&(nh_html_writer){.r = r, .sink = sink, .context = context});
+    nh_text rest; /* of the section */
+    nh_text_init(&rest);
+    nh_html_writer w = writer_of(r, &rest);
+    w.sink = sink;
+    w.context = context;
+    if (section == NH_SECTION_MOTION) nh_html_motion(&w);
+    if (section == NH_SECTION_FIGURES) nh_html_figures(&w);
+    if (section == NH_SECTION_SEARCH) nh_html_evidence(&w);
+    nh_text_clear(&rest);
 }
 
 const char *nh_html_next_figure(const char **at, size_t *length)

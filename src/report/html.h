@@ -1,22 +1,31 @@
-/* html: an analysis as one page that needs nothing else: no network, no other file.
+/* html: results as pages that need nothing else: no network, no other file.
  *
  * Well-formed as XML too.  Every number stands in <data value="..."> with all its digits, as the JSON has it; plots are inline SVG, formulas
- * MathML.  Text from files is escaped.  The script on the page draws what nh_result_json tells under validation.motion. */
+ * MathML.  Text from files is escaped.  The script on the page draws what the JSON tells of the motion. */
 #ifndef NH_HTML_H
 #define NH_HTML_H
 
 #include "base/text.h"
+#include "report/run.h"
 #include "report/svg.h"
+#include "study/reduce.h"
 #include "study/result.h"
+#include "study/simulate.h"
+#include "study/stress.h"
+#include "study/verify.h"
 
 void nh_html(const nh_result *result, nh_text *out);
+void nh_html_simulation(const nh_simulation *simulation, const nh_run *run, nh_text *out);
+void nh_html_verdict(const nh_verdict_of_one *verdict, bool field, const nh_run *run, nh_text *out); /* field: the question was about one */
+void nh_html_comparison(const nh_comparison *comparison, const nh_stress *stress, const nh_run *run, nh_text *out); /* stress may be NULL */
+void nh_html_reduction(const nh_reduction *reduction, const nh_run *run, nh_text *out);
 
 /* The figures of a page one by one, each a stand-alone SVG document: where the next begins, NULL after the last.  Moves *at on. */
 const char *nh_html_next_figure(const char **at, size_t *length);
 
-/* The plots of a page, for a report of another form: those of the motion, then those of the search.  They last for the call. */
+/* The plots of one section of a page, for a report of another form.  They last for the call. */
+typedef enum { NH_SECTION_MOTION, NH_SECTION_FIGURES, NH_SECTION_SEARCH } nh_html_section;
 typedef void nh_figure_sink(void *context, const nh_plot *plot, const char *caption);
-void nh_html_motion_figures(const nh_result *result, nh_figure_sink *sink, void *context);
-void nh_html_search_figures(const nh_result *result, nh_figure_sink *sink, void *context);
+void nh_html_plots(const nh_result *result, nh_html_section section, nh_figure_sink *sink, void *context);
 
 #endif

@@ -10,7 +10,7 @@
 
 static void series(nh_html_writer *w, const nh_series *s)
 {
-    nh_dag *d = w->r->model->dag;
+    nh_dag *d = w->dag;
     const char *q = nh_name_of(d, s->coordinate);
     nh_text text;
     nh_text_init(&text);
@@ -36,8 +36,8 @@ static void series(nh_html_writer *w, const nh_series *s)
 
 static void as_text(nh_html_writer *w, const nh_found *f)
 {
-    nh_dag *d = w->r->model->dag;
-    char *text = nh_print_short(d, f->phi, w->r->options.shown), *plain = f->has_in_velocities ? nh_print_short(d, f->in_velocities, w->r->options.shown) : NULL;
+    nh_dag *d = w->dag;
+    char *text = nh_print_short(d, f->phi, w->shown), *plain = f->has_in_velocities ? nh_print_short(d, f->in_velocities, w->shown) : NULL;
     if (text || plain) nh_html_add(w, "<details><summary>As text, to copy</summary>\n");
     if (text) nh_html_tagged(w, "pre", text);
     if (plain) nh_html_add(w, "<p>in coordinate velocities</p>\n");
@@ -51,7 +51,7 @@ static void as_text(nh_html_writer *w, const nh_found *f)
 
 static void certificate(nh_html_writer *w, const nh_found *f)
 {
-    const nh_system *s = w->r->system;
+    const nh_system *s = w->system;
     nh_html_add(w, "<dt>Certified</dt><dd>");
     if (f->proof.all_parameters) nh_html_add(w, s->parameters ? "proved for all parameter values" : "proved");
     else if (f->proof.proved) nh_html_add(w, "proved for these parameter values");
@@ -79,7 +79,11 @@ static void drift_line(nh_html_writer *w, const nh_found *f)
 static void standing(nh_html_writer *w, const nh_found *f)
 {
     nh_html_add(w, "<p class=\"tags\">");
-    if (f->meaning[0]) nh_html_tagged(w, "span", f->meaning);
+    if (f->meaning[0]) {
+        nh_html_add(w, "<span>");
+        nh_html_meaning(w, f->meaning);
+        nh_html_add(w, "</span>");
+    }
     if (f->independence == NH_INDEPENDENT) nh_html_tagged(w, "span", "independent");
     if (f->independence == NH_DEPENDENT) nh_html_tagged(w, "span", "depends on the others");
     if (f->independence == NH_DOUBTFUL) nh_html_tagged(w, "span", "perhaps dependent on the others");
@@ -92,7 +96,7 @@ static void standing(nh_html_writer *w, const nh_found *f)
     nh_html_add(w, "</div>\n");
 }
 
-static const char *case_text(int kase)
+const char *nh_html_case(int kase)
 {
     switch (kase) {
     case 1: return "case 1: Z is also a symmetry of the equations of motion";
@@ -102,19 +106,23 @@ static const char *case_text(int kase)
     }
 }
 
-static void component(nh_html_writer *w, const char *along, nh_ex e)
+void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const nh_ex *e)
 {
-    char label[200];
-    if (nh_is_zero(w->r->model->dag, e)) return;
-    snprintf(label, sizeof label, "Z_%.180s", along);
-    if (strchr(along, '\'')) {
-        nh_html_add(w, "<div class=\"along\">along ");
-        nh_html_source(w, along);
-        nh_html_add(w, "</div>");
-        nh_html_formula(w, "", e);
-        return;
+    char (*text)[200] = nh_alloc_array(n + 1, sizeof *text);
+    const char **label = nh_alloc_array(n + 1, sizeof *label);
+    nh_ex *component = nh_alloc_array(n + 1, sizeof *component);
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (nh_is_zero(w->dag, e[i])) continue;
+        snprintf(text[count], sizeof *text, "Z|%.180s", along[i]);
+        label[count] = text[count];
+        component[count++] = e[i];
     }
-    nh_html_formula(w, label, e);
+    nh_html_formulas(w, count, label, component);
+    if (!count) nh_html_add(w, "<p>It vanishes.</p>\n");
+    nh_free(component);
+    nh_free(label);
+    nh_free(text);
 }
 
 static void symmetry(nh_html_writer *w, const nh_found *f)
@@ -122,14 +130,20 @@ static void symmetry(nh_html_writer *w, const nh_found *f)
     const nh_result *r = w->r;
     const nh_model *o = r->model, *basis = r->other ? r->other : o;
     nh_html_add(w, "<details><summary>Its symmetry Z</summary>\n");
-    component(w, "t", f->symmetry.Z0);
-    for (size_t s = 0; s < o->m; s++) component(w, r->system->coordinate[s].name, f->symmetry.field.space[s]);
+    size_t count = 0;
+    const char **along = nh_alloc_array(1 + o->m + basis->n, sizeof *along);
+    nh_ex *e = nh_alloc_array(1 + o->m + basis->n, sizeof *e);
+    along[count] = "t", e[count++] = f->symmetry.Z0;
+    for (size_t s = 0; s < o->m; s++) along[count] = r->system->coordinate[s].name, e[count++] = f->symmetry.field.space[s];
     for (size_t i = 0; i < basis->n; i++) {
-        nh_ex e = r->other ? 0 : f->symmetry.W[i];
+        e[count] = r->other ? 0 : f->symmetry.W[i];
         for (size_t s = 0; s < o->m && r->other; s++)
-            if (basis->chart->w[i] == r->system->coordinate[s].v) e = f->symmetry.coordinate_rate[s];
-        component(w, nh_name_of(o->dag, basis->chart->w[i]), e);
+            if (basis->chart->w[i] == r->system->coordinate[s].v) e[count] = f->symmetry.coordinate_rate[s];
+        along[count++] = nh_name_of(o->dag, basis->chart->w[i]);
     }
+    nh_html_field(w, count, along, e);
+    nh_free(e);
+    nh_free(along);
     for (size_t a = 0; a < o->k && !f->symmetry.bracket_in_distribution; a++) {
         nh_html_add(w, "<p>By how much [\u0393,\u2009Z] leaves the canonical distribution:</p>\n");
         nh_html_formula(w, "", f->symmetry.bracket_form[a]);
@@ -144,8 +158,9 @@ static void drift_plot(nh_html_writer *w, const nh_found *f)
     const nh_validation *v = r->validation;
     size_t j = 0;
     if (!v || v->count < 2 || !(f->drift.scale > 0)) return;
-    while (j < v->watches && r->track[j].value != f->phi) j++;
-    while (j < v->watches && r->track[j].kind != NH_TRACK_CURRENT) j++;
+    const nh_track *track = r->tracks.track;
+    while (j < v->watches && track[j].value != f->phi) j++;
+    while (j < v->watches && track[j].kind != NH_TRACK_CURRENT) j++;
     if (j == v->watches) return;
     double *y = nh_alloc_array(v->count, sizeof *y), first = v->watch[j];
     for (size_t i = 0; i < v->count; i++) y[i] = fabs(v->watch[i * v->watches + j] - first) / f->drift.scale;
@@ -172,7 +187,7 @@ static void card(nh_html_writer *w, const nh_found *f)
     certificate(w, f);
     drift_line(w, f);
     if (f->has_symmetry) {
-        nh_text_addf(w->out, "<dt>Symmetry</dt><dd>%s; [\u0393,\u2009Z] %s the canonical distribution%s</dd>\n", case_text(f->symmetry.kase),
+        nh_text_addf(w->out, "<dt>Symmetry</dt><dd>%s; [\u0393,\u2009Z] %s the canonical distribution%s</dd>\n", nh_html_case(f->symmetry.kase),
                      f->symmetry.bracket_in_distribution ? "lies in" : "leaves", f->symmetry.projectable ? "; Z is a point symmetry" : "");
     }
     nh_html_add(w, "</dl>\n");
@@ -192,7 +207,7 @@ static void abbreviations(nh_html_writer *w)
     for (size_t i = 0; i < a->definitions; i++) {
         nh_html_add(w, "<div class=\"formula\">");
         nh_html_source(w, a->definition[i].name);
-        nh_html_add(w, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\"><mo>=</mo></math> ");
+        nh_html_add(w, "<math><mo>=</mo></math> ");
         nh_html_source(w, a->definition[i].text);
         nh_html_add(w, "</div>\n");
     }

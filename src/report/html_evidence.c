@@ -50,11 +50,10 @@ static void spectrum(nh_html_writer *w, const char *name, const nh_spectrum *s)
 static void spectra(nh_html_writer *w)
 {
     if (!w->r->current.done && !w->r->symmetry.done) return;
-    nh_html_add(w, "<div class=\"wide\"><table><caption>Linear problems</caption><thead><tr><th scope=\"col\">route</th><th scope=\"col\">columns</th><th scope=\"col\">independent</th>"
-                   "<th scope=\"col\">rows</th><th scope=\"col\">null values</th><th scope=\"col\">up to</th><th scope=\"col\">then</th><th scope=\"col\">gap</th></tr></thead><tbody>\n");
+    nh_html_table(w, "Linear problems", "route|columns|independent|rows|null values|up to|then|gap");
     spectrum(w, "current", &w->r->current);
     spectrum(w, "symmetry", &w->r->symmetry);
-    nh_html_add(w, "</tbody></table></div>\n");
+    nh_html_table_end(w);
     if (!w->r->routes_compared) return;
     nh_html_add(w, w->r->routes_agree ? "<p>The two routes agree: the angle between the spaces that they find is " : "<p>The two routes DISAGREE: the angle between the spaces that they find is ");
     nh_html_number(w, w->r->routes_angle, 1);
@@ -86,8 +85,7 @@ static void stages(nh_html_writer *w)
 {
     const nh_result *r = w->r;
     if (!r->stages) return;
-    nh_html_add(w, "<div class=\"wide\"><table><caption>What was tried</caption><thead><tr><th scope=\"col\">stage</th><th scope=\"col\">columns</th><th scope=\"col\">null values</th>"
-                   "<th scope=\"col\">new currents</th></tr></thead><tbody>\n");
+    nh_html_table(w, "What was tried", "stage|columns|null values|new currents");
     for (size_t i = 0; i < r->stages; i++) {
         const nh_tried *s = &r->stage[i];
         nh_html_add(w, "<tr><th scope=\"row\">");
@@ -105,15 +103,13 @@ static void stages(nh_html_writer *w)
         nh_html_count(w, s->found);
         nh_html_add(w, "</td></tr>\n");
     }
-    nh_html_add(w, "</tbody></table></div>\n");
+    nh_html_table_end(w);
 }
-
-void nh_html_evidence_plots(nh_html_writer *w) { spectrum_plot(w); }
 
 void nh_html_evidence(nh_html_writer *w)
 {
     const nh_result *r = w->r;
-    nh_html_add(w, "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz: ");
+    nh_html_add(w, r->count ? "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz: " : "<section id=\"search\"><h2>What was tried</h2>\n<p>Ansatz: ");
     nh_html_text(w, r->ansatz_note);
     nh_html_add(w, ". ");
     nh_html_count(w, r->samples);

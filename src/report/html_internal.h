@@ -1,13 +1,20 @@
-/* What the sections of the page share. */
+/* What the sections of the pages share. */
 #ifndef NH_HTML_INTERNAL_H
 #define NH_HTML_INTERNAL_H
 
+#include "report/course.h"
 #include "report/html.h"
 #include "report/svg.h"
 
+/* A page while it is written. */
 typedef struct {
-    const nh_result *r;
     nh_text *out;
+    const nh_system *system;
+    const nh_analysis *analysis; /* its abbreviations are used in formulas; or NULL */
+    nh_dag *dag;                 /* of the formulas */
+    double shown;                /* option `shown`: longer formulas are left to the JSON */
+    double written;              /* option `written` */
+    const nh_result *r;          /* of `analyze`, else NULL */
     size_t figures;
     nh_figure_sink *sink; /* NULL: figures go onto the page */
     void *context;
@@ -21,24 +28,40 @@ void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text); /* <t
 /* A number with so many significant digits; a dash when it is not finite. */
 void nh_html_number(nh_html_writer *w, double value, int digits);
 void nh_html_count(nh_html_writer *w, size_t value);
-/* A text of the expression language as a formula, broken between the terms of a sum; as code when it is too wide or no formula. */
+/* A text of the expression language as a formula, broken where a line may end; as code when it is no formula. */
 void nh_html_source(nh_html_writer *w, const char *text);
-/* label = e, with the user's abbreviations; when it is too long for a page, how long it is.  label may be "". */
+/* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, or `Z|x'`: Z with the index x'. */
 void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e);
+/* Several that belong together: what occurs in them more than once gets one name for all. */
+void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e);
 /* A figure with its caption; the plot gets an id. */
 void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption);
+/* A table: its caption and column heads, separated by |; rows are between this and the end. */
+void nh_html_table(nh_html_writer *w, const char *caption, const char *heads);
+void nh_html_table_end(nh_html_writer *w);
+void nh_html_warning(nh_html_writer *w, const char *text);
 
-/* ---- sections, in the order of the page ---- */
+/* ---- a page: the title, then the answer, then links to its sections ("id|name|id|name"), then what follows, then how to repeat it ---- */
 
+void nh_html_begin(nh_html_writer *w, const char *what);
+void nh_html_links(nh_html_writer *w, const char *sections);
+void nh_html_repeat(nh_html_writer *w, const nh_run *run);
+void nh_html_end(nh_html_writer *w);
+
+/* ---- sections ---- */
+
+void nh_html_written(nh_html_writer *w);                          /* the system as it was written */
+void nh_html_equations(nh_html_writer *w, const nh_model *model); /* and as it was understood */
 void nh_html_system(nh_html_writer *w);
 void nh_html_currents(nh_html_writer *w);
+void nh_html_figures(nh_html_writer *w);
 void nh_html_evidence(nh_html_writer *w);
 void nh_html_motion(nh_html_writer *w);
-void nh_html_repeat(nh_html_writer *w);
-
-/* The plots of these sections alone. */
-void nh_html_motion_plots(nh_html_writer *w);
-void nh_html_evidence_plots(nh_html_writer *w);
+void nh_html_course(nh_html_writer *w, const nh_course *course);  /* the slider with the drawing, and every line over time */
+/* The components of a field along n coordinates and velocities that do not vanish, as Z with an index. */
+void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const nh_ex *e);
+void nh_html_meaning(nh_html_writer *w, const char *meaning); /* "momentum of phi", with the letter */
+const char *nh_html_case(int kase); /* case 1, 2 or 3 in words */
 
 extern const char *const nh_html_style;
 extern const char *const nh_html_script;

@@ -9,111 +9,120 @@ enum { most_curves = 7, most_frames = 201 };
 
 /* ---- plots over time ---- */
 
-static void flush(nh_html_writer *w, const char *what, const char *axis, const char *caption, size_t n, nh_curve *curve)
+static void flush(nh_html_writer *w, const nh_course *c, const char *what, const char *axis, const char *caption, size_t n, nh_curve *curve)
 {
     char title[200];
     if (n == 0) return;
     snprintf(title, sizeof title, "%s over time", what);
-    nh_plot plot = {.title = title, .description = caption, .x_label = "t", .y_label = axis, .timed = true, .curves = n, .curve = curve};
+    nh_plot plot = {.title = title, .description = caption, .x_label = "t", .y_label = axis, .timed = c->count > 1, .curves = n, .curve = curve};
     nh_html_figure(w, &plot, caption);
 }
 
-/* Tracks of one kind in plots of at most so many curves.  `skip` of the kind are left out at the front, `take` are shown. */
-static void tracks(nh_html_writer *w, nh_track_kind kind, size_t skip, size_t take, const char *what, const char *axis, const char *caption)
+static nh_curve curve_of(const nh_course *c, const nh_line *line)
 {
-    const nh_validation *v = w->r->validation;
+    return (nh_curve){.name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = line->value, .y_stride = line->stride};
+}
+
+/* Lines of one kind in plots of at most so many curves.  `skip` of the kind are left out at the front, `take` are shown. */
+static void lines(nh_html_writer *w, const nh_course *c, nh_track_kind kind, size_t skip, size_t take, const char *what, const char *axis, const char *caption)
+{
     nh_curve curve[most_curves];
     size_t n = 0, seen = 0;
-    for (size_t j = 0; j < v->watches; j++) {
-        if (w->r->track[j].kind != kind || seen++ < skip || seen > skip + take) continue;
-        curve[n++] = (nh_curve){.name = w->r->track[j].name, .count = v->count, .x = v->time, .x_stride = 1, .y = v->watch + j, .y_stride = v->watches};
+    for (size_t j = 0; j < c->lines; j++) {
+        if (c->line[j].kind != kind || seen++ < skip || seen > skip + take) continue;
+        curve[n++] = curve_of(c, &c->line[j]);
         if (n < most_curves) continue;
-        flush(w, what, axis, caption, n, curve);
+        flush(w, c, what, axis, caption, n, curve);
         n = 0;
     }
-    flush(w, what, axis, caption, n, curve);
+    flush(w, c, what, axis, caption, n, curve);
 }
 
 /* Angles and lengths have different units: each gets its own plot. */
-static void positions(nh_html_writer *w)
+static void positions(nh_html_writer *w, const nh_course *c)
 {
     static const struct {
         nh_coordinate_type type;
         const char *what, *caption;
     } kind[] = {{NH_ANGLE, "angle / rad", "Angles over time."}, {NH_LENGTH, "length", "Lengths over time."}, {NH_PLAIN, "coordinate", "Other coordinates over time."}};
-    const nh_validation *v = w->r->validation;
-    const nh_system *s = w->r->system;
+    const nh_system *s = w->system;
     for (size_t k = 0; k < 3; k++) {
         nh_curve curve[most_curves];
         size_t n = 0;
         for (size_t i = 0; i < s->coordinates; i++) {
             if (s->coordinate[i].type != kind[k].type) continue;
-            curve[n++] = (nh_curve){.name = s->coordinate[i].name, .count = v->count, .x = v->time, .x_stride = 1, .y = v->watch + i, .y_stride = v->watches};
+            curve[n++] = curve_of(c, &c->line[i]);
             if (n < most_curves) continue;
-            flush(w, "Coordinates", kind[k].what, kind[k].caption, n, curve);
+            flush(w, c, "Coordinates", kind[k].what, kind[k].caption, n, curve);
             n = 0;
         }
-        flush(w, "Coordinates", kind[k].what, kind[k].caption, n, curve);
+        flush(w, c, "Coordinates", kind[k].what, kind[k].caption, n, curve);
     }
 }
 
-static void multipliers(nh_html_writer *w)
+/* |Phi - Phi(0)| of what should be constant. */
+static void constancy(nh_html_writer *w, const nh_course *c)
 {
-    const nh_validation *v = w->r->validation;
-    size_t k = w->r->model->k, n = k < most_curves ? k : most_curves;
     nh_curve curve[most_curves];
-    char name[most_curves][40];
-    for (size_t a = 0; a < n; a++) {
-        snprintf(name[a], sizeof name[a], "\u03bc%zu", a + 1);
-        curve[a] = (nh_curve){.name = name[a], .count = v->count, .x = v->time, .x_stride = 1, .y = v->multiplier + a, .y_stride = k};
+    double *y = nh_alloc_array(most_curves * c->count + 1, sizeof *y);
+    size_t n = 0;
+    for (size_t j = 0; j < c->lines && n < most_curves; j++) {
+        const nh_line *line = &c->line[j];
+        if (line->kind != NH_TRACK_CURRENT) continue;
+        for (size_t i = 0; i < c->count; i++) y[n * c->count + i] = fabs(line->value[i * line->stride] - line->value[0]);
+        curve[n] = (nh_curve){.name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = y + n * c->count, .y_stride = 1};
+        n++;
     }
-    flush(w, "Chetaev multipliers", "\u03bc", k == 1 ? "The Chetaev multiplier over time." : "Chetaev multipliers over time, in the order of the constraints.", n, curve);
+    nh_plot plot = {.title = "Change of the known currents", .description = "Absolute change since the start on a logarithmic scale", .x_label = "t", .y_label = "change", .log_y = true,
+                    .floor = 1e-17, .timed = c->count > 1, .curves = n, .curve = curve};
+    if (n) nh_html_figure(w, &plot, "Change since the start of the currents that the system file knows: the error of the motion, as they see it.");
+    nh_free(y);
+}
+
+static void velocities(nh_html_writer *w, const nh_course *c)
+{
+    size_t m = c->model->m;
+    if (c->model->chart->quasi) lines(w, c, NH_TRACK_STATE, 2 * m, c->lines, "Quasi-velocities", "quasi-velocity", "Quasi-velocities over time.");
+    else lines(w, c, NH_TRACK_STATE, m, m, "Velocities", "velocity", "Velocities over time.");
 }
 
 /* ---- the drawing ---- */
 
-/* Column of number j of shape i. */
-static size_t column_of(const nh_result *r, size_t i, size_t j)
+static void path_plot(nh_html_writer *w, const nh_course *c)
 {
-    size_t before = j, at = 0;
-    for (size_t k = 0; k < i; k++) before += nh_shape_numbers(r->shape[k].kind);
-    for (;; at++)
-        if (r->track[at].kind == NH_TRACK_SHAPE && before-- == 0) return at;
-}
-
-static void path_plot(nh_html_writer *w)
-{
-    const nh_result *r = w->r;
-    const nh_validation *v = r->validation;
     nh_curve curve[most_curves];
     char name[most_curves][60];
     size_t n = 0;
-    for (size_t i = 0; i < r->shapes && n < most_curves; i++) {
-        if (r->shape[i].kind == NH_SHAPE_SEGMENT) continue;
-        snprintf(name[n], sizeof name[n], "%s %zu", nh_shape_name(r->shape[i].kind), i + 1);
-        curve[n] = (nh_curve){.name = name[n], .count = v->count, .x = v->watch + column_of(r, i, 0), .x_stride = v->watches, .y = v->watch + column_of(r, i, 1), .y_stride = v->watches};
-        bool heads = r->shape[i].kind == NH_SHAPE_ARROW || r->shape[i].kind == NH_SHAPE_WHEEL;
-        if (heads) curve[n].heading = v->watch + column_of(r, i, 2);
+    for (size_t i = 0; i < c->shapes && n < most_curves; i++) {
+        if (c->shape[i].kind == NH_SHAPE_SEGMENT) continue;
+        const nh_line *x = nh_course_shape(c, i, 0), *y = nh_course_shape(c, i, 1);
+        snprintf(name[n], sizeof name[n], "%s %zu", nh_shape_name(c->shape[i].kind), i + 1);
+        curve[n] = (nh_curve){.name = name[n], .count = c->count, .x = x->value, .x_stride = x->stride, .y = y->value, .y_stride = y->stride};
+        bool heads = c->shape[i].kind == NH_SHAPE_ARROW || c->shape[i].kind == NH_SHAPE_WHEEL;
+        if (heads) curve[n].heading = nh_course_shape(c, i, 2)->value;
         n++;
     }
     if (!n) return;
-    nh_plot plot = {.title = "Path in the plane", .description = "The path of the test motion in the plane, both axes on one scale", .x_label = "first axis", .y_label = "second axis",
+    nh_plot plot = {.title = "Path in the plane", .description = "The path of the motion in the plane, both axes on one scale", .x_label = "first axis", .y_label = "second axis",
                     .equal = true, .curves = n, .curve = curve};
-    const nh_system *s = r->system;
-    for (size_t i = s->coordinates; i-- > 0;) {
-        if (s->coordinate[i].q == r->shape[0].value[0]) plot.x_label = s->coordinate[i].name;
-        if (s->coordinate[i].q == r->shape[0].value[1]) plot.y_label = s->coordinate[i].name;
-    }
-    nh_html_figure(w, &plot, "Path of the test motion; the marks show where a body heads, at equal steps of time.");
+    const nh_system *s = w->system;
+    bool marks = false;
+    for (size_t k = 0; k < n; k++) marks |= curve[k].heading != NULL;
+    for (size_t i = s->coordinates; i-- > 0;)
+        for (size_t k = c->shapes; k-- > 0;) {
+            if (c->shape[k].kind == NH_SHAPE_SEGMENT) continue;
+            if (s->coordinate[i].q == c->shape[k].value[0]) plot.x_label = s->coordinate[i].name;
+            if (s->coordinate[i].q == c->shape[k].value[1]) plot.y_label = s->coordinate[i].name;
+        }
+    nh_html_figure(w, &plot, marks ? "Path of the motion; the marks show where a body heads, at equal steps of time." : "Path of the motion.");
 }
 
 static void number(nh_html_writer *w, double value) { nh_text_addf(w->out, isfinite(value) ? "%.6g" : "null", value); }
 
-static void frames(nh_html_writer *w, const char *before, const double *value, size_t stride, size_t step)
+static void frames(nh_html_writer *w, const char *before, size_t count, const double *value, size_t stride, size_t step)
 {
-    const nh_validation *v = w->r->validation;
     nh_text_addf(w->out, "%s[", before);
-    for (size_t i = 0; i < v->count; i += step) {
+    for (size_t i = 0; i < count; i += step) {
         if (i) nh_html_add(w, ",");
         number(w, value[i * stride]);
     }
@@ -121,32 +130,50 @@ static void frames(nh_html_writer *w, const char *before, const double *value, s
 }
 
 /* The numbers for the script; there is no text of the user in it. */
-static void data(nh_html_writer *w)
+static void data(nh_html_writer *w, const nh_course *c)
 {
-    const nh_result *r = w->r;
-    const nh_validation *v = r->validation;
-    size_t step = (v->count + most_frames - 2) / most_frames;
+    size_t step = (c->count + most_frames - 2) / most_frames;
     if (step == 0) step = 1;
     nh_html_add(w, "<script type=\"application/json\" id=\"motion-data\">{");
-    frames(w, "\"t\":", v->time, 1, step);
+    frames(w, "\"t\":", c->count, c->time, 1, step);
     nh_html_add(w, ",\"shapes\":[");
-    for (size_t i = 0; i < r->shapes; i++) {
-        nh_text_addf(w->out, "%s{\"kind\":\"%s\",\"v\":[", i ? "," : "", nh_shape_name(r->shape[i].kind));
-        for (size_t j = 0; j < nh_shape_numbers(r->shape[i].kind); j++) frames(w, j ? "," : "", v->watch + column_of(r, i, j), v->watches, step);
+    for (size_t i = 0; i < c->shapes; i++) {
+        nh_text_addf(w->out, "%s{\"kind\":\"%s\",\"v\":[", i ? "," : "", nh_shape_name(c->shape[i].kind));
+        for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++) {
+            const nh_line *line = nh_course_shape(c, i, j);
+            frames(w, j ? "," : "", c->count, line->value, line->stride, step);
+        }
         nh_html_add(w, "]}");
     }
     nh_html_add(w, "]}</script>\n");
 }
 
-static void player(nh_html_writer *w)
+static void player(nh_html_writer *w, const nh_course *c)
 {
     nh_html_add(w, "<div id=\"player\" hidden=\"hidden\">\n");
-    if (w->r->shapes)
+    if (c->shapes) {
         nh_html_add(w, "<figure><svg id=\"scene\" class=\"plot\" role=\"img\" aria-label=\"The system in motion; the slider below chooses the time\" viewBox=\"0 0 640 420\" width=\"640\" height=\"420\"></svg>"
-                       "<figcaption>The system in its plane, with its track.</figcaption></figure>\n");
+                       "<figcaption>The system in motion, with its track. Drawn: ");
+        nh_html_text(w, c->drawing);
+        nh_html_add(w, ".</figcaption></figure>\n");
+    }
     nh_html_add(w, "<div class=\"controls\"><button type=\"button\" id=\"play\" aria-label=\"play or pause\">Play</button>"
                    "<input type=\"range\" id=\"when\" min=\"0\" max=\"1000\" value=\"0\" step=\"1\" aria-label=\"time\"/> <output id=\"clock\" for=\"when\">t = 0</output></div></div>\n");
-    data(w);
+    data(w, c);
+}
+
+void nh_html_course(nh_html_writer *w, const nh_course *c)
+{
+    bool states = c->lines && c->line[0].kind == NH_TRACK_STATE;
+    player(w, c);
+    path_plot(w, c);
+    if (states) positions(w, c);
+    if (states) velocities(w, c);
+    lines(w, c, NH_TRACK_ENERGY, 0, c->lines, "Energy", "E", "The energy function over time.");
+    lines(w, c, NH_TRACK_WATCH, 0, c->lines, "Watched quantities", "value", "What was asked to be watched, over time.");
+    lines(w, c, NH_TRACK_MULTIPLIER, 0, c->lines, "Chetaev multipliers", "multiplier",
+          c->model->k == 1 ? "The Chetaev multiplier over time." : "Chetaev multipliers over time, in the order of the constraints.");
+    if (!w->r) constancy(w, c);
 }
 
 /* ---- the tables ---- */
@@ -155,13 +182,14 @@ static void drifts(nh_html_writer *w)
 {
     const nh_validation *v = w->r->validation;
     if (!v->currents) return;
-    nh_html_add(w, "<div class=\"wide\"><table><caption>Drift of the currents, by tolerance of the integration</caption><thead><tr><th scope=\"col\">current</th>");
+    nh_html_table(w, "Drift of the currents, by tolerance of the integration", NULL);
+    nh_html_add(w, "<tr><th scope=\"col\">current</th>");
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
         nh_html_add(w, "<th scope=\"col\">");
         nh_html_number(w, v->tolerance[i], 2);
         nh_html_add(w, "</th>");
     }
-    nh_html_add(w, "</tr></thead><tbody>\n");
+    nh_html_add(w, "</tr>\n");
     for (size_t k = 0; k < v->currents; k++) {
         nh_html_add(w, "<tr><th scope=\"row\">");
         nh_html_source(w, w->r->found[k].name);
@@ -173,7 +201,7 @@ static void drifts(nh_html_writer *w)
         }
         nh_html_add(w, "</tr>\n");
     }
-    nh_html_add(w, "</tbody></table></div>\n");
+    nh_html_table_end(w);
 }
 
 static void second_opinion(nh_html_writer *w)
@@ -196,25 +224,12 @@ static void second_opinion(nh_html_writer *w)
     nh_html_add(w, ".</p>\n");
 }
 
-void nh_html_motion_plots(nh_html_writer *w)
-{
-    const nh_result *r = w->r;
-    size_t m = r->model->m, all = r->tracks;
-    if (!r->validation || r->validation->count < 2) return;
-    path_plot(w);
-    positions(w);
-    if (r->model->chart->quasi) tracks(w, NH_TRACK_STATE, 2 * m, all, "Quasi-velocities", "quasi-velocity", "Quasi-velocities over time.");
-    else tracks(w, NH_TRACK_STATE, m, m, "Velocities", "velocity", "Velocities over time.");
-    tracks(w, NH_TRACK_ENERGY, 0, all, "Energy", "E", "The energy function over time.");
-    tracks(w, NH_TRACK_WATCH, 0, all, "Watched quantities", "value", "What the analysis file asks to watch, over time.");
-    if (r->model->k) multipliers(w);
-}
-
 void nh_html_motion(nh_html_writer *w)
 {
     const nh_result *r = w->r;
     const nh_validation *v = r->validation;
     if (!v || v->count < 2) return;
+    nh_course *c = nh_course_of_result(r);
     nh_text_addf(w->out, "<section id=\"motion\"><h2>A motion</h2>\n<p>%s in ", v->method);
     nh_html_text(w, v->chart);
     nh_html_add(w, ", t = ");
@@ -222,8 +237,8 @@ void nh_html_motion(nh_html_writer *w)
     nh_html_add(w, " to ");
     nh_html_number(w, v->end, 6);
     nh_html_add(w, ".</p>\n");
-    player(w);
-    nh_html_motion_plots(w);
+    nh_html_course(w, c);
+    nh_course_free(c);
     drifts(w);
     second_opinion(w);
     nh_html_add(w, "</section>\n");

@@ -1,9 +1,9 @@
-/* The style sheet and the script of the page.  Neither contains < or &, so that the page is well-formed XML too. */
+/* The style sheet and the script of the pages.  Neither contains < or &, so that a page is well-formed XML too. */
 #include "report/html_internal.h"
 
 const char *const nh_html_style =
     ":root{color-scheme:light dark;--ink:#1b1b1b;--paper:#fff;--soft:#5a5a5a;--line:#d5d5d5;--card:#f7f8fa;--link:#005a9c;--good:#00694d;--bad:#9a3c00}\n"
-    "@media (prefers-color-scheme:dark){:root{--ink:#e8e8e8;--paper:#16181b;--soft:#a9a9a9;--line:#3a3d42;--card:#1f2226;--link:#7cc0f5;--good:#5fd0ac;--bad:#ff9d5c}}\n"
+    "@media (prefers-color-scheme:dark){:root{--ink:#e8e8e8;--paper:#16181b;--soft:#a9a9a9;--line:#3a3d42;--card:#1f2226;--link:#7cc0f5;--good:#5fd0ac;--bad:#ff9d5c}svg [stroke='#0072B2']{stroke:#4db2ee}svg [fill='#0072B2']{fill:#4db2ee}svg [stroke='#D55E00']{stroke:#ff8f45}svg [fill='#D55E00']{fill:#ff8f45}svg [stroke='#009E73']{stroke:#2fd3a4}svg [fill='#009E73']{fill:#2fd3a4}svg [stroke='#7A7A7A']{stroke:#b4b4b4}}\n"
     "*{box-sizing:border-box}body{margin:0;background:var(--paper);color:var(--ink);font:17px/1.55 Georgia,'Times New Roman',serif}\n"
     "main{max-width:46rem;margin:0 auto;padding:1.5rem 1rem 4rem}h1,h2,h3,h4,nav,.tags,table,dt,button,output,figcaption,summary{font-family:system-ui,sans-serif}\n"
     "h1{font-size:1.9rem;line-height:1.2;margin:.5rem 0}h2{margin:2.6rem 0 .6rem;font-size:1.4rem;border-bottom:1px solid var(--line)}h3{margin:1.4rem 0 .4rem;font-size:1.1rem}h4{margin:1.2rem 0 .3rem}\n"
@@ -12,19 +12,19 @@ const char *const nh_html_style =
     ".warning{border-left:4px solid #D55E00;padding:.3rem .8rem;background:var(--card)}\n"
     ".card{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:.4rem 1rem .8rem;margin:1rem 0}.almost{border-style:dashed}\n"
     ".card h3{margin:.5rem 0}.tags{display:flex;flex-wrap:wrap;gap:.4rem;margin:.3rem 0;font-size:.8rem}.tags span{border:1px solid var(--line);border-radius:9px;padding:0 .55rem}\n"
-    ".formula{overflow-x:auto;padding:.35rem 0 .35rem 1rem;line-height:2.1}math{font-size:1.12em}code,pre{font:.85rem/1.45 ui-monospace,monospace;overflow-wrap:anywhere;white-space:pre-wrap}\n"
-    "pre{margin:.4rem 0}.along{color:var(--soft);font-size:.9rem}dl{display:grid;grid-template-columns:7rem 1fr;gap:.2rem .6rem;margin:.6rem 0}dt{color:var(--soft);font-size:.88rem}dd{margin:0}\n"
-    "summary{cursor:pointer;font-size:.92rem;color:var(--link);padding:.2rem 0}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.88rem;margin:.8rem 0}caption{text-align:left;font-weight:600;padding:.2rem 0}\n"
+    ".formula{overflow-x:auto;padding:.35rem 0 .35rem 1rem;line-height:2.1}math{font-size:1.12em;font-family:'Latin Modern Math','STIX Two Math','Cambria Math','Libertinus Math','TeX Gyre Termes Math','Noto Sans Math',math}code,pre{font:.85rem/1.45 ui-monospace,monospace;overflow-wrap:anywhere;white-space:pre-wrap}\n"
+    "pre{margin:.4rem 0}.along{color:var(--soft);font-size:.9rem}dl{display:grid;align-items:baseline;grid-template-columns:7rem 1fr;gap:.2rem .6rem;margin:.6rem 0}dt{color:var(--soft);font-size:.88rem}dd{margin:0}\n"
+    "summary{cursor:pointer;font-size:.92rem;color:var(--link);padding:.2rem 0}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.88rem;margin:.8rem 0}caption{text-align:left;font-weight:600;padding:.2rem 0;white-space:nowrap}.where{margin-left:1.2rem}.where p{margin:.1rem 0}td.warned,td.caught{color:var(--good)}td.failed,td.timeout{color:var(--bad)}td.wrong{color:var(--paper);background:var(--bad);font-weight:700}\n"
     "th,td{border-bottom:1px solid var(--line);padding:.25rem .9rem .25rem 0;text-align:left;vertical-align:top}thead th{color:var(--soft);font-weight:500}tbody th{font-weight:500}sup{line-height:0}\n"
-    "figure{margin:1.2rem 0}figcaption{font-size:.86rem;color:var(--soft)}svg.plot{display:block;width:100%;height:auto}svg text{fill:var(--soft)}svg .grid,svg .axis{stroke:var(--soft)}\n"
+    "figure{margin:1.2rem 0}.beside{display:grid;grid-template-columns:1fr 1fr;gap:0 1rem}.beside figure:only-child{grid-column:1/3}.beside svg .tick,.beside svg .label{font-size:20px}figcaption{font-size:.86rem;color:var(--soft)}svg.plot{display:block;width:100%;height:auto}svg text{fill:var(--soft)}svg .grid,svg .axis{stroke:var(--soft)}\n"
     ".controls{display:flex;align-items:center;gap:.8rem;position:sticky;bottom:0;background:var(--paper);padding:.5rem 0;z-index:1}#when{flex:1}button{font-size:1rem;min-width:5rem;padding:.45rem .9rem;border:1px solid var(--line);border-radius:6px;background:var(--card);color:var(--ink)}output{min-width:6.5rem;font-size:.9rem}\n"
-    "@media (max-width:34rem){dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}body{font-size:16px}svg .tick,svg .label{font-size:18px}svg .legend{font-size:14px}}\n"
+    "@media (max-width:34rem){.formula{padding-left:.2rem}.where{margin-left:.4rem}.card{padding-left:.7rem;padding-right:.5rem}.beside{grid-template-columns:1fr}.beside figure{grid-column:1}dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}body{font-size:16px}svg .tick,svg .label{font-size:18px}svg .legend{font-size:17px}figure svg.plot:not(#scene) path[fill=none]{stroke-width:2.8}}\n"
     "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player{display:none}body{font-size:10.5pt}main{max-width:none;padding:0}.card,figure{break-inside:avoid}h2,h3{break-after:avoid}.formula{overflow:visible}details::details-content{content-visibility:visible}}\n";
 
 const char *const nh_html_script =
     "'use strict';\n"
     "(function(){\n"
-    "function reach(){document.querySelectorAll('.wide,.formula,pre').forEach(function(e){if(e.scrollWidth>e.clientWidth)e.tabIndex=0;else e.removeAttribute('tabindex');});}\n"
+    "function reach(){document.querySelectorAll('.formula,pre').forEach(function(e){if(e.scrollWidth>e.clientWidth)e.tabIndex=0;});}\n"
     "reach();window.addEventListener('resize',reach);document.addEventListener('toggle',reach,true);\n" /* what scrolls is reached by the keyboard */
     "var el=document.getElementById('motion-data');if(!el)return;\n"
     "var D=JSON.parse(el.textContent),T=D.t,S=D.shapes,last=T.length-1,svg=document.getElementById('scene'),NS='http://www.w3.org/2000/svg';\n"

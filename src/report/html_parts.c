@@ -2,14 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/memory.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "expr/typeset.h"
-#include "report/formula.h"
+#include "base/versions.h"
 #include "report/html_internal.h"
-
-enum { widest = 60 }; /* symbols of a piece that is not broken */
 
 void nh_html_add(nh_html_writer *w, const char *markup) { nh_text_add(w->out, markup); }
 void nh_html_text(nh_html_writer *w, const char *text) { nh_svg_escape(text, w->out); }
@@ -34,67 +28,18 @@ void nh_html_number(nh_html_writer *w, double value, int digits)
     nh_text_addf(w->out, "<data value=\"%s\">", all);
     if (exponent) *exponent = 0;
     if (shown[0] == '-') nh_html_add(w, "\u2212");
-    nh_html_add(w, shown + (shown[0] == '-'));
+    const char *mantissa = shown + (shown[0] == '-');
+    bool one = exponent && !strcmp(mantissa, "1");
+    if (!one) nh_html_add(w, mantissa);
     if (exponent) {
         int power = 0;
         sscanf(exponent + 1, "%d", &power);
-        nh_text_addf(w->out, "\u00b710<sup>%s%d</sup>", power < 0 ? "\u2212" : "", power < 0 ? -power : power);
+        nh_text_addf(w->out, "%s10<sup>%s%d</sup>", one ? "" : "\u00b7", power < 0 ? "\u2212" : "", power < 0 ? -power : power);
     }
     nh_html_add(w, "</data>");
 }
 
 void nh_html_count(nh_html_writer *w, size_t value) { nh_text_addf(w->out, "<data value=\"%zu\">%zu</data>", value, value); }
-
-/* ---- formulas ---- */
-
-static void widths(void *context, const char *piece)
-{
-    size_t *most = context, n = 0;
-    for (const char *c = piece; (c = strstr(c, "<m")); c++) n += c[2] == 'i' || c[2] == 'n' || (c[2] == 'o' && c[3] == '>');
-    if (n > *most) *most = n;
-}
-
-static void write_piece(void *context, const char *piece)
-{
-    nh_html_writer *w = context;
-    nh_text_addf(w->out, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" displaystyle=\"true\"><mrow>%s</mrow></math> ", piece);
-}
-
-void nh_html_source(nh_html_writer *w, const char *text)
-{
-    size_t most = 0;
-    const char *equal = strchr(text, '=');
-    if (equal && nh_typeset_pieces(text, NH_MATHML, widths, &most) && most > widest / 2) { /* the sides of a long equation may be broken */
-        char *left = nh_strdup(text);
-        left[equal - text] = 0;
-        nh_html_source(w, left);
-        nh_html_add(w, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\"><mo>=</mo></math> ");
-        nh_html_source(w, equal + 1);
-        nh_free(left);
-        return;
-    }
-    if (nh_typeset_pieces(text, NH_MATHML, widths, &most) && most <= widest) nh_typeset_pieces(text, NH_MATHML, write_piece, w);
-    else nh_html_tagged(w, "code", text);
-}
-
-void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e)
-{
-    nh_dag *d = w->r->model->dag;
-    nh_ex brief = nh_formula_abbreviate(w->r, e);
-    char *text = nh_print_short(d, brief, w->r->options.shown);
-    nh_html_add(w, "<div class=\"formula\">");
-    if (label[0]) {
-        nh_html_source(w, label);
-        nh_html_add(w, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\"><mo>=</mo></math> ");
-    }
-    if (text) nh_html_source(w, text);
-    else {
-        bool known = (double)nh_complexity(d, e) <= w->r->options.written;
-        nh_html_add(w, known ? "<em>too long for a page; the JSON has it</em>" : "<em>too long to be written out</em>");
-    }
-    nh_html_add(w, "</div>\n");
-    nh_free(text);
-}
 
 void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption)
 {
@@ -109,4 +54,106 @@ void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption)
     nh_svg_plot(plot, w->out);
     nh_html_tagged(w, "figcaption", caption);
     nh_html_add(w, "</figure>\n");
+}
+
+/* ---- tables ---- */
+
+void nh_html_table(nh_html_writer *w, const char *caption, const char *heads)
+{
+    nh_html_add(w, "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"");
+    nh_html_text(w, caption);
+    nh_html_add(w, "\"><table>");
+    nh_html_tagged(w, "caption", caption);
+    if (heads) nh_html_add(w, "<thead><tr>");
+    for (const char *end; heads && *heads; heads = *end ? end + 1 : end) {
+        end = heads + strcspn(heads, "|");
+        nh_text_addf(w->out, "<th scope=\"col\">%.*s</th>", (int)(end - heads), heads);
+        if (!*end) nh_html_add(w, "</tr></thead>");
+    }
+    nh_html_add(w, "<tbody>\n");
+}
+
+void nh_html_table_end(nh_html_writer *w) { nh_html_add(w, "</tbody></table></div>\n"); }
+
+void nh_html_warning(nh_html_writer *w, const char *text)
+{
+    nh_html_add(w, "<p class=\"warning\"><strong>Warning:</strong> ");
+    nh_html_text(w, text);
+    nh_html_add(w, "</p>\n");
+}
+
+/* ---- a page ---- */
+
+void nh_html_begin(nh_html_writer *w, const char *what)
+{
+    nh_html_add(w, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
+                   "<meta name=\"generator\" content=\"nhsym " NH_VERSION "\"/>\n<title>");
+    nh_html_text(w, w->system->title);
+    if (what) nh_text_addf(w->out, ": %s", what);
+    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n");
+    nh_html_add(w, nh_html_style);
+    nh_html_add(w, "/*]]>*/</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
+    nh_html_text(w, w->system->title);
+    if (what) nh_text_addf(w->out, ": %s", what);
+    nh_html_add(w, "</h1>\n");
+}
+
+void nh_html_links(nh_html_writer *w, const char *sections)
+{
+    const nh_system *s = w->system;
+    if (s->source && s->source[0]) {
+        nh_html_add(w, "<p class=\"source\">System: ");
+        nh_html_text(w, s->source);
+        nh_html_add(w, "</p>\n");
+    }
+    nh_html_add(w, "<nav aria-label=\"Sections\">");
+    while (*sections) {
+        size_t id = strcspn(sections, "|"), name = strcspn(sections + id + 1, "|");
+        nh_text_addf(w->out, "<a href=\"#%.*s\">%.*s</a> ", (int)id, sections, (int)name, sections + id + 1);
+        sections += id + 1 + name;
+        sections += *sections == '|';
+    }
+    nh_html_add(w, "</nav>\n</header>\n");
+}
+
+void nh_html_end(nh_html_writer *w)
+{
+    nh_html_add(w, "</main>\n<script>//<![CDATA[\n");
+    nh_html_add(w, nh_html_script);
+    nh_html_add(w, "//]]></script>\n</body>\n</html>\n");
+}
+
+/* ---- to repeat it ---- */
+
+static void row(nh_html_writer *w, const char *what, const char *value)
+{
+    if (!value) return;
+    nh_html_add(w, "<tr>");
+    nh_text_addf(w->out, "<th scope=\"row\">%s</th><td><code>", what);
+    nh_html_text(w, value);
+    nh_html_add(w, "</code></td></tr>\n");
+}
+
+void nh_html_repeat(nh_html_writer *w, const nh_run *run)
+{
+    nh_html_add(w, "<section id=\"repeat\"><h2>Repeat it</h2>\n");
+    nh_html_table(w, "The run", NULL);
+    row(w, "command", run->command);
+    row(w, "program", "nhsym " NH_VERSION);
+    row(w, "system file", run->system_path);
+    row(w, "analysis file", run->analysis_path);
+    nh_html_add(w, "<tr><th scope=\"row\">seed</th><td>");
+    nh_html_number(w, run->seed, 17);
+    nh_html_add(w, "</td></tr>\n");
+    for (size_t i = 0; nh_version_of(i).name; i++) row(w, nh_version_of(i).name, nh_version_of(i).version);
+    row(w, "machine", nh_versions_machine());
+    if (isfinite(run->seconds)) {
+        nh_html_add(w, "<tr><th scope=\"row\">time</th><td>");
+        nh_html_number(w, run->seconds, 3);
+        nh_html_add(w, " s</td></tr>\n");
+    }
+    nh_html_table_end(w);
+    nh_html_add(w, "</section>\n");
 }

@@ -1,6 +1,6 @@
 #include <stdio.h>
 
-#include "base/versions.h"
+#include "base/memory.h"
 #include "expr/print.h"
 #include "report/html_internal.h"
 
@@ -8,9 +8,9 @@
 
 static void parameters(nh_html_writer *w)
 {
-    const nh_system *s = w->r->system;
+    const nh_system *s = w->system;
     if (!s->parameters) return;
-    nh_html_add(w, "<div class=\"wide\"><table><caption>Parameters</caption><thead><tr><th scope=\"col\">name</th><th scope=\"col\">value</th><th scope=\"col\">meaning</th></tr></thead><tbody>\n");
+    nh_html_table(w, "Parameters", "name|value|meaning");
     for (size_t i = 0; i < s->parameters; i++) {
         const nh_parameter *p = &s->parameter[i];
         nh_html_add(w, "<tr><th scope=\"row\">");
@@ -23,14 +23,14 @@ static void parameters(nh_html_writer *w)
         if (p->doc) nh_html_text(w, p->doc);
         nh_html_add(w, "</td></tr>\n");
     }
-    nh_html_add(w, "</tbody></table></div>\n");
+    nh_html_table_end(w);
 }
 
 static void coordinates(nh_html_writer *w)
 {
     static const char *const types[] = {"angle", "length", "number"};
-    const nh_system *s = w->r->system;
-    nh_html_add(w, "<div class=\"wide\"><table><caption>Coordinates</caption><thead><tr><th scope=\"col\">name</th><th scope=\"col\">type</th><th scope=\"col\">meaning</th></tr></thead><tbody>\n");
+    const nh_system *s = w->system;
+    nh_html_table(w, "Coordinates", "name|type|meaning");
     for (size_t i = 0; i < s->coordinates; i++) {
         nh_html_add(w, "<tr><th scope=\"row\">");
         nh_html_source(w, s->coordinate[i].name);
@@ -38,12 +38,12 @@ static void coordinates(nh_html_writer *w)
         if (s->coordinate[i].doc) nh_html_text(w, s->coordinate[i].doc);
         nh_html_add(w, "</td></tr>\n");
     }
-    nh_html_add(w, "</tbody></table></div>\n");
+    nh_html_table_end(w);
 }
 
-static void written(nh_html_writer *w)
+void nh_html_written(nh_html_writer *w)
 {
-    const nh_system *s = w->r->system;
+    const nh_system *s = w->system;
     const nh_deck_node *node = s->deck ? nh_deck_get(nh_deck_root(s->deck), "lagrangian") : NULL;
     nh_html_add(w, "<h3>As it was written</h3>\n");
     parameters(w);
@@ -54,7 +54,7 @@ static void written(nh_html_writer *w)
         nh_html_add(w, "</div>\n");
     }
     if (node && node->kind == NH_DECK_SCALAR && !s->chain) {
-        nh_html_add(w, "<p>Lagrangian</p>\n<div class=\"formula\"><math xmlns=\"http://www.w3.org/1998/Math/MathML\"><mi>L</mi><mo>=</mo></math> ");
+        nh_html_add(w, "<p>Lagrangian</p>\n<div class=\"formula\"><math><mi>L</mi><mo>=</mo></math> ");
         nh_html_source(w, node->text);
         nh_html_add(w, "</div>\n");
     } else {
@@ -110,77 +110,68 @@ static void kind(nh_html_writer *w)
     nh_html_add(w, ".</p>\n");
 }
 
-static void multipliers(nh_html_writer *w, const nh_model *o)
+/* "mu", or "mu_1", ...; "F_x"; "x'": n labels in one block. */
+typedef struct {
+    size_t count;
+    char (*text)[200];
+    const char **label;
+    nh_ex *e;
+} formulas;
+
+static formulas formulas_create(size_t most)
 {
-    char label[200];
-    if (!o->k) return;
-    nh_html_add(w, "<p>Chetaev multipliers, and the force of the constraints</p>\n");
-    for (size_t a = 0; a < o->k; a++) {
-        snprintf(label, sizeof label, o->k == 1 ? "mu" : "mu_%zu", a + 1);
-        nh_html_formula(w, label, o->mu[a]);
-    }
-    for (size_t s = 0; s < o->m; s++) {
-        snprintf(label, sizeof label, "F_%.180s", o->system->coordinate[s].name);
-        nh_html_formula(w, label, o->reaction[s]);
-    }
+    return (formulas){0, nh_alloc_array(most + 1, sizeof(char[200])), nh_alloc_array(most + 1, sizeof(char *)), nh_alloc_array(most + 1, sizeof(nh_ex))};
 }
 
-static void chart(nh_html_writer *w, const nh_model *o)
+static char *formulas_add(formulas *f, nh_ex e)
 {
-    char label[200];
+    f->label[f->count] = f->text[f->count];
+    f->e[f->count] = e;
+    return f->text[f->count++];
+}
+
+static void formulas_write(nh_html_writer *w, formulas *f)
+{
+    nh_html_formulas(w, f->count, f->label, f->e);
+    nh_free(f->text);
+    nh_free(f->label);
+    nh_free(f->e);
+}
+
+static void multipliers(nh_html_writer *w, const nh_model *o)
+{
+    if (!o->k) return;
+    nh_html_add(w, "<p>Chetaev multipliers, and the force of the constraints</p>\n");
+    formulas f = formulas_create(o->k + o->m);
+    for (size_t a = 0; a < o->k; a++) snprintf(formulas_add(&f, o->mu[a]), sizeof *f.text, o->k == 1 ? "mu" : "mu_%zu", a + 1);
+    for (size_t s = 0; s < o->m; s++) snprintf(formulas_add(&f, o->reaction[s]), sizeof *f.text, "F_%.180s", o->system->coordinate[s].name);
+    formulas_write(w, &f);
+}
+
+void nh_html_equations(nh_html_writer *w, const nh_model *o)
+{
     nh_html_add(w, "<h4>In ");
     nh_html_text(w, o->chart->name);
     nh_html_add(w, "</h4>\n<p>Constrained Lagrangian and energy</p>\n");
-    nh_html_formula(w, "L", o->Lbar);
-    nh_html_formula(w, "E", o->E);
+    nh_html_formulas(w, 2, (const char *const[]){"L", "E"}, (const nh_ex[]){o->Lbar, o->E});
     nh_html_add(w, "<p>Reduced equations</p>\n");
-    for (size_t i = 0; i < o->n; i++) {
-        snprintf(label, sizeof label, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
-        nh_html_formula(w, label, o->a[i]);
-    }
+    formulas f = formulas_create(o->n);
+    for (size_t i = 0; i < o->n; i++) snprintf(formulas_add(&f, o->a[i]), sizeof *f.text, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
+    formulas_write(w, &f);
     multipliers(w, o);
 }
 
 void nh_html_system(nh_html_writer *w)
 {
     nh_html_add(w, "<section id=\"system\"><h2>The system</h2>\n");
-    written(w);
+    nh_html_written(w);
     nh_html_add(w, "<h3>As it was understood</h3>\n");
     kind(w);
-    chart(w, w->r->model);
+    nh_html_equations(w, w->r->model);
     if (w->r->other) {
         nh_html_add(w, "<details><summary>The same in the other chart</summary>\n");
-        chart(w, w->r->other);
+        nh_html_equations(w, w->r->other);
         nh_html_add(w, "</details>\n");
     }
     nh_html_add(w, "</section>\n");
-}
-
-/* ---- to repeat it ---- */
-
-static void row(nh_html_writer *w, const char *what, const char *value)
-{
-    if (!value) return;
-    nh_html_add(w, "<tr>");
-    nh_text_addf(w->out, "<th scope=\"row\">%s</th><td><code>", what);
-    nh_html_text(w, value);
-    nh_html_add(w, "</code></td></tr>\n");
-}
-
-void nh_html_repeat(nh_html_writer *w)
-{
-    const nh_result *r = w->r;
-    nh_html_add(w, "<section id=\"repeat\"><h2>Repeat it</h2>\n<div class=\"wide\"><table><tbody>\n");
-    row(w, "command", r->command);
-    row(w, "program", "nhsym " NH_VERSION);
-    row(w, "system file", r->system_path);
-    row(w, "analysis file", r->analysis_path);
-    nh_html_add(w, "<tr><th scope=\"row\">seed</th><td>");
-    nh_html_number(w, r->options.seed, 17);
-    nh_html_add(w, "</td></tr>\n");
-    for (size_t i = 0; nh_version_of(i).name; i++) row(w, nh_version_of(i).name, nh_version_of(i).version);
-    row(w, "machine", nh_versions_machine());
-    nh_html_add(w, "<tr><th scope=\"row\">time</th><td>");
-    nh_html_number(w, r->timing.total, 3);
-    nh_html_add(w, " s</td></tr>\n</tbody></table></div></section>\n");
 }

@@ -4,6 +4,7 @@
 
 #include "base/json.h"
 #include "base/memory.h"
+#include "report/course.h"
 
 static void put(nh_text *out, double x)
 {
@@ -14,14 +15,16 @@ static void put(nh_text *out, double x)
 
 void nh_motion_csv(const nh_simulation *s, nh_text *out)
 {
+    size_t shown = 0; /* without the drawing, which is at the end */
+    while (shown < s->columns.count && s->columns.track[shown].kind != NH_TRACK_SHAPE) shown++;
     nh_text_add(out, "t");
-    for (size_t k = 0; k < s->columns; k++) nh_text_addf(out, ",%s", s->column[k].name);
+    for (size_t k = 0; k < shown; k++) nh_text_addf(out, ",%s", s->columns.track[k].name);
     nh_text_add(out, "\n");
     for (size_t i = 0; i < s->motion->count; i++) {
         put(out, s->motion->time[i]);
-        for (size_t k = 0; k < s->columns; k++) {
+        for (size_t k = 0; k < shown; k++) {
             nh_text_add(out, ",");
-            put(out, s->value[i * s->columns + k]);
+            put(out, s->value[i * s->columns.count + k]);
         }
         nh_text_add(out, "\n");
     }
@@ -31,7 +34,7 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
 {
     const nh_ensemble *e = s->ensemble;
     nh_text_add(out, "member,t");
-    for (size_t k = 0; k < s->columns; k++) nh_text_addf(out, ",%s", s->column[k].name);
+    for (size_t k = 0; k < s->columns.count; k++) nh_text_addf(out, ",%s", s->columns.track[k].name);
     nh_text_add(out, "\n");
     for (size_t j = 0; j < e->members * e->count; j++) {
         nh_text_addf(out, "%zu,", j / e->count);
@@ -44,7 +47,7 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
     }
 }
 
-char *nh_ensemble_json(const nh_simulation *s)
+char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
 {
     const nh_ensemble *e = s->ensemble;
     nh_json *root = nh_json_object();
@@ -58,14 +61,16 @@ char *nh_ensemble_json(const nh_simulation *s)
     nh_json *members = nh_json_put_array(root, "members");
     for (size_t i = 0; i < e->members; i++) {
         nh_json *member = nh_json_add_object(members);
-        for (size_t k = 0; k < e->n; k++) nh_json_put_numbers(member, s->column[k].name, e->count, e->value + i * e->count * e->n + k, e->n);
+        for (size_t k = 0; k < e->n; k++) nh_json_put_numbers(member, s->columns.track[k].name, e->count, e->value + i * e->count * e->n + k, e->n);
     }
     nh_json *stats = nh_json_put_object(root, "stats");
+    nh_json_put_number(stats, "members", (double)e->members);
     nh_json_put_number(stats, "evaluations", (double)e->evaluations);
     nh_json_put_number(stats, "alone", (double)e->alone);
     nh_json_put_number(stats, "seconds", e->seconds);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     if (e->incomplete) nh_json_add_text(warnings, e->note);
+    if (run) nh_run_json(run, s->system, root);
     return nh_json_finish(root);
 }
 
@@ -87,7 +92,7 @@ static void put_accuracy(const nh_simulation *s, nh_json *root)
     nh_json_put_text(item, "why", a->why);
 }
 
-char *nh_motion_json(const nh_simulation *s)
+char *nh_motion_json(const nh_simulation *s, const nh_run *run)
 {
     static const char *const groups[] = {"states", "currents", "multipliers", "energies", "watch"};
     nh_json *root = nh_json_object();
@@ -99,16 +104,16 @@ char *nh_motion_json(const nh_simulation *s)
     nh_json_put_bool(root, "complete", s->motion->complete);
     put_accuracy(s, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
-    for (int kind = NH_COLUMN_STATE; kind <= NH_COLUMN_WATCH; kind++) {
-        nh_json *group = nh_json_put_object(root, groups[kind]);
-        for (size_t k = 0; k < s->columns; k++)
-            if ((int)s->column[k].kind == kind) nh_json_put_numbers(group, s->column[k].name, s->motion->count, s->value + k, s->columns);
-    }
+    nh_course *c = nh_course_of_simulation(s);
+    for (int kind = NH_TRACK_STATE; kind <= NH_TRACK_WATCH; kind++) nh_course_json(c, root, groups[kind], (nh_track_kind)kind);
+    if (c->shapes) nh_course_json_drawing(c, root);
+    nh_course_free(c);
     nh_json *stats = nh_json_put_object(root, "stats");
     nh_json_put_number(stats, "evaluations", (double)s->motion->evaluations);
     nh_json_put_number(stats, "steps", (double)s->motion->steps);
     nh_json_put_number(stats, "seconds", s->motion->seconds);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     if (s->motion->note[0]) nh_json_add_text(warnings, s->motion->note);
+    if (run) nh_run_json(run, s->system, root);
     return nh_json_finish(root);
 }

@@ -3,14 +3,15 @@
 #define NH_MOTION_REPORT_H
 
 #include "base/text.h"
+#include "report/run.h"
 #include "study/simulate.h"
 
 void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head line, then a row per output time */
-char *nh_motion_json(const nh_simulation *simulation);             /* a heap string (nh_free), ending in a newline */
-
+/* A heap string (nh_free), ending in a newline; `run` may be NULL. */
+char *nh_motion_json(const nh_simulation *simulation, const nh_run *run);
 
 /* The same of an ensemble: a column `member` in front; a list of objects. */
 void nh_ensemble_csv(const nh_simulation *simulation, nh_text *out);
-char *nh_ensemble_json(const nh_simulation *simulation);
+char *nh_ensemble_json(const nh_simulation *simulation, const nh_run *run);
 
 #endif

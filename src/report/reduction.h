@@ -3,11 +3,12 @@
 #define NH_REPORT_REDUCTION_H
 
 #include "base/text.h"
+#include "report/run.h"
 #include "study/reduce.h"
 
 void nh_reduction_text(const nh_reduction *reduction, bool verbose, nh_text *out);
-/* The document as a heap string (nh_free). */
-char *nh_reduction_json(const nh_reduction *reduction);
+/* The document as a heap string (nh_free); `run` may be NULL. */
+char *nh_reduction_json(const nh_reduction *reduction, const nh_run *run);
 /* The reduced equations of every stage: one C function each, and one block of equations each for LaTeX. */
 void nh_reduction_c(const nh_reduction *reduction, nh_text *out);
 void nh_reduction_latex(const nh_reduction *reduction, nh_text *out);

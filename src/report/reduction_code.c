@@ -126,7 +126,7 @@ static void put_stage_latex(const nh_reduction *r, const nh_reduction_stage *s, 
         nh_text_add(out, rows ? " &= " : " = ");
         if (!text) nh_text_add(out, "\\text{(too long to be written out)}");
         else if (rows) nh_typeset(text, NH_LATEX, out);
-        else nh_typeset_pieces(text, NH_LATEX, put_piece, out);
+        else nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, out);
         nh_text_add(out, !rows ? "}\n" : k + 1 < n ? " \\\\\n" : "\n");
         nh_free(text);
     }

@@ -258,7 +258,7 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
     }
 }
 
-char *nh_reduction_json(const nh_reduction *r)
+char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
 {
     nh_json *root = nh_json_object(), *parameters, *warnings, *stages;
     nh_json_put_number(root, "schema", 1);
@@ -279,5 +279,6 @@ char *nh_reduction_json(const nh_reduction *r)
     nh_json_put_number(root, "seconds", r->seconds);
     warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);
+    if (run) nh_run_json(run, r->system, root);
     return nh_json_finish(root);
 }

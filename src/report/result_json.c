@@ -8,6 +8,7 @@
 #include "expr/print.h"
 #include "expr/typeset.h"
 #include "report/result_json_internal.h"
+#include "report/run.h"
 
 typedef struct {
     const nh_result *r;
@@ -343,8 +344,9 @@ char *nh_result_json(const nh_result *r)
     nh_json_put_number(root, "independent_currents", (double)r->independent);
     nh_json_put_number(root, "local_maximum", (double)r->local_maximum);
     nh_result_json_validation(r, root);
+    nh_result_json_figures(r, root);
     nh_json_put_bool(root, "partial", r->partial);
-    nh_result_json_run(r, root);
+    nh_run_json(&(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total}, r->system, root);
     put_timing(&r->timing, root);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);

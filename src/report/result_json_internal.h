@@ -6,9 +6,9 @@
 #include "report/result_json.h"
 
 void nh_result_json_validation(const nh_result *result, nh_json *to); /* the motion, and what stayed constant on it */
+void nh_result_json_figures(const nh_result *result, nh_json *to);    /* those that were asked for */
 /* How many values along the motion have no value. */
 size_t nh_result_json_holes(const nh_result *result);
 void nh_result_json_stages(const nh_result *result, nh_json *to);     /* what was tried */
-void nh_result_json_run(const nh_result *result, nh_json *to);        /* command, files, libraries, machine */
 
 #endif

@@ -1,55 +1,24 @@
 #include <math.h>
-#include <stdio.h>
 
-#include "base/versions.h"
+#include "report/course.h"
 #include "report/result_json_internal.h"
 
 /* ---- the motion ---- */
 
-/* The tracks of one kind, as {name: [numbers]}. */
-static nh_json *put_tracks(const nh_result *r, nh_json *to, const char *key, nh_track_kind kind)
-{
-    const nh_validation *v = r->validation;
-    nh_json *group = nh_json_put_object(to, key);
-    for (size_t j = 0; j < v->watches; j++)
-        if (r->track[j].kind == kind) nh_json_put_numbers(group, r->track[j].name, v->count, v->watch + j, v->watches);
-    return group;
-}
-
-static void put_shapes(const nh_result *r, nh_json *to)
-{
-    const nh_validation *v = r->validation;
-    nh_json *list = nh_json_put_array(to, "drawing");
-    size_t track = 0;
-    for (size_t i = 0; i < r->shapes; i++) {
-        static const char *const keys[] = {"a", "b", "c", "d"};
-        nh_json *shape = nh_json_add_object(list);
-        nh_json_put_text(shape, "kind", nh_shape_name(r->shape[i].kind));
-        for (size_t j = 0; j < nh_shape_numbers(r->shape[i].kind); j++) {
-            while (r->track[track].kind != NH_TRACK_SHAPE) track++;
-            nh_json_put_numbers(shape, keys[j], v->count, v->watch + track++, v->watches);
-        }
-    }
-}
-
 static void put_motion(const nh_result *r, nh_json *to)
 {
     const nh_validation *v = r->validation;
-    bool watched = r->analysis && r->analysis->watches;
     nh_json *motion = nh_json_put_object(to, "motion");
+    nh_course *c = nh_course_of_result(r);
     nh_json_put_numbers(motion, "time", v->count, v->time, 1);
-    put_tracks(r, motion, "states", NH_TRACK_STATE);
-    put_tracks(r, motion, "energies", NH_TRACK_ENERGY);
-    put_tracks(r, motion, "currents", NH_TRACK_CURRENT);
-    nh_json *multipliers = nh_json_put_object(motion, "multipliers");
-    for (size_t a = 0; a < r->model->k; a++) {
-        char name[40];
-        snprintf(name, sizeof name, "c%zu", a + 1);
-        nh_json_put_numbers(multipliers, name, v->count, v->multiplier + a, r->model->k);
-    }
-    put_shapes(r, motion);
-    nh_json *watch = put_tracks(r, to, "watch", NH_TRACK_WATCH);
-    if (watched) nh_json_put_numbers(watch, "t", v->count, v->time, 1);
+    nh_course_json(c, motion, "states", NH_TRACK_STATE);
+    nh_course_json(c, motion, "energies", NH_TRACK_ENERGY);
+    nh_course_json(c, motion, "currents", NH_TRACK_CURRENT);
+    nh_course_json(c, motion, "multipliers", NH_TRACK_MULTIPLIER);
+    nh_course_json_drawing(c, motion);
+    nh_json *watch = nh_course_json(c, to, "watch", NH_TRACK_WATCH);
+    if (r->analysis && r->analysis->watches) nh_json_put_numbers(watch, "t", v->count, v->time, 1);
+    nh_course_free(c);
 }
 
 void nh_result_json_validation(const nh_result *r, nh_json *to)
@@ -92,6 +61,29 @@ void nh_result_json_validation(const nh_result *r, nh_json *to)
     }
 }
 
+void nh_result_json_figures(const nh_result *r, nh_json *to)
+{
+    static const char *const kinds[] = {"path", "plot", "scan"};
+    nh_json *list = nh_json_put_array(to, "figures");
+    for (size_t i = 0; i < r->figures; i++) {
+        const nh_figure *f = &r->figure[i];
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_text(item, "title", f->request->title);
+        nh_json_put_text(item, "kind", kinds[f->request->kind]);
+        nh_json_put_text(item, "parameter", f->request->vary);
+        nh_json *curves = nh_json_put_array(item, "curves");
+        for (size_t k = 0; k < f->curves; k++) {
+            const nh_figure_curve *c = &f->curve[k];
+            nh_json *curve = nh_json_add_object(curves);
+            nh_json_put_text(curve, "name", c->name);
+            nh_json_put_number(curve, "value", c->value);
+            nh_json_put_numbers(curve, "x", c->count, c->x, 1);
+            nh_json_put_numbers(curve, "y", c->count, c->y, 1);
+            if (c->heading) nh_json_put_numbers(curve, "heading", c->count, c->heading, 1);
+        }
+    }
+}
+
 size_t nh_result_json_holes(const nh_result *r)
 {
     const nh_validation *v = r->validation;
@@ -101,7 +93,7 @@ size_t nh_result_json_holes(const nh_result *r)
     return holes;
 }
 
-/* ---- how it was computed ---- */
+/* ---- what was tried ---- */
 
 void nh_result_json_stages(const nh_result *r, nh_json *to)
 {
@@ -117,15 +109,4 @@ void nh_result_json_stages(const nh_result *r, nh_json *to)
         nh_json_put_number(item, "found", (double)s->found);
         nh_json_put_bool(item, "undecided", s->undecided);
     }
-}
-
-void nh_result_json_run(const nh_result *r, nh_json *to)
-{
-    nh_json *run = nh_json_put_object(to, "run");
-    nh_json_put_text(run, "command", r->command);
-    nh_json_put_text(run, "system_file", r->system_path);
-    nh_json_put_text(run, "analysis_file", r->analysis_path);
-    nh_json_put_text(run, "machine", nh_versions_machine());
-    nh_json *libraries = nh_json_put_object(run, "libraries");
-    for (size_t i = 0; nh_version_of(i).name; i++) nh_json_put_text(libraries, nh_version_of(i).name, nh_version_of(i).version);
 }

@@ -48,7 +48,7 @@ static void drift_over_time(nh_summary_writer *w, const nh_validation *v, size_t
     static const double lowest = -16, top = 0;
     const nh_drift *d = &v->current[k];
     size_t column = 0, seen = 0;
-    while (column < v->watches && (w->r->track[column].kind != NH_TRACK_CURRENT || seen++ < k)) column++;
+    while (column < v->watches && (w->r->tracks.track[column].kind != NH_TRACK_CURRENT || seen++ < k)) column++;
     if (column == v->watches || v->count < 2 || !(d->scale > 0)) return;
     nh_text_add(w->out, "   ");
     for (size_t p = 0; p < parts && p < v->count; p++) {
@@ -128,8 +128,8 @@ void nh_summary_evidence(nh_summary_writer *w)
 static void watched(nh_summary_writer *w, const nh_validation *v)
 {
     enum { rows = 5 };
-    size_t first = w->r->tracks;
-    while (first > 0 && w->r->track[first - 1].kind == NH_TRACK_WATCH) first--;
+    size_t first = w->r->tracks.count;
+    while (first > 0 && w->r->tracks.track[first - 1].kind == NH_TRACK_WATCH) first--;
     if (first == v->watches || v->count < rows) return;
     nh_text_addf(w->out, "  %10s", "t");
     for (size_t j = first; j < v->watches; j++) nh_text_addf(w->out, "%14s", v->watch_name[j]);

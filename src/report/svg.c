@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "expr/typeset.h"
+
 enum { width = 640, height = 300, left = 74, right = 14, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
 
 static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A7A7A"};
@@ -74,6 +76,13 @@ static void widen(axis *a)
     a->high += span;
 }
 
+static void whole_decades(axis *a, double floor_value)
+{
+    a->logarithmic = true;
+    a->low = pow(10, floor(log10(fmax(a->low, floor_value)) - 0.2));
+    a->high = pow(10, ceil(log10(fmax(a->high, 10 * floor_value)) + 0.2));
+}
+
 static void ranges(canvas *c)
 {
     const nh_plot *p = c->plot;
@@ -89,14 +98,10 @@ static void ranges(canvas *c)
         any = true;
     }
     if (!any) c->x = (axis){0, 1, 0, 0, false}, c->y = c->x;
-    c->y.logarithmic = p->log_y;
-    if (p->log_y) {
-        c->y.low = pow(10, floor(log10(fmax(c->y.low, p->floor)) - 0.2));
-        c->y.high = pow(10, ceil(log10(fmax(c->y.high, 10 * p->floor)) + 0.2));
-    } else {
-        widen(&c->y);
-    }
-    if (!p->timed || !(c->x.high > c->x.low)) widen(&c->x);
+    if (p->log_x) whole_decades(&c->x, p->floor);
+    else if (!p->timed || !(c->x.high > c->x.low)) widen(&c->x);
+    if (p->log_y) whole_decades(&c->y, p->floor);
+    else widen(&c->y);
 }
 
 /* One scale for both: the tighter axis gives way. */
@@ -115,6 +120,16 @@ static void label(const canvas *c, double x, double y, const char *anchor, const
     nh_text_addf(c->out, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"12\" fill=\"#808080\" font-family=\"sans-serif\">", class, x, y, anchor);
     nh_svg_escape(text, c->out);
     nh_text_add(c->out, "</text>");
+}
+
+/* The same with Greek letters for their names. */
+static void named(const canvas *c, double x, double y, const char *anchor, const char *class, const char *name)
+{
+    nh_text plain;
+    nh_text_init(&plain);
+    nh_typeset_plain(name, &plain);
+    label(c, x, y, anchor, class, nh_text_string(&plain));
+    nh_text_clear(&plain);
 }
 
 static void line(const canvas *c, double x1, double y1, double x2, double y2, const char *class)
@@ -148,13 +163,23 @@ static void linear_ticks(const canvas *c, bool vertical)
     }
 }
 
-static void decades(const canvas *c)
+static void power_of_ten(int e, char *out, size_t size)
 {
-    double first = ceil(log10(c->y.low) - 1e-9), last = floor(log10(c->y.high) + 1e-9), step = fmax(1, ceil((last - first) / most_ticks));
+    static const char *const digit[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    char digits[12];
+    size_t at = (size_t)snprintf(out, size, e < 0 ? "10\u207b" : "10");
+    snprintf(digits, sizeof digits, "%d", e < 0 ? -e : e);
+    for (const char *c = digits; *c && at + 4 < size; c++) at += (size_t)snprintf(out + at, size - at, "%s", digit[*c - '0']);
+}
+
+static void decades(const canvas *c, bool vertical)
+{
+    const axis *a = vertical ? &c->y : &c->x;
+    double first = ceil(log10(a->low) - 1e-9), last = floor(log10(a->high) + 1e-9), step = fmax(1, ceil((last - first) / (vertical ? most_ticks : most_ticks + 2)));
     for (double e = first; e <= last; e += step) {
         char text[40];
-        snprintf(text, sizeof text, "1e%.0f", e);
-        tick(c, true, pow(10, e), text);
+        power_of_ten((int)e, text, sizeof text);
+        tick(c, vertical, pow(10, e), text);
     }
 }
 
@@ -164,7 +189,8 @@ static bool visible(const canvas *c, const nh_curve *f, size_t i, double *x, dou
 {
     double v = f->y[i * f->y_stride];
     if (!isfinite(v) || !isfinite(f->x[i * f->x_stride])) return false;
-    *x = place(&c->x, f->x[i * f->x_stride]);
+    double u = f->x[i * f->x_stride];
+    *x = place(&c->x, c->plot->log_x ? fmax(u, c->x.low) : u);
     *y = place(&c->y, c->plot->log_y ? fmax(v, c->y.low) : v);
     return true;
 }
@@ -195,7 +221,8 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
     double x, y;
     bool on = false;
     size_t step = f->count / most_points + 1;
-    nh_text_addf(c->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"", colour[k % colours],
+    if (c->plot->fan) k = 0;
+    nh_text_addf(c->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"", colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
                  dashes[k % (sizeof dashes / sizeof *dashes)]);
     for (size_t i = 0; i < f->count; i += step) {
         bool here = visible(c, f, i, &x, &y);
@@ -204,15 +231,16 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
     }
     nh_text_add(c->out, "\"/>");
     if (f->heading) headings(c, f, k);
+    if (f->marks) dots(c, f, k);
 }
 
 /* Rows of names above the plot; returns the height that they take.  With `draw` false only that. */
 static double legend(const canvas *c, bool draw)
 {
     double x = left, y = legend_row;
-    if (c->plot->curves < 2) return 0;
+    if (c->plot->curves < 2 || c->plot->fan) return 0;
     for (size_t k = 0; k < c->plot->curves; k++) {
-        double room = 40 + 7.5 * (double)nh_text_width(c->plot->curve[k].name);
+        double room = 40 + 9.2 * (double)nh_text_width(c->plot->curve[k].name);
         if (x + room > width - right && x > left) x = left, y += legend_row;
         if (draw) {
             bool is_dots = c->plot->curve[k].dots;
@@ -220,7 +248,7 @@ static double legend(const canvas *c, bool draw)
             else
                 nh_text_addf(c->out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.8\" stroke-dasharray=\"%s\"/>", x, y - 4, x + 24, y - 4,
                              colour[k % colours], dashes[k % (sizeof dashes / sizeof *dashes)]);
-            label(c, x + 28, y, "start", "legend", c->plot->curve[k].name);
+            named(c, x + 28, y, "start", "legend", c->plot->curve[k].name);
         }
         x += room;
     }
@@ -253,14 +281,15 @@ void nh_svg_plot(const nh_plot *p, nh_text *out)
     if (p->equal) equalise(&c);
     head(&c);
     legend(&c, true);
-    linear_ticks(&c, false);
-    if (p->log_y) decades(&c);
+    if (p->log_x) decades(&c, false);
+    else linear_ticks(&c, false);
+    if (p->log_y) decades(&c, true);
     else linear_ticks(&c, true);
     line(&c, c.x.from, c.y.from, c.x.to, c.y.from, "axis");
     line(&c, c.x.from, c.y.from, c.x.from, c.y.to, "axis");
-    label(&c, (c.x.from + c.x.to) / 2, c.height - 10, "middle", "label", p->x_label);
+    named(&c, (c.x.from + c.x.to) / 2, c.height - 10, "middle", "label", p->x_label);
     nh_text_addf(out, "<g transform=\"translate(14 %.1f) rotate(-90)\">", (c.y.from + c.y.to) / 2);
-    label(&c, 0, 0, "middle", "label", p->y_label);
+    named(&c, 0, 0, "middle", "label", p->y_label);
     nh_text_add(out, "</g>");
     for (size_t k = 0; k < p->curves; k++)
         if (p->curve[k].dots) dots(&c, &p->curve[k], k);

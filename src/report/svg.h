@@ -14,14 +14,15 @@ typedef struct {
     size_t count;
     const double *x, *y;         /* x[i * x_stride], y[i * y_stride] */
     size_t x_stride, y_stride;
-    bool dots;                   /* points instead of a line */
+    bool dots, marks;            /* points instead of a line; points on the line */
     const double *heading;       /* NULL, or an angle per point with y_stride: marks show it at equal steps */
 } nh_curve;
 
 typedef struct {
     const char *id, *title, *description, *x_label, *y_label;
-    bool log_y, equal;           /* equal: both axes have one scale */
-    double floor;                /* with log_y: smaller values are shown there */
+    bool log_x, log_y, equal;    /* equal: both axes have one scale */
+    double floor;                /* with a logarithmic axis: smaller values are shown there */
+    bool fan;                    /* many curves of one quantity: thin, in one colour, without a legend */
     bool timed;                  /* x is the time: a page may move a cursor along it */
     size_t curves;
     const nh_curve *curve;

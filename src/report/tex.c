@@ -182,6 +182,13 @@ static void currents_section(nh_tex_writer *w)
 
 static void draw(void *context, const nh_plot *plot, const char *caption) { nh_tex_plot(context, plot, caption); }
 
+static void figures_section(nh_tex_writer *w)
+{
+    if (!w->r->figures) return;
+    nh_tex_add(w, "\\section{Figures}\n");
+    nh_html_plots(w->r, NH_SECTION_FIGURES, draw, w);
+}
+
 static void motion_section(nh_tex_writer *w)
 {
     const nh_validation *v = w->r->validation;
@@ -195,7 +202,7 @@ static void motion_section(nh_tex_writer *w)
     nh_tex_add(w, " to ");
     nh_tex_number(w, v->end, 6);
     nh_tex_add(w, ".\n");
-    nh_html_motion_figures(w->r, draw, w);
+    nh_html_plots(w->r, NH_SECTION_MOTION, draw, w);
     if (!v->currents) return;
     nh_tex_add(w, "Drift of the currents, by tolerance of the integration\n\\begin{center}\\begin{tabular}{lrrr}\ncurrent");
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) nh_tex_add(w, " & "), nh_tex_number(w, v->tolerance[i], 2);
@@ -267,7 +274,7 @@ static void search_section(nh_tex_writer *w)
     nh_tex_add(w, " sample points, ");
     nh_tex_count(w, r->rejected);
     nh_tex_add(w, " rejected.\n");
-    nh_html_search_figures(r, draw, w);
+    nh_html_plots(r, NH_SECTION_SEARCH, draw, w);
     routes(w);
     stages(w);
 }
@@ -302,6 +309,7 @@ void nh_tex(const nh_result *r, bool fragment, nh_text *out)
     currents_section(&w);
     system_section(&w);
     motion_section(&w);
+    figures_section(&w);
     search_section(&w);
     repeat_section(&w);
     nh_tex_add(&w, "\\par\\endgroup\n");

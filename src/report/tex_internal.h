@@ -10,6 +10,8 @@ typedef struct {
     nh_text *out;
 } nh_tex_writer;
 
+enum { NH_TEX_WIDEST = 46 }; /* letters in a piece of a formula: well within a line */
+
 /* Definition of \nhformula{..}: a formula as a paragraph that TeX breaks between pieces. */
 extern const char *const nh_tex_formula_macro;
 

@@ -139,7 +139,7 @@ void nh_tex_display(nh_tex_writer *w, const char *label, const char *text)
 {
     nh_text formula;
     nh_text_init(&formula);
-    if (nh_typeset_pieces(text, NH_LATEX, put_piece, &formula)) {
+    if (nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, &formula)) {
         nh_tex_add(w, "\\nhformula{");
         if (label[0] && nh_typeset(label, NH_LATEX, w->out)) nh_tex_add(w, " = ");
         nh_text_addf(w->out, "%s}\n", nh_text_string(&formula));

@@ -78,7 +78,7 @@ static void put_symmetry(const nh_verdict_of_one *v, nh_json *to)
     nh_json_put_bool(item, "bracket_in_distribution", v->symmetry.bracket_in_distribution);
 }
 
-char *nh_verdict_json(const nh_verdict_of_one *v)
+char *nh_verdict_json(const nh_verdict_of_one *v, const nh_run *run)
 {
     nh_dag *d = v->model->dag;
     nh_json *root = nh_json_object();
@@ -99,5 +99,6 @@ char *nh_verdict_json(const nh_verdict_of_one *v)
     } else {
         nh_json_put_null(root, "counterexample");
     }
+    if (run) nh_run_json(run, v->system, root);
     return nh_json_finish(root);
 }

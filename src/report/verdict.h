@@ -3,9 +3,11 @@
 #define NH_VERDICT_REPORT_H
 
 #include "base/text.h"
+#include "report/run.h"
 #include "study/verify.h"
 
 void nh_verdict_text(const nh_verdict_of_one *verdict, bool field, nh_text *out);
-char *nh_verdict_json(const nh_verdict_of_one *verdict); /* a heap string (nh_free), ending in a newline */
+/* A heap string (nh_free), ending in a newline; `run` may be NULL. */
+char *nh_verdict_json(const nh_verdict_of_one *verdict, const nh_run *run);
 
 #endif

@@ -10,7 +10,7 @@
 /* ---- before the system ---- */
 
 static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz", "unknowns", "samples", "seed", "validate", "scene",
-                                       "definitions", "chart", "title", "doc"};
+                                       "definitions", "chart", "title", "doc", "figures"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
@@ -216,6 +216,8 @@ static bool read_assignments(reader *r, const nh_deck_node *list, const char *wh
     return true;
 }
 
+bool nh_analysis_watches(reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count) { return read_assignments(r, list, what, false, out, count); }
+
 /* ---- the motion ---- */
 
 /* A number, or an expression of the parameters. */
@@ -333,13 +335,28 @@ static bool read_validate(reader *r)
     return nh_deck_is(a->deck, node, NH_DECK_MAP, "initial {x: 0, ...}", r->error) && read_initial(r, node);
 }
 
+static bool shape_expression(void *context, const nh_deck_node *node, nh_ex *out) { return nh_analysis_parse(context, node, out); }
+
+static bool read_drawing(reader *r, const nh_deck_node *list)
+{
+    nh_analysis *a = r->a;
+    a->shapes = 0;
+    if (!list) return true;
+    if (!nh_deck_is(a->deck, list, NH_DECK_LIST, "draw", r->error)) return false;
+    a->shape = nh_analysis_take(r, list->count, sizeof *a->shape);
+    for (size_t i = 0; i < list->count; i++)
+        if (!nh_shape_read(a->deck, list->item[i], shape_expression, r, &a->shape[i], r->error)) return false;
+    a->shapes = list->count;
+    return true;
+}
+
 static bool read_scene(reader *r)
 {
     static const char *const keys[] = {"watch", "draw"};
     const nh_deck_node *map = nh_deck_get(r->root, "scene");
     if (!map) return true;
     if (!nh_deck_is(r->a->deck, map, NH_DECK_MAP, "scene", r->error) || !nh_deck_only(r->a->deck, map, keys, 2, r->error)) return false;
-    return read_assignments(r, nh_deck_get(map, "watch"), "watch", false, &r->a->watch, &r->a->watches) && nh_analysis_read_drawing(r, nh_deck_get(map, "draw"));
+    return read_assignments(r, nh_deck_get(map, "watch"), "watch", false, &r->a->watch, &r->a->watches) && read_drawing(r, nh_deck_get(map, "draw"));
 }
 
 bool nh_analysis_resolve(nh_analysis *a, const nh_model *model, nh_error *error)
@@ -352,5 +369,5 @@ bool nh_analysis_resolve(nh_analysis *a, const nh_model *model, nh_error *error)
     if (!nh_symbol_find(model->dag, "Lbar", &taken)) r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     r.own = r.extras;
     return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && nh_analysis_read_ansatz(&r)
-           && read_validate(&r) && read_scene(&r);
+           && read_validate(&r) && read_scene(&r) && nh_analysis_read_figures(&r);
 }

@@ -4,9 +4,23 @@
 
 #include "motion/dynamics.h"
 #include "noether/unknowns.h"
-#include "study/shape.h"
 
 typedef enum { NH_ROUTE_BOTH, NH_ROUTE_SYMMETRY, NH_ROUTE_CURRENT } nh_route;
+
+/* A figure that is asked for. */
+typedef enum { NH_FIGURE_PATH, NH_FIGURE_PLOT, NH_FIGURE_SCAN } nh_figure_kind;
+typedef struct {
+    nh_figure_kind kind;
+    const char *title;
+    size_t quantities;
+    nh_named *quantity;   /* path: x, y and perhaps a heading; plot: each over time */
+    size_t values;        /* 0: one motion with the values that there are */
+    const char *vary;     /* a parameter, */
+    double *value;        /* its values, a motion each */
+    bool has_time;
+    double begin, end;    /* the initial state holds at its own t, within this or not */
+    size_t unknown;       /* scan: over this one */
+} nh_figure_request;
 
 /* The part that must be known before the system is read. */
 typedef struct {
@@ -26,6 +40,8 @@ typedef struct {
     nh_named *definition, *watch;
     size_t shapes;
     nh_shape *shape;          /* to be drawn */
+    size_t figures;
+    nh_figure_request *figure;
     bool has_initial, has_until;
     nh_state initial;
     double until;

@@ -19,9 +19,11 @@ void *nh_analysis_take(nh_analysis_reader *r, size_t count, size_t size);
 bool nh_analysis_parse(nh_analysis_reader *r, const nh_deck_node *node, nh_ex *out);
 /* One of `names`; an absent node leaves *out alone. */
 bool nh_analysis_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error);
+/* A list of "name = expression". */
+bool nh_analysis_watches(nh_analysis_reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count);
+/* figures: what to draw of which motions. */
+bool nh_analysis_read_figures(nh_analysis_reader *r);
 /* ansatz: the list of families. */
 bool nh_analysis_read_ansatz(nh_analysis_reader *r);
-/* scene: draw: the list of shapes; it may be absent. */
-bool nh_analysis_read_drawing(nh_analysis_reader *r, const nh_deck_node *list);
 
 #endif

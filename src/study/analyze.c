@@ -9,11 +9,11 @@
 #include "study/coefficients.h"
 #include "study/currents.h"
 #include "study/defaults.h"
+#include "study/figures.h"
 #include "study/integrals.h"
 #include "study/ladder.h"
 #include "study/routes.h"
 #include "study/specials.h"
-#include "study/tracks.h"
 
 enum { least_samples = 256, samples_per_column = 4, motion_outputs = 401 };
 
@@ -169,6 +169,20 @@ static void conclude(nh_result *r)
 
 /* ---- the motion ---- */
 
+static const nh_watch *list_tracks(nh_result *r)
+{
+    nh_tracks *t = &r->tracks;
+    *t = nh_tracks_create(r->arena, r->model);
+    nh_tracks_add_states(t);
+    nh_tracks_add(t, "E", NH_TRACK_ENERGY, r->model->E);
+    for (size_t k = 0; k < r->count; k++) nh_tracks_add(t, r->found[k].name, NH_TRACK_CURRENT, r->found[k].phi);
+    nh_tracks_add_drawing(t, r->analysis);
+    nh_tracks_add_watches(t, r->analysis);
+    nh_watch *watch = nh_arena_alloc(r->arena, (t->count + 1) * sizeof *watch);
+    for (size_t i = 0; i < t->count; i++) watch[i] = (nh_watch){t->track[i].name, t->track[i].value, t->track[i].kind == NH_TRACK_WATCH};
+    return watch;
+}
+
 static void validate(nh_result *r)
 {
     nh_error trouble;
@@ -186,8 +200,8 @@ static void validate(nh_result *r)
         phi[k] = r->found[k].phi;
         if (series) valid[k] = (nh_valid){series->coordinate, series->low, series->high};
     }
-    nh_tracks_list(r);
-    r->validation = nh_validate(r->model, r->other, r->count, phi, valid, r->tracks, nh_tracks_watches(r), &initial, r->options.until, motion_outputs, &r->options, &trouble);
+    const nh_watch *watch = list_tracks(r);
+    r->validation = nh_validate(r->model, r->other, r->count, phi, valid, r->tracks.count, watch, &initial, r->options.until, motion_outputs, &r->options, &trouble);
     if (!r->validation) {
         nh_result_warn(r, "no motion was computed: %s", trouble.what);
         return;
@@ -237,6 +251,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     nh_integrals_of_constraints(r);
     nh_progress("a motion to check it", -1);
     if (!nh_interrupted()) validate(r);
+    if (!nh_interrupted()) nh_figures_compute(r, q);
     if (nh_interrupted()) {
         r->partial = true;
         nh_result_warn(r, "interrupted: this is what was found until then%s", r->validation ? "" : ", and no motion was computed");

@@ -8,7 +8,7 @@
 #include "noether/prove.h"
 #include "noether/symmetry.h"
 #include "noether/unknowns.h"
-#include "study/analysis.h"
+#include "study/tracks.h"
 
 /* Coefficient functions that have no closed form: Chebyshev series in one coordinate, good in an interval of it. */
 typedef struct {
@@ -77,14 +77,20 @@ typedef struct {
     double read, geometry, samples, unknowns, nullspace, currents, validation, total; /* seconds */
 } nh_timing;
 
-typedef enum { NH_TRACK_STATE, NH_TRACK_ENERGY, NH_TRACK_CURRENT, NH_TRACK_SHAPE, NH_TRACK_WATCH } nh_track_kind;
-
-/* A quantity that is followed along the test motion. */
+/* A curve of a figure: y over x; a path has a heading where one is drawn. */
 typedef struct {
-    const char *name;
-    nh_track_kind kind;
-    nh_ex value;              /* in the chart */
-} nh_track;
+    const char *name;         /* "E_T", "k = 2", "E_T, k = 2" */
+    size_t quantity;          /* of the request; of a path 0 */
+    double value;             /* of the parameter that is varied; NAN: none is */
+    size_t count;
+    double *x, *y, *heading;  /* heading: NULL: none */
+} nh_figure_curve;
+
+typedef struct {
+    const nh_figure_request *request;
+    size_t curves;
+    nh_figure_curve *curve;
+} nh_figure;
 
 typedef struct {
     nh_arena *arena;
@@ -113,10 +119,9 @@ typedef struct {
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
     size_t *integral;         /* found[integral[i]] */
     nh_verdict verdict;
-    size_t tracks, shapes;
-    nh_track *track;          /* validation->watch holds their values, row by row */
-    const nh_shape *shape;    /* what is drawn; its numbers are the tracks of that kind, in order */
-    bool shape_chosen;        /* by the program */
+    nh_tracks tracks;         /* validation->watch holds their values, row by row */
+    size_t figures;
+    nh_figure *figure;        /* those that the analysis asks for */
     nh_validation *validation; /* NULL when no motion could be computed */
     size_t warnings;
     const char **warning;

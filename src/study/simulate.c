@@ -99,8 +99,6 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_c
 
 /* ---- what is wanted along the motion ---- */
 
-static void add(nh_simulation *s, const char *name, nh_column_kind kind, nh_ex value) { s->column[s->columns++] = (nh_simulated){name, kind, value}; }
-
 /* The end of the quantity that begins at `text`: a comma outside parentheses, or the end. */
 static const char *end_of_quantity(const char *text)
 {
@@ -118,7 +116,6 @@ static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
     size_t extras = 0;
     if (!nh_symbol_find(o->dag, "E", &taken)) extra[extras++] = (nh_named){.name = "E", .value = o->E};
     if (!nh_symbol_find(o->dag, "Lbar", &taken)) extra[extras++] = (nh_named){.name = "Lbar", .value = o->Lbar};
-    s->column = nh_arena_alloc(s->arena, (strlen(text) + 2) * sizeof *s->column);
     for (const char *end; *text; text = end + (*end == ',')) {
         end = end_of_quantity(text);
         const char *equal = memchr(text, '=', (size_t)(end - text)), *to = equal ? equal : end;
@@ -128,40 +125,36 @@ static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
         const char *name = nh_arena_strndup(s->arena, text, (size_t)(to - text)), *right = equal ? equal + 1 : text;
         if (!nh_system_expression_text(s->system, "--watch", nh_arena_strndup(s->arena, right, (size_t)(end - right)), extras, extra, &e, error)) return false;
         if (!nh_analysis_to_chart(o, e, &e, error)) return false;
-        add(s, name, NH_COLUMN_WATCH, e);
+        nh_tracks_add(&s->columns, name, NH_TRACK_WATCH, e);
     }
-    if (s->columns) return true;
+    if (s->columns.count) return true;
     nh_fail(error, NH_USAGE, "", "--watch names no quantity");
     return nh_error_hint(error, "--watch \"%s, E\"", s->system->coordinate[0].name);
 }
 
 static bool read_scene(nh_simulation *s, nh_error *error)
 {
-    size_t watches = s->analysis ? s->analysis->watches : 0;
-    s->column = nh_arena_alloc(s->arena, (watches + 1) * sizeof *s->column);
-    for (size_t i = 0; i < watches; i++) add(s, s->analysis->watch[i].name, NH_COLUMN_WATCH, s->analysis->watch[i].value);
-    if (watches) return true;
+    nh_tracks_add_watches(&s->columns, s->analysis);
+    if (s->columns.count) return true;
     nh_fail(error, NH_USAGE, "", "--scene needs an analysis file that says what is watched");
     return nh_error_hint(error, "--watch \"%s\" names it here", s->system->coordinate[0].name);
 }
 
-static void list_columns(nh_simulation *s)
+static void list_columns(nh_simulation *s, bool draw)
 {
     const nh_model *o = s->model;
+    nh_tracks *t = &s->columns;
     nh_error ignored;
     nh_error_clear(&ignored);
-    size_t watches = s->analysis ? s->analysis->watches : 0;
-    s->column = nh_arena_alloc(s->arena, (2 * o->m + o->n + o->k + s->system->currents + watches + 2) * sizeof *s->column);
-    for (size_t i = 0; i < o->m; i++) add(s, s->system->coordinate[i].name, NH_COLUMN_STATE, s->system->coordinate[i].q);
-    for (size_t i = 0; i < o->m; i++) add(s, nh_name_of(o->dag, s->system->coordinate[i].v), NH_COLUMN_STATE, o->rho[i]);
-    for (size_t i = 0; i < o->n && o->chart->quasi; i++) add(s, nh_name_of(o->dag, o->chart->w[i]), NH_COLUMN_STATE, o->chart->w[i]);
+    nh_tracks_add_states(t);
     for (size_t k = 0; k < s->system->currents; k++) {
         nh_ex e;
-        if (nh_analysis_to_chart(o, s->system->current[k].value, &e, &ignored)) add(s, s->system->current[k].name, NH_COLUMN_CURRENT, e);
+        if (nh_analysis_to_chart(o, s->system->current[k].value, &e, &ignored)) nh_tracks_add(t, s->system->current[k].name, NH_TRACK_CURRENT, e);
     }
-    for (size_t a = 0; a < o->k; a++) add(s, nh_arena_printf(s->arena, "c%zu", a + 1), NH_COLUMN_MULTIPLIER, o->mu[a]);
-    add(s, "E", NH_COLUMN_ENERGY, o->E);
-    for (size_t i = 0; i < watches; i++) add(s, s->analysis->watch[i].name, NH_COLUMN_WATCH, s->analysis->watch[i].value);
+    for (size_t a = 0; a < o->k; a++) nh_tracks_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
+    nh_tracks_add(t, "E", NH_TRACK_ENERGY, o->E);
+    nh_tracks_add_watches(t, s->analysis);
+    if (draw) nh_tracks_add_drawing(t, s->analysis);
 }
 
 static double *output_times(nh_simulation *s, const nh_simulate_request *q, double begin, double end, size_t *count, nh_error *error)
@@ -179,9 +172,10 @@ static double *output_times(nh_simulation *s, const nh_simulate_request *q, doub
 
 static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_error *error)
 {
+    s->columns = nh_tracks_create(s->arena, s->model);
     if (q->watch) return read_watch(s, q->watch, error);
     if (q->scene) return read_scene(s, error);
-    list_columns(s);
+    list_columns(s, q->draw && !q->ensemble);
     return true;
 }
 
@@ -217,9 +211,9 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
 {
     nh_options options = q->options;
     options.tolerance = s->tolerance;
-    nh_ex *e = nh_arena_alloc(s->arena, (s->columns + 1) * sizeof *e);
-    for (size_t k = 0; k < s->columns; k++) e[k] = s->column[k].value;
-    nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns, .e = e,
+    nh_ex *e = nh_arena_alloc(s->arena, (s->columns.count + 1) * sizeof *e);
+    for (size_t k = 0; k < s->columns.count; k++) e[k] = s->columns.track[k].value;
+    nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns.count, .e = e,
                                      .smallest = q->watch || q->scene, .project = q->project};
     if (q->ensemble && q->accuracy > 0) return nh_fail(error, NH_USAGE, "", "--ensemble and --accuracy do not go together; --tolerance sets that of the members");
     if (q->ensemble) return integrate_many(s, q, &request, error);

@@ -5,7 +5,7 @@
 #include "motion/accuracy.h"
 #include "motion/drift.h"
 #include "motion/ensemble.h"
-#include "study/analysis.h"
+#include "study/tracks.h"
 
 typedef struct {
     const char *system_path, *analysis_path; /* analysis may be NULL: its initial state, time and watched quantities are used */
@@ -15,6 +15,7 @@ typedef struct {
     const char *initial;                     /* "phi=0, omega=2", or NULL */
     const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
     bool scene;                              /* the same with what the analysis file watches */
+    bool draw;                               /* follow what is drawn, too (one motion with all columns) */
     bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
     double step;                             /* output spacing; 0: a hundredth of the time */
     double accuracy;                         /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
@@ -23,14 +24,6 @@ typedef struct {
     nh_options options;
 } nh_simulate_request;
 
-typedef enum { NH_COLUMN_STATE, NH_COLUMN_CURRENT, NH_COLUMN_MULTIPLIER, NH_COLUMN_ENERGY, NH_COLUMN_WATCH } nh_column_kind;
-
-typedef struct {
-    const char *name;
-    nh_column_kind kind;
-    nh_ex value;
-} nh_simulated;
-
 typedef struct {
     nh_arena *arena;
     nh_system *system;
@@ -38,10 +31,9 @@ typedef struct {
     nh_model *model;
     const char *method, *formulation;
     const char *scene;    /* the smallest model in words; NULL: all states were integrated */
-    size_t columns;
-    nh_simulated *column;
+    nh_tracks columns;    /* with the drawing only where it was asked for, at the end */
     nh_motion *motion;    /* its states are those of the scene, where there is one */
-    double *value;        /* motion->count x columns, row by row */
+    double *value;        /* motion->count x columns.count, row by row */
     nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
     nh_ensemble *ensemble;     /* instead of motion, value and trajectory; NULL: one motion */

@@ -1,13 +1,36 @@
-/* tracks: what is followed along the test motion, for reports: states, energy, currents, watched quantities, and the drawing. */
+/* tracks: what is followed along a motion, for reports: states, energy, currents, multipliers, watched quantities, and the drawing. */
 #ifndef NH_TRACKS_H
 #define NH_TRACKS_H
 
-#include "study/result.h"
+#include "study/analysis.h"
 
-/* Fills result->track: every quantity has a name and is a function of the chart.  watch[i] of the validation is then track[i]. */
-void nh_tracks_list(nh_result *result);
+typedef enum { NH_TRACK_STATE, NH_TRACK_CURRENT, NH_TRACK_MULTIPLIER, NH_TRACK_ENERGY, NH_TRACK_WATCH, NH_TRACK_SHAPE } nh_track_kind;
 
-/* The same as the motion wants it: result->tracks entries, in the result's arena. */
-const nh_watch *nh_tracks_watches(const nh_result *result);
+/* A quantity that is followed. */
+typedef struct {
+    const char *name;
+    nh_track_kind kind;
+    nh_ex value; /* in the chart */
+} nh_track;
+
+typedef struct {
+    nh_arena *arena;
+    const nh_model *model;
+    size_t count, capacity;
+    nh_track *track;
+    size_t shapes;
+    const nh_shape *shape;  /* what is drawn; its numbers are the tracks of that kind, in order */
+    const char *drawing;    /* whose drawing it is, in words: "as the analysis file asks"; NULL: nothing is drawn */
+} nh_tracks;
+
+/* An empty list that lives in the arena. */
+nh_tracks nh_tracks_create(nh_arena *arena, const nh_model *model);
+void nh_tracks_add(nh_tracks *tracks, const char *name, nh_track_kind kind, nh_ex value);
+/* Coordinates, then their velocities, then quasi-velocities, where the chart has them. */
+void nh_tracks_add_states(nh_tracks *tracks);
+/* What the analysis file watches (NULL: none). */
+void nh_tracks_add_watches(nh_tracks *tracks, const nh_analysis *analysis);
+/* The drawing: of the analysis file, else of the system's, else that of drawing.h. */
+void nh_tracks_add_drawing(nh_tracks *tracks, const nh_analysis *analysis);
 
 #endif

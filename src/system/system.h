@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "expr/dag.h"
 #include "system/bodies.h"
+#include "system/shape.h"
 
 typedef enum { NH_ANGLE, NH_LENGTH, NH_PLAIN } nh_coordinate_type;
 
@@ -56,6 +57,8 @@ typedef struct {
     nh_chain *chain;         /* bodies and joints; NULL when the file has none */
     size_t symmetries;       /* fields on configuration space that the file names as generators of a group */
     nh_ex *symmetry;         /* symmetries x coordinates: components */
+    size_t shapes;
+    nh_shape *shape;         /* to be drawn, in t, coordinates and parameters */
     nh_ex lagrangian;        /* with the energies of bodies and joints */
     nh_ex *force;            /* per coordinate; the number 0 where there is none */
     bool has_forces;

@@ -167,6 +167,25 @@ bool nh_system_read_symmetry(nh_system_reader *r)
     return true;
 }
 
+static bool shape_expression(void *context, const nh_deck_node *node, nh_ex *out)
+{
+    nh_system_reader *r = context;
+    return nh_system_read_expression(r->system, r->deck, node, 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL, out, r->error);
+}
+
+bool nh_system_read_drawing(nh_system_reader *r)
+{
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!nh_system_list_of(r, r->root, "draw", &list, &n)) return false;
+    s->shape = nh_system_take(r, n, sizeof *s->shape);
+    for (size_t i = 0; i < n; i++)
+        if (!nh_shape_read(r->deck, list->item[i], shape_expression, r, &s->shape[i], r->error)) return false;
+    s->shapes = n;
+    return true;
+}
+
 static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out, size_t *count)
 {
     static const char *const keys[] = {"name", "expr", "doc", "out_of_reach"};

@@ -1,7 +1,8 @@
-/* shape: what an analysis file asks to be drawn (docs/formats.md): `scene: {draw: [{wheel: [x, y, phi, r]}, ...]}`. */
+/* shape: what is to be drawn of a system in motion (docs/formats.md): `draw: [{wheel: [x, y, phi, r]}, ...]`, in a system file or an analysis file. */
 #ifndef NH_SHAPE_H
 #define NH_SHAPE_H
 
+#include "base/deck.h"
 #include "expr/dag.h"
 
 enum { NH_SHAPE_NUMBERS = 4 };
@@ -16,5 +17,9 @@ typedef struct {
 
 const char *nh_shape_name(nh_shape_kind kind);
 size_t nh_shape_numbers(nh_shape_kind kind);
+
+/* One entry {kind: [expressions]} of a list `draw`.  `parse` reads each expression, with its own message where it cannot. */
+typedef bool nh_shape_parse(void *context, const nh_deck_node *node, nh_ex *out);
+bool nh_shape_read(const nh_deck *deck, const nh_deck_node *node, nh_shape_parse *parse, void *context, nh_shape *out, nh_error *error);
 
 #endif

@@ -1,0 +1,39 @@
+/* course: one motion as reports show it, whether an analysis or a simulation computed it: lines of numbers over common times, and a drawing. */
+#ifndef NH_COURSE_H
+#define NH_COURSE_H
+
+#include "base/json.h"
+#include "study/result.h"
+#include "study/simulate.h"
+
+typedef struct {
+    const char *name;
+    nh_track_kind kind;
+    const double *value;   /* value[i * stride] at time[i] */
+    size_t stride;
+} nh_line;
+
+typedef struct {
+    const nh_model *model;
+    size_t count;
+    const double *time;
+    size_t lines;
+    nh_line *line;
+    size_t shapes;
+    const nh_shape *shape; /* its numbers are the lines of that kind, in order */
+    const char *drawing;   /* whose drawing, in words */
+} nh_course;
+
+/* NULL when there is no motion.  The numbers stay with the result or simulation. */
+nh_course *nh_course_of_result(const nh_result *result);
+nh_course *nh_course_of_simulation(const nh_simulation *simulation);
+void nh_course_free(nh_course *course);
+
+/* Number j of shape i. */
+const nh_line *nh_course_shape(const nh_course *course, size_t i, size_t j);
+
+/* The lines of one kind as {name: [numbers]}; the drawing as [{kind, a, b, ...}]. */
+nh_json *nh_course_json(const nh_course *course, nh_json *to, const char *key, nh_track_kind kind);
+void nh_course_json_drawing(const nh_course *course, nh_json *to);
+
+#endif

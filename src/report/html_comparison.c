@@ -1,0 +1,222 @@
+/* The integrators compared, as a page. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "report/chart.h"
+#include "report/html_internal.h"
+
+enum { most_lines = 35 }; /* colours times dashes */
+
+static bool same_line(const nh_measured *a, const nh_measured *b) { return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation); }
+
+static bool shown(const nh_measured *m) { return m->status <= NH_WARNED && isfinite(m->error) && m->seconds > 0; }
+
+/* ---- the answer ---- */
+
+static void step_or_tolerance(nh_html_writer *w, const nh_measured *m)
+{
+    nh_html_add(w, isnan(m->step) ? "tolerance " : "step ");
+    nh_html_number(w, isnan(m->step) ? m->tolerance : m->step, 3);
+}
+
+static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
+{
+    nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th><td>", goal);
+    nh_html_text(w, m->method);
+    nh_html_add(w, "</td><td>");
+    nh_html_text(w, m->formulation);
+    nh_html_add(w, "</td><td>");
+    step_or_tolerance(w, m);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, m->error, 2);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, m->worst_drift, 2);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, m->seconds, 3);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, (double)m->evaluations, 10);
+    nh_html_add(w, "</td></tr>\n");
+}
+
+static void answer(nh_html_writer *w, const nh_comparison *c)
+{
+    const nh_measured *best = nh_comparison_fastest(c, 0, c->count, 1e-6);
+    nh_html_add(w, best ? "<p class=\"answer found\">Fastest below an error of a millionth: " : "<p class=\"answer undecided\">No method came below an error of a millionth");
+    if (best) {
+        nh_html_text(w, best->method);
+        nh_html_add(w, " in ");
+        nh_html_text(w, best->formulation);
+    }
+    nh_html_add(w, ".</p>\n<p>One motion, t = ");
+    nh_html_number(w, c->begin, 6);
+    nh_html_add(w, " to ");
+    nh_html_number(w, c->end, 6);
+    nh_html_add(w, ", by every integrator in every formulation, measured on this machine. Reference: ");
+    nh_html_text(w, c->reference);
+    nh_html_add(w, "; ");
+    nh_html_text(w, c->second);
+    nh_html_add(w, " agrees to ");
+    nh_html_number(w, c->agreement, 1);
+    nh_html_add(w, ", so that smaller errors mean nothing.</p>\n");
+    if (c->shortened) nh_html_warning(w, "the time was shortened until two methods reached its end");
+    if (c->partial) nh_html_warning(w, "the budget ended before every method had all its runs; --budget allows more");
+}
+
+static void fastest(nh_html_writer *w, const nh_comparison *c)
+{
+    static const struct {
+        double below;
+        const char *text;
+    } goal[] = {{1e-3, "10<sup>\u22123</sup>"}, {1e-6, "10<sup>\u22126</sup>"}, {1e-9, "10<sup>\u22129</sup>"}, {1e-12, "10<sup>\u221212</sup>"}};
+    nh_html_table(w, "The fastest below an error of ...", "error below|method|formulation|set to|error|drift|seconds|evaluations");
+    for (size_t g = 0; g < sizeof goal / sizeof *goal; g++) {
+        const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g].below);
+        if (m) best_line(w, m, goal[g].text);
+    }
+    nh_html_table_end(w);
+    for (size_t i = 0; i < c->refused; i++) {
+        nh_html_add(w, "<p>Not used, ");
+        nh_html_text(w, c->refusal[i]);
+        nh_html_add(w, ".</p>\n");
+    }
+}
+
+/* ---- time against error ---- */
+
+static void flush(nh_html_writer *w, const char *formulation, size_t n, const nh_curve *curve)
+{
+    char title[200], caption[300];
+    if (!n) return;
+    snprintf(title, sizeof title, "Time against error, %.120s", formulation);
+    snprintf(caption, sizeof caption, "Seconds against error, %.120s. Down and to the left is better; each line is one method from loose to tight.", formulation);
+    nh_plot plot = {.title = title, .description = "Both axes are logarithmic", .x_label = "error, relative", .y_label = "seconds", .log_x = true, .log_y = true, .floor = 1e-17, .curves = n, .curve = curve};
+    nh_html_figure(w, &plot, caption);
+}
+
+/* One plot per formulation, one line per method. */
+static void plots(nh_html_writer *w, const nh_comparison *c)
+{
+    double *x = nh_alloc_array(2 * c->count + 1, sizeof *x), *y = x + c->count;
+    nh_curve curve[most_lines];
+    size_t n = 0;
+    for (size_t i = 0, next; i < c->count; i = next) {
+        size_t points = 0;
+        for (next = i; next < c->count && same_line(&c->item[i], &c->item[next]); next++) {
+            const nh_measured *m = &c->item[next];
+            if (!shown(m)) continue;
+            x[i + points] = fmax(m->error, fmax(c->agreement, 1e-16));
+            y[i + points++] = m->seconds;
+        }
+        if (points) curve[n++] = (nh_curve){.name = c->item[i].method, .count = points, .x = x + i, .x_stride = 1, .y = y + i, .y_stride = 1, .marks = true};
+        bool last = next == c->count || strcmp(c->item[i].formulation, c->item[next].formulation);
+        if (!last && n < most_lines) continue;
+        flush(w, c->item[i].formulation, n, curve);
+        n = 0;
+    }
+    nh_free(x);
+}
+
+static void all_runs(nh_html_writer *w, const nh_comparison *c)
+{
+    nh_html_add(w, "<details><summary>All runs</summary>\n");
+    nh_html_table(w, "All runs", "method|formulation|set to|status|error|drift|seconds|evaluations|note");
+    for (size_t i = 0; i < c->count; i++) {
+        const nh_measured *m = &c->item[i];
+        nh_html_add(w, "<tr>");
+        nh_html_tagged(w, "td", m->method);
+        nh_html_tagged(w, "td", m->formulation);
+        nh_html_add(w, "<td>");
+        step_or_tolerance(w, m);
+        nh_text_addf(w->out, "</td><td class=\"%s\">%s</td><td>", nh_measured_status_name(m->status), nh_measured_status_name(m->status));
+        nh_html_number(w, m->error, 2);
+        nh_html_add(w, "</td><td>");
+        nh_html_number(w, m->worst_drift, 2);
+        nh_html_add(w, "</td><td>");
+        nh_html_number(w, m->seconds, 3);
+        nh_html_add(w, "</td><td>");
+        nh_html_number(w, (double)m->evaluations, 10);
+        nh_html_add(w, "</td>");
+        nh_html_tagged(w, "td", m->note ? m->note : "");
+        nh_html_add(w, "</tr>\n");
+    }
+    nh_html_table_end(w);
+    nh_html_add(w, "</details>\n");
+}
+
+static void derivatives(nh_html_writer *w, const nh_comparison *c)
+{
+    if (!c->derivatives) return;
+    nh_html_table(w, "One Jacobian of the reduced equations", "by|seconds|evaluations|off by");
+    for (size_t i = 0; i < c->derivatives; i++) {
+        const nh_derivative *d = &c->derivative[i];
+        if (!isfinite(d->seconds)) continue;
+        nh_html_add(w, "<tr>");
+        nh_html_tagged(w, "td", d->method);
+        nh_html_add(w, "<td>");
+        nh_html_number(w, d->seconds, 3);
+        nh_html_add(w, "</td><td>");
+        nh_html_number(w, (double)d->evaluations, 10);
+        nh_html_add(w, "</td><td>");
+        nh_html_number(w, d->error, 1);
+        nh_html_add(w, "</td></tr>\n");
+    }
+    nh_html_table_end(w);
+}
+
+/* ---- stability maps ---- */
+
+static void stability_map(nh_html_writer *w, const nh_stress_map *map)
+{
+    nh_html_table(w, map->name, NULL);
+    nh_html_add(w, "<tr><th scope=\"col\">");
+    nh_html_text(w, map->axis);
+    nh_html_add(w, "</th>");
+    for (size_t j = 0; j < map->methods; j++) {
+        nh_html_add(w, "<th scope=\"col\">");
+        nh_html_text(w, map->cell[j].method);
+        nh_html_add(w, "</th>");
+    }
+    for (size_t j = 0; j < map->cells; j++) {
+        const nh_stress_cell *cell = &map->cell[j];
+        if (j % map->methods == 0) {
+            nh_html_add(w, "</tr>\n<tr><th scope=\"row\">");
+            nh_html_number(w, cell->at, 4);
+            nh_html_add(w, "</th>");
+        }
+        nh_text_addf(w->out, "<td class=\"%s\">%s</td>", nh_measured_status_name(cell->status), nh_measured_status_name(cell->status));
+    }
+    nh_html_add(w, "</tr>\n");
+    nh_html_table_end(w);
+}
+
+static void stress(nh_html_writer *w, const nh_stress *s)
+{
+    if (!s) return;
+    nh_html_add(w, "<section id=\"stress\"><h2>Where methods fail</h2>\n<p>Right and warned: within the accuracy, the second with a complaint of a guard. Caught: not within it, and a guard says so. "
+                   "Failed: given up with a reason. Timeout. Wrong: not within it, and nothing says so.</p>\n");
+    for (size_t i = 0; i < s->maps; i++) stability_map(w, &s->map[i]);
+    nh_html_add(w, "</section>\n");
+}
+
+void nh_html_comparison(const nh_comparison *c, const nh_stress *s, const nh_run *run, nh_text *out)
+{
+    const nh_simulation *q = c->question;
+    nh_html_writer w = {.out = out, .system = q->system, .analysis = q->analysis, .dag = q->model->dag, .shown = run->shown, .written = INFINITY};
+    nh_html_begin(&w, "integrators compared");
+    answer(&w, c);
+    nh_html_links(&w, s ? "methods|Methods|stress|Where they fail|system|System|repeat|Repeat it" : "methods|Methods|system|System|repeat|Repeat it");
+    nh_html_add(&w, "<section id=\"methods\"><h2>Methods</h2>\n");
+    fastest(&w, c);
+    plots(&w, c);
+    derivatives(&w, c);
+    all_runs(&w, c);
+    nh_html_add(&w, "</section>\n");
+    stress(&w, s);
+    nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
+    nh_html_written(&w);
+    nh_html_add(&w, "</section>\n");
+    nh_html_repeat(&w, run);
+    nh_html_end(&w);
+}

@@ -1,0 +1,134 @@
+/* Formulas on a page. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/normal.h"
+#include "expr/print.h"
+#include "expr/typeset.h"
+#include "report/formula.h"
+#include "report/html_internal.h"
+
+enum { widest = 22 }; /* symbols of a piece: what a phone holds */
+
+/* Without rows of a single symbol, which are most of a formula's text. */
+static void add_compact(nh_text *out, const char *piece)
+{
+    static const char row[] = "<mrow>", end[] = "</mrow>";
+    for (const char *c = piece, *next; *c; c = next) {
+        const char *inner = c + sizeof row - 1, *close = !strncmp(c, row, sizeof row - 1) && inner[0] == '<' && inner[1] == 'm' && strchr("in", inner[2]) ? strstr(inner, "</m") : NULL;
+        const char *after = close ? close + sizeof "</mi>" - 1 : NULL;
+        next = c + 1;
+        if (after && after[-1] == '>' && !strncmp(after, end, sizeof end - 1)) {
+            nh_text_add_n(out, inner, (size_t)(after - inner));
+            next = after + sizeof end - 1;
+        } else {
+            nh_text_add_n(out, c, 1);
+        }
+    }
+}
+
+static void write_piece(void *context, const char *piece)
+{
+    nh_html_writer *w = context;
+    nh_html_add(w, "<math displaystyle=\"true\">");
+    add_compact(w->out, piece);
+    nh_html_add(w, "</math> ");
+}
+
+void nh_html_source(nh_html_writer *w, const char *text)
+{
+    if (!nh_typeset_pieces(text, NH_MATHML, widest, write_piece, w)) nh_html_tagged(w, "code", text);
+}
+
+void nh_html_meaning(nh_html_writer *w, const char *meaning)
+{
+    static const char of[] = "momentum of ";
+    nh_text plain;
+    nh_text_init(&plain);
+    bool named = !strncmp(meaning, of, sizeof of - 1);
+    if (named) nh_html_add(w, of);
+    if (named) nh_typeset_plain(meaning + sizeof of - 1, &plain);
+    nh_html_text(w, named ? nh_text_string(&plain) : meaning);
+    nh_text_clear(&plain);
+}
+
+static void equal(nh_html_writer *w) { nh_html_add(w, "<math><mo>=</mo></math> "); }
+
+/* A name, or Z|x': Z with the index x'. */
+static void put_label(nh_html_writer *w, const char *label)
+{
+    const char *bar = strchr(label, '|');
+    if (!label[0]) return;
+    if (bar) {
+        nh_text_addf(w->out, "<math><msub><mi>%.*s</mi><mrow>", (int)(bar - label), label);
+        nh_typeset(bar + 1, NH_MATHML, w->out);
+        nh_html_add(w, "</mrow></msub></math> ");
+    } else {
+        nh_html_source(w, label);
+    }
+    equal(w);
+}
+
+static void line(nh_html_writer *w, const char *label, nh_ex e)
+{
+    char *text = nh_print_string(w->dag, e);
+    nh_html_add(w, "<div class=\"formula\">");
+    put_label(w, label);
+    nh_html_source(w, text);
+    nh_html_add(w, "</div>\n");
+    nh_free(text);
+}
+
+static void too_long(nh_html_writer *w, const char *label, nh_ex e)
+{
+    bool known = (double)nh_complexity(w->dag, e) <= w->written;
+    nh_html_add(w, "<div class=\"formula\">");
+    put_label(w, label);
+    nh_html_add(w, known ? "<em>too long for a page; the JSON has it</em></div>\n" : "<em>too long to be written out</em></div>\n");
+}
+
+/* Does it still need part i, itself or through another part?  Values use later names only. */
+static bool uses(const nh_html_writer *w, nh_ex e, size_t parts, const nh_formula_part *part, size_t i)
+{
+    nh_ex symbol[200];
+    size_t n = nh_symbols_in(w->dag, e, symbol, sizeof symbol / sizeof *symbol);
+    for (size_t j = 0; j < n; j++)
+        for (size_t k = 0; k < parts; k++)
+            if (symbol[j] == part[k].symbol && (k == i || uses(w, part[k].value, parts, part, i))) return true;
+    return false;
+}
+
+/* The page has room for so many symbols in one block. */
+static bool room(const nh_html_writer *w, nh_ex e, double *used)
+{
+    enum { formulas_per_block = 3 };
+    double length = (double)nh_complexity(w->dag, e);
+    if (length > w->shown || *used + length > formulas_per_block * w->shown) return false;
+    *used += length;
+    return true;
+}
+
+void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e)
+{
+    nh_formula_part part[NH_FORMULA_PARTS];
+    bool needed[NH_FORMULA_PARTS] = {false}, any = false;
+    double used = 0;
+    nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
+    for (size_t i = 0; i < n; i++) brief[i] = nh_formula_shortened(w->analysis, w->dag, e[i]);
+    size_t parts = nh_formula_parts(w->dag, n, brief, part);
+    for (size_t i = 0; i < n; i++) {
+        bool shown = room(w, brief[i], &used);
+        if (shown) line(w, label[i], brief[i]);
+        else too_long(w, label[i], e[i]);
+        for (size_t k = 0; k < parts && shown; k++) needed[k] |= uses(w, brief[i], parts, part, k);
+    }
+    for (size_t k = 0; k < parts; k++) any |= needed[k];
+    if (any) nh_html_add(w, "<div class=\"where\"><p>where</p>\n");
+    for (size_t k = 0; k < parts; k++)
+        if (needed[k] && room(w, part[k].value, &used)) line(w, part[k].name, part[k].value);
+        else if (needed[k]) too_long(w, part[k].name, part[k].value);
+    if (any) nh_html_add(w, "</div>\n");
+    nh_free(brief);
+}
+
+void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e) { nh_html_formulas(w, 1, &label, &e); }

@@ -1,0 +1,311 @@
+/* A symmetry group and the reductions by it, as a page. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/print.h"
+#include "expr/typeset.h"
+#include "report/html_internal.h"
+#include "report/reduction.h"
+
+/* "SE(2) x SO(2)^3" with a cross and a raised number. */
+static void name_of_group(nh_html_writer *w, const char *name)
+{
+    for (; *name; name++) {
+        size_t digits = *name == '^' ? strspn(name + 1, "0123456789") : 0;
+        if (digits) nh_text_addf(w->out, "<sup>%.*s</sup>", (int)digits, name + 1);
+        if (digits) name += digits;
+        else if (!strncmp(name, " x ", 3)) nh_html_add(w, " \u00d7 "), name += 2;
+        else nh_html_text(w, (const char[]){*name, 0});
+    }
+}
+
+/* ---- fields ---- */
+
+/* c d/dx as one line-breakable term of a sum. */
+static void term(nh_html_writer *w, const char *coordinate, nh_ex c, bool first)
+{
+    char *text = nh_print_string(w->dag, c);
+    bool sum = nh_kind_of(w->dag, c) == NH_SUM, minus = !sum && text[0] == '-';
+    const char *rest = text + minus;
+    if (minus || sum || !first) nh_text_addf(w->out, "<math><mrow>%s%s</mrow></math>", minus ? "<mo>\u2212</mo>" : first ? "" : "<mo>+</mo>", sum ? "<mo>(</mo>" : "");
+    if (strcmp(rest, "1")) nh_html_source(w, rest);
+    nh_text_addf(w->out, "<math><mrow>%s<mfrac><mo>\u2202</mo><mrow><mo>\u2202</mo>", sum ? "<mo>)</mo>" : "");
+    nh_typeset(coordinate, NH_MATHML, w->out);
+    nh_html_add(w, "</mrow></mfrac></mrow></math> ");
+    nh_free(text);
+}
+
+static void field(nh_html_writer *w, const nh_kinetic *k, const nh_ex *component)
+{
+    bool first = true;
+    for (size_t s = 0; s < k->m; s++) {
+        if (nh_is_zero(w->dag, component[s])) continue;
+        term(w, k->name[s], component[s], first);
+        first = false;
+    }
+}
+
+static const char *condition(const nh_condition *c) { return !c->holds ? "no" : c->all_parameters ? "proved" : c->proved ? "proved here" : "to rounding"; }
+
+static void generators(nh_html_writer *w, const nh_action *g)
+{
+    nh_html_table(w, "Generators", "|field|kinetic energy|potential|constraints");
+    for (size_t a = 0; a < g->d; a++) {
+        nh_html_add(w, "<tr><th scope=\"row\">");
+        nh_html_count(w, a + 1);
+        nh_html_add(w, "</th><td>");
+        field(w, g->kinetic, g->generator[a].component);
+        nh_text_addf(w->out, "</td><td>%s</td><td>%s</td><td>%s</td></tr>\n", condition(&g->generator[a].metric), condition(&g->generator[a].potential), condition(&g->generator[a].constraints));
+    }
+    nh_html_table_end(w);
+}
+
+/* ---- the algebra ---- */
+
+static void basis(nh_html_writer *w, size_t a) { nh_text_addf(w->out, "<msub><mi>e</mi><mn>%zu</mn></msub>", a + 1); }
+
+static void bracket(nh_html_writer *w, const nh_algebra *g, size_t a, size_t b)
+{
+    bool first = true;
+    for (size_t k = 0; k < g->d; k++) {
+        double c = g->c[(a * g->d + b) * g->d + k];
+        if (c == 0) continue;
+        if (first) {
+            nh_text_addf(w->out, "<div class=\"formula\"><math><mo>[</mo>");
+            basis(w, a);
+            nh_html_add(w, "<mo>,</mo>");
+            basis(w, b);
+            nh_html_add(w, "<mo>]</mo><mo>=</mo>");
+        }
+        nh_html_add(w, c < 0 ? "<mo>\u2212</mo>" : first ? "" : "<mo>+</mo>");
+        if (fabs(c) != 1) nh_text_addf(w->out, "<mn>%.6g</mn>", fabs(c));
+        basis(w, k);
+        first = false;
+    }
+    if (!first) nh_html_add(w, "</math></div>\n");
+}
+
+static void algebra(nh_html_writer *w, const nh_group *g)
+{
+    const nh_algebra *c = &g->action.algebra;
+    bool abelian = true;
+    for (size_t i = 0; i < c->d * c->d * c->d; i++) abelian &= c->c[i] == 0;
+    if (abelian) nh_html_add(w, c->d > 1 ? "<p>All brackets vanish: the group is abelian.</p>\n" : "");
+    else nh_html_add(w, "<p>Brackets of the Lie algebra</p>\n");
+    for (size_t a = 0; a < c->d; a++)
+        for (size_t b = a + 1; b < c->d; b++) bracket(w, c, a, b);
+    nh_html_add(w, "<p>Centre of dimension ");
+    nh_html_count(w, g->report.centre);
+    nh_html_add(w, ", radical ");
+    nh_html_count(w, g->report.radical);
+    nh_html_add(w, ", derived series ");
+    for (size_t i = 0; i < g->report.derived_length; i++) {
+        nh_html_add(w, i ? ", " : "");
+        nh_html_count(w, g->report.derived[i]);
+    }
+    nh_html_add(w, g->action.free ? ". It acts freely, with orbits of dimension " : ". It does not act freely; orbits of dimension ");
+    nh_html_count(w, g->action.orbit);
+    nh_html_add(w, ".</p>\n");
+}
+
+static void constraints(nh_html_writer *w, const nh_reduction *r, const nh_action *g)
+{
+    if (!r->kinetic->affine || !r->kinetic->f) return;
+    nh_html_add(w, g->dimension_assumption ? "<p>The directions of the group and those that the constraints allow span all directions" : "<p>The directions of the group and those that the constraints allow do not span all directions");
+    nh_html_add(w, "; they have ");
+    nh_html_count(w, g->intersection);
+    nh_html_add(w, g->chaplygin ? " in common: a Chaplygin system.</p>\n" : " in common.</p>\n");
+}
+
+static void group(nh_html_writer *w, const nh_reduction *r, const nh_group *g, const char *title)
+{
+    nh_text_addf(w->out, "<h3>%s: ", title);
+    name_of_group(w, g->name);
+    nh_html_add(w, "</h3>\n");
+    if (g->jets) {
+        nh_html_add(w, "<p>Local symmetries of kinetic energy, potential and constraints, counted without an ansatz: ");
+        nh_html_count(w, g->jets->dimension);
+        nh_html_add(w, "; of the kinetic energy alone: ");
+        nh_html_count(w, g->jets->of_metric);
+        nh_html_add(w, ".");
+        if (g->missing) nh_html_add(w, " Those without a closed form: ");
+        if (g->missing) nh_html_count(w, g->missing);
+        nh_html_add(w, "</p>\n");
+    }
+    if (!g->action.d) return;
+    generators(w, &g->action);
+    algebra(w, g);
+    constraints(w, r, &g->action);
+}
+
+/* ---- stages ---- */
+
+static void measure(nh_html_writer *w, const nh_reduction_stage *s)
+{
+    const nh_chaplygin_measure *m = &s->measure;
+    if (!m->tested) return;
+    nh_html_add(w, "<dt>Measure</dt><dd>");
+    if (m->measure) nh_html_add(w, m->size == 0 ? "Liouville's is invariant" : "an invariant one exists");
+    else {
+        nh_html_add(w, "none with a density on the shape space is invariant (|d\u0398| = ");
+        nh_html_number(w, m->curl, 2);
+        nh_html_add(w, ")");
+    }
+    if (s->kind != NH_STAGE_SECOND || s->shown->n <= 2) nh_html_add(w, m->factor ? "; a conformal factor makes it Hamiltonian" : "; no conformal factor makes it Hamiltonian");
+    nh_html_add(w, "</dd>\n");
+}
+
+static void second(nh_html_writer *w, const nh_reduction_stage *s)
+{
+    const nh_second *t = s->second;
+    if (s->kind != NH_STAGE_SECOND) return;
+    nh_html_add(w, "<dt>Condition (ii)</dt><dd>weak form ");
+    nh_html_number(w, t->weak, 1);
+    nh_html_add(w, ", strong form ");
+    nh_html_number(w, t->strong, 1);
+    nh_html_add(w, "</dd>\n<dt>Momentum</dt><dd>");
+    if (t->abelian) nh_html_add(w, "constant");
+    else {
+        nh_html_add(w, "moves on a coadjoint orbit of dimension ");
+        nh_html_count(w, t->orbit);
+        nh_html_add(w, ", isotropy of dimension ");
+        nh_html_count(w, t->d - t->orbit);
+    }
+    nh_html_add(w, "; it drifts by ");
+    nh_html_number(w, s->momentum_drift, 1);
+    nh_html_add(w, "</dd>\n");
+}
+
+static void checks(nh_html_writer *w, const nh_reduction_stage *s)
+{
+    nh_html_add(w, "<dl><dt>Check</dt><dd>");
+    if (s->compared) {
+        nh_html_add(w, "with the group's motion found again ");
+        nh_html_number(w, s->agreement, 1);
+        nh_html_add(w, s->against_full ? " from the full motion up to t = " : " from the first stage up to t = ");
+        nh_html_number(w, s->reached, 4);
+    } else {
+        nh_html_add(w, s->against_full ? "not compared with the full motion" : "not compared with the first stage");
+    }
+    nh_html_add(w, "</dd>\n<dt>Energy</dt><dd>drifts by ");
+    nh_html_number(w, s->energy_drift, 1);
+    nh_html_add(w, "</dd>\n");
+    second(w, s);
+    measure(w, s);
+    if (s->linear.count) {
+        nh_html_add(w, "<dt>Linear</dt><dd>");
+        nh_html_count(w, s->linear.count);
+        nh_html_add(w, " currents linear in the velocities");
+        if (s->linear_drift >= 0) nh_html_add(w, "; they drift by ");
+        if (s->linear_drift >= 0) nh_html_number(w, s->linear_drift, 1);
+        nh_html_add(w, "</dd>\n");
+    }
+    nh_html_add(w, "</dl>\n");
+    if (s->note[0]) nh_html_warning(w, s->note);
+}
+
+static void by_stages(nh_html_writer *w, const nh_reduction_stage *s)
+{
+    const nh_ideals *c = s->chain;
+    if (!s->by_stages) return;
+    nh_html_add(w, "<p>By stages along the generators ");
+    for (size_t j = 0; j < c->blocks; j++) {
+        nh_html_add(w, j ? " \u2283 {" : "{");
+        for (size_t i = c->start[j]; i < c->d; i++) nh_text_addf(w->out, "%s%zu", i > c->start[j] ? ", " : "", c->order[i] + 1);
+        nh_html_add(w, "}");
+    }
+    nh_html_add(w, ": vertical and horizontal equations differ from the true accelerations by ");
+    nh_html_number(w, fmax(s->poincare.stages_vertical, s->poincare.stages_horizontal), 1);
+    nh_html_add(w, ", in one stage by ");
+    nh_html_number(w, fmax(s->poincare.one_vertical, s->poincare.one_horizontal), 1);
+    nh_html_add(w, ".</p>\n");
+}
+
+static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_stage *s, size_t number)
+{
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of"};
+    nh_reduction_equation *e;
+    size_t n = nh_reduction_equations(r, s, &e);
+    nh_text_addf(w->out, "<article class=\"card\">\n<h3>Stage %zu: %s ", number, titles[s->kind]);
+    name_of_group(w, s->group);
+    nh_html_add(w, "</h3>\n<p>Divided out: ");
+    for (size_t a = 0; a < s->action->d; a++) {
+        nh_html_add(w, a ? "; " : "");
+        field(w, s->action->kinetic, s->action->generator[a].component);
+    }
+    nh_html_add(w, s->shown->n ? "</p>\n<p>What is left, the shape: " : "</p>\n<p>What is left, the shape, is a point.");
+    for (size_t i = 0; i < s->shown->n; i++) {
+        nh_html_add(w, i ? ", " : "");
+        nh_html_source(w, nh_name_of(w->dag, s->shown->x[i]));
+    }
+    nh_html_add(w, "</p>\n");
+    const char **label = nh_alloc_array(n + 1, sizeof *label);
+    nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
+    for (size_t i = 0; i < n; i++) label[i] = e[i].name, value[i] = e[i].value;
+    nh_html_formulas(w, n, label, value);
+    nh_free(value);
+    nh_free(label);
+    checks(w, s);
+    by_stages(w, s);
+    nh_html_add(w, "</article>\n");
+}
+
+static bool has_momenta(const nh_reduction *r) { return r->kinetic->reducible && r->group->action.d; }
+
+static void momenta(nh_html_writer *w, const nh_reduction *r)
+{
+    if (!has_momenta(r)) return;
+    nh_html_add(w, r->momenta.count ? "<section id=\"momenta\"><h2>Conserved momenta</h2>\n" : "<section id=\"momenta\"><h2>Conserved momenta</h2>\n<p>No momentum of the group is conserved, among the sections that were tried.</p>\n");
+    for (size_t i = 0; i < r->momenta.count; i++) {
+        const nh_momentum *p = &r->momenta.momentum[i];
+        nh_html_add(w, "<article class=\"card\">\n");
+        nh_html_formula(w, "J", p->value);
+        nh_html_add(w, p->horizontal ? "<p>Horizontal symmetry: the momentum of " : "<p>Gauge momentum of ");
+        field(w, r->kinetic, p->field);
+        nh_html_add(w, p->proved ? "; proved</p>\n</article>\n" : "; to rounding</p>\n</article>\n");
+    }
+    nh_html_add(w, "</section>\n");
+}
+
+static void answer(nh_html_writer *w, const nh_reduction *r)
+{
+    const nh_group *g = r->all ? r->all : r->group;
+    nh_html_add(w, g->action.d + g->missing ? "<p class=\"answer found\">Symmetry group " : "<p class=\"answer none\">No symmetry of kinetic energy, potential and constraints together");
+    if (g->action.d + g->missing) {
+        name_of_group(w, g->name);
+        nh_html_add(w, ", of dimension ");
+        nh_html_count(w, g->action.d + g->missing);
+    }
+    nh_html_add(w, ".</p>\n");
+    for (size_t i = 0; i < r->stages; i++) {
+        nh_html_add(w, i ? ", then to " : "<p>It reduces ");
+        if (!i) nh_html_count(w, r->kinetic->m);
+        if (!i) nh_html_add(w, r->kinetic->m == 1 ? " coordinate to " : " coordinates to ");
+        nh_html_count(w, r->stage[i].shown->n);
+    }
+    if (r->stages) nh_html_add(w, ".</p>\n");
+}
+
+void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
+{
+    nh_html_writer w = {.out = out, .system = r->system, .dag = r->kinetic->dag, .shown = run->shown, .written = INFINITY};
+    nh_html_begin(&w, "reduction by symmetry");
+    answer(&w, r);
+    nh_html_links(&w, has_momenta(r) ? "group|Group|stages|Reduced equations|momenta|Momenta|system|System|repeat|Repeat it" : "group|Group|stages|Reduced equations|system|System|repeat|Repeat it");
+    for (size_t i = 0; i < r->warnings; i++) nh_html_warning(&w, r->warning[i]);
+    nh_html_add(&w, "<section id=\"group\"><h2>The group</h2>\n");
+    if (r->all) group(&w, r, r->all, "The whole group");
+    if (r->group != r->all) group(&w, r, r->group, r->group->given ? "The group given" : "The group divided out");
+    nh_html_add(&w, "</section>\n<section id=\"stages\"><h2>Reduced equations</h2>\n");
+    if (!r->stages) nh_html_add(&w, "<p>Nothing could be divided out.</p>\n");
+    for (size_t i = 0; i < r->stages; i++) stage(&w, r, &r->stage[i], i + 1);
+    nh_html_add(&w, "</section>\n");
+    momenta(&w, r);
+    nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
+    nh_html_written(&w);
+    nh_html_add(&w, "</section>\n");
+    nh_html_repeat(&w, run);
+    nh_html_end(&w);
+}

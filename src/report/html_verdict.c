@@ -1,0 +1,90 @@
+/* The answer to `verify` as a page. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "report/html_internal.h"
+
+static void certificate(nh_html_writer *w, const nh_verdict_of_one *v)
+{
+    if (v->proof.all_parameters) nh_html_add(w, ", proved for all parameter values");
+    else if (v->proof.proved) nh_html_add(w, ", proved for these parameter values");
+    else {
+        nh_html_add(w, ", to ");
+        nh_html_number(w, floor(v->proof.digits), 6);
+        nh_html_add(w, v->proof.rounded ? " digits (its numbers are rounded to doubles)" : " digits");
+    }
+}
+
+static void answer(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
+{
+    nh_text_addf(w->out, "<p class=\"answer %s\">", v->conserved ? "found" : "undecided");
+    if (v->conserved) {
+        nh_html_add(w, field ? "Yes: this is a constraint symmetry" : "Yes: this is conserved");
+        certificate(w, v);
+    } else {
+        nh_html_add(w, field ? "No: this is not a constraint symmetry" : "No: this is not conserved");
+    }
+    nh_html_add(w, v->conserved && v->trivial ? "; but it is trivial: the current is constant.</p>\n" : ".</p>\n");
+}
+
+static void counterexample(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
+{
+    if (!v->has_counterexample) return;
+    nh_html_add(w, "<section id=\"counterexample\"><h2>Where it fails</h2>\n<p>");
+    nh_html_text(w, field ? v->equation : "Its rate of change along the motion through this state");
+    nh_html_add(w, field ? " leaves " : " is ");
+    nh_html_number(w, v->rate, 6);
+    nh_html_add(w, field ? ", where 0 was needed.</p>\n" : ", not 0.</p>\n");
+    nh_html_table(w, "A state of the system", "quantity|value");
+    for (size_t j = 0; j < v->model->width; j++) {
+        nh_html_add(w, "<tr><th scope=\"row\">");
+        nh_html_source(w, nh_name_of(w->dag, v->model->chart->symbol[j]));
+        nh_html_add(w, "</th><td>");
+        nh_html_number(w, v->counterexample[j], 6);
+        nh_html_add(w, "</td></tr>\n");
+    }
+    nh_html_table_end(w);
+    nh_html_add(w, "</section>\n");
+}
+
+static void symmetry(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
+{
+    if (!v->has_symmetry || v->trivial) return;
+    nh_text_addf(w->out, "<section id=\"symmetry\"><h2>%s</h2>\n", field ? "The field, with its Chetaev components" : "The symmetry it comes from");
+    size_t m = v->model->m, n = v->model->n;
+    const char **along = nh_alloc_array(1 + m + n, sizeof *along);
+    nh_ex *e = nh_alloc_array(1 + m + n, sizeof *e);
+    along[0] = "t", e[0] = v->symmetry.Z0;
+    for (size_t s = 0; s < m; s++) along[1 + s] = v->system->coordinate[s].name, e[1 + s] = v->symmetry.field.space[s];
+    for (size_t i = 0; i < n; i++) along[1 + m + i] = nh_name_of(w->dag, v->model->chart->w[i]), e[1 + m + i] = v->symmetry.W[i];
+    nh_html_field(w, 1 + m + n, along, e);
+    nh_free(e);
+    nh_free(along);
+    nh_text_addf(w->out, "<dl><dt>Symmetry</dt><dd>%s; [\u0393,\u2009Z] %s the canonical distribution</dd></dl>\n</section>\n", nh_html_case(v->symmetry.kase), v->symmetry.bracket_in_distribution ? "lies in" : "leaves");
+}
+
+void nh_html_verdict(const nh_verdict_of_one *v, bool field, const nh_run *run, nh_text *out)
+{
+    nh_html_writer w = {.out = out, .system = v->system, .dag = v->model->dag, .shown = run->shown, .written = INFINITY};
+    bool shown = v->has_symmetry && !v->trivial;
+    nh_html_begin(&w, field ? "is it a symmetry?" : "is it conserved?");
+    answer(&w, v, field);
+    nh_html_links(&w, v->has_counterexample ? "question|The question|counterexample|Where it fails|system|System|repeat|Repeat it"
+                      : shown               ? "question|The question|symmetry|The symmetry|system|System|repeat|Repeat it"
+                                            : "question|The question|system|System|repeat|Repeat it");
+    nh_html_add(&w, field ? "<section id=\"question\"><h2>The current of the field</h2>\n" : "<section id=\"question\"><h2>The question</h2>\n<p>Does this stay constant along every motion?</p>\n");
+    nh_html_add(&w, "<article class=\"card\">\n");
+    nh_html_formula(&w, "Phi", v->current);
+    nh_html_add(&w, "<dl><dt>Residual</dt><dd>");
+    nh_html_number(&w, v->residual, 2);
+    nh_html_add(&w, ", its largest rate at random states, relative to the terms of the rate</dd></dl>\n</article></section>\n");
+    counterexample(&w, v, field);
+    symmetry(&w, v, field);
+    nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
+    nh_html_written(&w);
+    nh_html_add(&w, "<h3>As it was understood</h3>\n");
+    nh_html_equations(&w, v->model);
+    nh_html_add(&w, "</section>\n");
+    nh_html_repeat(&w, run);
+    nh_html_end(&w);
+}

@@ -1,0 +1,18 @@
+/* run: what it takes to repeat a run: command, files, seed, versions, machine. */
+#ifndef NH_RUN_H
+#define NH_RUN_H
+
+#include "base/json.h"
+#include "base/option.h"
+#include "system/system.h"
+
+typedef struct {
+    const char *command, *system_path, *analysis_path; /* NULL: not known, or none */
+    double seed, shown;                                /* the option `shown`: the longest formula of a page */
+    double seconds;                                    /* NAN where the report tells it elsewhere, or not */
+} nh_run;
+
+/* Adds `title`, `parameters` (unless they are there) and `run`. */
+void nh_run_json(const nh_run *run, const nh_system *system, nh_json *to);
+
+#endif

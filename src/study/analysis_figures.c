@@ -1,0 +1,98 @@
+/* figures: what to draw of which motions (docs/formats.md). */
+#include <string.h>
+
+#include "study/analysis_internal.h"
+
+typedef nh_analysis_reader reader;
+
+/* path: [x, y] or [x, y, heading] */
+static bool read_path(reader *r, const nh_deck_node *list, nh_figure_request *f)
+{
+    static const char *const names[] = {"x", "y", "heading"};
+    const nh_deck *deck = r->a->deck;
+    if (!nh_deck_is(deck, list, NH_DECK_LIST, "a path [x, y] or [x, y, heading]", r->error)) return false;
+    if (list->count != 2 && list->count != 3) return nh_deck_fail(deck, list, 0, r->error, "a path is given by 2 or 3 expressions, found %zu", list->count);
+    f->quantity = nh_analysis_take(r, list->count, sizeof *f->quantity);
+    for (size_t i = 0; i < list->count; i++) {
+        if (!nh_analysis_parse(r, list->item[i], &f->quantity[i].value)) return false;
+        f->quantity[i].name = i < 2 ? list->item[i]->text : names[i];
+    }
+    f->quantities = list->count;
+    return true;
+}
+
+static bool read_scan(reader *r, const nh_deck_node *node, nh_figure_request *f)
+{
+    const nh_analysis *a = r->a;
+    if (!nh_deck_is(a->deck, node, NH_DECK_SCALAR, "the name of an unknown", r->error)) return false;
+    for (f->unknown = 0; f->unknown < a->unknowns; f->unknown++)
+        if (!strcmp(node->text, nh_name_of(r->model->dag, a->unknown[f->unknown].symbol))) break;
+    if (f->unknown == a->unknowns) {
+        nh_deck_fail(a->deck, node, 0, r->error, "`%s` is not an unknown of this analysis", node->text);
+        return nh_error_hint(r->error, "unknowns: {%s: [low, high]} would make it one, in an ansatz that uses it", node->text);
+    }
+    return a->unknowns == 1 || nh_deck_fail(a->deck, node, 0, r->error, "a scan needs an analysis with one unknown, this one has %zu", a->unknowns);
+}
+
+/* vary: {k: [1, 2, 3]} */
+static bool read_vary(reader *r, const nh_deck_node *map, nh_figure_request *f)
+{
+    const nh_deck *deck = r->a->deck;
+    const nh_system *s = r->model->system;
+    bool known = false;
+    if (!map) return true;
+    if (!nh_deck_is(deck, map, NH_DECK_MAP, "vary {parameter: [values]}", r->error)) return false;
+    if (map->count != 1) return nh_deck_fail(deck, map, 0, r->error, "one parameter can be varied in a figure, found %zu", map->count);
+    f->vary = map->key[0]->text;
+    for (size_t i = 0; i < s->parameters; i++) known |= !strcmp(f->vary, s->parameter[i].name);
+    if (!known) {
+        nh_deck_fail(deck, map->key[0], 0, r->error, "`%s` is not a parameter of %s", f->vary, s->name);
+        return s->parameters ? nh_error_hint(r->error, "vary: {%s: [1, 2]} repeats the motion for two values of a parameter", s->parameter[0].name) : false;
+    }
+    const nh_deck_node *list = map->item[0];
+    if (!nh_deck_is(deck, list, NH_DECK_LIST, "a list of values", r->error)) return false;
+    f->value = nh_analysis_take(r, list->count, sizeof *f->value);
+    for (size_t i = 0; i < list->count; i++)
+        if (!nh_deck_number(deck, list->item[i], "the value of a parameter", &f->value[i], r->error)) return false;
+    f->values = list->count;
+    return f->values || nh_deck_fail(deck, list, 0, r->error, "there are no values of `%s`", f->vary);
+}
+
+static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *f)
+{
+    static const char *const keys[] = {"title", "path", "plot", "scan", "vary", "time"};
+    const nh_deck *deck = r->a->deck;
+    if (!nh_deck_is(deck, node, NH_DECK_MAP, "a figure {path: [x, y]}, {plot: [name = expression]} or {scan: unknown}", r->error)) return false;
+    if (!nh_deck_only(deck, node, keys, sizeof keys / sizeof *keys, r->error)) return false;
+    const nh_deck_node *title = nh_deck_get(node, "title"), *path = nh_deck_get(node, "path"), *plot = nh_deck_get(node, "plot"), *scan = nh_deck_get(node, "scan"), *time = nh_deck_get(node, "time");
+    if (!path + !plot + !scan != 2) {
+        nh_deck_fail(deck, node, 0, r->error, "a figure has one of `path`, `plot` and `scan`");
+        return nh_error_hint(r->error, "path: [x, y, heading], plot: [name = expression, ...] or scan: nu");
+    }
+    if (title && !nh_deck_is(deck, title, NH_DECK_SCALAR, "a title", r->error)) return false;
+    f->kind = path ? NH_FIGURE_PATH : plot ? NH_FIGURE_PLOT : NH_FIGURE_SCAN;
+    f->title = title ? title->text : path ? "Path" : plot ? "Over time" : "Scan";
+    if (path && !read_path(r, path, f)) return false;
+    if (plot && !nh_analysis_watches(r, plot, "plot", &f->quantity, &f->quantities)) return false;
+    if (scan && !read_scan(r, scan, f)) return false;
+    double range[2] = {0, 0};
+    if (time && !nh_deck_range(deck, time, "the time interval [begin, end]", range, r->error)) return false;
+    f->has_time = time != NULL;
+    f->begin = range[0];
+    f->end = range[1];
+    return read_vary(r, nh_deck_get(node, "vary"), f);
+}
+
+bool nh_analysis_read_figures(reader *r)
+{
+    nh_analysis *a = r->a;
+    const nh_deck_node *list = nh_deck_get(r->root, "figures");
+    a->figures = 0;
+    if (!list) return true;
+    if (!nh_deck_is(a->deck, list, NH_DECK_LIST, "figures", r->error)) return false;
+    a->figure = nh_analysis_take(r, list->count, sizeof *a->figure);
+    for (size_t i = 0; i < list->count; i++)
+        if (!read_figure(r, list->item[i], &a->figure[i])) return false;
+    a->figures = list->count;
+    return true;
+}

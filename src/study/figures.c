@@ -1,0 +1,155 @@
+#include "study/figures.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/progress.h"
+#include "study/simulate.h"
+
+enum { outputs = 161, scan_points = 128, scan_values = 401 };
+
+/* ---- one motion ---- */
+
+/* A motion with one parameter changed, read anew: initial values and expressions may depend on it. */
+static bool open_motion(nh_simulation *s, const nh_result *r, const nh_analyze_request *q, const nh_figure_request *f, double value, nh_state *initial, double *until, nh_error *error)
+{
+    nh_setting *setting = nh_arena_alloc(s->arena, (q->settings + 1) * sizeof *setting);
+    size_t settings = q->settings;
+    if (settings) memcpy(setting, q->setting, settings * sizeof *setting);
+    if (f->values) setting[settings++] = (nh_setting){.name = f->vary, .value = value};
+    nh_simulate_request motion = {.system_path = q->system_path, .analysis_path = q->analysis_path, .settings = settings, .setting = setting, .chart = q->chart,
+                                  .options = r->options, .until_given = true, .tolerance_given = true};
+    if (motion.chart == NH_CHART_AUTO) motion.chart = r->analysis->chart;
+    return nh_simulate_read(s, &motion, true, initial, until, error);
+}
+
+/* From the initial time to `end`, which may lie before it: quantity k at value[i * n + k], i counted from the initial time. */
+static nh_trajectory *integrate(const nh_simulation *s, const nh_result *r, const nh_figure_request *f, const nh_state *initial, double end, size_t count, double *times, nh_error *error)
+{
+    nh_options options = r->options;
+    nh_ex *e = nh_arena_alloc(s->arena, (f->quantities + 1) * sizeof *e);
+    for (size_t k = 0; k < f->quantities; k++) e[k] = f->quantity[k].value;
+    for (size_t i = 0; i < count; i++) times[i] = initial->t + (end - initial->t) * (double)i / (double)(count - 1);
+    nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = f->quantities, .e = e};
+    return nh_trajectory_create(&request, error);
+}
+
+typedef struct {
+    size_t count;
+    double *time, *value; /* count; count x quantities; in the result's arena */
+} course;
+
+/* Adds the outputs of one direction, the initial one only once, backwards where time runs back. */
+static void join(course *c, const nh_trajectory *part, size_t n, bool back)
+{
+    size_t count = part->motion->count, skip = back || c->count == 0 ? 0 : 1;
+    for (size_t i = skip; i < count; i++) {
+        size_t from = back ? count - 1 - (i - skip) : i;
+        c->time[c->count] = part->motion->time[from];
+        memcpy(c->value + c->count * n, part->value + from * n, n * sizeof *c->value);
+        c->count++;
+    }
+}
+
+static bool follow(nh_result *r, const nh_analyze_request *q, size_t which, double value, course *out, nh_error *error)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_simulation *s = nh_arena_alloc(arena, sizeof *s);
+    nh_state initial;
+    double until;
+    s->arena = arena;
+    bool good = open_motion(s, r, q, &r->analysis->figure[which], value, &initial, &until, error);
+    const nh_figure_request *f = good ? &s->analysis->figure[which] : NULL;
+    double begin = good && f->has_time ? f->begin : initial.t, end = good && f->has_time ? f->end : until;
+    out->time = nh_arena_alloc(r->arena, 2 * outputs * sizeof *out->time);
+    out->value = good ? nh_arena_alloc(r->arena, 2 * outputs * (f->quantities + 1) * sizeof *out->value) : NULL;
+    out->count = 0;
+    double *times = nh_arena_alloc(arena, outputs * sizeof *times);
+    for (int part = 0; part < 2 && good; part++) {
+        double to = part == 0 ? begin : end;
+        if (part == 0 ? !(to < initial.t) : !(to > initial.t)) continue;
+        nh_trajectory *t = integrate(s, r, f, &initial, to, outputs, times, error);
+        good = t != NULL;
+        if (good) join(out, t, f->quantities, part == 0);
+        nh_trajectory_free(t);
+    }
+    nh_simulation_free(s);
+    return good && out->count > 1;
+}
+
+/* ---- a figure ---- */
+
+static const char *name_of(nh_result *r, const nh_figure_request *f, size_t k, double value)
+{
+    char number[40];
+    nh_text_number(value, number, sizeof number);
+    if (!f->values) return f->kind == NH_FIGURE_PATH ? f->title : f->quantity[k].name;
+    if (f->kind == NH_FIGURE_PATH) return nh_arena_printf(r->arena, "%s = %s", f->vary, number);
+    return nh_arena_printf(r->arena, "%s, %s = %s", f->quantity[k].name, f->vary, number);
+}
+
+static double *column(nh_result *r, const course *c, size_t n, size_t k)
+{
+    double *out = nh_arena_alloc(r->arena, (c->count + 1) * sizeof *out);
+    for (size_t i = 0; i < c->count; i++) out[i] = c->value[i * n + k];
+    return out;
+}
+
+static void add_motion(nh_result *r, nh_figure *figure, const course *c, double value)
+{
+    const nh_figure_request *f = figure->request;
+    size_t n = f->quantities;
+    if (f->kind == NH_FIGURE_PATH) {
+        figure->curve[figure->curves++] = (nh_figure_curve){name_of(r, f, 0, value), 0, value, c->count, column(r, c, n, 0), column(r, c, n, 1), n > 2 ? column(r, c, n, 2) : NULL};
+        return;
+    }
+    for (size_t k = 0; k < n; k++) figure->curve[figure->curves++] = (nh_figure_curve){name_of(r, f, k, value), k, value, c->count, c->time, column(r, c, n, k), NULL};
+}
+
+static void motions(nh_result *r, const nh_analyze_request *q, size_t which, nh_figure *figure)
+{
+    const nh_figure_request *f = figure->request;
+    size_t count = f->values ? f->values : 1;
+    figure->curve = nh_arena_alloc(r->arena, (count * f->quantities + 1) * sizeof *figure->curve);
+    for (size_t i = 0; i < count && !nh_interrupted(); i++) {
+        nh_error trouble;
+        nh_error_clear(&trouble);
+        course c;
+        double value = f->values ? f->value[i] : NAN;
+        if (follow(r, q, which, value, &c, &trouble)) add_motion(r, figure, &c, value);
+        else nh_result_warn(r, "figure `%s`: a curve is missing: %s", f->title, trouble.what);
+    }
+}
+
+static void scan(nh_result *r, nh_figure *figure)
+{
+    const nh_analysis *a = r->analysis;
+    const nh_unknown *u = &a->unknown[figure->request->unknown];
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    double *x = nh_arena_alloc(r->arena, scan_values * sizeof *x), *y = nh_arena_alloc(r->arena, scan_values * sizeof *y);
+    for (size_t i = 0; i < scan_values; i++) x[i] = u->low + (u->high - u->low) * (double)i / (scan_values - 1);
+    nh_points *points = nh_points_create(r->model, scan_points, 1, (uint64_t)r->options.seed, &trouble);
+    bool good = points && r->hits && nh_unknowns_scan(r->model, points, a->families, a->family, u, &r->options, r->hits->generic, scan_values, x, y, &trouble);
+    nh_points_free(points);
+    if (!good) {
+        nh_result_warn(r, "figure `%s`: %s", figure->request->title, trouble.code != NH_OK ? trouble.what : "the unknown was not searched");
+        return;
+    }
+    figure->curve = nh_arena_alloc(r->arena, 2 * sizeof *figure->curve);
+    figure->curve[figure->curves++] = (nh_figure_curve){nh_name_of(r->model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
+}
+
+void nh_figures_compute(nh_result *r, const nh_analyze_request *q)
+{
+    const nh_analysis *a = r->analysis;
+    if (!a || !a->figures) return;
+    nh_progress("the figures that are asked for", -1);
+    r->figure = nh_arena_alloc(r->arena, a->figures * sizeof *r->figure);
+    for (size_t i = 0; i < a->figures && !nh_interrupted(); i++) {
+        nh_figure *f = &r->figure[r->figures++];
+        *f = (nh_figure){.request = &a->figure[i]};
+        if (f->request->kind == NH_FIGURE_SCAN) scan(r, f);
+        else motions(r, q, i, f);
+    }
+}
