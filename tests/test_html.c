@@ -316,6 +316,22 @@ Test(html, the_page_needs_nothing_else)
     place_clear(&p);
 }
 
+/* Units of coordinates label the axes, where all of one kind have the same. */
+Test(html, units_are_on_the_axes)
+{
+    place p = place_make();
+    write_here(&p, "u.yaml", "coordinates:\n  - {name: phi, type: angle}\n  - {name: x, type: length, unit: \"<km>\"}\n  - {name: y, type: length, unit: \"<km>\"}\n  - {name: u, unit: A}\n"
+                             "  - {name: w, unit: V}\nlagrangian: phi'^2 + x'^2 + y'^2 + u'^2 + w'^2 - x^2\n");
+    finished f = run_expecting(&p, "analyze u.yaml --quiet --max-seconds 1 --html page.html", 0);
+    finished_clear(&f);
+    char *page = read_here(&p, "page.html");
+    cr_expect_not_null(strstr(page, ">angle / rad</text>"));
+    cr_expect_not_null(strstr(page, ">length / &lt;km&gt;</text>"));
+    cr_expect_not_null(strstr(page, ">coordinate</text>"), "two units, none on the axis");
+    free(page);
+    place_clear(&p);
+}
+
 /* A disk that is full leaves the page that was there. */
 Test(html, a_page_is_written_whole_or_not_at_all)
 {
