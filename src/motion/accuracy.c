@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/progress.h"
+
 enum { pilots = 3, most_runs = 7, most_confirmations = 5 };
 static const char *const pilot_name[pilots] = {"CVODE BDF", "CVODE Adams", "GSL rk8pd"};
 static const double loosest = 1e-4, tightest = 1e-14;
@@ -88,6 +90,10 @@ static nh_trajectory *tighten(search *s, nh_error *error)
         fine = fmax(fine, tightest);
         b = run(s, s->method[0], fine, 0, error);
         if (!b) break;
+        if (nh_interrupted() && b->motion->count <= a->motion->count) { /* the coarser one came farther */
+            nh_trajectory_free(b);
+            break;
+        }
         double d = difference(s, a, b), estimate;
         if (last_fine > 0 && d > 0 && isfinite(last_difference)) exponent = between(log(last_difference / d) / log(last_fine / fine), least_exponent, most_exponent);
         estimate = d * pow(fine / coarse, exponent);
