@@ -178,30 +178,12 @@ size_t nh_qr_rows(const nh_qr *qr)
 
 /* ---- decompositions ---- */
 
-/* dgesdd is several times faster than dgesvd, but its divide and conquer can fail where plain QR iteration does not.
- * u, vt: both given or both NULL. */
-static bool svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
-{
-    char job = u ? 'S' : 'N';
-    lapack_int rows = (lapack_int)m, columns = (lapack_int)n, ld = leading(m), ldvt = leading(smaller(m, n));
-    double *copy = nh_alloc_array(m * n, sizeof *copy);
-    memcpy(copy, a, m * n * sizeof *copy);
-    lapack_int info = LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, a, ld, s, u, ld, vt, ldvt);
-    if (info != 0) {
-        double *superdiagonal = nh_alloc_array(smaller(m, n), sizeof *superdiagonal);
-        info = LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, copy, ld, s, u, ld, vt, ldvt, superdiagonal);
-        nh_free(superdiagonal);
-    }
-    nh_free(copy);
-    return info == 0;
-}
-
 /* One decomposition with memory of its own, so that it can be left alone. */
 typedef struct {
     size_t m, n;
     double *a, *s, *u, *vt;
     lapack_int *order;
-    bool ok;
+    bool slow, ok;
 } decomposition;
 
 static void decomposition_free(void *context)
@@ -227,35 +209,46 @@ static void give(size_t count, const double *from, double *to)
     if (to) memcpy(to, from, count * sizeof *to);
 }
 
+/* dgesdd is several times faster than dgesvd, but its divide and conquer can fail where plain QR iteration does not. */
 static void compute_svd(void *context)
 {
     decomposition *d = context;
-    d->ok = svd(d->m, d->n, d->a, d->s, d->u, d->vt);
+    char job = d->u ? 'S' : 'N';
+    lapack_int rows = (lapack_int)d->m, columns = (lapack_int)d->n, ld = leading(d->m), ldvt = leading(smaller(d->m, d->n));
+    double *superdiagonal = d->slow ? nh_alloc_array(smaller(d->m, d->n), sizeof *superdiagonal) : NULL;
+    if (d->slow)
+        d->ok = LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt, superdiagonal) == 0;
+    else
+        d->ok = LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt) == 0;
+    nh_free(superdiagonal);
 }
 
-/* LAPACK computes both sides or none. */
+/* False when it was left alone; then it is no longer the caller's. */
+static bool run(void (*compute)(void *), decomposition *d)
+{
+    if (smaller(d->m, d->n) >= PATIENT)
+        return nh_interruptible(compute, decomposition_free, d);
+    compute(d);
+    return true;
+}
+
 bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
 {
     size_t k = smaller(m, n);
-    if (k == 0)
-        return true;
+    bool ok = k == 0, sides = u || vt; /* LAPACK computes both or none */
     if (!all_finite(m * n, a))
         return false;
-    bool sides = u || vt;
-    decomposition *d = nh_alloc(sizeof *d);
-    *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .u = sides ? kept(m * k, NULL) : NULL, .vt = sides ? kept(k * n, NULL) : NULL};
-    bool done = true;
-    if (k < PATIENT)
-        compute_svd(d);
-    else
-        done = nh_interruptible(compute_svd, decomposition_free, d);
-    if (!done)
-        return false;
-    give(k, d->s, s);
-    give(m * k, d->u, u);
-    give(k * n, d->vt, vt);
-    bool ok = d->ok;
-    decomposition_free(d);
+    for (int slow = 0; slow < 2 && !ok; slow++) {
+        decomposition *d = nh_alloc(sizeof *d);
+        *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .u = sides ? kept(m * k, NULL) : NULL, .vt = sides ? kept(k * n, NULL) : NULL, .slow = slow};
+        if (!run(compute_svd, d))
+            return false;
+        give(k, d->s, s);
+        give(m * k, d->u, u);
+        give(k * n, d->vt, vt);
+        ok = d->ok;
+        decomposition_free(d);
+    }
     return ok;
 }
 
@@ -276,12 +269,7 @@ bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot)
         return false;
     decomposition *d = nh_alloc(sizeof *d);
     *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .order = nh_alloc_array(n, sizeof *d->order)}; /* order 0: every column may move */
-    bool done = true;
-    if (k < PATIENT)
-        compute_qr(d);
-    else
-        done = nh_interruptible(compute_qr, decomposition_free, d);
-    if (!done)
+    if (!run(compute_qr, d))
         return false;
     give(m * n, d->a, a);
     for (size_t j = 0; j < n && d->ok; j++) {
