@@ -6,7 +6,7 @@
 static const nh_typeset_script scripts[] = {
     [NH_MATHML] = {{"<mrow>", "</mrow>"}, {"<mrow>", "</mrow>"}, {"<mfrac>", "", "</mfrac>"}, {"<msqrt>", "</msqrt>"}, {"<msup>", "", "</msup>"}, {"<msub>", "", "</msub>"},
                    {"<mover accent=\"true\">", "<mo>\u02d9</mo></mover>"}, {"<mover accent=\"true\">", "<mo>\u00a8</mo></mover>"}, "<mo>(</mo>", "<mo>)</mo>",
-                   {"<mo>|</mo>", "<mo>|</mo>"}, "<mo>+</mo>", "<mo>\u2212</mo>", "<mo>=</mo>", "<mo>\u2062</mo>", "<mo>\u00b7</mo>", "<mo>\u2061</mo>",
+                   {"<mo>|</mo>", "<mo>|</mo>"}, "<mo>+</mo>", "<mo>\u2212</mo>", "<mo>=</mo>", "<mo>\u2062</mo><mspace width=\"0.12em\"/>", "<mo>\u00b7</mo>", "<mo>\u2061</mo>",
                    "<mo>,</mo>", {"<mn>", "</mn>"}, {"<mi>", "</mi>"}, {"<mi mathvariant=\"normal\">", "</mi>"}, "<mi>\u03c0</mi>",
                    "<mo stretchy=\"false\">(</mo>", "<mo stretchy=\"false\">)</mo>", "<mo stretchy=\"false\">|</mo>", "<mo>/</mo>", "<mo form=\"infix\">+</mo>", "<mo form=\"infix\">\u2212</mo>"},
     [NH_LATEX] = {{"{", "}"}, {"", ""}, {"\\frac", "", ""}, {"\\sqrt{", "}"}, {"", "^", ""}, {"", "_", ""}, {"\\dot{", "}"}, {"\\ddot{", "}"}, "\\left(", "\\right)",
