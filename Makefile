@@ -63,7 +63,7 @@ bench: test-packages
 catalogue: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points.\n\n'; \
-	   $(BUILD)/tests/bench_catalogue systems; } >docs/catalogue.md; code=$$?; tail -n 1 docs/catalogue.md; exit $$code
+	   $(BUILD)/tests/bench_catalogue systems; } >docs/catalogue.md; code=$$?; $(BUILD)/tests/bench_pictures systems docs/catalogue || code=1; tail -n 1 docs/catalogue.md; exit $$code
 
 random perturbed: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests

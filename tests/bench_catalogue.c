@@ -2,6 +2,7 @@
  *
  *     bench_catalogue systems [SEED]        prints a table; the exit code is 1 when something within reach is missing or something false is reported or
  *                                       written
+ * The pictures in it are drawn by bench_pictures.
  */
 #include "catalogue.h"
 
@@ -15,7 +16,9 @@ int main(int argc, char **argv)
     print_head("system");
     for (size_t i = 0; i < n; i++) {
         row o = compare_file(folder, name[i], seed, 0);
-        print_row(name[i], &o);
+        char cell[500];
+        snprintf(cell, sizeof cell, "%.200s<br>![its motion](catalogue/%.200s.svg)", name[i], name[i]);
+        print_row(cell, &o);
         missing += o.missing;
         excused += o.excused;
         wrong += o.wrong + o.untrue;

@@ -23,6 +23,17 @@ Test(catalogue, finds_what_is_known_and_nothing_false)
     }
 }
 
+static bool has_ansatz(const char *path)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_deck *deck = nh_deck_read(path, &error);
+    cr_assert_not_null(deck, "%s", error.what);
+    bool any = nh_deck_get(nh_deck_root(deck), "ansatz") != NULL;
+    nh_deck_free(deck);
+    return any;
+}
+
 /* What is out of reach is found with the ansatz of the analysis file of that name. */
 Test(catalogue, analysis_files_find_everything_known)
 {
@@ -35,6 +46,7 @@ Test(catalogue, analysis_files_find_everything_known)
         nh_options_default(&options);
         snprintf(system, sizeof system, "systems/%s.yaml", name[i]);
         snprintf(analysis, sizeof analysis, "analyses/%s.yaml", name[i]);
+        if (!has_ansatz(analysis)) continue; /* only a motion and figures: the ansatz is the one that was tried above */
         row o = compare_with(system, analysis, &options);
         cr_expect_eq(o.missing + o.wrong + o.untrue + o.uncertain, 0, "%s: %s", name[i], o.names);
         free(name[i]);

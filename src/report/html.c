@@ -45,6 +45,17 @@ static void warnings(nh_html_writer *w)
     for (size_t i = 0; i < w->r->warnings; i++) nh_html_warning(w, w->r->warning[i]);
 }
 
+static void links(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    nh_text sections;
+    nh_text_init(&sections);
+    nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|search|%s|repeat|Repeat it", r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "",
+                 r->count ? "How it was found" : "What was tried");
+    nh_html_links(w, nh_text_string(&sections));
+    nh_text_clear(&sections);
+}
+
 static nh_html_writer writer_of(const nh_result *r, nh_text *out)
 {
     return (nh_html_writer){.out = out, .system = r->system, .analysis = r->analysis, .dag = r->model->dag, .shown = r->options.shown, .written = r->options.written, .r = r};
@@ -56,9 +67,7 @@ void nh_html(const nh_result *r, nh_text *out)
     nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
     nh_html_begin(&w, NULL);
     answer(&w);
-    nh_html_links(&w, r->figures      ? "currents|Currents|motion|Motion|figures|Figures|system|System|search|How it was found|repeat|Repeat it"
-                      : r->validation ? "currents|Currents|motion|Motion|system|System|search|How it was found|repeat|Repeat it"
-                                      : "currents|Currents|system|System|search|How it was found|repeat|Repeat it");
+    links(&w);
     warnings(&w);
     nh_html_currents(&w);
     nh_html_motion(&w);

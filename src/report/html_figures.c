@@ -49,6 +49,15 @@ static void scan(nh_html_writer *w, const nh_figure *f)
     nh_free(found);
 }
 
+static void samples(nh_html_writer *w, const nh_figure *f)
+{
+    nh_curve curve[] = {curve_of(&f->curve[0]), curve_of(&f->curve[1])};
+    curve[0].marks = curve[1].marks = true;
+    nh_plot plot = {.title = f->request->title, .description = "The two sides of the gap in the spectrum of generalized singular values, on logarithmic scales", .x_label = "samples", .y_label = "singular value",
+                    .log_x = true, .log_y = true, .floor = 1e-18, .curves = 2, .curve = curve};
+    nh_html_figure(w, &plot, f->request->title);
+}
+
 void nh_html_figures(nh_html_writer *w)
 {
     const nh_result *r = w->r;
@@ -59,7 +68,8 @@ void nh_html_figures(nh_html_writer *w)
         if (!f->curves) continue;
         if (f->request->kind == NH_FIGURE_PATH) paths(w, f);
         else if (f->request->kind == NH_FIGURE_PLOT) over_time(w, f);
-        else scan(w, f);
+        else if (f->request->kind == NH_FIGURE_SCAN) scan(w, f);
+        else samples(w, f);
     }
     nh_html_add(w, "</section>\n");
 }

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "report/html_internal.h"
 
-enum { most_curves = 7, most_frames = 201 };
+enum { most_curves = 7, most_frames = 401 };
 
 /* ---- plots over time ---- */
 

@@ -16,7 +16,7 @@ const char *const nh_html_style =
     "pre{margin:.4rem 0}.along{color:var(--soft);font-size:.9rem}dl{display:grid;align-items:baseline;grid-template-columns:7rem 1fr;gap:.2rem .6rem;margin:.6rem 0}dt{color:var(--soft);font-size:.88rem}dd{margin:0}\n"
     "summary{cursor:pointer;font-size:.92rem;color:var(--link);padding:.2rem 0}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.88rem;margin:.8rem 0}caption{text-align:left;font-weight:600;padding:.2rem 0;white-space:nowrap}.where{margin-left:1.2rem}.where p{margin:.1rem 0}td.warned,td.caught{color:var(--good)}td.failed,td.timeout{color:var(--bad)}td.wrong{color:var(--paper);background:var(--bad);font-weight:700}\n"
     "th,td{border-bottom:1px solid var(--line);padding:.25rem .9rem .25rem 0;text-align:left;vertical-align:top}thead th{color:var(--soft);font-weight:500}tbody th{font-weight:500}sup{line-height:0}\n"
-    "figure{margin:1.2rem 0}.beside{display:grid;grid-template-columns:1fr 1fr;gap:0 1rem}.beside figure:only-child{grid-column:1/3}.beside svg .tick,.beside svg .label{font-size:20px}figcaption{font-size:.86rem;color:var(--soft)}svg.plot{display:block;width:100%;height:auto}svg text{fill:var(--soft)}svg .grid,svg .axis{stroke:var(--soft)}\n"
+    "figure{margin:1.2rem 0}.beside{display:grid;grid-template-columns:1fr 1fr;gap:0 1rem}.beside figure:only-child{grid-column:1/3}.beside svg .tick,.beside svg .label{font-size:20px}.beside figure:only-child svg .tick,.beside figure:only-child svg .label{font-size:12px}figcaption{font-size:.86rem;color:var(--soft)}svg.plot{display:block;width:100%;height:auto}svg text{fill:var(--soft)}svg .grid,svg .axis{stroke:var(--soft)}\n"
     ".controls{display:flex;align-items:center;gap:.8rem;position:sticky;bottom:0;background:var(--paper);padding:.5rem 0;z-index:1}#when{flex:1}button{font-size:1rem;min-width:5rem;padding:.45rem .9rem;border:1px solid var(--line);border-radius:6px;background:var(--card);color:var(--ink)}output{min-width:6.5rem;font-size:.9rem}\n"
     "@media (max-width:34rem){.formula{padding-left:.2rem}.where{margin-left:.4rem}.card{padding-left:.7rem;padding-right:.5rem}.beside{grid-template-columns:1fr}.beside figure{grid-column:1}dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}body{font-size:16px}svg .tick,svg .label{font-size:18px}svg .legend{font-size:17px}figure svg.plot:not(#scene) path[fill=none]{stroke-width:2.8}}\n"
     "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player{display:none}body{font-size:10.5pt}main{max-width:none;padding:0}.card,figure{break-inside:avoid}h2,h3{break-after:avoid}.formula{overflow:visible}details::details-content{content-visibility:visible}}\n";
@@ -50,6 +50,9 @@ const char *const nh_html_script =
     " else p.line=make('line',{stroke:c,'stroke-width':s.kind==='wheel'?7:4,'stroke-linecap':'round'},svg);\n"
     " if(s.kind==='arrow')p.dot=make('circle',{r:6,fill:c},svg);\n"
     " parts.push(p);});\n"
+    "if(svg){var unit=Math.pow(10,Math.floor(Math.log10(110/k))),many=110/k/unit;unit*=many>=5?5:many>=2?2:1;\n"
+    " make('path',{d:'M20 '+(H-18)+'v5h'+(unit*k).toFixed(1)+'v-5',fill:'none',stroke:'#808080'},svg);\n"
+    " make('text',{x:26+unit*k,y:H-11,'font-size':13,'class':'tick'},svg).textContent=String(+unit.toPrecision(2));}\n"
     "function draw(i){parts.forEach(function(p){var v=p.s.v.map(function(a){return a[i];}),ok=v.every(function(a){return a!==null;});\n"
     "  [p.circle,p.line,p.dot].forEach(function(e){if(e)e.setAttribute('visibility',ok?'visible':'hidden');});if(!ok)return;\n"
     "  if(p.s.kind==='segment')line(p.line,v[0],v[1],v[2],v[3]);\n"

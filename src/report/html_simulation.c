@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "expr/typeset.h"
 #include "report/html_internal.h"
 
 static void answer(nh_html_writer *w, const nh_simulation *s)
@@ -36,7 +37,7 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     }
     nh_html_add(w, "</p>\n");
     if (!s->scene) return;
-    nh_html_add(w, "<p>The smallest model for what is watched: ");
+    nh_html_add(w, "<p>The smallest model for what is shown: ");
     nh_html_text(w, s->scene);
     nh_html_add(w, ".</p>\n");
 }
@@ -55,7 +56,11 @@ static void fans(nh_html_writer *w, const nh_simulation *s)
         char title[200];
         for (size_t j = 0; j < members; j++)
             curve[j] = (nh_curve){.name = s->columns.track[k].name, .count = e->count, .x = e->time, .x_stride = 1, .y = e->value + j * e->count * e->n + k, .y_stride = e->n};
-        snprintf(title, sizeof title, "%.100s of the members over time", s->columns.track[k].name);
+        nh_text plain;
+        nh_text_init(&plain);
+        nh_typeset_plain(s->columns.track[k].name, &plain);
+        snprintf(title, sizeof title, "%.100s of the members over time", nh_text_string(&plain));
+        nh_text_clear(&plain);
         nh_plot plot = {.title = title, .description = "One thin line per member of the ensemble", .x_label = "t", .y_label = s->columns.track[k].name, .fan = true, .curves = members, .curve = curve};
         nh_html_figure(w, &plot, title);
     }

@@ -31,10 +31,11 @@ static void counterexample(nh_html_writer *w, const nh_verdict_of_one *v, bool f
 {
     if (!v->has_counterexample) return;
     nh_html_add(w, "<section id=\"counterexample\"><h2>Where it fails</h2>\n<p>");
-    nh_html_text(w, field ? v->equation : "Its rate of change along the motion through this state");
-    nh_html_add(w, field ? " leaves " : " is ");
+    nh_html_add(w, field ? "The condition that fails: " : "Its rate of change along the motion through this state is ");
+    if (field) nh_html_text(w, v->equation);
+    if (field) nh_html_add(w, ". In this state it gives ");
     nh_html_number(w, v->rate, 6);
-    nh_html_add(w, field ? ", where 0 was needed.</p>\n" : ", not 0.</p>\n");
+    nh_html_add(w, ", not 0.</p>\n");
     nh_html_table(w, "A state of the system", "quantity|value");
     for (size_t j = 0; j < v->model->width; j++) {
         nh_html_add(w, "<tr><th scope=\"row\">");

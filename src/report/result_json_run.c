@@ -63,7 +63,7 @@ void nh_result_json_validation(const nh_result *r, nh_json *to)
 
 void nh_result_json_figures(const nh_result *r, nh_json *to)
 {
-    static const char *const kinds[] = {"path", "plot", "scan"};
+    static const char *const kinds[] = {"path", "plot", "scan", "samples"};
     nh_json *list = nh_json_put_array(to, "figures");
     for (size_t i = 0; i < r->figures; i++) {
         const nh_figure *f = &r->figure[i];

@@ -216,19 +216,65 @@ static void headings(const canvas *c, const nh_curve *f, size_t k)
     }
 }
 
+/* A line through very many points, without those that lie on it: no point left out is farther than `near` from the line drawn. */
+typedef struct {
+    nh_text *out;
+    bool on;
+    size_t held;                              /* points since the last one written */
+    double last[2], next[2], low, high, turn; /* the last written; the newest; the directions that pass all between, about `turn` */
+} pen;
+
+static void pen_write(pen *p, double x, double y)
+{
+    nh_text_addf(p->out, "%s%.1f %.1f", p->on ? "L" : "M", x, y);
+    p->on = true;
+    p->last[0] = x;
+    p->last[1] = y;
+    p->held = 0;
+}
+
+static void pen_up(pen *p)
+{
+    if (p->held) pen_write(p, p->next[0], p->next[1]);
+    p->on = false;
+}
+
+static void pen_to(pen *p, double x, double y)
+{
+    static const double near = 0.25;
+    if (!p->on) {
+        pen_write(p, x, y);
+        return;
+    }
+    double dx = x - p->last[0], dy = y - p->last[1], distance = hypot(dx, dy), angle = atan2(dy, dx);
+    if (p->held == 0) p->turn = angle, p->low = -M_PI, p->high = M_PI;
+    double at = remainder(angle - p->turn, 2 * M_PI), room = distance > near ? asin(near / distance) : M_PI;
+    bool back = p->held && distance < hypot(p->next[0] - p->last[0], p->next[1] - p->last[1]);
+    if (p->held && (at < p->low || at > p->high || back)) {
+        pen_write(p, p->next[0], p->next[1]);
+        pen_to(p, x, y);
+        return;
+    }
+    p->low = fmax(p->low, at - room);
+    p->high = fmin(p->high, at + room);
+    p->next[0] = x;
+    p->next[1] = y;
+    p->held++;
+}
+
 static void curve(const canvas *c, const nh_curve *f, size_t k)
 {
     double x, y;
-    bool on = false;
-    size_t step = f->count / most_points + 1;
+    bool thin = f->count > most_points;
     if (c->plot->fan) k = 0;
     nh_text_addf(c->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"", colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
                  dashes[k % (sizeof dashes / sizeof *dashes)]);
-    for (size_t i = 0; i < f->count; i += step) {
-        bool here = visible(c, f, i, &x, &y);
-        if (here) nh_text_addf(c->out, "%s%.1f %.1f", on ? "L" : "M", x, y);
-        on = here;
-    }
+    pen p = {.out = c->out};
+    for (size_t i = 0; i < f->count; i++)
+        if (!visible(c, f, i, &x, &y)) pen_up(&p);
+        else if (thin) pen_to(&p, x, y);
+        else pen_write(&p, x, y);
+    pen_up(&p);
     nh_text_add(c->out, "\"/>");
     if (f->heading) headings(c, f, k);
     if (f->marks) dots(c, f, k);

@@ -8,7 +8,7 @@
 typedef enum { NH_ROUTE_BOTH, NH_ROUTE_SYMMETRY, NH_ROUTE_CURRENT } nh_route;
 
 /* A figure that is asked for. */
-typedef enum { NH_FIGURE_PATH, NH_FIGURE_PLOT, NH_FIGURE_SCAN } nh_figure_kind;
+typedef enum { NH_FIGURE_PATH, NH_FIGURE_PLOT, NH_FIGURE_SCAN, NH_FIGURE_SAMPLES } nh_figure_kind;
 typedef struct {
     nh_figure_kind kind;
     const char *title;
@@ -16,7 +16,7 @@ typedef struct {
     nh_named *quantity;   /* path: x, y and perhaps a heading; plot: each over time */
     size_t values;        /* 0: one motion with the values that there are */
     const char *vary;     /* a parameter, */
-    double *value;        /* its values, a motion each */
+    double *value;        /* its values, a motion each; samples: how many, a linear problem each */
     bool has_time;
     double begin, end;    /* the initial state holds at its own t, within this or not */
     size_t unknown;       /* scan: over this one */

@@ -34,6 +34,21 @@ static bool read_scan(reader *r, const nh_deck_node *node, nh_figure_request *f)
     return a->unknowns == 1 || nh_deck_fail(a->deck, node, 0, r->error, "a scan needs an analysis with one unknown, this one has %zu", a->unknowns);
 }
 
+/* samples: [20, 40, 80] */
+static bool read_samples(reader *r, const nh_deck_node *list, nh_figure_request *f)
+{
+    const nh_deck *deck = r->a->deck;
+    if (!nh_deck_is(deck, list, NH_DECK_LIST, "a list of numbers of samples", r->error)) return false;
+    f->value = nh_analysis_take(r, list->count, sizeof *f->value);
+    for (size_t i = 0; i < list->count; i++) {
+        if (!nh_deck_number(deck, list->item[i], "a number of samples", &f->value[i], r->error)) return false;
+        if (!(f->value[i] >= 2 && f->value[i] <= 1e6 && f->value[i] == (double)(size_t)f->value[i]))
+            return nh_deck_fail(deck, list->item[i], 0, r->error, "a number of samples is whole, from 2 to a million");
+    }
+    f->values = list->count;
+    return f->values || nh_deck_fail(deck, list, 0, r->error, "there are no numbers of samples");
+}
+
 /* vary: {k: [1, 2, 3]} */
 static bool read_vary(reader *r, const nh_deck_node *map, nh_figure_request *f)
 {
@@ -60,27 +75,31 @@ static bool read_vary(reader *r, const nh_deck_node *map, nh_figure_request *f)
 
 static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *f)
 {
-    static const char *const keys[] = {"title", "path", "plot", "scan", "vary", "time"};
+    static const char *const keys[] = {"title", "path", "plot", "scan", "samples", "vary", "time"};
     const nh_deck *deck = r->a->deck;
-    if (!nh_deck_is(deck, node, NH_DECK_MAP, "a figure {path: [x, y]}, {plot: [name = expression]} or {scan: unknown}", r->error)) return false;
+    if (!nh_deck_is(deck, node, NH_DECK_MAP, "a figure {path: [x, y]}, {plot: [name = expression]}, {scan: unknown} or {samples: [numbers]}", r->error)) return false;
     if (!nh_deck_only(deck, node, keys, sizeof keys / sizeof *keys, r->error)) return false;
-    const nh_deck_node *title = nh_deck_get(node, "title"), *path = nh_deck_get(node, "path"), *plot = nh_deck_get(node, "plot"), *scan = nh_deck_get(node, "scan"), *time = nh_deck_get(node, "time");
-    if (!path + !plot + !scan != 2) {
-        nh_deck_fail(deck, node, 0, r->error, "a figure has one of `path`, `plot` and `scan`");
-        return nh_error_hint(r->error, "path: [x, y, heading], plot: [name = expression, ...] or scan: nu");
+    const nh_deck_node *title = nh_deck_get(node, "title"), *path = nh_deck_get(node, "path"), *plot = nh_deck_get(node, "plot"), *scan = nh_deck_get(node, "scan"), *samples = nh_deck_get(node, "samples"),
+                       *time = nh_deck_get(node, "time");
+    if (!path + !plot + !scan + !samples != 3) {
+        nh_deck_fail(deck, node, 0, r->error, "a figure has one of `path`, `plot`, `scan` and `samples`");
+        return nh_error_hint(r->error, "path: [x, y, heading], plot: [name = expression, ...], scan: nu or samples: [50, 100]");
     }
     if (title && !nh_deck_is(deck, title, NH_DECK_SCALAR, "a title", r->error)) return false;
-    f->kind = path ? NH_FIGURE_PATH : plot ? NH_FIGURE_PLOT : NH_FIGURE_SCAN;
-    f->title = title ? title->text : path ? "Path" : plot ? "Over time" : "Scan";
+    f->kind = path ? NH_FIGURE_PATH : plot ? NH_FIGURE_PLOT : scan ? NH_FIGURE_SCAN : NH_FIGURE_SAMPLES;
+    f->title = title ? title->text : path ? "Path" : plot ? "Over time" : scan ? "Scan" : "Singular values, by the number of samples";
     if (path && !read_path(r, path, f)) return false;
     if (plot && !nh_analysis_watches(r, plot, "plot", &f->quantity, &f->quantities)) return false;
     if (scan && !read_scan(r, scan, f)) return false;
+    if (samples && !read_samples(r, samples, f)) return false;
     double range[2] = {0, 0};
     if (time && !nh_deck_range(deck, time, "the time interval [begin, end]", range, r->error)) return false;
     f->has_time = time != NULL;
     f->begin = range[0];
     f->end = range[1];
-    return read_vary(r, nh_deck_get(node, "vary"), f);
+    const nh_deck_node *vary = nh_deck_get(node, "vary");
+    if ((scan || samples) && (vary || time)) return nh_deck_fail(deck, vary ? vary : time, 0, r->error, "a scan and a figure of samples follow no motion: `vary` and `time` mean nothing in it");
+    return read_vary(r, vary, f);
 }
 
 bool nh_analysis_read_figures(reader *r)

@@ -125,19 +125,39 @@ static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi)
 
 static bool proportional(nh_model *o, nh_ex phi, nh_ex e)
 {
-    nh_dag *d = o->dag;
-    if (nh_is_zero(d, e)) return false;
-    nh_ex ratio = nh_simplify_short(d, nh_div(d, phi, e), 0);
-    return is_parametric(o, ratio);
+    return is_parametric(o, nh_simplify_short(o->dag, nh_div(o->dag, phi, e), 0));
 }
 
-static const char *meaning_of(nh_result *r, nh_ex phi)
+/* phi/e at the points: the same everywhere?  Simplifying the quotient costs a hundred times that. */
+static bool looks_proportional(size_t points, const double *phi, const double *e)
+{
+    static const double same = 1e-6;
+    double low = INFINITY, high = -INFINITY;
+    for (size_t p = 0; p < points; p++) {
+        double ratio = phi[p] / e[p];
+        if (!isfinite(ratio)) continue;
+        low = fmin(low, ratio);
+        high = fmax(high, ratio);
+    }
+    return high - low <= same * fmax(fabs(low), fabs(high));
+}
+
+static const char *meaning_of(nh_result *r, const nh_points *points, nh_ex phi)
 {
     nh_model *o = r->model;
-    if (proportional(o, phi, o->E)) return "energy";
-    for (size_t s = 0; s < o->m; s++)
-        if (proportional(o, phi, o->p[s])) return nh_arena_printf(r->arena, "momentum of %s", o->system->coordinate[s].name);
-    return "";
+    size_t n = 2 + o->m, count = points->count, found = n;
+    nh_ex *e = nh_alloc_array(n, sizeof *e);
+    double *value = nh_alloc_array(n * count, sizeof *value);
+    e[0] = phi;
+    e[1] = o->E;
+    memcpy(e + 2, o->p, o->m * sizeof *e);
+    nh_points_evaluate(points, o, n, e, value);
+    for (size_t j = 1; j < n && found == n; j++)
+        if (!nh_is_zero(o->dag, e[j]) && looks_proportional(count, value, value + j * count) && proportional(o, phi, e[j])) found = j;
+    nh_free(value);
+    nh_free(e);
+    if (found == 1) return "energy";
+    return found < n ? nh_arena_printf(r->arena, "momentum of %s", o->system->coordinate[found - 2].name) : "";
 }
 
 static void in_velocities(nh_result *r, nh_found *f, const nh_ex *inverse, bool invertible)
@@ -174,7 +194,7 @@ static void describe(nh_workbench *b, nh_found *f)
     if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
     f->all_parameters = f->proof.all_parameters;
     f->local = is_local(r->model, b->generic, f->phi);
-    f->meaning = meaning_of(r, f->phi);
+    f->meaning = meaning_of(r, b->generic, f->phi);
     in_velocities(r, f, b->inverse, b->invertible);
 }
 

@@ -92,7 +92,7 @@ static void ends(drawing *w, const int axis[2])
     for (size_t i = 0; i < c->bodies; i++) {
         bool carries = nh_is_zero(w->s->dag, c->body[i].mass);
         for (size_t j = 0; j < c->joints; j++) carries |= c->joint[j].parent == (long)i;
-        for (size_t j = 0; j < c->wheels; j++) carries |= c->wheel[j].body == i;
+        for (size_t j = 0; j < c->wheels; j++) carries |= c->wheel[j].body == i && c->wheel[j].kind == NH_WHEEL_ROLLING;
         nh_ex from[2], to[2];
         seen(c->body[i].pose.p, axis, from);
         seen(c->body[i].position, axis, to);
@@ -124,8 +124,12 @@ static void wheels(drawing *w)
     for (size_t i = 0; i < c->wheels; i++) {
         const nh_wheel *v = &c->wheel[i];
         nh_ex at[3], axle[3];
-        if (v->kind != NH_WHEEL_ROLLING || v->normal != 2) continue;
+        if (v->normal != 2) continue;
         nh_pose_point(d, &c->body[v->body].pose, v->at, at);
+        if (v->kind != NH_WHEEL_ROLLING) { /* a blade has no size */
+            segment(w, c->body[v->body].pose.p, at);
+            continue;
+        }
         nh_shape *p = draw(w, v->ball ? NH_SHAPE_DISC : NH_SHAPE_WHEEL);
         p->value[0] = at[0];
         p->value[1] = at[1];

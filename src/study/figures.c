@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "study/simulate.h"
 
-enum { outputs = 161, scan_points = 128, scan_values = 401 };
+enum { outputs = 601, scan_points = 128, scan_values = 401 };
 
 /* ---- one motion ---- */
 
@@ -140,7 +140,50 @@ static void scan(nh_result *r, nh_figure *figure)
     figure->curve[figure->curves++] = (nh_figure_curve){nh_name_of(r->model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
 }
 
-void nh_figures_compute(nh_result *r, const nh_analyze_request *q)
+/* The two sides of the gap for one number of samples; NAN where there is no such value. */
+static bool gap_at(const nh_result *r, const nh_ansatz *a, size_t count, double out[2], nh_error *error)
+{
+    nh_points *points = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed, error);
+    if (!points) return false;
+    nh_equations *equations = nh_equations_create(a->columns);
+    nh_rows *rows = nh_rows_create(r->model, a, 0, NULL);
+    nh_rows_current(rows, points, NULL, equations);
+    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+    nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);
+    out[0] = s && s->dimension ? s->spectrum[s->dimension - 1] : NAN;
+    out[1] = s && s->dimension < s->rank ? s->spectrum[s->dimension] : NAN;
+    bool good = s != NULL;
+    nh_nullspace_free(s);
+    nh_rows_free(rows);
+    nh_equations_free(equations);
+    nh_points_free(points);
+    return good;
+}
+
+static void samples(nh_result *r, size_t families, const nh_family *family, nh_figure *figure)
+{
+    const nh_figure_request *f = figure->request;
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    nh_points *ranges = families ? nh_points_create(r->model, scan_points, 1, (uint64_t)r->options.seed, &trouble) : NULL;
+    nh_ansatz *a = ranges ? nh_ansatz_create(r->model, ranges, families, family, (size_t)r->options.columns, &trouble) : NULL;
+    nh_points_free(ranges);
+    double *x = nh_arena_alloc(r->arena, (f->values + 1) * sizeof *x), *y[2], gap[2];
+    size_t n = 0;
+    for (int j = 0; j < 2; j++) y[j] = nh_arena_alloc(r->arena, (f->values + 1) * sizeof **y);
+    for (size_t i = 0; i < f->values && a && !nh_interrupted(); i++) {
+        if (!gap_at(r, a, (size_t)f->value[i], gap, &trouble)) continue;
+        x[n] = f->value[i];
+        y[0][n] = gap[0];
+        y[1][n++] = gap[1];
+    }
+    nh_ansatz_free(a);
+    if (!n) nh_result_warn(r, "figure `%s`: %s", f->title, trouble.code != NH_OK ? trouble.what : "it needs an ansatz in the analysis file");
+    figure->curve = nh_arena_alloc(r->arena, 2 * sizeof *figure->curve);
+    for (int j = 0; j < 2 && n; j++) figure->curve[figure->curves++] = (nh_figure_curve){j ? "smallest value above the gap" : "largest null value", 0, NAN, n, x, y[j], NULL};
+}
+
+void nh_figures_compute(nh_result *r, const nh_analyze_request *q, size_t families, const nh_family *family)
 {
     const nh_analysis *a = r->analysis;
     if (!a || !a->figures) return;
@@ -150,6 +193,7 @@ void nh_figures_compute(nh_result *r, const nh_analyze_request *q)
         nh_figure *f = &r->figure[r->figures++];
         *f = (nh_figure){.request = &a->figure[i]};
         if (f->request->kind == NH_FIGURE_SCAN) scan(r, f);
+        else if (f->request->kind == NH_FIGURE_SAMPLES) samples(r, families, family, f);
         else motions(r, q, i, f);
     }
 }

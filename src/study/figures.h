@@ -1,11 +1,12 @@
-/* figures: the curves of the figures that an analysis asks for: paths and quantities along motions, repeated over the values of a parameter, and the
- * smallest singular value over an unknown. */
+/* figures: the curves of the figures that an analysis asks for: paths and quantities along motions, repeated over the values of a parameter, the smallest
+ * singular value over an unknown, the gap over the number of samples. */
 #ifndef NH_STUDY_FIGURES_H
 #define NH_STUDY_FIGURES_H
 
 #include "study/analyze.h"
 
-/* Fills result->figure.  A curve that cannot be computed is left out with a warning. */
-void nh_figures_compute(nh_result *result, const nh_analyze_request *request);
+/* Fills result->figure.  A curve that cannot be computed is left out with a warning.  The families are those of the ansatz with the unknowns' values in place;
+ * 0 where the program chose it. */
+void nh_figures_compute(nh_result *result, const nh_analyze_request *request, size_t families, const nh_family *family);
 
 #endif
