@@ -182,33 +182,70 @@ static void expect_points(const cJSON *seen, const cJSON *result, const char *li
 
 static const char *const SYSTEMS[] = {"sleigh", "car_with_trailer --max-seconds 2", "three_bodies --max-seconds 2", "kepler --max-seconds 2"};
 
+/* Nothing said on the console, nothing fetched, no formula without a box, nothing wider than the window, nobody kept out. */
+static void expect_sound(const place *p, const cJSON *seen, const char *line)
+{
+    char *console = read_here(p, "console.log");
+    cr_expect_str_empty(console, "%s: the console says %s", line, console);
+    cr_expect_eq(cJSON_GetNumberValue(of(seen, "resources")), 0, "%s: something was fetched", line);
+    cr_expect_eq(cJSON_GetArraySize(of(seen, "empty")), 0, "%s: %s has no box", line, cJSON_GetStringValue(cJSON_GetArrayItem(of(seen, "empty"), 0)));
+    cr_expect_leq(cJSON_GetNumberValue(of(seen, "width")), cJSON_GetNumberValue(of(seen, "room")), "%s: the page is wider than the window", line);
+    expect_no_fault(seen, line);
+    free(console);
+}
+
+/* The page of a command line that writes page.html; its place is the caller's. */
+static cJSON *page_looked_at(place *p, const char *line, const char *flags)
+{
+    *p = place_make();
+    char environment[PATH_MAX + 30];
+    snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p->project);
+    finished f = run_so(p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+    finished_clear(&f);
+    return look_at(p, "page.html", flags);
+}
+
+static const char *const wide_window = "--window-size=1200,900", *const narrow_dark = "--window-size=390,844 --force-dark-mode --enable-features=WebContentsForceDark";
+
 Test(browser, pages_are_as_they_should_be)
 {
     bool skipped = false;
     for (size_t i = 0; !skipped && i < sizeof SYSTEMS / sizeof *SYSTEMS; i++) {
         char line[200];
+        place p;
         snprintf(line, sizeof line, "analyze %s --quiet --html page.html --json page.json", SYSTEMS[i]);
-        place p = place_make();
-        char environment[PATH_MAX + 30];
-        snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
-        finished f = run_so(&p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
-        finished_clear(&f);
-        cJSON *seen = look_at(&p, "page.html", i % 2 ? "--window-size=390,844 --force-dark-mode --enable-features=WebContentsForceDark" : "--window-size=1200,900");
+        cJSON *seen = page_looked_at(&p, line, i % 2 ? narrow_dark : wide_window);
         skipped = !seen;
         if (seen) {
-            char *console = read_here(&p, "console.log"), *json = read_here(&p, "page.json");
+            char *json = read_here(&p, "page.json");
             cJSON *result = cJSON_Parse(json);
-            cr_expect_str_empty(console, "%s: the console says %s", line, console);
-            cr_expect_eq(cJSON_GetNumberValue(of(seen, "resources")), 0, "%s: something was fetched", line);
+            expect_sound(&p, seen, line);
             cr_expect_gt(cJSON_GetNumberValue(of(seen, "formulas")), 10, "%s", line);
-            cr_expect_eq(cJSON_GetArraySize(of(seen, "empty")), 0, "%s: %s has no box", line, cJSON_GetStringValue(cJSON_GetArrayItem(of(seen, "empty"), 0)));
-            cr_expect_leq(cJSON_GetNumberValue(of(seen, "width")), cJSON_GetNumberValue(of(seen, "room")), "%s: the page is wider than the window", line);
-            expect_no_fault(seen, line);
             expect_points(seen, result, line);
             cJSON_Delete(result);
-            cJSON_Delete(seen);
-            free(json), free(console);
+            free(json);
         }
+        cJSON_Delete(seen);
+        place_clear(&p);
+    }
+    if (skipped) cr_skip_test("no chromium");
+}
+
+Test(browser, so_are_those_of_the_other_commands)
+{
+    static const char *const LINES[] = {
+        "verify sleigh --current m*v --quiet --html page.html",
+        "simulate sleigh --initial omega=2 --until 5 --quiet --html page.html",
+        "chart sleigh --budget 500ms --quiet --html page.html",
+        "reduce vertical_disk --quiet --html page.html",
+    };
+    bool skipped = false;
+    for (size_t i = 0; !skipped && i < sizeof LINES / sizeof *LINES; i++) {
+        place p;
+        cJSON *seen = page_looked_at(&p, LINES[i], i % 2 ? narrow_dark : wide_window);
+        skipped = !seen;
+        if (seen) expect_sound(&p, seen, LINES[i]);
+        cJSON_Delete(seen);
         place_clear(&p);
     }
     if (skipped) cr_skip_test("no chromium");
