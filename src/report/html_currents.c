@@ -38,7 +38,7 @@ static void as_text(nh_html_writer *w, const nh_found *f)
 {
     nh_dag *d = w->dag;
     char *text = nh_print_short(d, f->phi, w->shown), *plain = f->has_in_velocities ? nh_print_short(d, f->in_velocities, w->shown) : NULL;
-    if (text || plain) nh_html_add(w, "<details><summary>As text, to copy</summary>\n");
+    if (text || plain) nh_html_add(w, "<details class=\"copy\"><summary>As text, to copy</summary>\n");
     if (text) nh_html_tagged(w, "pre", text);
     if (plain) nh_html_add(w, "<p>in coordinate velocities</p>\n");
     if (plain) nh_html_tagged(w, "pre", plain);
