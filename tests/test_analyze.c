@@ -522,6 +522,35 @@ Test(analyze, a_nonlinear_constraint)
 }
 
 /* A disturbance of 1e-9 breaks the rotation: no double sees it, the refined coefficients do. */
+/* Z = Z^0 Gamma + relative, component by component; of a boost the relative part is t d/dx + d/dx'. */
+Test(analyze, symmetries_relative_to_the_motion)
+{
+    static const char text[] = "name: pair\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                               "parameters: [{name: m, value: 1.3}, {name: n, value: 0.7}]\nlagrangian: m*x'^2/2 + n*y'^2/2 - (x - y)^4/4 - (x - y)^2\n";
+    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    const nh_model *o = r->model;
+    nh_points *at = nh_points_create(o, 20, 1, 3, NULL);
+    size_t seen = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_symmetry *z = &r->found[k].symmetry;
+        if (!z->along_motion) continue;
+        seen++;
+        nh_ex off[4];
+        double value[4 * 20];
+        for (size_t s = 0; s < 2; s++) {
+            off[s] = nh_sub(o->dag, z->field.space[s], nh_add(o->dag, nh_mul(o->dag, z->Z0, o->rho[s]), z->relative.space[s]));
+            off[2 + s] = nh_sub(o->dag, z->field.velocity[s], nh_add(o->dag, nh_mul(o->dag, z->Z0, o->a[s]), z->relative.velocity[s]));
+            cr_expect_eq(z->relative.space[s], o->system->t);
+            cr_expect_eq(z->relative.velocity[s], nh_int(o->dag, 1));
+        }
+        nh_points_evaluate(at, o, 4, off, value);
+        for (size_t i = 0; i < 4 * at->count; i++) cr_expect(fabs(value[i]) < 1e-11, "off by %g", value[i]);
+    }
+    cr_expect_eq(seen, 1);
+    nh_points_free(at);
+    nh_result_free(r);
+}
+
 Test(analyze, almost_conserved_is_told_apart)
 {
     nh_result *r = ask((question){.system = file("system.yaml", PARTICLE("rounded", "") "lagrangian: (x'^2 + y'^2 - x^2 - y^2)/2 + 1e-9*x^2*y\n"),

@@ -100,7 +100,7 @@ static const key SCHEMA[] = {
 static const key CURRENT[] = {
     {"name", "s"}, {"expression", "s"}, {"in_velocities", "s0"}, {"latex", "s0"}, {"residual", "n"}, {"heldout_residual", "n"},
     {"certified_digits", "n"}, {"proved", "b"}, {"independent", "b"}, {"drift", "n0"}, {"drift_order_ok", "b0"}, {"printed_digits", "n"}, {"series", "o0"},
-    {"symmetry.Z0", "s"}, {"symmetry.zeta", "a"}, {"symmetry.W", "a"}, {"symmetry.components.t", "s"},
+    {"symmetry.Z0", "s"}, {"symmetry.zeta", "a"}, {"symmetry.W", "a"}, {"symmetry.components.t", "s"}, {"symmetry.components_with_gamma", "o0"},
     {"bracket_in_distribution", "b"}, {"case", "n0"}, {"projectable", "b"},
 };
 #define COUNT(list) (sizeof list / sizeof *list)
@@ -116,7 +116,7 @@ static void check_no_word(const char *text, const char *word)
 /* "Numbers that could not be computed are null with a reason in warnings": numbers only, the texts may be absent. */
 static size_t null_numbers(const cJSON *item)
 {
-    static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "symmetry_route",
+    static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "components_with_gamma", "symmetry_route",
                                         "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {

@@ -196,6 +196,23 @@ Test(normal, forms)
     }
 }
 
+/* Radicands are shown as they were written where that is shorter than their canonical form. */
+Test(normal, radicands_are_kept)
+{
+    static const char *const pair[][2] = {
+        {"(x-a)/sqrt((x-a)^2+(y-b)^2)+a/sqrt((x-a)^2+(y-b)^2)", "x/sqrt((x-a)^2+(y-b)^2)"},
+        {"sin(f)^2*((x-a)^2+(y-b)^2)^(3/2)+cos(f)^2*((x-a)^2+(y-b)^2)^(3/2)", "((x-a)^2+(y-b)^2)^(3/2)"},
+    };
+    for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
+        nh_dag *dag = nh_dag_create();
+        nh_ex s = nh_simplify(dag, ex(dag, pair[i][0]));
+        char *text = nh_print_string(dag, s);
+        cr_expect_eq(s, ex(dag, pair[i][1]), "%s", text);
+        nh_free(text);
+        nh_dag_free(dag);
+    }
+}
+
 Test(normal, simple_forms_stay)
 {
     static const char *const text[] = {"x", "3/7", "m*g*l*(1-cos(t))", "sqrt(x^2+y^2)", "m*(v^2+a^2*w^2)/2", "tan(f)", "sinh(x)*w",

@@ -292,6 +292,8 @@ size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { retur
 
 size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { return of_kind(dag, e, NH_FUNCTION, out, max); }
 
+size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max) { return of_kind(dag, e, NH_PRODUCT, out, max); }
+
 size_t nh_node_count(const nh_dag *dag, nh_ex e)
 {
     uint32_t *node;

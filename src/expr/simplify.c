@@ -264,6 +264,36 @@ static nh_ex restore_calls(context *shared, nh_ex source, nh_ex result)
     return kept ? nh_substitute(dag, result, kept, shown, call) : result;
 }
 
+/* The base b of c b^x with a root x, where the rewriting of base^x is no more than b^x; 0 otherwise. */
+static nh_ex canonical_base(context *shared, nh_ex base, nh_ex exponent)
+{
+    nh_dag *dag = shared->dag;
+    nh_ex power = nh_form_rewrite(&shared->literal, nh_pow(dag, base, exponent));
+    bool plain = nh_kind_of(dag, power) == NH_PRODUCT && nh_arity(dag, power) == 1 && nh_num_is(nh_constant_of(dag, power), 1);
+    return plain && nh_exponent_of(dag, power, 0) == exponent ? nh_child(dag, power, 0) : 0;
+}
+
+/* So do roots: sqrt((x - a)^2 + y^2), and not sqrt(a^2 + y^2 + x*(x - 2*a)). */
+static nh_ex restore_roots(context *shared, nh_ex source, nh_ex result)
+{
+    enum { most_products = 200, most_roots = 16 };
+    nh_dag *dag = shared->dag;
+    nh_ex product[most_products], written[most_roots], shown[most_roots];
+    size_t n = nh_products_in(dag, source, product, most_products), kept = 0;
+    for (size_t i = 0; i < n && n <= most_products; i++)
+        for (size_t j = 0; j < nh_arity(dag, product[i]) && kept < most_roots; j++) {
+            nh_ex base = nh_child(dag, product[i], j), exponent = nh_exponent_of(dag, product[i], j);
+            if (nh_kind_of(dag, base) != NH_SUM || nh_exponent_kind_of(dag, exponent) != NH_EXPONENT_ROOT) continue;
+            nh_ex b = canonical_base(shared, base, exponent), g = b ? simplify(shared, b) : base;
+            bool known = g == base || nh_complexity(dag, g) <= nh_complexity(dag, base);
+            for (size_t k = 0; k < kept; k++) known |= shown[k] == g;
+            if (known) continue;
+            shown[kept] = g;
+            written[kept++] = base;
+        }
+    return kept ? nh_substitute(dag, result, kept, shown, written) : result;
+}
+
 /* Asked again and again for the same components: the graph remembers. */
 nh_ex nh_simplify(nh_dag *dag, nh_ex e)
 {
@@ -273,7 +303,7 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_forms_init(&shared.literal, dag, true, most_terms);
     nh_forms_init(&shared.cut, dag, false, most_terms);
     nh_ex result = simplify(&shared, e);
-    if (result != e) result = restore_calls(&shared, e, result);
+    if (result != e) result = restore_roots(&shared, e, restore_calls(&shared, e, result));
     nh_forms_clear(&shared.literal);
     nh_forms_clear(&shared.cut);
     nh_index_clear(&shared.done);

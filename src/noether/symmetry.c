@@ -122,6 +122,40 @@ static void solve_components(nh_model *o, nh_symmetry *z)
     for (size_t s = 0; s < m; s++) z->coordinate_rate[s] = tidy(d, nh_model_along(o, &z->field, o->rho[s]));
 }
 
+static size_t total_complexity(const nh_model *o, const nh_field *f, const nh_ex *rate)
+{
+    size_t sum = nh_complexity(o->dag, f->time);
+    for (size_t s = 0; s < o->m; s++) sum += nh_complexity(o->dag, f->space[s]) + nh_complexity(o->dag, rate[s]);
+    for (size_t i = 0; i < o->n; i++) sum += nh_complexity(o->dag, f->velocity[i]);
+    return sum;
+}
+
+/* Z^0 = (Phi - pbar zeta)/Lbar is a long quotient as soon as Phi is no energy, and every component has it as a factor of Gamma's: what is left
+ * when Z^0 Gamma is taken away is often the field that one knows, t d/dy + d/dy' of a boost. */
+static void take_motion_away(nh_model *o, nh_symmetry *z)
+{
+    enum { short_enough = 120 };
+    nh_dag *d = o->dag;
+    size_t length = total_complexity(o, &z->field, z->coordinate_rate);
+    if (nh_kind_of(d, z->Z0) == NH_NUMBER || length <= short_enough) return;
+    z->relative = (nh_field){nh_int(d, 0), take(o, o->m), take(o, o->n)};
+    z->relative_rate = take(o, o->m);
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex e = nh_int(d, 0);
+        for (size_t i = 0; i < o->n; i++) e = nh_add(d, e, nh_mul(d, o->R[s * o->n + i], z->zeta[i]));
+        z->relative.space[s] = tidy(d, e);
+    }
+    for (size_t j = 0; j < o->n; j++) { /* (NX) with M a = A: M (W - Z^0 a) = -G^T zeta - X(Phi) */
+        nh_ex b = nh_neg(d, nh_model_X(o, j, z->phi));
+        for (size_t i = 0; i < o->n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * o->n + j], z->zeta[i]));
+        z->relative.velocity[j] = b;
+    }
+    solve(o, z->relative.velocity, z->relative.velocity);
+    for (size_t i = 0; i < o->n; i++) z->relative.velocity[i] = tidy(d, z->relative.velocity[i]);
+    for (size_t s = 0; s < o->m; s++) z->relative_rate[s] = tidy(d, nh_model_along(o, &z->relative, o->rho[s]));
+    z->along_motion = nh_complexity(d, z->Z0) + total_complexity(o, &z->relative, z->relative_rate) < 3 * length / 4;
+}
+
 /* The two halves of each bracket component: what is differentiated along Gamma, and what along Z. */
 static void bracket_halves(const nh_model *o, const nh_symmetry *z, nh_ex *first, nh_ex *second)
 {
@@ -277,6 +311,7 @@ bool nh_symmetry_of(nh_model *o, const nh_points *points, nh_ex phi, double same
     if (nh_normal_is_zero(o->dag, o->Lbar, 0) == NH_ZERO)
         return nh_fail(error, NH_NUMERIC, "", "the constrained Lagrangian vanishes identically, so currents have no symmetry of Noether type");
     solve_components(o, z);
+    take_motion_away(o, z);
     nh_ex *first = take(o, 1 + o->m + o->n), *second = take(o, 1 + o->m + o->n);
     bracket_halves(o, z, first, second);
     bracket(o, z, first, second);

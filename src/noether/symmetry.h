@@ -19,6 +19,9 @@ typedef struct {
     nh_ex *zeta, *W;          /* n */
     nh_field field;           /* components in the chart: d/dt, d/dq (m), d/dw (n) */
     nh_ex *coordinate_rate;   /* m: Z(rho^s), the component along d/dx' of a coordinate chart */
+    bool along_motion;        /* Z = Z^0 Gamma + relative is much shorter, as for symmetries of evolutionary form */
+    nh_field relative;        /* then: the components of Z - Z^0 Gamma; time is 0 */
+    nh_ex *relative_rate;     /* and those along d/dx' of a coordinate chart */
     nh_field bracket;         /* [Gamma, Z] */
     nh_ex *bracket_form;      /* k: i_[Gamma,Z] phi^a */
     bool bracket_in_distribution, projectable;

@@ -98,3 +98,29 @@ size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_part part[NH_F
     }
     return count;
 }
+
+/* ---- fields ---- */
+
+static void add_term(const nh_model *o, nh_field_term *list, size_t *n, nh_ex e, const char *along)
+{
+    if (!nh_is_zero(o->dag, e)) list[(*n)++] = (nh_field_term){e, along};
+}
+
+size_t nh_formula_field(const nh_result *r, const nh_symmetry *z, nh_field_term **out)
+{
+    const nh_model *o = r->model, *basis = r->other ? r->other : o;
+    const nh_field *f = z->along_motion ? &z->relative : &z->field;
+    const nh_ex *rate = z->along_motion ? z->relative_rate : z->coordinate_rate;
+    size_t n = 0;
+    nh_field_term *list = *out = nh_arena_alloc(o->arena, (2 + o->m + basis->n) * sizeof *list);
+    if (z->along_motion) add_term(o, list, &n, z->Z0, NULL);
+    add_term(o, list, &n, f->time, "t");
+    for (size_t s = 0; s < o->m; s++) add_term(o, list, &n, f->space[s], r->system->coordinate[s].name);
+    for (size_t i = 0; i < basis->n; i++) {
+        nh_ex e = r->other ? 0 : f->velocity[i];
+        for (size_t s = 0; s < o->m && r->other; s++)
+            if (basis->chart->w[i] == r->system->coordinate[s].v) e = rate[s];
+        add_term(o, list, &n, e, nh_name_of(o->dag, basis->chart->w[i]));
+    }
+    return n;
+}

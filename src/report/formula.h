@@ -17,4 +17,13 @@ typedef struct {
 } nh_formula_part;
 size_t nh_formula_parts(nh_dag *dag, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS]);
 
+/* The symmetry of a current as a sum of coefficients along basis fields: d/dt, d/dq, d/dx' of the chart of coordinate velocities (or of the only
+ * one); or along Gamma first and then the rest, where that is much shorter.  Terms that vanish are left out.  The list belongs to the model's
+ * arena. */
+typedef struct {
+    nh_ex coefficient;
+    const char *along; /* t, a coordinate or a velocity; NULL: Gamma */
+} nh_field_term;
+size_t nh_formula_field(const nh_result *result, const nh_symmetry *z, nh_field_term **out);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "expr/print.h"
+#include "report/formula.h"
 #include "report/html_internal.h"
 
 /* ---- the formula ---- */
@@ -128,19 +129,17 @@ void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const 
 static void symmetry(nh_html_writer *w, const nh_found *f)
 {
     const nh_result *r = w->r;
-    const nh_model *o = r->model, *basis = r->other ? r->other : o;
+    const nh_model *o = r->model;
     nh_html_add(w, "<details><summary>Its symmetry Z</summary>\n");
-    size_t count = 0;
-    const char **along = nh_alloc_array(1 + o->m + basis->n, sizeof *along);
-    nh_ex *e = nh_alloc_array(1 + o->m + basis->n, sizeof *e);
-    along[count] = "t", e[count++] = f->symmetry.Z0;
-    for (size_t s = 0; s < o->m; s++) along[count] = r->system->coordinate[s].name, e[count++] = f->symmetry.field.space[s];
-    for (size_t i = 0; i < basis->n; i++) {
-        e[count] = r->other ? 0 : f->symmetry.W[i];
-        for (size_t s = 0; s < o->m && r->other; s++)
-            if (basis->chart->w[i] == r->system->coordinate[s].v) e[count] = f->symmetry.coordinate_rate[s];
-        along[count++] = nh_name_of(o->dag, basis->chart->w[i]);
+    nh_field_term *term;
+    size_t count = nh_formula_field(r, &f->symmetry, &term);
+    const char **along = nh_alloc_array(count + 1, sizeof *along);
+    nh_ex *e = nh_alloc_array(count + 1, sizeof *e);
+    for (size_t i = 0; i < count; i++) {
+        along[i] = term[i].along ? term[i].along : "Gamma";
+        e[i] = term[i].coefficient;
     }
+    if (count && !term[0].along) nh_html_add(w, "<p>Relative to the motion, where it is shorter: so much of \u0393, and besides it the other components.</p>\n");
     nh_html_field(w, count, along, e);
     nh_free(e);
     nh_free(along);

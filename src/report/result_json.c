@@ -7,6 +7,7 @@
 #include "base/json.h"
 #include "expr/print.h"
 #include "expr/typeset.h"
+#include "report/formula.h"
 #include "report/result_json_internal.h"
 #include "report/run.h"
 
@@ -225,6 +226,11 @@ static void put_field(const writer *w, nh_json *to, const nh_found *f)
             if (basis->chart->w[i] == r->system->coordinate[s].v) e = z->coordinate_rate[s];
         put_expression(w, components, nh_name_of(w->dag, basis->chart->w[i]), e);
     }
+    nh_field_term *term;
+    size_t terms = z->along_motion ? nh_formula_field(r, z, &term) : 0;
+    nh_json *relative = terms ? nh_json_put_object(item, "components_with_gamma") : NULL;
+    for (size_t i = 0; i < terms; i++) put_expression(w, relative, term[i].along ? term[i].along : "Gamma", term[i].coefficient);
+    if (!relative) nh_json_put_null(item, "components_with_gamma");
     nh_json_put_number(item, "residual", z->noether_residual);
     put_expressions(w, item, "i_bracket_phi", o->k, z->bracket_form);
 }

@@ -189,45 +189,32 @@ static bool reads_as_sum(const char *text)
     return false;
 }
 
-static void component(nh_summary_writer *w, nh_ex e, const char *along, bool *first)
+static void component(nh_summary_writer *w, const nh_field_term *term, bool first)
 {
     nh_dag *d = w->r->model->dag;
-    if (nh_is_zero(d, e)) return;
-    e = nh_formula_abbreviate(w->r, e);
-    nh_text_addf(w->out, "%s", *first ? "        Z = " : "          + ");
-    *first = false;
+    nh_ex e = nh_formula_abbreviate(w->r, term->coefficient);
+    const char *before = term->along ? "d/d" : "", *along = term->along ? term->along : "Gamma";
+    nh_text_addf(w->out, "%s", first ? "        Z = " : "          + ");
     if (nh_is_number(d, e, 1)) {
-        nh_text_addf(w->out, "d/d%s\n", along);
+        nh_text_addf(w->out, "%s%s\n", before, along);
         return;
     }
     nh_text text;
     nh_text_init(&text);
     char *printed = text_of(w, e);
     bool sum = reads_as_sum(printed);
-    nh_text_addf(&text, "%s%s%s d/d%s", sum ? "(" : "", printed, sum ? ")" : "", along);
+    nh_text_addf(&text, "%s%s%s %s%s", sum ? "(" : "", printed, sum ? ")" : "", before, along);
     nh_free(printed);
     wrapped(w, 12, nh_text_string(&text));
     nh_text_clear(&text);
 }
 
-/* Components along time, coordinates and the velocities of the coordinate chart (the paper's basis) where there is one. */
 static void field_lines(nh_summary_writer *w, const nh_found *f)
 {
-    const nh_result *r = w->r;
-    const nh_model *o = r->model, *chart = r->other ? r->other : r->model;
-    const nh_symmetry *z = &f->symmetry;
-    bool first = true;
-    component(w, z->Z0, "t", &first);
-    for (size_t s = 0; s < o->m; s++) component(w, z->field.space[s], r->system->coordinate[s].name, &first);
-    for (size_t i = 0; i < chart->n; i++) {
-        nh_ex e = 0;
-        if (!r->other) e = z->W[i];
-        else
-            for (size_t s = 0; s < o->m; s++)
-                if (chart->chart->w[i] == r->system->coordinate[s].v) e = z->coordinate_rate[s];
-        component(w, e, nh_name_of(o->dag, chart->chart->w[i]), &first);
-    }
-    if (first) nh_text_add(w->out, "        Z = 0\n");
+    nh_field_term *term;
+    size_t n = nh_formula_field(w->r, &f->symmetry, &term);
+    for (size_t i = 0; i < n; i++) component(w, &term[i], i == 0);
+    if (n == 0) nh_text_add(w->out, "        Z = 0\n");
 }
 
 static void certificate(nh_summary_writer *w, const nh_found *f)
