@@ -18,7 +18,7 @@ awk '
     }' src/*/*.c src/*/*.h >>"$offences"
 
 # ---- a third-party header stands where docs/architecture.md says, and nowhere else ----
-standard=" assert.h ctype.h errno.h float.h inttypes.h limits.h math.h setjmp.h stdarg.h stdatomic.h stdbool.h stddef.h stdint.h stdio.h stdlib.h string.h time.h"
+standard=" assert.h complex.h ctype.h errno.h float.h inttypes.h limits.h math.h setjmp.h stdarg.h stdatomic.h stdbool.h stddef.h stdint.h stdio.h stdlib.h string.h time.h"
 standard="$standard dirent.h fcntl.h getopt.h pthread.h signal.h strings.h sys/resource.h sys/stat.h sys/time.h sys/types.h sys/wait.h unistd.h "
 found=$(for file in src/*/*.c src/*/*.h; do
     sed -n 's/^[ \t]*#[ \t]*include[ \t]*<\([^>]*\)>.*/\1/p' "$file" | while read -r header; do

@@ -11,6 +11,7 @@ static nh_comparison *compare(const char *path, const char *initial, double unti
     nh_simulate_request q = {.system_path = path, .initial = initial, .until_given = true};
     nh_options_default(&q.options);
     q.options.until = until;
+    q.options.chart_columns = 40; /* of the discrete problem */
     nh_comparison *c = nh_compare(&q, budget, &error);
     must(c != NULL, &error, path);
     return c;
@@ -77,19 +78,87 @@ Test(chart, what_would_be_wrong_is_refused)
     nh_comparison_free(c);
 }
 
-/* Differences are off by about their order's share of rounding; the exact Jacobian by nothing, for less work. */
+/* Differences are off by about their order's share of rounding; a complex step and the exact Jacobian by rounding and nothing, the latter for less work. */
 Test(chart, derivatives_by_differences)
 {
     nh_comparison *c = compare("systems/sleigh.yaml", "omega=2", 1, 0.2);
-    static const double least[] = {0, 1e-10, 1e-13, 0}, most[] = {0, 1e-6, 1e-8, 1e-10};
-    static const long work[] = {1, 6, 10, 20}; /* 5 states */
-    cr_assert_eq(c->derivatives, 4);
-    for (size_t i = 0; i < 4; i++) {
+    static const double least[] = {0, 0, 1e-10, 1e-13, 0}, most[] = {0, 1e-14, 1e-6, 1e-8, 1e-10};
+    static const long work[] = {1, 5, 6, 10, 20}; /* 5 states */
+    cr_assert_eq(c->derivatives, 5);
+    for (size_t i = 0; i < 5; i++) {
         const nh_derivative *d = &c->derivative[i];
         cr_expect(d->error >= least[i] && d->error <= most[i], "%s: %g", d->method, d->error);
         cr_expect_eq(d->evaluations, work[i], "%s: %ld", d->method, d->evaluations);
         cr_expect(d->seconds > 0 && isfinite(d->seconds));
     }
+    nh_comparison_free(c);
+}
+
+static bool has_formulation(const nh_comparison *c, const char *words, size_t *right)
+{
+    bool any = false;
+    for (size_t i = 0; i < c->count; i++) {
+        const nh_measured *m = &c->item[i];
+        if (!strstr(m->formulation, words)) continue;
+        any = true;
+        *right += m->status == NH_RIGHT;
+        if (m->reduced && m->status == NH_RIGHT && !isnan(m->tolerance)) cr_expect(m->error < 1e4 * m->tolerance && !m->front, "%s in %s at %g: %g", m->method, m->formulation, m->tolerance, m->error);
+    }
+    return any;
+}
+
+/* Quasi-velocities, coordinate velocities, all coordinates, multipliers of both indices, and the stages of the reduction, twice reduced too. */
+Test(chart, every_formulation)
+{
+    size_t right = 0;
+    nh_comparison *c = compare("systems/sleigh.yaml", "omega=2", 4, 20);
+    cr_expect(has_formulation(c, "quasi-velocities", &right) && has_formulation(c, "coordinate velocities", &right) && has_formulation(c, "all coordinates", &right));
+    right = 0;
+    cr_expect(has_formulation(c, "reduced by SE(2), 2 states", &right) && right >= 10, "%zu", right);
+    const nh_measured *one = find(c, "IDA, index 1", "multipliers", 1e-8), *two = find(c, "IDA, index 2", "multipliers", 1e-8);
+    cr_assert(one && two && one->status == NH_RIGHT && two->status == NH_RIGHT);
+    cr_expect(two->error < 1e-5, "%g", two->error);
+    nh_comparison_free(c);
+    c = compare("systems/vertical_disk.yaml", NULL, 4, 5);
+    cr_expect(has_formulation(c, "reduced again by", &right));
+    nh_comparison_free(c);
+}
+
+/* Currents among polynomials: a plain SVD takes sin^2 + cos^2 - 1 for one, the quotient does not; both bases and routes find the known ones. */
+Test(chart, the_discrete_problem)
+{
+    nh_comparison *c = compare("systems/spherical_pendulum.yaml", NULL, 1, 12);
+    size_t deceived = 0, exact = 0, routes = 0;
+    cr_assert(c->fits > 20, "%zu", c->fits);
+    for (size_t i = 0; i < c->fits; i++) {
+        const nh_fitted *m = &c->fit[i];
+        if (!strcmp(m->solver, "plain SVD")) {
+            deceived += m->dimension > m->wanted;
+            continue;
+        }
+        if (!strcmp(m->route, "current") && m->samples > 2 * m->functions) cr_expect_eq(m->dimension, m->wanted, "%zu functions, %s: %zu of %zu", m->functions, m->basis, m->dimension, m->wanted);
+        if (m->functions >= 15) exact += m->error < 1e-8;
+        routes += !strcmp(m->route, "symmetry");
+        cr_expect(m->seconds > 0 && m->rank <= m->columns);
+    }
+    cr_expect(deceived > 0 && exact > 4 && routes > 0, "%zu, %zu, %zu", deceived, exact, routes);
+    nh_comparison_free(c);
+}
+
+/* What is called wrong is an option. */
+Test(chart, thresholds_are_options)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
+    nh_options_default(&q.options);
+    q.options.until = 5;
+    q.options.chart_wrong = 1e-9;
+    q.options.chart_far = 1;
+    nh_comparison *c = nh_compare(&q, 2, &error);
+    must(c != NULL, &error, "sleigh");
+    size_t wrong = 0;
+    for (size_t i = 0; i < c->count; i++) wrong += c->item[i].status == NH_WRONG;
+    cr_expect_gt(wrong, 5);
     nh_comparison_free(c);
 }
 
@@ -129,6 +198,7 @@ Test(chart, text_json_and_drawing)
     nh_comparison_svg(c, &svg);
     check_document(c);
     cr_expect(strstr(nh_text_string(&text), "GSL rk8pd") && !strstr(nh_text_string(&text), "nan"), "%s", nh_text_string(&text));
+    cr_expect(strstr(nh_text_string(&svg), "The discrete problem") && strstr(nh_text_string(&text), "The discrete problem"));
     cr_expect(strstr(nh_text_string(&svg), "<svg") && strstr(nh_text_string(&svg), "</svg>") && !strstr(nh_text_string(&svg), "nan") && !strstr(nh_text_string(&svg), "inf"));
     size_t fronts = 0;
     for (size_t i = 0; i < c->count; i++) fronts += c->item[i].front;

@@ -225,6 +225,28 @@ Test(chetaev, sleigh_on_the_level_against_its_closed_form)
     nh_chetaev_motion_free(result);
 }
 
+/* Of index 2 the constraint holds as well as the interpolation between the steps. */
+Test(chetaev, of_index_2_the_constraint_holds)
+{
+    sleigh_data d = {.m = 1.7, .J = 0.62, .a = 0.53};
+    double k = sqrt(1 + d.J / (d.m * d.a * d.a)), omega0 = 1.83, times[SLEIGH_TIMES], exact[3 * SLEIGH_TIMES];
+    grid(SLEIGH_TIMES, 0, 4.1, times);
+    for (size_t i = 0; i < SLEIGH_TIMES; i++) {
+        double z = omega0 * times[i] / k;
+        exact[3 * i] = 2 * k * atan(tanh(z / 2)), exact[3 * i + 1] = omega0 / cosh(z), exact[3 * i + 2] = d.a * k * omega0 * tanh(z);
+    }
+    errors worst[2];
+    for (int holds = 0; holds < 2; holds++) {
+        nh_chetaev_problem problem = {.coordinates = 3, .constraints = 1, .holds = holds, .context = &d, .terms = sleigh};
+        nh_chetaev_motion *result = run(&problem, (double[]){0, 0.31, -1.27, omega0, 0, 0}, SLEIGH_TIMES, times, 1e-8);
+        cr_assert(result->motion->complete, "%s", result->motion->note);
+        worst[holds] = compare_sleigh(&d, result, exact);
+        nh_chetaev_motion_free(result);
+    }
+    cr_expect(worst[1].position < 3e-7 && worst[1].multiplier < 1e-4, "%g %g", worst[1].position, worst[1].multiplier);
+    cr_expect(worst[1].violation < 3e-8 && worst[1].violation < worst[0].violation / 3, "%g, %g", worst[1].violation, worst[0].violation);
+}
+
 /* Also J = 0: all mass in one point, K has rank 2 of 3. */
 Test(chetaev, sleigh_on_a_slope_against_the_reduced_equations)
 {

@@ -22,11 +22,13 @@ static nh_motion *run_method(const nh_model *o, const nh_method *method, const d
     nh_flow_options how = {.rtol = tolerance, .step = step};
     nh_dynamics *d = nh_dynamics_create(o);
     nh_flow_problem problem = nh_dynamics_problem(d);
-    nh_motion *motion = method->fixed ? nh_midpoint(o, (nh_midpoint_rule)method->kind, method->composed, z0, count, times, &how, &error)
+    nh_programs *programs = nh_programs_create(o);
+    nh_motion *motion = method->order ? nh_method_steps(method, programs, z0, count, times, &how, &error)
                                       : nh_method_flow(method, &problem, z0, count, times, &how, &error);
     must(motion != NULL, &error, method->name);
     cr_assert(motion->complete && motion->count == count, "%s: %s", method->name, motion->note);
     cr_expect_gt(motion->evaluations, 10);
+    nh_programs_free(programs);
     nh_dynamics_free(d);
     return motion;
 }
@@ -54,7 +56,7 @@ Test(method, every_one_with_error_control_meets_the_closed_form)
     mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 0, NULL);
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
-        if (m->fixed) continue;
+        if (m->order) continue;
         double loose = sleigh_error(x.model, m, 1e-5, 0), tight = sleigh_error(x.model, m, 1e-10, 0);
         cr_expect(tight < 3e-8 && tight < loose / 50, "%s: %g, %g", m->name, loose, tight);
         cr_expect_eq(nh_method_find(m->name), m);
@@ -68,9 +70,10 @@ Test(method, fixed_steps_have_their_order)
     mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 0, NULL);
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
-        if (!m->fixed) continue;
-        double coarse = sleigh_error(x.model, m, 1e-8, 0.083), fine = sleigh_error(x.model, m, 1e-8, 0.0415), order = log2(coarse / fine), want = m->composed ? 4 : 2;
-        cr_expect(fabs(order - want) < 0.3, "%s: errors %g, %g, order %.2f", m->name, coarse, fine, order);
+        if (!m->order) continue;
+        double step = m->order > 4 ? 0.415 : 0.083; /* above rounding */
+        double coarse = sleigh_error(x.model, m, 1e-8, step), fine = sleigh_error(x.model, m, 1e-8, step / 2), order = log2(coarse / fine);
+        cr_expect(fabs(order - m->order) < (m->family == NH_METHOD_RELAXATION ? 1 : 0.3), "%s: errors %g, %g, order %.2f", m->name, coarse, fine, order);
     }
     mechanics_clear(&x);
 }
@@ -83,7 +86,7 @@ Test(method, symmetric_steps_come_back)
     double there[] = {0, 3.1}, back[] = {3.1, 0};
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
-        if (!m->fixed) continue;
+        if (m->family != NH_METHOD_MIDPOINT) continue;
         nh_motion *a = run_method(x.model, m, start, 2, there, 0, 0.1), *b = run_method(x.model, m, a->state + 5, 2, back, 0, 0.1);
         for (size_t j = 0; j < 5; j++) cr_expect_float_eq(b->state[5 + j], start[j], 1e-11, "%s, %zu: %g", m->name, j, b->state[5 + j] - start[j]);
         nh_motion_free(a);
@@ -113,12 +116,15 @@ Test(method, energy_is_kept_where_it_is_promised)
         mechanics x = mechanics_of_text(texts[k], NH_CHART_AUTO);
         const double start[5] = {0.4, -0.3, 0.2, 0.7, 0.5};
         double times[] = {0, 10, 20, 40};
-        const nh_method *energy = nh_method_find("energy-preserving"), *plain = nh_method_find("midpoint");
-        nh_motion *a = run_method(x.model, energy, start, 4, times, 0, 0.2), *b = run_method(x.model, plain, start, 4, times, 0, 0.2);
-        cr_expect(energy_drift(x.model, a) < 1e-11, "%g", energy_drift(x.model, a));
+        static const char *const keep[] = {"energy-preserving", "energy-preserving, order 4", "relaxation, order 4", "relaxation, order 8"};
+        nh_motion *b = run_method(x.model, nh_method_find("midpoint"), start, 4, times, 0, 0.2);
         cr_expect_gt(energy_drift(x.model, b), 1e-6);
-        nh_motion_free(a);
         nh_motion_free(b);
+        for (size_t i = 0; i < sizeof keep / sizeof *keep; i++) {
+            nh_motion *a = run_method(x.model, nh_method_find(keep[i]), start, 4, times, 0, 0.2);
+            cr_expect(energy_drift(x.model, a) < 1e-11, "%s: %g", keep[i], energy_drift(x.model, a));
+            nh_motion_free(a);
+        }
         mechanics_clear(&x);
     }
 }
@@ -130,10 +136,38 @@ Test(method, a_wrong_motion_is_refused)
     const double start[5] = {0.4, -0.3, 0.2, 0.7, 0.5};
     double times[] = {0, 1};
     nh_flow_options how = {.rtol = 1e-6, .step = 0.1};
-    cr_expect_not_null(nh_midpoint_refused(x.model, NH_ENERGY));
-    cr_expect_null(nh_midpoint_refused(x.model, NH_LAGRANGE_DALEMBERT));
-    cr_expect_null(nh_midpoint(x.model, NH_ENERGY, false, start, 2, times, &how, &error));
-    cr_expect_not_null(strstr(error.what, "another motion"), "%s", error.what);
+    nh_programs *programs = nh_programs_create(x.model);
+    static const char *const wrong[] = {"energy-preserving", "energy-preserving, order 4", "relaxation, order 4", "relaxation, order 8"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        const nh_method *m = nh_method_find(wrong[i]);
+        cr_expect_not_null(nh_method_refused(m, programs));
+        cr_expect_null(nh_method_steps(m, programs, start, 2, times, &how, &error));
+        cr_expect_not_null(strstr(error.what, "another motion"), "%s", error.what);
+        nh_error_clear(&error);
+    }
+    cr_expect_null(nh_midpoint_refused(programs, NH_LAGRANGE_DALEMBERT));
+    nh_programs_free(programs);
+    mechanics_clear(&x);
+}
+
+/* Many runs, one compilation of each program. */
+Test(method, programs_are_compiled_once)
+{
+    mechanics x = mechanics_of_text(rolling, NH_CHART_AUTO);
+    const double start[5] = {0.4, -0.3, 0.2, 0.7, 0.5};
+    double times[] = {0, 1};
+    nh_error error = {0};
+    nh_flow_options how = {.rtol = 1e-6, .step = 0.1};
+    nh_programs *programs = nh_programs_create(x.model);
+    for (size_t i = 0, runs = 3; runs; i++) {
+        const nh_method *m = nh_method_at(i % nh_method_count());
+        runs -= i % nh_method_count() == 0;
+        nh_motion *motion = m->order ? nh_method_steps(m, programs, start, 2, times, &how, &error) : NULL;
+        if (motion) cr_expect_lt(motion->evaluations, 3000);
+        nh_motion_free(motion);
+    }
+    cr_expect_eq(nh_programs_compiled(programs), NH_PROGRAMS, "%zu", nh_programs_compiled(programs));
+    nh_programs_free(programs);
     mechanics_clear(&x);
 }
 
@@ -186,6 +220,23 @@ Test(method, projection_holds_dependent_currents)
         nh_dynamics_free(d);
     }
     cr_expect(drift[0] > 1e-8 && drift[1] < 1e-12, "%g, %g", drift[0], drift[1]);
+    mechanics_clear(&x);
+}
+
+/* Functions of others are not projected onto, nor what has no gradient of its own where the motion starts; each is told which. */
+Test(method, projection_chooses_independent_currents)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 0, NULL);
+    nh_model *o = x.model;
+    nh_ex a = formula(o, "v*sin(phi/k) + a*k*omega*cos(phi/k)"), b = formula(o, "v*cos(phi/k) - a*k*omega*sin(phi/k)");
+    nh_ex current[] = {o->E, nh_mul(o->dag, nh_int(o->dag, 2), o->E), a, b};
+    const double generic[5] = {0.3, 0, 0, 2, 0.6}, turning[5] = {0, 0, 0, 2, 0}, *start[] = {generic, turning};
+    static const char *const says[2][4] = {{NULL, "depends on the currents before", NULL, "depends on the currents before"}, {NULL, "depends on the currents before", "initial state", NULL}};
+    for (int i = 0; i < 2; i++) {
+        const char *why[4];
+        cr_expect_eq(nh_projection_choose(o, 4, current, 0, start[i], why), 2);
+        for (int k = 0; k < 4; k++) cr_expect(says[i][k] ? why[k] && strstr(why[k], says[i][k]) : !why[k], "%d, %d: %s", i, k, why[k] ? why[k] : "chosen");
+    }
     mechanics_clear(&x);
 }
 

@@ -108,3 +108,28 @@ Test(schema, what_analyze_writes_fits)
     cJSON_Delete(schema);
     place_clear(&p);
 }
+
+Test(schema, what_chart_writes_fits)
+{
+    static const char *const lines[] = {"sleigh --budget 2s", "ball_on_turntable --until 3 --budget 500ms", "lagrange_top --until 2 --budget 300ms"};
+    cJSON *schema = read_json("docs/schema/chart.json");
+    place p = place_make();
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
+        snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
+        snprintf(line, sizeof line, "chart %s --quiet --json c.json", lines[i]);
+        finished f = run_so(&p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+        cr_assert(f.code == 0, "%s: %s", line, f.err);
+        snprintf(path, sizeof path, "%s/c.json", p.folder);
+        cJSON *root = read_json(path);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", lines[i], v.fault);
+        cr_expect(cJSON_GetArraySize(cJSON_GetObjectItem(root, "discrete")) > 0);
+        cJSON_AddNumberToObject(cJSON_GetObjectItem(root, "reference"), "more", 1);
+        cr_expect_not(fits(schema, root, "", &v), "an unknown key");
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(schema);
+    place_clear(&p);
+}

@@ -7,7 +7,9 @@
 
 #include "base/memory.h"
 #include "expr/dag.h"
+#include "expr/diff.h"
 #include "expr/tape.h"
+#include "expr/tape_complex.h"
 #include "random_expression.h"
 
 /* Units in the last place between a and b; equal infinities and two nans are 0 apart. */
@@ -55,6 +57,40 @@ Test(tape, one_point_equals_plain_recursion)
         nh_dag_free(s.dag);
     }
     cr_expect_gt(compared, 20000);
+}
+
+/* At a complex point the real part is that of the real tape, and a step along the imaginary axis gives the exact derivative. */
+Test(tape, a_complex_step_equals_the_exact_derivative)
+{
+    size_t compared = 0;
+    for (uint64_t seed = 1; seed <= 4000; seed++) {
+        source s = source_create(seed);
+        nh_ex e[2];
+        e[0] = random_expression(&s, 1 + (int)(seed % 6));
+        size_t k = seed % SYMBOLS;
+        e[1] = nh_diff(s.dag, e[0], s.symbol[k]);
+        nh_tape *tape = nh_tape_create(s.dag, SYMBOLS, s.symbol, 2, e, 0, NULL, NULL);
+        nh_tape_work *work = nh_tape_work_create(tape);
+        double complex *complex_work = nh_tape_complex_create(tape), in[SYMBOLS], out[2];
+        for (int p = 0; p < 3; p++) {
+            double at[SYMBOLS], value[2], size = 0;
+            for (int i = 0; i < SYMBOLS; i++) in[i] = at[i] = random_real(&s, p ? 0.2 : -2, 2);
+            nh_tape_eval(tape, work, at, value);
+            naive_value(s.dag, e[1], s.symbol, at, &size);
+            in[k] = CMPLX(at[k], 1e-100);
+            nh_tape_eval_complex(tape, complex_work, in, out);
+            if (!isfinite(value[0])) cr_assert(!isfinite(creal(out[0])), "seed %d: %g, %g", (int)seed, value[0], creal(out[0]));
+            if (!isfinite(value[0]) || !isfinite(value[1]) || !(size < 1e5)) continue;
+            cr_assert_float_eq(creal(out[0]), value[0], 1e-9 * (1 + fabs(value[0]) + size), "seed %d: %g, %g", (int)seed, creal(out[0]), value[0]);
+            cr_assert_float_eq(cimag(out[0]) / 1e-100, value[1], 1e-9 * (1 + size), "seed %d: %g, %g", (int)seed, cimag(out[0]) / 1e-100, value[1]);
+            compared++;
+        }
+        nh_free(complex_work);
+        nh_tape_work_free(work);
+        nh_tape_free(tape);
+        nh_dag_free(s.dag);
+    }
+    cr_expect_gt(compared, 5000);
 }
 
 /* Undefined values come out as such: log(-1), 1/0, sign of what is not a number. */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "report/motion.h"
 #include "report/verdict.h"
@@ -271,7 +272,7 @@ Test(simulate, watch_reads_a_list)
     nh_simulation *s = nh_simulate(&q, &error);
     cr_assert(s && s->columns.count == 3 && s->scene, "%s", error.what);
     cr_expect(!strcmp(s->columns.track[1].name, "T") && !strcmp(s->columns.track[2].name, "atan2(v, omega)"), "%s, %s", s->columns.track[1].name, s->columns.track[2].name);
-    cr_expect_eq(s->motion->size, 3); /* omega, v and, by quadrature, phi */
+    cr_expect_eq(s->motion->size, 1); /* phi: the two currents that the file knows determine omega and v */
     const double *last = s->value + (s->motion->count - 1) * 3;
     cr_expect_float_eq(last[0], 4 * atan(tanh(1.5)), 1e-7);
     cr_expect_float_eq(last[1], 16 * tanh(3.0) * tanh(3.0), 1e-6);
@@ -289,4 +290,28 @@ Test(simulate, watch_reads_a_list)
     q.scene = true;
     cr_expect_null(nh_simulate(&q, &error));
     cr_expect(strstr(error.what, "--scene needs an analysis file"), "%s", error.what);
+}
+
+/* The momentum of a symmetry that the file names removes a velocity while it determines it; beside it the whole model, for comparison. */
+Test(simulate, symmetries_of_the_file_make_scenes_smaller)
+{
+    static const char *const text = "name: rot\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: s, type: angle}]\n"
+                                    "lagrangian: (x'^2 + y'^2)/2 + s'^2/2 - (x^2 + y^2)^2/4 - cos(s)\nsymmetry: [{x: -y, y: x}]\ndomain: {x: [1, 2], y: [-1, 1]}\n";
+    char path[] = "/tmp/nhsym-rot-XXXXXX.yaml";
+    int file = mkstemps(path, 5);
+    cr_assert(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text));
+    close(file);
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = path, .initial = "x=1.2, y'=0.2", .until_given = true, .step = 1, .options = defaults(), .watch = "x^2 + y^2"};
+    static const double end[2] = {1, 20};
+    static const size_t states[2] = {3, 4}; /* x does not stay positive for long */
+    for (int i = 0; i < 2; i++) {
+        q.options.until = end[i];
+        nh_simulation *s = nh_simulate(&q, &error);
+        cr_assert(s && s->scene, "%s", error.what);
+        cr_expect_eq(s->motion->size, states[i], "%s", s->scene);
+        cr_expect(s->compared && s->whole_difference < 1e-6 && s->whole_seconds > 0, "%g", s->whole_difference);
+        nh_simulation_free(s);
+    }
+    unlink(path);
 }

@@ -46,6 +46,12 @@
     X(transversal,      5e-3,   0,      1,     real,  "",         "a group is divided out by Chaplygin reduction when its orbits stay so far from the distribution") \
     X(cluster,          2e-3,   0,      1,     real,  "",         "eigenvalues nearer than this part of the largest belong to one ideal of an algebra") \
     X(transport,        1e-11,  1e-14,  1e-4,  real,  "",         "tolerance to which 1-jets of symmetries are transported")             \
+    X(chart_wrong,      1e-2,    1e-12,  1e6,   real,  "",         "chart: an error above this, and above chart_far tolerances, is called wrong") \
+    X(chart_far,        1e4,     1,      1e15,  real,  "tolerance", "chart: how far above its tolerance an error may be")                    \
+    X(chart_fixed,      0.1,     1e-12,  1e6,   real,  "",         "chart: the same for methods with a fixed step")                          \
+    X(chart_trusted,    1e-4,    1e-14,  1,     real,  "",         "chart: a reference whose two methods agree better is looked for no further") \
+    X(chart_steps,      32,      1,      1e6,   whole, "steps",    "chart: of the longest fixed step; then four times as many at each level") \
+    X(chart_columns,    220,     2,      5000,  whole, "columns",  "chart: largest ansatz of the discrete problem")                          \
     X(check_seconds,    4,       0.01,   1e7,   real,  "s",        "time that the motions of the check may take together")                   \
     X(until,            10,      -1e9,   1e9,   real,  "time",     "end of the validation motion")
 

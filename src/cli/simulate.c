@@ -22,6 +22,16 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
     return true;
 }
 
+/* The model that was chosen, what never matters, and the measured cost against the whole model. */
+static void put_scene(const nh_simulation *s)
+{
+    fprintf(stderr, "nhsym: %s\n", s->scene);
+    if (s->idle && s->idle[0]) fprintf(stderr, "nhsym: %s\n", s->idle);
+    if (s->compared)
+        fprintf(stderr, "nhsym: %.3g ms and %ld evaluations; the whole model takes %.3g ms and %ld, and differs by %.0e\n", 1e3 * s->scene_seconds, s->motion->evaluations,
+                1e3 * s->whole_seconds, s->whole_evaluations, s->whole_difference);
+}
+
 /* The table, unless JSON or silence is wanted, and what is told beside it. */
 static void put_table(const nh_cli *cli, const nh_simulation *s)
 {
@@ -32,7 +42,7 @@ static void put_table(const nh_cli *cli, const nh_simulation *s)
     else nh_motion_csv(s, &text);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
-    if (s->scene && (cli->watch || cli->scene)) fprintf(stderr, "nhsym: %s\n", s->scene);
+    if (s->scene && (cli->watch || cli->scene)) put_scene(s);
     if (s->checked && s->accuracy.held) fprintf(stderr, "nhsym: %s\n", s->accuracy.why);
     if (s->ensemble && s->ensemble->alone) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
 }

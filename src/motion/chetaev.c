@@ -11,7 +11,7 @@
  *
  * where K, F and F^T are exact and the derivatives of r_2, r_3 at constant v', mu are differences: they only speed up the
  * iteration, its limit does not depend on them.  v' and mu are functions of (q,v) as long as the matrix [K F^T; F 0] is
- * regular, so the index is 1 whether K is regular or not. */
+ * regular, so the index is 1 whether K is regular or not.  Of index 2, r_3 = f, the third row of the matrix is (df/dq, F, 0). */
 #include "motion/chetaev.h"
 
 #include <float.h>
@@ -36,6 +36,9 @@
  *     width 10, 0.003         1.4 ms, 2e-9, 2e-8        5.1 ms, 3e-13, 7e-12 */
 static const double multiplier_width = 10;
 static const double iteration_share = 0.003;
+/* Of index 2 the multipliers are left out of the error test, and Newton's iteration needs no digits of theirs: their noise is the iteration's
+ * divided by the step. */
+static const double multiplier_width_2 = 1e10;
 
 _Static_assert(sizeof(realtype) == sizeof(double), "SUNDIALS must be built for double precision");
 
@@ -48,7 +51,7 @@ typedef struct {
     double *scale;             /* 2m + k */
     SUNContext sundials;
     void *ida;
-    N_Vector state, rate;
+    N_Vector state, rate, differential;
     SUNMatrix matrix;
     SUNLinearSolver solver;
     double stop, rtol;
@@ -84,18 +87,18 @@ static bool terms_at(ida_work *work, double t, const double *q, const double *v)
     return false;
 }
 
-/* (r_2, r_3) from the terms; `a` stands for v'. */
+/* (r_2, r_3) from the terms; `a` stands for v'.  Of index 2: r_3 = f. */
 static void balance(const ida_work *work, const double *a, const double *mu, double *out)
 {
     size_t m = work->m, k = work->k;
     memcpy(out, work->h, m * sizeof *out);
-    memcpy(out + m, work->g, k * sizeof *out);
+    memcpy(out + m, work->problem->holds ? work->f : work->g, k * sizeof *out);
     for (size_t j = 0; j < m; j++) {
         for (size_t i = 0; i < m; i++)
             out[i] += work->K[i + j * m] * a[j];
         for (size_t c = 0; c < k; c++) {
             out[j] += work->F[c + j * k] * mu[c];
-            out[m + c] += work->F[c + j * k] * a[j];
+            if (!work->problem->holds) out[m + c] += work->F[c + j * k] * a[j];
         }
     }
 }
@@ -199,7 +202,7 @@ static void exact_blocks(const ida_work *work, double c, double *matrix)
         for (size_t i = 0; i < m; i++)
             matrix[m + i + (m + j) * n] = c * work->K[i + j * m];
         for (size_t a = 0; a < k; a++) {
-            matrix[2 * m + a + (m + j) * n] = c * work->F[a + j * k];
+            if (!work->problem->holds) matrix[2 * m + a + (m + j) * n] = c * work->F[a + j * k];
             matrix[m + j + (2 * m + a) * n] = work->F[a + j * k];
         }
     }
@@ -247,8 +250,9 @@ static int call_weights(N_Vector state, N_Vector weight, void *user)
     const ida_work *work = user;
     size_t m = work->m, n = 2 * m + work->k;
     const double *y = NV_DATA_S(state);
+    double width = work->problem->holds ? multiplier_width_2 : multiplier_width;
     for (size_t i = 0; i < n; i++)
-        NV_DATA_S(weight)[i] = 1 / ((i < 2 * m ? 1 : multiplier_width) * work->rtol * (fabs(y[i]) + work->scale[i]));
+        NV_DATA_S(weight)[i] = 1 / ((i < 2 * m ? 1 : width) * work->rtol * (fabs(y[i]) + work->scale[i]));
     return 0;
 }
 
@@ -324,8 +328,9 @@ static bool create_objects(ida_work *work)
         return false;
     work->state = N_VNew_Serial(size, work->sundials);
     work->rate = N_VNew_Serial(size, work->sundials);
+    work->differential = N_VNew_Serial(size, work->sundials);
     work->matrix = SUNDenseMatrix(size, size, work->sundials);
-    if (!work->state || !work->rate || !work->matrix)
+    if (!work->state || !work->rate || !work->differential || !work->matrix)
         return false;
     N_VConst(0, work->rate);
     work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials);
@@ -349,6 +354,12 @@ static void create_arrays(ida_work *work, const double *scale)
         work->scale[i] = scale ? scale[i] : 1.0;
 }
 
+static bool leave_multipliers_out(ida_work *work)
+{
+    for (size_t i = 0; i < 2 * work->m + work->k; i++) NV_DATA_S(work->differential)[i] = i < 2 * work->m;
+    return IDASetId(work->ida, work->differential) == IDA_SUCCESS && IDASetSuppressAlg(work->ida, 1) == IDA_SUCCESS;
+}
+
 static bool set_up(ida_work *work, double start)
 {
     return IDASetErrHandlerFn(work->ida, keep_message, work) == IDA_SUCCESS &&
@@ -358,7 +369,7 @@ static bool set_up(ida_work *work, double start)
            IDASetLinearSolver(work->ida, work->solver, work->matrix) == IDA_SUCCESS &&
            IDASetJacFn(work->ida, call_jacobian) == IDA_SUCCESS &&
            IDASetNonlinConvCoef(work->ida, iteration_share) == IDA_SUCCESS &&
-           IDASetStopTime(work->ida, work->stop) == IDA_SUCCESS;
+           IDASetStopTime(work->ida, work->stop) == IDA_SUCCESS && (!work->problem->holds || leave_multipliers_out(work));
 }
 
 static void destroy_work(ida_work *work)
@@ -368,6 +379,7 @@ static void destroy_work(ida_work *work)
     SUNMatDestroy(work->matrix);
     N_VDestroy(work->state);
     N_VDestroy(work->rate);
+    N_VDestroy(work->differential);
     SUNContext_Free(&work->sundials);
     nh_free(work->K);
     nh_free(work->base);

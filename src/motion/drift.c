@@ -21,6 +21,8 @@ typedef struct {
     const nh_valid *valid;
     double start;     /* when the check began */
     bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
+    size_t currents;
+    const nh_ex *current; /* of the chart */
 } run;
 
 static double now(void)
@@ -212,7 +214,7 @@ static void smallest_model(run *r, const nh_state *initial, const nh_ex *watched
     nh_error_clear(&ignored);
     nh_options options = *r->options;
     options.tolerance = v->tolerance[NH_DRIFT_RUNS - 1];
-    nh_trajectory_request q = {.model = r->model, .initial = initial, .count = v->count, .times = v->time, .options = &options, .n = n, .e = asked, .smallest = true};
+    nh_trajectory_request q = {.model = r->model, .initial = initial, .count = v->count, .times = v->time, .options = &options, .n = n, .e = asked, .smallest = true, .currents = r->currents, .current = r->current};
     nh_trajectory *t = nh_trajectory_create(&q, &ignored);
     if (t && t->scene && t->motion->complete) {
         nh_text words;
@@ -300,7 +302,7 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     *v = (nh_validation){.arena = arena, .method = "CVODE Adams", .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, model->chart->name),
                          .begin = initial->t, .end = until, .currents = n, .current = nh_arena_alloc(arena, (n + 1) * sizeof *v->current), .crossing = NAN};
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, options->tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
-    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid, .start = now()};
+    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid, .currents = n, .current = current, .start = now()};
     r.times = nh_alloc_array(outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(model->m + model->n + 1, sizeof *r.z0);
     for (size_t i = 0; i < outputs; i++) r.times[i] = initial->t + (until - initial->t) * (double)i / (double)(outputs - 1);

@@ -354,7 +354,7 @@ nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, 
 {
     if (members == 0 || q->count == 0) return nh_fail(error, NH_USAGE, "", "an ensemble needs at least one member and one output time"), NULL;
     nh_ensemble *e = nh_alloc(sizeof *e);
-    *e = (nh_ensemble){.members = members, .count = q->count, .n = q->n, .scene = nh_scene_create(q->model, q->n, q->e)};
+    *e = (nh_ensemble){.members = members, .count = q->count, .n = q->n, .scene = nh_scene_create(q->model, q->n, q->e, 0, NULL)};
     e->time = nh_alloc_array(q->count, sizeof *e->time);
     memcpy(e->time, q->times, q->count * sizeof *e->time);
     e->value = nh_alloc_array(members * q->count, (q->n ? q->n : 1) * sizeof *e->value);

@@ -3,20 +3,22 @@
 #include <string.h>
 
 static const nh_method methods[] = {
-    {"GSL rk8pd", "explicit Runge-Kutta pair of order 8", NH_METHOD_EXPLICIT, NH_RK8PD, false, false},
-    {"GSL rkf45", "explicit Runge-Kutta pair of order 5", NH_METHOD_EXPLICIT, NH_RKF45, false, false},
-    {"GSL msadams", "Adams's method, fixed-point iteration", NH_METHOD_EXPLICIT, NH_MSADAMS, false, false},
-    {"CVODE Adams", "Adams's method, Newton's iteration", NH_METHOD_CVODE, NH_ADAMS, false, false},
-    {"CVODE BDF", "backward differentiation, for stiff equations", NH_METHOD_CVODE, NH_BDF, false, false},
-    {"ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_PAIRS, NH_DORMAND_PRINCE_5, false, false},
-    {"ARKODE Verner", "explicit Runge-Kutta pair of order 6", NH_METHOD_PAIRS, NH_VERNER_6, false, false},
-    {"ARKODE Fehlberg", "explicit Runge-Kutta pair of order 8", NH_METHOD_PAIRS, NH_FEHLBERG_8, false, false},
-    {"midpoint", "implicit midpoint rule, order 2", NH_METHOD_MIDPOINT, NH_MIDPOINT, false, true},
-    {"midpoint, order 4", "five implicit midpoint steps composed", NH_METHOD_MIDPOINT, NH_MIDPOINT, true, true},
-    {"Lagrange-d'Alembert", "discrete Lagrange-d'Alembert principle, order 2", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, false, true},
-    {"Lagrange-d'Alembert, order 4", "five discrete Lagrange-d'Alembert steps composed", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, true, true},
-    {"energy-preserving", "almost-Poisson pair with the mean gradient, order 2", NH_METHOD_MIDPOINT, NH_ENERGY, false, true},
-    {"energy-preserving, order 4", "five energy-preserving steps composed", NH_METHOD_MIDPOINT, NH_ENERGY, true, true},
+    {"GSL rk8pd", "explicit Runge-Kutta pair of order 8", NH_METHOD_EXPLICIT, NH_RK8PD, false, 0},
+    {"GSL rkf45", "explicit Runge-Kutta pair of order 5", NH_METHOD_EXPLICIT, NH_RKF45, false, 0},
+    {"GSL msadams", "Adams's method, fixed-point iteration", NH_METHOD_EXPLICIT, NH_MSADAMS, false, 0},
+    {"CVODE Adams", "Adams's method, Newton's iteration", NH_METHOD_CVODE, NH_ADAMS, false, 0},
+    {"CVODE BDF", "backward differentiation, for stiff equations", NH_METHOD_CVODE, NH_BDF, false, 0},
+    {"ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_PAIRS, NH_DORMAND_PRINCE_5, false, 0},
+    {"ARKODE Verner", "explicit Runge-Kutta pair of order 6", NH_METHOD_PAIRS, NH_VERNER_6, false, 0},
+    {"ARKODE Fehlberg", "explicit Runge-Kutta pair of order 8", NH_METHOD_PAIRS, NH_FEHLBERG_8, false, 0},
+    {"midpoint", "implicit midpoint rule, order 2", NH_METHOD_MIDPOINT, NH_MIDPOINT, false, 2},
+    {"midpoint, order 4", "five implicit midpoint steps composed", NH_METHOD_MIDPOINT, NH_MIDPOINT, true, 4},
+    {"Lagrange-d'Alembert", "discrete Lagrange-d'Alembert principle, order 2", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, false, 2},
+    {"Lagrange-d'Alembert, order 4", "five discrete Lagrange-d'Alembert steps composed", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, true, 4},
+    {"energy-preserving", "almost-Poisson pair with the mean gradient, order 2", NH_METHOD_MIDPOINT, NH_ENERGY, false, 2},
+    {"energy-preserving, order 4", "five energy-preserving steps composed", NH_METHOD_MIDPOINT, NH_ENERGY, true, 4},
+    {"relaxation, order 4", "Runge-Kutta steps along which the energy is kept", NH_METHOD_RELAXATION, NH_RELAXATION_4, false, 4},
+    {"relaxation, order 8", "Prince-Dormand steps along which the energy is kept", NH_METHOD_RELAXATION, NH_RELAXATION_8, false, 8},
 };
 
 size_t nh_method_count(void) { return sizeof methods / sizeof *methods; }
@@ -40,4 +42,17 @@ nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *proble
         own.method = (nh_flow_method)method->kind;
         return nh_flow(problem, initial, count, times, &own, error);
     }
+}
+
+nh_motion *nh_method_steps(const nh_method *method, nh_programs *programs, const double *initial, size_t count, const double *times,
+                           const nh_flow_options *options, nh_error *error)
+{
+    if (method->family == NH_METHOD_RELAXATION) return nh_relaxation(programs, (nh_relaxation_rule)method->kind, initial, count, times, options, error);
+    return nh_midpoint(programs, (nh_midpoint_rule)method->kind, method->composed, initial, count, times, options, error);
+}
+
+const char *nh_method_refused(const nh_method *method, nh_programs *programs)
+{
+    if (method->family == NH_METHOD_RELAXATION) return nh_relaxation_refused(programs);
+    return method->family == NH_METHOD_MIDPOINT ? nh_midpoint_refused(programs, (nh_midpoint_rule)method->kind) : NULL;
 }

@@ -5,15 +5,16 @@
 #include "motion/explicit.h"
 #include "motion/midpoint.h"
 #include "motion/pairs.h"
+#include "motion/relaxation.h"
 
-typedef enum { NH_METHOD_CVODE, NH_METHOD_EXPLICIT, NH_METHOD_PAIRS, NH_METHOD_MIDPOINT } nh_method_family;
+typedef enum { NH_METHOD_CVODE, NH_METHOD_EXPLICIT, NH_METHOD_PAIRS, NH_METHOD_MIDPOINT, NH_METHOD_RELAXATION } nh_method_family;
 
 typedef struct {
     const char *name, *about;
     nh_method_family family;
     int kind;           /* of the family's own list */
     bool composed;      /* of NH_METHOD_MIDPOINT */
-    bool fixed;         /* takes a step instead of a tolerance */
+    int order;          /* of methods that take a step instead of a tolerance; otherwise 0 */
 } nh_method;
 
 size_t nh_method_count(void);
@@ -21,8 +22,13 @@ const nh_method *nh_method_at(size_t index);
 /* The method of that name, or NULL. */
 const nh_method *nh_method_find(const char *name);
 
-/* A motion of z' = f(t, z) by a method with error control (not of NH_METHOD_MIDPOINT). */
+/* A motion of z' = f(t, z) by a method with error control (order 0). */
 nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
                           const nh_flow_options *options, nh_error *error);
+
+/* A motion of a model by a method with a fixed step, and why it may not be used with the model (NULL: it may). */
+nh_motion *nh_method_steps(const nh_method *method, nh_programs *programs, const double *initial, size_t count, const double *times,
+                           const nh_flow_options *options, nh_error *error);
+const char *nh_method_refused(const nh_method *method, nh_programs *programs);
 
 #endif

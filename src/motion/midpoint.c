@@ -15,140 +15,38 @@ static const double gauss_at[gauss_points] = {0.046910077030668004, 0.2307653449
 static const double gauss_weight[gauss_points] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
 
 typedef struct {
-    nh_tape *tape;
-    nh_tape_work *work;
-    double *out;
-} program;
-
-typedef struct {
-    const nh_model *model;
+    nh_programs *programs;
     nh_midpoint_rule rule;
     size_t m, n, size;
-    program flow;      /* f (size), df/dz (size x size, column-major) */
-    program momentum;  /* rho (m), p (m), c (m), R (m x n row-major), and d/dz of rho, p, c (3m x size, column-major) */
-    program pair;      /* R (m x n), M (n x n), G (n x n) */
-    program gradient;  /* dE/dz (size) */
     double t, h;
     double substep[most_substeps];
     size_t substeps, left; /* steps to the next output time */
-    double step, *z0, *z1, *zm, *residual, *matrix, *point, *start; /* start: p and R at the beginning of the step */
+    double step, *z0, *z1, *zm, *residual, *matrix, *start; /* start: p and R at the beginning of the step */
     const double *times;
     size_t count;
-    long evaluations;
+    long before; /* evaluations of earlier runs */
 } midpoint_work;
 
-/* ---- programs ---- */
+static const double *evaluate(midpoint_work *k, nh_program which, double t, const double *z) { return nh_programs_at(k->programs, which, t, z); }
 
-static program program_of(const nh_model *o, size_t n, const nh_ex *e)
+static midpoint_work *work_create(nh_programs *programs, nh_midpoint_rule rule)
 {
-    program p = {.tape = nh_model_tape(o, n, e), .out = nh_alloc_array(n + 1, sizeof *p.out)};
-    p.work = nh_tape_work_create(p.tape);
-    return p;
-}
-
-static void free_program(program *p)
-{
-    nh_tape_work_free(p->work);
-    nh_tape_free(p->tape);
-    nh_free(p->out);
-}
-
-static const double *evaluate(midpoint_work *k, program *p, double t, const double *z)
-{
-    k->point[0] = t;
-    memcpy(k->point + 1, z, k->size * sizeof *z);
-    nh_tape_eval(p->tape, p->work, k->point, p->out);
-    k->evaluations++;
-    return p->out;
-}
-
-/* e (count) and its derivatives by z, column-major, after them. */
-static void with_derivatives(const nh_model *o, size_t count, const nh_ex *e, nh_ex *derivative)
-{
-    for (size_t j = 0; j < o->m + o->n; j++)
-        for (size_t i = 0; i < count; i++) derivative[i + j * count] = nh_diff(o->dag, e[i], o->chart->symbol[1 + j]);
-}
-
-static program flow_program(const nh_model *o)
-{
-    size_t size = o->m + o->n;
-    nh_ex *e = nh_alloc_array(size + size * size, sizeof *e);
-    memcpy(e, o->rho, o->m * sizeof *e);
-    memcpy(e + o->m, o->a, o->n * sizeof *e);
-    with_derivatives(o, size, e, e + size);
-    program p = program_of(o, size + size * size, e);
-    nh_free(e);
-    return p;
-}
-
-static program momentum_program(const nh_model *o)
-{
-    size_t m = o->m, n = o->n, size = m + n;
-    nh_ex *e = nh_alloc_array(3 * m + m * n + 3 * m * size, sizeof *e);
-    memcpy(e, o->rho, m * sizeof *e);
-    memcpy(e + m, o->p, m * sizeof *e);
-    for (size_t s = 0; s < m; s++) {
-        const nh_coordinate *q = &o->system->coordinate[s];
-        e[2 * m + s] = nh_model_compose(o, nh_add(o->dag, nh_diff(o->dag, o->system->lagrangian, q->q), o->system->force[s]));
-    }
-    memcpy(e + 3 * m, o->R, m * n * sizeof *e);
-    with_derivatives(o, 3 * m, e, e + 3 * m + m * n);
-    program p = program_of(o, 3 * m + m * n + 3 * m * size, e);
-    nh_free(e);
-    return p;
-}
-
-static program pair_program(const nh_model *o)
-{
-    size_t m = o->m, n = o->n;
-    nh_ex *e = nh_alloc_array(m * n + 2 * n * n + 1, sizeof *e);
-    memcpy(e, o->R, m * n * sizeof *e);
-    memcpy(e + m * n, o->M, n * n * sizeof *e);
-    memcpy(e + m * n + n * n, o->G, n * n * sizeof *e);
-    program p = program_of(o, m * n + 2 * n * n, e);
-    nh_free(e);
-    return p;
-}
-
-static program gradient_program(const nh_model *o)
-{
-    size_t size = o->m + o->n;
-    nh_ex *e = nh_alloc_array(size, sizeof *e);
-    with_derivatives(o, 1, &o->E, e);
-    program p = program_of(o, size, e);
-    nh_free(e);
-    return p;
-}
-
-static midpoint_work *work_create(const nh_model *o, nh_midpoint_rule rule)
-{
+    const nh_model *o = nh_programs_model(programs);
     midpoint_work *k = nh_alloc(sizeof *k);
-    *k = (midpoint_work){.model = o, .rule = rule, .m = o->m, .n = o->n, .size = o->m + o->n};
+    *k = (midpoint_work){.programs = programs, .rule = rule, .m = o->m, .n = o->n, .size = o->m + o->n, .before = nh_programs_evaluations(programs)};
     size_t size = k->size;
-    if (rule != NH_LAGRANGE_DALEMBERT) k->flow = flow_program(o);
-    else k->momentum = momentum_program(o);
-    if (rule == NH_ENERGY) {
-        k->pair = pair_program(o);
-        k->gradient = gradient_program(o);
-    }
     k->z0 = nh_alloc_array(6 * size + 2 * size * size, sizeof *k->z0);
     k->z1 = k->z0 + size;
     k->zm = k->z1 + size;
     k->residual = k->zm + size;
     k->matrix = k->residual + 2 * size;
-    k->point = nh_alloc_array(o->width, sizeof *k->point);
     k->start = nh_alloc_array(o->m + o->m * o->n + o->n * o->n + 1, sizeof *k->start);
     return k;
 }
 
 static void work_free(midpoint_work *k)
 {
-    free_program(&k->flow);
-    free_program(&k->momentum);
-    free_program(&k->pair);
-    free_program(&k->gradient);
     nh_free(k->z0);
-    nh_free(k->point);
     nh_free(k->start);
     nh_free(k);
 }
@@ -177,7 +75,7 @@ static bool solve_midpoint(midpoint_work *k)
     size_t size = k->size;
     double last = INFINITY;
     for (int i = 0; i < most_iterations; i++) {
-        const double *f = evaluate(k, &k->flow, k->t + k->h / 2, k->zm);
+        const double *f = evaluate(k, NH_PROGRAM_FLOW, k->t + k->h / 2, k->zm);
         for (size_t j = 0; j < size; j++) {
             k->residual[j] = 2 * (k->zm[j] - k->z0[j]) - k->h * f[j];
             for (size_t r = 0; r < size; r++) k->matrix[r + j * size] = (r == j ? 2 : 0) - k->h * f[size + r + j * size];
@@ -200,7 +98,7 @@ static bool discrete_velocity(midpoint_work *k, const double *impulse)
     double last = INFINITY;
     memcpy(k->z1 + m, k->zm + m, n * sizeof *k->z1);
     for (int i = 0; i < most_iterations; i++) {
-        const double *e = evaluate(k, &k->momentum, k->t + k->h, k->z1), *p = e + m, *R = e + 3 * m, *d = R + m * n;
+        const double *e = evaluate(k, NH_PROGRAM_MOMENTUM, k->t + k->h, k->z1), *p = e + m, *R = e + 3 * m, *d = R + m * n;
         for (size_t a = 0; a < n; a++) {
             k->residual[a] = 0;
             for (size_t s = 0; s < m; s++) k->residual[a] += R[s * n + a] * (p[s] - impulse[s]);
@@ -243,17 +141,17 @@ static bool solve_lagrange_dalembert(midpoint_work *k)
 {
     size_t m = k->m, n = k->n;
     double last = INFINITY;
-    const double *e = evaluate(k, &k->momentum, k->t, k->z0);
+    const double *e = evaluate(k, NH_PROGRAM_MOMENTUM, k->t, k->z0);
     memcpy(k->start, e + m, m * sizeof *e);
     memcpy(k->start + m, e + 3 * m, m * n * sizeof *e);
     for (int i = 0; i < most_iterations; i++) {
-        principle(k, evaluate(k, &k->momentum, k->t + k->h / 2, k->zm));
+        principle(k, evaluate(k, NH_PROGRAM_MOMENTUM, k->t + k->h / 2, k->zm));
         double change = newton_step(k->size, k->matrix, k->residual, k->zm);
         if (converged(change, last)) break;
         if (!isfinite(change) || i + 1 == most_iterations) return false;
         last = change;
     }
-    e = evaluate(k, &k->momentum, k->t + k->h / 2, k->zm);
+    e = evaluate(k, NH_PROGRAM_MOMENTUM, k->t + k->h / 2, k->zm);
     for (size_t s = 0; s < m; s++) {
         k->z1[s] = 2 * k->zm[s] - k->z0[s];
         k->start[s] = e[m + s] + k->h / 2 * e[2 * m + s];
@@ -291,7 +189,7 @@ static void mean_gradient(midpoint_work *k, double *z, double *mean)
     memset(mean, 0, size * sizeof *mean);
     for (int q = 0; q < gauss_points; q++) {
         for (size_t j = 0; j < size; j++) z[j] = k->z0[j] + gauss_at[q] * (k->z1[j] - k->z0[j]);
-        const double *g = evaluate(k, &k->gradient, k->t + k->h / 2, z);
+        const double *g = evaluate(k, NH_PROGRAM_GRADIENT, k->t + k->h / 2, z);
         for (size_t j = 0; j < size; j++) mean[j] += gauss_weight[q] * g[j];
     }
 }
@@ -305,10 +203,10 @@ static bool solve_energy(midpoint_work *k)
     for (int i = 0; i < 3 * most_iterations; i++) {
         double *middle = k->residual; /* not in use yet */
         for (size_t j = 0; j < size; j++) middle[j] = (k->z0[j] + k->z1[j]) / 2;
-        const double *f = evaluate(k, &k->flow, k->t + k->h / 2, middle);
+        const double *f = evaluate(k, NH_PROGRAM_FLOW, k->t + k->h / 2, middle);
         for (size_t j = 0; j < size; j++)
             for (size_t r = 0; r < size; r++) k->matrix[r + j * size] = (r == j) - k->h / 2 * f[size + r + j * size];
-        const double *pair = evaluate(k, &k->pair, k->t + k->h / 2, middle);
+        const double *pair = evaluate(k, NH_PROGRAM_PAIR, k->t + k->h / 2, middle);
         mean_gradient(k, k->residual, mean);
         if (!pair_rate(k, pair, mean, rate)) return false;
         for (size_t j = 0; j < size; j++) k->residual[j] = k->z1[j] - k->z0[j] - k->h * rate[j];
@@ -322,25 +220,26 @@ static bool solve_energy(midpoint_work *k)
 
 /* ---- which rule is valid ---- */
 
-static bool pair_is_the_motion(const nh_model *o)
+static bool pair_is_the_motion(nh_programs *programs)
 {
-    midpoint_work *k = work_create(o, NH_ENERGY);
+    const nh_model *o = nh_programs_model(programs);
+    midpoint_work *k = work_create(programs, NH_ENERGY);
     double *rate = k->matrix + k->size * k->size;
     bool same = o->chart->probes > 0;
     for (size_t p = 0; p < o->chart->probes && same; p++) {
         const double *z = o->chart->probe + p * o->chart->width;
-        const double *f = evaluate(k, &k->flow, z[0], z + 1), *g = evaluate(k, &k->gradient, z[0], z + 1);
-        same = pair_rate(k, evaluate(k, &k->pair, z[0], z + 1), g, rate);
+        const double *f = evaluate(k, NH_PROGRAM_FLOW, z[0], z + 1), *g = evaluate(k, NH_PROGRAM_GRADIENT, z[0], z + 1);
+        same = pair_rate(k, evaluate(k, NH_PROGRAM_PAIR, z[0], z + 1), g, rate);
         for (size_t j = 0; j < k->size && same; j++) same = fabs(rate[j] - f[j]) <= same_equations * (1 + fabs(f[j]));
     }
     work_free(k);
     return same && nh_is_zero(o->dag, nh_diff(o->dag, o->E, o->system->t));
 }
 
-const char *nh_midpoint_refused(const nh_model *o, nh_midpoint_rule rule)
+const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule)
 {
-    if (o->chart->implicit) return "the constraints are solved by Newton's method inside the equations of motion";
-    if (rule == NH_ENERGY && !pair_is_the_motion(o))
+    if (nh_programs_model(programs)->chart->implicit) return "the constraints are solved by Newton's method inside the equations of motion";
+    if (rule == NH_ENERGY && !pair_is_the_motion(programs))
         return "it would converge to another motion: affine, rheonomic or nonlinear constraints, forces, or time in the Lagrangian";
     return NULL;
 }
@@ -371,7 +270,7 @@ static nh_step midpoint_advance(double *time, nh_motion *motion, void *context)
     }
     k->left--;
     *time = k->t = k->left ? *time + h : target;
-    motion->evaluations = k->evaluations;
+    motion->evaluations = nh_programs_evaluations(k->programs) - k->before;
     return *time == k->times[k->count - 1] ? NH_STEP_LAST : NH_STEP_ON;
 }
 
@@ -389,17 +288,17 @@ static void midpoint_stuck(nh_motion *motion, void *context)
     nh_motion_note(motion, "the step is too small for double precision near t = %.10g", motion->end_time);
 }
 
-nh_motion *nh_midpoint(const nh_model *model, nh_midpoint_rule rule, bool composed, const double *initial, size_t count, const double *times,
+nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool composed, const double *initial, size_t count, const double *times,
                        const nh_flow_options *given, nh_error *error)
 {
-    size_t size = model->m + model->n;
+    size_t size = nh_programs_model(programs)->m + nh_programs_model(programs)->n;
     nh_flow_options own = *given, *options = &own;
     own.rtol = 1; /* is not used */
-    const char *refused = nh_midpoint_refused(model, rule);
+    const char *refused = nh_midpoint_refused(programs, rule);
     if (refused) return nh_fail(error, NH_NUMERIC, "", "this method cannot be used here: %s", refused), NULL;
     nh_motion *motion = nh_motion_start(size, size, initial, count, times, options, error);
     if (!motion || motion->complete) return motion;
-    midpoint_work *k = work_create(model, rule);
+    midpoint_work *k = work_create(programs, rule);
     double s = 1 / (4 - cbrt(4));
     const double suzuki[most_substeps] = {s, s, 1 - 4 * s, s, s};
     k->substeps = composed ? most_substeps : 1;

@@ -17,15 +17,16 @@
 #ifndef NH_MIDPOINT_H
 #define NH_MIDPOINT_H
 
-#include "motion/dynamics.h"
+#include "motion/flow.h"
+#include "motion/programs.h"
 
 typedef enum { NH_MIDPOINT, NH_LAGRANGE_DALEMBERT, NH_ENERGY } nh_midpoint_rule;
 
-/* NULL when the rule may be used with this model, otherwise why not. */
-const char *nh_midpoint_refused(const nh_model *model, nh_midpoint_rule rule);
+/* NULL when the rule may be used with the model of these programs, otherwise why not. */
+const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule);
 
 /* options->step: the step, made a little smaller so that steps end at the output times.  Otherwise as nh_flow. */
-nh_motion *nh_midpoint(const nh_model *model, nh_midpoint_rule rule, bool composed, const double *initial, size_t count, const double *times,
+nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool composed, const double *initial, size_t count, const double *times,
                        const nh_flow_options *options, nh_error *error);
 
 #endif

@@ -35,7 +35,7 @@ nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh
     p->out = nh_alloc_array(total + 1, sizeof *p->out);
     p->wanted = nh_alloc_array(currents + 1, sizeof *p->wanted);
     p->scale = nh_alloc_array(size, sizeof *p->scale);
-    p->matrix = nh_alloc_array(total + 1, sizeof *p->matrix);
+    p->matrix = nh_alloc_array(total + size + 1, sizeof *p->matrix);
     p->right = nh_alloc_array(tall + 1, sizeof *p->right);
     p->point[0] = t;
     memcpy(p->point + 1, z0, size * sizeof *z0);
@@ -43,6 +43,53 @@ nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh
     memcpy(p->wanted, p->out, currents * sizeof *p->wanted);
     for (size_t j = 0; j < size; j++) p->scale[j] = fmax(1, fabs(z0[j]));
     return p;
+}
+
+/* The first currents whose gradients (rows of J D at a point (t, q, w)) are independent, the others left out: Gram-Schmidt, twice. */
+static void independent_rows(nh_projection *p, const double *point, bool *left_out)
+{
+    size_t r = p->currents, n = p->size, kept = 0;
+    memcpy(p->point, point, (1 + n) * sizeof *point);
+    nh_tape_eval(p->tape, p->work, p->point, p->out);
+    for (size_t k = 0; k < r; k++) {
+        double *row = p->matrix + kept * n;
+        for (size_t j = 0; j < n; j++) row[j] = p->out[r + k + j * r] * p->scale[j];
+        double size = nh_norm(n, row), rest = size;
+        for (int pass = 0; pass < 2; pass++)
+            for (size_t i = 0; i < kept; i++) {
+                double dot = 0;
+                for (size_t j = 0; j < n; j++) dot += row[j] * p->matrix[i * n + j];
+                for (size_t j = 0; j < n; j++) row[j] -= dot * p->matrix[i * n + j];
+            }
+        rest = nh_norm(n, row);
+        left_out[k] = !(rest > independent * size) || !isfinite(rest);
+        for (size_t j = 0; j < n && !left_out[k]; j++) row[j] /= rest;
+        kept += !left_out[k];
+    }
+}
+
+size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *current, double t, const double *z0, const char **why)
+{
+    nh_projection *p = nh_projection_create(o, currents, current, t, z0);
+    bool *anywhere = nh_alloc_array(2 * currents + 1, sizeof *anywhere), *out = anywhere + currents; /* independent at some probe; left out here */
+    double *start = nh_alloc_array(o->width, sizeof *start);
+    size_t chosen = 0;
+    memcpy(start, p->point, (1 + p->size) * sizeof *start);
+    for (size_t i = 0; i < o->chart->probes; i++) {
+        memset(out, 0, currents * sizeof *out);
+        independent_rows(p, o->chart->probe + i * o->width, out);
+        for (size_t k = 0; k < currents; k++) anywhere[k] |= !out[k];
+    }
+    memset(out, 0, currents * sizeof *out);
+    independent_rows(p, start, out);
+    for (size_t k = 0; k < currents; k++) {
+        why[k] = !out[k] ? NULL : anywhere[k] ? "its gradient vanishes or depends on those before it at the initial state" : "it depends on the currents before it";
+        chosen += !why[k];
+    }
+    nh_free(start);
+    nh_free(anywhere);
+    nh_projection_free(p);
+    return chosen;
 }
 
 void nh_projection_free(nh_projection *p)

@@ -15,6 +15,10 @@ typedef struct nh_projection nh_projection;
 nh_projection *nh_projection_create(const nh_model *model, size_t currents, const nh_ex *current, double t, const double *z0);
 void nh_projection_free(nh_projection *projection);
 
+/* Which currents make sense to project onto from z0: the gradient of each must be independent of those of the currents chosen before it.
+ * why[k]: NULL when current k is chosen, otherwise the reason why not; returns how many are chosen. */
+size_t nh_projection_choose(const nh_model *model, size_t currents, const nh_ex *current, double t, const double *z0, const char **why);
+
 /* For nh_flow_options.after: context is the projection.  False when the values are not finite. */
 bool nh_projection_apply(double t, double *z, void *context);
 long nh_projection_evaluations(const nh_projection *projection);

@@ -4,92 +4,17 @@
 #include <string.h>
 
 #include "expr/diff.h"
-#include "expr/normal.h"
 
-static const double seems_zero = 1e-11; /* relative size below which a derivative may be identically zero */
+static const double smallest_slope = 0.03; /* of a current, relative to the start, below which its state loses digits */
 
-/* ---- which state feeds which ---- */
+static const double same_rows = 1e-9;      /* relative difference of two forms of one row that is rounding */
 
-static nh_ex rate_of_state(const nh_model *o, size_t i) { return i < o->m ? o->rho[i] : o->a[i - o->m]; }
 static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
-
-/* Does d (relative to the size of e) vanish at all probes of the chart?  What is undefined somewhere does not. */
-static bool vanishes_at_probes(const nh_model *o, nh_ex d, nh_ex e)
-{
-    const nh_chart *c = o->chart;
-    nh_ex both[2] = {d, e};
-    double value[2];
-    nh_tape *tape = nh_model_tape(o, 2, both);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    bool zero = c->probes > 0;
-    for (size_t p = 0; p < c->probes && zero; p++) {
-        nh_tape_eval(tape, work, c->probe + p * c->width, value);
-        zero = fabs(value[0]) <= seems_zero * (1 + fabs(value[1]));
-    }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return zero;
-}
-
-/* Through the implicit velocities too: derivatives follow their rules. */
-static bool feeds(const nh_model *o, size_t j, nh_ex e)
-{
-    nh_ex d = nh_diff(o->dag, e, symbol_of(o, j));
-    if (nh_is_zero(o->dag, d)) return false;
-    return !(vanishes_at_probes(o, d, e) && nh_normal_is_zero(o->dag, d, 0) == NH_ZERO);
-}
-
-typedef struct {
-    const nh_model *model;
-    size_t states;
-    bool *feeds; /* [i * states + j]: j feeds i */
-    bool *kept;
-} network;
-
-static network network_of(const nh_model *o)
-{
-    network w = {.model = o, .states = o->m + o->n};
-    w.feeds = nh_alloc_array(w.states * w.states, sizeof *w.feeds);
-    w.kept = nh_alloc_array(w.states, sizeof *w.kept);
-    for (size_t i = 0; i < w.states; i++)
-        for (size_t j = 0; j < w.states; j++) w.feeds[i * w.states + j] = feeds(o, j, rate_of_state(o, i));
-    return w;
-}
-
-static void close_under(network *w)
-{
-    for (bool again = true; again;) {
-        again = false;
-        for (size_t i = 0; i < w->states; i++)
-            for (size_t j = 0; j < w->states && w->kept[i]; j++)
-                if (w->feeds[i * w->states + j] && !w->kept[j]) again = w->kept[j] = true;
-    }
-}
-
-static bool reads_implicit(const nh_model *o, nh_ex e)
-{
-    for (size_t a = 0; a < o->chart->implicit; a++)
-        if (nh_depends(o->dag, e, o->chart->u[a])) return true;
-    return false;
-}
-
-/* Implicit velocities are found together, so whatever their equations read is needed. */
-static bool keep_implicit(network *w, size_t n, const nh_ex *watched)
-{
-    const nh_model *o = w->model;
-    bool needed = false;
-    for (size_t k = 0; k < n; k++) needed |= reads_implicit(o, watched[k]);
-    for (size_t i = 0; i < w->states; i++) needed |= w->kept[i] && reads_implicit(o, rate_of_state(o, i));
-    for (size_t a = 0; a < o->chart->implicit && needed; a++)
-        for (size_t j = 0; j < w->states; j++) w->kept[j] |= nh_depends(o->dag, o->chart->residual[a], symbol_of(o, j));
-    if (needed) close_under(w);
-    return needed;
-}
 
 /* ---- core, quadratures, rest ---- */
 
 /* Peel off, layer by layer, what no remaining state reads; the layer that goes last can be integrated first. */
-static void sort_states(nh_scene *s, const network *w)
+static void sort_states(nh_scene *s, const nh_network *w)
 {
     bool *left = nh_alloc_array(w->states, sizeof *left), *layer = nh_alloc_array(w->states, sizeof *layer);
     memcpy(left, w->kept, w->states * sizeof *left);
@@ -110,49 +35,112 @@ static void sort_states(nh_scene *s, const network *w)
     }
     s->core = at;
     s->quadratures = s->kept - at;
-    size_t next = 0, last = s->kept;
+    size_t next = 0, last = s->kept + w->levels;
     for (size_t j = 0; j < w->states; j++) {
         if (left[j]) s->state[next++] = j;
-        if (!w->kept[j]) s->state[last++] = j;
+        for (size_t k = 0; k < w->levels; k++)
+            if (w->level[k].state == j) s->state[s->kept + k] = j;
+        bool removed = false;
+        for (size_t k = 0; k < w->levels; k++) removed |= w->level[k].state == j;
+        if (!w->kept[j] && !removed) s->state[last++] = j;
     }
     nh_free(layer);
     nh_free(left);
 }
 
+static bool finite_all(size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) return false;
+    return true;
+}
+
+/* The kept rows with zero for what is dropped, which makes most of them short.  False where that is no regular value. */
+static bool rows_at_zero(const nh_scene *s, nh_ex *e)
+{
+    const nh_model *o = s->model;
+    size_t n = s->kept, from = n + s->levels, count = s->states - from, width = o->width + s->levels;
+    nh_ex *symbol = nh_alloc_array(count + 1, sizeof *symbol), *zero = nh_alloc_array(count + 1, sizeof *zero);
+    for (size_t i = 0; i < count; i++) symbol[i] = symbol_of(o, s->state[from + i]), zero[i] = nh_int(o->dag, 0);
+    for (size_t i = 0; i < n; i++) {
+        e[i] = nh_substitute(o->dag, s->network.row[s->state[i]], count, symbol, zero);
+        e[n + i] = s->network.row[s->state[i]];
+    }
+    double *value = nh_alloc_array(2 * n + 1, sizeof *value), *point = nh_alloc_array(width + 1, sizeof *point);
+    nh_tape *tape = nh_network_tape(&s->network, 2 * n, e, 0, NULL, NULL);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    bool good = !s->implicit && o->chart->probes > 0;
+    for (size_t p = 0; p < o->chart->probes && good; p++) {
+        memcpy(point, o->chart->probe + p * o->width, o->width * sizeof *point);
+        for (size_t k = 0; k < s->levels; k++) point[o->width + k] = 0.7385 + 0.31 * (double)(p + k); /* any */
+        nh_tape_eval(tape, work, point, value);
+        good = finite_all(2 * n, value);
+        for (size_t i = 0; i < n && good; i++) good = fabs(value[i] - value[n + i]) <= same_rows * (1 + fabs(value[n + i]));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(point);
+    nh_free(value);
+    nh_free(zero);
+    nh_free(symbol);
+    return good;
+}
+
+/* Dropped states feed nothing: any regular values will do for them, and what is then constant need not be computed. */
+static nh_tape *frozen_tape(const nh_scene *s, size_t n, const nh_ex *e)
+{
+    const nh_model *o = s->model;
+    size_t from = s->kept + s->levels, count = o->chart->probes ? s->states - from : 0;
+    nh_ex *symbol = nh_alloc_array(count + 1, sizeof *symbol);
+    double *value = nh_alloc_array(count + 1, sizeof *value);
+    for (size_t i = 0; i < count; i++) {
+        symbol[i] = symbol_of(o, s->state[from + i]);
+        value[i] = o->chart->probe[1 + s->state[from + i]];
+    }
+    nh_tape *tape = nh_network_tape(&s->network, n, e, s->implicit ? 0 : count, symbol, value);
+    nh_free(value);
+    nh_free(symbol);
+    return tape;
+}
+
 static void make_tapes(nh_scene *s)
 {
     const nh_model *o = s->model;
-    size_t n = s->kept;
-    nh_ex *e = nh_alloc_array(s->states + n * n, sizeof *e);
-    for (size_t i = 0; i < s->states; i++) e[i] = rate_of_state(o, i);
-    nh_tape *all = nh_model_tape(o, s->states, e);
-    s->instructions_of_all = nh_tape_length(all);
-    nh_tape_free(all);
-    for (size_t i = 0; i < n; i++) e[i] = rate_of_state(o, s->state[i]);
-    s->rate = n ? nh_model_tape(o, n, e) : NULL;
+    size_t n = s->kept, levels = s->levels;
+    nh_ex *e = nh_alloc_array(s->states + n * (n + 1) + 2 * levels + 1, sizeof *e);
+    memcpy(e, o->rho, o->m * sizeof *e);
+    memcpy(e + o->m, o->a, o->n * sizeof *e);
+    s->rate_of_all = nh_model_tape(o, s->states, e);
+    s->instructions_of_all = nh_tape_length(s->rate_of_all);
+    bool zero = rows_at_zero(s, e);
+    for (size_t i = 0; i < n && !zero; i++) e[i] = s->network.row[s->state[i]];
+    s->rate = n ? frozen_tape(s, n, e) : NULL;
     s->instructions = n ? nh_tape_length(s->rate) : 0;
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < n; i++) e[n + i + j * n] = nh_diff(o->dag, e[i], symbol_of(o, s->state[j]));
-    s->jacobian = n ? nh_model_tape(o, n * n, e + n) : NULL;
+    s->jacobian = n ? frozen_tape(s, n * n, e + n) : NULL;
+    for (size_t k = 0; k < levels; k++) {
+        e[k] = s->network.level[k].value;
+        e[levels + k] = s->network.level[k].slope;
+    }
+    s->removed = nh_network_tape(&s->network, 2 * levels, e, 0, NULL, NULL);
+    for (size_t k = 0; k < levels; k++) e[k] = s->network.level[k].current;
+    s->currents = nh_model_tape(o, levels, e);
     nh_free(e);
 }
 
-nh_scene *nh_scene_create(const nh_model *o, size_t n, const nh_ex *watched)
+nh_scene *nh_scene_create(const nh_model *o, size_t n, const nh_ex *watched, size_t currents, const nh_ex *current)
 {
     nh_arena *arena = nh_arena_create();
     nh_scene *s = nh_arena_alloc(arena, sizeof *s);
     *s = (nh_scene){.model = o, .arena = arena, .states = o->m + o->n};
-    s->state = nh_arena_alloc(arena, s->states * sizeof *s->state);
-    network w = network_of(o);
-    for (size_t j = 0; j < w.states; j++)
-        for (size_t k = 0; k < n && !w.kept[j]; k++) w.kept[j] = feeds(o, j, watched[k]);
-    close_under(&w);
-    s->implicit = keep_implicit(&w, n, watched);
-    for (size_t j = 0; j < w.states; j++) s->kept += w.kept[j];
-    sort_states(s, &w);
+    s->state = nh_arena_alloc(arena, (s->states + 1) * sizeof *s->state);
+    nh_network_init(&s->network, o, n, watched, currents, current);
+    s->implicit = s->network.implicit;
+    s->kept = s->network.count;
+    s->levels = s->network.levels;
+    sort_states(s, &s->network);
     make_tapes(s);
-    nh_free(w.kept);
-    nh_free(w.feeds);
     return s;
 }
 
@@ -161,6 +149,10 @@ void nh_scene_free(nh_scene *s)
     if (!s) return;
     nh_tape_free(s->rate);
     nh_tape_free(s->jacobian);
+    nh_tape_free(s->rate_of_all);
+    nh_tape_free(s->removed);
+    nh_tape_free(s->currents);
+    nh_network_clear(&s->network);
     nh_arena_free(s->arena);
 }
 
@@ -168,26 +160,46 @@ void nh_scene_free(nh_scene *s)
 
 struct nh_scene_run {
     const nh_scene *scene;
-    nh_tape_work *rate, *jacobian;
+    nh_tape_work *rate, *jacobian, *removed;
     const nh_flow_problem *whole;
-    double *point; /* (t, q, w, u): dropped states at their initial values, implicit velocities at their last ones */
+    double *point; /* (t, q, w, u, c): dropped states at their initial values, implicit velocities at their last ones */
+    long failed;           /* the level that does not determine its state; -1 */
+    double *level, *slope; /* states that currents determine, and the slopes after them; the slopes at the start */
 };
 
-nh_scene_run *nh_scene_run_create(const nh_scene *s, const double *z0)
+nh_scene_run *nh_scene_run_create(const nh_scene *s, double t, const double *z0)
 {
+    size_t width = s->model->width;
     nh_scene_run *run = nh_alloc(sizeof *run);
-    *run = (nh_scene_run){.scene = s, .point = nh_alloc_array(s->model->width, sizeof *run->point)};
+    *run = (nh_scene_run){.scene = s, .failed = -1, .point = nh_alloc_array(width + s->levels + 1, sizeof *run->point), .level = nh_alloc_array(3 * s->levels + 1, sizeof *run->level)};
+    run->slope = run->level + 2 * s->levels;
     if (s->rate) run->rate = nh_tape_work_create(s->rate);
     if (s->jacobian) run->jacobian = nh_tape_work_create(s->jacobian);
+    run->removed = nh_tape_work_create(s->removed);
+    run->point[0] = t;
     memcpy(run->point + 1, z0, s->states * sizeof *z0);
+    if (!s->levels) return run;
+    nh_tape_work *work = nh_tape_work_create(s->currents);
+    nh_tape_eval(s->currents, work, run->point, run->point + width);
+    nh_tape_work_free(work);
+    nh_tape_eval(s->removed, run->removed, run->point, run->level);
+    memcpy(run->slope, run->level + s->levels, s->levels * sizeof *run->slope);
+    for (size_t k = 0; k < s->levels && run->failed < 0; k++) { /* does it give back what was there? */
+        double at = z0[s->state[s->kept + k]];
+        if (!(fabs(run->level[k] - at) <= same_rows * (1 + fabs(at)))) run->failed = (long)k;
+    }
     return run;
 }
+
+long nh_scene_run_failed(const nh_scene_run *run) { return run->failed; }
 
 void nh_scene_run_free(nh_scene_run *run)
 {
     if (!run) return;
     nh_tape_work_free(run->rate);
     nh_tape_work_free(run->jacobian);
+    nh_tape_work_free(run->removed);
+    nh_free(run->level);
     nh_free(run->point);
     nh_free(run);
 }
@@ -200,18 +212,24 @@ static bool place(nh_scene_run *run, double t, const double *z)
     return !s->implicit || nh_chart_complete(s->model->chart, run->point);
 }
 
-bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point)
+/* The states that currents determine, into the point; false when one is not determined there. */
+static bool place_removed(nh_scene_run *run)
 {
-    bool good = place(run, t, z);
-    memcpy(point, run->point, run->scene->model->width * sizeof *point);
-    return good;
+    const nh_scene *s = run->scene;
+    if (!s->levels) return true;
+    nh_tape_eval(s->removed, run->removed, run->point, run->level);
+    for (size_t k = 0; k < s->levels; k++) {
+        run->point[1 + s->state[s->kept + k]] = run->level[k];
+        if (!(run->level[s->levels + k] / run->slope[k] > smallest_slope)) return run->failed = (long)k, false;
+    }
+    return true;
 }
 
-static bool finite_all(size_t n, const double *x)
+bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point)
 {
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i])) return false;
-    return true;
+    bool good = place(run, t, z) && place_removed(run);
+    memcpy(point, run->point, run->scene->model->width * sizeof *point);
+    return good;
 }
 
 static bool scene_rate(double t, const double *z, double *rate, void *context)
@@ -233,43 +251,17 @@ static bool scene_jacobian(double t, const double *z, double *jacobian, void *co
 static bool scene_guard(double t, const double *z, double *value, void *context)
 {
     nh_scene_run *run = context;
-    return place(run, t, z) && run->whole->guard(t, run->point + 1, value, run->whole->context);
+    const nh_scene *s = run->scene;
+    size_t guards = run->whole ? run->whole->guards : 0;
+    bool good = place(run, t, z);
+    if (good && s->levels) place_removed(run);
+    for (size_t k = 0; k < s->levels; k++) value[guards + k] = run->level[s->levels + k] / run->slope[k] - smallest_slope;
+    return good && (!guards || run->whole->guard(t, run->point + 1, value, run->whole->context));
 }
 
 nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole)
 {
     run->whole = whole;
-    size_t guards = whole ? whole->guards : 0;
+    size_t guards = (whole ? whole->guards : 0) + run->scene->levels;
     return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = scene_jacobian, .guards = guards, .guard = guards ? scene_guard : NULL};
-}
-
-/* ---- in words ---- */
-
-const char *nh_scene_state_name(const nh_scene *s, size_t i) { return nh_name_of(s->model->dag, symbol_of(s->model, i)); }
-
-static void list(const nh_scene *s, size_t from, size_t to, nh_text *out)
-{
-    for (size_t i = from; i < to; i++)
-        nh_text_addf(out, "%s%s", i == from ? "" : i + 1 == to ? " and " : ", ", nh_scene_state_name(s, s->state[i]));
-}
-
-void nh_scene_words(const nh_scene *s, nh_text *out)
-{
-    nh_text_addf(out, "%zu of %zu states integrated", s->core, s->states);
-    if (s->core) {
-        nh_text_add(out, " (");
-        list(s, 0, s->core, out);
-        nh_text_add(out, ")");
-    }
-    if (s->quadratures) {
-        nh_text_add(out, ", ");
-        list(s, s->core, s->kept, out);
-        nh_text_add(out, " by quadrature");
-    }
-    if (s->kept < s->states) {
-        nh_text_add(out, ", ");
-        list(s, s->kept, s->states, out);
-        nh_text_add(out, " dropped");
-    }
-    nh_text_addf(out, "; %zu of %zu instructions", s->instructions, s->instructions_of_all);
 }

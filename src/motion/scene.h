@@ -1,9 +1,9 @@
 /* scene: the smallest closed part of a model that what is watched needs.
  *
- * The states are z = (q, w), z' = f(t, z) = (rho, a).  State j feeds state i when df_i/dz_j is not identically zero; a derivative that
- * vanishes at all probes is dropped only if it is proved to be zero.  The states that feed a watched quantity, directly or through others,
- * are a closed system: the rest of the model cannot change what is watched.  Of these, states that no other kept state reads are
- * quadratures: they follow from the others by integration alone, in layers.  What is left is the core.
+ * The states are z = (q, w), z' = f(t, z) = (rho, a).  The states that feed a watched quantity, directly or through others (network.h), are a
+ * closed system: the rest of the model cannot change what is watched.  Conserved currents may determine some of them, which then need no
+ * equation.  Of the states that are kept, those that no other kept state reads are quadratures: they follow from the others by integration alone,
+ * in layers.  What is left is the core.
  *
  * A scene is constant after creation; its problem brings its own work memory. */
 #ifndef NH_SCENE_H
@@ -11,34 +11,45 @@
 
 #include "base/text.h"
 #include "motion/dynamics.h"
+#include "motion/network.h"
 
 typedef struct {
     const nh_model *model;
     nh_arena *arena;
     size_t states;                  /* m + n of the whole model */
     size_t core, quadratures, kept; /* kept = core + quadratures */
+    size_t levels;                  /* states that conserved currents determine */
     size_t *state;                  /* states, as indices into (q, w): the core, then the quadratures in an order in which they can be
-                                       integrated, then those dropped */
+                                       integrated, then those that currents determine, then those dropped */
     bool implicit;                  /* implicit velocities are needed */
-    nh_tape *rate, *jacobian;       /* of the kept states, over points (t, q, w, u); NULL when nothing is kept */
+    nh_network network;
+    nh_tape *rate, *jacobian;       /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept */
+    nh_tape *removed, *currents;    /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */
+    nh_tape *rate_of_all;           /* of all states, over (t, q, w, u) */
     size_t instructions, instructions_of_all; /* of the right-hand sides */
 } nh_scene;
 
-/* n watched expressions of the chart.  Never fails: the whole model is a scene of itself. */
-nh_scene *nh_scene_create(const nh_model *model, size_t n, const nh_ex *watched);
+/* n watched expressions of the chart, and conserved currents that may be used (there may be none).  Never fails: the whole model is a scene of itself. */
+nh_scene *nh_scene_create(const nh_model *model, size_t n, const nh_ex *watched, size_t currents, const nh_ex *current);
 void nh_scene_free(nh_scene *scene);
 
-/* The equations of the kept states.  z0: m + n values; those of the dropped states stay what they are.  Free what comes back last. */
+/* The equations of the kept states.  z0: m + n values at time t; those of the dropped states stay what they are, currents have the values that they
+ * have there.  Free what comes back last. */
 typedef struct nh_scene_run nh_scene_run;
-nh_scene_run *nh_scene_run_create(const nh_scene *scene, const double *z0);
+nh_scene_run *nh_scene_run_create(const nh_scene *scene, double t, const double *z0);
 void nh_scene_run_free(nh_scene_run *run);
+/* The level whose current does not determine its state: at the start or at the last point that was asked for; -1: none. */
+long nh_scene_run_failed(const nh_scene_run *run);
 /* `whole`: the problem of the whole model, whose guards are watched; it must live as long as the run.  May be NULL. */
 nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole);
-/* The point (t, q, w, u) that belongs to the kept states z; width entries.  False when the implicit velocities cannot be found. */
+/* The point (t, q, w, u) that belongs to the kept states z; width entries.  False when the implicit velocities cannot be found, or a current no longer
+ * determines its state. */
 bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point);
 
 /* "2 of 5 states integrated (omega, v), phi and x by quadrature, y dropped; 5 of 8 instructions" */
 void nh_scene_words(const nh_scene *scene, nh_text *out);
+/* "the parameters jz3 and l2 have no influence, nor the body column"; empty when all matter. */
+void nh_scene_idle_words(const nh_scene *scene, nh_text *out);
 /* The name of state i of (q, w). */
 const char *nh_scene_state_name(const nh_scene *scene, size_t i);
 

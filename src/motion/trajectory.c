@@ -190,17 +190,26 @@ static void look_ahead(job *j)
     nh_motion_free(motion);
 }
 
-/* The scene's states from the start of all. */
-static bool in_scene(job *j, nh_error *error)
+/* The scene's states from the start of all.  *failed: the current (its number) that did not determine its state all the way, or -1. */
+static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *failed, nh_error *error)
 {
-    nh_scene *s = j->out->scene = nh_scene_create(j->q->model, j->q->n, j->q->e);
-    nh_scene_run *run = nh_scene_run_create(s, j->z0);
+    nh_scene *s = j->out->scene = nh_scene_create(j->q->model, j->q->n, j->q->e, currents, current);
+    nh_scene_run *run = nh_scene_run_create(s, j->q->times[0], j->z0);
     nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_scene_problem(run, &whole);
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
-    nh_motion *motion = s->kept ? nh_method_flow(j->method, &problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
+    bool starts = s->kept && nh_scene_run_failed(run) < 0;
+    nh_motion *motion = starts ? nh_method_flow(j->method, &problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
     bool good = motion && !(nh_may_leave_chart(j->q->model) && (!motion->complete || scene_is_steep(s, run, motion)));
     if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
+    if (good && s->levels) good = motion->complete;
+    *failed = -1;
+    if (!good && s->levels) {
+        long level = nh_scene_run_failed(run);
+        if (level < 0) level = (long)s->levels - 1;
+        for (size_t k = 0; k < currents; k++)
+            if (current[k] == s->network.level[level].current) *failed = (long)k;
+    }
     j->out->motion = motion;
     nh_free(small);
     nh_scene_run_free(run);
@@ -210,6 +219,23 @@ static bool in_scene(job *j, nh_error *error)
     j->out->motion = NULL;
     j->out->scene = NULL;
     return false;
+}
+
+/* With all currents; then without those that cease to determine their state on the way. */
+static bool in_scene(job *j, nh_error *error)
+{
+    const nh_trajectory_request *q = j->q;
+    nh_ex *current = nh_alloc_array(q->currents + q->model->m + 1, sizeof *current);
+    size_t n = nh_network_cyclic(q->model, current);
+    for (size_t k = 0; k < q->currents; k++)
+        if (nh_network_conserved(q->model, q->current[k])) current[n++] = q->current[k];
+    bool good = false;
+    for (long failed = 0; failed >= 0 && !good;) {
+        good = in_scene_of(j, n, current, &failed, error);
+        if (!good && failed >= 0) memmove(current + failed, current + failed + 1, (--n - (size_t)failed) * sizeof *current);
+    }
+    nh_free(current);
+    return good;
 }
 
 static void in_all_states(job *j, nh_error *error)

@@ -15,6 +15,8 @@ typedef struct {
     size_t n;
     const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
     bool smallest;            /* integrate only what they need */
+    size_t currents;          /* of the chart, known to be conserved: they may make states superfluous there */
+    const nh_ex *current;
     bool project;             /* velocities that violate the constraints are replaced by the nearest that satisfy them */
     const nh_method *method;  /* with error control; NULL: CVODE Adams */
     double max_seconds;       /* 0: none; a motion that takes longer is not complete */

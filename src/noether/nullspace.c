@@ -264,6 +264,41 @@ nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_opt
     return NULL;
 }
 
+/* All columns that vary, of norm one, and R = 1: nothing is known about their dependence. */
+static void every_column(nh_basis *basis, nh_equations *equations, const nh_nullspace_options *options)
+{
+    size_t n = equations->columns;
+    double *r = nh_alloc_array((n + 1) * (n + 1), sizeof *r);
+    *basis = (nh_basis){.column = nh_alloc_array(n + 1, sizeof *basis->column), .scale = nh_alloc_array(n + 1, sizeof *basis->scale), .smallest_kept = 1};
+    nh_qr_triangle(equations->values, r);
+    for (size_t j = 0; j < n; j++) {
+        double length = nh_norm(n, r + (j + 1) * (n + 1) + 1), size = nh_norm(n + 1, r + (j + 1) * (n + 1));
+        if (length <= options->trivial * size) continue;
+        basis->scale[j] = length;
+        basis->column[basis->count++] = j;
+    }
+    basis->r = nh_alloc_array(basis->count * basis->count + 1, sizeof *basis->r);
+    for (size_t j = 0; j < basis->count; j++) basis->r[j + j * basis->count] = 1;
+    nh_free(r);
+}
+
+nh_nullspace *nh_nullspace_plain(nh_equations *equations, const nh_nullspace_options *options, nh_error *error)
+{
+    nh_basis basis;
+    if (!check_input(equations, error)) return NULL;
+    every_column(&basis, equations, options);
+    nh_nullspace *result = nh_alloc(sizeof *result);
+    result->columns = equations->columns;
+    result->rows = nh_qr_rows(equations->residuals);
+    result->dropped = nh_alloc_array(result->columns, sizeof(bool));
+    describe_basis(result, &basis, options);
+    bool ok = solve(result, equations, &basis, options, error);
+    nh_basis_clear(&basis);
+    if (ok) return result;
+    nh_nullspace_free(result);
+    return NULL;
+}
+
 void nh_nullspace_free(nh_nullspace *nullspace)
 {
     if (!nullspace)

@@ -54,6 +54,9 @@ typedef struct {
 } nh_nullspace;
 
 nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_options *options, nh_error *error);
+/* The same without the quotient: a plain SVD of A with columns of norm one, which takes a combination that vanishes, or nearly, for a current.  To be
+ * compared with. */
+nh_nullspace *nh_nullspace_plain(nh_equations *equations, const nh_nullspace_options *options, nh_error *error);
 void nh_nullspace_free(nh_nullspace *nullspace);
 
 #endif

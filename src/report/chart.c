@@ -1,4 +1,5 @@
 #include "report/chart.h"
+#include "report/chart_internal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,12 +21,12 @@ static void time_text(double seconds, char out[16])
 
 /* ---- text ---- */
 
-const nh_measured *nh_comparison_fastest(const nh_comparison *c, size_t from, size_t to, double below)
+const nh_measured *nh_comparison_fastest(const nh_comparison *c, size_t from, size_t to, double below, bool reduced)
 {
     const nh_measured *best = NULL;
     for (size_t i = from; i < to; i++) {
         const nh_measured *m = &c->item[i];
-        if (m->status <= NH_WARNED && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
+        if (m->status <= NH_WARNED && (reduced || !m->reduced) && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
     }
     return best;
 }
@@ -34,7 +35,7 @@ static void put_line(const nh_comparison *c, size_t from, size_t to, nh_text *ou
 {
     nh_text_addf(out, "    %-30s", c->item[from].method);
     for (int g = 0; g < goals; g++) {
-        const nh_measured *m = nh_comparison_fastest(c, from, to, goal[g]);
+        const nh_measured *m = nh_comparison_fastest(c, from, to, goal[g], true);
         char us[16], cell[48];
         if (m) {
             time_text(m->seconds, us);
@@ -68,7 +69,8 @@ static void put_run(const nh_comparison *c, const nh_measured *m, nh_text *out)
     else nh_text_addf(out, "step %-13.3g", m->step);
     nh_text_addf(out, " %-8s", nh_measured_status_name(m->status));
     if (isfinite(m->error)) nh_text_addf(out, " error %-9.1e", m->error);
-    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++) nh_text_addf(out, " %s %.0e", c->current[k], m->drift[k]);
+    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++)
+        if (!isnan(m->drift[k])) nh_text_addf(out, " %s %.0e", c->current[k], m->drift[k]);
     nh_text_addf(out, " %s us %ld%s", isfinite(m->seconds) ? us : "-", m->evaluations, m->front ? " *" : "");
     if (m->note && m->note[0]) nh_text_addf(out, "  %s", m->note);
     nh_text_add(out, "\n");
@@ -77,7 +79,7 @@ static void put_run(const nh_comparison *c, const nh_measured *m, nh_text *out)
 static void put_front(const nh_comparison *c, nh_text *out)
 {
     for (int g = 0; g < goals; g++) {
-        const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g]);
+        const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g], false);
         if (!m) continue;
         char us[16];
         time_text(m->seconds, us);
@@ -107,6 +109,9 @@ void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
         nh_text_add(out, "\n");
     }
     for (size_t i = 0; i < c->refused; i++) nh_text_addf(out, "  not used, %s\n", c->refusal[i]);
+    bool reduced = false;
+    for (size_t i = 0; i < c->count; i++) reduced |= c->item[i].reduced;
+    if (reduced) nh_text_add(out, "  reduced equations compute shape and momenta only, and are left out here; errors are those of their own states\n");
     if (c->partial) nh_text_add(out, "  the budget ended before every method had all its runs; --budget allows more\n");
     if (c->derivatives) nh_text_add(out, "\nDerivatives: one Jacobian of the reduced equations\n");
     for (size_t i = 0; i < c->derivatives; i++) {
@@ -115,6 +120,7 @@ void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
         time_text(d->seconds, us);
         if (isfinite(d->seconds)) nh_text_addf(out, "    %-34s%10s us %6ld evaluations   off by %.0e\n", d->method, us, d->evaluations, d->error);
     }
+    nh_fits_text(c, verbose, out);
     if (verbose) nh_text_add(out, "\nAll runs (* nothing is both faster and more accurate)\n");
     for (size_t i = 0; i < c->count && verbose; i++) put_run(c, &c->item[i], out);
 }
@@ -154,10 +160,12 @@ static void put_item(const nh_comparison *c, const nh_measured *m, nh_json *list
     nh_json_put_number(item, "error", m->error);
     nh_json_put_number(item, "drift", m->worst_drift);
     nh_json *drifts = nh_json_put_object(item, "drifts");
-    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++) nh_json_put_number(drifts, c->current[k], m->drift[k]);
+    for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++)
+        if (!isnan(m->drift[k])) nh_json_put_number(drifts, c->current[k], m->drift[k]);
     nh_json_put_number(item, "seconds", m->seconds);
     nh_json_put_number(item, "evaluations", (double)m->evaluations);
     nh_json_put_text(item, "status", nh_measured_status_name(m->status));
+    nh_json_put_bool(item, "reduced", m->reduced);
     nh_json_put_bool(item, "front", m->front);
     nh_json_put_text(item, "note", m->note ? m->note : "");
 }
@@ -200,6 +208,7 @@ char *nh_comparison_json(const nh_comparison *c, const nh_stress *s, const nh_ru
         nh_json_put_number(item, "seconds", c->derivative[i].seconds);
         nh_json_put_number(item, "evaluations", (double)c->derivative[i].evaluations);
     }
+    nh_fits_json(c, root);
     nh_json *refused = nh_json_put_array(root, "refused");
     for (size_t i = 0; i < c->refused; i++) nh_json_add_text(refused, c->refusal[i]);
     nh_json_put_bool(root, "partial", c->partial);

@@ -42,7 +42,7 @@ static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
 
 static void answer(nh_html_writer *w, const nh_comparison *c)
 {
-    const nh_measured *best = nh_comparison_fastest(c, 0, c->count, 1e-6);
+    const nh_measured *best = nh_comparison_fastest(c, 0, c->count, 1e-6, false);
     nh_html_add(w, best ? "<p class=\"answer found\">Fastest below an error of a millionth: " : "<p class=\"answer undecided\">No method came below an error of a millionth");
     if (best) {
         nh_html_text(w, best->method);
@@ -72,7 +72,7 @@ static void fastest(nh_html_writer *w, const nh_comparison *c)
     } goal[] = {{1e-3, "10<sup>\u22123</sup>"}, {1e-6, "10<sup>\u22126</sup>"}, {1e-9, "10<sup>\u22129</sup>"}, {1e-12, "10<sup>\u221212</sup>"}};
     nh_html_table(w, "The fastest below an error of ...", "error below|method|formulation|set to|error|drift|seconds|evaluations");
     for (size_t g = 0; g < sizeof goal / sizeof *goal; g++) {
-        const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g].below);
+        const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g].below, false);
         if (m) best_line(w, m, goal[g].text);
     }
     nh_html_table_end(w);

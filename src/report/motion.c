@@ -100,6 +100,13 @@ char *nh_motion_json(const nh_simulation *s, const nh_run *run)
     nh_json_put_text(root, "method", s->method);
     nh_json_put_text(root, "formulation", s->formulation);
     nh_json_put_text(root, "scene", s->scene);
+    nh_json_put_text(root, "without_influence", s->idle);
+    if (s->compared) {
+        nh_json *whole = nh_json_put_object(root, "whole_model");
+        nh_json_put_number(whole, "seconds", s->whole_seconds);
+        nh_json_put_number(whole, "evaluations", (double)s->whole_evaluations);
+        nh_json_put_number(whole, "difference", s->whole_difference);
+    }
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", s->motion->complete);
     put_accuracy(s, root);

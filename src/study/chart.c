@@ -9,10 +9,9 @@
 enum { levels = NH_CHART_LEVELS, most_repeats = 7, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 static const double reference_tolerance = 1e-14, second_tolerance = 1e-13;
-static const double step_ratio = 4, fewest_steps = 32; /* of fixed steps, from level to level */
+static const double step_ratio = 4; /* of fixed steps, from level to level */
 static const double enough_seconds = 3e-3;             /* repetitions stop after this time */
-static const double trusted = 1e-4;                    /* worst agreement of a reference that is looked for no further */
-static const double far_off = 1e-2, far_from_tolerance = 1e4, far_off_fixed = 0.1; /* errors that nobody asked for */
+static const double share_of_fits = 0.25;              /* of the budget, for the discrete problem, beside it */
 
 const char *nh_measured_status_name(nh_measured_status status)
 {
@@ -38,15 +37,15 @@ static nh_motion *integrate(nh_bench *c, const nh_contender *k, double tolerance
     const double *times = c->yard.times;
     if (!k->method) {
         nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
+        problem.holds = k->index == 2;
         nh_chetaev_motion *full = nh_chetaev(&problem, f->z0, NH_CHART_OUTPUTS, times, &how, error);
         nh_motion *motion = full ? full->motion : NULL;
         if (full) full->motion = NULL;
         nh_chetaev_motion_free(full);
         return motion;
     }
-    if (k->method->family == NH_METHOD_MIDPOINT)
-        return nh_midpoint(f->model, (nh_midpoint_rule)k->method->kind, k->method->composed, f->z0, NH_CHART_OUTPUTS, times, &how, error);
-    nh_projection *p = k->projected ? nh_projection_create(f->model, c->yard.currents, c->yard.current, times[0], f->z0) : NULL;
+    if (k->method->order) return nh_method_steps(k->method, f->programs, f->z0, NH_CHART_OUTPUTS, times, &how, error);
+    nh_projection *p = k->projected ? nh_projection_create(f->model, c->held_currents, c->held, times[0], f->z0) : NULL;
     if (p) how.after = nh_projection_apply;
     how.after_context = p;
     nh_motion *motion = nh_method_flow(k->method, &f->problem, f->z0, NH_CHART_OUTPUTS, times, &how, error);
@@ -63,10 +62,10 @@ static bool breaks_down(nh_formulation *f, const nh_motion *motion)
     return any || f->breaks;
 }
 
-static nh_measured_status status_of(const nh_measured *m, bool complete, bool cancelled, bool guarded)
+static nh_measured_status status_of(const nh_options *o, const nh_measured *m, bool complete, bool cancelled, bool guarded)
 {
     if (!complete) return guarded ? NH_CAUGHT : cancelled ? NH_TIMEOUT : NH_FAILED;
-    bool wrong = isnan(m->tolerance) ? !(m->error <= far_off_fixed) : !(m->error <= fmax(far_off, far_from_tolerance * m->tolerance));
+    bool wrong = isnan(m->tolerance) ? !(m->error <= o->chart_fixed) : !(m->error <= fmax(o->chart_wrong, o->chart_far * m->tolerance));
     if (guarded) return wrong ? NH_CAUGHT : NH_WARNED;
     return wrong ? NH_WRONG : NH_RIGHT;
 }
@@ -78,15 +77,18 @@ static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_meas
     double *states = nh_alloc_array(NH_CHART_OUTPUTS * 2 * c->model->m, sizeof *states);
     m->drift = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *m->drift);
     m->evaluations = motion->evaluations;
-    bool good = nh_formulation_states(f, motion, states);
-    if (motion->complete && good) {
+    bool good = f->reduced || nh_formulation_states(f, motion, states);
+    if (motion->complete && f->reduced) {
+        m->error = nh_reduced_error(f, motion);
+        for (size_t i = 0; i < n; i++) m->drift[i] = c->yard.current[i] == c->model->E ? (m->worst_drift = nh_reduced_drift(f, motion)) : NAN;
+    } else if (motion->complete && good) {
         m->error = nh_yardstick_error(&c->yard, motion->count, states);
         nh_yardstick_drifts(&c->yard, motion->count, states, m->drift);
         m->worst_drift = n ? 0 : NAN;
         for (size_t i = 0; i < n; i++) m->worst_drift = fmax(m->worst_drift, m->drift[i]);
     }
     bool steep = breaks_down(f, motion);
-    m->status = status_of(m, motion->complete && good, late(c) || now() > c->deadline, steep);
+    m->status = status_of(&c->options, m, motion->complete && good, late(c) || now() > c->deadline, steep);
     m->note = nh_arena_strdup(c->out->arena, steep && !motion->note[0] ? "the chart breaks down on the way" : motion->note);
     nh_free(states);
 }
@@ -98,10 +100,10 @@ void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double ste
     nh_error_clear(&error);
     double begin = now(), left = c->begun + c->budget - begin;
     c->deadline = begin + fmax(left / 4, 0.01);
-    nh_progress(k->method ? k->method->name : "IDA, index 1", (now() - c->begun) / c->budget);
-    *m = (nh_measured){.method = !k->method ? "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
+    nh_progress(k->method ? k->method->name : k->index == 2 ? "IDA, index 2" : "IDA, index 1", (now() - c->begun) / c->budget);
+    *m = (nh_measured){.method = !k->method ? k->index == 2 ? "IDA, index 2" : "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
-                       .step = step, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
+                       .step = step, .reduced = c->formulation[k->formulation].reduced != NULL, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
     for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && now() - begin < enough_seconds)); i++) {
         nh_motion *motion = integrate(c, k, tolerance, step, &error);
         if (motion && i == 0) judge(c, k, motion, m);
@@ -138,7 +140,7 @@ bool nh_bench_reference(nh_bench *c, nh_error *error)
     size_t size = NH_CHART_OUTPUTS * 2 * c->model->m;
     double *states = nh_alloc_array(size, sizeof *states), *other = nh_alloc_array(size, sizeof *other);
     c->out->agreement = INFINITY;
-    for (size_t f = 0; f < c->formulations && !(c->out->agreement < trusted); f++) {
+    for (size_t f = 0; f < c->formulations && !(c->out->agreement < c->options.chart_trusted); f++) {
         if (!states_of(c, f, first, reference_tolerance, states) || !states_of(c, f, second, second_tolerance, other)) continue;
         double *before = c->yard.state;
         c->yard.state = states;
@@ -168,27 +170,51 @@ static void add(nh_bench *c, const nh_method *method, size_t formulation, bool p
     if (c->candidates < NH_CHART_CANDIDATES) c->candidate[c->candidates++] = (nh_contender){.method = method, .formulation = formulation, .projected = projected};
 }
 
-static void refuse(nh_comparison *out, const char *method, const char *why)
+void nh_bench_add(nh_bench *c, const nh_method *method, size_t formulation) { add(c, method, formulation, false); }
+
+void nh_bench_refuse(nh_bench *c, const char *method, const char *why)
 {
-    out->refusal[out->refused++] = nh_arena_printf(out->arena, "%s: %s", method, why);
+    c->out->refusal[c->out->refused++] = nh_arena_printf(c->out->arena, "%s: %s", method, why);
+}
+
+/* The currents that a projection holds; the others with the reason. */
+static void choose_currents(nh_bench *c)
+{
+    size_t n = c->yard.currents;
+    const char **why = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *why);
+    c->held = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *c->held);
+    nh_projection_choose(c->model, n, c->yard.current, c->yard.times[0], c->formulation[0].z0, why);
+    for (size_t k = 0; k < n; k++) {
+        if (!why[k]) c->held[c->held_currents++] = c->yard.current[k];
+        else nh_bench_refuse(c, nh_arena_printf(c->out->arena, "projection onto %s", c->yard.name[k]), why[k]);
+    }
 }
 
 static void list_candidates(nh_bench *c)
 {
-    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF"}; /* in the other formulations */
-    c->out->refusal = nh_arena_alloc(c->out->arena, (nh_method_count() + 1) * sizeof *c->out->refusal);
+    static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF", "Lagrange-d'Alembert, order 4", "relaxation, order 8"}; /* in the other formulations */
+    c->out->refusal = nh_arena_alloc(c->out->arena, (nh_method_count() + 2 + NH_CHART_REDUCED + c->yard.currents) * sizeof *c->out->refusal);
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
-        const char *why = m->fixed ? nh_midpoint_refused(c->model, (nh_midpoint_rule)m->kind) : NULL;
-        if (why) refuse(c->out, m->name, why);
+        const char *why = nh_method_refused(m, c->formulation[0].programs);
+        if (why) nh_bench_refuse(c, m->name, why);
         else add(c, m, 0, false);
     }
-    if (!c->yard.currents) refuse(c->out, "projection", "no current of this system is known");
-    else if (c->model->chart->implicit) refuse(c->out, "projection", "the constraints are solved by Newton's method inside the equations of motion");
-    else add(c, nh_method_find("GSL rk8pd"), 0, true);
+    if (!c->yard.currents) nh_bench_refuse(c, "projection", "no current of this system is known");
+    else if (c->model->chart->implicit) nh_bench_refuse(c, "projection", "the constraints are solved by Newton's method inside the equations of motion");
+    else {
+        choose_currents(c);
+        if (c->held_currents) add(c, nh_method_find("GSL rk8pd"), 0, true);
+    }
     for (size_t f = 1; f < c->formulations; f++)
-        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) add(c, nh_method_find(elsewhere[i]), f, false);
-    add(c, NULL, c->formulations - 1, false);
+        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
+            const nh_method *m = nh_method_find(elsewhere[i]);
+            if (!m->order || (c->formulation[f].model && !nh_method_refused(m, c->formulation[f].programs))) add(c, m, f, false);
+        }
+    for (int index = 1; index <= (c->model->k ? 2 : 1); index++) {
+        add(c, NULL, c->formulations - 1, false);
+        c->candidate[c->candidates - 1].index = index;
+    }
 }
 
 /* Level by level, so that a short budget still gives every method its loose runs. */
@@ -199,14 +225,14 @@ static void measure_all(nh_bench *c)
     for (size_t level = 0; level < levels; level++)
         for (size_t i = 0; i < c->candidates; i++) {
             nh_contender *k = &c->candidate[i];
-            bool fixed = k->method && k->method->fixed;
+            bool fixed = k->method && k->method->order;
             double left = c->begun + c->budget - now();
             if (k->given_up) continue;
             if (k->last * step_ratio > left / 2 || left <= 0) {
                 c->out->partial = k->given_up = true;
                 continue;
             }
-            double step = fixed ? span / (fewest_steps * pow(step_ratio, (double)level)) : NAN;
+            double step = fixed ? span / (c->options.chart_steps * pow(step_ratio, (double)level)) : NAN;
             nh_bench_measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
         }
 }
@@ -219,11 +245,11 @@ static void collect(nh_bench *c)
         if (c->grid[i].method) out->item[out->count++] = c->grid[i];
     for (size_t i = 0; i < out->count; i++) {
         nh_measured *m = &out->item[i];
-        m->front = m->status <= NH_WARNED;
+        m->front = m->status <= NH_WARNED && !m->reduced;
         for (size_t j = 0; j < out->count && m->front; j++) {
             const nh_measured *o = &out->item[j];
             double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement); /* smaller ones cannot be told apart */
-            if (o->status <= NH_WARNED && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
+            if (o->status <= NH_WARNED && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
         }
     }
 }
@@ -268,7 +294,7 @@ bool nh_bench_open_turned(nh_bench *c, const nh_simulate_request *request, size_
 {
     nh_arena *arena = nh_arena_create();
     nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
-    *c = (nh_bench){.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .project = request->project};
+    *c = (nh_bench){.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .options = request->options, .project = request->project};
     out->arena = arena;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
@@ -302,6 +328,7 @@ void nh_bench_close(nh_bench *c)
 {
     for (size_t f = 0; f < c->formulations; f++) nh_formulation_close(&c->formulation[f]);
     nh_yardstick_close(&c->yard);
+    nh_reduction_free(c->reduction);
     nh_model_free(c->other);
 }
 
@@ -336,11 +363,13 @@ nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_
 {
     nh_bench c;
     if (!open_somewhere(&c, request, budget, error)) return NULL;
-    c.begun = now(); /* the budget is for measuring: what came before is needed in any case */
     list_candidates(&c);
+    nh_chart_reduced(&c, request);
+    c.begun = now(); /* the budget is for measuring: what came before is needed in any case */
     measure_all(&c);
     collect(&c);
     nh_chart_derivatives(&c.formulation[0], c.out);
+    nh_chart_fit(&c, budget * share_of_fits);
     nh_bench_close(&c);
     return c.out;
 }

@@ -18,6 +18,7 @@ typedef struct {
     double seconds;              /* the least of some repetitions, without preparations */
     long evaluations;
     nh_measured_status status;
+    bool reduced;                /* of reduced equations, which compute less: errors are of their own states, and it does not count below */
     bool front;                  /* nothing measured is both faster and more accurate */
     const char *note;            /* why it failed, or empty */
 } nh_measured;
@@ -29,6 +30,17 @@ typedef struct {
     double seconds;   /* of one Jacobian */
     long evaluations; /* of the right-hand side (of the exact derivatives: 1) */
 } nh_derivative;
+
+/* The null space of the sampled equations, solved in one way. */
+typedef struct {
+    size_t functions, columns, samples; /* of the ansatz; of the matrix (the symmetry route has more); points */
+    const char *basis, *route, *solver;
+    size_t rank, dimension, wanted; /* independent columns; of the null space; the same by the most careful way */
+    double gap;                  /* of the spectrum after the null values */
+    double error;                /* distance of the known currents from the space, at points not used; NAN: none is in the span */
+    double seconds;              /* rows and solution, without sampling */
+    bool good, undecided, right, front;
+} nh_fitted;
 
 typedef struct {
     nh_arena *arena;
@@ -42,6 +54,9 @@ typedef struct {
     nh_measured *item;           /* by method and formulation, loosest first */
     size_t derivatives;
     nh_derivative *derivative;
+    size_t fits;
+    nh_fitted *fit;              /* by functions and samples */
+    bool fits_partial;           /* there was no time for more of them */
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */

@@ -1,20 +1,25 @@
-/* chart_derivatives: the Jacobian of the reduced equations, exact from the graph or by differences of the right-hand side: what each costs, and how
- * far the differences are off.  At the chart's probes; exact derivatives are the reference. */
+/* chart_derivatives: the Jacobian of the reduced equations, exact from the graph, by a complex step or by differences of the right-hand side: what each
+ * costs, and how far it is off.  At the chart's probes; exact derivatives are the reference. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
+#include "base/memory.h"
+#include "expr/tape_complex.h"
 #include "study/chart_internal.h"
 
-enum { kinds = 4 };
-static const char *const names[kinds] = {"exact, from the graph", "forward differences", "central differences", "central differences, extrapolated"};
+enum { exact_derivatives, complex_step, forward, central_differences, extrapolated, kinds };
+static const char *const names[kinds] = {"exact, from the graph", "complex step", "forward differences", "central differences", "central differences, extrapolated"};
+static const double tiny = 1e-100; /* the complex step */
 static const double enough_seconds = 2e-3; /* repetitions stop after this time */
 
 typedef struct {
     nh_flow_problem problem;
     size_t n;
     double *z, *low, *high, *coarse;
+    const nh_tape *tape;   /* for the complex step; NULL where implicit velocities would have to be found */
+    double complex *work, *in, *out;
     long evaluations;
 } differences;
 
@@ -43,21 +48,39 @@ static bool central(differences *d, double t, size_t j, double h, double *out)
     return true;
 }
 
+static bool by_complex_step(differences *d, double t, double *J)
+{
+    size_t n = d->n;
+    d->in[0] = t;
+    for (size_t j = 0; j < n; j++) d->in[1 + j] = d->z[j];
+    for (size_t j = 0; j < n; j++) {
+        d->in[1 + j] = CMPLX(d->z[j], tiny);
+        nh_tape_eval_complex(d->tape, d->work, d->in, d->out);
+        d->in[1 + j] = d->z[j];
+        d->evaluations++;
+        for (size_t i = 0; i < n; i++) J[i + j * n] = cimag(d->out[i]) / tiny;
+        for (size_t i = 0; i < n; i++)
+            if (!isfinite(J[i + j * n])) return false;
+    }
+    return true;
+}
+
 /* Steps near the best for errors of order 1, 2 and 4 and rounding: eps^(1/2), eps^(1/3), eps^(1/5), times max(1, |z_j|). */
 static bool jacobian(differences *d, int kind, double t, double *J)
 {
     size_t n = d->n;
-    if (kind == 0) return d->evaluations++, d->problem.jacobian(t, d->z, J, d->problem.context);
-    if (kind == 1 && !rate_at(d, t, 0, 0, d->low)) return false;
+    if (kind == exact_derivatives) return d->evaluations++, d->problem.jacobian(t, d->z, J, d->problem.context);
+    if (kind == complex_step) return by_complex_step(d, t, J);
+    if (kind == forward && !rate_at(d, t, 0, 0, d->low)) return false;
     for (size_t j = 0; j < n; j++) {
-        double *column = J + j * n, h = fmax(1, fabs(d->z[j])) * pow(DBL_EPSILON, kind == 1 ? 1.0 / 2 : kind == 2 ? 1.0 / 3 : 1.0 / 5);
-        if (kind == 1) {
+        double *column = J + j * n, h = fmax(1, fabs(d->z[j])) * pow(DBL_EPSILON, kind == forward ? 1.0 / 2 : kind == central_differences ? 1.0 / 3 : 1.0 / 5);
+        if (kind == forward) {
             if (!rate_at(d, t, j, h, d->high)) return false;
             for (size_t i = 0; i < n; i++) column[i] = (d->high[i] - d->low[i]) / h;
         } else if (!central(d, t, j, h, column)) {
             return false;
         }
-        if (kind < 3) continue;
+        if (kind != extrapolated) continue;
         if (!central(d, t, j, 2 * h, d->coarse)) return false;
         for (size_t i = 0; i < n; i++) column[i] = (4 * column[i] - d->coarse[i]) / 3;
     }
@@ -103,8 +126,16 @@ void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out)
     differences d = {.problem = f->problem, .n = n, .z = nh_alloc_array(4 * n, sizeof *d.z)};
     d.low = d.z + n, d.high = d.low + n, d.coarse = d.high + n;
     double *J = nh_alloc_array(2 * n * n, sizeof *J);
+    d.in = nh_alloc_array(2 * n + 2, sizeof *d.in), d.out = d.in + n + 1;
+    if (!f->model->chart->implicit) {
+        d.tape = nh_programs_tape(f->programs, NH_PROGRAM_RATE);
+        d.work = nh_tape_complex_create(d.tape);
+    }
     out->derivative = nh_arena_alloc(out->arena, kinds * sizeof *out->derivative);
-    for (int k = 0; k < kinds; k++) measure(&d, f->model->chart, k, J, J + n * n, &out->derivative[out->derivatives++]);
+    for (int k = 0; k < kinds; k++)
+        if (k != complex_step || d.tape) measure(&d, f->model->chart, k, J, J + n * n, &out->derivative[out->derivatives++]);
+    nh_free(d.work);
+    nh_free(d.in);
     nh_free(J);
     nh_free(d.z);
 }

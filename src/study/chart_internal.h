@@ -4,19 +4,24 @@
 
 #include "motion/method.h"
 #include "motion/projection.h"
+#include "reduction/reduced.h"
 #include "study/chart.h"
+#include "study/reduce.h"
 
-enum { NH_CHART_OUTPUTS = 9, NH_CHART_LEVELS = 5, NH_CHART_FORMULATIONS = 3, NH_CHART_CANDIDATES = 64 };
+enum { NH_CHART_OUTPUTS = 9, NH_CHART_LEVELS = 5, NH_CHART_FORMULATIONS = 3, NH_CHART_REDUCED = 4, NH_CHART_CANDIDATES = 64 };
 
 typedef struct {
     const char *name;
     nh_model *model;        /* NULL: all coordinates (q, v) */
     nh_dynamics *dynamics;
     nh_bordered *bordered;
+    nh_programs *programs;  /* of the model: for methods with a fixed step, compiled once for all their runs */
     size_t size;
     double *z0, *scale;
     nh_flow_problem problem;
     bool breaks;            /* the chart ends on the way */
+    nh_reduced_flow *reduced; /* reduced equations in (x, p); NULL: not reduced.  With a reference of their own: */
+    double *reference, *reference_scale, agreement; /* outputs x size; size; of two methods */
 } nh_formulation;
 
 /* What every run is compared with: (q, v) at the output times, scales, and the currents as functions of (t, q, v). */
@@ -51,10 +56,15 @@ void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *stat
 /* Exact derivatives and differences, in a chart. */
 void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out);
 
+/* Of a motion in reduced equations: the largest error in (x, p), and the drift of the energy. */
+double nh_reduced_error(const nh_formulation *f, const nh_motion *motion);
+double nh_reduced_drift(nh_formulation *f, const nh_motion *motion);
+
 /* ---- one motion, ready to be computed by any method ---- */
 
 typedef struct {
     const nh_method *method; /* NULL: multipliers by IDA */
+    int index;               /* of that: 1 or 2 */
     size_t formulation;
     bool projected;
     double last;             /* seconds of its last run with all repetitions */
@@ -69,10 +79,14 @@ typedef struct {
     nh_state initial;
     nh_yardstick yard;
     size_t formulations, candidates;
-    nh_formulation formulation[NH_CHART_FORMULATIONS];
+    nh_formulation formulation[NH_CHART_FORMULATIONS + NH_CHART_REDUCED]; /* the reduced ones last */
+    nh_reduction *reduction;
+    size_t held_currents;   /* those that a projection holds */
+    nh_ex *held;
     nh_contender candidate[NH_CHART_CANDIDATES];
     nh_measured *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
+    nh_options options;
     bool project, once; /* once: no repetitions, the time does not matter */
     bool hurried;       /* the reference ran out of time */
 } nh_bench;
@@ -86,7 +100,15 @@ void nh_bench_close(nh_bench *bench);
 bool nh_bench_reference(nh_bench *bench, nh_error *error);
 /* Where there is none: errors are then infinite, drifts those from the initial state. */
 void nh_bench_no_reference(nh_bench *bench);
+/* Another candidate; a method that is not used, with the reason. */
+void nh_bench_add(nh_bench *bench, const nh_method *method, size_t formulation);
+void nh_bench_refuse(nh_bench *bench, const char *method, const char *why);
 /* One run, with repetitions for its time unless bench->once. */
 void nh_bench_measure(nh_bench *bench, nh_contender *candidate, double tolerance, double step, nh_measured *measured);
+/* The discrete problem, in about so many seconds. */
+void nh_chart_fit(nh_bench *bench, double seconds);
+
+/* The stages of the system's reduction as further formulations, where there is time for it. */
+void nh_chart_reduced(nh_bench *bench, const nh_simulate_request *request);
 
 #endif

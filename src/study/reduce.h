@@ -31,6 +31,7 @@ typedef struct {
     const nh_action *action;
     const nh_slice *slice, *shown_slice;
     const nh_reduced *reduced, *shown;
+    const double *start;      /* (x, p) at the initial state, of `reduced` */
     const nh_chaplygin *chaplygin; /* shown; of the first kind */
     nh_chaplygin_measure measure;  /* of the first kind, and of the second for an abelian group (its factor: for two shape coordinates at most) */
     const nh_second *second;  /* shown; of the second kind */

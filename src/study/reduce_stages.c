@@ -164,6 +164,9 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const do
     nh_error trouble = {0};
     nh_reduced_flow *flow = nh_reduced_flow_create(s->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
+    double *start = nh_arena_alloc(r->arena, (problem.size + 1) * sizeof *start);
+    memcpy(start, z, problem.size * sizeof *start);
+    s->start = start;
     nh_flow_options options = {.method = NH_ADAMS, .rtol = local_tolerance(r), .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     double begin = now(), e0 = 0, e1 = 0;
     nh_motion *motion = problem.size ? nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble) : NULL;

@@ -3,50 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/linalg.h"
+#include "study/spans.h"
 
 /* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this it is left out, and said. */
 enum { most_columns = 400 };
-
-/* Values of `n` combinations (vector: terms x n) of expressions at the points, each centred and of norm 1; points x n. */
-static double *combinations(const nh_model *o, const nh_points *points, size_t terms, const nh_ex *e, size_t n, const double *vector)
-{
-    size_t count = points->count;
-    double *value = nh_alloc_array(terms * count + 1, sizeof *value), *out = nh_alloc_array(count * n + 1, sizeof *out);
-    nh_points_evaluate(points, o, terms, e, value);
-    nh_multiply(count, n, terms, value, vector, out);
-    nh_free(value);
-    for (size_t k = 0; k < n; k++) {
-        double mean = 0, norm = 0, *x = out + k * count;
-        for (size_t p = 0; p < count; p++) mean += x[p] / (double)count;
-        for (size_t p = 0; p < count; p++) norm += (x[p] - mean) * (x[p] - mean);
-        for (size_t p = 0; p < count; p++) x[p] = norm > 0 ? (x[p] - mean) / sqrt(norm) : 0;
-    }
-    return out;
-}
-
-/* Largest distance of the columns of b from the span of those of a. */
-static double distance(size_t rows, size_t na, const double *a, size_t nb, const double *b)
-{
-    double worst = 0;
-    if (na == 0) return nb ? 1 : 0;
-    double *A = nh_alloc_array(rows * na, sizeof *A), *x = nh_alloc_array(rows, sizeof *x);
-    for (size_t k = 0; k < nb; k++) {
-        memcpy(A, a, rows * na * sizeof *A);
-        memcpy(x, b + k * rows, rows * sizeof *x);
-        if (nh_least_squares(rows, na, A, 1, x, rows, 1e-12) < 0) return 1;
-        double rest = 0;
-        for (size_t p = 0; p < rows; p++) {
-            double r = b[p + k * rows];
-            for (size_t j = 0; j < na; j++) r -= a[p + j * rows] * x[j];
-            rest += r * r;
-        }
-        worst = fmax(worst, sqrt(rest));
-    }
-    nh_free(x);
-    nh_free(A);
-    return worst;
-}
 
 static nh_nullspace *solve(nh_result *r, size_t n, const nh_field_column *column, const nh_points *points, nh_error *error)
 {
@@ -64,10 +24,10 @@ static void compare(nh_result *r, const nh_ansatz *a, const nh_points *points, c
     nh_ex *phi = nh_alloc_array(a->columns + 1, sizeof *phi), *field = nh_alloc_array(symmetry->columns + 1, sizeof *field);
     for (size_t j = 0; j < a->columns; j++) phi[j] = nh_ansatz_column(a, j);
     for (size_t j = 0; j < symmetry->columns; j++) field[j] = nh_rows_field_current(r->model, &column[j]);
-    double *x = combinations(r->model, points, a->columns, phi, current->dimension, current->vector);
-    double *y = combinations(r->model, points, symmetry->columns, field, symmetry->dimension, symmetry->vector);
-    double forward = distance(points->count, current->dimension, x, symmetry->dimension, y);
-    double back = distance(points->count, symmetry->dimension, y, current->dimension, x);
+    double *x = nh_span_values(r->model, points, a->columns, phi, current->dimension, current->vector);
+    double *y = nh_span_values(r->model, points, symmetry->columns, field, symmetry->dimension, symmetry->vector);
+    double forward = nh_span_distance(points->count, current->dimension, x, symmetry->dimension, y);
+    double back = nh_span_distance(points->count, symmetry->dimension, y, current->dimension, x);
     r->routes_compared = true;
     r->routes_angle = fmax(forward, back);
     r->routes_agree = current->dimension == symmetry->dimension && r->routes_angle <= r->options.agreement;

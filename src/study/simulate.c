@@ -3,8 +3,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
-enum { default_outputs = 100, most_outputs = 10000000 };
+enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
+static const double shortest_time = 0.1, longest_comparison = 1; /* seconds: a shorter motion is compared with the whole model's, which may take so long */
 
 nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error)
 {
@@ -189,6 +191,50 @@ static const char *words_of(nh_simulation *s, const nh_scene *scene)
     return kept;
 }
 
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* What the smallest model saves, and whether it is right: the whole model beside it, while that costs little. */
+static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
+{
+    nh_trajectory_request whole = *q;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    whole.smallest = false;
+    whole.max_seconds = longest_comparison;
+    if (!s->trajectory->scene || s->motion->seconds > shortest_time || !s->motion->complete) return;
+    double begin = now(), few = s->motion->seconds, all = INFINITY;
+    for (int i = 0; i < most_comparisons && now() - begin < shortest_time; i++) { /* the least times: other programs run, too */
+        nh_trajectory *t = nh_trajectory_create(&whole, &ignored), *again = i ? nh_trajectory_create(q, &ignored) : NULL;
+        bool complete = t && t->motion->complete;
+        if (i == 0) s->compared = complete;
+        for (size_t k = 0; complete && i == 0 && k < s->columns.count * t->motion->count; k++) {
+            double off = fabs(s->value[k] - t->value[k]) / fmax(1, fabs(t->value[k]));
+            if (isfinite(off)) s->whole_difference = fmax(s->whole_difference, off);
+        }
+        if (complete) all = fmin(all, t->motion->seconds), s->whole_evaluations = t->motion->evaluations;
+        if (again) few = fmin(few, again->motion->seconds);
+        nh_trajectory_free(again);
+        nh_trajectory_free(t);
+    }
+    s->scene_seconds = few;
+    s->whole_seconds = all;
+}
+
+static const char *idle_words_of(nh_simulation *s, const nh_scene *scene)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_scene_idle_words(scene, &words);
+    const char *kept = nh_arena_strdup(s->arena, nh_text_string(&words));
+    nh_text_clear(&words);
+    return kept;
+}
+
 static bool integrate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *request, nh_error *error)
 {
     size_t size = s->model->m + s->model->n;
@@ -207,6 +253,25 @@ static bool integrate_many(nh_simulation *s, const nh_simulate_request *q, const
     return true;
 }
 
+/* What the system file knows, in the model's chart: currents, and the momenta p_s xi^s of its symmetries (which the scene tests). */
+static size_t known_currents(nh_simulation *s, nh_ex **out)
+{
+    nh_error ignored;
+    nh_dag *d = s->model->dag;
+    size_t n = 0, m = s->model->m;
+    *out = nh_arena_alloc(s->arena, (s->system->currents + s->system->symmetries + 1) * sizeof **out);
+    for (size_t i = 0; i < s->system->symmetries; i++) {
+        nh_ex momentum = nh_int(d, 0);
+        for (size_t j = 0; j < m; j++) momentum = nh_add(d, momentum, nh_mul(d, s->model->p[j], s->system->symmetry[i * m + j]));
+        (*out)[n++] = momentum;
+    }
+    for (size_t k = 0; k < s->system->currents; k++) {
+        nh_error_clear(&ignored);
+        n += nh_analysis_to_chart(s->model, s->system->current[k].value, &(*out)[n], &ignored);
+    }
+    return n;
+}
+
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
 {
     nh_options options = q->options;
@@ -215,6 +280,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     for (size_t k = 0; k < s->columns.count; k++) e[k] = s->columns.track[k].value;
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns.count, .e = e,
                                      .smallest = q->watch || q->scene, .project = q->project};
+    nh_ex *known;
+    if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
     if (q->ensemble && q->accuracy > 0) return nh_fail(error, NH_USAGE, "", "--ensemble and --accuracy do not go together; --tolerance sets that of the members");
     if (q->ensemble) return integrate_many(s, q, &request, error);
     s->checked = q->accuracy > 0;
@@ -225,7 +292,10 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
-    if (s->trajectory->scene) s->scene = words_of(s, s->trajectory->scene);
+    if (!s->trajectory->scene) return true;
+    s->scene = words_of(s, s->trajectory->scene);
+    s->idle = idle_words_of(s, s->trajectory->scene);
+    if (!s->checked) compare_with_whole(s, &request);
     return true;
 }
 

@@ -32,6 +32,10 @@ typedef struct {
     const char *method, *formulation;
     const char *scene;    /* the smallest model in words; NULL: all states were integrated */
     nh_tracks columns;    /* with the drawing only where it was asked for, at the end */
+    const char *idle;     /* parameters and bodies without influence on what is watched, in words; empty: all matter */
+    bool compared;        /* the whole model was integrated too, because the motion is short */
+    double scene_seconds, whole_seconds, whole_difference; /* the least times of both, and how far what is watched is off, relative to max(1, |value|) */
+    long whole_evaluations;
     nh_motion *motion;    /* its states are those of the scene, where there is one */
     double *value;        /* motion->count x columns.count, row by row */
     nh_trajectory *trajectory; /* owns the last two */

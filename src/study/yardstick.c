@@ -23,6 +23,7 @@ bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *ini
     sized(f, model->m, absolute, arena);
     f->dynamics = nh_dynamics_create(model);
     f->problem = nh_dynamics_problem(f->dynamics);
+    f->programs = nh_programs_create(model);
     return nh_dynamics_start(f->dynamics, initial, project, f->z0, error);
 }
 
@@ -38,6 +39,8 @@ bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t,
 
 void nh_formulation_close(nh_formulation *f)
 {
+    nh_reduced_flow_free(f->reduced);
+    nh_programs_free(f->programs);
     nh_dynamics_free(f->dynamics);
     nh_bordered_free(f->bordered);
 }
@@ -156,7 +159,7 @@ void nh_yardstick_currents(nh_yardstick *y, nh_arena *arena)
     nh_free(e);
 }
 
-/* The size of a current is that of what it is made of: |Phi| and |dPhi/dy_j y_j|. */
+/* The size of a current is that of what it is made of: |Phi| and |dPhi/dy_j y_j|, y_j not below its least size. */
 void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
 {
     size_t m2 = 2 * y->model->m, n = y->currents;
@@ -174,11 +177,12 @@ void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
         for (size_t j = 0; j < m2; j++) y->scale[j] = fmax(y->scale[j], fabs(at[j]));
         for (size_t k = 0; k < n; k++) {
             double size = fabs(out[k]);
-            for (size_t j = 0; j < m2; j++) size = fmax(size, fabs(out[n + k * m2 + j] * at[j]));
+            for (size_t j = 0; j < m2; j++) size = fmax(size, fabs(out[n + k * m2 + j]) * fmax(fabs(at[j]), least));
             if (isfinite(size)) y->current_scale[k] = fmax(y->current_scale[k], size);
             if (i == 0) y->current_start[k] = out[k];
         }
     }
+    for (size_t k = 0; k < n; k++) y->current_scale[k] = y->current_scale[k] > 0 ? y->current_scale[k] : 1; /* zero, with all that it is made of */
     nh_tape_work_free(work);
     nh_free(in);
     nh_free(out);

@@ -1,0 +1,49 @@
+/* network: which state of a model feeds which, and what a known current makes superfluous.
+ *
+ * State j feeds a function e of the chart when de/dz_j is not identically zero.  A derivative that vanishes at all probes of the chart counts as zero
+ * when its normal form is zero, or when balls of 40 digits around its values at the probes contain zero (sums that cancel in M^-1 A).
+ *
+ * A current Phi = A(z) z_j + B(t, z) that is conserved determines the state z_j = (c - B)/A, c = Phi at the start, wherever A keeps its sign: this
+ * state, a velocity for the most part, needs no equation.  What fed others through Phi alone then feeds nothing, and may be dropped. */
+#ifndef NH_NETWORK_H
+#define NH_NETWORK_H
+
+#include "geometry/model.h"
+
+typedef struct {
+    nh_ex current, constant;  /* Phi, and the symbol of its value */
+    size_t state;             /* of (q, w): the one that it determines */
+    nh_ex value, slope;       /* of that state: (c - B)/A, and A; functions of what is left and of the constants */
+} nh_level;
+
+typedef struct {
+    const nh_model *model;
+    size_t states, watches, levels;
+    nh_ex *row;     /* rates of the states, then what is watched, without the states of the levels */
+    nh_level *level; 
+    bool *feeds;    /* [i * states + j]: j feeds row i; only of rows that are needed */
+    bool *kept;     /* states with an equation */
+    bool implicit;  /* implicit velocities are needed */
+    size_t count;   /* of those kept */
+    size_t cost;    /* instructions of their equations, and ten for each state that an integrator carries along */
+} nh_network;
+
+/* The closed system of what is watched.  n currents of the chart, conserved: each may remove one state if fewer states are left then, and it costs
+ * less. */
+void nh_network_init(nh_network *network, const nh_model *model, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current);
+void nh_network_clear(nh_network *network);
+
+/* Is nothing that is watched, no equation of a kept state and no current that is used a function of this symbol? */
+bool nh_network_ignores(const nh_network *network, nh_ex symbol);
+
+/* Does Gamma(Phi) vanish identically, by the same test? */
+bool nh_network_conserved(const nh_model *model, nh_ex current);
+
+/* Momenta dL/dv^s of coordinates that do not occur in the Lagrangian, whose velocities occur in no constraint, and without force: expressions of the
+ * chart into `out` (m entries); returns their number. */
+size_t nh_network_cyclic(const nh_model *model, nh_ex *out);
+
+/* Points (t, q, w, u, c): the inputs of tapes over rows. */
+nh_tape *nh_network_tape(const nh_network *network, size_t n, const nh_ex *e, size_t fixed, const nh_ex *symbol, const double *value);
+
+#endif

@@ -1,0 +1,121 @@
+#include "motion/programs.h"
+
+#include <string.h>
+
+#include "expr/diff.h"
+
+typedef struct {
+    nh_tape *tape;
+    nh_tape_work *work;
+    double *out;
+} program;
+
+struct nh_programs {
+    const nh_model *model;
+    program program[NH_PROGRAMS];
+    double *point;
+    long evaluations;
+    size_t compiled;
+};
+
+nh_programs *nh_programs_create(const nh_model *model)
+{
+    nh_programs *s = nh_alloc(sizeof *s);
+    *s = (nh_programs){.model = model, .point = nh_alloc_array(model->width, sizeof *s->point)};
+    return s;
+}
+
+void nh_programs_free(nh_programs *s)
+{
+    if (!s) return;
+    for (int i = 0; i < NH_PROGRAMS; i++) {
+        nh_tape_work_free(s->program[i].work);
+        nh_tape_free(s->program[i].tape);
+        nh_free(s->program[i].out);
+    }
+    nh_free(s->point);
+    nh_free(s);
+}
+
+const nh_model *nh_programs_model(const nh_programs *s) { return s->model; }
+long nh_programs_evaluations(const nh_programs *s) { return s->evaluations; }
+size_t nh_programs_compiled(const nh_programs *s) { return s->compiled; }
+
+/* ---- what they compute ---- */
+
+/* e (count) and its derivatives by z, column-major, after them. */
+static void with_derivatives(const nh_model *o, size_t count, const nh_ex *e, nh_ex *derivative)
+{
+    for (size_t j = 0; j < o->m + o->n; j++)
+        for (size_t i = 0; i < count; i++) derivative[i + j * count] = nh_diff(o->dag, e[i], o->chart->symbol[1 + j]);
+}
+
+static void momentum(const nh_model *o, nh_ex *e)
+{
+    size_t m = o->m, n = o->n;
+    memcpy(e, o->rho, m * sizeof *e);
+    memcpy(e + m, o->p, m * sizeof *e);
+    for (size_t s = 0; s < m; s++) {
+        const nh_coordinate *q = &o->system->coordinate[s];
+        e[2 * m + s] = nh_model_compose(o, nh_add(o->dag, nh_diff(o->dag, o->system->lagrangian, q->q), o->system->force[s]));
+    }
+    memcpy(e + 3 * m, o->R, m * n * sizeof *e);
+    with_derivatives(o, 3 * m, e, e + 3 * m + m * n);
+}
+
+/* Number of outputs, written to e where that is not NULL. */
+static size_t outputs(const nh_model *o, nh_program which, nh_ex *e)
+{
+    size_t m = o->m, n = o->n, size = m + n;
+    switch (which) {
+    case NH_PROGRAM_RATE:
+    case NH_PROGRAM_FLOW:
+        if (e) memcpy(e, o->rho, m * sizeof *e);
+        if (e) memcpy(e + m, o->a, n * sizeof *e);
+        if (e && which == NH_PROGRAM_FLOW) with_derivatives(o, size, e, e + size);
+        return which == NH_PROGRAM_FLOW ? size + size * size : size;
+    case NH_PROGRAM_MOMENTUM:
+        if (e) momentum(o, e);
+        return 3 * m + m * n + 3 * m * size;
+    case NH_PROGRAM_PAIR:
+        if (e) memcpy(e, o->R, m * n * sizeof *e);
+        if (e) memcpy(e + m * n, o->M, n * n * sizeof *e);
+        if (e) memcpy(e + m * n + n * n, o->G, n * n * sizeof *e);
+        return m * n + 2 * n * n;
+    default:
+        if (e) with_derivatives(o, 1, &o->E, e);
+        if (e) e[size] = o->E, e[size + 1] = nh_model_gamma(o, o->E);
+        return size + 2;
+    }
+}
+
+static void compile(nh_programs *s, nh_program which)
+{
+    const nh_model *o = s->model;
+    size_t count = outputs(o, which, NULL);
+    nh_ex *e = nh_alloc_array(count + 1, sizeof *e);
+    outputs(o, which, e);
+    program *p = &s->program[which];
+    p->tape = nh_model_tape(o, count, e);
+    p->work = nh_tape_work_create(p->tape);
+    p->out = nh_alloc_array(count + 1, sizeof *p->out);
+    s->compiled++;
+    nh_free(e);
+}
+
+const double *nh_programs_at(nh_programs *s, nh_program which, double t, const double *z)
+{
+    program *p = &s->program[which];
+    if (!p->tape) compile(s, which);
+    s->point[0] = t;
+    memcpy(s->point + 1, z, (s->model->m + s->model->n) * sizeof *z);
+    nh_tape_eval(p->tape, p->work, s->point, p->out);
+    s->evaluations++;
+    return p->out;
+}
+
+const nh_tape *nh_programs_tape(nh_programs *s, nh_program which)
+{
+    if (!s->program[which].tape) compile(s, which);
+    return s->program[which].tape;
+}

@@ -1,0 +1,13 @@
+/* chart_internal: parts of the report of a chart. */
+#ifndef NH_REPORT_CHART_INTERNAL_H
+#define NH_REPORT_CHART_INTERNAL_H
+
+#include "base/json.h"
+#include "base/text.h"
+#include "study/chart.h"
+
+/* The discrete problem. */
+void nh_fits_text(const nh_comparison *comparison, bool verbose, nh_text *out);
+void nh_fits_json(const nh_comparison *comparison, nh_json *root);
+
+#endif
