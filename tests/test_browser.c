@@ -1,4 +1,7 @@
-/* The page in a browser: headless Chromium, where it is installed (`apt-get install chromium`); without it these tests are skipped. */
+/* The page in a browser: headless Chromium, which `make check` installs; where there is none these tests are skipped.
+ * tests/browser/look.js measures a page from within, and axe-core looks for what keeps people out. */
+#include <cjson/cJSON.h>
+
 #include "program.h"
 #include "report/html_internal.h"
 
@@ -13,14 +16,16 @@ static place place_with_page(const char *line)
     return p;
 }
 
-/* The document after its scripts have run, or NULL without a browser. */
-static char *document_of(const place *p, const char *page)
+/* The document after its scripts have run, or NULL without a browser.  What the page says on the console goes to the file console.log. */
+static char *document_in(const place *p, const char *page, const char *flags)
 {
     char command[2 * PATH_MAX];
     snprintf(command, sizeof command,
              "command -v chromium >/dev/null || exit 3\n"
-             "HOME='%.3000s' timeout 100 chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=3000 --user-data-dir='%.3000s/browser' --dump-dom 'file://%.1000s/%s' 2>/dev/null",
-             p->folder, p->folder, p->folder, page);
+             "HOME='%.3000s' timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-background-networking --enable-logging=stderr --log-level=0 "
+             "--virtual-time-budget=9000 %s --user-data-dir='%.3000s/browser' --dump-dom 'file://%.1000s/%s' 2>browser.log\n"
+             "code=$?\ngrep -a ':CONSOLE' browser.log >console.log\nexit $code",
+             p->folder, flags, p->folder, p->folder, page);
     char *argument[] = {"sh", "-c", command, NULL};
     finished f = run_vector(p, &(manner){0}, argument);
     char *out = f.code == 3 ? NULL : f.out;
@@ -28,6 +33,31 @@ static char *document_of(const place *p, const char *page)
     else free(f.out);
     free(f.err);
     return out;
+}
+
+static char *document_of(const place *p, const char *page) { return document_in(p, page, ""); }
+
+/* A copy of the page with scripts at its end. */
+static void write_with(const place *p, const char *page, const char *copy, size_t scripts, const char *const *script)
+{
+    char *text = read_here(p, page), *end = strstr(text, "</body>");
+    size_t size = strlen(text) + 100;
+    for (size_t i = 0; i < scripts; i++) size += strlen(script[i]) + 20;
+    char *all = malloc(size), *at = all + sprintf(all, "%.*s", (int)(end - text), text);
+    for (size_t i = 0; i < scripts; i++) at += sprintf(at, "<script>%s</script>", script[i]);
+    strcpy(at, end);
+    write_here(p, copy, all);
+    free(all);
+    free(text);
+}
+
+static char *project_file(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    cr_assert(file, "%s", path);
+    char *text = read_stream(file);
+    fclose(file);
+    return text;
 }
 
 /* The value of an attribute of the first element that begins with `element`. */
@@ -53,11 +83,8 @@ Test(browser, script_and_style_may_stand_in_a_page)
 Test(browser, slider_plots_and_drawing_move_together)
 {
     place p = place_with_page("analyze sleigh --quiet --html page.html");
-    char *page = read_here(&p, "page.html"), *end = strstr(page, "</body>"), *moved = malloc(strlen(page) + 400);
-    sprintf(moved, "%.*s<script>var b=document.getElementById('when');b.value=b.max;b.dispatchEvent(new Event('input'));</script>%s", (int)(end - page), page, end);
-    write_here(&p, "moved.html", moved);
+    write_with(&p, "page.html", "moved.html", 1, (const char *const[]){"var b=document.getElementById('when');b.value=b.max;b.dispatchEvent(new Event('input'));"});
     char *start = document_of(&p, "page.html"), *last = start ? document_of(&p, "moved.html") : NULL;
-    free(page), free(moved);
     if (start) {
         cr_expect_not_null(strstr(start, ">t = 0.000</output>"), "the clock at the start");
         cr_expect_not_null(strstr(last, ">t = 10.00</output>"), "and at the end");
@@ -94,5 +121,132 @@ Test(browser, a_hostile_title_stays_text)
     bool skipped = !page;
     free(page);
     place_clear(&p);
+    if (skipped) cr_skip_test("no chromium");
+}
+
+/* ---- a page looked at from within ---- */
+
+/* What look.js saw, or NULL without a browser. */
+static cJSON *look_at(const place *p, const char *page, const char *flags)
+{
+    char *axe = project_file("tests/browser/axe.min.js"), *look = project_file("tests/browser/look.js");
+    write_with(p, page, "looked.html", 2, (const char *const[]){axe, look});
+    free(axe), free(look);
+    char *document = document_in(p, "looked.html", flags), *seen = document ? strstr(document, "<pre id=\"seen\">") : NULL;
+    cr_assert(!document || seen, "the page was not looked at");
+    cJSON *json = NULL;
+    if (seen) {
+        char *text = seen + 15, *to = text;
+        *strstr(text, "</pre>") = 0;
+        for (const char *from = text; *from; to++) { /* entities that the browser writes within text */
+            static const char *const entity[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
+            size_t taken = 0;
+            for (size_t i = 0; i < 3 && !taken; i++)
+                if (!strncmp(from, entity[i][0], strlen(entity[i][0]))) *to = *entity[i][1], taken = strlen(entity[i][0]);
+            if (!taken) *to = *from, taken = 1;
+            from += taken;
+        }
+        *to = 0;
+        json = cJSON_Parse(text);
+        cr_assert(json, "%.300s", text);
+    }
+    free(document);
+    return json;
+}
+
+static const cJSON *of(const cJSON *object, const char *key) { return cJSON_GetObjectItem(object, key); }
+
+static void expect_no_fault(const cJSON *seen, const char *line)
+{
+    cr_expect_gt(cJSON_GetNumberValue(of(seen, "rules")), 15, "%s: axe-core tried its rules", line);
+    for (const cJSON *f = of(seen, "faults")->child; f; f = f->next) {
+        const char *impact = cJSON_GetStringValue(of(f, "impact"));
+        cr_expect(impact && strcmp(impact, "serious") && strcmp(impact, "critical"), "%s: %s (%s), %g times, first at %s", line, cJSON_GetStringValue(of(f, "id")), impact,
+                  cJSON_GetNumberValue(of(f, "nodes")), cJSON_GetStringValue(of(f, "where")));
+    }
+}
+
+/* Curves over time have a point for every time in the JSON, or for every second one, ... when these are many. */
+static void expect_points(const cJSON *seen, const cJSON *result, const char *line)
+{
+    enum { most_points = 801 };
+    const cJSON *motion = of(of(result, "validation"), "motion");
+    int times = cJSON_GetArraySize(of(motion, "time")), step = times / most_points + 1, expected = (times + step - 1) / step, curves = 0;
+    for (const cJSON *plot = of(seen, "plots")->child; plot; plot = plot->next) {
+        if (!cJSON_IsTrue(of(plot, "timed"))) continue;
+        for (const cJSON *n = of(plot, "points")->child; n; n = n->next, curves++)
+            cr_expect_eq((int)n->valuedouble, expected, "%s: a curve of %s has %d points of %d", line, cJSON_GetStringValue(of(plot, "title")), (int)n->valuedouble, expected);
+    }
+    cr_expect_gt(curves, 2, "%s: %d curves over time", line, curves);
+}
+
+static const char *const SYSTEMS[] = {"sleigh", "car_with_trailer --max-seconds 2", "three_bodies --max-seconds 2", "kepler --max-seconds 2"};
+
+/* Nothing said on the console, nothing fetched, no formula without a box, nothing wider than the window, nobody kept out. */
+static void expect_sound(const place *p, const cJSON *seen, const char *line)
+{
+    char *console = read_here(p, "console.log");
+    cr_expect_str_empty(console, "%s: the console says %s", line, console);
+    cr_expect_eq(cJSON_GetNumberValue(of(seen, "resources")), 0, "%s: something was fetched", line);
+    cr_expect_eq(cJSON_GetArraySize(of(seen, "empty")), 0, "%s: %s has no box", line, cJSON_GetStringValue(cJSON_GetArrayItem(of(seen, "empty"), 0)));
+    cr_expect_leq(cJSON_GetNumberValue(of(seen, "width")), cJSON_GetNumberValue(of(seen, "room")), "%s: the page is wider than the window", line);
+    expect_no_fault(seen, line);
+    free(console);
+}
+
+/* The page of a command line that writes page.html; its place is the caller's. */
+static cJSON *page_looked_at(place *p, const char *line, const char *flags)
+{
+    *p = place_make();
+    char environment[PATH_MAX + 30];
+    snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p->project);
+    finished f = run_so(p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+    finished_clear(&f);
+    return look_at(p, "page.html", flags);
+}
+
+static const char *const wide_window = "--window-size=1200,900", *const narrow_dark = "--window-size=390,844 --force-dark-mode --enable-features=WebContentsForceDark";
+
+Test(browser, pages_are_as_they_should_be)
+{
+    bool skipped = false;
+    for (size_t i = 0; !skipped && i < sizeof SYSTEMS / sizeof *SYSTEMS; i++) {
+        char line[200];
+        place p;
+        snprintf(line, sizeof line, "analyze %s --quiet --html page.html --json page.json", SYSTEMS[i]);
+        cJSON *seen = page_looked_at(&p, line, i % 2 ? narrow_dark : wide_window);
+        skipped = !seen;
+        if (seen) {
+            char *json = read_here(&p, "page.json");
+            cJSON *result = cJSON_Parse(json);
+            expect_sound(&p, seen, line);
+            cr_expect_gt(cJSON_GetNumberValue(of(seen, "formulas")), 10, "%s", line);
+            expect_points(seen, result, line);
+            cJSON_Delete(result);
+            free(json);
+        }
+        cJSON_Delete(seen);
+        place_clear(&p);
+    }
+    if (skipped) cr_skip_test("no chromium");
+}
+
+Test(browser, so_are_those_of_the_other_commands)
+{
+    static const char *const LINES[] = {
+        "verify sleigh --current m*v --quiet --html page.html",
+        "simulate sleigh --initial omega=2 --until 5 --quiet --html page.html",
+        "chart sleigh --budget 500ms --quiet --html page.html",
+        "reduce vertical_disk --quiet --html page.html",
+    };
+    bool skipped = false;
+    for (size_t i = 0; !skipped && i < sizeof LINES / sizeof *LINES; i++) {
+        place p;
+        cJSON *seen = page_looked_at(&p, LINES[i], i % 2 ? narrow_dark : wide_window);
+        skipped = !seen;
+        if (seen) expect_sound(&p, seen, LINES[i]);
+        cJSON_Delete(seen);
+        place_clear(&p);
+    }
     if (skipped) cr_skip_test("no chromium");
 }

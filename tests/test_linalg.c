@@ -6,6 +6,7 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 extern int openblas_get_num_threads(void) __attribute__((weak));
 
@@ -406,4 +407,20 @@ Test(linalg, empty_matrices_are_harmless)
     cr_assert(nh_eigen(0, nothing, nothing, im, NULL));
     cr_assert(nh_solve(0, nothing, 1, nothing, NULL));
     cr_assert_eq(nh_least_squares(0, 1, nothing, 1, nothing, 1, 1e-12), 0);
+}
+
+/* An interruption leaves a large decomposition to itself; small ones are done in any case.  Last: it cannot be taken back. */
+Test(linalg, a_large_decomposition_can_be_left)
+{
+    enum { large = 500, small = 30 };
+    double *a = random_matrix(large, large), *s = nh_alloc_array(large, sizeof *s), *vt = nh_alloc_array(large * large, sizeof *vt);
+    size_t pivot[large];
+    nh_interrupt();
+    cr_expect_not(nh_svd(large, large, a, s, NULL, vt));
+    cr_expect_not(nh_qr_pivoted(large, large, a, pivot));
+    cr_expect(nh_svd(small, small, a, s, NULL, vt));
+    cr_expect(nh_qr_pivoted(small, small, a, pivot));
+    nh_free(a);
+    nh_free(s);
+    nh_free(vt);
 }

@@ -291,7 +291,7 @@ Test(reduce, c_code_computes_the_reduced_equations)
     nh_text_clear(&code);
     nh_text_init(&code);
     nh_reduction_latex(r, &code);
-    cr_expect(strstr(nh_text_string(&code), "\\dot{p}_{\\psi_{1}} &= ") != NULL);
+    cr_expect(strstr(nh_text_string(&code), "\\dot{p}_{\\psi _{1}} = ") != NULL);
     nh_text_clear(&code);
     nh_reduction_free(r);
 }

@@ -1,4 +1,4 @@
-/* typeset: C that computes what the tape computes, and LaTeX that a reader would write. */
+/* typeset: C that computes what the tape computes. */
 #include <criterion/criterion.h>
 
 #include <math.h>
@@ -87,42 +87,4 @@ Test(typeset, c_computes_the_same)
     nh_tape_free(tape);
     nh_text_clear(&code);
     nh_dag_free(d);
-}
-
-Test(typeset, latex)
-{
-    static const struct {
-        const char *text, *latex;
-    } cases[] = {
-        {"psi1'", "\\dot{\\psi}_{1}"},
-        {"a/(b + c)", "\\frac{a}{b + c}"},
-        {"(a + b)*c/2", "\\frac{c \\left(a + b\\right)}{2}"},
-        {"-x^2", "-x^{2}"},
-        {"sqrt(x)", "\\sqrt{x}"},
-        {"sin(theta)^2", "\\left(\\sin\\left(\\theta\\right)\\right)^{2}"},
-        {"mass*pi", "\\mathrm{mass} \\pi"},
-        {"asin(x)", "\\operatorname{asin}\\left(x\\right)"},
-    };
-    nh_dag *d = nh_dag_create();
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        nh_text out;
-        nh_text_init(&out);
-        for (const char *c = "abcx"; *c; c++) nh_symbol(d, (char[]){*c, 0});
-        nh_typeset_latex(d, read_it(d, cases[i].text), &out);
-        cr_expect_str_eq(nh_text_string(&out), cases[i].latex, "%s: %s", cases[i].text, nh_text_string(&out));
-        nh_text_clear(&out);
-    }
-    nh_dag_free(d);
-}
-
-Test(typeset, names)
-{
-    static const char *const cases[][2] = {{"p_psi1'", "\\dot{p}_{\\psi_{1}}"}, {"mu_3", "\\mu_{3}"}, {"x", "x"}, {"jx2", "\\mathrm{jx}_{2}"}, {"phi'", "\\dot{\\phi}"}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        nh_text out;
-        nh_text_init(&out);
-        nh_typeset_latex_name(cases[i][0], &out);
-        cr_expect_str_eq(nh_text_string(&out), cases[i][1], "%s: %s", cases[i][0], nh_text_string(&out));
-        nh_text_clear(&out);
-    }
 }

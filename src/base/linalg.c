@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/parallel.h"
 
 /* OpenBLAS only: any other BLAS leaves the symbol unresolved, and then there is nothing to set. */
 extern void openblas_set_num_threads(int count) __attribute__((weak));
@@ -16,7 +17,8 @@ extern void openblas_set_num_threads(int count) __attribute__((weak));
 enum {
     PANEL = 64,      /* columns factorised at a time, and */
     LEAF = 4,        /* those of them left to LAPACK: the fastest of several (tests/bench_nullspace.c) */
-    SMALLEST_BLOCK = 64 /* rows; below it the calls cost more than the flops */
+    SMALLEST_BLOCK = 64, /* rows; below it the calls cost more than the flops */
+    PATIENT = 400    /* columns: decompositions of fewer are not interrupted */
 };
 
 void nh_linalg_threads(int count)
@@ -176,38 +178,84 @@ size_t nh_qr_rows(const nh_qr *qr)
 
 /* ---- decompositions ---- */
 
-/* dgesdd is several times faster than dgesvd, but its divide and conquer can fail where plain QR iteration does not.
- * u, vt: both given or both NULL. */
-static bool svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
+/* One decomposition with memory of its own, so that it can be left alone. */
+typedef struct {
+    size_t m, n;
+    double *a, *s, *u, *vt;
+    lapack_int *order;
+    bool slow, ok;
+} decomposition;
+
+static void decomposition_free(void *context)
 {
-    char job = u ? 'S' : 'N';
-    lapack_int rows = (lapack_int)m, columns = (lapack_int)n, ld = leading(m), ldvt = leading(smaller(m, n));
-    double *copy = nh_alloc_array(m * n, sizeof *copy);
-    memcpy(copy, a, m * n * sizeof *copy);
-    lapack_int info = LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, a, ld, s, u, ld, vt, ldvt);
-    if (info != 0) {
-        double *superdiagonal = nh_alloc_array(smaller(m, n), sizeof *superdiagonal);
-        info = LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, copy, ld, s, u, ld, vt, ldvt, superdiagonal);
-        nh_free(superdiagonal);
-    }
-    nh_free(copy);
-    return info == 0;
+    decomposition *d = context;
+    nh_free(d->a);
+    nh_free(d->s);
+    nh_free(d->u);
+    nh_free(d->vt);
+    nh_free(d->order);
+    nh_free(d);
+}
+
+static double *kept(size_t count, const double *a)
+{
+    double *copy = nh_alloc_array(count, sizeof *copy);
+    if (a) memcpy(copy, a, count * sizeof *copy);
+    return copy;
+}
+
+static void give(size_t count, const double *from, double *to)
+{
+    if (to) memcpy(to, from, count * sizeof *to);
+}
+
+/* dgesdd is several times faster than dgesvd, but its divide and conquer can fail where plain QR iteration does not. */
+static void compute_svd(void *context)
+{
+    decomposition *d = context;
+    char job = d->u ? 'S' : 'N';
+    lapack_int rows = (lapack_int)d->m, columns = (lapack_int)d->n, ld = leading(d->m), ldvt = leading(smaller(d->m, d->n));
+    double *superdiagonal = d->slow ? nh_alloc_array(smaller(d->m, d->n), sizeof *superdiagonal) : NULL;
+    if (d->slow)
+        d->ok = LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt, superdiagonal) == 0;
+    else
+        d->ok = LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt) == 0;
+    nh_free(superdiagonal);
+}
+
+/* False when it was left alone; then it is no longer the caller's. */
+static bool run(void (*compute)(void *), decomposition *d)
+{
+    if (smaller(d->m, d->n) >= PATIENT)
+        return nh_interruptible(compute, decomposition_free, d);
+    compute(d);
+    return true;
 }
 
 bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
 {
     size_t k = smaller(m, n);
-    if (k == 0)
-        return true;
+    bool ok = k == 0, sides = u || vt; /* LAPACK computes both or none */
     if (!all_finite(m * n, a))
         return false;
-    /* LAPACK computes both sides or none */
-    double *own_u = vt && !u ? nh_alloc_array(m * k, sizeof(double)) : NULL;
-    double *own_vt = u && !vt ? nh_alloc_array(k * n, sizeof(double)) : NULL;
-    bool ok = svd(m, n, a, s, own_u ? own_u : u, own_vt ? own_vt : vt);
-    nh_free(own_u);
-    nh_free(own_vt);
+    for (int slow = 0; slow < 2 && !ok; slow++) {
+        decomposition *d = nh_alloc(sizeof *d);
+        *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .u = sides ? kept(m * k, NULL) : NULL, .vt = sides ? kept(k * n, NULL) : NULL, .slow = slow};
+        if (!run(compute_svd, d))
+            return false;
+        give(k, d->s, s);
+        give(m * k, d->u, u);
+        give(k * n, d->vt, vt);
+        ok = d->ok;
+        decomposition_free(d);
+    }
     return ok;
+}
+
+static void compute_qr(void *context)
+{
+    decomposition *d = context;
+    d->ok = LAPACKE_dgeqp3(LAPACK_COL_MAJOR, (lapack_int)d->m, (lapack_int)d->n, d->a, leading(d->m), d->order, d->s) == 0;
 }
 
 bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot)
@@ -219,17 +267,19 @@ bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot)
         return true;
     if (!all_finite(m * n, a))
         return false;
-    lapack_int *order = nh_alloc_array(n, sizeof *order); /* zeros: every column may move */
-    double *tau = nh_alloc_array(k, sizeof *tau);
-    lapack_int info = LAPACKE_dgeqp3(LAPACK_COL_MAJOR, (lapack_int)m, (lapack_int)n, a, leading(m), order, tau);
-    for (size_t j = 0; j < n && info == 0; j++) {
-        pivot[j] = (size_t)order[j] - 1;
+    decomposition *d = nh_alloc(sizeof *d);
+    *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .order = nh_alloc_array(n, sizeof *d->order)}; /* order 0: every column may move */
+    if (!run(compute_qr, d))
+        return false;
+    give(m * n, d->a, a);
+    for (size_t j = 0; j < n && d->ok; j++) {
+        pivot[j] = (size_t)d->order[j] - 1;
         for (size_t i = j + 1; i < m; i++)
             a[i + j * m] = 0; /* the reflectors */
     }
-    nh_free(order);
-    nh_free(tau);
-    return info == 0;
+    bool ok = d->ok;
+    decomposition_free(d);
+    return ok;
 }
 
 bool nh_eigen(size_t n, double *a, double *re, double *im, double *v)

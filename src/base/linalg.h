@@ -21,10 +21,10 @@ void nh_qr_triangle(nh_qr *qr, double *r);
 size_t nh_qr_rows(const nh_qr *qr); /* rows seen so far */
 
 /* Singular values (descending) of a (m x n), left vectors u (m x min, may be NULL), right vectors vt (min x n, may be NULL).
- * `a` is overwritten.  False when the iteration fails. */
+ * False when the iteration fails, or when the user interrupts a large one (base/progress.h). */
 bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt);
 
-/* Pivoted QR of a (m x n): on return its upper triangle is R, pivot[j] the column that came j-th. */
+/* Pivoted QR of a (m x n), false as above: on return its upper triangle is R, pivot[j] the column that came j-th. */
 bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot);
 
 /* Eigenvalues of a general n x n matrix (overwritten); right eigenvectors in LAPACK's packing into v (n x n), may be NULL. */

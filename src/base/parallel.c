@@ -2,6 +2,10 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <time.h>
+
+#include "base/memory.h"
+#include "base/progress.h"
 
 enum { most_threads = 64 };
 
@@ -29,4 +33,71 @@ void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *co
         if (pthread_create(&helper[started], NULL, work, &q) == 0) started++;
     work(&q);
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
+}
+
+/* ---- one job that may be left alone ---- */
+
+typedef struct {
+    void (*job)(void *), (*release)(void *);
+    void *context;
+    pthread_mutex_t lock;
+    pthread_cond_t ended;
+    bool done, left;
+} errand;
+
+static void errand_free(errand *e)
+{
+    pthread_mutex_destroy(&e->lock);
+    pthread_cond_destroy(&e->ended);
+    nh_free(e);
+}
+
+static void *go(void *argument)
+{
+    errand *e = argument;
+    e->job(e->context);
+    pthread_mutex_lock(&e->lock);
+    e->done = true;
+    bool left = e->left;
+    pthread_cond_signal(&e->ended);
+    pthread_mutex_unlock(&e->lock);
+    if (!left) return NULL;
+    e->release(e->context);
+    errand_free(e);
+    return NULL;
+}
+
+static void look_every(struct timespec *until)
+{
+    enum { nanoseconds = 20000000, second = 1000000000 };
+    clock_gettime(CLOCK_REALTIME, until);
+    until->tv_nsec += nanoseconds;
+    if (until->tv_nsec < second) return;
+    until->tv_nsec -= second;
+    until->tv_sec++;
+}
+
+bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *context)
+{
+    errand *e = nh_alloc(sizeof *e);
+    *e = (errand){.job = job, .release = release, .context = context, .lock = PTHREAD_MUTEX_INITIALIZER, .ended = PTHREAD_COND_INITIALIZER};
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, go, e)) { /* then it cannot be left */
+        errand_free(e);
+        job(context);
+        return true;
+    }
+    pthread_mutex_lock(&e->lock);
+    while (!e->done && !nh_interrupted()) {
+        struct timespec until;
+        look_every(&until);
+        pthread_cond_timedwait(&e->ended, &e->lock, &until);
+    }
+    bool done = e->done;
+    e->left = !done;
+    pthread_mutex_unlock(&e->lock);
+    if (!done) return pthread_detach(thread), false;
+    pthread_join(thread, NULL);
+    errand_free(e);
+    return true;
 }

@@ -4,9 +4,15 @@
 #ifndef NH_PARALLEL_H
 #define NH_PARALLEL_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* job(i, context) for i = 0 .. jobs-1.  With one thread, or when none can be started, the caller does them in order. */
 void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context);
+
+/* A long call into a library that cannot be asked to stop: job(context) on a thread of its own, while the caller looks out for an interruption (base/progress.h).
+ * False when one comes: then the job goes on without the caller until it ends, or the process does; context must own all that it needs and is
+ * released after it.  True: the job is done, and context is still the caller's. */
+bool nh_interruptible(void (*job)(void *context), void (*release)(void *context), void *context);
 
 #endif

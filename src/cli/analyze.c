@@ -97,7 +97,7 @@ static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
     if (!cli->tex) return true;
     nh_text text;
     nh_text_init(&text);
-    nh_tex(result, &text);
+    nh_tex(result, cli->fragment, &text);
     return nh_cli_write(cli->tex, &text, error);
 }
 

@@ -7,7 +7,7 @@
 #include "cli/cli.h"
 #include "cli/words.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X){NULL, 0, NULL, 0}};
@@ -141,6 +141,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case 'o': cli->folder = value; return true;
     case opt_html: cli->html = value; return true;
     case opt_tex: cli->tex = value; return true;
+    case opt_fragment: return cli->fragment = true;
     case opt_analysis: cli->analysis = value; return true;
     case opt_no_analysis: return cli->no_analysis = true;
     case opt_no_color: cli->colour = false; return true;

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "base/output.h"
+#include "base/progress.h"
 #include "cli/cli.h"
 #include "report/chart.h"
 #include "report/html.h"
@@ -38,11 +39,14 @@ int nh_cli_chart(nh_cli *cli, nh_error *error)
     nh_simulate_request request;
     if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error)) return error->code;
     double budget = cli->budget > 0 ? cli->budget : cli->stress ? 30 : 5;
+    nh_cli_watch_begin(cli);
     nh_comparison *c = nh_compare(&request, cli->stress ? budget / 2 : budget, error);
-    nh_stress *s = c && cli->stress ? nh_stress_create(&request, cli->over, budget / 2, error) : NULL;
+    nh_stress *s = c && cli->stress && !nh_interrupted() ? nh_stress_create(&request, cli->over, budget / 2, error) : NULL;
+    nh_cli_watch_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);
     nh_stress_free(s);
+    if (c && error->code == NH_OK && nh_interrupted()) nh_fail(error, NH_INTERRUPTED, "", "interrupted: this is what was measured until then");
     nh_comparison_free(c);
-    return error->code;
+    return nh_interrupted() && !c ? NH_INTERRUPTED : (int)error->code;
 }

@@ -19,6 +19,7 @@ typedef struct {
     const char **operand;
     const char *line;            /* the whole command, as it was typed */
     const char *analysis, *json, *html, *tex; /* files; json may be "-" */
+    bool fragment;               /* the LaTeX without a preamble */
     const char *folder;          /* for all of them, or NULL */
     nh_cli_progress progress;
     const char *current, *field; /* questions of verify */

@@ -28,7 +28,7 @@ static size_t places(nh_cli *cli, const char *kind, const char **out)
     size_t n = 0;
     out[n++] = nh_arena_strdup(cli->arena, kind);
     const char *path = getenv("NHSYM_PATH");
-    while (path && *path && n + 4 < most_places) {
+    while (path && *path && n + 5 < most_places) {
         size_t length = strcspn(path, ":");
         if (length) {
             out[n++] = nh_arena_printf(cli->arena, "%.*s/%s", (int)length, path, kind);
@@ -38,6 +38,7 @@ static size_t places(nh_cli *cli, const char *kind, const char **out)
     }
     const char *prefix = prefix_of_program(cli);
     if (prefix) out[n++] = nh_arena_printf(cli->arena, "%s/share/nhsym/%s", prefix, kind);
+    if (prefix) out[n++] = nh_arena_printf(cli->arena, "%s/%s", prefix, kind); /* built, and not installed: beside the folder of the build */
     out[n++] = nh_arena_printf(cli->arena, "%s/%s", NH_DATADIR, kind);
     return n;
 }

@@ -2,6 +2,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/words.h"
 #include "expr/normal.h"
@@ -76,7 +77,8 @@ int main(int argc, char **argv)
     nh_normal_cleanup();
     if (fflush(stdout) || ferror(stdout)) {
         fprintf(stderr, "nhsym: the output could not be written\n");
-        return code ? code : NH_NUMERIC;
+        code = code ? code : NH_NUMERIC;
     }
+    if (nh_interrupted()) _exit(code); /* a decomposition that was left alone may still run */
     return code;
 }

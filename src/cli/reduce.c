@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "base/output.h"
+#include "base/progress.h"
 #include "cli/cli.h"
 #include "report/html.h"
 #include "report/reduction.h"
@@ -35,8 +36,11 @@ static void print(const nh_cli *cli, const nh_reduction *r)
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     nh_reduce_request request;
-    nh_reduction *r = request_of(cli, &request, error) ? nh_reduce(&request, error) : NULL;
-    if (!r) return error->code;
+    if (!request_of(cli, &request, error)) return error->code;
+    nh_cli_watch_begin(cli);
+    nh_reduction *r = nh_reduce(&request, error);
+    nh_cli_watch_end();
+    if (!r) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
     if (!to_stdout && !cli->quiet) print(cli, r);
@@ -54,5 +58,5 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     }
     bool partial = r->partial;
     nh_reduction_free(r);
-    return !good ? (int)error->code : partial ? NH_LIMIT : NH_OK;
+    return !good ? (int)error->code : nh_interrupted() ? NH_INTERRUPTED : partial ? NH_LIMIT : NH_OK;
 }

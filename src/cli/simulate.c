@@ -61,10 +61,10 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
-    bool asked = nh_cli_motion_request(cli, example, &request, error);
-    if (asked) nh_cli_watch_begin(cli);
-    nh_simulation *s = asked ? nh_simulate(&request, error) : NULL;
-    if (asked) nh_cli_watch_end();
+    if (!nh_cli_motion_request(cli, example, &request, error)) return error->code;
+    nh_cli_watch_begin(cli);
+    nh_simulation *s = nh_simulate(&request, error);
+    nh_cli_watch_end();
     if (!s) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     bool good = true;
@@ -83,5 +83,5 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     }
     if (good) complain(s, error);
     nh_simulation_free(s);
-    return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
+    return good && nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
 }

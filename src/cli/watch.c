@@ -1,6 +1,8 @@
 /* watch: progress on stderr, and signals. */
+#include <math.h>
 #include <signal.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/progress.h"
@@ -9,6 +11,15 @@
 enum { widest = 60 };
 
 static bool live; /* a line that is rewritten, on a terminal */
+static double begun, told; /* seconds */
+static char last[widest + 1];
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
 
 static void on_signal(int number)
 {
@@ -16,12 +27,28 @@ static void on_signal(int number)
     nh_interrupt();
 }
 
+/* "42 %, 7 s left: ": as if it went on as before. */
+static void put_part(double part)
+{
+    double left = part > 0 ? (now() - begun) * (1 - part) / part : -1;
+    fprintf(stderr, "%3.0f %%", 100 * part);
+    if (left >= 600) fprintf(stderr, ", %.0f min left", left / 60);
+    else if (left >= 0) fprintf(stderr, ", %.0f s left", ceil(left));
+    fputs(": ", stderr);
+}
+
+/* A line for every thing that is done, and now and then how far it has come: ten times a second on a terminal. */
 static void show(void *context, const char *doing, double part)
 {
     (void)context;
-    char percent[20] = "";
-    if (part >= 0) snprintf(percent, sizeof percent, "%3.0f %% of the time  ", 100 * part);
-    fprintf(stderr, live ? "\r\033[K%s%.*s" : "%s%.*s\n", percent, widest, doing);
+    double moment = now(), pause = live ? 0.1 : 5;
+    bool same = !strncmp(doing, last, widest);
+    if (same && moment - told < pause) return;
+    told = moment;
+    snprintf(last, sizeof last, "%s", doing);
+    if (live) fputs("\r\033[K", stderr);
+    if (part >= 0) put_part(part);
+    fprintf(stderr, live ? "%s" : "%s\n", last);
     fflush(stderr);
 }
 
@@ -34,6 +61,7 @@ void nh_cli_watch_begin(const nh_cli *cli)
     bool terminal = isatty(STDERR_FILENO);
     if (cli->progress == NH_PROGRESS_NEVER || (cli->progress == NH_PROGRESS_AUTO && (!terminal || cli->quiet))) return;
     live = terminal;
+    begun = now();
     nh_progress_set(show, NULL);
 }
 

@@ -13,6 +13,7 @@
     X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate chart reduce", "the result as JSON; with - nothing else is printed") \
     X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate chart reduce", "the result as one page that needs nothing else") \
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze", "the result as a LaTeX document")                                        \
+    X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "the LaTeX without a preamble, to be read by another")                      \
     X('o',             "output",      required_argument, "DIR",                "analyze", "-o: all of these and every figure, into a folder")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
@@ -39,7 +40,7 @@
     X(opt_threads,     "threads",     required_argument, "N",                  "analyze", "processors to use; they do not change the result")                      \
     X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze reduce", "time after which the search ends, with what there is")           \
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate chart reduce", "any number of `nhsym explain options`")    \
-    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze", "what is being done, on standard error")                                 \
+    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze simulate chart reduce", "what is being done, on standard error")           \
     X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate chart reduce new", "-q: no summary")                       \
     X('v',             "verbose",     no_argument,       "",                   "analyze simulate chart reduce", "-v: more of it")                                    \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate chart reduce", "no colours; NO_COLOR does the same")       \

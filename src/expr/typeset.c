@@ -3,19 +3,15 @@
 
 #include "expr/typeset_internal.h"
 
-/* How one form writes what formulas are made of. */
-typedef struct {
-    const char *group[2], *fraction[3], *root[2], *power[3], *below[3], *dot[2], *ddot[2], *open, *close, *bar[2];
-    const char *plus, *minus, *equal, *times, *dot_times, *apply, *comma, *number[2], *italic[2], *upright[2], *pi;
-} script;
-
-static const script scripts[] = {
-    [NH_MATHML] = {{"<mrow>", "</mrow>"}, {"<mfrac>", "", "</mfrac>"}, {"<msqrt>", "</msqrt>"}, {"<msup>", "", "</msup>"}, {"<msub>", "", "</msub>"},
+static const nh_typeset_script scripts[] = {
+    [NH_MATHML] = {{"<mrow>", "</mrow>"}, {"<mrow>", "</mrow>"}, {"<mfrac>", "", "</mfrac>"}, {"<msqrt>", "</msqrt>"}, {"<msup>", "", "</msup>"}, {"<msub>", "", "</msub>"},
                    {"<mover accent=\"true\">", "<mo>\u02d9</mo></mover>"}, {"<mover accent=\"true\">", "<mo>\u00a8</mo></mover>"}, "<mo>(</mo>", "<mo>)</mo>",
-                   {"<mo>|</mo>", "<mo>|</mo>"}, "<mo>+</mo>", "<mo>\u2212</mo>", "<mo>=</mo>", "<mo>\u2062</mo>", "<mo>\u00b7</mo>", "<mo>\u2061</mo>",
-                   "<mo>,</mo>", {"<mn>", "</mn>"}, {"<mi>", "</mi>"}, {"<mi mathvariant=\"normal\">", "</mi>"}, "<mi>\u03c0</mi>"},
-    [NH_LATEX] = {{"{", "}"}, {"\\frac", "", ""}, {"\\sqrt{", "}"}, {"", "^", ""}, {"", "_", ""}, {"\\dot{", "}"}, {"\\ddot{", "}"}, "\\left(", "\\right)",
-                  {"\\left|", "\\right|"}, " + ", " - ", " = ", "\\,", "\\cdot ", "", ", ", {"", ""}, {"", ""}, {"\\mathrm{", "}"}, "\\pi "},
+                   {"<mo>|</mo>", "<mo>|</mo>"}, "<mo>+</mo>", "<mo>\u2212</mo>", "<mo>=</mo>", "<mo>\u2062</mo><mspace width=\"0.12em\"/>", "<mo>\u00b7</mo>", "<mo>\u2061</mo>",
+                   "<mo>,</mo>", {"<mn>", "</mn>"}, {"<mi>", "</mi>"}, {"<mi mathvariant=\"normal\">", "</mi>"}, "<mi>\u03c0</mi>",
+                   "<mo stretchy=\"false\">(</mo>", "<mo stretchy=\"false\">)</mo>", "<mo stretchy=\"false\">|</mo>", "<mo>/</mo>", "<mo form=\"infix\">+</mo>", "<mo form=\"infix\">\u2212</mo>"},
+    [NH_LATEX] = {{"{", "}"}, {"", ""}, {"\\frac", "", ""}, {"\\sqrt{", "}"}, {"", "^", ""}, {"", "_", ""}, {"\\dot{", "}"}, {"\\ddot{", "}"}, "\\left(", "\\right)",
+                  {"\\left|", "\\right|"}, " + ", " - ", " = ", "\\,", "\\cdot ", "", ", ", {"", ""}, {"", ""}, {"\\mathrm{", "}"}, "\\pi ",
+                  "\\bigl(", "\\bigr)", "\\bigm|", "\\big/", " + ", " - "},
 };
 
 static const struct {
@@ -27,14 +23,10 @@ static const struct {
     {"sigma", "σ", "\\sigma "},    {"tau", "τ", "\\tau "},       {"phi", "φ", "\\varphi "},    {"chi", "χ", "\\chi "},        {"psi", "ψ", "\\psi "},
     {"omega", "ω", "\\omega "},    {"Gamma", "Γ", "\\Gamma "},   {"Delta", "Δ", "\\Delta "},   {"Theta", "Θ", "\\Theta "},    {"Lambda", "Λ", "\\Lambda "},
     {"Xi", "Ξ", "\\Xi "},          {"Sigma", "Σ", "\\Sigma "},   {"Phi", "Φ", "\\Phi "},       {"Psi", "Ψ", "\\Psi "},        {"Omega", "Ω", "\\Omega "},
-    {"varphi", "φ", "\\varphi "},  {"Pi", "Π", "\\Pi "},         {"upsilon", "υ", "\\upsilon "},
+    {"varphi", "φ", "\\varphi "},  {"Pi", "Π", "\\Pi "},         {"upsilon", "υ", "\\upsilon "}, {"vartheta", "ϑ", "\\vartheta "},
 };
 
-typedef struct {
-    nh_typeset_form form;
-    const script *s;
-    nh_text *out;
-} writer;
+typedef nh_typeset_writer writer;
 
 static void put(const writer *w, const nh_seen *e);
 
@@ -87,35 +79,33 @@ static void word(const writer *w, const char *text, size_t length)
     add(w, around[1]);
 }
 
-/* The dots of a derivative stand above the letter, not above its index. */
-static void letter(const writer *w, const char *text, size_t length, size_t primes)
+static void accented(const writer *w, const char *text, size_t length, const char *const accent[2])
 {
-    const char *const *dot = primes == 2 ? w->s->ddot : w->s->dot;
-    if (primes) add(w, dot[0]);
-    if (primes) add(w, w->s->group[0]);
+    if (accent) add(w, accent[0]);
+    if (accent) add(w, w->s->base[0]);
     word(w, text, length);
-    if (primes) add(w, w->s->group[1]);
-    if (primes) add(w, dot[1]);
+    if (accent) add(w, w->s->base[1]);
+    if (accent) add(w, accent[1]);
 }
 
-static void name(const writer *w, const char *text, size_t primes)
+/* A stem, and as its index the digits at the end or what follows an underscore, which may have an index too; the accent, if any, is the stem's. */
+static void name(const writer *w, const char *text, const char *const accent[2])
 {
-    size_t length = strlen(text), base = strcspn(text + 1, "_") + 1, below;
+    size_t length = strlen(text), base = length ? strcspn(text + 1, "_") + 1 : 0, below;
     if (base == length)
         while (base > 1 && isdigit((unsigned char)text[base - 1])) base--;
     below = base + (base < length && text[base] == '_' && base + 1 < length);
-    if (base == length || below == length) {
-        letter(w, text, length, primes);
+    if (base == length || below == length || isdigit((unsigned char)text[0])) {
+        accented(w, text, length, accent);
         return;
     }
     add(w, w->s->below[0]);
-    add(w, w->s->group[0]);
-    letter(w, text, base, primes);
-    add(w, w->s->group[1]);
+    add(w, w->s->base[0]);
+    accented(w, text, base, accent);
+    add(w, w->s->base[1]);
     add(w, w->s->below[1]);
     add(w, w->s->group[0]);
-    if (isdigit((unsigned char)text[below])) word(w, text + below, length - below);
-    else name(w, text + below, 0);
+    name(w, text + below, NULL);
     add(w, w->s->group[1]);
     add(w, w->s->below[2]);
 }
@@ -123,7 +113,7 @@ static void name(const writer *w, const char *text, size_t primes)
 static void dotted(const writer *w, const nh_seen *e)
 {
     if (!strcmp(e->text, "pi") && !e->primes) add(w, w->s->pi);
-    else name(w, e->text, e->primes);
+    else name(w, e->text, e->primes == 0 ? NULL : e->primes == 2 ? w->s->ddot : w->s->dot);
 }
 
 void nh_typeset_plain(const char *text, nh_text *out)
@@ -151,7 +141,7 @@ static void number(const writer *w, const char *text)
     exponent += *exponent == '-' || *exponent == '+';
     add(w, w->s->dot_times);
     add(w, w->s->power[0]);
-    nh_text_addf(w->out, "%s%s10%s%s", w->s->group[0], w->s->number[0], w->s->number[1], w->s->group[1]);
+    nh_text_addf(w->out, "%s%s10%s%s", w->s->base[0], w->s->number[0], w->s->number[1], w->s->base[1]);
     add(w, w->s->power[1]);
     nh_text_addf(w->out, "%s%s%s%s%s%s", w->s->group[0], minus ? w->s->minus : "", w->s->number[0], exponent, w->s->number[1], w->s->group[1]);
     add(w, w->s->power[2]);
@@ -159,7 +149,7 @@ static void number(const writer *w, const char *text)
 
 /* ---- functions and powers ---- */
 
-static void function_name(const writer *w, const char *text)
+void nh_typeset_function(const writer *w, const char *text)
 {
     static const char *const known[] = {"sin", "cos", "tan", "sinh", "cosh", "tanh", "exp"};
     static const char *const inverse[][2] = {{"asin", "arcsin"}, {"acos", "arccos"}, {"atan", "arctan"}, {"log", "ln"}};
@@ -198,7 +188,7 @@ static void call(const writer *w, const nh_seen *e)
         add(w, around[1]);
         return;
     }
-    function_name(w, e->text);
+    nh_typeset_function(w, e->text);
     arguments(w, e);
 }
 
@@ -210,11 +200,13 @@ static void power(const writer *w, const nh_seen *e)
     bool plain = base->kind == NH_SEEN_NAME || base->kind == NH_SEEN_NUMBER || (base->kind == NH_SEEN_CALL && !strcmp(base->text, "abs"));
     add(w, w->s->power[0]);
     if (on_function) {
-        add(w, w->s->group[0]);
-        function_name(w, base->text);
-        add(w, w->s->group[1]);
+        add(w, w->s->base[0]);
+        nh_typeset_function(w, base->text);
+        add(w, w->s->base[1]);
     } else if (plain) {
-        grouped(w, base);
+        add(w, w->s->base[0]);
+        put(w, base);
+        add(w, w->s->base[1]);
     } else {
         parenthesised(w, base);
     }
@@ -244,11 +236,16 @@ static bool starts_with_name_of_function(const nh_seen *e)
     return e->kind == NH_SEEN_CALL && strcmp(e->text, "sqrt") && strcmp(e->text, "abs");
 }
 
+void nh_typeset_times(const writer *w, const nh_seen *factor)
+{
+    add(w, starts_with_number(factor) ? w->s->dot_times : w->s->times);
+    if (w->form == NH_MATHML && starts_with_name_of_function(factor)) add(w, "<mspace width=\"0.17em\"/>");
+}
+
 static void product(const writer *w, const nh_seen *e)
 {
     for (const nh_seen *c = e->child; c; c = c->next) {
-        if (c != e->child) add(w, starts_with_number(c) ? w->s->dot_times : w->s->times);
-        if (c != e->child && w->form == NH_MATHML && starts_with_name_of_function(c)) add(w, "<mspace width=\"0.17em\"/>");
+        if (c != e->child) nh_typeset_times(w, c);
         factor(w, c);
     }
 }
@@ -289,7 +286,9 @@ static void put(const writer *w, const nh_seen *e)
     }
 }
 
-void nh_typeset_seen(const nh_seen *e, nh_typeset_form form, nh_text *out) { put(&(writer){form, &scripts[form], out}, e); }
+void nh_typeset_put(const writer *w, const nh_seen *e) { put(w, e); }
+
+const nh_typeset_script *nh_typeset_script_of(nh_typeset_form form) { return &scripts[form]; }
 
 bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out)
 {
@@ -298,94 +297,4 @@ bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out)
     if (e) put(&(writer){form, &scripts[form], out}, e);
     nh_arena_free(arena);
     return e != NULL;
-}
-
-/* ---- pieces ---- */
-
-typedef struct {
-    nh_typeset_piece *piece;
-    void *context;
-    size_t count;
-} pieces;
-
-static void hand_over(pieces *p, nh_text *one)
-{
-    p->piece(p->context, nh_text_string(one));
-    p->count++;
-    nh_text_clear(one);
-}
-
-/* The sum with the most terms among the factors, or NULL. */
-static const nh_seen *longest_sum(const nh_seen *factors, size_t *terms)
-{
-    const nh_seen *best = NULL;
-    for (const nh_seen *c = factors; c; c = c->next) {
-        size_t n = 0;
-        for (const nh_seen *t = c->kind == NH_SEEN_SUM ? c->child : NULL; t; t = t->next) n++;
-        if (n <= *terms) continue;
-        best = c;
-        *terms = n;
-    }
-    return best;
-}
-
-/* (a + b + ...) f/d, where it is too long for a line, is (f/d) (a + b + ...) in pieces. */
-static bool open_product(nh_typeset_form form, const nh_seen *e, pieces *p)
-{
-    bool minus = e->kind == NH_SEEN_SUM;
-    const nh_seen *n = minus ? e->child : e, *below = NULL;
-    size_t terms = 2;
-    if (minus && (e->child->next || !e->child->minus)) return false;
-    if (n->kind == NH_SEEN_FRACTION) {
-        below = n->child->next;
-        n = n->child;
-    }
-    nh_seen alone = *n;
-    alone.next = NULL;
-    const nh_seen *factors = n->kind == NH_SEEN_PRODUCT ? n->child : &alone, *sum = longest_sum(factors, &terms);
-    if (!sum || (!below && !factors->next && !minus)) return false;
-    nh_text one, above;
-    nh_text_init(&one);
-    nh_text_init(&above);
-    writer w = {form, &scripts[form], &above};
-    bool any = false;
-    for (const nh_seen *c = factors; c; c = c->next) {
-        if (c == sum) continue;
-        if (any) add(&w, w.s->times);
-        factor(&w, c);
-        any = true;
-    }
-    if (!any && below) nh_text_addf(&above, "%s1%s", w.s->number[0], w.s->number[1]);
-    w.out = &one;
-    if (minus) add(&w, w.s->minus);
-    if (below) nh_text_addf(&one, "%s%s%s%s", w.s->fraction[0], w.s->group[0], nh_text_string(&above), w.s->group[1]);
-    if (below) grouped(&w, below);
-    nh_text_add(&one, below ? w.s->fraction[2] : nh_text_string(&above));
-    nh_text_clear(&above);
-    add(&w, form == NH_MATHML ? "<mo stretchy=\"false\">(</mo>" : "\\bigl(");
-    for (const nh_seen *c = sum->child; c; c = c->next) {
-        term(&w, c, c == sum->child);
-        if (!c->next) add(&w, form == NH_MATHML ? "<mo stretchy=\"false\">)</mo>" : "\\bigr)");
-        hand_over(p, &one);
-    }
-    return true;
-}
-
-size_t nh_typeset_pieces(const char *text, nh_typeset_form form, nh_typeset_piece *piece, void *context)
-{
-    enum { long_text = 60 }; /* characters that fit on a line when set */
-    nh_arena *arena = nh_arena_create();
-    const nh_seen *e = nh_typeset_read(arena, text), *first = e && e->kind == NH_SEEN_SUM ? e->child : e;
-    pieces p = {piece, context, 0};
-    bool opened = e && strlen(text) > long_text && open_product(form, e, &p);
-    for (const nh_seen *c = opened ? NULL : first; c; c = e == first ? NULL : c->next) {
-        nh_text one;
-        nh_text_init(&one);
-        writer w = {form, &scripts[form], &one};
-        if (e == first) put(&w, c);
-        else term(&w, c, c == first);
-        hand_over(&p, &one);
-    }
-    nh_arena_free(arena);
-    return p.count;
 }

@@ -17,13 +17,13 @@ bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out);
 /* A name for labels of plots, as plain text: phi1' becomes φ1′. */
 void nh_typeset_plain(const char *name, nh_text *out);
 
-/* The pieces that a line may be broken before: the terms of a sum, each with its sign; of a long product or fraction, those of its longest sum.  Returns how many there are, calling `piece` for
- * each with the formula of it; 0 as above. */
+/* The pieces that a line may be broken between, none of them much wider than `widest` letters: the terms of a sum, each with its sign, and the insides of
+ * what is wide.  Put together they are the formula; in LaTeX each but the first begins with a penalty, as for TeX's own breaking of paragraphs.
+ * Returns how many there are, calling `piece` for each; 0 as above. */
 typedef void nh_typeset_piece(void *context, const char *formula);
-size_t nh_typeset_pieces(const char *text, nh_typeset_form form, nh_typeset_piece *piece, void *context);
+size_t nh_typeset_pieces(const char *text, nh_typeset_form form, double widest, nh_typeset_piece *piece, void *context);
 
-/* MathML in pieces that are at most `widest` symbols wide, as far as a formula can be taken apart: what is too wide is broken inside products, fractions and
- * parentheses, too.  Between two pieces a line may end.  As above otherwise. */
-size_t nh_typeset_lines(const char *text, size_t widest, nh_typeset_piece *piece, void *context);
+/* How wide a formula is, in letters, about; 0 when the text is none. */
+double nh_typeset_width(const char *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* typeset_code: expressions as C and as LaTeX. */
+/* typeset_code: expressions as C. */
 #ifndef NH_TYPESET_CODE_H
 #define NH_TYPESET_CODE_H
 
@@ -11,10 +11,5 @@ void nh_typeset_c_name(const char *name, nh_text *out);
 /* Assignments `target[i] = e_i;` in C99 with <math.h>, indented by four blanks.  What occurs more than once is computed once, into constants t0, t1, ...,
  * numbered from *temporaries on, which is advanced. */
 void nh_typeset_c(nh_dag *dag, size_t n, const nh_ex *e, const char *const *target, size_t *temporaries, nh_text *out);
-
-/* In the mathematics mode of LaTeX: \psi_{1}, \dot{x}, \frac{..}{..}. */
-void nh_typeset_latex(nh_dag *dag, nh_ex e, nh_text *out);
-/* The same for a name, with its prime: p_psi1 becomes p_{\psi_{1}}, psi1' becomes \dot{\psi}_{1}. */
-void nh_typeset_latex_name(const char *name, nh_text *out);
 
 #endif

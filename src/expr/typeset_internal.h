@@ -18,11 +18,32 @@ struct nh_seen {
     nh_seen *next;      /* its neighbour */
 };
 
+/* How one form writes what formulas are made of: around a group, around what carries an index, a power or an accent, and so on. */
+typedef struct {
+    const char *group[2], *base[2], *fraction[3], *root[2], *power[3], *below[3], *dot[2], *ddot[2], *open, *close, *bar[2];
+    const char *plus, *minus, *equal, *times, *dot_times, *apply, *comma, *number[2], *italic[2], *upright[2], *pi;
+    const char *wide_open, *wide_close, *wide_bar, *slash; /* parentheses and bars that a line may end between */
+    const char *next_plus, *next_minus; /* at the beginning of a piece */
+} nh_typeset_script;
+
+const nh_typeset_script *nh_typeset_script_of(nh_typeset_form form);
+
+typedef struct {
+    nh_typeset_form form;
+    const nh_typeset_script *s;
+    nh_text *out;
+} nh_typeset_writer;
+
+/* In one piece. */
+void nh_typeset_put(const nh_typeset_writer *w, const nh_seen *e);
+/* The name of a function, without its argument. */
+void nh_typeset_function(const nh_typeset_writer *w, const char *name);
+/* What stands between two factors; `factor` is the second. */
+void nh_typeset_times(const nh_typeset_writer *w, const nh_seen *factor);
+
 /* NULL when the text is not of the language. */
 nh_seen *nh_typeset_read(nh_arena *arena, const char *text);
 /* Do the first `length` characters spell a Greek letter? */
 bool nh_typeset_is_greek(const char *text, size_t length);
-/* As nh_typeset, of what was read. */
-void nh_typeset_seen(const nh_seen *e, nh_typeset_form form, nh_text *out);
 
 #endif

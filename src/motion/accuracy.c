@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/progress.h"
+
 enum { most_runs = 7, most_confirmations = 5 };
 static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const multistep_pair[2] = {"CVODE BDF", "CVODE Adams"};
 static const double loosest = 1e-5, tightest = 1e-14;
@@ -136,6 +138,10 @@ static nh_trajectory *tighten(search *s, nh_error *error)
     s->out->tolerance = coarse;
     for (int i = 1; complete(a) && i < most_runs; i++) {
         nh_trajectory *b = run(s, s->method[0], fine, clean, s->request->max_seconds, &ignored);
+        if (b && nh_interrupted() && b->motion->count <= a->motion->count) { /* the coarser one came farther */
+            nh_trajectory_free(b);
+            break;
+        }
         double d = difference(s, a, b);
         if (last_difference > 0 && d > 0) exponent = between(log(last_difference / d) / log(last_fine / fine), least_exponent, most_exponent);
         if (b) {

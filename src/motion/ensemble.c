@@ -181,6 +181,7 @@ static bool go_to(batch *b, double target, long *steps)
 {
     const nh_options *o = b->p->request->options;
     while (b->t != target) {
+        if (nh_interrupted()) return false;
         double wanted = b->h, left = target - b->t;
         bool last = fabs(b->h) >= fabs(left) * (1 - 1e-12);
         if (last) b->h = left;
@@ -248,6 +249,13 @@ static void close_batch(batch *b, double *block)
     nh_dynamics_free(b->dynamics);
 }
 
+/* Nothing is known of the member from this output on. */
+static void unknown_from(const plan *p, size_t member, size_t output)
+{
+    const nh_ensemble *e = p->out;
+    for (size_t i = output * e->n; i < e->count * e->n; i++) e->value[member * e->count * e->n + i] = NAN;
+}
+
 static void do_batch(size_t index, void *context)
 {
     const plan *p = context;
@@ -263,8 +271,11 @@ static void do_batch(size_t index, void *context)
     b.h = span / 1000;
     for (size_t i = 0; i < p->out->count; i++) {
         if (!go_to(&b, p->request->times[i], &steps)) {
-            for (size_t l = 0; l < b.members; l++)
-                if (b.alive[l]) leave_out(&b, l);
+            for (size_t l = 0; l < b.members; l++) {
+                if (!b.alive[l]) continue;
+                if (nh_interrupted()) unknown_from(p, b.first + l, i);
+                else leave_out(&b, l);
+            }
             break;
         }
         store(&b, i);
@@ -312,6 +323,14 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void count_interrupted(nh_ensemble *e)
+{
+    size_t each = e->count * e->n;
+    e->incomplete = 0;
+    for (size_t i = 0; i < e->members && each; i++) e->incomplete += isnan(e->value[(i + 1) * each - 1]) != 0;
+    snprintf(e->note, sizeof e->note, "interrupted");
+}
+
 static void integrate(plan *p, size_t threads)
 {
     nh_ensemble *e = p->out;
@@ -325,11 +344,16 @@ static void integrate(plan *p, size_t threads)
     for (size_t i = 0; i < batches; i++) e->evaluations += p->evaluations[i] * lanes;
     for (size_t i = 0; i < e->members; i++) {
         if (together && !p->alone[i]) continue;
+        if (nh_interrupted()) {
+            unknown_from(p, i, 0);
+            continue;
+        }
         nh_error_clear(&ignored);
         if (nh_interrupted()) give_up(e, i);
         else do_alone(p, i, &ignored);
         e->alone++;
     }
+    if (nh_interrupted()) count_interrupted(e);
     e->seconds = now() - begin;
     nh_free(p->alone);
     nh_free(p->evaluations);

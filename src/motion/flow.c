@@ -17,6 +17,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 _Static_assert(sizeof(realtype) == sizeof(double), "SUNDIALS must be built for double precision");
 
@@ -136,6 +137,14 @@ static double since(const struct timespec *begin)
     return (double)(now.tv_sec - begin->tv_sec) + 1e-9 * (double)(now.tv_nsec - begin->tv_nsec);
 }
 
+/* How far a long motion has come. */
+static void tell(const nh_motion *motion, size_t count, const double *times)
+{
+    enum { steps_between_words = 2048 };
+    double span = times[count - 1] - times[0];
+    if (motion->steps > 0 && motion->steps % steps_between_words == 0 && span != 0) nh_progress("a motion", (motion->end_time - times[0]) / span);
+}
+
 /* Whether the motion may take another step. */
 static bool may_go_on(nh_motion *motion, const nh_flow_options *options, const struct timespec *begin)
 {
@@ -145,7 +154,9 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, const s
         return false;
     }
     double limit = options->max_steps > 0 ? options->max_steps : default_max_steps;
-    if (options->cancelled && options->cancelled(options->cancel_context))
+    if (nh_interrupted())
+        nh_motion_note(motion, "interrupted at t = %.10g", motion->end_time);
+    else if (options->cancelled && options->cancelled(options->cancel_context))
         nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
     else if ((double)motion->steps >= limit)
         nh_motion_note(motion, "the limit of %g steps was reached at t = %.10g; allow more steps or a larger rtol", limit,
@@ -170,6 +181,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     nh_step step = NH_STEP_ON;
     for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, &begin);) {
         double time = motion->end_time;
+        tell(motion, count, times);
         step = stepper->advance(&time, motion, stepper->context);
         if (step == NH_STEP_FAILED)
             break;

@@ -56,9 +56,14 @@ static void links(nh_html_writer *w)
     nh_text_clear(&sections);
 }
 
+static nh_html_writer writer_of(const nh_result *r, nh_text *out)
+{
+    return (nh_html_writer){.out = out, .system = r->system, .analysis = r->analysis, .dag = r->model->dag, .shown = r->options.shown, .written = r->options.written, .r = r};
+}
+
 void nh_html(const nh_result *r, nh_text *out)
 {
-    nh_html_writer w = {.out = out, .system = r->system, .analysis = r->analysis, .dag = r->model->dag, .shown = r->options.shown, .written = r->options.written, .r = r};
+    nh_html_writer w = writer_of(r, out);
     nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
     nh_html_begin(&w, NULL);
     answer(&w);
@@ -71,6 +76,19 @@ void nh_html(const nh_result *r, nh_text *out)
     nh_html_evidence(&w);
     nh_html_repeat(&w, &run);
     nh_html_end(&w);
+}
+
+void nh_html_plots(const nh_result *r, nh_html_section section, nh_figure_sink *sink, void *context)
+{
+    nh_text rest; /* of the section */
+    nh_text_init(&rest);
+    nh_html_writer w = writer_of(r, &rest);
+    w.sink = sink;
+    w.context = context;
+    if (section == NH_SECTION_MOTION) nh_html_motion(&w);
+    if (section == NH_SECTION_FIGURES) nh_html_figures(&w);
+    if (section == NH_SECTION_SEARCH) nh_html_evidence(&w);
+    nh_text_clear(&rest);
 }
 
 const char *nh_html_next_figure(const char **at, size_t *length)

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "report/run.h"
+#include "report/svg.h"
 #include "study/reduce.h"
 #include "study/result.h"
 #include "study/simulate.h"
@@ -21,5 +22,10 @@ void nh_html_reduction(const nh_reduction *reduction, const nh_run *run, nh_text
 
 /* The figures of a page one by one, each a stand-alone SVG document: where the next begins, NULL after the last.  Moves *at on. */
 const char *nh_html_next_figure(const char **at, size_t *length);
+
+/* The plots of one section of a page, for a report of another form.  They last for the call. */
+typedef enum { NH_SECTION_MOTION, NH_SECTION_FIGURES, NH_SECTION_SEARCH } nh_html_section;
+typedef void nh_figure_sink(void *context, const nh_plot *plot, const char *caption);
+void nh_html_plots(const nh_result *result, nh_html_section section, nh_figure_sink *sink, void *context);
 
 #endif

@@ -37,7 +37,7 @@ static void write_piece(void *context, const char *piece)
 
 void nh_html_source(nh_html_writer *w, const char *text)
 {
-    if (!nh_typeset_lines(text, widest, write_piece, w)) nh_html_tagged(w, "code", text);
+    if (!nh_typeset_pieces(text, NH_MATHML, widest, write_piece, w)) nh_html_tagged(w, "code", text);
 }
 
 void nh_html_meaning(nh_html_writer *w, const char *meaning)

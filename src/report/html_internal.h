@@ -16,6 +16,8 @@ typedef struct {
     double written;              /* option `written` */
     const nh_result *r;          /* of `analyze`, else NULL */
     size_t figures;
+    nh_figure_sink *sink; /* NULL: figures go onto the page */
+    void *context;
 } nh_html_writer;
 
 /* ---- parts ---- */

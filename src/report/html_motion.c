@@ -38,25 +38,40 @@ static void lines(nh_html_writer *w, const nh_course *c, nh_track_kind kind, siz
     flush(w, c, what, axis, caption, n, curve);
 }
 
+/* "length / m" when all coordinates of that type have one unit. */
+static const char *axis_of(const nh_system *s, nh_coordinate_type type, const char *what, char out[80])
+{
+    const char *unit = NULL;
+    for (size_t i = 0; i < s->coordinates; i++) {
+        const nh_coordinate *c = &s->coordinate[i];
+        const char *own = c->unit && c->unit[0] ? c->unit : type == NH_ANGLE ? "rad" : "";
+        if (c->type == type) unit = !unit || !strcmp(unit, own) ? own : "";
+    }
+    snprintf(out, 80, unit && unit[0] ? "%s / %.50s" : "%s", what, unit ? unit : "");
+    return out;
+}
+
 /* Angles and lengths have different units: each gets its own plot. */
 static void positions(nh_html_writer *w, const nh_course *c)
 {
     static const struct {
         nh_coordinate_type type;
         const char *what, *caption;
-    } kind[] = {{NH_ANGLE, "angle / rad", "Angles over time."}, {NH_LENGTH, "length", "Lengths over time."}, {NH_PLAIN, "coordinate", "Other coordinates over time."}};
+    } kind[] = {{NH_ANGLE, "angle", "Angles over time."}, {NH_LENGTH, "length", "Lengths over time."}, {NH_PLAIN, "coordinate", "Other coordinates over time."}};
     const nh_system *s = w->system;
     for (size_t k = 0; k < 3; k++) {
         nh_curve curve[most_curves];
+        char label[80];
+        const char *axis = axis_of(s, kind[k].type, kind[k].what, label);
         size_t n = 0;
         for (size_t i = 0; i < s->coordinates; i++) {
             if (s->coordinate[i].type != kind[k].type) continue;
             curve[n++] = curve_of(c, &c->line[i]);
             if (n < most_curves) continue;
-            flush(w, c, "Coordinates", kind[k].what, kind[k].caption, n, curve);
+            flush(w, c, "Coordinates", axis, kind[k].caption, n, curve);
             n = 0;
         }
-        flush(w, c, "Coordinates", kind[k].what, kind[k].caption, n, curve);
+        flush(w, c, "Coordinates", axis, kind[k].caption, n, curve);
     }
 }
 

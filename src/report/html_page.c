@@ -24,6 +24,8 @@ const char *const nh_html_style =
 const char *const nh_html_script =
     "'use strict';\n"
     "(function(){\n"
+    "function reach(){document.querySelectorAll('.formula,pre').forEach(function(e){if(e.scrollWidth>e.clientWidth)e.tabIndex=0;});}\n"
+    "reach();window.addEventListener('resize',reach);document.addEventListener('toggle',reach,true);\n" /* what scrolls is reached by the keyboard */
     "var el=document.getElementById('motion-data');if(!el)return;\n"
     "var D=JSON.parse(el.textContent),T=D.t,S=D.shapes,last=T.length-1,svg=document.getElementById('scene'),NS='http://www.w3.org/2000/svg';\n"
     "var box=document.getElementById('player'),bar=document.getElementById('when'),play=document.getElementById('play'),clock=document.getElementById('clock');\n"

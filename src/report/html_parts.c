@@ -44,6 +44,10 @@ void nh_html_count(nh_html_writer *w, size_t value) { nh_text_addf(w->out, "<dat
 void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption)
 {
     char id[40];
+    if (w->sink) {
+        w->sink(w->context, plot, caption);
+        return;
+    }
     snprintf(id, sizeof id, "fig%zu", ++w->figures);
     plot->id = id;
     nh_html_add(w, "<figure>");

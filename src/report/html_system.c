@@ -34,7 +34,9 @@ static void coordinates(nh_html_writer *w)
     for (size_t i = 0; i < s->coordinates; i++) {
         nh_html_add(w, "<tr><th scope=\"row\">");
         nh_html_source(w, s->coordinate[i].name);
-        nh_text_addf(w->out, "</th><td>%s</td><td>", types[s->coordinate[i].type]);
+        nh_text_addf(w->out, "</th><td>%s", types[s->coordinate[i].type]);
+        if (s->coordinate[i].unit && s->coordinate[i].unit[0]) nh_html_add(w, " / "), nh_html_text(w, s->coordinate[i].unit);
+        nh_html_add(w, "</td><td>");
         if (s->coordinate[i].doc) nh_html_text(w, s->coordinate[i].doc);
         nh_html_add(w, "</td></tr>\n");
     }

@@ -1,8 +1,12 @@
 /* reduction_code: the reduced equations as C and as LaTeX. */
 #include <string.h>
 
+#include "base/memory.h"
+#include "expr/print.h"
+#include "expr/typeset.h"
 #include "expr/typeset_code.h"
 #include "report/reduction.h"
+#include "report/tex_internal.h"
 
 static const char c_head[] =
     "#include <math.h>\n"
@@ -97,19 +101,43 @@ void nh_reduction_c(const nh_reduction *r, nh_text *out)
     for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, out);
 }
 
+/* ---- LaTeX ---- */
+
+enum { wide_row = 60 }; /* letters that fit on a line beside the name */
+
+static void put_piece(void *context, const char *piece) { nh_text_add(context, piece); }
+
+/* Rows of one alignment when all fit on a line, otherwise paragraphs that TeX breaks. */
+static void put_stage_latex(const nh_reduction *r, const nh_reduction_stage *s, nh_text *out)
+{
+    nh_reduction_equation *e;
+    size_t n = nh_reduction_equations(r, s, &e);
+    bool rows = true;
+    for (size_t k = 0; k < n; k++) {
+        char *text = nh_print_short(r->kinetic->dag, e[k].value, r->options.written);
+        rows = rows && text && nh_typeset_width(text) < wide_row;
+        nh_free(text);
+    }
+    if (rows) nh_text_add(out, "\\begin{align*}\n");
+    for (size_t k = 0; k < n; k++) {
+        char *text = nh_print_short(r->kinetic->dag, e[k].value, r->options.written);
+        if (!rows) nh_text_add(out, "\\nhformula{");
+        nh_typeset(e[k].name, NH_LATEX, out);
+        nh_text_add(out, rows ? " &= " : " = ");
+        if (!text) nh_text_add(out, "\\text{(too long to be written out)}");
+        else if (rows) nh_typeset(text, NH_LATEX, out);
+        else nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, out);
+        nh_text_add(out, !rows ? "}\n" : k + 1 < n ? " \\\\\n" : "\n");
+        nh_free(text);
+    }
+    if (rows) nh_text_add(out, "\\end{align*}\n");
+}
+
 void nh_reduction_latex(const nh_reduction *r, nh_text *out)
 {
-    nh_text_addf(out, "%% %s: reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n", r->system->title);
+    nh_text_addf(out, "%% %s: reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s", r->system->title, nh_tex_formula_macro);
     for (size_t i = 0; i < r->stages; i++) {
-        nh_reduction_equation *e;
-        size_t n = nh_reduction_equations(r, &r->stage[i], &e);
-        nh_text_addf(out, "\n%% Stage %zu (%s), by %s\n\\begin{align*}\n", i + 1, nh_stage_kind_name(r->stage[i].kind), r->stage[i].group);
-        for (size_t k = 0; k < n; k++) {
-            nh_typeset_latex_name(e[k].name, out);
-            nh_text_add(out, " &= ");
-            nh_typeset_latex(r->kinetic->dag, e[k].value, out);
-            nh_text_add(out, k + 1 < n ? " \\\\\n" : "\n");
-        }
-        nh_text_add(out, "\\end{align*}\n");
+        nh_text_addf(out, "\n%% Stage %zu (%s), by %s\n", i + 1, nh_stage_kind_name(r->stage[i].kind), r->stage[i].group);
+        put_stage_latex(r, &r->stage[i], out);
     }
 }

@@ -18,26 +18,54 @@ static void spectrum_line(nh_summary_writer *w, const char *name, const nh_spect
     }
 }
 
-/* One bar per value, by its logarithm from rounding to the largest. */
-static void bars(nh_summary_writer *w, const nh_spectrum *s)
+enum { bar_heights = 8, few_bars = 64, bars_per_line = 72, name_width = 18 };
+
+/* A bar between two powers of ten. */
+static const char *bar(double value, double lowest, double top)
 {
-    static const char *const bar[] = {"\u2581", "\u2582", "\u2583", "\u2584", "\u2585", "\u2586", "\u2587", "\u2588"};
-    enum { heights = sizeof bar / sizeof *bar, per_line = 72 };
+    static const char *const bars[bar_heights] = {"\u2581", "\u2582", "\u2583", "\u2584", "\u2585", "\u2586", "\u2587", "\u2588"};
+    double part = (log10(fmax(value, 1e-300)) - lowest) / (top - lowest);
+    return bars[(int)fmin(bar_heights - 1, fmax(0, floor(part * bar_heights)))];
+}
+
+/* One bar per value, by its logarithm from rounding to the largest: the smallest ones on one line, or all. */
+static void bars(nh_summary_writer *w, const nh_spectrum *s, bool all)
+{
     static const double lowest = -17; /* decades */
     double top = s->rank ? log10(fmax(s->spectrum[s->rank - 1], 1e-16)) : 0;
-    for (size_t i = 0; i < s->rank; i++) {
-        double part = (log10(fmax(s->spectrum[i], 1e-17)) - lowest) / (top - lowest);
-        int height = (int)fmin(heights - 1, fmax(0, floor(part * heights)));
-        nh_text_addf(w->out, "%s%s%s", i % per_line ? "" : "    ", bar[height], i % per_line == per_line - 1 || i + 1 == s->rank ? "\n" : "");
+    size_t n = all || s->rank < few_bars ? s->rank : few_bars, per_line = all ? bars_per_line : few_bars;
+    int indent = all ? 4 : name_width;
+    for (size_t i = 0; i < n; i++) {
+        bool ends = i % per_line == per_line - 1 || i + 1 == n;
+        nh_text_addf(w->out, "%*s%s%s", i % per_line ? 0 : indent, "", bar(s->spectrum[i], lowest, top), !ends ? "" : n < s->rank ? " ...\n" : "\n");
     }
 }
 
-/* The whole spectrum, ascending, with --verbose. */
+/* How far a current is from its first value, in its own size: the largest of each part of the time. */
+static void drift_over_time(nh_summary_writer *w, const nh_validation *v, size_t k)
+{
+    enum { parts = 24 };
+    static const double lowest = -16, top = 0;
+    const nh_drift *d = &v->current[k];
+    size_t column = 0, seen = 0;
+    while (column < v->watches && (w->r->tracks.track[column].kind != NH_TRACK_CURRENT || seen++ < k)) column++;
+    if (column == v->watches || v->count < 2 || !(d->scale > 0)) return;
+    nh_text_add(w->out, "   ");
+    for (size_t p = 0; p < parts && p < v->count; p++) {
+        size_t n = parts < v->count ? parts : v->count, from = p * v->count / n, to = (p + 1) * v->count / n;
+        double most = 0;
+        for (size_t i = from; i < to; i++) most = fmax(most, fabs(v->watch[i * v->watches + column] - v->watch[column]) / d->scale);
+        nh_text_add(w->out, bar(most, lowest, top));
+    }
+}
+
+/* As bars, and with --verbose all the numbers, ascending. */
 static void spectrum_values(nh_summary_writer *w, const nh_spectrum *s)
 {
     enum { per_line = 10 };
-    if (!w->style.verbose || !s->done) return;
-    bars(w, s);
+    if (!s->done || s->rank < 2) return;
+    bars(w, s, w->style.verbose);
+    if (!w->style.verbose) return;
     for (size_t i = 0; i < s->rank; i++) nh_text_addf(w->out, "%s%9.1e%s", i % per_line ? "" : "    ", s->spectrum[i], i % per_line == per_line - 1 || i + 1 == s->rank ? "\n" : "");
 }
 
@@ -122,10 +150,11 @@ void nh_summary_motion(nh_summary_writer *w)
     if (!isnan(v->crossing))
         nh_text_addf(w->out, "  the chart of %s breaks down at t = %.4g; this one is regular there\n", v->crossing_chart, v->crossing);
     if (v->currents) {
-        nh_text_addf(w->out, "  drift at tolerance%10.0e%10.0e%10.0e\n", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
+        nh_text_addf(w->out, "  drift at tolerance%10.0e%10.0e%10.0e   over time, from 1e-16 to 1\n", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
         for (size_t k = 0; k < v->currents; k++) {
             const nh_drift *d = &v->current[k];
             nh_text_addf(w->out, "  %-18s%10.1e%10.1e%10.1e", w->r->found[k].name, d->drift[0], d->drift[1], d->drift[2]);
+            drift_over_time(w, v, k);
             if (d->until < v->end - 1e-9 * fabs(v->end) && w->r->found[k].series) nh_text_addf(w->out, "  (to t = %.4g, where the motion leaves its interval)", d->until);
             nh_text_add(w->out, "\n");
         }

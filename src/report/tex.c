@@ -1,240 +1,317 @@
-#include "report/tex.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/memory.h"
+#include "base/versions.h"
 #include "expr/normal.h"
 #include "expr/print.h"
-#include "expr/typeset.h"
-#include "report/formula.h"
+#include "report/html.h"
+#include "report/tex_internal.h"
 
-enum { line_symbols = 60, widest = 75 }; /* letters and signs that a line takes, about */
+/* ---- before and after the body ---- */
 
-typedef struct {
-    const nh_result *r;
-    nh_text *out;
-} writer;
+static const char macros[] =
+    "\\providecommand{\\nhnumber}[2]{$#2$} % all digits, and what is shown\n"
+    "\\providecommand{\\nhbreak}{\\penalty0\\hskip0pt\\relax}\n"
+    "\\definecolor{nhblue}{HTML}{0072B2}\\definecolor{nhred}{HTML}{D55E00}\\definecolor{nhgreen}{HTML}{009E73}\\definecolor{nhpink}{HTML}{CC79A7}"
+    "\\definecolor{nhorange}{HTML}{E69F00}\\definecolor{nhsky}{HTML}{56B4E9}\n";
 
-static void words(writer *w, const char *text)
+static void head(nh_tex_writer *w, bool fragment)
 {
-    for (const char *c = text; *c; c++) {
-        if (strchr("{}$&#_%", *c)) nh_text_addf(w->out, "\\%c", *c);
-        else if (*c == '\\') nh_text_add(w->out, "\\textbackslash{}");
-        else if (*c == '^') nh_text_add(w->out, "\\textasciicircum{}");
-        else if (*c == '~') nh_text_add(w->out, "\\textasciitilde{}");
-        else if (*c == '<') nh_text_add(w->out, "\\textless{}");
-        else if (*c == '>') nh_text_add(w->out, "\\textgreater{}");
-        else if ((unsigned char)*c >= 0x20) nh_text_add_n(w->out, c, 1);
-        else nh_text_add(w->out, " ");
-    }
+    static const char packages[] = "\\usepackage{amsmath,amssymb,longtable,pgfplots}\n";
+    nh_tex_add(w, "% Written by nhsym " NH_VERSION ".\n");
+    if (fragment) nh_text_addf(w->out, "%% To be read by \\input; the document needs these lines before its beginning:\n%% %s%% \\pgfplotsset{compat=1.16}\n", packages);
+    else nh_text_addf(w->out, "\\documentclass[11pt,a4paper]{article}\n%s\\usepackage[margin=2.5cm]{geometry}\n\\pgfplotsset{compat=1.16}\n", packages);
+    nh_tex_add(w, nh_tex_formula_macro);
+    nh_tex_add(w, macros);
+    if (fragment) return;
+    nh_tex_add(w, "\\title{");
+    nh_tex_words(w, w->r->system->title);
+    nh_tex_add(w, "}\n\\author{nhsym " NH_VERSION "}\n\\date{}\n\\begin{document}\n\\maketitle\n");
 }
 
-static void number(writer *w, double value, int digits)
+static void answer(nh_tex_writer *w)
 {
-    char text[60];
-    if (!isfinite(value)) {
-        nh_text_add(w->out, "--");
-        return;
-    }
-    snprintf(text, sizeof text, "%.*g", digits, value);
-    char *exponent = strchr(text, 'e');
-    int power = 0;
-    if (exponent) sscanf(exponent + 1, "%d", &power);
-    if (exponent) *exponent = 0;
-    nh_text_addf(w->out, exponent ? "$%s\\cdot 10^{%d}$" : "$%s$", text, power);
-}
-
-/* ---- formulas ---- */
-
-/* Letters, digits and signs that are seen: a command counts as one. */
-static size_t symbols(const char *latex)
-{
-    size_t n = 0;
-    for (const char *c = latex; *c; c++) {
-        if (*c == '\\') {
-            n += c[1] != ',' && strncmp(c, "\\left", 5) && strncmp(c, "\\right", 6) && strncmp(c, "\\frac", 5);
-            while ((c[1] >= 'a' && c[1] <= 'z') || (c[1] >= 'A' && c[1] <= 'Z')) c++;
-        } else {
-            n += *c != '{' && *c != '}' && *c != ' ' && *c != '^' && *c != '_';
-        }
-    }
-    return n;
-}
-
-typedef struct {
-    nh_text *out;
-    size_t on_line, most;
-} lines;
-
-static void measure(void *context, const char *piece)
-{
-    lines *l = context;
-    if (symbols(piece) > l->most) l->most = symbols(piece);
-}
-
-static void put_piece(void *context, const char *piece)
-{
-    lines *l = context;
-    size_t n = symbols(piece);
-    if (l->on_line && l->on_line + n > line_symbols) {
-        nh_text_add(l->out, "\\\\\n&\\quad{}");
-        l->on_line = 0;
-    }
-    nh_text_add(l->out, piece);
-    l->on_line += n;
-}
-
-/* What cannot be broken is given as text that can be broken after every sign. */
-static void as_text(writer *w, const char *label, const char *text)
-{
-    nh_text_add(w->out, "\\par\\noindent{\\footnotesize\\ttfamily\\raggedright ");
-    words(w, label);
-    nh_text_add(w->out, label[0] ? " = " : "");
-    for (const char *c = text; *c; c++) {
-        char one[2] = {*c, 0};
-        words(w, one);
-        if (strchr("+-*/( ", *c)) nh_text_add(w->out, "\\allowbreak{}");
-    }
-    nh_text_add(w->out, "\\par}\n");
-}
-
-/* label = text; label may be "". */
-static void display(writer *w, const char *label, const char *text)
-{
-    lines l = {.out = w->out};
-    bool formula = nh_typeset_pieces(text, NH_LATEX, measure, &l) > 0;
-    if (!formula || l.most > widest) {
-        as_text(w, label, text);
-        return;
-    }
-    nh_text_add(w->out, "\\begin{align*}\n&");
-    if (label[0] && nh_typeset(label, NH_LATEX, w->out)) nh_text_add(w->out, " = ");
-    l.on_line = strlen(label);
-    nh_typeset_pieces(text, NH_LATEX, put_piece, &l);
-    nh_text_add(w->out, "\n\\end{align*}\n");
-}
-
-static void formula(writer *w, const char *label, nh_ex e)
-{
-    nh_dag *d = w->r->model->dag;
-    char *text = nh_print_short(d, nh_formula_abbreviate(w->r, e), w->r->options.shown);
-    if (text) {
-        display(w, label, text);
+    const nh_result *r = w->r;
+    if (r->count) {
+        nh_tex_count(w, r->independent);
+        nh_text_addf(w->out, " independent current%s of at most ", r->independent == 1 ? "" : "s");
+        nh_tex_count(w, r->local_maximum);
+        nh_tex_add(w, ".");
     } else {
-        nh_text_add(w->out, "\\par\\noindent ");
-        words(w, label);
-        nh_text_addf(w->out, ": too long for a page%s.\\par\n", (double)nh_complexity(d, e) <= w->r->options.written ? "; the JSON has it" : "");
+        nh_tex_add(w, r->verdict == NH_NONE ? "No current in this ansatz." : "Undecided: nothing found got a certificate.");
     }
-    nh_free(text);
+    nh_tex_add(w, r->partial ? " The search was ended early.\n" : "\n");
+    for (size_t i = 0; i < r->warnings; i++) {
+        nh_tex_add(w, "\n\\textbf{Warning:} ");
+        nh_tex_words(w, r->warning[i]);
+        nh_tex_add(w, "\n");
+    }
 }
 
-/* ---- sections ---- */
+/* ---- the system ---- */
 
-static void system_section(writer *w)
+static void parameters(nh_tex_writer *w)
+{
+    const nh_system *s = w->r->system;
+    if (!s->parameters) return;
+    nh_tex_add(w, "\\begin{center}\\begin{tabular}{lll}\nparameter & value & meaning \\\\\\hline\n");
+    for (size_t i = 0; i < s->parameters; i++) {
+        nh_tex_name(w, s->parameter[i].name);
+        nh_tex_add(w, " & ");
+        nh_tex_number(w, s->parameter[i].value, 10);
+        nh_tex_add(w, " ");
+        if (s->parameter[i].unit) nh_tex_words(w, s->parameter[i].unit);
+        nh_tex_add(w, " & \\parbox[t]{0.6\\linewidth}{\\raggedright ");
+        if (s->parameter[i].doc) nh_tex_words(w, s->parameter[i].doc);
+        nh_tex_add(w, "\\strut} \\\\\n");
+    }
+    nh_tex_add(w, "\\end{tabular}\\end{center}\n");
+}
+
+static void equations(nh_tex_writer *w, const nh_model *o)
+{
+    char label[200];
+    nh_tex_add(w, "\\subsection*{Reduced equations in ");
+    nh_tex_words(w, o->chart->name);
+    nh_tex_add(w, "}\n");
+    for (size_t i = 0; i < o->n; i++) {
+        snprintf(label, sizeof label, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
+        nh_tex_formula(w, label, o->a[i]);
+    }
+    if (o->k) nh_tex_add(w, "Chetaev multipliers\n");
+    for (size_t a = 0; a < o->k; a++) {
+        snprintf(label, sizeof label, o->k == 1 ? "mu" : "mu_%zu", a + 1);
+        nh_tex_formula(w, label, o->mu[a]);
+    }
+}
+
+static void system_section(nh_tex_writer *w)
 {
     const nh_result *r = w->r;
     const nh_system *s = r->system;
-    nh_text_add(w->out, "\\section{The system}\n");
-    if (s->source && s->source[0]) words(w, s->source), nh_text_add(w->out, ".\n\n");
-    if (s->parameters) nh_text_add(w->out, "\\begin{center}\\begin{tabular}{lll}\nparameter & value & meaning \\\\\\hline\n");
-    for (size_t i = 0; i < s->parameters; i++) {
-        nh_text_add(w->out, "$");
-        if (!nh_typeset(s->parameter[i].name, NH_LATEX, w->out)) nh_text_add(w->out, "?");
-        nh_text_add(w->out, "$ & ");
-        number(w, s->parameter[i].value, 10);
-        nh_text_add(w->out, " ");
-        if (s->parameter[i].unit) words(w, s->parameter[i].unit);
-        nh_text_add(w->out, " & ");
-        if (s->parameter[i].doc) words(w, s->parameter[i].doc);
-        nh_text_add(w->out, " \\\\\n");
-    }
-    if (s->parameters) nh_text_add(w->out, "\\end{tabular}\\end{center}\n");
-    nh_text_add(w->out, "Lagrangian\n");
-    formula(w, "L", s->lagrangian);
+    nh_tex_add(w, "\\section{The system}\n");
+    if (s->source && s->source[0]) nh_tex_words(w, s->source), nh_tex_add(w, ".\n\n");
+    parameters(w);
+    nh_tex_add(w, "Lagrangian\n");
+    nh_tex_formula(w, "L", s->lagrangian);
     if (s->constraints) nh_text_addf(w->out, "Constraints (%s, %s)\n", nh_constraint_type_name(r->constraint.type), nh_constraint_integrability(r->model, &r->constraint));
-    for (size_t i = 0; i < s->constraints; i++) display(w, "", s->constraint[i].text);
-    nh_text_add(w->out, "Reduced equations in ");
-    words(w, r->model->chart->name);
-    nh_text_add(w->out, "\n");
-    for (size_t i = 0; i < r->model->n; i++) {
-        char label[200];
-        snprintf(label, sizeof label, "%.180s'", nh_name_of(r->model->dag, r->model->chart->w[i]));
-        formula(w, label, r->model->a[i]);
-    }
-    if (r->model->k) nh_text_add(w->out, "Chetaev multipliers\n");
-    for (size_t a = 0; a < r->model->k; a++) {
-        char label[40];
-        snprintf(label, sizeof label, "mu_%zu", a + 1);
-        formula(w, label, r->model->mu[a]);
+    for (size_t i = 0; i < s->constraints; i++) nh_tex_display(w, "", s->constraint[i].text);
+    equations(w, r->model);
+    if (r->other) equations(w, r->other);
+}
+
+/* ---- currents ---- */
+
+static const char *case_text(int kase)
+{
+    switch (kase) {
+    case 1: return "Case 1: $Z$ is also a symmetry of the equations of motion";
+    case 2: return "Case 2: $[\\Gamma, Z]$ lies in the span of $\\Gamma$ and $Z$";
+    case 3: return "Case 3: $Z$ is not a symmetry of the equations of motion";
+    default: return "The case could not be decided";
     }
 }
 
-static void field(writer *w, const nh_found *f)
+static void field(nh_tex_writer *w, const nh_found *f)
 {
     const nh_system *s = w->r->system;
-    nh_text_add(w->out, "Its symmetry has the components\n");
+    nh_tex_add(w, "Its symmetry has the components\n");
     for (size_t i = 0; i <= s->coordinates; i++) {
         char label[200];
         nh_ex e = i ? f->symmetry.field.space[i - 1] : f->symmetry.Z0;
         snprintf(label, sizeof label, "Z_%.180s", i ? s->coordinate[i - 1].name : "t");
-        if (!nh_is_zero(w->r->model->dag, e)) formula(w, label, e);
+        if (!nh_is_zero(w->r->model->dag, e)) nh_tex_formula(w, label, e);
     }
 }
 
-static void current(writer *w, const nh_found *f)
+static void certificate(nh_tex_writer *w, const nh_found *f)
 {
-    nh_text_add(w->out, "\\subsection*{$");
-    if (!nh_typeset(f->name, NH_LATEX, w->out)) nh_text_add(w->out, "?");
-    nh_text_add(w->out, "$");
-    if (f->meaning[0]) nh_text_add(w->out, ": "), words(w, f->meaning);
-    nh_text_add(w->out, "}\n");
-    if (f->series) nh_text_addf(w->out, "A Chebyshev series of degree %zu without closed form; the JSON tells more.\n", f->series->degree);
-    else formula(w, f->name, f->phi);
-    if (f->relation) nh_text_add(w->out, "It depends on the others:\n"), display(w, "", f->relation);
-    if (f->proof.all_parameters) nh_text_add(w->out, "Proved for all parameter values.");
-    else if (f->proof.proved) nh_text_add(w->out, "Proved for these parameter values.");
-    else nh_text_addf(w->out, "Its rate cancels to %.0f digits.", floor(f->proof.digits));
-    nh_text_add(w->out, " Residual ");
-    number(w, f->heldout, 2);
-    if (w->r->validation) nh_text_add(w->out, ", drift "), number(w, f->drift.drift[NH_DRIFT_RUNS - 1], 2);
-    nh_text_add(w->out, ".\n");
+    const nh_validation *v = w->r->validation;
+    if (f->proof.all_parameters) nh_tex_add(w, w->r->system->parameters ? "Proved for all parameter values." : "Proved.");
+    else if (f->proof.proved) nh_tex_add(w, "Proved for these parameter values.");
+    else {
+        nh_tex_add(w, "Its rate cancels to ");
+        nh_tex_number(w, floor(f->proof.digits), 6);
+        nh_tex_add(w, " digits.");
+    }
+    nh_tex_add(w, " Residual ");
+    nh_tex_number(w, f->heldout, 2);
+    if (v) {
+        nh_tex_add(w, ", drift ");
+        nh_tex_number(w, f->drift.drift[NH_DRIFT_RUNS - 1], 2);
+        nh_tex_add(w, " at tolerance ");
+        nh_tex_number(w, v->tolerance[NH_DRIFT_RUNS - 1], 2);
+    }
+    nh_tex_add(w, f->local ? "; local: many-valued on an angle.\n" : ".\n");
+}
+
+static void current(nh_tex_writer *w, const nh_found *f)
+{
+    nh_tex_add(w, "\\subsection*{");
+    nh_tex_name(w, f->name);
+    if (f->meaning[0]) nh_tex_add(w, ": "), nh_tex_words(w, f->meaning);
+    nh_tex_add(w, "}\n");
+    if (f->series) {
+        nh_tex_add(w, "A Chebyshev series of degree ");
+        nh_tex_count(w, f->series->degree);
+        nh_tex_add(w, " without closed form; the JSON tells more.\n");
+    } else {
+        nh_tex_formula(w, f->name, f->phi);
+    }
+    if (f->relation) nh_tex_add(w, "It depends on the others:\n"), nh_tex_display(w, "", f->relation);
+    certificate(w, f);
     if (!f->has_symmetry) return;
-    if (f->symmetry.kase) nh_text_addf(w->out, "Case %d; ", f->symmetry.kase);
-    nh_text_addf(w->out, "$[\\Gamma, Z]$ %s the canonical distribution.\n", f->symmetry.bracket_in_distribution ? "lies in" : "leaves");
+    nh_text_addf(w->out, "%s; $[\\Gamma, Z]$ %s the canonical distribution%s.\n", case_text(f->symmetry.kase), f->symmetry.bracket_in_distribution ? "lies in" : "leaves",
+                 f->symmetry.projectable ? "; $Z$ is a point symmetry" : "");
     if (!f->series) field(w, f);
 }
 
-static void search_section(writer *w)
+static void currents_section(nh_tex_writer *w)
 {
-    const nh_result *r = w->r;
-    nh_text_add(w->out, "\\section{How it was found}\nAnsatz ");
-    words(w, r->ansatz_note);
-    nh_text_addf(w->out, ". %zu sample points.\n", r->samples);
-    if (r->current.done) nh_text_addf(w->out, "%zu columns, %zu rows, %zu null values.\n", r->current.columns, r->current.rows, r->current.dimension);
-    for (size_t i = 0; i < r->warnings; i++) nh_text_add(w->out, "\n\\textbf{Warning:} "), words(w, r->warning[i]), nh_text_add(w->out, "\n");
-    nh_text_add(w->out, "\n\\section{To repeat it}\nnhsym " NH_VERSION);
-    if (r->command) nh_text_add(w->out, ": \\texttt{"), words(w, r->command), nh_text_add(w->out, "}");
-    nh_text_addf(w->out, ", seed %.0f.\n", r->options.seed);
+    const nh_analysis *a = w->r->analysis;
+    nh_tex_add(w, "\\section{Currents}\n");
+    for (size_t k = 0; k < w->r->count; k++) current(w, &w->r->found[k]);
+    for (size_t i = 0; a && w->r->count && i < a->definitions; i++) {
+        nh_tex_add(w, i ? "" : "\\medskip Here\n");
+        nh_tex_display(w, a->definition[i].name, a->definition[i].text);
+    }
 }
 
-void nh_tex(const nh_result *r, nh_text *out)
+/* ---- figures and tables ---- */
+
+static void draw(void *context, const nh_plot *plot, const char *caption) { nh_tex_plot(context, plot, caption); }
+
+static void figures_section(nh_tex_writer *w)
 {
-    writer w = {r, out};
-    nh_text_add(out, "\\documentclass[11pt,a4paper]{article}\n\\usepackage{amsmath,amssymb}\n\\usepackage[margin=2.5cm]{geometry}\n\\allowdisplaybreaks\n\\setlength{\\parindent}{0pt}\n\\title{");
-    words(&w, r->system->title);
-    nh_text_add(out, "}\n\\author{nhsym " NH_VERSION "}\n\\date{}\n\\begin{document}\n\\maketitle\n");
-    if (r->count) nh_text_addf(out, "%zu independent current%s of at most %zu.%s\n", r->independent, r->independent == 1 ? "" : "s", r->local_maximum, r->partial ? " The search was ended early." : "");
-    else nh_text_add(out, "No current was found in this ansatz.\n");
-    system_section(&w);
-    nh_text_add(out, "\\section{Currents}\n");
-    for (size_t k = 0; k < r->count; k++) current(&w, &r->found[k]);
-    const nh_analysis *a = r->analysis;
-    for (size_t i = 0; a && r->count && i < a->definitions; i++) {
-        nh_text_add(out, i ? "" : "Here\n");
-        display(&w, a->definition[i].name, a->definition[i].text);
+    if (!w->r->figures) return;
+    nh_tex_add(w, "\\section{Figures}\n");
+    nh_html_plots(w->r, NH_SECTION_FIGURES, draw, w);
+}
+
+static void motion_section(nh_tex_writer *w)
+{
+    const nh_validation *v = w->r->validation;
+    if (!v) return;
+    nh_tex_add(w, "\\section{A motion}\n");
+    nh_tex_words(w, v->method);
+    nh_tex_add(w, " in ");
+    nh_tex_words(w, v->chart);
+    nh_tex_add(w, ", $t$ from ");
+    nh_tex_number(w, v->begin, 6);
+    nh_tex_add(w, " to ");
+    nh_tex_number(w, v->end, 6);
+    nh_tex_add(w, ".\n");
+    nh_html_plots(w->r, NH_SECTION_MOTION, draw, w);
+    if (!v->currents) return;
+    nh_tex_add(w, "Drift of the currents, by tolerance of the integration\n\\begin{center}\\begin{tabular}{lrrr}\ncurrent");
+    for (size_t i = 0; i < NH_DRIFT_RUNS; i++) nh_tex_add(w, " & "), nh_tex_number(w, v->tolerance[i], 2);
+    nh_tex_add(w, " \\\\\\hline\n");
+    for (size_t k = 0; k < v->currents; k++) {
+        nh_tex_name(w, w->r->found[k].name);
+        for (size_t i = 0; i < NH_DRIFT_RUNS; i++) nh_tex_add(w, " & "), nh_tex_number(w, v->current[k].drift[i], 2);
+        nh_tex_add(w, " \\\\\n");
     }
+    nh_tex_add(w, "\\end{tabular}\\end{center}\n");
+}
+
+/* Both routes side by side. */
+static void routes(nh_tex_writer *w)
+{
+    static const char *const rows[] = {"columns", "independent ones", "rows", "null values", "up to", "then", "gap"};
+    const nh_spectrum *route[2];
+    size_t n = 0;
+    if (w->r->current.done) route[n++] = &w->r->current;
+    if (w->r->symmetry.done) route[n++] = &w->r->symmetry;
+    if (!n) return;
+    nh_text_addf(w->out, "\\begin{center}\\begin{tabular}{l%s}\nroute%s%s \\\\\\hline\n", n == 2 ? "rr" : "r", w->r->current.done ? " & current" : "", w->r->symmetry.done ? " & symmetry" : "");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        nh_tex_add(w, rows[i]);
+        for (size_t k = 0; k < n; k++) {
+            const nh_spectrum *s = route[k];
+            const size_t counts[] = {s->columns, s->rank, s->rows, s->dimension};
+            const double values[] = {s->dimension && s->dimension <= s->rank ? s->spectrum[s->dimension - 1] : NAN, s->dimension < s->rank ? s->spectrum[s->dimension] : NAN, s->gap};
+            nh_tex_add(w, " & ");
+            if (i < 4) nh_tex_count(w, counts[i]);
+            else nh_tex_number(w, values[i - 4], 2);
+        }
+        nh_tex_add(w, " \\\\\n");
+    }
+    nh_tex_add(w, "\\end{tabular}\\end{center}\n");
+}
+
+static void stages(nh_tex_writer *w)
+{
+    const nh_result *r = w->r;
+    if (!r->stages) return;
+    nh_tex_add(w, "What was tried\n\\begin{longtable}{lrrr}\nstage & columns & null values & new currents \\\\\\hline\\endhead\n");
+    for (size_t i = 0; i < r->stages; i++) {
+        const nh_tried *s = &r->stage[i];
+        nh_tex_add(w, "\\parbox[t]{0.42\\linewidth}{\\raggedright ");
+        nh_tex_words(w, s->name);
+        nh_tex_add(w, "\\strut} & ");
+        if (s->skipped) {
+            nh_tex_add(w, "too large & & \\\\\n");
+            continue;
+        }
+        nh_tex_count(w, s->columns);
+        nh_tex_add(w, " & ");
+        nh_tex_count(w, s->dimension);
+        nh_tex_add(w, s->undecided ? " (undecided) & " : " & ");
+        nh_tex_count(w, s->found);
+        nh_tex_add(w, " \\\\\n");
+    }
+    nh_tex_add(w, "\\end{longtable}\n");
+}
+
+static void search_section(nh_tex_writer *w)
+{
+    const nh_result *r = w->r;
+    nh_tex_add(w, "\\section{How it was found}\nAnsatz: ");
+    nh_tex_words(w, r->ansatz_note);
+    nh_tex_add(w, ". ");
+    nh_tex_count(w, r->samples);
+    nh_tex_add(w, " sample points, ");
+    nh_tex_count(w, r->rejected);
+    nh_tex_add(w, " rejected.\n");
+    nh_html_plots(r, NH_SECTION_SEARCH, draw, w);
+    routes(w);
+    stages(w);
+}
+
+static void repeat_section(nh_tex_writer *w)
+{
+    const nh_result *r = w->r;
+    nh_tex_add(w, "\\section{To repeat it}\n\\begin{raggedright}\n");
+    if (r->command) nh_tex_code(w, r->command), nh_tex_add(w, "\n\n");
+    nh_tex_add(w, "nhsym " NH_VERSION ", seed ");
+    nh_tex_number(w, r->options.seed, 17);
+    nh_tex_add(w, ", system file ");
+    nh_tex_code(w, r->system_path);
+    if (r->analysis_path) nh_tex_add(w, ", analysis file "), nh_tex_code(w, r->analysis_path);
+    for (size_t i = 0; nh_version_of(i).name; i++) {
+        nh_tex_add(w, ", ");
+        nh_tex_words(w, nh_version_of(i).name);
+        nh_tex_add(w, " ");
+        nh_tex_words(w, nh_version_of(i).version);
+    }
+    nh_tex_add(w, ", ");
+    nh_tex_words(w, nh_versions_machine());
+    nh_tex_add(w, ".\n\n\\end{raggedright}\n");
+}
+
+void nh_tex(const nh_result *r, bool fragment, nh_text *out)
+{
+    nh_tex_writer w = {r, out};
+    head(&w, fragment);
+    nh_tex_add(&w, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
+    answer(&w);
+    currents_section(&w);
+    system_section(&w);
+    motion_section(&w);
+    figures_section(&w);
     search_section(&w);
-    nh_text_add(out, "\\end{document}\n");
+    repeat_section(&w);
+    nh_tex_add(&w, "\\par\\endgroup\n");
+    if (!fragment) nh_tex_add(&w, "\\end{document}\n");
 }

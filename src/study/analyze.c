@@ -157,11 +157,11 @@ static void conclude(nh_result *r)
 {
     bool certified = true;
     for (size_t k = 0; k < r->count; k++) certified &= nh_coefficients_certain(&r->found[k], &r->options);
-    bool open = r->open > 0, failed = r->count == 0 && r->current.dimension > 0;
+    bool open = r->open > 0 || nh_interrupted(), failed = r->count == 0 && r->current.dimension > 0;
     r->verdict = r->count == 0 ? (open || failed ? NH_UNDECIDED : NH_NONE) : certified ? NH_FOUND : NH_UNDECIDED;
     if (!certified)
         nh_result_warn(r, "a current could not be certified to %g digits; it is conserved to the digits given with it", r->options.digits);
-    if (r->count == 0 && open)
+    if (r->count == 0 && r->open)
         nh_result_warn(r, "some null vectors could be true but got no certificate: another ansatz, or more samples (--samples), would decide");
     if (r->stages == 0 && r->current.rank_in_doubt)
         nh_result_warn(r, "two columns of the ansatz are nearly dependent: which were kept is a matter of the option `rank`");
@@ -242,7 +242,10 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
         nh_progress("the ansatz of the analysis file", -1);
         if (!nh_specials_find(r, &families, &family, error)) return false;
         r->timing.unknowns = lap(&clock);
-        if (!linear_problem(r, families, family, &clock, error)) return false;
+        if (!linear_problem(r, families, family, &clock, error)) {
+            if (!nh_interrupted()) return false;
+            nh_error_clear(error);
+        }
     }
     conclude(r);
     nh_integrals_of_constraints(r);

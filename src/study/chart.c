@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/progress.h"
 #include "study/chart_internal.h"
 
 enum { levels = NH_CHART_LEVELS, most_repeats = 7, most_halvings = 8 };
@@ -25,7 +26,7 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static bool late(void *context) { return now() > ((nh_bench *)context)->deadline; }
+static bool late(void *context) { return nh_interrupted() || now() > ((nh_bench *)context)->deadline; }
 
 /* ---- one motion ---- */
 
@@ -99,6 +100,7 @@ void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double ste
     nh_error_clear(&error);
     double begin = now(), left = c->begun + c->budget - begin;
     c->deadline = begin + fmax(left / 4, 0.01);
+    nh_progress(k->method ? k->method->name : k->index == 2 ? "IDA, index 2" : "IDA, index 1", (now() - c->begun) / c->budget);
     *m = (nh_measured){.method = !k->method ? k->index == 2 ? "IDA, index 2" : "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
                        .step = step, .reduced = c->formulation[k->formulation].reduced != NULL, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "base/progress.h"
 #include "study/reduce_internal.h"
 #include "study/simulate.h"
 
@@ -242,10 +243,16 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     r->until = q->options.until;
     r->chain_text = q->chain;
     nh_linalg_threads(1);
+    nh_progress("the symmetry group", -1);
     bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && joint_by_joint(r, q, error);
     bool some = r->kinetic && (r->kinetic->reducible || r->kinetic->general);
     if (good && !some) nh_reduction_warn(r, "the symmetries are found, but the system is not reduced: %s", r->kinetic->obstacle);
-    if (good && some && r->group->action.d) good = nh_reduction_stages(r, error) && (nh_reduction_late(r, "the conserved momenta") || nh_momenta_find(&r->momenta, &r->group->action, &r->options, error));
+    bool divide = good && some && r->group->action.d;
+    if (divide) nh_progress("reduced equations, and motions of both", -1);
+    if (divide && !nh_interrupted()) good = nh_reduction_stages(r, error);
+    if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = nh_momenta_find(&r->momenta, &r->group->action, &r->options, error);
+    if (nh_interrupted()) nh_reduction_warn(r, "interrupted: this is what was found until then");
+    if (good && nh_interrupted()) nh_error_clear(error);
     r->seconds = (double)(clock() - r->begin) / CLOCKS_PER_SEC;
     if (good) return r;
     nh_reduction_free(r);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "reduction/density.h"
 #include "reduction/subspace.h"
 #include "study/reduce_internal.h"
@@ -401,7 +402,7 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
-        if (d && d < first->n + 1 && !second_stage(b, first, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
+        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
         nh_free(field);
     }
     nh_free(index);
@@ -413,8 +414,9 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
     for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
     if (nh_reduction_late(r, "the reduction")) return true;
-    if (!full_motion(&b, error) || (r->kinetic->reducible && !first_and_second(&b, error))) return false;
+    if (!full_motion(&b, error) || (!nh_interrupted() && r->kinetic->reducible && !first_and_second(&b, error))) return false;
     const nh_action *g = &r->group->action;
+    if (nh_interrupted()) return true;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
     if (nh_reduction_late(r, "the whole group divided out at once")) return true;
     if (!nh_reduction_free_subgroup(r, &r->action[1])) {

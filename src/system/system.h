@@ -17,7 +17,7 @@ typedef struct {
 } nh_parameter;
 
 typedef struct {
-    const char *name, *doc;
+    const char *name, *unit, *doc; /* unit, for labels: "" when it is not told */
     nh_coordinate_type type;
     nh_ex q, v; /* the coordinate and its velocity "name'" */
 } nh_coordinate;

@@ -119,15 +119,14 @@ static bool read_coordinates(reader *r)
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i], *name = item;
         nh_coordinate *c = &s->coordinate[i];
-        *c = (nh_coordinate){.doc = "", .type = NH_PLAIN};
+        *c = (nh_coordinate){.unit = "", .doc = "", .type = NH_PLAIN};
         if (item->kind != NH_DECK_SCALAR) {
             if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a coordinate {name: ..., type: ...}", r->error)) return false;
             if (!nh_deck_only(r->deck, item, keys, 4, r->error)) return false;
             name = nh_deck_get(item, "name");
             if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this coordinate has no `name`");
             if (!read_type(r, nh_deck_get(item, "type"), &c->type)) return false;
-            const char *unit; /* for the reader of the file */
-            if (!nh_system_text_of(r, item, "doc", "", &c->doc) || !nh_system_text_of(r, item, "unit", "", &unit)) return false;
+            if (!nh_system_text_of(r, item, "doc", "", &c->doc) || !nh_system_text_of(r, item, "unit", "", &c->unit)) return false;
         }
         if (!nh_system_new_name(r, name)) return false;
         c->name = name->text;

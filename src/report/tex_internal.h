@@ -1,0 +1,34 @@
+/* What the sections of the LaTeX document share. */
+#ifndef NH_TEX_INTERNAL_H
+#define NH_TEX_INTERNAL_H
+
+#include "report/svg.h"
+#include "report/tex.h"
+
+typedef struct {
+    const nh_result *r;
+    nh_text *out;
+} nh_tex_writer;
+
+enum { NH_TEX_WIDEST = 46 }; /* letters in a piece of a formula: well within a line */
+
+/* Definition of \nhformula{..}: a formula as a paragraph that TeX breaks between pieces. */
+extern const char *const nh_tex_formula_macro;
+
+void nh_tex_add(nh_tex_writer *w, const char *markup);
+void nh_tex_words(nh_tex_writer *w, const char *text);   /* escaped; letters that pdflatex does not know as [U+...] */
+void nh_tex_code(nh_tex_writer *w, const char *text);    /* the same in typewriter, broken anywhere */
+/* A number with so many significant digits, and all of them beside it in the source; a dash when it is not finite. */
+void nh_tex_number(nh_tex_writer *w, double value, int digits);
+void nh_tex_count(nh_tex_writer *w, size_t value);
+/* A name within the text, as a formula when it is one of the language. */
+void nh_tex_name(nh_tex_writer *w, const char *text);
+/* label = text on lines of its own, broken where it is too long; label may be "". */
+void nh_tex_display(nh_tex_writer *w, const char *label, const char *text);
+/* The same for an expression, with the user's abbreviations. */
+void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e);
+
+/* A figure, drawn by pgfplots from the numbers themselves. */
+void nh_tex_plot(nh_tex_writer *w, const nh_plot *plot, const char *caption);
+
+#endif

@@ -1,0 +1,168 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/normal.h"
+#include "expr/print.h"
+#include "expr/typeset.h"
+#include "report/formula.h"
+#include "report/tex_internal.h"
+
+void nh_tex_add(nh_tex_writer *w, const char *markup) { nh_text_add(w->out, markup); }
+
+/* ---- words ---- */
+
+static const struct {
+    unsigned code;
+    const char *latex;
+} letters[] = {
+    {0x2212, "$-$"}, {0x2013, "--"}, {0x2014, "---"}, {0x2018, "`"}, {0x2019, "'"}, {0x201c, "``"}, {0x201d, "''"}, {0x2026, "\\dots{}"}, {0xb2, "$^2$"}, {0xb3, "$^3$"},
+    {0xb9, "$^1$"}, {0xb0, "$^\\circ$"}, {0xb1, "$\\pm$"}, {0xb7, "$\\cdot$"}, {0xd7, "$\\times$"}, {0xb5, "$\\mu$"}, {0x2202, "$\\partial$"}, {0x2261, "$\\equiv$"},
+    {0x2264, "$\\le$"}, {0x2265, "$\\ge$"}, {0x2192, "$\\to$"}, {0x221e, "$\\infty$"}, {0x221a, "$\\surd$"},
+    {0x3b1, "$\\alpha$"}, {0x3b2, "$\\beta$"}, {0x3b3, "$\\gamma$"}, {0x3b4, "$\\delta$"}, {0x3b5, "$\\varepsilon$"}, {0x3b6, "$\\zeta$"}, {0x3b7, "$\\eta$"}, {0x3b8, "$\\theta$"},
+    {0x3b9, "$\\iota$"}, {0x3ba, "$\\kappa$"}, {0x3bb, "$\\lambda$"}, {0x3bc, "$\\mu$"}, {0x3bd, "$\\nu$"}, {0x3be, "$\\xi$"}, {0x3bf, "$o$"}, {0x3c0, "$\\pi$"}, {0x3c1, "$\\rho$"},
+    {0x3c2, "$\\varsigma$"}, {0x3c3, "$\\sigma$"}, {0x3c4, "$\\tau$"}, {0x3c5, "$\\upsilon$"}, {0x3c6, "$\\varphi$"}, {0x3c7, "$\\chi$"}, {0x3c8, "$\\psi$"}, {0x3c9, "$\\omega$"},
+    {0x393, "$\\Gamma$"}, {0x394, "$\\Delta$"}, {0x398, "$\\Theta$"}, {0x39b, "$\\Lambda$"}, {0x39e, "$\\Xi$"}, {0x3a0, "$\\Pi$"}, {0x3a3, "$\\Sigma$"}, {0x3a6, "$\\Phi$"},
+    {0x3a8, "$\\Psi$"}, {0x3a9, "$\\Omega$"},
+};
+
+/* The code point at c, and how many bytes it takes; 0 for what is no UTF-8. */
+static unsigned decode(const unsigned char *c, size_t *bytes)
+{
+    size_t n = *c < 0x80 ? 1 : *c >= 0xf0 ? 4 : *c >= 0xe0 ? 3 : *c >= 0xc0 ? 2 : 0;
+    unsigned code = n == 1 ? *c : *c & (0xffu >> (n + 1));
+    for (size_t i = 1; i < n; i++) {
+        if ((c[i] & 0xc0) != 0x80) n = 0;
+        else code = code << 6 | (c[i] & 0x3fu);
+    }
+    *bytes = n ? n : 1;
+    return n ? code : 0;
+}
+
+/* Letters with accents that every LaTeX has in its first encoding: not those with an ogonek, nor eth, thorn, eng, nor a ligature of the old Dutch. */
+static bool accented(unsigned code)
+{
+    static const unsigned missing[] = {0xd0, 0xd7, 0xde, 0xf0, 0xf7, 0xfe, 0x104, 0x105, 0x110, 0x111, 0x118, 0x119, 0x126, 0x127, 0x12e, 0x12f, 0x132, 0x133, 0x138, 0x13f, 0x140, 0x149, 0x14a, 0x14b, 0x166, 0x167, 0x172, 0x173};
+    for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
+        if (missing[i] == code) return false;
+    return code >= 0xc0 && code <= 0x17e;
+}
+
+static void other_letter(nh_tex_writer *w, const char *c, unsigned code, size_t bytes)
+{
+    for (size_t i = 0; i < sizeof letters / sizeof *letters; i++) {
+        if (letters[i].code != code) continue;
+        nh_tex_add(w, letters[i].latex);
+        return;
+    }
+    if (accented(code)) nh_text_add_n(w->out, c, bytes);
+    else nh_text_addf(w->out, "[U+%04X]", code);
+}
+
+static void letter(nh_tex_writer *w, unsigned char c)
+{
+    if (strchr("{}$&#_%", c)) nh_text_addf(w->out, "\\%c", c);
+    else if (c == '\\') nh_tex_add(w, "\\textbackslash{}");
+    else if (c == '^') nh_tex_add(w, "\\textasciicircum{}");
+    else if (c == '~') nh_tex_add(w, "\\textasciitilde{}");
+    else if (c == '<') nh_tex_add(w, "\\textless{}");
+    else if (c == '>') nh_tex_add(w, "\\textgreater{}");
+    else if (c == '|') nh_tex_add(w, "\\textbar{}");
+    else if (c == '"') nh_tex_add(w, "\\char34{}");
+    else if (c == '\'') nh_tex_add(w, "'{}"); /* two of them are no quotation mark */
+    else if (c == '`') nh_tex_add(w, "`{}");
+    else if (c == '-') nh_tex_add(w, "-{}");
+    else nh_text_addf(w->out, "%c", c >= 0x20 && c != 0x7f ? c : ' ');
+}
+
+static void escaped(nh_tex_writer *w, const char *text, const char *between)
+{
+    size_t bytes;
+    for (const char *c = text; *c; c += bytes) {
+        unsigned code = decode((const unsigned char *)c, &bytes);
+        if (bytes == 1 && code) letter(w, (unsigned char)*c);
+        else other_letter(w, c, code, bytes);
+        nh_tex_add(w, *c == ' ' ? "" : between);
+    }
+}
+
+void nh_tex_words(nh_tex_writer *w, const char *text) { escaped(w, text, ""); }
+
+void nh_tex_code(nh_tex_writer *w, const char *text)
+{
+    nh_tex_add(w, "{\\ttfamily ");
+    escaped(w, text, "\\nhbreak{}");
+    nh_tex_add(w, "}");
+}
+
+void nh_tex_number(nh_tex_writer *w, double value, int digits)
+{
+    char text[60], all[40];
+    if (!isfinite(value)) {
+        nh_tex_add(w, "--");
+        return;
+    }
+    nh_text_number(value, all, sizeof all);
+    snprintf(text, sizeof text, "%.*g", digits, value);
+    char *exponent = strchr(text, 'e');
+    int power = 0;
+    if (exponent) sscanf(exponent + 1, "%d", &power);
+    if (exponent) *exponent = 0;
+    nh_text_addf(w->out, exponent ? "\\nhnumber{%s}{%s\\cdot 10^{%d}}" : "\\nhnumber{%s}{%s}", all, text, power);
+}
+
+void nh_tex_count(nh_tex_writer *w, size_t value) { nh_text_addf(w->out, "\\nhnumber{%zu}{%zu}", value, value); }
+
+/* ---- formulas ---- */
+
+void nh_tex_name(nh_tex_writer *w, const char *text)
+{
+    nh_text formula;
+    bool word = !text[strcspn(text, " -/")]; /* otherwise it is a phrase, even if it could be a formula */
+    nh_text_init(&formula);
+    if (word && nh_typeset(text, NH_LATEX, &formula)) nh_text_addf(w->out, "$%s$", nh_text_string(&formula));
+    else nh_tex_words(w, text);
+    nh_text_clear(&formula);
+}
+
+const char *const nh_tex_formula_macro =
+    "\\providecommand{\\nhformula}[1]{\\par\\addvspace{4pt plus 1pt}{\\parindent=0pt\\leftskip=2em\\rightskip=0pt plus 1fil\\hangindent=2em\\hangafter=1\\binoppenalty=10000\\relpenalty=10000"
+    "\\lineskiplimit=3pt\\lineskip=4pt $\\displaystyle #1$\\par}\\addvspace{4pt plus 1pt}}\n";
+
+static void put_piece(void *context, const char *piece)
+{
+    nh_text_addf(context, "%s\n", piece);
+}
+
+void nh_tex_display(nh_tex_writer *w, const char *label, const char *text)
+{
+    nh_text formula;
+    nh_text_init(&formula);
+    if (nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, &formula)) {
+        nh_tex_add(w, "\\nhformula{");
+        if (label[0] && nh_typeset(label, NH_LATEX, w->out)) nh_tex_add(w, " = ");
+        nh_text_addf(w->out, "%s}\n", nh_text_string(&formula));
+    } else { /* no formula of the language, such as one that is nested too deep */
+        nh_tex_add(w, "\\par{\\footnotesize\\raggedright ");
+        nh_tex_code(w, label);
+        nh_tex_add(w, label[0] ? " = " : "");
+        nh_tex_code(w, text);
+        nh_tex_add(w, "\\par}\n");
+    }
+    nh_text_clear(&formula);
+}
+
+void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e)
+{
+    nh_dag *d = w->r->model->dag;
+    char *text = nh_print_short(d, nh_formula_abbreviate(w->r, e), w->r->options.shown);
+    if (text) {
+        nh_tex_display(w, label, text);
+    } else {
+        nh_tex_add(w, "\\par ");
+        nh_tex_name(w, label);
+        nh_text_addf(w->out, ": too long for a page%s.\\par\n", (double)nh_complexity(d, e) <= w->r->options.written ? "; the JSON has it" : "");
+    }
+    nh_free(text);
+}

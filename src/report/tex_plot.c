@@ -1,0 +1,87 @@
+/* Plots for pgfplots: the data stand in the document, and TeX draws them. */
+#include <math.h>
+
+#include "report/tex_internal.h"
+
+enum { most_points = 201, marks = 16 };
+
+/* Those of Okabe and Ito, as in svg.c; lines differ by dashes too. */
+static const char *const styles[] = {"nhblue, solid", "nhred, dashed", "nhgreen, densely dotted", "nhpink, dash dot", "nhorange, loosely dashed", "nhsky, densely dashed", "gray, dash dot dot"};
+enum { style_count = sizeof styles / sizeof *styles };
+
+static void coordinate(nh_tex_writer *w, double value)
+{
+    if (isfinite(value)) nh_text_addf(w->out, "%.6g", value);
+    else nh_tex_add(w, "nan");
+}
+
+static void headings(nh_tex_writer *w, const nh_curve *f)
+{
+    size_t step = f->count / marks + 1;
+    for (size_t i = 0; i < f->count; i += step) {
+        double x = f->x[i * f->x_stride], y = f->y[i * f->y_stride], angle = f->heading[i * f->y_stride] * 180 / 3.14159265358979323846;
+        if (!isfinite(x) || !isfinite(y) || !isfinite(angle)) continue;
+        nh_text_addf(w->out, "\\draw[nhblue, -latex] (axis cs:%.6g,%.6g) -- ++(%.2f:9pt);\n", x, y, fmod(angle, 360));
+    }
+}
+
+static void curve(nh_tex_writer *w, const nh_plot *p, size_t k)
+{
+    const nh_curve *f = &p->curve[k];
+    size_t step = (f->count + most_points - 2) / (most_points - 1);
+    if (step == 0) step = 1;
+    nh_text_addf(w->out, f->dots ? "\\addplot[%s, only marks, mark=%s, mark size=1.4pt] coordinates {" : "\\addplot[%s, thick] coordinates {", styles[k % style_count], k % 2 ? "o" : "*");
+    for (size_t n = 0; f->count && n <= (f->count - 2 + step) / step; n++) { /* the last one, too */
+        size_t i = n * step < f->count ? n * step : f->count - 1;
+        double y = f->y[i * f->y_stride];
+        nh_tex_add(w, n % 8 ? " (" : "\n(");
+        coordinate(w, f->x[i * f->x_stride]);
+        nh_tex_add(w, ",");
+        coordinate(w, p->log_y && isfinite(y) ? fmax(y, p->floor) : y);
+        nh_tex_add(w, ")");
+    }
+    nh_tex_add(w, "};\n");
+    if (p->curves > 1) {
+        nh_tex_add(w, "\\addlegendentry{");
+        nh_tex_name(w, f->name);
+        nh_tex_add(w, "}\n");
+    }
+    if (f->heading) headings(w, f);
+}
+
+/* What is constant but for rounding needs a range around it. */
+static void range(nh_tex_writer *w, const nh_plot *p, bool vertical)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < p->curves; k++) {
+        const nh_curve *f = &p->curve[k];
+        double a, b;
+        if (!nh_svg_range(f->count, vertical ? f->y : f->x, vertical ? f->y_stride : f->x_stride, &a, &b)) continue;
+        low = fmin(low, a);
+        high = fmax(high, b);
+    }
+    double size = fmax(fabs(low), fabs(high));
+    if (!isfinite(size) || high - low > 1e-4 * size) return;
+    double span = size > 0 ? 0.1 * size : 1;
+    nh_text_addf(w->out, ", %cmin=%.6g, %cmax=%.6g", vertical ? 'y' : 'x', low - span, vertical ? 'y' : 'x', high + span);
+}
+
+void nh_tex_plot(nh_tex_writer *w, const nh_plot *p, const char *caption)
+{
+    nh_text_addf(w->out, "\\begin{center}\n\\begin{tikzpicture}\n\\begin{axis}[width=0.92\\linewidth, height=%s, xlabel={", p->equal ? "0.6\\linewidth" : "5.2cm");
+    nh_tex_name(w, p->x_label);
+    nh_tex_add(w, "}, ylabel={");
+    nh_tex_name(w, p->y_label);
+    nh_tex_add(w, "}, grid=major, grid style={gray!25}, unbounded coords=jump, label style={font=\\small}, tick label style={font=\\footnotesize}, "
+                  "legend columns=-1, legend style={draw=none, font=\\footnotesize, at={(0.5,1.03)}, anchor=south, /tikz/every even column/.append style={column sep=1em}}");
+    if (p->log_y) nh_tex_add(w, ", ymode=log");
+    if (p->equal) nh_tex_add(w, ", axis equal");
+    if (p->timed) nh_tex_add(w, ", enlarge x limits=false");
+    range(w, p, false);
+    if (!p->log_y) range(w, p, true);
+    nh_tex_add(w, "]\n");
+    for (size_t k = 0; k < p->curves; k++) curve(w, p, k);
+    nh_tex_add(w, "\\end{axis}\n\\end{tikzpicture}\n\n{\\small ");
+    nh_tex_words(w, caption);
+    nh_tex_add(w, "}\n\\end{center}\n");
+}

@@ -1,0 +1,216 @@
+/* LaTeX: formulas come in pieces that fit, numbers are those of the JSON, and where pdflatex is installed it sets the document without an error
+ * and without a formula that runs over the margin. */
+#include <cjson/cJSON.h>
+#include <ctype.h>
+#include <math.h>
+
+#include "base/memory.h"
+#include "expr/print.h"
+#include "expr/typeset.h"
+#include "program.h"
+#include "random_expression.h"
+
+/* ---- pieces ---- */
+
+static void join(void *context, const char *piece)
+{
+    nh_text_add(context, piece);
+    nh_text_add(context, " | ");
+}
+
+/* Sums break between their terms; what is wide is opened; what is short stays as it is. */
+Test(tex, long_formulas_come_in_pieces)
+{
+    static const char *const cases[][2] = {
+        {"x^2 - y", "x^{2} | \\penalty0  - y | "},
+        {"a*b = c/d", "a\\,b | \\penalty0  = \\frac{c}{d} | "},
+        {"-m*(a + b - c)/(2*k)", "- \\frac{m\\,{\\left(a + b - c\\right)}}{2\\,k} | "},
+        {"-m*(alpha*beta*x*y*z*x*y*z + x*y*z*x*y*z*gamma*delta - x^2*y^2*z^2*x*y*z*u*v*w + u*v*w*u*v*w*u*v*w*u*v)/(2*k)",
+         "- \\frac{m}{2\\,k}\\, | \\penalty300 \\bigl(\\alpha \\,\\beta \\,x\\,y\\,z\\,x\\,y\\,z | \\penalty60  + x\\,y\\,z\\,x\\,y\\,z\\,\\gamma \\,\\delta  | "
+         "\\penalty60  - x^{2}\\,y^{2}\\,z^{2}\\,x\\,y\\,z\\,u\\,v\\,w | \\penalty60  + u\\,v\\,w\\,u\\,v\\,w\\,u\\,v\\,w\\,u\\,v\\bigr) | "},
+        {"sqrt(aaaaaaaaaaaaaaaaaaaa + bbbbbbbbbbbbbbbbbbbb + cccccccccccc)",
+         "\\bigl(\\mathrm{aaaaaaaaaaaaaaaaaaaa} | \\penalty60  + \\mathrm{bbbbbbbbbbbbbbbbbbbb} | \\penalty60  + \\mathrm{cccccccccccc}\\bigr)^{1\\big/2} | "},
+        {"sin(aaaaaaaaaaaaaaaaaaaa + bbbbbbbbbbbbbbbbbbbb + cccccccccccc)/x",
+         "\\frac{1}{x}\\, | \\penalty300 \\sin\\bigl(\\mathrm{aaaaaaaaaaaaaaaaaaaa} | \\penalty60  + \\mathrm{bbbbbbbbbbbbbbbbbbbb} | \\penalty60  + \\mathrm{cccccccccccc}\\bigr) | "},
+        {"x/(aaaaaaaaaaaaaaaaaaaa + bbbbbbbbbbbbbbbbbbbb + cccccccccccc)",
+         "x | \\penalty300 \\big/\\bigl(\\mathrm{aaaaaaaaaaaaaaaaaaaa} | \\penalty60  + \\mathrm{bbbbbbbbbbbbbbbbbbbb} | \\penalty60  + \\mathrm{cccccccccccc}\\bigr) | "},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_text out;
+        nh_text_init(&out);
+        cr_expect_gt(nh_typeset_pieces(cases[i][0], NH_LATEX, 46, join, &out), 0u);
+        const char *got = nh_text_string(&out);
+        cr_expect_str_eq(got + strspn(got, " "), cases[i][1], "%s: %s", cases[i][0], got);
+        nh_text_clear(&out);
+    }
+}
+
+typedef struct {
+    size_t most;    /* letters of a piece, about */
+    int open;       /* wide parentheses not yet closed */
+    bool unbalanced;
+} seen;
+
+/* Groups begin and end within a piece, so that TeX may break between any two. */
+static void look(void *context, const char *piece)
+{
+    seen *s = context;
+    int depth = 0;
+    size_t letters = 0;
+    for (const char *c = piece; *c; c++) {
+        depth += (*c == '{') - (*c == '}');
+        s->unbalanced |= depth < 0;
+        s->open += !strncmp(c, "\\bigl(", 6) - !strncmp(c, "\\bigr)", 6);
+        s->unbalanced |= s->open < 0;
+        letters += isalnum((unsigned char)*c) != 0;
+        if (*c == '\\')
+            while (isalpha((unsigned char)c[1])) c++;
+    }
+    s->unbalanced |= depth != 0;
+    if (letters > s->most) s->most = letters;
+}
+
+Test(tex, no_piece_is_wide_and_all_are_whole)
+{
+    size_t wide = 0;
+    for (uint64_t i = 0; i < 400; i++) {
+        source random = source_create(i);
+        nh_dag *d = random.dag;
+        nh_ex e = random_expression(&random, 6);
+        char *text = nh_print_string(d, e);
+        seen s = {0};
+        size_t n = nh_typeset_pieces(text, NH_LATEX, 46, look, &s);
+        cr_expect_gt(n, 0u, "%s", text);
+        wide += nh_typeset_width(text) > 80;
+        cr_expect(!s.unbalanced && !s.open, "%s", text);
+        cr_expect_leq(s.most, 110u, "%zu letters in one piece of %s", s.most, text); /* fractions count both of their floors */
+        nh_free(text);
+        nh_dag_free(d);
+    }
+    cr_expect_gt(wide, 40u);
+}
+
+/* ---- documents ---- */
+
+static place place_with_systems(void)
+{
+    place p = place_make();
+    char link[PATH_MAX + 20], path[PATH_MAX + 20];
+    const char *folders[] = {"systems", "analyses"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%.4000s/%s", p.project, folders[i]);
+        snprintf(link, sizeof link, "%.4000s/%s", p.folder, folders[i]);
+        cr_assert_eq(symlink(path, link), 0);
+    }
+    return p;
+}
+
+static bool has_number(const cJSON *item, double value)
+{
+    if (cJSON_IsNumber(item) && item->valuedouble == value) return true;
+    for (const cJSON *child = item->child; child; child = child->next)
+        if (has_number(child, value)) return true;
+    return false;
+}
+
+static const char *const SYSTEMS[] = {"sleigh", "snakeboard --max-seconds 2", "heisenberg_particle", "kepler --max-seconds 2", "car_with_trailer --max-seconds 2", "free_particle"};
+
+/* \nhnumber{all digits}{as shown}: the JSON has it to the last digit, and what is shown is it, rounded. */
+Test(tex, every_number_is_in_the_json)
+{
+    place p = place_with_systems();
+    for (size_t s = 0; s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
+        char line[200];
+        snprintf(line, sizeof line, "analyze %s --quiet --tex a.tex --json a.json", SYSTEMS[s]);
+        finished f = run(&p, line);
+        finished_clear(&f);
+        char *tex = read_here(&p, "a.tex"), *text = read_here(&p, "a.json");
+        cr_assert(tex && text, "%s", line);
+        cJSON *json = cJSON_Parse(text);
+        size_t numbers = 0;
+        for (const char *c = strstr(tex, "\\begin{document}"); (c = strstr(c, "\\nhnumber{")); c++, numbers++) {
+            double value = strtod(c + 10, NULL), shown = strtod(strchr(c, '}') + 2, NULL);
+            const char *power = strstr(c, "\\cdot 10^{"), *end = strchr(strchr(c, '}') + 1, '}');
+            if (power && power < end) shown *= pow(10, strtod(power + 10, NULL));
+            cr_expect(has_number(json, value), "%s: the LaTeX has %.17g, the JSON has not", line, value);
+            cr_expect_float_eq(shown, value, 0.05 * fabs(value), "%s: %.17g is shown as %g", line, value, shown);
+        }
+        cr_expect_gt(numbers, 15u, "%s: %zu numbers", line, numbers);
+        cJSON_Delete(json);
+        free(text);
+        free(tex);
+    }
+    place_clear(&p);
+}
+
+/* ---- pdflatex ---- */
+
+/* Sets NAME.tex; false without pdflatex. */
+static bool set_in_type(const place *p, const char *name)
+{
+    char command[400];
+    snprintf(command, sizeof command,
+             "command -v pdflatex >/dev/null && kpsewhich pgfplots.sty >/dev/null || exit 3\n"
+             "timeout 100 pdflatex -interaction=nonstopmode -halt-on-error %s.tex >set.log 2>&1 || { tail -n 20 set.log; exit 1; }\n"
+             "grep -a -A 3 '^Overfull .hbox' set.log && exit 2 || exit 0", name);
+    char *argument[] = {"sh", "-c", command, NULL};
+    finished f = run_vector(p, &(manner){.environment = (const char *const[]){"max_print_line=1000", NULL}}, argument);
+    int code = f.code;
+    cr_expect(code == 0 || code == 3, "%s: %s", name, f.out);
+    finished_clear(&f);
+    return code != 3;
+}
+
+Test(tex, documents_are_set_without_a_fault)
+{
+    place p = place_with_systems();
+    bool installed = true;
+    for (size_t s = 0; installed && s < sizeof SYSTEMS / sizeof *SYSTEMS; s++) {
+        char line[200];
+        snprintf(line, sizeof line, "analyze %s --quiet --tex a.tex", SYSTEMS[s]);
+        finished f = run(&p, line);
+        finished_clear(&f);
+        installed = set_in_type(&p, "a");
+    }
+    place_clear(&p);
+    if (!installed) cr_skip_test("no pdflatex with pgfplots");
+}
+
+/* What a file says is text, whatever it means to TeX, and in whatever script. */
+Test(tex, a_hostile_file_is_set_as_text)
+{
+    place p = place_make();
+    write_here(&p, "h.yaml", "name: h\ntitle: \"\\\\input{/etc/passwd} 100% $x^2$ #1 & ~ {\\\\end{document} \\\"quoted\\\" a|b <c> \u4e2d \u0105 \u00e9\u03c9 -- ''\"\n"
+                             "source: \"\\\\immediate\\\\write18{touch pwned} ^^M\"\nparameters:\n  - {name: m, value: 1e-300, unit: \"k_g^2\", doc: \"% }{\"}\n"
+                             "coordinates:\n  - {name: x_1_long_name, type: length}\nlagrangian: x_1_long_name'^2\n");
+    finished f = run_expecting(&p, "analyze h.yaml --quiet --tex a.tex", 0);
+    finished_clear(&f);
+    char *tex = read_here(&p, "a.tex");
+    cr_expect_null(strstr(tex, "\\input{/etc"));
+    cr_expect_null(strstr(tex, "\\write18"));
+    cr_expect_not_null(strstr(tex, "[U+4E2D] [U+0105] \u00e9$\\omega$"));
+    free(tex);
+    bool installed = set_in_type(&p, "a");
+    place_clear(&p);
+    if (!installed) cr_skip_test("no pdflatex with pgfplots");
+}
+
+/* The body alone, within another document; and the reduced equations, too. */
+Test(tex, a_fragment_is_read_by_another_document)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "analyze sleigh --quiet --tex body.tex --fragment", 0);
+    finished_clear(&f);
+    f = run_expecting(&p, "reduce vertical_disk --to latex", 0);
+    write_here(&p, "reduced.tex", f.out);
+    finished_clear(&f);
+    char *body = read_here(&p, "body.tex");
+    cr_expect_null(strstr(body, "\\documentclass"));
+    cr_expect_null(strstr(body, "{document}"));
+    free(body);
+    write_here(&p, "paper.tex", "\\documentclass{article}\\usepackage{amsmath,amssymb,longtable,pgfplots}\\pgfplotsset{compat=1.16}\n"
+                                "\\begin{document}\\section{Ours}\\input{body}\\section{Theirs}\\input{reduced}\\end{document}\n");
+    bool installed = set_in_type(&p, "paper");
+    place_clear(&p);
+    if (!installed) cr_skip_test("no pdflatex with pgfplots");
+}
