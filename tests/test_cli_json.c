@@ -334,14 +334,9 @@ Test(cli_json, a_folder_that_cannot_be_written_keeps_its_file)
     folder_here(&p, "out", 0755);
     write_here(&p, "out/result.json", "old\n");
     folder_here(&p, "out", 0555);
-    char copy[PATH_MAX + 20], *argument[] = {"cp", p.program, copy, NULL}; /* where a user without rights can run it */
-    snprintf(copy, sizeof copy, "%.4000s/nhsym", p.folder);
-    finished f = run_vector(&p, &(manner){0}, argument);
-    cr_assert_eq(f.code, 0, "%s", f.err);
-    snprintf(p.program, sizeof p.program, "%.4000s", copy);
+    copy_program(&p);
     check_untouched(&p, &(manner){.powerless = true}, "analyze mine.yaml --json out/result.json", "out/result.json", "out", 1);
     folder_here(&p, "out", 0755);
-    finished_clear(&f);
     place_clear(&p);
 }
 

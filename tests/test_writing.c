@@ -66,17 +66,27 @@ Test(writing, a_full_disk_leaves_the_old_file)
 
 Test(writing, a_folder_that_is_read_only_keeps_the_old_file)
 {
+    static const char *const systems[] = {"free_particle", "vertical_disk"};
+    place p = place_make();
+    copy_program(&p);
+    folder_here(&p, "systems", 0755);
+    for (size_t i = 0; i < 2; i++) {
+        char from[2 * PATH_MAX], to[60];
+        snprintf(from, sizeof from, "%s/systems/%s.yaml", p.project, systems[i]);
+        snprintf(to, sizeof to, "systems/%s.yaml", systems[i]);
+        copy_here(&p, from, to);
+    }
+    snprintf(p.project, sizeof p.project, "%s", p.folder);
     for (size_t i = 0; i < writers; i++) {
-        place p = place_make();
         folder_here(&p, "out", 0755);
         write_here(&p, "out/report", "an older report");
         folder_here(&p, "out", 0555);
         finished f = run_writer(&p, i, &(manner){.powerless = true}, "out/report");
         expect_old(&p, i, &f, "out/report");
         finished_clear(&f);
-        folder_here(&p, "out", 0755);
-        place_clear(&p);
     }
+    folder_here(&p, "out", 0755);
+    place_clear(&p);
 }
 
 /* A device cannot be replaced, and is told to be full when it is; so is what a pipe or a disk behind standard output does not take. */
