@@ -40,7 +40,7 @@ Test(catalogue, analysis_files_find_everything_known)
     char *name[most_files];
     size_t n = list("analyses", name);
     cr_assert_geq(n, 1);
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; free(name[i++])) {
         char system[300], analysis[300];
         nh_options options;
         nh_options_default(&options);
@@ -49,7 +49,6 @@ Test(catalogue, analysis_files_find_everything_known)
         if (!has_ansatz(analysis)) continue; /* only a motion and figures: the ansatz is the one that was tried above */
         row o = compare_with(system, analysis, &options);
         cr_expect_eq(o.missing + o.wrong + o.untrue + o.uncertain, 0, "%s: %s", name[i], o.names);
-        free(name[i]);
     }
 }
 

@@ -125,6 +125,11 @@ static size_t null_numbers(const cJSON *item)
         return 1;
     }
     for (const cJSON *child = item->child; child; child = child->next) n += null_numbers(child);
+    if (cJSON_IsNull(cJSON_GetObjectItem(item, "parameter"))) { /* a figure in which nothing is varied: no curve has a value of it */
+        const cJSON *curve;
+        n--;
+        cJSON_ArrayForEach(curve, cJSON_GetObjectItem(item, "curves")) n -= cJSON_IsNull(cJSON_GetObjectItem(curve, "value"));
+    }
     return n;
 }
 

@@ -241,7 +241,7 @@ Test(cli_manners, an_interrupted_motion_leaves_nothing_behind)
              "mkdir tmp && printf '#!/bin/sh\\nsleep 100 & echo $! >child; wait\\n' >slow && chmod +x slow\n"
              "NHSYM_CC=$PWD/slow TMPDIR=$PWD/tmp '%.200s' simulate contact_oscillator --initial \"x=1, y'=0.5\" --until 1e6 --step 50 --option steps=1e9 --option compile=1e-9 >out 2>err & p=$!\n"
              "for i in $(seq 500); do [ -s child ] && break; sleep 0.02; done\nsleep 0.3\nkill -INT $p\nwait $p || code=$?\n"
-             "[ -z \"$(ls tmp)\" ] || exit 90\n[ \"$(wc -l <out)\" -gt 2 ] || exit 91\ngrep -q cancelled err || exit 92\n"
+             "[ -z \"$(ls tmp)\" ] || exit 90\n[ \"$(wc -l <out)\" -gt 2 ] || exit 91\ngrep -q interrupted err || exit 92\n"
              "! kill -0 $(cat child) 2>/dev/null || [ \"$(sed -n 's/^State:[^A-Z]*\\(.\\).*/\\1/p' /proc/$(cat child)/status 2>/dev/null)\" = Z ] || exit 93\nexit $code", p.program);
     char *argument[] = {"sh", "-c", command, NULL};
     finished f = run_vector(&p, &(manner){0}, argument);

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/words.h"
+#include "expr/machine.h"
 #include "expr/normal.h"
 
 static const struct {
@@ -74,6 +75,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "nhsym: %s\n", text);
     }
     nh_arena_free(cli.arena);
+    nh_machine_cleanup();
     nh_normal_cleanup();
     if (fflush(stdout) || ferror(stdout)) {
         fprintf(stderr, "nhsym: the output could not be written\n");

@@ -104,7 +104,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static nh_machine shelf[most_machines];
 static size_t shelved;
 
-static void clear_shelf(void)
+void nh_machine_cleanup(void)
 {
     for (size_t i = 0; i < shelved; i++) {
         nh_compile_free(shelf[i].compilation);
@@ -122,7 +122,7 @@ static nh_machine *look_up(const nh_text *text)
 
 static nh_machine *put_on_shelf(nh_text *text)
 {
-    if (shelved == most_machines || (!shelved && atexit(clear_shelf))) return NULL;
+    if (shelved == most_machines || (!shelved && atexit(nh_machine_cleanup))) return NULL;
     nh_machine *m = &shelf[shelved++];
     *m = (nh_machine){.text = *text, .compilation = nh_compile(nh_text_string(text)), .busy = true};
     nh_text_init(text);

@@ -24,6 +24,8 @@ nh_machine *nh_machine_known(const nh_tape *tape);
 nh_machine *nh_machine_of(const nh_tape *tape);
 /* The code, when it is there; NULL otherwise, and *busy says whether it may still come. */
 nh_machine_code *nh_machine_get(nh_machine *machine, bool wait, bool *busy);
+/* Ends compilers that run and removes their folders; at the end of the process it happens by itself, unless that ends by _exit. */
+void nh_machine_cleanup(void);
 /* "compiled by cc in 0.07 s", or why not; stays valid. */
 const char *nh_machine_words(const nh_machine *machine);
 

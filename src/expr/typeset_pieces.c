@@ -41,7 +41,7 @@ static double width(const nh_seen *e)
     switch (e->kind) {
     case NH_SEEN_NUMBER: return 0.9 * (double)strlen(e->text);
     case NH_SEEN_NAME: return width_of_name(e->text);
-    case NH_SEEN_CALL: return 0.8 * (double)strlen(e->text) + 1.5 + widths(e->child, 1);
+    case NH_SEEN_CALL: return (strcmp(e->text, "sqrt") ? 0.8 * (double)strlen(e->text) + 1.5 : 1) + widths(e->child, 1);
     case NH_SEEN_MINUS: return 2 + width(e->child);
     case NH_SEEN_SUM: return widths(e->child, 2.5) + 2;
     case NH_SEEN_PRODUCT: return widths(e->child, 0.4);

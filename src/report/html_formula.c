@@ -8,7 +8,7 @@
 #include "report/formula.h"
 #include "report/html_internal.h"
 
-enum { widest = 22 }; /* symbols of a piece: what a phone holds */
+enum { widest = 30 }; /* symbols of a piece: about what a phone holds; what is wider there scrolls by itself */
 
 /* Without rows of a single symbol, which are most of a formula's text. */
 static void add_compact(nh_text *out, const char *piece)

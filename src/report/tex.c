@@ -5,6 +5,7 @@
 #include "base/versions.h"
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/formula.h"
 #include "report/html.h"
 #include "report/tex_internal.h"
 
@@ -113,15 +114,18 @@ static const char *case_text(int kase)
     }
 }
 
+/* Along time and coordinates; along Gamma and what is left, where that is much shorter. */
 static void field(nh_tex_writer *w, const nh_found *f)
 {
-    const nh_system *s = w->r->system;
-    nh_tex_add(w, "Its symmetry has the components\n");
-    for (size_t i = 0; i <= s->coordinates; i++) {
+    nh_field_term *term;
+    size_t n = nh_formula_field(w->r, &f->symmetry, &term);
+    bool relative = n && !term[0].along;
+    nh_tex_add(w, relative ? "Its symmetry is $Z_{\\Gamma}\\,\\Gamma$ and, besides it, has the components\n" : "Its symmetry has the components\n");
+    for (size_t i = 0; i < n; i++) {
         char label[200];
-        nh_ex e = i ? f->symmetry.field.space[i - 1] : f->symmetry.Z0;
-        snprintf(label, sizeof label, "Z_%.180s", i ? s->coordinate[i - 1].name : "t");
-        if (!nh_is_zero(w->r->model->dag, e)) nh_tex_formula(w, label, e);
+        const char *along = term[i].along ? term[i].along : "Gamma";
+        snprintf(label, sizeof label, "Z_%.180s", along);
+        if (!strchr(along, '\'')) nh_tex_formula(w, label, term[i].coefficient);
     }
 }
 
