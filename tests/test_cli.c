@@ -57,6 +57,12 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --option seed", "nhsym: --option needs NAME=VALUE, found `seed`\n"},
         {"analyze sleigh --chart quasy", "nhsym: there is no chart `quasy`\nhint: --chart takes auto, quasi or coordinates\n"},
         {"show", "nhsym: show which system?\nhint: nhsym show sleigh\n"},
+        {"analyze sleigh --budget 2s", "nhsym: `nhsym analyze` does not take --budget\nhint: `nhsym help analyze` lists what it takes; this is for: chart\n"},
+        {"reduce sleigh --analysis sleigh", "nhsym: `nhsym reduce` does not take --analysis\nhint: `nhsym help reduce` lists what it takes; this is for: analyze simulate chart\n"},
+        {"--html page.html list", "nhsym: `nhsym list` does not take --html\nhint: `nhsym help list` lists what it takes; this is for: analyze verify simulate chart reduce\n"},
+        {"simulate sleigh -o folder", "nhsym: `nhsym simulate` does not take --output\nhint: `nhsym help simulate` lists what it takes; this is for: analyze\n"},
+        {"analyze sleigh --fragment", "nhsym: --fragment says how the LaTeX is written, and none is asked for\nhint: --tex body.tex --fragment\n"},
+        {"explain frobnicate", "nhsym: nothing is known about `frobnicate`\nhint: `nhsym explain` lists the topics\n"},
         {"explain gapp", "nhsym: nothing is known about `gapp`\nhint: did you mean `gap`?\n"},
     };
     place p = place_make();
@@ -71,8 +77,8 @@ Test(cli, unknown_systems_and_files)
     check(&p, "show sleig", 3, "", "nhsym: there is no system `sleig` in ./systems, in NHSYM_PATH or among the installed ones\nhint: did you mean `sleigh`?\n");
     check(&p, "analyze xyzzyx", 3, "",
           "nhsym: there is no system `xyzzyx` in ./systems, in NHSYM_PATH or among the installed ones\nhint: give the path of a file, or see `nhsym list`\n");
-    check(&p, "analyze no/such.yaml", 3, "", "nhsym: no/such.yaml: there is no such file\n");
-    check(&p, "analyze mine.yaml", 3, "", "nhsym: mine.yaml: there is no such file\n");
+    check(&p, "analyze no/such.yaml", 3, "", "nhsym: no/such.yaml: there is no such file\nhint: `nhsym list` shows the systems that are here, `nhsym new skate` writes one to start from\n");
+    check(&p, "analyze mine.yaml", 3, "", "nhsym: mine.yaml: there is no such file\nhint: `nhsym list` shows the systems that are here, `nhsym new skate` writes one to start from\n");
     check(&p, "analyze sleigh --analysis sleig", 3, "",
           "nhsym: there is no analysis `sleig` in ./analyses, in NHSYM_PATH or among the installed ones\nhint: did you mean `sleigh`?\n");
     place_clear(&p);

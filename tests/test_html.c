@@ -5,6 +5,7 @@
 
 #include "expr/typeset.h"
 #include "program.h"
+#include "report/formula.h"
 
 /* ---- a reader of XML, as strict as a parser: tags match, attributes are quoted and distinct from text, entities are known ---- */
 
@@ -165,6 +166,17 @@ static char *both(const place *p, const char *command, const char *const *also, 
     cr_assert_not_null(*json, "%s", line);
     free(text);
     return page;
+}
+
+/* Summary, page and LaTeX ask this: coefficients that were recognised need no word about how they were computed. */
+Test(html, a_current_without_proof_says_why)
+{
+    nh_found f = {.exact = true, .asked = true, .refined = 60, .proof = {.digits = 60}};
+    cr_expect_str_eq(nh_formula_doubt(&f), " (not proved)");
+    f.exact = false;
+    cr_expect_str_eq(nh_formula_doubt(&f), " with its coefficients refined");
+    f.refined = 20;
+    cr_expect_str_eq(nh_formula_doubt(&f), " (coefficients fitted in double precision)");
 }
 
 Test(html, every_number_is_in_the_json)

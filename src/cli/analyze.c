@@ -19,6 +19,10 @@ static const char *analysis_of(nh_cli *cli, const char *system)
 
 static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
 {
+    if (cli->fragment && !cli->tex && !cli->folder) {
+        nh_fail(error, NH_USAGE, "", "--fragment says how the LaTeX is written, and none is asked for");
+        return nh_error_hint(error, "--tex body.tex --fragment");
+    }
     if (cli->operands > 1) return nh_fail(error, NH_USAGE, "", "`nhsym analyze` takes one system, found `%s` too", cli->operand[1]);
     *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options,
                               .seed_given = cli->seed_given, .samples_given = cli->samples_given, .tolerance_given = cli->tolerance_given,

@@ -12,6 +12,16 @@ enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_ht
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X){NULL, 0, NULL, 0}};
 #undef X
+#define X(code, name, argument, shown, commands, meaning) {code, name, commands},
+static const struct {
+    int code;
+    const char *name, *commands;
+} owners[] = {NH_CLI_OPTION_TABLE(X)};
+#undef X
+#define X(name, operand, meaning, example) #name " "
+static const char all_commands[] = NH_CLI_COMMAND_TABLE(X);
+#undef X
+enum { owner_count = sizeof owners / sizeof *owners };
 
 /* "name=value" cut at the sign. */
 static bool assignment(nh_cli *cli, const char *text, const char *option, char **name, const char **value, nh_error *error)
@@ -152,6 +162,27 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     }
 }
 
+/* Numbers of any computation, and how much is said, may stand behind every command: scripts give them to all. */
+static bool for_all(int code)
+{
+    static const int codes[] = {'q', 'v', 'h', opt_no_color, opt_progress, opt_version, opt_option, opt_seed, opt_samples, opt_columns, opt_tolerance, opt_until, opt_threads, opt_max_seconds};
+    for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
+        if (code == codes[i]) return true;
+    return false;
+}
+
+/* Every other option that the command does not know is refused: one that is silently without effect misleads. */
+static bool all_belong(const nh_cli *cli, const bool *given, nh_error *error)
+{
+    if (cli->help || !cli->command || !nh_word_among(all_commands, cli->command)) return true;
+    for (size_t i = 0; i < owner_count; i++) {
+        if (!given[i] || for_all(owners[i].code) || nh_word_among(owners[i].commands, cli->command)) continue;
+        nh_fail(error, NH_USAGE, "", "`nhsym %s` does not take --%s", cli->command, owners[i].name);
+        return nh_error_hint(error, "`nhsym help %s` lists what it takes; this is for: %s", cli->command, owners[i].commands);
+    }
+    return true;
+}
+
 /* "--json FILE" with a space: getopt does not join an optional value, but the format promises it.  Before the system's name, a
  * word counts as FILE when it ends in .json. */
 static const char *optional_value(const nh_cli *cli, int argc, char **argv)
@@ -171,9 +202,11 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     cli->operand = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->operand);
     cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
     nh_options_default(&cli->options);
+    bool given[owner_count] = {false};
     opterr = 0;
     optind = 1;
     for (int code; (code = getopt_long(argc, argv, "-:qvho:", long_options, NULL)) != -1;) {
+        for (size_t i = 0; i < owner_count; i++) given[i] = given[i] || owners[i].code == code;
         if (code == 1) {
             if (!cli->command) cli->command = optarg;
             else cli->operand[cli->operands++] = optarg;
@@ -186,5 +219,5 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
         }
     }
     while (optind < argc) cli->operand[cli->operands++] = argv[optind++];
-    return true;
+    return all_belong(cli, given, error);
 }

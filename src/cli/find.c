@@ -86,6 +86,7 @@ const char *nh_cli_find(nh_cli *cli, const char *kind, const char *name, nh_erro
     if (found) return found;
     if (strchr(name, '/') || strstr(name, ".yaml")) {
         nh_fail(error, NH_INPUT, name, "there is no such file");
+        if (!strcmp(kind, "systems")) nh_error_hint(error, "`nhsym list` shows the systems that are here, `nhsym new skate` writes one to start from");
         return NULL;
     }
     const char **names;

@@ -28,13 +28,7 @@ enum { option_count = sizeof options / sizeof *options, command_count = sizeof c
 static char letter(const option_word *o) { return o->meaning[0] == '-' && o->meaning[2] == ':' ? o->meaning[1] : 0; }
 static const char *meaning(const option_word *o) { return letter(o) ? o->meaning + 4 : o->meaning; }
 
-static bool takes(const command_word *c, const option_word *o)
-{
-    size_t n = strlen(c->name);
-    for (const char *at = o->commands; (at = strstr(at, c->name)); at += n)
-        if ((at == o->commands || at[-1] == ' ') && (!at[n] || at[n] == ' ')) return true;
-    return false;
-}
+static bool takes(const command_word *c, const option_word *o) { return nh_word_among(o->commands, c->name); }
 
 /* ---- screens ---- */
 

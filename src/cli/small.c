@@ -70,6 +70,11 @@ static const struct {
     {"nonholonomic", "No function of time and positions is held constant by the constraints: every place can be reached."},
     {"hidden", "Hidden holonomic constraints: functions that the constraints alone keep constant, found by brackets of the allowed directions."},
     {"growth", "Growth vector: the dimensions that the allowed directions, their brackets, the brackets with those, ... fill."},
+    {"right", "A measured integration (nhsym chart) whose error its tolerance or step lets expect, and no guard complains."},
+    {"warned", "Right, but a guard complains: the pivot of the chart, and in maps the drift of a current or a run at a tenth of the tolerance."},
+    {"caught", "It failed, or its error is larger than may be expected, and a guard says so."},
+    {"wrong", "It ended without complaint, and its error is larger than may be expected: options chart_wrong, chart_far and chart_fixed."},
+    {"timeout", "An integration that was given up because it took too long."},
     {"semiholonomic", "eps'_l(g) = 0: a nonlinear constraint that behaves like a holonomic one in these coordinates."},
 };
 
@@ -96,5 +101,6 @@ int nh_cli_explain(nh_cli *cli, nh_error *error)
     nh_fail(error, NH_USAGE, "", "nothing is known about `%s`", word);
     const char *near = nh_text_nearest(word, names, count + 1);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
+    else nh_error_hint(error, "`nhsym explain` lists the topics");
     return NH_USAGE;
 }

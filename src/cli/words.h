@@ -2,7 +2,10 @@
 #ifndef NH_WORDS_H
 #define NH_WORDS_H
 
-#include <stddef.h>
+#include <stdbool.h>
+
+/* Is it one of the words, which single blanks separate?  So the tables name the commands of an option. */
+bool nh_word_among(const char *words, const char *word);
 
 /*    code           name           argument            shown as             of the commands      meaning */
 #define NH_CLI_OPTION_TABLE(X)                                                                                                                                     \

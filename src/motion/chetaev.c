@@ -282,10 +282,10 @@ static void explain(int flag, ida_work *work, nh_motion *motion)
         nh_motion_note(motion, "the equations of motion cannot be evaluated near t = %.10g: the motion leaves their domain or "
                        "meets a singularity there; use other coordinates or stop earlier", work->failed_at);
     else if (flag == IDA_TOO_MUCH_ACC)
-        nh_motion_note(motion, "rtol = %g asks for more than double precision gives near t = %.10g; use a larger rtol or scale",
+        nh_motion_note(motion, "the tolerance %g asks for more than double precision gives near t = %.10g; use a larger one",
                        work->rtol, t);
     else if (flag == IDA_ERR_FAIL || flag == IDA_CONV_FAIL || flag == IDA_LSETUP_FAIL || flag == IDA_LSOLVE_FAIL)
-        nh_motion_note(motion, "no step near t = %.10g reaches rtol = %g; the mass matrix bordered by the constraints has the "
+        nh_motion_note(motion, "no step near t = %.10g reaches the tolerance %g; the mass matrix bordered by the constraints has the "
                        "reciprocal condition number %.2g there: if it is small, constraints become dependent, else the "
                        "solution is singular", t, work->rtol, bordered_rcond(work, t));
     else

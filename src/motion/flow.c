@@ -159,7 +159,7 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, const s
     else if (options->cancelled && options->cancelled(options->cancel_context))
         nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
     else if ((double)motion->steps >= limit)
-        nh_motion_note(motion, "the limit of %g steps was reached at t = %.10g; allow more steps or a larger rtol", limit,
+        nh_motion_note(motion, "the limit of %g steps was reached at t = %.10g; allow more steps or a larger tolerance", limit,
                        motion->end_time);
     else
         return true;
@@ -283,11 +283,11 @@ static void explain(int flag, const cvode_work *work, nh_motion *motion)
         nh_motion_note(motion, "the %s cannot be evaluated near t = %.10g: the motion leaves its domain or meets a singularity "
                        "there; use other coordinates or stop earlier", work->failed, work->failed_at);
     else if (flag == CV_TOO_MUCH_ACC)
-        nh_motion_note(motion, "rtol = %g asks for more than double precision gives near t = %.10g; use a larger rtol or scale",
+        nh_motion_note(motion, "the tolerance %g asks for more than double precision gives near t = %.10g; use a larger one",
                        work->rtol, t);
     else if (flag == CV_ERR_FAILURE)
-        nh_motion_note(motion, "no step near t = %.10g is small enough for rtol = %g: the solution jumps or is singular there; "
-                       "use other coordinates or a larger rtol", t, work->rtol);
+        nh_motion_note(motion, "no step near t = %.10g is small enough for the tolerance %g: the solution jumps or is singular there; "
+                       "use other coordinates or a larger tolerance", t, work->rtol);
     else if (flag == CV_CONV_FAILURE || flag == CV_LSETUP_FAIL || flag == CV_LSOLVE_FAIL)
         nh_motion_note(motion, "the equations of an implicit step cannot be solved near t = %.10g: the right-hand side changes too "
                        "fast there or its Jacobian is wrong; try the other method", t);

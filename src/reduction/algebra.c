@@ -14,13 +14,6 @@ void nh_algebra_clear(nh_algebra *g)
     *g = (nh_algebra){0};
 }
 
-nh_algebra nh_algebra_copy(const nh_algebra *g)
-{
-    nh_algebra out = nh_algebra_create(g->d);
-    memcpy(out.c, g->c, g->d * g->d * g->d * sizeof *out.c);
-    return out;
-}
-
 void nh_algebra_ad(const nh_algebra *g, const double *x, double *out)
 {
     size_t d = g->d;

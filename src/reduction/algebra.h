@@ -22,7 +22,6 @@ typedef struct {
 
 nh_algebra nh_algebra_create(size_t d); /* abelian */
 void nh_algebra_clear(nh_algebra *algebra);
-nh_algebra nh_algebra_copy(const nh_algebra *algebra);
 
 /* [x, y] of two vectors. */
 void nh_algebra_bracket(const nh_algebra *algebra, const double *x, const double *y, double *out);

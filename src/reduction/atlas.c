@@ -44,8 +44,6 @@ void nh_atlas_free(nh_atlas *a)
     nh_free(a);
 }
 
-size_t nh_atlas_count(const nh_atlas *a) { return a->count; }
-
 const nh_action *nh_atlas_action(const nh_atlas *a) { return a->action; }
 
 void nh_atlas_add(nh_atlas *a, const nh_slice *slice, const nh_reduced *reduced, const size_t *independent, const nh_second *second)

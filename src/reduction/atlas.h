@@ -29,8 +29,6 @@ void nh_atlas_free(nh_atlas *atlas);
 
 /* Charts that are known, the preferred first.  Slice and equations must outlive the atlas. */
 void nh_atlas_add(nh_atlas *atlas, const nh_slice *slice, const nh_reduced *reduced, const size_t *independent, const nh_second *second);
-/* How many charts there are. */
-size_t nh_atlas_count(const nh_atlas *atlas);
 const nh_action *nh_atlas_action(const nh_atlas *atlas);
 
 /* A chart that is regular at a place q with the velocity v (in the coordinates of the action's kinetic), one that is known or a new one, and the state

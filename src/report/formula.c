@@ -124,3 +124,9 @@ size_t nh_formula_field(const nh_result *r, const nh_symmetry *z, nh_field_term 
     }
     return n;
 }
+
+const char *nh_formula_doubt(const nh_found *f)
+{
+    if (f->exact) return " (not proved)";
+    return f->asked && f->refined >= f->proof.digits ? " with its coefficients refined" : " (coefficients fitted in double precision)";
+}

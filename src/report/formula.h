@@ -26,4 +26,7 @@ typedef struct {
 } nh_field_term;
 size_t nh_formula_field(const nh_result *result, const nh_symmetry *z, nh_field_term **out);
 
+/* Why a current is not said to be proved: what stands behind "conserved to N digits", with its blank. */
+const char *nh_formula_doubt(const nh_found *found);
+
 #endif

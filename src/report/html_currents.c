@@ -57,9 +57,10 @@ static void certificate(nh_html_writer *w, const nh_found *f)
     if (f->proof.all_parameters) nh_html_add(w, s->parameters ? "proved for all parameter values" : "proved");
     else if (f->proof.proved) nh_html_add(w, "proved for these parameter values");
     else {
-        nh_html_add(w, "its rate cancels to ");
+        nh_html_add(w, "conserved to ");
         nh_html_number(w, floor(f->proof.digits), 6);
-        nh_html_add(w, f->asked ? " digits, after its coefficients were refined" : " digits");
+        nh_html_add(w, " digits");
+        nh_html_add(w, nh_formula_doubt(f));
     }
     nh_html_add(w, "</dd>\n<dt>Residual</dt><dd>");
     nh_html_number(w, f->heldout, 2);

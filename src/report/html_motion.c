@@ -230,12 +230,15 @@ static void second_opinion(nh_html_writer *w)
         nh_html_add(w, "; the one used here is regular there.</p>\n");
     }
     if (!v->multiplier_form) return;
-    nh_text_addf(w->out, "<p>The same motion with Chetaev multipliers (%s): states agree to ", v->multiplier_method);
+    bool constrained = w->r->model->system->constraints > 0;
+    nh_text_addf(w->out, "<p>The same motion %s (%s): states agree to ", constrained ? "with Chetaev multipliers" : "by the equations of all coordinates", v->multiplier_method);
     nh_html_number(w, v->state_difference, 1);
-    nh_html_add(w, ", multipliers to ");
-    nh_html_number(w, v->multiplier_difference, 1);
-    nh_html_add(w, ", and the constraints hold to ");
-    nh_html_number(w, v->violation, 1);
+    if (constrained) {
+        nh_html_add(w, ", multipliers to ");
+        nh_html_number(w, v->multiplier_difference, 1);
+        nh_html_add(w, ", and the constraints hold to ");
+        nh_html_number(w, v->violation, 1);
+    }
     nh_html_add(w, ".</p>\n");
 }
 

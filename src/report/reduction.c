@@ -51,7 +51,7 @@ static void put_expression(nh_text *out, const char *indent, const char *name, n
     enum { longest = 600 };
     char *text = nh_print_string(d, e);
     size_t length = strlen(text);
-    if (length > longest && !verbose) nh_text_addf(out, "%s%s = (%zu characters; --verbose prints them)\n", indent, name, length);
+    if (length > longest && !verbose) nh_text_addf(out, "%s%s = ... (%zu characters: too long to be shown; --verbose prints them)\n", indent, name, length);
     else nh_text_addf(out, "%s%s = %s\n", indent, name, text);
     nh_free(text);
 }

@@ -227,8 +227,7 @@ static void certificate(nh_summary_writer *w, const nh_found *f)
     } else if (f->proof.proved) {
         nh_text_add(w->out, "proved for these parameter values");
     } else {
-        nh_text_addf(w->out, "conserved to %.0f digits%s", f->proof.digits,
-                     f->exact ? " (not proved)" : f->refined >= f->proof.digits && f->asked ? " with its coefficients refined" : " (coefficients fitted in double precision)");
+        nh_text_addf(w->out, "conserved to %.0f digits%s", f->proof.digits, nh_formula_doubt(f));
     }
     nh_text_addf(w->out, "; held-out residual %.1e", f->heldout);
     if (w->r->validation) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);

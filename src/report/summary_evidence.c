@@ -163,6 +163,8 @@ void nh_summary_motion(nh_summary_writer *w)
     if (v->scene)
         nh_text_addf(w->out, "  scene: %s\n         the same values to %.0e, %ld evaluations\n", v->scene, v->scene_difference, v->scene_evaluations);
     if (v->multiplier_form)
-        nh_text_addf(w->out, "  multiplier form (%s): states agree to %.0e, multipliers to %.0e, constraints hold to %.0e\n", v->multiplier_method,
-                     v->state_difference, v->multiplier_difference, v->violation);
+        nh_text_addf(w->out, "  multiplier form (%s): states agree to %.0e", v->multiplier_method, v->state_difference);
+    if (v->multiplier_form && w->r->model->system->constraints)
+        nh_text_addf(w->out, ", multipliers to %.0e, constraints hold to %.0e", v->multiplier_difference, v->violation);
+    if (v->multiplier_form) nh_text_add(w->out, "\n");
 }

@@ -135,9 +135,11 @@ static void certificate(nh_tex_writer *w, const nh_found *f)
     if (f->proof.all_parameters) nh_tex_add(w, w->r->system->parameters ? "Proved for all parameter values." : "Proved.");
     else if (f->proof.proved) nh_tex_add(w, "Proved for these parameter values.");
     else {
-        nh_tex_add(w, "Its rate cancels to ");
+        nh_tex_add(w, "Conserved to ");
         nh_tex_number(w, floor(f->proof.digits), 6);
-        nh_tex_add(w, " digits.");
+        nh_tex_add(w, " digits");
+        nh_tex_add(w, nh_formula_doubt(f));
+        nh_tex_add(w, ".");
     }
     nh_tex_add(w, " Residual ");
     nh_tex_number(w, f->heldout, 2);

@@ -114,6 +114,4 @@ nh_inertia nh_body_inertia(nh_dag *dag, const nh_body *body);
 /* The conditions of a wheel, linear in the rates, as expressions that vanish: at most 3; returns how many. */
 size_t nh_wheel_conditions(const nh_chain *chain, nh_dag *dag, const nh_wheel *wheel, nh_ex out[3]);
 
-const char *nh_joint_kind_name(nh_joint_kind kind);
-
 #endif

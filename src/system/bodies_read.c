@@ -10,8 +10,6 @@ typedef nh_system_reader reader;
 
 static const char *const kind_names[] = {"fixed", "revolute", "prismatic", "helical", "cylindrical", "planar", "spherical", "free", "translation"};
 
-const char *nh_joint_kind_name(nh_joint_kind kind) { return kind_names[kind]; }
-
 /* ---- words ---- */
 
 long nh_system_word(reader *r, const nh_deck_node *node, const char *what, size_t count, const char *const *words)
