@@ -7,6 +7,10 @@
 #define NH_TAPE_COMPLEX_H
 
 #include <complex.h>
+
+#ifndef CMPLX /* clang before 15 with the C library's header */
+#define CMPLX(x, y) __builtin_complex((double)(x), (double)(y))
+#endif
 #undef I /* the inertia has this name elsewhere */
 
 #include "expr/tape.h"
