@@ -7,7 +7,7 @@ log=$(mktemp)
 for build in "$@"; do
     for program in "$build"/tests/test_*; do
         case "$program" in *.o | *.d) continue ;; esac
-        NHSYM="$build/nhsym" "$program" --jobs 2 >"$log" 2>&1
+        NHSYM="$build/nhsym" timeout -k 10 900 "$program" --jobs 2 >"$log" 2>&1 # many times what any takes: one that hangs is a failure
         code=$?
         line=$(sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -a 'Synthesis:' | tail -n 1)
         good=$(printf '%s' "$line" | sed -n 's/.*Passing: *\([0-9]*\).*/\1/p')

@@ -3,8 +3,10 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/linalg.h"
+#include "base/parallel.h"
 #include "base/memory.h"
 #include "base/progress.h"
 
@@ -423,4 +425,6 @@ Test(linalg, a_large_decomposition_can_be_left)
     nh_free(a);
     nh_free(s);
     nh_free(vt);
+    for (int i = 0; i < 3000 && nh_jobs_left(); i++) usleep(10000);
+    cr_expect_eq(nh_jobs_left(), 0, "they end by themselves");
 }

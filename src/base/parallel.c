@@ -45,6 +45,10 @@ typedef struct {
     bool done, left;
 } errand;
 
+static atomic_size_t left_alone;
+
+size_t nh_jobs_left(void) { return atomic_load(&left_alone); }
+
 static void errand_free(errand *e)
 {
     pthread_mutex_destroy(&e->lock);
@@ -64,6 +68,7 @@ static void *go(void *argument)
     if (!left) return NULL;
     e->release(e->context);
     errand_free(e);
+    atomic_fetch_sub(&left_alone, 1);
     return NULL;
 }
 
@@ -95,6 +100,7 @@ bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *contex
     }
     bool done = e->done;
     e->left = !done;
+    if (e->left) atomic_fetch_add(&left_alone, 1);
     pthread_mutex_unlock(&e->lock);
     if (!done) return pthread_detach(thread), false;
     pthread_join(thread, NULL);

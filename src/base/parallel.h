@@ -15,4 +15,8 @@ void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *co
  * released after it.  True: the job is done, and context is still the caller's. */
 bool nh_interruptible(void (*job)(void *context), void (*release)(void *context), void *context);
 
+/* How many of them still run without a caller.  While there are any the process must not end by exit(): OpenBLAS then waits for its own threads
+ * for ever.  _exit() is safe. */
+size_t nh_jobs_left(void);
+
 #endif
