@@ -44,6 +44,7 @@ Test(dag, long_rationals)
     nh_num near = nh_num_add(nh_num_int(1), tiny); /* not 1, although its double is */
     cr_expect(nh_num_exact(near) && !nh_num_is(near, 1) && nh_num_value(near) == 1);
     cr_expect_not(nh_num_exact(nh_num_pow(nh_num_int(3), 100000)), "there is a limit");
+    cr_expect_not(nh_num_is(nh_num_pow(nh_num_int(10), -400), 0), "its double is 0, it is not");
 }
 
 /* What is printed is read again as the same number: short decimals, fractions of long numbers. */

@@ -28,7 +28,7 @@ static void check(bool fine)
     if (!fine) abort();
 }
 
-/* What is not a number or was cut off cannot come back. */
+/* What is not a number or was cut off cannot come back, nor can a number of more digits than are written. */
 static bool printable(const char *text)
 {
     return !strstr(text, "...") && !strstr(text, "nan") && !strstr(text, "inf");
@@ -39,9 +39,9 @@ static void round_trip(nh_dag *dag, nh_ex e)
     char *text = nh_print_string(dag, e);
     nh_parse_fault fault = {0};
     nh_ex back;
-    if (printable(text) && nh_is_exact(dag, e)) {
+    if (printable(text) && nh_is_short(dag, e)) {
         check(nh_parse(dag, text, any_name, dag, &back, &fault));
-        check(back == e || !nh_is_exact(dag, back) || nh_normal_is_zero(dag, nh_sub(dag, back, e), 500) != NH_NONZERO);
+        check(back == e || !nh_is_short(dag, back) || nh_normal_is_zero(dag, nh_sub(dag, back, e), 500) != NH_NONZERO);
     }
     nh_free(text);
 }
