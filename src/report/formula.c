@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "expr/normal.h"
+#include "expr/print.h"
 
 nh_ex nh_formula_shortened(const nh_analysis *a, nh_dag *d, nh_ex e)
 {
@@ -61,15 +62,15 @@ static bool most_repeated(const nh_dag *d, size_t formulas, const nh_ex *e, size
 }
 
 /* A letter that no name of the graph begins with, so far as A_1, A_2, ... go. */
-static char free_letter(const nh_dag *d)
+static char free_letter(const nh_dag *d, size_t last)
 {
     static const char letters[] = "ABCDGHKNPQSUVWXY";
     for (const char *c = letters; *c; c++) {
         char name[16];
         nh_ex taken;
         bool used = false;
-        for (int i = 0; i <= NH_FORMULA_PARTS && !used; i++) {
-            snprintf(name, sizeof name, i ? "%c_%d" : "%c", *c, i);
+        for (size_t i = 0; i <= last && !used; i++) {
+            snprintf(name, sizeof name, i ? "%c_%zu" : "%c", *c, i);
             used = nh_symbol_find(d, name, &taken);
         }
         if (!used) return *c;
@@ -77,10 +78,10 @@ static char free_letter(const nh_dag *d)
     return 'Z';
 }
 
-size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS])
+size_t nh_formula_parts(nh_dag *d, size_t names, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS])
 {
     size_t count = 0, longest = 0, nodes = 0;
-    char letter = free_letter(d);
+    char letter = free_letter(d, names + NH_FORMULA_PARTS);
     for (size_t i = 0; i < n; i++) {
         size_t length = nh_complexity(d, e[i]);
         if (length > longest) longest = length;
@@ -89,7 +90,7 @@ size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_part part[NH_F
     if (longest < long_formula || nodes > largest_graph) return 0;
     for (nh_ex best; count < NH_FORMULA_PARTS && most_repeated(d, n, e, count, part, &best);) {
         nh_formula_part *p = &part[count];
-        snprintf(p->name, sizeof p->name, "%c_%zu", letter, count + 1);
+        snprintf(p->name, sizeof p->name, "%c_%zu", letter, names + count + 1);
         p->value = best;
         nh_ex name = p->symbol = nh_symbol_fresh(d, p->name);
         for (size_t i = 0; i < n; i++) e[i] = nh_substitute(d, e[i], 1, &best, &name);
@@ -123,6 +124,25 @@ size_t nh_formula_field(const nh_result *r, const nh_symmetry *z, nh_field_term 
         add_term(o, list, &n, e, nh_name_of(o->dag, basis->chart->w[i]));
     }
     return n;
+}
+
+void nh_formula_series(nh_dag *d, const nh_series *s, nh_typeset_form form, nh_text *out)
+{
+    const char *q = nh_name_of(d, s->coordinate);
+    bool page = form == NH_MATHML;
+    if (page) nh_text_add(out, "<mrow>");
+    for (size_t i = 0; i < s->words; i++) {
+        nh_text_add(out, !i ? "" : page ? "<mo>+</mo>" : " + ");
+        nh_text_addf(out, page ? "<msub><mi>f</mi><mn>%zu</mn></msub><mo stretchy=\"false\">(</mo>" : "f_{%zu}(", i + 1);
+        nh_typeset(q, form, out);
+        nh_text_add(out, page ? "<mo stretchy=\"false\">)</mo>" : ")");
+        if (nh_is_number(d, s->word[i], 1)) continue;
+        char *word = nh_print_string(d, s->word[i]);
+        nh_text_add(out, page ? "<mspace width=\"0.17em\"></mspace>" : "\\,");
+        nh_typeset(word, form, out);
+        nh_free(word);
+    }
+    if (page) nh_text_add(out, "</mrow>");
 }
 
 const char *nh_formula_doubt(const nh_found *f)

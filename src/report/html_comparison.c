@@ -26,7 +26,7 @@ static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
     nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th><td>", goal);
     nh_html_text(w, m->method);
     nh_html_add(w, "</td><td>");
-    nh_html_text(w, m->formulation);
+    nh_html_chart(w, m->formulation);
     nh_html_add(w, "</td><td>");
     step_or_tolerance(w, m);
     nh_html_add(w, "</td><td>");
@@ -47,7 +47,7 @@ static void answer(nh_html_writer *w, const nh_comparison *c)
     if (best) {
         nh_html_text(w, best->method);
         nh_html_add(w, " in ");
-        nh_html_text(w, best->formulation);
+        nh_html_chart(w, best->formulation);
     }
     nh_html_add(w, ".</p>\n<p>One motion, t = ");
     nh_html_number(w, c->begin, 6);
@@ -126,8 +126,9 @@ static void all_runs(nh_html_writer *w, const nh_comparison *c)
         const nh_measured *m = &c->item[i];
         nh_html_add(w, "<tr>");
         nh_html_tagged(w, "td", m->method);
-        nh_html_tagged(w, "td", m->formulation);
         nh_html_add(w, "<td>");
+        nh_html_chart(w, m->formulation);
+        nh_html_add(w, "</td><td>");
         step_or_tolerance(w, m);
         nh_text_addf(w->out, "</td><td class=\"%s\">%s</td><td>", nh_measured_status_name(m->status), nh_measured_status_name(m->status));
         nh_html_number(w, m->error, 2);

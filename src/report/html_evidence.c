@@ -15,7 +15,7 @@ static void spectrum_plot(nh_html_writer *w)
     size_t most = 0, curves = 0;
     for (int i = 0; i < 2; i++)
         if (s[i]->done && s[i]->rank > most) most = s[i]->rank;
-    if (most == 0) return;
+    if (most < 3) return; /* what the table says is all there is to see */
     double *index = nh_alloc_array(most, sizeof *index);
     for (size_t i = 0; i < most; i++) index[i] = (double)(i + 1);
     for (int i = 0; i < 2; i++)
@@ -50,7 +50,7 @@ static void spectrum(nh_html_writer *w, const char *name, const nh_spectrum *s)
 static void spectra(nh_html_writer *w)
 {
     if (!w->r->current.done && !w->r->symmetry.done) return;
-    nh_html_table(w, "Linear problems", "route|columns|independent|rows|null values|up to|then|gap");
+    nh_html_table(w, "Linear problems", "route|columns|independent|rows|null values|largest of them|next value|gap");
     spectrum(w, "current", &w->r->current);
     spectrum(w, "symmetry", &w->r->symmetry);
     nh_html_table_end(w);
@@ -109,7 +109,7 @@ static void stages(nh_html_writer *w)
 void nh_html_evidence(nh_html_writer *w)
 {
     const nh_result *r = w->r;
-    nh_html_add(w, r->count ? "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz: " : "<section id=\"search\"><h2>What was tried</h2>\n<p>Ansatz: ");
+    nh_html_add(w, r->count ? "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz " : "<section id=\"search\"><h2>What was tried</h2>\n<p>The ansatz was ");
     nh_html_text(w, r->ansatz_note);
     nh_html_add(w, ". ");
     nh_html_count(w, r->samples);

@@ -16,6 +16,7 @@ typedef struct {
     double written;              /* option `written` */
     const nh_result *r;          /* of `analyze`, else NULL */
     size_t figures;
+    size_t names;                /* of repeated parts, so far: no two on a page are alike */
     nh_figure_sink *sink; /* NULL: figures go onto the page */
     void *context;
 } nh_html_writer;
@@ -30,6 +31,8 @@ void nh_html_number(nh_html_writer *w, double value, int digits);
 void nh_html_count(nh_html_writer *w, size_t value);
 /* A text of the expression language as a formula, broken where a line may end; as code when it is no formula. */
 void nh_html_source(nh_html_writer *w, const char *text);
+/* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
+void nh_html_chart(nh_html_writer *w, const char *name);
 /* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, or `Z|x'`: Z with the index x'. */
 void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e);
 /* Several that belong together: what occurs in them more than once gets one name for all. */
@@ -63,6 +66,7 @@ void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const 
 void nh_html_meaning(nh_html_writer *w, const char *meaning); /* "momentum of phi", with the letter */
 const char *nh_html_case(int kase); /* case 1, 2 or 3 in words */
 
+extern const char *const nh_html_font; /* WOFF2 in base 64 */
 extern const char *const nh_html_style;
 extern const char *const nh_html_script;
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/versions.h"
 #include "report/html_internal.h"
 
@@ -88,11 +89,13 @@ void nh_html_begin(nh_html_writer *w, const char *what)
 {
     nh_html_add(w, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
+                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; font-src data:; script-src 'unsafe-inline'\"/>\n"
                    "<meta name=\"generator\" content=\"nhsym " NH_VERSION "\"/>\n<title>");
     nh_html_text(w, w->system->title);
     if (what) nh_text_addf(w->out, ": %s", what);
-    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n");
+    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n@font-face{font-family:'nhsym math';src:url(data:font/woff2;base64,");
+    nh_html_add(w, nh_html_font);
+    nh_html_add(w, ") format('woff2')}\n");
     nh_html_add(w, nh_html_style);
     nh_html_add(w, "/*]]>*/</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
     nh_html_text(w, w->system->title);
@@ -132,7 +135,17 @@ static void row(nh_html_writer *w, const char *what, const char *value)
     if (!value) return;
     nh_html_add(w, "<tr>");
     nh_text_addf(w->out, "<th scope=\"row\">%s</th><td><code>", what);
-    nh_html_text(w, value);
+    while (*value) { /* a line ends between words only: what is copied from it must be a command */
+        size_t length = strcspn(value, " ");
+        char *word = nh_alloc_array(length + 1, 1);
+        memcpy(word, value, length);
+        nh_html_add(w, "<span class=\"word\">");
+        nh_html_text(w, word);
+        nh_free(word);
+        value += length;
+        nh_html_add(w, *value == ' ' ? "</span> " : "</span>");
+        value += *value == ' ';
+    }
     nh_html_add(w, "</code></td></tr>\n");
 }
 

@@ -1,6 +1,7 @@
 #include <stdio.h>
 
 #include "base/memory.h"
+#include "expr/normal.h"
 #include "expr/print.h"
 #include "report/html_internal.h"
 
@@ -132,9 +133,15 @@ static char *formulas_add(formulas *f, nh_ex e)
     return f->text[f->count++];
 }
 
-static void formulas_write(nh_html_writer *w, formulas *f)
+/* Formulas under a heading; folded away when they are many lines long: then they are there to be looked up. */
+static void formulas_write(nh_html_writer *w, const char *heading, formulas *f)
 {
+    enum { long_block = 400 };
+    double length = 0;
+    for (size_t i = 0; i < f->count; i++) length += (double)nh_complexity(w->dag, f->e[i]);
+    nh_text_addf(w->out, length > long_block ? "<details><summary>%s</summary>\n" : "<p>%s</p>\n", heading);
     nh_html_formulas(w, f->count, f->label, f->e);
+    if (length > long_block) nh_html_add(w, "</details>\n");
     nh_free(f->text);
     nh_free(f->label);
     nh_free(f->e);
@@ -143,23 +150,24 @@ static void formulas_write(nh_html_writer *w, formulas *f)
 static void multipliers(nh_html_writer *w, const nh_model *o)
 {
     if (!o->k) return;
-    nh_html_add(w, "<p>Chetaev multipliers, and the force of the constraints</p>\n");
     formulas f = formulas_create(o->k + o->m);
     for (size_t a = 0; a < o->k; a++) snprintf(formulas_add(&f, o->mu[a]), sizeof *f.text, o->k == 1 ? "mu" : "mu_%zu", a + 1);
     for (size_t s = 0; s < o->m; s++) snprintf(formulas_add(&f, o->reaction[s]), sizeof *f.text, "F_%.180s", o->system->coordinate[s].name);
-    formulas_write(w, &f);
+    formulas_write(w, "Chetaev multipliers, and the force of the constraints", &f);
 }
 
 void nh_html_equations(nh_html_writer *w, const nh_model *o)
 {
     nh_html_add(w, "<h4>In ");
-    nh_html_text(w, o->chart->name);
-    nh_html_add(w, "</h4>\n<p>Constrained Lagrangian and energy</p>\n");
-    nh_html_formulas(w, 2, (const char *const[]){"L", "E"}, (const nh_ex[]){o->Lbar, o->E});
-    nh_html_add(w, "<p>Reduced equations</p>\n");
-    formulas f = formulas_create(o->n);
+    nh_html_chart(w, o->chart->name);
+    nh_html_add(w, "</h4>\n");
+    formulas f = formulas_create(2);
+    snprintf(formulas_add(&f, o->Lbar), sizeof *f.text, "L");
+    snprintf(formulas_add(&f, o->E), sizeof *f.text, "E");
+    formulas_write(w, "Constrained Lagrangian and energy", &f);
+    f = formulas_create(o->n);
     for (size_t i = 0; i < o->n; i++) snprintf(formulas_add(&f, o->a[i]), sizeof *f.text, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
-    formulas_write(w, &f);
+    formulas_write(w, "Reduced equations", &f);
     multipliers(w, o);
 }
 

@@ -262,6 +262,28 @@ static void pen_to(pen *p, double x, double y)
     p->held++;
 }
 
+/* A path in the plane, whose points are equally far apart in time: a cubic in time between them (Catmull and Rom's), for corners would be of the drawing's making. */
+static void smooth(const canvas *c, const nh_curve *f)
+{
+    double p[4][2] = {{0}};
+    for (size_t i = 0; i + 1 < f->count; i++) {
+        bool on = true, first = i == 0, last = i + 2 == f->count, known;
+        for (size_t j = 0; j < 4; j++) {
+            size_t at = i + j - (j > 0 || !first); /* the ends count twice */
+            if (j == 3 && last) at = i + 1;
+            known = visible(c, f, at, &p[j][0], &p[j][1]);
+            if (!known && (j == 1 || j == 2)) on = false;
+            if (!known && j == 3) p[3][0] = p[2][0], p[3][1] = p[2][1];
+            if (!known && j == 0) first = true;
+        }
+        if (!on) continue;
+        if (first) p[0][0] = p[1][0], p[0][1] = p[1][1];
+        if (first) nh_text_addf(c->out, "M%.1f %.1f", p[1][0], p[1][1]);
+        nh_text_addf(c->out, "C%.1f %.1f %.1f %.1f %.1f %.1f", p[1][0] + (p[2][0] - p[0][0]) / 6, p[1][1] + (p[2][1] - p[0][1]) / 6, p[2][0] - (p[3][0] - p[1][0]) / 6,
+                     p[2][1] - (p[3][1] - p[1][1]) / 6, p[2][0], p[2][1]);
+    }
+}
+
 static void curve(const canvas *c, const nh_curve *f, size_t k)
 {
     double x, y;
@@ -270,7 +292,9 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
     nh_text_addf(c->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"", colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
                  dashes[k % (sizeof dashes / sizeof *dashes)]);
     pen p = {.out = c->out};
-    for (size_t i = 0; i < f->count; i++)
+    bool cubic = c->plot->equal && !thin && f->count > 3;
+    if (cubic) smooth(c, f);
+    for (size_t i = 0; i < f->count && !cubic; i++)
         if (!visible(c, f, i, &x, &y)) pen_up(&p);
         else if (thin) pen_to(&p, x, y);
         else pen_write(&p, x, y);

@@ -159,9 +159,15 @@ static void current(nh_tex_writer *w, const nh_found *f)
     if (f->meaning[0]) nh_tex_add(w, ": "), nh_tex_words(w, f->meaning);
     nh_tex_add(w, "}\n");
     if (f->series) {
-        nh_tex_add(w, "A Chebyshev series of degree ");
+        nh_tex_add(w, "\\nhformula{");
+        nh_typeset(f->name, NH_LATEX, w->out);
+        nh_tex_add(w, " = ");
+        nh_formula_series(w->r->model->dag, f->series, NH_LATEX, w->out);
+        nh_tex_add(w, "}\nwith Chebyshev series of degree ");
         nh_tex_count(w, f->series->degree);
-        nh_tex_add(w, " without closed form; the JSON tells more.\n");
+        nh_tex_add(w, " in ");
+        nh_tex_name(w, nh_name_of(w->r->model->dag, f->series->coordinate));
+        nh_tex_add(w, " without closed form; the JSON has their coefficients.\n");
     } else {
         nh_tex_formula(w, f->name, f->phi);
     }
