@@ -4,19 +4,6 @@
 
 #include "program.h"
 
-static place place_with_systems(void)
-{
-    place p = place_make();
-    char link[PATH_MAX + 20], path[PATH_MAX + 20];
-    const char *folders[] = {"systems", "analyses"};
-    for (int i = 0; i < 2; i++) {
-        snprintf(path, sizeof path, "%.4000s/%s", p.project, folders[i]);
-        snprintf(link, sizeof link, "%.4000s/%s", p.folder, folders[i]);
-        cr_assert_eq(symlink(path, link), 0);
-    }
-    return p;
-}
-
 Test(cli_manners, help_fits_a_screen)
 {
     place p = place_make();

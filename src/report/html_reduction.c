@@ -54,8 +54,7 @@ static void generators(nh_html_writer *w, const nh_action *g)
     nh_html_table(w, "Generators", "|field|kinetic energy|potential|constraints");
     for (size_t a = 0; a < g->d; a++) {
         nh_html_add(w, "<tr><th scope=\"row\">");
-        nh_html_count(w, a + 1);
-        nh_html_add(w, "</th><td>");
+        nh_text_addf(w->out, "%zu</th><td>", a + 1); /* a name, for --group */
         field(w, g->kinetic, g->generator[a].component);
         nh_text_addf(w->out, "</td><td>%s</td><td>%s</td><td>%s</td></tr>\n", condition(&g->generator[a].metric), condition(&g->generator[a].potential), condition(&g->generator[a].constraints));
     }
