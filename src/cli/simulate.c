@@ -53,7 +53,7 @@ static void complain(const nh_simulation *s, nh_error *error)
     if (s->ensemble && s->ensemble->incomplete) nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete, s->ensemble->note);
     if (s->ensemble) return;
     if (s->checked && !s->accuracy.held && s->motion->complete) nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy.why);
-    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->motion->note);
+    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->accuracy.why : s->motion->note);
 }
 
 int nh_cli_simulate(nh_cli *cli, nh_error *error)
