@@ -126,6 +126,16 @@ size_t nh_formula_field(const nh_result *r, const nh_symmetry *z, nh_field_term 
     return n;
 }
 
+char *nh_formula_text(nh_dag *d, nh_ex e, double shown)
+{
+    char *text = nh_print_short(d, e, shown), size[120];
+    if (text) return text;
+    double length = (double)nh_complexity(d, e);
+    if (length < 1e9) snprintf(size, sizeof size, "... (%.0f symbols, too long to be shown; --option shown=%.0f shows them)", length, length);
+    else snprintf(size, sizeof size, "... (too long to be shown)");
+    return nh_strdup(size);
+}
+
 void nh_formula_series(nh_dag *d, const nh_series *s, nh_typeset_form form, nh_text *out)
 {
     const char *q = nh_name_of(d, s->coordinate);

@@ -27,6 +27,9 @@ typedef struct {
 } nh_field_term;
 size_t nh_formula_field(const nh_result *result, const nh_symmetry *z, nh_field_term **out);
 
+/* A formula as text; when it is longer than `shown` symbols, how long it is and which option shows it. */
+char *nh_formula_text(nh_dag *dag, nh_ex e, double shown);
+
 /* f_1(q) word_1 + ..., for a current without closed form. */
 void nh_formula_series(nh_dag *dag, const nh_series *series, nh_typeset_form form, nh_text *out);
 

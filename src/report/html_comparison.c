@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "report/chart.h"
+#include "report/chart_internal.h"
 #include "report/html_internal.h"
 
 enum { most_lines = 35 }; /* colours times dashes */
@@ -54,9 +55,9 @@ static void answer(nh_html_writer *w, const nh_comparison *c)
     nh_html_add(w, " to ");
     nh_html_number(w, c->end, 6);
     nh_html_add(w, ", by every integrator in every formulation, measured on this machine. Reference: ");
-    nh_html_text(w, c->reference);
+    nh_html_chart(w, c->reference);
     nh_html_add(w, "; ");
-    nh_html_text(w, c->second);
+    nh_html_chart(w, c->second);
     nh_html_add(w, " agrees to ");
     nh_html_number(w, c->agreement, 1);
     nh_html_add(w, ", so that smaller errors mean nothing.</p>\n");
@@ -166,6 +167,76 @@ static void derivatives(nh_html_writer *w, const nh_comparison *c)
     nh_html_table_end(w);
 }
 
+/* ---- the discrete problem ---- */
+
+static bool same_way(const nh_fitted *a, const nh_fitted *b) { return !strcmp(a->basis, b->basis) && !strcmp(a->route, b->route) && !strcmp(a->solver, b->solver); }
+
+/* One plot per size of the ansatz; one line per way to solve it, over the samples. */
+static void fit_plot(nh_html_writer *w, const nh_comparison *c, size_t first, size_t last)
+{
+    enum { most = 12 };
+    size_t n = 0, room = last - first;
+    double *x = nh_alloc_array(2 * most * room + 1, sizeof *x);
+    char name[most][120], title[120], caption[240];
+    nh_curve curve[most];
+    for (size_t i = first; i < last && n < most; i++) {
+        bool told = false;
+        for (size_t j = first; j < i; j++) told |= same_way(&c->fit[i], &c->fit[j]);
+        double *at = x + 2 * n * room, *y = at + room;
+        size_t count = 0;
+        for (size_t j = i; j < last && !told; j++)
+            if (same_way(&c->fit[i], &c->fit[j]) && c->fit[j].right && isfinite(c->fit[j].error)) at[count] = fmax(c->fit[j].error, 1e-17), y[count++] = c->fit[j].seconds;
+        if (!count) continue;
+        snprintf(name[n], sizeof *name, "%.30s, %.30s, %.30s", c->fit[i].basis, c->fit[i].route, c->fit[i].solver);
+        curve[n] = (nh_curve){.name = name[n], .count = count, .x = at, .x_stride = 1, .y = y, .y_stride = 1, .marks = true};
+        n++;
+    }
+    snprintf(title, sizeof title, "Time against error, %zu functions", c->fit[first].functions);
+    nh_plot plot = {.title = title, .description = "Both axes are logarithmic", .x_label = "distance of the known currents from the null space", .y_label = "seconds", .log_x = true, .log_y = true, .floor = 1e-18, .curves = n, .curve = curve};
+    snprintf(caption, sizeof caption, "%s. Each line is one way to solve it, with few to many samples.", title);
+    if (n) nh_html_figure(w, &plot, caption);
+    nh_free(x);
+}
+
+static void fit_row(nh_html_writer *w, const nh_fitted *m)
+{
+    const double counts[] = {(double)m->functions, (double)m->columns, (double)m->samples};
+    nh_html_add(w, "<tr>");
+    for (size_t k = 0; k < 3; k++) {
+        nh_html_add(w, "<td>");
+        nh_html_number(w, counts[k], 10);
+        nh_html_add(w, "</td>");
+    }
+    nh_html_tagged(w, "td", m->basis);
+    nh_html_tagged(w, "td", m->route);
+    nh_html_tagged(w, "td", m->solver);
+    nh_html_add(w, "<td>");
+    nh_html_count(w, m->dimension);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, m->gap, 2);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, m->error, 2);
+    nh_html_add(w, "</td><td>");
+    nh_html_number(w, m->seconds, 3);
+    nh_text_addf(w->out, "</td><td>%s</td></tr>\n", nh_fitted_word(m));
+}
+
+static void discrete(nh_html_writer *w, const nh_comparison *c)
+{
+    if (!c->fits) return;
+    nh_html_add(w, "<section id=\"discrete\"><h2>The discrete problem</h2>\n<p>The linear problem by which <code>analyze</code> finds currents, of polynomials in velocities, sines, cosines and coordinates, "
+                   "solved in several ways: by how far the known currents are from its null space, and how long it takes. Down and to the left is better.</p>\n");
+    for (size_t i = 0, next; i < c->fits; i = next) {
+        for (next = i; next < c->fits && c->fit[next].functions == c->fit[i].functions;) next++;
+        fit_plot(w, c, i, next);
+    }
+    nh_html_add(w, "<details><summary>All solutions</summary>\n");
+    nh_html_table(w, "All solutions", "functions|columns|samples|basis|route|solver|null values|gap|error|seconds|result");
+    for (size_t i = 0; i < c->fits; i++) fit_row(w, &c->fit[i]);
+    nh_html_table_end(w);
+    nh_html_add(w, "</details>\n</section>\n");
+}
+
 /* ---- stability maps ---- */
 
 static void stability_map(nh_html_writer *w, const nh_stress_map *map)
@@ -207,13 +278,16 @@ void nh_html_comparison(const nh_comparison *c, const nh_stress *s, const nh_run
     nh_html_writer w = {.out = out, .system = q->system, .analysis = q->analysis, .dag = q->model->dag, .shown = run->shown, .written = INFINITY};
     nh_html_begin(&w, "integrators compared");
     answer(&w, c);
-    nh_html_links(&w, s ? "methods|Methods|stress|Where they fail|system|System|repeat|Repeat it" : "methods|Methods|system|System|repeat|Repeat it");
+    char sections[200];
+    snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|repeat|Repeat it", c->fits ? "discrete|The discrete problem|" : "", s ? "stress|Where they fail|" : "");
+    nh_html_links(&w, sections);
     nh_html_add(&w, "<section id=\"methods\"><h2>Methods</h2>\n");
     fastest(&w, c);
     plots(&w, c);
     derivatives(&w, c);
     all_runs(&w, c);
     nh_html_add(&w, "</section>\n");
+    discrete(&w, c);
     stress(&w, s);
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);

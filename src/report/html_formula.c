@@ -48,7 +48,12 @@ void nh_html_chart(nh_html_writer *w, const char *name)
         nh_html_text(w, name);
         return;
     }
-    nh_text_add_n(w->out, name, (size_t)(list + 2 - name));
+    nh_text words;
+    nh_text_init(&words);
+    nh_text_add_n(&words, name, (size_t)(list + 1 - name));
+    nh_html_text(w, nh_text_string(&words));
+    nh_text_clear(&words);
+    nh_html_add(w, "<span class=\"word\">(");
     for (const char *c = list + 2, *next; c < end; c = next) {
         char one[200];
         size_t length = strcspn(c, ",)");
@@ -61,7 +66,7 @@ void nh_html_chart(nh_html_writer *w, const char *name)
         next = c + length + 1 + strspn(c + length + 1, " ");
         if (next < end) nh_html_add(w, ", ");
     }
-    nh_html_add(w, ")");
+    nh_html_add(w, ")</span>");
 }
 
 void nh_html_meaning(nh_html_writer *w, const char *meaning)

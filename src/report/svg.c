@@ -6,7 +6,7 @@
 
 #include "expr/typeset.h"
 
-enum { width = 640, height = 300, left = 74, right = 14, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
+enum { width = 640, height = 300, left = 74, right = 22, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
 
 static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A7A7A"};
 static const char *const dashes[] = {"none", "7 3", "2 3", "9 3 2 3", "14 4"};
