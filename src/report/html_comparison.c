@@ -279,7 +279,7 @@ void nh_html_comparison(const nh_comparison *c, const nh_stress *s, const nh_run
     nh_html_begin(&w, "integrators compared");
     answer(&w, c);
     char sections[200];
-    snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|repeat|Repeat it", c->fits ? "discrete|The discrete problem|" : "", s ? "stress|Where they fail|" : "");
+    snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|words|Words|repeat|Repeat it", c->fits ? "discrete|The discrete problem|" : "", s ? "stress|Where they fail|" : "");
     nh_html_links(&w, sections);
     nh_html_add(&w, "<section id=\"methods\"><h2>Methods</h2>\n");
     fastest(&w, c);
@@ -292,6 +292,7 @@ void nh_html_comparison(const nh_comparison *c, const nh_stress *s, const nh_run
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);
     nh_html_add(&w, "</section>\n");
+    nh_html_words(&w, "right warned caught wrong timeout drift");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }

@@ -48,6 +48,8 @@ void nh_html_warning(nh_html_writer *w, const char *text);
 
 void nh_html_begin(nh_html_writer *w, const char *what);
 void nh_html_links(nh_html_writer *w, const char *sections);
+/* What these words mean, between blanks as in "current symmetry": a section of its own. */
+void nh_html_words(nh_html_writer *w, const char *words);
 void nh_html_repeat(nh_html_writer *w, const nh_run *run);
 void nh_html_end(nh_html_writer *w);
 

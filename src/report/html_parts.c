@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/versions.h"
+#include "report/glossary.h"
 #include "report/html_internal.h"
 
 void nh_html_add(nh_html_writer *w, const char *markup) { nh_text_add(w->out, markup); }
@@ -126,6 +127,36 @@ void nh_html_end(nh_html_writer *w)
     nh_html_add(w, "</main>\n<script>//<![CDATA[\n");
     nh_html_add(w, nh_html_script);
     nh_html_add(w, "//]]></script>\n</body>\n</html>\n");
+}
+
+/* ---- words ---- */
+
+/* The text of the glossary with letters for their names. */
+static void with_letters(nh_html_writer *w, const char *text)
+{
+    static const char *const letter[][2] = {{"Gamma", "\u0393"}, {"Phi", "\u03a6"}, {"alpha", "\u03b1"}, {"mu_a", "\u03bc\u2090"}};
+    while (*text) {
+        size_t k = 0, length = 1;
+        while (k < 4 && strncmp(text, letter[k][0], strlen(letter[k][0]))) k++;
+        if (k < 4) length = strlen(letter[k][0]);
+        nh_html_text(w, k < 4 ? letter[k][1] : (const char[]){*text, 0});
+        text += length;
+    }
+}
+
+void nh_html_words(nh_html_writer *w, const char *words)
+{
+    nh_html_add(w, "<section id=\"words\"><h2>Words</h2>\n<dl>\n");
+    for (const char *c = words; *c; c += strcspn(c, " "), c += strspn(c, " "))
+        for (size_t i = 0; i < nh_glossary_count(); i++) {
+            nh_glossary_entry e = nh_glossary_at(i);
+            if (strlen(e.word) != strcspn(c, " ") || strncmp(e.word, c, strlen(e.word))) continue;
+            nh_html_tagged(w, "dt", e.word);
+            nh_html_add(w, "<dd>");
+            with_letters(w, e.text);
+            nh_html_add(w, "</dd>\n");
+        }
+    nh_html_add(w, "</dl>\n</section>\n");
 }
 
 /* ---- to repeat it ---- */

@@ -292,7 +292,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     nh_html_writer w = {.out = out, .system = r->system, .dag = r->kinetic->dag, .shown = run->shown, .written = INFINITY};
     nh_html_begin(&w, "reduction by symmetry");
     answer(&w, r);
-    nh_html_links(&w, has_momenta(r) ? "group|Group|stages|Reduced equations|momenta|Momenta|system|System|repeat|Repeat it" : "group|Group|stages|Reduced equations|system|System|repeat|Repeat it");
+    nh_html_links(&w, has_momenta(r) ? "group|Group|stages|Reduced equations|momenta|Momenta|system|System|words|Words|repeat|Repeat it" : "group|Group|stages|Reduced equations|system|System|words|Words|repeat|Repeat it");
     for (size_t i = 0; i < r->warnings; i++) nh_html_warning(&w, r->warning[i]);
     nh_html_add(&w, "<section id=\"group\"><h2>The group</h2>\n");
     if (r->all) group(&w, r, r->all, "The whole group");
@@ -305,6 +305,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);
     nh_html_add(&w, "</section>\n");
+    nh_html_words(&w, "group shape stage Chaplygin distribution nonholonomic");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }
