@@ -41,6 +41,15 @@ void nh_html_source(nh_html_writer *w, const char *text)
     if (!nh_typeset_pieces(text, NH_MATHML, widest, write_piece, w)) nh_html_tagged(w, "code", text);
 }
 
+void nh_html_name(nh_html_writer *w, const char *name)
+{
+    nh_text formula;
+    nh_text_init(&formula);
+    if (nh_typeset(name, NH_MATHML, &formula)) nh_text_addf(w->out, "<math>%s</math>", nh_text_string(&formula));
+    else nh_html_text(w, name);
+    nh_text_clear(&formula);
+}
+
 void nh_html_chart(nh_html_writer *w, const char *name)
 {
     const char *list = strstr(name, " ("), *end = strrchr(name, ')');
@@ -58,11 +67,7 @@ void nh_html_chart(nh_html_writer *w, const char *name)
         char one[200];
         size_t length = strcspn(c, ",)");
         snprintf(one, sizeof one, "%.*s", (int)length, c);
-        nh_text formula;
-        nh_text_init(&formula);
-        if (nh_typeset(one, NH_MATHML, &formula)) nh_text_addf(w->out, "<math>%s</math>", nh_text_string(&formula));
-        else nh_html_text(w, one);
-        nh_text_clear(&formula);
+        nh_html_name(w, one);
         next = c + length + 1 + strspn(c + length + 1, " ");
         if (next < end) nh_html_add(w, ", ");
     }

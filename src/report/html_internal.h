@@ -31,6 +31,8 @@ void nh_html_number(nh_html_writer *w, double value, int digits);
 void nh_html_count(nh_html_writer *w, size_t value);
 /* A text of the expression language as a formula, broken where a line may end; as code when it is no formula. */
 void nh_html_source(nh_html_writer *w, const char *text);
+/* The same for a name within the text. */
+void nh_html_name(nh_html_writer *w, const char *name);
 /* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
 void nh_html_chart(nh_html_writer *w, const char *name);
 /* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, or `Z|x'`: Z with the index x'. */

@@ -222,6 +222,14 @@ static void by_stages(nh_html_writer *w, const nh_reduction_stage *s)
     nh_html_add(w, ".</p>\n");
 }
 
+/* zeta_1 = zeta1: a velocity of the group that is one of the reduced equations, too. */
+static bool names_itself(const nh_dag *d, const nh_reduction_equation *e)
+{
+    const char *bar = strchr(e->name, '_'), *name = nh_kind_of(d, e->value) == NH_SYMBOL ? nh_name_of(d, e->value) : NULL;
+    size_t length = bar ? (size_t)(bar - e->name) : 0;
+    return bar && name && !strncmp(name, e->name, length) && !strcmp(name + length, bar + 1);
+}
+
 static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_stage *s, size_t number)
 {
     static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of"};
@@ -237,13 +245,15 @@ static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_s
     nh_html_add(w, s->shown->n ? "</p>\n<p>What is left, the shape: " : "</p>\n<p>What is left, the shape, is a point.");
     for (size_t i = 0; i < s->shown->n; i++) {
         nh_html_add(w, i ? ", " : "");
-        nh_html_source(w, nh_name_of(w->dag, s->shown->x[i]));
+        nh_html_name(w, nh_name_of(w->dag, s->shown->x[i]));
     }
     nh_html_add(w, "</p>\n");
     const char **label = nh_alloc_array(n + 1, sizeof *label);
     nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
-    for (size_t i = 0; i < n; i++) label[i] = e[i].name, value[i] = e[i].value;
-    nh_html_formulas(w, n, label, value);
+    size_t told = 0;
+    for (size_t i = 0; i < n; i++)
+        if (!names_itself(w->dag, &e[i])) label[told] = e[i].name, value[told++] = e[i].value;
+    nh_html_formulas(w, told, label, value);
     nh_free(value);
     nh_free(label);
     checks(w, s);
