@@ -22,23 +22,31 @@ static void step_or_tolerance(nh_html_writer *w, const nh_measured *m)
     nh_html_number(w, isnan(m->step) ? m->tolerance : m->step, 3);
 }
 
-static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
+/* What a run was told, and what came of it, as cells of its row. */
+static void set_to(nh_html_writer *w, const nh_measured *m)
 {
-    nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th><td>", goal);
-    nh_html_text(w, m->method);
-    nh_html_add(w, "</td><td>");
+    nh_html_tagged(w, "td", m->method);
+    nh_html_add(w, "<td>");
     nh_html_chart(w, m->formulation);
     nh_html_add(w, "</td><td>");
     step_or_tolerance(w, m);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->error, 2);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->worst_drift, 2);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->seconds, 3);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, (double)m->evaluations, 10);
-    nh_html_add(w, "</td></tr>\n");
+    nh_html_add(w, "</td>");
+}
+
+static void measured(nh_html_writer *w, const nh_measured *m)
+{
+    nh_html_cell(w, m->error, 2);
+    nh_html_cell(w, m->worst_drift, 2);
+    nh_html_cell(w, m->seconds, 3);
+    nh_html_cell(w, (double)m->evaluations, 10);
+}
+
+static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
+{
+    nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th>", goal);
+    set_to(w, m);
+    measured(w, m);
+    nh_html_add(w, "</tr>\n");
 }
 
 static void answer(nh_html_writer *w, const nh_comparison *c)
@@ -126,20 +134,9 @@ static void all_runs(nh_html_writer *w, const nh_comparison *c)
     for (size_t i = 0; i < c->count; i++) {
         const nh_measured *m = &c->item[i];
         nh_html_add(w, "<tr>");
-        nh_html_tagged(w, "td", m->method);
-        nh_html_add(w, "<td>");
-        nh_html_chart(w, m->formulation);
-        nh_html_add(w, "</td><td>");
-        step_or_tolerance(w, m);
-        nh_text_addf(w->out, "</td><td class=\"%s\">%s</td><td>", nh_measured_status_name(m->status), nh_measured_status_name(m->status));
-        nh_html_number(w, m->error, 2);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, m->worst_drift, 2);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, m->seconds, 3);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, (double)m->evaluations, 10);
-        nh_html_add(w, "</td>");
+        set_to(w, m);
+        nh_text_addf(w->out, "<td class=\"%s\">%s</td>", nh_measured_status_name(m->status), nh_measured_status_name(m->status));
+        measured(w, m);
         nh_html_tagged(w, "td", m->note ? m->note : "");
         nh_html_add(w, "</tr>\n");
     }
@@ -156,13 +153,10 @@ static void derivatives(nh_html_writer *w, const nh_comparison *c)
         if (!isfinite(d->seconds)) continue;
         nh_html_add(w, "<tr>");
         nh_html_tagged(w, "td", d->method);
-        nh_html_add(w, "<td>");
-        nh_html_number(w, d->seconds, 3);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, (double)d->evaluations, 10);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, d->error, 1);
-        nh_html_add(w, "</td></tr>\n");
+        nh_html_cell(w, d->seconds, 3);
+        nh_html_cell(w, (double)d->evaluations, 10);
+        nh_html_cell(w, d->error, 1);
+        nh_html_add(w, "</tr>\n");
     }
     nh_html_table_end(w);
 }
@@ -200,25 +194,19 @@ static void fit_plot(nh_html_writer *w, const nh_comparison *c, size_t first, si
 
 static void fit_row(nh_html_writer *w, const nh_fitted *m)
 {
-    const double counts[] = {(double)m->functions, (double)m->columns, (double)m->samples};
     nh_html_add(w, "<tr>");
-    for (size_t k = 0; k < 3; k++) {
-        nh_html_add(w, "<td>");
-        nh_html_number(w, counts[k], 10);
-        nh_html_add(w, "</td>");
-    }
+    nh_html_cell(w, (double)m->functions, 10);
+    nh_html_cell(w, (double)m->columns, 10);
+    nh_html_cell(w, (double)m->samples, 10);
     nh_html_tagged(w, "td", m->basis);
     nh_html_tagged(w, "td", m->route);
     nh_html_tagged(w, "td", m->solver);
-    nh_html_add(w, "<td>");
-    nh_html_count(w, m->dimension);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->gap, 2);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->error, 2);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->seconds, 3);
-    nh_text_addf(w->out, "</td><td>%s</td></tr>\n", nh_fitted_word(m));
+    nh_html_cell(w, (double)m->dimension, 10);
+    nh_html_cell(w, m->gap, 2);
+    nh_html_cell(w, m->error, 2);
+    nh_html_cell(w, m->seconds, 3);
+    nh_html_tagged(w, "td", nh_fitted_word(m));
+    nh_html_add(w, "</tr>\n");
 }
 
 static void discrete(nh_html_writer *w, const nh_comparison *c)

@@ -29,6 +29,7 @@ void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text); /* <t
 /* A number with so many significant digits; a dash when it is not finite. */
 void nh_html_number(nh_html_writer *w, double value, int digits);
 void nh_html_count(nh_html_writer *w, size_t value);
+void nh_html_cell(nh_html_writer *w, double value, int digits); /* of a table */
 /* A text of the expression language as a formula, broken where a line may end; as code when it is no formula. */
 void nh_html_source(nh_html_writer *w, const char *text);
 /* The same for a name within the text. */

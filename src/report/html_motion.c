@@ -227,9 +227,7 @@ static void drifts(nh_html_writer *w)
         nh_html_source(w, w->r->found[k].name);
         nh_html_add(w, "</th>");
         for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
-            nh_html_add(w, "<td>");
-            nh_html_number(w, v->current[k].drift[i], 2);
-            nh_html_add(w, "</td>");
+            nh_html_cell(w, v->current[k].drift[i], 2);
         }
         nh_html_add(w, "</tr>\n");
     }

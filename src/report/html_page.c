@@ -45,7 +45,7 @@ const char *const nh_html_script =
     "function bow(v,i){function at(a,j){var u=a[Math.max(0,Math.min(last,j))];return u===null?a[Math.max(i-1,Math.min(i,j))]:u;}\n" /* a cubic in time from i - 1 to i, as in the plots */
     " function p(x,y){return ' '+X(x).toFixed(1)+' '+Y(y).toFixed(1);}var x=v[0],y=v[1];\n"
     " return 'C'+p(at(x,i-1)+(at(x,i)-at(x,i-2))/6,at(y,i-1)+(at(y,i)-at(y,i-2))/6)+p(at(x,i)-(at(x,i+1)-at(x,i-1))/6,at(y,i)-(at(y,i+1)-at(y,i-1))/6)+p(x[i],y[i]);}\n"
-    "if(svg)S.forEach(function(s,n){var c=colour[n%7],d='',on=false;\n"
+    "var paths=0;if(svg)S.forEach(function(s){var c=s.kind==='segment'?'#7A7A7A':colour[paths++%7],d='',on=false;\n"
     " if(s.kind!=='segment'){T.forEach(function(t,i){var x=s.v[0][i],y=s.v[1][i];if(x===null||y===null){on=false;return;}d+=on?bow(s.v,i):'M'+X(x).toFixed(1)+' '+Y(y).toFixed(1);on=true;});\n"
     "  make('path',{d:d,fill:'none',stroke:c,'stroke-width':1.2,'stroke-opacity':0.45},svg);}\n"
     " var p={s:s};\n"

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/versions.h"
+#include "report/facts.h"
 #include "report/glossary.h"
 #include "report/html_internal.h"
 
@@ -19,26 +20,22 @@ void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text)
 
 void nh_html_number(nh_html_writer *w, double value, int digits)
 {
-    char all[40], shown[60];
-    if (!isfinite(value)) {
+    nh_shown_number n;
+    if (!nh_facts_number(value, digits, &n)) {
         nh_html_add(w, "\u2013");
         return;
     }
-    nh_text_number(value, all, sizeof all);
-    snprintf(shown, sizeof shown, "%.*g", digits, value);
-    char *exponent = strchr(shown, 'e');
-    nh_text_addf(w->out, "<data value=\"%s\">", all);
-    if (exponent) *exponent = 0;
-    if (shown[0] == '-') nh_html_add(w, "\u2212");
-    const char *mantissa = shown + (shown[0] == '-');
-    bool one = exponent && !strcmp(mantissa, "1");
-    if (!one) nh_html_add(w, mantissa);
-    if (exponent) {
-        int power = 0;
-        sscanf(exponent + 1, "%d", &power);
-        nh_text_addf(w->out, "%s10<sup>%s%d</sup>", one ? "" : "\u00b7", power < 0 ? "\u2212" : "", power < 0 ? -power : power);
-    }
+    bool minus = n.mantissa[0] == '-', one = n.has_power && !strcmp(n.mantissa + minus, "1");
+    nh_text_addf(w->out, "<data value=\"%s\">%s%s", n.all, minus ? "\u2212" : "", one ? "" : n.mantissa + minus);
+    if (n.has_power) nh_text_addf(w->out, "%s10<sup>%s%d</sup>", one ? "" : "\u00b7", n.power < 0 ? "\u2212" : "", n.power < 0 ? -n.power : n.power);
     nh_html_add(w, "</data>");
+}
+
+void nh_html_cell(nh_html_writer *w, double value, int digits)
+{
+    nh_html_add(w, "<td>");
+    nh_html_number(w, value, digits);
+    nh_html_add(w, "</td>");
 }
 
 void nh_html_count(nh_html_writer *w, size_t value) { nh_text_addf(w->out, "<data value=\"%zu\">%zu</data>", value, value); }

@@ -5,6 +5,7 @@
 #include "base/versions.h"
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/facts.h"
 #include "report/formula.h"
 #include "report/html.h"
 #include "report/tex_internal.h"
@@ -230,22 +231,22 @@ static void motion_section(nh_tex_writer *w)
 /* Both routes side by side. */
 static void routes(nh_tex_writer *w)
 {
-    static const char *const rows[] = {"columns", "independent ones", "rows", "null values", "up to", "then", "gap"};
-    const nh_spectrum *route[2];
-    size_t n = 0;
-    if (w->r->current.done) route[n++] = &w->r->current;
-    if (w->r->symmetry.done) route[n++] = &w->r->symmetry;
-    if (!n) return;
-    nh_text_addf(w->out, "\\begin{center}\\begin{tabular}{l%s}\nroute%s%s \\\\\\hline\n", n == 2 ? "rr" : "r", w->r->current.done ? " & current" : "", w->r->symmetry.done ? " & symmetry" : "");
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        nh_tex_add(w, rows[i]);
-        for (size_t k = 0; k < n; k++) {
-            const nh_spectrum *s = route[k];
-            const size_t counts[] = {s->columns, s->rank, s->rows, s->dimension};
-            const double values[] = {s->dimension && s->dimension <= s->rank ? s->spectrum[s->dimension - 1] : NAN, s->dimension < s->rank ? s->spectrum[s->dimension] : NAN, s->gap};
+    const nh_spectrum *const route[2] = {&w->r->current, &w->r->symmetry};
+    double number[2][NH_SPECTRUM_NUMBERS];
+    bool both = route[0]->done && route[1]->done;
+    if (!route[0]->done && !route[1]->done) return;
+    for (size_t k = 0; k < 2; k++)
+        if (route[k]->done) nh_facts_spectrum(route[k], number[k]);
+    nh_text_addf(w->out, "\\begin{center}\\begin{tabular}{l%s}\nroute%s%s \\\\\\hline\n", both ? "rr" : "r", route[0]->done ? " & current" : "", route[1]->done ? " & symmetry" : "");
+    const char *head = NH_SPECTRUM_HEADS;
+    for (size_t i = 0; i < NH_SPECTRUM_NUMBERS; i++) {
+        size_t length = strcspn(head, "|");
+        nh_text_add_n(w->out, head, length);
+        head += length + (head[length] == '|');
+        for (size_t k = 0; k < 2; k++) {
+            if (!route[k]->done) continue;
             nh_tex_add(w, " & ");
-            if (i < 4) nh_tex_count(w, counts[i]);
-            else nh_tex_number(w, values[i - 4], 2);
+            nh_tex_number(w, number[k][i], i < NH_SPECTRUM_COUNTS ? 10 : 2);
         }
         nh_tex_add(w, " \\\\\n");
     }

@@ -6,6 +6,7 @@
 #include "expr/normal.h"
 #include "expr/print.h"
 #include "expr/typeset.h"
+#include "report/facts.h"
 #include "report/formula.h"
 #include "report/tex_internal.h"
 
@@ -98,18 +99,9 @@ void nh_tex_code(nh_tex_writer *w, const char *text)
 
 void nh_tex_number(nh_tex_writer *w, double value, int digits)
 {
-    char text[60], all[40];
-    if (!isfinite(value)) {
-        nh_tex_add(w, "--");
-        return;
-    }
-    nh_text_number(value, all, sizeof all);
-    snprintf(text, sizeof text, "%.*g", digits, value);
-    char *exponent = strchr(text, 'e');
-    int power = 0;
-    if (exponent) sscanf(exponent + 1, "%d", &power);
-    if (exponent) *exponent = 0;
-    nh_text_addf(w->out, exponent ? "\\nhnumber{%s}{%s\\cdot 10^{%d}}" : "\\nhnumber{%s}{%s}", all, text, power);
+    nh_shown_number n;
+    if (!nh_facts_number(value, digits, &n)) nh_tex_add(w, "--");
+    else nh_text_addf(w->out, n.has_power ? "\\nhnumber{%s}{%s\\cdot 10^{%d}}" : "\\nhnumber{%s}{%s}", n.all, n.mantissa, n.power);
 }
 
 void nh_tex_count(nh_tex_writer *w, size_t value) { nh_text_addf(w->out, "\\nhnumber{%zu}{%zu}", value, value); }
