@@ -75,7 +75,7 @@ static void equations(nh_tex_writer *w, const nh_model *o)
 {
     char label[200];
     nh_tex_add(w, "\\subsection*{Reduced equations in ");
-    nh_tex_words(w, o->chart->name);
+    nh_tex_chart(w, o->chart->name);
     nh_tex_add(w, "}\n");
     for (size_t i = 0; i < o->n; i++) {
         snprintf(label, sizeof label, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
@@ -85,6 +85,11 @@ static void equations(nh_tex_writer *w, const nh_model *o)
     for (size_t a = 0; a < o->k; a++) {
         snprintf(label, sizeof label, o->k == 1 ? "mu" : "mu_%zu", a + 1);
         nh_tex_formula(w, label, o->mu[a]);
+    }
+    if (o->k) nh_tex_add(w, "Force of the constraints\n");
+    for (size_t s = 0; s < o->m && o->k; s++) {
+        snprintf(label, sizeof label, "F_%.180s", o->system->coordinate[s].name);
+        if (!nh_is_zero(o->dag, o->reaction[s])) nh_tex_formula(w, label, o->reaction[s]);
     }
 }
 
@@ -209,7 +214,7 @@ static void motion_section(nh_tex_writer *w)
     nh_tex_add(w, "\\section{A motion}\n");
     nh_tex_words(w, v->method);
     nh_tex_add(w, " in ");
-    nh_tex_words(w, v->chart);
+    nh_tex_chart(w, v->chart);
     nh_tex_add(w, ", $t$ from ");
     nh_tex_number(w, v->begin, 6);
     nh_tex_add(w, " to ");
