@@ -24,7 +24,7 @@ nh_ex nh_formula_abbreviate(const nh_result *r, nh_ex e) { return nh_formula_sho
 
 /* ---- names for what is repeated ---- */
 
-enum { long_formula = 120, largest_graph = 20000, least_gain = 12 };
+enum { most_names = 10 * NH_FORMULA_PARTS, long_formula = 120, largest_graph = 20000, least_gain = 12 };
 
 /* How often does each node below n stand in the text of the formulas?  A child has a smaller index than what it stands in. */
 static void occurrences(const nh_dag *d, size_t n, double *times)
@@ -62,14 +62,14 @@ static bool most_repeated(const nh_dag *d, size_t formulas, const nh_ex *e, size
 }
 
 /* A letter that no name of the graph begins with, so far as A_1, A_2, ... go. */
-static char free_letter(const nh_dag *d, size_t last)
+static char free_letter(const nh_dag *d)
 {
     static const char letters[] = "ABCDGHKNPQSUVWXY";
     for (const char *c = letters; *c; c++) {
         char name[16];
         nh_ex taken;
         bool used = false;
-        for (size_t i = 0; i <= last && !used; i++) {
+        for (size_t i = 0; i <= most_names && !used; i++) {
             snprintf(name, sizeof name, i ? "%c_%zu" : "%c", *c, i);
             used = nh_symbol_find(d, name, &taken);
         }
@@ -78,10 +78,10 @@ static char free_letter(const nh_dag *d, size_t last)
     return 'Z';
 }
 
-size_t nh_formula_parts(nh_dag *d, size_t names, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS])
+size_t nh_formula_parts(nh_dag *d, size_t n, nh_ex *e, nh_formula_part part[NH_FORMULA_PARTS])
 {
     size_t count = 0, longest = 0, nodes = 0;
-    char letter = free_letter(d, names + NH_FORMULA_PARTS);
+    char letter = free_letter(d);
     for (size_t i = 0; i < n; i++) {
         size_t length = nh_complexity(d, e[i]);
         if (length > longest) longest = length;
@@ -90,7 +90,7 @@ size_t nh_formula_parts(nh_dag *d, size_t names, size_t n, nh_ex *e, nh_formula_
     if (longest < long_formula || nodes > largest_graph) return 0;
     for (nh_ex best; count < NH_FORMULA_PARTS && most_repeated(d, n, e, count, part, &best);) {
         nh_formula_part *p = &part[count];
-        snprintf(p->name, sizeof p->name, "%c_%zu", letter, names + count + 1);
+        snprintf(p->name, sizeof p->name, "%c_%zu", letter, count + 1);
         p->value = best;
         nh_ex name = p->symbol = nh_symbol_fresh(d, p->name);
         for (size_t i = 0; i < n; i++) e[i] = nh_substitute(d, e[i], 1, &best, &name);

@@ -204,6 +204,7 @@ static void drift_plot(nh_html_writer *w, const nh_found *f)
 
 static void card(nh_html_writer *w, const nh_found *f)
 {
+    w->names = 0;
     nh_html_add(w, "<article class=\"card\">\n<h3>");
     nh_html_source(w, f->name);
     nh_html_add(w, "</h3>\n");

@@ -151,23 +151,42 @@ static bool room(nh_html_writer *w, nh_ex e, size_t parts, const nh_formula_part
     return true;
 }
 
+/* Names in the order in which they are told, without gaps. */
+static void number_parts(nh_html_writer *w, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed)
+{
+    nh_ex from[NH_FORMULA_PARTS], to[NH_FORMULA_PARTS];
+    size_t count = 0;
+    for (size_t k = 0; k < parts; k++) {
+        if (!needed[k]) continue;
+        snprintf(part[k].name + 2, sizeof part[k].name - 2, "%zu", ++w->names);
+        from[count] = part[k].symbol;
+        to[count++] = nh_symbol_fresh(w->dag, part[k].name);
+    }
+    for (size_t i = 0; i < n; i++) e[i] = nh_substitute(w->dag, e[i], count, from, to);
+    for (size_t k = 0; k < parts; k++)
+        if (needed[k]) part[k].value = nh_substitute(w->dag, part[k].value, count, from, to);
+}
+
 void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e)
 {
     nh_formula_part part[NH_FORMULA_PARTS];
-    bool needed[NH_FORMULA_PARTS] = {false}, any = false;
+    bool needed[NH_FORMULA_PARTS] = {false}, any = false, *shown = nh_alloc_array(n + 1, sizeof *shown);
     double used_up = 0;
     nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
     for (size_t i = 0; i < n; i++) brief[i] = nh_formula_shortened(w->analysis, w->dag, e[i]);
-    size_t parts = nh_formula_parts(w->dag, w->names, n, brief, part);
-    for (size_t i = 0; i < n; i++)
-        if (room(w, brief[i], parts, part, needed, &used_up)) line(w, label[i], brief[i]);
-        else too_long(w, label[i], e[i]);
+    size_t parts = nh_formula_parts(w->dag, n, brief, part);
+    for (size_t i = 0; i < n; i++) shown[i] = room(w, brief[i], parts, part, needed, &used_up);
     for (size_t k = 0; k < parts; k++) any |= needed[k];
+    if (any) number_parts(w, n, brief, parts, part, needed);
+    for (size_t i = 0; i < n; i++)
+        if (shown[i]) line(w, label[i], brief[i]);
+        else too_long(w, label[i], e[i]);
     if (any) nh_html_add(w, "<div class=\"where\"><p>where</p>\n");
     for (size_t k = 0; k < parts; k++)
         if (needed[k]) line(w, part[k].name, part[k].value);
-    if (any) nh_html_add(w, "</div>\n"), w->names += parts;
+    if (any) nh_html_add(w, "</div>\n");
     nh_free(brief);
+    nh_free(shown);
 }
 
 void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e) { nh_html_formulas(w, 1, &label, &e); }

@@ -16,7 +16,7 @@ typedef struct {
     double written;              /* option `written` */
     const nh_result *r;          /* of `analyze`, else NULL */
     size_t figures;
-    size_t names;                /* of repeated parts, so far: no two on a page are alike */
+    size_t names;                /* of repeated parts in this card or chart, so far: no two are alike */
     nh_figure_sink *sink; /* NULL: figures go onto the page */
     void *context;
 } nh_html_writer;
@@ -25,6 +25,7 @@ typedef struct {
 
 void nh_html_add(nh_html_writer *w, const char *markup);
 void nh_html_text(nh_html_writer *w, const char *text);                 /* escaped */
+void nh_html_prose(nh_html_writer *w, const char *text);                /* the same, with m^2 as people write it */
 void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text); /* <tag>text</tag> */
 /* A number with so many significant digits; a dash when it is not finite. */
 void nh_html_number(nh_html_writer *w, double value, int digits);

@@ -19,9 +19,9 @@ static void parameters(nh_html_writer *w)
         nh_html_add(w, "</th><td>");
         nh_html_number(w, p->value, 10);
         nh_html_add(w, " ");
-        if (p->unit) nh_html_text(w, p->unit);
+        if (p->unit) nh_html_prose(w, p->unit);
         nh_html_add(w, "</td><td>");
-        if (p->doc) nh_html_text(w, p->doc);
+        if (p->doc) nh_html_prose(w, p->doc);
         nh_html_add(w, "</td></tr>\n");
     }
     nh_html_table_end(w);
@@ -36,9 +36,9 @@ static void coordinates(nh_html_writer *w)
         nh_html_add(w, "<tr><th scope=\"row\">");
         nh_html_source(w, s->coordinate[i].name);
         nh_text_addf(w->out, "</th><td>%s", types[s->coordinate[i].type]);
-        if (s->coordinate[i].unit && s->coordinate[i].unit[0]) nh_html_add(w, " / "), nh_html_text(w, s->coordinate[i].unit);
+        if (s->coordinate[i].unit && s->coordinate[i].unit[0]) nh_html_add(w, " / "), nh_html_prose(w, s->coordinate[i].unit);
         nh_html_add(w, "</td><td>");
-        if (s->coordinate[i].doc) nh_html_text(w, s->coordinate[i].doc);
+        if (s->coordinate[i].doc) nh_html_prose(w, s->coordinate[i].doc);
         nh_html_add(w, "</td></tr>\n");
     }
     nh_html_table_end(w);
@@ -49,6 +49,7 @@ void nh_html_written(nh_html_writer *w)
     const nh_system *s = w->system;
     const nh_deck_node *node = s->deck ? nh_deck_get(nh_deck_root(s->deck), "lagrangian") : NULL;
     nh_html_add(w, "<h3>As it was written</h3>\n");
+    w->names = 0;
     parameters(w);
     coordinates(w);
     for (size_t i = 0; i < s->definitions; i++) {
@@ -158,6 +159,7 @@ static void multipliers(nh_html_writer *w, const nh_model *o)
 
 void nh_html_equations(nh_html_writer *w, const nh_model *o)
 {
+    w->names = 0;
     nh_html_add(w, "<h4>In ");
     nh_html_chart(w, o->chart->name);
     nh_html_add(w, "</h4>\n");
