@@ -18,7 +18,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -62,14 +61,6 @@ typedef struct {
     char message[200]; /* IDA's own last words */
 } ida_work;
 
-static bool all_finite(size_t count, const double *value)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(value[i]))
-            return false;
-    return true;
-}
-
 static size_t terms_size(size_t m, size_t k)
 {
     return m * m + m + k * m + 2 * k;
@@ -79,7 +70,7 @@ static bool terms_at(ida_work *work, double t, const double *q, const double *v)
 {
     work->evaluations++;
     if (work->problem->terms(t, q, v, work->K, work->h, work->F, work->g, work->f, work->problem->context) &&
-        all_finite(terms_size(work->m, work->k), work->K))
+        nh_all_finite(terms_size(work->m, work->k), work->K))
         return true;
     work->failed = true;
     work->failed_at = t;
@@ -128,12 +119,12 @@ static bool solve_bordered(const ida_work *work, double *a, double *mu, double *
     }
     for (size_t c = 0; c < k; c++)
         right[m + c] = -work->g[c];
-    bool good = nh_solve(n, matrix, 1, right, rcond) && *rcond > DBL_EPSILON && all_finite(n, right);
+    bool good = nh_solve(n, matrix, 1, right, rcond) && *rcond > DBL_EPSILON && nh_all_finite(n, right);
     if (good) {
         memcpy(a, right, m * sizeof *a);
         for (size_t c = 0; c < k; c++)
             mu[c] = right[m + c] * s;
-        good = all_finite(k, mu);
+        good = nh_all_finite(k, mu);
     }
     nh_free(matrix);
     nh_free(right);

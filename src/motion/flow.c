@@ -9,13 +9,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
-
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
+#include "base/clock.h"
+#include "base/linalg.h"
 #include "base/memory.h"
 #include "base/progress.h"
 
@@ -27,19 +27,11 @@ static const double default_max_steps = 1e7;
 
 /* ---- common to all integrators ---- */
 
-static bool all_finite(size_t count, const double *value)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(value[i]))
-            return false;
-    return true;
-}
-
 static bool check_times(size_t count, const double *times, nh_error *error)
 {
     if (count == 0)
         return nh_fail(error, NH_INPUT, "", "a motion needs at least one output time");
-    if (!all_finite(count, times))
+    if (!nh_all_finite(count, times))
         return nh_fail(error, NH_INPUT, "", "an output time is not a finite number");
     bool backward = times[count - 1] < times[0];
     for (size_t i = 1; i < count; i++)
@@ -121,20 +113,13 @@ static bool store_reached(nh_motion *motion, size_t count, const double *times, 
     bool backward = times[count - 1] < times[0];
     while (motion->count < count && (backward ? times[motion->count] >= now : times[motion->count] <= now)) {
         double wanted = times[motion->count], *row = motion->state + motion->count * motion->size;
-        if (!stepper->state(wanted, row, stepper->context) || !all_finite(motion->size, row)) {
+        if (!stepper->state(wanted, row, stepper->context) || !nh_all_finite(motion->size, row)) {
             nh_motion_note(motion, "the state is not finite at t = %.10g", wanted);
             return false;
         }
         motion->time[motion->count++] = wanted;
     }
     return true;
-}
-
-static double since(const struct timespec *begin)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)(now.tv_sec - begin->tv_sec) + 1e-9 * (double)(now.tv_nsec - begin->tv_nsec);
 }
 
 /* How far a long motion has come. */
@@ -146,10 +131,10 @@ static void tell(const nh_motion *motion, size_t count, const double *times)
 }
 
 /* Whether the motion may take another step. */
-static bool may_go_on(nh_motion *motion, const nh_flow_options *options, const struct timespec *begin)
+static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double begin)
 {
     enum { steps_between_looks = 16 };
-    if (options->seconds > 0 && motion->steps % steps_between_looks == 0 && since(begin) > options->seconds) {
+    if (options->seconds > 0 && motion->steps % steps_between_looks == 0 && nh_clock() - begin > options->seconds) {
         nh_motion_note(motion, "the limit of %.2g s was reached at t = %.10g", options->seconds, motion->end_time);
         return false;
     }
@@ -168,18 +153,17 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, const s
 
 static void keep_end_state(nh_motion *motion, double *work, const nh_stepper *stepper)
 {
-    if (stepper->state(motion->end_time, work, stepper->context) && all_finite(motion->size, work))
+    if (stepper->state(motion->end_time, work, stepper->context) && nh_all_finite(motion->size, work))
         memcpy(motion->end_state, work, motion->size * sizeof *work);
 }
 
 void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
                    const nh_stepper *stepper)
 {
-    struct timespec begin;
-    clock_gettime(CLOCK_MONOTONIC, &begin);
+    double begin = nh_clock();
     double *work = nh_alloc_array(motion->size, sizeof *work);
     nh_step step = NH_STEP_ON;
-    for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, &begin);) {
+    for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, begin);) {
         double time = motion->end_time;
         tell(motion, count, times);
         step = stepper->advance(&time, motion, stepper->context);
@@ -199,7 +183,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
         keep_end_state(motion, work, stepper);
     motion->complete = motion->count == count;
     nh_free(work);
-    motion->seconds = since(&begin);
+    motion->seconds = nh_clock() - begin;
 }
 
 /* ---- CVODE ----
@@ -240,7 +224,7 @@ static int call_rate(realtype t, N_Vector state, N_Vector rate, void *user)
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
     work->evaluations++;
-    if (problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), problem->context) && all_finite(problem->size, NV_DATA_S(rate)))
+    if (problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), problem->context) && nh_all_finite(problem->size, NV_DATA_S(rate)))
         return 0;
     return not_computed(work, "right-hand side", t);
 }
@@ -253,7 +237,7 @@ static int call_jacobian(realtype t, N_Vector state, N_Vector rate, SUNMatrix ma
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
     if (problem->jacobian(t, NV_DATA_S(state), SM_DATA_D(matrix), problem->context) &&
-        all_finite(problem->size * problem->size, SM_DATA_D(matrix)))
+        nh_all_finite(problem->size * problem->size, SM_DATA_D(matrix)))
         return 0;
     return not_computed(work, "Jacobian of the right-hand side", t);
 }
@@ -262,7 +246,7 @@ static int call_guard(realtype t, N_Vector state, realtype *value, void *user)
 {
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
-    if (problem->guard(t, NV_DATA_S(state), value, problem->context) && all_finite(problem->guards, value))
+    if (problem->guard(t, NV_DATA_S(state), value, problem->context) && nh_all_finite(problem->guards, value))
         return 0;
     return not_computed(work, "guard", t);
 }
@@ -392,7 +376,7 @@ static void destroy_objects(cvode_work *work)
 static bool check_start(const nh_flow_problem *problem, double t, const double *initial, nh_error *error)
 {
     double *rate = nh_alloc_array(problem->size, sizeof *rate);
-    bool good = problem->rate(t, initial, rate, problem->context) && all_finite(problem->size, rate);
+    bool good = problem->rate(t, initial, rate, problem->context) && nh_all_finite(problem->size, rate);
     nh_free(rate);
     if (good)
         return true;
