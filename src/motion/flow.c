@@ -9,6 +9,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -18,8 +19,7 @@
 #include "base/linalg.h"
 #include "base/memory.h"
 #include "base/progress.h"
-
-_Static_assert(sizeof(realtype) == sizeof(double), "SUNDIALS must be built for double precision");
+#include "motion/sundials.h"
 
 /* CVODE and IDA refuse to work below some 10 roundings; the error stops falling well before. */
 static const double smallest_rtol = 1e-14;
@@ -196,7 +196,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
 
 typedef struct {
     const nh_flow_problem *problem;
-    SUNContext sundials;
+    nh_sundials sundials;
     void *cvode;
     N_Vector state, tolerance;
     SUNMatrix matrix;
@@ -208,7 +208,6 @@ typedef struct {
     const char *failed; /* what the callbacks could not compute in the last steps, or NULL; at which time and step */
     double failed_at;
     long step, failed_step;
-    char message[200]; /* CVODE's own last words */
 } cvode_work;
 
 static int not_computed(cvode_work *work, const char *what, double t)
@@ -219,7 +218,7 @@ static int not_computed(cvode_work *work, const char *what, double t)
     return 1; /* "recoverable": CVODE tries a smaller step */
 }
 
-static int call_rate(realtype t, N_Vector state, N_Vector rate, void *user)
+static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
 {
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
@@ -230,7 +229,7 @@ static int call_rate(realtype t, N_Vector state, N_Vector rate, void *user)
 }
 
 /* SUNDIALS' dense matrices are stored by columns without gaps, as flow.h wants them. */
-static int call_jacobian(realtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2,
+static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2,
                          N_Vector work3)
 {
     (void)rate, (void)work1, (void)work2, (void)work3;
@@ -242,7 +241,7 @@ static int call_jacobian(realtype t, N_Vector state, N_Vector rate, SUNMatrix ma
     return not_computed(work, "Jacobian of the right-hand side", t);
 }
 
-static int call_guard(realtype t, N_Vector state, realtype *value, void *user)
+static int call_guard(sunrealtype t, N_Vector state, sunrealtype *value, void *user)
 {
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
@@ -252,14 +251,6 @@ static int call_guard(realtype t, N_Vector state, realtype *value, void *user)
 }
 
 /* CVODE prints unless it has a handler; warnings (positive codes) tell nothing that the note needs. */
-static void keep_message(int code, const char *module, const char *function, char *message, void *user)
-{
-    (void)module, (void)function;
-    cvode_work *work = user;
-    if (code < 0)
-        snprintf(work->message, sizeof work->message, "%s", message);
-}
-
 static void explain(int flag, const cvode_work *work, nh_motion *motion)
 {
     double t = motion->end_time;
@@ -278,7 +269,7 @@ static void explain(int flag, const cvode_work *work, nh_motion *motion)
     else if (flag == CV_TOO_CLOSE)
         nh_motion_note(motion, "the times are too close together for double precision near t = %.10g", t);
     else
-        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->message);
+        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->sundials.message);
 }
 
 /* CVODE reports a sign change, or a guard that is exactly zero at the end of a step; both end the chart. */
@@ -329,15 +320,15 @@ static void cvode_stuck(nh_motion *motion, void *context)
 static bool create_objects(cvode_work *work, nh_flow_method method)
 {
     sunindextype size = (sunindextype)work->problem->size;
-    if (SUNContext_Create(NULL, &work->sundials) != 0)
+    if (!nh_sundials_open(&work->sundials))
         return false;
-    work->state = N_VNew_Serial(size, work->sundials);
-    work->tolerance = N_VNew_Serial(size, work->sundials);
-    work->matrix = SUNDenseMatrix(size, size, work->sundials);
+    work->state = N_VNew_Serial(size, work->sundials.context);
+    work->tolerance = N_VNew_Serial(size, work->sundials.context);
+    work->matrix = SUNDenseMatrix(size, size, work->sundials.context);
     if (!work->state || !work->tolerance || !work->matrix)
         return false;
-    work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials);
-    work->cvode = CVodeCreate(method == NH_BDF ? CV_BDF : CV_ADAMS, work->sundials);
+    work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials.context);
+    work->cvode = CVodeCreate(method == NH_BDF ? CV_BDF : CV_ADAMS, work->sundials.context);
     return work->solver && work->cvode;
 }
 
@@ -347,7 +338,7 @@ static bool set_up(cvode_work *work, double start, const double *initial, const 
     memcpy(NV_DATA_S(work->state), initial, problem->size * sizeof *initial);
     for (size_t i = 0; i < problem->size; i++)
         NV_DATA_S(work->tolerance)[i] = work->rtol * (scale ? scale[i] : 1.0);
-    bool good = CVodeSetErrHandlerFn(work->cvode, keep_message, work) == CV_SUCCESS &&
+    bool good = nh_sundials_listen(CVode, work->cvode, &work->sundials) &&
                 CVodeInit(work->cvode, call_rate, start, work->state) == CV_SUCCESS &&
                 CVodeSetUserData(work->cvode, work) == CV_SUCCESS &&
                 CVodeSVtolerances(work->cvode, work->rtol, work->tolerance) == CV_SUCCESS &&
@@ -368,7 +359,7 @@ static void destroy_objects(cvode_work *work)
     SUNMatDestroy(work->matrix);
     N_VDestroy(work->tolerance);
     N_VDestroy(work->state);
-    SUNContext_Free(&work->sundials);
+    nh_sundials_close(&work->sundials);
     nh_free(work->root);
 }
 
@@ -398,7 +389,7 @@ nh_motion *nh_flow(const nh_flow_problem *problem, const double *initial, size_t
     work.root = nh_alloc_array(problem->guards, sizeof *work.root);
     good = create_objects(&work, options->method) && set_up(&work, times[0], initial, options->scale);
     if (!good) {
-        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.message[0] ? work.message : "out of memory");
+        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.sundials.message[0] ? work.sundials.message : "out of memory");
         goto done;
     }
     nh_stepper stepper = {.context = &work, .advance = cvode_advance, .state = cvode_state, .stuck = cvode_stuck};
