@@ -2,6 +2,9 @@
 
 #include <stdio.h>
 #include <sundials/sundials_types.h>
+#if NH_SUNDIALS_SINCE(7, 0)
+#include <sundials/sundials_logger.h>
+#endif
 
 _Static_assert(sizeof(sunrealtype) == sizeof(double), "SUNDIALS must be built for double precision");
 
@@ -21,8 +24,10 @@ static void hear(int line, const char *function, const char *file, const char *m
 bool nh_sundials_open(nh_sundials *s)
 {
     *s = (nh_sundials){0};
+    SUNLogger logger = NULL; /* warnings go to it, and it prints them */
     return SUNContext_Create(SUN_COMM_NULL, &s->context) == 0 && SUNContext_ClearErrHandlers(s->context) == 0 &&
-           SUNContext_PushErrHandler(s->context, hear, s) == 0;
+           SUNContext_PushErrHandler(s->context, hear, s) == 0 && SUNContext_GetLogger(s->context, &logger) == 0 &&
+           SUNLogger_SetWarningFilename(logger, "/dev/null") == 0;
 }
 
 #else
