@@ -24,7 +24,8 @@ WARN     = -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-
 SANE     = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT      = $(if $(SANITIZE),-O1 -g $(SANE),-O2 -g)
 CFLAGS   = -std=c17 $(OPT) $(WARN)
-CPPFLAGS = -Isrc $(patsubst -I%,-isystem %,$(MPI_INCLUDE)) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -DNH_DATADIR='"$(PREFIX)/share/nhsym"' -MMD -MP
+INCLUDES = -Isrc $(patsubst -I%,-isystem %,$(MPI_INCLUDE))
+CPPFLAGS = $(INCLUDES) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -DNH_DATADIR='"$(PREFIX)/share/nhsym"' -MMD -MP
 # What other versions have in other places: SUNDIALS 7 a core of its own, whose headers want MPI's where it was built with MPI (as Debian's is); FLINT 2
 # Arb as a library of its own.
 has      = $(if $(findstring /,$(shell $(CC) -print-file-name=lib$(1).so)),-l$(1))
@@ -50,7 +51,7 @@ STATES  = 50
 SEED    = 1
 SECONDS = 60
 
-.PHONY: all sleigh check tests install bench catalogue reductions random perturbed fuzz print-libraries clean packages test-packages check-packages
+.PHONY: all sleigh check tests install bench catalogue reductions random perturbed fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -91,6 +92,9 @@ fuzz:
 
 print-libraries:
 	@echo $(LDLIBS)
+
+print-includes:
+	@echo $(INCLUDES)
 
 packages:
 	@sh tests/packages.sh $(PACKAGES)
