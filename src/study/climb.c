@@ -1,20 +1,13 @@
 #include "study/climb.h"
 
 #include <math.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/progress.h"
 #include "expr/normal.h"
 
 enum { least_points = 256, most_tested = 60, short_factor = 14 };
 static const double points_per_column = 2.5;
-
-double nh_climb_clock(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- which candidates are new ---- */
 
@@ -55,7 +48,7 @@ static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
 
 bool nh_climb_done(const nh_climb *x)
 {
-    return nh_interrupted() || x->r->independent >= x->r->local_maximum || nh_climb_clock() - x->start > x->r->options.max_seconds;
+    return nh_interrupted() || x->r->independent >= x->r->local_maximum || nh_clock() - x->start > x->r->options.max_seconds;
 }
 
 /* Certificates of vectors that are only likely are dear and mostly refused: the time limit ends them too, and leaves the question open. */
@@ -169,10 +162,10 @@ static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certai
 
 void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_family *family)
 {
-    nh_progress(name, (nh_climb_clock() - x->start) / x->r->options.max_seconds);
+    nh_progress(name, (nh_clock() - x->start) / x->r->options.max_seconds);
     nh_result *r = x->r;
     if (families == 0) return;
-    double start = nh_climb_clock();
+    double start = nh_clock();
     nh_tried *note = nh_climb_note(x, name);
     nh_solved s = nh_climb_solve(x, families, family);
     note->skipped = !s.ansatz;
@@ -189,6 +182,6 @@ void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_fam
         if (s.nullspace->likely > s.nullspace->dimension) note->found += harvest(x, &s, s.nullspace->likely, false);
         nh_climb_keep_spectrum(x, s.nullspace, note->found > 0);
     }
-    note->seconds = nh_climb_clock() - start;
+    note->seconds = nh_clock() - start;
     nh_solved_clear(&s);
 }

@@ -28,7 +28,6 @@ typedef struct {
     size_t sectors;
 } nh_solved;
 
-double nh_climb_clock(void); /* seconds */
 /* Nothing more to find, or no time left. */
 bool nh_climb_done(const nh_climb *climb);
 

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/clock.h"
 #include "study/climb.h"
 #include "study/integrals.h"
 #include "study/stages.h"
@@ -60,7 +61,7 @@ static void function_stages(nh_climb *x)
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
     enum { pencils_after = 2, known_after = 5, series_after = 4 };
-    nh_climb x = {.r = r, .start = nh_climb_clock()};
+    nh_climb x = {.r = r, .start = nh_clock()};
     x.ranges = nh_points_create(r->model, range_points, 1, (uint64_t)r->options.seed, error);
     if (!x.ranges) return false;
     x.bench = nh_workbench_create(r, error);
@@ -79,7 +80,7 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
         if (i + 1 == known_after && !nh_climb_done(&x)) known_stage(&x);
         if (i + 1 == series_after && !nh_climb_done(&x)) nh_climb_series(&x);
     }
-    if (nh_climb_clock() - x.start > r->options.max_seconds) {
+    if (nh_clock() - x.start > r->options.max_seconds) {
         r->partial = true;
         nh_result_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
     }
