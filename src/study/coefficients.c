@@ -7,6 +7,7 @@
 #include "expr/relation.h"
 #include "noether/recognise.h"
 #include "noether/refine.h"
+#include "noether/sharpen.h"
 
 static nh_ex parameter_value(const nh_model *o, size_t i)
 {
@@ -72,6 +73,7 @@ static void refine(const nh_model *o, nh_candidate *c, const nh_options *options
 {
     bool *leading = nh_alloc_array(c->count + 1, sizeof *leading);
     leading[c->pivot] = true;
+    nh_sharpen(o, c->count, c->term, c->coefficient, c->pivot, options);
     nh_refined better = nh_refine(o, c->count, c->term, leading, 1, options);
     f->asked = true;
     f->refined = better.count ? better.digits[0] : -1;
