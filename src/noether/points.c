@@ -57,12 +57,23 @@ void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n
     nh_tape_free(tape);
 }
 
+static const double too_fast = 1e8; /* nearer to a singularity than doubles can use, where velocities are drawn from intervals of length one */
+
+/* How much larger the velocities drawn are; accelerations may be so by the square. */
+static double pace_of(const nh_model *o)
+{
+    double pace = 1;
+    for (size_t i = 0; i < o->n; i++) pace = fmax(pace, (o->chart->high[1 + o->m + i] - o->chart->low[1 + o->m + i]) / 2);
+    return pace;
+}
+
 /* The accelerations and velocities decide what is usable: everything else is made of the same parts. */
 typedef struct {
     const nh_model *o;
     nh_tape *tape;  /* rho (m), R (m x n, column-major), a (n), Lbar */
     nh_tape_work *work;
     double *out, *dense;
+    double pace;
     double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
 
@@ -78,6 +89,7 @@ static guard guard_create(const nh_model *o, double pivot)
     guard g = {.o = o, .tape = nh_model_tape(o, total + 1, e), .out = nh_alloc_array(total + 1, sizeof(double)),
                .dense = nh_alloc_array(m * n + m + n + 1, sizeof(double)), .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
     g.work = nh_tape_work_create(g.tape);
+    g.pace = pace_of(o);
     nh_free(e);
     return g;
 }
@@ -113,8 +125,6 @@ static bool project(guard *g, double *z, const double *v)
     return true;
 }
 
-static const double too_fast = 1e8; /* nearer to a singularity than doubles can use */
-
 /* Weight of a point, or 0 to reject it; *steepness gets |R| where everything is finite, else 0. */
 static double accept(guard *g, const double *z, nh_points *p, double *steepness)
 {
@@ -132,7 +142,7 @@ static double accept(guard *g, const double *z, nh_points *p, double *steepness)
         *largest = fmax(*largest, fabs(g->out[i]));
     }
     *steepness = steep;
-    if (fast < too_fast && strong < too_fast && steep < g->steepest) return 1 / (1 + strong + fast);
+    if (fast < too_fast * g->pace && strong < too_fast * g->pace * g->pace && steep < g->steepest) return 1 / (1 + strong + fast);
     p->degenerate++;
     return 0;
 }
@@ -162,7 +172,7 @@ static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t
     double fast = 0, *rate = nh_alloc_array(m, sizeof *rate);
     bool good = steepness > steepest && steepness < too_steep && nh_bordered_project(b, t, q, v) && nh_bordered_accelerations(b, t, q, v, rate);
     for (size_t s = 0; s < m && good; s++) fast = fmax(fast, fmax(fabs(v[s]), fabs(rate[s])));
-    if (good && fast < too_fast) {
+    if (good && fast < too_fast * pow(pace_of(o), 2)) {
         double **to = p->beyond->column;
         to[0][at] = t;
         for (size_t s = 0; s < m; s++) to[1 + s][at] = q[s];

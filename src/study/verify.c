@@ -6,12 +6,17 @@
 
 #include "expr/diff.h"
 #include "expr/normal.h"
+#include "study/pace.h"
 
 enum { test_points = 256, generic_points = 24 };
 
 static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const nh_options *options, nh_error *error)
 {
     nh_model *model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
+    if (model && nh_pace_set(system, model) != 1) {
+        nh_model_free(model);
+        model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
+    }
     if (!model) {
         nh_system_free(system);
         return NULL;
