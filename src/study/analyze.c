@@ -242,7 +242,10 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     merge_options(r, q);
     r->route = r->analysis ? r->analysis->route : NH_ROUTE_BOTH;
     r->timing.read = lap(&clock);
-    if (!make_models(r, q, error)) return false;
+    nh_deadline_set(r->options.max_seconds);
+    bool made = make_models(r, q, error);
+    nh_deadline_set(INFINITY);
+    if (!made) return false;
     merge_options(r, q); /* now the analysis' motion is known too */
     r->timing.geometry = lap(&clock);
     size_t families = r->analysis ? r->analysis->families : 0;
