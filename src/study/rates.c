@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "expr/diff.h"
 #include "expr/print.h"
 #include "noether/pencil.h"
 #include "study/climb.h"
@@ -103,6 +104,38 @@ static size_t wave_families(nh_climb *x, const nh_family *base, size_t which, si
     return which == NH_PENCIL_PLAIN - 1 ? 2 : 1;
 }
 
+/* Is the function g of t a wave of frequency nu, g'' = -nu^2 g? */
+static bool is_wave(const nh_climb *x, nh_ex g, double nu)
+{
+    const nh_model *o = x->r->model;
+    const nh_points *p = x->ranges;
+    nh_ex t = o->system->t, pair[2] = {g, nh_diff(o->dag, nh_diff(o->dag, g, t), t)};
+    double *value = nh_alloc_array(2 * p->count + 1, sizeof *value), rest = 0, size = 0;
+    nh_points_evaluate(p, o, 2, pair, value);
+    for (size_t i = 0; i < p->count; i++) {
+        rest = fmax(rest, fabs(value[p->count + i] + nu * nu * value[i]));
+        size = fmax(size, fabs(value[p->count + i]));
+    }
+    nh_free(value);
+    return size > 0 && rest < 1e-7 * size;
+}
+
+/* The frequencies with which a system is driven are waves of the base itself: nothing is conserved with them, and they are nearly dependent on the others. */
+static size_t without_driven(const nh_climb *x, nh_ex q, size_t n, double *re, double *im)
+{
+    const nh_model *o = x->r->model;
+    size_t kept = 0;
+    for (size_t k = 0; k < n; k++) {
+        bool driven = false;
+        for (size_t i = 0; i < x->words.atoms && q == o->system->t && fabs(re[k]) < 1e-9 * fabs(im[k]) && !driven; i++)
+            driven = nh_depends(o->dag, x->words.atom[i], q) && is_wave(x, x->words.atom[i], im[k]);
+        re[kept] = re[k];
+        im[kept] = im[k];
+        kept += !driven;
+    }
+    return kept;
+}
+
 /* Returns whether something new was found. */
 static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, size_t which)
 {
@@ -117,7 +150,7 @@ static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, si
     rate_context c = {.x = x, .base = a, .q = q, .base_of_power = power};
     for (size_t i = 0; i < x->words.waves; i++) c.periodic |= x->words.wave[i] == q;
     double re[most_values], im[most_values];
-    size_t n = rates(r->model, &c, re, im, most_values);
+    size_t n = without_driven(x, q, rates(r->model, &c, re, im, most_values), re, im);
     if (n > most_rates) n = most_rates;
     nh_ex *wave = nh_arena_alloc(r->arena, (2 * n + 1) * sizeof *wave);
     size_t terms = wave_terms(&c, n, re, im, true, wave);
@@ -169,6 +202,20 @@ static void powers(nh_climb *x)
     }
 }
 
+/* exp(-nu V) f with V the potential: what a thermostat that keeps the speed gives (f falls as the forces do work). */
+static void potential_rate(nh_climb *x)
+{
+    const nh_model *o = x->r->model;
+    nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero), *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
+    if (o->k == 0 || nh_climb_done(x)) return;
+    for (size_t s = 0; s < o->m; s++) {
+        v[s] = o->system->coordinate[s].v;
+        zero[s] = nh_int(o->dag, 0);
+    }
+    nh_ex V = nh_substitute(o->dag, o->system->lagrangian, o->m, v, zero);
+    if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t)) pencil_stage(x, V, 0, "the potential", NH_PENCIL_PRODUCTS);
+}
+
 /* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
 void nh_climb_rates(nh_climb *x)
 {
@@ -181,4 +228,5 @@ void nh_climb_rates(nh_climb *x)
         for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);
+    potential_rate(x);
 }
