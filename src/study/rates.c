@@ -10,6 +10,7 @@
 #include "study/stages.h"
 
 enum { most_values = 24, range_points = 256 };
+static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as two that differ by the root of rounding */
 
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
 
@@ -35,9 +36,11 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
     for (size_t k = 0; p && k < p->dimension && count < most; k++) {
         double x = p->re[k], y = p->im[k];
         if (y < 0 || p->residual[k] > 1e-9) continue;
+        if (y < split_by_rounding * fabs(x)) y = 0;
+        if (fabs(x) < split_by_rounding * y) x = 0;
         if (c->periodic) y = fabs(y - round(y)); /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
         bool old = fabs(x) + fabs(y) < 1e-6;
-        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < 1e-7 * (fabs(re[j]) + fabs(im[j]));
+        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < split_by_rounding * (fabs(re[j]) + fabs(im[j]));
         if (old) continue;
         re[count] = x;
         im[count++] = y;
