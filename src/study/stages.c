@@ -167,8 +167,9 @@ static void stage_words_positions(nh_shelf *s)
 {
     nh_list l = words(s), q = nh_list_positions(s, true, true), f = nh_list_functions(s, false);
     nh_shelf_product_of_lists(s, &l, &q);
+    nh_list tq = nh_list_positions(s, false, true);
     nh_shelf_add(s, nh_shelf_terms(s, &f));
-    nh_shelf_add(s, nh_shelf_terms(s, &q));
+    nh_shelf_add(s, nh_shelf_polynomial(s, &tq, nh_depends(s->o->dag, s->o->Lbar, s->o->system->t) ? 2 : 1));
 }
 
 static void stage_linear_waves(nh_shelf *s)
@@ -284,6 +285,7 @@ static const struct {
     {"weighted degree 4 in the frame of the kinetic energy", stage_weight_4},
     {"weighted degree 4 in the system's own forms", stage_forms_4},
     {"squares of velocities times positions of higher degree, energy and functions times lower", nh_stage_separation},
+    {"cubic in velocities times positions, velocities times functions and positions", nh_stage_cubic},
     {"degree four in velocities, as homogeneous as the potential", nh_stage_homogeneous},
     {"velocities times products of functions of one coordinate", nh_stage_one_coordinate},
     {"squares of momenta times functions of one coordinate", nh_stage_momenta},

@@ -45,6 +45,8 @@ void nh_stage_time(nh_shelf *shelf);
 void nh_stage_momenta(nh_shelf *shelf);
 /* Quasi-homogeneous polynomials of degree four in the velocities, for polynomial potentials. */
 void nh_stage_homogeneous(nh_shelf *shelf);
+/* Cubic in the velocities times positions, the system's functions with one velocity (Holt, Fokas and Lagerstrom). */
+void nh_stage_cubic(nh_shelf *shelf);
 /* Half angles: parabolic coordinates seen from polar ones. */
 void nh_stage_half_angles(nh_shelf *shelf);
 /* Velocities with products of functions of one coordinate. */

@@ -174,6 +174,21 @@ void nh_stage_half_angles(nh_shelf *s)
     nh_shelf_product_of_lists(s, &ll, &half);
 }
 
+/* Functions count as two velocities, as in the energy. */
+void nh_stage_cubic(nh_shelf *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_list v = {0}, cubes = {0}, q = nh_list_positions(s, false, false), f = nh_list_functions(s, false);
+    bool few = s->w->positions <= 2;
+    if (s->w->positions > 3 || s->w->waves || s->o->n < 2 || f.n == 0) return;
+    nh_list_put_all(&v, s->o->n, s->o->chart->w);
+    nh_list vv = nh_list_squares(s, &v);
+    for (size_t i = 0; i < vv.n; i++)
+        for (size_t j = 0; j < v.n; j++) nh_list_put(&cubes, nh_mul(d, vv.e[i], v.e[j]));
+    nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_terms(s, &cubes), nh_shelf_polynomial(s, &q, 1)}));
+    nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &v), nh_shelf_terms(s, &f), nh_shelf_polynomial(s, &q, few ? 2 : 1)}));
+}
+
 /* ---- polynomial potentials ---- */
 
 /* The degree of the potential, as a polynomial in the coordinates; 0 when it is none, or of a degree above six. */
