@@ -81,6 +81,7 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
         nh_html_simulation(s, &run, &page);
         good = nh_cli_write(cli->html, &page, error);
     }
+    if (s->astray && !cli->quiet) fprintf(stderr, "warning: %s\n", s->astray);
     if (good) complain(s, error);
     nh_simulation_free(s);
     return good && nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
