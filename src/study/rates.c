@@ -147,7 +147,8 @@ static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, si
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t before = r->independent;
-    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, which), family[2];
+    size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which; /* elsewhere 1 and q are a pair that rounding splits */
+    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, index), family[2];
     nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &ignored);
     if (!a) return false;
     rate_context c = {.x = x, .base = a, .q = q, .base_of_power = power};

@@ -328,6 +328,8 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
 {
     enum { most_with_waves = 110 };
     nh_shelf s = {arena, o, w, NULL, 0};
+    bool timely = base == NH_PENCIL_TIME;
+    if (timely) base = 2;
     if (base == NH_PENCIL_PRODUCTS) {
         nh_list u = {0}, x = nh_list_positions(&s, true, false);
         nh_list_put_all(&u, w->velocities, w->velocity);
@@ -346,7 +348,7 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     size_t words_count = l.n;
     for (size_t i = 0; i < words_count && base > 0 && words_count * v.n <= most_with_waves; i++)
         for (size_t j = 0; j < v.n; j++) nh_list_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
-    if (base == 2) put_time(&s, &l);
+    if (timely) put_time(&s, &l);
     if (base < 2) return nh_shelf_terms(&s, &l);
     nh_list_put_all(&l, q.n, q.e);
     nh_list_put_all(&l, f.n, f.e);
