@@ -1,16 +1,16 @@
 /* The ladder's stage of symmetries without an ansatz: isometries of the kinetic energy, counted by the transport of their 1-jets and written in closed
  * form (reduction/jets.h, generators.h), however the coordinates disguise them.  With xi such a field,
  *
- *     P = xi^s p_s
+ *     P = xi^s K_sr v^r
  *
- * is conserved where the potential is invariant (Noether); where it is not, quadratic integrals of separable and superintegrable systems on spaces of
+ * is conserved where the potential is invariant and the field tangent to the constraints (Noether); where it is not, quadratic integrals of separable and superintegrable systems on spaces of
  * constant curvature are still quadratic forms in the P with functions of position added. */
 #include "base/progress.h"
 #include "expr/normal.h"
 #include "reduction/generators.h"
 #include "study/climb.h"
 
-enum { most_momenta = 10, most_functions = 60 };
+enum { most_momenta = 10, most_functions = 60, most_coordinates = 6 };
 
 typedef struct {
     size_t n;
@@ -32,6 +32,16 @@ static bool depends_on_position(const nh_kinetic *k)
     return false;
 }
 
+/* xi^s K_sr v^r on the submanifold: what total derivatives add to L, or a magnetic field, is left to the functions. */
+static nh_ex momentum(const nh_kinetic *k, const nh_generator *g)
+{
+    nh_dag *d = k->dag;
+    nh_ex sum = nh_int(d, 0);
+    for (size_t s = 0; s < k->m; s++)
+        for (size_t r = 0; r < k->m; r++) sum = nh_add(d, sum, nh_product(d, 3, (nh_ex[]){g->component[s], k->K[s * k->m + r], k->v[r]}));
+    return nh_simplify_short(d, nh_model_compose(k->model, sum), 0);
+}
+
 /* The momenta of the isometries; 0 where the metric has none or is constant (its isometries are among the polynomials). */
 static size_t momenta(const nh_climb *x, nh_ex *P)
 {
@@ -51,11 +61,7 @@ static size_t momenta(const nh_climb *x, nh_ex *P)
         if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, &r->options, &ignored)) found.count = 0;
     }
     size_t n = 0;
-    for (; n < found.count && n < most_momenta; n++) {
-        nh_ex sum = nh_int(o->dag, 0);
-        for (size_t s = 0; s < o->m; s++) sum = nh_add(o->dag, sum, nh_mul(o->dag, found.generator[n].component[s], o->p[s]));
-        P[n] = nh_simplify_short(o->dag, sum, 0);
-    }
+    for (size_t i = 0; i < found.count && i < most_momenta; i++) P[n++] = momentum(k, &found.generator[i]);
     nh_jets_free(jets);
     nh_kinetic_free(k);
     return n;
@@ -96,7 +102,7 @@ void nh_climb_isometries(nh_climb *x)
 {
     nh_result *r = x->r;
     const nh_model *o = r->model;
-    if (o->k || o->chart->quasi || o->m > 6) return;
+    if (o->m > most_coordinates) return;
     nh_progress("isometries of the kinetic energy", -1);
     nh_ex *P = nh_arena_alloc(r->arena, most_momenta * sizeof *P), *PP = nh_arena_alloc(r->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
     size_t n = momenta(x, P), squares = 0;
