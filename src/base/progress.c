@@ -3,7 +3,8 @@
 #include <math.h>
 #include <signal.h>
 #include <stddef.h>
-#include <time.h>
+
+#include "base/clock.h"
 
 static nh_progress_handler *handler;
 static void *handler_context;
@@ -21,16 +22,9 @@ void nh_progress(const char *doing, double part)
     if (handler) handler(handler_context, doing, part > 1 ? 1 : part);
 }
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+void nh_deadline_set(double seconds) { deadline = isfinite(seconds) ? nh_clock() + seconds : INFINITY; }
 
-void nh_deadline_set(double seconds) { deadline = isfinite(seconds) ? now() + seconds : INFINITY; }
-
-bool nh_late(void) { return interrupted || (isfinite(deadline) && now() > deadline); }
+bool nh_late(void) { return interrupted || (isfinite(deadline) && nh_clock() > deadline); }
 
 void nh_interrupt(void) { interrupted = 1; }
 bool nh_interrupted(void) { return interrupted; }

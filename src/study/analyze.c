@@ -2,8 +2,8 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "study/coefficients.h"
@@ -18,16 +18,9 @@
 
 enum { least_samples = 256, samples_per_column = 4, motion_outputs = 401 };
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static double lap(double *last)
 {
-    double t = now(), d = t - *last;
+    double t = nh_clock(), d = t - *last;
     *last = t;
     return d;
 }
@@ -233,7 +226,7 @@ static void validate(nh_result *r)
 
 static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
 {
-    double start = now(), clock = start;
+    double start = nh_clock(), clock = start;
     r->options = q->options;
     r->command = q->command ? nh_arena_strdup(r->arena, q->command) : NULL;
     r->system_path = nh_arena_strdup(r->arena, q->system_path);
@@ -274,7 +267,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
         nh_result_warn(r, "interrupted: this is what was found until then%s", r->validation ? "" : ", and no motion was computed");
     }
     r->timing.validation = lap(&clock);
-    r->timing.total = now() - start;
+    r->timing.total = nh_clock() - start;
     return true;
 }
 

@@ -28,7 +28,6 @@ typedef struct {
     size_t sectors;
 } nh_solved;
 
-double nh_climb_clock(void); /* seconds */
 /* Nothing more to find, or no time left. */
 bool nh_climb_done(const nh_climb *climb);
 
@@ -40,7 +39,8 @@ void nh_solved_clear(nh_solved *solved);
 nh_tried *nh_climb_note(nh_climb *climb, const char *name);
 /* The spectrum that is reported: of the last stage that found something, else of the largest. */
 void nh_climb_keep_spectrum(nh_climb *climb, const nh_nullspace *nullspace, bool found);
-/* Would this stage give anything new? */
+/* How much new a stage seems to give; whether any. */
+size_t nh_climb_news(nh_climb *climb, size_t families, const nh_family *family);
 bool nh_climb_promising(nh_climb *climb, size_t families, const nh_family *family);
 /* Solve it, keep what is new, and note it. */
 void nh_climb_stage(nh_climb *climb, const char *name, size_t families, const nh_family *family);

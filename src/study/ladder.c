@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/progress.h"
 #include "study/climb.h"
 #include "study/integrals.h"
@@ -62,7 +63,7 @@ static void function_stages(nh_climb *x)
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
     enum { pencils_after = 2, known_after = 5, isometries_after = 3, series_after = 4 };
-    nh_climb x = {.r = r, .start = nh_climb_clock()};
+    nh_climb x = {.r = r, .start = nh_clock()};
     x.ranges = nh_points_create(r->model, range_points, 1, (uint64_t)r->options.seed, error);
     if (!x.ranges) return false;
     nh_deadline_set(r->options.max_seconds);
@@ -85,7 +86,7 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
         if (i + 1 == series_after && !nh_climb_done(&x)) nh_climb_series(&x);
     }
     nh_deadline_set(INFINITY);
-    if (nh_climb_clock() - x.start > r->options.max_seconds) {
+    if (nh_clock() - x.start > r->options.max_seconds) {
         r->partial = true;
         nh_result_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
     }

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "noether/refine.h"
 #include "study/climb.h"
 
@@ -263,7 +264,7 @@ static void search(problem *p, const char *what)
 {
     nh_result *r = p->x->r;
     char name[120];
-    double start = nh_climb_clock(), *digits = NULL;
+    double start = nh_clock(), *digits = NULL;
     set_interval(p);
     snprintf(name, sizeof name, "%s with coefficients that are series in %s", what, nh_name_of(r->model->dag, p->q));
     nh_tried *note = nh_climb_note(p->x, name);
@@ -271,7 +272,7 @@ static void search(problem *p, const char *what)
     bool news = t.count && fresh(p, &t);
     if (news && certify(p, &t, &fine, &digits)) note->found = keep(p, &fine, digits);
     else note->undecided = news;
-    note->seconds = nh_climb_clock() - start;
+    note->seconds = nh_clock() - start;
     nh_free(digits);
     table_clear(&fine);
     table_clear(&t);

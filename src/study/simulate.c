@@ -3,7 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
+
+#include "base/clock.h"
 
 #include "expr/diff.h"
 
@@ -193,13 +194,6 @@ static const char *words_of(nh_simulation *s, const nh_scene *scene)
     return kept;
 }
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* What the smallest model saves, and whether it is right: the whole model beside it, while that costs little. */
 static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
 {
@@ -209,8 +203,8 @@ static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
     whole.smallest = false;
     whole.max_seconds = longest_comparison;
     if (!s->trajectory->scene || s->motion->seconds > shortest_time || !s->motion->complete) return;
-    double begin = now(), few = s->motion->seconds, all = INFINITY;
-    for (int i = 0; i < most_comparisons && now() - begin < shortest_time; i++) { /* the least times: other programs run, too */
+    double begin = nh_clock(), few = s->motion->seconds, all = INFINITY;
+    for (int i = 0; i < most_comparisons && nh_clock() - begin < shortest_time; i++) { /* the least times: other programs run, too */
         nh_trajectory *t = nh_trajectory_create(&whole, &ignored), *again = i ? nh_trajectory_create(q, &ignored) : NULL;
         bool complete = t && t->motion->complete;
         if (i == 0) s->compared = complete;
