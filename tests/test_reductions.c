@@ -66,6 +66,32 @@ Test(reductions, many_states)
     }
 }
 
+/* A quotient of the constraints' solution that is simplified over all sample points has a removable singularity on the way. */
+Test(reductions, passes_a_removable_singularity)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_file("systems/car_trailers_5.yaml", NULL, -1, &error);
+    must(r != NULL, &error, "car");
+    must(nh_reduction_again(r, 15, &error), &error, "car");
+    followed(r, "car");
+    nh_reduction_free(r);
+}
+
+Test(reductions, apart_beyond_what_the_full_motion_is_known_to)
+{
+    nh_options options;
+    nh_options_default(&options);
+    options.tolerance = 1e-10;
+    static const struct {
+        double agreement, unsure;
+        bool compared, apart;
+    } cases[] = {{9e-9, 0, true, false}, {1.1e-8, 0, true, true}, {1.1e-8, 2e-9, true, false}, {1.3e-8, 2e-9, true, true}, {1, 0, false, false}, {NAN, 1e-9, true, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_reduction_stage s = {.agreement = cases[i].agreement, .unsure = cases[i].unsure, .compared = cases[i].compared};
+        cr_expect_eq(nh_stage_apart(&s, &options), cases[i].apart, "case %zu", i);
+    }
+}
+
 /* The blade of the sleigh stands across the line by which it is reduced: there is no connection at the start. */
 Test(reductions, starts_at_a_singular_place_of_the_connection)
 {

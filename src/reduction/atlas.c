@@ -15,6 +15,7 @@ struct nh_atlas {
     const nh_second *second;  /* of a second stage */
     const nh_action *both;
     bool chaplygin;
+    const size_t *avoid;      /* the coordinates along a slice that failed, while another is made; NULL */
     nh_reduced_chart **chart;
     size_t count, capacity;
 };
@@ -147,12 +148,12 @@ static double slice_regularity(const nh_reduced_chart *c, const double *q)
 static const nh_slice *slice_at(nh_atlas *a, const double *q)
 {
     const nh_kinetic *k = a->action->kinetic;
-    for (size_t i = a->count; i-- > 0;)
+    for (size_t i = a->count; i-- > 0 && !a->avoid;)
         if (passes(a->chart[i]->slice, q) && slice_regularity(a->chart[i], q) > usable) return a->chart[i]->slice;
     size_t m = k->m, d = a->action->d, *shape = nh_alloc_array(m + 1, sizeof *shape), *along = shape + (m - d);
     double *y = nh_alloc_array(d + 1, sizeof *y);
     nh_slice *s = nh_arena_alloc(k->arena, sizeof *s);
-    nh_slice_choose_at(a->action, q, shape, along);
+    nh_slice_choose_at(a->action, q, a->avoid, shape, along);
     for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
     nh_slice_init(s, a->action, shape, along, y);
     nh_free(shape);
@@ -190,7 +191,7 @@ static bool build_second(nh_atlas *a, const double *q, const double *pivots, nh_
     double *y = nh_alloc_array(d + 1, sizeof *y);
     nh_second *t = nh_arena_alloc(k->arena, sizeof *t);
     bool good = nh_second_renew(t, a->second, pivots, error);
-    nh_slice_choose_at(a->action, q, shape, along);
+    nh_slice_choose_at(a->action, q, a->avoid, shape, along);
     for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
     good = good && nh_second_equations(t, shape, along, y, error);
     if (good) nh_atlas_add(a, &t->slice, &t->reduced, NULL, t);
@@ -209,7 +210,7 @@ static bool build_both(nh_atlas *a, const double *q, const double *pivots, nh_er
     nh_slice *hat = nh_arena_alloc(arena, sizeof *hat), *both = nh_arena_alloc(arena, sizeof *both);
     nh_reduced *o = nh_arena_alloc(arena, sizeof *o);
     size_t *independent = nh_arena_alloc(arena, (m + 1) * sizeof *independent);
-    nh_slice_choose_at(a->action, q, shape, along);
+    nh_slice_choose_at(a->action, q, a->avoid, shape, along);
     for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
     nh_slice_init(hat, a->action, shape, along, y);
     for (size_t i = 0; i < n - d; i++) own[i] = first->shape[shape[i]];
@@ -369,10 +370,13 @@ static void move_along_orbit(const nh_action *g, size_t attempt, double *q, doub
     nh_free(z);
 }
 
-const nh_reduced_chart *nh_atlas_renew(nh_atlas *a, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error)
+const nh_reduced_chart *nh_atlas_renew(nh_atlas *a, const nh_reduced_chart *failed, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error)
 {
     move_along_orbit(a->action, attempt, q, v, moved);
-    if (a->count < most_charts && build(a, q, copied(a->action->kinetic, q), error) && enter(a, a->chart[a->count - 1], q, v, z)) return a->chart[a->count - 1];
+    a->avoid = attempt ? failed->slice->along : NULL;
+    bool built = a->count < most_charts && build(a, q, copied(a->action->kinetic, q), error);
+    a->avoid = NULL;
+    if (built && enter(a, a->chart[a->count - 1], q, v, z)) return a->chart[a->count - 1];
     nh_fail(error, NH_NUMERIC, "", "no slice and no choice of velocities is regular at this place");
     return NULL;
 }

@@ -25,7 +25,7 @@ static bool connection(nh_chaplygin *c, nh_error *error)
     for (size_t i = 0; i < n && lu; i++) {
         for (size_t r = 0; r < f; r++) b[r] = s->omega[r * s->m + i];
         nh_lu_solve(lu, b, b);
-        for (size_t r = 0; r < f; r++) c->A[r * n + i] = nh_simplify(d, b[r]);
+        for (size_t r = 0; r < f; r++) c->A[r * n + i] = s->pivots ? b[r] : nh_simplify(d, b[r]);
     }
     bool good = lu != NULL;
     nh_lu_free(lu);

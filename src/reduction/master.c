@@ -27,11 +27,11 @@ static bool solve_constraints(const nh_slice *s, const size_t *independent, nh_e
     for (size_t i = 0; i < r && lu; i++) {
         for (size_t c = 0; c < f; c++) b[c] = nh_neg(d, s->omega[c * m + independent[i]]);
         nh_lu_solve(lu, b, b);
-        for (size_t c = 0; c < f; c++) rho[dependent[c] * r + i] = nh_simplify(d, b[c]);
+        for (size_t c = 0; c < f; c++) rho[dependent[c] * r + i] = s->pivots ? b[c] : nh_simplify(d, b[c]);
     }
     for (size_t c = 0; c < f; c++) b[c] = nh_neg(d, s->b[c]);
     if (lu) nh_lu_solve(lu, b, b);
-    for (size_t c = 0; c < f && lu; c++) constant[dependent[c]] = nh_simplify(d, b[c]);
+    for (size_t c = 0; c < f && lu; c++) constant[dependent[c]] = s->pivots ? b[c] : nh_simplify(d, b[c]);
     bool good = lu != NULL;
     nh_lu_free(lu);
     nh_free(a);

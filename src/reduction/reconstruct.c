@@ -228,7 +228,7 @@ static bool change_chart(course *c, const double *z, bool renew, double *place)
     double *q = nh_alloc_array(2 * f->m + f->inner + f->d + 1, sizeof *q), *v = q + f->m, *next = v + f->m, *moved = next + f->inner, value[2];
     nh_error trouble = {0};
     bool good = nh_chart_leave(f->chart, z, q, v), placed = f->group && good && place_of(c, z, place);
-    const nh_reduced_chart *chart = !good ? NULL : renew ? nh_atlas_renew(c->atlas, c->failures, q, v, moved, next, &trouble) : nh_atlas_at(c->atlas, q, v, next, &trouble);
+    const nh_reduced_chart *chart = !good ? NULL : renew ? nh_atlas_renew(c->atlas, f->chart, c->failures, q, v, moved, next, &trouble) : nh_atlas_at(c->atlas, q, v, next, &trouble);
     nh_error_clear(&trouble);
     if (chart) nh_reduced_flow_limit(chart->flow, next, 0, 0);
     good = chart && nh_reduced_flow_guards(chart->flow, next, value) && value[0] > lost && value[1] > lost;

@@ -186,6 +186,11 @@ static void checks(nh_html_writer *w, const nh_reduction_stage *s)
         nh_html_number(w, s->agreement, 1);
         nh_html_add(w, s->against_full ? " from the full motion up to t = " : " from the first stage up to t = ");
         nh_html_number(w, s->reached, 4);
+        if (s->unsure > 0) {
+            nh_html_add(w, ", known to ");
+            nh_html_number(w, s->unsure, 1);
+            nh_html_add(w, " itself");
+        }
     } else {
         nh_html_add(w, s->against_full ? "not compared with the full motion" : "not compared with the first stage");
     }

@@ -150,7 +150,8 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
 {
     const char *with = s->against_full ? "the full motion" : "the first stage";
     if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
-    else nh_text_addf(out, "  not compared with %s", with);
+    if (s->compared && s->unsure > 0) nh_text_addf(out, ", which is known to %.1e itself", s->unsure);
+    if (!s->compared) nh_text_addf(out, "  not compared with %s", with);
     if (s->reduced->conservative) nh_text_addf(out, r->kinetic->linear ? "; energy drifts by %.1e" : "; the moving energy drifts by %.1e", s->energy_drift);
     if (s->kind == NH_STAGE_SECOND) nh_text_addf(out, ", the momentum by %.1e", s->momentum_drift);
     nh_text_add(out, "\n");

@@ -239,6 +239,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     }
     if (s->compared) nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
+    if (s->unsure > 0) nh_json_put_number(to, "unsure", s->unsure);
     nh_json_put_number(to, "reached", s->reached);
     if (s->reduced->conservative) nh_json_put_number(to, "energy_drift", s->energy_drift);
     else nh_json_put_null(to, "energy_drift");

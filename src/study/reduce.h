@@ -45,6 +45,7 @@ typedef struct {
     double linear_drift;      /* of these currents along the reduced motion; negative: not followed */
     bool against_full;        /* compared with the full motion; false: a second stage whose shape moves under the first group, compared with the first */
     double agreement;         /* largest difference of a position, relative to 1 + size */
+    double unsure;            /* how well the full motion itself is known, measured where the agreement exceeds 100 tolerances; else 0 */
     double reached;           /* time up to which */
     double energy_drift;      /* of the reduced motion, relative */
     double momentum_drift;    /* second kind: of the spatial momentum */
@@ -90,5 +91,8 @@ void nh_reduction_free(nh_reduction *reduction);
 bool nh_reduction_again(nh_reduction *reduction, size_t place, nh_error *error);
 
 const char *nh_stage_kind_name(nh_stage_kind kind);
+/* Is a stage's motion further from the full one than 100 tolerances and what the full one itself is unsure by?  (The triangle's inequality: then it is further
+ * than 100 tolerances from the true motion.) */
+bool nh_stage_apart(const nh_reduction_stage *stage, const nh_options *options);
 
 #endif

@@ -1,10 +1,10 @@
-/* reduce_internal: shared by reduce.c (the question), reduce_stages.c (the stages and their motions) and reduce_whole.c (the whole group at once). */
+/* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages and their motions) and reduce_whole.c (the whole group at once). */
 #ifndef NH_REDUCE_INTERNAL_H
 #define NH_REDUCE_INTERNAL_H
 
 #include "study/reduce.h"
 
-enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000 };
+enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000, NH_REDUCTION_ALLOWED = 100 }; /* the last one in tolerances */
 
 /* What stages are compared with. */
 typedef struct {
@@ -13,7 +13,15 @@ typedef struct {
     size_t reached;       /* outputs of the full motion */
     double *full;         /* outputs x 2 m */
     double rtol;          /* of every motion that is compared */
+    double unsure;        /* see nh_reduction_unsure; 0: not measured */
 } nh_reduction_bench;
+
+/* How far two places are apart, relative to 1 + size, angles modulo 2 pi. */
+double nh_reduction_distance(const nh_kinetic *kinetic, const double *a, const double *b);
+/* The reference, and the tolerance of all motions. */
+bool nh_reduction_full_motion(nh_reduction_bench *bench, nh_error *error);
+/* How far full motions with two other tolerances are from the reference at most (it is trusted no further than to 100 tolerances, and this is no larger). */
+double nh_reduction_unsure(nh_reduction_bench *bench);
 
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
 void nh_reduction_make_slices(nh_reduction *reduction, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown);

@@ -8,91 +8,6 @@
 #include "reduction/subspace.h"
 #include "study/reduce_internal.h"
 
-
-/* How far two places are apart: angles modulo 2 pi, relative to 1 + size, measured by the metric with unit diagonal.  Near a pole of the coordinates large
- * differences of two angles may mean nearly the same place, and only the metric tells. */
-static double distance(const nh_kinetic *k, const double *a, const double *b)
-{
-    static const double turn = 6.283185307179586;
-    size_t m = k->m;
-    double *K = nh_alloc_array(m * m + 2 * m, sizeof *K), *off = K + m * m, *unit = off + m, size = 1, square = 0;
-    nh_kinetic_values(k, m * m, k->K, b, K);
-    for (size_t s = 0; s < m; s++)
-        if (k->angle[s]) size = fmax(size, 1 + fabs(b[s]));
-    for (size_t s = 0; s < m; s++) {
-        off[s] = a[s] - b[s];
-        if (k->angle[s]) off[s] -= turn * round(off[s] / turn);
-        off[s] /= k->angle[s] ? size : 1 + fabs(b[s]);
-        unit[s] = K[s * (m + 1)] > 0 ? 1 / sqrt(K[s * (m + 1)]) : 0;
-    }
-    for (size_t i = 0; i < m * m; i++) square += K[i] * unit[i / m] * unit[i % m] * off[i / m] * off[i % m];
-    nh_free(K);
-    return isfinite(square) ? sqrt(fmax(square, 0)) : INFINITY;
-}
-
-static double farthest(const nh_kinetic *k, const nh_motion *a, const nh_motion *b)
-{
-    double worst = 0;
-    for (size_t i = 0; i < a->count && i < b->count; i++) worst = fmax(worst, distance(k, a->state + i * a->size, b->state + i * b->size));
-    return worst;
-}
-
-/* ---- the full motion ---- */
-
-static nh_motion *full_with(nh_reduction_bench *b, double rtol, nh_error *error)
-{
-    nh_reduction *r = b->r;
-    size_t m = r->kinetic->m;
-    nh_bordered *bordered = nh_bordered_create(r->model);
-    nh_flow_problem problem = nh_bordered_flow(bordered);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
-    double *z = nh_alloc_array(2 * m, sizeof *z);
-    memcpy(z, r->initial.q, m * sizeof *z);
-    memcpy(z + m, r->initial.v, m * sizeof *z);
-    nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error);
-    nh_bordered_free(bordered);
-    nh_free(z);
-    return motion;
-}
-
-/* The number of outputs up to which the reference is known well enough to judge by it. */
-static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
-{
-    size_t n = 0, least = coarse->count < fine->count ? coarse->count : fine->count;
-    while (n < least && distance(k, coarse->state + n * coarse->size, fine->state + n * fine->size) <= allowed) n++;
-    return n;
-}
-
-/* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up along a motion: the tolerance with which
- * all are computed is a hundredth of the one that is asked for, or less where the full motion shows that this would not do. */
-static bool full_motion(nh_reduction_bench *b, nh_error *error)
-{
-    static const double part = 0.01, finest = 1e-14, least = 5e-14, aim = 10, allowed = 100; /* in tolerances */
-    nh_reduction *r = b->r;
-    size_t m = r->kinetic->m;
-    b->rtol = fmax(r->options.tolerance * part, least);
-    nh_motion *coarse = full_with(b, b->rtol, error), *fine = coarse ? full_with(b, finest, error) : NULL;
-    double off = fine ? farthest(r->kinetic, coarse, fine) : 0;
-    if (fine && off > aim * r->options.tolerance && b->rtol > least) {
-        b->rtol = fmax(b->rtol * aim * r->options.tolerance / off, least);
-        nh_motion_free(coarse);
-        coarse = full_with(b, b->rtol, error);
-    }
-    if (coarse && fine) {
-        r->full_seconds = coarse->seconds;
-        b->reached = reliable(r->kinetic, coarse, fine, allowed * r->options.tolerance);
-        r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
-        if (b->reached < fine->count)
-            nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
-        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
-        memcpy(b->full, fine->state, fine->count * 2 * m * sizeof *b->full);
-        if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
-    }
-    nh_motion_free(coarse);
-    nh_motion_free(fine);
-    return b->full != NULL;
-}
-
 /* ---- a stage ---- */
 
 static char *name_of(nh_reduction *r, const nh_action *action)
@@ -193,14 +108,14 @@ static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, nh_a
     s->compared = n > 1;
     s->agreement = 0;
     s->reached = n > 1 ? b->times[n - 1] : 0;
-    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, distance(s->action->kinetic, c->q + i * c->m, want + i * stride));
+    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, nh_reduction_distance(s->action->kinetic, c->q + i * c->m, want + i * stride));
     snprintf(s->note, sizeof s->note, "%.250s", c->note);
     nh_reconstruction_free(c);
     return true;
 }
 
 /* Integrate, reconstruct, compare: positions `want` (stride apart) are those of the motion that is to be met.  Where they are apart the reduced motion is computed
- * again, once, with a smaller tolerance: it may be the more sensitive one. */
+ * again, once, with a smaller tolerance: it may be the more sensitive one; and where they still are it is measured how well the full motion is known itself. */
 void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas *atlas, const double *q, const double *v, const double *want, size_t stride, size_t reached)
 {
     static const double apart = 50, finer = 0.02, least = 2e-14; /* apart in tolerances */
@@ -216,7 +131,12 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas
     nh_reduction_stage before = *s;
     options.tolerance = fmax(options.tolerance * finer, least);
     if (!reduced_and_group(b, s, atlas, &options, q, v, want, stride, reached) || s->reached < before.reached || s->agreement > before.agreement) *s = before;
+    if (s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
+    s->unsure = nh_reduction_unsure(b);
+    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s is %.1e from the one that it is compared with: more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);
 }
+
+bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options) { return s->compared && !(s->agreement <= NH_REDUCTION_ALLOWED * options->tolerance + s->unsure); }
 
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
@@ -414,7 +334,7 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
     for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
     if (nh_reduction_late(r, "the reduction")) return true;
-    if (!full_motion(&b, error) || (!nh_interrupted() && r->kinetic->reducible && !first_and_second(&b, error))) return false;
+    if (!nh_reduction_full_motion(&b, error) || (!nh_interrupted() && r->kinetic->reducible && !first_and_second(&b, error))) return false;
     const nh_action *g = &r->group->action;
     if (nh_interrupted()) return true;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
