@@ -183,7 +183,7 @@ bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *
         if (good) nh_generator_init(&g[b], s->hat, NULL, component, options);
     }
     if (good) nh_action_init(&s->action, s->hat, d, g, options);
-    if (good) good = nh_action_check(&s->action, error);
+    if (good) good = nh_action_check(&s->action, options, error);
     if (good) conditions(s);
     nh_free(g);
     nh_free(component);

@@ -158,7 +158,7 @@ static bool group_of_fields(nh_reduction *r, const char *text, nh_error *error)
     if (good && !n) good = nh_fail(error, NH_USAGE, "--group", "no field is given");
     nh_free(g);
     nh_free(component);
-    return good && nh_action_check(&r->group->action, error);
+    return good && nh_action_check(&r->group->action, &r->options, error);
 }
 
 /* The fields of the system file. */
@@ -169,7 +169,7 @@ static bool group_of_file(nh_reduction *r, nh_error *error)
     for (size_t i = 0; i < s->symmetries; i++) nh_generator_init(&g[i], r->kinetic, NULL, s->symmetry + i * s->coordinates, &r->options);
     r->group = nh_group_of(r->kinetic, s->symmetries, g, &r->options);
     nh_free(g);
-    return nh_action_check(&r->group->action, error);
+    return nh_action_check(&r->group->action, &r->options, error);
 }
 
 /* "1, 2, 5": generators of the group that was found. */
@@ -192,11 +192,12 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
     }
     if (good) r->group = nh_group_of(r->kinetic, n, g, &r->options);
     nh_free(g);
-    return good && nh_action_check(&r->group->action, error);
+    return good && nh_action_check(&r->group->action, &r->options, error);
 }
 
 static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
+    if (q->group && !q->group[strspn(q->group, " ,;\t")]) return nh_fail(error, NH_USAGE, "--group", "no field and no number of a generator is given");
     bool numbers = q->group && !q->group[strspn(q->group, "0123456789 ,;")];
     if (!q->group && r->system->symmetries) return group_of_file(r, error);
     if (!q->group || numbers) {
@@ -207,6 +208,16 @@ static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     if (numbers) return group_of_numbers(r, q->group, error);
     if (q->group) return group_of_fields(r, q->group, error);
     r->group = r->all;
+    return true;
+}
+
+/* At a place that the group does not move as it moves others there is nothing to divide out: an error where the group was given, else a warning. */
+static bool starts_well(nh_reduction *r, nh_error *error)
+{
+    nh_error trouble = {0};
+    if (!r->kinetic->metric || nh_action_check_at(&r->group->action, r->initial.q, &r->options, r->group->given ? error : &trouble)) return true;
+    if (r->group->given) return false;
+    nh_reduction_warn(r, "at the initial place %s", trouble.what);
     return true;
 }
 
@@ -244,7 +255,7 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     r->chain_text = q->chain;
     nh_linalg_threads(1);
     nh_progress("the symmetry group", -1);
-    bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && joint_by_joint(r, q, error);
+    bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && starts_well(r, error) && joint_by_joint(r, q, error);
     bool some = r->kinetic && (r->kinetic->reducible || r->kinetic->general);
     if (good && !some) nh_reduction_warn(r, "the symmetries are found, but the system is not reduced: %s", r->kinetic->obstacle);
     bool divide = good && some && r->group->action.d;
