@@ -23,7 +23,7 @@ static const refusal refusals[] = {
     /* brackets: which one, and what it is */
     {"sleigh", "--group", "x=1; phi=1, x=-y, y=x", 3, {"these fields do not generate a group", "[d/dx, d/dphi - y d/dx + x d/dy] = d/dy is not a combination of them", "hint: add the bracket"}},
     {"crane", "--group", "x=1; phi1=1; theta=1, x=-y, y=x", 3, {"[d/dx, -y d/dx + x d/dy + d/dtheta] = d/dy is not a combination"}},
-    {"two_wheel_cart", "--group", "y=1; theta=1, x=-y, y=x", 3, {"[d/dy, -y d/dx + x d/dy + d/dtheta] = -d/dx is not a combination"}},
+    {"two_wheel_cart", "--group", "y=1; h=1, x=-y, y=x", 3, {"[d/dy, -y d/dx + x d/dy + d/dh] = -d/dx is not a combination"}},
     {"kepler", "--group", "x=-y, y=x; y=-z, z=y", 3, {"these fields do not generate a group", "is not a combination of them"}},
     {"rolling_ball", "--group", "x=1; p=1, x=-y, y=x", 3, {"these fields do not generate a group", "= d/dy is not a combination of them"}},
     /* what is not left alone, and by how much */
