@@ -42,6 +42,8 @@ void nh_reduced_init(nh_reduced *reduced, const nh_kinetic *kinetic, size_t n, c
  * Hamel's equations in the frame (d/dx, e_a); docs/method.md, sec. 9.  `independent`: the r = m - f components of u that serve as w.
  * False when the others cannot be solved for. */
 bool nh_reduced_master(nh_reduced *reduced, const nh_slice *slice, const size_t *independent, nh_error *error);
+/* Add the forces without a potential in the frame to `force` (m): Fr^T Q at u = (x', zeta). */
+void nh_reduced_add_forces(const nh_slice *slice, const nh_ex *u, nh_ex *force);
 /* Components of the frame that serve as w: the others' minor of omf is well conditioned; group components are given up first. */
 void nh_reduced_independent(const nh_slice *slice, size_t *independent);
 /* The same for one place on the slice, lengths and angles in units of the metric. */

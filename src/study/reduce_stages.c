@@ -174,7 +174,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->reduced = &c->reduced;
     s->shown = &pretty->reduced;
     s->chaplygin = pretty;
-    if (!r->brief) s->measure = measure_of(r, slice, c->K, c->U, pretty->slice, pretty->K, pretty->U);
+    if (!r->brief && c->plain) s->measure = measure_of(r, slice, c->K, c->U, pretty->slice, pretty->K, pretty->U);
     nh_atlas *atlas = nh_atlas_create(action, true);
     size_t *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
     for (size_t i = 0; i < slice->n; i++) independent[i] = i;
@@ -318,7 +318,7 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_action_sub(&r->action[0], g, f, t, &r->options);
         good = chaplygin_stage(b, &r->action[0], &first, error);
         nh_free(t);
-        size_t n = good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
+        size_t n = good && r->kinetic->reducible && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
@@ -334,7 +334,7 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
     for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
     if (nh_reduction_late(r, "the reduction")) return true;
-    if (!nh_reduction_full_motion(&b, error) || (!nh_interrupted() && r->kinetic->reducible && !first_and_second(&b, error))) return false;
+    if (!nh_reduction_full_motion(&b, error) || (!nh_interrupted() && r->kinetic->general && !first_and_second(&b, error))) return false;
     const nh_action *g = &r->group->action;
     if (nh_interrupted()) return true;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
