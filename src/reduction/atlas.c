@@ -72,19 +72,20 @@ bool nh_chart_leave(const nh_reduced_chart *c, const double *z, double *q, doubl
     return good;
 }
 
-/* Velocities in the frame of both groups from one on the shape space of the first: its horizontal lift u = (x', -A x'). */
+/* Velocities in the frame of both groups from one on the shape space of the first: its horizontal lift u = (x', -A x' - A_0). */
 static bool lift(const nh_chaplygin *first, const nh_slice *both, const double *q, const double *v, double *u)
 {
     const nh_slice *s = first->slice;
     size_t m = s->m, n = s->n, d = s->d;
-    double *place = nh_alloc_array(2 * m + d * n + m * d + 1, sizeof *place), *speed = place + m, *A = speed + m, *E = A + d * n;
+    double *place = nh_alloc_array(2 * m + d * n + m * d + d + 1, sizeof *place), *speed = place + m, *A = speed + m, *E = A + d * n, *A0 = E + m * d;
     nh_slice_place(s, q, place);
     nh_kinetic_values(s->kinetic, d * n, first->A, place, A);
+    nh_kinetic_values(s->kinetic, d, first->A0, place, A0);
     nh_action_values(s->action, place, E);
     for (size_t i = 0; i < n; i++) speed[s->shape[i]] = v[i];
     for (size_t a = 0; a < d; a++)
         for (size_t i = 0; i < n; i++)
-            for (size_t r = 0; r < m; r++) speed[r] -= E[r + a * m] * A[a * n + i] * v[i];
+            for (size_t r = 0; r < m; r++) speed[r] -= E[r + a * m] * (A[a * n + i] * v[i] + (i ? 0 : A0[a]));
     bool good = isfinite(nh_largest(m, speed)) && nh_slice_components(both, place, speed, u);
     nh_free(place);
     return good;

@@ -166,7 +166,8 @@ static void second(nh_html_writer *w, const nh_reduction_stage *s)
     nh_html_add(w, ", strong form ");
     nh_html_number(w, t->strong, 1);
     nh_html_add(w, "</dd>\n<dt>Momentum</dt><dd>");
-    if (t->abelian) nh_html_add(w, "constant");
+    if (t->magnetic) nh_html_add(w, "constant with what the Lagrangian's part linear in the velocities adds");
+    else if (t->abelian) nh_html_add(w, "constant");
     else {
         nh_html_add(w, "moves on a coadjoint orbit of dimension ");
         nh_html_count(w, t->orbit);

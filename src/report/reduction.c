@@ -179,7 +179,8 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, bool
 static void put_second(const nh_second *t, nh_text *out)
 {
     nh_text_addf(out, "  condition (ii): weak form %.1e, strong form %.1e%s\n", t->weak, t->strong, t->strong > 1e-6 * (1 + t->weak) && t->strong > 1e-9 ? " (the momentum is conserved all the same)" : "");
-    if (t->abelian) nh_text_add(out, "  the momentum in it is constant: a level set, divided by the whole group\n");
+    if (t->magnetic) nh_text_add(out, "  the Lagrangian's part that is linear in the velocities belongs to the momentum that is conserved\n");
+    else if (t->abelian) nh_text_add(out, "  the momentum in it is constant: a level set, divided by the whole group\n");
     else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
 }
 

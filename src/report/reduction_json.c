@@ -160,6 +160,11 @@ static void put_chaplygin(nh_json *to, const nh_reduction *r, const nh_reduction
             for (size_t k = 0; k < c->n; k++) sum = nh_add(c->dag, sum, nh_mul(c->dag, c->U[(k * c->n + i) * c->n + j], c->reduced.w[k]));
             put_expression(other, "value", c->dag, sum);
         }
+    if (!c->plain) {
+        put_matrix(to, "drift", c->dag, 1, c->d, c->A0);
+        put_matrix(to, "magnetic", c->dag, 1, c->n, c->a);
+        put_matrix(to, "force", c->dag, 1, c->n, c->force);
+    }
     put_measure(to, r, s);
 }
 

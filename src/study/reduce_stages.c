@@ -206,7 +206,7 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t r
     return n;
 }
 
-/* Drift of e_a^s p_s along the once reduced motion, and that motion's positions. */
+/* Drift of e_a^s (p_s + ahat_s) along the once reduced motion, and that motion's positions. */
 static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, const nh_second *t, const double *z, double *drift, size_t *reached)
 {
     nh_reduction *r = b->r;
@@ -216,16 +216,17 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
     nh_flow_options options = {.method = NH_ADAMS, .rtol = b->rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
-    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d, sizeof *E), *start = E + n * d, size = 1;
+    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d + n, sizeof *E), *start = E + n * d, *magnetic = start + 2 * d, size = 1;
     *drift = 0;
     *reached = motion ? motion->count : 0;
     for (size_t i = 0; i < *reached; i++) {
         const double *at = motion->state + i * 2 * n;
         memcpy(out + i * n, at, n * sizeof *out);
         nh_action_values(&t->action, at, E);
+        nh_kinetic_values(t->hat, n, first->a, at, magnetic);
         for (size_t a = 0; a < d; a++) {
             double momentum = 0;
-            for (size_t k = 0; k < n; k++) momentum += E[k + a * n] * at[n + k];
+            for (size_t k = 0; k < n; k++) momentum += E[k + a * n] * (at[n + k] + magnetic[k]);
             if (i == 0) start[a] = momentum, size = fmax(size, fabs(momentum));
             *drift = fmax(*drift, fabs(momentum - start[a]) / size);
         }
@@ -288,7 +289,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         s->slice = &t->slice;
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
-        if (t->abelian && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
+        if (t->abelian && first->plain && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
         s->against_full = full != NULL;
@@ -318,10 +319,11 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_action_sub(&r->action[0], g, f, t, &r->options);
         good = chaplygin_stage(b, &r->action[0], &first, error);
         nh_free(t);
-        size_t n = good && r->kinetic->reducible && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
+        size_t n = good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
+        if (n && !d && !first->plain) nh_reduction_warn(r, "no second stage: in the reduced system forces act along each of the %zu further symmetries that normalise the first group, so that no momentum is conserved", n);
         if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
         nh_free(field);
     }
