@@ -151,6 +151,58 @@ Test(reductions, affine_constraints_magnetic_terms_and_forces)
     }
 }
 
+/* A belt that carries a sleigh with a rotor and a spring, charged; a cart on two wheels that slip at a given rate, with a free body in it on which magnetic terms act. */
+static const struct {
+    const char *name, *text, *group, *first, *second;
+} twice[] = {
+    {"belt",
+     "name: s\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.7}, {name: a, value: 0.4}, {name: U, value: 0.6}, {name: B, value: 0.5}, {name: I, value: 0.31}, {name: c, value: 0.2}]\n"
+     "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: r, type: angle}, {name: s, type: length}]\n"
+     "constraints: [\"x'*sin(h) - y'*cos(h) = U\"]\n"
+     "lagrangian: J*h'^2/2 + I*(r'+h')^2/2 + m*((x' - a*h'*sin(h))^2 + (y' + a*h'*cos(h))^2)/2 + s'^2/2 + 0.3*s'*h' + B*s*r' - s^2\nforces: [\"s = -c*s'\"]\n",
+     "SE(2) x SO(2)", "R", "SO(2)"},
+    {"body",
+     "name: s\nparameters: [{name: m, value: 1.7}, {name: J, value: 0.8}, {name: K, value: 0.3}, {name: r, value: 0.4}, {name: c, value: 0.6}, {name: e, value: 0.25}, {name: U, value: 0.3}]\n"
+     "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: theta, type: angle}, {name: psi1, type: angle}, {name: psi2, type: angle}, {name: u, type: length}, {name: p, type: angle}, "
+     "{name: h, type: angle}, {name: s, type: angle}]\n"
+     "definitions:\n  - w1 = h'*cos(s) + p'*sin(h)*sin(s)\n  - w2 = -h'*sin(s) + p'*sin(h)*cos(s)\n  - w3 = p'*cos(h) + s'\n"
+     "lagrangian: m/2*(x'^2 + y'^2) + m*e*theta'*(-sin(theta)*x' + cos(theta)*y') + J/2*theta'^2 + K/2*(psi1'^2 + psi2'^2) + (1.1 + u^2/4)/2*w1^2 + 0.85*w2^2 + (1.15 + u/5)*w3^2 + 0.3*u'*w1 + 0.2*psi1'*w2 "
+     "+ 0.15*u*psi2'*w3 + 0.6*u'^2 - 0.4*u^2 - 0.3*cos(psi1)*u + 0.4*u*w3 + 0.2*w1*sin(psi1) + 0.3*u*psi2'\n"
+     "constraints:\n  - -sin(theta)*x' + cos(theta)*y' = 0\n  - cos(theta)*x' + sin(theta)*y' + c*theta' - r*psi1' = U\n  - cos(theta)*x' + sin(theta)*y' - c*theta' - r*psi2' = -U/2\n"
+     "forces: [\"u = -0.1*u'\", \"psi1 = -0.3*psi1' - 0.2*u'\"]\ndomain: {h: [0.7, 1.9]}\n",
+     "SO(3) x SE(2) x SO(2)", "SE(2)", "SO(3)"},
+};
+
+Test(reductions, two_stages_with_affine_constraints_magnetic_terms_and_forces)
+{
+    for (size_t i = 0; i < sizeof twice / sizeof *twice; i++) {
+        nh_error error = {0};
+        nh_reduction *r = reduce_text(twice[i].text, &error);
+        must(r != NULL, &error, twice[i].name);
+        cr_expect_str_eq(r->all->name, twice[i].group);
+        cr_expect(r->all->jets != NULL && r->all->missing == 0);
+        cr_assert_eq(r->stages, 3, "%s: %zu stages", twice[i].name, r->stages);
+        followed(r, twice[i].name);
+        cr_expect(r->stage[0].kind == NH_STAGE_CHAPLYGIN && !strcmp(r->stage[0].group, twice[i].first), "%s: %s", twice[i].name, r->stage[0].group);
+        cr_expect(r->stage[1].kind == NH_STAGE_SECOND && !strcmp(r->stage[1].group, twice[i].second), "%s: %s", twice[i].name, r->stage[1].group);
+        cr_expect(r->stage[1].against_full && r->stage[1].second->magnetic);
+        cr_expect(r->stage[1].momentum_drift < 1e-8, "%s: the momentum drifts by %g", twice[i].name, r->stage[1].momentum_drift);
+        nh_reduction_free(r);
+    }
+}
+
+/* Forces along every further symmetry: no momentum, no second stage, and the reason. */
+Test(reductions, no_second_stage_against_forces)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_text(general[2].text, &error);
+    must(r != NULL, &error, "escalator");
+    bool told = false;
+    for (size_t i = 0; i < r->warnings; i++) told |= strstr(r->warning[i], "no second stage: in the reduced system forces act along the further symmetries (1)") != NULL;
+    cr_expect(told && r->stages == 2 && r->stage[0].kind == NH_STAGE_CHAPLYGIN);
+    nh_reduction_free(r);
+}
+
 /* Against what is known about shipped systems: the moving energy, and the momentum with its magnetic part. */
 Test(reductions, known_integrals)
 {

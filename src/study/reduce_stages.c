@@ -323,7 +323,7 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
-        if (n && !d && !first->plain) nh_reduction_warn(r, "no second stage: in the reduced system forces act along each of the %zu further symmetries that normalise the first group, so that no momentum is conserved", n);
+        if (n && !d && !first->plain) nh_reduction_warn(r, "no second stage: in the reduced system forces act along the further symmetries (%zu) that normalise the first group, so that no momentum is conserved", n);
         if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
         nh_free(field);
     }
