@@ -18,7 +18,7 @@ int main(int argc, char **argv)
     size_t states = argc > 2 ? strtoul(argv[2], NULL, 10) : 50, n = list(folder, name), wrong = 0, motions = 0, systems = 0;
     puts("| system | stage | group | states | known | followed | apart | largest distance | charts changed | times faster |\n|---|---|---|---|---|---|---|---|---|---|");
     for (size_t i = 0; i < n; i++) {
-        static const char *const kinds[] = {"first, Chaplygin", "second", "whole group, V + D = TQ", "whole group"};
+        static const char *const kinds[] = {"first, Chaplygin", "second", "whole group, V + D = TQ", "whole group", "quotient"};
         char path[300];
         nh_error error = {0};
         snprintf(path, sizeof path, "%s/%s.yaml", folder, name[i]);

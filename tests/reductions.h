@@ -51,7 +51,7 @@ static inline reductions_row reductions_of(const char *path, size_t states, nh_e
                 snprintf(o->group, sizeof o->group, "%s", t->group);
             }
             o->states++;
-            o->whole += t->compared && (t->reached >= r->full_reached || t->dependent);
+            o->whole += (t->compared || r->full_reached == 0) && (t->reached >= r->full_reached || t->dependent);
             o->apart += nh_stage_apart(t, &r->options);
             o->unsure += t->unsure > 0;
             o->charts += t->charts;

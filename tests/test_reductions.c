@@ -6,6 +6,7 @@
 #include "expr/normal.h"
 #include "expr/print.h"
 #include "reduction/subspace.h"
+#include "report/reduction.h"
 #include "reductions.h"
 
 static nh_reduction *reduce_file(const char *path, const char *initial, double seconds, nh_error *error)
@@ -200,6 +201,74 @@ Test(reductions, no_second_stage_against_forces)
     bool told = false;
     for (size_t i = 0; i < r->warnings; i++) told |= strstr(r->warning[i], "no second stage: in the reduced system forces act along the further symmetries (1)") != NULL;
     cr_expect(told && r->stages == 2 && r->stage[0].kind == NH_STAGE_CHAPLYGIN);
+    nh_reduction_free(r);
+}
+
+/* Nonlinear constraints, a Lagrangian that is not quadratic, explicit time: divided as they are. */
+Test(reductions, quotients)
+{
+    static const struct {
+        const char *system, *text, *group, *equation, *rate; /* one of those that are shown */
+        size_t states, momenta;
+        bool conservative;
+    } cases[] = {
+        {.system = "systems/constant_speed.yaml", .group = "R^2", .equation = "z''", .rate = "g*z'^2/c^2 - g", .states = 4},
+        {.system = "systems/perpendicular_velocities.yaml", .group = "R^3", .equation = "zeta_2", .rate = "c'", .states = 4, .conservative = true},
+        {.system = "systems/relativistic_charge.yaml", .group = "R", .equation = "zeta_1", .rate = "y'", .states = 4, .momenta = 1, .conservative = true},
+        {.text = "name: s\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.7}, {name: a, value: 0.4}]\n"
+                 "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: s, type: length}]\nconstraints: [\"x'*sin(h) - y'*cos(h) = 0\"]\n"
+                 "lagrangian: (1 + sin(t)/3)*J*h'^2/2 + m*((x' - a*h'*sin(h))^2 + (y' + a*h'*cos(h))^2)/2 + s'^2/2 - s^2*(1 + cos(2*t)/2) + s'*h'/5\n",
+         .group = "SE(2)", .equation = "x''", .rate = "a*h'^2", .states = 4},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_error error = {0};
+        nh_reduction *r = cases[i].text ? reduce_text(cases[i].text, &error) : reduce_file(cases[i].system, NULL, -1, &error);
+        must(r != NULL, &error, cases[i].group);
+        cr_assert_eq(r->stages, 1);
+        cr_expect(r->stage[0].kind == NH_STAGE_QUOTIENT && !strcmp(r->stage[0].group, cases[i].group), "%s", r->stage[0].group);
+        cr_expect(r->warnings > 0 && strstr(r->warning[0], "no connection and no momentum is used") != NULL, "the reason is told");
+        cr_expect_eq(r->stage[0].reduced->conservative, cases[i].conservative);
+        cr_expect(r->stage[0].energy_drift < 1e-8);
+        cr_expect_eq(r->momenta.count, cases[i].momenta);
+        for (size_t k = 0; k < r->momenta.count; k++) cr_expect(r->momenta.momentum[k].proved);
+        nh_reduction_equation *e;
+        size_t n = nh_reduction_equations(r, &r->stage[0], &e), found = 0;
+        for (size_t k = 0; k < n; k++) {
+            char *text = nh_print_string(r->kinetic->dag, e[k].value);
+            found += !strcmp(e[k].name, cases[i].equation) && !strcmp(text, cases[i].rate);
+            nh_free(text);
+        }
+        cr_expect_eq(found, 1, "%s: there is no %s = %s", cases[i].group, cases[i].equation, cases[i].rate);
+        followed(r, cases[i].group);
+        for (size_t place = 1; place < cases[i].states; place++) {
+            must(nh_reduction_again(r, place, &error), &error, cases[i].group);
+            cr_expect(r->stage[0].compared && r->stage[0].reached >= r->full_reached && !nh_stage_apart(&r->stage[0], &r->options), "%s, state %zu: %g up to %g; %s", cases[i].group, place, r->stage[0].agreement, r->stage[0].reached, r->stage[0].note);
+        }
+        nh_reduction_free(r);
+    }
+}
+
+/* The equations in the chart and those in the frame of the slice are the same motion: a' of the chart along the frame's. */
+Test(reductions, quotient_in_chart_and_frame)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_file("systems/constant_speed.yaml", NULL, -1, &error);
+    must(r != NULL, &error, "speed");
+    const nh_reduction_stage *s = &r->stage[0];
+    nh_reduced_flow *frame = nh_reduced_flow_create(s->reduced), *chart = nh_reduced_flow_create(s->shown);
+    size_t n = s->reduced->n;
+    double rate[2][12], zeta[2][4], z[8], v[4];
+    cr_assert(nh_reduced_flow_at(frame, s->start, rate[0], NULL, zeta[0], NULL));
+    memcpy(z, s->start, n * sizeof *z);
+    must(nh_quotient_velocities(r->whole, 0, r->initial.q, r->initial.v, z + n, &error), &error, "w");
+    cr_assert(nh_reduced_flow_at(chart, z, rate[1], NULL, zeta[1], NULL));
+    for (size_t i = 0; i < n; i++) cr_expect_float_eq(rate[0][i], rate[1][i], 1e-13);
+    for (size_t a = 0; a < s->reduced->d; a++) cr_expect_float_eq(zeta[0][a], zeta[1][a], 1e-13);
+    cr_expect_float_eq(rate[0][n], rate[1][n + s->shown->r - 1], 1e-12, "z''");
+    v[0] = -5, v[1] = 0.2, v[2] = 0.1;
+    cr_expect(!nh_quotient_velocities(r->whole, 0, r->initial.q, v, z + n, &error) && strstr(error.what, "another branch"), "%s", error.what);
+    nh_reduced_flow_free(frame);
+    nh_reduced_flow_free(chart);
     nh_reduction_free(r);
 }
 

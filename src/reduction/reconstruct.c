@@ -65,9 +65,9 @@ static void place_rate(group_flow *f, const double *q, double *rate)
 
 static bool rate_of(double time, const double *z, double *rate, void *context)
 {
-    (void)time;
     group_flow *f = context;
     size_t d = f->d;
+    nh_reduced_flow_time(f->chart->flow, time);
     if (!nh_reduced_flow_at(f->chart->flow, z, rate, NULL, f->zeta, NULL)) return false;
     if (!f->group) return true;
     second_kind(f, z + f->inner);
@@ -186,6 +186,7 @@ static bool store(course *c, const nh_motion *motion, size_t from)
         const double *z = motion->state + i * motion->size;
         size_t at = out->count;
         out->time[at] = motion->time[i];
+        nh_reduced_flow_time(f->chart->flow, motion->time[i]);
         memcpy(out->z + at * f->inner, z, f->inner * sizeof *z);
         if (!nh_reduced_flow_at(f->chart->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, out->energy + at)) return false;
         if (f->group) good = place_of(c, z, out->q + at * out->m);

@@ -231,7 +231,7 @@ static void by_stages(nh_html_writer *w, const nh_reduction_stage *s)
 
 static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_stage *s, size_t number)
 {
-    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of"};
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of", "the quotient by"};
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
     nh_text_addf(w->out, "<article class=\"card\">\n<h3>Stage %zu: %s ", number, titles[s->kind]);
@@ -258,7 +258,7 @@ static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_s
     nh_html_add(w, "</article>\n");
 }
 
-static bool has_momenta(const nh_reduction *r) { return r->kinetic->reducible && r->group->action.d; }
+static bool has_momenta(const nh_reduction *r) { return r->stages > 0 && r->group->action.d; }
 
 static void momenta(nh_html_writer *w, const nh_reduction *r)
 {

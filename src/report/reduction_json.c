@@ -224,10 +224,11 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     for (size_t i = 0; i < s->shown->r; i++) nh_json_add_text(list, nh_name_of(d, s->shown->w[i]));
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
+    size_t momenta = s->shown->plain ? 0 : s->shown->r;
     nh_json *momentum = nh_json_put_array(to, "momentum"), *equations = nh_json_put_array(to, "equations"), *group = nh_json_put_array(to, "group_velocity");
     for (size_t i = 0; i < n; i++) {
-        bool rate = i >= s->shown->r && i + s->shown->d < n;
-        nh_json *item = nh_json_add_object(i < s->shown->r ? momentum : rate ? equations : group);
+        bool rate = i >= momenta && i + s->shown->d < n;
+        nh_json *item = nh_json_add_object(i < momenta ? momentum : rate ? equations : group);
         nh_json_put_text(item, "of", rate ? nh_arena_strndup(r->kinetic->arena, e[i].name, strlen(e[i].name) - 1) : e[i].name);
         put_expression(item, rate ? "rate" : "value", d, e[i].value);
     }

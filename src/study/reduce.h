@@ -10,6 +10,7 @@
 #include "reduction/linear.h"
 #include "reduction/momenta.h"
 #include "reduction/poincare.h"
+#include "reduction/quotient.h"
 #include "reduction/reconstruct.h"
 #include "reduction/second.h"
 
@@ -25,7 +26,7 @@ typedef struct {
     nh_options options;
 } nh_reduce_request;
 
-typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE } nh_stage_kind;
+typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE, NH_STAGE_QUOTIENT } nh_stage_kind;
 
 /* One stage, written on a slice through the initial state; `shown` is the same on the slice y = 0, where it is regular there. */
 typedef struct {
@@ -60,6 +61,9 @@ typedef struct {
     nh_arena *arena;
     nh_system *system;
     nh_model *model;          /* bare */
+    nh_model *whole;          /* with its geometry, where a stage needs that; NULL */
+    nh_frame_motion *frame;   /* of a quotient; NULL */
+    nh_chart_choice chart;
     nh_kinetic *kinetic;
     nh_group *all;            /* the whole symmetry group; NULL where fields were given */
     nh_group *group;          /* the one that is reduced by (may be `all`) */

@@ -11,7 +11,8 @@ double nh_reduction_distance(const nh_kinetic *k, const double *a, const double 
     static const double turn = 6.283185307179586;
     size_t m = k->m;
     double *K = nh_alloc_array(m * m + 2 * m, sizeof *K), *off = K + m * m, *unit = off + m, size = 1, square = 0;
-    nh_kinetic_values(k, m * m, k->K, b, K);
+    if (k->quadratic && k->autonomous) nh_kinetic_values(k, m * m, k->K, b, K);
+    else for (size_t s = 0; s < m; s++) K[s * (m + 1)] = 1;
     for (size_t s = 0; s < m; s++)
         if (k->angle[s]) size = fmax(size, 1 + fabs(b[s]));
     for (size_t s = 0; s < m; s++) {

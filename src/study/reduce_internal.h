@@ -1,4 +1,5 @@
-/* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages and their motions) and reduce_whole.c (the whole group at once). */
+/* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages and their motions), reduce_whole.c (the whole group at once) and
+ * reduce_quotient.c (other systems). */
 #ifndef NH_REDUCE_INTERNAL_H
 #define NH_REDUCE_INTERNAL_H
 
@@ -34,6 +35,10 @@ void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, 
 bool nh_reduction_free_subgroup(nh_reduction *reduction, nh_action *out);
 /* Divide a group out at once, with the equations by stages where V + D = TQ. */
 bool nh_reduction_whole(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
+
+/* Divide a group out of equations that it leaves invariant, whatever they are (quotient.h); what is conserved there. */
+bool nh_reduction_quotient(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
+bool nh_reduction_quotient_momenta(nh_reduction *reduction, nh_error *error);
 
 /* Is the time limit passed?  Then what is about to be left out is told. */
 bool nh_reduction_late(nh_reduction *reduction, const char *what);

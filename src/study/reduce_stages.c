@@ -338,6 +338,7 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     if (nh_reduction_late(r, "the reduction")) return true;
     if (!nh_reduction_full_motion(&b, error) || (!nh_interrupted() && r->kinetic->general && !first_and_second(&b, error))) return false;
     const nh_action *g = &r->group->action;
+    bool quotient = !r->kinetic->general;
     if (nh_interrupted()) return true;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
     if (nh_reduction_late(r, "the whole group divided out at once")) return true;
@@ -347,7 +348,8 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     }
     if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); a subgroup of dimension %zu is divided out at once", g->d - g->orbit, r->action[1].d);
     nh_error trouble = {0};
-    if (!nh_reduction_whole(&b, &r->action[1], &trouble) && r->chain_text) {
+    bool good = quotient ? nh_reduction_quotient(&b, &r->action[1], &trouble) : nh_reduction_whole(&b, &r->action[1], &trouble);
+    if (!good && r->chain_text) {
         if (error) *error = trouble;
         return false;
     }
