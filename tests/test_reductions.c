@@ -2,6 +2,7 @@
 #include "mechanics.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "expr/normal.h"
 #include "expr/print.h"
@@ -270,6 +271,56 @@ Test(reductions, quotient_in_chart_and_frame)
     nh_reduced_flow_free(frame);
     nh_reduced_flow_free(chart);
     nh_reduction_free(r);
+}
+
+static nh_reduction *reduce_weak(const char *path, nh_error *error)
+{
+    nh_reduce_request q = {.system_path = path, .weak = true};
+    nh_options_default(&q.options);
+    return nh_reduce(&q, error);
+}
+
+static bool conserved(const nh_reduction *r, const char *text)
+{
+    nh_error error = {0};
+    nh_ex want = 0;
+    must(nh_system_expression_text(r->system, "test", text, 0, NULL, &want, &error), &error, text);
+    for (size_t k = 0; k < r->momenta.count; k++)
+        if (nh_normal_is_zero(r->kinetic->dag, nh_sub(r->kinetic->dag, want, r->momenta.momentum[k].value), 0) == NH_ZERO) return r->momenta.momentum[k].proved;
+    return false;
+}
+
+/* A charge that falls in uniform fields: three translations change L by a total derivative. */
+Test(reductions, symmetries_up_to_a_total_derivative)
+{
+    static const char text[] = "name: s\nparameters: [{name: m, value: 1.3}, {name: g, value: 0.9}, {name: B, value: 0.7}]\n"
+                               "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
+                               "lagrangian: m*(x'^2 + y'^2 + z'^2)/2 - m*g*z + B/2*(x*y' - y*x')\n";
+    char path[] = "/tmp/nhsym-reductions-XXXXXX";
+    nh_error error = {0};
+    int file = mkstemp(path);
+    cr_assert(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text));
+    close(file);
+    nh_reduction *r = reduce_file(path, NULL, -1, &error);
+    must(r != NULL, &error, "charge");
+    cr_expect(r->all->action.d == 1 && r->weaker == 3, "%zu and %zu more", r->all->action.d, r->weaker);
+    nh_reduction_free(r);
+    r = reduce_weak(path, &error);
+    must(r != NULL, &error, "charge");
+    remove(path);
+    cr_expect_str_eq(r->all->name, "SE(2) x R");
+    followed(r, "charge");
+    cr_expect_eq(r->momenta.count, 4);
+    static const char *const known[] = {"m*x' - B*y", "m*y' + B*x", "m*z' + m*g*t", "m*(x*y' - y*x') + B*(x^2 + y^2)/2"};
+    for (size_t i = 0; i < 4; i++) cr_expect(conserved(r, known[i]), "%s", known[i]);
+    nh_reduction_free(r);
+    r = reduce_weak("systems/ball_on_slope.yaml", &error);
+    must(r != NULL, &error, "slope");
+    cr_expect_str_eq(r->all->name, "SO(3) x R^2");
+    cr_expect(r->stages > 0 && r->stage[0].kind == NH_STAGE_CHAPLYGIN && !strcmp(r->stage[0].group, "R^2"));
+    followed(r, "slope");
+    nh_reduction_free(r);
+    cr_expect(reduce_weak("systems/appell_hamel.yaml", &error) == NULL && error.code == NH_USAGE && strstr(error.hint, "leave --weak out"), "%s", error.what);
 }
 
 /* Against what is known about shipped systems: the moving energy, and the momentum with its magnetic part. */

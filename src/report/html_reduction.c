@@ -130,6 +130,11 @@ static void group(nh_html_writer *w, const nh_reduction *r, const nh_group *g, c
         nh_html_add(w, "; of the kinetic energy alone: ");
         nh_html_count(w, g->jets->of_metric);
         nh_html_add(w, ".");
+        if (r->weaker && g == r->all) {
+            nh_html_add(w, " Those that change the Lagrangian by a total derivative, beyond these: ");
+            nh_html_count(w, r->weaker);
+            nh_html_add(w, ".");
+        }
         if (g->missing) nh_html_add(w, " Those without a closed form: ");
         if (g->missing) nh_html_count(w, g->missing);
         nh_html_add(w, "</p>\n");

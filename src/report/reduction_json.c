@@ -104,6 +104,7 @@ static void put_group(nh_json *root, const char *key, const nh_reduction *r, con
     nh_json_put_number(local, "of_kinetic_energy_and_potential", (double)g->jets->of_potential);
     nh_json_put_number(local, "of_kinetic_energy_and_constraints", (double)g->jets->of_constraints);
     nh_json_put_number(local, "without_closed_form", (double)g->missing);
+    if (g == r->all) nh_json_put_number(local, "up_to_a_total_derivative", (double)r->weaker);
     nh_json_put_number(local, "largest_null_value", g->jets->last_null);
     nh_json_put_number(local, "smallest_other_value", g->jets->first_other);
 }

@@ -216,6 +216,20 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
     return good && nh_action_check(&r->group->action, &r->options, error);
 }
 
+/* How many more symmetries the equations have than L. */
+static void count_weaker(nh_reduction *r)
+{
+    nh_error trouble = {0};
+    const nh_kinetic *k = r->kinetic;
+    bool flat = !k->magnetic;
+    for (size_t s = 0; s < k->m && flat; s++) flat = !nh_depends(k->dag, k->V, k->q[s]);
+    if (!r->all->jets || r->strict || flat || nh_interrupted()) return;
+    nh_jets *j = nh_jets_find(nh_weak_kinetic(k), &r->options, &trouble);
+    if (j && j->dimension > r->all->jets->dimension) r->weaker = j->dimension - r->all->jets->dimension;
+    nh_jets_free(j);
+    nh_error_clear(&trouble);
+}
+
 static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
     if (q->group && !q->group[strspn(q->group, " ,;\t")]) return nh_fail(error, NH_USAGE, "--group", "no field and no number of a generator is given");
@@ -224,6 +238,7 @@ static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     if (!q->group || numbers) {
         r->all = nh_group_find(r->kinetic, &r->options, error);
         if (!r->all) return false;
+        count_weaker(r);
         if (r->all->missing) nh_reduction_warn(r, "%zu further local symmetries have no closed form in the functions that were tried", r->all->missing);
     }
     if (numbers) return group_of_numbers(r, q->group, error);
@@ -262,14 +277,22 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     r->model = nh_model_bare(r->system, nh_chart_create(r->system, q->chart, (uint64_t)q->options.seed, error));
     if (!r->model) return false;
     r->kinetic = nh_kinetic_create(r->model, (uint64_t)q->options.seed, error);
-    return r->kinetic != NULL;
+    if (!r->kinetic || !q->weak) return r->kinetic != NULL;
+    if (!r->kinetic->general) {
+        nh_fail(error, NH_USAGE, "", "symmetries up to a total derivative are looked for with metrics and constraints that are at most affine only: %s", r->kinetic->obstacle);
+        return nh_error_hint(error, "leave --weak out");
+    }
+    r->strict = r->kinetic;
+    r->kinetic = nh_weak_kinetic(r->strict);
+    return true;
 }
 
-/* Of a system that is divided as it is. */
+/* Of a system that is divided as it is, or by symmetries of its equations. */
 static bool conserved(nh_reduction *r)
 {
     nh_error trouble = {0};
-    if (!nh_reduction_quotient_momenta(r, &trouble)) nh_reduction_warn(r, "no momenta were looked for: %s", trouble.what);
+    if (r->strict) nh_weak_momenta(&r->momenta, r->strict, &r->group->action, &r->options);
+    else if (!nh_reduction_quotient_momenta(r, &trouble)) nh_reduction_warn(r, "no momenta were looked for: %s", trouble.what);
     nh_error_clear(&trouble);
     return true;
 }
@@ -292,7 +315,7 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     bool divide = good && r->group->action.d;
     if (divide) nh_progress("reduced equations, and motions of both", -1);
     if (divide && !nh_interrupted()) good = nh_reduction_stages(r, error);
-    if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = some ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
+    if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
     if (nh_interrupted()) nh_reduction_warn(r, "interrupted: this is what was found until then");
     if (good && nh_interrupted()) nh_error_clear(error);
     r->seconds = (double)(clock() - r->begin) / CLOCKS_PER_SEC;

@@ -13,6 +13,7 @@
 #include "reduction/quotient.h"
 #include "reduction/reconstruct.h"
 #include "reduction/second.h"
+#include "reduction/weak.h"
 
 typedef struct {
     const char *system_path;
@@ -21,6 +22,7 @@ typedef struct {
     nh_chart_choice chart;
     const char *initial;      /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
     bool project;             /* move velocities that violate the constraints to the nearest that do not */
+    bool weak;                /* symmetries that change L by a total derivative count, too */
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     nh_options options;
@@ -65,6 +67,8 @@ typedef struct {
     nh_frame_motion *frame;   /* of a quotient; NULL */
     nh_chart_choice chart;
     nh_kinetic *kinetic;
+    nh_kinetic *strict;       /* the true one, where `kinetic` has the potential as a force (weak.h); else NULL */
+    size_t weaker;            /* symmetries that change L by a total derivative, beyond those counted in `all` */
     nh_group *all;            /* the whole symmetry group; NULL where fields were given */
     nh_group *group;          /* the one that is reduced by (may be `all`) */
     nh_options options;
