@@ -103,7 +103,7 @@ static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh
     if (g->jets)
         nh_text_addf(out, "  local symmetries of kinetic energy, potential and constraints: %zu (counted without an ansatz; of the kinetic energy alone: %zu)\n", g->jets->dimension, g->jets->of_metric);
     if (r->weaker && g == r->all)
-        nh_text_addf(out, "  %zu more change%s the Lagrangian by a total derivative, and leave the equations alone: --weak\n", r->weaker, r->weaker == 1 ? "s" : "");
+        nh_text_addf(out, "  %zu more up to a total derivative in the Lagrangian: --weak\n", r->weaker);
     if (r->strict) nh_text_add(out, "  of the equations of motion: the Lagrangian may change by a total derivative\n");
     put_generators(r, g, verbose, out);
     put_brackets(&g->action.algebra, out);
