@@ -7,7 +7,7 @@
 #include "cli/cli.h"
 #include "cli/words.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X){NULL, 0, NULL, 0}};
@@ -141,6 +141,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error) && nh_options_set(&cli->options, "reduce_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
     case opt_project: return cli->project = true;
+    case opt_weak: return cli->weak = true;
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_to: cli->to = value; return true;
     case opt_watch: cli->watch = value; return true;

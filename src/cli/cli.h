@@ -26,7 +26,7 @@ typedef struct {
     const char *current, *field; /* questions of verify */
     const char *initial;         /* of simulate and reduce */
     const char *group, *chain, *to; /* of reduce */
-    bool project;
+    bool project, weak;
     const char *watch;           /* of simulate */
     const char *over;            /* of chart */
     bool scene;

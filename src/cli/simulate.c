@@ -76,6 +76,7 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
         good = nh_cli_write(cli, cli->html, &page, error);
     }
     good = nh_cli_written(cli, good, error);
+    if (s->astray && !cli->quiet) fprintf(stderr, "warning: %s\n", s->astray);
     if (good) complain(s, error);
     nh_simulation_free(s);
     return good && nh_interrupted() ? NH_INTERRUPTED : (int)error->code;

@@ -28,7 +28,7 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
     if (!to_stdout && !cli->quiet) {
         nh_text text;
         nh_text_init(&text);
-        nh_verdict_text(v, cli->field != NULL, &text);
+        nh_verdict_text(v, cli->field != NULL, cli->options.shown, &text);
         fputs(nh_text_string(&text), stdout);
         nh_text_clear(&text);
     }

@@ -129,6 +129,11 @@ static void group(nh_html_writer *w, const nh_reduction *r, const nh_group *g, c
         nh_html_add(w, "; of the kinetic energy alone: ");
         nh_html_count(w, g->jets->of_metric);
         nh_html_add(w, ".");
+        if (r->weaker && g == r->all) {
+            nh_html_add(w, " Those that change the Lagrangian by a total derivative, beyond these: ");
+            nh_html_count(w, r->weaker);
+            nh_html_add(w, ".");
+        }
         if (g->missing) nh_html_add(w, " Those without a closed form: ");
         if (g->missing) nh_html_count(w, g->missing);
         nh_html_add(w, "</p>\n");
@@ -165,7 +170,8 @@ static void second(nh_html_writer *w, const nh_reduction_stage *s)
     nh_html_add(w, ", strong form ");
     nh_html_number(w, t->strong, 1);
     nh_html_add(w, "</dd>\n<dt>Momentum</dt><dd>");
-    if (t->abelian) nh_html_add(w, "constant");
+    if (t->magnetic) nh_html_add(w, "constant with what the Lagrangian's part linear in the velocities adds");
+    else if (t->abelian) nh_html_add(w, "constant");
     else {
         nh_html_add(w, "moves on a coadjoint orbit of dimension ");
         nh_html_count(w, t->orbit);
@@ -185,6 +191,11 @@ static void checks(nh_html_writer *w, const nh_reduction_stage *s)
         nh_html_number(w, s->agreement, 1);
         nh_html_add(w, s->against_full ? " from the full motion up to t = " : " from the first stage up to t = ");
         nh_html_number(w, s->reached, 4);
+        if (s->unsure > 0) {
+            nh_html_add(w, ", known to ");
+            nh_html_number(w, s->unsure, 1);
+            nh_html_add(w, " itself");
+        }
     } else {
         nh_html_add(w, s->against_full ? "not compared with the full motion" : "not compared with the first stage");
     }
@@ -232,7 +243,7 @@ static bool names_itself(const nh_dag *d, const nh_reduction_equation *e)
 
 static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_stage *s, size_t number)
 {
-    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of"};
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of", "the quotient by"};
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
     nh_text_addf(w->out, "<article class=\"card\">\n<h3>Stage %zu: %s ", number, titles[s->kind]);
@@ -261,7 +272,7 @@ static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_s
     nh_html_add(w, "</article>\n");
 }
 
-static bool has_momenta(const nh_reduction *r) { return r->kinetic->reducible && r->group->action.d; }
+static bool has_momenta(const nh_reduction *r) { return r->stages > 0 && r->group->action.d; }
 
 static void momenta(nh_html_writer *w, const nh_reduction *r)
 {

@@ -22,7 +22,7 @@ size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s
     nh_arena *arena = r->kinetic->arena;
     size_t n = 0;
     nh_reduction_equation *e = nh_arena_alloc(arena, (o->n + 2 * o->r + o->d + 1) * sizeof *e);
-    for (size_t i = 0; i < o->r; i++) {
+    for (size_t i = 0; i < o->r && !o->plain; i++) {
         nh_ex sum = nh_int(d, 0);
         for (size_t j = 0; j < o->r; j++) sum = nh_add(d, sum, nh_mul(d, o->M[i * o->r + j], o->w[j]));
         e[n++] = (nh_reduction_equation){o->momentum[i], shortened(r, sum)};
@@ -100,6 +100,9 @@ static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh
     nh_text_addf(out, g->given ? "Group given: %s, dimension %zu\n" : "Symmetry group: %s, dimension %zu\n", g->name, g->action.d + g->missing);
     if (g->jets)
         nh_text_addf(out, "  local symmetries of kinetic energy, potential and constraints: %zu (counted without an ansatz; of the kinetic energy alone: %zu)\n", g->jets->dimension, g->jets->of_metric);
+    if (r->weaker && g == r->all)
+        nh_text_addf(out, "  %zu more up to a total derivative in the Lagrangian: --weak\n", r->weaker);
+    if (r->strict) nh_text_add(out, "  of the equations of motion: the Lagrangian may change by a total derivative\n");
     put_generators(r, g, verbose, out);
     put_brackets(&g->action.algebra, out);
     if (!g->action.d) return;
@@ -148,8 +151,9 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
 {
     const char *with = s->against_full ? "the full motion" : "the first stage";
     if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
-    else nh_text_addf(out, "  not compared with %s", with);
-    if (s->reduced->conservative) nh_text_addf(out, r->kinetic->linear ? "; energy drifts by %.1e" : "; the moving energy drifts by %.1e", s->energy_drift);
+    if (s->compared && s->unsure > 0) nh_text_addf(out, ", which is known to %.1e itself", s->unsure);
+    if (!s->compared) nh_text_addf(out, "  not compared with %s", with);
+    if (s->reduced->conservative) nh_text_addf(out, r->kinetic->linear || s->kind == NH_STAGE_QUOTIENT ? "; energy drifts by %.1e" : "; the moving energy drifts by %.1e", s->energy_drift);
     if (s->kind == NH_STAGE_SECOND) nh_text_addf(out, ", the momentum by %.1e", s->momentum_drift);
     nh_text_add(out, "\n");
     if (s->charts) nh_text_addf(out, "  on the way the slice or the velocities are changed %zu time%s\n", s->charts, s->charts == 1 ? "" : "s");
@@ -176,7 +180,8 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, doub
 static void put_second(const nh_second *t, nh_text *out)
 {
     nh_text_addf(out, "  condition (ii): weak form %.1e, strong form %.1e%s\n", t->weak, t->strong, t->strong > 1e-6 * (1 + t->weak) && t->strong > 1e-9 ? " (the momentum is conserved all the same)" : "");
-    if (t->abelian) nh_text_add(out, "  the momentum in it is constant: a level set, divided by the whole group\n");
+    if (t->magnetic) nh_text_add(out, "  the Lagrangian's part that is linear in the velocities belongs to the momentum that is conserved\n");
+    else if (t->abelian) nh_text_add(out, "  the momentum in it is constant: a level set, divided by the whole group\n");
     else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
 }
 
@@ -218,7 +223,7 @@ static void put_chain(const nh_reduction_stage *s, nh_text *out)
 
 static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, double shown, nh_text *out)
 {
-    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of"};
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of", "the quotient by"};
     nh_text_addf(out, "\nStage %zu: %s %s\n", number, titles[s->kind], s->group);
     for (size_t a = 0; a < s->action->d; a++) {
         nh_text_add(out, a ? "; " : "  group    ");
@@ -240,7 +245,7 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
 
 static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
 {
-    if (!(r->kinetic->reducible || r->kinetic->general) || (r->partial && !r->momenta.count)) return;
+    if (!r->stages || (r->partial && !r->momenta.count)) return;
     nh_text_addf(out, "\n%s\n", r->momenta.count ? "Conserved momenta of the group" : "No momentum of the group is conserved (among the sections that were tried)");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];

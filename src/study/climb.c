@@ -135,21 +135,22 @@ void nh_solved_clear(nh_solved *s)
     nh_ansatz_free(s->ansatz);
 }
 
-/* Would this stage give anything new? */
-bool nh_climb_promising(nh_climb *x, size_t families, const nh_family *family)
+size_t nh_climb_news(nh_climb *x, size_t families, const nh_family *family)
 {
     nh_solved s = nh_climb_solve(x, families, family);
-    bool fresh = false;
+    size_t fresh = 0;
     if (s.nullspace && s.nullspace->likely) {
         nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &x->r->options);
         nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
-        fresh = compare(x, list, kind) > 0;
+        fresh = compare(x, list, kind);
         nh_free(kind);
         nh_candidates_free(list);
     }
     nh_solved_clear(&s);
     return fresh;
 }
+
+bool nh_climb_promising(nh_climb *x, size_t families, const nh_family *family) { return nh_climb_news(x, families, family) > 0; }
 
 /* The first `count` null vectors, turned into what is new in them. */
 static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certain)

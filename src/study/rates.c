@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "expr/diff.h"
 #include "expr/print.h"
 #include "noether/pencil.h"
 #include "noether/recognise.h"
@@ -10,6 +11,7 @@
 #include "study/stages.h"
 
 enum { most_values = 24, range_points = 256 };
+static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as two that differ by the root of rounding */
 
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
 
@@ -36,9 +38,11 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
     for (size_t k = 0; p && k < p->dimension && count < most; k++) {
         double x = p->re[k], y = p->im[k];
         if (y < 0 || p->residual[k] > 1e-7 * hypot(x, y)) continue; /* relative: rates have units */
+        if (y < split_by_rounding * fabs(x)) y = 0;
+        if (fabs(x) < split_by_rounding * y) x = 0;
         if (c->periodic) y = fabs(y - round(y)); /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
         bool old = fabs(x) + fabs(y) < 1e-6 * largest;
-        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < 1e-7 * (fabs(re[j]) + fabs(im[j]));
+        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < split_by_rounding * (fabs(re[j]) + fabs(im[j]));
         if (old) continue;
         re[count] = x;
         im[count++] = y;
@@ -113,10 +117,11 @@ typedef struct {
     const nh_family *base;
     size_t which, count; /* which of the pencil's bases; rates */
     double re[most_values], im[most_values];
+    int how[most_values]; /* the form in which a rate enters */
 } waves;
 
 /* exp(-re q) {cos(im q), sin(im q)} for every rate. */
-static size_t wave_terms(waves *w, int how, nh_ex *out)
+static size_t wave_terms(waves *w, nh_ex *out)
 {
     rate_context *c = &w->context;
     nh_dag *d = c->x->r->model->dag;
@@ -124,9 +129,9 @@ static size_t wave_terms(waves *w, int how, nh_ex *out)
     for (size_t k = 0; k < w->count; k++) {
         double re = w->re[k], im = w->im[k];
         bool turns = fabs(im) > negligible * fabs(re), decays = fabs(re) > negligible * fabs(im);
-        nh_ex rate = decays ? nh_neg(d, rate_of(c, re, false, how)) : 0;
+        nh_ex rate = decays ? nh_neg(d, rate_of(c, re, false, w->how[k])) : 0;
         nh_ex decay = !decays ? nh_int(d, 1) : c->base_of_power ? nh_pow(d, c->base_of_power, rate) : nh_call(d, NH_EXP, nh_mul(d, rate, c->q));
-        nh_ex angle = turns ? nh_mul(d, rate_of(c, im, true, how), c->q) : 0;
+        nh_ex angle = turns ? nh_mul(d, rate_of(c, im, true, w->how[k]), c->q) : 0;
         if (!turns) out[count++] = decay;
         else {
             out[count++] = nh_mul(d, decay, nh_call(d, NH_COS, angle));
@@ -138,22 +143,24 @@ static size_t wave_terms(waves *w, int how, nh_ex *out)
 
 /* The base times the waves; with the base itself only where it is everything of degree one (smooth functions on a small interval are nearly
  * dependent, so that nothing unnecessary should be there). */
-static size_t wave_families(waves *w, int how, nh_family *out)
+static size_t wave_families(waves *w, nh_family *out)
 {
     nh_arena *arena = w->context.x->r->arena;
     nh_ex *wave = nh_arena_alloc(arena, 2 * w->count * sizeof *wave);
     nh_family *part = nh_arena_alloc(arena, 2 * sizeof *part);
     part[0] = *w->base;
-    part[1] = (nh_family){.kind = NH_TERMS, .terms = wave_terms(w, how, wave), .term = wave};
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = wave_terms(w, wave), .term = wave};
     out[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
     out[1] = *w->base;
     return w->which == NH_PENCIL_PLAIN - 1 ? 2 : 1;
 }
 
-static bool promises(waves *w, int how)
+/* How much new the rates promise, the k-th in the given form. */
+static size_t promises(waves *w, size_t k, int how)
 {
     nh_family family[2];
-    return nh_climb_promising(w->context.x, wave_families(w, how, family), family);
+    w->how[k] = how;
+    return nh_climb_news(w->context.x, wave_families(w, family), family);
 }
 
 /* Whether the value and what it looks like are the same to rounding. */
@@ -163,17 +170,60 @@ static bool plain(const rate_context *c, double value)
     return nh_recognise_number(c->x->r->model->dag, value, c->x->r->options.recognise, &e) || !number_of(c, value);
 }
 
-/* In which form the rates promise something new: -1 for none. */
-static int promising_form(waves *w)
+/* Each rate by itself in the form in which it promises most; those that promise nothing are left out. */
+static void choose_forms(waves *w)
 {
-    int how = AS_NUMBERS;
-    if (!promises(w, how)) {
-        bool same = true;
-        for (size_t k = 0; k < w->count; k++) same &= plain(&w->context, w->re[k]) && plain(&w->context, w->im[k]);
-        how = AS_DIGITS;
-        if (same || !promises(w, how)) return -1;
+    size_t kept = 0;
+    for (size_t k = 0; k < w->count; k++) {
+        waves one = *w;
+        one.count = 1;
+        one.re[0] = w->re[k];
+        one.im[0] = w->im[k];
+        size_t most = promises(&one, 0, AS_NUMBERS);
+        int how = AS_NUMBERS;
+        if (!plain(&w->context, w->re[k]) || !plain(&w->context, w->im[k])) {
+            size_t digits = promises(&one, 0, AS_DIGITS);
+            if (digits > most) how = AS_DIGITS, most = digits;
+        }
+        if (!most) continue;
+        if (promises(&one, 0, NAMED) >= most) how = NAMED;
+        w->re[kept] = w->re[k];
+        w->im[kept] = w->im[k];
+        w->how[kept++] = how;
     }
-    return promises(w, NAMED) ? NAMED : how;
+    w->count = kept;
+}
+
+/* Is the function g of t a wave of frequency nu, g'' = -nu^2 g? */
+static bool is_wave(const nh_climb *x, nh_ex g, double nu)
+{
+    const nh_model *o = x->r->model;
+    const nh_points *p = x->ranges;
+    nh_ex t = o->system->t, pair[2] = {g, nh_diff(o->dag, nh_diff(o->dag, g, t), t)};
+    double *value = nh_alloc_array(2 * p->count + 1, sizeof *value), rest = 0, size = 0;
+    nh_points_evaluate(p, o, 2, pair, value);
+    for (size_t i = 0; i < p->count; i++) {
+        rest = fmax(rest, fabs(value[p->count + i] + nu * nu * value[i]));
+        size = fmax(size, fabs(value[p->count + i]));
+    }
+    nh_free(value);
+    return size > 0 && rest < 1e-7 * size;
+}
+
+/* The frequencies with which a system is driven are waves of the base itself: nothing is conserved with them, and they are nearly dependent on the others. */
+static size_t without_driven(const nh_climb *x, nh_ex q, size_t n, double *re, double *im)
+{
+    const nh_model *o = x->r->model;
+    size_t kept = 0;
+    for (size_t k = 0; k < n; k++) {
+        bool driven = false;
+        for (size_t i = 0; i < x->words.atoms && q == o->system->t && fabs(re[k]) < 1e-9 * fabs(im[k]) && !driven; i++)
+            driven = nh_depends(o->dag, x->words.atom[i], q) && is_wave(x, x->words.atom[i], im[k]);
+        re[kept] = re[k];
+        im[kept] = im[k];
+        kept += !driven;
+    }
+    return kept;
 }
 
 /* Returns whether something new was found. */
@@ -184,18 +234,19 @@ static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, si
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t before = r->independent;
-    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, which), family[2];
+    size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which; /* elsewhere 1 and q are a pair that rounding splits */
+    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, index), family[2];
     nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &ignored);
     if (!a) return false;
     waves w = {.context = {.x = x, .base = a, .q = q, .base_of_power = power}, .base = &base, .which = which};
     for (size_t i = 0; i < x->words.waves; i++) w.context.periodic |= x->words.wave[i] == q;
-    w.count = rates(r->model, &w.context, w.re, w.im, most_values);
+    w.count = without_driven(x, q, rates(r->model, &w.context, w.re, w.im, most_values), w.re, w.im);
     if (w.count > most_rates) w.count = most_rates;
-    int how = w.count ? promising_form(&w) : -1;
-    if (how >= 0) {
+    choose_forms(&w);
+    if (w.count) {
         char text[120];
         snprintf(text, sizeof text, power ? "powers of %.60s with exponents found by the pencil" : "exponentials and waves in %.60s with rates found by the pencil", name);
-        nh_climb_stage(x, text, wave_families(&w, how, family), family);
+        nh_climb_stage(x, text, wave_families(&w, family), family);
     }
     nh_ansatz_free(a);
     return r->independent > before;
@@ -239,6 +290,20 @@ static void powers(nh_climb *x)
     }
 }
 
+/* exp(-nu V) f with V the potential: what a thermostat that keeps the speed gives (f falls as the forces do work). */
+static void potential_rate(nh_climb *x)
+{
+    const nh_model *o = x->r->model;
+    nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero), *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
+    if (o->k == 0 || nh_climb_done(x)) return;
+    for (size_t s = 0; s < o->m; s++) {
+        v[s] = o->system->coordinate[s].v;
+        zero[s] = nh_int(o->dag, 0);
+    }
+    nh_ex V = nh_substitute(o->dag, o->system->lagrangian, o->m, v, zero);
+    if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t)) pencil_stage(x, V, 0, "the potential", NH_PENCIL_PRODUCTS);
+}
+
 /* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
 void nh_climb_rates(nh_climb *x)
 {
@@ -251,4 +316,5 @@ void nh_climb_rates(nh_climb *x)
         for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);
+    potential_rate(x);
 }

@@ -280,6 +280,29 @@ static void search(problem *p, const char *what)
     table_clear(&t);
 }
 
+/* What has closed form should be found as that: the same words with harmonics of q and the system's functions. */
+static void closed_forms(problem *p)
+{
+    nh_climb *x = p->x;
+    nh_dag *d = x->r->model->dag;
+    nh_ex *f = nh_arena_alloc(x->r->arena, (6 + x->words.atoms) * sizeof *f), *word = nh_arena_alloc(x->r->arena, (p->words + 1) * sizeof *word);
+    size_t n = 0;
+    f[n++] = nh_int(d, 1);
+    if (!x->words.waves) f[n++] = p->q;
+    for (int k = 1; k <= 2 && x->words.waves; k++) {
+        nh_ex angle = nh_mul(d, nh_int(d, k), p->q);
+        f[n++] = nh_call(d, NH_COS, angle);
+        f[n++] = nh_call(d, NH_SIN, angle);
+    }
+    for (size_t i = 0; i < x->words.atoms; i++) f[n++] = x->words.atom[i];
+    memcpy(word, p->word, p->words * sizeof *word);
+    nh_family *part = nh_arena_alloc(x->r->arena, 2 * sizeof *part), *both = nh_arena_alloc(x->r->arena, sizeof *both);
+    part[0] = (nh_family){.kind = NH_TERMS, .terms = p->words, .term = word};
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = n, .term = f};
+    both[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    nh_climb_stage(x, "squares of velocities times harmonics and functions of the shape", 1, both);
+}
+
 /* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are closed under Gamma. */
 void nh_climb_series(nh_climb *x)
 {
@@ -294,5 +317,6 @@ void nh_climb_series(nh_climb *x)
     p.word[p.words++] = nh_int(d, 1);
     for (size_t i = 0; i < o->n; i++)
         for (size_t j = 0; j <= i; j++) p.word[p.words++] = nh_mul(d, o->chart->w[i], o->chart->w[j]);
-    search(&p, "squares of velocities");
+    closed_forms(&p);
+    if (!nh_climb_done(x)) search(&p, "squares of velocities");
 }
