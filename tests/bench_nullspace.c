@@ -9,18 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/linalg.h"
 #include "base/memory.h"
 #include "noether/nullspace.h"
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double uniform(unsigned long long *state)
 {
@@ -51,19 +44,19 @@ static void measure(size_t n, size_t m)
         b[i] = uniform(&state);
     mixing(n, z, &state);
     nh_multiply(m, n, n, b, z, a);
-    double start = now();
+    double start = nh_clock();
     nh_multiply(m, n, n, b, z, a);
-    double product = now() - start;
-    start = now();
+    double product = nh_clock() - start;
+    start = nh_clock();
     nh_equations *equations = nh_equations_create(n);
     for (size_t i = 0; i < m; i += BLOCK) {
         size_t rows = m - i < BLOCK ? m - i : BLOCK;
         nh_equations_add(equations, rows, a + i, m);
         nh_equations_add_values(equations, rows, b + i, m);
     }
-    double streamed = now() - start;
+    double streamed = nh_clock() - start;
     nh_nullspace *result = nh_nullspace_solve(equations, &options, NULL);
-    double total = now() - start;
+    double total = nh_clock() - start;
     printf("| %zu | %zu | %.3f | %.3f | %.3f | %.3f | %.1f | %zu | %.1e |\n", n, m, streamed, total - streamed, total, product,
            total / product, result ? result->dimension : 0, result ? result->gap : 0);
     nh_nullspace_free(result);

@@ -108,6 +108,19 @@ static bool unknown_option(const char *word, nh_error *error)
     return near ? nh_error_hint(error, "did you mean `--%s`?", near) : nh_error_hint(error, "`nhsym help` lists them");
 }
 
+/* getopt takes any beginning of a name that is not ambiguous: a script that uses one breaks with the next option that begins like it, so they are refused. */
+static bool in_full(const char *word, int code, nh_error *error)
+{
+    size_t length = strcspn(word, "=");
+    for (const struct option *o = long_options; o->name; o++) {
+        if (o->val != code || strncmp(word, "--", 2)) continue;
+        if (strlen(o->name) + 2 == length && !strncmp(word + 2, o->name, length - 2)) return true;
+        nh_fail(error, NH_USAGE, "", "there is no option `%.*s`", (int)length, word);
+        return nh_error_hint(error, "names are written in full: `--%s`", o->name);
+    }
+    return true;
+}
+
 static bool missing_value(const char *word, nh_error *error)
 {
     nh_fail(error, NH_USAGE, "", "`%s` needs a value", word);
@@ -206,7 +219,8 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     bool given[owner_count] = {false};
     opterr = 0;
     optind = 1;
-    for (int code; (code = getopt_long(argc, argv, "-:qvho:", long_options, NULL)) != -1;) {
+    for (int code, at = optind; (code = getopt_long(argc, argv, "-:qvho:", long_options, NULL)) != -1; at = optind) {
+        if (code != 1 && !in_full(argv[at], code, error)) return false;
         for (size_t i = 0; i < owner_count; i++) given[i] = given[i] || owners[i].code == code;
         if (code == 1) {
             if (!cli->command) cli->command = optarg;

@@ -6,6 +6,7 @@
 
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/formula.h"
 
 /* Simplified unless it is so large that nobody would read it. */
 static nh_ex shortened(const nh_reduction *r, nh_ex e)
@@ -46,13 +47,10 @@ const char *nh_reduction_joint_name(const nh_reduction *r, size_t joint)
 
 /* ---- text ---- */
 
-static void put_expression(nh_text *out, const char *indent, const char *name, nh_dag *d, nh_ex e, bool verbose)
+static void put_expression(nh_text *out, const char *indent, const char *name, nh_dag *d, nh_ex e, double shown)
 {
-    enum { longest = 600 };
-    char *text = nh_print_string(d, e);
-    size_t length = strlen(text);
-    if (length > longest && !verbose) nh_text_addf(out, "%s%s = ... (%zu characters: too long to be shown; --verbose prints them)\n", indent, name, length);
-    else nh_text_addf(out, "%s%s = %s\n", indent, name, text);
+    char *text = nh_formula_text(d, e, shown);
+    nh_text_addf(out, "%s%s = %s\n", indent, name, text);
     nh_free(text);
 }
 
@@ -162,13 +160,13 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
     if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
 }
 
-static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, bool verbose, nh_text *out)
+static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, double shown, nh_text *out)
 {
     const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
     if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : m->local ? ", but locally only: its density has no single value on an angle" : "");
     if (m->measure && m->closed) {
-        put_expression(out, "    ", "density", r->kinetic->dag, m->density, verbose);
+        put_expression(out, "    ", "density", r->kinetic->dag, m->density, shown);
         if (!m->proved) nh_text_add(out, "      (to rounding)\n");
     }
     if (!m->measure) nh_text_addf(out, "  no invariant measure with a density on the shape space (|d Theta| = %.2g)\n", m->curl);
@@ -187,7 +185,7 @@ static void put_second(const nh_second *t, nh_text *out)
     else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
 }
 
-static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, bool verbose, nh_text *out)
+static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, double shown, nh_text *out)
 {
     const nh_linear_momenta *l = &s->linear;
     nh_dag *d = r->kinetic->dag;
@@ -202,7 +200,7 @@ static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, bool 
         if (!nh_is_zero(d, l->N[a])) {
             char name[64];
             snprintf(name, sizeof name, "N_%zu%zu", a / l->count + 1, a % l->count + 1);
-            put_expression(out, "    ", name, d, l->N[a], verbose);
+            put_expression(out, "    ", name, d, l->N[a], shown);
         }
 }
 
@@ -223,7 +221,7 @@ static void put_chain(const nh_reduction_stage *s, nh_text *out)
     nh_text_addf(out, "  bracket by stages against the bracket %.1e, Euler-Poincare right-hand side %.1e\n", p->bracket, p->euler_poincare);
 }
 
-static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, bool verbose, nh_text *out)
+static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, double shown, nh_text *out)
 {
     static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of", "the quotient by"};
     nh_text_addf(out, "\nStage %zu: %s %s\n", number, titles[s->kind], s->group);
@@ -238,14 +236,14 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
     if (s->kind == NH_STAGE_SECOND) put_second(s->second, out);
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
-    for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, verbose);
-    put_measure(r, s, verbose, out);
-    put_linear(r, s, verbose, out);
+    for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, shown);
+    put_measure(r, s, shown, out);
+    put_linear(r, s, shown, out);
     put_chain(s, out);
     put_numbers(r, s, out);
 }
 
-static void put_momenta(const nh_reduction *r, bool verbose, nh_text *out)
+static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
 {
     if (!r->stages || (r->partial && !r->momenta.count)) return;
     nh_text_addf(out, "\n%s\n", r->momenta.count ? "Conserved momenta of the group" : "No momentum of the group is conserved (among the sections that were tried)");
@@ -255,19 +253,20 @@ static void put_momenta(const nh_reduction *r, bool verbose, nh_text *out)
         nh_text_addf(out, "  %s of ", p->moving ? "energy less the momentum" : p->horizontal ? "horizontal symmetry: momentum" : "gauge momentum");
         nh_generator_text(r->kinetic, &field, out);
         nh_text_add(out, p->proved ? " (proved)\n" : " (to rounding)\n");
-        put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, verbose);
+        put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, shown);
     }
 }
 
 void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
 {
+    double shown = r->options.shown;
     nh_text_addf(out, "%s   with ", r->system->title);
     for (size_t i = 0; i < r->system->parameters; i++) nh_text_addf(out, "%s%s = %.6g", i ? ", " : "", r->system->parameter[i].name, r->system->parameter[i].value);
     nh_text_addf(out, "%s\n%zu coordinates, %zu constraint%s\n\n", r->system->parameters ? "" : "no parameters", r->kinetic->m, r->kinetic->f, r->kinetic->f == 1 ? "" : "s");
     if (r->all) put_group(r, r->all, verbose, out);
     if (r->group != r->all) put_group(r, r->group, verbose, out);
     put_joints(r, out);
-    for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, verbose, out);
-    if (r->group->action.d) put_momenta(r, verbose, out);
+    for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, shown, out);
+    if (r->group->action.d) put_momenta(r, shown, out);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%swarning: %s\n", i ? "" : "\n", r->warning[i]);
 }

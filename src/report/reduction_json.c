@@ -310,6 +310,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     stages = nh_json_put_array(root, "stages");
     for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
     put_momenta(root, r);
+    nh_json_put_number(root, "coordinates", (double)r->kinetic->m);
     nh_json_put_number(root, "seconds", r->seconds);
     warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);
