@@ -12,6 +12,10 @@ static void compare(nh_reduction_bench *b, nh_reduction_stage *s, const double *
     nh_reduction *r = b->r;
     nh_options options = r->options;
     nh_error trouble = {0};
+    if (b->reached < 2) {
+        snprintf(s->note, sizeof s->note, "the full motion is not known anywhere, so that nothing could be compared");
+        return;
+    }
     options.tolerance = b->rtol;
     options.steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
     nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
