@@ -56,6 +56,8 @@ static size_t momenta(const nh_climb *x, nh_ex *P)
         nh_kinetic alone = *k; /* the metric alone */
         alone.V = nh_int(k->dag, 0);
         alone.forced = alone.magnetic = false;
+        alone.linear = alone.affine = true;
+        alone.f = 0;
         for (size_t s = 0; s < k->m; s++) alone.a[s] = nh_int(k->dag, 0);
         jets = nh_jets_find(&alone, &r->options, &ignored);
         if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, &r->options, &ignored)) found.count = 0;
