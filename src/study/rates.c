@@ -313,6 +313,7 @@ void nh_climb_rates(nh_climb *x)
         const char *name = nh_name_of(o->dag, q);
         for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_climb_done(x); base++)
             if (pencil_stage(x, q, 0, name, base)) break;
+        if (o->system->has_forces && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_SQUARES);
         for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);
