@@ -149,7 +149,9 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
         v->violation = full->violation;
         v->multiplier_evaluations = full->motion->evaluations;
         compare(r, b, reduced, full);
-        if (!full->motion->complete)
+        if (!full->motion->complete && (double)full->motion->steps >= options.max_steps)
+            snprintf(v->note, sizeof v->note, "the multiplier form, a second opinion, was compared to t = %.4g only: so far it comes in %.0f steps", full->motion->end_time, options.max_steps);
+        else if (!full->motion->complete)
             snprintf(v->note, sizeof v->note, "the multiplier form was compared to t = %.4g only: %.180s", full->motion->end_time, full->motion->note);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
@@ -253,7 +255,7 @@ static void keep(run *r, const nh_state *initial, const nh_motion *motion)
     v->steps = motion->steps;
     v->complete = motion->complete;
     v->end = motion->end_time;
-    if (!motion->complete) snprintf(v->note, sizeof v->note, "%.250s", motion->note);
+    if (!motion->complete) snprintf(v->note, sizeof v->note, "the test motion ends at t = %.4g: %.200s", motion->end_time, motion->note);
 }
 
 static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_error *error)

@@ -193,7 +193,7 @@ static void list_candidates(nh_bench *c)
         if (why) nh_bench_refuse(c, m->name, why);
         else add(c, m, 0, false);
     }
-    if (!c->yard.currents) nh_bench_refuse(c, "projection", "no current of this system is known");
+    if (!c->yard.currents) nh_bench_refuse(c, "projection", "the energy is not conserved, and the file knows no current; `known:` may hold one that `nhsym analyze` finds");
     else if (c->model->chart->implicit) nh_bench_refuse(c, "projection", "the constraints are solved by Newton's method inside the equations of motion");
     else {
         choose_currents(c);

@@ -91,7 +91,8 @@ nh_tried *nh_climb_note(nh_climb *x, const char *name)
 void nh_climb_keep_spectrum(nh_climb *x, const nh_nullspace *s, bool found)
 {
     nh_result *r = x->r;
-    bool better = !r->current.done || found || (r->count == 0 && s->columns > r->current.columns);
+    bool alone = r->current.columns < 3 && s->columns >= 3; /* the energy for itself: one value shows no gap */
+    bool better = !r->current.done || found || alone || (r->count == 0 && s->columns > r->current.columns);
     if (better) r->current = nh_spectrum_of(r->arena, s);
 }
 

@@ -16,6 +16,8 @@ typedef struct {
     double low, high;
     size_t degree, words;
     nh_ex *word;              /* the functions that they multiply */
+    double *coefficient;      /* of T_k for word i: coefficient[i * stride + k], k = 0 .. degree */
+    size_t stride;
 } nh_series;
 
 typedef struct {

@@ -225,6 +225,7 @@ static nh_ex expression_of(const problem *p, const double *c, size_t degree, nh_
             f = nh_add(d, f, nh_mul(d, nh_real(d, c[i * rows + k]), T[k]));
         }
         if (nh_is_zero(d, f)) continue;
+        for (size_t k = 0; k < rows && series->coefficient; k++) series->coefficient[series->words * rows + k] = c[i * rows + k];
         series->word[series->words++] = p->word[i];
         phi = nh_add(d, phi, nh_mul(d, p->word[i], f));
     }
@@ -238,7 +239,8 @@ static size_t keep(problem *p, const table *fine, const double *digits)
     size_t n = p->words * (fine->degree + 1), added = 0;
     for (size_t v = 0; v < fine->count && !nh_climb_done(p->x); v++) {
         nh_series *series = nh_arena_alloc(r->arena, sizeof *series);
-        *series = (nh_series){.coordinate = p->q, .low = p->low, .high = p->high, .word = nh_arena_alloc(r->arena, p->words * sizeof(nh_ex))};
+        *series = (nh_series){.coordinate = p->q, .low = p->low, .high = p->high, .word = nh_arena_alloc(r->arena, p->words * sizeof(nh_ex)),
+                              .coefficient = nh_arena_alloc(r->arena, n * sizeof(double)), .stride = fine->degree + 1};
         nh_ex phi = expression_of(p, fine->c + v * n, fine->degree, series);
         if (nh_currents_add_series(p->x->bench, phi, series, fine->quotient, digits[v])) {
             r->independent++;
