@@ -344,13 +344,11 @@ bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, siz
     return true;
 }
 
-/* What drives a motion is in its response; masses and springs that grow like t bring t times the words. */
-static void put_response(const nh_shelf *s, nh_list *l)
+/* Masses and springs that grow like t bring t times the words.  Elsewhere t f is a second vector of the eigenvalue of f, which rounding splits. */
+static void put_growing(const nh_shelf *s, nh_list *l)
 {
     nh_list words = {0};
     nh_ex t = s->o->system->t;
-    put_time(s, l);
-    if (!nh_depends(s->o->dag, s->o->Lbar, t)) return;
     nh_list_put_all(&words, s->o->n, s->o->chart->w);
     nh_list_put_all(&words, s->w->positions, s->w->position);
     for (size_t i = 0; i < words.n; i++) nh_list_put(l, nh_mul(s->o->dag, t, words.e[i]));
@@ -360,7 +358,7 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
 {
     enum { most_with_waves = 110 };
     nh_shelf s = {arena, o, w, NULL, 0};
-    bool timely = base == NH_PENCIL_TIME;
+    bool growing = base == NH_PENCIL_GROWING, timely = growing || base == NH_PENCIL_TIME;
     if (timely) base = 2;
     if (base == NH_PENCIL_SQUARES) {
         nh_list u = {0}, f = nh_list_functions(&s, true);
@@ -387,7 +385,8 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     size_t words_count = l.n;
     for (size_t i = 0; i < words_count && base > 0 && words_count * v.n <= most_with_waves; i++)
         for (size_t j = 0; j < v.n; j++) nh_list_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
-    if (timely) put_response(&s, &l);
+    if (timely) put_time(&s, &l);
+    if (growing) put_growing(&s, &l);
     if (base < 2) return nh_shelf_terms(&s, &l);
     nh_list_put_all(&l, q.n, q.e);
     nh_list_put_all(&l, f.n, f.e);
