@@ -195,6 +195,7 @@ static void put_map(const nh_stress_map *map, nh_json *list)
         nh_json_put_text(cell, "method", map->cell[i].method);
         nh_json_put_text(cell, "status", nh_measured_status_name(map->cell[i].status));
         nh_json_put_number(cell, "error", map->cell[i].error);
+        nh_json_put_number(cell, "drift", map->cell[i].drift);
         nh_json_put_text(cell, "note", map->cell[i].note ? map->cell[i].note : "");
     }
 }
