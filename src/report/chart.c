@@ -26,7 +26,7 @@ const nh_measured *nh_comparison_fastest(const nh_comparison *c, size_t from, si
     const nh_measured *best = NULL;
     for (size_t i = from; i < to; i++) {
         const nh_measured *m = &c->item[i];
-        if (m->status <= NH_WARNED && (reduced || !m->reduced) && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
+        if (m->status <= (reduced ? NH_WARNED : NH_RIGHT) && (reduced || !m->reduced) && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
     }
     return best;
 }

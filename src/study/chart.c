@@ -250,11 +250,11 @@ static void collect(nh_bench *c)
         if (c->grid[i].method) out->item[out->count++] = c->grid[i];
     for (size_t i = 0; i < out->count; i++) {
         nh_measured *m = &out->item[i];
-        m->front = m->status <= NH_WARNED && !m->reduced;
+        m->front = m->status == NH_RIGHT && !m->reduced; /* what a guard complains about is no advice */
         for (size_t j = 0; j < out->count && m->front; j++) {
             const nh_measured *o = &out->item[j];
             double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement); /* smaller ones cannot be told apart */
-            if (o->status <= NH_WARNED && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
+            if (o->status == NH_RIGHT && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
         }
     }
 }

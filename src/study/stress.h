@@ -22,7 +22,8 @@ typedef struct {
     double at, second_at; /* on the axes; the second 0 where there is none */
     const char *method;
     nh_measured_status status;
-    double error, drift; /* NAN where there is no reference or no result; largest drift of a known current, NAN where none is known */
+    double error, drift; /* NAN where there is no reference or no result (of the discrete problem: rate of what was found, and distance of known currents from it, at other points); largest
+                            drift of a known current, NAN where none is known */
     const char *note;  /* which guard, or why it failed */
 } nh_stress_cell;
 

@@ -110,8 +110,8 @@ static bool solve(fit *f, const nh_points *points, size_t n, const nh_ex *e, int
 
 /* ---- guards ---- */
 
-/* How many null vectors are not conserved, or are constant, at points that the fit has not seen. */
-static size_t refuted(const fit *f, const solved *s)
+/* How many null vectors are not conserved, or are constant, at points that the fit has not seen; the largest rate relative to the variation. */
+static size_t refuted(const fit *f, const solved *s, double *worst)
 {
     size_t rows = f->heldout->count, n = s->columns, k = s->space->dimension, bad = 0;
     double *rate = nh_alloc_array(2 * rows * n + 1, sizeof *rate), *value = rate + rows * n, *r = nh_alloc_array(2 * rows * k + 1, sizeof *r), *v = r + rows * k;
@@ -126,6 +126,7 @@ static size_t refuted(const fit *f, const solved *s)
             size += v[p + j * rows] * v[p + j * rows];
             rest += r[p + j * rows] * r[p + j * rows];
         }
+        if (vary > 0) *worst = fmax(*worst, sqrt(rest / vary));
         bad += !(sqrt(rest) <= conserved * sqrt(vary) && sqrt(vary) > constant * sqrt(size));
     }
     nh_free(r);
@@ -166,15 +167,16 @@ static const char *guard_of(fit *f, const solved *s, size_t rank, double *error)
 {
     nh_arena *arena = f->w->out->arena;
     const nh_nullspace *n = s->space;
-    size_t bad = refuted(f, s);
-    *error = missing(f, s);
+    double rate = 0, lost = missing(f, s);
+    size_t bad = refuted(f, s, &rate);
+    *error = fmax(rate, isnan(lost) ? 0 : lost);
     if (bad) return nh_arena_printf(arena, "%zu of %zu null vectors are not conserved, or constant, elsewhere in the domain", bad, n->dimension);
     if (hardly_vary(f, s)) return "null vectors that depend on each other elsewhere in the domain";
     if (n->verdict == NH_UNDECIDED) return "the spectrum does not decide";
     if (n->likely > n->dimension) return "a wide gap above values that are not at rounding";
     if (n->rank_in_doubt) return "it is in doubt how many columns are independent";
     if (n->rank < rank) return nh_arena_printf(arena, "%zu independent columns, %zu elsewhere", n->rank, rank);
-    if (*error > conserved) return "a known current is missing";
+    if (lost > conserved) return "a known current is missing";
     return NULL;
 }
 
