@@ -1,18 +1,11 @@
 /* Equations of chains of bodies against a recursion written by hand: time to build, size, time per evaluation of the accelerations. */
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "chain.h"
 #include "geometry/model.h"
 
 enum { repetitions = 101, least_bodies = 2, most_bodies = 12 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int ascending(const void *a, const void *b)
 {
@@ -45,9 +38,9 @@ static double measure_batch(job *j)
     }
     for (size_t i = 0; i < j->t->links; i++) row_out[i] = out[i];
     for (int i = 0; i < repetitions; i++) {
-        double start = now();
+        double start = nh_clock();
         nh_tape_eval_batch(j->tape, j->work, NH_BATCH, row_in, row_out);
-        time[i] = 1e9 * (now() - start) / NH_BATCH;
+        time[i] = 1e9 * (nh_clock() - start) / NH_BATCH;
     }
     qsort(time, repetitions, sizeof *time, ascending);
     return time[0];
@@ -61,13 +54,13 @@ static double measure(job *j, void (*run)(job *, double *))
     double time[repetitions], out[most_bodies], sum = 0;
     for (int i = 0; i < repetitions; i++) {
         int rounds = 50;
-        double start = now();
+        double start = nh_clock();
         for (int k = 0; k < rounds; k++) {
             run(j, out);
             j->z[1] += 1e-9 * out[0];
             sum += out[0];
         }
-        time[i] = 1e9 * (now() - start) / rounds;
+        time[i] = 1e9 * (nh_clock() - start) / rounds;
     }
     if (sum == 0.123456789) puts("");
     qsort(time, repetitions, sizeof *time, ascending);
@@ -104,14 +97,14 @@ int main(int argc, char **argv)
         nh_error error;
         nh_error_clear(&error);
         char *text = revolute_chain(&t, n, 7);
-        double start = now();
+        double start = nh_clock();
         nh_system *s = nh_system_parse("chain", text, 0, NULL, &error);
         nh_model *o = s ? nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error) : NULL;
         if (!o) {
             fprintf(stderr, "%s\n", error.what);
             return 1;
         }
-        build[rows] = now() - start;
+        build[rows] = nh_clock() - start;
         job j = {.t = &t, .tape = nh_model_tape(o, n, o->a)};
         j.work = nh_tape_work_create(j.tape);
         for (size_t i = 0; i < 2 * n; i++) j.z[1 + i] = sin(1 + 2.3 * (double)i);
@@ -120,9 +113,9 @@ int main(int argc, char **argv)
         hand[rows] = measure(&j, by_hand);
         tape[rows] = measure(&j, by_tape);
         batch[rows] = measure_batch(&j);
-        start = now();
+        start = nh_clock();
         bool compiled = nh_tape_compile(j.tape, j.work);
-        double compiling = now() - start;
+        double compiling = nh_clock() - start;
         machine[rows] = compiled ? measure(&j, by_tape) : NAN;
         printf("| %zu | %.3f | %zu | %.0f | %.0f | %.2f | %.2f | %.0f | %.2f | %.0f | %.2f | %.0e |\n", n, build[rows], nh_tape_length(j.tape), hand[rows], tape[rows],
                tape[rows] / hand[rows], compiling, machine[rows], machine[rows] / hand[rows], batch[rows], batch[rows] / hand[rows], difference);

@@ -9,20 +9,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/linalg.h"
 #include "base/memory.h"
 #include "geometry/model.h"
 #include "noether/nullspace.h"
 #include "noether/rows.h"
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double uniform(unsigned long long *state)
 {
@@ -50,12 +43,12 @@ static double of_one_matrix(size_t n, size_t m, const double *a)
 {
     double *copy = nh_alloc_array(m * n, sizeof *copy), *r = nh_alloc_array(2 * n * n + n, sizeof *r), begin = 0;
     memcpy(copy, a, m * n * sizeof *a);
-    begin = now();
+    begin = nh_clock();
     nh_qr *qr = nh_qr_create(n);
     nh_qr_add(qr, m, copy, m);
     nh_qr_triangle(qr, r);
     nh_svd(n, n, r, r + 2 * n * n, NULL, r + n * n);
-    double seconds = now() - begin;
+    double seconds = nh_clock() - begin;
     nh_qr_free(qr);
     nh_free(r);
     nh_free(copy);
@@ -70,19 +63,19 @@ static void measure(size_t n, size_t m)
         b[i] = uniform(&state);
     mixing(n, z, &state);
     nh_multiply(m, n, n, b, z, a);
-    double start = now();
+    double start = nh_clock();
     nh_multiply(m, n, n, b, z, a);
-    double product = now() - start;
-    start = now();
+    double product = nh_clock() - start;
+    start = nh_clock();
     nh_equations *equations = nh_equations_create(n);
     for (size_t i = 0; i < m; i += 256) {
         size_t rows = m - i < 256 ? m - i : 256;
         nh_equations_add(equations, rows, a + i, m);
         nh_equations_add_values(equations, rows, b + i, m);
     }
-    double streamed = now() - start;
+    double streamed = nh_clock() - start;
     nh_nullspace *result = nh_nullspace_solve(equations, &options, NULL);
-    double total = now() - start;
+    double total = nh_clock() - start;
     double work = 4.0 * (double)m * (double)n * (double)n + 5.0 * pow((double)n, 3), rate = work / total * product / (2.0 * (double)m * (double)n * (double)n);
     printf("| %zu | %zu | %.3f | %.3f | %.3f | %.3f | %.1f | %.0f %% | %zu | %.1e | %.3f |\n", n, m, streamed, total - streamed, total, product, total / product, 100 * rate,
            result ? result->dimension : 0, result ? result->gap : 0, of_one_matrix(n, m, a));
@@ -110,22 +103,22 @@ static void measure_ansatz(size_t degree, size_t m)
     nh_rows *rows = nh_rows_create(o, a, 0, NULL);
     size_t n = a->columns;
     nh_equations *equations = nh_equations_create(n), *bare = nh_equations_create(n);
-    double begin = now();
+    double begin = nh_clock();
     nh_rows_current(rows, points, NULL, equations);
-    double both = now() - begin, *block = nh_alloc_array(256 * n, sizeof *block), qr = 0;
+    double both = nh_clock() - begin, *block = nh_alloc_array(256 * n, sizeof *block), qr = 0;
     unsigned long long state = 2385;
     for (size_t i = 0; i < m; i += 256) {
         for (int k = 0; k < 2; k++) {
             for (size_t j = 0; j < 256 * n; j++) block[j] = uniform(&state);
-            begin = now();
+            begin = nh_clock();
             if (k) nh_equations_add(bare, 256, block, 256);
             else nh_equations_add_values(bare, 256, block, 256);
-            qr += now() - begin;
+            qr += nh_clock() - begin;
         }
     }
-    begin = now();
+    begin = nh_clock();
     nh_nullspace *result = nh_nullspace_solve(equations, &options, &error);
-    printf("| %zu | %zu | %.3f | %.3f | %.3f | %zu | %.1e |\n", n, m, fmax(both - qr, 0), qr, now() - begin, result ? result->dimension : 0, result ? result->gap : 0);
+    printf("| %zu | %zu | %.3f | %.3f | %.3f | %zu | %.1e |\n", n, m, fmax(both - qr, 0), qr, nh_clock() - begin, result ? result->dimension : 0, result ? result->gap : 0);
     nh_nullspace_free(result);
     nh_equations_free(bare);
     nh_equations_free(equations);

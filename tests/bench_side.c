@@ -4,18 +4,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "motion/trajectory.h"
 
 enum { repetitions = 21 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int by_value(const void *a, const void *b) { return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b); }
 
@@ -28,12 +21,12 @@ int main(int argc, char **argv)
     nh_options_default(&options);
     nh_state initial = {.q = q, .v = v};
     for (int r = 0; r < repetitions; r++) {
-        double begin = now();
+        double begin = nh_clock();
         nh_system *s = nh_system_read("systems/sleigh.yaml", 0, NULL, &error);
         nh_model *o = s ? nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error) : NULL;
         if (!o) return fprintf(stderr, "%s\n", error.what), 1;
         nh_dynamics *d = nh_dynamics_create(o);
-        derive[r] = now() - begin;
+        derive[r] = nh_clock() - begin;
         nh_trajectory_request request = {.model = o, .initial = &initial, .count = 2, .times = times, .options = &options, .n = o->m, .e = o->chart->symbol + 1, .method = nh_method_find("GSL rk8pd")};
         if (r == 0) options.tolerance = 1e-2;
         do {

@@ -2,20 +2,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "expr/dag.h"
 #include "expr/parse.h"
 #include "expr/tape.h"
 
 enum { inputs = 5, outputs = 5, points = NH_BATCH, repetitions = 31, rounds = 200 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static const double A = 0.7385, K = 1.2071;
 
@@ -107,9 +100,9 @@ static void measure(const job *j, void (*run)(const job *), double *best, double
 {
     double time[repetitions];
     for (int i = 0; i < repetitions; i++) {
-        double start = now();
+        double start = nh_clock();
         for (int k = 0; k < rounds; k++) run(j);
-        time[i] = 1e9 * (now() - start) / rounds / (double)j->count;
+        time[i] = 1e9 * (nh_clock() - start) / rounds / (double)j->count;
     }
     qsort(time, repetitions, sizeof *time, ascending);
     *best = time[0];

@@ -8,14 +8,13 @@
 #ifndef NH_TESTS_MULTIPLIERS_H
 #define NH_TESTS_MULTIPLIERS_H
 
-#include <arb.h>
-#include <arb_mat.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/arb.h"
 #include "expr/diff.h"
 #include "expr/num_long.h"
 #include "expr/normal.h"

@@ -1,12 +1,20 @@
 #!/bin/sh
 # Installs the Debian packages that are missing, says which, and asks for rights only when it must.
-# usage: packages.sh PACKAGE...
-missing=""
-for package in "$@"; do
-    dpkg -s "$package" 2>/dev/null | grep -q '^Status: install ok installed' || missing="$missing $package"
-done
-[ -z "$missing" ] && exit 0
-echo "missing packages:$missing"
+# usage: packages.sh PACKAGE[,OTHER]...      OTHER where the system's archive does not have PACKAGE
+available() { LC_ALL=C apt-cache policy "$1" 2>/dev/null | grep -q 'Candidate: [0-9]'; }
+installed() { dpkg -s "$1" 2>/dev/null | grep -q '^Status: install ok installed'; }
+
+missing() {
+    for word in "$@"; do
+        package=${word%%,*}
+        installed "$package" || available "$package" || package=${word##*,}
+        installed "$package" || printf ' %s' "$package"
+    done
+}
+
+packages=$(missing "$@")
+[ -z "$packages" ] && exit 0
+echo "missing packages:$packages"
 command -v apt-get >/dev/null || {
     echo "apt-get was not found: install the development files of these libraries by your system's own means" >&2
     exit 1
@@ -15,18 +23,19 @@ as_root=""
 if [ "$(id -u)" != 0 ]; then
     command -v sudo >/dev/null || {
         echo "installing packages needs root rights, and there is no sudo; as root, run:" >&2
-        echo "    apt-get install$missing" >&2
+        echo "    apt-get install$packages" >&2
         exit 1
     }
     as_root=sudo
 fi
 log=$(mktemp)
-{ $as_root apt-get update -q && $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing; } >"$log" 2>&1 && {
+$as_root apt-get update -q >"$log" 2>&1 && packages=$(missing "$@") &&
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $packages >>"$log" 2>&1 && {
     rm -f "$log"
     echo "installed"
     exit 0
 }
 tail -n 15 "$log" >&2
 rm -f "$log"
-echo "the packages could not be installed; run:  apt-get update && apt-get install$missing" >&2
+echo "the packages could not be installed; run:  apt-get update && apt-get install$packages" >&2
 exit 1

@@ -54,6 +54,20 @@ static inline place place_make(void)
     return p;
 }
 
+/* A place where the shipped systems and analyses are found by name. */
+static inline place place_with_systems(void)
+{
+    place p = place_make();
+    char link[PATH_MAX + 20], path[PATH_MAX + 20];
+    const char *folders[] = {"systems", "analyses"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%.4000s/%s", p.project, folders[i]);
+        snprintf(link, sizeof link, "%.4000s/%s", p.folder, folders[i]);
+        cr_assert_eq(symlink(path, link), 0);
+    }
+    return p;
+}
+
 static inline int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
 {
     (void)info;
@@ -94,6 +108,13 @@ static inline void write_here(const place *p, const char *name, const char *text
     snprintf(path, sizeof path, "%s/%s", p->folder, name);
     FILE *file = fopen(path, "w");
     cr_assert(file && fputs(text, file) >= 0 && fclose(file) == 0, "%s could not be written", path);
+}
+
+static inline void unlink_here(const place *p, const char *name)
+{
+    char path[PATH_MAX + 300];
+    snprintf(path, sizeof path, "%s/%s", p->folder, name);
+    unlink(path);
 }
 
 static inline void folder_here(const place *p, const char *name, mode_t mode)

@@ -12,7 +12,8 @@ typedef struct {
     nh_stage_kind kind;
     char group[64];
     size_t states, whole;   /* started; followed as far as the full motion is known, or until the constraints become dependent */
-    size_t apart;           /* further from it than 100 tolerances */
+    size_t apart;           /* further from it than 100 tolerances and what it is unsure by */
+    size_t unsure;          /* not apart because of the latter only, or apart */
     size_t charts;          /* changes of slice or velocities */
     double worst;           /* largest distance */
     double seconds, full;   /* of the reduced motions that are complete, and of their full ones */
@@ -50,8 +51,9 @@ static inline reductions_row reductions_of(const char *path, size_t states, nh_e
                 snprintf(o->group, sizeof o->group, "%s", t->group);
             }
             o->states++;
-            o->whole += t->compared && (t->reached >= r->full_reached || t->dependent);
-            o->apart += t->agreement > 100 * r->options.tolerance;
+            o->whole += (t->compared || r->full_reached == 0) && (t->reached >= r->full_reached || t->dependent);
+            o->apart += nh_stage_apart(t, &r->options);
+            o->unsure += t->unsure > 0;
             o->charts += t->charts;
             o->worst = fmax(o->worst, t->agreement);
             if (getenv("NHSYM_TEST_FIGURES") && (t->agreement > 100 * r->options.tolerance || !t->compared || t->reached < r->full_reached))

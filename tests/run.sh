@@ -18,6 +18,7 @@ for build in "$@"; do
         [ "$all" = 0 ] && bad=1
         grep -aq -e 'LeakSanitizer: detected' -e 'runtime error:' -e 'ERROR: AddressSanitizer' "$log" && bad=$((bad + 1)) # Criterion passes these over
         printf '%-45s %4d passed %3d failed\n' "$program" "$good" "$bad"
+        grep -a '^measured: ' "$log"
         [ "$bad" = 0 ] || cat "$log"
         passed=$((passed + good))
         failed=$((failed + bad))

@@ -643,3 +643,17 @@ Test(analyze, unknown_exponents)
     nothing_false(r);
     nh_result_free(r);
 }
+
+/* A free top whose angle of precession is given as a length, in thousandths: the pencil has seven digits of the rate 1/1000. */
+Test(analyze, a_rate_with_few_digits, .timeout = 120)
+{
+    const char *text = "name: top\nparameters: [{name: A, value: 1.1}, {name: B, value: 1.7}, {name: C, value: 2.3}]\n"
+                       "coordinates: [{name: p, type: length}, {name: h, type: angle}, {name: s, type: angle}]\n"
+                       "definitions: [\"P = p'/1000\"]\ndomain: {p: [-800, 800], h: [0.5, 2.1], s: [-0.8, 0.8]}\n"
+                       "lagrangian: A*(h'*cos(s) + P*sin(h)*sin(s))^2/2 + B*(-h'*sin(s) + P*sin(h)*cos(s))^2/2 + C*(P*cos(h) + s')^2/2\n";
+    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    cr_expect(r->verdict == NH_FOUND && r->independent == 4, "%zu independent", r->independent);
+    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
+    nothing_false(r);
+    nh_result_free(r);
+}

@@ -1,6 +1,7 @@
 /* The page in a browser: headless Chromium, which `make check` installs; where there is none these tests are skipped.
  * tests/browser/look.js measures a page from within, and axe-core looks for what keeps people out. */
 #include <cjson/cJSON.h>
+#include <math.h>
 
 #include "program.h"
 #include "report/html_internal.h"
@@ -23,7 +24,7 @@ static char *document_in(const place *p, const char *page, const char *flags)
     snprintf(command, sizeof command,
              "command -v chromium >/dev/null || exit 3\n"
              "HOME='%.3000s' timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-background-networking --enable-logging=stderr --log-level=0 "
-             "--virtual-time-budget=9000 %s --user-data-dir='%.3000s/browser' --dump-dom 'file://%.1000s/%s' 2>browser.log\n"
+             "%s --user-data-dir='%.3000s/browser' --dump-dom 'file://%.1000s/%s' 2>browser.log\n"
              "code=$?\ngrep -a ':CONSOLE' browser.log >console.log\nexit $code",
              p->folder, flags, p->folder, p->folder, page);
     char *argument[] = {"sh", "-c", command, NULL};
@@ -35,7 +36,10 @@ static char *document_in(const place *p, const char *page, const char *flags)
     return out;
 }
 
-static char *document_of(const place *p, const char *page) { return document_in(p, page, ""); }
+/* Timers and animations run ahead of the clock, to their end. */
+static const char *const ahead = "--virtual-time-budget=9000";
+
+static char *document_of(const place *p, const char *page) { return document_in(p, page, ahead); }
 
 /* A copy of the page with scripts at its end. */
 static void write_with(const place *p, const char *page, const char *copy, size_t scripts, const char *const *script)
@@ -126,13 +130,10 @@ Test(browser, a_hostile_title_stays_text)
 
 /* ---- a page looked at from within ---- */
 
-/* What look.js saw, or NULL without a browser. */
-static cJSON *look_at(const place *p, const char *page, const char *flags)
+/* What a script left in the document as JSON, or NULL without a browser. */
+static cJSON *seen_in(const place *p, const char *page, const char *flags)
 {
-    char *axe = project_file("tests/browser/axe.min.js"), *look = project_file("tests/browser/look.js");
-    write_with(p, page, "looked.html", 2, (const char *const[]){axe, look});
-    free(axe), free(look);
-    char *document = document_in(p, "looked.html", flags), *seen = document ? strstr(document, "<pre id=\"seen\">") : NULL;
+    char *document = document_in(p, page, flags), *seen = document ? strstr(document, "<pre id=\"seen\">") : NULL;
     cr_assert(!document || seen, "the page was not looked at");
     cJSON *json = NULL;
     if (seen) {
@@ -152,6 +153,15 @@ static cJSON *look_at(const place *p, const char *page, const char *flags)
     }
     free(document);
     return json;
+}
+
+/* What look.js saw. */
+static cJSON *look_at(const place *p, const char *page, const char *flags)
+{
+    char *axe = project_file("tests/browser/axe.min.js"), *look = project_file("tests/browser/look.js");
+    write_with(p, page, "looked.html", 2, (const char *const[]){axe, look});
+    free(axe), free(look);
+    return seen_in(p, "looked.html", flags);
 }
 
 static const cJSON *of(const cJSON *object, const char *key) { return cJSON_GetObjectItem(object, key); }
@@ -205,7 +215,7 @@ static cJSON *page_looked_at(place *p, const char *line, const char *flags)
     return look_at(p, "page.html", flags);
 }
 
-static const char *const wide_window = "--window-size=1200,900", *const narrow_dark = "--window-size=390,844 --force-dark-mode --enable-features=WebContentsForceDark";
+static const char *const wide_window = "--virtual-time-budget=9000 --window-size=1200,900", *const narrow_dark = "--virtual-time-budget=9000 --window-size=390,844 --force-dark-mode --enable-features=WebContentsForceDark";
 
 Test(browser, pages_are_as_they_should_be)
 {
@@ -250,3 +260,54 @@ Test(browser, so_are_those_of_the_other_commands)
     }
     if (skipped) cr_skip_test("no chromium");
 }
+
+#ifndef __SANITIZE_ADDRESS__ /* the pages are the same, and take very much longer */
+/* A page of every shipped system, from a search that is ended early, two at a time; their names as a script. */
+static void write_every_page(const place *p)
+{
+    char *argument[] = {"sh", "-c", (char[6 * PATH_MAX]){0}, NULL};
+    snprintf(argument[2], 6 * PATH_MAX,
+             "for s in systems/*.yaml; do basename $s .yaml; done >names\n"
+             "xargs -P 2 -I @ sh -c \"'%.4000s' analyze @ --quiet --max-seconds 0.1 --until 2 --html page-@.html; test \\$? = 0 -o \\$? = 5\" <names || exit 1\n"
+             "{ echo '<!DOCTYPE html><html><head><title>every page</title></head><body><script>var PAGES = ['; sed 's/.*/\"page-&.html\",/' names; echo '];</script><script>'; "
+             "cat '%.4000s/tests/browser/sweep.js'; echo '</script></body></html>'; } >every.html", p->program, p->project);
+    finished f = run_vector(p, &(manner){0}, argument);
+    cr_assert_eq(f.code, 0, "%s", f.err);
+    finished_clear(&f);
+}
+
+/* Of every shipped system, as wide as a phone: small, soon there, without a formula that has no box, and no wider than the window. */
+Test(browser, the_page_of_every_system, .timeout = 300)
+{
+    place p = place_with_systems();
+    double slowest = 0, sum = 0, largest = 0, ready = 0;
+    write_every_page(&p);
+    cJSON *every = seen_in(&p, "every.html", "--allow-file-access-from-files");
+    char *names = read_here(&p, "names"), *console = every ? read_here(&p, "console.log") : NULL;
+    int systems = 0;
+    for (const char *c = names; *c; c++) systems += *c == '\n';
+    if (console) cr_expect_str_empty(console, "the console says %s", console);
+    if (every) cr_expect_eq(cJSON_GetArraySize(every), systems);
+    for (const cJSON *s = every ? every->child : NULL; s; s = s->next) {
+        const char *name = cJSON_GetStringValue(of(s, "name"));
+        char *page = read_here(&p, name);
+        largest = fmax(largest, (double)strlen(page));
+        slowest = fmax(slowest, ready = cJSON_GetNumberValue(of(s, "ready")));
+        sum += ready;
+        cr_expect_lt(strlen(page), 1500000u, "%s", name);
+        cr_expect_lt(ready, 30000, "%s was ready after %g ms: thirty times what is wanted", name, ready);
+        cr_expect_lt(cJSON_GetNumberValue(of(s, "nodes")), 50000, "%s has so many elements that no browser is quick with it", name);
+        cr_expect_eq(cJSON_GetNumberValue(of(s, "fetched")), 0, "%s: something was fetched", name);
+        cr_expect_gt(cJSON_GetNumberValue(of(s, "formulas")), 3, "%s", name);
+        cr_expect_eq(cJSON_GetArraySize(of(s, "empty")), 0, "%s: %s has no box", name, cJSON_GetStringValue(cJSON_GetArrayItem(of(s, "empty"), 0)));
+        cr_expect_leq(cJSON_GetNumberValue(of(s, "wide")), cJSON_GetNumberValue(of(s, "room")), "%s is wider than the window", name);
+        free(page);
+    }
+    if (every) fprintf(stderr, "measured: pages of %d systems, ready after %.0f ms on average and %.0f ms at most, %.0f kB at most\n", systems, sum / systems, slowest, largest / 1000);
+    bool skipped = !every;
+    free(names), free(console);
+    cJSON_Delete(every);
+    place_clear(&p);
+    if (skipped) cr_skip_test("no chromium");
+}
+#endif

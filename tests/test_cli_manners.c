@@ -4,19 +4,6 @@
 
 #include "program.h"
 
-static place place_with_systems(void)
-{
-    place p = place_make();
-    char link[PATH_MAX + 20], path[PATH_MAX + 20];
-    const char *folders[] = {"systems", "analyses"};
-    for (int i = 0; i < 2; i++) {
-        snprintf(path, sizeof path, "%.4000s/%s", p.project, folders[i]);
-        snprintf(link, sizeof link, "%.4000s/%s", p.folder, folders[i]);
-        cr_assert_eq(symlink(path, link), 0);
-    }
-    return p;
-}
-
 Test(cli_manners, help_fits_a_screen)
 {
     place p = place_make();
@@ -210,6 +197,29 @@ Test(cli_manners, an_interrupted_motion_is_printed_as_far_as_it_came)
     cr_expect_gt(rows, 2u, "%s", out);
     cr_expect_null(strstr(out, "nan"));
     free(out);
+}
+
+/* While the method is still being chosen: the motion that came farthest is there, and it is said that its error is not known. */
+Test(cli_manners, an_interrupted_search_for_accuracy_keeps_a_motion)
+{
+    static const char *const delays[] = {"0.1", "0.6"};
+    for (size_t i = 0; i < 2; i++) {
+        place p = place_with_systems();
+        char command[PATH_MAX + 500];
+        snprintf(command, sizeof command,
+                 "'%s' simulate double_pendulum --initial p=1 --until 1e6 --step 1 --accuracy 1e-9 --option steps=1e9 --progress always >out 2>err & p=$!\n"
+                 "until grep -q 'a motion' err || ! kill -0 $p; do sleep 0.02; done\nsleep %s\nkill -INT $p\nwait $p", p.program, delays[i]);
+        finished f = run_vector(&p, &(manner){0}, (char *[]){"sh", "-c", command, NULL});
+        char *out = read_here(&p, "out"), *err = read_here(&p, "err");
+        size_t rows = 0;
+        for (const char *c = out; (c = strchr(c, '\n')); c++) rows++;
+        cr_expect_eq(f.code, 130, "exit code %d: %s", f.code, err);
+        cr_expect_gt(rows, 4u, "%zu rows", rows);
+        cr_expect(strstr(err, "interrupted before the accuracy 1.0e-09 was reached") && strstr(err, "is not known"), "%s", err);
+        free(out), free(err);
+        finished_clear(&f);
+        place_clear(&p);
+    }
 }
 
 Test(cli_manners, an_interrupted_comparison_says_what_was_measured)

@@ -64,6 +64,26 @@ Test(dag, long_rationals_are_printed_exactly)
     nh_dag_free(d);
 }
 
+/* Beyond the range of doubles a number is neither 0 nor infinite, and leads back. */
+Test(dag, numbers_beyond_doubles_are_kept_and_printed)
+{
+    nh_dag *d = nh_dag_create();
+    const struct {
+        nh_num number;
+        const char *text;
+    } each[] = {{nh_num_pow(nh_num_int(10), -400), "1e-400"},
+                {nh_num_mul(nh_num_ratio(-5, 4), nh_num_pow(nh_num_int(10), 400)), "-1.25e400"},
+                {nh_num_mul(nh_num_ratio(1, 3), nh_num_pow(nh_num_int(10), -320)), "3.3333333333333333e-321"}};
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
+        char *text = nh_print_string(d, nh_number(d, each[i].number));
+        cr_expect_str_eq(text, each[i].text);
+        cr_expect(nh_num_exact(each[i].number));
+        cr_expect(nh_num_is(nh_num_mul(each[i].number, nh_num_inv(each[i].number)), 1), "%s", each[i].text);
+        nh_free(text);
+    }
+    nh_dag_free(d);
+}
+
 Test(dag, numbers_past_the_limits_become_doubles)
 {
     nh_num big = nh_num_int(INT64_MAX), sum = nh_num_add(big, big);

@@ -209,12 +209,23 @@ static void obey(walk *w, const char *line, char **at)
     free(block);
 }
 
+/* A block of commands that no marker runs is a promise that nobody keeps. */
+static void no_block_unmarked(const char *page, const char *text)
+{
+    const char *before = "";
+    for (const char *line = text, *end; (end = strchr(line, '\n')); line = end + 1) {
+        if (!strncmp(line, "```sh", 5)) cr_expect(!strncmp(before, "<!-- run -->", 12), "%s: commands that are not run: %.60s", page, end + 1);
+        if (end > line) before = line;
+    }
+}
+
 static walk walk_page(const char *path)
 {
     walk w = {.page = path, .folder = "/tmp/nhsym-docs-XXXXXX"};
     nh_text page, ignored;
     char command[128];
     read_page(path, &page);
+    no_block_unmarked(path, nh_text_string(&page));
     nh_text_init(&w.printed);
     cr_assert(mkdtemp(w.folder));
     char *at = page.data;

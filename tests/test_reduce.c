@@ -33,7 +33,7 @@ static const struct {
     const char *system, *group;
     size_t dimension;
 } catalogue[] = {
-    {"appell_hamel", "SE(2)", 3},     {"ball_on_turntable", "SO(2)^2", 2},  {"chaplygin_ball", "SE(2)", 3},      {"contact_oscillator", "R", 1},
+    {"appell_hamel", "SE(2)", 3},     {"ball_on_turntable", "SO(3) x SO(2)", 4},  {"chaplygin_ball", "SE(2)", 3},      {"contact_oscillator", "R", 1},
     {"crane", "SE(2) x SO(2)^3", 6},  {"euler_top", "SO(3)", 3},            {"free_particle", "SE(3)", 6},       {"heisenberg_particle", "SO(2) x R", 2},
     {"henon_heiles", "trivial", 0},   {"isotropic_oscillator", "SO(3)", 3}, {"kepler", "SO(3)", 3},              {"knife_edge", "SE(2)", 3},
     {"nonholonomic_particle", "R^2", 2}, {"rolling_ball", "SO(3) x SE(2)", 6}, {"rolling_disk", "SE(2) x SO(2)", 4}, {"routh_sphere", "SE(2) x SO(2)", 4},
@@ -150,7 +150,7 @@ Test(reduce, bad_groups_are_explained)
     refused("systems/sleigh.yaml", "x=1; phi=1, x=-y, y=x", NULL, "[d/dx, d/dphi - y d/dx + x d/dy] = d/dy is not a combination of them");
     refused("systems/sleigh.yaml", "phi=1", NULL, "does not leave the kinetic energy invariant");
     refused("systems/rolling_disk.yaml", "p=1", NULL, "does not leave the constraint distribution invariant");
-    refused("systems/kepler.yaml", "x=-y, y=x; y=-z, z=y; z=-x, x=z", NULL, "the action is not free: the 3 fields span only 2 dimensions");
+    refused("systems/kepler.yaml", "x=-y, y=x; y=-z, z=y; z=-x, x=z", NULL, "the action is not free: 3 fields, but an orbit of dimension 2 at x = ");
     refused("systems/sleigh.yaml", "1, 7", NULL, "there is no generator 7");
     refused("systems/sleigh.yaml", "phj=1", NULL, "`phj` is not a coordinate");
     refused("systems/sleigh.yaml", "x", NULL, "is not a component of a field");
@@ -246,6 +246,32 @@ Test(reduce, json)
     nh_reduction_text(r, true, &out);
     cr_expect(strstr(nh_text_string(&out), "Symmetry group: SE(2), dimension 3") != NULL);
     nh_text_clear(&out);
+    nh_reduction_free(r);
+}
+
+/* A coordinate may be called as the array of the state, and time may occur. */
+Test(reduce, c_code_of_a_quotient_compiles)
+{
+    static const char text[] = "name: s\ncoordinates: [{name: z, type: length}, {name: rate, type: length}, {name: y, type: length}]\n"
+                               "lagrangian: z'^2/2 + rate'^2/2*(1 + sin(t)^2) + y'^2/2 + z*y'/3 - cos(z)*rate\n";
+    nh_error error = {0};
+    nh_reduction *r = reduce_text(text, NULL, 1, &error);
+    must(r != NULL, &error, "z");
+    cr_assert(r->stages == 1 && r->stage[0].kind == NH_STAGE_QUOTIENT);
+    char name[] = "/tmp/nhsym-c-XXXXXX", command[200];
+    int number = mkstemp(name);
+    cr_assert(number >= 0);
+    FILE *file = fdopen(number, "w");
+    nh_text code;
+    nh_text_init(&code);
+    nh_reduction_c(r, &code);
+    cr_expect(strstr(nh_text_string(&code), "int stage1(double t, const double *state_, double *rate_, double *zeta_)") != NULL);
+    fputs(nh_text_string(&code), file);
+    fclose(file);
+    snprintf(command, sizeof command, "${CC:-cc} -std=c99 -Wall -Wextra -Werror -fsyntax-only -x c %s", name);
+    cr_expect_eq(system(command), 0);
+    remove(name);
+    nh_text_clear(&code);
     nh_reduction_free(r);
 }
 

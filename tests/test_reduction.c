@@ -69,7 +69,7 @@ static void master_against_full(const char *name, const char *text, const char *
     nh_group *g = nh_group_find(x.kinetic, &options, &error);
     must(g != NULL, &error, name);
     nh_action action = subgroup(g, n, index, &options);
-    must(nh_action_check(&action, &error), &error, name);
+    must(nh_action_check(&action, &options, &error), &error, name);
     size_t m = x.kinetic->m, shape[20], along[20], independent[20];
     nh_slice slice;
     nh_reduced reduced;

@@ -2,10 +2,12 @@
 #include "mechanics.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "expr/normal.h"
 #include "expr/print.h"
 #include "reduction/subspace.h"
+#include "report/reduction.h"
 #include "reductions.h"
 
 static nh_reduction *reduce_file(const char *path, const char *initial, double seconds, nh_error *error)
@@ -66,6 +68,32 @@ Test(reductions, many_states)
     }
 }
 
+/* A quotient of the constraints' solution that is simplified over all sample points has a removable singularity on the way. */
+Test(reductions, passes_a_removable_singularity)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_file("systems/car_trailers_5.yaml", NULL, -1, &error);
+    must(r != NULL, &error, "car");
+    must(nh_reduction_again(r, 15, &error), &error, "car");
+    followed(r, "car");
+    nh_reduction_free(r);
+}
+
+Test(reductions, apart_beyond_what_the_full_motion_is_known_to)
+{
+    nh_options options;
+    nh_options_default(&options);
+    options.tolerance = 1e-10;
+    static const struct {
+        double agreement, unsure;
+        bool compared, apart;
+    } cases[] = {{9e-9, 0, true, false}, {1.1e-8, 0, true, true}, {1.1e-8, 2e-9, true, false}, {1.3e-8, 2e-9, true, true}, {1, 0, false, false}, {NAN, 1e-9, true, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_reduction_stage s = {.agreement = cases[i].agreement, .unsure = cases[i].unsure, .compared = cases[i].compared};
+        cr_expect_eq(nh_stage_apart(&s, &options), cases[i].apart, "case %zu", i);
+    }
+}
+
 /* The blade of the sleigh stands across the line by which it is reduced: there is no connection at the start. */
 Test(reductions, starts_at_a_singular_place_of_the_connection)
 {
@@ -123,6 +151,176 @@ Test(reductions, affine_constraints_magnetic_terms_and_forces)
         if (r->stage[0].reduced->conservative) cr_expect(r->stage[0].energy_drift < 1e-8, "%s: energy drifts by %g", general[i].name, r->stage[0].energy_drift);
         nh_reduction_free(r);
     }
+}
+
+/* A belt that carries a sleigh with a rotor and a spring, charged; a cart on two wheels that slip at a given rate, with a free body in it on which magnetic terms act. */
+static const struct {
+    const char *name, *text, *group, *first, *second;
+} twice[] = {
+    {"belt",
+     "name: s\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.7}, {name: a, value: 0.4}, {name: U, value: 0.6}, {name: B, value: 0.5}, {name: I, value: 0.31}, {name: c, value: 0.2}]\n"
+     "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: r, type: angle}, {name: s, type: length}]\n"
+     "constraints: [\"x'*sin(h) - y'*cos(h) = U\"]\n"
+     "lagrangian: J*h'^2/2 + I*(r'+h')^2/2 + m*((x' - a*h'*sin(h))^2 + (y' + a*h'*cos(h))^2)/2 + s'^2/2 + 0.3*s'*h' + B*s*r' - s^2\nforces: [\"s = -c*s'\"]\n",
+     "SE(2) x SO(2)", "R", "SO(2)"},
+    {"body",
+     "name: s\nparameters: [{name: m, value: 1.7}, {name: J, value: 0.8}, {name: K, value: 0.3}, {name: r, value: 0.4}, {name: c, value: 0.6}, {name: e, value: 0.25}, {name: U, value: 0.3}]\n"
+     "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: theta, type: angle}, {name: psi1, type: angle}, {name: psi2, type: angle}, {name: u, type: length}, {name: p, type: angle}, "
+     "{name: h, type: angle}, {name: s, type: angle}]\n"
+     "definitions:\n  - w1 = h'*cos(s) + p'*sin(h)*sin(s)\n  - w2 = -h'*sin(s) + p'*sin(h)*cos(s)\n  - w3 = p'*cos(h) + s'\n"
+     "lagrangian: m/2*(x'^2 + y'^2) + m*e*theta'*(-sin(theta)*x' + cos(theta)*y') + J/2*theta'^2 + K/2*(psi1'^2 + psi2'^2) + (1.1 + u^2/4)/2*w1^2 + 0.85*w2^2 + (1.15 + u/5)*w3^2 + 0.3*u'*w1 + 0.2*psi1'*w2 "
+     "+ 0.15*u*psi2'*w3 + 0.6*u'^2 - 0.4*u^2 - 0.3*cos(psi1)*u + 0.4*u*w3 + 0.2*w1*sin(psi1) + 0.3*u*psi2'\n"
+     "constraints:\n  - -sin(theta)*x' + cos(theta)*y' = 0\n  - cos(theta)*x' + sin(theta)*y' + c*theta' - r*psi1' = U\n  - cos(theta)*x' + sin(theta)*y' - c*theta' - r*psi2' = -U/2\n"
+     "forces: [\"u = -0.1*u'\", \"psi1 = -0.3*psi1' - 0.2*u'\"]\ndomain: {h: [0.7, 1.9]}\n",
+     "SO(3) x SE(2) x SO(2)", "SE(2)", "SO(3)"},
+};
+
+Test(reductions, two_stages_with_affine_constraints_magnetic_terms_and_forces)
+{
+    for (size_t i = 0; i < sizeof twice / sizeof *twice; i++) {
+        nh_error error = {0};
+        nh_reduction *r = reduce_text(twice[i].text, &error);
+        must(r != NULL, &error, twice[i].name);
+        cr_expect_str_eq(r->all->name, twice[i].group);
+        cr_expect(r->all->jets != NULL && r->all->missing == 0);
+        cr_assert_eq(r->stages, 3, "%s: %zu stages", twice[i].name, r->stages);
+        followed(r, twice[i].name);
+        cr_expect(r->stage[0].kind == NH_STAGE_CHAPLYGIN && !strcmp(r->stage[0].group, twice[i].first), "%s: %s", twice[i].name, r->stage[0].group);
+        cr_expect(r->stage[1].kind == NH_STAGE_SECOND && !strcmp(r->stage[1].group, twice[i].second), "%s: %s", twice[i].name, r->stage[1].group);
+        cr_expect(r->stage[1].against_full && r->stage[1].second->magnetic);
+        cr_expect(r->stage[1].momentum_drift < 1e-8, "%s: the momentum drifts by %g", twice[i].name, r->stage[1].momentum_drift);
+        nh_reduction_free(r);
+    }
+}
+
+/* Forces along every further symmetry: no momentum, no second stage, and the reason. */
+Test(reductions, no_second_stage_against_forces)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_text(general[2].text, &error);
+    must(r != NULL, &error, "escalator");
+    bool told = false;
+    for (size_t i = 0; i < r->warnings; i++) told |= strstr(r->warning[i], "no second stage: in the reduced system forces act along the further symmetries (1)") != NULL;
+    cr_expect(told && r->stages == 2 && r->stage[0].kind == NH_STAGE_CHAPLYGIN);
+    nh_reduction_free(r);
+}
+
+/* Nonlinear constraints, a Lagrangian that is not quadratic, explicit time: divided as they are. */
+Test(reductions, quotients)
+{
+    static const struct {
+        const char *system, *text, *group, *equation, *rate; /* one of those that are shown */
+        size_t states, momenta;
+        bool conservative;
+    } cases[] = {
+        {.system = "systems/constant_speed.yaml", .group = "R^2", .equation = "z''", .rate = "g*z'^2/c^2 - g", .states = 4},
+        {.system = "systems/perpendicular_velocities.yaml", .group = "R^3", .equation = "zeta_2", .rate = "c'", .states = 4, .conservative = true},
+        {.system = "systems/relativistic_charge.yaml", .group = "R", .equation = "zeta_1", .rate = "y'", .states = 4, .momenta = 1, .conservative = true},
+        {.text = "name: s\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.7}, {name: a, value: 0.4}]\n"
+                 "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: s, type: length}]\nconstraints: [\"x'*sin(h) - y'*cos(h) = 0\"]\n"
+                 "lagrangian: (1 + sin(t)/3)*J*h'^2/2 + m*((x' - a*h'*sin(h))^2 + (y' + a*h'*cos(h))^2)/2 + s'^2/2 - s^2*(1 + cos(2*t)/2) + s'*h'/5\n",
+         .group = "SE(2)", .equation = "x''", .rate = "a*h'^2", .states = 4},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_error error = {0};
+        nh_reduction *r = cases[i].text ? reduce_text(cases[i].text, &error) : reduce_file(cases[i].system, NULL, -1, &error);
+        must(r != NULL, &error, cases[i].group);
+        cr_assert_eq(r->stages, 1);
+        cr_expect(r->stage[0].kind == NH_STAGE_QUOTIENT && !strcmp(r->stage[0].group, cases[i].group), "%s", r->stage[0].group);
+        cr_expect(r->warnings > 0 && strstr(r->warning[0], "no connection and no momentum is used") != NULL, "the reason is told");
+        cr_expect_eq(r->stage[0].reduced->conservative, cases[i].conservative);
+        cr_expect(r->stage[0].energy_drift < 1e-8);
+        cr_expect_eq(r->momenta.count, cases[i].momenta);
+        for (size_t k = 0; k < r->momenta.count; k++) cr_expect(r->momenta.momentum[k].proved);
+        nh_reduction_equation *e;
+        size_t n = nh_reduction_equations(r, &r->stage[0], &e), found = 0;
+        for (size_t k = 0; k < n; k++) {
+            char *text = nh_print_string(r->kinetic->dag, e[k].value);
+            found += !strcmp(e[k].name, cases[i].equation) && !strcmp(text, cases[i].rate);
+            nh_free(text);
+        }
+        cr_expect_eq(found, 1, "%s: there is no %s = %s", cases[i].group, cases[i].equation, cases[i].rate);
+        followed(r, cases[i].group);
+        for (size_t place = 1; place < cases[i].states; place++) {
+            must(nh_reduction_again(r, place, &error), &error, cases[i].group);
+            cr_expect(r->stage[0].compared && r->stage[0].reached >= r->full_reached && !nh_stage_apart(&r->stage[0], &r->options), "%s, state %zu: %g up to %g; %s", cases[i].group, place, r->stage[0].agreement, r->stage[0].reached, r->stage[0].note);
+        }
+        nh_reduction_free(r);
+    }
+}
+
+/* The equations in the chart and those in the frame of the slice are the same motion: a' of the chart along the frame's. */
+Test(reductions, quotient_in_chart_and_frame)
+{
+    nh_error error = {0};
+    nh_reduction *r = reduce_file("systems/constant_speed.yaml", NULL, -1, &error);
+    must(r != NULL, &error, "speed");
+    const nh_reduction_stage *s = &r->stage[0];
+    nh_reduced_flow *frame = nh_reduced_flow_create(s->reduced), *chart = nh_reduced_flow_create(s->shown);
+    size_t n = s->reduced->n;
+    double rate[2][12], zeta[2][4], z[8], v[4];
+    cr_assert(nh_reduced_flow_at(frame, s->start, rate[0], NULL, zeta[0], NULL));
+    memcpy(z, s->start, n * sizeof *z);
+    must(nh_quotient_velocities(r->whole, 0, r->initial.q, r->initial.v, z + n, &error), &error, "w");
+    cr_assert(nh_reduced_flow_at(chart, z, rate[1], NULL, zeta[1], NULL));
+    for (size_t i = 0; i < n; i++) cr_expect_float_eq(rate[0][i], rate[1][i], 1e-13);
+    for (size_t a = 0; a < s->reduced->d; a++) cr_expect_float_eq(zeta[0][a], zeta[1][a], 1e-13);
+    cr_expect_float_eq(rate[0][n], rate[1][n + s->shown->r - 1], 1e-12, "z''");
+    v[0] = -5, v[1] = 0.2, v[2] = 0.1;
+    cr_expect(!nh_quotient_velocities(r->whole, 0, r->initial.q, v, z + n, &error) && strstr(error.what, "another branch"), "%s", error.what);
+    nh_reduced_flow_free(frame);
+    nh_reduced_flow_free(chart);
+    nh_reduction_free(r);
+}
+
+static nh_reduction *reduce_weak(const char *path, nh_error *error)
+{
+    nh_reduce_request q = {.system_path = path, .weak = true};
+    nh_options_default(&q.options);
+    return nh_reduce(&q, error);
+}
+
+static bool conserved(const nh_reduction *r, const char *text)
+{
+    nh_error error = {0};
+    nh_ex want = 0;
+    must(nh_system_expression_text(r->system, "test", text, 0, NULL, &want, &error), &error, text);
+    for (size_t k = 0; k < r->momenta.count; k++)
+        if (nh_normal_is_zero(r->kinetic->dag, nh_sub(r->kinetic->dag, want, r->momenta.momentum[k].value), 0) == NH_ZERO) return r->momenta.momentum[k].proved;
+    return false;
+}
+
+/* A charge that falls in uniform fields: three translations change L by a total derivative. */
+Test(reductions, symmetries_up_to_a_total_derivative)
+{
+    static const char text[] = "name: s\nparameters: [{name: m, value: 1.3}, {name: g, value: 0.9}, {name: B, value: 0.7}]\n"
+                               "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
+                               "lagrangian: m*(x'^2 + y'^2 + z'^2)/2 - m*g*z + B/2*(x*y' - y*x')\n";
+    char path[] = "/tmp/nhsym-reductions-XXXXXX";
+    nh_error error = {0};
+    int file = mkstemp(path);
+    cr_assert(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text));
+    close(file);
+    nh_reduction *r = reduce_file(path, NULL, -1, &error);
+    must(r != NULL, &error, "charge");
+    cr_expect(r->all->action.d == 1 && r->weaker == 3, "%zu and %zu more", r->all->action.d, r->weaker);
+    nh_reduction_free(r);
+    r = reduce_weak(path, &error);
+    must(r != NULL, &error, "charge");
+    remove(path);
+    cr_expect_str_eq(r->all->name, "SE(2) x R");
+    followed(r, "charge");
+    cr_expect_eq(r->momenta.count, 4);
+    static const char *const known[] = {"m*x' - B*y", "m*y' + B*x", "m*z' + m*g*t", "m*(x*y' - y*x') + B*(x^2 + y^2)/2"};
+    for (size_t i = 0; i < 4; i++) cr_expect(conserved(r, known[i]), "%s", known[i]);
+    nh_reduction_free(r);
+    r = reduce_weak("systems/ball_on_slope.yaml", &error);
+    must(r != NULL, &error, "slope");
+    cr_expect_str_eq(r->all->name, "SO(3) x R^2");
+    cr_expect(r->stages > 0 && r->stage[0].kind == NH_STAGE_CHAPLYGIN && !strcmp(r->stage[0].group, "R^2"));
+    followed(r, "slope");
+    nh_reduction_free(r);
+    cr_expect(reduce_weak("systems/appell_hamel.yaml", &error) == NULL && error.code == NH_USAGE && strstr(error.hint, "leave --weak out"), "%s", error.what);
 }
 
 /* Against what is known about shipped systems: the moving energy, and the momentum with its magnetic part. */

@@ -95,7 +95,7 @@ static void equations(const char *name, nh_system *system, size_t n, const size_
     for (size_t i = 0; i < n; i++) t[index[i] + i * g->action.d] = 1;
     nh_action action;
     nh_action_sub(&action, &g->action, n, t, &options);
-    must(nh_action_check(&action, &error), &error, name);
+    must(nh_action_check(&action, &options, &error), &error, name);
     size_t shape[20], along[20], found_size[20], found_order[20];
     nh_slice slice;
     nh_ideals chain;

@@ -112,6 +112,21 @@ Test(system, definitions_and_lagrangian)
     nh_system_free(s);
 }
 
+/* The rate of a definition is the sum of its derivatives times the velocities, by t too. */
+Test(system, rates_of_definitions)
+{
+    nh_system *a = system_of("coordinates: [q, x]\nparameters: [{name: l, value: 0.7}]\ndefinitions: [\"X = x + l*sin(q)*t\", \"Y = X^2\"]\nlagrangian: X'^2 + x'*Y'\n");
+    nh_system *b = system_of("coordinates: [q, x]\nparameters: [{name: l, value: 0.7}]\n"
+                             "lagrangian: (x' + l*cos(q)*q'*t + l*sin(q))^2 + 2*x'*(x + l*sin(q)*t)*(x' + l*cos(q)*q'*t + l*sin(q))\n");
+    static const char *const name[] = {"t", "q", "x", "q'", "x'"};
+    static const double value[] = {0.83, 0.41, -1.7, 1.31, -0.77};
+    double x = value_of(a, a->lagrangian, 5, name, value);
+    near(x, value_of(b, b->lagrangian, 5, name, value));
+    cr_expect(fabs(x) > 0.01, "%g", x);
+    nh_system_free(a);
+    nh_system_free(b);
+}
+
 Test(system, constraints_and_dependent)
 {
     nh_system *s = everything();

@@ -130,3 +130,115 @@ Test(writing, an_interrupted_run_leaves_a_whole_file)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* ---- many files, and new ones ---- */
+
+static const char *const OLD[] = {"out/summary.txt", "out/result.json", "out/report.html", "out/report.tex", "out/figure1.svg"};
+enum { olds = sizeof OLD / sizeof *OLD };
+
+static place place_with_reports(void)
+{
+    place p = place_with_systems();
+    folder_here(&p, "out", 0755);
+    for (size_t i = 0; i < olds; i++) write_here(&p, OLD[i], "an older report");
+    return p;
+}
+
+static void expect_all_old(const place *p, const finished *f)
+{
+    cr_expect_eq(f->code, 4, "exit code %d: %s", f->code, f->err);
+    cr_expect(strstr(f->err, "out/") && strstr(f->err, "is unchanged"), "%s", f->err);
+    for (size_t i = 0; i < olds; i++) {
+        char *text = read_here(p, OLD[i]);
+        cr_expect_str_eq(text, "an older report", "%s is another", OLD[i]);
+        free(text);
+    }
+    cr_expect_eq(files_in(p, "out"), (size_t)olds, "%zu files", files_in(p, "out"));
+}
+
+/* The summary fits, and the larger ones do not: none takes the place of an old one, so that they go on belonging together. */
+Test(writing, a_folder_is_written_whole_or_not_at_all)
+{
+    static const long limits[] = {400, 5000, 60000};
+    place p = place_with_reports();
+    for (size_t i = 0; i < 3; i++) {
+        finished f = run_so(&p, &(manner){.file_limit = limits[i]}, "analyze sleigh --quiet -o out");
+        expect_all_old(&p, &f);
+        finished_clear(&f);
+    }
+    finished f = run_expecting(&p, "analyze sleigh --quiet -o out", 0);
+    char *page = read_here(&p, "out/report.html"), *summary = read_here(&p, "out/summary.txt");
+    cr_expect(strstr(page, "</html>") && strstr(summary, "FOUND"));
+    free(page), free(summary);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* A disk of 300 kB, where this is permitted. */
+Test(writing, a_disk_without_room_keeps_the_old_folder)
+{
+    place p = place_with_systems();
+    char command[3 * PATH_MAX];
+    snprintf(command, sizeof command,
+             "mkdir out && unshare -m true 2>/dev/null && exec unshare -m sh -c 'mount -t tmpfs -o size=300k none out || exit 99\n"
+             "echo older >out/result.json\n%.3900s analyze sleigh --quiet -o out; code=$?\ncat out/result.json; ls out | wc -l; exit $code'\nexit 99", p.program);
+    finished f = run_vector(&p, &(manner){0}, (char *[]){"sh", "-c", command, NULL});
+    if (f.code != 99) {
+        cr_expect_eq(f.code, 4, "exit code %d: %s", f.code, f.err);
+        cr_expect(strstr(f.err, "No space left") && strstr(f.err, "is unchanged"), "%s", f.err);
+        cr_expect_str_eq(f.out, "older\n1\n");
+    }
+    bool skipped = f.code == 99;
+    finished_clear(&f);
+    place_clear(&p);
+    if (skipped) cr_skip_test("no mounting");
+}
+
+/* Told before the work is begun: this one would take a minute. */
+Test(writing, a_read_only_folder_is_told_at_once)
+{
+    place p = place_with_reports();
+    copy_program(&p);
+    unlink_here(&p, "systems");
+    unlink_here(&p, "analyses");
+    char from[2 * PATH_MAX];
+    snprintf(from, sizeof from, "%s/systems/crane.yaml", p.project);
+    copy_here(&p, from, "crane.yaml");
+    folder_here(&p, "out", 0555);
+    finished f = run_so(&p, &(manner){.powerless = true}, "analyze crane.yaml --progress always -o out");
+    expect_all_old(&p, &f);
+    cr_expect_null(strstr(f.err, "stage"), "the work was begun: %s", f.err);
+    cr_expect_str_empty(f.out);
+    finished_clear(&f);
+    f = run_so(&p, &(manner){.powerless = true}, "analyze crane.yaml --html nowhere/report.html");
+    cr_expect_eq(f.code, 4);
+    cr_expect_not_null(strstr(f.err, "nowhere/report.html"), "%s", f.err);
+    finished_clear(&f);
+    folder_here(&p, "out", 0755);
+    place_clear(&p);
+}
+
+Test(writing, a_new_file_is_whole_or_not_there)
+{
+    place p = place_make();
+    copy_program(&p);
+    finished f = run_so(&p, &(manner){.file_limit = 100}, "new mine");
+    cr_expect_eq(f.code, 4, "exit code %d", f.code);
+    cr_expect(strstr(f.err, "mine.yaml: could not be written: File too large") && strstr(f.err, "hint: "), "%s", f.err);
+    cr_expect_null(read_here(&p, "mine.yaml"));
+    finished_clear(&f);
+    folder_here(&p, ".", 0555);
+    f = run_so(&p, &(manner){.powerless = true}, "new mine");
+    cr_expect_eq(f.code, 3, "exit code %d", f.code);
+    cr_expect(strstr(f.err, "mine.yaml") && strstr(f.err, "Permission denied") && strstr(f.err, "hint: "), "%s", f.err);
+    finished_clear(&f);
+    folder_here(&p, ".", 0755);
+    write_here(&p, "mine.yaml", "mine");
+    f = run(&p, "new mine");
+    char *text = read_here(&p, "mine.yaml");
+    cr_expect_str_eq(text, "mine");
+    cr_expect_not_null(strstr(f.err, "stays as it is"), "%s", f.err);
+    free(text);
+    finished_clear(&f);
+    place_clear(&p);
+}

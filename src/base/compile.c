@@ -14,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 
 enum { longest_path = 512 };
@@ -27,13 +28,6 @@ struct nh_compilation {
     double begun;
     char words[320];
 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- the folder ---- */
 
@@ -144,7 +138,7 @@ nh_compilation *nh_compile(const char *text)
     nh_compilation *c = nh_alloc(sizeof *c);
     const char *wish = getenv("NHSYM_CC");
     c->program = wish ? wish : "cc";
-    c->begun = now();
+    c->begun = nh_clock();
     snprintf(c->words, sizeof c->words, "still being compiled by %.100s", c->program);
     if (!*c->program) snprintf(c->words, sizeof c->words, "not compiled: NHSYM_CC names no compiler");
     else if (make_folder(c) && write_source(c, text) && start(c)) return c;
@@ -157,7 +151,7 @@ static void load(nh_compilation *c)
     char *reason = NULL;
     if (still_ours(c->folder)) c->handle = dlopen(c->object, RTLD_NOW | RTLD_LOCAL);
     if (!c->handle) reason = dlerror();
-    if (c->handle) snprintf(c->words, sizeof c->words, "compiled by %.100s in %.2f s", c->program, now() - c->begun);
+    if (c->handle) snprintf(c->words, sizeof c->words, "compiled by %.100s in %.2f s", c->program, nh_clock() - c->begun);
     else snprintf(c->words, sizeof c->words, "not compiled: the code cannot be loaded: %.200s", reason ? reason : "its folder is not ours any more");
 }
 
@@ -187,7 +181,7 @@ static bool ended(nh_compilation *c)
 void *nh_compile_result(nh_compilation *c, const char *function, bool wait, bool *busy)
 {
     static const struct timespec pause = {0, 1000000};
-    while (c->child && !ended(c) && wait && now() - c->begun < most_seconds) nanosleep(&pause, NULL);
+    while (c->child && !ended(c) && wait && nh_clock() - c->begun < most_seconds) nanosleep(&pause, NULL);
     *busy = c->child != 0;
     return c->handle ? dlsym(c->handle, function) : NULL;
 }

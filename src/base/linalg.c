@@ -43,12 +43,12 @@ static lapack_int leading(size_t rows)
     return (lapack_int)larger(rows, 1);
 }
 
-/* LAPACK's iterations may not end on a NaN, so it is kept out.  x - x is 0 for finite x and NaN otherwise. */
-static bool all_finite(size_t count, const double *a)
+/* x - x is 0 for finite x and NaN otherwise. */
+bool nh_all_finite(size_t count, const double *x)
 {
     double sum = 0;
     for (size_t i = 0; i < count; i++)
-        sum += a[i] - a[i];
+        sum += x[i] - x[i];
     return sum == 0;
 }
 
@@ -236,7 +236,7 @@ bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
 {
     size_t k = smaller(m, n);
     bool ok = k == 0, sides = u || vt; /* LAPACK computes both or none */
-    if (!all_finite(m * n, a))
+    if (!nh_all_finite(m * n, a))
         return false;
     for (int slow = 0; slow < 2 && !ok; slow++) {
         decomposition *d = nh_alloc(sizeof *d);
@@ -265,7 +265,7 @@ bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot)
         pivot[j] = j;
     if (k == 0)
         return true;
-    if (!all_finite(m * n, a))
+    if (!nh_all_finite(m * n, a))
         return false;
     decomposition *d = nh_alloc(sizeof *d);
     *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .order = nh_alloc_array(n, sizeof *d->order)}; /* order 0: every column may move */
@@ -286,7 +286,7 @@ bool nh_eigen(size_t n, double *a, double *re, double *im, double *v)
 {
     if (n == 0)
         return true;
-    if (!all_finite(n * n, a))
+    if (!nh_all_finite(n * n, a))
         return false;
     lapack_int size = (lapack_int)n;
     return LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', v ? 'V' : 'N', size, a, size, re, im, NULL, size, v, size) == 0;
@@ -300,7 +300,7 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
         *rcond = n == 0;
     if (n == 0)
         return true;
-    if (!all_finite(n * n, a) || !all_finite(n * nrhs, b))
+    if (!nh_all_finite(n * n, a) || !nh_all_finite(n * nrhs, b))
         return false;
     lapack_int size = (lapack_int)n;
     double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, '1', size, size, a, size);
@@ -315,10 +315,10 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
 /* dgelsy: rank by pivoted QR with a condition estimate; the solution of least norm.  It does not iterate. */
 int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size_t ldb, double rcond)
 {
-    if (!all_finite(m * n, a))
+    if (!nh_all_finite(m * n, a))
         return -1;
     for (size_t j = 0; j < nrhs; j++)
-        if (!all_finite(m, b + j * ldb))
+        if (!nh_all_finite(m, b + j * ldb))
             return -1;
     if (m == 0 || n == 0) {
         for (size_t j = 0; j < nrhs; j++)

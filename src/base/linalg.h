@@ -9,6 +9,9 @@
 /* One thread for BLAS: starting its threads costs more than our problems are worth (docs/performance.md). */
 void nh_linalg_threads(int count);
 
+/* Whether there is neither NaN nor infinity in x (count).  LAPACK's iterations may not end on a NaN: nothing below lets one in. */
+bool nh_all_finite(size_t count, const double *x);
+
 /* Streaming QR: feed blocks of rows, keep only the triangle.  Memory O(columns^2). */
 typedef struct nh_qr nh_qr;
 nh_qr *nh_qr_create(size_t columns);

@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/memory.h"
+
 static bool failed(nh_error *error, const char *path, const char *doing, int reason)
 {
     nh_fail(error, NH_NUMERIC, path, "could not be %s: %s", doing, strerror(reason));
@@ -36,24 +38,71 @@ static bool write_directly(const char *path, const char *text, size_t length, nh
     return reason ? failed(error, path, "written", reason) : true;
 }
 
-bool nh_output_write(const char *path, const char *text, size_t length, nh_error *error)
+/* A temporary file beside `path` with the whole text on the disk; *direct: it was written to `path` itself, which is no regular file. */
+static bool write_beside(const char *path, const char *text, size_t length, char temporary[NH_OUTPUT_LONGEST], bool *direct, nh_error *error)
 {
-    char temporary[4200];
     struct stat info;
     mode_t mode = 0644;
+    *direct = false;
     if (!stat(path, &info)) {
-        if (!S_ISREG(info.st_mode)) return S_ISDIR(info.st_mode) ? failed(error, path, "written", EISDIR) : write_directly(path, text, length, error);
+        if (S_ISDIR(info.st_mode)) return failed(error, path, "written", EISDIR);
+        *direct = !S_ISREG(info.st_mode);
+        if (*direct) return write_directly(path, text, length, error);
         mode = info.st_mode & 0777;
     }
-    if (strlen(path) > 4096) return failed(error, "", "written", ENAMETOOLONG);
-    snprintf(temporary, sizeof temporary, "%s.XXXXXX", path);
+    if (strlen(path) + 8 > NH_OUTPUT_LONGEST) return failed(error, "", "written", ENAMETOOLONG);
+    snprintf(temporary, NH_OUTPUT_LONGEST, "%s.XXXXXX", path);
     int file = mkstemp(temporary);
     if (file < 0) return failed(error, path, "written", errno);
     int reason = write_all(file, text, length);
     if (!reason && fchmod(file, mode)) reason = errno;
     if (close(file) && !reason) reason = errno;
-    if (!reason && rename(temporary, path)) reason = errno;
     if (!reason) return true;
     unlink(temporary);
     return failed(error, path, "written", reason);
+}
+
+bool nh_output_write(const char *path, const char *text, size_t length, nh_error *error)
+{
+    nh_output_set set = {0};
+    bool good = nh_output_add(&set, path, text, length, error);
+    return nh_output_end(&set, good, error);
+}
+
+bool nh_output_add(nh_output_set *set, const char *path, const char *text, size_t length, nh_error *error)
+{
+    bool direct;
+    nh_output_file *file = nh_alloc(sizeof *file);
+    if (!write_beside(path, text, length, file->temporary, &direct, error) || direct) {
+        nh_free(file);
+        return direct && (!error || error->code == NH_OK);
+    }
+    snprintf(file->path, sizeof file->path, "%s", path);
+    file->next = set->first;
+    set->first = file;
+    return true;
+}
+
+bool nh_output_end(nh_output_set *set, bool keep, nh_error *error)
+{
+    for (nh_output_file *file; (file = set->first); nh_free(file)) {
+        set->first = file->next;
+        int reason = keep && rename(file->temporary, file->path) ? errno : 0;
+        if (!keep || reason) unlink(file->temporary);
+        if (reason) keep = failed(error, file->path, "written", reason);
+    }
+    return keep;
+}
+
+bool nh_output_possible(const char *path, nh_error *error)
+{
+    char folder[NH_OUTPUT_LONGEST];
+    struct stat info;
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + (slash == path)) : 1, slash ? path : ".");
+    if (!stat(path, &info)) {
+        if (S_ISDIR(info.st_mode)) return failed(error, path, "written", EISDIR);
+        if (!S_ISREG(info.st_mode)) return !access(path, W_OK) || failed(error, path, "written", errno);
+    }
+    return !access(folder, W_OK | X_OK) || failed(error, path, "written", errno);
 }

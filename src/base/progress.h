@@ -14,6 +14,10 @@ void nh_progress(const char *doing, double part);
 /* Ask the computation to end soon, with what it has; safe in a signal handler. */
 void nh_interrupt(void);
 bool nh_interrupted(void);
+/* A time limit for what comes: `seconds` from now; none when they are not finite.  Work that cannot be divided is not started after it. */
+void nh_deadline_set(double seconds);
+/* Interrupted, or behind the deadline. */
+bool nh_late(void);
 /* For integrators: nh_interrupted as a callback; the context is not used. */
 bool nh_interrupted_callback(void *context);
 

@@ -2,7 +2,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/output.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "report/html.h"
@@ -63,17 +62,6 @@ static bool use_folder(nh_cli *cli, nh_error *error)
     return true;
 }
 
-static bool write_json(nh_cli *cli, const nh_result *result, nh_error *error)
-{
-    if (!cli->json) return true;
-    char *json = nh_result_json(result);
-    bool good = true;
-    if (!strcmp(cli->json, "-")) fputs(json, stdout);
-    else good = nh_output_write(cli->json, json, strlen(json), error);
-    nh_free(json);
-    return good;
-}
-
 static bool write_figures(nh_cli *cli, const char *page, nh_error *error)
 {
     size_t length, count = 0;
@@ -81,7 +69,7 @@ static bool write_figures(nh_cli *cli, const char *page, nh_error *error)
     for (const char *figure; good && (figure = nh_html_next_figure(&page, &length));) {
         char name[40];
         snprintf(name, sizeof name, "figure%zu.svg", ++count);
-        good = nh_output_write(in_folder(cli, name), figure, length, error);
+        good = nh_output_add(&cli->files, in_folder(cli, name), figure, length, error);
     }
     return good;
 }
@@ -93,7 +81,7 @@ static bool write_html(nh_cli *cli, const nh_result *result, nh_error *error)
     nh_text_init(&text);
     nh_html(result, &text);
     bool good = !cli->folder || write_figures(cli, nh_text_string(&text), error);
-    return nh_cli_write(good ? cli->html : NULL, &text, error) && good;
+    return nh_cli_write(cli, cli->html, &text, error) && good;
 }
 
 static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
@@ -102,7 +90,7 @@ static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
     nh_text text;
     nh_text_init(&text);
     nh_tex(result, cli->fragment, &text);
-    return nh_cli_write(cli->tex, &text, error);
+    return nh_cli_write(cli, cli->tex, &text, error);
 }
 
 static bool write_summary(nh_cli *cli, const nh_result *result, nh_error *error)
@@ -110,25 +98,25 @@ static bool write_summary(nh_cli *cli, const nh_result *result, nh_error *error)
     nh_text text;
     nh_text_init(&text);
     nh_summary(result, (nh_summary_style){cli->colour, cli->verbose}, &text);
-    bool shown = !cli->quiet && !(cli->json && !strcmp(cli->json, "-")), good = true;
+    bool shown = !cli->quiet && !(cli->json && !strcmp(cli->json, "-"));
     if (shown) fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (!cli->folder) return true;
     nh_summary(result, (nh_summary_style){false, cli->verbose}, &text);
-    good = nh_output_write(in_folder(cli, "summary.txt"), nh_text_string(&text), text.length, error);
-    nh_text_clear(&text);
-    return good;
+    return nh_cli_write(cli, in_folder(cli, "summary.txt"), &text, error);
 }
 
 int nh_cli_analyze(nh_cli *cli, nh_error *error)
 {
     nh_analyze_request request;
-    if (!request_of(cli, &request, error) || !use_folder(cli, error)) return error->code;
+    if (!request_of(cli, &request, error) || !use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_cli_watch_begin(cli);
     nh_result *result = nh_analyze(&request, error);
     nh_cli_watch_end();
     if (!result) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
-    bool good = write_summary(cli, result, error) && write_json(cli, result, error) && write_html(cli, result, error) && write_tex(cli, result, error);
+    bool good = write_summary(cli, result, error) && (!cli->json || nh_cli_write_json(cli, nh_result_json(result), error)) && write_html(cli, result, error)
+                && write_tex(cli, result, error);
+    good = nh_cli_written(cli, good, error);
     bool partial = result->partial;
     nh_result_free(result);
     if (!good) return error->code;

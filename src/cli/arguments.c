@@ -7,7 +7,7 @@
 #include "cli/cli.h"
 #include "cli/words.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X){NULL, 0, NULL, 0}};
@@ -108,6 +108,19 @@ static bool unknown_option(const char *word, nh_error *error)
     return near ? nh_error_hint(error, "did you mean `--%s`?", near) : nh_error_hint(error, "`nhsym help` lists them");
 }
 
+/* getopt takes any beginning of a name that is not ambiguous: a script that uses one breaks with the next option that begins like it, so they are refused. */
+static bool in_full(const char *word, int code, nh_error *error)
+{
+    size_t length = strcspn(word, "=");
+    for (const struct option *o = long_options; o->name; o++) {
+        if (o->val != code || strncmp(word, "--", 2)) continue;
+        if (strlen(o->name) + 2 == length && !strncmp(word + 2, o->name, length - 2)) return true;
+        nh_fail(error, NH_USAGE, "", "there is no option `%.*s`", (int)length, word);
+        return nh_error_hint(error, "names are written in full: `--%s`", o->name);
+    }
+    return true;
+}
+
 static bool missing_value(const char *word, nh_error *error)
 {
     nh_fail(error, NH_USAGE, "", "`%s` needs a value", word);
@@ -128,6 +141,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error) && nh_options_set(&cli->options, "reduce_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
     case opt_project: return cli->project = true;
+    case opt_weak: return cli->weak = true;
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_to: cli->to = value; return true;
     case opt_watch: cli->watch = value; return true;
@@ -205,7 +219,8 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     bool given[owner_count] = {false};
     opterr = 0;
     optind = 1;
-    for (int code; (code = getopt_long(argc, argv, "-:qvho:", long_options, NULL)) != -1;) {
+    for (int code, at = optind; (code = getopt_long(argc, argv, "-:qvho:", long_options, NULL)) != -1; at = optind) {
+        if (code != 1 && !in_full(argv[at], code, error)) return false;
         for (size_t i = 0; i < owner_count; i++) given[i] = given[i] || owners[i].code == code;
         if (code == 1) {
             if (!cli->command) cli->command = optarg;

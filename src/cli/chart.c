@@ -1,6 +1,5 @@
 #include <string.h>
 
-#include "base/output.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "report/chart.h"
@@ -19,25 +18,20 @@ static bool write_all(nh_cli *cli, const nh_run *run, const nh_comparison *c, co
     nh_text_clear(&text);
     if (cli->svg) {
         nh_comparison_svg(c, &text);
-        good = nh_cli_write(cli->svg, &text, error);
+        good = nh_cli_write(cli, cli->svg, &text, error);
     }
     if (cli->html && good) {
         nh_html_comparison(c, s, run, &text);
-        good = nh_cli_write(cli->html, &text, error);
+        good = nh_cli_write(cli, cli->html, &text, error);
     }
-    if (cli->json && good) {
-        char *json = nh_comparison_json(c, s, run);
-        if (!strcmp(cli->json, "-")) fputs(json, stdout);
-        else good = nh_output_write(cli->json, json, strlen(json), error);
-        nh_free(json);
-    }
-    return good;
+    if (cli->json && good) good = nh_cli_write_json(cli, nh_comparison_json(c, s, run), error);
+    return nh_cli_written(cli, good, error);
 }
 
 int nh_cli_chart(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
-    if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error)) return error->code;
+    if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
     const double longest = 300;
     double budget = cli->budget > 0 ? cli->budget : 5, of_stress = cli->budget > 0 ? budget / 2 : longest;

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/option.h"
+#include "base/output.h"
 #include "base/text.h"
 #include "report/run.h"
 #include "study/analyze.h"
@@ -25,7 +26,7 @@ typedef struct {
     const char *current, *field; /* questions of verify */
     const char *initial;         /* of simulate and reduce */
     const char *group, *chain, *to; /* of reduce */
-    bool project;
+    bool project, weak;
     const char *watch;           /* of simulate */
     const char *over;            /* of chart */
     bool scene;
@@ -42,6 +43,7 @@ typedef struct {
     nh_options options;
     bool seed_given, samples_given, tolerance_given, until_given;
     bool quiet, verbose, colour, help;
+    nh_output_set files;         /* that are written and not yet in their places */
     nh_arena *arena;
 } nh_cli;
 
@@ -61,8 +63,12 @@ void nh_cli_watch_end(void);
 
 /* To repeat this command. */
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);
-/* Write a text to a file and clear it; path NULL: only that. */
-bool nh_cli_write(const char *path, nh_text *text, nh_error *error);
+/* Before the work: a folder that cannot be written is told now, not after minutes. */
+bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
+/* A text for a file, which is cleared; a JSON, which is freed, for --json.  The files take their places together, in the last of these: with `good`, or not at all. */
+bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error);
+bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error);
+bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
 
 /* The file of a system or analysis: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
  * `kind` is "systems" or "analyses".  NULL with a suggestion. */

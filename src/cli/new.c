@@ -24,6 +24,9 @@ static const char pattern[] =
     "  - {name: x, type: length, unit: m, doc: down the slope}\n"
     "  - {name: y, type: length, unit: m, doc: across it}\n"
     "\n"
+    "# definitions:               # names for expressions, in order; X' is then the rate of X\n"
+    "#   - X = x + 0.3*cos(phi)\n"
+    "\n"
     "# Kinetic minus potential energy.  x' is the velocity of x; t, sin, cos, sqrt, exp, log, ... can be used.\n"
     "lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 + m*b*x\n"
     "\n"
@@ -50,14 +53,20 @@ int nh_cli_new(nh_cli *cli, nh_error *error)
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666); /* never over a file that is there */
     FILE *stream = file < 0 ? NULL : fdopen(file, "w");
     if (!stream) {
-        if (errno == EEXIST) nh_fail(error, NH_INPUT, path, "is there already, and stays as it is");
+        bool there = errno == EEXIST;
+        if (there) nh_fail(error, NH_INPUT, path, "is there already, and stays as it is");
         else nh_fail(error, NH_INPUT, path, "could not be made: %s", strerror(errno));
-        nh_error_hint(error, "choose another name, or remove the file first");
+        nh_error_hint(error, there ? "choose another name, or remove the file first" : "it is written into the folder in which nhsym runs; choose another");
         return NH_INPUT;
     }
     bool good = fprintf(stream, pattern, name, name) > 0;
     good &= fclose(stream) == 0;
-    if (!good) return unlink(path), nh_fail(error, NH_NUMERIC, path, "could not be written"), NH_NUMERIC;
+    if (!good) {
+        nh_fail(error, NH_NUMERIC, path, "could not be written: %s", strerror(errno));
+        nh_error_hint(error, "nothing of it is left; make room, or try it in another folder");
+        unlink(path);
+        return NH_NUMERIC;
+    }
     if (!cli->quiet) printf("%s is written; `nhsym analyze %s` analyses it\n", path, path);
     return NH_OK;
 }

@@ -1,6 +1,5 @@
 #include <string.h>
 
-#include "base/output.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "report/html.h"
@@ -12,7 +11,7 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "reduce which system?");
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
-    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .project = cli->project, .group = cli->group, .chain = cli->chain, .options = cli->options};
+    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .options = cli->options};
     if (cli->to && strcmp(cli->to, "c") && strcmp(cli->to, "latex")) {
         nh_fail(error, NH_USAGE, "", "reduce does not write `%s`", cli->to);
         return nh_error_hint(error, "--to takes c or latex");
@@ -36,7 +35,7 @@ static void print(const nh_cli *cli, const nh_reduction *r)
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     nh_reduce_request request;
-    if (!request_of(cli, &request, error)) return error->code;
+    if (!request_of(cli, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_cli_watch_begin(cli);
     nh_reduction *r = nh_reduce(&request, error);
     nh_cli_watch_end();
@@ -44,18 +43,14 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
     if (!to_stdout && !cli->quiet) print(cli, r);
-    if (cli->json) {
-        char *json = nh_reduction_json(r, &run);
-        if (to_stdout) fputs(json, stdout);
-        else good = nh_output_write(cli->json, json, strlen(json), error);
-        nh_free(json);
-    }
+    if (cli->json) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);
     if (cli->html && good) {
         nh_text page;
         nh_text_init(&page);
         nh_html_reduction(r, &run, &page);
-        good = nh_cli_write(cli->html, &page, error);
+        good = nh_cli_write(cli, cli->html, &page, error);
     }
+    good = nh_cli_written(cli, good, error);
     bool partial = r->partial;
     nh_reduction_free(r);
     return !good ? (int)error->code : nh_interrupted() ? NH_INTERRUPTED : partial ? NH_LIMIT : NH_OK;

@@ -1,6 +1,5 @@
 #include <string.h>
 
-#include "base/output.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "report/html.h"
@@ -57,14 +56,14 @@ static void complain(const nh_simulation *s, nh_error *error)
         nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy.why);
         if (s->columns.count > 1) nh_error_hint(error, "`%s` is the least certain of %zu columns; --watch names those that are wanted", s->columns.track[s->accuracy.quantity].name, s->columns.count);
     }
-    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->motion->note);
+    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->accuracy.why : s->motion->note);
 }
 
 int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
-    if (!nh_cli_motion_request(cli, example, &request, error)) return error->code;
+    if (!nh_cli_motion_request(cli, example, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_cli_watch_begin(cli);
     nh_simulation *s = nh_simulate(&request, error);
     nh_cli_watch_end();
@@ -72,18 +71,15 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     bool good = true;
     put_table(cli, s);
-    if (cli->json) {
-        char *json = s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run);
-        if (!strcmp(cli->json, "-")) fputs(json, stdout);
-        else good = nh_output_write(cli->json, json, strlen(json), error);
-        nh_free(json);
-    }
+    if (cli->json) good = nh_cli_write_json(cli, s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run), error);
     if (cli->html && good) {
         nh_text page;
         nh_text_init(&page);
         nh_html_simulation(s, &run, &page);
-        good = nh_cli_write(cli->html, &page, error);
+        good = nh_cli_write(cli, cli->html, &page, error);
     }
+    good = nh_cli_written(cli, good, error);
+    if (s->astray && !cli->quiet) fprintf(stderr, "warning: %s\n", s->astray);
     if (good) complain(s, error);
     nh_simulation_free(s);
     return good && nh_interrupted() ? NH_INTERRUPTED : (int)error->code;

@@ -1,6 +1,5 @@
 #include <string.h>
 
-#include "base/output.h"
 #include "cli/cli.h"
 #include "report/html.h"
 #include "report/verdict.h"
@@ -24,27 +23,23 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
 {
     nh_verdict_of_one *v = NULL;
     nh_run run;
-    if (!ask(cli, &run, &v, error) || !v) return error->code;
+    if (!nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return error->code;
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true, conserved = v->conserved;
     if (!to_stdout && !cli->quiet) {
         nh_text text;
         nh_text_init(&text);
-        nh_verdict_text(v, cli->field != NULL, &text);
+        nh_verdict_text(v, cli->field != NULL, cli->options.shown, &text);
         fputs(nh_text_string(&text), stdout);
         nh_text_clear(&text);
     }
-    if (cli->json) {
-        char *json = nh_verdict_json(v, &run);
-        if (to_stdout) fputs(json, stdout);
-        else good = nh_output_write(cli->json, json, strlen(json), error);
-        nh_free(json);
-    }
+    if (cli->json) good = nh_cli_write_json(cli, nh_verdict_json(v, &run), error);
     if (cli->html && good) {
         nh_text page;
         nh_text_init(&page);
         nh_html_verdict(v, cli->field != NULL, &run, &page);
-        good = nh_cli_write(cli->html, &page, error);
+        good = nh_cli_write(cli, cli->html, &page, error);
     }
+    good = nh_cli_written(cli, good, error);
     nh_verdict_free(v);
     return !good ? (int)error->code : conserved ? NH_OK : NH_REFUTED;
 }

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <signal.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 
@@ -13,13 +13,6 @@ enum { widest = 60 };
 static bool live; /* a line that is rewritten, on a terminal */
 static double begun, told; /* seconds */
 static char last[widest + 1];
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void on_signal(int number)
 {
@@ -30,7 +23,7 @@ static void on_signal(int number)
 /* "42 %, 7 s left: ": as if it went on as before. */
 static void put_part(double part)
 {
-    double left = part > 0 ? (now() - begun) * (1 - part) / part : -1;
+    double left = part > 0 ? (nh_clock() - begun) * (1 - part) / part : -1;
     fprintf(stderr, "%3.0f %%", 100 * part);
     if (left >= 600) fprintf(stderr, ", %.0f min left", left / 60);
     else if (left >= 0) fprintf(stderr, ", %.0f s left", ceil(left));
@@ -41,7 +34,7 @@ static void put_part(double part)
 static void show(void *context, const char *doing, double part)
 {
     (void)context;
-    double moment = now(), pause = live ? 0.1 : 5;
+    double moment = nh_clock(), pause = live ? 0.1 : 5;
     bool same = !strncmp(doing, last, widest);
     if (same && moment - told < pause) return;
     told = moment;
@@ -61,7 +54,7 @@ void nh_cli_watch_begin(const nh_cli *cli)
     bool terminal = isatty(STDERR_FILENO);
     if (cli->progress == NH_PROGRESS_NEVER || (cli->progress == NH_PROGRESS_AUTO && (!terminal || cli->quiet))) return;
     live = terminal;
-    begun = now();
+    begun = nh_clock();
     nh_progress_set(show, NULL);
 }
 

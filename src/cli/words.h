@@ -34,6 +34,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_svg,         "svg",         required_argument, "FILE",               "chart", "time against error as a picture")                                         \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce", "\"1, 2\" or \"x=1; theta=1\": what to reduce by")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "the stages")                                                             \
+    X(opt_weak,        "weak",        no_argument,       "",                   "reduce", "symmetries that change L by a total derivative count, too")              \
     X(opt_to,          "to",          required_argument, "c|latex",            "reduce", "write the equations as code")                                            \
     X(opt_tolerance,   "tolerance",   required_argument, "EPS",                "analyze simulate chart reduce", "of the motions")                                  \
     X(opt_until,       "until",       required_argument, "T",                  "analyze simulate chart reduce", "their end")                                       \

@@ -1,6 +1,5 @@
 #include "expr/ball_fit.h"
 
-#include <arb_mat.h>
 #include <math.h>
 
 #include "base/memory.h"

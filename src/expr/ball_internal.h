@@ -2,8 +2,7 @@
 #ifndef NH_BALL_INTERNAL_H
 #define NH_BALL_INTERNAL_H
 
-#include <arb.h>
-
+#include "expr/arb.h"
 #include "expr/ball.h"
 
 /* The value of e; false when it is not finite or a symbol has no value. */

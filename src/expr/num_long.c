@@ -1,7 +1,9 @@
 #include "expr/num_long.h"
 
+#include <float.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -96,7 +98,7 @@ nh_num nh_num_of_mpq(const mpq_t v)
     if (fits(mpq_numref(v)) && fits(mpq_denref(v))) return (nh_num){mpz_get_si(mpq_numref(v)), mpz_get_si(mpq_denref(v)), 0};
     double d = nearest(v);
     bool moderate = mpz_sizeinbase(mpq_numref(v), 2) <= most_bits && mpz_sizeinbase(mpq_denref(v), 2) <= most_bits;
-    size_t index = moderate && isfinite(d) ? keep(v) : 0;
+    size_t index = moderate ? keep(v) : 0; /* beyond the range of doubles, too: d is 0 or infinite then */
     return index ? (nh_num){(int64_t)index, NH_LONG, d} : nh_num_real(d);
 }
 
@@ -132,6 +134,22 @@ void nh_num_split(nh_num a, nh_num *top, nh_num *bottom)
     mpq_clear(v);
 }
 
+/* 1.25e-400: doubles end at 1e-308 and 1e308. */
+static void write_far(const mpq_t v, char *buffer, size_t size)
+{
+    enum { digits = 17, bits = 128 };
+    mpf_t f;
+    mp_exp_t exponent;
+    char text[digits + 3];
+    mpf_init2(f, bits);
+    mpf_set_q(f, v);
+    mpf_get_str(text, &exponent, 10, digits, f);
+    mpf_clear(f);
+    bool minus = text[0] == '-';
+    const char *first = text + minus;
+    snprintf(buffer, size, "%s%c%s%se%ld", minus ? "-" : "", first[0], first[1] ? "." : "", first + 1, (long)exponent - 1);
+}
+
 void nh_num_write(nh_num x, nh_text *out)
 {
     char buffer[100];
@@ -140,7 +158,9 @@ void nh_num_write(nh_num x, nh_text *out)
     if (nh_num_exact(x)) nh_num_get_mpq(v, x);
     bool whole = x.q == 1 || (x.q == NH_LONG && mpz_cmp_ui(mpq_denref(v), 1) == 0 && mpz_sizeinbase(mpq_numref(v), 10) < sizeof buffer - 2
                               && !nh_num_equal(nh_num_decimal(x.d), x));
-    if (whole) mpz_get_str(buffer, 10, mpq_numref(v));
+    bool far = x.q == NH_LONG && (fabs(x.d) < DBL_MIN || !isfinite(x.d));
+    if (far) write_far(v, buffer, sizeof buffer);
+    else if (whole) mpz_get_str(buffer, 10, mpq_numref(v));
     else nh_text_number(nh_num_value(x), buffer, sizeof buffer);
     mpq_clear(v);
     nh_text_add(out, buffer);

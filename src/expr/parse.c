@@ -111,14 +111,20 @@ static bool no_operator(parser *p, const char *closing)
     return hint(p, "there is no implicit multiplication: write `*`");
 }
 
-/* Is every coefficient finite?  Products and sums of large numbers need not be. */
+static bool vanishes(nh_num x) { return !nh_num_is(x, 0) && nh_num_value(x) == 0; }
+
+/* Is every coefficient a double that is neither infinite nor 0?  Products and sums of large and small numbers need not be. */
 static bool stays_finite(parser *p, nh_ex e, size_t at)
 {
     nh_kind kind = nh_kind_of(p->dag, e);
-    double size = kind == NH_NUMBER ? nh_num_value(nh_number_of(p->dag, e)) : 0;
-    if (kind == NH_SUM || kind == NH_PRODUCT) size = nh_num_value(nh_constant_of(p->dag, e));
-    for (size_t i = 0; kind == NH_SUM && i < nh_arity(p->dag, e); i++)
+    nh_num first = kind == NH_NUMBER ? nh_number_of(p->dag, e) : kind == NH_SUM || kind == NH_PRODUCT ? nh_constant_of(p->dag, e) : nh_num_int(1);
+    double size = nh_num_value(first);
+    bool lost = vanishes(first);
+    for (size_t i = 0; kind == NH_SUM && i < nh_arity(p->dag, e); i++) {
         size += fabs(nh_num_value(nh_coefficient_of(p->dag, e, i)));
+        lost |= vanishes(nh_coefficient_of(p->dag, e, i));
+    }
+    if (lost) return fail(p, at, "a number in this expression has become too small: it would be 0");
     return isfinite(size) || fail(p, at, "a number in this expression has become too large");
 }
 

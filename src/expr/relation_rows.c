@@ -5,7 +5,9 @@
 
 #include "expr/normal_flint.h"
 
+#include <flint/nmod.h>
 #include <flint/nmod_poly.h>
+#include <flint/nmod_poly_factor.h>
 #include <flint/nmod_vec.h>
 #include <flint/ulong_extras.h>
 

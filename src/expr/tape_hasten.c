@@ -1,19 +1,12 @@
 /* tape_hasten: when is a tape worth compiling? */
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "expr/tape_internal.h"
 
 enum { first_look = 500, timed = 5 };
 static const double price = 0.05, price_each = 2e-4; /* seconds that compiling takes: at all, and per instruction (docs/performance.md) */
 static const double between_looks = 2e-3;              /* seconds while the compiler runs */
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 void nh_tape_hasten(nh_tape_work *work, double patience)
 {
@@ -27,9 +20,9 @@ static double time_one(const nh_tape *tape, nh_tape_work *work, const double *in
     double least = 1;
     double *out = nh_alloc_array(tape->outputs + 1, sizeof *out);
     for (int i = 0; i < timed; i++) {
-        double begun = now(), seconds;
+        double begun = nh_clock(), seconds;
         for (int k = 0; k < timed; k++) nh_tape_eval(tape, work, in, out);
-        seconds = (now() - begun) / timed;
+        seconds = (nh_clock() - begun) / timed;
         if (seconds < least) least = seconds;
     }
     nh_free(out);

@@ -123,6 +123,14 @@ void nh_typeset_plain(const char *text, nh_text *out)
         nh_text_add(out, greek[greek_letter(text, length)].letter);
         text += length;
     }
+    else {
+        length = strcspn(text, "'_0123456789, =.(/+-*^");
+        nh_text_add_n(out, text, length);
+        text += length;
+    }
+    size_t digits = strspn(text + (*text == '_'), "0123456789");
+    if (length && digits && !strchr("_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", text[(*text == '_') + digits] ? text[(*text == '_') + digits] : ' '))
+        for (text += *text == '_'; digits-- > 0; text++) nh_text_addf(out, "\xe2\x82%c", 0x80 + (*text - '0')); /* digits as indices: U+2080 and on */
     for (; *text; text++)
         if (*text == '\'') nh_text_add(out, "\u2032");
         else nh_text_add_n(out, text, 1);

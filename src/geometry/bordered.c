@@ -95,13 +95,6 @@ size_t nh_bordered_coordinates(const nh_bordered *b) { return b->m; }
 
 size_t nh_bordered_constraints(const nh_bordered *b) { return b->k; }
 
-static bool finite_all(size_t n, const double *x)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i])) return false;
-    return true;
-}
-
 bool nh_bordered_terms(nh_bordered *b, double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f)
 {
     size_t m = b->m, k = b->k;
@@ -116,7 +109,7 @@ bool nh_bordered_terms(nh_bordered *b, double t, const double *q, const double *
     memcpy(F, x + m * m + m, k * m * sizeof *x);
     memcpy(g, x + m * m + m + k * m, k * sizeof *x);
     memcpy(f, x + m * m + m + k * m + k, k * sizeof *x);
-    return finite_all(m * m + m + k * m + 2 * k, x);
+    return nh_all_finite(m * m + m + k * m + 2 * k, x);
 }
 
 bool nh_bordered_accelerations(nh_bordered *b, double t, const double *q, const double *v, double *acceleration)
@@ -133,7 +126,7 @@ bool nh_bordered_accelerations(nh_bordered *b, double t, const double *q, const 
     for (size_t a = 0; a < k; a++) b->right[m + a] = -g[a];
     if (!nh_solve(n, b->matrix, 1, b->right, NULL)) return false;
     memcpy(acceleration, b->right, m * sizeof *acceleration);
-    return finite_all(m, acceleration);
+    return nh_all_finite(m, acceleration);
 }
 
 bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *v, const double *mu, double *force)

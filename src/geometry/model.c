@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
@@ -13,7 +14,8 @@ static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, 
 
 enum { large_length = 3000 }; /* nh_complexity of a Lagrangian */
 
-static nh_ex simple(const nh_model *o, nh_ex e) { return nh_simplify_short(o->dag, e, 0); }
+/* Behind a deadline longer formulas are better than none. */
+static nh_ex simple(const nh_model *o, nh_ex e) { return nh_late() ? e : nh_simplify_short(o->dag, e, 0); }
 
 /* ---- derivatives along fields ---- */
 

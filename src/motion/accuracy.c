@@ -97,6 +97,14 @@ static double whole(const nh_trajectory_request *q, const nh_trajectory *t)
     return t ? t->motion->seconds / fmax(done, 1e-6) : INFINITY;
 }
 
+/* After an interruption: the one that came farther. */
+static nh_trajectory *farther(nh_trajectory *a, nh_trajectory *b)
+{
+    bool first = a && (!b || a->motion->count >= b->motion->count);
+    nh_trajectory_free(first ? b : a);
+    return first ? a : b;
+}
+
 /* The pair of methods, and the first run. */
 static nh_trajectory *choose(search *s, double tolerance, nh_error *error)
 {
@@ -104,15 +112,19 @@ static nh_trajectory *choose(search *s, double tolerance, nh_error *error)
     nh_error_clear(&ignored);
     take(s, explicit_pair);
     nh_trajectory *t = run(s, s->method[0], tolerance, true, quick, &ignored);
-    if (complete(t)) return t;
+    if (complete(t) || (t && nh_interrupted())) return t;
     take(s, multistep_pair);
     nh_trajectory *other = run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e-3, 1e6), &ignored);
-    nh_trajectory_free(t);
     s->doubtful = complete(other); /* implicit methods can damp what grows: always confirmed */
-    if (s->doubtful) return other;
+    if (s->doubtful || nh_interrupted()) return farther(other, t);
     nh_trajectory_free(other);
     take(s, explicit_pair);
-    return run(s, s->method[0], tolerance, true, s->request->max_seconds, error);
+    other = run(s, s->method[0], tolerance, true, s->request->max_seconds, t ? &ignored : error);
+    if (other && !nh_interrupted()) {
+        nh_trajectory_free(t);
+        return other;
+    }
+    return farther(other, t);
 }
 
 /* The motion from the start itself, if it can be had. */
@@ -121,7 +133,7 @@ static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_trajectory *b = run(s, s->method[0], s->out->tolerance, false, s->request->max_seconds, &ignored);
-    if (!b) return a;
+    if (!b || nh_interrupted()) return farther(a, b);
     s->out->estimate = fmax(s->out->estimate, difference(s, a, b));
     nh_trajectory_free(a);
     return b;
@@ -138,8 +150,8 @@ static nh_trajectory *tighten(search *s, nh_error *error)
     s->out->tolerance = coarse;
     for (int i = 1; complete(a) && i < most_runs; i++) {
         nh_trajectory *b = run(s, s->method[0], fine, clean, s->request->max_seconds, &ignored);
-        if (b && nh_interrupted() && b->motion->count <= a->motion->count) { /* the coarser one came farther */
-            nh_trajectory_free(b);
+        if (nh_interrupted()) {
+            nh_trajectory_free(b); /* the coarser one is complete */
             break;
         }
         double d = difference(s, a, b);
@@ -158,7 +170,7 @@ static nh_trajectory *tighten(search *s, nh_error *error)
         coarse = fine;
         fine = fmax(tightest, fine * between(pow(eps / (4 * s->out->estimate), 1.25), 1e-5, step));
     }
-    return a && !clean ? undisturbed(s, a) : a;
+    return a && !clean && !nh_interrupted() ? undisturbed(s, a) : a;
 }
 
 /* The other method at ever tighter tolerances until it agrees. */
@@ -180,7 +192,9 @@ static void explain(search *s, const nh_trajectory *t)
 {
     nh_accuracy *a = s->out;
     size_t size = sizeof a->why;
-    if (!t->motion->complete)
+    if (nh_interrupted() && !a->held)
+        snprintf(a->why, size, "interrupted before the accuracy %.1e was reached: this is %s at tolerance %.1e, and its error is not known", s->eps, t->method, a->tolerance);
+    else if (!t->motion->complete)
         snprintf(a->why, size, "the accuracy %.1e was not reached: the motion ended at t = %.6g", s->eps, t->motion->end_time);
     else if (!(a->estimate < s->eps / 2))
         snprintf(a->why, size, "the accuracy %.1e was not reached: %s at tolerance %.1e has an estimated error of %.1e", s->eps, t->method, a->tolerance, a->estimate);
@@ -200,8 +214,8 @@ nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, doub
     search s = {.request = request, .eps = eps, .out = accuracy};
     nh_trajectory *t = tighten(&s, error);
     if (!t) return NULL;
-    bool good = t->motion->complete && accuracy->estimate < eps / 2;
-    if (good && s.doubtful) confirm(&s, t);
+    bool good = t->motion->complete && isfinite(accuracy->estimate) && accuracy->estimate < eps / 2;
+    if (good && s.doubtful && !nh_interrupted()) confirm(&s, t);
     accuracy->held = good && (!s.doubtful || accuracy->difference < eps);
     explain(&s, t);
     return t;

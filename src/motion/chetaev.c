@@ -16,7 +16,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include <ida/ida.h>
@@ -26,6 +25,7 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "motion/sundials.h"
 
 /* The multipliers take part in the error test, or they would be wrong between the steps wherever (q,v) allows long ones (by
  * 10 % at rtol 1e-9 in a test); but they follow the accelerations, which are one order less exact than (q,v), so their
@@ -40,8 +40,6 @@ static const double iteration_share = 0.003;
  * divided by the step. */
 static const double multiplier_width_2 = 1e10;
 
-_Static_assert(sizeof(realtype) == sizeof(double), "SUNDIALS must be built for double precision");
-
 typedef struct {
     const nh_chetaev_problem *problem;
     size_t m, k;
@@ -49,7 +47,7 @@ typedef struct {
     double *base, *shifted;    /* (r_2, r_3), m + k each */
     double *point;             /* (q, v), 2m */
     double *scale;             /* 2m + k */
-    SUNContext sundials;
+    nh_sundials sundials;
     void *ida;
     N_Vector state, rate, differential;
     SUNMatrix matrix;
@@ -59,16 +57,7 @@ typedef struct {
     bool failed; /* the terms could not be computed in the last steps; at which time and step */
     double failed_at;
     long step, failed_step;
-    char message[200]; /* IDA's own last words */
 } ida_work;
-
-static bool all_finite(size_t count, const double *value)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(value[i]))
-            return false;
-    return true;
-}
 
 static size_t terms_size(size_t m, size_t k)
 {
@@ -79,7 +68,7 @@ static bool terms_at(ida_work *work, double t, const double *q, const double *v)
 {
     work->evaluations++;
     if (work->problem->terms(t, q, v, work->K, work->h, work->F, work->g, work->f, work->problem->context) &&
-        all_finite(terms_size(work->m, work->k), work->K))
+        nh_all_finite(terms_size(work->m, work->k), work->K))
         return true;
     work->failed = true;
     work->failed_at = t;
@@ -128,12 +117,12 @@ static bool solve_bordered(const ida_work *work, double *a, double *mu, double *
     }
     for (size_t c = 0; c < k; c++)
         right[m + c] = -work->g[c];
-    bool good = nh_solve(n, matrix, 1, right, rcond) && *rcond > DBL_EPSILON && all_finite(n, right);
+    bool good = nh_solve(n, matrix, 1, right, rcond) && *rcond > DBL_EPSILON && nh_all_finite(n, right);
     if (good) {
         memcpy(a, right, m * sizeof *a);
         for (size_t c = 0; c < k; c++)
             mu[c] = right[m + c] * s;
-        good = all_finite(k, mu);
+        good = nh_all_finite(k, mu);
     }
     nh_free(matrix);
     nh_free(right);
@@ -177,7 +166,7 @@ static bool make_consistent(ida_work *work, double t, const double *initial, dou
 
 /* ---- IDA's callbacks ---- */
 
-static int call_residual(realtype t, N_Vector state, N_Vector rate, N_Vector residual, void *user)
+static int call_residual(sunrealtype t, N_Vector state, N_Vector rate, N_Vector residual, void *user)
 {
     ida_work *work = user;
     const double *y = NV_DATA_S(state), *dy = NV_DATA_S(rate);
@@ -222,7 +211,7 @@ static double shift(ida_work *work, double t, const double *y, size_t j)
     return 0;
 }
 
-static int call_jacobian(realtype t, realtype c, N_Vector state, N_Vector rate, N_Vector residual, SUNMatrix matrix, void *user,
+static int call_jacobian(sunrealtype t, sunrealtype c, N_Vector state, N_Vector rate, N_Vector residual, SUNMatrix matrix, void *user,
                          N_Vector work1, N_Vector work2, N_Vector work3)
 {
     (void)residual, (void)work1, (void)work2, (void)work3;
@@ -256,14 +245,6 @@ static int call_weights(N_Vector state, N_Vector weight, void *user)
     return 0;
 }
 
-static void keep_message(int code, const char *module, const char *function, char *message, void *user)
-{
-    (void)module, (void)function;
-    ida_work *work = user;
-    if (code < 0)
-        snprintf(work->message, sizeof work->message, "%s", message);
-}
-
 /* ---- one motion ---- */
 
 /* At the last state that was reached. */
@@ -289,7 +270,7 @@ static void explain(int flag, ida_work *work, nh_motion *motion)
                        "reciprocal condition number %.2g there: if it is small, constraints become dependent, else the "
                        "solution is singular", t, work->rtol, bordered_rcond(work, t));
     else
-        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->message);
+        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->sundials.message);
 }
 
 static nh_step ida_advance(double *time, nh_motion *motion, void *context)
@@ -324,17 +305,17 @@ static void ida_stuck(nh_motion *motion, void *context)
 static bool create_objects(ida_work *work)
 {
     sunindextype size = (sunindextype)(2 * work->m + work->k);
-    if (SUNContext_Create(NULL, &work->sundials) != 0)
+    if (!nh_sundials_open(&work->sundials))
         return false;
-    work->state = N_VNew_Serial(size, work->sundials);
-    work->rate = N_VNew_Serial(size, work->sundials);
-    work->differential = N_VNew_Serial(size, work->sundials);
-    work->matrix = SUNDenseMatrix(size, size, work->sundials);
+    work->state = N_VNew_Serial(size, work->sundials.context);
+    work->rate = N_VNew_Serial(size, work->sundials.context);
+    work->differential = N_VNew_Serial(size, work->sundials.context);
+    work->matrix = SUNDenseMatrix(size, size, work->sundials.context);
     if (!work->state || !work->rate || !work->differential || !work->matrix)
         return false;
     N_VConst(0, work->rate);
-    work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials);
-    work->ida = IDACreate(work->sundials);
+    work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials.context);
+    work->ida = IDACreate(work->sundials.context);
     return work->solver && work->ida;
 }
 
@@ -362,7 +343,7 @@ static bool leave_multipliers_out(ida_work *work)
 
 static bool set_up(ida_work *work, double start)
 {
-    return IDASetErrHandlerFn(work->ida, keep_message, work) == IDA_SUCCESS &&
+    return nh_sundials_listen(IDA, work->ida, &work->sundials) &&
            IDAInit(work->ida, call_residual, start, work->state, work->rate) == IDA_SUCCESS &&
            IDASetUserData(work->ida, work) == IDA_SUCCESS &&
            IDAWFtolerances(work->ida, call_weights) == IDA_SUCCESS &&
@@ -380,7 +361,7 @@ static void destroy_work(ida_work *work)
     N_VDestroy(work->state);
     N_VDestroy(work->rate);
     N_VDestroy(work->differential);
-    SUNContext_Free(&work->sundials);
+    nh_sundials_close(&work->sundials);
     nh_free(work->K);
     nh_free(work->base);
     nh_free(work->shifted);
@@ -418,7 +399,7 @@ static bool integrate(ida_work *work, nh_motion *motion, const double *initial, 
         return false;
     if (!created || !set_up(work, times[0]))
         return nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s",
-                       work->message[0] ? work->message : "out of memory");
+                       work->sundials.message[0] ? work->sundials.message : "out of memory");
     enter_start(motion, work);
     nh_stepper stepper = {.context = work, .advance = ida_advance, .state = ida_state, .stuck = ida_stuck};
     nh_motion_run(motion, count, times, options, &stepper);

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/linalg.h"
 #include "base/progress.h"
 
@@ -25,15 +25,8 @@ typedef struct {
     const nh_ex *current; /* of the chart */
 } run;
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* Of the time for all motions of the check; some is left for each. */
-static double time_left(const run *r) { return fmax(r->options->check_seconds / 20, r->options->check_seconds + r->start - now()); }
+static double time_left(const run *r) { return fmax(r->options->check_seconds / 20, r->options->check_seconds + r->start - nh_clock()); }
 
 /* ---- currents along a motion ---- */
 
@@ -156,7 +149,9 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
         v->violation = full->violation;
         v->multiplier_evaluations = full->motion->evaluations;
         compare(r, b, reduced, full);
-        if (!full->motion->complete)
+        if (!full->motion->complete && (double)full->motion->steps >= options.max_steps)
+            snprintf(v->note, sizeof v->note, "the multiplier form, a second opinion, was compared to t = %.4g only: so far it comes in %.0f steps", full->motion->end_time, options.max_steps);
+        else if (!full->motion->complete)
             snprintf(v->note, sizeof v->note, "the multiplier form was compared to t = %.4g only: %.180s", full->motion->end_time, full->motion->note);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
@@ -260,7 +255,7 @@ static void keep(run *r, const nh_state *initial, const nh_motion *motion)
     v->steps = motion->steps;
     v->complete = motion->complete;
     v->end = motion->end_time;
-    if (!motion->complete) snprintf(v->note, sizeof v->note, "%.250s", motion->note);
+    if (!motion->complete) snprintf(v->note, sizeof v->note, "the test motion ends at t = %.4g: %.200s", motion->end_time, motion->note);
 }
 
 static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_error *error)
@@ -302,7 +297,7 @@ nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t 
     *v = (nh_validation){.arena = arena, .method = "CVODE Adams", .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, model->chart->name),
                          .begin = initial->t, .end = until, .currents = n, .current = nh_arena_alloc(arena, (n + 1) * sizeof *v->current), .crossing = NAN};
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, options->tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
-    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid, .currents = n, .current = current, .start = now()};
+    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid, .currents = n, .current = current, .start = nh_clock()};
     r.times = nh_alloc_array(outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(model->m + model->n + 1, sizeof *r.z0);
     for (size_t i = 0; i < outputs; i++) r.times[i] = initial->t + (until - initial->t) * (double)i / (double)(outputs - 1);

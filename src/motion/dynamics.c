@@ -132,19 +132,12 @@ bool nh_dynamics_point(nh_dynamics *d, double t, const double *z, double *point)
     return true;
 }
 
-static bool finite_all(size_t n, const double *x)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i])) return false;
-    return true;
-}
-
 static bool rate_of(double t, const double *z, double *rate, void *context)
 {
     nh_dynamics *d = context;
     if (!nh_dynamics_point(d, t, z, d->point)) return false;
     nh_tape_eval(d->rate, d->rate_work, d->point, rate);
-    return finite_all(d->size, rate);
+    return nh_all_finite(d->size, rate);
 }
 
 static bool jacobian_of(double t, const double *z, double *jacobian, void *context)
@@ -152,7 +145,7 @@ static bool jacobian_of(double t, const double *z, double *jacobian, void *conte
     nh_dynamics *d = context;
     if (!nh_dynamics_point(d, t, z, d->point)) return false;
     nh_tape_eval(d->jacobian, d->jacobian_work, d->point, jacobian);
-    return finite_all(d->size * d->size, jacobian);
+    return nh_all_finite(d->size * d->size, jacobian);
 }
 
 /* det(df^a/dv^dependent) with rows of |df/dv| = 1: integrators step over its zeros without a word. */
@@ -184,7 +177,7 @@ static double fit_step(nh_dynamics *d, const nh_state *state, double *w)
 {
     size_t m = d->m, n = d->n;
     nh_tape_eval(d->velocity, d->velocity_work, d->point, d->out);
-    if (!finite_all(m * (1 + n), d->out)) return -1;
+    if (!nh_all_finite(m * (1 + n), d->out)) return -1;
     double *R = d->dense, *b = R + m * n, size = 0;
     memcpy(R, d->out + m, m * n * sizeof *R);
     for (size_t s = 0; s < m; s++) {

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "motion/tableau.h"
@@ -316,13 +316,6 @@ static void do_alone(const plan *p, size_t member, nh_error *error)
     nh_free(z);
 }
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void count_interrupted(nh_ensemble *e)
 {
     size_t each = e->count * e->n;
@@ -335,7 +328,7 @@ static void integrate(plan *p, size_t threads)
 {
     nh_ensemble *e = p->out;
     size_t batches = (e->members + lanes - 1) / lanes;
-    double begin = now();
+    double begin = nh_clock();
     nh_error ignored;
     p->evaluations = nh_alloc_array(batches, sizeof *p->evaluations);
     p->alone = nh_alloc_array(e->members, sizeof *p->alone);
@@ -354,7 +347,7 @@ static void integrate(plan *p, size_t threads)
         e->alone++;
     }
     if (nh_interrupted()) count_interrupted(e);
-    e->seconds = now() - begin;
+    e->seconds = nh_clock() - begin;
     nh_free(p->alone);
     nh_free(p->evaluations);
 }

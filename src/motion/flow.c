@@ -9,17 +9,17 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
+#include "base/clock.h"
+#include "base/linalg.h"
 #include "base/memory.h"
 #include "base/progress.h"
-
-_Static_assert(sizeof(realtype) == sizeof(double), "SUNDIALS must be built for double precision");
+#include "motion/sundials.h"
 
 /* CVODE and IDA refuse to work below some 10 roundings; the error stops falling well before. */
 static const double smallest_rtol = 1e-14;
@@ -27,19 +27,11 @@ static const double default_max_steps = 1e7;
 
 /* ---- common to all integrators ---- */
 
-static bool all_finite(size_t count, const double *value)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(value[i]))
-            return false;
-    return true;
-}
-
 static bool check_times(size_t count, const double *times, nh_error *error)
 {
     if (count == 0)
         return nh_fail(error, NH_INPUT, "", "a motion needs at least one output time");
-    if (!all_finite(count, times))
+    if (!nh_all_finite(count, times))
         return nh_fail(error, NH_INPUT, "", "an output time is not a finite number");
     bool backward = times[count - 1] < times[0];
     for (size_t i = 1; i < count; i++)
@@ -121,20 +113,13 @@ static bool store_reached(nh_motion *motion, size_t count, const double *times, 
     bool backward = times[count - 1] < times[0];
     while (motion->count < count && (backward ? times[motion->count] >= now : times[motion->count] <= now)) {
         double wanted = times[motion->count], *row = motion->state + motion->count * motion->size;
-        if (!stepper->state(wanted, row, stepper->context) || !all_finite(motion->size, row)) {
+        if (!stepper->state(wanted, row, stepper->context) || !nh_all_finite(motion->size, row)) {
             nh_motion_note(motion, "the state is not finite at t = %.10g", wanted);
             return false;
         }
         motion->time[motion->count++] = wanted;
     }
     return true;
-}
-
-static double since(const struct timespec *begin)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)(now.tv_sec - begin->tv_sec) + 1e-9 * (double)(now.tv_nsec - begin->tv_nsec);
 }
 
 /* How far a long motion has come. */
@@ -146,10 +131,10 @@ static void tell(const nh_motion *motion, size_t count, const double *times)
 }
 
 /* Whether the motion may take another step. */
-static bool may_go_on(nh_motion *motion, const nh_flow_options *options, const struct timespec *begin)
+static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double begin)
 {
     enum { steps_between_looks = 16 };
-    if (options->seconds > 0 && motion->steps % steps_between_looks == 0 && since(begin) > options->seconds) {
+    if (options->seconds > 0 && motion->steps % steps_between_looks == 0 && nh_clock() - begin > options->seconds) {
         nh_motion_note(motion, "the limit of %.2g s was reached at t = %.10g", options->seconds, motion->end_time);
         return false;
     }
@@ -168,18 +153,17 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, const s
 
 static void keep_end_state(nh_motion *motion, double *work, const nh_stepper *stepper)
 {
-    if (stepper->state(motion->end_time, work, stepper->context) && all_finite(motion->size, work))
+    if (stepper->state(motion->end_time, work, stepper->context) && nh_all_finite(motion->size, work))
         memcpy(motion->end_state, work, motion->size * sizeof *work);
 }
 
 void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
                    const nh_stepper *stepper)
 {
-    struct timespec begin;
-    clock_gettime(CLOCK_MONOTONIC, &begin);
+    double begin = nh_clock();
     double *work = nh_alloc_array(motion->size, sizeof *work);
     nh_step step = NH_STEP_ON;
-    for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, &begin);) {
+    for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, begin);) {
         double time = motion->end_time;
         tell(motion, count, times);
         step = stepper->advance(&time, motion, stepper->context);
@@ -199,7 +183,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
         keep_end_state(motion, work, stepper);
     motion->complete = motion->count == count;
     nh_free(work);
-    motion->seconds = since(&begin);
+    motion->seconds = nh_clock() - begin;
 }
 
 /* ---- CVODE ----
@@ -212,7 +196,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
 
 typedef struct {
     const nh_flow_problem *problem;
-    SUNContext sundials;
+    nh_sundials sundials;
     void *cvode;
     N_Vector state, tolerance;
     SUNMatrix matrix;
@@ -224,7 +208,6 @@ typedef struct {
     const char *failed; /* what the callbacks could not compute in the last steps, or NULL; at which time and step */
     double failed_at;
     long step, failed_step;
-    char message[200]; /* CVODE's own last words */
 } cvode_work;
 
 static int not_computed(cvode_work *work, const char *what, double t)
@@ -235,47 +218,39 @@ static int not_computed(cvode_work *work, const char *what, double t)
     return 1; /* "recoverable": CVODE tries a smaller step */
 }
 
-static int call_rate(realtype t, N_Vector state, N_Vector rate, void *user)
+static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
 {
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
     work->evaluations++;
-    if (problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), problem->context) && all_finite(problem->size, NV_DATA_S(rate)))
+    if (problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), problem->context) && nh_all_finite(problem->size, NV_DATA_S(rate)))
         return 0;
     return not_computed(work, "right-hand side", t);
 }
 
 /* SUNDIALS' dense matrices are stored by columns without gaps, as flow.h wants them. */
-static int call_jacobian(realtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2,
+static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2,
                          N_Vector work3)
 {
     (void)rate, (void)work1, (void)work2, (void)work3;
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
     if (problem->jacobian(t, NV_DATA_S(state), SM_DATA_D(matrix), problem->context) &&
-        all_finite(problem->size * problem->size, SM_DATA_D(matrix)))
+        nh_all_finite(problem->size * problem->size, SM_DATA_D(matrix)))
         return 0;
     return not_computed(work, "Jacobian of the right-hand side", t);
 }
 
-static int call_guard(realtype t, N_Vector state, realtype *value, void *user)
+static int call_guard(sunrealtype t, N_Vector state, sunrealtype *value, void *user)
 {
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
-    if (problem->guard(t, NV_DATA_S(state), value, problem->context) && all_finite(problem->guards, value))
+    if (problem->guard(t, NV_DATA_S(state), value, problem->context) && nh_all_finite(problem->guards, value))
         return 0;
     return not_computed(work, "guard", t);
 }
 
 /* CVODE prints unless it has a handler; warnings (positive codes) tell nothing that the note needs. */
-static void keep_message(int code, const char *module, const char *function, char *message, void *user)
-{
-    (void)module, (void)function;
-    cvode_work *work = user;
-    if (code < 0)
-        snprintf(work->message, sizeof work->message, "%s", message);
-}
-
 static void explain(int flag, const cvode_work *work, nh_motion *motion)
 {
     double t = motion->end_time;
@@ -294,7 +269,7 @@ static void explain(int flag, const cvode_work *work, nh_motion *motion)
     else if (flag == CV_TOO_CLOSE)
         nh_motion_note(motion, "the times are too close together for double precision near t = %.10g", t);
     else
-        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->message);
+        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->sundials.message);
 }
 
 /* CVODE reports a sign change, or a guard that is exactly zero at the end of a step; both end the chart. */
@@ -345,15 +320,15 @@ static void cvode_stuck(nh_motion *motion, void *context)
 static bool create_objects(cvode_work *work, nh_flow_method method)
 {
     sunindextype size = (sunindextype)work->problem->size;
-    if (SUNContext_Create(NULL, &work->sundials) != 0)
+    if (!nh_sundials_open(&work->sundials))
         return false;
-    work->state = N_VNew_Serial(size, work->sundials);
-    work->tolerance = N_VNew_Serial(size, work->sundials);
-    work->matrix = SUNDenseMatrix(size, size, work->sundials);
+    work->state = N_VNew_Serial(size, work->sundials.context);
+    work->tolerance = N_VNew_Serial(size, work->sundials.context);
+    work->matrix = SUNDenseMatrix(size, size, work->sundials.context);
     if (!work->state || !work->tolerance || !work->matrix)
         return false;
-    work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials);
-    work->cvode = CVodeCreate(method == NH_BDF ? CV_BDF : CV_ADAMS, work->sundials);
+    work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials.context);
+    work->cvode = CVodeCreate(method == NH_BDF ? CV_BDF : CV_ADAMS, work->sundials.context);
     return work->solver && work->cvode;
 }
 
@@ -363,7 +338,7 @@ static bool set_up(cvode_work *work, double start, const double *initial, const 
     memcpy(NV_DATA_S(work->state), initial, problem->size * sizeof *initial);
     for (size_t i = 0; i < problem->size; i++)
         NV_DATA_S(work->tolerance)[i] = work->rtol * (scale ? scale[i] : 1.0);
-    bool good = CVodeSetErrHandlerFn(work->cvode, keep_message, work) == CV_SUCCESS &&
+    bool good = nh_sundials_listen(CVode, work->cvode, &work->sundials) &&
                 CVodeInit(work->cvode, call_rate, start, work->state) == CV_SUCCESS &&
                 CVodeSetUserData(work->cvode, work) == CV_SUCCESS &&
                 CVodeSVtolerances(work->cvode, work->rtol, work->tolerance) == CV_SUCCESS &&
@@ -384,7 +359,7 @@ static void destroy_objects(cvode_work *work)
     SUNMatDestroy(work->matrix);
     N_VDestroy(work->tolerance);
     N_VDestroy(work->state);
-    SUNContext_Free(&work->sundials);
+    nh_sundials_close(&work->sundials);
     nh_free(work->root);
 }
 
@@ -392,7 +367,7 @@ static void destroy_objects(cvode_work *work)
 static bool check_start(const nh_flow_problem *problem, double t, const double *initial, nh_error *error)
 {
     double *rate = nh_alloc_array(problem->size, sizeof *rate);
-    bool good = problem->rate(t, initial, rate, problem->context) && all_finite(problem->size, rate);
+    bool good = problem->rate(t, initial, rate, problem->context) && nh_all_finite(problem->size, rate);
     nh_free(rate);
     if (good)
         return true;
@@ -414,7 +389,7 @@ nh_motion *nh_flow(const nh_flow_problem *problem, const double *initial, size_t
     work.root = nh_alloc_array(problem->guards, sizeof *work.root);
     good = create_objects(&work, options->method) && set_up(&work, times[0], initial, options->scale);
     if (!good) {
-        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.message[0] ? work.message : "out of memory");
+        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.sundials.message[0] ? work.sundials.message : "out of memory");
         goto done;
     }
     nh_stepper stepper = {.context = &work, .advance = cvode_advance, .state = cvode_state, .stuck = cvode_stuck};

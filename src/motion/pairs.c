@@ -9,19 +9,34 @@
 #include <nvector/nvector_serial.h>
 
 #include "base/memory.h"
+#include "motion/sundials.h"
+
+/* ARKODE 6.1, which comes with SUNDIALS 7.1, has these in common for all its steppers. */
+#if NH_SUNDIALS_SINCE(7, 1)
+#define set_stop_time ARKodeSetStopTime
+#define evolve        ARKodeEvolve
+#define set_user_data ARKodeSetUserData
+#define tolerances    ARKodeSVtolerances
+#define free_memory   ARKodeFree
+#else
+#define set_stop_time ERKStepSetStopTime
+#define evolve        ERKStepEvolve
+#define set_user_data ERKStepSetUserData
+#define tolerances    ERKStepSVtolerances
+#define free_memory   ERKStepFree
+#endif
 
 typedef struct {
     const nh_flow_problem *problem;
-    SUNContext sundials;
+    nh_sundials sundials;
     void *arkode;
     N_Vector state, tolerance;
     const double *times;
     size_t count;
     long evaluations;
-    char message[200];
 } pairs_work;
 
-static int call_rate(realtype t, N_Vector state, N_Vector rate, void *user)
+static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
 {
     pairs_work *work = user;
     work->evaluations++;
@@ -30,23 +45,16 @@ static int call_rate(realtype t, N_Vector state, N_Vector rate, void *user)
     return good ? 0 : 1; /* "recoverable": a smaller step is tried */
 }
 
-static void keep_message(int code, const char *module, const char *function, char *message, void *user)
-{
-    (void)module, (void)function;
-    pairs_work *work = user;
-    if (code < 0) snprintf(work->message, sizeof work->message, "%s", message);
-}
-
 static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
 {
     pairs_work *work = context;
     double target = work->times[motion->count];
-    int flag = ERKStepSetStopTime(work->arkode, target);
-    if (flag >= 0) flag = ERKStepEvolve(work->arkode, target, work->state, time, ARK_ONE_STEP);
+    int flag = set_stop_time(work->arkode, target);
+    if (flag >= 0) flag = evolve(work->arkode, target, work->state, time, ARK_ONE_STEP);
     motion->evaluations = work->evaluations;
     if (flag == ARK_TSTOP_RETURN) *time = target;
     if (flag >= 0) return *time == work->times[work->count - 1] ? NH_STEP_LAST : NH_STEP_ON;
-    nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", motion->end_time, work->message);
+    nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", motion->end_time, work->sundials.message);
     return NH_STEP_FAILED;
 }
 
@@ -68,18 +76,18 @@ static bool set_up(pairs_work *work, nh_pairs_method method, const double *initi
 {
     static const ARKODE_ERKTableID tables[] = {ARKODE_DORMAND_PRINCE_7_4_5, ARKODE_VERNER_8_5_6, ARKODE_FEHLBERG_13_7_8};
     sunindextype size = (sunindextype)work->problem->size;
-    if (SUNContext_Create(NULL, &work->sundials) != 0) return false;
-    work->state = N_VNew_Serial(size, work->sundials);
-    work->tolerance = N_VNew_Serial(size, work->sundials);
+    if (!nh_sundials_open(&work->sundials)) return false;
+    work->state = N_VNew_Serial(size, work->sundials.context);
+    work->tolerance = N_VNew_Serial(size, work->sundials.context);
     if (!work->state || !work->tolerance) return false;
     for (sunindextype i = 0; i < size; i++) {
         NV_DATA_S(work->state)[i] = initial[i];
         NV_DATA_S(work->tolerance)[i] = rtol * (scale ? scale[i] : 1);
     }
-    work->arkode = ERKStepCreate(call_rate, work->times[0], work->state, work->sundials);
-    return work->arkode && ERKStepSetErrHandlerFn(work->arkode, keep_message, work) == ARK_SUCCESS &&
-           ERKStepSetUserData(work->arkode, work) == ARK_SUCCESS && ERKStepSetTableNum(work->arkode, tables[method]) == ARK_SUCCESS &&
-           ERKStepSVtolerances(work->arkode, rtol, work->tolerance) == ARK_SUCCESS;
+    work->arkode = ERKStepCreate(call_rate, work->times[0], work->state, work->sundials.context);
+    return work->arkode && nh_sundials_listen(ERKStep, work->arkode, &work->sundials) &&
+           set_user_data(work->arkode, work) == ARK_SUCCESS && ERKStepSetTableNum(work->arkode, tables[method]) == ARK_SUCCESS &&
+           tolerances(work->arkode, rtol, work->tolerance) == ARK_SUCCESS;
 }
 
 nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
@@ -92,13 +100,13 @@ nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, cons
         nh_stepper stepper = {.context = &work, .advance = pairs_advance, .state = pairs_state, .stuck = pairs_stuck};
         nh_motion_run(motion, count, times, options, &stepper);
     } else {
-        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.message[0] ? work.message : "out of memory");
+        nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.sundials.message[0] ? work.sundials.message : "out of memory");
         nh_motion_free(motion);
         motion = NULL;
     }
-    if (work.arkode) ERKStepFree(&work.arkode);
+    if (work.arkode) free_memory(&work.arkode);
     if (work.state) N_VDestroy(work.state);
     if (work.tolerance) N_VDestroy(work.tolerance);
-    SUNContext_Free(&work.sundials);
+    nh_sundials_close(&work.sundials);
     return motion;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/linalg.h"
 #include "expr/diff.h"
 
 static const double smallest_slope = 0.03; /* of a current, relative to the start, below which its state loses digits */
@@ -48,13 +49,6 @@ static void sort_states(nh_scene *s, const nh_network *w)
     nh_free(left);
 }
 
-static bool finite_all(size_t n, const double *x)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i])) return false;
-    return true;
-}
-
 /* The kept rows with zero for what is dropped, which makes most of them short.  False where that is no regular value. */
 static bool rows_at_zero(const nh_scene *s, nh_ex *e)
 {
@@ -74,7 +68,7 @@ static bool rows_at_zero(const nh_scene *s, nh_ex *e)
         memcpy(point, o->chart->probe + p * o->width, o->width * sizeof *point);
         for (size_t k = 0; k < s->levels; k++) point[o->width + k] = 0.7385 + 0.31 * (double)(p + k); /* any */
         nh_tape_eval(tape, work, point, value);
-        good = finite_all(2 * n, value);
+        good = nh_all_finite(2 * n, value);
         for (size_t i = 0; i < n && good; i++) good = fabs(value[i] - value[n + i]) <= same_rows * (1 + fabs(value[n + i]));
     }
     nh_tape_work_free(work);
@@ -245,7 +239,7 @@ static bool scene_rate(double t, const double *z, double *rate, void *context)
     nh_scene_run *run = context;
     if (!place(run, t, z)) return false;
     nh_tape_eval(run->scene->rate, run->rate, run->point, rate);
-    return finite_all(run->scene->kept, rate);
+    return nh_all_finite(run->scene->kept, rate);
 }
 
 static bool scene_jacobian(double t, const double *z, double *jacobian, void *context)
@@ -253,7 +247,7 @@ static bool scene_jacobian(double t, const double *z, double *jacobian, void *co
     nh_scene_run *run = context;
     if (!place(run, t, z)) return false;
     nh_tape_eval(run->scene->jacobian, run->jacobian, run->point, jacobian);
-    return finite_all(run->scene->kept * run->scene->kept, jacobian);
+    return nh_all_finite(run->scene->kept * run->scene->kept, jacobian);
 }
 
 static bool scene_guard(double t, const double *z, double *value, void *context)

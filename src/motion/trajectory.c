@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/progress.h"
 
 static const char *const usual = "CVODE Adams";
@@ -177,14 +177,7 @@ typedef struct {
     bool leave; /* the chart ends on the way */
 } job;
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static bool late(void *context) { return nh_interrupted() || now() > *(double *)context; }
+static bool late(void *context) { return nh_interrupted() || nh_clock() > *(double *)context; }
 
 /* CVODE watches the pivot of the chart; before another method runs, it looks whether there is anything to watch for. */
 static void look_ahead(job *j)
@@ -274,7 +267,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     size_t size = q->model->m + q->model->n;
     nh_trajectory *out = nh_alloc(sizeof *out);
     *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
-    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? now() + q->max_seconds : INFINITY};
+    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
     double *scale = nh_alloc_array(size + 1, sizeof *scale);
     nh_dynamics_hasten(j.dynamics, q->options->compile);
     for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;

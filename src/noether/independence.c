@@ -1,10 +1,13 @@
 #include "noether/independence.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "expr/diff.h"
+
+enum { levels = 4 };
 
 static int ascending(const void *a, const void *b)
 {
@@ -19,14 +22,30 @@ static double median(size_t n, double *x)
     return x[n / 2];
 }
 
-/* Gradients d phi / d z_j over (t, q, w), times the half width of the sampling box in z_j, so that units do not matter; implicit velocities are followed by the rules of diff.h. */
+/* The size of what e is summed from, to first order in the rounding of its parts: a sum of sizes, and b^x with size(b) |b|^(x-1). */
+static nh_ex size_of(nh_dag *d, nh_ex e, int depth)
+{
+    nh_kind kind = nh_kind_of(d, e);
+    if (depth == 0 || (kind != NH_SUM && kind != NH_PRODUCT)) return nh_call(d, NH_ABS, e);
+    nh_ex size = nh_call(d, NH_ABS, nh_number(d, nh_constant_of(d, e)));
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex child = nh_child(d, e, i), own = size_of(d, child, depth - 1);
+        if (kind == NH_SUM) size = nh_add(d, size, nh_mul(d, nh_call(d, NH_ABS, nh_number(d, nh_coefficient_of(d, e, i))), own));
+        else size = nh_product(d, 3, (nh_ex[]){size, own, nh_call(d, NH_ABS, nh_pow(d, child, nh_sub(d, nh_exponent_of(d, e, i), nh_int(d, 1))))});
+    }
+    return size;
+}
+
+/* Gradients d phi / d z_j over (t, q, w), times the half width of the sampling box in z_j, so that units do not matter; implicit velocities are followed by the rules of diff.h.
+ * After them the sizes of what each phi is summed from. */
 static double *gradients(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, size_t width)
 {
-    nh_ex *e = nh_alloc_array(n * width + 1, sizeof *e);
+    nh_ex *e = nh_alloc_array(n * (width + 1) + 1, sizeof *e);
     for (size_t k = 0; k < n; k++)
         for (size_t j = 0; j < width; j++) e[k * width + j] = nh_diff(o->dag, phi[k], o->chart->symbol[j]);
-    double *value = nh_alloc_array(n * width * points->count + 1, sizeof *value);
-    nh_points_evaluate(points, o, n * width, e, value);
+    for (size_t k = 0; k < n; k++) e[n * width + k] = size_of(o->dag, phi[k], levels);
+    double *value = nh_alloc_array(n * (width + 1) * points->count + 1, sizeof *value);
+    nh_points_evaluate(points, o, n * (width + 1), e, value);
     for (size_t k = 0; k < n * width; k++) {
         double span = (o->chart->high[k % width] - o->chart->low[k % width]) / 2;
         for (size_t p = 0; p < points->count; p++) value[k * points->count + p] *= span;
@@ -40,14 +59,14 @@ typedef struct {
     double *basis; /* per point: accepted orthonormal gradients */
 } frame;
 
-/* Remove the accepted directions (twice, for round-off); returns what is left of |g|, -1 when g vanishes or is not finite. */
-static double remaining(const frame *f, size_t point, double *g)
+/* Remove the accepted directions (twice, for round-off); returns what is left of |g|, -1 when g is not finite or not above `noise`. */
+static double remaining(const frame *f, size_t point, double *g, double noise)
 {
     double before = 0, after = 0;
     const double *basis = f->basis + point * f->width * f->width;
     for (size_t j = 0; j < f->width; j++) before += g[j] * g[j];
     before = sqrt(before);
-    if (!(before > 0) || !isfinite(before)) return -1;
+    if (!(before > noise) || !isfinite(before)) return -1;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < f->accepted; k++) {
             double dot = 0;
@@ -77,15 +96,16 @@ void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, 
     frame f = {.width = width, .points = count, .basis = nh_alloc_array(count * width * width + 1, sizeof(double))};
     double *rest = nh_alloc_array(count * width + 1, sizeof *rest), *left = nh_alloc_array(count + 1, sizeof *left);
     for (size_t k = 0; k < n; k++) {
-        size_t usable = 0;
+        size_t usable = 0, still = 0;
         for (size_t p = 0; p < count; p++) {
             for (size_t j = 0; j < width; j++) rest[p * width + j] = g[(k * width + j) * count + p];
-            double r = remaining(&f, p, rest + p * width);
+            double noise = DBL_EPSILON / doubt * g[(n * width + k) * count + p], r = remaining(&f, p, rest + p * width, noise);
             if (r >= 0) left[usable++] = r;
+            else still += isfinite(noise);
         }
         double m = median(usable, left);
         if (fraction) fraction[k] = usable ? m : 0;
-        out[k] = usable == 0 ? NH_CONSTANT : m > sure ? NH_INDEPENDENT : m < doubt ? NH_DEPENDENT : NH_DOUBTFUL;
+        out[k] = still >= usable ? NH_CONSTANT : m > sure ? NH_INDEPENDENT : m < doubt ? NH_DEPENDENT : NH_DOUBTFUL;
         if (out[k] == NH_INDEPENDENT && f.accepted < width) accept(&f, rest);
     }
     nh_free(left);

@@ -126,7 +126,7 @@ static bool independent_values(nh_basis *basis, nh_equations *equations, const n
 static bool check_input(const nh_equations *equations, nh_error *error)
 {
     size_t n = equations->columns, of_a = nh_qr_rows(equations->residuals), of_b = nh_qr_rows(equations->values);
-    if (nh_interrupted()) /* rows are missing then */
+    if (nh_late()) /* rows are missing then */
         return nh_fail(error, NH_INTERRUPTED, "", "interrupted while %zu columns were compared", n);
     if (equations->bad)
         return nh_fail(error, NH_NUMERIC, "", "column %zu of the ansatz is not finite in %s at some sample point",

@@ -57,12 +57,29 @@ void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n
     nh_tape_free(tape);
 }
 
+/* Nearer to a singularity than doubles can use: velocities and accelerations so much larger than those of the default box. */
+static const double too_fast = 1e8, usual = 1.5;
+
+/* How much larger than by default velocities are drawn, and the accelerations with which they go, v^2 over the length of the coordinate's interval. */
+static void pace_of(const nh_model *o, double *velocity, double *acceleration)
+{
+    const nh_chart *c = o->chart;
+    *velocity = *acceleration = 1;
+    for (size_t i = 0; i < o->n; i++) {
+        double v = (c->high[1 + o->m + i] - c->low[1 + o->m + i]) / 2 / usual, length = 1;
+        if (!c->quasi) length = fmin(1, (c->high[1 + c->free[i]] - c->low[1 + c->free[i]]) / 2);
+        *velocity = fmax(*velocity, v);
+        if (v > 1 && length > 0) *acceleration = fmax(*acceleration, v * v / length);
+    }
+}
+
 /* The accelerations and velocities decide what is usable: everything else is made of the same parts. */
 typedef struct {
     const nh_model *o;
     nh_tape *tape;  /* rho (m), R (m x n, column-major), a (n), Lbar */
     nh_tape_work *work;
     double *out, *dense;
+    double pace, strength; /* of velocities and accelerations: pace_of */
     double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
 
@@ -78,6 +95,7 @@ static guard guard_create(const nh_model *o, double pivot)
     guard g = {.o = o, .tape = nh_model_tape(o, total + 1, e), .out = nh_alloc_array(total + 1, sizeof(double)),
                .dense = nh_alloc_array(m * n + m + n + 1, sizeof(double)), .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
     g.work = nh_tape_work_create(g.tape);
+    pace_of(o, &g.pace, &g.strength);
     nh_free(e);
     return g;
 }
@@ -113,8 +131,6 @@ static bool project(guard *g, double *z, const double *v)
     return true;
 }
 
-static const double too_fast = 1e8; /* nearer to a singularity than doubles can use */
-
 /* Weight of a point, or 0 to reject it; *steepness gets |R| where everything is finite, else 0. */
 static double accept(guard *g, const double *z, nh_points *p, double *steepness)
 {
@@ -132,7 +148,7 @@ static double accept(guard *g, const double *z, nh_points *p, double *steepness)
         *largest = fmax(*largest, fabs(g->out[i]));
     }
     *steepness = steep;
-    if (fast < too_fast && strong < too_fast && steep < g->steepest) return 1 / (1 + strong + fast);
+    if (fast < too_fast * g->pace && strong < too_fast * g->strength && steep < g->steepest) return 1 / (1 + strong + fast);
     p->degenerate++;
     return 0;
 }
@@ -155,14 +171,14 @@ static void stretched_box(const nh_model *o, bool natural, double stretch, doubl
 
 /* A point (t, q, v) near a zero of the chart's pivot: v is moved onto the constraints, v' solved from the multiplier form.  A function of
  * the chart may have poles of the pivot there, whose rates cancel to pivot^2 times what doubles hold: the weight allows for it. */
-static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v, double steepness, double steepest)
+static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v, double steepness, double steepest, double strength)
 {
     static const double too_steep = 1e6;
     size_t m = o->m, n = o->n, width = o->width, at = p->beyond->count;
     double fast = 0, *rate = nh_alloc_array(m, sizeof *rate);
     bool good = steepness > steepest && steepness < too_steep && nh_bordered_project(b, t, q, v) && nh_bordered_accelerations(b, t, q, v, rate);
     for (size_t s = 0; s < m && good; s++) fast = fmax(fast, fmax(fabs(v[s]), fabs(rate[s])));
-    if (good && fast < too_fast) {
+    if (good && fast < too_fast * strength) {
         double **to = p->beyond->column;
         to[0][at] = t;
         for (size_t s = 0; s < m; s++) to[1 + s][at] = q[s];
@@ -213,7 +229,7 @@ static void take(sampling *s, nh_points *p)
         p->weight[p->count++] = weight;
     } else if (s->cover && p->beyond->count < s->count) {
         if (!s->bordered) s->bordered = nh_bordered_create(o);
-        add_beyond(p, o, s->bordered, z[0], z + 1, s->v, steepness, s->guard.steepest);
+        add_beyond(p, o, s->bordered, z[0], z + 1, s->v, steepness, s->guard.steepest, fmax(s->guard.pace, s->guard.strength));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/progress.h"
 #include "expr/ball_fit.h"
 #include "expr/normal.h"
 #include "noether/exact.h"
@@ -14,7 +15,7 @@ static nh_ball *ball_for(const nh_model *o, const nh_options *options) { return 
 static bool feed(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t rows, uint64_t *state)
 {
     size_t added = 0;
-    for (size_t tries = 0; tries < most_tries * rows + 40 && added < rows; tries++)
+    for (size_t tries = 0; tries < most_tries * rows + 40 && added < rows && !nh_late(); tries++)
         if (nh_exact_point(o, ball, state) && nh_ball_fit_add(fit)) added++;
     return added == rows;
 }

@@ -166,14 +166,14 @@ void nh_rows_current(nh_rows *r, const nh_points *points, const double *theta, n
     const nh_points *beyond = points->beyond;
     for (size_t j = 0; j < r->unknowns; j++)
         for (size_t p = 0; p < NH_BATCH; p++) r->theta[j * NH_BATCH + p] = theta[j];
-    for (size_t start = 0; start < points->count && !nh_interrupted(); start += NH_BATCH) {
+    for (size_t start = 0; start < points->count && !nh_late(); start += NH_BATCH) {
         size_t count = run(r, r->tape, r->work, points, start);
         for (size_t j = 0; j < r->ansatz->columns; j++)
             for (size_t p = 0; p < count; p++) r->rate[j * NH_BATCH + p] *= points->weight[start + p];
         nh_equations_add(equations, count, r->rate, NH_BATCH);
         nh_equations_add_values(equations, count, r->value, NH_BATCH);
     }
-    for (size_t start = 0; beyond && start < beyond->count && !nh_interrupted(); start += NH_BATCH)
+    for (size_t start = 0; beyond && start < beyond->count && !nh_late(); start += NH_BATCH)
         nh_equations_add(equations, run_beyond(r, beyond, start), r->rate, NH_BATCH);
 }
 

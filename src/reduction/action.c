@@ -164,6 +164,19 @@ static void find_ranks(nh_action *g, const nh_options *options)
     nh_free(z);
 }
 
+size_t nh_action_orbit_at(const nh_action *g, const double *q, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, d = g->d;
+    double *E = nh_alloc_array(m * d + m * m + 1, sizeof *E), *K = E + m * d;
+    nh_action_values(g, q, E);
+    nh_kinetic_values(k, m * m, k->K, q, K);
+    scaled(m, K, d, E);
+    size_t rank = isfinite(nh_largest(m * d, E)) ? rank_at(m, d, E, options->group, NULL) : 0;
+    nh_free(E);
+    return rank;
+}
+
 void nh_action_init(nh_action *g, const nh_kinetic *k, size_t d, const nh_generator *generator, const nh_options *options)
 {
     *g = (nh_action){.kinetic = k, .d = d, .generator = nh_arena_alloc(k->arena, (d + 1) * sizeof *g->generator)};
@@ -198,59 +211,6 @@ void nh_action_sub(nh_action *out, const nh_action *g, size_t r, const double *t
     nh_action_init(out, k, r, sub, options);
     nh_free(sub);
     nh_free(component);
-}
-
-/* ---- words ---- */
-
-static const char *field_text(const nh_kinetic *k, const nh_generator *g, nh_text *out)
-{
-    if (g->name) nh_text_addf(out, "%s = ", g->name);
-    nh_generator_text(k, g, out);
-    return nh_text_string(out);
-}
-
-static void place_text(const nh_kinetic *k, size_t p, nh_text *out)
-{
-    for (size_t s = 0; s < k->m; s++) nh_text_addf(out, "%s%s = %.4g", s ? ", " : "", k->name[s], k->place[p * k->m + s]);
-}
-
-static bool not_invariant(const nh_action *g, size_t a, nh_error *error)
-{
-    nh_text t;
-    nh_text_init(&t);
-    const nh_generator *x = &g->generator[a];
-    const nh_condition *worst = !x->metric.holds ? &x->metric : !x->potential.holds ? &x->potential : !x->constraints.holds ? &x->constraints : &x->forces;
-    const char *what = worst == &x->metric ? "kinetic energy" : worst == &x->potential ? "potential" : worst == &x->constraints ? "constraint distribution" : "law of force";
-    nh_fail(error, NH_INPUT, "", "%s is not a symmetry: it does not leave the %s invariant (off by %.2g of its size)", field_text(g->kinetic, x, &t), what, worst->residual);
-    nh_text_clear(&t);
-    return nh_error_hint(error, "nhsym reduce without a given group lists the symmetries that there are");
-}
-
-static bool not_closed(const nh_action *g, nh_error *error)
-{
-    const nh_kinetic *k = g->kinetic;
-    nh_text a, b, c;
-    nh_text_init(&a), nh_text_init(&b), nh_text_init(&c);
-    nh_generator bracket = {.component = nh_arena_alloc(k->arena, k->m * sizeof(nh_ex))};
-    nh_field_bracket(k, g->generator[g->worst[0]].component, g->generator[g->worst[1]].component, bracket.component);
-    nh_fail(error, NH_INPUT, "", "these fields do not generate a group: [%s, %s] = %s is not a combination of them (off by %.2g of its size)",
-            field_text(k, &g->generator[g->worst[0]], &a), field_text(k, &g->generator[g->worst[1]], &b), field_text(k, &bracket, &c), g->closure);
-    nh_text_clear(&a), nh_text_clear(&b), nh_text_clear(&c);
-    return nh_error_hint(error, "add the bracket to the list, or leave one of the two out");
-}
-
-bool nh_action_check(const nh_action *g, nh_error *error)
-{
-    for (size_t a = 0; a < g->d; a++)
-        if (!g->generator[a].invariant) return not_invariant(g, a, error);
-    if (!g->closes) return not_closed(g, error);
-    if (g->free) return true;
-    nh_text t;
-    nh_text_init(&t);
-    place_text(g->kinetic, g->least_place, &t);
-    nh_fail(error, NH_INPUT, "", "the action is not free: the %zu fields span only %zu dimensions at %s", g->d, g->orbit, nh_text_string(&t));
-    nh_text_clear(&t);
-    return nh_error_hint(error, "reduce by a subgroup whose generators are independent everywhere");
 }
 
 /* ---- horizontal symmetries ---- */

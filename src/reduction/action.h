@@ -35,8 +35,12 @@ typedef struct {
 void nh_action_init(nh_action *action, const nh_kinetic *kinetic, size_t d, const nh_generator *generator, const nh_options *options);
 void nh_action_clear(nh_action *action);
 
-/* Is it fit for reduction: invariant, closed, free?  The message names the condition, the bracket or the point. */
-bool nh_action_check(const nh_action *action, nh_error *error);
+/* Is it fit for reduction: invariant, independent, closed, free at the sample points?  The message names the field, the bracket or the point. */
+bool nh_action_check(const nh_action *action, const nh_options *options, nh_error *error);
+/* Has the orbit through a place the dimension that it has at generic points? */
+bool nh_action_check_at(const nh_action *action, const double *q, const nh_options *options, nh_error *error);
+/* Its dimension there. */
+size_t nh_action_orbit_at(const nh_action *action, const double *q, const nh_options *options);
 
 /* Combinations f_j = sum_a t[a + j*d] e_a as an action of their own; exact where the numbers are whole. */
 void nh_action_sub(nh_action *out, const nh_action *action, size_t r, const double *t, const nh_options *options);

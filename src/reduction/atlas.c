@@ -15,6 +15,7 @@ struct nh_atlas {
     const nh_second *second;  /* of a second stage */
     const nh_action *both;
     bool chaplygin;
+    const size_t *avoid;      /* the coordinates along a slice that failed, while another is made; NULL */
     nh_reduced_chart **chart;
     size_t count, capacity;
 };
@@ -71,19 +72,20 @@ bool nh_chart_leave(const nh_reduced_chart *c, const double *z, double *q, doubl
     return good;
 }
 
-/* Velocities in the frame of both groups from one on the shape space of the first: its horizontal lift u = (x', -A x'). */
+/* Velocities in the frame of both groups from one on the shape space of the first: its horizontal lift u = (x', -A x' - A_0). */
 static bool lift(const nh_chaplygin *first, const nh_slice *both, const double *q, const double *v, double *u)
 {
     const nh_slice *s = first->slice;
     size_t m = s->m, n = s->n, d = s->d;
-    double *place = nh_alloc_array(2 * m + d * n + m * d + 1, sizeof *place), *speed = place + m, *A = speed + m, *E = A + d * n;
+    double *place = nh_alloc_array(2 * m + d * n + m * d + d + 1, sizeof *place), *speed = place + m, *A = speed + m, *E = A + d * n, *A0 = E + m * d;
     nh_slice_place(s, q, place);
     nh_kinetic_values(s->kinetic, d * n, first->A, place, A);
+    nh_kinetic_values(s->kinetic, d, first->A0, place, A0);
     nh_action_values(s->action, place, E);
     for (size_t i = 0; i < n; i++) speed[s->shape[i]] = v[i];
     for (size_t a = 0; a < d; a++)
         for (size_t i = 0; i < n; i++)
-            for (size_t r = 0; r < m; r++) speed[r] -= E[r + a * m] * A[a * n + i] * v[i];
+            for (size_t r = 0; r < m; r++) speed[r] -= E[r + a * m] * (A[a * n + i] * v[i] + (i ? 0 : A0[a]));
     bool good = isfinite(nh_largest(m, speed)) && nh_slice_components(both, place, speed, u);
     nh_free(place);
     return good;
@@ -147,12 +149,12 @@ static double slice_regularity(const nh_reduced_chart *c, const double *q)
 static const nh_slice *slice_at(nh_atlas *a, const double *q)
 {
     const nh_kinetic *k = a->action->kinetic;
-    for (size_t i = a->count; i-- > 0;)
+    for (size_t i = a->count; i-- > 0 && !a->avoid;)
         if (passes(a->chart[i]->slice, q) && slice_regularity(a->chart[i], q) > usable) return a->chart[i]->slice;
     size_t m = k->m, d = a->action->d, *shape = nh_alloc_array(m + 1, sizeof *shape), *along = shape + (m - d);
     double *y = nh_alloc_array(d + 1, sizeof *y);
     nh_slice *s = nh_arena_alloc(k->arena, sizeof *s);
-    nh_slice_choose_at(a->action, q, shape, along);
+    nh_slice_choose_at(a->action, q, a->avoid, shape, along);
     for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
     nh_slice_init(s, a->action, shape, along, y);
     nh_free(shape);
@@ -190,7 +192,7 @@ static bool build_second(nh_atlas *a, const double *q, const double *pivots, nh_
     double *y = nh_alloc_array(d + 1, sizeof *y);
     nh_second *t = nh_arena_alloc(k->arena, sizeof *t);
     bool good = nh_second_renew(t, a->second, pivots, error);
-    nh_slice_choose_at(a->action, q, shape, along);
+    nh_slice_choose_at(a->action, q, a->avoid, shape, along);
     for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
     good = good && nh_second_equations(t, shape, along, y, error);
     if (good) nh_atlas_add(a, &t->slice, &t->reduced, NULL, t);
@@ -209,7 +211,7 @@ static bool build_both(nh_atlas *a, const double *q, const double *pivots, nh_er
     nh_slice *hat = nh_arena_alloc(arena, sizeof *hat), *both = nh_arena_alloc(arena, sizeof *both);
     nh_reduced *o = nh_arena_alloc(arena, sizeof *o);
     size_t *independent = nh_arena_alloc(arena, (m + 1) * sizeof *independent);
-    nh_slice_choose_at(a->action, q, shape, along);
+    nh_slice_choose_at(a->action, q, a->avoid, shape, along);
     for (size_t i = 0; i < d; i++) y[i] = q[along[i]];
     nh_slice_init(hat, a->action, shape, along, y);
     for (size_t i = 0; i < n - d; i++) own[i] = first->shape[shape[i]];
@@ -369,10 +371,13 @@ static void move_along_orbit(const nh_action *g, size_t attempt, double *q, doub
     nh_free(z);
 }
 
-const nh_reduced_chart *nh_atlas_renew(nh_atlas *a, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error)
+const nh_reduced_chart *nh_atlas_renew(nh_atlas *a, const nh_reduced_chart *failed, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error)
 {
     move_along_orbit(a->action, attempt, q, v, moved);
-    if (a->count < most_charts && build(a, q, copied(a->action->kinetic, q), error) && enter(a, a->chart[a->count - 1], q, v, z)) return a->chart[a->count - 1];
+    a->avoid = attempt ? failed->slice->along : NULL;
+    bool built = a->count < most_charts && build(a, q, copied(a->action->kinetic, q), error);
+    a->avoid = NULL;
+    if (built && enter(a, a->chart[a->count - 1], q, v, z)) return a->chart[a->count - 1];
     nh_fail(error, NH_NUMERIC, "", "no slice and no choice of velocities is regular at this place");
     return NULL;
 }

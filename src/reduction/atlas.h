@@ -40,8 +40,8 @@ bool nh_atlas_start(const nh_atlas *atlas, const double *q, const double *v, dou
 
 /* Where the equations of a chart could not be integrated although its guards are good: a chart that is made for this place.  Linear systems are eliminated
  * for it; and where the coordinates are nearly singular the place is moved along its orbit: to exp(-moved_a e_a) q for one of the generators (moved: d values, all
- * but one are zero), by another way in another attempt (from 0).  q and v are overwritten with what was moved. */
-const nh_reduced_chart *nh_atlas_renew(nh_atlas *atlas, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error);
+ * but one are zero), by another way in another attempt (from 0); from the second attempt on the slice that failed is avoided, too.  q and v are overwritten with what was moved. */
+const nh_reduced_chart *nh_atlas_renew(nh_atlas *atlas, const nh_reduced_chart *failed, size_t attempt, double *q, double *v, double *moved, double *z, nh_error *error);
 
 /* The place on the slice and the velocity there of a state. */
 bool nh_chart_leave(const nh_reduced_chart *chart, const double *z, double *q, double *v);

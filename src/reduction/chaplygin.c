@@ -25,8 +25,10 @@ static bool connection(nh_chaplygin *c, nh_error *error)
     for (size_t i = 0; i < n && lu; i++) {
         for (size_t r = 0; r < f; r++) b[r] = s->omega[r * s->m + i];
         nh_lu_solve(lu, b, b);
-        for (size_t r = 0; r < f; r++) c->A[r * n + i] = nh_simplify(d, b[r]);
+        for (size_t r = 0; r < f; r++) c->A[r * n + i] = s->pivots ? b[r] : nh_simplify(d, b[r]);
     }
+    if (lu) nh_lu_solve(lu, s->b, b);
+    for (size_t r = 0; r < f && lu; r++) c->A0[r] = s->pivots || nh_is_zero(d, b[r]) ? b[r] : nh_simplify(d, b[r]);
     bool good = lu != NULL;
     nh_lu_free(lu);
     nh_free(a);
@@ -94,7 +96,73 @@ static void gyroscopic(nh_chaplygin *c)
             }
 }
 
-/* (2.11) in velocities: p_i' = 1/2 x'^T d_i Khat x' - d_i V + U_kij x'^k x'^j. */
+/* What affine constraints, a part of L that is linear in the velocities and forces add. */
+static void drift(nh_chaplygin *c)
+{
+    const nh_slice *s = c->slice;
+    nh_dag *d = c->dag;
+    const nh_algebra *g = &s->action->algebra;
+    size_t n = c->n, dim = c->d, m = s->m;
+    nh_ex half = nh_ratio(d, 1, 2);
+    for (size_t a = 0; a < dim; a++) {
+        c->J0[a] = s->a[n + a];
+        for (size_t b = 0; b < dim; b++) {
+            c->J0[a] = plus(d, c->J0[a], nh_neg(d, s->K[(n + a) * m + n + b]), c->A0[b]);
+            c->V = plus(d, c->V, nh_neg(d, nh_mul(d, half, s->K[(n + a) * m + n + b])), nh_mul(d, c->A0[a], c->A0[b]));
+        }
+        c->V = plus(d, c->V, s->a[n + a], c->A0[a]);
+        for (size_t i = 0; i < n; i++) {
+            nh_ex e = nh_diff(d, c->A0[a], s->x[i]);
+            for (size_t b = 0; b < dim; b++)
+                for (size_t k = 0; k < dim; k++) {
+                    double constant = g->c[(b * dim + k) * dim + a];
+                    if (constant != 0) e = plus(d, e, nh_real(d, -constant), nh_mul(d, c->A[b * n + i], c->A0[k]));
+                }
+            c->B0[a * n + i] = s->tidy ? nh_simplify(d, e) : e;
+        }
+    }
+    for (size_t i = 0; i < n; i++) {
+        c->a[i] = s->a[i];
+        for (size_t a = 0; a < dim; a++) {
+            c->a[i] = plus(d, c->a[i], nh_neg(d, s->K[i * m + n + a]), c->A0[a]);
+            c->a[i] = plus(d, c->a[i], nh_neg(d, c->A[a * n + i]), c->J0[a]);
+        }
+        if (s->tidy) c->a[i] = nh_simplify(d, c->a[i]);
+    }
+    if (s->tidy) c->V = nh_simplify(d, c->V);
+}
+
+/* J_a (B^a_ij x'^j + B^a_i0) + (H^T Qf)_i; true where its power vanishes. */
+static bool forces(nh_chaplygin *c, const nh_ex *speed)
+{
+    const nh_slice *s = c->slice;
+    nh_dag *d = c->dag;
+    size_t n = c->n, m = s->m;
+    nh_ex *u = nh_alloc_array(2 * m + 1, sizeof *u), *Q = u + m, power = nh_int(d, 0);
+    for (size_t r = 0; r < m; r++) Q[r] = nh_int(d, 0), u[r] = r < n ? speed[r] : nh_neg(d, c->A0[r - n]);
+    for (size_t a = 0; a < c->d; a++)
+        for (size_t i = 0; i < n; i++) u[n + a] = plus(d, u[n + a], nh_neg(d, c->A[a * n + i]), speed[i]);
+    if (s->kinetic->forced) nh_reduced_add_forces(s, u, Q);
+    for (size_t i = 0; i < n; i++) {
+        nh_ex sum = Q[i], turning = nh_int(d, 0);
+        for (size_t a = 0; a < c->d; a++) {
+            nh_ex J = c->J0[a], against = c->B0[a * n + i];
+            for (size_t k = 0; k < n; k++) J = plus(d, J, c->J[a * n + k], speed[k]);
+            sum = plus(d, sum, nh_neg(d, c->A[a * n + i]), Q[n + a]);
+            sum = plus(d, sum, J, c->B0[a * n + i]);
+            turning = plus(d, turning, J, against);
+            for (size_t j = 0; j < n; j++) sum = plus(d, sum, nh_mul(d, c->J0[a], c->B[(a * n + i) * n + j]), speed[j]);
+        }
+        power = plus(d, power, turning, speed[i]);
+        for (size_t k = 0; k < n; k++)
+            for (size_t j = 0; j < n; j++) sum = plus(d, sum, c->U[(k * n + i) * n + j], nh_mul(d, speed[k], speed[j]));
+        c->force[i] = sum;
+    }
+    nh_free(u);
+    return !s->kinetic->forced && (s->kinetic->linear || nh_normal_is_zero(d, power, 0) == NH_ZERO);
+}
+
+/* (2.11) in velocities: p_i' = 1/2 x'^T d_i Khat x' + (d_i ahat_j - d_j ahat_i) x'^j - d_i Vhat + force_i. */
 static void equations(nh_chaplygin *c)
 {
     const nh_slice *s = c->slice;
@@ -109,19 +177,23 @@ static void equations(nh_chaplygin *c)
         o->w[i] = o->dx[i] = k->v[s->shape[i]];
         o->momentum[i] = nh_arena_printf(k->arena, "p_%s", k->name[s->shape[i]]);
     }
+    o->conservative = forces(c, o->w);
     for (size_t i = 0; i < n; i++) {
-        nh_ex sum = nh_neg(d, nh_diff(d, c->V, s->x[i]));
-        for (size_t a = 0; a < n; a++)
+        nh_ex sum = nh_sub(d, c->force[i], nh_diff(d, c->V, s->x[i]));
+        for (size_t a = 0; a < n; a++) {
+            sum = plus(d, sum, nh_sub(d, nh_diff(d, c->a[a], s->x[i]), nh_diff(d, c->a[i], s->x[a])), o->w[a]);
             for (size_t b = 0; b < n; b++) {
                 nh_ex square = nh_mul(d, o->w[a], o->w[b]);
                 if (b <= a) sum = plus(d, sum, nh_mul(d, nh_ratio(d, a == b ? 1 : 2, 2), nh_diff(d, c->K[a * n + b], s->x[i])), square);
-                sum = plus(d, sum, c->U[(a * n + i) * n + b], square);
                 energy = plus(d, energy, nh_mul(d, nh_ratio(d, 1, 2), c->K[a * n + b]), i ? nh_int(d, 0) : square);
             }
+        }
         o->F[i] = sum;
     }
-    for (size_t a = 0; a < c->d; a++)
+    for (size_t a = 0; a < c->d; a++) {
+        o->zeta[a] = nh_neg(d, c->A0[a]);
         for (size_t i = 0; i < n; i++) o->zeta[a] = plus(d, o->zeta[a], nh_neg(d, c->A[a * n + i]), o->w[i]);
+    }
     o->energy = energy;
     size_t *columns = nh_alloc_array(c->d + 1, sizeof *columns);
     for (size_t a = 0; a < c->d; a++) columns[a] = n + a;
@@ -136,15 +208,22 @@ bool nh_chaplygin_init(nh_chaplygin *c, const nh_slice *s, nh_error *error)
     size_t n = s->n, d = s->d;
     *c = (nh_chaplygin){.slice = s, .dag = s->dag, .n = n, .d = d, .V = s->V};
     if (d != s->f) return nh_fail(error, NH_NUMERIC, "", "a Chaplygin system needs as many symmetries as constraints: %zu, not %zu", s->f, d);
-    c->A = nh_arena_alloc(arena, (2 * d * n + d * n * n + n * n + n * n * n + 1) * sizeof *c->A);
+    c->plain = s->kinetic->reducible;
+    c->A = nh_arena_alloc(arena, (3 * d * n + d * n * n + n * n + n * n * n + 2 * d + 2 * n + 1) * sizeof *c->A);
     c->J = c->A + d * n;
     c->B = c->J + d * n;
     c->K = c->B + d * n * n;
     c->U = c->K + n * n;
+    c->A0 = c->U + n * n * n;
+    c->J0 = c->A0 + d;
+    c->B0 = c->J0 + d;
+    c->a = c->B0 + d * n;
+    c->force = c->a + n;
     if (!connection(c, error)) return false;
     curvature(c);
     metric(c);
     gyroscopic(c);
+    drift(c);
     equations(c);
     return true;
 }

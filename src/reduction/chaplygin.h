@@ -7,7 +7,14 @@
  *     Ups_ij = J_a B^a_ij                     the almost-symplectic form is dx ^ dp + 1/2 Ups dx ^ dx    [ChhabraEmami2014, eq. 2.11]
  *     p_i' = -d_i Hhat + Ups_ij x'^j,   x' = Khat^-1 p,   zeta = -A x'
  *
- * In the paper J is the spatial momentum, which agrees at the identity only. */
+ * In the paper J is the spatial momentum, which agrees at the identity only.
+ *
+ * With affine constraints om_x x' + om_e zeta + bf = 0, L = 1/2 u Kf u + af u - V and forces the same holds with A_0 = om_e^-1 bf as one more component of the
+ * connection, along the time: zeta = -A x' - A_0,
+ *
+ *     J_a   = (Kf_e H)_aj x'^j + J0_a,   J0_a = af_a - Kf_ab A_0^b,       B^a_i0 = d_i A_0^a - C_bc^a A^b_i A_0^c
+ *     Lhat  = 1/2 x' Khat x' + ahat x' - Vhat,   ahat_i = af_i - Kf_ib A_0^b - A^a_i J0_a,   Vhat = V - 1/2 A_0 Kf_ee A_0 + af_e A_0
+ *     p_i'  = dLhat/dx^i - d ahat_i/dt + J_a (B^a_ij x'^j + B^a_i0) + (H^T Qf)_i,     p = Khat x' */
 #ifndef NH_CHAPLYGIN_H
 #define NH_CHAPLYGIN_H
 
@@ -22,7 +29,11 @@ typedef struct {
     nh_ex *K;        /* n x n */
     nh_ex *J;        /* d x n: J_a = J[a*n + j] x'^j */
     nh_ex *U;        /* n x n x n: Ups_ij = U[(k*n + i)*n + j] x'^k */
-    nh_ex V;
+    nh_ex V;         /* Vhat */
+    bool plain;      /* none of what follows: linear constraints, L = K - V, no forces */
+    nh_ex *A0, *J0, *B0; /* d, d, d x n: B0[a*n + i] = B^a_i0 */
+    nh_ex *a;        /* n: ahat */
+    nh_ex *force;    /* n, of (x, x'): what Lhat does not give, the gyroscopic force Ups_ij x'^j included */
     nh_reduced reduced; /* x' as velocities, p their momenta */
 } nh_chaplygin;
 

@@ -397,7 +397,7 @@ static void make_generators(fit *s, nh_generators *out)
 bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, const nh_options *options, nh_error *error)
 {
     *out = (nh_generators){0};
-    for (int level = 1; level <= NH_LIBRARY_LEVELS && !(jets && out->count >= jets->dimension) && !(out->level && nh_interrupted()); level++) {
+    for (int level = 1; level <= NH_LIBRARY_LEVELS && !(jets && out->count >= jets->dimension) && !(out->level && nh_late()); level++) {
         fit s = {.k = k, .options = options, .m = k->m};
         nh_generators found = {.level = level};
         nh_library_init(&s.l, k, jets, level, most_columns);

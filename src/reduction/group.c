@@ -49,12 +49,12 @@ nh_group *nh_group_find(const nh_kinetic *k, const nh_options *options, nh_error
 {
     nh_group *g = nh_alloc(sizeof *g);
     g->kinetic = k;
-    if (k->metric && k->linear && !k->magnetic) g->jets = nh_jets_find(k, options, error);
-    if ((k->metric && k->linear && !k->magnetic && !g->jets) || !nh_generators_find(&g->found, k, g->jets, options, error)) {
+    if (k->general) g->jets = nh_jets_find(k, options, error);
+    if ((k->general && !g->jets) || !nh_generators_find(&g->found, k, g->jets, options, error)) {
         nh_group_free(g);
         return NULL;
     }
-    g->missing = g->jets && !k->forced && g->jets->dimension > g->found.count ? g->jets->dimension - g->found.count : 0;
+    g->missing = g->jets && g->jets->dimension > g->found.count ? g->jets->dimension - g->found.count : 0;
     nh_action_init(&g->action, k, g->found.count, g->found.generator, options);
     name_group(g, options);
     return g;

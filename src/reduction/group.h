@@ -7,14 +7,14 @@
 
 typedef struct {
     const nh_kinetic *kinetic;
-    nh_jets *jets;              /* NULL where there is no metric, or constraints that are not linear */
+    nh_jets *jets;              /* NULL where there is no metric, explicit time, or constraints that are not affine */
     nh_generators found;
     nh_action action;           /* of the closed forms (or of the fields given) */
     nh_algebra_report report;
     bool *closed;               /* per piece of the report: a circle */
     char *name;                 /* "SE(2) x SO(2)^3" */
     bool given;                 /* the user named the fields */
-    size_t missing;             /* local symmetries without a closed form; 0 with forces, of which the jets know nothing */
+    size_t missing;             /* local symmetries without a closed form */
 } nh_group;
 
 /* NULL on failure. */

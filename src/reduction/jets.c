@@ -20,8 +20,10 @@ typedef struct {
     const nh_kinetic *kinetic;
     const nh_options *options;
     nh_transport t;
-    nh_tape *tape; /* V's gradient and second derivatives, omega and its derivatives */
+    nh_tape *tape; /* V's gradient and second derivatives, omega and its derivatives, b, a and theirs */
     nh_tape_work *work;
+    nh_tape *force; /* Q and its derivatives by q and v, of both; NULL without forces */
+    nh_tape_work *force_work;
     double *out, *x;
     size_t m, f, columns;
     conditions c;
@@ -34,17 +36,41 @@ static double *new_row(search *s, int kind)
     return c->row[kind] + c->rows[kind]++ * c->columns;
 }
 
+static size_t forms_total(const nh_kinetic *k) { return (2 * k->m + k->f * (1 + k->m)) * (1 + k->m) + 1; }
+
 static nh_tape *forms_tape(const nh_kinetic *k)
 {
     size_t m = k->m, f = k->f, n = 0;
-    nh_ex *e = nh_alloc_array(m + m * m + f * m * (1 + m) + 1, sizeof *e);
+    nh_ex *e = nh_alloc_array(forms_total(k), sizeof *e);
     for (size_t s = 0; s < m; s++) e[n++] = nh_diff(k->dag, k->V, k->q[s]);
     for (size_t s = 0; s < m; s++)
         for (size_t r = 0; r < m; r++) e[n++] = nh_diff(k->dag, e[s], k->q[r]);
     for (size_t i = 0; i < f * m; i++) e[n++] = k->omega[i];
     for (size_t s = 0; s < m; s++)
         for (size_t i = 0; i < f * m; i++) e[n++] = nh_diff(k->dag, k->omega[i], k->q[s]);
+    for (size_t i = 0; i < f; i++) e[n++] = k->b[i];
+    for (size_t s = 0; s < m; s++)
+        for (size_t i = 0; i < f; i++) e[n++] = nh_diff(k->dag, k->b[i], k->q[s]);
+    for (size_t i = 0; i < m; i++) e[n++] = k->a[i];
+    for (size_t s = 0; s < m; s++)
+        for (size_t i = 0; i < m; i++) e[n++] = nh_diff(k->dag, k->a[i], k->q[s]);
     nh_tape *tape = nh_kinetic_tape(k, n, e);
+    nh_free(e);
+    return tape;
+}
+
+static nh_tape *force_tape(const nh_kinetic *k)
+{
+    size_t m = k->m, n = 0;
+    if (!k->forced) return NULL;
+    nh_ex *e = nh_alloc_array(m * (1 + 2 * m) + 2 * m, sizeof *e), *in = e + m * (1 + 2 * m);
+    memcpy(in, k->q, m * sizeof *in);
+    memcpy(in + m, k->v, m * sizeof *in);
+    for (size_t s = 0; s < m; s++) e[n++] = k->Q[s];
+    for (size_t l = 0; l < 2 * m; l++)
+        for (size_t s = 0; s < m; s++) e[n++] = nh_diff(k->dag, k->Q[s], in[l]);
+    const nh_model *y = k->model;
+    nh_tape *tape = nh_tape_create(k->dag, 2 * m, in, n, e, y->system->parameters, y->parameter, y->parameter_value);
     nh_free(e);
     return tape;
 }
@@ -88,8 +114,80 @@ static void potential_rows(search *s, const double *jets)
     }
 }
 
+/* (L_xi a)_i = xi^l d_l a_i + a_l B^l_i, divided by the size of a and da at the place. */
+static void magnetic_rows(search *s, const double *jets)
+{
+    size_t m = s->m, f = s->f;
+    const double *c = s->t.scale, *a = s->out + (m + f * m + f) * (1 + m), *da = a + m;
+    double size = 0;
+    for (size_t i = 0; i < m; i++) {
+        size = fmax(size, fabs(a[i]) * c[i]);
+        for (size_t l = 0; l < m; l++) size = fmax(size, fabs(da[l * m + i]) * c[l] * c[i]);
+    }
+    for (size_t i = 0; i < m && size > 0; i++) {
+        double *row = new_row(s, 1);
+        for (size_t col = 0; col < s->columns; col++) {
+            const double *xi = jets + col * s->t.size, *B = xi + m;
+            row[col] = 0;
+            for (size_t l = 0; l < m; l++) row[col] += (xi[l] * da[l * m + i] * c[l] * c[i] + a[l] * c[l] * B[l + m * i]) / size;
+        }
+    }
+}
+
+/* Affine constraints, with v0 (scaled) of least length that satisfies them: (L_xi omega)(v0) + xi(b) = 0, forms of length `norm`. */
+static void affine_rows(search *s, const double *jets, const double *norm, const double *v0)
+{
+    size_t m = s->m, f = s->f, size = s->t.size;
+    const double *c = s->t.scale, *omega = s->out + m * (1 + m), *domega = omega + f * m, *b = omega + f * m * (1 + m), *db = b + f;
+    for (size_t a = 0; a < f && !s->kinetic->linear; a++) {
+        if (!(norm[a] > 0)) continue;
+        double unit = 1 / norm[a] / (1 + fabs(b[a]) / norm[a]), *row = new_row(s, 2);
+        for (size_t col = 0; col < s->columns; col++) {
+            const double *xi = jets + col * size, *B = xi + m;
+            double sum = 0;
+            for (size_t l = 0; l < m; l++) {
+                sum += xi[l] * db[l * f + a] * c[l];
+                for (size_t i = 0; i < m; i++) sum += (xi[l] * domega[l * f * m + a * m + i] * c[l] * c[i] + omega[a * m + l] * c[l] * B[l + m * i]) * v0[i];
+            }
+            row[col] = sum * unit;
+        }
+    }
+}
+
+/* (L_xi Q)_s = xi^l d_l Q_s + B^l_r v^r dQ_s/dv^l + Q_l B^l_s at two velocities v0 + X w that the constraints allow; X (m x n) and v0 scaled. */
+static void force_rows(search *s, const double *q, const double *jets, size_t n, const double *X, const double *v0)
+{
+    size_t m = s->m, size = s->t.size;
+    const double *c = s->t.scale;
+    double *z = nh_alloc_array(3 * m + m * (1 + 2 * m), sizeof *z), *v = z + 2 * m, *Q = v + m, *dq = Q + m, *dv = dq + m * m;
+    memcpy(z, q, m * sizeof *z);
+    for (int trial = 0; trial < 2 && s->force; trial++) {
+        double most = 0;
+        for (size_t i = 0; i < m; i++) {
+            v[i] = v0[i];
+            for (size_t k = 0; k < n; k++) v[i] += X[i + m * k] * sin(1.3 + (double)k * 2.1 + trial * 1.7);
+            z[m + i] = v[i] * c[i];
+        }
+        nh_tape_eval(s->force, s->force_work, z, Q);
+        for (size_t i = 0; i < m * (1 + 2 * m); i++) most = isfinite(Q[i]) ? fmax(most, fabs(Q[i])) : INFINITY;
+        for (size_t i = 0; i < m && most > 0 && isfinite(most); i++) {
+            double *row = new_row(s, 2);
+            for (size_t col = 0; col < s->columns; col++) {
+                const double *xi = jets + col * size, *B = xi + m;
+                double sum = 0;
+                for (size_t l = 0; l < m; l++) {
+                    sum += xi[l] * c[l] * dq[l * m + i] * c[i] + Q[l] * c[l] * B[l + m * i];
+                    for (size_t r = 0; r < m; r++) sum += B[l + m * r] * v[r] * c[l] * dv[l * m + i] * c[i];
+                }
+                row[col] = sum / most;
+            }
+        }
+    }
+    nh_free(z);
+}
+
 /* (L_xi omega)_i = xi^s d_s omega_i + omega_s B^s_i on an orthonormal basis X of D (scaled coordinates), forms of length one. */
-static void constraint_rows(search *s, const double *jets)
+static void constraint_rows(search *s, const double *q, const double *jets)
 {
     size_t m = s->m, f = s->f, size = s->t.size;
     const double *c = s->t.scale, *omega = s->out + m + m * m, *domega = omega + f * m;
@@ -114,6 +212,15 @@ static void constraint_rows(search *s, const double *jets)
                 row[col] = sum;
             }
         }
+    double *least = nh_alloc_array(f * m + f + m + 1, sizeof *least), *v0 = least + f * m; /* forms v0 = -b / norm */
+    const double *b = omega + f * m * (1 + m);
+    memcpy(least, forms, f * m * sizeof *least);
+    for (size_t a = 0; a < f; a++) v0[a] = norm[a] > 0 ? -b[a] / norm[a] : 0;
+    if (f && !s->kinetic->linear) nh_least_squares(f, m, least, 1, v0, m > f ? m : f, 1e-12);
+    else memset(v0, 0, m * sizeof *v0);
+    affine_rows(s, jets, norm, v0);
+    force_rows(s, q, jets, n, X, v0);
+    nh_free(least);
     nh_free(forms);
     nh_free(norm);
 }
@@ -125,7 +232,8 @@ static bool conditions_at(search *s, const double *q, const double *jets)
     nh_tape_eval(s->tape, s->work, q, s->out);
     metric_rows(s, jets);
     potential_rows(s, jets);
-    constraint_rows(s, jets);
+    magnetic_rows(s, jets);
+    constraint_rows(s, q, jets);
     return true;
 }
 
@@ -308,10 +416,12 @@ static void run(search *s, nh_jets *out)
 nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *error)
 {
     nh_jets *out = nh_alloc(sizeof *out);
-    size_t m = k->m, total = m + m * m + k->f * m * (1 + m);
+    size_t m = k->m, total = forms_total(k);
     *out = (nh_jets){.m = m, .place = nh_alloc_array(m, sizeof *out->place)};
     search s = {.kinetic = k, .options = options, .m = m, .f = k->f, .columns = m * (m + 1) / 2, .tape = forms_tape(k)};
     s.work = nh_tape_work_create(s.tape);
+    s.force = force_tape(k);
+    if (s.force) s.force_work = nh_tape_work_create(s.force);
     s.out = nh_alloc_array(total + 1, sizeof *s.out);
     s.x = nh_alloc_array(m, sizeof *s.x);
     s.c.columns = s.columns;
@@ -321,6 +431,8 @@ nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *
     nh_transport_clear(&s.t);
     nh_tape_work_free(s.work);
     nh_tape_free(s.tape);
+    if (s.force) nh_tape_work_free(s.force_work);
+    nh_tape_free(s.force);
     nh_free(s.out);
     nh_free(s.x);
     for (int i = 0; i < 3; i++) nh_free(s.c.row[i]);

@@ -8,6 +8,7 @@
  * points; the combinations that satisfy there
  *
  *     L_xi K = 0,    xi(V) = 0,    (L_xi omega^A)(X) = 0 for X in D,    and arrive the same way round a triangle
+ *     L_xi a = 0 of L's part a v,  (L_xi omega^A)(v0) + xi(b^A) = 0 at a v0 with omega v0 + b = 0,  L_xi Q = 0 of forces at velocities that are allowed
  *
  * are the jets of all local symmetries.  Their brackets are known at q0 from the jets alone. */
 #ifndef NH_JETS_H
@@ -30,7 +31,7 @@ typedef struct {
     double closure;        /* largest residual of the brackets */
 } nh_jets;
 
-/* Needs a metric (kinetic->metric).  NULL with a message when no ray could be followed. */
+/* Needs kinetic->general.  NULL with a message when no ray could be followed. */
 nh_jets *nh_jets_find(const nh_kinetic *kinetic, const nh_options *options, nh_error *error);
 void nh_jets_free(nh_jets *jets);
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/diff.h"
 #include "expr/normal.h"
 
 enum { most_factors = 24 };
@@ -68,6 +69,15 @@ static void put_circular(nh_dag *d, factors *f, nh_ex angle, int level)
     }
 }
 
+/* g, g' and g'/g (cosh, sinh, tanh): Christoffel symbols are made of them. */
+static void put_with_slopes(const nh_kinetic *k, factors *f, nh_ex g, nh_ex q)
+{
+    nh_ex slope = nh_simplify(k->dag, nh_diff(k->dag, g, q));
+    put(f, g);
+    put(f, slope);
+    put(f, nh_div(k->dag, slope, g));
+}
+
 /* Functions that come near a pole on the sample points would hide the others. */
 static void drop_wild(const nh_kinetic *k, factors *f)
 {
@@ -104,7 +114,7 @@ static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
     for (size_t i = 0; i < n; i++) {
         if (!of_one(k, found[i], j)) continue;
         if (circular(d, found[i])) put_circular(d, f, nh_child(d, found[i], 0), level);
-        else if (level == 5) put(f, found[i]);
+        else if (level == 5) put_with_slopes(k, f, found[i], k->q[j]);
     }
     drop_wild(k, f);
     nh_free(found);

@@ -6,7 +6,8 @@
  *     level 2    also 1/sin q, cot q, 1/cos q, tan q (generators of rotations in Euler's angles), else q^2
  *     level 3    sin q, cos q, q, q^2, q sin q, q cos q together
  *     level 4    as level 2, every coordinate taken for an angle
- *     level 5    sin q, cos q, sin 2q, cos 2q, q, q^2, and the system's other functions of q alone
+ *     level 5    sin q, cos q, sin 2q, cos 2q, q, q^2, and the system's other functions of q alone, their derivatives,
+ *                and those divided by the functions (cosh, sinh, tanh)
  *
  * On which coordinates it depends is known from the jets; without these, any, and at most two at a time. */
 #ifndef NH_LIBRARY_H

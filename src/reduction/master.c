@@ -27,11 +27,11 @@ static bool solve_constraints(const nh_slice *s, const size_t *independent, nh_e
     for (size_t i = 0; i < r && lu; i++) {
         for (size_t c = 0; c < f; c++) b[c] = nh_neg(d, s->omega[c * m + independent[i]]);
         nh_lu_solve(lu, b, b);
-        for (size_t c = 0; c < f; c++) rho[dependent[c] * r + i] = nh_simplify(d, b[c]);
+        for (size_t c = 0; c < f; c++) rho[dependent[c] * r + i] = s->pivots ? b[c] : nh_simplify(d, b[c]);
     }
     for (size_t c = 0; c < f; c++) b[c] = nh_neg(d, s->b[c]);
     if (lu) nh_lu_solve(lu, b, b);
-    for (size_t c = 0; c < f && lu; c++) constant[dependent[c]] = nh_simplify(d, b[c]);
+    for (size_t c = 0; c < f && lu; c++) constant[dependent[c]] = s->pivots ? b[c] : nh_simplify(d, b[c]);
     bool good = lu != NULL;
     nh_lu_free(lu);
     nh_free(a);
@@ -99,8 +99,8 @@ static void guard(nh_reduced *o, const nh_slice *s, const size_t *independent)
     nh_free(columns);
 }
 
-/* Forces without a potential, in the frame: Fr^T Q(sigma(x), Fr u). */
-static void add_forces(const nh_slice *s, const nh_ex *u, nh_ex *force)
+/* Fr^T Q(sigma(x), Fr u). */
+void nh_reduced_add_forces(const nh_slice *s, const nh_ex *u, nh_ex *force)
 {
     const nh_kinetic *k = s->kinetic;
     nh_dag *d = s->dag;
@@ -169,7 +169,7 @@ bool nh_reduced_master(nh_reduced *o, const nh_slice *s, const size_t *independe
     for (size_t j = 0; j < m && good; j++) u[j] = nh_add(d, dot(d, r, rho + j * r, 1, o->w, 1), constant[j]);
     for (size_t j = 0; j < m && good; j++) momentum[j] = nh_add(d, dot(d, m, s->K + j * m, 1, u, 1), s->a[j]);
     for (size_t j = 0; j < m && good; j++) force[j] = frame_force(s, j, u, momentum);
-    if (good && s->kinetic->forced) add_forces(s, u, force);
+    if (good && s->kinetic->forced) nh_reduced_add_forces(s, u, force);
     if (good) momenta(o, s, rho, constant, u, rest);
     for (size_t i = 0; i < r && good; i++) {
         o->F[i] = nh_sub(d, dot(d, m, rho + i, r, force, 1), rest[i]);

@@ -65,9 +65,9 @@ static void place_rate(group_flow *f, const double *q, double *rate)
 
 static bool rate_of(double time, const double *z, double *rate, void *context)
 {
-    (void)time;
     group_flow *f = context;
     size_t d = f->d;
+    nh_reduced_flow_time(f->chart->flow, time);
     if (!nh_reduced_flow_at(f->chart->flow, z, rate, NULL, f->zeta, NULL)) return false;
     if (!f->group) return true;
     second_kind(f, z + f->inner);
@@ -186,6 +186,7 @@ static bool store(course *c, const nh_motion *motion, size_t from)
         const double *z = motion->state + i * motion->size;
         size_t at = out->count;
         out->time[at] = motion->time[i];
+        nh_reduced_flow_time(f->chart->flow, motion->time[i]);
         memcpy(out->z + at * f->inner, z, f->inner * sizeof *z);
         if (!nh_reduced_flow_at(f->chart->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, out->energy + at)) return false;
         if (f->group) good = place_of(c, z, out->q + at * out->m);
@@ -228,7 +229,7 @@ static bool change_chart(course *c, const double *z, bool renew, double *place)
     double *q = nh_alloc_array(2 * f->m + f->inner + f->d + 1, sizeof *q), *v = q + f->m, *next = v + f->m, *moved = next + f->inner, value[2];
     nh_error trouble = {0};
     bool good = nh_chart_leave(f->chart, z, q, v), placed = f->group && good && place_of(c, z, place);
-    const nh_reduced_chart *chart = !good ? NULL : renew ? nh_atlas_renew(c->atlas, c->failures, q, v, moved, next, &trouble) : nh_atlas_at(c->atlas, q, v, next, &trouble);
+    const nh_reduced_chart *chart = !good ? NULL : renew ? nh_atlas_renew(c->atlas, f->chart, c->failures, q, v, moved, next, &trouble) : nh_atlas_at(c->atlas, q, v, next, &trouble);
     nh_error_clear(&trouble);
     if (chart) nh_reduced_flow_limit(chart->flow, next, 0, 0);
     good = chart && nh_reduced_flow_guards(chart->flow, next, value) && value[0] > lost && value[1] > lost;

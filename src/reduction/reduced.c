@@ -142,7 +142,7 @@ struct nh_reduced_flow {
     const nh_reduced *o;
     nh_tape *mass, *rest, *guard; /* M(x); x', F, zeta, energy of (x, w); matrices that must stay regular */
     nh_tape_work *mass_work, *rest_work, *guard_work;
-    double *M, *in, *out, *regular;
+    double *M, *in, *out, *regular, time;
     double sign[2], limit[2], fixed[2];
     bool constant[2];             /* a guard that does not depend on x */
 };
@@ -238,16 +238,17 @@ nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *o)
     const nh_model *y = o->kinetic->model;
     size_t n = o->n, r = o->r, total = n + r + o->d + 1, p = y->system->parameters;
     nh_reduced_flow *f = nh_alloc(sizeof *f);
-    nh_ex *in = nh_alloc_array(n + r + 1, sizeof *in), *e = nh_alloc_array(total, sizeof *e);
-    *f = (nh_reduced_flow){.o = o, .M = nh_alloc_array(r * r + 1, sizeof(double)), .in = nh_alloc_array(n + r + 1, sizeof(double)), .out = nh_alloc_array(total, sizeof(double))};
+    nh_ex *in = nh_alloc_array(n + r + 2, sizeof *in), *e = nh_alloc_array(total, sizeof *e);
+    *f = (nh_reduced_flow){.o = o, .M = nh_alloc_array(r * r + 1, sizeof(double)), .in = nh_alloc_array(n + r + 2, sizeof(double)), .out = nh_alloc_array(total, sizeof(double))};
     memcpy(in, o->x, n * sizeof *in);
     memcpy(in + n, o->w, r * sizeof *in);
+    if (o->timed) in[n + r] = o->t;
     memcpy(e, o->dx, n * sizeof *e);
     memcpy(e + n, o->F, r * sizeof *e);
     memcpy(e + n + r, o->zeta, o->d * sizeof *e);
     e[total - 1] = o->energy;
     f->mass = nh_tape_create(o->kinetic->dag, n, in, r * r, o->M, p, y->parameter, y->parameter_value);
-    f->rest = nh_tape_create(o->kinetic->dag, n + r, in, total, e, p, y->parameter, y->parameter_value);
+    f->rest = nh_tape_create(o->kinetic->dag, n + r + o->timed, in, total, e, p, y->parameter, y->parameter_value);
     f->mass_work = nh_tape_work_create(f->mass);
     f->rest_work = nh_tape_work_create(f->rest);
     guard_tape(f);
@@ -277,8 +278,10 @@ bool nh_reduced_flow_at(nh_reduced_flow *f, const double *z, double *rate, doubl
     size_t n = f->o->n, r = f->o->r, d = f->o->d;
     memcpy(f->in, z, (n + r) * sizeof *z);
     nh_tape_eval(f->mass, f->mass_work, f->in, f->M);
-    if (!nh_solve(r, f->M, 1, f->in + n, NULL)) return false;
+    f->in[n + r] = f->time;
+    if (!f->o->plain && !nh_solve(r, f->M, 1, f->in + n, NULL)) return false;
     nh_tape_eval(f->rest, f->rest_work, f->in, f->out);
+    if (f->o->force && rate && !f->o->force(f->o->context, f->time, z, f->in + n, f->out + n)) return false;
     for (size_t i = 0; i < n + r + d; i++)
         if (!isfinite(f->out[i])) return false;
     if (rate) memcpy(rate, f->out, (n + r) * sizeof *rate);
@@ -288,9 +291,11 @@ bool nh_reduced_flow_at(nh_reduced_flow *f, const double *z, double *rate, doubl
     return true;
 }
 
+void nh_reduced_flow_time(nh_reduced_flow *f, double t) { f->time = t; }
+
 static bool rate_of(double t, const double *z, double *rate, void *context)
 {
-    (void)t;
+    nh_reduced_flow_time(context, t);
     return nh_reduced_flow_at(context, z, rate, NULL, NULL, NULL);
 }
 

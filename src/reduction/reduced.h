@@ -27,6 +27,12 @@ typedef struct {
     nh_ex *dx, *F, *zeta; /* n, r, d as functions of (x, w) */
     nh_ex energy;        /* of (x, w); of a master equation with affine constraints the moving energy */
     bool conservative;   /* it is conserved */
+    bool plain;          /* M = 1: the p are the velocities w */
+    bool timed;          /* the time t occurs */
+    nh_ex t;
+    /* Where F has no formula: its r values at (x, w); false where it cannot be computed.  NULL: F is one. */
+    bool (*force)(void *context, double t, const double *x, const double *w, double *F);
+    void *context;
     nh_guard guard[2];   /* of the constraints, and of the generators on the slice; rows 0: none */
 } nh_reduced;
 
@@ -42,6 +48,8 @@ void nh_reduced_init(nh_reduced *reduced, const nh_kinetic *kinetic, size_t n, c
  * Hamel's equations in the frame (d/dx, e_a); docs/method.md, sec. 9.  `independent`: the r = m - f components of u that serve as w.
  * False when the others cannot be solved for. */
 bool nh_reduced_master(nh_reduced *reduced, const nh_slice *slice, const size_t *independent, nh_error *error);
+/* Add the forces without a potential in the frame to `force` (m): Fr^T Q at u = (x', zeta). */
+void nh_reduced_add_forces(const nh_slice *slice, const nh_ex *u, nh_ex *force);
 /* Components of the frame that serve as w: the others' minor of omf is well conditioned; group components are given up first. */
 void nh_reduced_independent(const nh_slice *slice, size_t *independent);
 /* The same for one place on the slice, lengths and angles in units of the metric. */
@@ -54,6 +62,8 @@ bool nh_reduced_start(const nh_reduced *reduced, const double *x, const double *
 typedef struct nh_reduced_flow nh_reduced_flow;
 nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *reduced);
 void nh_reduced_flow_free(nh_reduced_flow *flow);
+/* The time at which it is evaluated from now on (0 at first), where that occurs. */
+void nh_reduced_flow_time(nh_reduced_flow *flow, double t);
 /* A motion ends where a guard changes sign: beyond a singularity of the slice or of the connection it would mean nothing; or earlier, where its modulus
  * falls below the limit that nh_reduced_flow_limit sets. */
 nh_flow_problem nh_reduced_flow_problem(nh_reduced_flow *flow);

@@ -14,6 +14,9 @@
  *     pt_i' = 1/2 x'^T d_i Kt x' + 1/2 v^T d_i I v - d_i V + m_a Bv^a_ij x'^j + C_lk^a m_a Av^l_i v^k + g_i - Av^a_i g_a
  *     g = Fr^T Ups Fr (x', zeta)
  *
+ * Where the first stage has more forces than the gyroscopic one (affine constraints, forces), or Lhat a part ahat x', (i) asks that these and ahat are invariant, (ii)
+ * and (ii') that no force but the magnetic one of ahat acts along zeta; then g is all of them, m_b' has g_b, too, and m_b + ahat(zeta_b) is what (i) and (ii) conserve.
+ *
  * For abelian N, m is constant, m_a Bv^a is the 2-form Xi of [ChhabraEmami2014, eq. 2.17], and the rest is eq. 2.19.  For other N the equations hold on the
  * bundle of coadjoint orbits: (x, pt) and m on the orbit through its initial value. */
 #ifndef NH_SECOND_H
@@ -33,6 +36,7 @@ typedef struct {
     size_t orbit;           /* dimension of a generic coadjoint orbit of N */
     double invariance, weak, strong; /* largest relative residuals of (i) for Ups, (ii), (ii') */
     bool abelian;
+    bool magnetic;          /* Lhat has a part ahat x' */
     const double *pivots;   /* as of a slice */
 } nh_second;
 

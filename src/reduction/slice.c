@@ -59,9 +59,11 @@ static bool next_subset(size_t m, size_t d, size_t *index)
     return false;
 }
 
-static void choose(const nh_action *g, size_t places, const double *place, size_t *shape, size_t *along)
+/* `avoid`: rows that are taken only where others are far worse; NULL: none. */
+static void choose(const nh_action *g, size_t places, const double *place, const size_t *avoid, size_t *shape, size_t *along)
 {
     static const double nearly = 1.05; /* of nearly equal ones the preferred, then the first */
+    static const double avoided = 0.02;
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d, trials = 0;
     size_t *rows = nh_alloc_array(d + 1, sizeof *rows);
@@ -71,6 +73,7 @@ static void choose(const nh_action *g, size_t places, const double *place, size_
         double value = worst_minor(m, d, places, E, rows);
         for (size_t i = 0; i < d; i++)
             if (k->dependent[rows[i]]) value *= 1 + 0.5 / (double)d;
+        if (avoid && !memcmp(avoid, rows, d * sizeof *rows)) value *= avoided;
         if (value <= best * nearly) continue;
         best = value;
         memcpy(along, rows, d * sizeof *along);
@@ -87,10 +90,10 @@ static void choose(const nh_action *g, size_t places, const double *place, size_
 void nh_slice_choose(const nh_action *g, size_t *shape, size_t *along)
 {
     const nh_kinetic *k = g->kinetic;
-    choose(g, k->places < trial_places ? k->places : trial_places, k->place, shape, along);
+    choose(g, k->places < trial_places ? k->places : trial_places, k->place, NULL, shape, along);
 }
 
-void nh_slice_choose_at(const nh_action *g, const double *q, size_t *shape, size_t *along) { choose(g, 1, q, shape, along); }
+void nh_slice_choose_at(const nh_action *g, const double *q, const size_t *avoid, size_t *shape, size_t *along) { choose(g, 1, q, avoid, shape, along); }
 
 /* ---- data ---- */
 

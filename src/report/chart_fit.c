@@ -11,7 +11,7 @@ static void time_text(double seconds, char out[24])
     snprintf(out, 24, ms < 9.95 ? "%.2f" : "%.0f", ms);
 }
 
-static const char *word_of(const nh_fitted *m)
+const char *nh_fitted_word(const nh_fitted *m)
 {
     if (m->undecided) return "undecided";
     if (m->dimension > m->wanted) return "too many";
@@ -26,7 +26,7 @@ static void put(const nh_fitted *m, nh_text *out)
     snprintf(gap, sizeof gap, isfinite(m->gap) ? "%.0e" : "-", m->gap);
     snprintf(error, sizeof error, isfinite(m->error) ? "%.0e" : "-", m->error);
     nh_text_addf(out, "%9zu%9zu   %-10s%-10s%-12s%6zu of %-6zu%9s%9s%9s   %-9s%s\n", m->columns, m->samples, m->basis, m->route, m->solver, m->dimension, m->wanted, gap, error, ms,
-                 word_of(m), m->front ? " *" : "");
+                 nh_fitted_word(m), m->front ? " *" : "");
 }
 
 void nh_fits_text(const nh_comparison *c, bool verbose, nh_text *out)
@@ -65,7 +65,7 @@ void nh_fits_json(const nh_comparison *c, nh_json *root)
         nh_json_put_number(item, "gap", m->gap);
         nh_json_put_number(item, "error", m->error);
         nh_json_put_number(item, "seconds", m->seconds);
-        nh_json_put_text(item, "status", word_of(m));
+        nh_json_put_text(item, "status", nh_fitted_word(m));
         nh_json_put_bool(item, "front", m->front);
     }
 }

@@ -9,5 +9,6 @@
 /* The discrete problem. */
 void nh_fits_text(const nh_comparison *comparison, bool verbose, nh_text *out);
 void nh_fits_json(const nh_comparison *comparison, nh_json *root);
+const char *nh_fitted_word(const nh_fitted *fitted); /* "right", "too few", ... */
 
 #endif

@@ -66,6 +66,7 @@ void nh_course_json_drawing(const nh_course *c, nh_json *to)
     for (size_t i = 0; i < c->shapes; i++) {
         nh_json *shape = nh_json_add_object(list);
         nh_json_put_text(shape, "kind", nh_shape_name(c->shape[i].kind));
+        if (c->shape[i].name) nh_json_put_text(shape, "name", c->shape[i].name);
         for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++) {
             const nh_line *line = nh_course_shape(c, i, j);
             nh_json_put_numbers(shape, keys[j], c->count, line->value, line->stride);

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "expr/normal.h"
+#include "expr/print.h"
 
 nh_ex nh_formula_shortened(const nh_analysis *a, nh_dag *d, nh_ex e)
 {
@@ -23,7 +24,7 @@ nh_ex nh_formula_abbreviate(const nh_result *r, nh_ex e) { return nh_formula_sho
 
 /* ---- names for what is repeated ---- */
 
-enum { long_formula = 120, largest_graph = 20000, least_gain = 12 };
+enum { most_names = 10 * NH_FORMULA_PARTS, long_formula = 120, largest_graph = 20000, least_gain = 12 };
 
 /* How often does each node below n stand in the text of the formulas?  A child has a smaller index than what it stands in. */
 static void occurrences(const nh_dag *d, size_t n, double *times)
@@ -68,8 +69,8 @@ static char free_letter(const nh_dag *d)
         char name[16];
         nh_ex taken;
         bool used = false;
-        for (int i = 0; i <= NH_FORMULA_PARTS && !used; i++) {
-            snprintf(name, sizeof name, i ? "%c_%d" : "%c", *c, i);
+        for (size_t i = 0; i <= most_names && !used; i++) {
+            snprintf(name, sizeof name, i ? "%c_%zu" : "%c", *c, i);
             used = nh_symbol_find(d, name, &taken);
         }
         if (!used) return *c;
@@ -123,6 +124,35 @@ size_t nh_formula_field(const nh_result *r, const nh_symmetry *z, nh_field_term 
         add_term(o, list, &n, e, nh_name_of(o->dag, basis->chart->w[i]));
     }
     return n;
+}
+
+char *nh_formula_text(nh_dag *d, nh_ex e, double shown)
+{
+    char *text = nh_print_short(d, e, shown), size[120];
+    if (text) return text;
+    double length = (double)nh_complexity(d, e);
+    if (length < 1e9) snprintf(size, sizeof size, "... (%.0f symbols, too long to be shown; --option shown=%.0f shows them)", length, length);
+    else snprintf(size, sizeof size, "... (too long to be shown)");
+    return nh_strdup(size);
+}
+
+void nh_formula_series(nh_dag *d, const nh_series *s, nh_typeset_form form, nh_text *out)
+{
+    const char *q = nh_name_of(d, s->coordinate);
+    bool page = form == NH_MATHML;
+    if (page) nh_text_add(out, "<mrow>");
+    for (size_t i = 0; i < s->words; i++) {
+        nh_text_add(out, !i ? "" : page ? "<mo>+</mo>" : " + ");
+        nh_text_addf(out, page ? "<msub><mi>f</mi><mn>%zu</mn></msub><mo stretchy=\"false\">(</mo>" : "f_{%zu}(", i + 1);
+        nh_typeset(q, form, out);
+        nh_text_add(out, page ? "<mo stretchy=\"false\">)</mo>" : ")");
+        if (nh_is_number(d, s->word[i], 1)) continue;
+        char *word = nh_print_string(d, s->word[i]);
+        nh_text_add(out, page ? "<mspace width=\"0.17em\"></mspace>" : "\\,");
+        nh_typeset(word, form, out);
+        nh_free(word);
+    }
+    if (page) nh_text_add(out, "</mrow>");
 }
 
 const char *nh_formula_doubt(const nh_found *f)

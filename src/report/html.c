@@ -50,7 +50,7 @@ static void links(nh_html_writer *w)
     const nh_result *r = w->r;
     nh_text sections;
     nh_text_init(&sections);
-    nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|search|%s|repeat|Repeat it", r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "",
+    nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|search|%s|words|Words|repeat|Repeat it", r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "",
                  r->count ? "How it was found" : "What was tried");
     nh_html_links(w, nh_text_string(&sections));
     nh_text_clear(&sections);
@@ -74,6 +74,7 @@ void nh_html(const nh_result *r, nh_text *out)
     nh_html_figures(&w);
     nh_html_system(&w);
     nh_html_evidence(&w);
+    nh_html_words(&w, "current symmetry case distribution independent local residual drift gap multiplier nonholonomic growth");
     nh_html_repeat(&w, &run);
     nh_html_end(&w);
 }

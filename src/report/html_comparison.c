@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "report/chart.h"
+#include "report/chart_internal.h"
 #include "report/html_internal.h"
 
 enum { most_lines = 35 }; /* colours times dashes */
@@ -21,23 +22,31 @@ static void step_or_tolerance(nh_html_writer *w, const nh_measured *m)
     nh_html_number(w, isnan(m->step) ? m->tolerance : m->step, 3);
 }
 
-static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
+/* What a run was told, and what came of it, as cells of its row. */
+static void set_to(nh_html_writer *w, const nh_measured *m)
 {
-    nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th><td>", goal);
-    nh_html_text(w, m->method);
-    nh_html_add(w, "</td><td>");
-    nh_html_text(w, m->formulation);
+    nh_html_tagged(w, "td", m->method);
+    nh_html_add(w, "<td>");
+    nh_html_chart(w, m->formulation);
     nh_html_add(w, "</td><td>");
     step_or_tolerance(w, m);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->error, 2);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->worst_drift, 2);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, m->seconds, 3);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, (double)m->evaluations, 10);
-    nh_html_add(w, "</td></tr>\n");
+    nh_html_add(w, "</td>");
+}
+
+static void measured(nh_html_writer *w, const nh_measured *m)
+{
+    nh_html_cell(w, m->error, 2);
+    nh_html_cell(w, m->worst_drift, 2);
+    nh_html_cell(w, m->seconds, 3);
+    nh_html_cell(w, (double)m->evaluations, 10);
+}
+
+static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
+{
+    nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th>", goal);
+    set_to(w, m);
+    measured(w, m);
+    nh_html_add(w, "</tr>\n");
 }
 
 static void answer(nh_html_writer *w, const nh_comparison *c)
@@ -47,16 +56,16 @@ static void answer(nh_html_writer *w, const nh_comparison *c)
     if (best) {
         nh_html_text(w, best->method);
         nh_html_add(w, " in ");
-        nh_html_text(w, best->formulation);
+        nh_html_chart(w, best->formulation);
     }
     nh_html_add(w, ".</p>\n<p>One motion, t = ");
     nh_html_number(w, c->begin, 6);
     nh_html_add(w, " to ");
     nh_html_number(w, c->end, 6);
     nh_html_add(w, ", by every integrator in every formulation, measured on this machine. Reference: ");
-    nh_html_text(w, c->reference);
+    nh_html_chart(w, c->reference);
     nh_html_add(w, "; ");
-    nh_html_text(w, c->second);
+    nh_html_chart(w, c->second);
     nh_html_add(w, " agrees to ");
     nh_html_number(w, c->agreement, 1);
     nh_html_add(w, ", so that smaller errors mean nothing.</p>\n");
@@ -125,19 +134,9 @@ static void all_runs(nh_html_writer *w, const nh_comparison *c)
     for (size_t i = 0; i < c->count; i++) {
         const nh_measured *m = &c->item[i];
         nh_html_add(w, "<tr>");
-        nh_html_tagged(w, "td", m->method);
-        nh_html_tagged(w, "td", m->formulation);
-        nh_html_add(w, "<td>");
-        step_or_tolerance(w, m);
-        nh_text_addf(w->out, "</td><td class=\"%s\">%s</td><td>", nh_measured_status_name(m->status), nh_measured_status_name(m->status));
-        nh_html_number(w, m->error, 2);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, m->worst_drift, 2);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, m->seconds, 3);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, (double)m->evaluations, 10);
-        nh_html_add(w, "</td>");
+        set_to(w, m);
+        nh_text_addf(w->out, "<td class=\"%s\">%s</td>", nh_measured_status_name(m->status), nh_measured_status_name(m->status));
+        measured(w, m);
         nh_html_tagged(w, "td", m->note ? m->note : "");
         nh_html_add(w, "</tr>\n");
     }
@@ -154,15 +153,76 @@ static void derivatives(nh_html_writer *w, const nh_comparison *c)
         if (!isfinite(d->seconds)) continue;
         nh_html_add(w, "<tr>");
         nh_html_tagged(w, "td", d->method);
-        nh_html_add(w, "<td>");
-        nh_html_number(w, d->seconds, 3);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, (double)d->evaluations, 10);
-        nh_html_add(w, "</td><td>");
-        nh_html_number(w, d->error, 1);
-        nh_html_add(w, "</td></tr>\n");
+        nh_html_cell(w, d->seconds, 3);
+        nh_html_cell(w, (double)d->evaluations, 10);
+        nh_html_cell(w, d->error, 1);
+        nh_html_add(w, "</tr>\n");
     }
     nh_html_table_end(w);
+}
+
+/* ---- the discrete problem ---- */
+
+static bool same_way(const nh_fitted *a, const nh_fitted *b) { return !strcmp(a->basis, b->basis) && !strcmp(a->route, b->route) && !strcmp(a->solver, b->solver); }
+
+/* One plot per size of the ansatz; one line per way to solve it, over the samples. */
+static void fit_plot(nh_html_writer *w, const nh_comparison *c, size_t first, size_t last)
+{
+    enum { most = 12 };
+    size_t n = 0, room = last - first;
+    double *x = nh_alloc_array(2 * most * room + 1, sizeof *x);
+    char name[most][120], title[120], caption[240];
+    nh_curve curve[most];
+    for (size_t i = first; i < last && n < most; i++) {
+        bool told = false;
+        for (size_t j = first; j < i; j++) told |= same_way(&c->fit[i], &c->fit[j]);
+        double *at = x + 2 * n * room, *y = at + room;
+        size_t count = 0;
+        for (size_t j = i; j < last && !told; j++)
+            if (same_way(&c->fit[i], &c->fit[j]) && c->fit[j].right && isfinite(c->fit[j].error)) at[count] = fmax(c->fit[j].error, 1e-17), y[count++] = c->fit[j].seconds;
+        if (!count) continue;
+        snprintf(name[n], sizeof *name, "%.30s, %.30s, %.30s", c->fit[i].basis, c->fit[i].route, c->fit[i].solver);
+        curve[n] = (nh_curve){.name = name[n], .count = count, .x = at, .x_stride = 1, .y = y, .y_stride = 1, .marks = true};
+        n++;
+    }
+    snprintf(title, sizeof title, "Time against error, %zu functions", c->fit[first].functions);
+    nh_plot plot = {.title = title, .description = "Both axes are logarithmic", .x_label = "distance of the known currents from the null space", .y_label = "seconds", .log_x = true, .log_y = true, .floor = 1e-18, .curves = n, .curve = curve};
+    snprintf(caption, sizeof caption, "%s. Each line is one way to solve it, with few to many samples.", title);
+    if (n) nh_html_figure(w, &plot, caption);
+    nh_free(x);
+}
+
+static void fit_row(nh_html_writer *w, const nh_fitted *m)
+{
+    nh_html_add(w, "<tr>");
+    nh_html_cell(w, (double)m->functions, 10);
+    nh_html_cell(w, (double)m->columns, 10);
+    nh_html_cell(w, (double)m->samples, 10);
+    nh_html_tagged(w, "td", m->basis);
+    nh_html_tagged(w, "td", m->route);
+    nh_html_tagged(w, "td", m->solver);
+    nh_html_cell(w, (double)m->dimension, 10);
+    nh_html_cell(w, m->gap, 2);
+    nh_html_cell(w, m->error, 2);
+    nh_html_cell(w, m->seconds, 3);
+    nh_html_tagged(w, "td", nh_fitted_word(m));
+    nh_html_add(w, "</tr>\n");
+}
+
+static void discrete(nh_html_writer *w, const nh_comparison *c)
+{
+    if (!c->fits) return;
+    nh_html_add(w, "<section id=\"discrete\"><h2>The discrete problem</h2>\n<p>The linear problem by which <code>analyze</code> finds currents, of polynomials in velocities, sines, cosines and coordinates, "
+                   "solved in several ways: by how far the known currents are from its null space, and how long it takes. Down and to the left is better.</p>\n");
+    for (size_t i = 0, next; i < c->fits; i = next) {
+        for (next = i; next < c->fits && c->fit[next].functions == c->fit[i].functions;) next++;
+        fit_plot(w, c, i, next);
+    }
+    nh_html_add(w, "<details><summary>All solutions</summary>\n");
+    nh_html_table(w, "All solutions", "functions|columns|samples|basis|route|solver|null values|gap|error|seconds|result");
+    for (size_t i = 0; i < c->fits; i++) fit_row(w, &c->fit[i]);
+    nh_html_table_end(w);
+    nh_html_add(w, "</details>\n</section>\n");
 }
 
 /* ---- stability maps ---- */
@@ -206,17 +266,21 @@ void nh_html_comparison(const nh_comparison *c, const nh_stress *s, const nh_run
     nh_html_writer w = {.out = out, .system = q->system, .analysis = q->analysis, .dag = q->model->dag, .shown = run->shown, .written = INFINITY};
     nh_html_begin(&w, "integrators compared");
     answer(&w, c);
-    nh_html_links(&w, s ? "methods|Methods|stress|Where they fail|system|System|repeat|Repeat it" : "methods|Methods|system|System|repeat|Repeat it");
+    char sections[200];
+    snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|words|Words|repeat|Repeat it", c->fits ? "discrete|The discrete problem|" : "", s ? "stress|Where they fail|" : "");
+    nh_html_links(&w, sections);
     nh_html_add(&w, "<section id=\"methods\"><h2>Methods</h2>\n");
     fastest(&w, c);
     plots(&w, c);
     derivatives(&w, c);
     all_runs(&w, c);
     nh_html_add(&w, "</section>\n");
+    discrete(&w, c);
     stress(&w, s);
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);
     nh_html_add(&w, "</section>\n");
+    nh_html_words(&w, "right warned caught wrong timeout drift");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }

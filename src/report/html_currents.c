@@ -9,30 +9,57 @@
 
 /* ---- the formula ---- */
 
-static void series(nh_html_writer *w, const nh_series *s)
+/* sum' c_k T_k(s) by Clenshaw's recurrence. */
+static double chebyshev(const double *c, size_t degree, double s)
 {
-    nh_dag *d = w->dag;
-    const char *q = nh_name_of(d, s->coordinate);
-    nh_text text;
-    nh_text_init(&text);
-    for (size_t i = 0; i < s->words; i++) {
-        nh_text_addf(&text, "%sf%zu(%s)", i ? " + " : "", i + 1, q);
-        if (nh_is_number(d, s->word[i], 1)) continue;
-        nh_text_add(&text, "*");
-        nh_print(d, s->word[i], &text);
+    double b1 = 0, b2 = 0;
+    for (size_t k = degree; k > 0; k--) {
+        double b0 = c[k] + 2 * s * b1 - b2;
+        b2 = b1;
+        b1 = b0;
     }
+    return c[0] + s * b1 - b2;
+}
+
+static void series_plot(nh_html_writer *w, const nh_found *f)
+{
+    enum { points = 101, most = 7 };
+    const nh_series *s = f->series;
+    size_t n = s->words < most ? s->words : most;
+    double *x = nh_alloc_array((n + 1) * points, sizeof *x);
+    nh_curve curve[most];
+    char name[most][24], title[200];
+    for (size_t j = 0; j < points; j++) x[j] = s->low + (s->high - s->low) * (double)j / (points - 1);
+    for (size_t i = 0; i < n; i++) {
+        double *y = x + (i + 1) * points;
+        for (size_t j = 0; j < points; j++) y[j] = chebyshev(s->coefficient + i * s->stride, s->degree, 2.0 * (double)j / (points - 1) - 1);
+        snprintf(name[i], sizeof *name, "f_%zu", i + 1);
+        curve[i] = (nh_curve){.name = name[i], .count = points, .x = x, .x_stride = 1, .y = y, .y_stride = 1};
+    }
+    snprintf(title, sizeof title, "Coefficient functions of %.100s", f->name);
+    nh_plot plot = {.title = title, .description = "The functions that multiply the velocities, over their coordinate", .x_label = nh_name_of(w->dag, s->coordinate),
+                    .y_label = n == 1 ? name[0] : "value", .curves = n, .curve = curve};
+    nh_html_figure(w, &plot, "The coefficient functions; the JSON has their Chebyshev coefficients.");
+    nh_free(x);
+}
+
+static void series(nh_html_writer *w, const nh_found *f)
+{
+    const nh_series *s = f->series;
     nh_html_add(w, "<div class=\"formula main\">");
-    nh_html_source(w, nh_text_string(&text));
-    nh_html_add(w, "</div>\n<p>f: Chebyshev series of degree ");
+    nh_html_source(w, f->name);
+    nh_html_add(w, "<math><mo>=</mo></math> <math>");
+    nh_formula_series(w->dag, s, NH_MATHML, w->out);
+    nh_html_add(w, "</math></div>\n<p>Each f is a Chebyshev series of degree ");
     nh_html_count(w, s->degree);
     nh_html_add(w, " in ");
-    nh_html_source(w, q);
-    nh_html_add(w, " on [");
+    nh_html_source(w, nh_name_of(w->dag, s->coordinate));
+    nh_html_add(w, "on [");
     nh_html_number(w, s->low, 4);
     nh_html_add(w, ", ");
     nh_html_number(w, s->high, 4);
-    nh_html_add(w, "]; they have no closed form here.</p>\n");
-    nh_text_clear(&text);
+    nh_html_add(w, "]: it has no closed form among the functions that were tried.</p>\n");
+    series_plot(w, f);
 }
 
 static void as_text(nh_html_writer *w, const nh_found *f)
@@ -177,11 +204,12 @@ static void drift_plot(nh_html_writer *w, const nh_found *f)
 
 static void card(nh_html_writer *w, const nh_found *f)
 {
+    w->names = 0;
     nh_html_add(w, "<article class=\"card\">\n<h3>");
     nh_html_source(w, f->name);
     nh_html_add(w, "</h3>\n");
     standing(w, f);
-    if (f->series) series(w, f->series);
+    if (f->series) series(w, f);
     else nh_html_formula(w, f->name, f->phi);
     nh_html_add(w, "<dl>\n");
     certificate(w, f);

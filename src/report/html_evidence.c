@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "expr/print.h"
+#include "report/facts.h"
 #include "report/html_internal.h"
 
 /* Spectra of both routes over the index, with null values on the floor. */
@@ -15,7 +16,7 @@ static void spectrum_plot(nh_html_writer *w)
     size_t most = 0, curves = 0;
     for (int i = 0; i < 2; i++)
         if (s[i]->done && s[i]->rank > most) most = s[i]->rank;
-    if (most == 0) return;
+    if (most < 3) return; /* what the table says is all there is to see */
     double *index = nh_alloc_array(most, sizeof *index);
     for (size_t i = 0; i < most; i++) index[i] = (double)(i + 1);
     for (int i = 0; i < 2; i++)
@@ -30,27 +31,17 @@ static void spectrum_plot(nh_html_writer *w)
 static void spectrum(nh_html_writer *w, const char *name, const nh_spectrum *s)
 {
     if (!s->done) return;
-    nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th><td>", name);
-    nh_html_count(w, s->columns);
-    nh_html_add(w, "</td><td>");
-    nh_html_count(w, s->rank);
-    nh_html_add(w, "</td><td>");
-    nh_html_count(w, s->rows);
-    nh_html_add(w, "</td><td>");
-    nh_html_count(w, s->dimension);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, s->dimension && s->dimension <= s->rank ? s->spectrum[s->dimension - 1] : NAN, 2);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, s->dimension < s->rank ? s->spectrum[s->dimension] : NAN, 2);
-    nh_html_add(w, "</td><td>");
-    nh_html_number(w, s->gap, 2);
-    nh_html_add(w, "</td></tr>\n");
+    double number[NH_SPECTRUM_NUMBERS];
+    nh_facts_spectrum(s, number);
+    nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th>", name);
+    for (size_t i = 0; i < NH_SPECTRUM_NUMBERS; i++) nh_html_cell(w, number[i], i < NH_SPECTRUM_COUNTS ? 10 : 2);
+    nh_html_add(w, "</tr>\n");
 }
 
 static void spectra(nh_html_writer *w)
 {
     if (!w->r->current.done && !w->r->symmetry.done) return;
-    nh_html_table(w, "Linear problems", "route|columns|independent|rows|null values|up to|then|gap");
+    nh_html_table(w, "Linear problems", "route|" NH_SPECTRUM_HEADS);
     spectrum(w, "current", &w->r->current);
     spectrum(w, "symmetry", &w->r->symmetry);
     nh_html_table_end(w);
@@ -95,9 +86,8 @@ static void stages(nh_html_writer *w)
             nh_html_add(w, "<td colspan=\"3\">not tried: too large</td></tr>\n");
             continue;
         }
+        nh_html_cell(w, (double)s->columns, 10);
         nh_html_add(w, "<td>");
-        nh_html_count(w, s->columns);
-        nh_html_add(w, "</td><td>");
         nh_html_count(w, s->dimension);
         nh_html_add(w, s->undecided ? " (undecided)</td><td>" : "</td><td>");
         nh_html_count(w, s->found);
@@ -109,7 +99,7 @@ static void stages(nh_html_writer *w)
 void nh_html_evidence(nh_html_writer *w)
 {
     const nh_result *r = w->r;
-    nh_html_add(w, r->count ? "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz: " : "<section id=\"search\"><h2>What was tried</h2>\n<p>Ansatz: ");
+    nh_html_add(w, r->count ? "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz " : "<section id=\"search\"><h2>What was tried</h2>\n<p>The ansatz was ");
     nh_html_text(w, r->ansatz_note);
     nh_html_add(w, ". ");
     nh_html_count(w, r->samples);

@@ -1,4 +1,5 @@
 /* Formulas on a page. */
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -38,6 +39,39 @@ static void write_piece(void *context, const char *piece)
 void nh_html_source(nh_html_writer *w, const char *text)
 {
     if (!nh_typeset_pieces(text, NH_MATHML, widest, write_piece, w)) nh_html_tagged(w, "code", text);
+}
+
+void nh_html_name(nh_html_writer *w, const char *name)
+{
+    nh_text formula;
+    nh_text_init(&formula);
+    if (nh_typeset(name, NH_MATHML, &formula)) nh_text_addf(w->out, "<math>%s</math>", nh_text_string(&formula));
+    else nh_html_text(w, name);
+    nh_text_clear(&formula);
+}
+
+void nh_html_chart(nh_html_writer *w, const char *name)
+{
+    const char *list = strstr(name, " ("), *end = strrchr(name, ')');
+    if (!list || !end || end[1]) {
+        nh_html_text(w, name);
+        return;
+    }
+    nh_text words;
+    nh_text_init(&words);
+    nh_text_add_n(&words, name, (size_t)(list + 1 - name));
+    nh_html_text(w, nh_text_string(&words));
+    nh_text_clear(&words);
+    nh_html_add(w, "<span class=\"word\">(");
+    for (const char *c = list + 2, *next; c < end; c = next) {
+        char one[200];
+        size_t length = strcspn(c, ",)");
+        snprintf(one, sizeof one, "%.*s", (int)length, c);
+        nh_html_name(w, one);
+        next = c + length + 1 + strspn(c + length + 1, " ");
+        if (next < end) nh_html_add(w, ", ");
+    }
+    nh_html_add(w, ")</span>");
 }
 
 void nh_html_meaning(nh_html_writer *w, const char *meaning)
@@ -98,37 +132,61 @@ static bool uses(const nh_html_writer *w, nh_ex e, size_t parts, const nh_formul
     return false;
 }
 
-/* The page has room for so many symbols in one block. */
-static bool room(const nh_html_writer *w, nh_ex e, double *used)
+/* Is there room for e on the page, with the names that it needs and that are not there yet?  Then they are. */
+static bool room(nh_html_writer *w, nh_ex e, size_t parts, const nh_formula_part *part, bool *needed, double *used_up)
 {
     enum { formulas_per_block = 3 };
-    double length = (double)nh_complexity(w->dag, e);
-    if (length > w->shown || *used + length > formulas_per_block * w->shown) return false;
-    *used += length;
+    bool more[NH_FORMULA_PARTS] = {false};
+    double length = (double)nh_complexity(w->dag, e), all = length;
+    bool fits = length <= w->shown;
+    for (size_t k = 0; k < parts && fits; k++) {
+        more[k] = !needed[k] && uses(w, e, parts, part, k);
+        length = (double)nh_complexity(w->dag, part[k].value);
+        if (more[k]) all += length;
+        fits = !more[k] || length <= w->shown;
+    }
+    if (!fits || *used_up + all > formulas_per_block * w->shown) return false;
+    *used_up += all;
+    for (size_t k = 0; k < parts; k++) needed[k] |= more[k];
     return true;
+}
+
+/* Names in the order in which they are told, without gaps. */
+static void number_parts(nh_html_writer *w, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed)
+{
+    nh_ex from[NH_FORMULA_PARTS], to[NH_FORMULA_PARTS];
+    size_t count = 0;
+    for (size_t k = 0; k < parts; k++) {
+        if (!needed[k]) continue;
+        snprintf(part[k].name + 2, sizeof part[k].name - 2, "%zu", ++w->names);
+        from[count] = part[k].symbol;
+        to[count++] = nh_symbol_fresh(w->dag, part[k].name);
+    }
+    for (size_t i = 0; i < n; i++) e[i] = nh_substitute(w->dag, e[i], count, from, to);
+    for (size_t k = 0; k < parts; k++)
+        if (needed[k]) part[k].value = nh_substitute(w->dag, part[k].value, count, from, to);
 }
 
 void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e)
 {
     nh_formula_part part[NH_FORMULA_PARTS];
-    bool needed[NH_FORMULA_PARTS] = {false}, any = false;
-    double used = 0;
+    bool needed[NH_FORMULA_PARTS] = {false}, any = false, *shown = nh_alloc_array(n + 1, sizeof *shown);
+    double used_up = 0;
     nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
     for (size_t i = 0; i < n; i++) brief[i] = nh_formula_shortened(w->analysis, w->dag, e[i]);
     size_t parts = nh_formula_parts(w->dag, n, brief, part);
-    for (size_t i = 0; i < n; i++) {
-        bool shown = room(w, brief[i], &used);
-        if (shown) line(w, label[i], brief[i]);
-        else too_long(w, label[i], e[i]);
-        for (size_t k = 0; k < parts && shown; k++) needed[k] |= uses(w, brief[i], parts, part, k);
-    }
+    for (size_t i = 0; i < n; i++) shown[i] = room(w, brief[i], parts, part, needed, &used_up);
     for (size_t k = 0; k < parts; k++) any |= needed[k];
+    if (any) number_parts(w, n, brief, parts, part, needed);
+    for (size_t i = 0; i < n; i++)
+        if (shown[i]) line(w, label[i], brief[i]);
+        else too_long(w, label[i], e[i]);
     if (any) nh_html_add(w, "<div class=\"where\"><p>where</p>\n");
     for (size_t k = 0; k < parts; k++)
-        if (needed[k] && room(w, part[k].value, &used)) line(w, part[k].name, part[k].value);
-        else if (needed[k]) too_long(w, part[k].name, part[k].value);
+        if (needed[k]) line(w, part[k].name, part[k].value);
     if (any) nh_html_add(w, "</div>\n");
     nh_free(brief);
+    nh_free(shown);
 }
 
 void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e) { nh_html_formulas(w, 1, &label, &e); }

@@ -16,6 +16,7 @@ typedef struct {
     double written;              /* option `written` */
     const nh_result *r;          /* of `analyze`, else NULL */
     size_t figures;
+    size_t names;                /* of repeated parts in this card or chart, so far: no two are alike */
     nh_figure_sink *sink; /* NULL: figures go onto the page */
     void *context;
 } nh_html_writer;
@@ -24,12 +25,18 @@ typedef struct {
 
 void nh_html_add(nh_html_writer *w, const char *markup);
 void nh_html_text(nh_html_writer *w, const char *text);                 /* escaped */
+void nh_html_prose(nh_html_writer *w, const char *text);                /* the same, with m^2 as people write it */
 void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text); /* <tag>text</tag> */
 /* A number with so many significant digits; a dash when it is not finite. */
 void nh_html_number(nh_html_writer *w, double value, int digits);
 void nh_html_count(nh_html_writer *w, size_t value);
+void nh_html_cell(nh_html_writer *w, double value, int digits); /* of a table */
 /* A text of the expression language as a formula, broken where a line may end; as code when it is no formula. */
 void nh_html_source(nh_html_writer *w, const char *text);
+/* The same for a name within the text. */
+void nh_html_name(nh_html_writer *w, const char *name);
+/* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
+void nh_html_chart(nh_html_writer *w, const char *name);
 /* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, or `Z|x'`: Z with the index x'. */
 void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e);
 /* Several that belong together: what occurs in them more than once gets one name for all. */
@@ -45,6 +52,8 @@ void nh_html_warning(nh_html_writer *w, const char *text);
 
 void nh_html_begin(nh_html_writer *w, const char *what);
 void nh_html_links(nh_html_writer *w, const char *sections);
+/* What these words mean, between blanks as in "current symmetry": a section of its own. */
+void nh_html_words(nh_html_writer *w, const char *words);
 void nh_html_repeat(nh_html_writer *w, const nh_run *run);
 void nh_html_end(nh_html_writer *w);
 
@@ -63,6 +72,7 @@ void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const 
 void nh_html_meaning(nh_html_writer *w, const char *meaning); /* "momentum of phi", with the letter */
 const char *nh_html_case(int kase); /* case 1, 2 or 3 in words */
 
+extern const char *const nh_html_font; /* WOFF2 in base 64 */
 extern const char *const nh_html_style;
 extern const char *const nh_html_script;
 

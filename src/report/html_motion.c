@@ -11,10 +11,11 @@ enum { most_curves = 7, most_frames = 401 };
 
 static void flush(nh_html_writer *w, const nh_course *c, const char *what, const char *axis, const char *caption, size_t n, nh_curve *curve)
 {
-    char title[200];
+    char title[200], alone[160];
     if (n == 0) return;
     snprintf(title, sizeof title, "%s over time", what);
-    nh_plot plot = {.title = title, .description = caption, .x_label = "t", .y_label = axis, .timed = c->count > 1, .curves = n, .curve = curve};
+    if (n == 1) snprintf(alone, sizeof alone, "%.80s%.60s", curve[0].name, strchr(axis, '/') ? strchr(axis, '/') - 1 : ""); /* no legend names it */
+    nh_plot plot = {.title = title, .description = caption, .x_label = "t", .y_label = n == 1 ? alone : axis, .timed = c->count > 1, .curves = n, .curve = curve};
     nh_html_figure(w, &plot, caption);
 }
 
@@ -27,11 +28,14 @@ static nh_curve curve_of(const nh_course *c, const nh_line *line)
 static void lines(nh_html_writer *w, const nh_course *c, nh_track_kind kind, size_t skip, size_t take, const char *what, const char *axis, const char *caption)
 {
     nh_curve curve[most_curves];
+    char letter[most_curves][24];
     size_t n = 0, seen = 0;
     for (size_t j = 0; j < c->lines; j++) {
         if (c->line[j].kind != kind || seen++ < skip || seen > skip + take) continue;
-        curve[n++] = curve_of(c, &c->line[j]);
-        if (n < most_curves) continue;
+        curve[n] = curve_of(c, &c->line[j]);
+        snprintf(letter[n], sizeof *letter, c->model->k == 1 ? "mu" : "mu_%zu", seen);
+        if (kind == NH_TRACK_MULTIPLIER) curve[n].name = letter[n]; /* as in the formulas */
+        if (++n < most_curves) continue;
         flush(w, c, what, axis, caption, n, curve);
         n = 0;
     }
@@ -103,6 +107,19 @@ static void velocities(nh_html_writer *w, const nh_course *c)
 
 /* ---- the drawing ---- */
 
+/* Its own name; else its kind, with a number when there are several of it. */
+static void shape_name(const nh_course *c, size_t i, char *out, size_t size)
+{
+    size_t before = 0, all = 0;
+    for (size_t k = 0; k < c->shapes; k++) {
+        if (c->shape[k].kind != c->shape[i].kind || c->shape[k].name) continue;
+        before += k <= i;
+        all++;
+    }
+    if (c->shape[i].name) snprintf(out, size, "%s", c->shape[i].name);
+    else snprintf(out, size, all > 1 ? "%s %zu" : "%s", nh_shape_name(c->shape[i].kind), before);
+}
+
 static void path_plot(nh_html_writer *w, const nh_course *c)
 {
     nh_curve curve[most_curves];
@@ -111,7 +128,7 @@ static void path_plot(nh_html_writer *w, const nh_course *c)
     for (size_t i = 0; i < c->shapes && n < most_curves; i++) {
         if (c->shape[i].kind == NH_SHAPE_SEGMENT) continue;
         const nh_line *x = nh_course_shape(c, i, 0), *y = nh_course_shape(c, i, 1);
-        snprintf(name[n], sizeof name[n], "%s %zu", nh_shape_name(c->shape[i].kind), i + 1);
+        shape_name(c, i, name[n], sizeof name[n]);
         curve[n] = (nh_curve){.name = name[n], .count = c->count, .x = x->value, .x_stride = x->stride, .y = y->value, .y_stride = y->stride};
         bool heads = c->shape[i].kind == NH_SHAPE_ARROW || c->shape[i].kind == NH_SHAPE_WHEEL;
         if (heads) curve[n].heading = nh_course_shape(c, i, 2)->value;
@@ -210,9 +227,7 @@ static void drifts(nh_html_writer *w)
         nh_html_source(w, w->r->found[k].name);
         nh_html_add(w, "</th>");
         for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
-            nh_html_add(w, "<td>");
-            nh_html_number(w, v->current[k].drift[i], 2);
-            nh_html_add(w, "</td>");
+            nh_html_cell(w, v->current[k].drift[i], 2);
         }
         nh_html_add(w, "</tr>\n");
     }
@@ -224,7 +239,7 @@ static void second_opinion(nh_html_writer *w)
     const nh_validation *v = w->r->validation;
     if (v->crossing_chart && !isnan(v->crossing)) {
         nh_html_add(w, "<p>The chart of ");
-        nh_html_text(w, v->crossing_chart);
+        nh_html_chart(w, v->crossing_chart);
         nh_html_add(w, " breaks down at t = ");
         nh_html_number(w, v->crossing, 4);
         nh_html_add(w, "; the one used here is regular there.</p>\n");
@@ -249,9 +264,9 @@ void nh_html_motion(nh_html_writer *w)
     if (!v || v->count < 2) return;
     nh_course *c = nh_course_of_result(r);
     nh_text_addf(w->out, "<section id=\"motion\"><h2>A motion</h2>\n<p>%s in ", v->method);
-    nh_html_text(w, v->chart);
+    nh_html_chart(w, v->chart);
     nh_html_add(w, ", t = ");
-    nh_html_number(w, v->begin, 6);
+    nh_html_number(w, v->begin, 4);
     nh_html_add(w, " to ");
     nh_html_number(w, v->end, 6);
     nh_html_add(w, ".</p>\n");

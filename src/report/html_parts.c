@@ -2,11 +2,29 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/versions.h"
+#include "report/facts.h"
+#include "report/glossary.h"
 #include "report/html_internal.h"
 
 void nh_html_add(nh_html_writer *w, const char *markup) { nh_text_add(w->out, markup); }
 void nh_html_text(nh_html_writer *w, const char *text) { nh_svg_escape(text, w->out); }
+
+void nh_html_prose(nh_html_writer *w, const char *text)
+{
+    static const char *const raised[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    for (const char *c = text; *c; c++) {
+        const char *digit = c + 1 + (c[0] == '^' && c[1] == '-');
+        if (*c != '^' || *digit < '0' || *digit > '9') {
+            nh_html_text(w, (const char[]){*c, 0});
+            continue;
+        }
+        if (c[1] == '-') nh_html_add(w, "\u207b");
+        for (; digit[0] >= '0' && digit[0] <= '9'; digit++) nh_html_add(w, raised[*digit - '0']);
+        c = digit - 1;
+    }
+}
 
 void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text)
 {
@@ -17,26 +35,22 @@ void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text)
 
 void nh_html_number(nh_html_writer *w, double value, int digits)
 {
-    char all[40], shown[60];
-    if (!isfinite(value)) {
+    nh_shown_number n;
+    if (!nh_facts_number(value, digits, &n)) {
         nh_html_add(w, "\u2013");
         return;
     }
-    nh_text_number(value, all, sizeof all);
-    snprintf(shown, sizeof shown, "%.*g", digits, value);
-    char *exponent = strchr(shown, 'e');
-    nh_text_addf(w->out, "<data value=\"%s\">", all);
-    if (exponent) *exponent = 0;
-    if (shown[0] == '-') nh_html_add(w, "\u2212");
-    const char *mantissa = shown + (shown[0] == '-');
-    bool one = exponent && !strcmp(mantissa, "1");
-    if (!one) nh_html_add(w, mantissa);
-    if (exponent) {
-        int power = 0;
-        sscanf(exponent + 1, "%d", &power);
-        nh_text_addf(w->out, "%s10<sup>%s%d</sup>", one ? "" : "\u00b7", power < 0 ? "\u2212" : "", power < 0 ? -power : power);
-    }
+    bool minus = n.mantissa[0] == '-', one = n.has_power && !strcmp(n.mantissa + minus, "1");
+    nh_text_addf(w->out, "<data value=\"%s\">%s%s", n.all, minus ? "\u2212" : "", one ? "" : n.mantissa + minus);
+    if (n.has_power) nh_text_addf(w->out, "%s10<sup>%s%d</sup>", one ? "" : "\u00b7", n.power < 0 ? "\u2212" : "", n.power < 0 ? -n.power : n.power);
     nh_html_add(w, "</data>");
+}
+
+void nh_html_cell(nh_html_writer *w, double value, int digits)
+{
+    nh_html_add(w, "<td>");
+    nh_html_number(w, value, digits);
+    nh_html_add(w, "</td>");
 }
 
 void nh_html_count(nh_html_writer *w, size_t value) { nh_text_addf(w->out, "<data value=\"%zu\">%zu</data>", value, value); }
@@ -88,11 +102,13 @@ void nh_html_begin(nh_html_writer *w, const char *what)
 {
     nh_html_add(w, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
+                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; font-src data:; script-src 'unsafe-inline'\"/>\n"
                    "<meta name=\"generator\" content=\"nhsym " NH_VERSION "\"/>\n<title>");
     nh_html_text(w, w->system->title);
     if (what) nh_text_addf(w->out, ": %s", what);
-    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n");
+    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n@font-face{font-family:'nhsym math';src:url(data:font/woff2;base64,");
+    nh_html_add(w, nh_html_font);
+    nh_html_add(w, ") format('woff2')}\n");
     nh_html_add(w, nh_html_style);
     nh_html_add(w, "/*]]>*/</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
     nh_html_text(w, w->system->title);
@@ -125,6 +141,36 @@ void nh_html_end(nh_html_writer *w)
     nh_html_add(w, "//]]></script>\n</body>\n</html>\n");
 }
 
+/* ---- words ---- */
+
+/* The text of the glossary with letters for their names. */
+static void with_letters(nh_html_writer *w, const char *text)
+{
+    static const char *const letter[][2] = {{"Gamma", "\u0393"}, {"Phi", "\u03a6"}, {"alpha", "\u03b1"}, {"mu_a", "\u03bc\u2090"}};
+    while (*text) {
+        size_t k = 0, length = 1;
+        while (k < 4 && strncmp(text, letter[k][0], strlen(letter[k][0]))) k++;
+        if (k < 4) length = strlen(letter[k][0]);
+        nh_html_text(w, k < 4 ? letter[k][1] : (const char[]){*text, 0});
+        text += length;
+    }
+}
+
+void nh_html_words(nh_html_writer *w, const char *words)
+{
+    nh_html_add(w, "<section id=\"words\"><h2>Words</h2>\n<dl>\n");
+    for (const char *c = words; *c; c += strcspn(c, " "), c += strspn(c, " "))
+        for (size_t i = 0; i < nh_glossary_count(); i++) {
+            nh_glossary_entry e = nh_glossary_at(i);
+            if (strlen(e.word) != strcspn(c, " ") || strncmp(e.word, c, strlen(e.word))) continue;
+            nh_html_tagged(w, "dt", e.word);
+            nh_html_add(w, "<dd>");
+            with_letters(w, e.text);
+            nh_html_add(w, "</dd>\n");
+        }
+    nh_html_add(w, "</dl>\n</section>\n");
+}
+
 /* ---- to repeat it ---- */
 
 static void row(nh_html_writer *w, const char *what, const char *value)
@@ -132,7 +178,17 @@ static void row(nh_html_writer *w, const char *what, const char *value)
     if (!value) return;
     nh_html_add(w, "<tr>");
     nh_text_addf(w->out, "<th scope=\"row\">%s</th><td><code>", what);
-    nh_html_text(w, value);
+    while (*value) { /* a line ends between words only: what is copied from it must be a command */
+        size_t length = strcspn(value, " ");
+        char *word = nh_alloc_array(length + 1, 1);
+        memcpy(word, value, length);
+        nh_html_add(w, "<span class=\"word\">");
+        nh_html_text(w, word);
+        nh_free(word);
+        value += length;
+        nh_html_add(w, *value == ' ' ? "</span> " : "</span>");
+        value += *value == ' ';
+    }
     nh_html_add(w, "</code></td></tr>\n");
 }
 

@@ -54,8 +54,7 @@ static void generators(nh_html_writer *w, const nh_action *g)
     nh_html_table(w, "Generators", "|field|kinetic energy|potential|constraints");
     for (size_t a = 0; a < g->d; a++) {
         nh_html_add(w, "<tr><th scope=\"row\">");
-        nh_html_count(w, a + 1);
-        nh_html_add(w, "</th><td>");
+        nh_text_addf(w->out, "%zu</th><td>", a + 1); /* a name, for --group */
         field(w, g->kinetic, g->generator[a].component);
         nh_text_addf(w->out, "</td><td>%s</td><td>%s</td><td>%s</td></tr>\n", condition(&g->generator[a].metric), condition(&g->generator[a].potential), condition(&g->generator[a].constraints));
     }
@@ -130,6 +129,11 @@ static void group(nh_html_writer *w, const nh_reduction *r, const nh_group *g, c
         nh_html_add(w, "; of the kinetic energy alone: ");
         nh_html_count(w, g->jets->of_metric);
         nh_html_add(w, ".");
+        if (r->weaker && g == r->all) {
+            nh_html_add(w, " Those that change the Lagrangian by a total derivative, beyond these: ");
+            nh_html_count(w, r->weaker);
+            nh_html_add(w, ".");
+        }
         if (g->missing) nh_html_add(w, " Those without a closed form: ");
         if (g->missing) nh_html_count(w, g->missing);
         nh_html_add(w, "</p>\n");
@@ -166,7 +170,8 @@ static void second(nh_html_writer *w, const nh_reduction_stage *s)
     nh_html_add(w, ", strong form ");
     nh_html_number(w, t->strong, 1);
     nh_html_add(w, "</dd>\n<dt>Momentum</dt><dd>");
-    if (t->abelian) nh_html_add(w, "constant");
+    if (t->magnetic) nh_html_add(w, "constant with what the Lagrangian's part linear in the velocities adds");
+    else if (t->abelian) nh_html_add(w, "constant");
     else {
         nh_html_add(w, "moves on a coadjoint orbit of dimension ");
         nh_html_count(w, t->orbit);
@@ -186,6 +191,11 @@ static void checks(nh_html_writer *w, const nh_reduction_stage *s)
         nh_html_number(w, s->agreement, 1);
         nh_html_add(w, s->against_full ? " from the full motion up to t = " : " from the first stage up to t = ");
         nh_html_number(w, s->reached, 4);
+        if (s->unsure > 0) {
+            nh_html_add(w, ", known to ");
+            nh_html_number(w, s->unsure, 1);
+            nh_html_add(w, " itself");
+        }
     } else {
         nh_html_add(w, s->against_full ? "not compared with the full motion" : "not compared with the first stage");
     }
@@ -223,9 +233,17 @@ static void by_stages(nh_html_writer *w, const nh_reduction_stage *s)
     nh_html_add(w, ".</p>\n");
 }
 
+/* zeta_1 = zeta1: a velocity of the group that is one of the reduced equations, too. */
+static bool names_itself(const nh_dag *d, const nh_reduction_equation *e)
+{
+    const char *bar = strchr(e->name, '_'), *name = nh_kind_of(d, e->value) == NH_SYMBOL ? nh_name_of(d, e->value) : NULL;
+    size_t length = bar ? (size_t)(bar - e->name) : 0;
+    return bar && name && !strncmp(name, e->name, length) && !strcmp(name + length, bar + 1);
+}
+
 static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_stage *s, size_t number)
 {
-    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of"};
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of", "the quotient by"};
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
     nh_text_addf(w->out, "<article class=\"card\">\n<h3>Stage %zu: %s ", number, titles[s->kind]);
@@ -238,13 +256,15 @@ static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_s
     nh_html_add(w, s->shown->n ? "</p>\n<p>What is left, the shape: " : "</p>\n<p>What is left, the shape, is a point.");
     for (size_t i = 0; i < s->shown->n; i++) {
         nh_html_add(w, i ? ", " : "");
-        nh_html_source(w, nh_name_of(w->dag, s->shown->x[i]));
+        nh_html_name(w, nh_name_of(w->dag, s->shown->x[i]));
     }
     nh_html_add(w, "</p>\n");
     const char **label = nh_alloc_array(n + 1, sizeof *label);
     nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
-    for (size_t i = 0; i < n; i++) label[i] = e[i].name, value[i] = e[i].value;
-    nh_html_formulas(w, n, label, value);
+    size_t told = 0;
+    for (size_t i = 0; i < n; i++)
+        if (!names_itself(w->dag, &e[i])) label[told] = e[i].name, value[told++] = e[i].value;
+    nh_html_formulas(w, told, label, value);
     nh_free(value);
     nh_free(label);
     checks(w, s);
@@ -252,7 +272,7 @@ static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_s
     nh_html_add(w, "</article>\n");
 }
 
-static bool has_momenta(const nh_reduction *r) { return r->kinetic->reducible && r->group->action.d; }
+static bool has_momenta(const nh_reduction *r) { return r->stages > 0 && r->group->action.d; }
 
 static void momenta(nh_html_writer *w, const nh_reduction *r)
 {
@@ -293,7 +313,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     nh_html_writer w = {.out = out, .system = r->system, .dag = r->kinetic->dag, .shown = run->shown, .written = INFINITY};
     nh_html_begin(&w, "reduction by symmetry");
     answer(&w, r);
-    nh_html_links(&w, has_momenta(r) ? "group|Group|stages|Reduced equations|momenta|Momenta|system|System|repeat|Repeat it" : "group|Group|stages|Reduced equations|system|System|repeat|Repeat it");
+    nh_html_links(&w, has_momenta(r) ? "group|Group|stages|Reduced equations|momenta|Momenta|system|System|words|Words|repeat|Repeat it" : "group|Group|stages|Reduced equations|system|System|words|Words|repeat|Repeat it");
     for (size_t i = 0; i < r->warnings; i++) nh_html_warning(&w, r->warning[i]);
     nh_html_add(&w, "<section id=\"group\"><h2>The group</h2>\n");
     if (r->all) group(&w, r, r->all, "The whole group");
@@ -306,6 +326,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);
     nh_html_add(&w, "</section>\n");
+    nh_html_words(&w, "group shape stage Chaplygin distribution nonholonomic");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }

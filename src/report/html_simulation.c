@@ -26,7 +26,7 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     nh_html_add(w, "<p>");
     nh_html_text(w, s->method);
     nh_html_add(w, " in ");
-    nh_html_text(w, s->formulation);
+    nh_html_chart(w, s->formulation);
     nh_html_add(w, ", tolerance ");
     nh_html_number(w, s->tolerance, 2);
     nh_html_add(w, ".");

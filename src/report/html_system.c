@@ -1,6 +1,7 @@
 #include <stdio.h>
 
 #include "base/memory.h"
+#include "expr/normal.h"
 #include "expr/print.h"
 #include "report/html_internal.h"
 
@@ -18,9 +19,9 @@ static void parameters(nh_html_writer *w)
         nh_html_add(w, "</th><td>");
         nh_html_number(w, p->value, 10);
         nh_html_add(w, " ");
-        if (p->unit) nh_html_text(w, p->unit);
+        if (p->unit) nh_html_prose(w, p->unit);
         nh_html_add(w, "</td><td>");
-        if (p->doc) nh_html_text(w, p->doc);
+        if (p->doc) nh_html_prose(w, p->doc);
         nh_html_add(w, "</td></tr>\n");
     }
     nh_html_table_end(w);
@@ -35,9 +36,9 @@ static void coordinates(nh_html_writer *w)
         nh_html_add(w, "<tr><th scope=\"row\">");
         nh_html_source(w, s->coordinate[i].name);
         nh_text_addf(w->out, "</th><td>%s", types[s->coordinate[i].type]);
-        if (s->coordinate[i].unit && s->coordinate[i].unit[0]) nh_html_add(w, " / "), nh_html_text(w, s->coordinate[i].unit);
+        if (s->coordinate[i].unit && s->coordinate[i].unit[0]) nh_html_add(w, " / "), nh_html_prose(w, s->coordinate[i].unit);
         nh_html_add(w, "</td><td>");
-        if (s->coordinate[i].doc) nh_html_text(w, s->coordinate[i].doc);
+        if (s->coordinate[i].doc) nh_html_prose(w, s->coordinate[i].doc);
         nh_html_add(w, "</td></tr>\n");
     }
     nh_html_table_end(w);
@@ -48,6 +49,7 @@ void nh_html_written(nh_html_writer *w)
     const nh_system *s = w->system;
     const nh_deck_node *node = s->deck ? nh_deck_get(nh_deck_root(s->deck), "lagrangian") : NULL;
     nh_html_add(w, "<h3>As it was written</h3>\n");
+    w->names = 0;
     parameters(w);
     coordinates(w);
     for (size_t i = 0; i < s->definitions; i++) {
@@ -132,9 +134,15 @@ static char *formulas_add(formulas *f, nh_ex e)
     return f->text[f->count++];
 }
 
-static void formulas_write(nh_html_writer *w, formulas *f)
+/* Formulas under a heading; folded away when they are many lines long: then they are there to be looked up. */
+static void formulas_write(nh_html_writer *w, const char *heading, formulas *f)
 {
+    enum { long_block = 400 };
+    double length = 0;
+    for (size_t i = 0; i < f->count; i++) length += (double)nh_complexity(w->dag, f->e[i]);
+    nh_text_addf(w->out, length > long_block ? "<details><summary>%s</summary>\n" : "<p>%s</p>\n", heading);
     nh_html_formulas(w, f->count, f->label, f->e);
+    if (length > long_block) nh_html_add(w, "</details>\n");
     nh_free(f->text);
     nh_free(f->label);
     nh_free(f->e);
@@ -143,23 +151,25 @@ static void formulas_write(nh_html_writer *w, formulas *f)
 static void multipliers(nh_html_writer *w, const nh_model *o)
 {
     if (!o->k) return;
-    nh_html_add(w, "<p>Chetaev multipliers, and the force of the constraints</p>\n");
     formulas f = formulas_create(o->k + o->m);
     for (size_t a = 0; a < o->k; a++) snprintf(formulas_add(&f, o->mu[a]), sizeof *f.text, o->k == 1 ? "mu" : "mu_%zu", a + 1);
     for (size_t s = 0; s < o->m; s++) snprintf(formulas_add(&f, o->reaction[s]), sizeof *f.text, "F_%.180s", o->system->coordinate[s].name);
-    formulas_write(w, &f);
+    formulas_write(w, "Chetaev multipliers, and the force of the constraints", &f);
 }
 
 void nh_html_equations(nh_html_writer *w, const nh_model *o)
 {
+    w->names = 0;
     nh_html_add(w, "<h4>In ");
-    nh_html_text(w, o->chart->name);
-    nh_html_add(w, "</h4>\n<p>Constrained Lagrangian and energy</p>\n");
-    nh_html_formulas(w, 2, (const char *const[]){"L", "E"}, (const nh_ex[]){o->Lbar, o->E});
-    nh_html_add(w, "<p>Reduced equations</p>\n");
-    formulas f = formulas_create(o->n);
+    nh_html_chart(w, o->chart->name);
+    nh_html_add(w, "</h4>\n");
+    formulas f = formulas_create(2);
+    snprintf(formulas_add(&f, o->Lbar), sizeof *f.text, "L");
+    snprintf(formulas_add(&f, o->E), sizeof *f.text, "E");
+    formulas_write(w, "Constrained Lagrangian and energy", &f);
+    f = formulas_create(o->n);
     for (size_t i = 0; i < o->n; i++) snprintf(formulas_add(&f, o->a[i]), sizeof *f.text, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
-    formulas_write(w, &f);
+    formulas_write(w, "Reduced equations", &f);
     multipliers(w, o);
 }
 

@@ -70,9 +70,9 @@ void nh_html_verdict(const nh_verdict_of_one *v, bool field, const nh_run *run, 
     bool shown = v->has_symmetry && !v->trivial;
     nh_html_begin(&w, field ? "is it a symmetry?" : "is it conserved?");
     answer(&w, v, field);
-    nh_html_links(&w, v->has_counterexample ? "question|The question|counterexample|Where it fails|system|System|repeat|Repeat it"
-                      : shown               ? "question|The question|symmetry|The symmetry|system|System|repeat|Repeat it"
-                                            : "question|The question|system|System|repeat|Repeat it");
+    nh_html_links(&w, v->has_counterexample ? "question|The question|counterexample|Where it fails|system|System|words|Words|repeat|Repeat it"
+                      : shown               ? "question|The question|symmetry|The symmetry|system|System|words|Words|repeat|Repeat it"
+                                            : "question|The question|system|System|words|Words|repeat|Repeat it");
     nh_html_add(&w, field ? "<section id=\"question\"><h2>The current of the field</h2>\n" : "<section id=\"question\"><h2>The question</h2>\n<p>Does this stay constant along every motion?</p>\n");
     nh_html_add(&w, "<article class=\"card\">\n");
     nh_html_formula(&w, "Phi", v->current);
@@ -86,6 +86,7 @@ void nh_html_verdict(const nh_verdict_of_one *v, bool field, const nh_run *run, 
     nh_html_add(&w, "<h3>As it was understood</h3>\n");
     nh_html_equations(&w, v->model);
     nh_html_add(&w, "</section>\n");
+    nh_html_words(&w, "current symmetry case distribution residual");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }

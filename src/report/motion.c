@@ -1,6 +1,7 @@
 #include "report/motion.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/json.h"
 #include "base/memory.h"
@@ -13,12 +14,21 @@ static void put(nh_text *out, double x)
     nh_text_add(out, isfinite(x) ? text : ""); /* an empty field: it has no value there */
 }
 
+/* A second column of one name (a known current that is called E, as the energy is) also says what it is. */
+static void put_name(const nh_tracks *t, size_t which, nh_text *out)
+{
+    static const char *const kinds[] = {"state", "current", "multiplier", "energy", "watched", "shape"};
+    bool taken = false;
+    for (size_t k = 0; k < which; k++) taken |= !strcmp(t->track[k].name, t->track[which].name);
+    nh_text_addf(out, taken ? ",%s (%s)" : ",%s", t->track[which].name, kinds[t->track[which].kind]);
+}
+
 void nh_motion_csv(const nh_simulation *s, nh_text *out)
 {
     size_t shown = 0; /* without the drawing, which is at the end */
     while (shown < s->columns.count && s->columns.track[shown].kind != NH_TRACK_SHAPE) shown++;
     nh_text_add(out, "t");
-    for (size_t k = 0; k < shown; k++) nh_text_addf(out, ",%s", s->columns.track[k].name);
+    for (size_t k = 0; k < shown; k++) put_name(&s->columns, k, out);
     nh_text_add(out, "\n");
     for (size_t i = 0; i < s->motion->count; i++) {
         put(out, s->motion->time[i]);
@@ -34,7 +44,7 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
 {
     const nh_ensemble *e = s->ensemble;
     nh_text_add(out, "member,t");
-    for (size_t k = 0; k < s->columns.count; k++) nh_text_addf(out, ",%s", s->columns.track[k].name);
+    for (size_t k = 0; k < s->columns.count; k++) put_name(&s->columns, k, out);
     nh_text_add(out, "\n");
     for (size_t j = 0; j < e->members * e->count; j++) {
         nh_text_addf(out, "%zu,", j / e->count);
@@ -120,6 +130,7 @@ char *nh_motion_json(const nh_simulation *s, const nh_run *run)
     nh_json_put_number(stats, "steps", (double)s->motion->steps);
     nh_json_put_number(stats, "seconds", s->motion->seconds);
     nh_json *warnings = nh_json_put_array(root, "warnings");
+    if (s->astray) nh_json_add_text(warnings, s->astray);
     if (s->motion->note[0]) nh_json_add_text(warnings, s->motion->note);
     if (run) nh_run_json(run, s->system, root);
     return nh_json_finish(root);

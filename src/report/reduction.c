@@ -6,6 +6,7 @@
 
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/formula.h"
 
 /* Simplified unless it is so large that nobody would read it. */
 static nh_ex shortened(const nh_reduction *r, nh_ex e)
@@ -21,7 +22,7 @@ size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s
     nh_arena *arena = r->kinetic->arena;
     size_t n = 0;
     nh_reduction_equation *e = nh_arena_alloc(arena, (o->n + 2 * o->r + o->d + 1) * sizeof *e);
-    for (size_t i = 0; i < o->r; i++) {
+    for (size_t i = 0; i < o->r && !o->plain; i++) {
         nh_ex sum = nh_int(d, 0);
         for (size_t j = 0; j < o->r; j++) sum = nh_add(d, sum, nh_mul(d, o->M[i * o->r + j], o->w[j]));
         e[n++] = (nh_reduction_equation){o->momentum[i], shortened(r, sum)};
@@ -46,13 +47,10 @@ const char *nh_reduction_joint_name(const nh_reduction *r, size_t joint)
 
 /* ---- text ---- */
 
-static void put_expression(nh_text *out, const char *indent, const char *name, nh_dag *d, nh_ex e, bool verbose)
+static void put_expression(nh_text *out, const char *indent, const char *name, nh_dag *d, nh_ex e, double shown)
 {
-    enum { longest = 600 };
-    char *text = nh_print_string(d, e);
-    size_t length = strlen(text);
-    if (length > longest && !verbose) nh_text_addf(out, "%s%s = ... (%zu characters: too long to be shown; --verbose prints them)\n", indent, name, length);
-    else nh_text_addf(out, "%s%s = %s\n", indent, name, text);
+    char *text = nh_formula_text(d, e, shown);
+    nh_text_addf(out, "%s%s = %s\n", indent, name, text);
     nh_free(text);
 }
 
@@ -102,6 +100,9 @@ static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh
     nh_text_addf(out, g->given ? "Group given: %s, dimension %zu\n" : "Symmetry group: %s, dimension %zu\n", g->name, g->action.d + g->missing);
     if (g->jets)
         nh_text_addf(out, "  local symmetries of kinetic energy, potential and constraints: %zu (counted without an ansatz; of the kinetic energy alone: %zu)\n", g->jets->dimension, g->jets->of_metric);
+    if (r->weaker && g == r->all)
+        nh_text_addf(out, "  %zu more up to a total derivative in the Lagrangian: --weak\n", r->weaker);
+    if (r->strict) nh_text_add(out, "  of the equations of motion: the Lagrangian may change by a total derivative\n");
     put_generators(r, g, verbose, out);
     put_brackets(&g->action.algebra, out);
     if (!g->action.d) return;
@@ -150,21 +151,22 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
 {
     const char *with = s->against_full ? "the full motion" : "the first stage";
     if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
-    else nh_text_addf(out, "  not compared with %s", with);
-    if (s->reduced->conservative) nh_text_addf(out, r->kinetic->linear ? "; energy drifts by %.1e" : "; the moving energy drifts by %.1e", s->energy_drift);
+    if (s->compared && s->unsure > 0) nh_text_addf(out, ", which is known to %.1e itself", s->unsure);
+    if (!s->compared) nh_text_addf(out, "  not compared with %s", with);
+    if (s->reduced->conservative) nh_text_addf(out, r->kinetic->linear || s->kind == NH_STAGE_QUOTIENT ? "; energy drifts by %.1e" : "; the moving energy drifts by %.1e", s->energy_drift);
     if (s->kind == NH_STAGE_SECOND) nh_text_addf(out, ", the momentum by %.1e", s->momentum_drift);
     nh_text_add(out, "\n");
     if (s->charts) nh_text_addf(out, "  on the way the slice or the velocities are changed %zu time%s\n", s->charts, s->charts == 1 ? "" : "s");
     if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
 }
 
-static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, bool verbose, nh_text *out)
+static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, double shown, nh_text *out)
 {
     const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
     if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : m->local ? ", but locally only: its density has no single value on an angle" : "");
     if (m->measure && m->closed) {
-        put_expression(out, "    ", "density", r->kinetic->dag, m->density, verbose);
+        put_expression(out, "    ", "density", r->kinetic->dag, m->density, shown);
         if (!m->proved) nh_text_add(out, "      (to rounding)\n");
     }
     if (!m->measure) nh_text_addf(out, "  no invariant measure with a density on the shape space (|d Theta| = %.2g)\n", m->curl);
@@ -178,11 +180,12 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, bool
 static void put_second(const nh_second *t, nh_text *out)
 {
     nh_text_addf(out, "  condition (ii): weak form %.1e, strong form %.1e%s\n", t->weak, t->strong, t->strong > 1e-6 * (1 + t->weak) && t->strong > 1e-9 ? " (the momentum is conserved all the same)" : "");
-    if (t->abelian) nh_text_add(out, "  the momentum in it is constant: a level set, divided by the whole group\n");
+    if (t->magnetic) nh_text_add(out, "  the Lagrangian's part that is linear in the velocities belongs to the momentum that is conserved\n");
+    else if (t->abelian) nh_text_add(out, "  the momentum in it is constant: a level set, divided by the whole group\n");
     else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
 }
 
-static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, bool verbose, nh_text *out)
+static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, double shown, nh_text *out)
 {
     const nh_linear_momenta *l = &s->linear;
     nh_dag *d = r->kinetic->dag;
@@ -197,7 +200,7 @@ static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, bool 
         if (!nh_is_zero(d, l->N[a])) {
             char name[64];
             snprintf(name, sizeof name, "N_%zu%zu", a / l->count + 1, a % l->count + 1);
-            put_expression(out, "    ", name, d, l->N[a], verbose);
+            put_expression(out, "    ", name, d, l->N[a], shown);
         }
 }
 
@@ -218,9 +221,9 @@ static void put_chain(const nh_reduction_stage *s, nh_text *out)
     nh_text_addf(out, "  bracket by stages against the bracket %.1e, Euler-Poincare right-hand side %.1e\n", p->bracket, p->euler_poincare);
 }
 
-static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, bool verbose, nh_text *out)
+static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, double shown, nh_text *out)
 {
-    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of"};
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of", "the quotient by"};
     nh_text_addf(out, "\nStage %zu: %s %s\n", number, titles[s->kind], s->group);
     for (size_t a = 0; a < s->action->d; a++) {
         nh_text_add(out, a ? "; " : "  group    ");
@@ -233,16 +236,16 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
     if (s->kind == NH_STAGE_SECOND) put_second(s->second, out);
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
-    for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, verbose);
-    put_measure(r, s, verbose, out);
-    put_linear(r, s, verbose, out);
+    for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, shown);
+    put_measure(r, s, shown, out);
+    put_linear(r, s, shown, out);
     put_chain(s, out);
     put_numbers(r, s, out);
 }
 
-static void put_momenta(const nh_reduction *r, bool verbose, nh_text *out)
+static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
 {
-    if (!(r->kinetic->reducible || r->kinetic->general) || (r->partial && !r->momenta.count)) return;
+    if (!r->stages || (r->partial && !r->momenta.count)) return;
     nh_text_addf(out, "\n%s\n", r->momenta.count ? "Conserved momenta of the group" : "No momentum of the group is conserved (among the sections that were tried)");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
@@ -250,19 +253,20 @@ static void put_momenta(const nh_reduction *r, bool verbose, nh_text *out)
         nh_text_addf(out, "  %s of ", p->moving ? "energy less the momentum" : p->horizontal ? "horizontal symmetry: momentum" : "gauge momentum");
         nh_generator_text(r->kinetic, &field, out);
         nh_text_add(out, p->proved ? " (proved)\n" : " (to rounding)\n");
-        put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, verbose);
+        put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, shown);
     }
 }
 
 void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
 {
+    double shown = r->options.shown;
     nh_text_addf(out, "%s   with ", r->system->title);
     for (size_t i = 0; i < r->system->parameters; i++) nh_text_addf(out, "%s%s = %.6g", i ? ", " : "", r->system->parameter[i].name, r->system->parameter[i].value);
     nh_text_addf(out, "%s\n%zu coordinates, %zu constraint%s\n\n", r->system->parameters ? "" : "no parameters", r->kinetic->m, r->kinetic->f, r->kinetic->f == 1 ? "" : "s");
     if (r->all) put_group(r, r->all, verbose, out);
     if (r->group != r->all) put_group(r, r->group, verbose, out);
     put_joints(r, out);
-    for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, verbose, out);
-    if (r->group->action.d) put_momenta(r, verbose, out);
+    for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, shown, out);
+    if (r->group->action.d) put_momenta(r, shown, out);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%swarning: %s\n", i ? "" : "\n", r->warning[i]);
 }

@@ -59,16 +59,30 @@ static void put_names(nh_text *out, const nh_reduction *r, const nh_reduced *o)
     for (size_t i = 0; i < o->r; i++) nh_text_addf(out, "%s%s", o->momentum[i], i + 1 < o->r ? ", " : "");
 }
 
+/* The velocities from the momenta, or as they are. */
+static void put_velocities(const nh_reduced *o, nh_dag *d, nh_arena *arena, size_t *temporaries, nh_text *out)
+{
+    size_t w = o->r;
+    if (o->plain) {
+        put_unpacked(out, d, w, o->w, "state_", o->n);
+        return;
+    }
+    nh_text_addf(out, "    double mass_[%zu], w_[%zu];\n", w * w, w);
+    nh_typeset_c(d, w * w, o->M, targets(arena, "mass_", w * w), temporaries, out);
+    nh_text_addf(out, "    for (int i_ = 0; i_ < %zu; i_++) w_[i_] = state_[%zu + i_];\n    if (nh_solve_mass(%zu, mass_, w_)) return -1;\n", w, o->n, w);
+    put_unpacked(out, d, w, o->w, "w_", 0);
+}
+
 static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, nh_text *out)
 {
     const nh_reduced *o = s->shown;
     nh_dag *d = r->kinetic->dag;
     nh_arena *arena = r->kinetic->arena;
     size_t n = o->n, w = o->r, temporaries = 0, total = n + w;
-    nh_text_addf(out, "\n/* Stage %zu (%s), by %s.  z = (", number, nh_stage_kind_name(s->kind), s->group);
+    nh_text_addf(out, "\n/* Stage %zu (%s), by %s.  state_ = (", number, nh_stage_kind_name(s->kind), s->group);
     put_names(out, r, o);
-    nh_text_addf(out, "): %zu values;\n * rate: their derivatives; zeta: the %zu components of the group's body velocity.  0, or -1 where the mass matrix is singular. */\n", total, o->d);
-    nh_text_addf(out, "int stage%zu(const double *z, double *rate, double *zeta)\n{\n", number);
+    nh_text_addf(out, "): %zu values;\n * rate_: their derivatives; zeta_: the %zu components of the group's body velocity.  0, or -1 where the mass matrix is singular. */\n", total, o->d);
+    nh_text_addf(out, "int stage%zu(%sconst double *state_, double *rate_, double *zeta_)\n{\n", number, o->timed ? "double t, " : "");
     for (size_t i = 0; i < r->system->parameters; i++) {
         char text[40];
         nh_text_number(r->system->parameter[i].value, text, sizeof text);
@@ -78,20 +92,17 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
         nh_typeset_c_name(r->system->parameter[i].name, out);
         nh_text_add(out, ";\n");
     }
-    put_unpacked(out, d, n, o->x, "z", 0);
-    nh_text_addf(out, "    double mass_[%zu], w_[%zu];\n", w * w, w);
-    nh_typeset_c(d, w * w, o->M, targets(arena, "mass_", w * w), &temporaries, out);
-    nh_text_addf(out, "    for (int i_ = 0; i_ < %zu; i_++) w_[i_] = z[%zu + i_];\n    if (nh_solve_mass(%zu, mass_, w_)) return -1;\n", w, n, w);
-    put_unpacked(out, d, w, o->w, "w_", 0);
+    put_unpacked(out, d, n, o->x, "state_", 0);
+    put_velocities(o, d, arena, &temporaries, out);
     nh_ex *all = nh_arena_alloc(arena, (total + o->d + 1) * sizeof *all);
     const char **name = nh_arena_alloc(arena, (total + o->d + 1) * sizeof *name);
     memcpy(all, o->dx, n * sizeof *all);
     memcpy(all + n, o->F, w * sizeof *all);
     memcpy(all + total, o->zeta, o->d * sizeof *all);
-    memcpy(name, targets(arena, "rate", total), total * sizeof *name);
-    memcpy(name + total, targets(arena, "zeta", o->d), o->d * sizeof *name);
+    memcpy(name, targets(arena, "rate_", total), total * sizeof *name);
+    memcpy(name + total, targets(arena, "zeta_", o->d), o->d * sizeof *name);
     nh_typeset_c(d, total + o->d, all, name, &temporaries, out);
-    nh_text_add(out, "    (void)zeta;\n    return 0;\n}\n");
+    nh_text_add(out, "    (void)zeta_;\n    return 0;\n}\n");
 }
 
 void nh_reduction_c(const nh_reduction *r, nh_text *out)

@@ -104,6 +104,7 @@ static void put_group(nh_json *root, const char *key, const nh_reduction *r, con
     nh_json_put_number(local, "of_kinetic_energy_and_potential", (double)g->jets->of_potential);
     nh_json_put_number(local, "of_kinetic_energy_and_constraints", (double)g->jets->of_constraints);
     nh_json_put_number(local, "without_closed_form", (double)g->missing);
+    if (g == r->all) nh_json_put_number(local, "up_to_a_total_derivative", (double)r->weaker);
     nh_json_put_number(local, "largest_null_value", g->jets->last_null);
     nh_json_put_number(local, "smallest_other_value", g->jets->first_other);
 }
@@ -160,6 +161,11 @@ static void put_chaplygin(nh_json *to, const nh_reduction *r, const nh_reduction
             for (size_t k = 0; k < c->n; k++) sum = nh_add(c->dag, sum, nh_mul(c->dag, c->U[(k * c->n + i) * c->n + j], c->reduced.w[k]));
             put_expression(other, "value", c->dag, sum);
         }
+    if (!c->plain) {
+        put_matrix(to, "drift", c->dag, 1, c->d, c->A0);
+        put_matrix(to, "magnetic", c->dag, 1, c->n, c->a);
+        put_matrix(to, "force", c->dag, 1, c->n, c->force);
+    }
     put_measure(to, r, s);
 }
 
@@ -219,10 +225,11 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     for (size_t i = 0; i < s->shown->r; i++) nh_json_add_text(list, nh_name_of(d, s->shown->w[i]));
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
+    size_t momenta = s->shown->plain ? 0 : s->shown->r;
     nh_json *momentum = nh_json_put_array(to, "momentum"), *equations = nh_json_put_array(to, "equations"), *group = nh_json_put_array(to, "group_velocity");
     for (size_t i = 0; i < n; i++) {
-        bool rate = i >= s->shown->r && i + s->shown->d < n;
-        nh_json *item = nh_json_add_object(i < s->shown->r ? momentum : rate ? equations : group);
+        bool rate = i >= momenta && i + s->shown->d < n;
+        nh_json *item = nh_json_add_object(i < momenta ? momentum : rate ? equations : group);
         nh_json_put_text(item, "of", rate ? nh_arena_strndup(r->kinetic->arena, e[i].name, strlen(e[i].name) - 1) : e[i].name);
         put_expression(item, rate ? "rate" : "value", d, e[i].value);
     }
@@ -239,6 +246,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     }
     if (s->compared) nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
+    if (s->unsure > 0) nh_json_put_number(to, "unsure", s->unsure);
     nh_json_put_number(to, "reached", s->reached);
     if (s->reduced->conservative) nh_json_put_number(to, "energy_drift", s->energy_drift);
     else nh_json_put_null(to, "energy_drift");
@@ -302,6 +310,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     stages = nh_json_put_array(root, "stages");
     for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
     put_momenta(root, r);
+    nh_json_put_number(root, "coordinates", (double)r->kinetic->m);
     nh_json_put_number(root, "seconds", r->seconds);
     warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);

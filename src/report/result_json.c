@@ -263,6 +263,11 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
         nh_json_add_text(words, text);
         nh_free(text);
     }
+    nh_json *table = nh_json_put_array(item, "coefficients");
+    for (size_t i = 0; i < series->words; i++) {
+        nh_json *row = nh_json_add_array(table);
+        for (size_t k = 0; k <= series->degree; k++) nh_json_add_number(row, series->coefficient[i * series->stride + k]);
+    }
 }
 
 /* As LaTeX; null when it is too long to be shown. */

@@ -48,13 +48,7 @@ static void wrapped(nh_summary_writer *w, int hang, const char *rest)
 /* The formula as text; when it is too long, how long it would be. */
 static char *text_of(const nh_summary_writer *w, nh_ex e)
 {
-    nh_dag *d = w->r->model->dag;
-    char *text = nh_print_short(d, e, w->r->options.shown), size[120];
-    if (text) return text;
-    double length = (double)nh_complexity(d, e);
-    if (length < 1e9) snprintf(size, sizeof size, "... (%.0f symbols: too long to be shown; option `shown`)", length);
-    else snprintf(size, sizeof size, "... (too long to be shown)");
-    return nh_strdup(size);
+    return nh_formula_text(w->r->model->dag, e, w->r->options.shown);
 }
 
 /* "label = formula" */

@@ -6,7 +6,7 @@
 
 #include "expr/typeset.h"
 
-enum { width = 640, height = 300, left = 74, right = 14, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
+enum { width = 640, height = 300, left = 74, right = 22, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
 
 static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A7A7A"};
 static const char *const dashes[] = {"none", "7 3", "2 3", "9 3 2 3", "14 4"};
@@ -262,6 +262,28 @@ static void pen_to(pen *p, double x, double y)
     p->held++;
 }
 
+/* A path in the plane, whose points are equally far apart in time: a cubic in time between them (Catmull and Rom's), for corners would be of the drawing's making. */
+static void smooth(const canvas *c, const nh_curve *f)
+{
+    double p[4][2] = {{0}};
+    for (size_t i = 0; i + 1 < f->count; i++) {
+        bool on = true, first = i == 0, last = i + 2 == f->count, known;
+        for (size_t j = 0; j < 4; j++) {
+            size_t at = i + j - (j > 0 || !first); /* the ends count twice */
+            if (j == 3 && last) at = i + 1;
+            known = visible(c, f, at, &p[j][0], &p[j][1]);
+            if (!known && (j == 1 || j == 2)) on = false;
+            if (!known && j == 3) p[3][0] = p[2][0], p[3][1] = p[2][1];
+            if (!known && j == 0) first = true;
+        }
+        if (!on) continue;
+        if (first) p[0][0] = p[1][0], p[0][1] = p[1][1];
+        if (first) nh_text_addf(c->out, "M%.1f %.1f", p[1][0], p[1][1]);
+        nh_text_addf(c->out, "C%.1f %.1f %.1f %.1f %.1f %.1f", p[1][0] + (p[2][0] - p[0][0]) / 6, p[1][1] + (p[2][1] - p[0][1]) / 6, p[2][0] - (p[3][0] - p[1][0]) / 6,
+                     p[2][1] - (p[3][1] - p[1][1]) / 6, p[2][0], p[2][1]);
+    }
+}
+
 static void curve(const canvas *c, const nh_curve *f, size_t k)
 {
     double x, y;
@@ -270,7 +292,9 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
     nh_text_addf(c->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"", colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
                  dashes[k % (sizeof dashes / sizeof *dashes)]);
     pen p = {.out = c->out};
-    for (size_t i = 0; i < f->count; i++)
+    bool cubic = c->plot->equal && !thin && f->count > 3;
+    if (cubic) smooth(c, f);
+    for (size_t i = 0; i < f->count && !cubic; i++)
         if (!visible(c, f, i, &x, &y)) pen_up(&p);
         else if (thin) pen_to(&p, x, y);
         else pen_write(&p, x, y);

@@ -5,6 +5,7 @@
 #include "base/versions.h"
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/facts.h"
 #include "report/formula.h"
 #include "report/html.h"
 #include "report/tex_internal.h"
@@ -74,7 +75,7 @@ static void equations(nh_tex_writer *w, const nh_model *o)
 {
     char label[200];
     nh_tex_add(w, "\\subsection*{Reduced equations in ");
-    nh_tex_words(w, o->chart->name);
+    nh_tex_chart(w, o->chart->name);
     nh_tex_add(w, "}\n");
     for (size_t i = 0; i < o->n; i++) {
         snprintf(label, sizeof label, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
@@ -84,6 +85,11 @@ static void equations(nh_tex_writer *w, const nh_model *o)
     for (size_t a = 0; a < o->k; a++) {
         snprintf(label, sizeof label, o->k == 1 ? "mu" : "mu_%zu", a + 1);
         nh_tex_formula(w, label, o->mu[a]);
+    }
+    if (o->k) nh_tex_add(w, "Force of the constraints\n");
+    for (size_t s = 0; s < o->m && o->k; s++) {
+        snprintf(label, sizeof label, "F_%.180s", o->system->coordinate[s].name);
+        if (!nh_is_zero(o->dag, o->reaction[s])) nh_tex_formula(w, label, o->reaction[s]);
     }
 }
 
@@ -159,9 +165,15 @@ static void current(nh_tex_writer *w, const nh_found *f)
     if (f->meaning[0]) nh_tex_add(w, ": "), nh_tex_words(w, f->meaning);
     nh_tex_add(w, "}\n");
     if (f->series) {
-        nh_tex_add(w, "A Chebyshev series of degree ");
+        nh_tex_add(w, "\\nhformula{");
+        nh_typeset(f->name, NH_LATEX, w->out);
+        nh_tex_add(w, " = ");
+        nh_formula_series(w->r->model->dag, f->series, NH_LATEX, w->out);
+        nh_tex_add(w, "}\nwith Chebyshev series of degree ");
         nh_tex_count(w, f->series->degree);
-        nh_tex_add(w, " without closed form; the JSON tells more.\n");
+        nh_tex_add(w, " in ");
+        nh_tex_name(w, nh_name_of(w->r->model->dag, f->series->coordinate));
+        nh_tex_add(w, " without closed form; the JSON has their coefficients.\n");
     } else {
         nh_tex_formula(w, f->name, f->phi);
     }
@@ -202,7 +214,7 @@ static void motion_section(nh_tex_writer *w)
     nh_tex_add(w, "\\section{A motion}\n");
     nh_tex_words(w, v->method);
     nh_tex_add(w, " in ");
-    nh_tex_words(w, v->chart);
+    nh_tex_chart(w, v->chart);
     nh_tex_add(w, ", $t$ from ");
     nh_tex_number(w, v->begin, 6);
     nh_tex_add(w, " to ");
@@ -224,22 +236,22 @@ static void motion_section(nh_tex_writer *w)
 /* Both routes side by side. */
 static void routes(nh_tex_writer *w)
 {
-    static const char *const rows[] = {"columns", "independent ones", "rows", "null values", "up to", "then", "gap"};
-    const nh_spectrum *route[2];
-    size_t n = 0;
-    if (w->r->current.done) route[n++] = &w->r->current;
-    if (w->r->symmetry.done) route[n++] = &w->r->symmetry;
-    if (!n) return;
-    nh_text_addf(w->out, "\\begin{center}\\begin{tabular}{l%s}\nroute%s%s \\\\\\hline\n", n == 2 ? "rr" : "r", w->r->current.done ? " & current" : "", w->r->symmetry.done ? " & symmetry" : "");
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        nh_tex_add(w, rows[i]);
-        for (size_t k = 0; k < n; k++) {
-            const nh_spectrum *s = route[k];
-            const size_t counts[] = {s->columns, s->rank, s->rows, s->dimension};
-            const double values[] = {s->dimension && s->dimension <= s->rank ? s->spectrum[s->dimension - 1] : NAN, s->dimension < s->rank ? s->spectrum[s->dimension] : NAN, s->gap};
+    const nh_spectrum *const route[2] = {&w->r->current, &w->r->symmetry};
+    double number[2][NH_SPECTRUM_NUMBERS];
+    bool both = route[0]->done && route[1]->done;
+    if (!route[0]->done && !route[1]->done) return;
+    for (size_t k = 0; k < 2; k++)
+        if (route[k]->done) nh_facts_spectrum(route[k], number[k]);
+    nh_text_addf(w->out, "\\begin{center}\\begin{tabular}{l%s}\nroute%s%s \\\\\\hline\n", both ? "rr" : "r", route[0]->done ? " & current" : "", route[1]->done ? " & symmetry" : "");
+    const char *head = NH_SPECTRUM_HEADS;
+    for (size_t i = 0; i < NH_SPECTRUM_NUMBERS; i++) {
+        size_t length = strcspn(head, "|");
+        nh_text_add_n(w->out, head, length);
+        head += length + (head[length] == '|');
+        for (size_t k = 0; k < 2; k++) {
+            if (!route[k]->done) continue;
             nh_tex_add(w, " & ");
-            if (i < 4) nh_tex_count(w, counts[i]);
-            else nh_tex_number(w, values[i - 4], 2);
+            nh_tex_number(w, number[k][i], i < NH_SPECTRUM_COUNTS ? 10 : 2);
         }
         nh_tex_add(w, " \\\\\n");
     }

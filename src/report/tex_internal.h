@@ -23,6 +23,8 @@ void nh_tex_number(nh_tex_writer *w, double value, int digits);
 void nh_tex_count(nh_tex_writer *w, size_t value);
 /* A name within the text, as a formula when it is one of the language. */
 void nh_tex_name(nh_tex_writer *w, const char *text);
+/* Words with a list of names in parentheses at their end, such as a chart has. */
+void nh_tex_chart(nh_tex_writer *w, const char *name);
 /* label = text on lines of its own, broken where it is too long; label may be "". */
 void nh_tex_display(nh_tex_writer *w, const char *label, const char *text);
 /* The same for an expression, with the user's abbreviations. */

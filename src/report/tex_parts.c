@@ -6,6 +6,7 @@
 #include "expr/normal.h"
 #include "expr/print.h"
 #include "expr/typeset.h"
+#include "report/facts.h"
 #include "report/formula.h"
 #include "report/tex_internal.h"
 
@@ -98,26 +99,46 @@ void nh_tex_code(nh_tex_writer *w, const char *text)
 
 void nh_tex_number(nh_tex_writer *w, double value, int digits)
 {
-    char text[60], all[40];
-    if (!isfinite(value)) {
-        nh_tex_add(w, "--");
-        return;
-    }
-    nh_text_number(value, all, sizeof all);
-    snprintf(text, sizeof text, "%.*g", digits, value);
-    char *exponent = strchr(text, 'e');
-    int power = 0;
-    if (exponent) sscanf(exponent + 1, "%d", &power);
-    if (exponent) *exponent = 0;
-    nh_text_addf(w->out, exponent ? "\\nhnumber{%s}{%s\\cdot 10^{%d}}" : "\\nhnumber{%s}{%s}", all, text, power);
+    nh_shown_number n;
+    if (!nh_facts_number(value, digits, &n)) nh_tex_add(w, "--");
+    else if (n.has_power && !strcmp(n.mantissa, "1")) nh_text_addf(w->out, "\\nhnumber{%s}{10^{%d}}", n.all, n.power);
+    else nh_text_addf(w->out, n.has_power ? "\\nhnumber{%s}{%s\\cdot 10^{%d}}" : "\\nhnumber{%s}{%s}", n.all, n.mantissa, n.power);
 }
 
 void nh_tex_count(nh_tex_writer *w, size_t value) { nh_text_addf(w->out, "\\nhnumber{%zu}{%zu}", value, value); }
 
 /* ---- formulas ---- */
 
+void nh_tex_chart(nh_tex_writer *w, const char *name)
+{
+    const char *list = strstr(name, " ("), *end = strrchr(name, ')');
+    char one[200];
+    if (!list || !end || end[1]) {
+        nh_tex_words(w, name);
+        return;
+    }
+    snprintf(one, sizeof one, "%.*s", (int)(list + 2 - name), name);
+    nh_tex_words(w, one);
+    for (const char *c = list + 2, *next; c < end; c = next) {
+        size_t length = strcspn(c, ",)");
+        snprintf(one, sizeof one, "%.*s", (int)length, c);
+        nh_tex_name(w, one);
+        next = c + length + 1 + strspn(c + length + 1, " ");
+        if (next < end) nh_tex_add(w, ", ");
+    }
+    nh_tex_add(w, ")");
+}
+
 void nh_tex_name(nh_tex_writer *w, const char *text)
 {
+    const char *unit = strstr(text, " / "); /* on an axis */
+    if (unit && unit - text < 100) {
+        char name[100];
+        snprintf(name, sizeof name, "%.*s", (int)(unit - text), text);
+        nh_tex_name(w, name);
+        nh_tex_words(w, unit);
+        return;
+    }
     nh_text formula;
     bool word = !text[strcspn(text, " -/")]; /* otherwise it is a phrase, even if it could be a formula */
     nh_text_init(&formula);

@@ -3,7 +3,7 @@
 
 #include "report/tex_internal.h"
 
-enum { most_points = 201, marks = 16 };
+enum { most_points = 201, most_of_path = 601, marks = 16 };
 
 /* Those of Okabe and Ito, as in svg.c; lines differ by dashes too. */
 static const char *const styles[] = {"nhblue, solid", "nhred, dashed", "nhgreen, densely dotted", "nhpink, dash dot", "nhorange, loosely dashed", "nhsky, densely dashed", "gray, dash dot dot"};
@@ -28,9 +28,9 @@ static void headings(nh_tex_writer *w, const nh_curve *f)
 static void curve(nh_tex_writer *w, const nh_plot *p, size_t k)
 {
     const nh_curve *f = &p->curve[k];
-    size_t step = (f->count + most_points - 2) / (most_points - 1);
+    size_t most = p->equal ? most_of_path : most_points, step = (f->count + most - 2) / (most - 1);
     if (step == 0) step = 1;
-    nh_text_addf(w->out, f->dots ? "\\addplot[%s, only marks, mark=%s, mark size=1.4pt] coordinates {" : "\\addplot[%s, thick] coordinates {", styles[k % style_count], k % 2 ? "o" : "*");
+    nh_text_addf(w->out, f->dots ? "\\addplot[%s, only marks, mark=%s, mark size=1.4pt] coordinates {" : "\\addplot[%s, thick%s] coordinates {", styles[k % style_count], f->dots ? k % 2 ? "o" : "*" : p->equal ? ", smooth" : "");
     for (size_t n = 0; f->count && n <= (f->count - 2 + step) / step; n++) { /* the last one, too */
         size_t i = n * step < f->count ? n * step : f->count - 1;
         double y = f->y[i * f->y_stride];
@@ -74,10 +74,11 @@ void nh_tex_plot(nh_tex_writer *w, const nh_plot *p, const char *caption)
     nh_tex_name(w, p->y_label);
     nh_tex_add(w, "}, grid=major, grid style={gray!25}, unbounded coords=jump, label style={font=\\small}, tick label style={font=\\footnotesize}, "
                   "legend columns=-1, legend style={draw=none, font=\\footnotesize, at={(0.5,1.03)}, anchor=south, /tikz/every even column/.append style={column sep=1em}}");
+    if (p->log_x) nh_tex_add(w, ", xmode=log");
     if (p->log_y) nh_tex_add(w, ", ymode=log");
     if (p->equal) nh_tex_add(w, ", axis equal");
     if (p->timed) nh_tex_add(w, ", enlarge x limits=false");
-    range(w, p, false);
+    if (!p->log_x) range(w, p, false);
     if (!p->log_y) range(w, p, true);
     nh_tex_add(w, "]\n");
     for (size_t k = 0; k < p->curves; k++) curve(w, p, k);

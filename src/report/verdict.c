@@ -3,13 +3,16 @@
 #include <math.h>
 
 #include "base/json.h"
+#include "expr/normal.h"
 #include "expr/print.h"
 
-static void put(nh_text *out, nh_dag *dag, const char *label, nh_ex e)
+/* Longer than `shown` symbols: only how long. */
+static void put(nh_text *out, nh_dag *dag, const char *label, nh_ex e, double shown)
 {
-    nh_text_add(out, label);
-    nh_print(dag, e, out);
-    nh_text_add(out, "\n");
+    char *text = nh_print_short(dag, e, shown);
+    if (text) nh_text_addf(out, "%s%s\n", label, text);
+    else nh_text_addf(out, "%s... (%zu symbols: too long to be shown; option `shown`)\n", label, nh_complexity(dag, e));
+    nh_free(text);
 }
 
 static void put_point(const nh_verdict_of_one *v, nh_text *out)
@@ -22,28 +25,28 @@ static void put_point(const nh_verdict_of_one *v, nh_text *out)
     }
 }
 
-static void put_field(const nh_verdict_of_one *v, nh_text *out)
+static void put_field(const nh_verdict_of_one *v, double shown, nh_text *out)
 {
     nh_dag *d = v->model->dag;
     const nh_symmetry *z = &v->symmetry;
     nh_text_add(out, "  its symmetry has the components\n");
-    put(out, d, "    t: ", z->Z0);
+    put(out, d, "    t: ", z->Z0, shown);
     for (size_t s = 0; s < v->model->m; s++) {
         nh_text_addf(out, "    %s: ", v->system->coordinate[s].name);
-        put(out, d, "", z->field.space[s]);
+        put(out, d, "", z->field.space[s], shown);
     }
     for (size_t i = 0; i < v->model->n; i++) {
         nh_text_addf(out, "    %s: ", nh_name_of(d, v->model->chart->w[i]));
-        put(out, d, "", z->W[i]);
+        put(out, d, "", z->W[i], shown);
     }
     nh_text_addf(out, "  case %d; [Gamma,Z] %s the canonical distribution\n", z->kase, z->bracket_in_distribution ? "lies in" : "leaves");
 }
 
-void nh_verdict_text(const nh_verdict_of_one *v, bool field, nh_text *out)
+void nh_verdict_text(const nh_verdict_of_one *v, bool field, double shown, nh_text *out)
 {
     nh_dag *d = v->model->dag;
-    if (field) put(out, d, "the field's current is  ", v->current);
-    else put(out, d, "Phi = ", v->current);
+    if (field) put(out, d, "the field's current is  ", v->current, shown);
+    else put(out, d, "Phi = ", v->current, INFINITY);
     if (!v->conserved) {
         nh_text_addf(out, "%s\n  at ", field ? "NO: this is not a constraint symmetry" : "NO: this is not conserved");
         if (v->has_counterexample) put_point(v, out);
@@ -55,7 +58,7 @@ void nh_verdict_text(const nh_verdict_of_one *v, bool field, nh_text *out)
     else if (v->proof.proved) nh_text_add(out, ", proved for these parameter values");
     else nh_text_addf(out, ", to %.0f digits%s", v->proof.digits, v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
     nh_text_addf(out, "%s\n", v->trivial ? "; but it is trivial: the current is constant" : "");
-    if (v->has_symmetry && !v->trivial) put_field(v, out);
+    if (v->has_symmetry && !v->trivial) put_field(v, shown, out);
 }
 
 static void put_expression(nh_json *to, const char *key, nh_dag *dag, nh_ex e)

@@ -6,7 +6,7 @@
 #include "report/run.h"
 #include "study/verify.h"
 
-void nh_verdict_text(const nh_verdict_of_one *verdict, bool field, nh_text *out);
+void nh_verdict_text(const nh_verdict_of_one *verdict, bool field, double shown, nh_text *out);
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
 char *nh_verdict_json(const nh_verdict_of_one *verdict, const nh_run *run);
 

@@ -2,8 +2,8 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "study/coefficients.h"
@@ -12,21 +12,15 @@
 #include "study/figures.h"
 #include "study/integrals.h"
 #include "study/ladder.h"
+#include "study/pace.h"
 #include "study/routes.h"
 #include "study/specials.h"
 
 enum { least_samples = 256, samples_per_column = 4, motion_outputs = 401 };
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static double lap(double *last)
 {
-    double t = now(), d = t - *last;
+    double t = nh_clock(), d = t - *last;
     *last = t;
     return d;
 }
@@ -37,6 +31,7 @@ static void merge_options(nh_result *r, const nh_analyze_request *q)
 {
     const nh_analysis *a = r->analysis;
     r->options = q->options;
+    if (r->pace > 0 && !q->until_given) r->options.until /= r->pace;
     if (!a) return;
     if (a->has_seed && !q->seed_given) r->options.seed = a->seed;
     if (a->has_samples && !q->samples_given) r->options.samples = a->samples;
@@ -69,12 +64,24 @@ static bool turn_to_initial(nh_result *r, nh_chart_choice choice, const nh_analy
     return r->model && nh_analysis_resolve(r->analysis, r->model, error);
 }
 
+/* A system that is much faster than its units is sampled, and followed, at its own pace. */
+static bool set_pace(nh_result *r, nh_chart_choice choice, nh_error *error)
+{
+    double Omega = nh_pace_set(r->system, r->model);
+    if (Omega == 1) return true;
+    nh_model_free(r->model);
+    r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
+    r->pace = Omega;
+    nh_result_warn(r, "the forces act within %.1e units of time: where `domain:` says nothing, t is sampled up to there, and velocities in proportion", 1 / Omega);
+    return r->model != NULL;
+}
+
 static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *error)
 {
     nh_chart_choice choice = q->chart != NH_CHART_AUTO || !r->analysis ? q->chart : r->analysis->chart;
     uint64_t seed = (uint64_t)r->options.seed;
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, seed, error), error);
-    if (!r->model || !turn_to_initial(r, choice, q, error)) return false;
+    if (!r->model || !set_pace(r, choice, error) || !turn_to_initial(r, choice, q, error)) return false;
     if (r->model->chart->replaced)
         nh_result_warn(r, "the dependent velocities of the system file are hardly determined by the others anywhere on the sampling domain (pivots below %g): the chart is %s instead",
                        nh_chart_least_pivot, r->model->chart->name);
@@ -219,7 +226,7 @@ static void validate(nh_result *r)
 
 static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
 {
-    double start = now(), clock = start;
+    double start = nh_clock(), clock = start;
     r->options = q->options;
     r->command = q->command ? nh_arena_strdup(r->arena, q->command) : NULL;
     r->system_path = nh_arena_strdup(r->arena, q->system_path);
@@ -228,7 +235,10 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     merge_options(r, q);
     r->route = r->analysis ? r->analysis->route : NH_ROUTE_BOTH;
     r->timing.read = lap(&clock);
-    if (!make_models(r, q, error)) return false;
+    nh_deadline_set(r->options.max_seconds);
+    bool made = make_models(r, q, error);
+    nh_deadline_set(INFINITY);
+    if (!made) return false;
     merge_options(r, q); /* now the analysis' motion is known too */
     r->timing.geometry = lap(&clock);
     size_t families = r->analysis ? r->analysis->families : 0;
@@ -257,7 +267,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
         nh_result_warn(r, "interrupted: this is what was found until then%s", r->validation ? "" : ", and no motion was computed");
     }
     r->timing.validation = lap(&clock);
-    r->timing.total = now() - start;
+    r->timing.total = nh_clock() - start;
     return true;
 }
 

@@ -1,8 +1,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/progress.h"
 #include "study/chart_internal.h"
 
@@ -19,21 +19,14 @@ const char *nh_measured_status_name(nh_measured_status status)
     return names[status];
 }
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static bool late(void *context) { return nh_interrupted() || now() > ((nh_bench *)context)->deadline; }
+static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_bench *)context)->deadline; }
 
 /* ---- one motion ---- */
 
 /* A count is the same on a busy machine. */
 static double most_steps(const nh_bench *c) { return c->once ? c->options.stress_steps : 1e8; }
 
-static bool out_of_time(nh_bench *c, const nh_motion *motion) { return late(c) || now() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)); }
+static bool out_of_time(nh_bench *c, const nh_motion *motion) { return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)); }
 
 static nh_motion *integrate(nh_bench *c, const nh_contender *k, double tolerance, double step, nh_error *error)
 {
@@ -103,13 +96,13 @@ void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double ste
 {
     nh_error error;
     nh_error_clear(&error);
-    double begin = now(), left = c->begun + c->budget - begin;
+    double begin = nh_clock(), left = c->begun + c->budget - begin;
     c->deadline = begin + fmax(left / 4, 0.01);
-    nh_progress(k->method ? k->method->name : k->index == 2 ? "IDA, index 2" : "IDA, index 1", (now() - c->begun) / c->budget);
+    nh_progress(k->method ? k->method->name : k->index == 2 ? "IDA, index 2" : "IDA, index 1", (nh_clock() - c->begun) / c->budget);
     *m = (nh_measured){.method = !k->method ? k->index == 2 ? "IDA, index 2" : "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
                        .step = step, .reduced = c->formulation[k->formulation].reduced != NULL, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
-    for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && now() - begin < enough_seconds)); i++) {
+    for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && nh_clock() - begin < enough_seconds)); i++) {
         nh_motion *motion = integrate(c, k, tolerance, step, &error);
         if (motion && i == 0) judge(c, k, motion, m);
         if (motion) m->seconds = fmin(m->seconds, motion->seconds);
@@ -119,7 +112,7 @@ void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double ste
         m->seconds = NAN;
         m->note = nh_arena_strdup(c->out->arena, error.what);
     }
-    k->last = now() - begin;
+    k->last = nh_clock() - begin;
     k->given_up = m->status == NH_TIMEOUT; /* a smaller step or tolerance may still succeed after a failure */
 }
 
@@ -130,7 +123,7 @@ static bool states_of(nh_bench *c, size_t formulation, const char *method, doubl
     nh_contender k = {.method = nh_method_find(method), .formulation = formulation};
     nh_error ignored;
     nh_error_clear(&ignored);
-    c->deadline = now() + c->budget / 4;
+    c->deadline = nh_clock() + c->budget / 4;
     nh_motion *motion = integrate(c, &k, tolerance, 0, &ignored);
     c->hurried |= motion && !motion->complete && out_of_time(c, motion);
     bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) && nh_formulation_states(&c->formulation[formulation], motion, states);
@@ -205,7 +198,7 @@ static void list_candidates(nh_bench *c)
         if (why) nh_bench_refuse(c, m->name, why);
         else add(c, m, 0, false);
     }
-    if (!c->yard.currents) nh_bench_refuse(c, "projection", "no current of this system is known");
+    if (!c->yard.currents) nh_bench_refuse(c, "projection", "the energy is not conserved, and the file knows no current; `known:` may hold one that `nhsym analyze` finds");
     else if (c->model->chart->implicit) nh_bench_refuse(c, "projection", "the constraints are solved by Newton's method inside the equations of motion");
     else {
         choose_currents(c);
@@ -231,7 +224,7 @@ static void measure_all(nh_bench *c)
         for (size_t i = 0; i < c->candidates; i++) {
             nh_contender *k = &c->candidate[i];
             bool fixed = k->method && k->method->order;
-            double left = c->begun + c->budget - now();
+            double left = c->begun + c->budget - nh_clock();
             if (k->given_up) continue;
             if (k->last * step_ratio > left / 2 || left <= 0) {
                 c->out->partial = k->given_up = true;
@@ -283,7 +276,7 @@ static void watch_charts(nh_bench *c)
     for (k.formulation = 0; k.formulation < c->formulations; k.formulation++) {
         nh_formulation *f = &c->formulation[k.formulation];
         if (!f->problem.guards) continue;
-        c->deadline = now() + c->budget / 10;
+        c->deadline = nh_clock() + c->budget / 10;
         nh_motion *motion = integrate(c, &k, tolerances[2], 0, &ignored);
         f->breaks = motion && breaks_down(f, motion);
         nh_motion_free(motion);
@@ -294,7 +287,7 @@ static bool open_bench(nh_bench *c, const nh_simulate_request *request, size_t c
 {
     nh_arena *arena = nh_arena_create();
     nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
-    *c = (nh_bench){.out = out, .budget = budget, .begun = now(), .absolute = request->options.absolute, .options = request->options, .project = request->project, .once = once};
+    *c = (nh_bench){.out = out, .budget = budget, .begun = nh_clock(), .absolute = request->options.absolute, .options = request->options, .project = request->project, .once = once};
     out->arena = arena;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
@@ -372,7 +365,7 @@ nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_
     if (!open_somewhere(&c, request, budget, error)) return NULL;
     list_candidates(&c);
     nh_chart_reduced(&c, request);
-    c.begun = now(); /* the budget is for measuring: what came before is needed in any case */
+    c.begun = nh_clock(); /* the budget is for measuring: what came before is needed in any case */
     measure_all(&c);
     collect(&c);
     nh_chart_derivatives(&c.formulation[0], c.out);

@@ -3,8 +3,8 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "expr/tape_complex.h"
 #include "study/chart_internal.h"
@@ -22,13 +22,6 @@ typedef struct {
     double complex *work, *in, *out;
     long evaluations;
 } differences;
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static bool rate_at(differences *d, double t, size_t j, double step, double *out)
 {
@@ -107,10 +100,10 @@ static void measure(differences *d, const nh_chart *c, int kind, double *J, doub
         if (!jacobian(d, kind, point[0], J)) continue;
         out->evaluations = d->evaluations;
         out->error = fmax(out->error, largest_difference(n * n, J, exact));
-        double begin = now(), last = begin;
+        double begin = nh_clock(), last = begin;
         for (int i = 0; i < 100 && last - begin < enough_seconds / (double)c->probes; i++) {
             jacobian(d, kind, point[0], J);
-            double t = now();
+            double t = nh_clock();
             out->seconds = fmin(out->seconds, t - last);
             last = t;
         }

@@ -6,8 +6,8 @@
  * time, gap, dimension, and how far the known currents are from the space that was found, at points that the fit has not seen. */
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "noether/echelon.h"
 #include "noether/rows.h"
 #include "study/chart_fit.h"
@@ -30,13 +30,6 @@ typedef struct {
     double deadline;
     size_t wanted[2];  /* dimension, by route: the symmetry route's columns span more */
 } fit;
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- one ansatz, in two bases ---- */
 
@@ -96,7 +89,7 @@ static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *poin
         s->columns = a->columns * (f->model->n + 1) <= most_field_columns ? nh_rows_field_columns(f->model, a->columns, s->e, &column) : 0;
         if (!s->columns || points->count * (f->model->n + 1) < s->columns + 16) return false;
     }
-    double begin = now();
+    double begin = nh_clock();
     nh_equations *equations = nh_equations_create(s->columns);
     if (symmetry) {
         nh_rows_symmetry(f->model, s->columns, column, points, equations);
@@ -106,7 +99,7 @@ static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *poin
         nh_rows_free(rows);
     }
     s->space = plain ? nh_nullspace_plain(equations, &limits, &ignored) : nh_nullspace_solve(equations, &limits, &ignored);
-    s->seconds = now() - begin;
+    s->seconds = nh_clock() - begin;
     nh_equations_free(equations);
     if (symmetry) {
         nh_free(s->e);
@@ -135,10 +128,10 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_points *points = nh_points_create(f->model, points_wanted, 1, (uint64_t)f->options.seed, &ignored);
-    double begin = now();
+    double begin = nh_clock();
     *out = (nh_fitted){.functions = a->columns, .samples = points_wanted, .basis = chebyshev ? "Chebyshev" : "monomials", .route = symmetry ? "symmetry" : "current",
                        .solver = plain ? "plain SVD" : "generalized", .seconds = INFINITY, .error = NAN};
-    for (int i = 0; points && i < most_repeats && (i == 0 || now() - begin < enough_seconds); i++) {
+    for (int i = 0; points && i < most_repeats && (i == 0 || nh_clock() - begin < enough_seconds); i++) {
         solved s = {0};
         bool good = assemble_and_solve(f, a, points, symmetry, plain, &s);
         if (good && i == 0) judge(f, &s, out);
@@ -161,7 +154,7 @@ static void measure_level(fit *f)
     bool known[2] = {false, false};
     for (size_t d = densities; d-- > 0;) {
         size_t points = (size_t)ceil(density[d] * (double)n) + 16;
-        for (int way = 0; way < ways && now() < f->deadline; way++) {
+        for (int way = 0; way < ways && nh_clock() < f->deadline; way++) {
             if ((way & 4) && d + 1 < densities && !known[1]) continue; /* too large for this route */
             nh_fitted *m = &out->fit[out->fits];
             measure(f, points, !(way & 1), way & 4, way & 2, m);
@@ -173,7 +166,7 @@ static void measure_level(fit *f)
             m->right = known[symmetry] && !m->undecided && m->dimension == m->wanted && !(m->error > f->options.agreement);
         }
     }
-    out->fits_partial |= now() >= f->deadline;
+    out->fits_partial |= nh_clock() >= f->deadline;
 }
 
 static void mark_front(nh_comparison *out)
@@ -241,14 +234,14 @@ void nh_chart_fit(nh_bench *c, double seconds)
     nh_comparison *out = c->out;
     nh_error ignored;
     nh_error_clear(&ignored);
-    fit f = {.c = c, .model = out->question->model, .options = c->options, .deadline = now() + seconds};
+    fit f = {.c = c, .model = out->question->model, .options = c->options, .deadline = nh_clock() + seconds};
     uint64_t seed = (uint64_t)f.options.seed;
     nh_ex *letter = nh_alloc_array(3 * f.model->m + 1, sizeof *letter);
     size_t letters = nh_fit_letters(f.model, letter);
     out->fit = nh_arena_alloc(out->arena, (most_levels * densities * ways + 1) * sizeof *out->fit);
     f.ranges = nh_points_create(f.model, heldout_points, 1, seed, &ignored);
     f.heldout = nh_points_create(f.model, 2 * (size_t)f.options.chart_columns, 1, seed + 77, &ignored);
-    for (size_t degree = 1; f.ranges && f.heldout && degree <= most_levels && now() < f.deadline; degree++)
+    for (size_t degree = 1; f.ranges && f.heldout && degree <= most_levels && nh_clock() < f.deadline; degree++)
         if (!measure_degree(&f, letters, letter, degree)) break;
     mark_front(out);
     nh_points_free(f.ranges);

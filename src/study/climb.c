@@ -1,20 +1,13 @@
 #include "study/climb.h"
 
 #include <math.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/progress.h"
 #include "expr/normal.h"
 
 enum { least_points = 256, most_tested = 60, short_factor = 14 };
 static const double points_per_column = 2.5;
-
-double nh_climb_clock(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- which candidates are new ---- */
 
@@ -55,7 +48,7 @@ static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
 
 bool nh_climb_done(const nh_climb *x)
 {
-    return nh_interrupted() || x->r->independent >= x->r->local_maximum || nh_climb_clock() - x->start > x->r->options.max_seconds;
+    return nh_interrupted() || x->r->independent >= x->r->local_maximum || nh_clock() - x->start > x->r->options.max_seconds;
 }
 
 /* Certificates of vectors that are only likely are dear and mostly refused: the time limit ends them too, and leaves the question open. */
@@ -98,7 +91,8 @@ nh_tried *nh_climb_note(nh_climb *x, const char *name)
 void nh_climb_keep_spectrum(nh_climb *x, const nh_nullspace *s, bool found)
 {
     nh_result *r = x->r;
-    bool better = !r->current.done || found || (r->count == 0 && s->columns > r->current.columns);
+    bool alone = r->current.columns < 3 && s->columns >= 3; /* the energy for itself: one value shows no gap */
+    bool better = !r->current.done || found || alone || (r->count == 0 && s->columns > r->current.columns);
     if (better) r->current = nh_spectrum_of(r->arena, s);
 }
 
@@ -141,21 +135,22 @@ void nh_solved_clear(nh_solved *s)
     nh_ansatz_free(s->ansatz);
 }
 
-/* Would this stage give anything new? */
-bool nh_climb_promising(nh_climb *x, size_t families, const nh_family *family)
+size_t nh_climb_news(nh_climb *x, size_t families, const nh_family *family)
 {
     nh_solved s = nh_climb_solve(x, families, family);
-    bool fresh = false;
+    size_t fresh = 0;
     if (s.nullspace && s.nullspace->likely) {
         nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &x->r->options);
         nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
-        fresh = compare(x, list, kind) > 0;
+        fresh = compare(x, list, kind);
         nh_free(kind);
         nh_candidates_free(list);
     }
     nh_solved_clear(&s);
     return fresh;
 }
+
+bool nh_climb_promising(nh_climb *x, size_t families, const nh_family *family) { return nh_climb_news(x, families, family) > 0; }
 
 /* The first `count` null vectors, turned into what is new in them. */
 static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certain)
@@ -168,10 +163,10 @@ static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certai
 
 void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_family *family)
 {
-    nh_progress(name, (nh_climb_clock() - x->start) / x->r->options.max_seconds);
+    nh_progress(name, (nh_clock() - x->start) / x->r->options.max_seconds);
     nh_result *r = x->r;
     if (families == 0) return;
-    double start = nh_climb_clock();
+    double start = nh_clock();
     nh_tried *note = nh_climb_note(x, name);
     nh_solved s = nh_climb_solve(x, families, family);
     note->skipped = !s.ansatz;
@@ -188,6 +183,6 @@ void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_fam
         if (s.nullspace->likely > s.nullspace->dimension) note->found += harvest(x, &s, s.nullspace->likely, false);
         nh_climb_keep_spectrum(x, s.nullspace, note->found > 0);
     }
-    note->seconds = nh_climb_clock() - start;
+    note->seconds = nh_clock() - start;
     nh_solved_clear(&s);
 }

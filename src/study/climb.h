@@ -28,7 +28,6 @@ typedef struct {
     size_t sectors;
 } nh_solved;
 
-double nh_climb_clock(void); /* seconds */
 /* Nothing more to find, or no time left. */
 bool nh_climb_done(const nh_climb *climb);
 
@@ -40,13 +39,16 @@ void nh_solved_clear(nh_solved *solved);
 nh_tried *nh_climb_note(nh_climb *climb, const char *name);
 /* The spectrum that is reported: of the last stage that found something, else of the largest. */
 void nh_climb_keep_spectrum(nh_climb *climb, const nh_nullspace *nullspace, bool found);
-/* Would this stage give anything new? */
+/* How much new a stage seems to give; whether any. */
+size_t nh_climb_news(nh_climb *climb, size_t families, const nh_family *family);
 bool nh_climb_promising(nh_climb *climb, size_t families, const nh_family *family);
 /* Solve it, keep what is new, and note it. */
 void nh_climb_stage(nh_climb *climb, const char *name, size_t families, const nh_family *family);
 
 /* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
 void nh_climb_rates(nh_climb *climb);
+/* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
+void nh_climb_isometries(nh_climb *climb);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
 void nh_climb_series(nh_climb *climb);
 

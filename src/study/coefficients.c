@@ -4,9 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/normal.h"
 #include "expr/relation.h"
 #include "noether/recognise.h"
 #include "noether/refine.h"
+#include "noether/sharpen.h"
 
 static nh_ex parameter_value(const nh_model *o, size_t i)
 {
@@ -68,17 +70,45 @@ static bool near(size_t n, const double *a, const double *b)
     return worst <= 1e-6 * largest;
 }
 
-static void refine(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f)
+/* Terms that are conserved by themselves add nothing, and leave the others' coefficients undetermined; one term stays. */
+static bool drop_constant_terms(const nh_model *o, nh_candidate *c, const nh_options *options)
+{
+    nh_dag *d = o->dag;
+    size_t n = 0, pivot = 0, before = c->count;
+    for (size_t j = 0; j < before; j++) {
+        bool constant = j != c->pivot && nh_normal_is_zero(d, nh_model_gamma(o, c->term[j]), (size_t)options->proof_terms) == NH_ZERO;
+        if (constant) continue;
+        if (j == c->pivot) pivot = n;
+        c->term[n] = c->term[j];
+        c->coefficient[n++] = c->coefficient[j];
+    }
+    c->count = n;
+    c->pivot = pivot;
+    return n < before;
+}
+
+static nh_refined refine_terms(const nh_model *o, const nh_candidate *c, const nh_options *options)
 {
     bool *leading = nh_alloc_array(c->count + 1, sizeof *leading);
     leading[c->pivot] = true;
+    nh_sharpen(o, c->count, c->term, c->coefficient, c->pivot, options);
     nh_refined better = nh_refine(o, c->count, c->term, leading, 1, options);
+    nh_free(leading);
+    return better;
+}
+
+static void refine(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f)
+{
+    nh_refined better = refine_terms(o, c, options);
+    if (better.count == 0 && drop_constant_terms(o, c, options)) {
+        nh_refined_clear(&better);
+        better = refine_terms(o, c, options);
+    }
     f->asked = true;
     f->refined = better.count ? better.digits[0] : -1;
     f->moved = better.count && !near(c->count, c->coefficient, better.coefficient); /* of the same terms, but not the one that doubles saw */
     if (better.count) memcpy(c->coefficient, better.coefficient, c->count * sizeof *c->coefficient);
     nh_refined_clear(&better);
-    nh_free(leading);
 }
 
 /* ---- the whole ---- */

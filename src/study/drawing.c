@@ -23,11 +23,12 @@ static nh_shape *draw(drawing *w, nh_shape_kind kind)
     return out;
 }
 
-static void point(drawing *w, nh_ex x, nh_ex y)
+static nh_shape *point(drawing *w, nh_ex x, nh_ex y)
 {
     nh_shape *p = draw(w, NH_SHAPE_POINT);
     p->value[0] = x;
     p->value[1] = y;
+    return p;
 }
 
 static void segment(drawing *w, const nh_ex from[2], const nh_ex to[2])
@@ -96,8 +97,9 @@ static void ends(drawing *w, const int axis[2])
         nh_ex from[2], to[2];
         seen(c->body[i].pose.p, axis, from);
         seen(c->body[i].position, axis, to);
-        if (!carries) segment(w, from, to);
-        if (!carries) point(w, to[0], to[1]);
+        if (carries) continue;
+        segment(w, from, to);
+        point(w, to[0], to[1])->name = c->body[i].name;
     }
 }
 
@@ -112,6 +114,7 @@ static void bases(drawing *w, const int axis[2])
         if (!moves(w, pose->p[axis[0]]) && !moves(w, pose->p[axis[1]])) continue;
         nh_shape *p = draw(w, moves(w, sine) ? NH_SHAPE_ARROW : NH_SHAPE_POINT);
         seen(pose->p, axis, p->value);
+        p->name = c->body[c->joint[i].child].name;
         if (p->kind == NH_SHAPE_ARROW) p->value[2] = nh_call2(w->s->dag, NH_ATAN2, sine, cosine);
     }
 }
@@ -131,6 +134,7 @@ static void wheels(drawing *w)
             continue;
         }
         nh_shape *p = draw(w, v->ball ? NH_SHAPE_DISC : NH_SHAPE_WHEEL);
+        p->name = v->name;
         p->value[0] = at[0];
         p->value[1] = at[1];
         p->value[v->ball ? 2 : 3] = v->radius;
@@ -168,7 +172,7 @@ static bool several_points(drawing *w, size_t lengths, const nh_coordinate *cons
     if (lengths < 4 || lengths % 2) return false;
     for (size_t i = 0; i < lengths; i += 2)
         if (!pair(length[i]->name, length[i + 1]->name)) return false;
-    for (size_t i = 0; i < lengths; i += 2) point(w, length[i]->q, length[i + 1]->q);
+    for (size_t i = 0; i < lengths; i += 2) point(w, length[i]->q, length[i + 1]->q)->name = nh_arena_printf(w->arena, "(%s, %s)", length[i]->name, length[i + 1]->name);
     return true;
 }
 

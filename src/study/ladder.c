@@ -1,7 +1,10 @@
 #include "study/ladder.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "base/clock.h"
+#include "base/progress.h"
 #include "study/climb.h"
 #include "study/integrals.h"
 #include "study/stages.h"
@@ -59,13 +62,15 @@ static void function_stages(nh_climb *x)
 
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
-    enum { pencils_after = 2, known_after = 5, series_after = 4 };
-    nh_climb x = {.r = r, .start = nh_climb_clock()};
+    enum { pencils_after = 2, known_after = 5, isometries_after = 3, series_after = 4 };
+    nh_climb x = {.r = r, .start = nh_clock()};
     x.ranges = nh_points_create(r->model, range_points, 1, (uint64_t)r->options.seed, error);
     if (!x.ranges) return false;
+    nh_deadline_set(r->options.max_seconds);
     x.bench = nh_workbench_create(r, error);
     if (!x.bench) {
         nh_points_free(x.ranges);
+        nh_deadline_set(INFINITY);
         return false;
     }
     x.words = nh_dictionary_of(r->model);
@@ -77,9 +82,11 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
         if (i + 1 == pencils_after) nh_climb_rates(&x);
         if (i + 1 == known_after) function_stages(&x);
         if (i + 1 == known_after && !nh_climb_done(&x)) known_stage(&x);
+        if (i + 1 == isometries_after && !nh_climb_done(&x)) nh_climb_isometries(&x);
         if (i + 1 == series_after && !nh_climb_done(&x)) nh_climb_series(&x);
     }
-    if (nh_climb_clock() - x.start > r->options.max_seconds) {
+    nh_deadline_set(INFINITY);
+    if (nh_clock() - x.start > r->options.max_seconds) {
         r->partial = true;
         nh_result_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
     }

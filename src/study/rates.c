@@ -2,13 +2,16 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "expr/diff.h"
 #include "expr/print.h"
 #include "noether/pencil.h"
+#include "noether/recognise.h"
 #include "study/climb.h"
 #include "study/naming.h"
 #include "study/stages.h"
 
 enum { most_values = 24, range_points = 256 };
+static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as two that differ by the root of rounding */
 
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
 
@@ -27,16 +30,19 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
     nh_error_clear(&ignored);
     const nh_points *points = c->x->ranges;
     size_t n = c->base->columns, count = 0;
-    double *A = nh_alloc_array(points->count * n + 1, sizeof *A), *B = nh_alloc_array(points->count * n + 1, sizeof *B);
+    double largest = 0, *A = nh_alloc_array(points->count * n + 1, sizeof *A), *B = nh_alloc_array(points->count * n + 1, sizeof *B);
     nh_nullspace_options limits = nh_nullspace_options_from(&c->x->r->options);
     nh_rows_pencil(o, c->base, nh_model_gamma(o, c->q), points, A, B);
     nh_pencil *p = nh_pencil_solve(points->count, n, A, B, &limits, c->x->r->options.split, &ignored);
+    for (size_t k = 0; p && k < p->dimension; k++) largest = fmax(largest, hypot(p->re[k], p->im[k]));
     for (size_t k = 0; p && k < p->dimension && count < most; k++) {
         double x = p->re[k], y = p->im[k];
-        if (y < 0 || p->residual[k] > 1e-9) continue;
+        if (y < 0 || p->residual[k] > 1e-7 * hypot(x, y)) continue; /* relative: rates have units */
+        if (y < split_by_rounding * fabs(x)) y = 0;
+        if (fabs(x) < split_by_rounding * y) x = 0;
         if (c->periodic) y = fabs(y - round(y)); /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
-        bool old = fabs(x) + fabs(y) < 1e-6;
-        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < 1e-7 * (fabs(re[j]) + fabs(im[j]));
+        bool old = fabs(x) + fabs(y) < 1e-6 * largest;
+        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < split_by_rounding * (fabs(re[j]) + fabs(im[j]));
         if (old) continue;
         re[count] = x;
         im[count++] = y;
@@ -62,27 +68,71 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
     return n > 0 && best < 0.5 * fabs(near);
 }
 
-/* The rate as an expression of the parameters; just as a number while it is only tried. */
-static nh_ex rate_of(rate_context *c, double value, bool imaginary, bool trial)
+/* A convergent p/q of a real number is off by 1/q^2 or so: by much less only when the number is p/q (1/1000 of an angle in thousandths). */
+static nh_ex unusually_near(nh_dag *d, double value, double tolerance)
 {
-    const nh_result *r = c->x->r;
-    c->imaginary = imaginary;
-    if (fabs(value) < 1e-9) return 0; /* node 0 is the number 0 */
-    nh_ex e = trial ? 0 : nh_name_value(r->model, value, follow, c, r->options.recognise, (uint64_t)r->options.seed);
-    return e ? e : nh_real(r->model->dag, value);
+    static const double by_chance = 1e-3;
+    nh_num r;
+    if (!nh_recognise_ratio(value, INT32_MAX, tolerance, &r)) return 0;
+    double q = (double)r.q;
+    return fabs(nh_num_value(r) - value) * q * q < by_chance ? nh_number(d, r) : 0;
 }
 
-/* exp(-re q) {cos(im q), sin(im q)} for every rate. */
-static size_t wave_terms(rate_context *c, size_t n, const double *re, const double *im, bool trial, nh_ex *out)
+/* The pencil's eigenvalues have as many digits as the gap of its null space leaves, sometimes seven: what looks like the value is tried before
+ * the digits are. */
+enum { AS_DIGITS, AS_NUMBERS, NAMED };
+static const double few_digits = 1000, /* times the tolerance for recognising numbers */
+                    negligible = 1e-6;  /* of one part of a rate against the other */
+
+static nh_ex number_of(const rate_context *c, double value)
 {
     nh_dag *d = c->x->r->model->dag;
+    double exact = c->x->r->options.recognise;
+    nh_ex e;
+    if (nh_recognise_number(d, value, exact, &e) || nh_recognise_number(d, value, few_digits * exact, &e)) return e;
+    return unusually_near(d, value, few_digits * exact);
+}
+
+/* As an expression of the parameters. */
+static nh_ex named(rate_context *c, double value)
+{
+    const nh_result *r = c->x->r;
+    double exact = r->options.recognise;
+    nh_ex e = nh_name_value(r->model, value, follow, c, exact, (uint64_t)r->options.seed);
+    if (!e) e = nh_name_value(r->model, value, follow, c, few_digits * exact, (uint64_t)r->options.seed);
+    return e ? e : number_of(c, value);
+}
+
+static nh_ex rate_of(rate_context *c, double value, bool imaginary, int how)
+{
+    c->imaginary = imaginary;
+    if (value == 0) return 0; /* node 0 is the number 0 */
+    nh_ex e = how == NAMED ? named(c, value) : how == AS_NUMBERS ? number_of(c, value) : 0;
+    return e ? e : nh_real(c->x->r->model->dag, value);
+}
+
+/* The rates of one pencil, with the family that they are to multiply. */
+typedef struct {
+    rate_context context;
+    const nh_family *base;
+    size_t which, count; /* which of the pencil's bases; rates */
+    double re[most_values], im[most_values];
+    int how[most_values]; /* the form in which a rate enters */
+} waves;
+
+/* exp(-re q) {cos(im q), sin(im q)} for every rate. */
+static size_t wave_terms(waves *w, nh_ex *out)
+{
+    rate_context *c = &w->context;
+    nh_dag *d = c->x->r->model->dag;
     size_t count = 0;
-    for (size_t k = 0; k < n; k++) {
-        bool waves = fabs(im[k]) > 1e-9 * fabs(re[k]), decays = fabs(re[k]) > 1e-9 * fabs(im[k]);
-        nh_ex rate = decays ? nh_neg(d, rate_of(c, re[k], false, trial)) : 0;
+    for (size_t k = 0; k < w->count; k++) {
+        double re = w->re[k], im = w->im[k];
+        bool turns = fabs(im) > negligible * fabs(re), decays = fabs(re) > negligible * fabs(im);
+        nh_ex rate = decays ? nh_neg(d, rate_of(c, re, false, w->how[k])) : 0;
         nh_ex decay = !decays ? nh_int(d, 1) : c->base_of_power ? nh_pow(d, c->base_of_power, rate) : nh_call(d, NH_EXP, nh_mul(d, rate, c->q));
-        nh_ex angle = waves ? nh_mul(d, rate_of(c, im[k], true, trial), c->q) : 0;
-        if (!waves) out[count++] = decay;
+        nh_ex angle = turns ? nh_mul(d, rate_of(c, im, true, w->how[k]), c->q) : 0;
+        if (!turns) out[count++] = decay;
         else {
             out[count++] = nh_mul(d, decay, nh_call(d, NH_COS, angle));
             out[count++] = nh_mul(d, decay, nh_call(d, NH_SIN, angle));
@@ -93,14 +143,87 @@ static size_t wave_terms(rate_context *c, size_t n, const double *re, const doub
 
 /* The base times the waves; with the base itself only where it is everything of degree one (smooth functions on a small interval are nearly
  * dependent, so that nothing unnecessary should be there). */
-static size_t wave_families(nh_climb *x, const nh_family *base, size_t which, size_t terms, const nh_ex *wave, nh_family *out)
+static size_t wave_families(waves *w, nh_family *out)
 {
-    nh_family *part = nh_arena_alloc(x->r->arena, 2 * sizeof *part);
-    part[0] = *base;
-    part[1] = (nh_family){.kind = NH_TERMS, .terms = terms, .term = wave};
+    nh_arena *arena = w->context.x->r->arena;
+    nh_ex *wave = nh_arena_alloc(arena, 2 * w->count * sizeof *wave);
+    nh_family *part = nh_arena_alloc(arena, 2 * sizeof *part);
+    part[0] = *w->base;
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = wave_terms(w, wave), .term = wave};
     out[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-    out[1] = *base;
-    return which == NH_PENCIL_PLAIN - 1 ? 2 : 1;
+    out[1] = *w->base;
+    return w->which == NH_PENCIL_PLAIN - 1 ? 2 : 1;
+}
+
+/* How much new the rates promise, the k-th in the given form. */
+static size_t promises(waves *w, size_t k, int how)
+{
+    nh_family family[2];
+    w->how[k] = how;
+    return nh_climb_news(w->context.x, wave_families(w, family), family);
+}
+
+/* Whether the value and what it looks like are the same to rounding. */
+static bool plain(const rate_context *c, double value)
+{
+    nh_ex e;
+    return nh_recognise_number(c->x->r->model->dag, value, c->x->r->options.recognise, &e) || !number_of(c, value);
+}
+
+/* Each rate by itself in the form in which it promises most; those that promise nothing are left out. */
+static void choose_forms(waves *w)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < w->count; k++) {
+        waves one = *w;
+        one.count = 1;
+        one.re[0] = w->re[k];
+        one.im[0] = w->im[k];
+        size_t most = promises(&one, 0, AS_NUMBERS);
+        int how = AS_NUMBERS;
+        if (!plain(&w->context, w->re[k]) || !plain(&w->context, w->im[k])) {
+            size_t digits = promises(&one, 0, AS_DIGITS);
+            if (digits > most) how = AS_DIGITS, most = digits;
+        }
+        if (!most) continue;
+        if (promises(&one, 0, NAMED) >= most) how = NAMED;
+        w->re[kept] = w->re[k];
+        w->im[kept] = w->im[k];
+        w->how[kept++] = how;
+    }
+    w->count = kept;
+}
+
+/* Is the function g of t a wave of frequency nu, g'' = -nu^2 g? */
+static bool is_wave(const nh_climb *x, nh_ex g, double nu)
+{
+    const nh_model *o = x->r->model;
+    const nh_points *p = x->ranges;
+    nh_ex t = o->system->t, pair[2] = {g, nh_diff(o->dag, nh_diff(o->dag, g, t), t)};
+    double *value = nh_alloc_array(2 * p->count + 1, sizeof *value), rest = 0, size = 0;
+    nh_points_evaluate(p, o, 2, pair, value);
+    for (size_t i = 0; i < p->count; i++) {
+        rest = fmax(rest, fabs(value[p->count + i] + nu * nu * value[i]));
+        size = fmax(size, fabs(value[p->count + i]));
+    }
+    nh_free(value);
+    return size > 0 && rest < 1e-7 * size;
+}
+
+/* The frequencies with which a system is driven are waves of the base itself: nothing is conserved with them, and they are nearly dependent on the others. */
+static size_t without_driven(const nh_climb *x, nh_ex q, size_t n, double *re, double *im)
+{
+    const nh_model *o = x->r->model;
+    size_t kept = 0;
+    for (size_t k = 0; k < n; k++) {
+        bool driven = false;
+        for (size_t i = 0; i < x->words.atoms && q == o->system->t && fabs(re[k]) < 1e-9 * fabs(im[k]) && !driven; i++)
+            driven = nh_depends(o->dag, x->words.atom[i], q) && is_wave(x, x->words.atom[i], im[k]);
+        re[kept] = re[k];
+        im[kept] = im[k];
+        kept += !driven;
+    }
+    return kept;
 }
 
 /* Returns whether something new was found. */
@@ -111,21 +234,19 @@ static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, si
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t before = r->independent;
-    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, which), family[2];
+    size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which; /* elsewhere 1 and q are a pair that rounding splits */
+    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, index), family[2];
     nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &ignored);
     if (!a) return false;
-    rate_context c = {.x = x, .base = a, .q = q, .base_of_power = power};
-    for (size_t i = 0; i < x->words.waves; i++) c.periodic |= x->words.wave[i] == q;
-    double re[most_values], im[most_values];
-    size_t n = rates(r->model, &c, re, im, most_values);
-    if (n > most_rates) n = most_rates;
-    nh_ex *wave = nh_arena_alloc(r->arena, (2 * n + 1) * sizeof *wave);
-    size_t terms = wave_terms(&c, n, re, im, true, wave);
-    if (terms && nh_climb_promising(x, wave_families(x, &base, which, terms, wave, family), family)) {
+    waves w = {.context = {.x = x, .base = a, .q = q, .base_of_power = power}, .base = &base, .which = which};
+    for (size_t i = 0; i < x->words.waves; i++) w.context.periodic |= x->words.wave[i] == q;
+    w.count = without_driven(x, q, rates(r->model, &w.context, w.re, w.im, most_values), w.re, w.im);
+    if (w.count > most_rates) w.count = most_rates;
+    choose_forms(&w);
+    if (w.count) {
         char text[120];
         snprintf(text, sizeof text, power ? "powers of %.60s with exponents found by the pencil" : "exponentials and waves in %.60s with rates found by the pencil", name);
-        wave_terms(&c, n, re, im, false, wave);
-        nh_climb_stage(x, text, wave_families(x, &base, which, terms, wave, family), family);
+        nh_climb_stage(x, text, wave_families(&w, family), family);
     }
     nh_ansatz_free(a);
     return r->independent > before;
@@ -169,6 +290,20 @@ static void powers(nh_climb *x)
     }
 }
 
+/* exp(-nu V) f with V the potential: what a thermostat that keeps the speed gives (f falls as the forces do work). */
+static void potential_rate(nh_climb *x)
+{
+    const nh_model *o = x->r->model;
+    nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero), *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
+    if (o->k == 0 || nh_climb_done(x)) return;
+    for (size_t s = 0; s < o->m; s++) {
+        v[s] = o->system->coordinate[s].v;
+        zero[s] = nh_int(o->dag, 0);
+    }
+    nh_ex V = nh_substitute(o->dag, o->system->lagrangian, o->m, v, zero);
+    if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t)) pencil_stage(x, V, 0, "the potential", NH_PENCIL_PRODUCTS);
+}
+
 /* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
 void nh_climb_rates(nh_climb *x)
 {
@@ -181,4 +316,5 @@ void nh_climb_rates(nh_climb *x)
         for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);
+    potential_rate(x);
 }

@@ -8,12 +8,13 @@
 
 #include "base/linalg.h"
 #include "base/progress.h"
+#include "geometry/bordered.h"
 #include "study/reduce_internal.h"
 #include "study/simulate.h"
 
 const char *nh_stage_kind_name(nh_stage_kind kind)
 {
-    static const char *const names[] = {"chaplygin", "second", "lagrange-dalembert-poincare", "slice"};
+    static const char *const names[] = {"chaplygin", "second", "lagrange-dalembert-poincare", "slice", "quotient"};
     return names[kind];
 }
 
@@ -81,6 +82,25 @@ static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *
     return nh_error_hint(error, "leave out velocities that the constraints determine, or --project them to the nearest allowed ones");
 }
 
+/* The same for constraints of any kind: to the nearest velocities that satisfy them, which those that are given must not notice. */
+static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *given, nh_error *error)
+{
+    static const double allowed = 1e-9;
+    size_t m = r->kinetic->m;
+    double *v = nh_alloc_array(m + 1, sizeof *v), off = 0;
+    memcpy(v, r->initial.v, m * sizeof *v);
+    nh_bordered *b = nh_bordered_create(r->model);
+    bool found = nh_bordered_project(b, 0, r->initial.q, r->initial.v);
+    for (size_t s = 0; s < m; s++)
+        if (!given || given[s]) off = fmax(off, fabs(v[s] - r->initial.v[s]));
+    nh_bordered_free(b);
+    nh_free(v);
+    if (!found) return nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
+    if (off <= allowed || q->project) return true;
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the nearest that do not are off by %.3g", off);
+    return nh_error_hint(error, "give other values, or --project them to these");
+}
+
 static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
     size_t m = r->kinetic->m;
@@ -94,6 +114,7 @@ static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *
         memcpy(r->initial.q, own->initial.q, m * sizeof(double));
         memcpy(r->initial.v, own->initial.v, m * sizeof(double));
         if (r->kinetic->affine && r->kinetic->autonomous) good = velocities(r, q, own->initial.given, error);
+        else if (r->kinetic->f) good = project(r, q, own->initial.given, error);
     }
     nh_analysis_free(own);
     return good;
@@ -158,7 +179,7 @@ static bool group_of_fields(nh_reduction *r, const char *text, nh_error *error)
     if (good && !n) good = nh_fail(error, NH_USAGE, "--group", "no field is given");
     nh_free(g);
     nh_free(component);
-    return good && nh_action_check(&r->group->action, error);
+    return good && nh_action_check(&r->group->action, &r->options, error);
 }
 
 /* The fields of the system file. */
@@ -169,7 +190,7 @@ static bool group_of_file(nh_reduction *r, nh_error *error)
     for (size_t i = 0; i < s->symmetries; i++) nh_generator_init(&g[i], r->kinetic, NULL, s->symmetry + i * s->coordinates, &r->options);
     r->group = nh_group_of(r->kinetic, s->symmetries, g, &r->options);
     nh_free(g);
-    return nh_action_check(&r->group->action, error);
+    return nh_action_check(&r->group->action, &r->options, error);
 }
 
 /* "1, 2, 5": generators of the group that was found. */
@@ -192,21 +213,47 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
     }
     if (good) r->group = nh_group_of(r->kinetic, n, g, &r->options);
     nh_free(g);
-    return good && nh_action_check(&r->group->action, error);
+    return good && nh_action_check(&r->group->action, &r->options, error);
+}
+
+/* How many more symmetries the equations have than L. */
+static void count_weaker(nh_reduction *r)
+{
+    nh_error trouble = {0};
+    const nh_kinetic *k = r->kinetic;
+    bool flat = !k->magnetic;
+    for (size_t s = 0; s < k->m && flat; s++) flat = !nh_depends(k->dag, k->V, k->q[s]);
+    if (!r->all->jets || r->strict || flat || nh_interrupted()) return;
+    nh_jets *j = nh_jets_find(nh_weak_kinetic(k), &r->options, &trouble);
+    if (j && j->dimension > r->all->jets->dimension) r->weaker = j->dimension - r->all->jets->dimension;
+    nh_jets_free(j);
+    nh_error_clear(&trouble);
 }
 
 static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
+    if (q->group && !q->group[strspn(q->group, " ,;\t")]) return nh_fail(error, NH_USAGE, "--group", "no field and no number of a generator is given");
     bool numbers = q->group && !q->group[strspn(q->group, "0123456789 ,;")];
     if (!q->group && r->system->symmetries) return group_of_file(r, error);
     if (!q->group || numbers) {
         r->all = nh_group_find(r->kinetic, &r->options, error);
         if (!r->all) return false;
+        count_weaker(r);
         if (r->all->missing) nh_reduction_warn(r, "%zu further local symmetries have no closed form in the functions that were tried", r->all->missing);
     }
     if (numbers) return group_of_numbers(r, q->group, error);
     if (q->group) return group_of_fields(r, q->group, error);
     r->group = r->all;
+    return true;
+}
+
+/* At a place that the group does not move as it moves others there is nothing to divide out: an error where the group was given, else a warning. */
+static bool starts_well(nh_reduction *r, nh_error *error)
+{
+    nh_error trouble = {0};
+    if (!r->kinetic->metric || nh_action_check_at(&r->group->action, r->initial.q, &r->options, r->group->given ? error : &trouble)) return true;
+    if (r->group->given) return false;
+    nh_reduction_warn(r, "at the initial place %s", trouble.what);
     return true;
 }
 
@@ -230,7 +277,24 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     r->model = nh_model_bare(r->system, nh_chart_create(r->system, q->chart, (uint64_t)q->options.seed, error));
     if (!r->model) return false;
     r->kinetic = nh_kinetic_create(r->model, (uint64_t)q->options.seed, error);
-    return r->kinetic != NULL;
+    if (!r->kinetic || !q->weak) return r->kinetic != NULL;
+    if (!r->kinetic->general) {
+        nh_fail(error, NH_USAGE, "", "symmetries up to a total derivative are looked for with metrics and constraints that are at most affine only: %s", r->kinetic->obstacle);
+        return nh_error_hint(error, "leave --weak out");
+    }
+    r->strict = r->kinetic;
+    r->kinetic = nh_weak_kinetic(r->strict);
+    return true;
+}
+
+/* Of a system that is divided as it is, or by symmetries of its equations. */
+static bool conserved(nh_reduction *r)
+{
+    nh_error trouble = {0};
+    if (r->strict) nh_weak_momenta(&r->momenta, r->strict, &r->group->action, &r->options);
+    else if (!nh_reduction_quotient_momenta(r, &trouble)) nh_reduction_warn(r, "no momenta were looked for: %s", trouble.what);
+    nh_error_clear(&trouble);
+    return true;
 }
 
 nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
@@ -242,15 +306,16 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     r->options = q->options;
     r->until = q->options.until;
     r->chain_text = q->chain;
+    r->chart = q->chart;
     nh_linalg_threads(1);
     nh_progress("the symmetry group", -1);
-    bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && joint_by_joint(r, q, error);
+    bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && starts_well(r, error) && joint_by_joint(r, q, error);
     bool some = r->kinetic && (r->kinetic->reducible || r->kinetic->general);
-    if (good && !some) nh_reduction_warn(r, "the symmetries are found, but the system is not reduced: %s", r->kinetic->obstacle);
-    bool divide = good && some && r->group->action.d;
+    if (good && !some && r->group->action.d) nh_reduction_warn(r, "%s: no connection and no momentum is used, the equations are divided by the group as they are", r->kinetic->obstacle);
+    bool divide = good && r->group->action.d;
     if (divide) nh_progress("reduced equations, and motions of both", -1);
     if (divide && !nh_interrupted()) good = nh_reduction_stages(r, error);
-    if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = nh_momenta_find(&r->momenta, &r->group->action, &r->options, error);
+    if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
     if (nh_interrupted()) nh_reduction_warn(r, "interrupted: this is what was found until then");
     if (good && nh_interrupted()) nh_error_clear(error);
     r->seconds = (double)(clock() - r->begin) / CLOCKS_PER_SEC;
@@ -264,6 +329,8 @@ static void clear_stages(nh_reduction *r)
     for (size_t i = 0; i < 4; i++) nh_action_clear(&r->action[i]);
     for (size_t i = 0; i < 2; i++) nh_second_clear(&r->second[i]);
     nh_ideals_clear(&r->chain);
+    nh_frame_motion_free(r->frame);
+    r->frame = NULL;
     for (size_t i = 0; i < r->stages; i++) nh_free(r->stage[i].group);
     memset(r->action, 0, sizeof r->action);
     memset(r->second, 0, sizeof r->second);
@@ -276,7 +343,7 @@ bool nh_reduction_again(nh_reduction *r, size_t place, nh_error *error)
 {
     const nh_kinetic *k = r->kinetic;
     if (place >= k->places) return nh_fail(error, NH_USAGE, "", "there are %zu sample points only", k->places);
-    if (!(k->reducible || k->general) || !r->group->action.d) return nh_fail(error, NH_USAGE, "", "the system is not reduced");
+    if (!r->group->action.d) return nh_fail(error, NH_USAGE, "", "the system is not reduced");
     clear_stages(r);
     r->begin = clock();
     r->warnings = 0;
@@ -294,6 +361,7 @@ void nh_reduction_free(nh_reduction *r)
     if (r->group != r->all) nh_group_free(r->group);
     nh_group_free(r->all);
     nh_kinetic_free(r->kinetic);
+    nh_model_free(r->whole);
     nh_model_free(r->model);
     nh_system_free(r->system);
     nh_arena_free(r->arena);

@@ -10,8 +10,10 @@
 #include "reduction/linear.h"
 #include "reduction/momenta.h"
 #include "reduction/poincare.h"
+#include "reduction/quotient.h"
 #include "reduction/reconstruct.h"
 #include "reduction/second.h"
+#include "reduction/weak.h"
 
 typedef struct {
     const char *system_path;
@@ -20,12 +22,13 @@ typedef struct {
     nh_chart_choice chart;
     const char *initial;      /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
     bool project;             /* move velocities that violate the constraints to the nearest that do not */
+    bool weak;                /* symmetries that change L by a total derivative count, too */
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     nh_options options;
 } nh_reduce_request;
 
-typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE } nh_stage_kind;
+typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE, NH_STAGE_QUOTIENT } nh_stage_kind;
 
 /* One stage, written on a slice through the initial state; `shown` is the same on the slice y = 0, where it is regular there. */
 typedef struct {
@@ -45,6 +48,7 @@ typedef struct {
     double linear_drift;      /* of these currents along the reduced motion; negative: not followed */
     bool against_full;        /* compared with the full motion; false: a second stage whose shape moves under the first group, compared with the first */
     double agreement;         /* largest difference of a position, relative to 1 + size */
+    double unsure;            /* how well the full motion itself is known, measured where the agreement exceeds 100 tolerances; else 0 */
     double reached;           /* time up to which */
     double energy_drift;      /* of the reduced motion, relative */
     double momentum_drift;    /* second kind: of the spatial momentum */
@@ -59,7 +63,12 @@ typedef struct {
     nh_arena *arena;
     nh_system *system;
     nh_model *model;          /* bare */
+    nh_model *whole;          /* with its geometry, where a stage needs that; NULL */
+    nh_frame_motion *frame;   /* of a quotient; NULL */
+    nh_chart_choice chart;
     nh_kinetic *kinetic;
+    nh_kinetic *strict;       /* the true one, where `kinetic` has the potential as a force (weak.h); else NULL */
+    size_t weaker;            /* symmetries that change L by a total derivative, beyond those counted in `all` */
     nh_group *all;            /* the whole symmetry group; NULL where fields were given */
     nh_group *group;          /* the one that is reduced by (may be `all`) */
     nh_options options;
@@ -90,5 +99,8 @@ void nh_reduction_free(nh_reduction *reduction);
 bool nh_reduction_again(nh_reduction *reduction, size_t place, nh_error *error);
 
 const char *nh_stage_kind_name(nh_stage_kind kind);
+/* Is a stage's motion further from the full one than 100 tolerances and what the full one itself is unsure by?  (The triangle's inequality: then it is further
+ * than 100 tolerances from the true motion.) */
+bool nh_stage_apart(const nh_reduction_stage *stage, const nh_options *options);
 
 #endif

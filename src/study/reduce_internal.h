@@ -1,10 +1,11 @@
-/* reduce_internal: shared by reduce.c (the question), reduce_stages.c (the stages and their motions) and reduce_whole.c (the whole group at once). */
+/* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages and their motions), reduce_whole.c (the whole group at once) and
+ * reduce_quotient.c (other systems). */
 #ifndef NH_REDUCE_INTERNAL_H
 #define NH_REDUCE_INTERNAL_H
 
 #include "study/reduce.h"
 
-enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000 };
+enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000, NH_REDUCTION_ALLOWED = 100 }; /* the last one in tolerances */
 
 /* What stages are compared with. */
 typedef struct {
@@ -13,7 +14,15 @@ typedef struct {
     size_t reached;       /* outputs of the full motion */
     double *full;         /* outputs x 2 m */
     double rtol;          /* of every motion that is compared */
+    double unsure;        /* see nh_reduction_unsure; 0: not measured */
 } nh_reduction_bench;
+
+/* How far two places are apart, relative to 1 + size, angles modulo 2 pi. */
+double nh_reduction_distance(const nh_kinetic *kinetic, const double *a, const double *b);
+/* The reference, and the tolerance of all motions. */
+bool nh_reduction_full_motion(nh_reduction_bench *bench, nh_error *error);
+/* How far full motions with two other tolerances are from the reference at most (it is trusted no further than to 100 tolerances, and this is no larger). */
+double nh_reduction_unsure(nh_reduction_bench *bench);
 
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
 void nh_reduction_make_slices(nh_reduction *reduction, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown);
@@ -26,6 +35,10 @@ void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, 
 bool nh_reduction_free_subgroup(nh_reduction *reduction, nh_action *out);
 /* Divide a group out at once, with the equations by stages where V + D = TQ. */
 bool nh_reduction_whole(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
+
+/* Divide a group out of equations that it leaves invariant, whatever they are (quotient.h); what is conserved there. */
+bool nh_reduction_quotient(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
+bool nh_reduction_quotient_momenta(nh_reduction *reduction, nh_error *error);
 
 /* Is the time limit passed?  Then what is about to be left out is told. */
 bool nh_reduction_late(nh_reduction *reduction, const char *what);

@@ -8,91 +8,6 @@
 #include "reduction/subspace.h"
 #include "study/reduce_internal.h"
 
-
-/* How far two places are apart: angles modulo 2 pi, relative to 1 + size, measured by the metric with unit diagonal.  Near a pole of the coordinates large
- * differences of two angles may mean nearly the same place, and only the metric tells. */
-static double distance(const nh_kinetic *k, const double *a, const double *b)
-{
-    static const double turn = 6.283185307179586;
-    size_t m = k->m;
-    double *K = nh_alloc_array(m * m + 2 * m, sizeof *K), *off = K + m * m, *unit = off + m, size = 1, square = 0;
-    nh_kinetic_values(k, m * m, k->K, b, K);
-    for (size_t s = 0; s < m; s++)
-        if (k->angle[s]) size = fmax(size, 1 + fabs(b[s]));
-    for (size_t s = 0; s < m; s++) {
-        off[s] = a[s] - b[s];
-        if (k->angle[s]) off[s] -= turn * round(off[s] / turn);
-        off[s] /= k->angle[s] ? size : 1 + fabs(b[s]);
-        unit[s] = K[s * (m + 1)] > 0 ? 1 / sqrt(K[s * (m + 1)]) : 0;
-    }
-    for (size_t i = 0; i < m * m; i++) square += K[i] * unit[i / m] * unit[i % m] * off[i / m] * off[i % m];
-    nh_free(K);
-    return isfinite(square) ? sqrt(fmax(square, 0)) : INFINITY;
-}
-
-static double farthest(const nh_kinetic *k, const nh_motion *a, const nh_motion *b)
-{
-    double worst = 0;
-    for (size_t i = 0; i < a->count && i < b->count; i++) worst = fmax(worst, distance(k, a->state + i * a->size, b->state + i * b->size));
-    return worst;
-}
-
-/* ---- the full motion ---- */
-
-static nh_motion *full_with(nh_reduction_bench *b, double rtol, nh_error *error)
-{
-    nh_reduction *r = b->r;
-    size_t m = r->kinetic->m;
-    nh_bordered *bordered = nh_bordered_create(r->model);
-    nh_flow_problem problem = nh_bordered_flow(bordered);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
-    double *z = nh_alloc_array(2 * m, sizeof *z);
-    memcpy(z, r->initial.q, m * sizeof *z);
-    memcpy(z + m, r->initial.v, m * sizeof *z);
-    nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error);
-    nh_bordered_free(bordered);
-    nh_free(z);
-    return motion;
-}
-
-/* The number of outputs up to which the reference is known well enough to judge by it. */
-static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
-{
-    size_t n = 0, least = coarse->count < fine->count ? coarse->count : fine->count;
-    while (n < least && distance(k, coarse->state + n * coarse->size, fine->state + n * fine->size) <= allowed) n++;
-    return n;
-}
-
-/* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up along a motion: the tolerance with which
- * all are computed is a hundredth of the one that is asked for, or less where the full motion shows that this would not do. */
-static bool full_motion(nh_reduction_bench *b, nh_error *error)
-{
-    static const double part = 0.01, finest = 1e-14, least = 5e-14, aim = 10, allowed = 100; /* in tolerances */
-    nh_reduction *r = b->r;
-    size_t m = r->kinetic->m;
-    b->rtol = fmax(r->options.tolerance * part, least);
-    nh_motion *coarse = full_with(b, b->rtol, error), *fine = coarse ? full_with(b, finest, error) : NULL;
-    double off = fine ? farthest(r->kinetic, coarse, fine) : 0;
-    if (fine && off > aim * r->options.tolerance && b->rtol > least) {
-        b->rtol = fmax(b->rtol * aim * r->options.tolerance / off, least);
-        nh_motion_free(coarse);
-        coarse = full_with(b, b->rtol, error);
-    }
-    if (coarse && fine) {
-        r->full_seconds = coarse->seconds;
-        b->reached = reliable(r->kinetic, coarse, fine, allowed * r->options.tolerance);
-        r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
-        if (b->reached < fine->count)
-            nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
-        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
-        memcpy(b->full, fine->state, fine->count * 2 * m * sizeof *b->full);
-        if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
-    }
-    nh_motion_free(coarse);
-    nh_motion_free(fine);
-    return b->full != NULL;
-}
-
 /* ---- a stage ---- */
 
 static char *name_of(nh_reduction *r, const nh_action *action)
@@ -193,14 +108,14 @@ static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, nh_a
     s->compared = n > 1;
     s->agreement = 0;
     s->reached = n > 1 ? b->times[n - 1] : 0;
-    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, distance(s->action->kinetic, c->q + i * c->m, want + i * stride));
+    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, nh_reduction_distance(s->action->kinetic, c->q + i * c->m, want + i * stride));
     snprintf(s->note, sizeof s->note, "%.250s", c->note);
     nh_reconstruction_free(c);
     return true;
 }
 
 /* Integrate, reconstruct, compare: positions `want` (stride apart) are those of the motion that is to be met.  Where they are apart the reduced motion is computed
- * again, once, with a smaller tolerance: it may be the more sensitive one. */
+ * again, once, with a smaller tolerance: it may be the more sensitive one; and where they still are it is measured how well the full motion is known itself. */
 void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas *atlas, const double *q, const double *v, const double *want, size_t stride, size_t reached)
 {
     static const double apart = 50, finer = 0.02, least = 2e-14; /* apart in tolerances */
@@ -216,7 +131,12 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas
     nh_reduction_stage before = *s;
     options.tolerance = fmax(options.tolerance * finer, least);
     if (!reduced_and_group(b, s, atlas, &options, q, v, want, stride, reached) || s->reached < before.reached || s->agreement > before.agreement) *s = before;
+    if (s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
+    s->unsure = nh_reduction_unsure(b);
+    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s is %.1e from the one that it is compared with: more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);
 }
+
+bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options) { return s->compared && !(s->agreement <= NH_REDUCTION_ALLOWED * options->tolerance + s->unsure); }
 
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
@@ -254,7 +174,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->reduced = &c->reduced;
     s->shown = &pretty->reduced;
     s->chaplygin = pretty;
-    if (!r->brief) s->measure = measure_of(r, slice, c->K, c->U, pretty->slice, pretty->K, pretty->U);
+    if (!r->brief && c->plain) s->measure = measure_of(r, slice, c->K, c->U, pretty->slice, pretty->K, pretty->U);
     nh_atlas *atlas = nh_atlas_create(action, true);
     size_t *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
     for (size_t i = 0; i < slice->n; i++) independent[i] = i;
@@ -286,7 +206,7 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t r
     return n;
 }
 
-/* Drift of e_a^s p_s along the once reduced motion, and that motion's positions. */
+/* Drift of e_a^s (p_s + ahat_s) along the once reduced motion, and that motion's positions. */
 static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, const nh_second *t, const double *z, double *drift, size_t *reached)
 {
     nh_reduction *r = b->r;
@@ -296,16 +216,17 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
     nh_flow_options options = {.method = NH_ADAMS, .rtol = b->rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
-    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d, sizeof *E), *start = E + n * d, size = 1;
+    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d + n, sizeof *E), *start = E + n * d, *magnetic = start + 2 * d, size = 1;
     *drift = 0;
     *reached = motion ? motion->count : 0;
     for (size_t i = 0; i < *reached; i++) {
         const double *at = motion->state + i * 2 * n;
         memcpy(out + i * n, at, n * sizeof *out);
         nh_action_values(&t->action, at, E);
+        nh_kinetic_values(t->hat, n, first->a, at, magnetic);
         for (size_t a = 0; a < d; a++) {
             double momentum = 0;
-            for (size_t k = 0; k < n; k++) momentum += E[k + a * n] * at[n + k];
+            for (size_t k = 0; k < n; k++) momentum += E[k + a * n] * (at[n + k] + magnetic[k]);
             if (i == 0) start[a] = momentum, size = fmax(size, fabs(momentum));
             *drift = fmax(*drift, fabs(momentum - start[a]) / size);
         }
@@ -368,7 +289,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
         s->slice = &t->slice;
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
-        if (t->abelian && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
+        if (t->abelian && first->plain && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
         s->against_full = full != NULL;
@@ -402,6 +323,7 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
+        if (n && !d && !first->plain) nh_reduction_warn(r, "no second stage: in the reduced system forces act along the further symmetries (%zu) that normalise the first group, so that no momentum is conserved", n);
         if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
         nh_free(field);
     }
@@ -414,8 +336,9 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
     for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
     if (nh_reduction_late(r, "the reduction")) return true;
-    if (!full_motion(&b, error) || (!nh_interrupted() && r->kinetic->reducible && !first_and_second(&b, error))) return false;
+    if (!nh_reduction_full_motion(&b, error) || (!nh_interrupted() && r->kinetic->general && !first_and_second(&b, error))) return false;
     const nh_action *g = &r->group->action;
+    bool quotient = !r->kinetic->general;
     if (nh_interrupted()) return true;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
     if (nh_reduction_late(r, "the whole group divided out at once")) return true;
@@ -425,7 +348,8 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     }
     if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); a subgroup of dimension %zu is divided out at once", g->d - g->orbit, r->action[1].d);
     nh_error trouble = {0};
-    if (!nh_reduction_whole(&b, &r->action[1], &trouble) && r->chain_text) {
+    bool good = quotient ? nh_reduction_quotient(&b, &r->action[1], &trouble) : nh_reduction_whole(&b, &r->action[1], &trouble);
+    if (!good && r->chain_text) {
         if (error) *error = trouble;
         return false;
     }

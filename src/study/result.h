@@ -16,6 +16,8 @@ typedef struct {
     double low, high;
     size_t degree, words;
     nh_ex *word;              /* the functions that they multiply */
+    double *coefficient;      /* of T_k for word i: coefficient[i * stride + k], k = 0 .. degree */
+    size_t stride;
 } nh_series;
 
 typedef struct {
@@ -100,6 +102,7 @@ typedef struct {
     nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
     nh_distribution constraint; /* the kind of constraint */
     nh_options options;
+    double pace;                /* Omega of study/pace.h where the system was found fast (or long), else 0 */
     nh_route route;
     const char *ansatz_note;  /* what was tried, in words */
     size_t samples, beyond, rejected; /* beyond: where the chart's pivot is near zero, from the multiplier form */

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "noether/refine.h"
 #include "study/climb.h"
 
@@ -224,6 +225,7 @@ static nh_ex expression_of(const problem *p, const double *c, size_t degree, nh_
             f = nh_add(d, f, nh_mul(d, nh_real(d, c[i * rows + k]), T[k]));
         }
         if (nh_is_zero(d, f)) continue;
+        for (size_t k = 0; k < rows && series->coefficient; k++) series->coefficient[series->words * rows + k] = c[i * rows + k];
         series->word[series->words++] = p->word[i];
         phi = nh_add(d, phi, nh_mul(d, p->word[i], f));
     }
@@ -237,7 +239,8 @@ static size_t keep(problem *p, const table *fine, const double *digits)
     size_t n = p->words * (fine->degree + 1), added = 0;
     for (size_t v = 0; v < fine->count && !nh_climb_done(p->x); v++) {
         nh_series *series = nh_arena_alloc(r->arena, sizeof *series);
-        *series = (nh_series){.coordinate = p->q, .low = p->low, .high = p->high, .word = nh_arena_alloc(r->arena, p->words * sizeof(nh_ex))};
+        *series = (nh_series){.coordinate = p->q, .low = p->low, .high = p->high, .word = nh_arena_alloc(r->arena, p->words * sizeof(nh_ex)),
+                              .coefficient = nh_arena_alloc(r->arena, n * sizeof(double)), .stride = fine->degree + 1};
         nh_ex phi = expression_of(p, fine->c + v * n, fine->degree, series);
         if (nh_currents_add_series(p->x->bench, phi, series, fine->quotient, digits[v])) {
             r->independent++;
@@ -263,7 +266,7 @@ static void search(problem *p, const char *what)
 {
     nh_result *r = p->x->r;
     char name[120];
-    double start = nh_climb_clock(), *digits = NULL;
+    double start = nh_clock(), *digits = NULL;
     set_interval(p);
     snprintf(name, sizeof name, "%s with coefficients that are series in %s", what, nh_name_of(r->model->dag, p->q));
     nh_tried *note = nh_climb_note(p->x, name);
@@ -271,10 +274,33 @@ static void search(problem *p, const char *what)
     bool news = t.count && fresh(p, &t);
     if (news && certify(p, &t, &fine, &digits)) note->found = keep(p, &fine, digits);
     else note->undecided = news;
-    note->seconds = nh_climb_clock() - start;
+    note->seconds = nh_clock() - start;
     nh_free(digits);
     table_clear(&fine);
     table_clear(&t);
+}
+
+/* What has closed form should be found as that: the same words with harmonics of q and the system's functions. */
+static void closed_forms(problem *p)
+{
+    nh_climb *x = p->x;
+    nh_dag *d = x->r->model->dag;
+    nh_ex *f = nh_arena_alloc(x->r->arena, (6 + x->words.atoms) * sizeof *f), *word = nh_arena_alloc(x->r->arena, (p->words + 1) * sizeof *word);
+    size_t n = 0;
+    f[n++] = nh_int(d, 1);
+    if (!x->words.waves) f[n++] = p->q;
+    for (int k = 1; k <= 2 && x->words.waves; k++) {
+        nh_ex angle = nh_mul(d, nh_int(d, k), p->q);
+        f[n++] = nh_call(d, NH_COS, angle);
+        f[n++] = nh_call(d, NH_SIN, angle);
+    }
+    for (size_t i = 0; i < x->words.atoms; i++) f[n++] = x->words.atom[i];
+    memcpy(word, p->word, p->words * sizeof *word);
+    nh_family *part = nh_arena_alloc(x->r->arena, 2 * sizeof *part), *both = nh_arena_alloc(x->r->arena, sizeof *both);
+    part[0] = (nh_family){.kind = NH_TERMS, .terms = p->words, .term = word};
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = n, .term = f};
+    both[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    nh_climb_stage(x, "squares of velocities times harmonics and functions of the shape", 1, both);
 }
 
 /* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are closed under Gamma. */
@@ -291,5 +317,6 @@ void nh_climb_series(nh_climb *x)
     p.word[p.words++] = nh_int(d, 1);
     for (size_t i = 0; i < o->n; i++)
         for (size_t j = 0; j <= i; j++) p.word[p.words++] = nh_mul(d, o->chart->w[i], o->chart->w[j]);
-    search(&p, "squares of velocities");
+    closed_forms(&p);
+    if (!nh_climb_done(x)) search(&p, "squares of velocities");
 }

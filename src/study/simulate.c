@@ -4,7 +4,10 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
+
+#include "base/clock.h"
+
+#include "expr/diff.h"
 
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
 static const double shortest_time = 0.1, longest_comparison = 1; /* seconds: a shorter motion is compared with the whole model's, which may take so long */
@@ -192,13 +195,6 @@ static const char *words_of(nh_simulation *s, const nh_scene *scene)
     return kept;
 }
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* What the smallest model saves, and whether it is right: the whole model beside it, while that costs little. */
 static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
 {
@@ -208,8 +204,8 @@ static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
     whole.smallest = false;
     whole.max_seconds = longest_comparison;
     if (!s->trajectory->scene || s->motion->seconds > shortest_time || !s->motion->complete) return;
-    double begin = now(), few = s->motion->seconds, all = INFINITY;
-    for (int i = 0; i < most_comparisons && now() - begin < shortest_time; i++) { /* the least times: other programs run, too */
+    double begin = nh_clock(), few = s->motion->seconds, all = INFINITY;
+    for (int i = 0; i < most_comparisons && nh_clock() - begin < shortest_time; i++) { /* the least times: other programs run, too */
         nh_trajectory *t = nh_trajectory_create(&whole, &ignored), *again = i ? nh_trajectory_create(q, &ignored) : NULL;
         bool complete = t && t->motion->complete;
         if (i == 0) s->compared = complete;
@@ -300,6 +296,44 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     return true;
 }
 
+static double largest_of(size_t n, const double *x)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(x[i]));
+    return largest;
+}
+
+/* The distance of the initial position from where a constraint between positions holds, |f|/|df/dq|: its time derivative, which is all that the equations
+ * of motion know, keeps f as it is. */
+static const char *words_astray(const nh_simulation *s, const nh_state *at)
+{
+    static const double small = 1e-6;
+    const nh_model *o = s->model;
+    size_t m = o->m;
+    nh_ex *e = nh_arena_alloc(s->arena, (m + 2) * sizeof *e), *in = nh_arena_alloc(s->arena, (m + 1) * sizeof *in);
+    double *value = nh_arena_alloc(s->arena, (m + 2) * sizeof *value), *z = nh_arena_alloc(s->arena, (m + 1) * sizeof *z);
+    in[0] = o->system->t;
+    z[0] = at->t;
+    for (size_t i = 0; i < m; i++) in[1 + i] = o->system->coordinate[i].q, z[1 + i] = at->q[i];
+    for (size_t a = 0; a < o->system->constraints; a++) {
+        const nh_constraint *c = &o->system->constraint[a];
+        double slope = 0;
+        if (!c->position) continue;
+        e[0] = c->level;
+        for (size_t i = 0; i < m; i++) e[1 + i] = nh_diff(o->dag, c->level, in[1 + i]);
+        nh_tape *tape = nh_tape_create(o->dag, m + 1, in, m + 1, e, o->system->parameters, o->parameter, o->parameter_value);
+        nh_tape_work *work = nh_tape_work_create(tape);
+        nh_tape_eval(tape, work, z, value);
+        nh_tape_work_free(work);
+        nh_tape_free(tape);
+        for (size_t i = 0; i < m; i++) slope = hypot(slope, value[1 + i]);
+        if (fabs(value[0]) > small * slope * fmax(1, largest_of(m, at->q)))
+            return nh_arena_printf(s->arena, "the initial position does not satisfy %s: it is off by about %.2g, and the motion keeps left side minus right side at %.6g",
+                                   c->text, fabs(value[0]) / slope, value[0]);
+    }
+    return NULL;
+}
+
 static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
@@ -309,6 +343,7 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     size_t count;
     s->arena = arena;
     if (nh_simulate_read(s, q, false, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
+    if (times) s->astray = words_astray(s, &initial);
     if (times && choose_columns(s, q, error) && integrate(s, q, &initial, count, times, error)) return s;
     nh_simulation_free(s);
     return NULL;

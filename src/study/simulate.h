@@ -31,6 +31,7 @@ typedef struct {
     nh_model *model;
     const char *method, *formulation;
     const char *scene;    /* the smallest model in words; NULL: all states were integrated */
+    const char *astray;   /* the initial position violates a constraint between positions: which, and by how much; NULL */
     const char *idle;     /* parameters and bodies without influence on what is watched, in words; empty: all matter */
     bool compared;        /* the whole model was integrated too, because the motion is short */
     double scene_seconds, whole_seconds, whole_difference; /* the least times of both, and how far what is watched is off, relative to max(1, |value|) */

@@ -1,11 +1,10 @@
-#include "study/stress_internal.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/progress.h"
+#include "study/stress_internal.h"
 
 enum { most_values = 12, most_parameters = 12 };
 static const char *const methods[] = {"GSL rk8pd", "GSL rkf45", "ARKODE Dormand-Prince", "CVODE Adams", "CVODE BDF"};
@@ -15,14 +14,7 @@ _Static_assert(sizeof methods / sizeof *methods == method_count && sizeof steppi
 static const double longer[] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6}, parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
 static const double least_cell = 0.02; /* seconds that a value has at least */
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-bool nh_stress_late(const nh_stress_work *w) { return nh_interrupted() || now() > w->begun + w->budget; }
+bool nh_stress_late(const nh_stress_work *w) { return nh_interrupted() || nh_clock() > w->begun + w->budget; }
 
 /* ---- one cell ---- */
 
@@ -81,7 +73,7 @@ void nh_stress_try(nh_stress_work *w, const nh_simulate_request *request, double
 {
     nh_error error;
     nh_error_clear(&error);
-    double left = w->begun + w->budget - now(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
+    double left = w->begun + w->budget - nh_clock(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
     nh_bench b;
     bool opened = nh_bench_open_once(&b, request, coordinate, turn, budget, &error);
     bool reference = opened && nh_bench_reference(&b, &error);
@@ -226,7 +218,7 @@ nh_stress *nh_stress_create(const nh_simulate_request *request, const char *over
     nh_arena *arena = nh_arena_create();
     nh_stress *out = nh_arena_alloc(arena, sizeof *out);
     *out = (nh_stress){.arena = arena, .tolerance = request->options.stress_tolerance, .accuracy = request->options.stress_error};
-    nh_stress_work w = {.out = out, .request = request, .begun = now(), .budget = budget};
+    nh_stress_work w = {.out = out, .request = request, .begun = nh_clock(), .budget = budget};
     nh_bench plain;
     bool good = nh_bench_open_once(&plain, request, 0, 0, budget, error) && (over ? one_map(&w, &plain, over, error) : all_maps(&w, &plain, error));
     nh_bench_close(&plain);

@@ -6,12 +6,18 @@
 
 #include "expr/diff.h"
 #include "expr/normal.h"
+#include "noether/independence.h"
+#include "study/pace.h"
 
 enum { test_points = 256, generic_points = 24 };
 
 static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const nh_options *options, nh_error *error)
 {
     nh_model *model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
+    if (model && nh_pace_set(system, model) != 1) {
+        nh_model_free(model);
+        model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
+    }
     if (!model) {
         nh_system_free(system);
         return NULL;
@@ -80,6 +86,14 @@ static bool accepts(const nh_proof *proof, double residual, const nh_options *op
     return proof->proved || (proof->digits >= enough && residual <= options->heldout);
 }
 
+/* Constant wherever it is smooth, however it is written. */
+static bool is_constant(const nh_model *o, const nh_points *generic, nh_ex phi, const nh_options *options)
+{
+    nh_independence kind;
+    nh_independence_test(o, generic, 1, &phi, options->sure, options->doubt, &kind, NULL);
+    return kind == NH_CONSTANT;
+}
+
 static bool examine(nh_verdict_of_one *v, const nh_options *options, nh_error *error)
 {
     nh_points *points = nh_points_create(v->model, test_points, 1.2, (uint64_t)options->seed + 7, error);
@@ -96,6 +110,7 @@ static bool examine(nh_verdict_of_one *v, const nh_options *options, nh_error *e
     v->has_counterexample = found && !v->conserved;
     nh_error ignored;
     nh_error_clear(&ignored);
+    v->trivial = v->conserved && (v->trivial || is_constant(v->model, generic, v->current, options));
     if (v->conserved) v->has_symmetry = nh_symmetry_of(v->model, generic, v->current, options->same, &v->symmetry, &ignored);
     nh_points_free(generic);
     nh_points_free(points);

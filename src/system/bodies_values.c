@@ -269,7 +269,9 @@ static bool wheel_values(reader *r, const nh_deck_node *item, nh_wheel *w)
     for (int i = 0; i < 2; i++) {
         const char *need = needed[kind][i], *other = foreign[kind][i];
         if (other && nh_deck_get(item, other)) return nh_deck_fail(r->deck, nh_deck_get(item, other), 0, r->error, "a wheel of type %s has no `%s`", types[kind], other);
-        if (need && !nh_deck_get(item, need)) return nh_deck_fail(r->deck, item, 0, r->error, "a wheel of type %s needs `%s`", types[kind], need);
+        if (!need || nh_deck_get(item, need)) continue;
+        nh_deck_fail(r->deck, item, 0, r->error, "a wheel of type %s needs `%s`", types[kind], need);
+        return nh_error_hint(r->error, kind == 0 ? "`axis: y` stands across the blade: it does not slide that way" : kind == 1 ? "`axle: y, radius: 0.3`: the line that it turns about, and its size" : "`radius: 0.3`");
     }
     if (normal) w->normal = (int)nh_system_word(r, normal, "the normal of a surface", 3, axis_names);
     if (w->normal < 0 || !nh_system_text_of(r, item, "doc", "", &doc) || !nh_system_text_of(r, item, "name", types[kind], &w->name)) return false;

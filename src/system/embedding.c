@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "base/text.h"
+#include "expr/ball.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/solve.h"
@@ -141,6 +142,27 @@ bool nh_chart_complete(const nh_chart *c, double *z)
 
 /* ---- least pivot over the probes ---- */
 
+static const double rounding = 1e-13;
+
+/* Is something so small zero, or only small in its units (the mass of an electron)?  Asked with so many digits that no cancellation of decimals is
+ * left.  Implicit velocities are known to doubles only, and cannot be asked. */
+static bool vanishes(const nh_chart *c, nh_ex e)
+{
+    enum { bits = 512, tried = 3, digits = 100 };
+    const nh_system *s = c->system;
+    if (c->implicit) return true;
+    nh_ball *ball = nh_ball_create(s->dag, bits);
+    bool zero = true;
+    for (size_t i = 0; i < s->parameters; i++) nh_ball_set_expression(ball, s->parameter[i].symbol, nh_number(s->dag, nh_num_decimal(s->parameter[i].value)));
+    for (size_t p = 0; p < c->probes && p < tried && zero; p++) {
+        double size;
+        for (size_t j = 0; j < c->width; j++) nh_ball_set_double(ball, c->symbol[j], c->probe[p * c->width + j]);
+        zero = !nh_ball_log10_bound(ball, e, &size) || size < -digits;
+    }
+    nh_ball_free(ball);
+    return zero;
+}
+
 double nh_embedding_score(void *context, nh_ex e)
 {
     const nh_chart *c = context;
@@ -159,7 +181,8 @@ double nh_embedding_score(void *context, nh_ex e)
     }
     nh_tape_work_free(work);
     nh_tape_free(tape);
-    return most < 1e-13 || !isfinite(least) ? 0 : least + 1e-12 * most;
+    if (!isfinite(least) || (most < rounding && vanishes(c, e))) return 0;
+    return least + 1e-12 * most;
 }
 
 double nh_chart_pivot_score(void *chart, nh_ex e) { return nh_embedding_score(chart, e); }

@@ -12,13 +12,14 @@ typedef enum { NH_SHAPE_POINT, NH_SHAPE_ARROW, NH_SHAPE_DISC, NH_SHAPE_WHEEL, NH
 
 typedef struct {
     nh_shape_kind kind;
+    const char *name;              /* for people, or NULL */
     nh_ex value[NH_SHAPE_NUMBERS]; /* as many as nh_shape_numbers says */
 } nh_shape;
 
 const char *nh_shape_name(nh_shape_kind kind);
 size_t nh_shape_numbers(nh_shape_kind kind);
 
-/* One entry {kind: [expressions]} of a list `draw`.  `parse` reads each expression, with its own message where it cannot. */
+/* One entry {kind: [expressions], name: ...} of a list `draw`.  `parse` reads each expression, with its own message where it cannot. */
 typedef bool nh_shape_parse(void *context, const nh_deck_node *node, nh_ex *out);
 bool nh_shape_read(const nh_deck *deck, const nh_deck_node *node, nh_shape_parse *parse, void *context, nh_shape *out, nh_error *error);
 

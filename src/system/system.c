@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "expr/diff.h"
 #include "expr/parse.h"
 #include "expr/print.h"
 #include "system/system_internal.h"
@@ -43,6 +44,26 @@ static bool in_coordinates(const scope *s, const char *name, nh_ex *out, nh_pars
     return false;
 }
 
+/* X' of a definition X(t, q): its derivative by time along any motion, dX/dt + sum_s dX/dq^s v^s.  One of X with velocities would hold accelerations. */
+static bool rate_of_definition(const scope *s, const char *name, nh_ex *out, nh_parse_fault *fault)
+{
+    const nh_system *y = s->system;
+    size_t length = strcspn(name, "'");
+    const nh_named *x = NULL;
+    for (size_t i = 0; i < y->definitions; i++)
+        if (strlen(y->definition[i].name) == length && !strncmp(y->definition[i].name, name, length)) x = &y->definition[i];
+    if (!x || strcmp(name + length, "'")) return false;
+    *out = nh_diff(y->dag, x->value, y->t);
+    for (size_t i = 0; i < y->coordinates; i++) {
+        if (!nh_is_zero(y->dag, nh_diff(y->dag, x->value, y->coordinate[i].v)))
+            snprintf(fault->what, sizeof fault->what, "`%s` is the rate of something with velocities: it holds accelerations", name);
+        *out = nh_add(y->dag, *out, nh_mul(y->dag, nh_diff(y->dag, x->value, y->coordinate[i].q), y->coordinate[i].v));
+    }
+    if (!fault->what[0] && (s->forbid & NH_NO_VELOCITIES)) snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
+    if (fault->what[0]) snprintf(fault->hint, sizeof fault->hint, "the rate of a definition can stand wherever velocities can, when the definition has none itself");
+    return !fault->what[0];
+}
+
 /* "did you mean" over everything that has a name here. */
 static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
 {
@@ -61,7 +82,7 @@ static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
     const char *near = nh_text_nearest(name, list, n), *prime = strchr(name, '\'');
     bool meant = near && (!prime || strchr(near, '\'')); /* m' is not a misspelt m */
     if (meant) snprintf(fault->hint, sizeof fault->hint, "did you mean `%s`?", near);
-    else if (prime) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate, and `%.*s` is none", (int)(prime - name), name);
+    else if (prime) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate or the rate of a definition, and `%.*s` is none", (int)(prime - name), name);
     else if (s->extras) snprintf(fault->hint, sizeof fault->hint, "declare it under definitions or unknowns here, or in the system file");
     else snprintf(fault->hint, sizeof fault->hint, "declare it under parameters, coordinates or definitions");
     nh_free(list);
@@ -82,6 +103,7 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
         return true;
     }
     if (in_coordinates(s, name, out, fault)) return true;
+    if (!fault->what[0] && rate_of_definition(s, name, out, fault)) return true;
     if (fault->what[0]) return false;
     for (size_t i = 0; i < y->quasi; i++) {
         if (strcmp(nh_name_of(y->dag, y->quasi_velocity[i]), name)) continue;

@@ -1,0 +1,15 @@
+/* arb: Arb's numbers, a library of its own up to FLINT 2 and a part of FLINT since version 3. */
+#ifndef NH_ARB_H
+#define NH_ARB_H
+
+#include <flint/fmpq.h>
+
+#if __has_include(<flint/arb.h>)
+#include <flint/arb.h>
+#include <flint/arb_mat.h>
+#else
+#include <arb.h>
+#include <arb_mat.h>
+#endif
+
+#endif

@@ -1,0 +1,49 @@
+#include "motion/sundials.h"
+
+#include <stdio.h>
+#include <sundials/sundials_types.h>
+#if NH_SUNDIALS_SINCE(7, 0)
+#include <sundials/sundials_logger.h>
+#endif
+
+_Static_assert(sizeof(sunrealtype) == sizeof(double), "SUNDIALS must be built for double precision");
+
+static void keep(nh_sundials *s, int code, const char *message)
+{
+    if (code < 0) snprintf(s->message, sizeof s->message, "%s", message);
+}
+
+#if NH_SUNDIALS_SINCE(7, 0)
+
+static void hear(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user, SUNContext context)
+{
+    (void)line, (void)function, (void)file, (void)context;
+    keep(user, code, message);
+}
+
+bool nh_sundials_open(nh_sundials *s)
+{
+    *s = (nh_sundials){0};
+    SUNLogger logger = NULL; /* warnings go to it, and it prints them */
+    return SUNContext_Create(SUN_COMM_NULL, &s->context) == 0 && SUNContext_ClearErrHandlers(s->context) == 0 &&
+           SUNContext_PushErrHandler(s->context, hear, s) == 0 && SUNContext_GetLogger(s->context, &logger) == 0 &&
+           SUNLogger_SetWarningFilename(logger, "/dev/null") == 0;
+}
+
+#else
+
+void nh_sundials_keep(int code, const char *module, const char *function, char *message, void *s)
+{
+    (void)module, (void)function;
+    keep(s, code, message);
+}
+
+bool nh_sundials_open(nh_sundials *s)
+{
+    *s = (nh_sundials){0};
+    return SUNContext_Create(NULL, &s->context) == 0;
+}
+
+#endif
+
+void nh_sundials_close(nh_sundials *s) { SUNContext_Free(&s->context); }

@@ -1,0 +1,237 @@
+#include "reduction/quotient.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/solve.h"
+#include "noether/prove.h"
+#include "noether/recognise.h"
+#include "reduction/subspace.h"
+
+static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
+{
+    return nh_is_zero(d, a) || nh_is_zero(d, b) ? sum : nh_add(d, sum, nh_mul(d, a, b));
+}
+
+/* eta of one generator: least squares by the normal equations, which the prolonged field satisfies exactly. */
+static bool prolong(const nh_model *o, const nh_ex *e, nh_ex *eta)
+{
+    nh_dag *d = o->dag;
+    size_t m = o->m, n = o->n;
+    const nh_coordinate *c = o->system->coordinate;
+    nh_ex *q = nh_alloc_array(2 * m + n * n + n + 1, sizeof *q), *right = q + m, *N = right + m, *b = N + n * n;
+    bool any = false, good = true;
+    for (size_t s = 0; s < m; s++) q[s] = c[s].q;
+    for (size_t s = 0; s < m; s++) {
+        right[s] = nh_simplify(d, nh_sub(d, nh_diff_along(d, e[s], m, q, o->rho), nh_diff_along(d, o->rho[s], m, q, e)));
+        any |= !nh_is_zero(d, right[s]);
+    }
+    for (size_t i = 0; i < n; i++) {
+        b[i] = eta[i] = nh_int(d, 0);
+        for (size_t j = 0; j < n; j++) N[i * n + j] = nh_int(d, 0);
+        for (size_t s = 0; s < m; s++) {
+            b[i] = plus(d, b[i], o->R[s * n + i], right[s]);
+            for (size_t j = 0; j < n; j++) N[i * n + j] = plus(d, N[i * n + j], o->R[s * n + i], o->R[s * n + j]);
+        }
+    }
+    if (any && !o->chart->quasi) {
+        for (size_t i = 0; i < n; i++) eta[i] = right[o->chart->free[i]]; /* there w are components of v */
+    } else if (any) {
+        nh_lu *lu = nh_lu_create(d, n, N, nh_chart_pivot_score, o->chart, NULL);
+        good = lu != NULL;
+        if (lu) nh_lu_solve(lu, b, eta);
+        nh_lu_free(lu);
+    }
+    nh_free(q);
+    return good;
+}
+
+/* Where the energy does not change along Gamma, at the chart's probes. */
+static bool conservative(const nh_model *o)
+{
+    static const double small = 1e-9;
+    nh_ex e[2] = {nh_model_gamma(o, o->E), o->E};
+    nh_tape *tape = nh_model_tape(o, 2, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double out[2];
+    bool good = true;
+    for (size_t p = 0; p < o->chart->probes; p++) {
+        nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, out);
+        good = good && isfinite(out[0]) && fabs(out[0]) <= small * (1 + fabs(out[1]));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return good;
+}
+
+static void names(nh_reduced *out, const nh_model *o)
+{
+    for (size_t i = 0; i < o->n; i++) {
+        out->w[i] = o->chart->w[i];
+        out->momentum[i] = nh_name_of(o->dag, o->chart->w[i]);
+        out->M[i * (o->n + 1)] = nh_int(o->dag, 1);
+    }
+    out->plain = true;
+}
+
+bool nh_quotient_init(nh_reduced *out, const nh_model *o, const nh_slice *s, nh_error *error)
+{
+    nh_dag *d = o->dag;
+    size_t n = s->n, g = s->d, r = o->n, m = o->m;
+    const nh_action *action = s->action;
+    if (o->chart->implicit) return nh_fail(error, NH_NUMERIC, "", "the constraints cannot be solved for velocities in closed form");
+    nh_reduced_init(out, s->kinetic, n, s->x, r, g);
+    names(out, o);
+    nh_ex *from = nh_alloc_array(g + m + g * g + g * r + 1, sizeof *from), *rho = from + g, *minor = rho + m, *eta = minor + g * g;
+    for (size_t a = 0; a < g; a++) from[a] = s->kinetic->q[s->along[a]];
+    for (size_t i = 0; i < m; i++) rho[i] = nh_substitute(d, o->rho[i], g, from, s->y);
+    bool good = true;
+    for (size_t a = 0; a < g; a++) {
+        good = good && prolong(o, action->generator[a].component, eta + a * r);
+        for (size_t b = 0; b < g; b++) minor[a * g + b] = s->E[s->along[a] * g + b];
+        out->zeta[a] = rho[s->along[a]];
+    }
+    nh_lu *lu = good ? nh_lu_create(d, g, minor, nh_slice_pivot_score, (void *)s, NULL) : NULL;
+    if (lu) nh_lu_solve(lu, out->zeta, out->zeta);
+    good = lu != NULL;
+    for (size_t a = 0; a < g && good; a++) out->zeta[a] = nh_simplify(d, out->zeta[a]);
+    for (size_t i = 0; i < n && good; i++) {
+        out->dx[i] = rho[s->shape[i]];
+        for (size_t a = 0; a < g; a++) out->dx[i] = plus(d, out->dx[i], nh_neg(d, s->E[s->shape[i] * g + a]), out->zeta[a]);
+        out->dx[i] = nh_simplify(d, out->dx[i]);
+    }
+    for (size_t k = 0; k < r && good; k++) {
+        out->F[k] = nh_substitute(d, o->a[k], g, from, s->y);
+        for (size_t a = 0; a < g; a++) out->F[k] = plus(d, out->F[k], nh_neg(d, nh_substitute(d, eta[a * r + k], g, from, s->y)), out->zeta[a]);
+        if (s->tidy) out->F[k] = nh_simplify(d, out->F[k]);
+    }
+    out->t = o->system->t;
+    for (size_t i = 0; i < n + r + g && good; i++) out->timed |= nh_depends(d, i < n ? out->dx[i] : i < n + r ? out->F[i - n] : out->zeta[i - n - r], out->t);
+    out->energy = nh_substitute(d, o->E, g, from, s->y);
+    out->conservative = !nh_depends(d, out->energy, out->t) && conservative(o);
+    nh_reduced_guard_slice(out, s);
+    nh_lu_free(lu);
+    nh_free(from);
+    return good || nh_fail(error, NH_NUMERIC, "", "the generators cannot be carried over to the chart's velocities, or the slice is singular");
+}
+
+/* ---- states ---- */
+
+/* Gauss-Newton for rho(t, q, w) = v from w as it is; the distance that is left, relative. */
+static double fit(const nh_model *o, nh_tape *tape, nh_tape_work *work, double *z, const double *v)
+{
+    enum { most = 60 };
+    size_t m = o->m, n = o->n;
+    double *value = nh_alloc_array(m * (1 + n) + m * n + m + n, sizeof *value), *R = value + m * (1 + n), *b = R + m * n, off = INFINITY;
+    for (int i = 0; i < most; i++) {
+        double size = 1, now = 0;
+        nh_tape_eval(tape, work, z, value);
+        for (size_t s = 0; s < m; s++) {
+            b[s] = v[s] - value[s];
+            now = fmax(now, fabs(b[s]));
+            size = fmax(size, fabs(v[s]));
+            for (size_t k = 0; k < n; k++) R[s + k * m] = value[m + s * n + k];
+        }
+        if (!isfinite(now) || !isfinite(nh_largest(m * n, R))) break;
+        off = now / size;
+        if (off < 1e-15 || nh_least_squares(m, n, R, 1, b, m > n ? m : n, 1e-12) < 0) break;
+        for (size_t k = 0; k < n; k++) z[1 + m + k] += b[k];
+    }
+    nh_free(value);
+    return off;
+}
+
+bool nh_quotient_velocities(const nh_model *o, double t, const double *q, const double *v, double *w, nh_error *error)
+{
+    static const double allowed = 1e-10;
+    size_t m = o->m, n = o->n;
+    nh_ex *e = nh_alloc_array(m * (1 + n), sizeof *e);
+    memcpy(e, o->rho, m * sizeof *e);
+    memcpy(e + m, o->R, m * n * sizeof *e);
+    nh_tape *tape = nh_model_tape(o, m * (1 + n), e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *z = nh_alloc_array(o->width + 1, sizeof *z), off = INFINITY;
+    for (size_t p = 0; p < 1 + o->chart->probes && off > allowed; p++) {
+        z[0] = t;
+        memcpy(z + 1, q, m * sizeof *z);
+        for (size_t k = 0; k < n; k++) z[1 + m + k] = p ? o->chart->probe[(p - 1) * o->chart->width + 1 + m + k] : o->chart->quasi ? 0.1 + 0.1 * (double)k : v[o->chart->free[k]];
+        off = fit(o, tape, work, z, v);
+    }
+    memcpy(w, z + 1 + m, n * sizeof *w);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(e);
+    nh_free(z);
+    return off <= allowed || nh_fail(error, NH_NUMERIC, "", "the velocities of the chart (%s) do not cover the initial state, which lies on another branch of the constraints", o->chart->name);
+}
+
+/* ---- momenta ---- */
+
+/* Values of expressions over the model's points at the sample states of the kinetic; *good counts the states that the chart covers. */
+static double *sampled(const nh_model *o, const nh_kinetic *k, size_t count, const nh_ex *e, size_t *good)
+{
+    enum { most_places = 24 };
+    size_t m = o->m, places = k->places < most_places ? k->places : most_places;
+    nh_tape *tape = nh_model_tape(o, count, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *out = nh_alloc_array(places * count + 1, sizeof *out), *z = nh_alloc_array(o->width + 1, sizeof *z);
+    *good = 0;
+    for (size_t p = 0; p < places; p++) {
+        nh_error ignored = {0};
+        z[0] = k->time[p];
+        memcpy(z + 1, k->place + p * m, m * sizeof *z);
+        if (!nh_quotient_velocities(o, z[0], k->place + p * m, k->speed + p * m, z + 1 + m, &ignored)) continue;
+        nh_tape_eval(tape, work, z, out + *good * count);
+        *good += isfinite(nh_largest(count, out + *good * count));
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(z);
+    return out;
+}
+
+static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const double *c, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *d = o->dag;
+    nh_momentum *p = &out->momentum[out->count++];
+    *p = (nh_momentum){.horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + o->m) * sizeof *p->f), .value = nh_int(d, 0)};
+    p->field = p->f + g->d;
+    for (size_t s = 0; s < o->m; s++) p->field[s] = nh_int(d, 0);
+    for (size_t a = 0; a < g->d; a++) {
+        nh_num x;
+        p->f[a] = nh_recognise_ratio(c[a], 1000, options->same, &x) ? nh_number(d, x) : nh_real(d, c[a]);
+        for (size_t s = 0; s < o->m; s++) p->field[s] = plus(d, p->field[s], p->f[a], g->generator[a].component[s]);
+    }
+    for (size_t s = 0; s < o->m; s++) p->value = plus(d, p->value, p->field[s], nh_diff(d, o->system->lagrangian, k->v[s]));
+    nh_ex rate = nh_model_gamma(o, nh_model_compose(o, p->value));
+    p->value = nh_simplify(d, p->value);
+    p->proved = nh_prove_zero(o, 1, &rate, false, options).proved;
+}
+
+void nh_quotient_momenta(nh_momenta *out, const nh_model *o, const nh_action *g, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *dag = o->dag;
+    size_t d = g->d, places;
+    *out = (nh_momenta){.momentum = nh_arena_alloc(k->arena, (d + 1) * sizeof *out->momentum)};
+    if (!d || o->chart->implicit) return;
+    nh_ex *rate = nh_alloc_array(d, sizeof *rate);
+    for (size_t a = 0; a < d; a++) {
+        nh_ex J = nh_int(dag, 0);
+        for (size_t s = 0; s < o->m; s++) J = plus(dag, J, g->generator[a].component[s], o->p[s]);
+        rate[a] = nh_model_gamma(o, J);
+    }
+    double *value = sampled(o, k, d, rate, &places), *rows = nh_alloc_array(places * d + d * d + 1, sizeof *rows), *c = rows + places * d;
+    for (size_t p = 0; p < places; p++)
+        for (size_t a = 0; a < d; a++) rows[p + a * places] = value[p * d + a];
+    size_t n = places ? nh_kernel(places, d, rows, options->group, c, NULL, NULL) : 0;
+    nh_column_echelon(d, n, options->group, c);
+    for (size_t j = 0; j < n; j++) add(out, o, g, c + j * d, options);
+    nh_free(value);
+    nh_free(rows);
+    nh_free(rate);
+}

@@ -1,0 +1,14 @@
+/* glossary: what the words of the reports mean, for `nhsym explain` and the pages. */
+#ifndef NH_GLOSSARY_H
+#define NH_GLOSSARY_H
+
+#include <stddef.h>
+
+typedef struct {
+    const char *word, *text;
+} nh_glossary_entry;
+
+size_t nh_glossary_count(void);
+nh_glossary_entry nh_glossary_at(size_t i);
+
+#endif

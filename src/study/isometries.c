@@ -1,0 +1,119 @@
+/* The ladder's stage of symmetries without an ansatz: isometries of the kinetic energy, counted by the transport of their 1-jets and written in closed
+ * form (reduction/jets.h, generators.h), however the coordinates disguise them.  With xi such a field,
+ *
+ *     P = xi^s K_sr v^r
+ *
+ * is conserved where the potential is invariant and the field tangent to the constraints (Noether); where it is not, quadratic integrals of separable and superintegrable systems on spaces of
+ * constant curvature are still quadratic forms in the P with functions of position added. */
+#include "base/progress.h"
+#include "expr/normal.h"
+#include "reduction/generators.h"
+#include "study/climb.h"
+
+enum { most_momenta = 10, most_functions = 60, most_coordinates = 6 };
+
+typedef struct {
+    size_t n;
+    nh_ex e[most_functions];
+} list;
+
+static void put(list *l, nh_ex e)
+{
+    for (size_t i = 0; i < l->n; i++)
+        if (l->e[i] == e) return;
+    if (l->n < most_functions) l->e[l->n++] = e;
+}
+
+static bool depends_on_position(const nh_kinetic *k)
+{
+    for (size_t i = 0; i < k->m * k->m; i++)
+        for (size_t s = 0; s < k->m; s++)
+            if (nh_depends(k->dag, k->K[i], k->q[s])) return true;
+    return false;
+}
+
+/* xi^s K_sr v^r on the submanifold: what total derivatives add to L, or a magnetic field, is left to the functions. */
+static nh_ex momentum(const nh_kinetic *k, const nh_generator *g)
+{
+    nh_dag *d = k->dag;
+    nh_ex sum = nh_int(d, 0);
+    for (size_t s = 0; s < k->m; s++)
+        for (size_t r = 0; r < k->m; r++) sum = nh_add(d, sum, nh_product(d, 3, (nh_ex[]){g->component[s], k->K[s * k->m + r], k->v[r]}));
+    return nh_simplify_short(d, nh_model_compose(k->model, sum), 0);
+}
+
+/* The momenta of the isometries; 0 where the metric has none or is constant (its isometries are among the polynomials). */
+static size_t momenta(const nh_climb *x, nh_ex *P)
+{
+    nh_result *r = x->r;
+    const nh_model *o = r->model;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_kinetic *k = nh_kinetic_create(o, (uint64_t)r->options.seed + 909, &ignored);
+    nh_jets *jets = NULL;
+    nh_generators found = {0};
+    if (k && k->metric && depends_on_position(k)) {
+        nh_kinetic alone = *k; /* the metric alone */
+        alone.V = nh_int(k->dag, 0);
+        alone.forced = alone.magnetic = false;
+        for (size_t s = 0; s < k->m; s++) alone.a[s] = nh_int(k->dag, 0);
+        jets = nh_jets_find(&alone, &r->options, &ignored);
+        if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, &r->options, &ignored)) found.count = 0;
+    }
+    size_t n = 0;
+    for (size_t i = 0; i < found.count && i < most_momenta; i++) P[n++] = momentum(k, &found.generator[i]);
+    nh_jets_free(jets);
+    nh_kinetic_free(k);
+    return n;
+}
+
+/* 1, cos, sin to the given harmonic of every angle by itself. */
+static list harmonics(const nh_climb *x, int most)
+{
+    const nh_model *o = x->r->model;
+    nh_dag *d = o->dag;
+    list l = {0};
+    put(&l, nh_int(d, 1));
+    for (size_t s = 0; s < o->m; s++)
+        for (int k = 1; k <= most && o->system->coordinate[s].type == NH_ANGLE; k++) {
+            nh_ex angle = nh_mul(d, nh_int(d, k), o->system->coordinate[s].q);
+            put(&l, nh_call(d, NH_COS, angle));
+            put(&l, nh_call(d, NH_SIN, angle));
+        }
+    return l;
+}
+
+/* What a potential may contribute: the system's functions, lengths, harmonics, and products of the functions with harmonics. */
+static nh_family functions_family(const nh_climb *x, int most_harmonic, nh_family *part)
+{
+    nh_arena *arena = x->r->arena;
+    list *w = nh_arena_alloc(arena, sizeof *w), *f = nh_arena_alloc(arena, sizeof *f);
+    *w = harmonics(x, most_harmonic);
+    put(f, nh_int(x->r->model->dag, 1));
+    for (size_t i = 0; i < x->words.atoms; i++) put(f, x->words.atom[i]);
+    for (size_t i = 0; i < x->words.potentials; i++) put(f, x->words.potential[i]);
+    for (size_t i = 0; i < x->words.lengths; i++) put(f, x->words.length[i]);
+    part[0] = (nh_family){.kind = NH_TERMS, .terms = w->n, .term = w->e};
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = f->n, .term = f->e};
+    return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+}
+
+void nh_climb_isometries(nh_climb *x)
+{
+    nh_result *r = x->r;
+    const nh_model *o = r->model;
+    if (o->m > most_coordinates) return;
+    nh_progress("isometries of the kinetic energy", -1);
+    nh_ex *P = nh_arena_alloc(r->arena, most_momenta * sizeof *P), *PP = nh_arena_alloc(r->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
+    size_t n = momenta(x, P), squares = 0;
+    if (n == 0) return;
+    nh_family part[4], *all = nh_arena_alloc(r->arena, 2 * sizeof *all);
+    all[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = P};
+    all[1] = functions_family(x, 1, part);
+    nh_climb_stage(x, "momenta of the isometries of the kinetic energy, and functions", 2, all);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) PP[squares++] = nh_mul(o->dag, P[i], P[j]);
+    all[0] = (nh_family){.kind = NH_TERMS, .terms = squares, .term = PP};
+    all[1] = functions_family(x, 2, part + 2);
+    if (!nh_climb_done(x)) nh_climb_stage(x, "their products, and functions", 2, all);
+}

@@ -1,0 +1,71 @@
+#include "study/pace.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double fast = 1e3, velocity = 1.5;
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double half_width(const nh_model *o, size_t s)
+{
+    return (o->chart->high[1 + s] - o->chart->low[1 + s]) / 2;
+}
+
+/* Of the coordinate whose velocity w^i is; 1 for quasi-velocities. */
+static double length_of(const nh_model *o, size_t i) { return o->chart->quasi ? 1 : half_width(o, o->chart->free[i]); }
+
+static double omega(const nh_model *o)
+{
+    const nh_chart *c = o->chart;
+    nh_tape *tape = nh_model_tape(o, o->n, o->a);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *z = nh_alloc_array(c->width, sizeof *z), *a = nh_alloc_array(o->n * c->probes + 1, sizeof *a), *out = nh_alloc_array(o->n + 1, sizeof *out), most = 0;
+    size_t count = 0;
+    for (size_t p = 0; p < c->probes; p++) {
+        bool finite = true;
+        memcpy(z, c->probe + p * c->width, c->width * sizeof *z);
+        for (size_t i = 0; i < o->n; i++) z[1 + o->m + i] = 0;
+        if (!nh_chart_complete(c, z)) continue;
+        nh_tape_eval(tape, work, z, out);
+        for (size_t i = 0; i < o->n; i++) finite &= isfinite(out[i]);
+        for (size_t i = 0; i < o->n && finite; i++) a[i * c->probes + count] = fabs(out[i]);
+        count += finite;
+    }
+    for (size_t i = 0; i < o->n && count; i++) {
+        qsort(a + i * c->probes, count, sizeof *a, ascending);
+        most = fmax(most, sqrt(a[i * c->probes + count / 2] / length_of(o, i)));
+    }
+    nh_free(out);
+    nh_free(a);
+    nh_free(z);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return isfinite(most) ? most : 0;
+}
+
+static void add(nh_system *s, nh_ex symbol, double low, double high)
+{
+    for (size_t i = 0; i < s->intervals; i++)
+        if (s->interval[i].symbol == symbol) return;
+    s->interval[s->intervals++] = (nh_interval){symbol, low, high};
+}
+
+double nh_pace_set(nh_system *s, const nh_model *o)
+{
+    double Omega = omega(o), longest = 1;
+    for (size_t i = 0; i < o->m; i++) longest = fmax(longest, half_width(o, i));
+    if (!(Omega * longest > fast)) return 1;
+    nh_interval *list = nh_arena_alloc(s->arena, (s->intervals + 1 + 2 * o->m) * sizeof *list);
+    if (s->intervals) memcpy(list, s->interval, s->intervals * sizeof *list);
+    s->interval = list;
+    add(s, s->t, 0, 1 / Omega);
+    for (size_t i = 0; i < o->m; i++) add(s, s->coordinate[i].v, -velocity * half_width(o, i) * Omega, velocity * half_width(o, i) * Omega);
+    for (size_t i = 0; i < s->quasi; i++) add(s, s->quasi_velocity[i], -velocity * Omega, velocity * Omega);
+    return Omega;
+}

@@ -1,0 +1,106 @@
+/* reduce_full: the full motion that reduced ones are compared with, and how well it is known. */
+#include <math.h>
+#include <string.h>
+
+#include "study/reduce_internal.h"
+
+/* How far two places are apart: angles modulo 2 pi, relative to 1 + size, measured by the metric with unit diagonal.  Near a pole of the coordinates large
+ * differences of two angles may mean nearly the same place, and only the metric tells. */
+double nh_reduction_distance(const nh_kinetic *k, const double *a, const double *b)
+{
+    static const double turn = 6.283185307179586;
+    size_t m = k->m;
+    double *K = nh_alloc_array(m * m + 2 * m, sizeof *K), *off = K + m * m, *unit = off + m, size = 1, square = 0;
+    if (k->quadratic && k->autonomous) nh_kinetic_values(k, m * m, k->K, b, K);
+    else for (size_t s = 0; s < m; s++) K[s * (m + 1)] = 1;
+    for (size_t s = 0; s < m; s++)
+        if (k->angle[s]) size = fmax(size, 1 + fabs(b[s]));
+    for (size_t s = 0; s < m; s++) {
+        off[s] = a[s] - b[s];
+        if (k->angle[s]) off[s] -= turn * round(off[s] / turn);
+        off[s] /= k->angle[s] ? size : 1 + fabs(b[s]);
+        unit[s] = K[s * (m + 1)] > 0 ? 1 / sqrt(K[s * (m + 1)]) : 0;
+    }
+    for (size_t i = 0; i < m * m; i++) square += K[i] * unit[i / m] * unit[i % m] * off[i / m] * off[i % m];
+    nh_free(K);
+    return isfinite(square) ? sqrt(fmax(square, 0)) : INFINITY;
+}
+
+static double farthest(const nh_kinetic *k, const nh_motion *a, const nh_motion *b)
+{
+    double worst = 0;
+    for (size_t i = 0; i < a->count && i < b->count; i++) worst = fmax(worst, nh_reduction_distance(k, a->state + i * a->size, b->state + i * b->size));
+    return worst;
+}
+
+/* ---- the full motion ---- */
+
+static nh_motion *full_with(nh_reduction_bench *b, double rtol, nh_error *error)
+{
+    nh_reduction *r = b->r;
+    size_t m = r->kinetic->m;
+    nh_bordered *bordered = nh_bordered_create(r->model);
+    nh_flow_problem problem = nh_bordered_flow(bordered);
+    nh_flow_options options = {.method = NH_ADAMS, .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    double *z = nh_alloc_array(2 * m, sizeof *z);
+    memcpy(z, r->initial.q, m * sizeof *z);
+    memcpy(z + m, r->initial.v, m * sizeof *z);
+    nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error);
+    nh_bordered_free(bordered);
+    nh_free(z);
+    return motion;
+}
+
+/* The number of outputs up to which the reference is known well enough to judge by it. */
+static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
+{
+    size_t n = 0, least = coarse->count < fine->count ? coarse->count : fine->count;
+    while (n < least && nh_reduction_distance(k, coarse->state + n * coarse->size, fine->state + n * fine->size) <= allowed) n++;
+    return n;
+}
+
+/* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up along a motion: the tolerance with which
+ * all are computed is a hundredth of the one that is asked for, or less where the full motion shows that this would not do. */
+bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
+{
+    static const double part = 0.01, finest = 1e-14, least = 5e-14, aim = 10, allowed = NH_REDUCTION_ALLOWED; /* in tolerances */
+    nh_reduction *r = b->r;
+    size_t m = r->kinetic->m;
+    b->rtol = fmax(r->options.tolerance * part, least);
+    nh_motion *coarse = full_with(b, b->rtol, error), *fine = coarse ? full_with(b, finest, error) : NULL;
+    double off = fine ? farthest(r->kinetic, coarse, fine) : 0;
+    if (fine && off > aim * r->options.tolerance && b->rtol > least) {
+        b->rtol = fmax(b->rtol * aim * r->options.tolerance / off, least);
+        nh_motion_free(coarse);
+        coarse = full_with(b, b->rtol, error);
+    }
+    if (coarse && fine) {
+        r->full_seconds = coarse->seconds;
+        b->reached = reliable(r->kinetic, coarse, fine, allowed * r->options.tolerance);
+        r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
+        if (b->reached < fine->count)
+            nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
+        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
+        memcpy(b->full, fine->state, fine->count * 2 * m * sizeof *b->full);
+        if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
+    }
+    nh_motion_free(coarse);
+    nh_motion_free(fine);
+    return b->full != NULL;
+}
+
+/* Errors of one size, made at other places of the motion: what remains of them at the outputs is how well a motion in all coordinates is known, whatever its sensitivity. */
+double nh_reduction_unsure(nh_reduction_bench *b)
+{
+    static const double tolerances[] = {2e-14, 5e-14};
+    const nh_kinetic *k = b->r->kinetic;
+    if (b->unsure > 0) return b->unsure;
+    for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
+        nh_error ignored = {0};
+        nh_motion *other = full_with(b, tolerances[t], &ignored);
+        for (size_t i = 0; other && i < b->reached && i < other->count; i++) b->unsure = fmax(b->unsure, nh_reduction_distance(k, other->state + i * other->size, b->full + i * other->size));
+        nh_motion_free(other);
+        nh_error_clear(&ignored);
+    }
+    return b->unsure = fmin(b->unsure, NH_REDUCTION_ALLOWED * b->r->options.tolerance);
+}

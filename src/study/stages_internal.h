@@ -1,0 +1,55 @@
+/* For the files that build stages. */
+#ifndef NH_STAGES_INTERNAL_H
+#define NH_STAGES_INTERNAL_H
+
+#include "study/stages.h"
+
+enum { NH_MOST_LIST = 200, NH_MOST_FAMILIES = 24 };
+
+/* The families of one stage. */
+typedef struct {
+    nh_arena *arena;
+    const nh_model *o;
+    const nh_dictionary *w;
+    nh_family *family;
+    size_t count;
+} nh_shelf;
+
+/* Expressions, each once; more than fit are left out. */
+typedef struct {
+    size_t n;
+    nh_ex e[NH_MOST_LIST];
+} nh_list;
+
+void nh_list_put(nh_list *list, nh_ex e);
+void nh_list_put_all(nh_list *list, size_t n, const nh_ex *e);
+nh_list nh_list_squares(const nh_shelf *shelf, const nh_list *a);
+/* The coordinates, with 1, with t. */
+nh_list nh_list_positions(const nh_shelf *shelf, bool one, bool time);
+/* 1, the coordinates that are not only in sines and cosines, their squares, t. */
+nh_list nh_list_lengths(const nh_shelf *shelf, bool squares_too, bool time);
+/* The system's own functions of position, with 1. */
+nh_list nh_list_functions(const nh_shelf *shelf, bool one);
+
+nh_family nh_shelf_terms(nh_shelf *shelf, const nh_list *list);
+nh_family nh_shelf_product(nh_shelf *shelf, size_t n, const nh_family *part);
+nh_family nh_shelf_polynomial(nh_shelf *shelf, const nh_list *list, size_t degree);
+void nh_shelf_add(nh_shelf *shelf, nh_family family);
+void nh_shelf_product_of_lists(nh_shelf *shelf, const nh_list *a, const nh_list *b);
+
+/* ---- stages_separation.c ---- */
+
+void nh_stage_separation(nh_shelf *shelf);
+void nh_stage_time(nh_shelf *shelf);
+/* Squares of momenta with coefficients that are functions of one coordinate each (Carter's constant). */
+void nh_stage_momenta(nh_shelf *shelf);
+/* Quasi-homogeneous polynomials of degree four in the velocities, for polynomial potentials. */
+void nh_stage_homogeneous(nh_shelf *shelf);
+/* Cubic in the velocities times positions, the system's functions with one velocity (Holt, Fokas and Lagerstrom). */
+void nh_stage_cubic(nh_shelf *shelf);
+/* Half angles: parabolic coordinates seen from polar ones. */
+void nh_stage_half_angles(nh_shelf *shelf);
+/* Velocities with products of functions of one coordinate. */
+void nh_stage_one_coordinate(nh_shelf *shelf);
+
+#endif

@@ -1,0 +1,103 @@
+/* cli_reduce: what `nhsym reduce` prints and returns about groups that will not do, and at its time limit. */
+#include "program.h"
+
+#include "oracle.h"
+
+typedef struct {
+    const char *system, *option, *value; /* one more option, or NULL */
+    int code;
+    const char *words[4]; /* all of them in what it complains about */
+} refusal;
+
+static finished reduce(const place *p, char **more, size_t count)
+{
+    static char path[PATH_MAX + 20];
+    static const char *const environment[] = {path, NULL};
+    char *argument[12] = {(char *)p->program, "reduce"};
+    for (size_t i = 0; i < count; i++) argument[2 + i] = more[i];
+    snprintf(path, sizeof path, "NHSYM_PATH=%s", p->project);
+    return run_vector(p, &(manner){.environment = environment}, argument);
+}
+
+static const refusal refusals[] = {
+    /* brackets: which one, and what it is */
+    {"sleigh", "--group", "x=1; phi=1, x=-y, y=x", 3, {"these fields do not generate a group", "[d/dx, d/dphi - y d/dx + x d/dy] = d/dy is not a combination of them", "hint: add the bracket"}},
+    {"crane", "--group", "x=1; phi1=1; theta=1, x=-y, y=x", 3, {"[d/dx, -y d/dx + x d/dy + d/dtheta] = d/dy is not a combination"}},
+    {"two_wheel_cart", "--group", "y=1; h=1, x=-y, y=x", 3, {"[d/dy, -y d/dx + x d/dy + d/dh] = -d/dx is not a combination"}},
+    {"kepler", "--group", "x=-y, y=x; y=-z, z=y", 3, {"these fields do not generate a group", "is not a combination of them"}},
+    {"rolling_ball", "--group", "x=1; p=1, x=-y, y=x", 3, {"these fields do not generate a group", "= d/dy is not a combination of them"}},
+    /* what is not left alone, and by how much */
+    {"sleigh", "--group", "phi=1", 3, {"d/dphi is not a symmetry: it does not leave the kinetic energy invariant", "of its size"}},
+    {"snakeboard", "--group", "phi=1", 3, {"it does not leave the constraint distribution invariant"}},
+    {"rolling_disk", "--group", "p=1", 3, {"it does not leave the constraint distribution invariant"}},
+    {"euler_disk", "--group", "theta=1", 3, {"does not leave the kinetic energy invariant"}},
+    {"kepler", "--group", "x=1", 3, {"d/dx is not a symmetry: it does not leave the potential invariant"}},
+    {"ball_on_slope", "--group", "x=1", 3, {"d/dx is not a symmetry: it does not leave the potential invariant"}},
+    {"skate_with_friction", "--group", "phi=1", 3, {"is not a symmetry"}},
+    /* not free: everywhere, or where it starts; dependent fields are told apart */
+    {"kepler", "--group", "x=-y, y=x; y=-z, z=y; z=-x, x=z", 3, {"the action is not free: 3 fields, but an orbit of dimension 2 at x = ", "hint: reduce by a subgroup"}},
+    {"pendulum_in_space", "--group", "1, 1", 3, {"these fields are not independent: field 2", "is 1 times field 1", "hint: leave field 2 out"}},
+    {"sleigh", "--group", "x=1; y=1; x=2, y=-3", 3, {"field 3, 2 d/dx - 3 d/dy, is 2 times field 1 + -3 times field 2"}},
+    {"sleigh", "--group", "y=0", 3, {"field 1 is zero everywhere"}},
+    /* chains */
+    {"vertical_disk", "--chain", "1; 4; 2, 3", 3, {"the chain is not one of normal subgroups: [e4, e2] has a component along e1"}},
+    {"vertical_disk", "--chain", "1, 2", 2, {"names every generator of the group once"}},
+    /* not a group at all */
+    {"sleigh", "--group", "", 2, {"no field and no number of a generator is given"}},
+    {"crane", "--group", "1, 7", 2, {"there is no generator 7: 6 were found"}},
+    {"sleigh", "--group", "phj=1", 2, {"`phj` is not a coordinate", "did you mean `phi`?"}},
+    {"sleigh", "--group", "x=y'", 2, {"a velocity occurs in the component of `x`"}},
+    {"kepler", "--group", "x", 2, {"`x` is not a component of a field", "hint: write fields as `x=1; ...`"}},
+};
+
+Test(cli_reduce, groups_that_will_not_do)
+{
+    place p = place_make();
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
+        const refusal *c = &refusals[i];
+        char *more[] = {(char *)c->system, (char *)c->option, (char *)c->value, "--json", "-"};
+        finished f = reduce(&p, more, 5);
+        cr_expect_eq(f.code, c->code, "%s %s \"%s\": exit code %d, expected %d\n%s", c->system, c->option, c->value, f.code, c->code, f.err);
+        cr_expect_str_eq(f.out, "", "%s \"%s\" printed\n%s", c->system, c->value, f.out);
+        for (size_t w = 0; w < 4 && c->words[w]; w++) cr_expect(strstr(f.err, c->words[w]) != NULL, "%s %s \"%s\" complained\n%s", c->system, c->option, c->value, f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* The axis of a rotation: refused for a given group, a warning for one that was found. */
+Test(cli_reduce, starts_where_the_action_is_not_free)
+{
+    place p = place_make();
+    char *given[] = {"isotropic_oscillator", "--group", "x=-y, y=x", "--initial", "x=0, y=0, z=1"};
+    finished f = reduce(&p, given, 5);
+    cr_expect_eq(f.code, 3);
+    cr_expect(strstr(f.err, "the action is not free: 1 field, but an orbit of dimension 0 at x = 0, y = 0, z = 1") && strstr(f.err, "start from a place that the fields move"), "%s", f.err);
+    finished_clear(&f);
+    char *found[] = {"isotropic_oscillator", "--initial", "x=0, y=0, z=0"};
+    f = reduce(&p, found, 3);
+    cr_expect_eq(f.code, 0);
+    cr_expect(strstr(f.out, "at the initial place the action is not free: 3 fields, but an orbit of dimension 0 at x = 0, y = 0, z = 0"), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* Exit code 5: what was found until then is printed, and marked. */
+Test(cli_reduce, time_limit)
+{
+    static const char *const systems[] = {"crane", "sleigh", "snakeboard", "kepler"};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
+        char *more[] = {(char *)systems[i], "--max-seconds", "0", "--json", "-"};
+        finished f = reduce(&p, more, 5);
+        cr_expect_eq(f.code, 5, "%s: exit code %d\n%s", systems[i], f.code, f.err);
+        cJSON *json = cJSON_Parse(f.out);
+        cr_assert(json != NULL, "%s printed\n%s", systems[i], f.out);
+        cr_expect(oracle_number(oracle_get(json, "group"), "dimension") > 0, "%s: the group is found all the same", systems[i]);
+        cr_expect_eq(cJSON_GetArraySize(oracle_get(json, "stages")), 0);
+        cr_expect(strstr(f.out, "the time limit of 0 s left out") != NULL, "%s", systems[i]);
+        cJSON_Delete(json);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
