@@ -101,3 +101,26 @@ Test(cli_reduce, time_limit)
     }
     place_clear(&p);
 }
+
+/* The momentum map is that of the Lagrangian, whatever stands in it; and what is only a symmetry of the equations is counted. */
+Test(cli_reduce, momenta_of_any_lagrangian)
+{
+    static const struct {
+        const char *system, *momentum;
+        size_t which, weaker;
+    } cases[] = {{"charged_particle", "m*(x*y' - y*x') + B*(x^2 + y^2)/2", 1, 2}, {"relativistic_charge", "m*y'/sqrt(1 - x'^2 - y'^2)", 0, 0}, {"crane", NULL, 0, 0}};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *more[] = {(char *)cases[i].system, "--json", "-"};
+        finished f = reduce(&p, more, 3);
+        cr_expect_eq(f.code, 0);
+        cJSON *json = cJSON_Parse(f.out);
+        cr_assert(json != NULL, "%s printed\n%s", cases[i].system, f.out);
+        const cJSON *group = oracle_get(json, "group"), *local = oracle_get(group, "local"), *map = oracle_get(group, "momentum_map");
+        if (cases[i].momentum) cr_expect_str_eq(cJSON_GetArrayItem(map, (int)cases[i].which)->valuestring, cases[i].momentum);
+        if (!cJSON_IsNull(local)) cr_expect_eq(oracle_number(local, "up_to_a_total_derivative"), (double)cases[i].weaker);
+        cJSON_Delete(json);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "reduction/group.h"
 #include "reduction/subspace.h"
 
 static nh_options options_of(uint64_t seed)
@@ -81,4 +82,25 @@ Test(group, dimension_and_algebra_without_an_ansatz)
             reducible_clear(&x);
         }
     }
+}
+
+/* Geodesics in the field of a black hole: the metric is indefinite, there are no jets, and still the four symmetries have closed forms. */
+Test(group, of_an_indefinite_metric)
+{
+    nh_error error = {0};
+    nh_options options = options_of(1);
+    nh_system *s = nh_system_parse("Schwarzschild",
+                                   "name: black_hole\nparameters: [{name: M, value: 0.2}]\n"
+                                   "coordinates: [T, {name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\n"
+                                   "lagrangian: (-(1 - 2*M/r)*T'^2 + r'^2/(1 - 2*M/r) + r^2*(th'^2 + sin(th)^2*ph'^2))/2\n"
+                                   "domain: {r: [1, 2], th: [0.5, 2.5]}\n",
+                                   0, NULL, &error);
+    reducible x = reducible_make(s, 1, &error);
+    cr_assert_not_null(x.kinetic, "%s", error.what);
+    cr_expect_not(x.kinetic->metric);
+    nh_group *g = nh_group_find(x.kinetic, &options, &error);
+    must(g != NULL, &error, "the group");
+    cr_expect_str_eq(g->name, "SO(3) x R");
+    nh_group_free(g);
+    reducible_clear(&x);
 }

@@ -126,6 +126,30 @@ static const unseen UNSEEN[] = {
      "domain: {t: [0.5, 1.5]}\n"
      "known: {currents: [{name: dilation, expr: \"t^2*x'^2 - 2*t*x*x' + x^2 + 2/3*t^-3*x^3\"}]}\n",
      1},
+    {"force that grows like t^2",
+     "coordinates: [x]\n"
+     "lagrangian: x'^2/2 - x*t^2\n"
+     "known: {currents: [{name: momentum, expr: x' + t^3/3}, {name: start, expr: x - t*x' - t^4/4}]}\n",
+     2},
+    {"growing mass",
+     "coordinates: [x]\n"
+     "lagrangian: t^2*(x'^2 - x^2)/2\n"
+     "domain: {t: [0.5, 1.5]}\n"
+     "known: {currents: [{name: phase, expr: (t*x' + x)*cos(t) + t*x*sin(t)}]}\n",
+     2},
+    {"falling with friction quadratic in the velocity",
+     "parameters: [{name: k, value: 0.5}, {name: g, value: 2}]\n"
+     "coordinates: [x]\n"
+     "lagrangian: x'^2/2 + g*x\n"
+     "forces: [\"x = -k*x'^2\"]\n"
+     "known: {currents: [{name: energy of a kind, expr: (x'^2 - g/k)*exp(2*k*x)}]}\n",
+     1},
+    {"Kepler's problem in logarithmic polar coordinates",
+     "parameters: [{name: k, value: 1}]\n"
+     "coordinates: [a, {name: b, type: angle}]\n"
+     "lagrangian: exp(2*a)*(a'^2 + b'^2)/2 + k*exp(-a)\n"
+     "known: {currents: [{name: Runge-Lenz, expr: exp(3*a)*b'*(sin(b)*a' + cos(b)*b') - k*cos(b)}]}\n",
+     3},
     {"thermostat",
      "parameters: [{name: k, value: 0.8}, {name: K, value: 1}]\n"
      "coordinates: [x, y, z]\n"

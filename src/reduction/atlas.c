@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "expr/diff.h"
-#include "reduction/runge.h"
+#include "reduction/reach.h"
 #include "reduction/subspace.h"
 
 static const double usable = 0.25; /* of a guard: a chart that is known is taken again, and the connection is used */
@@ -18,6 +18,7 @@ struct nh_atlas {
     const size_t *avoid;      /* the coordinates along a slice that failed, while another is made; NULL */
     nh_reduced_chart **chart;
     size_t count, capacity;
+    const nh_slice *preferred;
 };
 
 nh_atlas *nh_atlas_create(const nh_action *action, bool chaplygin)
@@ -44,6 +45,10 @@ void nh_atlas_free(nh_atlas *a)
     nh_free(a->chart);
     nh_free(a);
 }
+
+void nh_atlas_prefer(nh_atlas *a) { a->preferred = a->chart[a->count - 1]->slice; }
+
+const nh_slice *nh_atlas_preferred(const nh_atlas *a) { return a->preferred; }
 
 const nh_action *nh_atlas_action(const nh_atlas *a) { return a->action; }
 
@@ -311,40 +316,6 @@ bool nh_atlas_start(const nh_atlas *a, const double *q, const double *v, double 
 
 /* ---- along the orbits ---- */
 
-typedef struct {
-    size_t m;
-    nh_tape *tape;
-    nh_tape_work *work;
-} push;
-
-static bool push_rate(double t, const double *z, double *rate, void *context)
-{
-    (void)t;
-    push *p = context;
-    nh_tape_eval(p->tape, p->work, z, rate);
-    return true;
-}
-
-/* A place and a vector there by the flow of a generator: q' = X, v' = dX v. */
-static bool pushed(const nh_action *g, size_t a, double time, double *z)
-{
-    static const double tolerance = 1e-14, largest = 1e12;
-    const nh_kinetic *k = g->kinetic;
-    size_t m = k->m;
-    nh_ex *in = nh_alloc_array(4 * m, sizeof *in), *out = in + 2 * m;
-    memcpy(in, k->q, m * sizeof *in);
-    memcpy(in + m, k->v, m * sizeof *in);
-    memcpy(out, g->generator[a].component, m * sizeof *out);
-    for (size_t s = 0; s < m; s++) out[m + s] = nh_diff_along(k->dag, out[s], m, k->q, k->v);
-    push p = {.m = m, .tape = nh_tape_create(k->dag, 2 * m, in, 2 * m, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value)};
-    p.work = nh_tape_work_create(p.tape);
-    bool good = nh_runge(2 * m, push_rate, &p, 0, time, tolerance, largest, z);
-    nh_tape_work_free(p.work);
-    nh_tape_free(p.tape);
-    nh_free(in);
-    return good;
-}
-
 /* To the place of the orbit, among a few, where the coordinates are most regular, unless they are much less so than here or the same along the orbit. */
 static void move_along_orbit(const nh_action *g, size_t attempt, double *q, double *v, double *moved)
 {
@@ -356,7 +327,7 @@ static void move_along_orbit(const nh_action *g, size_t attempt, double *q, doub
     for (size_t i = 0; i < 4 * g->d; i++) {
         memcpy(z, q, m * sizeof *z);
         memcpy(z + m, v, m * sizeof *z);
-        if (!pushed(g, i / 4, times[i % 4] * stretch, z)) continue;
+        if (!nh_action_push(g, i / 4, times[i % 4] * stretch, z)) continue;
         double value = coordinates_regularity(g->kinetic, z);
         if (value <= most || fabs(value - here) < same * here) continue;
         most = value;

@@ -30,6 +30,10 @@ void nh_atlas_free(nh_atlas *atlas);
 /* Charts that are known, the preferred first.  Slice and equations must outlive the atlas. */
 void nh_atlas_add(nh_atlas *atlas, const nh_slice *slice, const nh_reduced *reduced, const size_t *independent, const nh_second *second);
 const nh_action *nh_atlas_action(const nh_atlas *atlas);
+/* The one of these that motions start on, wherever they start: their places are moved onto its slice.  Called after nh_atlas_add, of the chart added last. */
+void nh_atlas_prefer(nh_atlas *atlas);
+/* The slice of that chart; NULL. */
+const nh_slice *nh_atlas_preferred(const nh_atlas *atlas);
 
 /* A chart that is regular at a place q with the velocity v (in the coordinates of the action's kinetic), one that is known or a new one, and the state
  * z = (x, p) there.  NULL with a message where there is none. */

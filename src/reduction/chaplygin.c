@@ -146,11 +146,11 @@ static bool forces(nh_chaplygin *c, const nh_ex *speed)
     for (size_t i = 0; i < n; i++) {
         nh_ex sum = Q[i], turning = nh_int(d, 0);
         for (size_t a = 0; a < c->d; a++) {
-            nh_ex J = c->J0[a], against = c->B0[a * n + i];
+            nh_ex J = c->J0[a];
             for (size_t k = 0; k < n; k++) J = plus(d, J, c->J[a * n + k], speed[k]);
             sum = plus(d, sum, nh_neg(d, c->A[a * n + i]), Q[n + a]);
             sum = plus(d, sum, J, c->B0[a * n + i]);
-            turning = plus(d, turning, J, against);
+            turning = plus(d, turning, J, c->B0[a * n + i]);
             for (size_t j = 0; j < n; j++) sum = plus(d, sum, nh_mul(d, c->J0[a], c->B[(a * n + i) * n + j]), speed[j]);
         }
         power = plus(d, power, turning, speed[i]);

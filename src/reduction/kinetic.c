@@ -111,7 +111,7 @@ static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, 
     for (size_t i = 0; i < m * m + k->f * m + 1; i++)
         if (!isfinite(K[i])) return 0;
     if (!k->quadratic || !k->autonomous) return 1;
-    for (size_t i = 0; i < m; i++) unit[i] = K[i * (m + 1)] > 0 ? 1 / sqrt(K[i * (m + 1)]) : 0;
+    for (size_t i = 0; i < m; i++) unit[i] = K[i * (m + 1)] != 0 ? 1 / sqrt(fabs(K[i * (m + 1)])) : 1; /* indefinite ones, too */
     for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
     return nh_svd(m, m, K, s, NULL, NULL) && s[0] > 0 ? s[m - 1] / s[0] : 0;
 }

@@ -69,11 +69,13 @@ static void put_circular(nh_dag *d, factors *f, nh_ex angle, int level)
     }
 }
 
-/* g, g' and g'/g (cosh, sinh, tanh): Christoffel symbols are made of them. */
+/* g, g' and g'/g (cosh, sinh, tanh): Christoffel symbols are made of them; of an exponential also 1/g and roots (logarithmic coordinates). */
 static void put_with_slopes(const nh_kinetic *k, factors *f, nh_ex g, nh_ex q)
 {
     nh_ex slope = nh_simplify(k->dag, nh_diff(k->dag, g, q));
     put(f, g);
+    for (int half = -2; half <= 1 && nh_function_of(k->dag, g) == NH_EXP; half++)
+        if (half) put(f, nh_call(k->dag, NH_EXP, nh_mul(k->dag, nh_ratio(k->dag, half, 2), nh_child(k->dag, g, 0))));
     put(f, slope);
     put(f, nh_div(k->dag, slope, g));
 }

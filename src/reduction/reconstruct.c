@@ -6,6 +6,7 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "reduction/reach.h"
 #include "reduction/subspace.h"
 
 typedef struct {
@@ -326,13 +327,22 @@ static bool run(course *c, size_t count, const double *times, const nh_options *
     return true;
 }
 
-static nh_reconstruction *follow(nh_atlas *atlas, const nh_reduced_chart *chart, const double *z, const double *q, bool group, size_t count, const double *times,
-                                 const nh_options *options, nh_error *error)
+/* Where a motion starts: on the chart, with the place itself and what leads there from the chart's slice. */
+typedef struct {
+    const nh_reduced_chart *chart;
+    const double *z, *q;
+    size_t moves;
+    const double *moved;
+} beginning;
+
+static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool group, size_t count, const double *times, const nh_options *options, nh_error *error)
 {
+    const nh_reduced_chart *chart = at->chart;
+    const double *z = at->z, *q = at->q;
     const nh_slice *slice = chart->slice;
     size_t m = slice->m, inner = chart->reduced->n + chart->reduced->r;
     nh_reconstruction *out = nh_alloc(sizeof *out);
-    *out = (nh_reconstruction){.m = m, .size = inner};
+    *out = (nh_reconstruction){.m = m, .size = inner, .first = chart->reduced};
     course c = {.flows = nh_flows_create(slice->action), .atlas = atlas, .out = out};
     group_flow_init(&c.f, slice->action, group);
     group_flow_chart(&c.f, chart);
@@ -344,6 +354,7 @@ static nh_reconstruction *follow(nh_atlas *atlas, const nh_reduced_chart *chart,
     out->zeta = nh_alloc_array(count * c.f.d + 1, sizeof *out->zeta);
     out->energy = nh_alloc_array(count + 1, sizeof *out->energy);
     memcpy(c.state, z, inner * sizeof *z);
+    for (size_t i = 0; i < at->moves && group; i++) keep_factors(&c, at->moved + i * c.f.d);
     begin_stretch(&c, q);
     bool good = run(&c, count, times, options, error);
     group_flow_clear(&c.f);
@@ -363,7 +374,7 @@ nh_reconstruction *nh_reconstruct(const nh_reduced *o, const nh_slice *slice, co
     nh_reduced_chart chart = {.slice = slice, .reduced = o, .flow = nh_reduced_flow_create(o)};
     double *q = nh_alloc_array(slice->m, sizeof *q);
     nh_slice_place(slice, z, q);
-    nh_reconstruction *out = follow(NULL, &chart, z, q, true, count, times, options, error);
+    nh_reconstruction *out = follow(NULL, &(beginning){.chart = &chart, .z = z, .q = q}, true, count, times, options, error);
     nh_reduced_flow_free(chart.flow);
     nh_free(q);
     return out;
@@ -372,10 +383,19 @@ nh_reconstruction *nh_reconstruct(const nh_reduced *o, const nh_slice *slice, co
 nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count, const double *times, const nh_options *options,
                                        nh_error *error)
 {
-    size_t m = nh_atlas_action(atlas)->kinetic->m;
-    double *z = nh_alloc_array(2 * m + 1, sizeof *z);
-    const nh_reduced_chart *chart = nh_atlas_at(atlas, q, v, z, error);
-    nh_reconstruction *out = chart ? follow(atlas, chart, z, q, group, count, times, options, error) : NULL;
+    const nh_action *g = nh_atlas_action(atlas);
+    const nh_slice *preferred = nh_atlas_preferred(atlas);
+    size_t m = g->kinetic->m, moves = SIZE_MAX;
+    double *z = nh_alloc_array(4 * m + NH_REACH_MOST * g->d + 1, sizeof *z), *place = z + 2 * m, *speed = place + m, *moved = speed + m;
+    nh_error ignored = {0};
+    memcpy(place, q, m * sizeof *q);
+    memcpy(speed, v, m * sizeof *v);
+    if (preferred) moves = nh_slice_reach(preferred, place, speed, moved);
+    const nh_reduced_chart *chart = moves < SIZE_MAX ? nh_atlas_at(atlas, place, speed, z, &ignored) : NULL;
+    if (!chart) moves = 0;
+    if (!chart) chart = nh_atlas_at(atlas, q, v, z, error);
+    nh_error_clear(&ignored);
+    nh_reconstruction *out = chart ? follow(atlas, &(beginning){.chart = chart, .z = z, .q = q, .moves = moves, .moved = moved}, group, count, times, options, error) : NULL;
     nh_free(z);
     return out;
 }

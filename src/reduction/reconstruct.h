@@ -22,6 +22,7 @@ typedef struct {
     size_t restarts;       /* of the coordinates of the group */
     size_t charts;         /* changes of the chart */
     size_t first_chart;    /* outputs before the first of them */
+    const nh_reduced *first; /* the equations until then */
     bool complete;
     bool dependent;        /* it ended where the constraints become dependent: no equations go on there */
     char note[256];

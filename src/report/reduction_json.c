@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "base/json.h"
+#include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/print.h"
 #include "report/reduction.h"
@@ -57,16 +58,16 @@ static void put_series(nh_json *to, const char *key, size_t n, const size_t *dim
     for (size_t i = 0; i < n; i++) nh_json_add_number(list, (double)dimension[i]);
 }
 
-/* J_a = e_a^s K_sr v^r, the spatial momenta. */
+/* J_a = e_a^s dL/dv^s, the spatial momenta. */
 static void put_momentum_map(nh_json *to, const nh_action *g)
 {
     const nh_kinetic *k = g->kinetic;
     nh_json *list = nh_json_put_array(to, "momentum_map");
-    for (size_t a = 0; a < g->d && k->quadratic && k->autonomous; a++) {
+    for (size_t a = 0; a < g->d; a++) {
         nh_ex sum = nh_int(k->dag, 0);
         for (size_t s = 0; s < k->m; s++)
-            for (size_t r = 0; r < k->m && !nh_is_zero(k->dag, g->generator[a].component[s]); r++)
-                sum = nh_add(k->dag, sum, nh_mul(k->dag, nh_mul(k->dag, g->generator[a].component[s], k->K[s * k->m + r]), k->v[r]));
+            if (!nh_is_zero(k->dag, g->generator[a].component[s]))
+                sum = nh_add(k->dag, sum, nh_mul(k->dag, g->generator[a].component[s], nh_diff(k->dag, k->model->system->lagrangian, k->v[s])));
         char *text = nh_print_string(k->dag, nh_simplify(k->dag, sum));
         nh_json_add_text(list, text);
         nh_free(text);

@@ -115,10 +115,38 @@ static void equalise(canvas *c)
     c->y.high = y + half_y;
 }
 
+/* How high a plot of equal scales must be: as what is drawn, within bounds. */
+static double tall(const canvas *c)
+{
+    double wide = width - left - right, wanted = wide * (c->y.high - c->y.low) / (c->x.high - c->x.low);
+    return fmax(0.95 * height, fmin(1.5 * height, wanted + top + bottom));
+}
+
+static void part(const canvas *c, const char *text, size_t length)
+{
+    nh_text piece;
+    nh_text_init(&piece);
+    nh_text_add_n(&piece, text, length);
+    nh_svg_escape(nh_text_string(&piece), c->out);
+    nh_text_clear(&piece);
+}
+
+/* E_T gets an index. */
 static void label(const canvas *c, double x, double y, const char *anchor, const char *class, const char *text)
 {
+    static const char alphanumeric[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+    const char *bar = strchr(text, '_');
+    size_t index = bar && bar > text ? strspn(bar + 1, alphanumeric) : 0;
     nh_text_addf(c->out, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"12\" fill=\"#808080\" font-family=\"sans-serif\">", class, x, y, anchor);
-    nh_svg_escape(text, c->out);
+    part(c, text, index ? (size_t)(bar - text) : strlen(text));
+    if (index) {
+        nh_text_add(c->out, "<tspan dy=\"0.3em\" font-size=\"75%\">");
+        part(c, bar + 1, index);
+        nh_text_add(c->out, "</tspan>");
+        if (bar[1 + index]) nh_text_add(c->out, "<tspan dy=\"-0.225em\">");
+        part(c, bar + 1 + index, strlen(bar + 1 + index));
+        if (bar[1 + index]) nh_text_add(c->out, "</tspan>");
+    }
     nh_text_add(c->out, "</text>");
 }
 
@@ -310,7 +338,11 @@ static double legend(const canvas *c, bool draw)
     double x = left, y = legend_row;
     if (c->plot->curves < 2 || c->plot->fan) return 0;
     for (size_t k = 0; k < c->plot->curves; k++) {
-        double room = 40 + 9.2 * (double)nh_text_width(c->plot->curve[k].name);
+        nh_text plain;
+        nh_text_init(&plain);
+        nh_typeset_plain(c->plot->curve[k].name, &plain);
+        double room = 40 + 9.2 * (double)nh_text_width(nh_text_string(&plain));
+        nh_text_clear(&plain);
         if (x + room > width - right && x > left) x = left, y += legend_row;
         if (draw) {
             bool is_dots = c->plot->curve[k].dots;
@@ -343,7 +375,7 @@ void nh_svg_plot(const nh_plot *p, nh_text *out)
     canvas c = {.plot = p, .out = out};
     ranges(&c);
     c.legend = legend(&c, false);
-    c.height = c.legend + (p->equal ? 1.5 : 1) * height;
+    c.height = c.legend + (p->equal ? tall(&c) : height);
     c.x.from = left;
     c.x.to = width - right;
     c.y.from = c.height - bottom;

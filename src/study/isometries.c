@@ -26,10 +26,12 @@ static void put(list *l, nh_ex e)
 
 static bool depends_on_position(const nh_kinetic *k)
 {
-    for (size_t i = 0; i < k->m * k->m; i++)
-        for (size_t s = 0; s < k->m; s++)
-            if (nh_depends(k->dag, k->K[i], k->q[s])) return true;
-    return false;
+    bool any = false;
+    for (size_t i = 0; i < k->m * k->m; i++) {
+        if (nh_depends(k->dag, k->K[i], k->model->system->t)) return false;
+        for (size_t s = 0; s < k->m; s++) any |= nh_depends(k->dag, k->K[i], k->q[s]);
+    }
+    return any;
 }
 
 /* xi^s K_sr v^r on the submanifold: what total derivatives add to L, or a magnetic field, is left to the functions. */
@@ -56,6 +58,8 @@ static size_t momenta(const nh_climb *x, nh_ex *P)
         nh_kinetic alone = *k; /* the metric alone */
         alone.V = nh_int(k->dag, 0);
         alone.forced = alone.magnetic = false;
+        alone.linear = alone.affine = alone.autonomous = alone.general = true;
+        alone.f = 0;
         for (size_t s = 0; s < k->m; s++) alone.a[s] = nh_int(k->dag, 0);
         jets = nh_jets_find(&alone, &r->options, &ignored);
         if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, &r->options, &ignored)) found.count = 0;

@@ -62,7 +62,7 @@ static void function_stages(nh_climb *x)
 
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
-    enum { pencils_after = 2, known_after = 5, isometries_after = 3, series_after = 4 };
+    enum { pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 4 };
     nh_climb x = {.r = r, .start = nh_clock()};
     x.ranges = nh_points_create(r->model, range_points, 1, (uint64_t)r->options.seed, error);
     if (!x.ranges) return false;

@@ -311,8 +311,10 @@ void nh_climb_rates(nh_climb *x)
     for (size_t i = 0; i <= o->m; i++) {
         nh_ex q = i == 0 ? o->system->t : o->system->coordinate[i - 1].q;
         const char *name = nh_name_of(o->dag, q);
-        for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_climb_done(x); base++)
-            if (pencil_stage(x, q, 0, name, base)) break;
+        bool found = false;
+        for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_climb_done(x) && !found; base++) found = pencil_stage(x, q, 0, name, base);
+        if (i == 0 && !found && nh_depends(o->dag, o->Lbar, q) && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_GROWING);
+        if (o->system->has_forces && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_SQUARES);
         for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);

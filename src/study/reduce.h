@@ -75,6 +75,9 @@ typedef struct {
     nh_state initial;
     double until, full_seconds;
     double full_reached;      /* time up to which the full motion is known well enough to be compared with */
+    const nh_slice *kept[2];  /* the slices that are shown, of the first stage and of the whole group, and their equations: good for every initial state */
+    const nh_chaplygin *kept_chaplygin;
+    const nh_reduced *kept_whole;
     bool brief;               /* motions only: no equations to show, no tests of measures and stages */
     size_t stages;
     nh_reduction_stage stage[4];

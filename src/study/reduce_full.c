@@ -35,7 +35,7 @@ static double farthest(const nh_kinetic *k, const nh_motion *a, const nh_motion 
 
 /* ---- the full motion ---- */
 
-static nh_motion *full_with(nh_reduction_bench *b, double rtol, nh_error *error)
+static nh_motion *full_with(nh_reduction_bench *b, double rtol, size_t outputs, nh_error *error)
 {
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
@@ -45,7 +45,7 @@ static nh_motion *full_with(nh_reduction_bench *b, double rtol, nh_error *error)
     double *z = nh_alloc_array(2 * m, sizeof *z);
     memcpy(z, r->initial.q, m * sizeof *z);
     memcpy(z + m, r->initial.v, m * sizeof *z);
-    nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, error);
+    nh_motion *motion = nh_flow(&problem, z, outputs, b->times, &options, error);
     nh_bordered_free(bordered);
     nh_free(z);
     return motion;
@@ -67,12 +67,16 @@ bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
     b->rtol = fmax(r->options.tolerance * part, least);
-    nh_motion *coarse = full_with(b, b->rtol, error), *fine = coarse ? full_with(b, finest, error) : NULL;
+    nh_motion *coarse = full_with(b, b->rtol, NH_REDUCTION_OUTPUTS, error);
+    /* one that ends early, with steps that become smaller and smaller, is not brought to its end a second time */
+    size_t outputs = coarse && !coarse->complete && coarse->guard_hit < 0 && coarse->count > 1 ? coarse->count : NH_REDUCTION_OUTPUTS;
+    const char *ended = outputs < NH_REDUCTION_OUTPUTS ? nh_arena_printf(r->arena, "the full motion ended at t = %.4g: %s", coarse->end_time, coarse->note) : NULL;
+    nh_motion *fine = coarse ? full_with(b, finest, outputs, error) : NULL;
     double off = fine ? farthest(r->kinetic, coarse, fine) : 0;
     if (fine && off > aim * r->options.tolerance && b->rtol > least) {
         b->rtol = fmax(b->rtol * aim * r->options.tolerance / off, least);
         nh_motion_free(coarse);
-        coarse = full_with(b, b->rtol, error);
+        coarse = full_with(b, b->rtol, outputs, error);
     }
     if (coarse && fine) {
         r->full_seconds = coarse->seconds;
@@ -82,7 +86,8 @@ bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
             nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
         b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
         memcpy(b->full, fine->state, fine->count * 2 * m * sizeof *b->full);
-        if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
+        if (ended) nh_reduction_warn(r, "%s", ended);
+        else if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
     }
     nh_motion_free(coarse);
     nh_motion_free(fine);
@@ -97,7 +102,7 @@ double nh_reduction_unsure(nh_reduction_bench *b)
     if (b->unsure > 0) return b->unsure;
     for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
         nh_error ignored = {0};
-        nh_motion *other = full_with(b, tolerances[t], &ignored);
+        nh_motion *other = full_with(b, tolerances[t], b->reached, &ignored);
         for (size_t i = 0; other && i < b->reached && i < other->count; i++) b->unsure = fmax(b->unsure, nh_reduction_distance(k, other->state + i * other->size, b->full + i * other->size));
         nh_motion_free(other);
         nh_error_clear(&ignored);

@@ -12,21 +12,25 @@ static void compare(nh_reduction_bench *b, nh_reduction_stage *s, const double *
     nh_reduction *r = b->r;
     nh_options options = r->options;
     nh_error trouble = {0};
+    if (b->reached < 2) {
+        snprintf(s->note, sizeof s->note, "the full motion is not known anywhere, so that nothing could be compared");
+        return;
+    }
     options.tolerance = b->rtol;
     options.steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
-    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
+    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, b->reached, b->times, &options, &trouble);
     if (!c) snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
     nh_error_clear(&trouble);
     if (!c) return;
     size_t n = c->count < b->reached ? c->count : b->reached;
-    s->complete = c->complete;
+    s->complete = c->complete && b->reached == NH_REDUCTION_OUTPUTS;
     s->restarts = c->restarts;
     s->compared = n > 1;
     s->reached = n > 1 ? b->times[n - 1] : 0;
     for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, nh_reduction_distance(r->kinetic, c->q + i * c->m, b->full + i * 2 * c->m));
     for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + fabs(c->energy[0])));
     s->seconds = c->seconds;
-    s->speedup = c->complete && s->seconds > 0 ? r->full_seconds / s->seconds : 0;
+    s->speedup = s->complete && s->seconds > 0 ? r->full_seconds / s->seconds : 0;
     snprintf(s->note, sizeof s->note, "%.250s", c->note);
     nh_reconstruction_free(c);
     if (s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;

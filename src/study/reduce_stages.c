@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "reduction/density.h"
+#include "reduction/reach.h"
 #include "reduction/subspace.h"
 #include "study/reduce_internal.h"
 
@@ -68,12 +69,15 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
     nh_slice_choose(action, shape, along);
     bool same = true;
     for (size_t a = 0; a < d; a++) same &= (y[a] = q[along[a]]) == 0;
+    size_t which = action == &r->action[0] ? 0 : 1;
     *through = nh_arena_alloc(r->arena, sizeof **through);
     *shown = nh_arena_alloc(r->arena, sizeof **shown);
     nh_slice_init(*through, action, shape, along, y);
     **shown = (nh_slice){.kinetic = action->kinetic, .action = action, .n = m - d, .d = d, .shape = shape, .along = along, .y0 = zero};
-    if (!same && !r->brief && nice_place(*shown, zero)) nh_slice_init(*shown, action, shape, along, zero);
+    if (r->brief && r->kept[which]) **shown = *r->kept[which];
+    else if (!same && nice_place(*shown, zero)) nh_slice_init(*shown, action, shape, along, zero);
     else **shown = **through;
+    if (!r->brief && (*shown)->K != (*through)->K) r->kept[which] = *shown;
     nh_free(y);
     nh_free(zero);
 }
@@ -86,7 +90,7 @@ static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas
     nh_error_clear(&trouble);
     if (!c) return;
     for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + fabs(c->energy[0])));
-    if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, s->reduced, c->first_chart, c->z);
+    if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, c->first, c->first_chart, c->z);
     s->seconds = c->seconds;
     s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
     nh_reconstruction_free(c);
@@ -141,7 +145,7 @@ bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options) { re
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
     nh_reduction_stage *s = &r->stage[r->stages++];
-    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action), .against_full = true};
+    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action), .against_full = true, .linear_drift = -1};
     return s;
 }
 
@@ -167,8 +171,9 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     nh_slice *slice, *shown;
     size_t m = r->kinetic->m;
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
-    const nh_chaplygin *c = *through = chaplygin_on(r, slice, error), *pretty = slice->K == shown->K ? c : chaplygin_on(r, shown, error);
+    const nh_chaplygin *c = *through = chaplygin_on(r, slice, error), *pretty = slice->K == shown->K ? c : r->brief && r->kept_chaplygin ? r->kept_chaplygin : chaplygin_on(r, shown, error);
     if (!c || !pretty) return false;
+    if (pretty != c) r->kept_chaplygin = pretty;
     nh_reduction_stage *s = nh_reduction_new_stage(r, NH_STAGE_CHAPLYGIN, action);
     s->slice = slice;
     s->reduced = &c->reduced;
@@ -179,6 +184,10 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     size_t *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
     for (size_t i = 0; i < slice->n; i++) independent[i] = i;
     nh_atlas_add(atlas, slice, &c->reduced, independent, NULL);
+    if (pretty != c) {
+        nh_atlas_add(atlas, pretty->slice, &pretty->reduced, independent, NULL);
+        nh_atlas_prefer(atlas);
+    }
     nh_reduction_compare(b, s, atlas, r->initial.q, r->initial.v, b->full, 2 * m, b->reached);
     nh_atlas_free(atlas);
     return true;
@@ -262,7 +271,8 @@ static nh_action both_groups(const nh_action *first, size_t d, const nh_ex *fiel
     return both;
 }
 
-static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_t d, const nh_ex *field, nh_error *error)
+/* q, v: the initial state, or that moved along the first group's orbit onto the slice of `first`. */
+static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const double *q, const double *v, size_t d, const nh_ex *field, nh_error *error)
 {
     nh_reduction *r = b->r;
     nh_second *t = &r->second[0], *pretty = t;
@@ -272,12 +282,12 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, size_
     bool good = nh_second_init(t, first, d, field, &r->options, error);
     if (good) {
         nh_slice_choose(&t->action, shape, along);
-        for (size_t i = 0; i < n; i++) x[i] = r->initial.q[s1->shape[i]];
+        for (size_t i = 0; i < n; i++) x[i] = q[s1->shape[i]];
         for (size_t a = 0; a < d; a++) y0[a] = x[along[a]];
-        good = nh_second_equations(t, shape, along, y0, error) && nh_slice_components(s1, r->initial.q, r->initial.v, u) && nh_reduced_start(&first->reduced, x, u, z);
+        good = nh_second_equations(t, shape, along, y0, error) && nh_slice_components(s1, q, v, u) && nh_reduced_start(&first->reduced, x, u, z);
     }
     const nh_chaplygin *simple = good ? r->stage[0].chaplygin : NULL;
-    if (simple && simple != first && r->stage[0].kind == NH_STAGE_CHAPLYGIN) { /* the same on the slices y = 0 */
+    if (simple && (simple != first || nh_largest(d, y0) > 0) && !r->brief && r->stage[0].kind == NH_STAGE_CHAPLYGIN) { /* the same on the slices y = 0 */
         nh_error trouble = {0};
         memset(y0, 0, n * sizeof *y0);
         if (nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) && nh_second_equations(&r->second[1], shape, along, y0, &trouble) && slice_is_good(&r->second[1].slice)) pretty = &r->second[1];
@@ -312,22 +322,28 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
     const nh_action *g = &r->group->action;
     size_t f = r->kinetic->f, m = r->kinetic->m, *index = nh_alloc_array(2 * g->d + 2, sizeof *index), *rest = index + g->d + 1;
     const nh_chaplygin *first = NULL;
+    double *q = nh_alloc_array(2 * m + NH_REACH_MOST * f + 1, sizeof *q), *v = q + m;
     bool good = true;
+    memcpy(q, r->initial.q, m * sizeof *q);
+    memcpy(v, r->initial.v, m * sizeof *v);
     if (nh_group_chaplygin(r->group, &r->options, index)) {
         double *t = nh_alloc_array(g->d * f + 1, sizeof *t);
         for (size_t i = 0; i < f; i++) t[index[i] + i * g->d] = 1;
         nh_action_sub(&r->action[0], g, f, t, &r->options);
         good = chaplygin_stage(b, &r->action[0], &first, error);
+        const nh_chaplygin *shown = good ? r->stage[0].chaplygin : NULL;
+        if (good && shown != first && nh_slice_reach(shown->slice, q, v, v + m) < SIZE_MAX) first = shown;
         nh_free(t);
         size_t n = good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
         if (n && !d && !first->plain) nh_reduction_warn(r, "no second stage: in the reduced system forces act along the further symmetries (%zu) that normalise the first group, so that no momentum is conserved", n);
-        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
+        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, q, v, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
         nh_free(field);
     }
     nh_free(index);
+    nh_free(q);
     return good;
 }
 

@@ -54,16 +54,19 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
     nh_reduction *r = b->r;
     nh_slice *slice, *shown;
     size_t m = r->kinetic->m, *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
-    nh_reduced *o = nh_arena_alloc(r->arena, 2 * sizeof *o), *pretty = o;
+    nh_reduced *o = nh_arena_alloc(r->arena, 2 * sizeof *o);
+    const nh_reduced *pretty = o;
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
     nh_reduced_independent(slice, independent);
     bool good = nh_reduced_master(o, slice, independent, error);
     nh_error ignored = {0};
+    size_t *own = nh_arena_alloc(r->arena, (m + 1) * sizeof *own);
     if (!good) return false;
     if (slice->K != shown->K) {
-        size_t *own = nh_arena_alloc(r->arena, (m + 1) * sizeof *own);
         nh_reduced_independent(shown, own);
-        pretty = nh_reduced_master(o + 1, shown, own, &ignored) ? o + 1 : o;
+        if (r->brief && r->kept_whole) pretty = r->kept_whole;
+        else pretty = nh_reduced_master(o + 1, shown, own, &ignored) ? o + 1 : o;
+        if (pretty != o) r->kept_whole = pretty;
         nh_error_clear(&ignored);
     }
     nh_reduction_stage *s = nh_reduction_new_stage(r, action->dimension_assumption && r->kinetic->reducible ? NH_STAGE_POINCARE : NH_STAGE_SLICE, action);
@@ -74,6 +77,10 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
     if (!r->brief && r->kinetic->reducible) nh_linear_momenta_find(&s->linear, pretty, &r->options);
     nh_atlas *atlas = nh_atlas_create(action, false);
     nh_atlas_add(atlas, slice, o, independent, NULL);
+    if (pretty != o) {
+        nh_atlas_add(atlas, shown, pretty, own, NULL);
+        nh_atlas_prefer(atlas);
+    }
     nh_reduction_compare(b, s, atlas, r->initial.q, r->initial.v, b->full, 2 * m, b->reached);
     nh_atlas_free(atlas);
     nh_error trouble = {0};

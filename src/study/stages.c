@@ -163,13 +163,45 @@ static void stage_words(nh_shelf *s)
     nh_shelf_add(s, nh_shelf_terms(s, &l));
 }
 
+/* Functions of t alone, with their derivatives. */
+static void put_time(const nh_shelf *s, nh_list *l)
+{
+    nh_dag *d = s->o->dag;
+    nh_list f = nh_list_functions(s, true);
+    for (size_t i = 0; i < f.n; i++) {
+        bool timely = true;
+        for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
+        if (!timely) continue;
+        nh_list_put(l, f.e[i]);
+        nh_ex slope = nh_diff(d, f.e[i], s->o->system->t);
+        if (nh_kind_of(d, slope) != NH_NUMBER) nh_list_put(l, slope);
+    }
+}
+
+/* What a force that depends on t alone adds to momenta and centres of mass: powers of t, and functions of t by themselves and times t. */
+static void add_drive(nh_shelf *s)
+{
+    enum { highest = 6 };
+    nh_dag *d = s->o->dag;
+    nh_ex t = s->o->system->t;
+    nh_list f = {0}, powers = {0}, some = {0};
+    put_time(s, &f);
+    for (int k = 1; k <= highest; k++) nh_list_put(&powers, nh_powi(d, t, k));
+    nh_list_put(&some, nh_int(d, 1));
+    nh_list_put(&some, t);
+    nh_shelf_add(s, nh_shelf_terms(s, &powers));
+    nh_shelf_product_of_lists(s, &f, &some);
+}
+
 static void stage_words_positions(nh_shelf *s)
 {
     nh_list l = words(s), q = nh_list_positions(s, true, true), f = nh_list_functions(s, false);
     nh_shelf_product_of_lists(s, &l, &q);
     nh_list tq = nh_list_positions(s, false, true);
     nh_shelf_add(s, nh_shelf_terms(s, &f));
-    nh_shelf_add(s, nh_shelf_polynomial(s, &tq, nh_depends(s->o->dag, s->o->Lbar, s->o->system->t) ? 2 : 1));
+    bool timely = nh_depends(s->o->dag, s->o->Lbar, s->o->system->t);
+    nh_shelf_add(s, nh_shelf_polynomial(s, &tq, timely ? 2 : 1));
+    if (timely) add_drive(s);
 }
 
 static void stage_linear_waves(nh_shelf *s)
@@ -262,7 +294,10 @@ static void stage_ratios(nh_shelf *s)
     nh_list l = linear_words(s), q = nh_list_positions(s, true, false), v = {0};
     for (size_t i = 0; i < s->w->velocities; i++) nh_list_put(&v, nh_powi(d, s->w->velocity[i], -1));
     for (size_t i = 0; i < s->w->atoms; i++) nh_list_put(&v, s->w->atom[i]);
+    nh_list qt = nh_list_positions(s, true, true);
     nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &l), nh_shelf_terms(s, &q), nh_shelf_terms(s, &v)}));
+    nh_shelf_product_of_lists(s, &v, &qt);
+    nh_shelf_add(s, nh_shelf_terms(s, &qt));
 }
 
 static void stage_linear_waves_2(nh_shelf *s)
@@ -309,27 +344,29 @@ bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, siz
     return true;
 }
 
-/* 1 and functions of time alone, with their derivatives: what drives a motion is in its response. */
-static void put_time(const nh_shelf *s, nh_list *l)
+/* Masses and springs that grow like t bring t times the words.  Elsewhere t f is a second vector of the eigenvalue of f, which rounding splits. */
+static void put_growing(const nh_shelf *s, nh_list *l)
 {
-    nh_dag *d = s->o->dag;
-    nh_list f = nh_list_functions(s, true);
-    for (size_t i = 0; i < f.n; i++) {
-        bool timely = true;
-        for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
-        if (!timely) continue;
-        nh_list_put(l, f.e[i]);
-        nh_ex slope = nh_diff(d, f.e[i], s->o->system->t);
-        if (nh_kind_of(d, slope) != NH_NUMBER) nh_list_put(l, slope);
-    }
+    nh_list words = {0};
+    nh_ex t = s->o->system->t;
+    nh_list_put_all(&words, s->o->n, s->o->chart->w);
+    nh_list_put_all(&words, s->w->positions, s->w->position);
+    for (size_t i = 0; i < words.n; i++) nh_list_put(l, nh_mul(s->o->dag, t, words.e[i]));
 }
 
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t base)
 {
     enum { most_with_waves = 110 };
     nh_shelf s = {arena, o, w, NULL, 0};
-    bool timely = base == NH_PENCIL_TIME;
+    bool growing = base == NH_PENCIL_GROWING, timely = growing || base == NH_PENCIL_TIME;
     if (timely) base = 2;
+    if (base == NH_PENCIL_SQUARES) {
+        nh_list u = {0}, f = nh_list_functions(&s, true);
+        nh_list_put_all(&u, o->n, o->chart->w);
+        nh_list uu = nh_list_squares(&s, &u);
+        nh_list_put_all(&uu, f.n, f.e);
+        return nh_shelf_terms(&s, &uu);
+    }
     if (base == NH_PENCIL_PRODUCTS) {
         nh_list u = {0}, x = nh_list_positions(&s, true, false);
         nh_list_put_all(&u, w->velocities, w->velocity);
@@ -349,6 +386,7 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     for (size_t i = 0; i < words_count && base > 0 && words_count * v.n <= most_with_waves; i++)
         for (size_t j = 0; j < v.n; j++) nh_list_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
     if (timely) put_time(&s, &l);
+    if (growing) put_growing(&s, &l);
     if (base < 2) return nh_shelf_terms(&s, &l);
     nh_list_put_all(&l, q.n, q.e);
     nh_list_put_all(&l, f.n, f.e);

@@ -17,8 +17,9 @@ bool nh_stage_at(nh_arena *arena, const nh_model *model, const nh_dictionary *di
 /* What the search for unknown rates starts from: 0 the velocities, 1 with first harmonics of the angles, 2 everything of degree one; for cyclic
  * coordinates also, with first harmonics, 3 the frame of the kinetic energy times lengths and t, 4 its squares times lengths (vectors and
  * tensors in polar coordinates); and, when asked for by themselves, 5 velocities and
- * their products with positions (angular momenta), 6 as 2 with 1 and functions of time. */
-enum { NH_PENCIL_BASES = 5, NH_PENCIL_PLAIN = 3, NH_PENCIL_PRODUCTS = 5, NH_PENCIL_TIME = 6 };
+ * their products with positions (angular momenta), 6 as 2 with 1 and functions of time,
+ * 7 squares of velocities and functions (energies that friction takes), 8 as 6 with t times velocities and positions. */
+enum { NH_PENCIL_BASES = 5, NH_PENCIL_PLAIN = 3, NH_PENCIL_PRODUCTS = 5, NH_PENCIL_TIME = 6, NH_PENCIL_SQUARES = 7, NH_PENCIL_GROWING = 8 };
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *model, const nh_dictionary *dictionary, size_t base);
 
 #endif
