@@ -128,9 +128,10 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/libnhsym.a
 	@$(CC) $(OPT) $(LDFLAGS) $< $(BUILD)/libnhsym.a $(LDLIBS) -lcriterion -o $@
 
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/nhsym/systems $(DESTDIR)$(PREFIX)/share/nhsym/analyses
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/nhsym/systems/stress $(DESTDIR)$(PREFIX)/share/nhsym/analyses
 	install -m 755 $(BUILD)/nhsym $(DESTDIR)$(PREFIX)/bin/
 	install -m 644 systems/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/systems/
+	install -m 644 systems/stress/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/systems/stress/
 	install -m 644 analyses/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/analyses/
 	install -d $(DESTDIR)$(PREFIX)/share/nhsym/schema
 	install -m 644 docs/schema/*.json $(DESTDIR)$(PREFIX)/share/nhsym/schema/

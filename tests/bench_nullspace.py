@@ -1,7 +1,7 @@
 """Null space by NumPy, as a user would compute it: singular values of one matrix.  usage: bench_nullspace.py COLUMNS ROWS
 
 The same shape as build/tests/bench_nullspace: A = B diag(d) Z, three of d zero.  Prints the seconds of the singular values of A, those of its QR decomposition and the singular values of R,
-and the dimension.
+the dimension, and for the pair (A, B) those by singular values and by QR decompositions.
 """
 import sys
 import time
@@ -23,4 +23,14 @@ first = time.perf_counter() - begin
 begin = time.perf_counter()
 _, values, right = np.linalg.svd(np.linalg.qr(a, mode="r"))
 null = right[n - int((values < 1e-10 * values[0]).sum()):]
-print(f"{first:.3f} {time.perf_counter() - begin:.3f} {dimension}")
+begin2 = time.perf_counter()
+# the pair of matrices that nhsym solves: how small is A c where B c varies?
+second = begin2 - begin
+begin = time.perf_counter()
+_, size, right = np.linalg.svd(b - b.mean(axis=0), full_matrices=False)
+_, values, right = np.linalg.svd(a @ (right.T / size), full_matrices=False)
+pair = time.perf_counter() - begin
+begin = time.perf_counter()
+triangle = np.linalg.qr(b - b.mean(axis=0), mode="r")
+_, values, right = np.linalg.svd(np.linalg.solve(triangle.T, np.linalg.qr(a, mode="r").T).T)
+print(f"{first:.3f} {second:.3f} {dimension} {pair:.3f} {time.perf_counter() - begin:.3f}")

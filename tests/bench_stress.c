@@ -1,95 +1,113 @@
-/* The shipped stresses: maps where methods fail, and how many cells are silently wrong.  And the nonreversible test: which methods gain energy exponentially.
- * usage: bench_stress [-v] [FACTOR]        FACTOR times the usual seconds per map */
+/* The shipped stresses: every map that a system file names, and those of the discrete problem, and how many cells are silently wrong.  And the nonreversible test:
+ * which methods gain energy exponentially.
+ * usage: bench_stress [-v] [SECONDS]        at most so many seconds per map (120) */
+#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "motion/midpoint.h"
 #include "report/chart.h"
 #include "study/stress.h"
 
-static const char DISK[] = "name: disk\nparameters: [{name: m, value: 1}, {name: r, value: 1}, {name: g, value: 1}, {name: A, value: 0.25}, {name: C, value: 0.5}]\n"
-    "coordinates: [{name: x}, {name: y}, {name: p, type: angle}, {name: s, type: angle}, {name: h, type: angle}]\n"
-    "lagrangian: m/2*(x'^2 + y'^2 + r^2*cos(h)^2*h'^2) + A/2*(h'^2 + sin(h)^2*p'^2) + C/2*(s' + p'*cos(h))^2 - m*g*r*sin(h)\n"
-    "constraints: [\"x' = -r*cos(p)*(s' + p'*cos(h)) + r*h'*sin(h)*sin(p)\", \"y' = -r*sin(p)*(s' + p'*cos(h)) - r*h'*sin(h)*cos(p)\"]\n"
-    "domain: {h: [0.8, 1.5]}\n"
-    "known: {currents: [{name: E, expr: \"m/2*(x'^2 + y'^2 + r^2*cos(h)^2*h'^2) + A/2*(h'^2 + sin(h)^2*p'^2) + C/2*(s' + p'*cos(h))^2 + m*g*r*sin(h)\"}]}\n";
+enum { most_files = 500 };
 
-static const char FRONT_AXLE[] = "name: front_axle\nparameters: [{name: l, value: 2.6}, {name: c, value: 3}, {name: b, value: 0.35}]\n"
-    "coordinates: [{name: psi1, type: angle}, {name: psi2, type: angle}, {name: theta, type: angle}]\n"
-    "lagrangian: 6*(b*psi2' + c*psi1' + c*theta')^2 + 3*theta'^2 + (theta' + psi1')^2/10 + psi2'^2/25\n"
-    "constraints: [\"theta'*(l - c*sin(psi1)) = sin(psi1)*(b*psi2' + c*psi1')\"]\ndependent: [theta]\ndomain: {psi1: [-0.5, 0.5]}\n";
+static double seconds = 120;
+static bool verbose;
+static size_t wrong;
 
-static const char STIFF[] = "name: stiff_contact\nparameters: [{name: K, value: 1}, {name: L, value: 1, doc: unit of length}]\n"
-    "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
-    "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + K*y^2)/2\nconstraints: [\"x' + y*z'/L = 0\"]\n"
-    "known: {currents: [{name: Ey, expr: \"y'^2/2 + K*y^2/2\"}]}\n";
-
-static const struct {
-    const char *title, *path, *text; /* one of path and text */
-    const char *initial, *over;
-    nh_chart_choice chart;
-    double until, seconds;
-} CASES[] = {
-    {"sleigh across cos(phi) = 0, bad chart", "systems/sleigh.yaml", NULL, "phi=0, phi'=1", "phi'=0.1:4:6, phi=0:6.28:6", NH_CHART_COORDINATES, 10, 6},
-    {"sleigh, J to 0 and a to 0", "systems/sleigh_inertia.yaml", NULL, "h=0, h'=1", "J=1e-16:1:6, a=1e-9:1:6", NH_CHART_AUTO, 10, 6},
-    {"disk towards flat", NULL, DISK, "h=1, p'=0.1", "p'=1e-6:0.1:6, stress_tolerance=1e-4:1e-11:4", NH_CHART_AUTO, 3.92, 8},
-    {"disk, upright", NULL, DISK, "h=1.5697963, s'=0.5", "h=1.570796316:1.5697963:4, s'=0.28:0.61:6", NH_CHART_AUTO, 20, 6},
-    {"front axle at l = c sin(psi1)", NULL, FRONT_AXLE, "psi1=0.6, psi1'=0.3, psi2'=-1.5758", "psi1=0.2:1.2:6, psi1'=-0.6:0.6:6", NH_CHART_COORDINATES, 3, 6},
-    {"stiffness and inertia ratios up to 1e6", NULL, STIFF, "x=1, y=0.001, z=0.3, y'=0, z'=0.5", "K=1:1e12:7", NH_CHART_AUTO, 1, 6},
-    {"inertia ratios of a body", "systems/suslov.yaml", NULL, NULL, NULL, NH_CHART_AUTO, 10, 12},
-    {"up to 1e6 periods", NULL, STIFF, "x=1, y=0.2, z=0.3, y'=0.9, z'=0.5", "until=6.283e2:6.283e6:5", NH_CHART_AUTO, 10, 60},
-    {"units of 1e-12 to 1e12", NULL, STIFF, "x=1, y=0.2, z=0.3, y'=0.9, z'=0.5", "absolute=1e-12:1e6:7, L=1e-12:1e12:5", NH_CHART_AUTO, 10, 8},
-};
-
-static bool write_text(const char *path, const char *text)
+static void put_row(const char *command, const char *over, const nh_stress *s, const nh_stress_map *only)
 {
-    FILE *file = fopen(path, "w");
-    return file && fputs(text, file) >= 0 && fclose(file) == 0;
-}
-
-static size_t run_case(size_t i, const char *folder, double factor, bool verbose)
-{
-    char path[200];
-    snprintf(path, sizeof path, "%s/system.yaml", folder);
-    if (CASES[i].text && !write_text(path, CASES[i].text)) exit(1);
-    nh_error error;
-    nh_error_clear(&error);
-    nh_simulate_request q = {.system_path = CASES[i].text ? path : CASES[i].path, .initial = CASES[i].initial, .chart = CASES[i].chart, .until_given = true};
-    nh_options_default(&q.options);
-    q.options.until = CASES[i].until;
-    nh_stress *s = nh_stress_create(&q, CASES[i].over, factor * CASES[i].seconds, &error);
-    if (!s) {
-        fprintf(stderr, "%s: %s\n", CASES[i].title, error.what);
-        exit(1);
-    }
-    printf("| %s | %s |", CASES[i].title, CASES[i].over ? CASES[i].over : "every parameter and angle");
-    for (int k = 0; k <= NH_WRONG; k++) printf(" %zu |", s->count[k]);
+    size_t count[NH_WRONG + 1] = {0};
+    for (size_t i = 0; i < s->maps; i++)
+        for (size_t j = 0; j < s->map[i].cells; j++)
+            if (!only || only == &s->map[i]) count[s->map[i].cell[j].status]++;
+    printf("| %s | %s |", command, over);
+    for (int k = 0; k <= NH_WRONG; k++) printf(" %zu |", count[k]);
     puts("");
     fflush(stdout);
-    size_t wrong = s->count[NH_WRONG];
-    if (verbose || wrong) {
-        nh_text text;
-        nh_text_init(&text);
-        nh_stress_text(s, true, &text);
-        fputs(nh_text_string(&text), stderr);
-        nh_text_clear(&text);
+    wrong += count[NH_WRONG];
+    if (!verbose && !count[NH_WRONG]) return;
+    nh_text text;
+    nh_text_init(&text);
+    nh_stress_text(s, true, &text);
+    fputs(nh_text_string(&text), stderr);
+    nh_text_clear(&text);
+}
+
+static nh_stress *stress_of(const char *path, const char *over, double budget)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_simulate_request q = {.system_path = path};
+    nh_options_default(&q.options);
+    nh_stress *s = nh_stress_create(&q, over, budget, &error);
+    if (s) return s;
+    fprintf(stderr, "%s: %s\n", path, error.what);
+    exit(1);
+}
+
+/* The name by which the command line finds it. */
+static void name_of(const char *path, char out[100])
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    snprintf(out, 100, "%.*s", (int)(strlen(name) - 5), name);
+}
+
+static void run_named(const char *path)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_system *system = nh_system_read(path, 0, NULL, &error);
+    char name[100], command[400];
+    name_of(path, name);
+    for (size_t i = 0; system && i < system->stresses; i++) {
+        nh_stress *s = stress_of(path, system->stress[i].name, seconds);
+        snprintf(command, sizeof command, "`nhsym chart %s --over \"%s\"`", name, system->stress[i].name);
+        put_row(command, system->stress[i].over, s, NULL);
+        nh_stress_free(s);
     }
+    nh_system_free(system);
+}
+
+static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+
+static void run_folder(const char *folder)
+{
+    char *path[most_files];
+    size_t files = 0;
+    DIR *d = opendir(folder);
+    for (struct dirent *entry; d && (entry = readdir(d)) && files < most_files;) {
+        if (!strstr(entry->d_name, ".yaml")) continue;
+        path[files] = malloc(strlen(folder) + strlen(entry->d_name) + 2);
+        sprintf(path[files++], "%s/%s", folder, entry->d_name);
+    }
+    if (d) closedir(d);
+    qsort(path, files, sizeof *path, by_name);
+    for (size_t i = 0; i < files; i++) {
+        run_named(path[i]);
+        free(path[i]);
+    }
+}
+
+/* The maps of the discrete problem, of the first seconds of everything. */
+static void run_fits(const char *path)
+{
+    static const char *const names[] = {"clustered samples", "noisy samples", "ansatz at the edge of dependence", "frequencies that nearly coincide"};
+    char name[100], command[400];
+    nh_stress *s = stress_of(path, "samples", seconds);
+    name_of(path, name);
+    for (size_t i = 0; i < s->maps; i++)
+        for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+            if (!strcmp(s->map[i].name, names[k])) {
+                snprintf(command, sizeof command, "`nhsym chart %s --over samples`: %s", name, names[k]);
+                put_row(command, s->map[i].axis, s, &s->map[i]);
+            }
     nh_stress_free(s);
-    if (CASES[i].text) unlink(path);
-    return wrong;
 }
 
 /* ---- the nonreversible test ---- */
-
-/* A pendulum s drives the direction of the velocity of a particle in a plane; when s rotates, nothing turns the motion round in time [ModinVerdier2020].
- * In the velocities (u, s') of an orthonormal frame. */
-static const char DRIVEN[] = "name: driven\ncoordinates: [{name: x}, {name: z}, {name: s, type: angle}]\n"
-    "lagrangian: (x'^2 + z'^2 + s'^2)/2 - (x^2 + z^2)/2 + cos(s) - 0.15*sin(2*s)\n"
-    "constraints: [\"x'*sin(sin(s) + 0.5*sin(2*s + 1)) = z'*cos(sin(s) + 0.5*sin(2*s + 1))\"]\n"
-    "chart: {velocities: [u, w], map: [\"x' = u*cos(sin(s) + 0.5*sin(2*s + 1))\", \"z' = u*sin(sin(s) + 0.5*sin(2*s + 1))\", \"s' = w\"]}\n";
 
 static void put_growth(const nh_model *o, const char *name, nh_midpoint_rule rule, bool composed, double w, double step, double until)
 {
@@ -124,7 +142,7 @@ static void nonreversible(void)
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_system *s = nh_system_parse("driven", DRIVEN, 0, NULL, &error);
+    nh_system *s = nh_system_read("systems/stress/driven_particle.yaml", 0, NULL, &error);
     nh_model *o = s ? nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error) : NULL;
     if (!o) {
         fprintf(stderr, "%s\n", error.what);
@@ -145,14 +163,13 @@ static void nonreversible(void)
 
 int main(int argc, char **argv)
 {
-    char folder[] = "/tmp/nhsym-stress-XXXXXX";
-    bool verbose = argc > 1 && !strcmp(argv[1], "-v");
-    double factor = argc > 1 + verbose ? atof(argv[1 + verbose]) : 1;
-    size_t wrong = 0;
-    if (!mkdtemp(folder)) return 1;
+    verbose = argc > 1 && !strcmp(argv[1], "-v");
+    if (argc > 1 + verbose) seconds = atof(argv[1 + verbose]);
+    static const char *const fits[] = {"systems/sleigh.yaml", "systems/spherical_pendulum.yaml", "systems/henon_heiles.yaml", "systems/nonholonomic_oscillator.yaml", "systems/ball_on_turntable.yaml"};
     printf("| stress | over | right | warned | caught | failed | out of time | silently wrong |\n|---|---|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) wrong += run_case(i, folder, factor, verbose);
-    rmdir(folder);
+    run_folder("systems");
+    run_folder("systems/stress");
+    for (size_t i = 0; i < sizeof fits / sizeof *fits; i++) run_fits(fits[i]);
     nonreversible();
     return wrong != 0;
 }

@@ -1,9 +1,11 @@
 /* The smallest model for what is watched: the same values as the whole model, and really the smallest. */
 #include <dirent.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #include "mechanics.h"
 #include "motion/trajectory.h"
+#include "study/simulate.h"
 
 static const char *const planar =
     "name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\n"
@@ -209,6 +211,32 @@ Test(scene, a_chart_that_ends_between_outputs_is_left)
     mechanics_clear(&x);
 }
 
+/* Quasi-velocities that mix two oscillators: in coordinate velocities one of them is enough; not so for those of the sleigh. */
+Test(scene, the_chart_that_keeps_fewest_states)
+{
+    char path[64];
+    snprintf(path, sizeof path, "/tmp/nhsym-test-scene-%ld.yaml", (long)getpid());
+    FILE *file = fopen(path, "w");
+    fputs("name: mixed\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2 - y^2\nchart: {velocities: [a, b], map: [\"x' = a + b\", \"y' = a - b\"]}\n", file);
+    fclose(file);
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = path, .initial = "x=1, x'=0.5", .watch = "x", .until_given = true};
+    nh_options_default(&q.options);
+    q.options.until = 2;
+    nh_simulation *s = nh_simulate(&q, &error);
+    must(s != NULL, &error, path);
+    cr_expect(s->trajectory->scene && s->trajectory->scene->kept == 2, "%s", s->scene);
+    size_t last = s->motion->count - 1;
+    cr_expect_float_eq(s->value[last * s->columns.count], cos(2.0) + 0.5 * sin(2.0), 1e-8);
+    nh_simulation_free(s);
+    q = (nh_simulate_request){.system_path = "systems/sleigh.yaml", .initial = "omega=2", .watch = "omega", .until_given = true, .options = q.options};
+    s = nh_simulate(&q, &error);
+    must(s != NULL, &error, "sleigh");
+    cr_expect(s->trajectory->scene->kept == 2 && s->model->chart->quasi, "%s", s->scene);
+    nh_simulation_free(s);
+    remove(path);
+}
+
 /* ---- the same values as the whole model, for every system ---- */
 
 static uint64_t state = 88172645463325252u;
@@ -224,6 +252,15 @@ static nh_ex random_quantity(const nh_model *o)
     nh_dag *d = o->dag;
     nh_ex a = o->chart->symbol[1 + (size_t)(chance() * (double)(o->m + o->n))], b = o->rho[(size_t)(chance() * (double)o->m)];
     return chance() < 0.4 ? a : chance() < 0.5 ? b : nh_add(d, nh_mul(d, a, nh_real(d, 0.31 + chance())), nh_mul(d, b, b));
+}
+
+static bool has_quasi(const char *path)
+{
+    nh_error ignored = {0};
+    nh_system *s = nh_system_read(path, 0, NULL, &ignored);
+    bool any = s && s->quasi > 0;
+    nh_system_free(s);
+    return any;
 }
 
 static size_t compared, smaller, by_currents;
@@ -268,6 +305,7 @@ Test(scene, the_same_values_for_every_system)
         snprintf(path, sizeof path, "systems/%s", entry->d_name);
         if (!strstr(entry->d_name, ".yaml")) continue;
         compare_on(path, NH_CHART_AUTO);
+        if (has_quasi(path)) compare_on(path, NH_CHART_COORDINATES);
     }
     closedir(folder);
     cr_expect(compared > 150 && smaller > 80 && by_currents > 40, "%zu compared, %zu of them smaller, %zu by currents", compared, smaller, by_currents);

@@ -50,6 +50,8 @@
     X(compile,          1,       0,      1e6,   real,  "",         "a motion's equations are compiled once interpreting them took so many times what compiling takes; 0: never") \
     X(stress_tolerance, 1e-8,    1e-14,  1e-2,  real,  "",         "of the motions of chart --stress")                                       \
     X(stress_error,     1e-4,    1e-12,  1,     real,  "",         "an error up to this is right in chart --stress")                         \
+    X(stress_steps,     3e4,     10,     1e10,  whole, "steps",    "a motion of chart --stress that needs more steps is out of time")        \
+    X(stress_columns,   40,      2,      2000,  whole, "columns",  "chart --stress: largest ansatz of the discrete problem")                 \
     X(chart_wrong,      1e-2,    1e-12,  1e6,   real,  "",         "chart: an error above this, and above chart_far tolerances, is called wrong") \
     X(chart_far,        1e4,     1,      1e15,  real,  "tolerance", "chart: how far above its tolerance an error may be")                    \
     X(chart_fixed,      0.1,     1e-12,  1e6,   real,  "",         "chart: the same for methods with a fixed step")                          \

@@ -32,10 +32,12 @@ int nh_cli_chart(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
     if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error) || !nh_cli_can_write(cli, error)) return error->code;
-    double budget = cli->budget > 0 ? cli->budget : cli->stress ? 30 : 5;
+    /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
+    const double longest = 300;
+    double budget = cli->budget > 0 ? cli->budget : 5, of_stress = cli->budget > 0 ? budget / 2 : longest;
     nh_cli_watch_begin(cli);
-    nh_comparison *c = nh_compare(&request, cli->stress ? budget / 2 : budget, error);
-    nh_stress *s = c && cli->stress && !nh_interrupted() ? nh_stress_create(&request, cli->over, budget / 2, error) : NULL;
+    nh_comparison *c = nh_compare(&request, cli->stress && cli->budget > 0 ? budget / 2 : budget, error);
+    nh_stress *s = c && cli->stress && !nh_interrupted() ? nh_stress_create(&request, cli->over, of_stress, error) : NULL;
     nh_cli_watch_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);

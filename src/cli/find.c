@@ -52,6 +52,10 @@ const char *nh_cli_look(nh_cli *cli, const char *kind, const char *name)
         const char *file = nh_arena_printf(cli->arena, "%s/%s.yaml", folder[i], name);
         if (!access(file, F_OK)) return file;
     }
+    for (size_t i = 0; i < n; i++) { /* those that are there for chart --stress, and not listed */
+        const char *file = nh_arena_printf(cli->arena, "%s/stress/%s.yaml", folder[i], name);
+        if (!access(file, F_OK)) return file;
+    }
     return NULL;
 }
 

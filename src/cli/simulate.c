@@ -52,7 +52,10 @@ static void complain(const nh_simulation *s, nh_error *error)
 {
     if (s->ensemble && s->ensemble->incomplete) nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete, s->ensemble->note);
     if (s->ensemble) return;
-    if (s->checked && !s->accuracy.held && s->motion->complete) nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy.why);
+    if (s->checked && !s->accuracy.held && s->motion->complete) {
+        nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy.why);
+        if (s->columns.count > 1) nh_error_hint(error, "`%s` is the least certain of %zu columns; --watch names those that are wanted", s->columns.track[s->accuracy.quantity].name, s->columns.count);
+    }
     if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->accuracy.why : s->motion->note);
 }
 

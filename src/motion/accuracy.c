@@ -76,7 +76,7 @@ static double difference(const search *s, const nh_trajectory *a, const nh_traje
             scale = fmax(scale, fabs(x));
             d = fmax(d, fabs(x - y));
         }
-        worst = fmax(worst, d / scale);
+        if (d / scale > worst) worst = d / scale, s->out->quantity = k;
     }
     return worst;
 }

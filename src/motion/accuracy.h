@@ -19,6 +19,7 @@ typedef struct {
     double wanted, estimate, tolerance; /* of the motion that is returned */
     const char *second;                 /* the method that confirms; NULL: there was no doubt */
     double difference;                  /* from it; INFINITY when there was none, or it could not compute the motion */
+    size_t quantity;                    /* the wanted expression that is least certain */
     int runs;
     long evaluations;                   /* of all runs */
     double seconds;                     /* of all runs, without preparations */

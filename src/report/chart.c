@@ -26,7 +26,7 @@ const nh_measured *nh_comparison_fastest(const nh_comparison *c, size_t from, si
     const nh_measured *best = NULL;
     for (size_t i = from; i < to; i++) {
         const nh_measured *m = &c->item[i];
-        if (m->status <= NH_WARNED && (reduced || !m->reduced) && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
+        if (m->status <= (reduced ? NH_WARNED : NH_RIGHT) && (reduced || !m->reduced) && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
     }
     return best;
 }
@@ -195,6 +195,7 @@ static void put_map(const nh_stress_map *map, nh_json *list)
         nh_json_put_text(cell, "method", map->cell[i].method);
         nh_json_put_text(cell, "status", nh_measured_status_name(map->cell[i].status));
         nh_json_put_number(cell, "error", map->cell[i].error);
+        nh_json_put_number(cell, "drift", map->cell[i].drift);
         nh_json_put_text(cell, "note", map->cell[i].note ? map->cell[i].note : "");
     }
 }

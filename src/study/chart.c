@@ -23,10 +23,15 @@ static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_b
 
 /* ---- one motion ---- */
 
+/* A count is the same on a busy machine. */
+static double most_steps(const nh_bench *c) { return c->once ? c->options.stress_steps : 1e8; }
+
+static bool out_of_time(nh_bench *c, const nh_motion *motion) { return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)); }
+
 static nh_motion *integrate(nh_bench *c, const nh_contender *k, double tolerance, double step, nh_error *error)
 {
     nh_formulation *f = &c->formulation[k->formulation];
-    nh_flow_options how = {.rtol = tolerance, .step = step, .scale = f->scale, .max_steps = 1e8, .cancelled = late, .cancel_context = c};
+    nh_flow_options how = {.rtol = tolerance, .step = step, .scale = f->scale, .max_steps = most_steps(c), .cancelled = late, .cancel_context = c};
     const double *times = c->yard.times;
     if (!k->method) {
         nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
@@ -81,7 +86,7 @@ static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_meas
         for (size_t i = 0; i < n; i++) m->worst_drift = fmax(m->worst_drift, m->drift[i]);
     }
     bool steep = breaks_down(f, motion);
-    m->status = status_of(&c->options, m, motion->complete && good, late(c) || nh_clock() > c->deadline, steep);
+    m->status = status_of(&c->options, m, motion->complete && good, out_of_time(c, motion), steep);
     m->note = nh_arena_strdup(c->out->arena, steep && !motion->note[0] ? "the chart breaks down on the way" : motion->note);
     nh_free(states);
 }
@@ -120,7 +125,7 @@ static bool states_of(nh_bench *c, size_t formulation, const char *method, doubl
     nh_error_clear(&ignored);
     c->deadline = nh_clock() + c->budget / 4;
     nh_motion *motion = integrate(c, &k, tolerance, 0, &ignored);
-    c->hurried |= motion && !motion->complete && late(c);
+    c->hurried |= motion && !motion->complete && out_of_time(c, motion);
     bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) && nh_formulation_states(&c->formulation[formulation], motion, states);
     nh_motion_free(motion);
     return good;
@@ -238,11 +243,11 @@ static void collect(nh_bench *c)
         if (c->grid[i].method) out->item[out->count++] = c->grid[i];
     for (size_t i = 0; i < out->count; i++) {
         nh_measured *m = &out->item[i];
-        m->front = m->status <= NH_WARNED && !m->reduced;
+        m->front = m->status == NH_RIGHT && !m->reduced; /* what a guard complains about is no advice */
         for (size_t j = 0; j < out->count && m->front; j++) {
             const nh_measured *o = &out->item[j];
             double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement); /* smaller ones cannot be told apart */
-            if (o->status <= NH_WARNED && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
+            if (o->status == NH_RIGHT && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
         }
     }
 }
@@ -278,16 +283,11 @@ static void watch_charts(nh_bench *c)
     }
 }
 
-bool nh_bench_open(nh_bench *c, const nh_simulate_request *request, double budget, nh_error *error)
-{
-    return nh_bench_open_turned(c, request, 0, 0, budget, error);
-}
-
-bool nh_bench_open_turned(nh_bench *c, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error)
+static bool open_bench(nh_bench *c, const nh_simulate_request *request, size_t coordinate, double turn, bool once, double budget, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
-    *c = (nh_bench){.out = out, .budget = budget, .begun = nh_clock(), .absolute = request->options.absolute, .options = request->options, .project = request->project};
+    *c = (nh_bench){.out = out, .budget = budget, .begun = nh_clock(), .absolute = request->options.absolute, .options = request->options, .project = request->project, .once = once};
     out->arena = arena;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
@@ -307,6 +307,13 @@ bool nh_bench_open_turned(nh_bench *c, const nh_simulate_request *request, size_
     if (!open_formulations(c, error)) return false;
     watch_charts(c);
     return true;
+}
+
+bool nh_bench_open(nh_bench *c, const nh_simulate_request *request, double budget, nh_error *error) { return open_bench(c, request, 0, 0, false, budget, error); }
+
+bool nh_bench_open_once(nh_bench *c, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error)
+{
+    return open_bench(c, request, coordinate, turn, true, budget, error);
 }
 
 void nh_bench_no_reference(nh_bench *c)

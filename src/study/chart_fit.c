@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "noether/echelon.h"
 #include "noether/rows.h"
+#include "study/chart_fit.h"
 #include "study/chart_internal.h"
 #include "study/spans.h"
 
@@ -180,8 +181,7 @@ static void mark_front(nh_comparison *out)
     }
 }
 
-/* Does a sine or cosine of the equations depend on q? */
-static bool is_wave(const nh_model *o, nh_ex q)
+bool nh_fit_is_wave(const nh_model *o, nh_ex q)
 {
     nh_ex call[256];
     for (size_t i = 0; i < o->m + o->n; i++) {
@@ -194,8 +194,7 @@ static bool is_wave(const nh_model *o, nh_ex q)
     return false;
 }
 
-/* Letters of the polynomials. */
-static size_t letters_of(const nh_model *o, nh_ex *out)
+size_t nh_fit_letters(const nh_model *o, nh_ex *out)
 {
     size_t n = 0;
     for (size_t i = 0; i < o->n; i++) out[n++] = o->chart->w[i];
@@ -204,7 +203,7 @@ static size_t letters_of(const nh_model *o, nh_ex *out)
         bool occurs = false;
         for (size_t i = 0; i < o->m + o->n && !occurs; i++) occurs = nh_depends(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], q);
         if (!occurs) continue;
-        bool wave = is_wave(o, q);
+        bool wave = nh_fit_is_wave(o, q);
         if (wave) out[n++] = nh_call(o->dag, NH_SIN, q);
         out[n++] = wave ? nh_call(o->dag, NH_COS, q) : q;
     }
@@ -238,7 +237,7 @@ void nh_chart_fit(nh_bench *c, double seconds)
     fit f = {.c = c, .model = out->question->model, .options = c->options, .deadline = nh_clock() + seconds};
     uint64_t seed = (uint64_t)f.options.seed;
     nh_ex *letter = nh_alloc_array(3 * f.model->m + 1, sizeof *letter);
-    size_t letters = letters_of(f.model, letter);
+    size_t letters = nh_fit_letters(f.model, letter);
     out->fit = nh_arena_alloc(out->arena, (most_levels * densities * ways + 1) * sizeof *out->fit);
     f.ranges = nh_points_create(f.model, heldout_points, 1, seed, &ignored);
     f.heldout = nh_points_create(f.model, 2 * (size_t)f.options.chart_columns, 1, seed + 77, &ignored);

@@ -87,14 +87,15 @@ typedef struct {
     nh_measured *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
     nh_options options;
-    bool project, once; /* once: no repetitions, the time does not matter */
+    bool project, once; /* once: no repetitions, the time does not matter; steps are limited instead */
     bool hurried;       /* the reference ran out of time */
 } nh_bench;
 
 /* System, formulations and charts of a request; close it also on failure (and free `out`). */
 bool nh_bench_open(nh_bench *bench, const nh_simulate_request *request, double budget, nh_error *error);
-/* The same with one coordinate of the initial state moved, and velocities that the constraints allow there. */
-bool nh_bench_open_turned(nh_bench *bench, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error);
+/* The same without repetitions, with at most options.stress_steps steps per motion, one coordinate of the initial state moved, and velocities that the constraints allow
+ * there. */
+bool nh_bench_open_once(nh_bench *bench, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error);
 void nh_bench_close(nh_bench *bench);
 /* The reference: in the chart; in all coordinates where the chart breaks down or the two methods disagree. */
 bool nh_bench_reference(nh_bench *bench, nh_error *error);

@@ -1,6 +1,7 @@
 #include "study/simulate.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -333,7 +334,7 @@ static const char *words_astray(const nh_simulation *s, const nh_state *at)
     return NULL;
 }
 
-nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
+static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_simulation *s = nh_arena_alloc(arena, sizeof *s);
@@ -346,6 +347,60 @@ nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
     if (times && choose_columns(s, q, error) && integrate(s, q, &initial, count, times, error)) return s;
     nh_simulation_free(s);
     return NULL;
+}
+
+/* ---- in which velocities? ---- */
+
+/* How many states the smallest model for what is watched keeps in this chart; SIZE_MAX: it cannot be told.  *quasi: is it a chart of quasi-velocities? */
+static size_t states_kept(const nh_simulate_request *q, bool *quasi)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_arena *arena = nh_arena_create();
+    nh_simulation *s = nh_arena_alloc(arena, sizeof *s);
+    nh_state initial;
+    double until;
+    size_t kept = SIZE_MAX;
+    s->arena = arena;
+    if (nh_simulate_read(s, q, false, &initial, &until, &ignored) && choose_columns(s, q, &ignored)) {
+        nh_ex *known, *e = nh_arena_alloc(arena, (s->columns.count + 1) * sizeof *e);
+        for (size_t k = 0; k < s->columns.count; k++) e[k] = s->columns.track[k].value;
+        size_t count = known_currents(s, &known), n = 0;
+        nh_ex *current = nh_arena_alloc(arena, (count + s->model->m + 1) * sizeof *current);
+        n = nh_network_cyclic(s->model, current);
+        for (size_t k = 0; k < count; k++)
+            if (nh_network_conserved(s->model, known[k])) current[n++] = known[k];
+        nh_scene *scene = nh_scene_create(s->model, s->columns.count, e, n, current);
+        kept = scene->kept;
+        *quasi = s->model->chart->quasi;
+        nh_scene_free(scene);
+    }
+    nh_simulation_free(s);
+    return kept;
+}
+
+/* Quasi-velocities may mix what coordinate velocities keep apart. */
+static bool coordinates_keep_fewer(const nh_simulate_request *q)
+{
+    nh_simulate_request other = *q;
+    bool quasi = false, ignored;
+    size_t kept = states_kept(q, &quasi);
+    other.chart = NH_CHART_COORDINATES;
+    return quasi && states_kept(&other, &ignored) < kept;
+}
+
+nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
+{
+    if ((q->watch || q->scene) && q->chart == NH_CHART_AUTO && !q->ensemble && coordinates_keep_fewer(q)) {
+        nh_simulate_request other = *q;
+        nh_error ignored;
+        nh_error_clear(&ignored);
+        other.chart = NH_CHART_COORDINATES;
+        nh_simulation *s = simulate_in_chart(&other, &ignored);
+        if (s && s->trajectory->scene && s->motion->complete && (!s->checked || s->accuracy.held)) return s; /* the chart may end on the way */
+        nh_simulation_free(s);
+    }
+    return simulate_in_chart(q, error);
 }
 
 void nh_simulation_free(nh_simulation *s)

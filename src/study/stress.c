@@ -1,45 +1,50 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/clock.h"
+#include "base/progress.h"
 #include "study/stress_internal.h"
 
 enum { most_values = 12, most_parameters = 12 };
 static const char *const methods[] = {"GSL rk8pd", "GSL rkf45", "ARKODE Dormand-Prince", "CVODE Adams", "CVODE BDF"};
-enum { method_count = sizeof methods / sizeof *methods };
+enum { method_count = NH_STRESS_METHODS };
+static const char *const stepping[] = {"midpoint", "Lagrange-d'Alembert", "Lagrange-d'Alembert, order 4", "energy-preserving", "relaxation, order 4"};
+_Static_assert(sizeof methods / sizeof *methods == method_count && sizeof stepping / sizeof *stepping == method_count, "as many of both");
 static const double longer[] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6}, parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
 static const double least_cell = 0.02; /* seconds that a value has at least */
+
+bool nh_stress_late(const nh_stress_work *w) { return nh_interrupted() || nh_clock() > w->begun + w->budget; }
 
 /* ---- one cell ---- */
 
 static double drift_of(const nh_measured *m) { return isnan(m->worst_drift) ? 0 : m->worst_drift; }
 
 /* Which guard complains about a run that ended? NULL: none. */
-static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measured *m, const nh_options *o)
+static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measured *m, double step, const nh_options *o)
 {
     nh_arena *arena = b->out->arena;
     nh_measured tight;
     nh_contender again = *k;
     if (m->status == NH_WARNED || m->status == NH_CAUGHT) return "the pivot of the chart";
     if (drift_of(m) > o->stress_error) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
-    nh_bench_measure(b, &again, o->stress_tolerance / 10, NAN, &tight);
+    nh_bench_measure(b, &again, step > 0 ? NAN : o->stress_tolerance / 10, step > 0 ? step / 2 : NAN, &tight);
     if (tight.status == NH_TIMEOUT) b->hurried = true; /* it says nothing */
     if (tight.status == NH_TIMEOUT) return NULL;
-    if (tight.status == NH_FAILED) return "a tighter tolerance does not reach the end";
+    if (tight.status == NH_FAILED) return step > 0 ? "half the step does not reach the end" : "a tighter tolerance does not reach the end";
     /* both against the same reference, so that the difference of the errors bounds that of the states from below */
-    if (fabs(tight.error - m->error) > o->stress_error / 4) return "a tighter tolerance gives another motion";
+    if (fabs(tight.error - m->error) > o->stress_error / 4) return step > 0 ? "half the step gives another motion" : "a tighter tolerance gives another motion";
     return NULL;
 }
 
-static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool reference, const nh_options *o, nh_arena *arena, nh_stress_cell *cell)
+static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool reference, double step, const nh_options *o, nh_stress_cell *cell)
 {
     bool ended = m->status != NH_FAILED && m->status != NH_TIMEOUT;
-    const char *guard = ended && (reference || !b->hurried) ? guard_of(b, k, m, o) : NULL;
+    const char *guard = ended && (reference || !b->hurried) ? guard_of(b, k, m, step, o) : NULL;
     bool good = m->error <= o->stress_error;
     cell->error = reference ? m->error : NAN;
-    cell->note = nh_arena_strdup(arena, guard ? guard : m->note);
+    cell->drift = m->worst_drift;
+    cell->note = guard ? guard : m->note;
     if (!ended) cell->status = m->status;
     else if (b->hurried && !guard && !(reference && good)) {
         cell->status = NH_TIMEOUT;
@@ -50,29 +55,36 @@ static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool refe
     } else cell->status = good ? guard ? NH_WARNED : NH_RIGHT : guard ? NH_CAUGHT : NH_WRONG;
 }
 
+static void try_method(nh_bench *b, const char *name, bool in_coordinates, bool reference, double step, const nh_options *o, nh_stress_cell *cell)
+{
+    nh_contender k = {.method = nh_method_find(name), .formulation = in_coordinates && b->formulations == NH_CHART_FORMULATIONS ? 1 : 0};
+    nh_measured m;
+    const char *refused = nh_method_refused(k.method, b->formulation[k.formulation].programs);
+    if (refused) {
+        cell->note = refused;
+        return;
+    }
+    b->hurried &= !reference; /* what one method had no time for does not concern the next */
+    nh_bench_measure(b, &k, step > 0 ? NAN : o->stress_tolerance, step > 0 ? step : NAN, &m);
+    decide(b, &k, &m, reference, step, o, cell);
+}
+
 void nh_stress_try(nh_stress_work *w, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_stress_cell *cell)
 {
     nh_error error;
     nh_error_clear(&error);
     double left = w->begun + w->budget - nh_clock(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
     nh_bench b;
-    bool opened = nh_bench_open_turned(&b, request, coordinate, turn, budget, &error);
-    b.once = true;
+    bool opened = nh_bench_open_once(&b, request, coordinate, turn, budget, &error);
     bool reference = opened && nh_bench_reference(&b, &error);
     if (opened && !reference) nh_bench_no_reference(&b);
     for (size_t i = 0; i < method_count; i++) {
-        cell[i].method = methods[i];
-        cell[i].error = NAN;
+        cell[i].method = w->step > 0 ? stepping[i] : methods[i];
+        cell[i].error = cell[i].drift = NAN;
         cell[i].status = NH_FAILED;
-        if (!opened) {
-            cell[i].note = nh_arena_strdup(w->out->arena, error.what);
-            continue;
-        }
-        nh_contender k = {.method = nh_method_find(methods[i]), .formulation = in_coordinates && b.formulations == NH_CHART_FORMULATIONS ? 1 : 0};
-        nh_measured m;
-        b.hurried &= !reference; /* what one method had no time for does not concern the next */
-        nh_bench_measure(&b, &k, request->options.stress_tolerance, NAN, &m);
-        decide(&b, &k, &m, reference, &request->options, w->out->arena, &cell[i]);
+        cell[i].note = error.what;
+        if (opened) try_method(&b, cell[i].method, in_coordinates, reference, w->step, &request->options, &cell[i]);
+        cell[i].note = nh_arena_strdup(w->out->arena, cell[i].note);
     }
     if (w->values_left) w->values_left--;
     nh_bench_close(&b);
@@ -81,11 +93,11 @@ void nh_stress_try(nh_stress_work *w, const nh_simulate_request *request, double
 
 /* ---- maps ---- */
 
-nh_stress_map *nh_stress_add_map(nh_stress_work *w, const char *name, const char *axis, size_t values)
+nh_stress_map *nh_stress_add_map(nh_stress_work *w, const char *name, const char *axis, size_t values, size_t methods_here)
 {
     nh_arena *arena = w->out->arena;
     nh_stress_map *map = &w->out->map[w->out->maps++];
-    *map = (nh_stress_map){.name = nh_arena_strdup(arena, name), .axis = nh_arena_strdup(arena, axis), .methods = method_count, .cells = values * method_count};
+    *map = (nh_stress_map){.name = nh_arena_strdup(arena, name), .axis = nh_arena_strdup(arena, axis), .methods = methods_here, .cells = values * methods_here};
     map->cell = nh_arena_alloc(arena, map->cells * sizeof *map->cell);
     return map;
 }
@@ -98,7 +110,7 @@ static void set_at(nh_stress_map *map, size_t value, double at)
 static void map_time(nh_stress_work *w, double begin, double end)
 {
     enum { count = sizeof longer / sizeof *longer };
-    nh_stress_map *map = nh_stress_add_map(w, "long times", "end of the motion", count);
+    nh_stress_map *map = nh_stress_add_map(w, "long times", "end of the motion", count, method_count);
     for (size_t v = 0; v < count; v++) {
         nh_simulate_request q = *w->request;
         q.until_given = true;
@@ -111,7 +123,7 @@ static void map_time(nh_stress_work *w, double begin, double end)
 static void map_absolute(nh_stress_work *w)
 {
     enum { count = sizeof absolute / sizeof *absolute };
-    nh_stress_map *map = nh_stress_add_map(w, "badly scaled", "size below which errors are absolute", count);
+    nh_stress_map *map = nh_stress_add_map(w, "badly scaled", "size below which errors are absolute", count, method_count);
     for (size_t v = 0; v < count; v++) {
         nh_simulate_request q = *w->request;
         q.options.absolute = absolute[v];
@@ -123,7 +135,7 @@ static void map_absolute(nh_stress_work *w)
 static void map_parameter(nh_stress_work *w, const char *name, double value)
 {
     enum { count = sizeof parameter / sizeof *parameter };
-    nh_stress_map *map = nh_stress_add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count);
+    nh_stress_map *map = nh_stress_add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count, method_count);
     nh_setting *setting = nh_arena_alloc(w->out->arena, (w->request->settings + 1) * sizeof *setting);
     if (w->request->settings) memcpy(setting, w->request->setting, w->request->settings * sizeof *setting);
     for (size_t v = 0; v < count; v++) {
@@ -138,7 +150,7 @@ static void map_parameter(nh_stress_work *w, const char *name, double value)
 
 static void map_angle(nh_stress_work *w, const char *name, size_t coordinate)
 {
-    nh_stress_map *map = nh_stress_add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name), name, most_values);
+    nh_stress_map *map = nh_stress_add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name), name, most_values, method_count);
     for (size_t v = 0; v < most_values; v++) {
         double turn = 2 * acos(-1) * (double)v / most_values;
         set_at(map, v, turn);
@@ -153,18 +165,52 @@ static size_t angles_of(const nh_system *s, bool charts)
     return n;
 }
 
-static void all_maps(nh_stress_work *w, const nh_bench *plain)
+/* Fixed steps over long times: which methods gain energy, and which do not [ModinVerdier2020]. */
+static void map_steps(nh_stress_work *w, double begin, double end)
+{
+    enum { count = 3 };
+    nh_stress_map *map = nh_stress_add_map(w, "long times by fixed steps", "end of the motion", count, method_count);
+    w->step = fabs(end - begin) / (4 * w->request->options.chart_steps);
+    for (size_t v = 0; v < count; v++) {
+        nh_simulate_request q = *w->request;
+        q.until_given = true;
+        q.options.until = begin + (end - begin) * longer[v];
+        set_at(map, v, q.options.until);
+        nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
+    }
+    w->step = 0;
+}
+
+static bool all_maps(nh_stress_work *w, const nh_bench *plain, nh_error *error)
 {
     const nh_system *s = plain->out->question->system;
     bool charts = plain->formulations == NH_CHART_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
     size_t parameters = s->parameters < most_parameters ? s->parameters : most_parameters, angles = angles_of(s, charts);
-    w->out->map = nh_arena_alloc(w->out->arena, (2 + parameters + angles) * sizeof *w->out->map);
-    w->values_left = sizeof longer / sizeof *longer + sizeof absolute / sizeof *absolute + parameters * (sizeof parameter / sizeof *parameter) + angles * most_values;
+    w->out->map = nh_arena_alloc(w->out->arena, (3 + s->stresses + parameters + angles + NH_STRESS_FITS) * sizeof *w->out->map);
+    w->values_left = sizeof longer / sizeof *longer + sizeof absolute / sizeof *absolute + parameters * (sizeof parameter / sizeof *parameter) + angles * most_values + 3;
+    nh_stress_fits(w, plain);
+    for (size_t i = 0; i < s->stresses; i++)
+        if (!nh_stress_named(w, plain, &s->stress[i], error)) return false;
     map_absolute(w);
     for (size_t i = 0; i < s->coordinates && angles; i++)
         if (s->coordinate[i].type == NH_ANGLE) map_angle(w, s->coordinate[i].name, i);
     for (size_t i = 0; i < parameters; i++) map_parameter(w, s->parameter[i].name, s->parameter[i].value);
+    map_steps(w, plain->out->begin, plain->out->end);
     map_time(w, plain->out->begin, plain->out->end);
+    return true;
+}
+
+/* "samples": those of the discrete problem; a map that the system file names; or the ranges themselves. */
+static bool one_map(nh_stress_work *w, const nh_bench *plain, const char *over, nh_error *error)
+{
+    const nh_system *s = plain->out->question->system;
+    w->out->map = nh_arena_alloc(w->out->arena, NH_STRESS_FITS * sizeof *w->out->map);
+    if (!strcmp(over, "samples")) return nh_stress_fits(w, plain), true;
+    for (size_t i = 0; i < s->stresses; i++)
+        if (!strcmp(over, s->stress[i].name)) return nh_stress_named(w, plain, &s->stress[i], error);
+    if (!s->stresses || strchr(over, '=')) return nh_stress_axes(w, plain, w->request, NULL, over, error);
+    nh_fail(error, NH_USAGE, "", "--over `%s` is neither a range nor a stress of this system", over);
+    return nh_error_hint(error, "--over \"NAME=LOW:HIGH\", or one of its stresses, such as --over \"%s\"", s->stress[0].name);
 }
 
 nh_stress *nh_stress_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error)
@@ -174,9 +220,7 @@ nh_stress *nh_stress_create(const nh_simulate_request *request, const char *over
     *out = (nh_stress){.arena = arena, .tolerance = request->options.stress_tolerance, .accuracy = request->options.stress_error};
     nh_stress_work w = {.out = out, .request = request, .begun = nh_clock(), .budget = budget};
     nh_bench plain;
-    bool good = nh_bench_open(&plain, request, budget, error);
-    if (good && over) good = nh_stress_axes(&w, &plain, over, error);
-    else if (good) all_maps(&w, &plain);
+    bool good = nh_bench_open_once(&plain, request, 0, 0, budget, error) && (over ? one_map(&w, &plain, over, error) : all_maps(&w, &plain, error));
     nh_bench_close(&plain);
     nh_comparison_free(plain.out);
     for (size_t i = 0; i < out->maps; i++)

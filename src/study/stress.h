@@ -9,9 +9,10 @@
  *
  * Guards: the pivot of the chart, the drift of every known current, and a second run at a tenth of the tolerance.
  *
- * Maps: the time, ten to a thousand times longer; the size below which errors count as absolute, wrong by powers of ten, which is what badly
- * scaled units do; every parameter, made small and large (masses and lengths that vanish, stiffness); every angle of the initial state, turned once
- * around, in the chart of coordinate velocities. */
+ * Maps: the time, ten to a thousand times longer, also by methods with a fixed step; the size below which errors count as absolute, wrong by powers of ten, which is
+ * what badly scaled units do; every parameter, made small and large (masses and lengths that vanish, stiffness); every angle of the initial state, turned once
+ * around, in the chart of coordinate velocities; those that the system file names (`stress`); and the discrete problem where it is hardly determined
+ * (stress_fit.c).  A motion that needs more than options.stress_steps is out of time: a count, so that a map is the same on a busy machine. */
 #ifndef NH_STRESS_H
 #define NH_STRESS_H
 
@@ -21,7 +22,8 @@ typedef struct {
     double at, second_at; /* on the axes; the second 0 where there is none */
     const char *method;
     nh_measured_status status;
-    double error;      /* NAN where there is no reference or no result */
+    double error, drift; /* NAN where there is no reference or no result (of the discrete problem: rate of what was found, and distance of known currents from it, at other points); largest
+                            drift of a known current, NAN where none is known */
     const char *note;  /* which guard, or why it failed */
 } nh_stress_cell;
 
@@ -40,7 +42,8 @@ typedef struct {
 } nh_stress;
 
 /* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these parameters, numbers of the initial state or
- * options instead of all others; NULL: all others.  `budget`: seconds for all.  NULL with a message when the system itself cannot be read.  The tolerance of
+ * options instead of all others; or the name of a stress of the system file; or "samples", the maps of the discrete problem; NULL: all.  `budget`: seconds for all,
+ * HUGE_VAL: only steps are counted.  NULL with a message when the system itself cannot be read.  The tolerance of
  * every run and the error that counts as right are request->options.stress_tolerance and stress_error. */
 nh_stress *nh_stress_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error);
 void nh_stress_free(nh_stress *stress);

@@ -119,20 +119,20 @@ static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_req
     return true;
 }
 
-bool nh_stress_axes(nh_stress_work *w, const nh_bench *plain, const char *over, nh_error *error)
+bool nh_stress_axes(nh_stress_work *w, const nh_bench *plain, const nh_simulate_request *request, const char *name, const char *over, nh_error *error)
 {
     nh_arena *arena = w->out->arena;
     axis a[most_axes];
-    size_t n = read_axes(arena, plain, w->request, over, a, error), second = n == most_axes ? a[1].count : 1;
+    size_t n = read_axes(arena, plain, request, over, a, error), second = n == most_axes ? a[1].count : 1;
     if (!n) return false;
-    w->out->map = nh_arena_alloc(arena, sizeof *w->out->map);
-    w->values_left = a[0].count * second;
-    nh_stress_map *map = nh_stress_add_map(w, n == 1 ? a[0].name : nh_arena_printf(arena, "%s and %s", a[0].name, a[1].name), a[0].name, w->values_left);
+    if (!name) name = n == 1 ? a[0].name : nh_arena_printf(arena, "%s and %s", a[0].name, a[1].name);
+    nh_stress_map *map = nh_stress_add_map(w, name, a[0].name, a[0].count * second, NH_STRESS_METHODS);
+    w->values_left += map->cells / map->methods;
     map->second_axis = n == 1 ? NULL : a[1].name;
-    nh_setting *setting = nh_arena_alloc(arena, (w->request->settings + most_axes) * sizeof *setting);
-    if (w->request->settings) memcpy(setting, w->request->setting, w->request->settings * sizeof *setting);
+    nh_setting *setting = nh_arena_alloc(arena, (request->settings + most_axes) * sizeof *setting);
+    if (request->settings) memcpy(setting, request->setting, request->settings * sizeof *setting);
     for (size_t i = 0, cells = a[0].count * second; i < cells; i++) {
-        nh_simulate_request q = *w->request;
+        nh_simulate_request q = *request;
         nh_stress_cell *cell = map->cell + i * map->methods;
         double x = value_at(&a[0], i / second), y = n == 1 ? 0 : value_at(&a[1], i % second);
         q.setting = setting;
@@ -141,4 +141,24 @@ bool nh_stress_axes(nh_stress_work *w, const nh_bench *plain, const char *over, 
         nh_stress_try(w, &q, 0, 0, false, cell);
     }
     return true;
+}
+
+/* ---- by name ---- */
+
+bool nh_stress_named(nh_stress_work *w, const nh_bench *plain, const nh_named_stress *s, nh_error *error)
+{
+    nh_simulate_request q = *w->request;
+    nh_setting *setting = nh_arena_alloc(w->out->arena, (q.settings + s->settings + 1) * sizeof *setting);
+    if (q.settings) memcpy(setting, q.setting, q.settings * sizeof *setting);
+    for (size_t i = 0; i < s->settings; i++) setting[q.settings++] = (nh_setting){.name = s->setting[i].name, .value = s->setting[i].value};
+    q.setting = setting;
+    if (s->initial) q.initial = s->initial;
+    if (s->chart) q.chart = !strcmp(s->chart, "auto") ? NH_CHART_AUTO : !strcmp(s->chart, "quasi") ? NH_CHART_QUASI : NH_CHART_COORDINATES;
+    if (s->until > 0) q.options.until = s->until, q.until_given = true;
+    for (size_t i = 0; i < s->options; i++)
+        if (!nh_options_set(&q.options, s->option[i].name, nh_arena_printf(w->out->arena, "%.17g", s->option[i].value), error)) return false;
+    w->step = s->step;
+    bool good = nh_stress_axes(w, plain, &q, s->name, s->over, error);
+    w->step = 0;
+    return good;
 }

@@ -159,6 +159,13 @@ void nh_yardstick_currents(nh_yardstick *y, nh_arena *arena)
     nh_free(e);
 }
 
+/* The size of a coordinate or velocity in a current.  An angle that winds up is no larger for it: with its whole value a drift would look ever smaller. */
+static double size_of(const nh_model *o, size_t j, double y, double least)
+{
+    double size = fmax(fabs(y), least);
+    return j < o->m && o->system->coordinate[j].type == NH_ANGLE ? fmin(size, 1) : size;
+}
+
 /* The size of a current is that of what it is made of: |Phi| and |dPhi/dy_j y_j|, y_j not below its least size. */
 void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
 {
@@ -177,7 +184,7 @@ void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
         for (size_t j = 0; j < m2; j++) y->scale[j] = fmax(y->scale[j], fabs(at[j]));
         for (size_t k = 0; k < n; k++) {
             double size = fabs(out[k]);
-            for (size_t j = 0; j < m2; j++) size = fmax(size, fabs(out[n + k * m2 + j]) * fmax(fabs(at[j]), least));
+            for (size_t j = 0; j < m2; j++) size = fmax(size, fabs(out[n + k * m2 + j]) * size_of(y->model, j, at[j], least));
             if (isfinite(size)) y->current_scale[k] = fmax(y->current_scale[k], size);
             if (i == 0) y->current_start[k] = out[k];
         }

@@ -42,6 +42,22 @@ typedef struct {
 } nh_named;
 
 typedef struct {
+    const char *name;
+    double value;
+    const nh_deck *deck;     /* where it was written: NULL for the command line */
+    const nh_deck_node *key;
+} nh_setting;
+
+/* A map of where motions are hard to compute, as texts of the command line: nothing of it is looked at before it is made. */
+typedef struct {
+    const char *name, *doc, *over;
+    const char *initial, *chart; /* NULL: not given */
+    double until, step;          /* 0: not given; step: by methods with this fixed step */
+    size_t settings, options;
+    nh_setting *setting, *option;
+} nh_named_stress;
+
+typedef struct {
     nh_arena *arena;
     nh_dag *dag;
     nh_deck *deck;
@@ -59,6 +75,8 @@ typedef struct {
     nh_ex *symmetry;         /* symmetries x coordinates: components */
     size_t shapes;
     nh_shape *shape;         /* to be drawn, in t, coordinates and parameters */
+    size_t stresses;
+    nh_named_stress *stress;
     nh_ex lagrangian;        /* with the energies of bodies and joints */
     nh_ex *force;            /* per coordinate; the number 0 where there is none */
     bool has_forces;
@@ -69,13 +87,6 @@ typedef struct {
     nh_ex *quasi_velocity;   /* symbols */
     nh_ex *quasi_map;        /* velocity of each coordinate */
 } nh_system;
-
-typedef struct {
-    const char *name;
-    double value;
-    const nh_deck *deck;     /* where it was written: NULL for the command line */
-    const nh_deck_node *key;
-} nh_setting;
 
 /* Read a system file; `settings` override parameter values.  NULL on failure. */
 nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error);

@@ -11,7 +11,7 @@ typedef nh_system_reader reader;
 
 static const char *const top_keys[] = {"name", "title", "source", "parameters", "coordinates", "definitions", "lagrangian",
                                        "constraints", "dependent", "chart", "forces", "domain", "known", "doc",
-                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw"};
+                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw", "stress"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 void *nh_system_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
@@ -318,7 +318,8 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     if (!read_parameters(r) || !apply_settings(r, settings, setting)) return false;
     s->t = nh_symbol(s->dag, "t");
     return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && nh_system_read_chain(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
-           && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_symmetry(r) && nh_system_read_drawing(r) && nh_system_read_known(r);
+           && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_symmetry(r) && nh_system_read_drawing(r) && nh_system_read_known(r)
+           && nh_system_read_stresses(r);
 }
 
 static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *setting, nh_error *error)

@@ -1,0 +1,12 @@
+/* chart_fit: which functions the polynomials of the discrete problem are made of. */
+#ifndef NH_STUDY_CHART_FIT_H
+#define NH_STUDY_CHART_FIT_H
+
+#include "geometry/model.h"
+
+/* Does a sine or cosine of the equations of motion depend on q? */
+bool nh_fit_is_wave(const nh_model *model, nh_ex q);
+/* The chart's velocities, sines and cosines of angles and the other coordinates on which the equations depend; room for 3 m. */
+size_t nh_fit_letters(const nh_model *model, nh_ex *out);
+
+#endif
