@@ -110,6 +110,7 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
 {
     nh_analyze_request request;
     if (!request_of(cli, &request, error) || !use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
+    request.no_figures = !cli->html && !cli->tex && !cli->json;
     nh_cli_watch_begin(cli);
     nh_result *result = nh_analyze(&request, error);
     nh_cli_watch_end();

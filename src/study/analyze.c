@@ -261,7 +261,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     nh_integrals_of_constraints(r);
     nh_progress("a motion to check it", -1);
     if (!nh_interrupted()) validate(r);
-    if (!nh_interrupted()) nh_figures_compute(r, q, families, family);
+    if (!nh_interrupted() && !q->no_figures) nh_figures_compute(r, q, families, family);
     if (nh_interrupted()) {
         r->partial = true;
         nh_result_warn(r, "interrupted: this is what was found until then%s", r->validation ? "" : ", and no motion was computed");

@@ -14,6 +14,7 @@ typedef struct {
     const nh_setting *setting;
     nh_chart_choice chart;       /* NH_CHART_AUTO: the analysis' choice */
     nh_options options;
+    bool no_figures;             /* those that the analysis asks for stay uncomputed: nobody will look at them */
     bool seed_given, samples_given, tolerance_given, until_given; /* these options outrank the analysis file's values */
 } nh_analyze_request;
 
