@@ -257,6 +257,7 @@ static bool build(nh_atlas *a, const double *q, const double *pivots, nh_error *
     size_t *independent = nh_arena_alloc(arena, (found->m + 1) * sizeof *independent);
     *s = *found;
     s->pivots = pivots;
+    s->tidy &= !pivots; /* what is simplified may have lost a place where it is regular */
     if (a->chaplygin && connection_regularity(s, q) > usable) {
         nh_chaplygin *c = nh_arena_alloc(arena, sizeof *c);
         for (size_t i = 0; i < s->n; i++) independent[i] = i;
