@@ -272,7 +272,7 @@ static char *nested(size_t n, const char *open, const char *close)
 
 Test(parse, nesting_is_limited)
 {
-    static const char *const shell[][2] = {{"(", ")"}, {"-", ""}, {"+", ""}, {"x^", ""}, {"sin(", ")"}, {"sqrt(", ")"},
+    static const char *const shell[][2] = {{"(", ")"}, {"-", ""}, {"+", ""}, {"x^", ""}, {"x^(", ")"}, {"sin(", ")"}, {"sqrt(", ")"},
                                            {"atan2(x, ", ")"}, {"atan2(", ", x)"}};
     nh_dag *d = nh_dag_create();
     for (size_t i = 0; i < sizeof shell / sizeof *shell; i++) {
@@ -287,6 +287,29 @@ Test(parse, nesting_is_limited)
             nh_free(text);
         }
     }
+    nh_dag_free(d);
+}
+
+/* What could be read is printed so that it can be read again: a^b^c as a^(b^c). */
+Test(parse, towers_of_powers_come_back)
+{
+    nh_dag *d = nh_dag_create();
+    nh_parse_fault fault;
+    nh_ex e, back;
+    char *tower = nested(200, "x^", "");
+    cr_assert(nh_parse(d, tower, resolve, d, &e, &fault));
+    char *text = nh_print_string(d, e);
+    cr_assert(strstr(text, "...") || nh_parse(d, text, resolve, d, &back, &fault), "%s", fault.what);
+    cr_expect(strstr(text, "...") || back == e);
+    nh_free(text);
+    nh_free(tower);
+    tower = nested(120, "x^", "");
+    cr_assert(nh_parse(d, tower, resolve, d, &e, &fault));
+    text = nh_print_string(d, e);
+    cr_assert(!strstr(text, "...") && nh_parse(d, text, resolve, d, &back, &fault), "%s", fault.what);
+    cr_expect_eq(back, e);
+    nh_free(text);
+    nh_free(tower);
     nh_dag_free(d);
 }
 

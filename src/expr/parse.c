@@ -310,10 +310,11 @@ static bool power(parser *p, nh_ex *out)
     if (peek(p) != '^') return true;
     size_t at = p->at;
     nh_ex base = *out, exponent;
-    if (!deeper(p)) return false;
     p->at++;
+    bool counted = peek(p) != '('; /* which counts itself: a^b^c is no deeper than a^(b^c), as which it is printed */
+    if (counted && !deeper(p)) return false;
     if (!unary(p, &exponent)) return false;
-    p->depth--;
+    p->depth -= counted;
     if (!real_power(p->dag, base, exponent)) return fail(p, at, "this power has no finite value");
     *out = nh_pow(p->dag, base, exponent);
     return stays_finite(p, *out, at);
