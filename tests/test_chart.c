@@ -1,9 +1,11 @@
 /* chart: errors, drifts and statuses of the methods against what is known of them; the text, JSON and drawing of it. */
 #include <cjson/cJSON.h>
+#include <dirent.h>
 #include <stdio.h>
 
 #include "mechanics.h"
 #include "report/chart.h"
+#include "study/chart_internal.h"
 
 static nh_comparison *compare(const char *path, const char *initial, double until, double budget)
 {
@@ -45,6 +47,111 @@ Test(chart, errors_follow_the_tolerance)
     nh_comparison_free(c);
 }
 
+static bool is_refused(const nh_comparison *c, const char *words)
+{
+    for (size_t i = 0; i < c->refused; i++)
+        if (strstr(c->refusal[i], words)) return true;
+    return false;
+}
+
+/* A true closed form is the reference, for what it says; a wrong one is found out; one for other initial states is not looked at. */
+Test(chart, closed_forms_are_references_when_they_are_true)
+{
+    nh_comparison *c = compare("tests/data/closed_forms.yaml", "phi=-0.7, omega=2, v=0.3", 6, 0.3);
+    cr_expect(strstr(c->reference, "closed form `heading` of phi, otherwise GSL rk8pd"), "%s", c->reference);
+    cr_expect(is_refused(c, "closed form `as if nothing turned it`: it is not this motion: phi") && is_refused(c, "CVODE Adams at 1e-13 agree to"));
+    cr_expect(is_refused(c, "closed form `of the root of what is negative`: it has no value on the way") && !is_refused(c, "for another start"));
+    cr_expect(c->agreement < 1e-10 && c->agreement > 0, "%g", c->agreement);
+    nh_comparison_free(c);
+    c = compare("tests/data/closed_forms.yaml", "omega=77", 0.1, 0.3);
+    cr_expect(is_refused(c, "for another start"));
+    nh_comparison_free(c);
+}
+
+/* Off by what a table's six digits leave: found out, too. */
+Test(chart, a_closed_form_that_is_nearly_true)
+{
+    nh_comparison *c = compare("tests/data/closed_swing.yaml", NULL, 10, 0.3);
+    cr_expect(is_refused(c, "closed form `six digits`: it is not this motion") && strstr(c->reference, "closed form `swing`") && strstr(c->second, "GSL rk8pd"), "%s", c->reference);
+    nh_comparison_free(c);
+}
+
+Test(chart, closed_forms_that_are_shipped_are_true)
+{
+    static const char *const folders[] = {"systems", "systems/stress"};
+    size_t closed = 0;
+    for (int f = 0; f < 2; f++) {
+        DIR *folder = opendir(folders[f]);
+        for (struct dirent *entry; (entry = readdir(folder));) {
+            char path[400];
+            nh_error error = {0};
+            snprintf(path, sizeof path, "%s/%s", folders[f], entry->d_name);
+            if (!strstr(entry->d_name, ".yaml")) continue;
+            nh_system *system = nh_system_read(path, 0, NULL, &error);
+            must(system != NULL, &error, path);
+            size_t motions = system->motions;
+            nh_system_free(system);
+            if (!motions) continue;
+            nh_simulate_request q = {.system_path = path, .until_given = true};
+            nh_options_default(&q.options);
+            q.options.until = 9;
+            nh_bench b; /* the reference only: nothing is measured */
+            must(nh_bench_open(&b, &q, 60, &error) && nh_bench_reference(&b, &error), &error, path);
+            closed++;
+            cr_expect(strstr(b.out->reference, "closed form") && !is_refused(b.out, "closed form") && b.out->agreement < 1e-7, "%s: %s, %g", path, b.out->reference, b.out->agreement);
+            nh_bench_close(&b);
+            nh_comparison_free(b.out);
+        }
+        closedir(folder);
+    }
+    cr_expect_geq(closed, 12);
+}
+
+/* Two chaotic motions that differ at the end are no reference, whoever chose the time: then nothing is right, and that is said; else the time is shortened. */
+Test(chart, no_two_methods_agree)
+{
+    nh_comparison *c = compare("systems/double_pendulum.yaml", "p=2, q=2", 60, 3);
+    cr_expect(c->doubtful && c->agreement > 1e-3, "%g", c->agreement);
+    for (size_t i = 0; i < c->count; i++) cr_expect(c->item[i].status != NH_RIGHT && c->item[i].status != NH_WRONG && !c->item[i].front, "%s", c->item[i].method);
+    nh_text text;
+    nh_text_init(&text);
+    nh_comparison_text(c, false, &text);
+    cr_expect(strstr(nh_text_string(&text), "warning: no two methods agree on this motion"));
+    nh_text_clear(&text);
+    nh_comparison_free(c);
+}
+
+Test(chart, a_time_that_nobody_chose_is_shortened_until_two_methods_agree)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};
+    nh_options_default(&q.options);
+    q.options.until = 60;
+    nh_comparison *c = nh_compare(&q, 3, &error);
+    must(c != NULL, &error, "double_pendulum");
+    cr_expect(c->shortened && !c->doubtful && c->agreement < 1e-4 && c->end < 60, "%g, %g", c->agreement, c->end);
+    nh_comparison_free(c);
+}
+
+/* 1e8 radians in the default time, none of which can be reached: the time becomes that of what can be. */
+Test(chart, a_very_fast_motion)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "tests/data/ion.yaml"};
+    nh_options_default(&q.options);
+    nh_comparison *c = nh_compare(&q, 0.4, &error);
+    must(c != NULL, &error, "ion");
+    cr_expect(c->shortened && c->end - c->begin < 0.01 && c->end > c->begin, "%g", c->end - c->begin);
+    nh_comparison_free(c);
+}
+
+Test(chart, a_known_current_that_is_none)
+{
+    nh_comparison *c = compare("tests/data/closed_swing.yaml", NULL, 3, 0.3);
+    cr_expect(is_refused(c, "the known current `none`: it is not conserved"));
+    nh_comparison_free(c);
+}
+
 /* The heading passes pi/2, where the chart (phi', x') ends: never called right. */
 Test(chart, a_chart_that_breaks_down_is_not_called_right)
 {
@@ -66,6 +173,24 @@ Test(chart, projection_has_no_drift)
     cr_assert(plain && projected);
     cr_expect(projected->worst_drift < 1e-12 && plain->worst_drift > 1e-9, "%g, %g", projected->worst_drift, plain->worst_drift);
     nh_comparison_free(c);
+}
+
+/* The reason is that of the system. */
+Test(chart, why_the_energy_preserving_method_is_refused)
+{
+    static const struct {
+        const char *path, *why;
+    } all[] = {{"systems/ball_on_turntable.yaml", "the constraints are affine"}, {"systems/skate_with_friction.yaml", "forces without a potential"},
+               {"systems/bead_on_turning_wire.yaml", "the constraints are affine"}, {"systems/damped_oscillator.yaml", "time occurs in the energy"}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        nh_comparison *c = compare(all[i].path, NULL, 1, 0.05);
+        char words[200];
+        snprintf(words, sizeof words, "energy-preserving: it would converge to another motion: %s", all[i].why);
+        bool refused = false;
+        for (size_t k = 0; k < c->refused; k++) refused |= strstr(c->refusal[k], strstr(all[i].why, "forces") ? "it knows no forces without a potential" : words) != NULL;
+        cr_expect(refused, "%s: %s", all[i].path, all[i].why);
+        nh_comparison_free(c);
+    }
 }
 
 Test(chart, what_would_be_wrong_is_refused)

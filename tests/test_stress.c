@@ -35,6 +35,19 @@ static size_t with_status(const nh_stress_map *map, size_t method, nh_measured_s
     return n;
 }
 
+/* Where the two methods of the reference end elsewhere nothing is right or silently wrong: here a constraint is singular at cos(a) = 0, and chaos. */
+Test(stress, no_reference_that_two_methods_do_not_confirm)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};
+    nh_options_default(&q.options);
+    nh_stress *s = nh_stress_create(&q, "until=50:60:2", HUGE_VAL, &error);
+    must(s != NULL, &error, "double_pendulum");
+    cr_expect(s->count[NH_RIGHT] == 0 && s->count[NH_WRONG] == 0);
+    for (size_t i = 0; i < s->map[0].cells; i++) cr_expect(isnan(s->map[0].cell[i].error), "%g", s->map[0].cell[i].error);
+    nh_stress_free(s);
+}
+
 /* ---- by name ---- */
 
 Test(stress, a_map_that_the_file_names)

@@ -56,6 +56,7 @@
     X(chart_far,        1e4,     1,      1e15,  real,  "tolerance", "chart: how far above its tolerance an error may be")                    \
     X(chart_fixed,      0.1,     1e-12,  1e6,   real,  "",         "chart: the same for methods with a fixed step")                          \
     X(chart_trusted,    1e-4,    1e-14,  1,     real,  "",         "chart: a reference whose two methods agree better is looked for no further") \
+    X(chart_closed,     100,     1,      1e15,  real,  "",         "chart: how many times what two methods agree to a closed form may be off")  \
     X(chart_steps,      32,      1,      1e6,   whole, "steps",    "chart: of the longest fixed step; then four times as many at each level") \
     X(chart_columns,    220,     2,      5000,  whole, "columns",  "chart: largest ansatz of the discrete problem")                          \
     X(check_seconds,    4,       0.01,   1e7,   real,  "s",        "time that the motions of the check may take together")                   \

@@ -236,12 +236,30 @@ static bool pair_is_the_motion(nh_programs *programs)
     return same && nh_is_zero(o->dag, nh_diff(o->dag, o->E, o->system->t));
 }
 
+/* What the pair leaves out: forces, time, and what velocities have besides R w. */
+static const char *why_another_motion(const nh_model *o)
+{
+    bool time = false, nonlinear = false, affine = false;
+    nh_ex *zero = nh_alloc_array(o->n + 1, sizeof *zero);
+    for (size_t i = 0; i < o->n; i++) zero[i] = nh_int(o->dag, 0);
+    for (size_t s = 0; s < o->m; s++) {
+        time |= nh_depends(o->dag, o->rho[s], o->system->t);
+        affine |= !nh_is_zero(o->dag, nh_substitute(o->dag, o->rho[s], o->n, o->chart->w, zero));
+        for (size_t i = 0; i < o->n * o->n; i++) nonlinear |= nh_depends(o->dag, o->R[s * o->n + i / o->n], o->chart->w[i % o->n]);
+    }
+    nh_free(zero);
+    if (o->system->has_forces) return "it would converge to another motion: it knows no forces without a potential";
+    if (time) return "it would converge to another motion: the constraints depend on time";
+    if (nonlinear) return "it would converge to another motion: the constraints are not linear in the velocities";
+    if (affine) return "it would converge to another motion: the constraints are affine";
+    return nh_depends(o->dag, o->E, o->system->t) ? "it would converge to another motion: time occurs in the energy"
+                                                  : "it would converge to another motion: its equations differ from those of the system at random points";
+}
+
 const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule)
 {
     if (nh_programs_model(programs)->chart->implicit) return "the constraints are solved by Newton's method inside the equations of motion";
-    if (rule == NH_ENERGY && !pair_is_the_motion(programs))
-        return "it would converge to another motion: affine, rheonomic or nonlinear constraints, forces, or time in the Lagrangian";
-    return NULL;
+    return rule == NH_ENERGY && !pair_is_the_motion(programs) ? why_another_motion(nh_programs_model(programs)) : NULL;
 }
 
 /* ---- the motion ---- */

@@ -19,6 +19,14 @@ static void time_text(double seconds, char out[16])
     snprintf(out, 16, us < 9.95 ? "%.1f" : "%.0f", us);
 }
 
+size_t nh_comparison_warnings(const nh_comparison *c, const char *out[NH_COMPARISON_WARNINGS])
+{
+    size_t n = 0;
+    if (c->shortened) out[n++] = "the time was shortened until two methods reached its end and agreed";
+    if (c->doubtful) out[n++] = "no two methods agree on this motion, so that errors say little and nothing is called right; an earlier --until may help";
+    return n;
+}
+
 /* ---- text ---- */
 
 const nh_measured *nh_comparison_fastest(const nh_comparison *c, size_t from, size_t to, double below, bool reduced)
@@ -88,15 +96,17 @@ static void put_front(const nh_comparison *c, nh_text *out)
         else nh_text_addf(out, "step %.3g", m->step);
         nh_text_addf(out, ": error %.0e", m->error);
         if (isfinite(m->worst_drift)) nh_text_addf(out, ", drift %.0e", m->worst_drift);
-        nh_text_addf(out, ", %s us, %ld evaluations\n", us, m->evaluations);
+        nh_text_addf(out, ", %s us, %ld evaluations%s\n", us, m->evaluations, goal[g] < c->agreement ? " (further than the reference is confirmed)" : "");
     }
 }
 
 void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
 {
     nh_text_addf(out, "%s: a motion from t = %g to %g\n", c->question->system->title ? c->question->system->title : c->question->system->name, c->begin, c->end);
-    if (c->shortened) nh_text_add(out, "The time was shortened until two methods reached its end.\n");
-    nh_text_addf(out, "Reference: %s; %s agrees to %.0e\n\nMicroseconds (evaluations) to an error below", c->reference, c->second, c->agreement);
+    const char *warning[NH_COMPARISON_WARNINGS];
+    nh_text_addf(out, "Reference: %s; %s agrees to %.0e\n", c->reference, c->second, c->agreement);
+    for (size_t i = 0, n = nh_comparison_warnings(c, warning); i < n; i++) nh_text_addf(out, "warning: %s\n", warning[i]);
+    nh_text_add(out, "\nMicroseconds (evaluations) to an error below");
     nh_text_addf(out, "\n%34s", "");
     for (int g = 0; g < goals; g++) nh_text_addf(out, "%18.0e", goal[g]);
     nh_text_add(out, "\n");
@@ -229,7 +239,8 @@ char *nh_comparison_json(const nh_comparison *c, const nh_stress *s, const nh_ru
     nh_json *stress = nh_json_put_array(root, "stress");
     for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], stress);
     nh_json *warnings = nh_json_put_array(root, "warnings");
-    if (c->shortened) nh_json_add_text(warnings, "the time was shortened until two methods reached its end");
+    const char *warning[NH_COMPARISON_WARNINGS];
+    for (size_t i = 0, n = nh_comparison_warnings(c, warning); i < n; i++) nh_json_add_text(warnings, warning[i]);
     if (run) nh_run_json(run, c->question->system, root);
     return nh_json_finish(root);
 }

@@ -6,6 +6,10 @@
 #include "base/text.h"
 #include "study/chart.h"
 
+/* What has to be said of the reference, at most so many sentences. */
+enum { NH_COMPARISON_WARNINGS = 2 };
+size_t nh_comparison_warnings(const nh_comparison *comparison, const char *out[NH_COMPARISON_WARNINGS]);
+
 /* The discrete problem. */
 void nh_fits_text(const nh_comparison *comparison, bool verbose, nh_text *out);
 void nh_fits_json(const nh_comparison *comparison, nh_json *root);

@@ -69,7 +69,8 @@ static void answer(nh_html_writer *w, const nh_comparison *c)
     nh_html_add(w, " agrees to ");
     nh_html_number(w, c->agreement, 1);
     nh_html_add(w, ", so that smaller errors mean nothing.</p>\n");
-    if (c->shortened) nh_html_warning(w, "the time was shortened until two methods reached its end");
+    const char *warning[NH_COMPARISON_WARNINGS];
+    for (size_t i = 0, n = nh_comparison_warnings(c, warning); i < n; i++) nh_html_warning(w, warning[i]);
     if (c->partial) nh_html_warning(w, "the budget ended before every method had all its runs; --budget allows more");
 }
 

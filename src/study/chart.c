@@ -11,6 +11,7 @@ static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 static const double reference_tolerance = 1e-14, second_tolerance = 1e-13;
 static const double step_ratio = 4; /* of fixed steps, from level to level */
 static const double enough_seconds = 3e-3;             /* repetitions stop after this time */
+static const double least_part = 1.0 / 64;             /* of a time of which no eighth was reached, that is tried next */
 static const double share_of_fits = 0.25;              /* of the budget, for the discrete problem, beside it */
 
 const char *nh_measured_status_name(nh_measured_status status)
@@ -85,9 +86,9 @@ static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_meas
         m->worst_drift = n ? 0 : NAN;
         for (size_t i = 0; i < n; i++) m->worst_drift = fmax(m->worst_drift, m->drift[i]);
     }
-    bool steep = breaks_down(f, motion);
-    m->status = status_of(&c->options, m, motion->complete && good, out_of_time(c, motion), steep);
-    m->note = nh_arena_strdup(c->out->arena, steep && !motion->note[0] ? "the chart breaks down on the way" : motion->note);
+    bool steep = breaks_down(f, motion), doubtful = c->out->doubtful && !f->reduced;
+    m->status = status_of(&c->options, m, motion->complete && good, out_of_time(c, motion), steep || doubtful);
+    m->note = nh_arena_strdup(c->out->arena, motion->note[0] ? motion->note : steep ? "the chart breaks down on the way" : doubtful ? "no two methods agree on this motion" : "");
     nh_free(states);
 }
 
@@ -126,39 +127,59 @@ static bool states_of(nh_bench *c, size_t formulation, const char *method, doubl
     c->deadline = nh_clock() + c->budget / 4;
     nh_motion *motion = integrate(c, &k, tolerance, 0, &ignored);
     c->hurried |= motion && !motion->complete && out_of_time(c, motion);
+    if (motion && motion->count > c->reached) c->reached = motion->count;
     bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) && nh_formulation_states(&c->formulation[formulation], motion, states);
     nh_motion_free(motion);
     return good;
+}
+
+/* These states become the reference, if what says how far they can be trusted says that it is further. */
+static void prefer(nh_bench *c, double agreement, const double *states, const char *reference, const char *second)
+{
+    if (!(agreement < c->out->agreement)) return;
+    memcpy(c->yard.state, states, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *states);
+    c->out->agreement = agreement;
+    c->out->reference = reference;
+    c->out->second = second;
+}
+
+static double agreement_of(nh_bench *c, double *states, const double *other)
+{
+    double *before = c->yard.state;
+    c->yard.state = states;
+    nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
+    double agreement = nh_yardstick_error(&c->yard, NH_CHART_OUTPUTS, other);
+    c->yard.state = before;
+    return agreement;
 }
 
 /* In the chart; in all coordinates where the chart breaks down or the two methods disagree. */
 bool nh_bench_reference(nh_bench *c, nh_error *error)
 {
     static const char *const first = "GSL rk8pd", *const second = "CVODE Adams";
-    size_t size = NH_CHART_OUTPUTS * 2 * c->model->m;
+    size_t size = NH_CHART_OUTPUTS * 2 * c->model->m, ignored;
     double *states = nh_alloc_array(size, sizeof *states), *other = nh_alloc_array(size, sizeof *other);
+    nh_arena *arena = c->out->arena;
     c->out->agreement = INFINITY;
     for (size_t f = 0; f < c->formulations && !(c->out->agreement < c->options.chart_trusted); f++) {
-        if (!states_of(c, f, first, reference_tolerance, states) || !states_of(c, f, second, second_tolerance, other)) continue;
-        double *before = c->yard.state;
-        c->yard.state = states;
-        nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
-        double agreement = nh_yardstick_error(&c->yard, NH_CHART_OUTPUTS, other);
-        c->yard.state = before;
-        if (!(agreement < c->out->agreement)) continue;
-        memcpy(c->yard.state, states, size * sizeof *states);
-        c->out->agreement = agreement;
-        c->out->reference = nh_arena_printf(c->out->arena, "%s at %.0e in %s", first, reference_tolerance, c->formulation[f].name);
-        c->out->second = nh_arena_printf(c->out->arena, "%s at %.0e", second, second_tolerance);
+        if (!states_of(c, f, first, reference_tolerance, states)) {
+            if (!c->once && c->hurried) break; /* the others take longer */
+            continue;
+        }
+        const char *name = nh_arena_printf(arena, "%s at %.0e in %s", first, reference_tolerance, c->formulation[f].name);
+        if (states_of(c, f, second, second_tolerance, other)) prefer(c, agreement_of(c, states, other), states, name, nh_arena_printf(arena, "%s at %.0e", second, second_tolerance));
+        for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.chart_trusted); k++) /* where CVODE does not agree, a closed form may */
+            if (c->closed[k].whole) prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name, nh_arena_printf(arena, "closed form `%s`", c->closed[k].motion->name));
     }
     nh_free(states);
     nh_free(other);
     if (isfinite(c->out->agreement)) {
-        nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
+        nh_closed_use(c);
+        nh_yardstick_scales(&c->yard, arena, c->formulation[0].scale[0]);
         return true;
     }
     nh_fail(error, NH_NUMERIC, "", "no reference could be computed: the motion does not reach t = %g by two methods", c->out->end);
-    return nh_error_hint(error, "choose an earlier --until, another --initial or another --chart");
+    return nh_error_hint(error, c->hurried && !c->once ? "there was no time for more: choose an earlier --until or a larger --budget" : "choose an earlier --until, another --initial or another --chart");
 }
 
 /* ---- all methods in all formulations ---- */
@@ -191,7 +212,6 @@ static void choose_currents(nh_bench *c)
 static void list_candidates(nh_bench *c)
 {
     static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF", "Lagrange-d'Alembert, order 4", "relaxation, order 8"}; /* in the other formulations */
-    c->out->refusal = nh_arena_alloc(c->out->arena, (nh_method_count() + 2 + NH_CHART_REDUCED + c->yard.currents) * sizeof *c->out->refusal);
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
         const char *why = nh_method_refused(m, c->formulation[0].programs);
@@ -301,10 +321,14 @@ static bool open_bench(nh_bench *c, const nh_simulate_request *request, size_t c
     for (size_t i = 0; i < NH_CHART_OUTPUTS; i++)
         c->yard.times[i] = i + 1 == NH_CHART_OUTPUTS ? out->end : out->begin + (out->end - out->begin) * (double)i / (NH_CHART_OUTPUTS - 1);
     if (!(fabs(out->end - out->begin) > 0)) return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
-    nh_yardstick_currents(&c->yard, arena);
+    size_t known = c->model->system->currents;
+    const char **astray = nh_arena_alloc(arena, (known + 1) * sizeof *astray);
+    out->refusal = nh_arena_alloc(arena, (nh_method_count() + 3 + NH_CHART_REDUCED + 2 * known + c->model->system->motions) * sizeof *out->refusal);
+    for (size_t i = nh_yardstick_currents(&c->yard, arena, astray); i-- > 0;) nh_bench_refuse(c, nh_arena_printf(arena, "the known current `%s`", astray[i]), "it is not conserved with these parameters");
     out->currents = c->yard.currents;
     out->current = c->yard.name;
     if (!open_formulations(c, error)) return false;
+    nh_closed_open(c);
     watch_charts(c);
     return true;
 }
@@ -338,21 +362,23 @@ static void end_bench(nh_bench *c)
     nh_comparison_free(c->out);
 }
 
-/* A final time that nobody chose may lie behind a singularity: it is halved until there is a motion. */
+/* A final time that nobody chose may lie behind a singularity, or be a million periods: it is halved, or divided by more where not even a part was reached, until there is a motion. */
 static bool open_somewhere(nh_bench *c, const nh_simulate_request *request, double budget, nh_error *error)
 {
     nh_simulate_request q = *request;
     for (int i = 0; i < most_halvings; i++) {
         nh_error_clear(error);
         if (!nh_bench_open(c, &q, budget, error)) break;
-        if (nh_bench_reference(c, error)) {
+        bool chosen = request->until_given || (c->out->question->analysis && c->out->question->analysis->has_until), last = chosen || i + 1 == most_halvings;
+        bool there = nh_bench_reference(c, error);
+        c->out->doubtful = there && !(c->out->agreement < c->options.chart_trusted);
+        if (there && (last || !c->out->doubtful)) {
             c->out->shortened = i > 0;
             return true;
         }
-        bool chosen = request->until_given || (c->out->question->analysis && c->out->question->analysis->has_until);
-        if (chosen || i + 1 == most_halvings) break;
+        if (last) break;
         q.until_given = true;
-        q.options.until = c->out->begin + (c->out->end - c->out->begin) / 2;
+        q.options.until = c->out->begin + (c->out->end - c->out->begin) * (c->reached > 1 ? fmin(0.5, (double)(c->reached - 1) / (NH_CHART_OUTPUTS - 1)) : least_part);
         end_bench(c);
     }
     end_bench(c);

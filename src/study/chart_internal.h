@@ -44,8 +44,8 @@ void nh_formulation_close(nh_formulation *f);
 /* (q, v) of a motion of this formulation at its outputs into y (count x 2m); false where they cannot be computed. */
 bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y);
 
-/* Known currents of the system file that are conserved, and the energy if it is. */
-void nh_yardstick_currents(nh_yardstick *y, nh_arena *arena);
+/* Known currents of the system file that are conserved, and the energy if it is.  The names of those that are not, as many as it returns (room for all known ones). */
+size_t nh_yardstick_currents(nh_yardstick *y, nh_arena *arena, const char **astray);
 /* After the reference states are there. */
 void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least);
 void nh_yardstick_close(nh_yardstick *y);
@@ -59,6 +59,13 @@ void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out);
 /* Of a motion in reduced equations: the largest error in (x, p), and the drift of the energy. */
 double nh_reduced_error(const nh_formulation *f, const nh_motion *motion);
 double nh_reduced_drift(nh_formulation *f, const nh_motion *motion);
+
+/* A closed form of the system file at the output times. */
+typedef struct {
+    const nh_known_motion *motion;
+    bool whole;    /* of all coordinates */
+    double *state; /* outputs x 2m, as a yardstick's; only coordinates that it gives, and their velocities */
+} nh_closed;
 
 /* ---- one motion, ready to be computed by any method ---- */
 
@@ -81,6 +88,8 @@ typedef struct {
     size_t formulations, candidates;
     nh_formulation formulation[NH_CHART_FORMULATIONS + NH_CHART_REDUCED]; /* the reduced ones last */
     nh_reduction *reduction;
+    size_t closeds;
+    nh_closed *closed;      /* those that hold for this initial state, if they are true */
     size_t held_currents;   /* those that a projection holds */
     nh_ex *held;
     nh_contender candidate[NH_CHART_CANDIDATES];
@@ -88,6 +97,7 @@ typedef struct {
     double begun, budget, deadline, absolute;
     nh_options options;
     bool project, once; /* once: no repetitions, the time does not matter; steps are limited instead */
+    size_t reached;     /* outputs of the reference's longest run */
     bool hurried;       /* the reference ran out of time */
 } nh_bench;
 
@@ -108,6 +118,13 @@ void nh_bench_refuse(nh_bench *bench, const char *method, const char *why);
 void nh_bench_measure(nh_bench *bench, nh_contender *candidate, double tolerance, double step, nh_measured *measured);
 /* The discrete problem, in about so many seconds. */
 void nh_chart_fit(nh_bench *bench, double seconds);
+
+/* The closed forms of the system file that hold for the initial state. */
+void nh_closed_open(nh_bench *bench);
+/* How far one is off these states, relative to their scales, and where (an index into them). */
+double nh_closed_off(nh_bench *bench, const nh_closed *closed, double *states, size_t *worst);
+/* As the reference, where the one that is there agrees; the others are refused. */
+void nh_closed_use(nh_bench *bench);
 
 /* The stages of the system's reduction as further formulations, where there is time for it. */
 void nh_chart_reduced(nh_bench *bench, const nh_simulate_request *request);

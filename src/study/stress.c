@@ -76,7 +76,7 @@ void nh_stress_try(nh_stress_work *w, const nh_simulate_request *request, double
     double left = w->begun + w->budget - nh_clock(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
     nh_bench b;
     bool opened = nh_bench_open_once(&b, request, coordinate, turn, budget, &error);
-    bool reference = opened && nh_bench_reference(&b, &error);
+    bool reference = opened && nh_bench_reference(&b, &error) && b.out->agreement <= request->options.stress_error; /* else the two say nothing about what is right */
     if (opened && !reference) nh_bench_no_reference(&b);
     for (size_t i = 0; i < method_count; i++) {
         cell[i].method = w->step > 0 ? stepping[i] : methods[i];

@@ -138,8 +138,9 @@ static bool same_current(const nh_model *o, nh_ex a, nh_ex b)
     return same;
 }
 
-void nh_yardstick_currents(nh_yardstick *y, nh_arena *arena)
+size_t nh_yardstick_currents(nh_yardstick *y, nh_arena *arena, const char **astray)
 {
+    size_t others = 0;
     const nh_model *o = y->model;
     const nh_system *s = o->system;
     nh_error ignored;
@@ -151,12 +152,17 @@ void nh_yardstick_currents(nh_yardstick *y, nh_arena *arena)
         nh_ex phi = o->E;
         if (k && !nh_analysis_to_chart(o, s->current[k - 1].value, &phi, &ignored)) continue;
         if (k && y->currents && y->current[0] == o->E && same_current(o, o->E, phi)) continue;
-        if (!is_conserved(o, phi) || !to_coordinates(o, 1, &phi, &e[y->currents])) continue;
+        if (!is_conserved(o, phi)) {
+            if (k) astray[others++] = s->current[k - 1].name;
+            continue;
+        }
+        if (!to_coordinates(o, 1, &phi, &e[y->currents])) continue;
         y->name[y->currents] = k ? s->current[k - 1].name : "E";
         y->current[y->currents++] = phi;
     }
     compile(y, e);
     nh_free(e);
+    return others;
 }
 
 /* The size of a coordinate or velocity in a current.  An angle that winds up is no larger for it: with its whole value a drift would look ever smaller. */

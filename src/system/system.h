@@ -57,6 +57,17 @@ typedef struct {
     nh_setting *setting, *option;
 } nh_named_stress;
 
+/* A closed form: some coordinates as functions of t and of numbers that the initial state gives.  A claim of the file, which whoever uses it has to check. */
+typedef struct {
+    const char *name;
+    size_t starts, conditions, values;
+    nh_named *start;   /* in the initial state (t, coordinates, either velocities) */
+    nh_ex *symbol;     /* what stands for them in the motion */
+    nh_ex *condition;  /* vanish at initial states that it holds for */
+    bool *given;       /* per coordinate: is it known? */
+    nh_ex *value;      /* per coordinate, in t, parameters and the symbols */
+} nh_known_motion;
+
 typedef struct {
     nh_arena *arena;
     nh_dag *dag;
@@ -70,6 +81,8 @@ typedef struct {
     nh_named *definition;
     nh_interval *interval;   /* the sampling box as far as the user gave it */
     nh_named *current, *trap; /* known currents; functions known not to be conserved */
+    size_t motions;
+    nh_known_motion *motion;
     nh_chain *chain;         /* bodies and joints; NULL when the file has none */
     size_t symmetries;       /* fields on configuration space that the file names as generators of a group */
     nh_ex *symmetry;         /* symmetries x coordinates: components */

@@ -210,11 +210,11 @@ static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, cons
 
 bool nh_system_read_known(nh_system_reader *r)
 {
-    static const char *const keys[] = {"currents", "not_conserved"};
+    static const char *const keys[] = {"currents", "not_conserved", "motions"};
     const nh_deck_node *known = nh_deck_get(r->root, "known");
     nh_system *s = r->system;
     if (!known) return true;
     if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known", r->error)) return false;
-    return nh_deck_only(r->deck, known, keys, 2, r->error) && read_named_list(r, known, "currents", &s->current, &s->currents)
-           && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved);
+    return nh_deck_only(r->deck, known, keys, 3, r->error) && read_named_list(r, known, "currents", &s->current, &s->currents)
+           && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved) && nh_system_read_motions(r, known);
 }

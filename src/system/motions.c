@@ -1,0 +1,123 @@
+/* motions: closed forms of a system's motions, as its file knows them (known: motions:). */
+#include <string.h>
+
+#include "expr/diff.h"
+#include "system/system_internal.h"
+
+/* start: [p = phi, s = sqrt(v^2 + p^2)], each in the initial state and those before it.  In the motion their names are symbols of their own, which no file can write. */
+static bool read_start(nh_system_reader *r, const nh_deck_node *item, nh_known_motion *out, nh_named *symbols)
+{
+    nh_system *s = r->system;
+    const nh_deck_node *list;
+    size_t n;
+    if (!nh_system_list_of(r, item, "start", &list, &n)) return false;
+    for (size_t i = 0; i < n; i++) {
+        const nh_deck_node *node = list->item[i];
+        nh_named *start = &out->start[i];
+        if (!nh_system_assignment_name(r, node, "a value at the start `name = expression`", &start->name)) return false;
+        nh_deck_node name = *node;
+        name.text = start->name;
+        if (!nh_system_new_name(r, &name)) return false;
+        for (size_t j = 0; j < i; j++)
+            if (!strcmp(out->start[j].name, start->name)) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", start->name);
+        if (!nh_system_right_side(s, r->deck, node, i, out->start, &start->value, r->error)) return false;
+        symbols[i] = (nh_named){.name = start->name, .value = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s at the start of %s", start->name, out->name))};
+        out->symbol[i] = symbols[i].value;
+        out->starts = i + 1;
+    }
+    return true;
+}
+
+/* when: equations that the initial state has to satisfy. */
+static bool read_conditions(nh_system_reader *r, const nh_deck_node *item, nh_known_motion *out)
+{
+    nh_system *s = r->system;
+    const nh_deck_node *list;
+    size_t n;
+    if (!nh_system_list_of(r, item, "when", &list, &n)) return false;
+    out->condition = nh_system_take(r, n, sizeof *out->condition);
+    for (size_t i = 0; i < n; i++) {
+        nh_ex left, right;
+        if (!nh_deck_is(r->deck, list->item[i], NH_DECK_SCALAR, "a condition `... = ...`", r->error)
+            || !nh_system_read_expression(s, r->deck, list->item[i], 0, 0, out->starts, out->start, &left, &right, r->error))
+            return false;
+        out->condition[out->conditions++] = nh_sub(s->dag, left, right);
+    }
+    return true;
+}
+
+/* In anything that changes but t: which? */
+static bool depends_on_state(nh_system_reader *r, nh_ex e, const char **which)
+{
+    const nh_system *s = r->system;
+    const char **names = nh_system_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
+    size_t n = nh_system_state_names(s, names);
+    for (size_t i = 1; i < n; i++) { /* the first is t */
+        nh_ex symbol;
+        *which = names[i];
+        if (nh_symbol_find(s->dag, names[i], &symbol) && nh_depends(s->dag, e, symbol)) return true;
+    }
+    return false;
+}
+
+/* motion: [phi = ..., y = ...], in t, parameters and the names of `start`. */
+static bool read_motion(nh_system_reader *r, const nh_deck_node *item, const nh_named *symbols, nh_known_motion *out)
+{
+    nh_system *s = r->system;
+    const nh_deck_node *list;
+    size_t n;
+    if (!nh_system_list_of(r, item, "motion", &list, &n)) return false;
+    if (!n) return nh_deck_fail(r->deck, item, 0, r->error, "a motion needs a `motion`: what its coordinates are at every time"), nh_error_hint(r->error, "for example: motion: [%s = 2*t]", s->coordinate[0].name);
+    for (size_t i = 0; i < n; i++) {
+        const nh_deck_node *node = list->item[i];
+        const char *name, *which;
+        nh_ex e;
+        if (!nh_system_assignment_name(r, node, "a line `coordinate = expression` of a motion", &name)) return false;
+        long index = nh_system_coordinate(s, name);
+        if (index < 0) {
+            nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not a coordinate", name);
+            return nh_error_hint(r->error, "the velocities follow from the coordinates' derivatives by time");
+        }
+        if (out->given[index]) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is given twice", name);
+        size_t skip = (size_t)(strchr(node->text, '=') - node->text) + 1;
+        if (!nh_system_read_expression(s, r->deck, node, skip, 0, out->starts, symbols, NULL, &e, r->error)) return false;
+        if (depends_on_state(r, e, &which)) {
+            nh_deck_fail(r->deck, node, skip, r->error, "a motion is written in t, but this contains `%s`", which);
+            return nh_error_hint(r->error, "`start: [%s0 = %s]` names its value at the start", s->coordinate[0].name, s->coordinate[0].name);
+        }
+        out->given[index] = true;
+        out->value[index] = e;
+        out->values++;
+    }
+    return true;
+}
+
+static bool read_one(nh_system_reader *r, const nh_deck_node *item, nh_known_motion *out)
+{
+    static const char *const keys[] = {"name", "doc", "when", "start", "motion"};
+    const char *doc; /* for the reader of the file */
+    nh_system *s = r->system;
+    if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a motion {name: ..., motion: [...]}", r->error) || !nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error)) return false;
+    if (!nh_system_text_of(r, item, "name", "closed form", &out->name) || !nh_system_text_of(r, item, "doc", "", &doc)) return false;
+    const nh_deck_node *start = nh_deck_get(item, "start");
+    size_t n = start ? start->count : 0;
+    nh_named *symbols = nh_system_take(r, n, sizeof *symbols);
+    out->start = nh_system_take(r, n, sizeof *out->start);
+    out->symbol = nh_system_take(r, n, sizeof *out->symbol);
+    out->given = nh_system_take(r, s->coordinates, sizeof *out->given);
+    out->value = nh_system_take(r, s->coordinates, sizeof *out->value);
+    return read_start(r, item, out, symbols) && read_conditions(r, item, out) && read_motion(r, item, symbols, out);
+}
+
+bool nh_system_read_motions(nh_system_reader *r, const nh_deck_node *known)
+{
+    const nh_deck_node *list;
+    size_t n;
+    nh_system *s = r->system;
+    if (!nh_system_list_of(r, known, "motions", &list, &n)) return false;
+    s->motion = nh_system_take(r, n, sizeof *s->motion);
+    for (size_t i = 0; i < n; i++)
+        if (!read_one(r, list->item[i], &s->motion[i])) return false;
+    s->motions = n;
+    return true;
+}
