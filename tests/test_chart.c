@@ -89,7 +89,9 @@ Test(chart, closed_forms_that_are_shipped_are_true)
             if (!strstr(entry->d_name, ".yaml")) continue;
             nh_system *system = nh_system_read(path, 0, NULL, &error);
             must(system != NULL, &error, path);
-            size_t motions = system->motions;
+            nh_known_motion *known;
+            size_t motions;
+            must(nh_system_motions(system, &motions, &known, &error), &error, path);
             nh_system_free(system);
             if (!motions) continue;
             nh_simulate_request q = {.system_path = path, .until_given = true};

@@ -193,7 +193,14 @@ void nh_bench_add(nh_bench *c, const nh_method *method, size_t formulation) { ad
 
 void nh_bench_refuse(nh_bench *c, const char *method, const char *why)
 {
-    c->out->refusal[c->out->refused++] = nh_arena_printf(c->out->arena, "%s: %s", method, why);
+    nh_comparison *out = c->out;
+    if (out->refused == c->refusals) { /* there is no room for more */
+        const char **more = nh_arena_alloc(out->arena, (2 * c->refusals + 8) * sizeof *more);
+        if (out->refused) memcpy(more, out->refusal, out->refused * sizeof *more);
+        out->refusal = more;
+        c->refusals = 2 * c->refusals + 8;
+    }
+    out->refusal[out->refused++] = nh_arena_printf(c->out->arena, "%s: %s", method, why);
 }
 
 /* The currents that a projection holds; the others with the reason. */
@@ -323,7 +330,6 @@ static bool open_bench(nh_bench *c, const nh_simulate_request *request, size_t c
     if (!(fabs(out->end - out->begin) > 0)) return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
     size_t known = c->model->system->currents;
     const char **astray = nh_arena_alloc(arena, (known + 1) * sizeof *astray);
-    out->refusal = nh_arena_alloc(arena, (nh_method_count() + 3 + NH_CHART_REDUCED + 2 * known + c->model->system->motions) * sizeof *out->refusal);
     for (size_t i = nh_yardstick_currents(&c->yard, arena, astray); i-- > 0;) nh_bench_refuse(c, nh_arena_printf(arena, "the known current `%s`", astray[i]), "it is not conserved with these parameters");
     out->currents = c->yard.currents;
     out->current = c->yard.name;

@@ -85,7 +85,7 @@ typedef struct {
     nh_model *other;
     nh_state initial;
     nh_yardstick yard;
-    size_t formulations, candidates;
+    size_t formulations, candidates, refusals; /* refusals: room for so many */
     nh_formulation formulation[NH_CHART_FORMULATIONS + NH_CHART_REDUCED]; /* the reduced ones last */
     nh_reduction *reduction;
     size_t closeds;

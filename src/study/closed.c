@@ -74,11 +74,16 @@ static bool along(const nh_bench *c, const nh_known_motion *k, const double *sta
 
 void nh_closed_open(nh_bench *c)
 {
-    const nh_system *s = c->model->system;
     nh_arena *arena = c->out->arena;
-    c->closed = nh_arena_alloc(arena, (s->motions + 1) * sizeof *c->closed);
-    for (size_t i = 0; i < s->motions; i++) {
-        const nh_known_motion *k = &s->motion[i];
+    nh_known_motion *known;
+    size_t count;
+    nh_error error;
+    nh_error_clear(&error);
+    bool good = nh_system_motions(c->model->system, &count, &known, &error);
+    c->closed = nh_arena_alloc(arena, (count + 1) * sizeof *c->closed);
+    if (!good) nh_bench_refuse(c, "closed forms", error.what);
+    for (size_t i = 0; i < count && good; i++) {
+        const nh_known_motion *k = &known[i];
         nh_closed *f = &c->closed[c->closeds];
         double *start = nh_alloc_array(k->starts + k->conditions + 1, sizeof *start);
         *f = (nh_closed){.motion = k, .state = nh_arena_alloc(arena, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *f->state), .whole = k->values == c->model->m};

@@ -4,7 +4,7 @@
 #include "expr/diff.h"
 #include "system/system_internal.h"
 
-/* start: [p = phi, s = sqrt(v^2 + p^2)], each in the initial state and those before it.  In the motion their names are symbols of their own, which no file can write. */
+/* start: [p = phi, s = sqrt(v^2 + p^2)], each in the initial state and those before it.  In the motion their names are symbols of their own. */
 static bool read_start(nh_system_reader *r, const nh_deck_node *item, nh_known_motion *out, nh_named *symbols)
 {
     nh_system *s = r->system;
@@ -21,7 +21,7 @@ static bool read_start(nh_system_reader *r, const nh_deck_node *item, nh_known_m
         for (size_t j = 0; j < i; j++)
             if (!strcmp(out->start[j].name, start->name)) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", start->name);
         if (!nh_system_right_side(s, r->deck, node, i, out->start, &start->value, r->error)) return false;
-        symbols[i] = (nh_named){.name = start->name, .value = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s at the start of %s", start->name, out->name))};
+        symbols[i] = (nh_named){.name = start->name, .value = nh_symbol_fresh(s->dag, start->name)};
         out->symbol[i] = symbols[i].value;
         out->starts = i + 1;
     }
@@ -109,15 +109,53 @@ static bool read_one(nh_system_reader *r, const nh_deck_node *item, nh_known_mot
     return read_start(r, item, out, symbols) && read_conditions(r, item, out) && read_motion(r, item, symbols, out);
 }
 
-bool nh_system_read_motions(nh_system_reader *r, const nh_deck_node *known)
+static bool read_all(nh_system_reader *r, const nh_deck_node *known, size_t *count, nh_known_motion **out)
 {
     const nh_deck_node *list;
     size_t n;
-    nh_system *s = r->system;
-    if (!nh_system_list_of(r, known, "motions", &list, &n)) return false;
-    s->motion = nh_system_take(r, n, sizeof *s->motion);
-    for (size_t i = 0; i < n; i++)
-        if (!read_one(r, list->item[i], &s->motion[i])) return false;
-    s->motions = n;
+    *out = NULL;
+    *count = 0;
+    if (!known || !nh_system_list_of(r, known, "motions", &list, &n)) return !known;
+    *out = nh_system_take(r, n, sizeof **out);
+    for (*count = 0; *count < n; ++*count)
+        if (!read_one(r, list->item[*count], &(*out)[*count])) return false;
     return true;
+}
+
+/* The names of a system, in a graph of their own; definitions stand for themselves. */
+static nh_system *names_of(const nh_system *s)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_system *n = nh_arena_alloc(arena, sizeof *n);
+    *n = (nh_system){.arena = arena, .dag = nh_dag_create(), .name = s->name, .parameters = s->parameters, .coordinates = s->coordinates, .definitions = s->definitions, .quasi = s->quasi};
+    n->t = nh_symbol(n->dag, "t");
+    n->parameter = nh_arena_alloc(arena, (s->parameters + 1) * sizeof *n->parameter);
+    n->coordinate = nh_arena_alloc(arena, (s->coordinates + 1) * sizeof *n->coordinate);
+    n->definition = nh_arena_alloc(arena, (s->definitions + 1) * sizeof *n->definition);
+    n->quasi_velocity = nh_arena_alloc(arena, (s->quasi + 1) * sizeof *n->quasi_velocity);
+    for (size_t i = 0; i < s->parameters; i++) n->parameter[i] = (nh_parameter){.name = s->parameter[i].name, .symbol = nh_symbol(n->dag, s->parameter[i].name)};
+    for (size_t i = 0; i < s->coordinates; i++)
+        n->coordinate[i] = (nh_coordinate){.name = s->coordinate[i].name, .q = nh_symbol(n->dag, s->coordinate[i].name), .v = nh_symbol(n->dag, nh_name_of(s->dag, s->coordinate[i].v))};
+    for (size_t i = 0; i < s->definitions; i++) n->definition[i] = (nh_named){.name = s->definition[i].name, .value = nh_symbol_fresh(n->dag, s->definition[i].name)};
+    for (size_t i = 0; i < s->quasi; i++) n->quasi_velocity[i] = nh_symbol(n->dag, nh_name_of(s->dag, s->quasi_velocity[i]));
+    return n;
+}
+
+/* Are they well written?  Not yet in the system's graph, where they would change the order in which sums are printed. */
+bool nh_system_check_motions(nh_system_reader *r, const nh_deck_node *known)
+{
+    nh_known_motion *ignored;
+    size_t count;
+    if (!nh_deck_get(known, "motions")) return true;
+    nh_system_reader own = {names_of(r->system), r->deck, r->root, r->error};
+    bool good = read_all(&own, known, &count, &ignored);
+    nh_dag_free(own.system->dag);
+    nh_arena_free(own.system->arena);
+    return good;
+}
+
+bool nh_system_motions(nh_system *s, size_t *count, nh_known_motion **out, nh_error *error)
+{
+    nh_system_reader r = {s, s->deck, nh_deck_root(s->deck), error};
+    return read_all(&r, nh_deck_get(r.root, "known"), count, out);
 }

@@ -81,8 +81,6 @@ typedef struct {
     nh_named *definition;
     nh_interval *interval;   /* the sampling box as far as the user gave it */
     nh_named *current, *trap; /* known currents; functions known not to be conserved */
-    size_t motions;
-    nh_known_motion *motion;
     nh_chain *chain;         /* bodies and joints; NULL when the file has none */
     size_t symmetries;       /* fields on configuration space that the file names as generators of a group */
     nh_ex *symmetry;         /* symmetries x coordinates: components */
@@ -105,6 +103,9 @@ typedef struct {
 nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error);
 nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting, nh_error *error);
 void nh_system_free(nh_system *system);
+
+/* The closed forms that the file knows, in memory of the system: false only where one contains a definition that is no function of t. */
+bool nh_system_motions(nh_system *system, size_t *count, nh_known_motion **out, nh_error *error);
 
 /* t, coordinates, velocities and quasi-velocities by name, for messages: at most 2*coordinates + quasi + 1, counted by the result. */
 size_t nh_system_state_names(const nh_system *system, const char **names);

@@ -216,5 +216,5 @@ bool nh_system_read_known(nh_system_reader *r)
     if (!known) return true;
     if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known", r->error)) return false;
     return nh_deck_only(r->deck, known, keys, 3, r->error) && read_named_list(r, known, "currents", &s->current, &s->currents)
-           && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved) && nh_system_read_motions(r, known);
+           && read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved) && nh_system_check_motions(r, known);
 }
