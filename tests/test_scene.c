@@ -211,6 +211,30 @@ Test(scene, a_chart_that_ends_between_outputs_is_left)
     mechanics_clear(&x);
 }
 
+static nh_simulation *simulate_watching(const char *path, const char *initial, const char *watch, double accuracy)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = path, .initial = initial, .watch = watch, .step = 5, .accuracy = accuracy};
+    nh_options_default(&q.options);
+    nh_simulation *s = nh_simulate(&q, &error);
+    must(s != NULL, &error, path);
+    return s;
+}
+
+/* A skate turns by itself: cos(p) = 0 ends the chart of its velocities, and is nothing to the heading.  What it is something to says so. */
+Test(scene, the_end_of_a_chart_that_does_not_matter)
+{
+    for (int k = 0; k < 2; k++) {
+        nh_simulation *s = simulate_watching("systems/knife_edge.yaml", "p'=1, x'=1", "p", k ? 1e-9 : 0);
+        cr_expect(strstr(s->scene, "p' and p by quadrature, x, y and "), "%s", s->scene);
+        cr_expect_float_eq(s->value[s->motion->count - 1], 10, 1e-8, "%.12g", s->value[s->motion->count - 1]);
+        nh_simulation_free(s);
+    }
+    nh_simulation *s = simulate_watching("systems/knife_edge.yaml", "p'=1, x'=1", "x", 0);
+    cr_expect_str_eq(s->scene, "all 6 states integrated, in all coordinates: no smaller part reaches the end", "%s", s->scene);
+    nh_simulation_free(s);
+}
+
 /* Quasi-velocities that mix two oscillators: in coordinate velocities one of them is enough; not so for those of the sleigh. */
 Test(scene, the_chart_that_keeps_fewest_states)
 {

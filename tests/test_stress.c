@@ -6,6 +6,7 @@
 
 #include "mechanics.h"
 #include "report/chart.h"
+#include "report/html.h"
 
 static nh_stress *map_within(const char *path, const char *over, double steps, double budget)
 {
@@ -46,6 +47,34 @@ Test(stress, no_reference_that_two_methods_do_not_confirm)
     cr_expect(s->count[NH_RIGHT] == 0 && s->count[NH_WRONG] == 0);
     for (size_t i = 0; i < s->map[0].cells; i++) cr_expect(isnan(s->map[0].cell[i].error), "%g", s->map[0].cell[i].error);
     nh_stress_free(s);
+}
+
+/* A page shows a map over two things as a plane: one downwards, the other across, for each method. */
+Test(stress, a_plane_on_the_page)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "phi=0.1, omega=2", .until_given = true};
+    nh_options_default(&q.options);
+    q.options.until = 1;
+    nh_comparison *c = nh_compare(&q, 0.2, &error);
+    must(c != NULL, &error, "sleigh");
+    nh_stress *s = nh_stress_create(&q, "a=1:2:3, phi=0.25:0.75:3", HUGE_VAL, &error);
+    must(s != NULL, &error, "sleigh");
+    nh_text page;
+    nh_text_init(&page);
+    nh_run run = {0};
+    nh_html_comparison(c, s, &run, &page);
+    const char *text = nh_text_string(&page), *table = strstr(text, "a and phi: CVODE BDF");
+    cr_assert_not_null(table);
+    const char *end = strstr(table, "</table>");
+    size_t rows = 0, cells = 0;
+    for (const char *at = table; (at = strstr(at, "<th scope=\"row\">")) && at < end; at++) rows++;
+    for (const char *at = table; (at = strstr(at, "<td class=")) && at < end; at++) cells++;
+    cr_expect(rows == 3 && cells == 9, "%zu, %zu", rows, cells);
+    cr_expect(strstr(table, "0.25</th>") < end && strstr(table, "0.75</th>") < end && strstr(text, "microseconds"));
+    nh_text_clear(&page);
+    nh_stress_free(s);
+    nh_comparison_free(c);
 }
 
 /* ---- by name ---- */

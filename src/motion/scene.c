@@ -97,6 +97,27 @@ static nh_tape *frozen_tape(const nh_scene *s, size_t n, const nh_ex *e)
     return tape;
 }
 
+/* Sums and products of whole powers of states and of functions that are analytic everywhere.  What follows from the equations of motion where a chart of velocities holds, and
+ * is of this form, holds where it ends, too: both sides are continuous, and the former places are dense. */
+static bool is_smooth(const nh_model *o, nh_ex e)
+{
+    size_t most = nh_node_count(o->dag, e) + 1;
+    nh_ex *node = nh_alloc_array(most, sizeof *node);
+    bool good = true;
+    for (size_t i = nh_functions_in(o->dag, e, node, most); i-- > 0 && good;) {
+        nh_function f = nh_function_of(o->dag, node[i]);
+        good = f == NH_SIN || f == NH_COS || f == NH_EXP || f == NH_SINH || f == NH_COSH || f == NH_TANH || f == NH_ATAN || f == NH_ASINH || f == NH_PI;
+    }
+    for (size_t i = nh_products_in(o->dag, e, node, most); i-- > 0 && good;)
+        for (size_t j = 0; j < nh_arity(o->dag, node[i]) && good; j++) {
+            nh_ex base = nh_child(o->dag, node[i], j), power = nh_exponent_of(o->dag, node[i], j);
+            bool whole = nh_kind_of(o->dag, power) == NH_NUMBER && nh_number_of(o->dag, power).q == 1 && nh_number_of(o->dag, power).p > 0;
+            for (size_t k = 0; k < o->width && !whole && good; k++) good = !nh_depends(o->dag, base, o->chart->symbol[k]) && !nh_depends(o->dag, power, o->chart->symbol[k]);
+        }
+    nh_free(node);
+    return good;
+}
+
 static void make_tapes(nh_scene *s)
 {
     const nh_model *o = s->model;
@@ -108,6 +129,7 @@ static void make_tapes(nh_scene *s)
     s->instructions_of_all = nh_tape_length(s->rate_of_all);
     bool zero = rows_at_zero(s, e);
     for (size_t i = 0; i < n && !zero; i++) e[i] = s->network.row[s->state[i]];
+    for (size_t i = 0; i < n; i++) s->smooth = s->smooth && is_smooth(o, e[i]);
     s->rate = n ? frozen_tape(s, n, e) : NULL;
     s->instructions = n ? nh_tape_length(s->rate) : 0;
     for (size_t j = 0; j < n; j++)
@@ -133,6 +155,8 @@ nh_scene *nh_scene_create(const nh_model *o, size_t n, const nh_ex *watched, siz
     s->implicit = s->network.implicit;
     s->kept = s->network.count;
     s->levels = s->network.levels;
+    s->smooth = !s->implicit && !s->levels && !o->chart->branch;
+    for (size_t i = 0; i < n; i++) s->smooth = s->smooth && is_smooth(o, watched[i]);
     sort_states(s, &s->network);
     make_tapes(s);
     return s;
@@ -264,6 +288,7 @@ static bool scene_guard(double t, const double *z, double *value, void *context)
 nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole)
 {
     run->whole = whole;
-    size_t guards = (whole ? whole->guards : 0) + run->scene->levels;
+    if (run->scene->smooth) run->whole = NULL;
+    size_t guards = (run->whole ? run->whole->guards : 0) + run->scene->levels;
     return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = scene_jacobian, .guards = guards, .guard = guards ? scene_guard : NULL};
 }

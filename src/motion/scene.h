@@ -22,6 +22,7 @@ typedef struct {
     size_t *state;                  /* states, as indices into (q, w): the core, then the quadratures in an order in which they can be
                                        integrated, then those that currents determine, then those dropped */
     bool implicit;                  /* implicit velocities are needed */
+    bool smooth;                    /* equations and what is watched are analytic for all kept states: the end of a chart is none for them */
     nh_network network;
     nh_tape *rate, *jacobian;       /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept */
     nh_tape *removed, *currents;    /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */
@@ -43,7 +44,7 @@ void nh_scene_run_hasten(nh_scene_run *run, double patience);
 const char *nh_scene_run_words(const nh_scene_run *run);
 /* The level whose current does not determine its state: at the start or at the last point that was asked for; -1: none. */
 long nh_scene_run_failed(const nh_scene_run *run);
-/* `whole`: the problem of the whole model, whose guards are watched; it must live as long as the run.  May be NULL. */
+/* `whole`: the problem of the whole model, whose guards are watched unless the scene is smooth; it must live as long as the run.  May be NULL. */
 nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole);
 /* The point (t, q, w, u) that belongs to the kept states z; width entries.  False when the implicit velocities cannot be found, or a current no longer
  * determines its state. */

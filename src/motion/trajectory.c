@@ -121,7 +121,7 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
 static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion *motion)
 {
     const nh_model *o = s->model;
-    if (o->chart->quasi || !o->k) return false;
+    if (o->chart->quasi || !o->k || s->smooth) return false;
     nh_ex *e = nh_alloc_array(o->m * o->n + 1, sizeof *e);
     size_t n = 0;
     for (size_t i = 0; i < o->m * o->n; i++) {
@@ -203,9 +203,9 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
     nh_scene_run_hasten(run, j->q->options->compile);
-    bool starts = s->kept && nh_scene_run_failed(run) < 0;
+    bool starts = s->kept && nh_scene_run_failed(run) < 0 && (s->smooth || !j->leave);
     nh_motion *motion = starts ? nh_method_flow(j->method, &problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
-    bool good = motion && !(nh_may_leave_chart(j->q->model) && (!motion->complete || scene_is_steep(s, run, motion)));
+    bool good = motion && !(nh_may_leave_chart(j->q->model) && ((!s->smooth && !motion->complete) || scene_is_steep(s, run, motion)));
     if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
     if (good && s->levels) good = motion->complete;
     *failed = -1;
@@ -278,7 +278,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     nh_error_clear(&ignored);
     if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error)) {
         look_ahead(&j);
-        if (!(q->smallest && !j.leave && in_scene(&j, &ignored))) in_all_states(&j, error);
+        if (!(q->smallest && in_scene(&j, &ignored))) in_all_states(&j, error);
     }
     nh_dynamics_free(j.dynamics);
     nh_free(scale);

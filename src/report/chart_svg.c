@@ -15,7 +15,7 @@ static const char *const dash[dashes] = {"none", "7 3", "2 3", "9 3 2 3", "4 2",
 
 typedef struct {
     double error, seconds; /* not finite: not drawn */
-    bool front;
+    bool front, hollow; /* hollow: right, but a guard complains */
     const char *note;
 } mark;
 
@@ -28,7 +28,7 @@ typedef struct {
 typedef struct {
     nh_text *out;
     nh_arena *arena;
-    const char *title, *across;
+    const char *title, *across, *key; /* key: what its signs mean */
     size_t count;
     series *series;
     bool by_group;         /* a front for each group */
@@ -94,6 +94,7 @@ static void axes(panel *d)
     nh_text_addf(d->out, "<text x=\"%d\" y=\"%d\" font-size=\"15\">", left, d->y + 30);
     escaped(d->out, d->title, 120);
     nh_text_addf(d->out, "</text>\n<text text-anchor=\"middle\" x=\"%d\" y=\"%d\">%s</text>\n", (left + wide - right) / 2, foot + 40, d->across);
+    nh_text_addf(d->out, "<text x=\"%d\" y=\"%d\" font-size=\"11\" fill=\"#555\">%s</text>\n", left, d->y + 46, d->key);
     nh_text_addf(d->out, "<text text-anchor=\"middle\" transform=\"translate(18 %d) rotate(-90)\">seconds</text>\n", d->y + (top + d->tall - bottom) / 2);
 }
 
@@ -107,12 +108,14 @@ static void put_series(panel *d, const series *s, const char *shade, const char 
     for (size_t i = 0; i < s->count; i++) {
         const mark *m = &s->mark[i];
         if (!shown(m)) continue;
-        nh_text_addf(d->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>", across(d, m), up(d, m), m->front ? "4.2" : "2.4");
+        nh_text_addf(d->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"%s><title>", across(d, m), up(d, m), m->front ? "4.2" : "2.4", m->hollow ? " fill=\"#fff\"" : "");
         escaped(d->out, m->note, 300);
         nh_text_add(d->out, "</title></circle>\n");
     }
-    nh_text_addf(d->out, "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\" stroke-dasharray=\"%s\"/></g>\n<text x=\"%d\" y=\"%.1f\">", wide - right + 22,
-                 wide - right + 46, y - 4, y - 4, dashed, wide - right + 52, y);
+    bool any = false;
+    for (size_t i = 0; i < s->count; i++) any |= shown(&s->mark[i]);
+    nh_text_addf(d->out, "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" stroke-width=\"2\" stroke-dasharray=\"%s\"/></g>\n<text x=\"%d\" y=\"%.1f\"%s>", wide - right + 22,
+                 wide - right + 46, y - 4, y - 4, dashed, wide - right + 52, y, any ? "" : " fill=\"#aaa\"");
     escaped(d->out, s->name, most_letters);
     nh_text_add(d->out, "</text>\n");
 }
@@ -193,7 +196,7 @@ static void motions(panel *d, const nh_comparison *c)
         char note[400];
         snprintf(note, sizeof note, "%s, %s %.3g: error %.1e, %.3g s, %ld evaluations", m->method, isnan(m->step) ? "tolerance" : "step", isnan(m->step) ? m->tolerance : m->step,
                  m->error, m->seconds, m->evaluations);
-        s->mark[s->count++] = (mark){good ? fmax(fmax(m->error, c->agreement), 1e-16) : NAN, m->seconds, m->front, nh_arena_strdup(d->arena, note)};
+        s->mark[s->count++] = (mark){good ? fmax(fmax(m->error, c->agreement), 1e-16) : NAN, m->seconds, m->front, m->status == NH_WARNED, nh_arena_strdup(d->arena, note)};
     }
 }
 
@@ -213,7 +216,7 @@ static void fits(panel *d, const nh_comparison *c)
             s = &d->series[d->count++];
             *s = (series){name, group, 0, nh_arena_alloc(d->arena, (c->fits + 1) * sizeof *s->mark)};
         }
-        s->mark[s->count++] = (mark){m->right ? fmax(m->error, 1e-17) : NAN, m->seconds, m->front, nh_arena_printf(d->arena, "%s, %zu samples: %zu of %zu currents, gap %.0e, error %.1e, %.3g s", name, m->samples,
+        s->mark[s->count++] = (mark){m->right ? fmax(m->error, 1e-17) : NAN, m->seconds, m->front, false, nh_arena_printf(d->arena, "%s, %zu samples: %zu of %zu currents, gap %.0e, error %.1e, %.3g s", name, m->samples,
                                      m->dimension, m->wanted, isfinite(m->gap) ? m->gap : 0, m->error, m->seconds)};
     }
 }
@@ -223,8 +226,8 @@ void nh_comparison_svg(const nh_comparison *c, nh_text *out)
     nh_arena *arena = nh_arena_create();
     const nh_system *system = c->question->system;
     const char *name = system->title ? system->title : system->name;
-    panel part[2] = {{.out = out, .arena = arena, .across = "error, relative", .title = nh_arena_printf(arena, "%s, t = %g to %g: time against error", name, c->begin, c->end)},
-                     {.out = out, .arena = arena, .by_group = true, .across = "distance of the known currents from the null space", .title = "The discrete problem: time against error"}};
+    panel part[2] = {{.out = out, .arena = arena, .across = "error, relative", .key = "thick: nothing that is right and computes all is both faster and more exact; hollow: a guard complains; grey names: never right", .title = nh_arena_printf(arena, "%s, t = %g to %g: time against error", name, c->begin, c->end)},
+                     {.out = out, .arena = arena, .by_group = true, .across = "distance of the known currents from the null space", .key = "thick: no other of as many functions is both faster and more exact; grey names: never right", .title = "The discrete problem: time against error"}};
     motions(&part[0], c);
     fits(&part[1], c);
     int y = 0;

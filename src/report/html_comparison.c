@@ -37,7 +37,7 @@ static void measured(nh_html_writer *w, const nh_measured *m)
 {
     nh_html_cell(w, m->error, 2);
     nh_html_cell(w, m->worst_drift, 2);
-    nh_html_cell(w, m->seconds, 3);
+    nh_html_cell(w, 1e6 * m->seconds, 3);
     nh_html_cell(w, (double)m->evaluations, 10);
 }
 
@@ -80,7 +80,7 @@ static void fastest(nh_html_writer *w, const nh_comparison *c)
         double below;
         const char *text;
     } goal[] = {{1e-3, "10<sup>\u22123</sup>"}, {1e-6, "10<sup>\u22126</sup>"}, {1e-9, "10<sup>\u22129</sup>"}, {1e-12, "10<sup>\u221212</sup>"}};
-    nh_html_table(w, "The fastest below an error of ...", "error below|method|formulation|set to|error|drift|seconds|evaluations");
+    nh_html_table(w, "The fastest below an error of ...", "error below|method|formulation|set to|error|drift|microseconds|evaluations");
     for (size_t g = 0; g < sizeof goal / sizeof *goal; g++) {
         const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g].below, false);
         if (m) best_line(w, m, goal[g].text);
@@ -131,7 +131,7 @@ static void plots(nh_html_writer *w, const nh_comparison *c)
 static void all_runs(nh_html_writer *w, const nh_comparison *c)
 {
     nh_html_add(w, "<details><summary>All runs</summary>\n");
-    nh_html_table(w, "All runs", "method|formulation|set to|status|error|drift|seconds|evaluations|note");
+    nh_html_table(w, "All runs", "method|formulation|set to|status|error|drift|microseconds|evaluations|note");
     for (size_t i = 0; i < c->count; i++) {
         const nh_measured *m = &c->item[i];
         nh_html_add(w, "<tr>");
@@ -148,13 +148,13 @@ static void all_runs(nh_html_writer *w, const nh_comparison *c)
 static void derivatives(nh_html_writer *w, const nh_comparison *c)
 {
     if (!c->derivatives) return;
-    nh_html_table(w, "One Jacobian of the reduced equations", "by|seconds|evaluations|off by");
+    nh_html_table(w, "One Jacobian of the reduced equations", "by|microseconds|evaluations|off by");
     for (size_t i = 0; i < c->derivatives; i++) {
         const nh_derivative *d = &c->derivative[i];
         if (!isfinite(d->seconds)) continue;
         nh_html_add(w, "<tr>");
         nh_html_tagged(w, "td", d->method);
-        nh_html_cell(w, d->seconds, 3);
+        nh_html_cell(w, 1e6 * d->seconds, 3);
         nh_html_cell(w, (double)d->evaluations, 10);
         nh_html_cell(w, d->error, 1);
         nh_html_add(w, "</tr>\n");
@@ -205,7 +205,7 @@ static void fit_row(nh_html_writer *w, const nh_fitted *m)
     nh_html_cell(w, (double)m->dimension, 10);
     nh_html_cell(w, m->gap, 2);
     nh_html_cell(w, m->error, 2);
-    nh_html_cell(w, m->seconds, 3);
+    nh_html_cell(w, 1e3 * m->seconds, 3);
     nh_html_tagged(w, "td", nh_fitted_word(m));
     nh_html_add(w, "</tr>\n");
 }
@@ -220,7 +220,7 @@ static void discrete(nh_html_writer *w, const nh_comparison *c)
         fit_plot(w, c, i, next);
     }
     nh_html_add(w, "<details><summary>All solutions</summary>\n");
-    nh_html_table(w, "All solutions", "functions|columns|samples|basis|route|solver|null values|gap|error|seconds|result");
+    nh_html_table(w, "All solutions", "functions|columns|samples|basis|route|solver|null values|gap|error|milliseconds|result");
     for (size_t i = 0; i < c->fits; i++) fit_row(w, &c->fit[i]);
     nh_html_table_end(w);
     nh_html_add(w, "</details>\n</section>\n");
@@ -228,28 +228,82 @@ static void discrete(nh_html_writer *w, const nh_comparison *c)
 
 /* ---- stability maps ---- */
 
-static void stability_map(nh_html_writer *w, const nh_stress_map *map)
+/* A cell with what its guard says, or why it failed, where the pointer rests on it. */
+static void stability_cell(nh_html_writer *w, const nh_stress_cell *cell)
+{
+    nh_text_addf(w->out, "<td class=\"%s\"", nh_measured_status_name(cell->status));
+    if (cell->note && cell->note[0]) {
+        nh_html_add(w, " title=\"");
+        nh_html_text(w, cell->note);
+        nh_html_add(w, "\"");
+    }
+    nh_text_addf(w->out, ">%s</td>", nh_measured_status_name(cell->status));
+}
+
+static void head_cell(nh_html_writer *w, const char *text)
+{
+    nh_html_add(w, "<th scope=\"col\">");
+    nh_html_text(w, text);
+    nh_html_add(w, "</th>");
+}
+
+static void row_head(nh_html_writer *w, double at)
+{
+    nh_html_add(w, "<th scope=\"row\">");
+    nh_html_number(w, at, 4);
+    nh_html_add(w, "</th>");
+}
+
+/* Over one thing: its values downwards, methods across. */
+static void line_map(nh_html_writer *w, const nh_stress_map *map)
 {
     nh_html_table(w, map->name, NULL);
-    nh_html_add(w, "<tr><th scope=\"col\">");
-    nh_html_text(w, map->axis);
-    nh_html_add(w, "</th>");
-    for (size_t j = 0; j < map->methods; j++) {
-        nh_html_add(w, "<th scope=\"col\">");
-        nh_html_text(w, map->cell[j].method);
-        nh_html_add(w, "</th>");
-    }
+    nh_html_add(w, "<tr>");
+    head_cell(w, map->axis);
+    for (size_t j = 0; j < map->methods; j++) head_cell(w, map->cell[j].method);
     for (size_t j = 0; j < map->cells; j++) {
-        const nh_stress_cell *cell = &map->cell[j];
         if (j % map->methods == 0) {
-            nh_html_add(w, "</tr>\n<tr><th scope=\"row\">");
-            nh_html_number(w, cell->at, 4);
-            nh_html_add(w, "</th>");
+            nh_html_add(w, "</tr>\n<tr>");
+            row_head(w, map->cell[j].at);
         }
-        nh_text_addf(w->out, "<td class=\"%s\">%s</td>", nh_measured_status_name(cell->status), nh_measured_status_name(cell->status));
+        stability_cell(w, &map->cell[j]);
     }
     nh_html_add(w, "</tr>\n");
     nh_html_table_end(w);
+}
+
+/* Over two: the first downwards, the second across, a table per method. */
+static void plane_map(nh_html_writer *w, const nh_stress_map *map, size_t method)
+{
+    char caption[300], corner[200];
+    size_t values = map->cells / map->methods, across = 1;
+    const nh_stress_cell *cell = map->cell + method;
+    while (across < values && map->cell[across * map->methods].at == map->cell[0].at) across++;
+    snprintf(caption, sizeof caption, "%.200s: %.80s", map->name, cell->method);
+    snprintf(corner, sizeof corner, "%.90s \u2193  %.90s \u2192", map->axis, map->second_axis);
+    nh_html_table(w, caption, NULL);
+    nh_html_add(w, "<tr>");
+    head_cell(w, corner);
+    for (size_t j = 0; j < across; j++) {
+        nh_html_add(w, "<th scope=\"col\">");
+        nh_html_number(w, cell[j * map->methods].second_at, 4);
+        nh_html_add(w, "</th>");
+    }
+    for (size_t j = 0; j < values; j++) {
+        if (j % across == 0) {
+            nh_html_add(w, "</tr>\n<tr>");
+            row_head(w, cell[j * map->methods].at);
+        }
+        stability_cell(w, &cell[j * map->methods]);
+    }
+    nh_html_add(w, "</tr>\n");
+    nh_html_table_end(w);
+}
+
+static void stability_map(nh_html_writer *w, const nh_stress_map *map)
+{
+    if (!map->second_axis) line_map(w, map);
+    for (size_t j = 0; map->second_axis && j < map->methods; j++) plane_map(w, map, j);
 }
 
 static void stress(nh_html_writer *w, const nh_stress *s)

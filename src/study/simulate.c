@@ -289,6 +289,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
+    if (!s->trajectory->scene && request.smallest) /* it was tried */
+        s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller part reaches the end", s->motion->size, strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
     if (!s->trajectory->scene) return true;
     s->scene = words_of(s, s->trajectory->scene);
     s->idle = idle_words_of(s, s->trajectory->scene);

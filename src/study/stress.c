@@ -11,7 +11,8 @@ static const char *const methods[] = {"GSL rk8pd", "GSL rkf45", "ARKODE Dormand-
 enum { method_count = NH_STRESS_METHODS };
 static const char *const stepping[] = {"midpoint", "Lagrange-d'Alembert", "Lagrange-d'Alembert, order 4", "energy-preserving", "relaxation, order 4"};
 _Static_assert(sizeof methods / sizeof *methods == method_count && sizeof stepping / sizeof *stepping == method_count, "as many of both");
-static const double longer[] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6}, parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
+enum { longer_times = 4, longer_by_steps = 3 }; /* the first of these: */
+static const double longer[longer_times] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6}, parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
 static const double least_cell = 0.02; /* seconds that a value has at least */
 
 bool nh_stress_late(const nh_stress_work *w) { return nh_interrupted() || nh_clock() > w->begun + w->budget; }
@@ -107,10 +108,11 @@ static void set_at(nh_stress_map *map, size_t value, double at)
     for (size_t i = 0; i < map->methods; i++) map->cell[value * map->methods + i].at = at;
 }
 
-static void map_time(nh_stress_work *w, double begin, double end)
+/* `step` above 0: by methods with this fixed step, which shows the ones that gain energy [ModinVerdier2020]. */
+static void map_time(nh_stress_work *w, const char *name, size_t count, double step, double begin, double end)
 {
-    enum { count = sizeof longer / sizeof *longer };
-    nh_stress_map *map = nh_stress_add_map(w, "long times", "end of the motion", count, method_count);
+    nh_stress_map *map = nh_stress_add_map(w, name, "end of the motion", count, method_count);
+    w->step = step;
     for (size_t v = 0; v < count; v++) {
         nh_simulate_request q = *w->request;
         q.until_given = true;
@@ -118,6 +120,7 @@ static void map_time(nh_stress_work *w, double begin, double end)
         set_at(map, v, q.options.until);
         nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
     }
+    w->step = 0;
 }
 
 static void map_absolute(nh_stress_work *w)
@@ -165,29 +168,13 @@ static size_t angles_of(const nh_system *s, bool charts)
     return n;
 }
 
-/* Fixed steps over long times: which methods gain energy, and which do not [ModinVerdier2020]. */
-static void map_steps(nh_stress_work *w, double begin, double end)
-{
-    enum { count = 3 };
-    nh_stress_map *map = nh_stress_add_map(w, "long times by fixed steps", "end of the motion", count, method_count);
-    w->step = fabs(end - begin) / (4 * w->request->options.chart_steps);
-    for (size_t v = 0; v < count; v++) {
-        nh_simulate_request q = *w->request;
-        q.until_given = true;
-        q.options.until = begin + (end - begin) * longer[v];
-        set_at(map, v, q.options.until);
-        nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
-    }
-    w->step = 0;
-}
-
 static bool all_maps(nh_stress_work *w, const nh_bench *plain, nh_error *error)
 {
     const nh_system *s = plain->out->question->system;
     bool charts = plain->formulations == NH_CHART_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
     size_t parameters = s->parameters < most_parameters ? s->parameters : most_parameters, angles = angles_of(s, charts);
     w->out->map = nh_arena_alloc(w->out->arena, (3 + s->stresses + parameters + angles + NH_STRESS_FITS) * sizeof *w->out->map);
-    w->values_left = sizeof longer / sizeof *longer + sizeof absolute / sizeof *absolute + parameters * (sizeof parameter / sizeof *parameter) + angles * most_values + 3;
+    w->values_left = longer_times + sizeof absolute / sizeof *absolute + parameters * (sizeof parameter / sizeof *parameter) + angles * most_values + longer_by_steps;
     nh_stress_fits(w, plain);
     for (size_t i = 0; i < s->stresses; i++)
         if (!nh_stress_named(w, plain, &s->stress[i], error)) return false;
@@ -195,8 +182,9 @@ static bool all_maps(nh_stress_work *w, const nh_bench *plain, nh_error *error)
     for (size_t i = 0; i < s->coordinates && angles; i++)
         if (s->coordinate[i].type == NH_ANGLE) map_angle(w, s->coordinate[i].name, i);
     for (size_t i = 0; i < parameters; i++) map_parameter(w, s->parameter[i].name, s->parameter[i].value);
-    map_steps(w, plain->out->begin, plain->out->end);
-    map_time(w, plain->out->begin, plain->out->end);
+    double begin = plain->out->begin, end = plain->out->end;
+    map_time(w, "long times by fixed steps", longer_by_steps, fabs(end - begin) / (4 * w->request->options.chart_steps), begin, end);
+    map_time(w, "long times", longer_times, 0, begin, end);
     return true;
 }
 
