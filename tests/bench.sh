@@ -12,8 +12,24 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 
 say() { printf '%s\n' "$@" >>"$work/page"; }
+# the rows of a table, then an empty line; numbers from it by awk, nothing where it was not made
+table() { cat "$work/$1" >>"$work/page" && say ""; }
+from() { [ -s "$work/$1" ] && awk -F'|' "$2" "$work/$1"; }
+# a section of what build/tests/bench_NAME printed: its title, NAME, what to say before the table
+section() {
+    title=$1 name=$2
+    shift 2
+    say "## $title" ""
+    if [ -s "$work/$name" ]; then say "\`build/tests/bench_$name\`" "" "$@" "" && table "$name"; else say "Not measured: build/tests/bench_$name was not built." ""; fi
+}
+# a line of the aims: what, the measured number (or nothing), its unit, `at most` or `at least`, the number that is aimed at
+aim() {
+    if [ -z "$2" ]; then verdict=""; elif [ "$4" = "at most" ]; then verdict=$(holds "$2" "$5"); else verdict=$(holds "$5" "$2"); fi
+    say "| $1 | ${2:-not measured}${2:+$3} | $verdict |"
+}
 # "holds" when the first number is at most the second
 holds() { awk -v x="$1" -v y="$2" 'BEGIN { print (x == "" ? "not measured" : x + 0 <= y + 0 ? "holds" : "**does not hold**") }'; }
+# the i-th command of the whole runs, its j-th number
 field() { sed -n "${1}p" "$work/run" | cut -d' ' -f"$2"; }
 
 python=""
@@ -37,6 +53,7 @@ echo "  bench: side by side" >&2
 : >"$work/octave"
 [ -n "$octave" ] && { octave --no-gui -qf tests/bench_octave.m >"$work/octave" 2>/dev/null || : >"$work/octave"; }
 : >"$work/scipy"
+: >"$work/numpy"
 if [ -n "$python" ]; then
     "$python" tests/bench_sympy.py 2>/dev/null | tail -n 1 >"$work/scipy"
     OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 "$python" tests/bench_nullspace.py 1000 20000 >"$work/numpy" 2>/dev/null || : >"$work/numpy"
@@ -102,8 +119,8 @@ read -r side_derive side_move side_error <"$work/side"
 read -r scipy_derive scipy_move scipy_error <"$work/scipy"
 read -r octave_move octave_error <"$work/octave"
 read -r numpy_svd numpy_qr numpy_dimension numpy_pair numpy_pair_qr <"$work/numpy"
-null_here=$(awk -F'|' 'NF == 13 && $2 + 0 == 1000 { print $6 + 0 }' "$work/nullspace")
-one_here=$(awk -F'|' 'NF == 13 && $2 + 0 == 1000 { print $12 + 0 }' "$work/nullspace")
+null_here=$(from nullspace 'NF == 13 && $2 + 0 == 1000 { print $6 + 0 }')
+one_here=$(from nullspace 'NF == 13 && $2 + 0 == 1000 { print $12 + 0 }')
 say "| derivation, ms | $side_derive | ${scipy_derive:-not installed} | by hand |" \
     "| motion, ms (error) | $side_move ($side_error) | ${scipy_move:-not installed} ${scipy_error:+($scipy_error)} | ${octave_move:-not installed} ${octave_error:+($octave_error)} |" \
     "| null space of one matrix, s | $one_here | ${numpy_svd:-not installed}${numpy_qr:+, by QR first $numpy_qr} | |" \
@@ -115,115 +132,78 @@ octave_ratio=$(ratio_of "$octave_move" "$side_move")
 numpy_ratio=$(ratio_of "$numpy_svd" "$one_here")
 numpy_pair_ratio=$(ratio_of "$numpy_pair" "$null_here")
 
-say "## Evaluation of a right-hand side" ""
-batch=""
-if [ -s "$work/tape" ]; then
-    batch=$(awk -F'|' '/^\| sleigh/ && $4 + 0 == 256 && $10 + 0 > worst { worst = $10 + 0 } END { if (worst) print worst }' "$work/tape")
-    compiled=$(awk -F'|' '/^\| sleigh/ && $9 + 0 > worst { worst = $9 + 0 } END { if (worst) print worst }' "$work/tape")
-    say "\`build/tests/bench_tape\`" "" "Compiled: by the C compiler of this machine from the tape, the same bits ([motions.md](motions.md), section 6)." ""
-    cat "$work/tape" >>"$work/page"
-    say ""
-else
-    say "Not measured: build/tests/bench_tape was not built." ""
-fi
+section "Evaluation of a right-hand side" tape "Compiled: by the C compiler of this machine from the tape, the same bits ([motions.md](motions.md), section 6)."
+batch=$(from tape '/^\| sleigh/ && $4 + 0 == 256 && $10 + 0 > worst { worst = $10 + 0 } END { if (worst) print worst }')
+compiled=$(from tape '/^\| sleigh/ && $9 + 0 > worst { worst = $9 + 0 } END { if (worst) print worst }')
 
-say "## Null space" ""
-null=""
-if [ -s "$work/nullspace" ]; then
-    null=$null_here
-    rate=$(awk -F'|' 'NF == 13 && $2 + 0 == 1000 { print $9 + 0 }' "$work/nullspace")
-    gap=$(awk -F'|' 'NF == 9 && $2 + 0 > 900 { print $8 + 0 }' "$work/nullspace")
-    assembly=$(awk -F'|' 'NF == 9 && $2 + 0 > 900 && $5 > 0 { printf "%.2f", $4 / $5 }' "$work/nullspace")
-    say "\`build/tests/bench_nullspace\`" "" \
-        "Rate: 2 m n^2 operations for each QR decomposition of m rows and n columns and 5 n^3 for the quotient and its singular vectors, per second, over those of dgemm. The second table is a real" \
-        "ansatz in its Chebyshev basis; assembly are the values and rates of all its columns at all samples." ""
-    cat "$work/nullspace" >>"$work/page"
-    say ""
-else
-    say "Not measured: build/tests/bench_nullspace was not built." ""
-fi
+section "Null space" nullspace \
+    "Rate: 2 m n^2 operations for each QR decomposition of m rows and n columns and 5 n^3 for the quotient and its singular vectors, per second, over those of dgemm. The second table is a real" \
+    "ansatz in its Chebyshev basis; assembly are the values and rates of all its columns at all samples."
+rate=$(from nullspace 'NF == 13 && $2 + 0 == 1000 { print $9 + 0 }')
+gap=$(from nullspace 'NF == 9 && $2 + 0 > 900 { print $8 + 0 }')
+assembly=$(from nullspace 'NF == 9 && $2 + 0 > 900 && $5 > 0 { printf "%.2f", $4 / $5 }')
 
-say "## Chains of bodies" ""
-ten=""
-if [ -s "$work/chain" ]; then
-    ten=$(awk -F'|' '$2 + 0 == 10 { print $3 + 0 }' "$work/chain")
-    say "\`build/tests/bench_chain\`" "" \
-        "Chains of n bodies on revolute joints, axes turned against each other. Building: from text to mass matrix and accelerations. By hand: composite" \
-        "rigid bodies, recursive Newton and Euler and Cholesky in C (\`tests/chain.h\`). The tape is interpreted or compiled, one point, or interpreted for a batch of 256 points" \
-        "at a time. Nanoseconds per point, the least of many short runs. The difference is that of the accelerations, relative." ""
-    cat "$work/chain" >>"$work/page"
-    say ""
-else
-    say "Not measured: build/tests/bench_chain was not built." ""
-fi
+section "Chains of bodies" chain \
+    "Chains of n bodies on revolute joints, axes turned against each other. Building: from text to mass matrix and accelerations. By hand: composite" \
+    "rigid bodies, recursive Newton and Euler and Cholesky in C (\`tests/chain.h\`). The tape is interpreted or compiled, one point, or interpreted for a batch of 256 points" \
+    "at a time. Nanoseconds per point, the least of many short runs. The difference is that of the accelerations, relative."
+ten=$(from chain '$2 + 0 == 10 { print $3 + 0 }')
 
 say "## Every system" "" "\`tests/bench_whole.sh build\`" "" \
     "Whole runs of \`nhsym analyze --no-analysis\`, from the start of the process to its end, one for each shipped system." ""
-cat "$work/whole" >>"$work/page"
-say ""
-whole_time=$(awk -F'|' 'NR == 3 { print $3 + 0 }' "$work/whole")
-whole_median=$(awk -F'|' 'NR == 3 { print $4 + 0 }' "$work/whole")
-whole_most=$(awk -F'|' 'NR == 3 { split($5, a, " "); print a[2] + 0 }' "$work/whole")
+table whole
+whole_time=$(from whole 'NR == 3 { print $3 + 0 }')
+whole_median=$(from whole 'NR == 3 { print $4 + 0 }')
+whole_most=$(from whole 'NR == 3 { split($5, a, " "); print a[2] + 0 }')
 
 say "## Growth" "" "\`tests/bench_growth.sh build\`" "" \
     "Medians of three whole runs of \`nhsym analyze\`, less that of \`nhsym version\`. How chains of bodies grow stands in the section before." ""
-cat "$work/growth" >>"$work/page"
-say ""
+table growth
 
-say "## Many motions at once" ""
-many=""
-if [ -s "$work/ensemble" ]; then
-    many=$(awk -F'|' '$3 + 0 > 0 && (least == "" || $9 + 0 < least) { least = $9 + 0 } END { print least }' "$work/ensemble")
-    sleighs=$(awk -F'|' '/^\| sleigh/ { print $8 + 0 }' "$work/ensemble")
-    say "\`build/tests/bench_ensemble\`" "" \
-        "The same motions at tolerance 1e-8: each alone by CVODE Adams, each alone by a Runge-Kutta pair of order 8, and by this in batches that take common steps. One thread;" \
-        "medians of 3. The difference is the largest of a final state, relative to 1 + its size." ""
-    cat "$work/ensemble" >>"$work/page"
-    say ""
-else
-    say "Not measured: build/tests/bench_ensemble was not built." ""
-fi
+section "Many motions at once" ensemble \
+    "The same motions at tolerance 1e-8: each alone by CVODE Adams, each alone by a Runge-Kutta pair of order 8, and by this in batches that take common steps. One thread;" \
+    "medians of 3. The difference is the largest of a final state, relative to 1 + its size."
+many=$(from ensemble '$3 + 0 > 0 && (least == "" || $9 + 0 < least) { least = $9 + 0 } END { print least }')
+sleighs=$(from ensemble '/^\| sleigh/ { print $8 + 0 }')
 
 say "## A wanted accuracy" "" "\`build/tests/bench_accuracy systems\`" "" \
     "\`--accuracy\` on every shipped system, three starts and times each. Truth: Runge-Kutta of order 8 at 1e-14 where another pair agrees to a tenth of eps; of what is accepted" \
     "nothing may be wrong. Cheapest: the run of rk8pd, rkf45 or CVODE Adams with the loosest tolerance that has an error below eps, found by trying; evaluations and time of all runs that" \
     "\`--accuracy\` makes, over those of it. Not accepted are motions that end in a singularity, and some whose rounding errors grow beyond eps." ""
-cat "$work/accuracy" >>"$work/page"
-say ""
-accuracy_time=$(awk -F'|' '/^\| all/ { print $11 + 0 }' "$work/accuracy")
-accuracy_cases=$(awk -F'|' '/^\| all/ { print $3 + 0 }' "$work/accuracy")
-accuracy_wrong=$(awk -F'|' '/^\| all/ { print $5 + 0 }' "$work/accuracy")
+table accuracy
+accuracy_time=$(from accuracy '/^\| all/ { print $11 + 0 }')
+accuracy_cases=$(from accuracy '/^\| all/ { print $3 + 0 }')
+accuracy_wrong=$(from accuracy '/^\| all/ { print $5 + 0 }')
 
 say "## Stress" "" "\`build/tests/bench_stress\`" "" \
     "Cells of the shipped maps ([motions.md](motions.md), section 4), five methods on every value of motions, up to four ways on those of the discrete problem. Below: the energy of a motion that nothing turns round in time" \
     "(a pendulum that rotates drives the direction of a velocity), and of one that is (it librates), by methods of fixed steps [ModinVerdier2020]." ""
-cat "$work/stress" >>"$work/page"
-say ""
-silent=$(awk -F'|' 'NR > 2 && NF == 10 { n += $9 } END { print n + 0 }' "$work/stress")
+table stress
+silent=$(from stress 'NR > 2 && NF == 10 { n += $9 } END { print n + 0 }')
 
-say "## Aims" "" "| aim | measured | |" "|---|---|---|" \
-    "| a whole run of \`nhsym analyze sleigh\` below 50 ms (median) | $median ms | $(holds "$median" 50) |" \
-    "| and below 50 MB | $memory MB | $(holds "$memory" 50) |" \
-    "| SymPy and SciPy, deriving and integrating the same sleigh, beaten by a factor of 40 | ${ratio:-not measured} | $([ -n "$ratio" ] && holds 40 "$ratio") |" \
-    "| the derivation by SymPy beaten by a factor of 40 | ${derive_ratio:-not measured} | $([ -n "$derive_ratio" ] && holds 40 "$derive_ratio") |" \
-    "| the motion by SciPy at no larger error beaten by a factor of 50 | ${move_ratio:-not measured} | $([ -n "$move_ratio" ] && holds 50 "$move_ratio") |" \
-    "| and that by Octave | ${octave_ratio:-not measured} | $([ -n "$octave_ratio" ] && holds 50 "$octave_ratio") |" \
-    "| the null space of one matrix by NumPy's singular values beaten by a factor of 2 | ${numpy_ratio:-not measured} | $([ -n "$numpy_ratio" ] && holds 2 "$numpy_ratio") |" \
-    "| and that of a pair | ${numpy_pair_ratio:-not measured} | $([ -n "$numpy_pair_ratio" ] && holds 2 "$numpy_pair_ratio") |" \
-    "| the null space of 1000 columns at 50 % of dgemm's rate | ${rate:-not measured} % | $([ -n "$rate" ] && holds 50 "$rate") |" \
-    "| its gap in the Chebyshev basis above 1e10 | ${gap:-not measured} | $([ -n "$gap" ] && holds 1e10 "$gap") |" \
-    "| and its assembly no slower than the QR decompositions | ${assembly:-not measured} | $([ -n "$assembly" ] && holds "$assembly" 1) |" \
-    "| every shipped system analysed below a minute together | $whole_time s | $(holds "$whole_time" 60) |" \
-    "| with a median below 0.3 s | $whole_median s | $(holds "$whole_median" 0.3) |" \
-    "| and none above 5 s | $whole_most s | $(holds "$whole_most" 5) |" \
-    "| a compiled right-hand side at most 1.5 times as long as C by hand | ${compiled:-not measured} | $([ -n "$compiled" ] && holds "$compiled" 1.5) |" \
-    "| 10 000 sleighs at once at least 10 times as fast as one by one by CVODE | ${sleighs:-not measured} | $([ -n "$sleighs" ] && holds 10 "$sleighs") |" \
-    "| --accuracy: of $accuracy_cases motions none accepted and wrong | $accuracy_wrong | $(holds "$accuracy_wrong" 0) |" \
-    "| and its median time below 4 times that of the cheapest run that suffices | $accuracy_time | $(holds "$accuracy_time" 4) |" \
-    "| silently wrong cells in the maps of stress: none | $silent | $(holds "$silent" 0) |" \
-    "| a batch of 256 points at most 1.2 times as long as scalar C by hand, per point | ${batch:-not measured} | $([ -n "$batch" ] && holds "$batch" 1.2) |" \
-    "| a chain of ten bodies from text to its equations below 1 s | $([ -n "$ten" ] && echo "$ten s" || echo "not measured") | $([ -n "$ten" ] && holds "$ten" 1) |" \
-    "| many motions at once at least 2 times as fast as one by one | ${many:-not measured} | $([ -n "$many" ] && holds 2 "$many") |" \
-    "| null space of 1000 columns from 20 000 rows below 2.5 s | $([ -n "$null" ] && echo "$null s" || echo "not measured") | $([ -n "$null" ] && holds "$null" 2.5) |"
+say "## Aims" "" "| aim | measured | |" "|---|---|---|"
+aim "a whole run of \`nhsym analyze sleigh\` below 50 ms (median)" "$median" " ms" "at most" 50
+aim "and below 50 MB" "$memory" " MB" "at most" 50
+aim "SymPy and SciPy, deriving and integrating the same sleigh, beaten by a factor of 40" "$ratio" "" "at least" 40
+aim "the derivation by SymPy beaten by a factor of 40" "$derive_ratio" "" "at least" 40
+aim "the motion by SciPy at no larger error beaten by a factor of 50" "$move_ratio" "" "at least" 50
+aim "and that by Octave" "$octave_ratio" "" "at least" 50
+aim "the null space of one matrix by NumPy's singular values beaten by a factor of 2" "$numpy_ratio" "" "at least" 2
+aim "and that of a pair" "$numpy_pair_ratio" "" "at least" 2
+aim "the null space of 1000 columns at 50 % of dgemm's rate" "$rate" " %" "at least" 50
+aim "its gap in the Chebyshev basis above 1e10" "$gap" "" "at least" 1e10
+aim "and its assembly no slower than the QR decompositions" "$assembly" "" "at most" 1
+aim "every shipped system analysed below a minute together" "$whole_time" " s" "at most" 60
+aim "with a median below 0.3 s" "$whole_median" " s" "at most" 0.3
+aim "and none above 5 s" "$whole_most" " s" "at most" 5
+aim "a compiled right-hand side at most 1.5 times as long as C by hand" "$compiled" "" "at most" 1.5
+aim "10 000 sleighs at once at least 10 times as fast as one by one by CVODE" "$sleighs" "" "at least" 10
+aim "--accuracy: of $accuracy_cases motions none accepted and wrong" "$accuracy_wrong" "" "at most" 0
+aim "and its median time below 4 times that of the cheapest run that suffices" "$accuracy_time" "" "at most" 4
+aim "silently wrong cells in the maps of stress: none" "$silent" "" "at most" 0
+aim "a batch of 256 points at most 1.0 times as long as scalar C by hand, per point" "$batch" "" "at most" 1
+aim "a chain of ten bodies from text to its equations below 1 s" "$ten" " s" "at most" 1
+aim "many motions at once at least 2 times as fast as one by one" "$many" "" "at least" 2
+aim "null space of 1000 columns from 20 000 rows below 2.5 s" "$null_here" " s" "at most" 2.5
 
 mv "$work/page" "$out" && chmod 644 "$out" && echo "$out"
