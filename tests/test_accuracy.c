@@ -119,6 +119,35 @@ Test(accuracy, beyond_rounding_is_refused)
     nh_simulation_free(s);
 }
 
+/* The motion along which currents are checked, by what is asked for and by what was measured before. */
+Test(accuracy, the_checked_motion_is_as_accurate)
+{
+    mechanics x = mechanics_of_text("name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2\nconstraints: [\"y' = cos(x)*x'\"]\n", NH_CHART_AUTO);
+    double q[2] = {1, sin(1)}, v[2] = {0, 0};
+    nh_state initial = {.q = q, .v = v};
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    nh_way adams = {nh_method_find("CVODE Adams"), NH_OWN_VELOCITIES, 1e-9, NAN, 1e-9, 1e-6};
+    nh_ex e = x.model->E;
+    nh_validation_request request = {.model = x.model, .currents = 1, .current = &e, .initial = &initial, .until = 30, .outputs = 61, .options = &options, .way = &adams};
+    for (double eps = 1e-4; eps > 1e-11; eps /= 100) {
+        request.accuracy = eps;
+        request.ways = eps < 1e-7; /* then CVODE is said to be the cheapest */
+        nh_validation *r = nh_validate(&request, &error);
+        must(r != NULL, &error, "the validation");
+        cr_expect(r->checked && (r->accuracy.held || eps < 1e-9), "%g: %s", eps, r->accuracy.why);
+        if (eps > 1e-9) cr_expect_str_eq(r->method, request.ways ? "CVODE Adams" : "GSL rk8pd");
+        cr_expect_eq(r->tolerance[NH_DRIFT_RUNS - 1], r->accuracy.tolerance);
+        double worst = 0; /* y = sin(x) at every time; dE/dt = 0 */
+        for (size_t i = 0; i < r->count; i++) worst = fmax(worst, fabs(r->state[i * r->size + 1] - sin(r->state[i * r->size])));
+        cr_expect_lt(worst, r->accuracy.held ? eps : 1, "%g: %g, %s", eps, worst, r->accuracy.why);
+        cr_expect(r->current[0].small, "%g", r->current[0].drift[NH_DRIFT_RUNS - 1]);
+        nh_validation_free(r);
+    }
+    mechanics_clear(&x);
+}
+
 /* ---- ensembles ---- */
 
 enum { MEMBERS = 150 };

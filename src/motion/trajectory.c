@@ -179,20 +179,26 @@ typedef struct {
 
 static bool late(void *context) { return nh_interrupted() || nh_clock() > *(double *)context; }
 
-/* CVODE watches the pivot of a chart; before another method runs, it looks whether it meets one. */
-static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
+bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2], const nh_flow_options *options)
 {
-    const double ends[2] = {j->q->times[0], j->q->times[j->q->count - 1]};
+    static const double loose = 1e-7;
     nh_flow_problem problem = nh_dynamics_problem(dynamics);
-    nh_flow_options how = j->how;
+    nh_flow_options how = *options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (j->method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(nh_dynamics_model(dynamics))) return false;
-    how.rtol = fmax(how.rtol, 1e-7);
-    nh_motion *motion = nh_flow(&problem, z0, 2, ends, &how, &ignored);
+    if (method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(nh_dynamics_model(dynamics))) return false;
+    how.method = NH_ADAMS;
+    how.rtol = fmax(how.rtol, loose);
+    nh_motion *motion = nh_flow(&problem, z0, 2, times, &how, &ignored);
     bool met = motion && motion->guard_hit >= 0;
     nh_motion_free(motion);
     return met;
+}
+
+static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
+{
+    const double ends[2] = {j->q->times[0], j->q->times[j->q->count - 1]};
+    return nh_meets_pivot(dynamics, j->method, z0, ends, &j->how);
 }
 
 /* The scene's states from the start of all.  *failed: the current (its number) that did not determine its state all the way, or -1. */

@@ -58,6 +58,10 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
 nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *options, char *machine,
                                 nh_error *error);
 
+/* Does the chart's pivot change sign on the way from z0 at times[0] to times[1]?  CVODE watches it, other methods step over it: this is to be asked before
+ * another method runs. */
+bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2], const nh_flow_options *options);
+
 /* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
 bool nh_may_leave_chart(const nh_model *model);
 

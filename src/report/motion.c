@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/json.h"
 #include "base/memory.h"
 #include "report/course.h"
 
@@ -57,13 +56,12 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
     }
 }
 
-static void put_accuracy(const nh_simulation *s, nh_json *root)
+void nh_accuracy_json(const nh_accuracy *a, nh_json *root)
 {
-    if (!s->checked) {
+    if (!a) {
         nh_json_put_null(root, "accuracy");
         return;
     }
-    const nh_accuracy *a = &s->accuracy;
     nh_json *item = nh_json_put_object(root, "accuracy");
     nh_json_put_number(item, "wanted", a->wanted);
     nh_json_put_bool(item, "held", a->held);
@@ -140,7 +138,7 @@ char *nh_motion_json(const nh_simulation *s, const nh_run *run)
     }
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", s->motion->complete);
-    put_accuracy(s, root);
+    nh_accuracy_json(s->checked ? &s->accuracy : NULL, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
     nh_course *c = nh_course_of_simulation(s);
     for (int kind = NH_TRACK_STATE; kind <= NH_TRACK_WATCH; kind++) nh_course_json(c, root, groups[kind], (nh_track_kind)kind);

@@ -28,6 +28,14 @@ static const char *name_of(uint64_t key, char name[name_size])
     return name;
 }
 
+size_t nh_ranking_adaptive(nh_ranking *r)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < r->count; i++)
+        if (!r->way[i].method->order && r->way[i].velocities == NH_OWN_VELOCITIES) r->way[kept++] = r->way[i];
+    return r->count = kept;
+}
+
 bool nh_ranking_possible(void)
 {
     nh_text path;

@@ -21,6 +21,9 @@ uint64_t nh_ranking_key(const nh_model *model);
 /* The ranking that was kept for these equations, into the arena; false: there is none. */
 bool nh_ranking_read(uint64_t key, nh_arena *arena, nh_ranking *out);
 
+/* Only the ways in the model's own velocities with error control are left, at the beginning; how many. */
+size_t nh_ranking_adaptive(nh_ranking *ranking);
+
 /* Is there a place where rankings are kept? */
 bool nh_ranking_possible(void);
 
