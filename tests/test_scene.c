@@ -265,6 +265,23 @@ Test(scene, the_end_of_a_chart_that_does_not_matter)
     nh_simulation_free(s);
 }
 
+/* A motion that begins where x' does not determine y': other velocities are taken, also where the file names the dependent ones. */
+Test(scene, a_start_where_the_chart_ends)
+{
+    static const struct {
+        const char *path, *initial;
+    } all[] = {{"systems/knife_edge.yaml", "p=1.5707963267948966, y'=1"}, {"systems/sleigh.yaml", "phi=1.5707963267948966, y'=1"}};
+    for (int i = 0; i < 2; i++) {
+        nh_error error = {0};
+        nh_simulate_request q = {.system_path = all[i].path, .initial = all[i].initial, .watch = "y", .step = 5, .chart = NH_CHART_COORDINATES};
+        nh_options_default(&q.options);
+        nh_simulation *s = nh_simulate(&q, &error);
+        must(s != NULL, &error, all[i].path);
+        cr_expect(s->motion->complete && fabs(s->value[s->motion->count - 1] - 10) < 1e-7, "%.12g", s->value[s->motion->count - 1]);
+        nh_simulation_free(s);
+    }
+}
+
 /* Quasi-velocities that mix two oscillators: in coordinate velocities one of them is enough; not so for those of the sleigh. */
 Test(scene, the_chart_that_keeps_fewest_states)
 {

@@ -229,13 +229,12 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
     return nh_error_hint(error, "leave the dependent ones out: they follow from the constraints; or --project takes the nearest that satisfy them");
 }
 
-bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
+/* Expressions of (t, q, v) at a state. */
+static void values_at(const nh_model *o, const nh_state *state, size_t n, const nh_ex *e, double *value)
 {
     const nh_system *y = o->system;
-    const nh_chart *c = o->chart;
-    if (!c->branch || (state->given && !state->given[c->dependent[0]])) return false;
     nh_ex *in = nh_alloc_array(1 + 2 * o->m, sizeof *in);
-    double *z = nh_alloc_array(1 + 2 * o->m, sizeof *z), root;
+    double *z = nh_alloc_array(1 + 2 * o->m, sizeof *z);
     in[0] = y->t;
     z[0] = state->t;
     for (size_t s = 0; s < o->m; s++) {
@@ -244,14 +243,75 @@ bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
         z[1 + s] = state->q[s];
         z[1 + o->m + s] = state->v[s];
     }
-    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * o->m, in, 1, &c->root, y->parameters, o->parameter, o->parameter_value);
+    nh_tape *tape = nh_tape_create(o->dag, 1 + 2 * o->m, in, n, e, y->parameters, o->parameter, o->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, z, &root);
+    nh_tape_eval(tape, work, z, value);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(z);
     nh_free(in);
+}
+
+bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
+{
+    const nh_chart *c = o->chart;
+    double root;
+    if (!c->branch || (state->given && !state->given[c->dependent[0]])) return false;
+    values_at(o, state, 1, &c->root, &root);
     return root < 0;
+}
+
+/* Gaussian elimination with complete pivoting of F (k x m, by rows) among the columns that are allowed: which columns, and the smallest pivot
+ * relative to the largest. */
+static double eliminate(size_t k, size_t m, const double *F, const bool *allowed, size_t *column)
+{
+    double *a = nh_alloc_array(k * m + 1, sizeof *a), first = 0, last = 0;
+    bool *used = nh_alloc_array(m + k + 1, sizeof *used), *done = used + m;
+    memcpy(a, F, k * m * sizeof *a);
+    for (size_t step = 0; step < k; step++) {
+        size_t row = 0, at = 0;
+        last = 0;
+        for (size_t i = 0; i < k; i++)
+            for (size_t j = 0; j < m; j++)
+                if (!done[i] && !used[j] && (!allowed || allowed[j]) && fabs(a[i * m + j]) > last) last = fabs(a[i * m + j]), row = i, at = j;
+        if (!(last > 0)) break;
+        if (step == 0) first = last;
+        done[row] = used[at] = true;
+        column[step] = at;
+        for (size_t i = 0; i < k; i++) {
+            double factor = done[i] ? 0 : a[i * m + at] / a[row * m + at];
+            for (size_t j = 0; j < m && factor != 0; j++) a[i * m + j] -= factor * a[row * m + j];
+        }
+    }
+    nh_free(used);
+    nh_free(a);
+    return last > 0 ? last / first : 0;
+}
+
+bool nh_dynamics_other_dependents(const nh_model *o, const nh_state *state, size_t *dependent)
+{
+    static const double singular = 1e-8;
+    size_t k = o->k, m = o->m;
+    if (!nh_dynamics_watched(o)) return false;
+    nh_ex *e = nh_alloc_array(k * m + 1, sizeof *e);
+    double *F = nh_alloc_array(k * m + 1, sizeof *F);
+    bool *own = nh_alloc_array(m + 1, sizeof *own);
+    for (size_t a = 0; a < k; a++) {
+        nh_ex f = nh_constraint_without_poles(o, a);
+        for (size_t s = 0; s < m; s++) e[a * m + s] = nh_diff(o->dag, f, o->system->coordinate[s].v);
+        own[o->chart->dependent[a]] = true;
+    }
+    values_at(o, state, k * m, e, F);
+    for (size_t a = 0; a < k; a++) { /* rows of one size */
+        double size = 0;
+        for (size_t s = 0; s < m; s++) size = fmax(size, fabs(F[a * m + s]));
+        for (size_t s = 0; s < m && size > 0; s++) F[a * m + s] /= size;
+    }
+    bool other = nh_all_finite(k * m, F) && eliminate(k, m, F, own, dependent) < singular && eliminate(k, m, F, NULL, dependent) > singular;
+    nh_free(own);
+    nh_free(F);
+    nh_free(e);
+    return other;
 }
 
 /* ---- multiplier form ---- */

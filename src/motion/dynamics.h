@@ -32,6 +32,9 @@ bool nh_dynamics_start(nh_dynamics *dynamics, const nh_state *state, bool projec
 /* Does the state lie on the other branch of a quadratic constraint than the chart?  Only velocities that are given say so. */
 bool nh_dynamics_other_branch(const nh_model *model, const nh_state *state);
 
+/* Do the chart's dependent velocities not follow from the constraints there, but others do?  Which (k coordinates). */
+bool nh_dynamics_other_dependents(const nh_model *model, const nh_state *state, size_t *dependent);
+
 /* The point (t, q, w, u) that belongs to (t, z); width entries.  False when the implicit velocities cannot be found. */
 bool nh_dynamics_point(nh_dynamics *dynamics, double t, const double *z, double *point);
 

@@ -162,6 +162,7 @@ bool nh_bench_reference(nh_bench *c, nh_error *error)
     nh_arena *arena = c->out->arena;
     c->out->agreement = INFINITY;
     for (size_t f = 0; f < c->formulations && !(c->out->agreement < c->options.chart_trusted); f++) {
+        if (c->formulation[f].breaks) continue;
         if (!states_of(c, f, first, reference_tolerance, states)) {
             if (!c->once && c->hurried) break; /* the others take longer */
             continue;

@@ -37,10 +37,22 @@ static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis 
     return !q->initial || ((*own = nh_simulate_initial(s->arena, q->initial, error)) && nh_analysis_resolve(*own, s->model, error));
 }
 
-/* The initial state chooses the branch of a quadratic constraint. */
+/* The initial state chooses the branch of a quadratic constraint, and, where those of the chart do not follow from the constraints there, the dependent velocities. */
+static bool needs_other_chart(nh_simulation *s, const nh_state *at)
+{
+    size_t *dependent = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof *dependent);
+    if (nh_dynamics_other_branch(s->model, at)) {
+        s->system->branch = -s->model->chart->branch;
+        return true;
+    }
+    if (!nh_dynamics_other_dependents(s->model, at, dependent)) return false;
+    s->system->dependent = dependent;
+    s->system->dependents = s->model->k;
+    return true;
+}
+
 static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_analysis **own, nh_error *error)
 {
-    s->system->branch = -s->model->chart->branch;
     nh_model_free(s->model);
     nh_analysis_free(*own);
     nh_analysis_free(s->analysis);
@@ -78,8 +90,8 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_c
     if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
     if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
     bool good = resolve(s, q, &own, error);
-    const nh_state *at = own ? &own->initial : s->analysis ? &s->analysis->initial : NULL;
-    if (good && at && nh_dynamics_other_branch(s->model, at)) good = resolve_again(s, q, &own, error);
+    const nh_analysis *first = own ? own : s->analysis;
+    if (good && first && first->has_initial && needs_other_chart(s, &first->initial)) good = resolve_again(s, q, &own, error);
     if (!good) {
         nh_analysis_free(own);
         return false;
