@@ -404,6 +404,7 @@ nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_
     nh_chart_rank(&c);
     nh_chart_derivatives(&c.formulation[0], c.out);
     nh_chart_fit(&c, budget * share_of_fits);
+    c.out->partial |= nh_interrupted();
     nh_bench_close(&c);
     return c.out;
 }
