@@ -125,6 +125,29 @@ Test(ensemble, members_that_leave_the_chart)
     cr_expect(alone > 0 && alone < 60, "%zu", alone);
 }
 
+/* A skate's heading does not mind that its chart ends: all members together. */
+Test(ensemble, members_that_the_end_of_a_chart_does_not_concern)
+{
+    mechanics x = mechanics_of_file("systems/knife_edge.yaml", NH_CHART_AUTO, 0, NULL);
+    double times[COUNT], initial[20 * 5], z0[5] = {0};
+    nh_options options;
+    nh_error error = {0};
+    nh_trajectory_request q;
+    nh_ex heading = formula(x.model, "p");
+    nh_options_default(&options);
+    z0[3] = 0.4, z0[4] = 1;
+    for (size_t i = 0; i < 20; i++) memcpy(initial + 5 * i, z0, sizeof z0), initial[5 * i + 4] += 0.01 * (double)i;
+    request_of(&q, x.model, &options, times, 8, 1, &heading);
+    q.smallest = true;
+    nh_ensemble *all = nh_ensemble_create(&q, 20, initial, 2, &error);
+    must(all != NULL, &error, "knife_edge");
+    cr_expect_eq(all->alone, 0, "%zu", all->alone);
+    double turned = all->value[20 * COUNT - 1], rate = initial[19 * 5 + 4];
+    cr_expect(fabs(turned - 8 * rate) < 1e-9 || fabs(turned - 8 * initial[19 * 5 + 3]) < 1e-9, "%.15g", turned);
+    nh_ensemble_free(all);
+    mechanics_clear(&x);
+}
+
 Test(ensemble, states_lie_around_the_first)
 {
     const double z0[3] = {0, -4, 0.5};

@@ -263,7 +263,7 @@ static void do_batch(size_t index, void *context)
     open_batch(&b, p, index);
     double *block = b.z, span = p->request->times[p->out->count - 1] - b.t;
     long steps = 0;
-    if (nh_dynamics_watched(p->request->model)) {
+    if (nh_dynamics_watched(p->request->model) && !p->out->scene->smooth) {
         b.dynamics = nh_dynamics_create(p->request->model);
         for (size_t l = 0; l < lanes; l++) b.pivot[l] = 0;
         watch_pivots(&b);
@@ -306,6 +306,7 @@ static void do_alone(const plan *p, size_t member, nh_error *error)
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
     q.method = NULL;
+    q.smallest = false; /* to find the smallest model again takes longer than the motion, and most members are here because a chart ends */
     nh_trajectory *t = nh_along(d, &start, o->m, o->rho, v) ? nh_trajectory_create(&q, error) : NULL;
     size_t reached = t ? t->motion->count : 0;
     for (size_t i = 0; i < each; i++) target[i] = i < reached * e->n ? t->value[i] : NAN;

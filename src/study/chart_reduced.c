@@ -107,6 +107,13 @@ static bool open_stage(nh_bench *c, const nh_reduction_stage *s)
     return f->size > 0 && own_reference(c, f);
 }
 
+static const char *why_without_reference(const nh_bench *c, const nh_formulation *f)
+{
+    if (!f->size) return "no state is left";
+    if (!isfinite(f->agreement)) return "its motion does not reach the end in one chart of the reduced equations";
+    return nh_arena_printf(c->out->arena, "two methods agree on its motion to %.0e only", f->agreement);
+}
+
 void nh_chart_reduced(nh_bench *c, const nh_simulate_request *q)
 {
     nh_error error;
@@ -124,7 +131,7 @@ void nh_chart_reduced(nh_bench *c, const nh_simulate_request *q)
         if (!s->start || !s->compared) nh_bench_refuse(c, name, s->note[0] ? s->note : "its motion could not be compared with the full one");
         else if (!(s->agreement < same_motion)) nh_bench_refuse(c, name, nh_arena_printf(c->out->arena, "its motion differs from the full one by %.0e", s->agreement));
         else if (!s->reduced->conservative) nh_bench_refuse(c, name, "with forces, or a constraint that does work, its energy says nothing about its error");
-        else if (!open_stage(c, s)) nh_bench_refuse(c, name, "its motion does not reach the end by two methods that agree");
+        else if (!open_stage(c, s)) nh_bench_refuse(c, name, why_without_reference(c, &c->formulation[c->formulations - 1]));
         else
             for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) nh_bench_add(c, nh_method_find(methods[k]), c->formulations - 1);
     }
