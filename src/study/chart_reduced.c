@@ -40,8 +40,8 @@ static nh_reduction *reduce(const nh_bench *c, const nh_simulate_request *q, nh_
     return nh_reduce(&r, error);
 }
 
-/* Two methods in (x, p); false when they do not reach the end or do not agree. */
-static bool own_reference(nh_bench *c, nh_formulation *f)
+/* Two methods in (x, p); why they are no reference, or NULL. */
+static const char *own_reference(nh_bench *c, nh_formulation *f)
 {
     static const struct {
         const char *method;
@@ -57,6 +57,7 @@ static bool own_reference(nh_bench *c, nh_formulation *f)
         nh_flow_options how = {.rtol = two[i].tolerance, .scale = f->scale, .max_steps = 1e6, .seconds = c->budget / 4};
         nh_motion *motion = nh_method_flow(nh_method_find(two[i].method), &f->problem, f->z0, NH_CHART_OUTPUTS, c->yard.times, &how, &ignored);
         bool good = motion && motion->complete;
+        const char *why = good ? NULL : nh_arena_printf(c->out->arena, "its motion does not reach the end in one chart of the reduced equations: %s", motion ? motion->note : ignored.what);
         if (good && i == 0) {
             memcpy(f->reference, motion->state, size * sizeof *f->reference);
             for (size_t j = 0; j < f->size; j++) f->reference_scale[j] = f->scale[j];
@@ -65,9 +66,9 @@ static bool own_reference(nh_bench *c, nh_formulation *f)
             f->agreement = nh_reduced_error(f, motion);
         }
         nh_motion_free(motion);
-        if (!good) return false;
+        if (!good) return why;
     }
-    return f->agreement < same_motion;
+    return f->agreement < same_motion ? NULL : nh_arena_printf(c->out->arena, "two methods agree on its motion to %.0e only", f->agreement);
 }
 
 double nh_reduced_error(const nh_formulation *f, const nh_motion *motion)
@@ -92,8 +93,8 @@ double nh_reduced_drift(nh_formulation *f, const nh_motion *motion)
     return worst / size;
 }
 
-/* "reduced by SE(2), 2 states", "reduced again by R, 3 states" */
-static bool open_stage(nh_bench *c, const nh_reduction_stage *s)
+/* "reduced by SE(2), 2 states", "reduced again by R, 3 states".  Why it cannot be used, or NULL. */
+static const char *open_stage(nh_bench *c, const nh_reduction_stage *s)
 {
     nh_formulation *f = &c->formulation[c->formulations];
     *f = (nh_formulation){.reduced = nh_reduced_flow_create(s->reduced)};
@@ -104,14 +105,7 @@ static bool open_stage(nh_bench *c, const nh_reduction_stage *s)
     f->scale = f->z0 + f->size;
     for (size_t i = 0; i < f->size; i++) f->z0[i] = s->start[i], f->scale[i] = c->absolute;
     c->formulations++;
-    return f->size > 0 && own_reference(c, f);
-}
-
-static const char *why_without_reference(const nh_bench *c, const nh_formulation *f)
-{
-    if (!f->size) return "no state is left";
-    if (!isfinite(f->agreement)) return "its motion does not reach the end in one chart of the reduced equations";
-    return nh_arena_printf(c->out->arena, "two methods agree on its motion to %.0e only", f->agreement);
+    return f->size > 0 ? own_reference(c, f) : "no state is left";
 }
 
 void nh_chart_reduced(nh_bench *c, const nh_simulate_request *q)
@@ -127,11 +121,11 @@ void nh_chart_reduced(nh_bench *c, const nh_simulate_request *q)
     }
     for (size_t i = 0; i < r->stages && c->formulations < NH_CHART_FORMULATIONS + NH_CHART_REDUCED; i++) {
         const nh_reduction_stage *s = &r->stage[i];
-        const char *name = nh_arena_printf(c->out->arena, "reduced by %s", s->group);
+        const char *name = nh_arena_printf(c->out->arena, "reduced by %s", s->group), *why;
         if (!s->start || !s->compared) nh_bench_refuse(c, name, s->note[0] ? s->note : "its motion could not be compared with the full one");
         else if (!(s->agreement < same_motion)) nh_bench_refuse(c, name, nh_arena_printf(c->out->arena, "its motion differs from the full one by %.0e", s->agreement));
         else if (!s->reduced->conservative) nh_bench_refuse(c, name, "with forces, or a constraint that does work, its energy says nothing about its error");
-        else if (!open_stage(c, s)) nh_bench_refuse(c, name, why_without_reference(c, &c->formulation[c->formulations - 1]));
+        else if ((why = open_stage(c, s))) nh_bench_refuse(c, name, why);
         else
             for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) nh_bench_add(c, nh_method_find(methods[k]), c->formulations - 1);
     }
