@@ -170,7 +170,7 @@ bool nh_bench_reference(nh_bench *c, nh_error *error)
         const char *name = nh_arena_printf(arena, "%s at %.0e in %s", first, reference_tolerance, c->formulation[f].name);
         if (states_of(c, f, second, second_tolerance, other)) prefer(c, agreement_of(c, states, other), states, name, nh_arena_printf(arena, "%s at %.0e", second, second_tolerance));
         for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.chart_trusted); k++) /* where CVODE does not agree, a closed form may */
-            if (c->closed[k].whole) prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name, nh_arena_printf(arena, "closed form `%s`", c->closed[k].motion->name));
+            if (c->closed[k].whole) prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name, nh_arena_printf(arena, "closed form \"%s\"", c->closed[k].motion->name));
     }
     nh_free(states);
     nh_free(other);
@@ -331,7 +331,7 @@ static bool open_bench(nh_bench *c, const nh_simulate_request *request, size_t c
     if (!(fabs(out->end - out->begin) > 0)) return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
     size_t known = c->model->system->currents;
     const char **astray = nh_arena_alloc(arena, (known + 1) * sizeof *astray);
-    for (size_t i = nh_yardstick_currents(&c->yard, arena, astray); i-- > 0;) nh_bench_refuse(c, nh_arena_printf(arena, "the known current `%s`", astray[i]), "it is not conserved with these parameters");
+    for (size_t i = nh_yardstick_currents(&c->yard, arena, astray); i-- > 0;) nh_bench_refuse(c, nh_arena_printf(arena, "the known current \"%s\"", astray[i]), "it is not conserved with these parameters");
     out->currents = c->yard.currents;
     out->current = c->yard.name;
     if (!open_formulations(c, error)) return false;

@@ -9,7 +9,7 @@
 #include "study/chart_internal.h"
 
 static const double least_off = 1e-11; /* rounding of a closed form and of the motion that it is compared with */
-static const double fits = 1e-9;       /* a condition on the initial state holds when left and right differ by less, relative to max(1, |value|) */
+static const double fits = 1e-9;       /* a condition on the initial state holds when left and right differ by less */
 
 /* ---- what it says ---- */
 
@@ -89,7 +89,7 @@ void nh_closed_open(nh_bench *c)
         *f = (nh_closed){.motion = k, .state = nh_arena_alloc(arena, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *f->state), .whole = k->values == c->model->m};
         bool fitting = at_the_start(c, k, start);
         if (fitting && along(c, k, start, f->state)) c->closeds++;
-        else if (fitting) nh_bench_refuse(c, nh_arena_printf(arena, "closed form `%s`", k->name), "it has no value on the way");
+        else if (fitting) nh_bench_refuse(c, nh_arena_printf(arena, "closed form \"%s\"", k->name), "it has no value on the way");
         nh_free(start);
     }
 }
@@ -130,7 +130,7 @@ static void refuse(nh_bench *c, const nh_closed *f, double off, size_t worst, co
     const nh_system *s = c->model->system;
     size_t m = c->model->m, j = worst % (2 * m);
     const char *name = j < m ? s->coordinate[j].name : nh_name_of(c->model->dag, s->coordinate[j - m].v);
-    nh_bench_refuse(c, nh_arena_printf(c->out->arena, "closed form `%s`", f->motion->name),
+    nh_bench_refuse(c, nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name),
                     nh_arena_printf(c->out->arena, "it is not this motion: %s is off by %.0e at t = %g, where %s agree to %.0e", name, off, c->yard.times[worst / (2 * m)], methods, c->out->agreement));
 }
 
@@ -150,11 +150,11 @@ void nh_closed_use(nh_bench *c)
             if (f->motion->given[i % m]) c->yard.state[i] = f->state[i];
         if (f->whole) {
             c->out->second = c->out->reference;
-            c->out->reference = nh_arena_printf(c->out->arena, "closed form `%s`", f->motion->name);
+            c->out->reference = nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name);
             c->out->agreement = off;
             return;
         }
-        c->out->reference = nh_arena_printf(c->out->arena, "closed form `%s` of %s, otherwise %s", f->motion->name, names_of(c, f), c->out->reference);
+        c->out->reference = nh_arena_printf(c->out->arena, "closed form \"%s\" of %s, otherwise %s", f->motion->name, names_of(c, f), c->out->reference);
         c->out->agreement = fmax(c->out->agreement, off);
     }
 }
