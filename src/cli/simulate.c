@@ -43,7 +43,7 @@ static void put_table(const nh_cli *cli, const nh_simulation *s)
     nh_text_clear(&text);
     if (s->scene && (cli->watch || cli->scene)) put_scene(s);
     if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
-    if (s->checked && (s->ensemble ? s->accuracy_of_all.held : s->accuracy.held)) fprintf(stderr, "nhsym: %s\n", s->ensemble ? s->accuracy_of_all.why : s->accuracy.why);
+    if (s->held) fprintf(stderr, "nhsym: %s\n", s->why);
     if (s->ensemble && s->ensemble->alone && !s->checked) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
 }
 
@@ -51,13 +51,12 @@ static void put_table(const nh_cli *cli, const nh_simulation *s)
 static void complain(const nh_simulation *s, nh_error *error)
 {
     if (s->ensemble && s->ensemble->incomplete) nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete, s->ensemble->note);
-    if (s->ensemble && s->checked && !s->accuracy_of_all.held) nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy_of_all.why);
+    bool unsure = s->checked && !s->held && (s->ensemble || s->motion->complete);
+    if (unsure) nh_fail(error, NH_NUMERIC, "", "%s", s->why);
     if (s->ensemble) return;
-    if (s->checked && !s->accuracy.held && s->motion->complete) {
-        nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy.why);
-        if (s->columns.count > 1) nh_error_hint(error, "`%s` is the least certain of %zu columns; --watch names those that are wanted", s->columns.track[s->accuracy.quantity].name, s->columns.count);
-    }
-    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->accuracy.why : s->motion->note);
+    if (unsure && s->columns.count > 1)
+        nh_error_hint(error, "`%s` is the least certain of %zu columns; --watch names those that are wanted", s->columns.track[s->accuracy.quantity].name, s->columns.count);
+    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->why : s->motion->note);
 }
 
 int nh_cli_simulate(nh_cli *cli, nh_error *error)

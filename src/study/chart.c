@@ -8,7 +8,6 @@
 
 enum { levels = NH_CHART_LEVELS, most_repeats = 7, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-static const double reference_tolerance = 1e-14, second_tolerance = 1e-13;
 static const double step_ratio = 4; /* of fixed steps, from level to level */
 static const double enough_seconds = 3e-3;             /* repetitions stop after this time */
 static const double least_part = 1.0 / 64;             /* of a time of which no eighth was reached, that is tried next */
@@ -133,6 +132,12 @@ static bool states_of(nh_bench *c, size_t formulation, const char *method, doubl
     return good;
 }
 
+/* Two methods, the first of which is the reference when they agree. */
+typedef struct {
+    const char *first, *second;
+    double first_tolerance, second_tolerance;
+} pair;
+
 /* These states become the reference, if what says how far they can be trusted says that it is further. */
 static void prefer(nh_bench *c, double agreement, const double *states, const char *reference, const char *second)
 {
@@ -153,30 +158,43 @@ static double agreement_of(nh_bench *c, double *states, const double *other)
     return agreement;
 }
 
-/* In the chart; in all coordinates where the chart breaks down or the two methods disagree. */
+/* In one formulation; taken when they agree better than what there is.  `states` and `other` are work space.  False: the first had no time. */
+static bool try_pair(nh_bench *c, const pair *p, size_t f, double *states, double *other)
+{
+    nh_arena *arena = c->out->arena;
+    size_t ignored;
+    bool hurried = c->hurried;
+    c->hurried = false;
+    if (!states_of(c, f, p->first, p->first_tolerance, states)) {
+        bool late_here = c->hurried;
+        c->hurried |= hurried;
+        return !late_here;
+    }
+    const char *name = nh_arena_printf(arena, "%s at %.0e in %s", p->first, p->first_tolerance, c->formulation[f].name);
+    if (states_of(c, f, p->second, p->second_tolerance, other)) prefer(c, agreement_of(c, states, other), states, name, nh_arena_printf(arena, "%s at %.0e", p->second, p->second_tolerance));
+    for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.chart_trusted); k++) /* where the second does not agree, a closed form may */
+        if (c->closed[k].whole) prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name, nh_arena_printf(arena, "closed form \"%s\"", c->closed[k].motion->name));
+    c->hurried |= hurried;
+    return true;
+}
+
+/* In the chart; in all coordinates where the chart breaks down or the two methods disagree; by implicit methods where the motion is too stiff for the explicit one. */
 bool nh_bench_reference(nh_bench *c, nh_error *error)
 {
-    static const char *const first = "GSL rk8pd", *const second = "CVODE Adams";
-    size_t size = NH_CHART_OUTPUTS * 2 * c->model->m, ignored;
+    static const pair pairs[] = {{"GSL rk8pd", "CVODE Adams", 1e-14, 1e-13}, {"CVODE BDF", "CVODE Adams", 1e-13, 1e-13}};
+    size_t size = NH_CHART_OUTPUTS * 2 * c->model->m;
     double *states = nh_alloc_array(size, sizeof *states), *other = nh_alloc_array(size, sizeof *other);
-    nh_arena *arena = c->out->arena;
     c->out->agreement = INFINITY;
-    for (size_t f = 0; f < c->formulations && !(c->out->agreement < c->options.chart_trusted); f++) {
-        if (c->formulation[f].breaks) continue;
-        if (!states_of(c, f, first, reference_tolerance, states)) {
-            if (!c->once && c->hurried) break; /* the others take longer */
-            continue;
-        }
-        const char *name = nh_arena_printf(arena, "%s at %.0e in %s", first, reference_tolerance, c->formulation[f].name);
-        if (states_of(c, f, second, second_tolerance, other)) prefer(c, agreement_of(c, states, other), states, name, nh_arena_printf(arena, "%s at %.0e", second, second_tolerance));
-        for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.chart_trusted); k++) /* where CVODE does not agree, a closed form may */
-            if (c->closed[k].whole) prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name, nh_arena_printf(arena, "closed form \"%s\"", c->closed[k].motion->name));
+    for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
+        bool time = true; /* where there is none in one formulation there is none in the next, which takes longer */
+        for (size_t f = 0; f < c->formulations && (time || c->once) && !(c->out->agreement < c->options.chart_trusted); f++)
+            if (!c->formulation[f].breaks) time = try_pair(c, &pairs[p], f, states, other);
     }
     nh_free(states);
     nh_free(other);
     if (isfinite(c->out->agreement)) {
         nh_closed_use(c);
-        nh_yardstick_scales(&c->yard, arena, c->formulation[0].scale[0]);
+        nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
         return true;
     }
     nh_fail(error, NH_NUMERIC, "", "no reference could be computed: the motion does not reach t = %g by two methods", c->out->end);

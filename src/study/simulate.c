@@ -277,8 +277,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     request.other = s->other;
     s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, s->ranking.count, s->ranking.way, &s->accuracy, error) : nh_trajectory_create(&request, error);
     if (!s->trajectory) return false;
-    if (s->checked) s->tolerance = s->accuracy.tolerance;
-    if (s->checked && s->accuracy.held && !s->ranking.count && q->remember && nh_ranking_possible()) strcat(s->accuracy.why, "; `nhsym chart` would measure which method is the cheapest");
+    if (s->checked) s->tolerance = s->accuracy.tolerance, s->held = s->accuracy.held, s->why = s->accuracy.why;
+    if (s->checked && s->held && !s->ranking.count && q->remember && nh_ranking_possible()) strcat(s->accuracy.why, "; `nhsym chart` would measure which method is the cheapest");
     s->motion = s->trajectory->motion;
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
@@ -393,7 +393,7 @@ nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
         nh_error_clear(&ignored);
         other.chart = NH_CHART_COORDINATES;
         nh_simulation *s = simulate_in_chart(&other, &ignored);
-        if (s && s->trajectory->scene && s->motion->complete && (!s->checked || s->accuracy.held)) return s; /* the chart may end on the way */
+        if (s && s->trajectory->scene && s->motion->complete && (!s->checked || s->held)) return s; /* the chart may end on the way */
         nh_simulation_free(s);
     }
     return simulate_in_chart(q, error);

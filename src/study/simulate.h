@@ -43,7 +43,8 @@ typedef struct {
     nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
     nh_ensemble *ensemble;     /* instead of motion, value and trajectory; NULL: one motion */
-    bool checked;              /* an accuracy was asked for */
+    bool checked, held;        /* an accuracy was asked for; it was reached */
+    const char *why;           /* then: by what, or why not */
     nh_ranking ranking;        /* what an earlier chart measured; its count is 0 where there is none */
     nh_model *other;           /* in coordinate velocities, where that one found them cheaper; or NULL */
     double deriving;           /* seconds that the model took */

@@ -24,7 +24,7 @@ bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_t
     nh_dynamics_free(d);
     nh_free(initial);
     if (!s->ensemble) return false;
-    if (s->checked) s->tolerance = s->accuracy_of_all.tolerance;
+    if (s->checked) s->tolerance = s->accuracy_of_all.tolerance, s->held = s->accuracy_of_all.held, s->why = s->accuracy_of_all.why;
     s->method = "Prince-Dormand 8, in batches";
     s->formulation = "reduced equations";
     s->scene = nh_simulate_words(s, s->ensemble->scene, nh_scene_words);
