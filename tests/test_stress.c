@@ -71,7 +71,7 @@ Test(stress, a_plane_on_the_page)
     for (const char *at = table; (at = strstr(at, "<th scope=\"row\">")) && at < end; at++) rows++;
     for (const char *at = table; (at = strstr(at, "<td class=")) && at < end; at++) cells++;
     cr_expect(rows == 3 && cells == 9, "%zu, %zu", rows, cells);
-    cr_expect(strstr(table, "0.25</th>") < end && strstr(table, "0.75</th>") < end && strstr(text, "microseconds"));
+    cr_expect(strstr(table, "0.25</th>") < end && strstr(table, "0.75</th>") < end);
     nh_text_clear(&page);
     nh_stress_free(s);
     nh_comparison_free(c);

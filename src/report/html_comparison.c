@@ -37,7 +37,7 @@ static void measured(nh_html_writer *w, const nh_measured *m)
 {
     nh_html_cell(w, m->error, 2);
     nh_html_cell(w, m->worst_drift, 2);
-    nh_html_cell(w, 1e6 * m->seconds, 3);
+    nh_html_cell(w, m->seconds, 3);
     nh_html_cell(w, (double)m->evaluations, 10);
 }
 
@@ -80,7 +80,7 @@ static void fastest(nh_html_writer *w, const nh_comparison *c)
         double below;
         const char *text;
     } goal[] = {{1e-3, "10<sup>\u22123</sup>"}, {1e-6, "10<sup>\u22126</sup>"}, {1e-9, "10<sup>\u22129</sup>"}, {1e-12, "10<sup>\u221212</sup>"}};
-    nh_html_table(w, "The fastest below an error of ...", "error below|method|formulation|set to|error|drift|microseconds|evaluations");
+    nh_html_table(w, "The fastest below an error of ...", "error below|method|formulation|set to|error|drift|seconds|evaluations");
     for (size_t g = 0; g < sizeof goal / sizeof *goal; g++) {
         const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g].below, false);
         if (m) best_line(w, m, goal[g].text);
@@ -131,7 +131,7 @@ static void plots(nh_html_writer *w, const nh_comparison *c)
 static void all_runs(nh_html_writer *w, const nh_comparison *c)
 {
     nh_html_add(w, "<details><summary>All runs</summary>\n");
-    nh_html_table(w, "All runs", "method|formulation|set to|status|error|drift|microseconds|evaluations|note");
+    nh_html_table(w, "All runs", "method|formulation|set to|status|error|drift|seconds|evaluations|note");
     for (size_t i = 0; i < c->count; i++) {
         const nh_measured *m = &c->item[i];
         nh_html_add(w, "<tr>");
@@ -148,13 +148,13 @@ static void all_runs(nh_html_writer *w, const nh_comparison *c)
 static void derivatives(nh_html_writer *w, const nh_comparison *c)
 {
     if (!c->derivatives) return;
-    nh_html_table(w, "One Jacobian of the reduced equations", "by|microseconds|evaluations|off by");
+    nh_html_table(w, "One Jacobian of the reduced equations", "by|seconds|evaluations|off by");
     for (size_t i = 0; i < c->derivatives; i++) {
         const nh_derivative *d = &c->derivative[i];
         if (!isfinite(d->seconds)) continue;
         nh_html_add(w, "<tr>");
         nh_html_tagged(w, "td", d->method);
-        nh_html_cell(w, 1e6 * d->seconds, 3);
+        nh_html_cell(w, d->seconds, 3);
         nh_html_cell(w, (double)d->evaluations, 10);
         nh_html_cell(w, d->error, 1);
         nh_html_add(w, "</tr>\n");
@@ -205,7 +205,7 @@ static void fit_row(nh_html_writer *w, const nh_fitted *m)
     nh_html_cell(w, (double)m->dimension, 10);
     nh_html_cell(w, m->gap, 2);
     nh_html_cell(w, m->error, 2);
-    nh_html_cell(w, 1e3 * m->seconds, 3);
+    nh_html_cell(w, m->seconds, 3);
     nh_html_tagged(w, "td", nh_fitted_word(m));
     nh_html_add(w, "</tr>\n");
 }
@@ -220,7 +220,7 @@ static void discrete(nh_html_writer *w, const nh_comparison *c)
         fit_plot(w, c, i, next);
     }
     nh_html_add(w, "<details><summary>All solutions</summary>\n");
-    nh_html_table(w, "All solutions", "functions|columns|samples|basis|route|solver|null values|gap|error|milliseconds|result");
+    nh_html_table(w, "All solutions", "functions|columns|samples|basis|route|solver|null values|gap|error|seconds|result");
     for (size_t i = 0; i < c->fits; i++) fit_row(w, &c->fit[i]);
     nh_html_table_end(w);
     nh_html_add(w, "</details>\n</section>\n");
