@@ -3,10 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/linalg.h"
 #include "expr/diff.h"
-#include "noether/echelon.h"
-#include "reduction/subspace.h"
+#include "reduction/relative.h"
 
 enum { pushes = 6 }; /* velocities per place where L itself must be invariant */
 
@@ -66,26 +64,13 @@ static nh_tape *row_tape(const nh_generator_fit *s, layout y)
 
 /* ---- rows ---- */
 
-typedef struct {
-    size_t rows, capacity, values, room;
-    double *a, *b; /* row by row */
-} rows;
-
-static double *next_row(double **block, size_t *count, size_t *capacity, size_t n)
-{
-    nh_grow(block, capacity, (*count + 1) * n, sizeof **block);
-    double *row = *block + (*count)++ * n;
-    memset(row, 0, n * sizeof *row);
-    return row;
-}
-
-static void metric_rows(const nh_generator_fit *s, layout y, const double *z, rows *out)
+static void metric_rows(const nh_generator_fit *s, layout y, const double *z, nh_relative *out)
 {
     size_t m = s->m;
     const double *K = z + y.K, *dK = z + y.dK;
     for (size_t r = 0; r < m; r++)
         for (size_t q = 0; q <= r; q++) {
-            double *row = next_row(&out->a, &out->rows, &out->capacity, s->n), unit = 1 / sqrt(fabs(K[r * m + r] * K[q * m + q]));
+            double *row = nh_relative_condition(out), unit = 1 / sqrt(fabs(K[r * m + r] * K[q * m + q]));
             for (size_t c = 0; c < s->n; c++) {
                 size_t i = s->l.component[c];
                 const double *db = z + y.db + c * m;
@@ -95,9 +80,9 @@ static void metric_rows(const nh_generator_fit *s, layout y, const double *z, ro
 }
 
 /* The prolonged field on a function of (q, v) with derivatives eq, ev, at the velocity v. */
-static void function_row(const nh_generator_fit *s, layout y, const double *z, const double *eq, const double *ev, const double *v, double unit, rows *out)
+static void function_row(const nh_generator_fit *s, layout y, const double *z, const double *eq, const double *ev, const double *v, double unit, nh_relative *out)
 {
-    double *row = next_row(&out->a, &out->rows, &out->capacity, s->n);
+    double *row = nh_relative_condition(out);
     for (size_t c = 0; c < s->n; c++) {
         size_t i = s->l.component[c];
         double rate = 0;
@@ -114,7 +99,7 @@ static double unit_of(const nh_generator_fit *s, const double *e)
     return size > 0 ? 1 / size : 0;
 }
 
-static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z, rows *out)
+static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z, nh_relative *out)
 {
     const nh_kinetic *k = s->k;
     size_t m = s->m, width = 1 + 2 * m;
@@ -130,7 +115,7 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
         if (plain(k)) function_row(s, y, z, z + y.dV, z + y.Lv, v, unit_of(s, z + y.dV), out); /* of its own size: V may be steep elsewhere */
         for (size_t a = 0; a < k->f; a++) function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, unit_of(s, z + y.fv + a * m), out);
         for (size_t c = 0; c < m; c++) {
-            double *row = next_row(&out->b, &out->values, &out->room, s->n);
+            double *row = nh_relative_value(out);
             for (size_t j = 0; j < s->n; j++)
                 if (s->l.component[j] == c) row[j] = z[y.b + j] / s->scale[c];
         }
@@ -144,58 +129,27 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
     return sum == 0;
 }
 
-static double *columns_of(size_t rows_count, size_t n, const double *row)
-{
-    double *a = nh_alloc_array(rows_count * n + 1, sizeof *a);
-    for (size_t i = 0; i < rows_count; i++)
-        for (size_t j = 0; j < n; j++) a[i + j * rows_count] = row[i * n + j];
-    return a;
-}
-
-static void collect(nh_generator_fit *s, rows *out)
+static void collect(nh_generator_fit *s, nh_relative *out)
 {
     layout y = lay_out(s);
     nh_tape *tape = row_tape(s, y);
     nh_tape_work *work = nh_tape_work_create(tape);
     double *z = nh_alloc_array(y.total, sizeof *z);
-    for (size_t p = 0; p < s->k->places && (out->rows < 3 * s->n + 40 || out->values < 2 * s->n + 40); p++) place_rows(s, y, tape, work, p, z, out);
+    for (size_t p = 0; p < s->k->places && nh_relative_wants_more(out); p++) place_rows(s, y, tape, work, p, z, out);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(z);
 }
 
-/* Null vectors of A relative to B. */
 bool nh_generator_fit_solve(nh_generator_fit *s, nh_error *error)
 {
-    rows r = {0};
+    nh_relative r = {.columns = s->n};
     collect(s, &r);
-    nh_basis basis;
-    nh_nullspace_options o = nh_nullspace_options_from(s->options);
-    double *a = columns_of(r.rows, s->n, r.a), *b = columns_of(r.values, s->n, r.b);
     s->size = nh_alloc_array(s->n + 1, sizeof *s->size);
-    for (size_t j = 0; j < s->n; j++) {
-        for (size_t i = 0; i < r.values; i++) s->size[j] += b[i + j * r.values] * b[i + j * r.values];
-        s->size[j] = sqrt(s->size[j] / (double)(r.values + 1));
-    }
-    bool good = r.values > 0 && nh_basis_init(&basis, r.values, s->n, b, r.values, NULL, &o, error);
-    if (good) {
-        size_t n = basis.count;
-        double *kept = nh_alloc_array(r.rows * n + 1, sizeof *kept), *kernel = nh_alloc_array(n * n + 1, sizeof *kernel);
-        nh_basis_gather(&basis, r.rows, a, r.rows, kept);
-        if (n) nh_solve_triangle_right(r.rows, n, basis.r, n, kept);
-        for (size_t i = 0; i < r.rows * n; i++) kept[i] *= sqrt((double)r.values / (double)(r.rows + 1)); /* per row of A and B alike */
-        s->d = nh_kernel(r.rows, n, kept, s->options->group, kernel, &s->last_null, &s->first_other);
-        s->vector = nh_alloc_array(s->n * s->d + 1, sizeof *s->vector);
-        if (s->d) nh_basis_expand(&basis, s->n, s->d, kernel, s->vector);
-        nh_free(kept);
-        nh_free(kernel);
-        nh_basis_clear(&basis);
-    }
-    nh_free(a);
-    nh_free(b);
-    nh_free(r.a);
-    nh_free(r.b);
-    return good;
+    nh_relative_sizes(&r, s->size);
+    s->vector = nh_relative_null(&r, s->options, &s->d, &s->last_null, &s->first_other, error);
+    nh_relative_clear(&r);
+    return s->vector != NULL;
 }
 
 void nh_generator_fit_scale(nh_generator_fit *s)

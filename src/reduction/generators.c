@@ -8,58 +8,11 @@
 #include "expr/relation.h"
 #include "noether/recognise.h"
 #include "reduction/generator_fit.h"
+#include "reduction/relative.h"
 
 enum { most_columns = 420 };
 
-/* ---- echelon form ---- */
-
-/* Columns from the simplest to the most complex; among equals by coordinate. */
-static size_t *by_complexity(const nh_generator_fit *s)
-{
-    size_t *order = nh_alloc_array(s->n + 1, sizeof *order);
-    for (size_t i = 0; i < s->n; i++) {
-        size_t j = i;
-        for (; j > 0 && s->l.complexity[order[j - 1]] > s->l.complexity[i]; j--) order[j] = order[j - 1];
-        order[j] = i;
-    }
-    return order;
-}
-
-/* Reduced echelon form with the most complex columns as pivots; entries are compared as parts of the field, c_j |b_j|. */
-static void reduce_vectors(nh_generator_fit *s, const size_t *order)
-{
-    static const double small = 1e-6, pivotal = 1e-3; /* nearly dependent columns carry noise: no pivot is made of it */
-    size_t n = s->n, rank = 0;
-    double *v = s->vector;
-    for (size_t at = n; at-- > 0 && rank < s->d;) {
-        size_t j = order[at], best = rank;
-        double most = 0, whole = 0;
-        for (size_t r = rank; r < s->d; r++)
-            if (fabs(v[j + r * n]) > fabs(v[j + best * n])) best = r;
-        most = fabs(v[j + best * n]) * s->size[j];
-        for (size_t i = 0; i < n; i++) whole = fmax(whole, fabs(v[i + best * n]) * s->size[i]);
-        if (!(most > pivotal * whole)) continue;
-        for (size_t i = 0; i < n; i++) {
-            double x = v[i + best * n];
-            v[i + best * n] = v[i + rank * n];
-            v[i + rank * n] = x;
-        }
-        double pivot = v[j + rank * n];
-        for (size_t i = 0; i < n; i++) v[i + rank * n] /= pivot;
-        for (size_t r = 0; r < s->d; r++) {
-            double factor = v[j + r * n];
-            if (r == rank || factor == 0) continue;
-            for (size_t i = 0; i < n; i++) v[i + r * n] -= factor * v[i + rank * n];
-        }
-        rank++;
-    }
-    for (size_t r = 0; r < s->d; r++) {
-        double whole = 0;
-        for (size_t i = 0; i < n; i++) whole = fmax(whole, fabs(v[i + r * n]) * s->size[i]);
-        for (size_t i = 0; i < n; i++)
-            if (fabs(v[i + r * n]) * s->size[i] <= small * whole) v[i + r * n] = 0;
-    }
-}
+/* ---- one vector ---- */
 
 /* The coefficients of one vector again, from its own terms alone: a large library is badly conditioned, a few terms are not. */
 static void refit(nh_generator_fit *s, size_t r)
@@ -73,8 +26,8 @@ static void refit(nh_generator_fit *s, size_t r)
     nh_library_pick(&t.l, &s->l, t.n, index);
     nh_generator_fit_scale(&t);
     if (nh_generator_fit_solve(&t, &ignored) && t.d > 0) {
-        size_t *order = by_complexity(&t), pivot = order[t.n - 1], use = 0;
-        reduce_vectors(&t, order); /* another generator may live on the same terms: the one that has the most complex term is meant */
+        size_t *order = nh_library_order(&t.l), pivot = order[t.n - 1], use = 0;
+        nh_relative_echelon(t.n, t.d, order, t.size, t.vector); /* another generator may live on the same terms: the one that has the most complex term is meant */
         for (size_t c = 0; c < t.d; c++)
             if (fabs(t.vector[pivot + c * t.n]) > fabs(t.vector[pivot + use * t.n])) use = c;
         const double *u = t.vector + use * t.n;
@@ -157,8 +110,8 @@ static void make_generators(nh_generator_fit *s, nh_generators *out)
 {
     const nh_kinetic *k = s->k;
     nh_ex *coefficient = nh_alloc_array(s->n + s->m + 1, sizeof *coefficient), *component = coefficient + s->n;
-    size_t *order = by_complexity(s);
-    reduce_vectors(s, order);
+    size_t *order = nh_library_order(&s->l);
+    nh_relative_echelon(s->n, s->d, order, s->size, s->vector);
     out->generator = nh_arena_alloc(k->arena, (s->d + 1) * sizeof *out->generator);
     out->count = 0;
     for (size_t r = s->d; r-- > 0;) { /* the pivots came from the most complex down */
