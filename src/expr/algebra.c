@@ -50,16 +50,6 @@ static void gather_terms(nh_dag *dag, nh_bag *b, nh_ex e, nh_num scale)
     }
 }
 
-static int64_t gcd64(int64_t a, int64_t b)
-{
-    while (b) {
-        int64_t r = a % b;
-        a = b;
-        b = r;
-    }
-    return a < 0 ? -a : a;
-}
-
 /* The number by which the sum is divided to have content 1 and a positive first coefficient; where a coefficient is
  * or would become inexact, only the sign. */
 static nh_num content_of(const nh_bag *b)
@@ -69,8 +59,8 @@ static nh_num content_of(const nh_bag *b)
     for (size_t i = 0; i <= b->count; i++) {
         nh_num c = i < b->count ? b->list[i].c : b->c;
         if (!nh_num_short(c)) return sign;
-        p = gcd64(p, c.p);
-        __int128 l = (__int128)q / gcd64(q, c.q) * c.q;
+        p = nh_gcd(p, c.p);
+        __int128 l = (__int128)q / nh_gcd(q, c.q) * c.q;
         if (l > INT64_MAX) return sign;
         q = (int64_t)l;
     }

@@ -223,16 +223,6 @@ void nh_kernels_collect(nh_kernels *kernels, nh_ex e) { collect(kernels, e, 0); 
 
 /* ---- choosing units ---- */
 
-static int64_t gcd(int64_t a, int64_t b)
-{
-    while (b) {
-        int64_t r = a % b;
-        a = b;
-        b = r;
-    }
-    return a;
-}
-
 static int64_t most_multiple(const nh_kernels *k, nh_kernel_kind family)
 {
     if (family == NH_KERNEL_SIN || family == NH_KERNEL_SINH) return k->literal ? 1 : most_angle;
@@ -253,7 +243,7 @@ static int64_t common_denominator(const nh_kernels *k, const nh_kernel_use *grou
             height = h;
             *worst = i;
         }
-        if (lcd) lcd = c.q <= most_power ? lcd / gcd(lcd, c.q) * c.q : 0;
+        if (lcd) lcd = c.q <= most_power ? lcd / nh_gcd(lcd, c.q) * c.q : 0;
         if (lcd > most_power) lcd = 0;
     }
     double limit = (double)most_multiple(k, group->family);

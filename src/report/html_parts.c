@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -40,9 +41,8 @@ void nh_html_number(nh_html_writer *w, double value, int digits)
         nh_html_add(w, "\u2013");
         return;
     }
-    bool minus = n.mantissa[0] == '-', one = n.has_power && !strcmp(n.mantissa + minus, "1");
-    nh_text_addf(w->out, "<data value=\"%s\">%s%s", n.all, minus ? "\u2212" : "", one ? "" : n.mantissa + minus);
-    if (n.has_power) nh_text_addf(w->out, "%s10<sup>%s%d</sup>", one ? "" : "\u00b7", n.power < 0 ? "\u2212" : "", n.power < 0 ? -n.power : n.power);
+    nh_text_addf(w->out, "<data value=\"%s\">%s%s", n.all, n.minus ? "\u2212" : "", n.mantissa);
+    if (n.has_power) nh_text_addf(w->out, "%s10<sup>%s%d</sup>", n.mantissa[0] ? "\u00b7" : "", n.power < 0 ? "\u2212" : "", abs(n.power));
     nh_html_add(w, "</data>");
 }
 
