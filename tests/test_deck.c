@@ -11,6 +11,7 @@
 #include "base/deck.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "scratch.h"
 
 static char message[4096];
 
@@ -274,13 +275,10 @@ static const char *unread(const char *path)
 
 Test(deck, reads_files)
 {
-    char path[] = "/tmp/nhsym-deck-XXXXXX";
-    int handle = mkstemp(path);
+    char path[SCRATCH];
     nh_error error;
     nh_error_clear(&error);
-    cr_assert_geq(handle, 0);
-    cr_assert_eq(write(handle, "a: 2.385\n", 9), 9);
-    close(handle);
+    cr_assert(scratch_text(path, "a: 2.385\n"));
     nh_deck *deck = nh_deck_read(path, &error);
     unlink(path);
     cr_assert_not_null(deck, "%s", told(&error));
