@@ -68,13 +68,14 @@ void nh_html_chart(nh_html_writer *w, const char *name)
 void nh_html_meaning(nh_html_writer *w, const char *meaning)
 {
     static const char of[] = "momentum of ";
-    nh_text plain;
-    nh_text_init(&plain);
-    bool named = !strncmp(meaning, of, sizeof of - 1);
-    if (named) nh_html_add(w, of);
-    if (named) nh_typeset_plain(meaning + sizeof of - 1, &plain);
-    nh_html_text(w, named ? nh_text_string(&plain) : meaning);
-    nh_text_clear(&plain);
+    const char *name = strstr(meaning, of);
+    nh_text words;
+    nh_text_init(&words);
+    if (name) name += sizeof of - 1;
+    nh_text_add_n(&words, meaning, name ? (size_t)(name - meaning) : strlen(meaning));
+    if (name) nh_typeset_plain(name, &words);
+    nh_html_text(w, nh_text_string(&words));
+    nh_text_clear(&words);
 }
 
 static void equal(nh_html_writer *w) { nh_html_add(w, "<math><mo>=</mo></math> "); }

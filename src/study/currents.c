@@ -62,10 +62,9 @@ static void sort(nh_result *r)
     for (size_t i = 1; i < r->count; i++) {
         nh_found f = r->found[i];
         size_t own = nh_complexity(d, f.phi), j = i;
-        bool energy = !strcmp(f.meaning, "energy");
+        bool energy = f.energy;
         for (; j > 0; j--) {
-            bool before = !strcmp(r->found[j - 1].meaning, "energy");
-            if (before || (!energy && nh_complexity(d, r->found[j - 1].phi) <= own)) break;
+            if (r->found[j - 1].energy || (!energy && nh_complexity(d, r->found[j - 1].phi) <= own)) break;
             r->found[j] = r->found[j - 1];
         }
         r->found[j] = f;
@@ -282,7 +281,7 @@ static void miss_energy(nh_workbench *b)
     nh_result *r = b->result;
     const nh_model *o = r->model;
     for (size_t k = 0; k < r->count; k++)
-        if (!strcmp(r->found[k].meaning, "energy")) return;
+        if (r->found[k].energy) return;
     if (!(heldout_residual(o, b->generic, o->E) > r->options.heldout)) return;
     nh_ex rate = nh_model_gamma(o, o->E);
     if (nh_complexity(o->dag, rate) < 10 * longest) rate = nh_simplify(o->dag, rate);

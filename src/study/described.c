@@ -86,9 +86,12 @@ static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi)
     return false;
 }
 
-static bool proportional(nh_model *o, nh_ex phi, nh_ex e)
+/* What phi is of e: "" itself, "minus the ", "a multiple of the "; NULL where phi/e is not constant for all parameters. */
+static const char *part_of(nh_model *o, nh_ex phi, nh_ex e)
 {
-    return is_parametric(o, nh_simplify_short(o->dag, nh_div(o->dag, phi, e), 0));
+    nh_ex ratio = nh_simplify_short(o->dag, nh_div(o->dag, phi, e), 0);
+    if (!is_parametric(o, ratio)) return NULL;
+    return nh_is_number(o->dag, ratio, 1) ? "" : nh_is_number(o->dag, ratio, -1) ? "minus the " : "a multiple of the ";
 }
 
 /* phi/e at the points: the same everywhere?  Simplifying the quotient costs a hundred times that. */
@@ -105,22 +108,25 @@ static bool looks_proportional(size_t points, const double *phi, const double *e
     return high - low <= same * fmax(fabs(low), fabs(high));
 }
 
-static const char *meaning_of(nh_result *r, const nh_points *points, nh_ex phi)
+static void find_meaning(nh_result *r, const nh_points *points, nh_found *f)
 {
     nh_model *o = r->model;
-    size_t n = 2 + o->m, count = points->count, found = n;
+    size_t n = 2 + o->m, count = points->count, found = 0;
     nh_ex *e = nh_alloc_array(n, sizeof *e);
     double *value = nh_alloc_array(n * count, sizeof *value);
-    e[0] = phi;
+    const char *part = NULL;
+    e[0] = f->phi;
     e[1] = o->E;
     memcpy(e + 2, o->p, o->m * sizeof *e);
     nh_points_evaluate(points, o, n, e, value);
-    for (size_t j = 1; j < n && found == n; j++)
-        if (!nh_is_zero(o->dag, e[j]) && looks_proportional(count, value, value + j * count) && proportional(o, phi, e[j])) found = j;
+    for (size_t j = 1; j < n && !part; found = j++)
+        if (!nh_is_zero(o->dag, e[j]) && looks_proportional(count, value, value + j * count)) part = part_of(o, f->phi, e[j]);
     nh_free(value);
     nh_free(e);
-    if (found == 1) return "energy";
-    return found < n ? nh_arena_printf(r->arena, "momentum of %s", o->system->coordinate[found - 2].name) : "";
+    f->energy = part && found == 1;
+    if (!part) f->meaning = "";
+    else if (f->energy) f->meaning = nh_arena_printf(r->arena, "%senergy", part);
+    else f->meaning = nh_arena_printf(r->arena, "%smomentum of %s", part, o->system->coordinate[found - 2].name);
 }
 
 void nh_current_in_velocities(const nh_workbench *b, nh_found *f)
@@ -145,6 +151,6 @@ void nh_current_describe(nh_workbench *b, nh_found *f)
     if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
     f->all_parameters = f->proof.all_parameters;
     f->local = is_local(r->model, b->generic, f->phi);
-    f->meaning = meaning_of(r, b->generic, f->phi);
+    find_meaning(r, b->generic, f);
     nh_current_in_velocities(b, f);
 }
