@@ -274,6 +274,27 @@ Test(text, every_number_reads_back)
     }
 }
 
+/* Decimal numbers as people write them, and nothing that would silently become another: no value beyond the range of doubles, no hexadecimal digits. */
+Test(text, what_is_read_as_a_number)
+{
+    static const struct {
+        const char *text;
+        bool is, fits;
+        double value;
+    } sample[] = {
+        {"0", true, true, 0}, {"-0.0e7", true, true, 0}, {"+2.5", true, true, 2.5}, {".5e1", true, true, 5}, {"7.", true, true, 7}, {"1E-3", true, true, 1e-3},
+        {"1e308", true, true, 1e308}, {"5e-324", true, true, 5e-324}, {"0e-999", true, true, 0}, {"1e309", true, false, 0}, {"-1e999", true, false, 0},
+        {"1e-999", true, false, 0}, {"-0.001e-400", true, false, 0}, {"", false, false, 0}, {".", false, false, 0}, {"-", false, false, 0}, {"1e", false, false, 0},
+        {"1e+", false, false, 0}, {"0x10", false, false, 0}, {"inf", false, false, 0}, {"nan", false, false, 0}, {" 1", false, false, 0}, {"1 ", false, false, 0}, {"1,5", false, false, 0},
+    };
+    for (size_t i = 0; i < sizeof sample / sizeof *sample; i++) {
+        double value = 77;
+        cr_expect_eq(nh_text_is_number(sample[i].text), sample[i].is, "`%s`", sample[i].text);
+        cr_expect_eq(nh_text_to_number(sample[i].text, &value), sample[i].fits, "`%s`", sample[i].text);
+        cr_expect_eq(value, sample[i].fits ? sample[i].value : 77, "`%s`", sample[i].text);
+    }
+}
+
 Test(text, a_short_buffer_is_not_overrun)
 {
     char out[4] = "xxx";
