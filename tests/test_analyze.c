@@ -565,6 +565,20 @@ Test(analyze, almost_conserved_is_told_apart)
     nh_result_free(r);
 }
 
+/* Definitions that use each other many times over: the potential would be longer than any memory when written out, and is a small graph. */
+Test(analyze, definitions_upon_definitions, .timeout = 120)
+{
+    enum { levels = 45 };
+    char text[levels * 60 + 300];
+    size_t n = (size_t)sprintf(text, "name: deep\nparameters: [{name: m, value: 1.5}]\ncoordinates: [{name: x, type: length}]\ndefinitions:\n  - d0 = x/m\n");
+    for (int i = 0; i < levels; i++) n += (size_t)sprintf(text + n, "  - d%d = (d%d + 1)*(d%d + 2)/(3 + d%d^2)\n", i + 1, i, i, i);
+    sprintf(text + n, "lagrangian: m*x'^2/2 - d%d\n", levels);
+    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    cr_expect_eq(r->model->n, 1u);
+    nothing_false(r);
+    nh_result_free(r);
+}
+
 /* What a current is called, it is: sign, factor and all. */
 Test(analyze, meanings_are_true, .timeout = 120)
 {
