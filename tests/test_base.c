@@ -8,9 +8,11 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "base/memory.h"
 #include "base/text.h"
 
@@ -172,6 +174,19 @@ Test(memory, a_handler_that_returns_aborts, .signal = SIGABRT)
     nh_memory_set_handler(return_anyway);
     nh_free(nh_realloc_array(NULL, SIZE_MAX / 2, 3));
 }
+
+#ifndef __SANITIZE_ADDRESS__ /* whose own memory needs an address space without limit */
+/* A JSON that lacks what did not fit into memory would be wrong without anybody's notice. */
+Test(memory, a_json_without_room_goes_to_the_handler, .exit_code = 56)
+{
+    nh_memory_set_handler(leave);
+    nh_json *root = nh_json_object(), *list = nh_json_put_array(root, "list");
+    struct rlimit limit = {1 << 28, 1 << 28};
+    cr_assert_eq(setrlimit(RLIMIT_AS, &limit), 0);
+    for (int i = 0; i < 10000000; i++) nh_json_add_number(list, i + 0.5);
+    nh_free(nh_json_finish(root));
+}
+#endif
 
 /* Small and large blocks in turn keep their contents and do not overlap. */
 Test(memory, an_arena_keeps_what_it_gave)

@@ -51,7 +51,7 @@ static void series_table(nh_html_writer *w, const nh_found *f)
     nh_text_add(&heads, "k");
     for (size_t i = 0; i < s->words; i++) nh_text_addf(&heads, "|f%zu", i + 1);
     nh_html_add(w, "<details><summary>Chebyshev coefficients</summary>\n");
-    nh_html_table(w, "Factors of the polynomials", nh_text_string(&heads));
+    nh_html_table(w, "Factors of T_k, the interval taken to [-1, 1]", nh_text_string(&heads));
     nh_text_clear(&heads);
     for (size_t k = 0; k <= s->degree; k++) {
         nh_text_addf(w->out, "<tr><th scope=\"row\">%zu</th>", k);
