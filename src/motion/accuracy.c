@@ -151,6 +151,13 @@ static nh_trajectory *farther(nh_trajectory *a, nh_trajectory *b)
     return first ? a : b;
 }
 
+/* The method that confirms one when no second was measured: of the same kind, because what is stiff for one is so for all explicit ones. */
+static const nh_method *other_of(const nh_method *method)
+{
+    const char *const *pair = method->family == NH_METHOD_CVODE ? multistep_pair : explicit_pair;
+    return nh_method_find(pair[method == nh_method_find(pair[0])]);
+}
+
 /* The first run of what was measured to be the cheapest; NULL when nothing was, or it does not reach the end in about the time that it took then. */
 static nh_trajectory *take_measured(search *s, size_t ways, const nh_way *way, double *tolerance)
 {
@@ -163,7 +170,7 @@ static nh_trajectory *take_measured(search *s, size_t ways, const nh_way *way, d
     s->way = choice.way;
     s->tried = true;
     s->method[0] = choice.way->method;
-    s->method[1] = nh_method_find(choice.second ? choice.second->name : explicit_pair[s->method[0] == nh_method_find(explicit_pair[0])]);
+    s->method[1] = choice.second ? choice.second : other_of(s->method[0]);
     if (fixed(s)) s->programs = nh_programs_create(q->model);
     if (fixed(s) && nh_method_refused(s->method[0], s->programs)) return NULL;
     double setting = fixed(s) ? s->eps : between(nh_way_setting(s->way, s->eps), 10 * tightest, loosest);

@@ -33,7 +33,7 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     }
     nh_html_add(w, ".");
     if (s->checked) {
-        nh_html_add(w, " ");
+        nh_html_add(w, " Accuracy: ");
         nh_html_text(w, s->why);
         nh_html_add(w, ".");
     }
