@@ -21,12 +21,15 @@ static void scale_metric(size_t m, const double *K, double *s)
 {
     enum { sweeps = 8 }; /* each takes at least the root of what is amiss */
     for (size_t i = 0; i < m; i++) s[i] = root_scale(K[i * (m + 1)]);
-    for (int sweep = 0; sweep < sweeps; sweep++)
+    for (int sweep = 0, changed = 1; sweep < sweeps && changed; sweep++) {
+        changed = 0;
         for (size_t i = 0; i < m; i++) {
-            double size = row_size(m, K, s, i);
+            double size = row_size(m, K, s, i), before = s[i];
             if (size > 2 || !(K[i * (m + 1)] > 0)) s[i] *= root_scale(size);
             if (size == 0) s[i] = 0;
+            changed |= s[i] != before;
         }
+    }
 }
 
 /* Rows of the border from the columns that have a scale, and columns that have none from the border. */
