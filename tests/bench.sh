@@ -9,6 +9,7 @@ cd "$(dirname "$0")/.." || exit 1
     exit 2
 }
 work=$(mktemp -d) || exit 1
+export NHSYM_CACHE= # nothing that is measured here is for later runs
 trap 'rm -rf "$work"' EXIT
 
 say() { printf '%s\n' "$@" >>"$work/page"; }
@@ -171,9 +172,10 @@ say "## A wanted accuracy" "" "\`build/tests/bench_accuracy systems\`" "" \
     "nothing may be wrong. Cheapest: the run of rk8pd, rkf45 or CVODE Adams with the loosest tolerance that has an error below eps, found by trying; evaluations and time of all runs that" \
     "\`--accuracy\` makes, over those of it. Not accepted are motions that end in a singularity, and some whose rounding errors grow beyond eps." ""
 table accuracy
-accuracy_time=$(from accuracy '/^\| all/ { print $11 + 0 }')
-accuracy_cases=$(from accuracy '/^\| all/ { print $3 + 0 }')
-accuracy_wrong=$(from accuracy '/^\| all/ { print $5 + 0 }')
+accuracy_time=$(from accuracy '/^\| all/ && !n++ { print $11 + 0 }')
+accuracy_charted=$(from accuracy '/^\| all/ { x = $11 + 0 } END { print x }')
+accuracy_cases=$(from accuracy '/^\| all/ { n += $3 } END { print n }')
+accuracy_wrong=$(from accuracy '/^\| all/ { n += $5 } END { print n + 0 }')
 
 say "## Stress" "" "\`build/tests/bench_stress\`" "" \
     "Cells of the shipped maps ([motions.md](motions.md), section 4), five methods on every value of motions, up to four ways on those of the discrete problem. Below: the energy of a motion that nothing turns round in time" \
@@ -200,6 +202,7 @@ aim "a compiled right-hand side at most 1.5 times as long as C by hand" "$compil
 aim "10 000 sleighs at once at least 10 times as fast as one by one by CVODE" "$sleighs" "" "at least" 10
 aim "--accuracy: of $accuracy_cases motions none accepted and wrong" "$accuracy_wrong" "" "at most" 0
 aim "and its median time below 4 times that of the cheapest run that suffices" "$accuracy_time" "" "at most" 4
+aim "the same where a chart has measured which method is the cheapest" "$accuracy_charted" "" "at most" 4
 aim "silently wrong cells in the maps of stress: none" "$silent" "" "at most" 0
 aim "a batch of 256 points at most 1.0 times as long as scalar C by hand, per point" "$batch" "" "at most" 1
 aim "a chain of ten bodies from text to its equations below 1 s" "$ten" " s" "at most" 1
