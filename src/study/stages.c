@@ -354,12 +354,28 @@ static void put_growing(const nh_shelf *s, nh_list *l)
     for (size_t i = 0; i < words.n; i++) nh_list_put(l, nh_mul(s->o->dag, t, words.e[i]));
 }
 
+/* Squares or cubes of velocities and lengths, and the system's functions, for cubes times lengths.  Lists that are too long are left empty. */
+static nh_family power_base(nh_shelf *s, size_t degree)
+{
+    enum { most_variables = 7 };
+    nh_list u = {0}, l = {0}, q = nh_list_lengths(s, false, false), f = nh_list_functions(s, false);
+    nh_list_put_all(&u, s->o->n, s->o->chart->w);
+    nh_list_put_all(&u, s->w->lengths, s->w->length);
+    if (u.n > most_variables || s->w->lengths == 0 || (degree > 2 && (s->w->waves || f.n == 0))) return nh_shelf_terms(s, &l);
+    l = nh_list_squares(s, &u);
+    for (size_t k = 2; k < degree; k++) l = times(s, &l, &u);
+    nh_list g = degree > 2 ? times(s, &f, &q) : f;
+    nh_list_put_all(&l, g.n, g.e);
+    return nh_shelf_terms(s, &l);
+}
+
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t base)
 {
     enum { most_with_waves = 110 };
     nh_shelf s = {arena, o, w, NULL, 0};
     bool growing = base == NH_PENCIL_GROWING, timely = growing || base == NH_PENCIL_TIME;
     if (timely) base = 2;
+    if (base == NH_PENCIL_QUADRATIC || base == NH_PENCIL_CUBIC) return power_base(&s, base == NH_PENCIL_CUBIC ? 3 : 2);
     if (base == NH_PENCIL_SQUARES) {
         nh_list u = {0}, f = nh_list_functions(&s, true);
         nh_list_put_all(&u, o->n, o->chart->w);
