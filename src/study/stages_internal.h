@@ -49,7 +49,8 @@ void nh_stage_homogeneous(nh_shelf *shelf);
 void nh_stage_cubic(nh_shelf *shelf);
 /* Half angles: parabolic coordinates seen from polar ones. */
 void nh_stage_half_angles(nh_shelf *shelf);
-/* Velocities with products of functions of one coordinate. */
+/* 1 and products of functions of one coordinate, and velocities with these. */
+nh_list nh_list_one_coordinate(const nh_shelf *shelf);
 void nh_stage_one_coordinate(nh_shelf *shelf);
 
 #endif

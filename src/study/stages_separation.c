@@ -139,12 +139,11 @@ static void put_factors(const nh_shelf *s, nh_ex q, nh_list *l)
     }
 }
 
-void nh_stage_one_coordinate(nh_shelf *s)
+nh_list nh_list_one_coordinate(const nh_shelf *s)
 {
     enum { most_each = 7 };
     nh_dag *d = s->o->dag;
-    nh_list w = {0}, all = {0};
-    if (s->w->positions > 3) return;
+    nh_list all = {0};
     nh_list_put(&all, nh_int(d, 1));
     for (size_t i = 0; i < s->w->positions; i++) {
         nh_list own = {0};
@@ -153,6 +152,14 @@ void nh_stage_one_coordinate(nh_shelf *s)
         for (size_t j = 0; j < own.n && j < most_each; j++)
             for (size_t k = 0; k < n; k++) nh_list_put(&all, nh_mul(d, all.e[k], own.e[j]));
     }
+    return all;
+}
+
+void nh_stage_one_coordinate(nh_shelf *s)
+{
+    nh_list w = {0};
+    if (s->w->positions > 3) return;
+    nh_list all = nh_list_one_coordinate(s);
     nh_list_put_all(&w, s->o->n, s->o->chart->w);
     if (all.n > 3) nh_shelf_product_of_lists(s, &w, &all);
 }
