@@ -123,8 +123,8 @@ static nh_family functions_family(const nh_climb *x, int most_harmonic, nh_famil
 }
 
 /* Cartesian coordinates are products of functions of one coordinate in those in which the metric separates: with them the momenta of translations are what
- * an oscillator turns, whatever its coordinates, and alone what friction takes. */
-static void rates_of(nh_climb *x, size_t n, const nh_ex *P)
+ * an oscillator turns, whatever its coordinates, and alone what friction takes; of a free motion they are what grows like t. */
+static void cartesian(nh_climb *x, size_t n, const nh_ex *P)
 {
     nh_result *r = x->r;
     nh_shelf shelf = {r->arena, r->model, &x->words, NULL, 0};
@@ -132,8 +132,11 @@ static void rates_of(nh_climb *x, size_t n, const nh_ex *P)
     nh_list_put_all(&all, n, P);
     for (size_t i = 0; i < functions.n; i++)
         if (nh_kind_of(r->model->dag, functions.e[i]) != NH_NUMBER) nh_list_put(&all, functions.e[i]);
-    nh_family base = nh_shelf_terms(&shelf, &all);
+    nh_family base = nh_shelf_terms(&shelf, &all), grown;
     nh_climb_rates_in(x, &base);
+    for (size_t i = 0; i < n; i++) nh_list_put(&all, nh_mul(r->model->dag, r->model->system->t, P[i]));
+    grown = nh_shelf_terms(&shelf, &all);
+    if (!nh_climb_done(x)) nh_climb_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
 }
 
 void nh_climb_isometries(nh_climb *x)
@@ -152,7 +155,7 @@ void nh_climb_isometries(nh_climb *x)
     all[1] = functions_family(x, 1, part);
     all[2] = (nh_family){.kind = NH_TERMS, .terms = also->n, .term = also->e};
     nh_climb_stage(x, "momenta of the isometries of the kinetic energy, and functions", also->n ? 3 : 2, all);
-    if (!nh_climb_done(x)) rates_of(x, n, P);
+    if (!nh_climb_done(x)) cartesian(x, n, P);
     if (nh_climb_done(x)) return;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++) PP[squares++] = nh_mul(o->dag, P[i], P[j]);

@@ -266,11 +266,25 @@ static void weighted(nh_shelf *s, const nh_list *u, const nh_list *f)
     nh_shelf_add(s, nh_shelf_terms(s, &ff));
 }
 
+/* Terms of the potential and, where these stay few, their derivatives by the angles again: a rotor adds the component of gravity along it. */
+static nh_list weight_two(const nh_shelf *s)
+{
+    enum { most = 10, few = 7 };
+    nh_dag *d = s->o->dag;
+    nh_list f = {0};
+    nh_list_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
+    nh_list more = f;
+    for (size_t i = 0; i < f.n; i++)
+        for (size_t j = 0; j < s->w->waves; j++) {
+            nh_ex slope = nh_diff(d, f.e[i], s->w->wave[j]), factor = nh_kind_of(d, slope) == NH_PRODUCT ? nh_number(d, nh_constant_of(d, slope)) : nh_int(d, 1);
+            if (nh_kind_of(d, slope) != NH_NUMBER) nh_list_put(&more, nh_div(d, slope, factor));
+        }
+    return more.n <= few ? more : f;
+}
+
 static void stage_weight_4(nh_shelf *s)
 {
-    enum { most = 10 };
-    nh_list u = {0}, f = {0};
-    nh_list_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
+    nh_list u = {0}, f = weight_two(s);
     if (s->w->frames == s->o->n) nh_list_put_all(&u, s->w->frames, s->w->frame);
     else nh_list_put_all(&u, s->o->n, s->o->chart->w);
     weighted(s, &u, &f);
@@ -279,10 +293,8 @@ static void stage_weight_4(nh_shelf *s)
 /* The same in the forms that the system itself shows, where they are as many as the velocities. */
 static void stage_forms_4(nh_shelf *s)
 {
-    enum { most = 10 };
-    nh_list u = {0}, f = {0};
+    nh_list u = {0}, f = weight_two(s);
     if (s->w->forms != s->o->n) return;
-    nh_list_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
     nh_list_put_all(&u, s->w->forms, s->w->form);
     weighted(s, &u, &f);
 }
