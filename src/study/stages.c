@@ -335,6 +335,7 @@ static const struct {
     {"cubic in velocities times positions, velocities times functions and positions", nh_stage_cubic},
     {"degree four in velocities, as homogeneous as the potential", nh_stage_homogeneous},
     {"velocities times products of functions of one coordinate", nh_stage_one_coordinate},
+    {"squares of single momenta, the energy, and functions of one coordinate", nh_stage_separated},
     {"squares of momenta times functions of one coordinate", nh_stage_momenta},
     {"squares of positions and velocities times functions of time", nh_stage_time},
     {"squares of the frame times lengths and first harmonics", stage_frame},

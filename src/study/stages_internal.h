@@ -41,6 +41,8 @@ void nh_shelf_product_of_lists(nh_shelf *shelf, const nh_list *a, const nh_list 
 
 void nh_stage_separation(nh_shelf *shelf);
 void nh_stage_time(nh_shelf *shelf);
+/* Squares of single momenta, and the energy, with coefficients that are functions of one coordinate each, and these. */
+void nh_stage_separated(nh_shelf *shelf);
 /* Squares of momenta with coefficients that are functions of one coordinate each (Carter's constant). */
 void nh_stage_momenta(nh_shelf *shelf);
 /* Quasi-homogeneous polynomials of degree four in the velocities, for polynomial potentials. */
