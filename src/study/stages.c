@@ -248,12 +248,25 @@ static void stage_quadratic_waves(nh_shelf *s)
     nh_shelf_add(s, nh_shelf_terms(s, &f));
 }
 
-/* Quadratic in the velocities, linear in positions, atoms of weight two: Runge-Lenz vectors. */
+/* L has terms of degree one in the velocities: a magnetic field. */
+static bool is_magnetic(const nh_shelf *s)
+{
+    const nh_model *o = s->o;
+    nh_ex *zero = nh_arena_alloc(s->arena, (o->n + 1) * sizeof *zero);
+    for (size_t i = 0; i < o->n; i++) zero[i] = nh_int(o->dag, 0);
+    for (size_t k = 0; k < o->m; k++)
+        if (!nh_is_zero(o->dag, nh_substitute(o->dag, o->p[k], o->n, o->chart->w, zero))) return true;
+    return false;
+}
+
+/* Quadratic in the velocities, linear in positions, atoms of weight two: Runge-Lenz vectors; in the field of a monopole also linear in the velocities. */
 static void stage_weights(nh_shelf *s)
 {
-    nh_list l = linear_words(s), q = nh_list_squares(s, &l), x = nh_list_positions(s, true, false), f = nh_list_functions(s, false);
+    nh_list l = linear_words(s), v = {0}, q = nh_list_squares(s, &l), x = nh_list_positions(s, true, false), f = nh_list_functions(s, false);
     nh_shelf_product_of_lists(s, &q, &x);
     nh_shelf_product_of_lists(s, &f, &x);
+    nh_list_put_all(&v, s->o->n, s->o->chart->w);
+    if (f.n && is_magnetic(s)) nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &v), nh_shelf_terms(s, &x), nh_shelf_terms(s, &f)}));
 }
 
 /* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the energy (Kovalevskaya's
