@@ -126,12 +126,18 @@ static nh_family functions_family(const nh_climb *x, int most_harmonic, nh_famil
  * an oscillator turns, whatever its coordinates, and alone what friction takes; of a free motion they are what grows like t. */
 static void cartesian(nh_climb *x, size_t n, const nh_ex *P)
 {
+    enum { few = 3 };
     nh_result *r = x->r;
     nh_shelf shelf = {r->arena, r->model, &x->words, NULL, 0};
-    nh_list all = {0}, functions = nh_list_one_coordinate(&shelf);
+    nh_list all = {0}, functions = nh_list_one_coordinate(&shelf), plain = {0};
+    for (size_t s = 0; s < r->model->m; s++)
+        if (r->system->coordinate[s].type != NH_ANGLE) nh_list_put(&plain, r->system->coordinate[s].q);
+    nh_list squares = nh_list_squares(&shelf, &plain);
     nh_list_put_all(&all, n, P);
     for (size_t i = 0; i < functions.n; i++)
         if (nh_kind_of(r->model->dag, functions.e[i]) != NH_NUMBER) nh_list_put(&all, functions.e[i]);
+    nh_list_put_all(&all, plain.n, plain.e);
+    if (plain.n <= few) nh_list_put_all(&all, squares.n, squares.e);
     nh_family base = nh_shelf_terms(&shelf, &all), grown;
     nh_climb_rates_in(x, &base);
     for (size_t i = 0; i < n; i++) nh_list_put(&all, nh_mul(r->model->dag, r->model->system->t, P[i]));

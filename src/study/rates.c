@@ -294,7 +294,8 @@ static void powers(nh_climb *x)
         if (old || !positive_everywhere(x, Q)) continue;
         tried[n++] = Q;
         char *name = nh_print_string(d, Q);
-        if (!pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 0)) pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 2);
+        bool timely = nh_depends(d, Q, x->r->system->t); /* masses and springs that are powers of t */
+        if (!pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 0)) pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, timely ? NH_PENCIL_GROWING : 2);
         nh_free(name);
     }
 }
@@ -325,6 +326,10 @@ void nh_climb_rates(nh_climb *x)
         if (i == 0 && !found && nh_depends(o->dag, o->Lbar, q) && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_GROWING);
         if (o->system->has_forces && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_SQUARES);
         for (size_t base = NH_PENCIL_QUADRATIC; base <= NH_PENCIL_CUBIC && i == 0 && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
+        if (i > 0 && o->system->coordinate[i - 1].type == NH_ANGLE && x->words.waves > 1 && !found && !nh_climb_done(x)) {
+            nh_family around = nh_stage_pencil_around(x->r->arena, o, &x->words, q);
+            pencil_of(x, q, 0, name, &around, NH_PENCIL_BASES);
+        }
         for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);

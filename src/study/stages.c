@@ -395,6 +395,18 @@ static nh_family power_base(nh_shelf *s, size_t degree)
     return nh_shelf_terms(s, &l);
 }
 
+nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_dictionary *w, nh_ex angle)
+{
+    nh_dag *d = o->dag;
+    nh_shelf s = {arena, o, w, NULL, 0};
+    nh_list l = linear_words(&s), wave = {0};
+    nh_list_put(&wave, nh_int(d, 1));
+    nh_list_put(&wave, nh_call(d, NH_COS, angle));
+    nh_list_put(&wave, nh_call(d, NH_SIN, angle));
+    nh_list both = times(&s, &l, &wave);
+    return nh_shelf_terms(&s, &both);
+}
+
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t base)
 {
     enum { most_with_waves = 110 };

@@ -25,4 +25,7 @@ enum { NH_PENCIL_BASES = 5, NH_PENCIL_PLAIN = 3, NH_PENCIL_PRODUCTS = 5, NH_PENC
        NH_PENCIL_CUBIC = 10 };
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *model, const nh_dictionary *dictionary, size_t base);
 
+/* Velocities and forms with first harmonics of this angle alone: where there are many angles the others' are too many. */
+nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *model, const nh_dictionary *dictionary, nh_ex angle);
+
 #endif
