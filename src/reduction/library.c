@@ -6,7 +6,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-enum { most_factors = 24, covectors = 6 /* the level of fields with simple covectors */ };
+enum { most_factors = 24, covectors = 6 /* the level of fields with simple covectors */, polynomials = 7 };
 
 typedef struct {
     size_t count;
@@ -171,6 +171,19 @@ static void products(nh_library *l, const nh_kinetic *k, const factors *f, const
         products(l, k, f, on, j + 1, nh_mul(k->dag, so_far, f[j].e[i]), together - (i > 0 && together), component, most);
 }
 
+/* Monomials of total degree `degree` at most, of those in `on`. */
+static void monomials(nh_library *l, const nh_kinetic *k, const bool *on, size_t j, nh_ex so_far, int degree, size_t component, size_t most)
+{
+    while (j < k->m && !on[j]) j++;
+    if (l->count >= most) return;
+    if (j == k->m) {
+        add(l, k, so_far, component);
+        return;
+    }
+    for (int power = 0; power <= degree; power++)
+        monomials(l, k, on, j + 1, nh_mul(k->dag, so_far, nh_powi(k->dag, k->q[j], power)), degree - power, component, most);
+}
+
 /* What components are divided by at the level of covectors: K_ii where K is diagonal, else its determinant; 0 where that is a number or unknown. */
 static nh_ex divisor(const nh_kinetic *k, size_t i)
 {
@@ -206,7 +219,8 @@ void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, in
     for (size_t i = 0; i < m; i++) {
         size_t count = 0, first = l->count;
         for (size_t j = 0; j < m; j++) count += on[j] = depends[i + m * j];
-        if (nonzero[i]) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);
+        if (nonzero[i] && level == polynomials) monomials(l, k, on, 0, nh_int(k->dag, 1), m <= 3 ? 5 : 3, i, most);
+        else if (nonzero[i]) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);
         nh_ex by = level == covectors && nonzero[i] ? divisor(k, i) : 0;
         if (by) divide(l, k, first, by);
         if (by) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);

@@ -154,13 +154,14 @@ void nh_climb_isometries(nh_climb *x)
     nh_ex *P = nh_arena_alloc(r->arena, most_momenta * sizeof *P), *PP = nh_arena_alloc(r->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
     list *also = nh_arena_alloc(r->arena, sizeof *also);
     also->n = 0;
+    put(also, x->r->system->t); /* a force that is uniform along the field */
     size_t n = momenta(x, P, also), squares = 0;
     if (n == 0) return;
     nh_family part[4], *all = nh_arena_alloc(r->arena, 3 * sizeof *all);
     all[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = P};
     all[1] = functions_family(x, 1, part);
     all[2] = (nh_family){.kind = NH_TERMS, .terms = also->n, .term = also->e};
-    nh_climb_stage(x, "momenta of the isometries of the kinetic energy, and functions", also->n ? 3 : 2, all);
+    nh_climb_stage(x, "momenta of the isometries of the kinetic energy, and functions", 3, all);
     if (!nh_climb_done(x)) cartesian(x, n, P);
     if (nh_climb_done(x)) return;
     for (size_t i = 0; i < n; i++)
