@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "expr/ball.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
@@ -409,4 +410,15 @@ Test(normal, random_derivatives)
         nh_free(text);
         nh_dag_free(dag);
     }
+}
+
+/* A proof that has begun ends with the time limit, without a verdict. */
+Test(normal, behind_a_deadline_nothing_is_decided)
+{
+    static const char *const long_zero = "(a + b + sin(x))^12*(a - b + cos(x))^9 - (a - b + cos(x))^9*(a + sin(x) + b)^11*(a + b + sin(x))";
+    nh_deadline_set(-1);
+    cr_expect_eq(verdict_of("(a + b)^3*(sin(x)^2 + cos(x)^2) - (a + b)^2*(a + b)"), NH_TOO_LARGE);
+    cr_expect_neq(verdict_of(long_zero), NH_NONZERO);
+    nh_deadline_set(INFINITY);
+    cr_expect_eq(verdict_of("(a + b)^3*(sin(x)^2 + cos(x)^2) - (a + b)^2*(a + b)"), NH_ZERO);
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/progress.h"
 #include "expr/normal.h"
 #include "expr/normal_flint.h"
 #include "expr/num_long.h"
@@ -68,7 +69,7 @@ static double words(const fmpz_mpoly_t a) { return 1 + fabs((double)fmpz_mpoly_m
 static bool spend(nh_field *f, double work)
 {
     f->work += work;
-    if (f->work > f->max_work) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if (f->work > f->max_work || nh_late()) nh_field_break(f, NH_FIELD_TOO_LARGE);
     return f->state == NH_FIELD_FINE;
 }
 
