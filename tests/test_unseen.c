@@ -278,6 +278,18 @@ static const unseen UNSEEN[] = {
      "constraints: [\"(x' + c*th'*sin(th))*sin(th + a) = (y' - c*th'*cos(th))*cos(th + a) + l*(th' + a')\", \"(x' - c*th'*sin(th))*sin(th + b) = (y' + c*th'*cos(th))*cos(th + b) + l*(th' + b')\"]\n"
      "known: {currents: [{name: energy, expr: \"M/2*(x'^2 + y'^2) + J/2*th'^2 + J1/2*((th' + a')^2 + (th' + b')^2)\"}]}\n",
      1},
+    /* cos t has no parameter, and was taken for a wave of a coordinate; two waves together are nearly dependent for t in [0, 1] */
+    {"oscillators, one of them driven by cos t",
+     "coordinates: [x, y]\n"
+     "lagrangian: (x'^2 + y'^2)/2 - (2*x^2 + 3*y^2)/2 + x*cos(t)\n"
+     "known: {currents: [{name: driven, expr: \"(x - cos(t))*cos(sqrt(2)*t) - (x' + sin(t))/sqrt(2)*sin(sqrt(2)*t)\"}]}\n",
+     4},
+    {"lengths that are logarithms",
+     "coordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+     "lagrangian: (x'^2/x^2 + y'^2/y^2)/2\n"
+     "domain: {x: [0.5, 1.5], y: [0.5, 1.5]}\n"
+     "known: {currents: [{name: rotation, expr: \"log(x)*y'/y - log(y)*x'/x\"}]}\n",
+     4},
 };
 enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 

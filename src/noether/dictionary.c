@@ -143,10 +143,13 @@ static void add_logarithm(harvester *h, nh_ex base)
     }
 }
 
+/* Of a coordinate: the stages have those.  What cos t drives is no wave of theirs. */
 static bool plain_wave(const nh_model *o, nh_ex e)
 {
     nh_function f = nh_function_of(o->dag, e);
-    return (f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_kind_of(o->dag, nh_child(o->dag, e, 0)) == NH_SYMBOL;
+    if (f != NH_SIN && f != NH_COS && f != NH_TAN) return false;
+    nh_ex angle = nh_child(o->dag, e, 0);
+    return nh_kind_of(o->dag, angle) == NH_SYMBOL && angle != o->system->t;
 }
 
 static void add_wave(harvester *h, nh_ex e)
@@ -284,7 +287,11 @@ static void add_roots(harvester *h)
 {
     nh_model *o = h->o;
     add_roots_of(h, nh_simplify_short(o->dag, determinant(o), 0));
-    for (size_t i = 0; i < o->n; i++) add_roots_of(h, o->M[i * o->n + i]);
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex length = nh_powi(o->dag, even_root(o, o->M[i * o->n + i]), -1); /* x'^2/x^2: log x is the length */
+        add_roots_of(h, o->M[i * o->n + i]);
+        if (has_position(o, length)) add_logarithm(h, length);
+    }
 }
 
 /* One term, and its derivatives by the angles in it. */

@@ -226,6 +226,22 @@ static size_t without_driven(const nh_climb *x, nh_ex q, size_t n, double *re, d
     return kept;
 }
 
+/* Many waves on a short interval are nearly dependent: what they hide together each may still show alone. */
+static void one_by_one(waves *w, const char *text)
+{
+    nh_climb *x = w->context.x;
+    for (size_t k = 0; k < w->count && !nh_climb_done(x); k++) {
+        waves one = *w;
+        nh_family family[2];
+        one.count = 1;
+        one.re[0] = w->re[k];
+        one.im[0] = w->im[k];
+        one.how[0] = w->how[k];
+        wave_families(&one, family); /* the eigenvectors need the first of them only */
+        if (nh_climb_promising(x, 1, family)) nh_climb_stage(x, text, 1, family);
+    }
+}
+
 /* Returns whether something new was found; `which` of the bases it is. */
 static bool pencil_of(nh_climb *x, nh_ex q, nh_ex power, const char *name, const nh_family *base, size_t which)
 {
@@ -246,6 +262,7 @@ static bool pencil_of(nh_climb *x, nh_ex q, nh_ex power, const char *name, const
         char text[120];
         snprintf(text, sizeof text, power ? "powers of %.60s with exponents found by the pencil" : "exponentials and waves in %.60s with rates found by the pencil", name);
         nh_climb_stage(x, text, wave_families(&w, family), family);
+        if (w.count > 1) one_by_one(&w, text);
     }
     nh_ansatz_free(a);
     return r->independent > before;
