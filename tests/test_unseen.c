@@ -290,6 +290,17 @@ static const unseen UNSEEN[] = {
      "domain: {x: [0.5, 1.5], y: [0.5, 1.5]}\n"
      "known: {currents: [{name: rotation, expr: \"log(x)*y'/y - log(y)*x'/x\"}]}\n",
      4},
+    /* sin(2 pi/3) is a number */
+    {"three wheels at angles of 120 degrees",
+     "parameters: [{name: L, value: 0.2}, {name: r, value: 0.05}]\n"
+     "coordinates: [x, y, {name: th, type: angle}, {name: p1, type: angle}, {name: p2, type: angle}, {name: p3, type: angle}]\n"
+     "lagrangian: 2*(x'^2 + y'^2) + 0.1*th'^2 + 0.001*(p1'^2 + p2'^2 + p3'^2)\n"
+     "constraints:\n"
+     "  - -x'*sin(th) + y'*cos(th) + L*th' = r*p1'\n"
+     "  - -x'*sin(th + 2*pi/3) + y'*cos(th + 2*pi/3) + L*th' = r*p2'\n"
+     "  - -x'*sin(th + 4*pi/3) + y'*cos(th + 4*pi/3) + L*th' = r*p3'\n"
+     "known: {currents: [{name: sum, expr: \"r*(p1 + p2 + p3) - 3*L*th\"}]}\n",
+     9},
 };
 enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 
