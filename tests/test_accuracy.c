@@ -16,7 +16,7 @@ static nh_trajectory *accurate(const nh_model *o, const nh_state *initial, doubl
     nh_options_default(&options);
     for (int i = 0; i < COUNT; i++) times[i] = initial->t + until * i / (COUNT - 1);
     nh_trajectory_request q = {.model = o, .initial = initial, .count = COUNT, .times = times, .options = &options, .n = n, .e = e, .smallest = smallest};
-    return nh_trajectory_accurate(&q, eps, a, &error);
+    return nh_trajectory_accurate(&q, eps, 0, NULL, a, &error);
 }
 
 Test(accuracy, the_closed_form_is_met)
@@ -116,5 +116,93 @@ Test(accuracy, beyond_rounding_is_refused)
     nh_simulation *s = nh_simulate(&q, &error);
     must(s != NULL, &error, "sleigh");
     cr_expect(s->checked && !s->accuracy.held && strstr(s->accuracy.why, "not reached"), "%s", s->accuracy.why);
+    nh_simulation_free(s);
+}
+
+/* The motion along which currents are checked, by what is asked for and by what was measured before. */
+Test(accuracy, the_checked_motion_is_as_accurate)
+{
+    mechanics x = mechanics_of_text("name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2\nconstraints: [\"y' = cos(x)*x'\"]\n", NH_CHART_AUTO);
+    double q[2] = {1, sin(1)}, v[2] = {0, 0};
+    nh_state initial = {.q = q, .v = v};
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    nh_way adams = {nh_method_find("CVODE Adams"), NH_OWN_VELOCITIES, 1e-9, NAN, 1e-9, 1e-6};
+    nh_ex e = x.model->E;
+    nh_validation_request request = {.model = x.model, .currents = 1, .current = &e, .initial = &initial, .until = 30, .outputs = 61, .options = &options, .way = &adams};
+    for (double eps = 1e-4; eps > 1e-11; eps /= 100) {
+        request.accuracy = eps;
+        request.ways = eps < 1e-7; /* then CVODE is said to be the cheapest */
+        nh_validation *r = nh_validate(&request, &error);
+        must(r != NULL, &error, "the validation");
+        cr_expect(r->checked && (r->accuracy.held || eps < 1e-9), "%g: %s", eps, r->accuracy.why);
+        if (eps > 1e-9) cr_expect_str_eq(r->method, request.ways ? "CVODE Adams" : "GSL rk8pd");
+        cr_expect_eq(r->tolerance[NH_DRIFT_RUNS - 1], r->accuracy.tolerance);
+        double worst = 0; /* y = sin(x) at every time; dE/dt = 0 */
+        for (size_t i = 0; i < r->count; i++) worst = fmax(worst, fabs(r->state[i * r->size + 1] - sin(r->state[i * r->size])));
+        cr_expect_lt(worst, r->accuracy.held ? eps : 1, "%g: %g, %s", eps, worst, r->accuracy.why);
+        cr_expect(r->current[0].small, "%g", r->current[0].drift[NH_DRIFT_RUNS - 1]);
+        nh_validation_free(r);
+    }
+    mechanics_clear(&x);
+}
+
+/* ---- ensembles ---- */
+
+enum { MEMBERS = 150 };
+
+/* Every member, from around `start` = (q, v), against a tight motion of its own. */
+static void try_ensemble(const char *text, const double start[4], double until, double eps, size_t threads, double *value)
+{
+    mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
+    size_t m = x.model->m, size = m + x.model->n, n = m;
+    double initial[MEMBERS * 4], times[COUNT];
+    cr_assert_eq(size, 4);
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    for (int i = 0; i < COUNT; i++) times[i] = until * i / (COUNT - 1);
+    nh_ensemble_states(size, start, MEMBERS, 0.2, 3, initial);
+    nh_trajectory_request q = {.model = x.model, .count = COUNT, .times = times, .options = &options, .n = n, .e = x.model->rho};
+    nh_ensemble_accuracy a;
+    nh_ensemble *e = nh_ensemble_accurate(&q, MEMBERS, initial, threads, eps, 0, NULL, &a, &error);
+    cr_assert(e && a.held, "%s", a.why);
+    options.tolerance = 1e-14;
+    for (size_t j = 0; j < MEMBERS; j++) {
+        nh_state from = {.q = initial + j * size, .v = initial + j * size + m}; /* no constraints: w are the velocities */
+        q.initial = &from;
+        q.method = nh_method_find("GSL rk8pd");
+        nh_trajectory *t = nh_trajectory_create(&q, &error);
+        size_t which = 0;
+        double off = nh_accuracy_difference(COUNT, n, e->value + j * COUNT * n, t->value, options.absolute, &which);
+        cr_expect_lt(off, eps, "member %zu: %g (%s)", j, off, a.why);
+        nh_trajectory_free(t);
+    }
+    if (value) memcpy(value, e->value, MEMBERS * COUNT * n * sizeof *value);
+    nh_ensemble_free(e);
+    mechanics_clear(&x);
+}
+
+Test(accuracy, every_member_of_an_ensemble_is_as_accurate)
+{
+    static const char *const pendulum = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 + cos(x) - y^4/4 + x*y/5\n";
+    static const char *const kepler = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)\n";
+    static double one[MEMBERS * COUNT * 2], two[MEMBERS * COUNT * 2];
+    try_ensemble(pendulum, (double[]){1, 0.5, 0.2, 0}, 20, 1e-5, 1, one);
+    try_ensemble(pendulum, (double[]){1, 0.5, 0.2, 0}, 20, 1e-5, 2, two);
+    cr_expect_eq(memcmp(one, two, sizeof one), 0); /* whatever the number of threads */
+    try_ensemble(pendulum, (double[]){1, 0.5, 0.2, 0}, 20, 1e-9, 2, NULL);
+    try_ensemble(kepler, (double[]){1, 0, 0, 0.5}, 15, 1e-8, 2, NULL);
+}
+
+Test(accuracy, an_ensemble_says_when_it_is_not)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true, .accuracy = 1e-17, .ensemble = 5, .spread = 0.1};
+    nh_options_default(&q.options);
+    nh_simulation *s = nh_simulate(&q, &error);
+    must(s != NULL, &error, "sleigh");
+    cr_expect(s->checked && !s->accuracy_of_all.held && s->accuracy_of_all.unsure == 5 && strstr(s->accuracy_of_all.why, "by 5 of 5 members"), "%s", s->accuracy_of_all.why);
     nh_simulation_free(s);
 }

@@ -117,7 +117,7 @@ static void check_no_word(const char *text, const char *word)
 static size_t null_numbers(const cJSON *item)
 {
     static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "components_with_gamma", "symmetry_route",
-                                        "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file"};
+                                        "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file", "accuracy"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {
         for (size_t i = 0; i < COUNT(texts); i++)
@@ -262,6 +262,29 @@ Test(cli_json, seed_and_samples_reach_the_result)
     cJSON *root = json_of(&p, "analyze sleigh --json - --seed 77 --samples 300", 0);
     cr_expect_eq(cJSON_GetNumberValue(find(root, "samples.seed")), 77.0);
     cr_expect_eq(cJSON_GetNumberValue(find(root, "samples.used")), 300.0);
+    cJSON_Delete(root);
+    place_clear(&p);
+}
+
+/* The motion of an analysis is as accurate as was asked for, or the exit code says that it is not. */
+Test(cli_json, accuracy_reaches_the_result)
+{
+    place p = place_with_project();
+    cJSON *root = json_of(&p, "analyze sleigh --json - --accuracy 1e-8", 0);
+    cr_expect(cJSON_IsTrue(find(root, "validation.accuracy.held")));
+    cr_expect_eq(cJSON_GetNumberValue(find(root, "validation.accuracy.wanted")), 1e-8);
+    cr_expect_lt(cJSON_GetNumberValue(find(root, "validation.accuracy.estimate")), 1e-8);
+    const cJSON *tolerances = find(root, "validation.tolerances");
+    cr_expect_lt(cJSON_GetNumberValue(cJSON_GetArrayItem(tolerances, 2)), 1e-8);
+    cJSON_Delete(root);
+    finished f = run_expecting(&p, "analyze sleigh --json - --accuracy 1e-15", 4);
+    cr_expect(strstr(f.err, "the accuracy 1.0e-15 was not reached") && strstr(f.err, "is the least certain"), "%s", f.err);
+    root = cJSON_Parse(f.out);
+    cr_expect(cJSON_IsFalse(find(root, "validation.accuracy.held")));
+    cJSON_Delete(root);
+    finished_clear(&f);
+    root = json_of(&p, "simulate sleigh --initial omega=2 --json - --ensemble 20 --accuracy 1e-6 --step 5", 0);
+    cr_expect(cJSON_IsTrue(find(root, "accuracy.held")));
     cJSON_Delete(root);
     place_clear(&p);
 }

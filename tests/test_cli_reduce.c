@@ -65,6 +65,35 @@ Test(cli_reduce, groups_that_will_not_do)
     place_clear(&p);
 }
 
+/* Reduced and full motions agree to what is asked for, or it is said why not. */
+Test(cli_reduce, accuracy)
+{
+    static const struct {
+        const char *system, *accuracy;
+        int code;
+        const char *words;
+    } cases[] = {{"sleigh", "1e-6", 0, NULL},
+                 {"sleigh", "1e-10", 0, NULL},
+                 {"snakeboard", "1e-8", 4, "the accuracy 1.0e-08 was not reached to the end: stage 1 was compared to t = 1.375"}, /* its constraints become dependent on the way */
+                 {"sleigh", "1e-13", 2, "compared to 1e-12 at best"}};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *more[] = {(char *)cases[i].system, "--accuracy", (char *)cases[i].accuracy, "--json", "-"};
+        finished f = reduce(&p, more, 5);
+        cr_expect_eq(f.code, cases[i].code, "%s %s: %d, %s", cases[i].system, cases[i].accuracy, f.code, f.err);
+        if (cases[i].words) cr_expect(strstr(f.err, cases[i].words) != NULL, "%s", f.err);
+        static const char *const key = "\"agreement_with_full\":";
+        int stages = 0;
+        for (const char *at = f.code == 0 ? f.out : ""; (at = strstr(at, key)); stages++) {
+            double off = strtod(at + strlen(key), (char **)&at);
+            cr_expect(off < atof(cases[i].accuracy), "%s %s: %g", cases[i].system, cases[i].accuracy, off);
+        }
+        cr_expect(f.code != 0 || stages == 2, "%d", stages);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* The axis of a rotation: refused for a given group, a warning for one that was found. */
 Test(cli_reduce, starts_where_the_action_is_not_free)
 {

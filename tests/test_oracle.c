@@ -244,7 +244,8 @@ static void validate(const mechanics *x, const nh_model *other, const cJSON *mot
     nh_options_default(&options);
     start_of(motion, &initial.t, q, v);
     for (size_t i = 0; i < CLAIMS; i++) phi[i] = formula(x->model, SLEIGH_CLAIMS[i].formula);
-    nh_validation *r = nh_validate(x->model, other, CLAIMS, phi, NULL, 0, NULL, &initial, oracle_number(motion, "T"), 201, &options, &error);
+    nh_validation_request request = {.model = x->model, .other = other, .currents = CLAIMS, .current = phi, .initial = &initial, .until = oracle_number(motion, "T"), .outputs = 201, .options = &options};
+    nh_validation *r = nh_validate(&request, &error);
     must(r != NULL, &error, "the validation");
     cr_expect(r->complete && r->note[0] == 0, "%s", r->note);
     for (size_t i = 0; i < CLAIMS; i++) {

@@ -62,3 +62,16 @@ char *nh_json_finish(nh_json *root)
     free(printed);
     return out;
 }
+
+nh_json *nh_json_parse(const char *text) { return cJSON_Parse(text); }
+void nh_json_free(nh_json *root) { cJSON_Delete(root); }
+const char *nh_json_text(const nh_json *object, const char *key) { return cJSON_GetStringValue(nh_json_get(object, key)); }
+
+double nh_json_value(const nh_json *object, const char *key)
+{
+    const cJSON *item = nh_json_get(object, key);
+    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
+}
+
+size_t nh_json_count(const nh_json *array) { return cJSON_IsArray(array) ? (size_t)cJSON_GetArraySize(array) : 0; }
+const nh_json *nh_json_entry(const nh_json *array, size_t index) { return cJSON_GetArrayItem(array, (int)index); }

@@ -1,4 +1,4 @@
-/* json: documents to be written, over cJSON.  Numbers read back exactly; what is not finite becomes null. */
+/* json: documents to be written and read, over cJSON.  Numbers read back exactly; what is not finite becomes null. */
 #ifndef NH_JSON_H
 #define NH_JSON_H
 
@@ -26,6 +26,18 @@ void nh_json_add_number(nh_json *array, double value);
 void nh_json_add_text(nh_json *array, const char *text);
 
 nh_json *nh_json_get(const nh_json *object, const char *key);
+
+/* ---- reading ---- */
+
+/* NULL: not a document. */
+nh_json *nh_json_parse(const char *text);
+void nh_json_free(nh_json *root);
+/* Of a member that may be missing or of another kind: NULL, not a number. */
+const char *nh_json_text(const nh_json *object, const char *key);
+double nh_json_value(const nh_json *object, const char *key);
+/* Of an array, which may be NULL. */
+size_t nh_json_count(const nh_json *array);
+const nh_json *nh_json_entry(const nh_json *array, size_t index);
 
 /* The document as a heap string (nh_free) that ends in a newline; the document is freed. */
 char *nh_json_finish(nh_json *root);

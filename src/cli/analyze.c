@@ -23,7 +23,7 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
         return nh_error_hint(error, "--tex body.tex --fragment");
     }
     if (cli->operands > 1) return nh_fail(error, NH_USAGE, "", "`nhsym analyze` takes one system, found `%s` too", cli->operand[1]);
-    *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options,
+    *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options, .accuracy = cli->accuracy, .remember = true,
                               .seed_given = cli->seed_given, .samples_given = cli->samples_given, .tolerance_given = cli->tolerance_given,
                               .until_given = cli->until_given};
     if (cli->analysis && !(q->analysis_path = nh_cli_find(cli, "analyses", cli->analysis, error))) return false;
@@ -119,7 +119,9 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
                 && write_tex(cli, result, error);
     good = nh_cli_written(cli, good, error);
     bool partial = result->partial;
+    const nh_validation *v = result->validation;
+    if (good && cli->accuracy > 0 && !partial && !(v && v->accuracy.held)) nh_fail(error, NH_NUMERIC, "", "%s", v ? v->accuracy.why : "no motion was computed, and so none with the accuracy that was asked for");
     nh_result_free(result);
     if (!good) return error->code;
-    return nh_interrupted() ? NH_INTERRUPTED : partial ? NH_LIMIT : NH_OK;
+    return nh_interrupted() ? NH_INTERRUPTED : partial ? NH_LIMIT : (int)error->code;
 }

@@ -12,7 +12,7 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
         return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html != NULL,
+    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .accuracy = cli->accuracy, .remember = true, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html != NULL,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
     q->system_path = nh_cli_find(cli, "systems", name, error);
     if (!q->system_path) return false;
@@ -43,20 +43,20 @@ static void put_table(const nh_cli *cli, const nh_simulation *s)
     nh_text_clear(&text);
     if (s->scene && (cli->watch || cli->scene)) put_scene(s);
     if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
-    if (s->checked && s->accuracy.held) fprintf(stderr, "nhsym: %s\n", s->accuracy.why);
-    if (s->ensemble && s->ensemble->alone) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
+    if (s->held) fprintf(stderr, "nhsym: %s\n", s->why);
+    if (s->ensemble && s->ensemble->alone && !s->checked) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
 }
 
 /* What did not come to its end, or is not as accurate as was asked for. */
 static void complain(const nh_simulation *s, nh_error *error)
 {
     if (s->ensemble && s->ensemble->incomplete) nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete, s->ensemble->note);
+    bool unsure = s->checked && !s->held && (s->ensemble || s->motion->complete);
+    if (unsure) nh_fail(error, NH_NUMERIC, "", "%s", s->why);
     if (s->ensemble) return;
-    if (s->checked && !s->accuracy.held && s->motion->complete) {
-        nh_fail(error, NH_NUMERIC, "", "%s", s->accuracy.why);
-        if (s->columns.count > 1) nh_error_hint(error, "`%s` is the least certain of %zu columns; --watch names those that are wanted", s->columns.track[s->accuracy.quantity].name, s->columns.count);
-    }
-    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->accuracy.why : s->motion->note);
+    if (unsure && s->columns.count > 1)
+        nh_error_hint(error, "`%s` is the least certain of %zu columns; --watch names those that are wanted", s->columns.track[s->accuracy.quantity].name, s->columns.count);
+    if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->why : s->motion->note);
 }
 
 int nh_cli_simulate(nh_cli *cli, nh_error *error)

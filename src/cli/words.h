@@ -25,7 +25,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \
     X(opt_watch,       "watch",       required_argument, "\"x, T=m/2*v^2\"",   "simulate", "only these quantities, by the smallest model for them")                \
     X(opt_scene,       "scene",       no_argument,       "",                   "simulate", "only the quantities of the analysis file")                             \
-    X(opt_accuracy,    "accuracy",    required_argument, "EPS",                "simulate", "the error of what is printed: method and tolerance are chosen, and checked") \
+    X(opt_accuracy,    "accuracy",    required_argument, "EPS",                "analyze simulate reduce", "the error of the motions: method and tolerance are chosen, and checked") \
     X(opt_ensemble,    "ensemble",    required_argument, "N",                  "simulate", "many motions at once, from states around the initial one")             \
     X(opt_spread,      "spread",      required_argument, "S",                  "simulate", "how far around")                                                       \
     X(opt_stress,      "stress",      no_argument,       "",                   "chart", "maps of where the methods fail")                                          \

@@ -6,34 +6,72 @@
 
 #include "base/progress.h"
 
-enum { most_runs = 7, most_confirmations = 5 };
+enum { most_confirmations = 5 };
 static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const multistep_pair[2] = {"CVODE BDF", "CVODE Adams"};
-static const double loosest = 1e-5, tightest = 1e-14;
-static const double first_part = 3;       /* of eps: the first tolerance */
-static const double usual_exponent = 0.7, least_exponent = 0.2, most_exponent = 0.9; /* with which differences fall */
-static const double step = 0.1;           /* at most, from one tolerance to the next */
-static const double disturbance = 1e-15;  /* relative, of the start of every second run: what rounding errors grow to is then seen in the differences */
-static const double amplified = 1e3;      /* an error so many times the tolerance is confirmed by another method */
+static const double loosest = nh_accuracy_loosest, tightest = nh_accuracy_tightest, step = nh_accuracy_step;
+static const double least_exponent = 0.2, most_exponent = 0.9; /* with which differences fall */
 static const double quick = 0.25, faster = 20; /* a first run that takes longer than these seconds is compared with CVODE BDF, which must be so many times faster */
+
+static const double patience = 10;        /* times what was measured: the first run may take so long, or `quick` */
+static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one number of fixed steps to the next */
 
 typedef struct {
     const nh_trajectory_request *request;
     double eps;
     nh_accuracy *out;
+    const nh_way *way;     /* measured before; NULL: nothing was, or it did not do here */
+    nh_programs *programs; /* for methods with a fixed step */
     const nh_method *method[2];
     bool doubtful; /* another method is to confirm */
+    bool tried;    /* something that was measured, whether or not it did */
 } search;
 
-/* The start, every number of it moved by the part `disturbance` up or down. */
+static double span_of(const nh_trajectory_request *q) { return fabs(q->times[q->count - 1] - q->times[0]); }
+
+/* The longest time between outputs. */
+static double spacing_of(const nh_trajectory_request *q)
+{
+    double longest = 0;
+    for (size_t i = 1; i < q->count; i++) longest = fmax(longest, fabs(q->times[i] - q->times[i - 1]));
+    return longest;
+}
+
+static bool fixed(const search *s) { return s->way && s->way->method->order; }
+
+/* Of a method with fixed steps, which end at the outputs: how many there are from one to the next. */
+static double steps_at(const search *s, double tolerance) { return fmax(1, ceil(spacing_of(s->request) / nh_way_setting(s->way, tolerance) * (1 - 1e-9))); }
+
+/* By how much the errors of a run fall: the ratio of the tolerances, or that of the steps to the order of the method. */
+static double ratio_of(const search *s, double coarse, double fine)
+{
+    return fixed(s) ? pow(steps_at(s, coarse) / steps_at(s, fine), s->way->method->order) : fine / coarse;
+}
+
+/* From one tolerance to the next, at least to more steps. */
+static double tighter(const search *s, double coarse, double part)
+{
+    double fine = fmax(tightest, coarse * part);
+    while (fixed(s) && fine > tightest && ratio_of(s, coarse, fine) > more_steps) fine = fmax(tightest, fine * step);
+    return fine;
+}
+
+void nh_accuracy_disturb(size_t n, const double *from, double *to)
+{
+    uint64_t random = 0x9e3779b97f4a7c15u;
+    for (size_t i = 0; i < n; i++) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        to[i] = from[i] * (random >> 63 ? 1 + nh_accuracy_disturbance : 1 - nh_accuracy_disturbance);
+    }
+}
+
+/* The start, beside itself. */
 static nh_state disturbed(const nh_trajectory_request *q, double *q_and_v)
 {
     size_t m = q->model->m;
-    uint64_t random = 0x9e3779b97f4a7c15u;
     nh_state out = *q->initial;
-    for (size_t i = 0; i < 2 * m; i++) {
-        random = random * 6364136223846793005u + 1442695040888963407u;
-        q_and_v[i] = (i < m ? out.q[i] : out.v[i - m]) * (random >> 63 ? 1 + disturbance : 1 - disturbance);
-    }
+    memcpy(q_and_v, out.q, m * sizeof *q_and_v);
+    memcpy(q_and_v + m, out.v, m * sizeof *q_and_v);
+    nh_accuracy_disturb(2 * m, q_and_v, q_and_v);
     out.q = q_and_v;
     out.v = q_and_v + m;
     return out;
@@ -50,6 +88,11 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
     q.options = &options;
     q.method = method;
     q.max_seconds = max_seconds;
+    if (s->way && method == s->way->method) {
+        q.velocities = s->way->velocities;
+        q.programs = s->programs;
+        if (fixed(s)) q.step = spacing_of(&q) / steps_at(s, tolerance);
+    }
     nh_trajectory *t = nh_trajectory_create(&q, error);
     nh_free(work);
     s->out->runs++;
@@ -60,25 +103,28 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
     return t;
 }
 
-/* The largest difference, each expression relative to its largest value; infinity when one motion did not reach its end.  What is undefined
- * in both (a current outside its domain) does not count. */
-static double difference(const search *s, const nh_trajectory *a, const nh_trajectory *b)
+double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, double least, size_t *which)
 {
-    size_t n = s->request->n;
     double worst = 0;
-    if (!a || !b || !a->motion->complete || !b->motion->complete) return INFINITY;
     for (size_t k = 0; k < n; k++) {
-        double scale = s->request->options->absolute, d = 0;
-        for (size_t i = 0; i < a->motion->count; i++) {
-            double x = a->value[i * n + k], y = b->value[i * n + k];
+        double scale = least, d = 0;
+        for (size_t i = 0; i < count; i++) {
+            double x = a[i * n + k], y = b[i * n + k];
             if (!isfinite(x) && !isfinite(y)) continue;
-            if (!isfinite(x) || !isfinite(y)) return INFINITY;
+            if (!isfinite(x) || !isfinite(y)) return *which = k, INFINITY;
             scale = fmax(scale, fabs(x));
             d = fmax(d, fabs(x - y));
         }
-        if (d / scale > worst) worst = d / scale, s->out->quantity = k;
+        if (d / scale > worst) worst = d / scale, *which = k;
     }
     return worst;
+}
+
+/* Infinity when one motion did not reach its end. */
+static double difference(const search *s, const nh_trajectory *a, const nh_trajectory *b)
+{
+    if (!a || !b || !a->motion->complete || !b->motion->complete) return INFINITY;
+    return nh_accuracy_difference(a->motion->count, s->request->n, a->value, b->value, s->request->options->absolute, &s->out->quantity);
 }
 
 static double between(double x, double low, double high) { return fmax(low, fmin(high, x)); }
@@ -105,11 +151,47 @@ static nh_trajectory *farther(nh_trajectory *a, nh_trajectory *b)
     return first ? a : b;
 }
 
+/* The method that confirms one when no second was measured: of the same kind, because what is stiff for one is so for all explicit ones. */
+static const nh_method *other_of(const nh_method *method)
+{
+    const char *const *pair = method->family == NH_METHOD_CVODE ? multistep_pair : explicit_pair;
+    return nh_method_find(pair[method == nh_method_find(pair[0])]);
+}
+
+/* The first run of what was measured to be the cheapest; NULL when nothing was, or it does not reach the end in about the time that it took then. */
+static nh_trajectory *take_measured(search *s, size_t ways, const nh_way *way, double *tolerance)
+{
+    const nh_trajectory_request *q = s->request;
+    nh_way_limits limits = {.scene = q->smallest, .other = q->other != NULL, .spacing = spacing_of(q)};
+    nh_way_choice choice = nh_way_cheapest(ways, way, s->eps, &limits);
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (!choice.way) return NULL;
+    s->way = choice.way;
+    s->tried = true;
+    s->method[0] = choice.way->method;
+    s->method[1] = choice.second ? choice.second : other_of(s->method[0]);
+    if (fixed(s)) s->programs = nh_programs_create(q->model);
+    if (fixed(s) && nh_method_refused(s->method[0], s->programs)) return NULL;
+    double setting = fixed(s) ? s->eps : between(nh_way_setting(s->way, s->eps), 10 * tightest, loosest);
+    nh_trajectory *t = run(s, s->method[0], setting, true, fmax(quick, patience * s->way->seconds * span_of(q)), &ignored);
+    if (complete(t) || (t && nh_interrupted())) {
+        s->doubtful = nh_way_doubtful(s->method[0]);
+        s->out->measured = true;
+        s->out->next = choice.next;
+        *tolerance = setting;
+        return t;
+    }
+    nh_trajectory_free(t);
+    return NULL;
+}
+
 /* The pair of methods, and the first run. */
 static nh_trajectory *choose(search *s, double tolerance, nh_error *error)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
+    s->way = NULL;
     take(s, explicit_pair);
     nh_trajectory *t = run(s, s->method[0], tolerance, true, quick, &ignored);
     if (complete(t) || (t && nh_interrupted())) return t;
@@ -140,35 +222,37 @@ static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
 }
 
 /* Tighten until the estimate is below eps/2; the last trajectory. */
-static nh_trajectory *tighten(search *s, nh_error *error)
+static nh_trajectory *tighten(search *s, size_t ways, const nh_way *way, nh_error *error)
 {
-    double eps = s->eps, coarse = between(first_part * eps, 10 * tightest, loosest), fine = coarse * step, last_difference = 0, last_fine = 0, exponent = usual_exponent;
-    nh_trajectory *a = choose(s, coarse, error);
+    double eps = s->eps, coarse = between(nh_accuracy_first * eps, 10 * tightest, loosest), last_difference = 0, last_ratio = 0, exponent = nh_accuracy_exponent;
+    nh_trajectory *a = take_measured(s, ways, way, &coarse);
+    if (!a) a = choose(s, coarse, error);
+    double fine = tighter(s, coarse, step);
     nh_error ignored;
     nh_error_clear(&ignored);
     bool clean = false;
     s->out->tolerance = coarse;
-    for (int i = 1; complete(a) && i < most_runs; i++) {
+    for (int i = 1; complete(a) && i < NH_ACCURACY_RUNS; i++) {
         nh_trajectory *b = run(s, s->method[0], fine, clean, s->request->max_seconds, &ignored);
         if (nh_interrupted()) {
             nh_trajectory_free(b); /* the coarser one is complete */
             break;
         }
-        double d = difference(s, a, b);
-        if (last_difference > 0 && d > 0) exponent = between(log(last_difference / d) / log(last_fine / fine), least_exponent, most_exponent);
+        double d = difference(s, a, b), ratio = ratio_of(s, coarse, fine);
+        if (last_difference > 0 && d > 0) exponent = between(log(last_difference / d) / log(1 / last_ratio), least_exponent, most_exponent);
         if (b) {
             nh_trajectory_free(a);
             a = b;
             clean = !clean;
             s->out->tolerance = fine;
         }
-        s->out->estimate = d * pow(fine / coarse, exponent);
-        s->doubtful |= d > amplified * coarse;
+        s->out->estimate = d * pow(ratio, exponent);
+        s->doubtful |= d > nh_accuracy_amplified * coarse;
         if (!isfinite(d) || (s->out->estimate < eps / 2 && d < 30 * eps) || fine <= tightest) break;
         last_difference = d;
-        last_fine = fine;
+        last_ratio = ratio;
         coarse = fine;
-        fine = fmax(tightest, fine * between(pow(eps / (4 * s->out->estimate), 1.25), 1e-5, step));
+        fine = tighter(s, coarse, between(pow(eps / (4 * s->out->estimate), 1.25), 1e-5, step));
     }
     return a && !clean && !nh_interrupted() ? undisturbed(s, a) : a;
 }
@@ -188,35 +272,63 @@ static void confirm(search *s, const nh_trajectory *t)
     }
 }
 
+/* "GSL rk8pd at tolerance 1.0e-09", "relaxation, order 8 with steps of 0.01" */
+static void put_setting(const search *s, const nh_trajectory *t, char *out, size_t size)
+{
+    const nh_accuracy *a = s->out;
+    const char *where = !a->measured || s->way->velocities == NH_OWN_VELOCITIES ? "" : s->way->velocities == NH_ALL_COORDINATES ? " in all coordinates" : " in other velocities";
+    if (isnan(a->step)) snprintf(out, size, "%s%s at tolerance %.1e", t->method, where, a->tolerance);
+    else snprintf(out, size, "%s with steps of %.2g", t->method, a->step);
+}
+
+/* Where the choice comes from. */
+static void explain_choice(const search *s, size_t ways)
+{
+    nh_accuracy *a = s->out;
+    char *end = a->why + strlen(a->why);
+    size_t left = sizeof a->why - (size_t)(end - a->why);
+    if (!ways) return;
+    if (!a->measured) snprintf(end, left, "; the chart of these equations %s", s->tried ? "has a faster method, which did not reach the end here" : "has no error below that");
+    else if (isnan(a->next)) snprintf(end, left, "; the only one below %.1e in the chart of these equations", s->eps);
+    else snprintf(end, left, "; the cheapest below %.1e in the chart of these equations, where the next takes %.2g times as long", s->eps, a->next);
+}
+
 static void explain(search *s, const nh_trajectory *t)
 {
     nh_accuracy *a = s->out;
     size_t size = sizeof a->why;
+    char what[96];
+    put_setting(s, t, what, sizeof what);
     if (nh_interrupted() && !a->held)
-        snprintf(a->why, size, "interrupted before the accuracy %.1e was reached: this is %s at tolerance %.1e, and its error is not known", s->eps, t->method, a->tolerance);
+        snprintf(a->why, size, "interrupted before the accuracy %.1e was reached: this is %s, and its error is not known", s->eps, what);
     else if (!t->motion->complete)
         snprintf(a->why, size, "the accuracy %.1e was not reached: the motion ended at t = %.6g", s->eps, t->motion->end_time);
     else if (!(a->estimate < s->eps / 2))
-        snprintf(a->why, size, "the accuracy %.1e was not reached: %s at tolerance %.1e has an estimated error of %.1e", s->eps, t->method, a->tolerance, a->estimate);
+        snprintf(a->why, size, "the accuracy %.1e was not reached: %s has an estimated error of %.1e", s->eps, what, a->estimate);
     else if (!s->doubtful)
-        snprintf(a->why, size, "%s at tolerance %.1e, estimated error %.1e", t->method, a->tolerance, a->estimate);
+        snprintf(a->why, size, "%s, estimated error %.1e", what, a->estimate);
     else if (a->held)
-        snprintf(a->why, size, "%s at tolerance %.1e, estimated error %.1e, %s agrees to %.1e", t->method, a->tolerance, a->estimate, a->second, a->difference);
+        snprintf(a->why, size, "%s, estimated error %.1e, %s agrees to %.1e", what, a->estimate, a->second, a->difference);
     else if (!isfinite(a->difference))
         snprintf(a->why, size, "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s could not compute the motion", s->eps, t->method, a->estimate, a->second);
     else
         snprintf(a->why, size, "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s differs by %.1e", s->eps, t->method, a->estimate, a->second, a->difference);
 }
 
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, nh_accuracy *accuracy, nh_error *error)
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, size_t ways, const nh_way *way, nh_accuracy *accuracy, nh_error *error)
 {
-    *accuracy = (nh_accuracy){.wanted = eps, .estimate = INFINITY, .difference = INFINITY};
+    *accuracy = (nh_accuracy){.wanted = eps, .estimate = INFINITY, .difference = INFINITY, .step = NAN, .next = NAN};
     search s = {.request = request, .eps = eps, .out = accuracy};
-    nh_trajectory *t = tighten(&s, error);
-    if (!t) return NULL;
-    bool good = t->motion->complete && isfinite(accuracy->estimate) && accuracy->estimate < eps / 2;
-    if (good && s.doubtful && !nh_interrupted()) confirm(&s, t);
-    accuracy->held = good && (!s.doubtful || accuracy->difference < eps);
-    explain(&s, t);
+    nh_trajectory *t = tighten(&s, ways, way, error);
+    if (t) {
+        bool good = t->motion->complete && isfinite(accuracy->estimate) && accuracy->estimate < eps / 2;
+        if (good && s.doubtful && !nh_interrupted()) confirm(&s, t);
+        accuracy->held = good && (!s.doubtful || accuracy->difference < eps);
+        if (fixed(&s)) accuracy->step = spacing_of(request) / steps_at(&s, accuracy->tolerance);
+        explain(&s, t);
+        if (accuracy->held) explain_choice(&s, ways);
+        if (fixed(&s)) accuracy->tolerance = NAN;
+    }
+    nh_programs_free(s.programs);
     return t;
 }

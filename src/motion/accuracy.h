@@ -1,7 +1,8 @@
 /* accuracy: a motion whose error is measured to be below what was asked for, or a plain statement that it is not.
  *
- * 1. The method is an explicit pair of order 8; where that is slow and CVODE BDF much faster, as on stiff motions, CVODE BDF.
- * 2. It runs at ever tighter tolerances tau.  With d the difference of two successive runs and p the exponent with which differences fall
+ * 1. The method and its equations are the cheapest of those that were measured before on these equations and had a smaller error (way.h).  Where nothing
+ *    was measured: an explicit pair of order 8; where that is slow and CVODE BDF much faster, as on stiff motions, CVODE BDF.
+ * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that is expected of them).  With d the difference of two successive runs and p the exponent with which differences fall
  *    (0.7 until two differences are known, then measured, within [0.2, 0.9]) the error of the tighter one is about d (tau2/tau1)^p. It is
  *    accepted when that is below eps/2 and d is below 30 eps; otherwise the next tolerance follows from the estimate.  Every second run starts beside
  *    the start by a part 1e-15 of each number, so that the differences also show what rounding errors grow to.
@@ -12,21 +13,40 @@
 #ifndef NH_ACCURACY_H
 #define NH_ACCURACY_H
 
-#include "motion/trajectory.h"
+#include "motion/way.h"
 
 typedef struct {
     bool held;
-    double wanted, estimate, tolerance; /* of the motion that is returned */
+    double wanted, estimate, tolerance, step; /* of the motion that is returned: it has a tolerance or a fixed step; the other is NAN */
+    bool measured;                      /* the method is the cheapest of those that were measured before */
+    double next;                        /* then: how many times as long the next takes; NAN: there is none */
     const char *second;                 /* the method that confirms; NULL: there was no doubt */
     double difference;                  /* from it; INFINITY when there was none, or it could not compute the motion */
     size_t quantity;                    /* the wanted expression that is least certain */
     int runs;
     long evaluations;                   /* of all runs */
     double seconds;                     /* of all runs, without preparations */
-    char why[320];                      /* the choice, or what failed, in words */
+    char why[512];                      /* the choice, or what failed, in words */
 } nh_accuracy;
 
-/* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be 0. */
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, nh_accuracy *accuracy, nh_error *error);
+/* How the error of a motion is judged by two runs of it. */
+enum { NH_ACCURACY_RUNS = 7 };                 /* at most */
+static const double nh_accuracy_loosest = 1e-5, nh_accuracy_tightest = 1e-14, /* tolerances */
+    nh_accuracy_first = 3,                     /* parts of eps: the first tolerance */
+    nh_accuracy_step = 0.1,                    /* from one tolerance to the next, at most */
+    nh_accuracy_exponent = 0.7,                /* with which differences fall, until it is measured */
+    nh_accuracy_disturbance = 1e-15,           /* relative, of the start of every second run: what rounding errors grow to is then seen in the differences */
+    nh_accuracy_amplified = 1e3;               /* an error so many times the tolerance is confirmed by another method */
+
+/* The largest difference of n values at `count` outputs (row by row), each relative to its largest value, or `least`; *which: the value that differs
+ * most.  What is undefined in both does not count; in one of them: INFINITY. */
+double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, double least, size_t *which);
+
+/* n values, each moved by the part nh_accuracy_disturbance up or down. */
+void nh_accuracy_disturb(size_t n, const double *from, double *to);
+
+/* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be 0.  `way`: what was measured
+ * before on these equations; there may be none. */
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, size_t ways, const nh_way *way, nh_accuracy *accuracy, nh_error *error);
 
 #endif

@@ -20,6 +20,7 @@ typedef struct {
     const nh_watch *watch;
     const nh_valid *valid;
     double start;     /* when the check began */
+    const nh_method *method;
     bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
     size_t currents;
     const nh_ex *current; /* of the chart */
@@ -261,50 +262,77 @@ static void keep(run *r, const nh_state *initial, const nh_motion *motion)
 static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_error *error)
 {
     nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
-    return nh_flow(&problem, r->z0, r->outputs, r->times, options, error);
+    return nh_method_flow(r->method, &problem, r->z0, r->outputs, r->times, options, error);
 }
 
-static bool all_runs(run *r, const nh_model *other, size_t n, const nh_ex *current, const nh_state *initial, nh_error *error)
+static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
         nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps, .seconds = time_left(r), .cancelled = nh_interrupted_callback};
-        nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, NULL, r->z0, r->outputs, r->times, &options, NULL, error) : reduced_motion(r, &options, error);
+        if (i == 0 && nh_meets_pivot(r->dynamics, r->method, r->z0, (double[]){r->times[0], r->times[r->outputs - 1]}, &options)) r->everywhere = true;
+        nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, r->method, r->z0, r->outputs, r->times, &options, NULL, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
         bool steep;
         nh_free(nh_steep_points(r->dynamics, motion, &steep));
         if (!r->everywhere && (steep || !motion->complete) && nh_may_leave_chart(r->model)) {
             r->everywhere = true; /* begin again, in a formulation that is regular there */
-            r->out->chart = "all coordinates (the chart breaks down on the way)";
             nh_motion_free(motion);
-            return all_runs(r, other, n, current, initial, error);
+            return all_runs(r, q, error);
         }
-        measure(r, motion, n, current, i);
+        if (r->everywhere) r->out->chart = "all coordinates (the chart breaks down on the way)";
+        measure(r, motion, q->currents, q->current, i);
         if (i == NH_DRIFT_RUNS - 1) {
-            keep(r, initial, motion);
-            watch_pivot(r, other, motion);
-            multiplier_form(r, initial, motion);
+            keep(r, q->initial, motion);
+            watch_pivot(r, q->other, motion);
+            multiplier_form(r, q->initial, motion);
         }
         nh_motion_free(motion);
     }
     return true;
 }
 
-nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, const nh_valid *valid, size_t watches, const nh_watch *watch,
-                           const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error)
+/* The method and the tolerance of the tightest run, by the accuracy that is wanted of the states and of what is watched.  False: no motion at all. */
+static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh_error *error)
+{
+    const nh_model *o = q->model;
+    size_t states = o->m + o->n, n = states + q->watches;
+    nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
+    memcpy(e, o->chart->symbol + 1, states * sizeof *e);
+    for (size_t i = 0; i < q->watches; i++) e[states + i] = q->watch[i].value;
+    nh_trajectory_request request = {.model = o, .initial = q->initial, .count = q->outputs, .times = r->times, .options = q->options, .n = n, .e = e, .max_seconds = time_left(r)};
+    nh_trajectory *t = nh_trajectory_accurate(&request, q->accuracy, q->ways, q->way, &r->out->accuracy, error);
+    if (!t) return nh_free(e), false;
+    nh_accuracy *a = &r->out->accuracy;
+    size_t k = a->quantity, used = strlen(a->why);
+    if (!a->held) snprintf(a->why + used, sizeof a->why - used, "; `%s` is the least certain", k < states ? nh_name_of(o->dag, e[k]) : q->watch[k - states].name);
+    nh_free(e);
+    r->method = nh_method_find(t->method);
+    r->out->checked = true;
+    *tolerance = a->tolerance;
+    nh_trajectory_free(t);
+    return true;
+}
+
+nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_validation *v = nh_arena_alloc(arena, sizeof *v);
-    *v = (nh_validation){.arena = arena, .method = "CVODE Adams", .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, model->chart->name),
-                         .begin = initial->t, .end = until, .currents = n, .current = nh_arena_alloc(arena, (n + 1) * sizeof *v->current), .crossing = NAN};
-    for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, options->tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
-    run r = {.model = model, .dynamics = nh_dynamics_create(model), .out = v, .options = options, .outputs = outputs, .watches = watches, .watch = watch, .valid = valid, .currents = n, .current = current, .start = nh_clock()};
-    r.times = nh_alloc_array(outputs + 1, sizeof *r.times);
-    r.z0 = nh_alloc_array(model->m + model->n + 1, sizeof *r.z0);
-    for (size_t i = 0; i < outputs; i++) r.times[i] = initial->t + (until - initial->t) * (double)i / (double)(outputs - 1);
-    r.scale = nh_alloc_array(model->m + model->n + 1, sizeof *r.scale);
-    for (size_t i = 0; i < model->m + model->n; i++) r.scale[i] = options->absolute;
-    bool good = nh_dynamics_start(r.dynamics, initial, false, r.z0, error) && all_runs(&r, other, n, current, initial, error);
-    if (good) judge(v, options);
+    const nh_model *o = q->model;
+    size_t size = o->m + o->n;
+    double tolerance = q->options->tolerance;
+    *v = (nh_validation){.arena = arena, .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, o->chart->name),
+                         .begin = q->initial->t, .end = q->until, .currents = q->currents, .current = nh_arena_alloc(arena, (q->currents + 1) * sizeof *v->current), .crossing = NAN};
+    run r = {.model = o, .dynamics = nh_dynamics_create(o), .out = v, .options = q->options, .outputs = q->outputs, .watches = q->watches, .watch = q->watch, .valid = q->valid, .currents = q->currents, .current = q->current, .start = nh_clock(), .method = nh_method_find("CVODE Adams")};
+    r.times = nh_alloc_array(q->outputs + 1, sizeof *r.times);
+    r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
+    for (size_t i = 0; i < q->outputs; i++) r.times[i] = q->initial->t + (q->until - q->initial->t) * (double)i / (double)(q->outputs - 1);
+    r.scale = nh_alloc_array(size + 1, sizeof *r.scale);
+    for (size_t i = 0; i < size; i++) r.scale[i] = q->options->absolute;
+    bool good = nh_dynamics_start(r.dynamics, q->initial, false, r.z0, error) && (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
+    v->method = r.method->name;
+    for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
+    good = good && all_runs(&r, q, error);
+    if (good) judge(v, q->options);
     nh_dynamics_free(r.dynamics);
     nh_free(r.times);
     nh_free(r.scale);

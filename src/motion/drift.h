@@ -7,7 +7,7 @@
 #define NH_DRIFT_H
 
 #include "base/option.h"
-#include "motion/trajectory.h"
+#include "motion/accuracy.h"
 
 enum { NH_DRIFT_RUNS = 3 };
 
@@ -21,6 +21,8 @@ typedef struct {
 typedef struct {
     nh_arena *arena;
     const char *method, *multiplier_method, *chart;
+    bool checked;              /* an accuracy was asked for */
+    nh_accuracy accuracy;
     double tolerance[NH_DRIFT_RUNS], begin, end;
     size_t currents;
     nh_drift *current;
@@ -54,9 +56,24 @@ typedef struct {
     double low, high;
 } nh_valid;
 
-/* valid: n intervals, or NULL.  `other` may be NULL: a second chart whose pivot is watched (its independent velocities as functions of this chart's). */
-nh_validation *nh_validate(const nh_model *model, const nh_model *other, size_t n, const nh_ex *current, const nh_valid *valid, size_t watches, const nh_watch *watch,
-                           const nh_state *initial, double until, size_t outputs, const nh_options *options, nh_error *error);
+typedef struct {
+    const nh_model *model, *other; /* other: a second chart whose pivot is watched (its independent velocities as functions of this chart's); or NULL */
+    size_t currents;
+    const nh_ex *current;
+    const nh_valid *valid;         /* `currents` intervals, or NULL */
+    size_t watches;
+    const nh_watch *watch;
+    const nh_state *initial;
+    double until;
+    size_t outputs;
+    const nh_options *options;
+    double accuracy;               /* of the states and of what is watched, along the tightest run: its method and tolerance are chosen for it (accuracy.h).
+                                      0: CVODE Adams at the tolerance of the options */
+    size_t ways;                   /* what was measured before of these equations, in their own velocities and with error control */
+    const nh_way *way;
+} nh_validation_request;
+
+nh_validation *nh_validate(const nh_validation_request *request, nh_error *error);
 void nh_validation_free(nh_validation *validation);
 
 #endif

@@ -179,19 +179,26 @@ typedef struct {
 
 static bool late(void *context) { return nh_interrupted() || nh_clock() > *(double *)context; }
 
-/* CVODE watches the pivot of the chart; before another method runs, it looks whether there is anything to watch for. */
-static void look_ahead(job *j)
+bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2], const nh_flow_options *options)
 {
-    const double ends[2] = {j->q->times[0], j->q->times[j->q->count - 1]};
-    nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
-    nh_flow_options how = j->how;
+    static const double loose = 1e-7;
+    nh_flow_problem problem = nh_dynamics_problem(dynamics);
+    nh_flow_options how = *options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (j->method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(j->q->model)) return;
-    how.rtol = fmax(how.rtol, 1e-7);
-    nh_motion *motion = nh_flow(&problem, j->z0, 2, ends, &how, &ignored);
-    j->leave = motion && motion->guard_hit >= 0;
+    if (method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(nh_dynamics_model(dynamics))) return false;
+    how.method = NH_ADAMS;
+    how.rtol = fmax(how.rtol, loose);
+    nh_motion *motion = nh_flow(&problem, z0, 2, times, &how, &ignored);
+    bool met = motion && motion->guard_hit >= 0;
     nh_motion_free(motion);
+    return met;
+}
+
+static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
+{
+    const double ends[2] = {j->q->times[0], j->q->times[j->q->count - 1]};
+    return nh_meets_pivot(dynamics, j->method, z0, ends, &j->how);
 }
 
 /* The scene's states from the start of all.  *failed: the current (its number) that did not determine its state all the way, or -1. */
@@ -244,11 +251,66 @@ static bool in_scene(job *j, nh_error *error)
     return good;
 }
 
-static void in_all_states(job *j, nh_error *error)
+/* The model's own equations by the method of the request. */
+static nh_motion *in_own_velocities(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
     nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
-    nh_motion *motion = j->leave ? NULL : nh_method_flow(j->method, &problem, j->z0, q->count, q->times, &j->how, error);
+    if (!j->method->order) return nh_method_flow(j->method, &problem, j->z0, q->count, q->times, &j->how, error);
+    nh_programs *own = q->programs ? NULL : nh_programs_create(q->model);
+    nh_motion *motion = nh_method_steps(j->method, own ? own : q->programs, j->z0, q->count, q->times, &j->how, error);
+    nh_programs_free(own);
+    return motion;
+}
+
+/* (q, v) at the outputs of a motion in (q, w); the motion is replaced.  False where the velocities cannot be found. */
+static bool to_coordinates(nh_dynamics *dynamics, nh_motion *motion)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t m = o->m, size = motion->size;
+    double *state = nh_alloc_array(motion->count * 2 * m + 1, sizeof *state), *v = nh_alloc_array(motion->count * m + 1, sizeof *v);
+    bool good = nh_along(dynamics, motion, m, o->rho, v);
+    for (size_t i = 0; i < motion->count && good; i++) {
+        memcpy(state + 2 * i * m, motion->state + i * size, m * sizeof *state);
+        memcpy(state + (2 * i + 1) * m, v + i * m, m * sizeof *state);
+    }
+    nh_free(v);
+    nh_free(motion->state);
+    motion->state = state;
+    motion->size = 2 * m;
+    return good;
+}
+
+/* By the reduced equations of the other model, unless its chart breaks down on the way; values as in all coordinates. */
+static bool in_other_velocities(job *j, nh_error *error)
+{
+    const nh_trajectory_request *q = j->q;
+    nh_dynamics *other = nh_dynamics_create(q->other);
+    nh_flow_problem problem = nh_dynamics_problem(other);
+    double *z0 = nh_alloc_array(q->other->m + q->other->n + 1, sizeof *z0);
+    nh_dynamics_hasten(other, q->options->compile);
+    bool starts = nh_dynamics_start(other, q->initial, q->project, z0, error) && !meets_pivot(j, other, z0);
+    nh_motion *motion = starts ? nh_method_flow(j->method, &problem, z0, q->count, q->times, &j->how, error) : NULL;
+    bool steep = false;
+    if (motion) nh_free(nh_steep_points(other, motion, &steep));
+    bool good = motion && motion->complete && !steep && to_coordinates(other, motion);
+    if (good) {
+        j->out->motion = motion;
+        j->out->formulation = q->other->chart->quasi ? "reduced equations in quasi-velocities" : "reduced equations in coordinate velocities";
+        say_machine(nh_dynamics_words(other), j->out->machine);
+        if (q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
+    } else {
+        nh_motion_free(motion);
+    }
+    nh_free(z0);
+    nh_dynamics_free(other);
+    return good;
+}
+
+static void in_all_states(job *j, nh_error *error)
+{
+    const nh_trajectory_request *q = j->q;
+    nh_motion *motion = j->leave ? NULL : in_own_velocities(j, error);
     say_machine(nh_dynamics_words(j->dynamics), j->out->machine);
     bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
@@ -256,7 +318,8 @@ static void in_all_states(job *j, nh_error *error)
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
-        motion = nh_motion_everywhere(j->dynamics, j->method, j->z0, q->count, q->times, &j->how, j->out->machine, error);
+        if (j->method->order) j->out->method = usual;
+        motion = nh_motion_everywhere(j->dynamics, j->method->order ? NULL : j->method, j->z0, q->count, q->times, &j->how, j->out->machine, error);
     }
     j->out->motion = motion;
     if (motion && q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
@@ -272,13 +335,16 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     nh_dynamics_hasten(j.dynamics, q->options->compile);
     for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
+    j.how.step = q->step;
     j.how.cancelled = late;
     j.how.cancel_context = &j.deadline;
     nh_error ignored;
     nh_error_clear(&ignored);
     if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error)) {
-        look_ahead(&j);
-        if (!(q->smallest && !j.leave && in_scene(&j, &ignored))) in_all_states(&j, error);
+        bool other = q->velocities == NH_OTHER_VELOCITIES && q->other && !j.method->order && nh_may_leave_chart(q->model);
+        j.leave = (q->velocities == NH_ALL_COORDINATES && nh_may_leave_chart(q->model)) || meets_pivot(&j, j.dynamics, j.z0);
+        bool scene = q->smallest && !j.leave && !j.method->order;
+        if (!(scene && in_scene(&j, &ignored)) && !(other && in_other_velocities(&j, &ignored))) in_all_states(&j, error);
     }
     nh_dynamics_free(j.dynamics);
     nh_free(scale);

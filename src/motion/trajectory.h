@@ -6,6 +6,13 @@
 #include "motion/method.h"
 #include "motion/scene.h"
 
+/* The equations of a motion. */
+typedef enum {
+    NH_OWN_VELOCITIES,   /* the reduced equations of the model; all coordinates where its chart breaks down on the way */
+    NH_OTHER_VELOCITIES, /* those of another model of the same system, in other velocities */
+    NH_ALL_COORDINATES   /* the bordered system from the start */
+} nh_velocities;
+
 typedef struct {
     const nh_model *model;
     const nh_state *initial;
@@ -18,7 +25,11 @@ typedef struct {
     size_t currents;          /* of the chart, known to be conserved: they may make states superfluous there */
     const nh_ex *current;
     bool project;             /* velocities that violate the constraints are replaced by the nearest that satisfy them */
-    const nh_method *method;  /* with error control; NULL: CVODE Adams */
+    const nh_method *method;  /* NULL: CVODE Adams */
+    double step;              /* of methods with a fixed step, which take the model's own equations, and all states */
+    nh_programs *programs;    /* of the model, for them; NULL: made for this motion */
+    nh_velocities velocities;   /* where they can be used; the model's own otherwise */
+    const nh_model *other;    /* for NH_OTHER_VELOCITIES */
     double max_seconds;       /* 0: none; a motion that takes longer is not complete */
 } nh_trajectory_request;
 
@@ -46,6 +57,10 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
  * equations were evaluated, or NULL. */
 nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *options, char *machine,
                                 nh_error *error);
+
+/* Does the chart's pivot change sign on the way from z0 at times[0] to times[1]?  CVODE watches it, other methods step over it: this is to be asked before
+ * another method runs. */
+bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2], const nh_flow_options *options);
 
 /* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */
 bool nh_may_leave_chart(const nh_model *model);

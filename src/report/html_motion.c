@@ -269,6 +269,10 @@ void nh_html_motion(nh_html_writer *w)
     nh_html_number(w, v->begin, 4);
     nh_html_add(w, " to ");
     nh_html_number(w, v->end, 6);
+    if (v->checked) {
+        nh_html_add(w, ": ");
+        nh_html_text(w, v->accuracy.why);
+    }
     nh_html_add(w, ".</p>\n");
     nh_html_course(w, c);
     nh_course_free(c);

@@ -11,7 +11,7 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     size_t count = e ? e->count : s->motion->count;
     const double *time = e ? e->time : s->motion->time;
     bool complete = e ? e->incomplete == 0 : s->motion->complete;
-    nh_text_addf(w->out, "<p class=\"answer %s\">", complete && !(s->checked && !s->accuracy.held) ? "found" : "undecided");
+    nh_text_addf(w->out, "<p class=\"answer %s\">", complete && !(s->checked && !s->held) ? "found" : "undecided");
     if (e) {
         nh_html_count(w, e->members);
         nh_html_add(w, " motions");
@@ -27,12 +27,14 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     nh_html_text(w, s->method);
     nh_html_add(w, " in ");
     nh_html_chart(w, s->formulation);
-    nh_html_add(w, ", tolerance ");
-    nh_html_number(w, s->tolerance, 2);
+    if (!isnan(s->tolerance)) { /* a fixed step is told below */
+        nh_html_add(w, ", tolerance ");
+        nh_html_number(w, s->tolerance, 2);
+    }
     nh_html_add(w, ".");
     if (s->checked) {
-        nh_html_add(w, " ");
-        nh_html_text(w, s->accuracy.why);
+        nh_html_add(w, " Accuracy: ");
+        nh_html_text(w, s->why);
         nh_html_add(w, ".");
     }
     nh_html_add(w, "</p>\n");

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/json.h"
 #include "base/memory.h"
 #include "report/course.h"
 
@@ -57,6 +56,43 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
     }
 }
 
+void nh_accuracy_json(const nh_accuracy *a, nh_json *root)
+{
+    if (!a) {
+        nh_json_put_null(root, "accuracy");
+        return;
+    }
+    nh_json *item = nh_json_put_object(root, "accuracy");
+    nh_json_put_number(item, "wanted", a->wanted);
+    nh_json_put_bool(item, "held", a->held);
+    nh_json_put_number(item, "estimate", a->estimate);
+    nh_json_put_number(item, "step", a->step);
+    nh_json_put_bool(item, "measured", a->measured);
+    nh_json_put_text(item, "second", a->second);
+    nh_json_put_number(item, "difference", a->difference);
+    nh_json_put_number(item, "runs", a->runs);
+    nh_json_put_number(item, "evaluations", (double)a->evaluations);
+    nh_json_put_text(item, "why", a->why);
+}
+
+static void put_accuracy_of_all(const nh_simulation *s, nh_json *root)
+{
+    if (!s->checked) {
+        nh_json_put_null(root, "accuracy");
+        return;
+    }
+    const nh_ensemble_accuracy *a = &s->accuracy_of_all;
+    nh_json *item = nh_json_put_object(root, "accuracy");
+    nh_json_put_number(item, "wanted", a->wanted);
+    nh_json_put_bool(item, "held", a->held);
+    nh_json_put_number(item, "estimate", a->estimate);
+    nh_json_put_number(item, "alone", (double)a->alone);
+    nh_json_put_number(item, "unsure", (double)a->unsure);
+    nh_json_put_number(item, "runs", a->runs);
+    nh_json_put_number(item, "evaluations", (double)a->evaluations);
+    nh_json_put_text(item, "why", a->why);
+}
+
 char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
 {
     const nh_ensemble *e = s->ensemble;
@@ -67,6 +103,7 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
     nh_json_put_text(root, "scene", s->scene);
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", e->incomplete == 0);
+    put_accuracy_of_all(s, root);
     nh_json_put_numbers(root, "time", e->count, e->time, 1);
     nh_json *members = nh_json_put_array(root, "members");
     for (size_t i = 0; i < e->members; i++) {
@@ -82,24 +119,6 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
     if (e->incomplete) nh_json_add_text(warnings, e->note);
     if (run) nh_run_json(run, s->system, root);
     return nh_json_finish(root);
-}
-
-static void put_accuracy(const nh_simulation *s, nh_json *root)
-{
-    if (!s->checked) {
-        nh_json_put_null(root, "accuracy");
-        return;
-    }
-    const nh_accuracy *a = &s->accuracy;
-    nh_json *item = nh_json_put_object(root, "accuracy");
-    nh_json_put_number(item, "wanted", a->wanted);
-    nh_json_put_bool(item, "held", a->held);
-    nh_json_put_number(item, "estimate", a->estimate);
-    nh_json_put_text(item, "second", a->second);
-    nh_json_put_number(item, "difference", a->difference);
-    nh_json_put_number(item, "runs", a->runs);
-    nh_json_put_number(item, "evaluations", (double)a->evaluations);
-    nh_json_put_text(item, "why", a->why);
 }
 
 char *nh_motion_json(const nh_simulation *s, const nh_run *run)
@@ -119,7 +138,7 @@ char *nh_motion_json(const nh_simulation *s, const nh_run *run)
     }
     nh_json_put_number(root, "tolerance", s->tolerance);
     nh_json_put_bool(root, "complete", s->motion->complete);
-    put_accuracy(s, root);
+    nh_accuracy_json(s->checked ? &s->accuracy : NULL, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
     nh_course *c = nh_course_of_simulation(s);
     for (int kind = NH_TRACK_STATE; kind <= NH_TRACK_WATCH; kind++) nh_course_json(c, root, groups[kind], (nh_track_kind)kind);

@@ -2,6 +2,7 @@
 #ifndef NH_MOTION_REPORT_H
 #define NH_MOTION_REPORT_H
 
+#include "base/json.h"
 #include "base/text.h"
 #include "report/run.h"
 #include "study/simulate.h"
@@ -9,6 +10,9 @@
 void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head line, then a row per output time */
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
 char *nh_motion_json(const nh_simulation *simulation, const nh_run *run);
+
+/* The member `accuracy` of a motion; null when a is NULL. */
+void nh_accuracy_json(const nh_accuracy *a, nh_json *root);
 
 /* The same of an ensemble: a column `member` in front; a list of objects. */
 void nh_ensemble_csv(const nh_simulation *simulation, nh_text *out);

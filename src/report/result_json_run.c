@@ -1,6 +1,7 @@
 #include <math.h>
 
 #include "report/course.h"
+#include "report/motion.h"
 #include "report/result_json_internal.h"
 
 /* ---- the motion ---- */
@@ -36,6 +37,7 @@ void nh_result_json_validation(const nh_result *r, nh_json *to)
     nh_json_put_bool(item, "complete", v->complete);
     nh_json_put_number(item, "evaluations", (double)v->evaluations);
     nh_json_put_numbers(item, "tolerances", NH_DRIFT_RUNS, v->tolerance, 1);
+    nh_accuracy_json(v->checked ? &v->accuracy : NULL, item);
     nh_json *drift = nh_json_put_object(item, "drift");
     for (size_t k = 0; k < v->currents; k++) nh_json_put_numbers(drift, r->found[k].name, NH_DRIFT_RUNS, v->current[k].drift, 1);
     if (v->multiplier_form) {

@@ -147,6 +147,7 @@ void nh_summary_motion(nh_summary_writer *w)
     if (!v) return;
     nh_summary_heading(w, "Checked along a motion");
     nh_text_addf(w->out, "  %s in %s, t = %g to %.6g, %ld evaluations\n", v->method, v->chart, v->begin, v->end, v->evaluations);
+    if (v->checked) nh_text_addf(w->out, "  %s\n", v->accuracy.why);
     if (!isnan(v->crossing))
         nh_text_addf(w->out, "  the chart of %s breaks down at t = %.4g; this one is regular there\n", v->crossing_chart, v->crossing);
     if (v->currents) {

@@ -190,7 +190,7 @@ static const nh_watch *list_tracks(nh_result *r)
     return watch;
 }
 
-static void validate(nh_result *r)
+static void validate(nh_result *r, const nh_analyze_request *q)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
@@ -208,7 +208,11 @@ static void validate(nh_result *r)
         if (series) valid[k] = (nh_valid){series->coordinate, series->low, series->high};
     }
     const nh_watch *watch = list_tracks(r);
-    r->validation = nh_validate(r->model, r->other, r->count, phi, valid, r->tracks.count, watch, &initial, r->options.until, motion_outputs, &r->options, &trouble);
+    nh_ranking ranking = {.count = 0};
+    if (q->accuracy > 0 && q->remember) nh_ranking_read(nh_ranking_key(r->model), r->arena, &ranking);
+    nh_validation_request request = {.model = r->model, .other = r->other, .currents = r->count, .current = phi, .valid = valid, .watches = r->tracks.count, .watch = watch, .initial = &initial,
+                                     .until = r->options.until, .outputs = motion_outputs, .options = &r->options, .accuracy = q->accuracy, .ways = nh_ranking_adaptive(&ranking), .way = ranking.way};
+    r->validation = nh_validate(&request, &trouble);
     if (!r->validation) {
         nh_result_warn(r, "no motion was computed: %s", trouble.what);
         return;
@@ -220,6 +224,7 @@ static void validate(nh_result *r)
                            r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
     }
     if (r->validation->note[0]) nh_result_warn(r, "%s", r->validation->note);
+    if (r->validation->checked && !r->validation->accuracy.held) nh_result_warn(r, "%s", r->validation->accuracy.why);
 }
 
 /* ---- the pipeline ---- */
@@ -260,7 +265,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     conclude(r);
     nh_integrals_of_constraints(r);
     nh_progress("a motion to check it", -1);
-    if (!nh_interrupted()) validate(r);
+    if (!nh_interrupted()) validate(r, q);
     if (!nh_interrupted() && !q->no_figures) nh_figures_compute(r, q, families, family);
     if (nh_interrupted()) {
         r->partial = true;

@@ -309,11 +309,18 @@ static bool conserved(nh_reduction *r)
 
 nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
 {
+    static const double finest = 1e-14; /* tolerance */
     nh_arena *arena = nh_arena_create();
     nh_reduction *r = nh_arena_alloc(arena, sizeof *r);
     r->arena = arena;
     r->begin = clock();
     r->options = q->options;
+    if (q->accuracy > 0) r->options.tolerance = q->accuracy / NH_REDUCTION_ALLOWED;
+    if (!(r->options.tolerance >= finest)) {
+        nh_fail(error, NH_USAGE, "", "reduced motions can be compared to %.0e at best, not to %.0e", NH_REDUCTION_ALLOWED * finest, q->accuracy);
+        nh_reduction_free(r);
+        return NULL;
+    }
     r->until = q->options.until;
     r->chain_text = q->chain;
     r->chart = q->chart;

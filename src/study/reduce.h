@@ -25,6 +25,7 @@ typedef struct {
     bool weak;                /* symmetries that change L by a total derivative count, too */
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
+    double accuracy;          /* to which reduced and full motions must agree, instead of options.tolerance, which is then a hundredth of it; 0: none is asked for */
     nh_options options;
 } nh_reduce_request;
 

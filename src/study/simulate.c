@@ -1,4 +1,4 @@
-#include "study/simulate.h"
+#include "study/simulate_internal.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -30,7 +30,9 @@ nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error 
 
 static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis **own, nh_error *error)
 {
+    double begin = nh_clock();
     s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
+    s->deriving = nh_clock() - begin;
     if (!s->model || (s->analysis && !nh_analysis_resolve(s->analysis, s->model, error))) return false;
     return !q->initial || ((*own = nh_simulate_initial(s->arena, q->initial, error)) && nh_analysis_resolve(*own, s->model, error));
 }
@@ -185,16 +187,6 @@ static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_er
     return true;
 }
 
-static const char *words_of(nh_simulation *s, const nh_scene *scene)
-{
-    nh_text words;
-    nh_text_init(&words);
-    nh_scene_words(scene, &words);
-    const char *kept = nh_arena_strdup(s->arena, nh_text_string(&words));
-    nh_text_clear(&words);
-    return kept;
-}
-
 /* What the smallest model saves, and whether it is right: the whole model beside it, while that costs little. */
 static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
 {
@@ -222,34 +214,6 @@ static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
     s->whole_seconds = all;
 }
 
-static const char *idle_words_of(nh_simulation *s, const nh_scene *scene)
-{
-    nh_text words;
-    nh_text_init(&words);
-    nh_scene_idle_words(scene, &words);
-    const char *kept = nh_arena_strdup(s->arena, nh_text_string(&words));
-    nh_text_clear(&words);
-    return kept;
-}
-
-static bool integrate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *request, nh_error *error)
-{
-    size_t size = s->model->m + s->model->n;
-    double *z0 = nh_arena_alloc(s->arena, size * sizeof *z0), *initial = nh_alloc_array(q->ensemble, size * sizeof *initial);
-    nh_dynamics *d = nh_dynamics_create(s->model);
-    if (nh_dynamics_start(d, request->initial, request->project, z0, error)) {
-        nh_ensemble_states(size, z0, q->ensemble, q->spread, (uint64_t)q->options.seed, initial);
-        s->ensemble = nh_ensemble_create(request, q->ensemble, initial, (size_t)q->options.threads, error);
-    }
-    nh_dynamics_free(d);
-    nh_free(initial);
-    if (!s->ensemble) return false;
-    s->method = "Prince-Dormand 8, in batches";
-    s->formulation = "reduced equations";
-    s->scene = words_of(s, s->ensemble->scene);
-    return true;
-}
-
 /* What the system file knows, in the model's chart: currents, and the momenta p_s xi^s of its symmetries (which the scene tests). */
 static size_t known_currents(nh_simulation *s, nh_ex **out)
 {
@@ -269,6 +233,21 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
     return n;
 }
 
+/* Is it worth while to derive the equations in coordinate velocities?  Only if a chart says so, and the motion is long. */
+static void consider_other_velocities(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion)
+{
+    static const double runs = 3;
+    nh_way_limits limits = {.scene = motion->smallest, .spacing = INFINITY};
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    const nh_way *own = nh_way_cheapest(s->ranking.count, s->ranking.way, q->accuracy, &limits).way;
+    limits.other = true;
+    const nh_way *any = nh_way_cheapest(s->ranking.count, s->ranking.way, q->accuracy, &limits).way;
+    if (!any || any->velocities != NH_OTHER_VELOCITIES || q->chart != NH_CHART_AUTO || !s->model->chart->quasi) return;
+    double span = fabs(motion->times[motion->count - 1] - motion->times[0]), saved = own ? runs * span * (own->seconds - any->seconds) : INFINITY;
+    if (saved > s->deriving) s->other = nh_model_create(s->system, nh_chart_create(s->system, NH_CHART_COORDINATES, (uint64_t)q->options.seed, &ignored), &ignored);
+}
+
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
 {
     nh_options options = q->options;
@@ -279,19 +258,22 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
                                      .smallest = q->watch || q->scene, .project = q->project};
     nh_ex *known;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
-    if (q->ensemble && q->accuracy > 0) return nh_fail(error, NH_USAGE, "", "--ensemble and --accuracy do not go together; --tolerance sets that of the members");
-    if (q->ensemble) return integrate_many(s, q, &request, error);
     s->checked = q->accuracy > 0;
-    s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, &s->accuracy, error) : nh_trajectory_create(&request, error);
+    bool charted = s->checked && q->remember && nh_ranking_read(nh_ranking_key(s->model), s->arena, &s->ranking);
+    if (q->ensemble) return nh_simulate_many(s, q, &request, error);
+    if (charted) consider_other_velocities(s, q, &request);
+    request.other = s->other;
+    s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, s->ranking.count, s->ranking.way, &s->accuracy, error) : nh_trajectory_create(&request, error);
     if (!s->trajectory) return false;
-    if (s->checked) s->tolerance = s->accuracy.tolerance;
+    if (s->checked) s->tolerance = s->accuracy.tolerance, s->held = s->accuracy.held, s->why = s->accuracy.why;
+    if (s->checked && s->held && !s->ranking.count && q->remember && nh_ranking_possible()) strcat(s->accuracy.why, "; `nhsym chart` would measure which method is the cheapest");
     s->motion = s->trajectory->motion;
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
     if (!s->trajectory->scene) return true;
-    s->scene = words_of(s, s->trajectory->scene);
-    s->idle = idle_words_of(s, s->trajectory->scene);
+    s->scene = nh_simulate_words(s, s->trajectory->scene, nh_scene_words);
+    s->idle = nh_simulate_words(s, s->trajectory->scene, nh_scene_idle_words);
     if (!s->checked) compare_with_whole(s, &request);
     return true;
 }
@@ -397,7 +379,7 @@ nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
         nh_error_clear(&ignored);
         other.chart = NH_CHART_COORDINATES;
         nh_simulation *s = simulate_in_chart(&other, &ignored);
-        if (s && s->trajectory->scene && s->motion->complete && (!s->checked || s->accuracy.held)) return s; /* the chart may end on the way */
+        if (s && s->trajectory->scene && s->motion->complete && (!s->checked || s->held)) return s; /* the chart may end on the way */
         nh_simulation_free(s);
     }
     return simulate_in_chart(q, error);
@@ -408,6 +390,7 @@ void nh_simulation_free(nh_simulation *s)
     if (!s) return;
     nh_trajectory_free(s->trajectory);
     nh_ensemble_free(s->ensemble);
+    nh_model_free(s->other);
     nh_model_free(s->model);
     nh_analysis_free(s->analysis);
     nh_system_free(s->system);

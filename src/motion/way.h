@@ -1,0 +1,37 @@
+/* way: how a motion can be computed, as it was measured before: a method, in some equations, and what a run of it cost and gave. */
+#ifndef NH_WAY_H
+#define NH_WAY_H
+
+#include "motion/trajectory.h"
+
+typedef struct {
+    const nh_method *method;
+    nh_velocities velocities;
+    double tolerance, step; /* of the run that was measured; one of them is NAN */
+    double error;           /* that it had; not below what the reference could tell */
+    double seconds;         /* per unit of time of the motion */
+} nh_way;
+
+/* A multistep or an implicit method can damp what grows: another one is to confirm it. */
+bool nh_way_doubtful(const nh_method *method);
+
+/* What can be used with a request. */
+typedef struct {
+    bool scene;     /* only the equations of the model itself, by methods with error control */
+    bool other;     /* other velocities, too */
+    double spacing; /* of the outputs, at which fixed steps end: longer ones are of no use */
+} nh_way_limits;
+
+typedef struct {
+    const nh_way *way;       /* NULL: none was measured below eps */
+    const nh_method *second; /* that confirms it where it is doubtful: the cheapest other one with error control; NULL: none was measured */
+    double next;             /* how many times as long the cheapest by another method or in other equations takes; NAN: there is none */
+} nh_way_choice;
+
+/* The cheapest run whose error was below eps, counted with its confirmation. */
+nh_way_choice nh_way_cheapest(size_t n, const nh_way *way, double eps, const nh_way_limits *limits);
+
+/* The tolerance or step at which the error is expected to be `error`, from the run that was measured. */
+double nh_way_setting(const nh_way *way, double error);
+
+#endif

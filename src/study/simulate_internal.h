@@ -1,0 +1,13 @@
+/* simulate_internal: what simulate.c and simulate_many.c share. */
+#ifndef NH_SIMULATE_INTERNAL_H
+#define NH_SIMULATE_INTERNAL_H
+
+#include "study/simulate.h"
+
+/* What `write` says of a scene, in the simulation's memory. */
+const char *nh_simulate_words(nh_simulation *s, const nh_scene *scene, void (*write)(const nh_scene *scene, nh_text *out));
+
+/* An ensemble instead of the one motion that `motion` asks for. */
+bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, const nh_trajectory_request *motion, nh_error *error);
+
+#endif

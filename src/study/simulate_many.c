@@ -1,0 +1,32 @@
+/* simulate_many: ensembles of motions. */
+#include "study/simulate_internal.h"
+
+const char *nh_simulate_words(nh_simulation *s, const nh_scene *scene, void (*write)(const nh_scene *scene, nh_text *out))
+{
+    nh_text words;
+    nh_text_init(&words);
+    write(scene, &words);
+    const char *kept = nh_arena_strdup(s->arena, nh_text_string(&words));
+    nh_text_clear(&words);
+    return kept;
+}
+
+bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion, nh_error *error)
+{
+    size_t size = s->model->m + s->model->n, threads = (size_t)q->options.threads;
+    double *z0 = nh_arena_alloc(s->arena, size * sizeof *z0), *initial = nh_alloc_array(q->ensemble, size * sizeof *initial);
+    nh_dynamics *d = nh_dynamics_create(s->model);
+    if (nh_dynamics_start(d, motion->initial, motion->project, z0, error)) {
+        nh_ensemble_states(size, z0, q->ensemble, q->spread, (uint64_t)q->options.seed, initial);
+        if (s->checked) s->ensemble = nh_ensemble_accurate(motion, q->ensemble, initial, threads, q->accuracy, s->ranking.count, s->ranking.way, &s->accuracy_of_all, error);
+        else s->ensemble = nh_ensemble_create(motion, q->ensemble, initial, threads, error);
+    }
+    nh_dynamics_free(d);
+    nh_free(initial);
+    if (!s->ensemble) return false;
+    if (s->checked) s->tolerance = s->accuracy_of_all.tolerance, s->held = s->accuracy_of_all.held, s->why = s->accuracy_of_all.why;
+    s->method = "Prince-Dormand 8, in batches";
+    s->formulation = "reduced equations";
+    s->scene = nh_simulate_words(s, s->ensemble->scene, nh_scene_words);
+    return true;
+}
