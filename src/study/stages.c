@@ -269,49 +269,6 @@ static void stage_weights(nh_shelf *s)
     if (f.n && is_magnetic(s)) nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &v), nh_shelf_terms(s, &x), nh_shelf_terms(s, &f)}));
 }
 
-/* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the energy (Kovalevskaya's
- * integral, Toda's, Calogero's). */
-static void weighted(nh_shelf *s, const nh_list *u, const nh_list *f)
-{
-    nh_list ff = nh_list_squares(s, f);
-    nh_shelf_add(s, nh_shelf_polynomial(s, u, 4));
-    if (f->n) nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_polynomial(s, u, 2), nh_shelf_terms(s, f)}));
-    nh_shelf_add(s, nh_shelf_terms(s, &ff));
-}
-
-/* Terms of the potential and, where these stay few, their derivatives by the angles again: a rotor adds the component of gravity along it. */
-static nh_list weight_two(const nh_shelf *s)
-{
-    enum { most = 10, few = 7 };
-    nh_dag *d = s->o->dag;
-    nh_list f = {0};
-    nh_list_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
-    nh_list more = f;
-    for (size_t i = 0; i < f.n; i++)
-        for (size_t j = 0; j < s->w->waves; j++) {
-            nh_ex slope = nh_diff(d, f.e[i], s->w->wave[j]), factor = nh_kind_of(d, slope) == NH_PRODUCT ? nh_number(d, nh_constant_of(d, slope)) : nh_int(d, 1);
-            if (nh_kind_of(d, slope) != NH_NUMBER) nh_list_put(&more, nh_div(d, slope, factor));
-        }
-    return more.n <= few ? more : f;
-}
-
-static void stage_weight_4(nh_shelf *s)
-{
-    nh_list u = {0}, f = weight_two(s);
-    if (s->w->frames == s->o->n) nh_list_put_all(&u, s->w->frames, s->w->frame);
-    else nh_list_put_all(&u, s->o->n, s->o->chart->w);
-    weighted(s, &u, &f);
-}
-
-/* The same in the forms that the system itself shows, where they are as many as the velocities. */
-static void stage_forms_4(nh_shelf *s)
-{
-    nh_list u = {0}, f = weight_two(s);
-    if (s->w->forms != s->o->n) return;
-    nh_list_put_all(&u, s->w->forms, s->w->form);
-    weighted(s, &u, &f);
-}
-
 /* Rational: P / v with P linear. */
 static void stage_ratios(nh_shelf *s)
 {
@@ -342,8 +299,8 @@ static const struct {
     {"energy, momenta and forms times positions and the system's own functions", stage_functions},
     {"total degree 2 times the system's own functions", stage_degree_2},
     {"quadratic forms times positions", stage_weights},
-    {"weighted degree 4 in the frame of the kinetic energy", stage_weight_4},
-    {"weighted degree 4 in the system's own forms", stage_forms_4},
+    {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
+    {"weighted degree 4 in the system's own forms", nh_stage_forms_4},
     {"squares of velocities times positions of higher degree, energy and functions times lower", nh_stage_separation},
     {"cubic in velocities times positions, velocities times functions and positions", nh_stage_cubic},
     {"degree four in velocities, as homogeneous as the potential", nh_stage_homogeneous},

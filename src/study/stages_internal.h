@@ -37,6 +37,12 @@ nh_family nh_shelf_polynomial(nh_shelf *shelf, const nh_list *list, size_t degre
 void nh_shelf_add(nh_shelf *shelf, nh_family family);
 void nh_shelf_product_of_lists(nh_shelf *shelf, const nh_list *a, const nh_list *b);
 
+/* ---- stages_weighted.c ---- */
+
+/* Degree four with weights, in the frame of the kinetic energy and in the system's own forms. */
+void nh_stage_weight_4(nh_shelf *shelf);
+void nh_stage_forms_4(nh_shelf *shelf);
+
 /* ---- stages_separation.c ---- */
 
 void nh_stage_separation(nh_shelf *shelf);
