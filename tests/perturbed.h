@@ -6,6 +6,7 @@
 
 #include "catalogue.h"
 #include "rewrite.h"
+#include "scratch.h"
 #include "system/sample.h"
 
 enum { PERTURBATIONS = 3 };
@@ -59,15 +60,14 @@ static size_t survivors(const nh_result *r, nh_ex term, nh_ex *out)
 static perturbed perturbed_copy(const char *folder, const char *name, size_t which, uint64_t seed, const nh_options *wanted)
 {
     perturbed p = {0};
-    char from[4096], path[] = "/tmp/nhsym-perturbed-XXXXXX";
+    char from[4096], path[SCRATCH];
     nh_error error = {0};
     nh_options options = *wanted;
     options.steps = 2000; /* the motions are not what is judged here */
     snprintf(from, sizeof from, "%s/%s.yaml", folder, name);
     nh_analyze_request q = {.system_path = from, .options = options};
     nh_result *r = nh_analyze(&q, &error);
-    int file = r ? mkstemp(path) : -1;
-    FILE *out = file < 0 ? NULL : fdopen(file, "w");
+    FILE *out = r ? scratch_open(path) : NULL;
     if (!out) {
         p.o.wrong = 1;
         note(&p.o, "error:", error.what);

@@ -565,6 +565,48 @@ Test(analyze, almost_conserved_is_told_apart)
     nh_result_free(r);
 }
 
+/* Definitions that use each other many times over: the potential would be longer than any memory when written out, and is a small graph. */
+Test(analyze, definitions_upon_definitions, .timeout = 120)
+{
+    enum { levels = 45 };
+    char text[levels * 60 + 300];
+    size_t n = (size_t)sprintf(text, "name: deep\nparameters: [{name: m, value: 1.5}]\ncoordinates: [{name: x, type: length}]\ndefinitions:\n  - d0 = x/m\n");
+    for (int i = 0; i < levels; i++) n += (size_t)sprintf(text + n, "  - d%d = (d%d + 1)*(d%d + 2)/(3 + d%d^2)\n", i + 1, i, i, i);
+    sprintf(text + n, "lagrangian: m*x'^2/2 - d%d\n", levels);
+    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    cr_expect_eq(r->model->n, 1u);
+    nothing_false(r);
+    nh_result_free(r);
+}
+
+/* What a current is called, it is: sign, factor and all. */
+Test(analyze, meanings_are_true, .timeout = 120)
+{
+    static const char *const systems[] = {"sleigh", "vertical_disk", "heisenberg_particle", "rolling_ball", "charged_particle", "euler_top"};
+    size_t energies = 0, momenta = 0;
+    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);
+        nh_result *r = ask((question){.system = path});
+        nh_dag *d = r->model->dag;
+        for (size_t k = 0; k < r->count; k++) {
+            const nh_found *f = &r->found[k];
+            const char *momentum = strstr(f->meaning, "momentum of ");
+            bool minus = !strncmp(f->meaning, "minus the ", 10), multiple = !strncmp(f->meaning, "a multiple of the ", 18);
+            nh_ex e = r->model->E;
+            cr_expect_eq(f->energy, strstr(f->meaning, "energy") != NULL);
+            if (!momentum && !f->energy) continue;
+            for (size_t s = 0; momentum && s < r->model->m; s++)
+                if (!strcmp(momentum + 12, r->system->coordinate[s].name)) e = r->model->p[s];
+            cr_expect(multiple || nh_is_zero(d, nh_simplify(d, nh_sub(d, f->phi, minus ? nh_neg(d, e) : e))), "%s: %s is not the %s", systems[i], f->name, f->meaning);
+            energies += f->energy;
+            momenta += momentum != NULL;
+        }
+        nh_result_free(r);
+    }
+    cr_expect(energies == sizeof systems / sizeof *systems && momenta > 5, "%zu energies, %zu momenta", energies, momenta);
+}
+
 /* Coefficients that solve a linear equation without elementary solutions (the disk's are of Legendre type): a series each, certified by its
  * refinement; with the energy they are three of the disk's currents.  They must be new, linear and constant to rounding inside the interval. */
 Test(analyze, series_of_the_rolling_disk, .timeout = 120)

@@ -8,9 +8,11 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "base/memory.h"
 #include "base/text.h"
 
@@ -173,6 +175,19 @@ Test(memory, a_handler_that_returns_aborts, .signal = SIGABRT)
     nh_free(nh_realloc_array(NULL, SIZE_MAX / 2, 3));
 }
 
+#ifndef __SANITIZE_ADDRESS__ /* whose own memory needs an address space without limit */
+/* A JSON that lacks what did not fit into memory would be wrong without anybody's notice. */
+Test(memory, a_json_without_room_goes_to_the_handler, .exit_code = 56)
+{
+    nh_memory_set_handler(leave);
+    nh_json *root = nh_json_object(), *list = nh_json_put_array(root, "list");
+    struct rlimit limit = {1 << 28, 1 << 28};
+    cr_assert_eq(setrlimit(RLIMIT_AS, &limit), 0);
+    for (int i = 0; i < 10000000; i++) nh_json_add_number(list, i + 0.5);
+    nh_free(nh_json_finish(root));
+}
+#endif
+
 /* Small and large blocks in turn keep their contents and do not overlap. */
 Test(memory, an_arena_keeps_what_it_gave)
 {
@@ -271,6 +286,27 @@ Test(text, every_number_reads_back)
         nh_text_number(value, out, sizeof out);
         cr_assert_eq(strtod(out, NULL), value, "%s", out);
         cr_assert_lt(strlen(out), 25u);
+    }
+}
+
+/* Decimal numbers as people write them, and nothing that would silently become another: no value beyond the range of doubles, no hexadecimal digits. */
+Test(text, what_is_read_as_a_number)
+{
+    static const struct {
+        const char *text;
+        bool is, fits;
+        double value;
+    } sample[] = {
+        {"0", true, true, 0}, {"-0.0e7", true, true, 0}, {"+2.5", true, true, 2.5}, {".5e1", true, true, 5}, {"7.", true, true, 7}, {"1E-3", true, true, 1e-3},
+        {"1e308", true, true, 1e308}, {"5e-324", true, true, 5e-324}, {"0e-999", true, true, 0}, {"1e309", true, false, 0}, {"-1e999", true, false, 0},
+        {"1e-999", true, false, 0}, {"-0.001e-400", true, false, 0}, {"", false, false, 0}, {".", false, false, 0}, {"-", false, false, 0}, {"1e", false, false, 0},
+        {"1e+", false, false, 0}, {"0x10", false, false, 0}, {"inf", false, false, 0}, {"nan", false, false, 0}, {" 1", false, false, 0}, {"1 ", false, false, 0}, {"1,5", false, false, 0},
+    };
+    for (size_t i = 0; i < sizeof sample / sizeof *sample; i++) {
+        double value = 77;
+        cr_expect_eq(nh_text_is_number(sample[i].text), sample[i].is, "`%s`", sample[i].text);
+        cr_expect_eq(nh_text_to_number(sample[i].text, &value), sample[i].fits, "`%s`", sample[i].text);
+        cr_expect_eq(value, sample[i].fits ? sample[i].value : 77, "`%s`", sample[i].text);
     }
 }
 

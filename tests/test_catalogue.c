@@ -63,7 +63,7 @@ Test(catalogue, the_energy_belongs_to_time)
     nh_result *r = nh_analyze(&q, &error);
     cr_assert_not_null(r, "%s", error.what);
     const nh_found *f = r->found;
-    cr_assert(r->count > 0 && !strcmp(f->meaning, "energy") && f->has_symmetry);
+    cr_assert(r->count > 0 && !strcmp(f->meaning, "minus the energy") && f->has_symmetry);
     cr_expect(nh_is_number(r->model->dag, f->symmetry.Z0, 1));
     for (size_t s = 0; s < r->model->m; s++) cr_expect(nh_is_zero(r->model->dag, f->symmetry.field.space[s]), "along %s", r->system->coordinate[s].name);
     for (size_t i = 0; i < r->model->n; i++) cr_expect(nh_is_zero(r->model->dag, f->symmetry.W[i]), "along velocity %zu", i);

@@ -430,6 +430,53 @@ Test(chetaev, the_unit_of_mass_does_not_matter)
     cr_expect_gt(scaled[0], 1);
 }
 
+/* Bodies of 1e-12 and 1e12 and one between, coupled in the metric, under weights; y' + z' = 0.  Accelerations are constant: K a = -w - mu (0,1,1). */
+static const double unlike_mass[3] = {1.3e-12, 0.7e12, 2.1}, unlike_weight[3] = {0.9, -0.4, 0.3}, unlike_coupling = 0.4;
+
+static bool unlike_bodies(double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f, void *context)
+{
+    (void)t, (void)q, (void)context;
+    for (size_t i = 0; i < 3; i++) {
+        for (size_t j = 0; j < 3; j++) K[i + 3 * j] = (i == j ? 1 : unlike_coupling) * sqrt(unlike_mass[i] * unlike_mass[j]);
+        h[i] = unlike_mass[i] * unlike_weight[i];
+        F[i] = i > 0;
+    }
+    g[0] = 0;
+    f[0] = v[1] + v[2];
+    return true;
+}
+
+/* In velocities sqrt(m_i) v_i the metric is the same for all masses: C b = -h_i/s_i - mu F_i/s_i with b = s_i a_i, C = (1 - c) 1 + c e e^T. */
+static double unlike_acceleration(double a[3])
+{
+    double c = unlike_coupling, x[3], y[3], sum_x = 0, sum_y = 0, above = 0, below = 0, s[3];
+    for (size_t i = 0; i < 3; i++) s[i] = sqrt(unlike_mass[i]), x[i] = -s[i] * unlike_weight[i], y[i] = i > 0 ? -1 / s[i] : 0, sum_x += x[i], sum_y += y[i];
+    for (size_t i = 0; i < 3; i++) { /* C^-1 = (1 - c e e^T/(1 + 2 c))/(1 - c) */
+        x[i] = (x[i] - c * sum_x / (1 + 2 * c)) / (1 - c);
+        y[i] = (y[i] - c * sum_y / (1 + 2 * c)) / (1 - c);
+        if (i > 0) above += x[i] / s[i], below += y[i] / s[i];
+    }
+    for (size_t i = 0; i < 3; i++) a[i] = (x[i] - above / below * y[i]) / s[i];
+    return -above / below;
+}
+
+Test(chetaev, masses_of_very_different_size_are_not_singular)
+{
+    double times[] = {0, 0.5, 1}, start[6] = {0.1, 0.2, 0.3, 1, 0.5, -0.5}, a[3], mu = unlike_acceleration(a);
+    nh_chetaev_problem problem = {.coordinates = 3, .constraints = 1, .terms = unlike_bodies};
+    nh_chetaev_motion *result = run(&problem, start, 3, times, 1e-10);
+    cr_assert(result->motion->complete, "%s", result->motion->note);
+    for (size_t k = 0; k < 3; k++) {
+        const double *y = result->motion->state + 7 * k, t = times[k];
+        for (size_t i = 0; i < 3; i++) {
+            double q = start[i] + start[3 + i] * t + a[i] * t * t / 2;
+            cr_expect_float_eq(y[i], q, 1e-7 * (1 + fabs(q)), "coordinate %zu at %g: %g, not %g", i, t, y[i], q);
+        }
+        cr_expect_float_eq(y[6], mu, 1e-5 * fabs(mu), "multiplier at %g: %g, not %g", t, y[6], mu);
+    }
+    nh_chetaev_motion_free(result);
+}
+
 Test(chetaev, a_wall_in_the_terms_is_reported_and_nothing_is_printed, .init = cr_redirect_stderr)
 {
     pendulum_data data = plain;

@@ -48,6 +48,8 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --set k=two", "nhsym: --set k needs a number, found `two`\n"},
         {"analyze sleigh --set k=", "nhsym: --set k needs a number, found ``\n"},
         {"analyze sleigh --set k=nan", "nhsym: --set k needs a number, found `nan`\n"},
+        {"analyze sleigh --set k=1e-999", "nhsym: --set k needs a number, found `1e-999`\n"},
+        {"analyze sleigh --set k=0x10", "nhsym: --set k needs a number, found `0x10`\n"},
         {"analyze sleigh --set k=inf", "nhsym: --set k needs a number, found `inf`\n"},
         {"analyze sleigh --set kk=3", "nhsym: `kk` is not a parameter of sleigh\nhint: did you mean `k`?\n"},
         {"analyze sleigh --seed 1.5", "nhsym: the option `seed` is a whole number, found `1.5`\n"},

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "catalogue.h"
+#include "scratch.h"
 
 /* Is a current that is not certified conserved to the digits that are reported? */
 static bool holds(const multiplier_motion *motion, const nh_found *f)
@@ -56,11 +57,10 @@ Test(edges, frequencies_that_nearly_coincide)
 }
 
 /* A copy of the sleigh with another domain. */
-static void write_clustered(char *path, double r)
+static void write_clustered(char path[SCRATCH], double r)
 {
     char line[2000];
-    int file = mkstemp(path);
-    FILE *in = fopen("systems/sleigh.yaml", "r"), *out = file < 0 ? NULL : fdopen(file, "w");
+    FILE *in = fopen("systems/sleigh.yaml", "r"), *out = scratch_open(path);
     cr_assert(in && out);
     while (fgets(line, sizeof line, in)) {
         if (!strncmp(line, "  phi: [", 8)) fprintf(out, "  phi: [0.3, %.12f]\n", 0.3 + r);
@@ -76,7 +76,7 @@ static void write_clustered(char *path, double r)
 Test(edges, samples_that_lie_close_together)
 {
     for (double r = 0.1; r > 1e-6; r /= 10) {
-        char path[] = "/tmp/nhsym-edges-XXXXXX";
+        char path[SCRATCH];
         write_clustered(path, r);
         row o = judged(path, "analyses/sleigh.yaml", NULL, 0);
         cr_expect(o.wrong == 0, "edge %g: %s", r, o.names);

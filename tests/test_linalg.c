@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/saddle.h"
 
 extern int openblas_get_num_threads(void) __attribute__((weak));
 
@@ -392,6 +393,48 @@ Test(linalg, one_thread)
 {
     nh_linalg_threads(1);
     cr_assert(!openblas_get_num_threads || openblas_get_num_threads() == 1);
+}
+
+/* [K F^T; F 0]: units of coordinates and constraints, powers of two here, change the solution by these factors and by no rounding, nor its condition;
+ * the equations are satisfied, also by a K that is not positive or has a coordinate that only a constraint holds. */
+Test(linalg, bordered_equations_do_not_depend_on_units)
+{
+    enum { m = 4, k = 2 };
+    static const double metrics[][m * m] = {{4, 1, 0.5, 0.2, 1, 3, 0.3, -0.4, 0.5, 0.3, 2, 0.1, 0.2, -0.4, 0.1, 1}, /* positive */
+                                            {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 2, 0, 0, 2, 0.1},                      /* indefinite */
+                                            {1, 0.2, 0, 0, 0.2, 2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0}};                   /* without inertia along the last */
+    static const double F[k * m] = {1, 0, 0.3, 0.2, 0, 1, -0.7, 0.4}, h[m] = {1, -2, 0.5, 0.7}, g[k] = {0.3, -1}, none[k * m] = {0};
+    static const int of_coordinate[m] = {-60, 41, 0, 17}, of_constraint[k] = {33, -28};
+    double work[(m + k) * (m + k + 2) + 1], a[m], mu[k], rcond, K2[m * m], F2[k * m], h2[m], g2[k], a2[m], mu2[k], rcond2;
+    cr_assert_leq(nh_saddle_work(m, k), sizeof work / sizeof *work);
+    for (size_t which = 0; which < 3; which++) {
+        const double *K = metrics[which];
+        cr_assert(nh_saddle_solve(m, k, K, F, h, g, a, mu, &rcond, work) && rcond > 1e-3);
+        for (size_t i = 0; i < m; i++) {
+            double sum = h[i];
+            for (size_t j = 0; j < m; j++) sum += K[i + j * m] * a[j];
+            for (size_t c = 0; c < k; c++) sum += F[c + i * k] * mu[c];
+            cr_expect_float_eq(sum, 0, 1e-14, "metric %zu, row %zu: %g", which, i, sum);
+        }
+        for (size_t c = 0; c < k; c++) {
+            double sum = g[c];
+            for (size_t j = 0; j < m; j++) sum += F[c + j * k] * a[j];
+            cr_expect_float_eq(sum, 0, 1e-14, "metric %zu, constraint %zu: %g", which, c, sum);
+        }
+        if (which == 1) continue; /* the scales of 0 b; b 0 are known as a product only */
+        for (size_t i = 0; i < m; i++) {
+            for (size_t j = 0; j < m; j++) K2[i + j * m] = ldexp(K[i + j * m], 2 * (of_coordinate[i] + of_coordinate[j]));
+            for (size_t c = 0; c < k; c++) F2[c + i * k] = ldexp(F[c + i * k], of_constraint[c] + 2 * of_coordinate[i]);
+            h2[i] = ldexp(h[i], 2 * of_coordinate[i]);
+        }
+        for (size_t c = 0; c < k; c++) g2[c] = ldexp(g[c], of_constraint[c]);
+        cr_assert(nh_saddle_solve(m, k, K2, F2, h2, g2, a2, mu2, &rcond2, work), "metric %zu", which);
+        if (which == 0) cr_expect_eq(rcond, rcond2);
+        cr_expect_gt(rcond2, 1e-3, "metric %zu: %g", which, rcond2);
+        for (size_t i = 0; i < m; i++) cr_expect_float_eq(ldexp(a2[i], 2 * of_coordinate[i]), a[i], which ? 1e-13 : 0, "metric %zu: %g, not %g", which, a2[i], a[i]);
+        for (size_t c = 0; c < k; c++) cr_expect_float_eq(ldexp(mu2[c], of_constraint[c]), mu[c], which ? 1e-13 : 0, "metric %zu", which);
+    }
+    cr_expect_not(nh_saddle_solve(m, k, metrics[2], none, h, g, a, mu, &rcond, work), "nothing holds the last coordinate");
 }
 
 Test(linalg, empty_matrices_are_harmless)

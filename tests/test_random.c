@@ -5,6 +5,7 @@
 
 #include "catalogue.h"
 #include "random_system.h"
+#include "scratch.h"
 
 /* The sanitizers slow everything down about tenfold. */
 #ifdef __SANITIZE_ADDRESS__
@@ -27,9 +28,8 @@ static nh_options quick_options(void)
 
 static row analysed(random_system *r, const nh_options *options)
 {
-    char path[] = "/tmp/nhsym-random-XXXXXX";
-    int file = mkstemp(path);
-    FILE *out = file < 0 ? NULL : fdopen(file, "w");
+    char path[SCRATCH];
+    FILE *out = scratch_open(path);
     cr_assert_not_null(out);
     random_system_write(r, "random", out);
     fclose(out);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "report/reduction.h"
+#include "scratch.h"
 
 static nh_reduction *reduce_path(const char *path, const char *group, const char *chain, const char *initial, uint64_t seed, nh_error *error)
 {
@@ -18,12 +19,8 @@ static nh_reduction *reduce_path(const char *path, const char *group, const char
 /* A system written to a file of its own. */
 static nh_reduction *reduce_text(const char *text, const char *group, uint64_t seed, nh_error *error)
 {
-    char path[] = "/tmp/nhsym-reduce-XXXXXX";
-    int file = mkstemp(path);
-    cr_assert(file >= 0);
-    FILE *out = fdopen(file, "w");
-    fputs(text, out);
-    fclose(out);
+    char path[SCRATCH];
+    cr_assert(scratch_text(path, text));
     nh_reduction *r = reduce_path(path, group, NULL, NULL, seed, error);
     remove(path);
     return r;
@@ -269,16 +266,12 @@ Test(reduce, c_code_of_a_quotient_compiles)
     nh_reduction *r = reduce_text(text, NULL, 1, &error);
     must(r != NULL, &error, "z");
     cr_assert(r->stages == 1 && r->stage[0].kind == NH_STAGE_QUOTIENT);
-    char name[] = "/tmp/nhsym-c-XXXXXX", command[200];
-    int number = mkstemp(name);
-    cr_assert(number >= 0);
-    FILE *file = fdopen(number, "w");
+    char name[SCRATCH], command[SCRATCH + 100];
     nh_text code;
     nh_text_init(&code);
     nh_reduction_c(r, &code);
     cr_expect(strstr(nh_text_string(&code), "int stage1(double t, const double *state_, double *rate_, double *zeta_)") != NULL);
-    fputs(nh_text_string(&code), file);
-    fclose(file);
+    cr_assert(scratch_text(name, nh_text_string(&code)));
     snprintf(command, sizeof command, "${CC:-cc} -std=c99 -Wall -Wextra -Werror -fsyntax-only -x c %s", name);
     cr_expect_eq(system(command), 0);
     remove(name);
@@ -292,23 +285,16 @@ Test(reduce, c_code_computes_the_reduced_equations)
     nh_error error = {0};
     nh_reduction *r = reduce_path("systems/crane.yaml", NULL, NULL, NULL, 1, &error);
     must(r != NULL, &error, "crane");
-    char folder[] = "/tmp/nhsym-c-XXXXXX", name[200], command[700], line[100];
-    cr_assert(mkdtemp(folder));
-    snprintf(name, sizeof name, "%s/code.c", folder);
-    FILE *file = fopen(name, "w");
     nh_text code;
     nh_text_init(&code);
     nh_reduction_c(r, &code);
-    fprintf(file, "%s#include <stdio.h>\nint main(void)\n{\n    double z[20], rate[20] = {0}, zeta[20] = {0};\n", nh_text_string(&code));
-    double z[20];
+    nh_text_add(&code, "#include <stdio.h>\nint main(void)\n{\n    double z[20], rate[20] = {0}, zeta[20] = {0};\n");
+    double z[20], *got = nh_alloc_array(40 * r->stages, sizeof *got), *next = got;
     for (size_t i = 0; i < 20; i++) z[i] = 0.3 + 0.11 * (double)i - 0.007 * (double)(i * i);
-    for (size_t i = 0; i < 20; i++) fprintf(file, "    z[%zu] = %.17g;\n", i, z[i]);
-    for (size_t s = 0; s < r->stages; s++) fprintf(file, "    stage%zu(z, rate, zeta);\n    for (int i = 0; i < 20; i++) printf(\"%%.17g\\n%%.17g\\n\", rate[i], zeta[i]);\n", s + 1);
-    fprintf(file, "    return 0;\n}\n");
-    fclose(file);
-    snprintf(command, sizeof command, "cd %s && ${CC:-cc} -std=c99 -Wall -Wextra -Werror code.c -o code -lm && ./code", folder);
-    FILE *pipe = popen(command, "r");
-    cr_assert(pipe != NULL);
+    for (size_t i = 0; i < 20; i++) nh_text_addf(&code, "    z[%zu] = %.17g;\n", i, z[i]);
+    for (size_t s = 0; s < r->stages; s++) nh_text_addf(&code, "    stage%zu(z, rate, zeta);\n    for (int i = 0; i < 20; i++) printf(\"%%.17g\\n%%.17g\\n\", rate[i], zeta[i]);\n", s + 1);
+    nh_text_add(&code, "    return 0;\n}\n");
+    cr_assert_eq(scratch_run_c(nh_text_string(&code), got, 40 * r->stages), (long)(40 * r->stages), "%s", nh_text_string(&code));
     for (size_t s = 0; s < r->stages; s++) {
         const nh_reduced *o = r->stage[s].shown;
         double rate[20] = {0}, zeta[20] = {0};
@@ -316,15 +302,12 @@ Test(reduce, c_code_computes_the_reduced_equations)
         cr_assert(nh_reduced_flow_at(flow, z, rate, NULL, zeta, NULL));
         nh_reduced_flow_free(flow);
         for (size_t i = 0; i < 20; i++)
-            for (int which = 0; which < 2; which++) {
+            for (int which = 0; which < 2; which++, next++) {
                 double want = which ? zeta[i] : rate[i];
-                cr_assert(fgets(line, sizeof line, pipe));
-                if (i < (which ? o->d : o->n + o->r)) cr_expect_float_eq(strtod(line, NULL), want, 1e-11 * (1 + fabs(want)), "stage %zu, %d %zu: %s, not %g", s + 1, which, i, line, want);
+                if (i < (which ? o->d : o->n + o->r)) cr_expect_float_eq(*next, want, 1e-11 * (1 + fabs(want)), "stage %zu, %d %zu: %g, not %g", s + 1, which, i, *next, want);
             }
     }
-    cr_expect_eq(pclose(pipe), 0);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    cr_expect_eq(system(command), 0);
+    nh_free(got);
     nh_text_clear(&code);
     nh_text_init(&code);
     nh_reduction_latex(r, &code);

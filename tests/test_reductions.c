@@ -10,6 +10,7 @@
 #include "reduction/subspace.h"
 #include "report/reduction.h"
 #include "reductions.h"
+#include "scratch.h"
 
 static nh_reduction *reduce_file(const char *path, const char *initial, double seconds, nh_error *error)
 {
@@ -21,12 +22,8 @@ static nh_reduction *reduce_file(const char *path, const char *initial, double s
 
 static nh_reduction *reduce_text(const char *text, nh_error *error)
 {
-    char path[] = "/tmp/nhsym-reductions-XXXXXX";
-    int file = mkstemp(path);
-    cr_assert(file >= 0);
-    FILE *out = fdopen(file, "w");
-    fputs(text, out);
-    fclose(out);
+    char path[SCRATCH];
+    cr_assert(scratch_text(path, text));
     nh_reduction *r = reduce_file(path, NULL, -1, error);
     remove(path);
     return r;
@@ -303,11 +300,9 @@ Test(reductions, symmetries_up_to_a_total_derivative)
     static const char text[] = "name: s\nparameters: [{name: m, value: 1.3}, {name: g, value: 0.9}, {name: B, value: 0.7}]\n"
                                "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
                                "lagrangian: m*(x'^2 + y'^2 + z'^2)/2 - m*g*z + B/2*(x*y' - y*x')\n";
-    char path[] = "/tmp/nhsym-reductions-XXXXXX";
+    char path[SCRATCH];
     nh_error error = {0};
-    int file = mkstemp(path);
-    cr_assert(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text));
-    close(file);
+    cr_assert(scratch_text(path, text));
     nh_reduction *r = reduce_file(path, NULL, -1, &error);
     must(r != NULL, &error, "charge");
     cr_expect(r->all->action.d == 1 && r->weaker == 3, "%zu and %zu more", r->all->action.d, r->weaker);

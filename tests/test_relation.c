@@ -10,27 +10,12 @@
 #include "base/memory.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
-#include "expr/parse.h"
 #include "expr/print.h"
 #include "expr/relation.h"
 #include "expr/tape.h"
+#include "typed.h"
 
 enum { most = 24 };
-
-static bool any_symbol(void *dag, const char *name, nh_ex *out, nh_parse_fault *fault)
-{
-    (void)fault;
-    *out = nh_symbol(dag, name);
-    return true;
-}
-
-static nh_ex ex(nh_dag *dag, const char *text)
-{
-    nh_ex e = 0;
-    nh_parse_fault fault = {0};
-    cr_assert(nh_parse(dag, text, any_symbol, dag, &e, &fault), "%s: %s", text, fault.what);
-    return e;
-}
 
 /* "m a k" */
 static size_t symbols(nh_dag *dag, const char *names, nh_ex *out)

@@ -8,6 +8,7 @@
 
 #include "catalogue.h"
 #include "rewrite.h"
+#include "scratch.h"
 
 /* The sanitizers slow everything down about tenfold. */
 #ifdef __SANITIZE_ADDRESS__
@@ -76,9 +77,8 @@ static void answer_clear(answer *a)
 /* The changed system gives the same verdict and the same currents; `what` was changed. */
 static void expect_same(const answer *a, const char *name, const char *what, const nh_options *options, rewriting how, nh_chart_choice chart)
 {
-    char path[] = "/tmp/nhsym-same-XXXXXX";
-    int file = mkstemp(path);
-    FILE *out = file < 0 ? NULL : fdopen(file, "w");
+    char path[SCRATCH];
+    FILE *out = scratch_open(path);
     cr_assert_not_null(out);
     how.known = a->count;
     how.current = a->current;

@@ -158,6 +158,50 @@ Test(tex, documents_are_set_without_a_fault)
     if (!installed) cr_skip_test("no pdflatex with pgfplots");
 }
 
+/* The next number behind `before` is this one: where it begins; else NULL. */
+static const char *next_number(const char *at, const char *before, double number)
+{
+    at = strstr(at, before);
+    return at && strtod(at + strlen(before), NULL) == number ? at + strlen(before) : NULL;
+}
+
+/* A current without closed form is of use only with the coefficients of its series: document and page have all that the JSON has, row by row. */
+Test(tex, coefficients_of_a_series_are_told)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "analyze rolling_disk --quiet --tex a.tex --json a.json --html a.html", 0);
+    finished_clear(&f);
+    char *tex = read_here(&p, "a.tex"), *page = read_here(&p, "a.html"), *text = read_here(&p, "a.json");
+    cJSON *json = cJSON_Parse(text), *current;
+    const char *in_tex = tex, *in_page = page;
+    size_t told = 0;
+    cJSON_ArrayForEach(current, cJSON_GetObjectItem(json, "currents"))
+    {
+        const cJSON *series = cJSON_GetObjectItem(current, "series"), *rows = cJSON_GetObjectItem(series, "coefficients");
+        if (!cJSON_IsObject(series)) continue;
+        int degree = (int)cJSON_GetNumberValue(cJSON_GetObjectItem(series, "degree")), words = cJSON_GetArraySize(rows);
+        cr_assert(degree > 5 && words > 1);
+        in_tex = strstr(in_tex, "without closed form");
+        in_page = strstr(in_page, "Chebyshev coefficients");
+        cr_assert(in_tex && in_page);
+        in_tex = next_number(in_tex, "\\nhnumber{", cJSON_GetNumberValue(cJSON_GetObjectItem(series, "low")));
+        cr_assert_not_null(in_tex);
+        in_tex = next_number(in_tex, "\\nhnumber{", cJSON_GetNumberValue(cJSON_GetObjectItem(series, "high")));
+        for (int k = 0; k <= degree; k++)
+            for (int i = 0; i < words; i++, told++) {
+                double c = cJSON_GetNumberValue(cJSON_GetArrayItem(cJSON_GetArrayItem(rows, i), k));
+                cr_assert(in_tex && (in_tex = next_number(in_tex, "\\nhnumber{", c)), "coefficient %d of %d: %.17g", k, i, c);
+                cr_assert_not_null(in_page = next_number(in_page, "<data value=\"", c), "coefficient %d of %d: %.17g", k, i, c);
+            }
+    }
+    cr_expect_gt(told, 40u);
+    cJSON_Delete(json);
+    free(text), free(page), free(tex);
+    bool installed = set_in_type(&p, "a");
+    place_clear(&p);
+    if (!installed) cr_skip_test("no pdflatex with pgfplots");
+}
+
 /* What a file says is text, whatever it means to TeX, and in whatever script. */
 Test(tex, a_hostile_file_is_set_as_text)
 {

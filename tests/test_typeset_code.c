@@ -3,48 +3,12 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "base/memory.h"
-#include "expr/parse.h"
 #include "expr/tape.h"
 #include "expr/typeset_code.h"
-
-static bool any_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
-{
-    (void)fault;
-    *out = nh_symbol(context, name);
-    return true;
-}
-
-static nh_ex read_it(nh_dag *d, const char *text)
-{
-    nh_ex e;
-    nh_parse_fault fault = {0};
-    cr_assert(nh_parse(d, text, any_name, d, &e, &fault), "%s: %s", text, fault.what);
-    return e;
-}
-
-/* Compile and run; the numbers that it prints. */
-static size_t run_c(const char *code, double *out, size_t most)
-{
-    char folder[] = "/tmp/nhsym-c-XXXXXX", name[200], command[700], line[100];
-    size_t n = 0;
-    cr_assert(mkdtemp(folder));
-    snprintf(name, sizeof name, "%s/code.c", folder);
-    FILE *file = fopen(name, "w");
-    fputs(code, file);
-    fclose(file);
-    snprintf(command, sizeof command, "cd %s && ${CC:-cc} -std=c99 -Wall -Wextra -Werror code.c -o code -lm && ./code", folder);
-    FILE *pipe = popen(command, "r");
-    while (pipe && n < most && fgets(line, sizeof line, pipe)) out[n++] = strtod(line, NULL);
-    cr_expect_eq(pclose(pipe), 0, "this does not compile:\n%s", code);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    cr_expect_eq(system(command), 0);
-    return n;
-}
+#include "scratch.h"
+#include "typed.h"
 
 Test(typeset, c_computes_the_same)
 {
@@ -70,14 +34,14 @@ Test(typeset, c_computes_the_same)
     }
     nh_text_addf(&code, "    double out[%d];\n", count);
     for (size_t i = 0; i < count; i++) {
-        e[i] = read_it(d, formulas[i]);
+        e[i] = ex(d, formulas[i]);
         snprintf(buffer[i], sizeof buffer[i], "out[%zu]", i);
         target[i] = buffer[i];
     }
     nh_typeset_c(d, count, e, target, &temporaries, &code);
     nh_text_addf(&code, "    for (int i = 0; i < %d; i++) printf(\"%%.17g\\n\", out[i]);\n    return 0;\n}\n", count);
     double got[count], want[count];
-    cr_assert_eq(run_c(nh_text_string(&code), got, count), count);
+    cr_assert_eq(scratch_run_c(nh_text_string(&code), got, count), (long)count, "%s", nh_text_string(&code));
     nh_tape *tape = nh_tape_create(d, 5, in, count, e, 0, NULL, NULL);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, value, want);

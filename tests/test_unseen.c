@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "catalogue.h"
+#include "scratch.h"
 
 typedef struct {
     const char *name, *text;
@@ -308,9 +309,8 @@ Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
 {
     for (size_t i = 0; i < COUNT; i++) {
         const unseen *u = &UNSEEN[i];
-        char path[] = "/tmp/nhsym-unseen-XXXXXX";
-        int file = mkstemp(path);
-        FILE *out = file < 0 ? NULL : fdopen(file, "w");
+        char path[SCRATCH];
+        FILE *out = scratch_open(path);
         cr_assert_not_null(out);
         fprintf(out, "name: unseen\n%s", u->text);
         fclose(out);

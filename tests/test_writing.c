@@ -174,6 +174,44 @@ Test(writing, a_folder_is_written_whole_or_not_at_all)
     place_clear(&p);
 }
 
+/* Figures that an older run wrote into the folder and the new one does not have would be taken for its own; what nhsym did not write is not its to remove. */
+Test(writing, figures_of_an_older_run_go_with_it)
+{
+    place p = place_with_systems();
+    char name[60], to[PATH_MAX + 60], *text;
+    finished f = run_expecting(&p, "analyze sleigh --quiet -o out", 0);
+    size_t before = files_in(&p, "out") - 4, own = 0;
+    cr_assert_gt(before, 15u, "%zu figures", before);
+    write_here(&p, "out/notes.txt", "mine"), own++;
+    snprintf(name, sizeof name, "out/figure%zu.svg", before + 1);
+    write_here(&p, name, "<svg xmlns=\"http://www.w3.org/2000/svg\">mine</svg>"), own++;
+    text = read_here(&p, "out/figure15.svg");
+    write_here(&p, "out/figure015.svg", text), own++;
+    write_here(&p, "out/figure15.svg.svg", text), own++;
+    write_here(&p, "precious.svg", text);
+    snprintf(to, sizeof to, "%s/out/figure15.svg", p.folder);
+    cr_assert(remove(to) == 0 && symlink("../precious.svg", to) == 0);
+    own++;
+    free(text);
+    finished_clear(&f);
+    f = run_so(&p, &(manner){.file_limit = 400}, "analyze free_particle --quiet -o out");
+    cr_expect_eq(f.code, 4);
+    cr_expect_eq(files_in(&p, "out"), 4 + before - 1 + own, "a run that wrote nothing removed something");
+    finished_clear(&f);
+    f = run_expecting(&p, "analyze free_particle --quiet -o out", 0);
+    char *page = read_here(&p, "out/report.html");
+    size_t after = 0;
+    for (const char *c = page; (c = strstr(c, "<svg xmlns=")); c++) after++;
+    cr_assert(after > 0 && after < 15, "%zu figures", after);
+    cr_expect_eq(files_in(&p, "out"), 4 + after + own, "%zu files, not %zu figures and %zu others", files_in(&p, "out"), after, 4 + own);
+    free(page);
+    text = read_here(&p, "precious.svg");
+    cr_expect_not_null(text);
+    free(text);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* A disk of 300 kB, where this is permitted. */
 Test(writing, a_disk_without_room_keeps_the_old_folder)
 {

@@ -1,7 +1,6 @@
 /* deck: access to the tree, with messages.  See deck.h; deck_read.c builds the tree. */
 #include "base/deck.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -153,36 +152,6 @@ bool nh_deck_only(const nh_deck *deck, const nh_deck_node *map, const char *cons
     return true;
 }
 
-static const char *skip_digits(const char *s)
-{
-    while (isdigit((unsigned char)*s))
-        s++;
-    return s;
-}
-
-/* [+-] digits [. digits] [e [+-] digits], with a digit before or after the point. */
-static bool looks_numeric(const char *s)
-{
-    s += *s == '+' || *s == '-';
-    const char *whole = s;
-    s = skip_digits(s);
-    size_t digits = (size_t)(s - whole);
-    if (*s == '.') {
-        const char *fraction = ++s;
-        s = skip_digits(s);
-        digits += (size_t)(s - fraction);
-    }
-    if (digits == 0)
-        return false;
-    if (*s == 'e' || *s == 'E') {
-        s += s[1] == '+' || s[1] == '-' ? 2 : 1;
-        if (!isdigit((unsigned char)*s))
-            return false;
-        s = skip_digits(s);
-    }
-    return *s == '\0';
-}
-
 static bool is_plain(const nh_deck_node *node)
 {
     return node && node->kind == NH_DECK_SCALAR && node->plain;
@@ -191,23 +160,19 @@ static bool is_plain(const nh_deck_node *node)
 /* After a message about a quoted number. */
 static void hint_unquote(const nh_deck_node *node, bool fresh, nh_error *error)
 {
-    if (fresh && node && node->kind == NH_DECK_SCALAR && !node->plain && looks_numeric(node->text))
+    if (fresh && node && node->kind == NH_DECK_SCALAR && !node->plain && nh_text_is_number(node->text))
         nh_error_hint(error, "remove the quotes: what is quoted is a text");
 }
 
 bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *what, double *out, nh_error *error)
 {
-    if (!is_plain(node) || !looks_numeric(node->text)) {
+    if (!is_plain(node) || !nh_text_is_number(node->text)) {
         bool fresh = error && error->code == NH_OK;
         wrong(deck, node, what, error, "a number");
         hint_unquote(node, fresh, error);
         return false;
     }
-    double value = strtod(node->text, NULL);
-    if (!isfinite(value))
-        return wrong(deck, node, what, error, "a number that a double can hold");
-    *out = value;
-    return true;
+    return nh_text_to_number(node->text, out) || wrong(deck, node, what, error, "a number that a double can hold");
 }
 
 /* Digits are read exactly (a seed may have 19 of them); 1e6 and 4096.0 are whole too, while doubles are exact. */
@@ -229,7 +194,7 @@ static bool to_whole(const char *text, long *out)
 bool nh_deck_whole(const nh_deck *deck, const nh_deck_node *node, const char *what, long min, long max, long *out, nh_error *error)
 {
     long value;
-    if (is_plain(node) && looks_numeric(node->text) && to_whole(node->text, &value) && value >= min && value <= max) {
+    if (is_plain(node) && nh_text_is_number(node->text) && to_whole(node->text, &value) && value >= min && value <= max) {
         *out = value;
         return true;
     }

@@ -2,7 +2,6 @@
 
 #include <cjson/cJSON.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -31,7 +30,14 @@ static nh_json *add(nh_json *array, cJSON *item)
 
 static cJSON *text_or_null(const char *text) { return text ? cJSON_CreateString(text) : cJSON_CreateNull(); }
 
-nh_json *nh_json_object(void) { return cJSON_CreateObject(); }
+/* Without memory cJSON would leave out what does not fit: it allocates as everything here does, which does not return then. */
+nh_json *nh_json_object(void)
+{
+    static cJSON_Hooks hooks = {nh_alloc, nh_free};
+    cJSON_InitHooks(&hooks);
+    return cJSON_CreateObject();
+}
+
 nh_json *nh_json_put_object(nh_json *object, const char *key) { return put(object, key, cJSON_CreateObject()); }
 nh_json *nh_json_put_array(nh_json *object, const char *key) { return put(object, key, cJSON_CreateArray()); }
 void nh_json_put_number(nh_json *object, const char *key, double value) { put(object, key, number(value)); }
@@ -59,7 +65,7 @@ char *nh_json_finish(nh_json *root)
     char *out = nh_alloc(length + 2);
     memcpy(out, printed, length);
     out[length] = '\n';
-    free(printed);
+    cJSON_free(printed);
     return out;
 }
 

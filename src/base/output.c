@@ -83,6 +83,14 @@ bool nh_output_add(nh_output_set *set, const char *path, const char *text, size_
     return true;
 }
 
+void nh_output_drop(nh_output_set *set, const char *path)
+{
+    nh_output_file *file = nh_alloc(sizeof *file);
+    snprintf(file->path, sizeof file->path, "%s", path);
+    file->next = set->dropped;
+    set->dropped = file;
+}
+
 bool nh_output_end(nh_output_set *set, bool keep, nh_error *error)
 {
     for (nh_output_file *file; (file = set->first); nh_free(file)) {
@@ -91,7 +99,12 @@ bool nh_output_end(nh_output_set *set, bool keep, nh_error *error)
         if (!keep || reason) unlink(file->temporary);
         if (reason) keep = failed(error, file->path, "written", reason);
     }
-    return keep;
+    bool good = keep;
+    for (nh_output_file *file; (file = set->dropped); nh_free(file)) {
+        set->dropped = file->next;
+        if (keep && unlink(file->path) && errno != ENOENT) good = failed(error, file->path, "removed", errno);
+    }
+    return good;
 }
 
 bool nh_output_possible(const char *path, nh_error *error)

@@ -14,9 +14,11 @@ typedef struct nh_output_file {
     char path[NH_OUTPUT_LONGEST], temporary[NH_OUTPUT_LONGEST];
 } nh_output_file;
 typedef struct {
-    nh_output_file *first;
+    nh_output_file *first, *dropped;
 } nh_output_set;
 bool nh_output_add(nh_output_set *set, const char *path, const char *text, size_t length, nh_error *error);
+/* An old file that the new ones make wrong: it is removed after they have taken their places. */
+void nh_output_drop(nh_output_set *set, const char *path);
 /* With `keep` the new files take the places of the old ones; else they are removed.  False when it did not, or one could not. */
 bool nh_output_end(nh_output_set *set, bool keep, nh_error *error);
 

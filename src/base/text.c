@@ -1,6 +1,7 @@
 /* text: see text.h. */
 #include "base/text.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -72,6 +73,47 @@ void nh_text_number(double value, char *out, size_t size)
             break;
     }
     snprintf(out, size, "%s", digits);
+}
+
+static const char *skip_digits(const char *s)
+{
+    while (isdigit((unsigned char)*s))
+        s++;
+    return s;
+}
+
+bool nh_text_is_number(const char *s)
+{
+    s += *s == '+' || *s == '-';
+    const char *whole = s;
+    s = skip_digits(s);
+    size_t digits = (size_t)(s - whole);
+    if (*s == '.') {
+        const char *fraction = ++s;
+        s = skip_digits(s);
+        digits += (size_t)(s - fraction);
+    }
+    if (digits == 0)
+        return false;
+    if (*s == 'e' || *s == 'E') {
+        s += s[1] == '+' || s[1] == '-' ? 2 : 1;
+        if (!isdigit((unsigned char)*s))
+            return false;
+        s = skip_digits(s);
+    }
+    return *s == '\0';
+}
+
+bool nh_text_to_number(const char *text, double *out)
+{
+    if (!nh_text_is_number(text))
+        return false;
+    double value = strtod(text, NULL);
+    bool zero = strcspn(text, "123456789") >= strcspn(text, "eE"); /* no other digit before the exponent */
+    if (!isfinite(value) || (value == 0 && !zero))
+        return false;
+    *out = value;
+    return true;
 }
 
 enum { WORD_MAX = 63 }; /* longer words are no typing errors of each other */

@@ -2,6 +2,7 @@
 #ifndef NH_TEXT_H
 #define NH_TEXT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef struct {
@@ -18,6 +19,11 @@ const char *nh_text_string(const nh_text *text); /* "" when empty */
 
 /* The shortest decimal that reads back as exactly `value`, into `out` (32 bytes are enough). */
 void nh_text_number(double value, char *out, size_t size);
+
+/* Is it [+-] digits [. digits] [e [+-] digits], with a digit before or after the point, and nothing else? */
+bool nh_text_is_number(const char *text);
+/* Its value; false, and *out as it was, when it is none, or one that no double holds: too large, or so small that it would become 0. */
+bool nh_text_to_number(const char *text, double *out);
 
 /* The candidate nearest to `word` (Damerau-Levenshtein, case ignored), or NULL when none is near enough to be
  * what was meant. */

@@ -1,6 +1,4 @@
-#include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/progress.h"
 #include "cli/cli.h"
@@ -46,41 +44,13 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
 
 /* ---- what is written ---- */
 
-static const char *in_folder(nh_cli *cli, const char *name) { return nh_arena_printf(cli->arena, "%s/%s", cli->folder, name); }
-
-/* -o DIR: everything goes there, but for what has a place of its own. */
-static bool use_folder(nh_cli *cli, nh_error *error)
-{
-    if (!cli->folder) return true;
-    if (mkdir(cli->folder, 0777) && errno != EEXIST) {
-        nh_fail(error, NH_NUMERIC, cli->folder, "the folder could not be made: %s", strerror(errno));
-        return nh_error_hint(error, "-o takes a folder; the one that holds it must exist");
-    }
-    if (!cli->json) cli->json = in_folder(cli, "result.json");
-    if (!cli->html) cli->html = in_folder(cli, "report.html");
-    if (!cli->tex) cli->tex = in_folder(cli, "report.tex");
-    return true;
-}
-
-static bool write_figures(nh_cli *cli, const char *page, nh_error *error)
-{
-    size_t length, count = 0;
-    bool good = true;
-    for (const char *figure; good && (figure = nh_html_next_figure(&page, &length));) {
-        char name[40];
-        snprintf(name, sizeof name, "figure%zu.svg", ++count);
-        good = nh_output_add(&cli->files, in_folder(cli, name), figure, length, error);
-    }
-    return good;
-}
-
 static bool write_html(nh_cli *cli, const nh_result *result, nh_error *error)
 {
     if (!cli->html) return true;
     nh_text text;
     nh_text_init(&text);
     nh_html(result, &text);
-    bool good = !cli->folder || write_figures(cli, nh_text_string(&text), error);
+    bool good = !cli->folder || nh_cli_write_figures(cli, nh_text_string(&text), error);
     return nh_cli_write(cli, cli->html, &text, error) && good;
 }
 
@@ -103,13 +73,13 @@ static bool write_summary(nh_cli *cli, const nh_result *result, nh_error *error)
     nh_text_clear(&text);
     if (!cli->folder) return true;
     nh_summary(result, (nh_summary_style){false, cli->verbose}, &text);
-    return nh_cli_write(cli, in_folder(cli, "summary.txt"), &text, error);
+    return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
 }
 
 int nh_cli_analyze(nh_cli *cli, nh_error *error)
 {
     nh_analyze_request request;
-    if (!request_of(cli, &request, error) || !use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
+    if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     request.no_figures = !cli->html && !cli->tex && !cli->json;
     nh_cli_watch_begin(cli);
     nh_result *result = nh_analyze(&request, error);

@@ -38,20 +38,18 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
 
 static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
 {
-    char *name, *end;
+    char *name;
     const char *value;
     if (!assignment(cli, text, "set", &name, &value, error)) return false;
-    double x = strtod(value, &end);
-    if (end == value || *end || x != x || x - x != 0) return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
+    double x;
+    if (!nh_text_to_number(value, &x)) return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
     cli->setting[cli->settings++] = (nh_setting){.name = name, .value = x};
     return true;
 }
 
 static bool positive(const char *text, const char *option, double *out, nh_error *error)
 {
-    char *end;
-    *out = strtod(text, &end);
-    if (end != text && !*end && *out > 0 && *out - *out == 0) return true;
+    if (nh_text_to_number(text, out) && *out > 0) return true;
     return nh_fail(error, NH_USAGE, "", "--%s needs a positive number, found `%s`", option, text);
 }
 

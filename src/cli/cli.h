@@ -70,6 +70,12 @@ bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error)
 bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error);
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
 
+/* -o DIR: make the folder; everything goes there, but for what has a place of its own. */
+bool nh_cli_use_folder(nh_cli *cli, nh_error *error);
+const char *nh_cli_in_folder(nh_cli *cli, const char *name);
+/* The figures of a page as files of their own; those of an older run that this one does not have go when the files take their places. */
+bool nh_cli_write_figures(nh_cli *cli, const char *page, nh_error *error);
+
 /* The file of a system or analysis: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
  * `kind` is "systems" or "analyses".  NULL with a suggestion. */
 const char *nh_cli_find(nh_cli *cli, const char *kind, const char *name, nh_error *error);

@@ -51,6 +51,7 @@ bool nh_num_is(nh_num a, int64_t p);
 bool nh_num_exact(nh_num a); /* a rational */
 bool nh_num_short(nh_num a); /* one of 64 bits: p and q can be used */
 bool nh_num_equal(nh_num a, nh_num b);
+int64_t nh_gcd(int64_t a, int64_t b); /* not negative; neither is INT64_MIN, as no p or q of a number is */
 
 nh_dag *nh_dag_create(void);
 void nh_dag_free(nh_dag *dag);

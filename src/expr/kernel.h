@@ -10,17 +10,7 @@
 #ifndef NH_KERNEL_H
 #define NH_KERNEL_H
 
-#include "expr/dag.h"
-
-/* A map from expressions to words, or a set of expressions. */
-typedef struct {
-    uint64_t *slot; /* (key + 1) << 32 | value; 0 when free */
-    size_t count, capacity;
-} nh_index;
-
-bool nh_index_get(const nh_index *index, nh_ex key, uint32_t *value);
-void nh_index_put(nh_index *index, nh_ex key, uint32_t value); /* a key that is not there yet */
-void nh_index_clear(nh_index *index);
+#include "expr/index.h"
 
 typedef enum {
     NH_KERNEL_PLAIN, NH_KERNEL_SIN, NH_KERNEL_COS, NH_KERNEL_SINH, NH_KERNEL_COSH, NH_KERNEL_EXP, NH_KERNEL_POWER,

@@ -1,4 +1,5 @@
-/* normal_flint: what normal_quotient.c and normal_factor.c share; the only place that includes FLINT. */
+/* normal_flint: what normal_field.c (polynomials within limits, modulo relations), normal_quotient.c (arithmetic) and normal_factor.c share; the
+ * only place that includes FLINT's polynomials. */
 #ifndef NH_NORMAL_FLINT_H
 #define NH_NORMAL_FLINT_H
 
@@ -34,5 +35,19 @@ struct nh_field {
     double max_terms, work, max_work;
     nh_field_state state;
 };
+
+/* The quotient 0/1, to be filled. */
+nh_quotient *nh_quotient_fresh(nh_field *field);
+/* Reduced by the relations, and cancelled. */
+const nh_quotient *nh_quotient_normalise(nh_field *field, nh_quotient *q);
+/* Without the gcd where that is cheap, and with a positive denominator; enough where the relations change nothing. */
+void nh_quotient_cancel(nh_field *field, nh_quotient *q);
+
+/* Work is about to be done, or a polynomial came out: when it is too much the field breaks. */
+bool nh_field_spend(nh_field *field, double work);
+void nh_field_check_size(nh_field *field, const fmpz_mpoly_t a);
+/* out = a b, unless that is too much. */
+void nh_field_times(nh_field *field, fmpz_mpoly_t out, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
+bool nh_field_cheap_gcd(const nh_field *field, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
 
 #endif

@@ -3,277 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/progress.h"
-#include "expr/normal.h"
 #include "expr/normal_flint.h"
 #include "expr/num_long.h"
 
-/* Products are refused when they need more than this many term products per admitted term; a whole computation may
- * do `patience` times that. */
-enum { slack = 50, patience = 20, highest_degree = 1 << 30, conjugate_pairs = 500 };
-/* A gcd is tried below this many pairs of terms and below this degree: a fraction that is not cancelled is still right. */
-static const double gcd_pairs = 2e4;
-static const slong gcd_degree = 60;
-
-nh_field *nh_field_create(size_t generators, size_t max_terms)
-{
-    nh_field *f = nh_alloc(sizeof *f);
-    f->generators = generators ? (slong)generators : 1;
-    fmpz_mpoly_ctx_init(f->ctx, f->generators, ORD_LEX);
-    f->exponent = nh_alloc_array((size_t)f->generators, sizeof *f->exponent);
-    f->max_terms = (double)max_terms;
-    f->max_work = slack * patience * f->max_terms;
-    return f;
-}
-
-void nh_field_free(nh_field *field)
-{
-    if (!field) return;
-    for (nh_quotient *q = field->all, *next; q; q = next) {
-        next = q->next;
-        fmpz_mpoly_clear(q->num, field->ctx);
-        fmpz_mpoly_clear(q->den, field->ctx);
-        nh_free(q);
-    }
-    for (size_t i = 0; i < field->relations; i++) {
-        fmpz_mpoly_clear(field->relation[i].num, field->ctx);
-        fmpz_mpoly_clear(field->relation[i].den, field->ctx);
-    }
-    nh_free(field->relation);
-    nh_free(field->exponent);
-    fmpz_mpoly_ctx_clear(field->ctx);
-    nh_free(field);
-}
-
-nh_field_state nh_field_state_of(const nh_field *field) { return field->state; }
-
-void nh_field_break(nh_field *field, nh_field_state why)
-{
-    if (field->state == NH_FIELD_FINE) field->state = why;
-}
-
-static nh_quotient *fresh(nh_field *f)
-{
-    nh_quotient *q = nh_alloc(sizeof *q);
-    fmpz_mpoly_init(q->num, f->ctx);
-    fmpz_mpoly_init(q->den, f->ctx);
-    fmpz_mpoly_one(q->den, f->ctx);
-    q->next = f->all;
-    return f->all = q;
-}
-
-/* ---- polynomials within limits ---- */
-
-static double words(const fmpz_mpoly_t a) { return 1 + fabs((double)fmpz_mpoly_max_bits(a)) / 64; }
-
-static bool spend(nh_field *f, double work)
-{
-    f->work += work;
-    if (f->work > f->max_work || nh_late()) nh_field_break(f, NH_FIELD_TOO_LARGE);
-    return f->state == NH_FIELD_FINE;
-}
-
-static void check_size(nh_field *f, const fmpz_mpoly_t a)
-{
-    bool too_large = (double)a->length > f->max_terms;
-    if (a->bits > 32 && a->length) { /* exponents are read as machine words */
-        too_large |= !fmpz_mpoly_total_degree_fits_si(a, f->ctx);
-        too_large |= !too_large && fmpz_mpoly_total_degree_si(a, f->ctx) > highest_degree;
-    }
-    if (too_large) nh_field_break(f, NH_FIELD_TOO_LARGE);
-}
-
-static void times(nh_field *f, fmpz_mpoly_t out, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
-{
-    double pairs = (double)a->length * (double)b->length;
-    if (pairs > slack * f->max_terms) nh_field_break(f, NH_FIELD_TOO_LARGE);
-    if (!spend(f, pairs * words(a) * words(b))) return;
-    fmpz_mpoly_mul(out, a, b, f->ctx);
-    check_size(f, out);
-}
-
-static void times_power(nh_field *f, fmpz_mpoly_t p, const fmpz_mpoly_t base, ulong n)
-{
-    for (ulong i = 0; i < n && f->state == NH_FIELD_FINE; i++) times(f, p, p, base);
-}
-
-static bool cheap_gcd(const nh_field *f, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
-{
-    if (a->length == 1 || b->length == 1) return true;
-    if ((double)a->length * (double)b->length > gcd_pairs) return false;
-    for (slong g = 0; g < f->generators; g++)
-        if (fmpz_mpoly_degree_si(a, g, f->ctx) > gcd_degree || fmpz_mpoly_degree_si(b, g, f->ctx) > gcd_degree) return false;
-    return true;
-}
-
-static bool is_one(const nh_field *f, const fmpz_mpoly_t a) { return fmpz_mpoly_is_one(a, f->ctx); }
-
-/* ---- relations ---- */
-
-/* p = sum_j P_j g^(order j) with deg_g P_j < order: part[j] = P_j.  Subtracting the same exponent from every term of a
- * part keeps their order. */
-static void split_by_power(nh_field *f, const nh_relation *r, const fmpz_mpoly_t p, fmpz_mpoly_struct *part)
-{
-    fmpz_t c;
-    fmpz_init(c);
-    for (slong i = 0; i < p->length; i++) {
-        fmpz_mpoly_get_term_exp_ui(f->exponent, p, i, f->ctx);
-        fmpz_mpoly_get_term_coeff_fmpz(c, p, i, f->ctx);
-        ulong j = f->exponent[r->generator] / r->order;
-        f->exponent[r->generator] %= r->order;
-        fmpz_mpoly_push_term_fmpz_ui(part + j, c, f->exponent, f->ctx);
-    }
-    fmpz_clear(c);
-}
-
-/* p with g^order replaced by num/den, times den^J to stay a polynomial; returns J. */
-static ulong reduce(nh_field *f, const nh_relation *r, fmpz_mpoly_t p)
-{
-    slong degree = fmpz_mpoly_degree_si(p, r->generator, f->ctx);
-    if (degree < (slong)r->order) return 0;
-    ulong top = (ulong)degree / r->order;
-    if (!spend(f, (double)top)) return 0;
-    fmpz_mpoly_struct *part = nh_alloc_array(top + 1, sizeof *part);
-    for (ulong j = 0; j <= top; j++) fmpz_mpoly_init(part + j, f->ctx);
-    split_by_power(f, r, p, part);
-    fmpz_mpoly_swap(p, part + top, f->ctx);
-    for (ulong j = top; j-- > 0 && f->state == NH_FIELD_FINE;) { /* Horner in num/den */
-        times(f, p, p, r->num);
-        if (!r->integral) times_power(f, part + j, r->den, top - j);
-        fmpz_mpoly_add(p, p, part + j, f->ctx);
-    }
-    for (ulong j = 0; j <= top; j++) fmpz_mpoly_clear(part + j, f->ctx);
-    nh_free(part);
-    return top;
-}
-
-/* 1/r = r^(order-1) / r^order, so that equal quotients of roots look equal. */
-static void lift_root(nh_field *f, const nh_relation *r, nh_quotient *q)
-{
-    if (fmpz_mpoly_degree_si(q->den, r->generator, f->ctx) < 1) return;
-    ulong least = r->order;
-    for (slong i = 0; i < q->den->length && least; i++) {
-        fmpz_mpoly_get_term_exp_ui(f->exponent, q->den, i, f->ctx);
-        if (f->exponent[r->generator] < least) least = f->exponent[r->generator];
-    }
-    if (!least || least == r->order) return;
-    fmpz_mpoly_t g;
-    fmpz_mpoly_init(g, f->ctx);
-    fmpz_mpoly_gen(g, r->generator, f->ctx);
-    times_power(f, q->num, g, r->order - least);
-    times_power(f, q->den, g, r->order - least);
-    fmpz_mpoly_clear(g, f->ctx);
-}
-
-static void apply(nh_field *f, const nh_relation *r, nh_quotient *q)
-{
-    ulong above = reduce(f, r, q->num), below = reduce(f, r, q->den);
-    if (!r->pair) {
-        lift_root(f, r, q);
-        above += reduce(f, r, q->num);
-        below += reduce(f, r, q->den);
-    }
-    if (r->integral) return;
-    if (below > above) times_power(f, q->num, r->den, below - above);
-    else times_power(f, q->den, r->den, above - below);
-}
-
-static void cancel(nh_field *f, nh_quotient *q)
-{
-    if (is_one(f, q->den)) return;
-    if (fmpz_mpoly_is_zero(q->num, f->ctx)) {
-        fmpz_mpoly_one(q->den, f->ctx);
-        return;
-    }
-    if (cheap_gcd(f, q->num, q->den)) {
-        fmpz_mpoly_t g;
-        fmpz_mpoly_init(g, f->ctx);
-        if (spend(f, (double)(q->num->length + q->den->length)) && fmpz_mpoly_gcd(g, q->num, q->den, f->ctx) && !is_one(f, g)) {
-            fmpz_mpoly_divexact(q->num, q->num, g, f->ctx);
-            fmpz_mpoly_divexact(q->den, q->den, g, f->ctx);
-        }
-        fmpz_mpoly_clear(g, f->ctx);
-    }
-    if (fmpz_sgn(q->den->coeffs) >= 0) return;
-    fmpz_mpoly_neg(q->num, q->num, f->ctx);
-    fmpz_mpoly_neg(q->den, q->den, f->ctx);
-}
-
-/* Later relations first: their values contain earlier generators only. */
-static const nh_quotient *normalise(nh_field *f, nh_quotient *q)
-{
-    for (size_t i = f->relations; i-- > 0 && f->state == NH_FIELD_FINE;) apply(f, &f->relation[i], q);
-    if (f->state != NH_FIELD_FINE) return q;
-    if (fmpz_mpoly_is_zero(q->den, f->ctx)) nh_field_break(f, NH_FIELD_UNDEFINED);
-    else cancel(f, q);
-    check_size(f, q->num);
-    check_size(f, q->den);
-    return q;
-}
-
-static nh_relation *add_relation(nh_field *f)
-{
-    nh_grow(&f->relation, &f->capacity, f->relations + 1, sizeof *f->relation);
-    nh_relation *r = &f->relation[f->relations++];
-    *r = (nh_relation){0};
-    fmpz_mpoly_init(r->num, f->ctx);
-    fmpz_mpoly_init(r->den, f->ctx);
-    return r;
-}
-
-void nh_field_relate(nh_field *field, size_t generator, unsigned order, const nh_quotient *value)
-{
-    if (field->state != NH_FIELD_FINE) return;
-    nh_relation *r = add_relation(field);
-    r->generator = (slong)generator;
-    r->order = order;
-    fmpz_mpoly_set(r->num, value->num, field->ctx);
-    fmpz_mpoly_set(r->den, value->den, field->ctx);
-    r->integral = is_one(field, r->den);
-}
-
-/* s^2 = 1 - c^2, s^2 = c^2 - 1, c^2 = 1 - s^2, c^2 = 1 + s^2 */
-static void set_pair(nh_field *f, nh_relation *r, bool eliminate_cosine)
-{
-    r->generator = eliminate_cosine ? r->cosine : r->sine;
-    fmpz_mpoly_gen(r->num, eliminate_cosine ? r->sine : r->cosine, f->ctx);
-    fmpz_mpoly_mul(r->num, r->num, r->num, f->ctx);
-    if (!r->hyperbolic) fmpz_mpoly_neg(r->num, r->num, f->ctx);
-    if (r->hyperbolic && !eliminate_cosine) fmpz_mpoly_sub_ui(r->num, r->num, 1, f->ctx);
-    else fmpz_mpoly_add_ui(r->num, r->num, 1, f->ctx);
-}
-
-void nh_field_relate_pair(nh_field *field, size_t s, size_t c, bool hyperbolic)
-{
-    nh_relation *r = add_relation(field);
-    r->pair = r->integral = true;
-    r->order = 2;
-    r->hyperbolic = hyperbolic;
-    r->sine = (slong)s;
-    r->cosine = (slong)c;
-    fmpz_mpoly_one(r->den, field->ctx);
-    set_pair(field, r, false);
-}
-
-size_t nh_field_pairs(const nh_field *field)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < field->relations; i++) count += field->relation[i].pair;
-    return count;
-}
-
-void nh_field_flip_pair(nh_field *field, size_t pair)
-{
-    for (size_t i = 0; i < field->relations; i++) {
-        nh_relation *r = &field->relation[i];
-        if (r->pair && pair-- == 0) {
-            set_pair(field, r, r->generator == r->sine);
-            return;
-        }
-    }
-}
-
-/* ---- quotients ---- */
+enum { conjugate_pairs = 500 };
 
 /* A double as the dyadic rational that it is. */
 static void set_double(nh_field *f, nh_quotient *q, double value)
@@ -308,7 +41,7 @@ static void set_long(nh_field *f, nh_quotient *q, nh_num value)
 
 const nh_quotient *nh_quotient_number(nh_field *field, nh_num value)
 {
-    nh_quotient *q = fresh(field);
+    nh_quotient *q = nh_quotient_fresh(field);
     if (nh_num_short(value)) {
         fmpz_mpoly_set_si(q->num, value.p, field->ctx);
         fmpz_mpoly_set_si(q->den, value.q, field->ctx);
@@ -316,65 +49,65 @@ const nh_quotient *nh_quotient_number(nh_field *field, nh_num value)
         set_long(field, q, value);
     } else {
         set_double(field, q, value.d);
-        cancel(field, q);
+        nh_quotient_cancel(field, q);
     }
     return q;
 }
 
 const nh_quotient *nh_quotient_power_of(nh_field *field, size_t generator, int64_t power)
 {
-    nh_quotient *q = fresh(field);
+    nh_quotient *q = nh_quotient_fresh(field);
     fmpz_mpoly_struct *side = power < 0 ? q->den : q->num;
     ulong n = power < 0 ? -(ulong)power : (ulong)power;
     fmpz_mpoly_one(q->num, field->ctx);
     fmpz_mpoly_gen(side, (slong)generator, field->ctx);
     if (n != 1 && !fmpz_mpoly_pow_ui(side, side, n, field->ctx)) nh_field_break(field, NH_FIELD_TOO_LARGE);
-    return field->relations ? normalise(field, q) : q;
+    return field->relations ? nh_quotient_normalise(field, q) : q;
 }
 
 const nh_quotient *nh_quotient_add(nh_field *field, const nh_quotient *a, const nh_quotient *b)
 {
-    nh_quotient *q = fresh(field);
-    if (!spend(field, (double)(a->num->length + b->num->length))) return q;
+    nh_quotient *q = nh_quotient_fresh(field);
+    if (!nh_field_spend(field, (double)(a->num->length + b->num->length))) return q;
     if (fmpz_mpoly_equal(a->den, b->den, field->ctx)) {
         fmpz_mpoly_add(q->num, a->num, b->num, field->ctx);
         fmpz_mpoly_set(q->den, a->den, field->ctx);
-        cancel(field, q); /* sums of reduced numerators are reduced */
-        check_size(field, q->num);
+        nh_quotient_cancel(field, q); /* sums of reduced numerators are reduced */
+        nh_field_check_size(field, q->num);
         return q;
     }
     fmpz_mpoly_t g, left, right;
     fmpz_mpoly_init(g, field->ctx);
     fmpz_mpoly_init(left, field->ctx);
     fmpz_mpoly_init(right, field->ctx);
-    bool cheap = cheap_gcd(field, a->den, b->den);
+    bool cheap = nh_field_cheap_gcd(field, a->den, b->den);
     if (!cheap || !fmpz_mpoly_gcd(g, a->den, b->den, field->ctx)) fmpz_mpoly_one(g, field->ctx);
     fmpz_mpoly_divexact(left, b->den, g, field->ctx);
     fmpz_mpoly_divexact(right, a->den, g, field->ctx);
-    times(field, q->den, a->den, left);
-    times(field, left, left, a->num);
-    times(field, right, right, b->num);
+    nh_field_times(field, q->den, a->den, left);
+    nh_field_times(field, left, left, a->num);
+    nh_field_times(field, right, right, b->num);
     fmpz_mpoly_add(q->num, left, right, field->ctx);
     fmpz_mpoly_clear(g, field->ctx);
     fmpz_mpoly_clear(left, field->ctx);
     fmpz_mpoly_clear(right, field->ctx);
-    return normalise(field, q);
+    return nh_quotient_normalise(field, q);
 }
 
 const nh_quotient *nh_quotient_mul(nh_field *field, const nh_quotient *a, const nh_quotient *b)
 {
-    nh_quotient *q = fresh(field);
-    times(field, q->num, a->num, b->num);
-    times(field, q->den, a->den, b->den);
-    return normalise(field, q);
+    nh_quotient *q = nh_quotient_fresh(field);
+    nh_field_times(field, q->num, a->num, b->num);
+    nh_field_times(field, q->den, a->den, b->den);
+    return nh_quotient_normalise(field, q);
 }
 
 const nh_quotient *nh_quotient_inv(nh_field *field, const nh_quotient *a)
 {
-    nh_quotient *q = fresh(field);
+    nh_quotient *q = nh_quotient_fresh(field);
     fmpz_mpoly_set(q->num, a->den, field->ctx);
     fmpz_mpoly_set(q->den, a->num, field->ctx);
-    return normalise(field, q);
+    return nh_quotient_normalise(field, q);
 }
 
 const nh_quotient *nh_quotient_pow(nh_field *field, const nh_quotient *a, int64_t n)
@@ -397,10 +130,10 @@ const nh_quotient *nh_quotient_scale(nh_field *field, const nh_quotient *a, nh_n
 
 const nh_quotient *nh_quotient_again(nh_field *field, const nh_quotient *a)
 {
-    nh_quotient *q = fresh(field);
+    nh_quotient *q = nh_quotient_fresh(field);
     fmpz_mpoly_set(q->num, a->num, field->ctx);
     fmpz_mpoly_set(q->den, a->den, field->ctx);
-    return normalise(field, q);
+    return nh_quotient_normalise(field, q);
 }
 
 bool nh_quotient_is_zero(const nh_field *field, const nh_quotient *a) { return fmpz_mpoly_is_zero(a->num, field->ctx); }
@@ -420,7 +153,7 @@ const nh_quotient *nh_quotient_rationalise(nh_field *field, const nh_quotient *a
         slong g = field->relation[i].generator;
         if (field->relation[i].order != 2 || fmpz_mpoly_degree_si(a->den, g, field->ctx) != 1) continue;
         if ((double)(a->num->length + a->den->length) * (double)a->den->length > conjugate_pairs) return a;
-        nh_quotient *q = fresh(field);
+        nh_quotient *q = nh_quotient_fresh(field);
         fmpz_mpoly_t conjugate;
         fmpz_mpoly_init(conjugate, field->ctx);
         fmpz_mpoly_derivative(conjugate, a->den, g, field->ctx); /* B */
@@ -428,17 +161,17 @@ const nh_quotient *nh_quotient_rationalise(nh_field *field, const nh_quotient *a
         fmpz_mpoly_mul(conjugate, conjugate, q->num, field->ctx);
         fmpz_mpoly_scalar_mul_si(conjugate, conjugate, -2, field->ctx);
         fmpz_mpoly_add(conjugate, conjugate, a->den, field->ctx);
-        times(field, q->num, a->num, conjugate);
-        times(field, q->den, a->den, conjugate);
+        nh_field_times(field, q->num, a->num, conjugate);
+        nh_field_times(field, q->den, a->den, conjugate);
         fmpz_mpoly_clear(conjugate, field->ctx);
-        a = normalise(field, q);
+        a = nh_quotient_normalise(field, q);
     }
     return a;
 }
 
 void nh_quotient_divide(nh_field *field, const nh_quotient *a, const nh_quotient **whole, const nh_quotient **rest)
 {
-    nh_quotient *w = fresh(field), *r = fresh(field);
+    nh_quotient *w = nh_quotient_fresh(field), *r = nh_quotient_fresh(field);
     fmpz_t scale; /* scale num = Q den + R */
     fmpz_init_set_ui(scale, 1);
     *whole = w;
@@ -448,9 +181,6 @@ void nh_quotient_divide(nh_field *field, const nh_quotient *a, const nh_quotient
     fmpz_mpoly_scalar_mul_fmpz(r->den, a->den, scale, field->ctx);
     fmpz_mpoly_set_fmpz(w->den, scale, field->ctx);
     fmpz_clear(scale);
-    cancel(field, w);
-    cancel(field, r);
+    nh_quotient_cancel(field, w);
+    nh_quotient_cancel(field, r);
 }
-
-/* declared in normal.h: the only file that may call FLINT */
-void nh_normal_cleanup(void) { flint_cleanup(); }

@@ -70,6 +70,16 @@ static nh_num at_length(operation *f, nh_num a, nh_num b)
     return result;
 }
 
+int64_t nh_gcd(int64_t a, int64_t b)
+{
+    while (b) {
+        int64_t r = a % b;
+        a = b;
+        b = r;
+    }
+    return a < 0 ? -a : a;
+}
+
 nh_num nh_num_int(int64_t value) { return value == INT64_MIN ? inexact((double)value) : (nh_num){value, 1, 0}; }
 
 nh_num nh_num_ratio(int64_t p, int64_t q) { return reduced(p, q); }

@@ -18,7 +18,8 @@ enum {
 typedef struct {
     nh_dag *dag;
     nh_forms literal, cut;
-    nh_index done; /* part -> simplified */
+    nh_index done;     /* part -> simplified */
+    nh_index rational; /* part -> is it a polynomial in symbols and their inverses? */
     int depth;
 } context;
 
@@ -195,19 +196,32 @@ static nh_ex of_parts(contest *c, nh_ex e)
     return arity == 1 ? nh_call(c->dag, f, a) : nh_call2(c->dag, f, a, part(c, nh_child(c->dag, e, 1)));
 }
 
-/* A polynomial in symbols and their inverses? */
-static bool polynomial(const nh_dag *dag, nh_ex e)
+static bool polynomial(context *shared, nh_ex e);
+
+static bool polynomial_parts(context *shared, nh_ex e)
 {
+    const nh_dag *dag = shared->dag;
     nh_kind kind = nh_kind_of(dag, e);
-    if (kind == NH_FUNCTION) return false;
-    for (size_t i = 0; i < nh_arity(dag, e) && kind != NH_SYMBOL && kind != NH_NUMBER; i++) {
-        if (!polynomial(dag, nh_child(dag, e, i))) return false;
+    for (size_t i = 0; i < nh_arity(dag, e); i++) {
+        if (!polynomial(shared, nh_child(dag, e, i))) return false;
         if (kind != NH_PRODUCT) continue;
         nh_ex x = nh_exponent_of(dag, e, i);
         if (nh_kind_of(dag, x) != NH_NUMBER || nh_number_of(dag, x).q != 1) return false;
         if (nh_number_of(dag, x).p < 0 && nh_kind_of(dag, nh_child(dag, e, i)) != NH_SYMBOL) return false;
     }
     return true;
+}
+
+/* A polynomial in symbols and their inverses?  Each part is asked once: a shared graph has exponentially many paths. */
+static bool polynomial(context *shared, nh_ex e)
+{
+    nh_kind kind = nh_kind_of(shared->dag, e);
+    uint32_t known;
+    if (kind == NH_FUNCTION || kind == NH_SYMBOL || kind == NH_NUMBER) return kind != NH_FUNCTION;
+    if (nh_index_get(&shared->rational, e, &known)) return known;
+    bool result = polynomial_parts(shared, e);
+    nh_index_put(&shared->rational, e, result);
+    return result;
 }
 
 /* A sum's polynomial terms by themselves: with k/sqrt(..) beside them the common denominator makes everything longer. */
@@ -217,7 +231,7 @@ static nh_ex apart(contest *c, nh_ex e)
     if (nh_kind_of(c->dag, e) != NH_SUM) return e;
     for (size_t i = 0; i < nh_arity(c->dag, e); i++) {
         nh_ex term = nh_child(c->dag, e, i), scaled = nh_mul(c->dag, nh_number(c->dag, nh_coefficient_of(c->dag, e, i)), term);
-        nh_ex *to = polynomial(c->dag, term) ? &plain : &rest;
+        nh_ex *to = polynomial(c->shared, term) ? &plain : &rest;
         *to = nh_add(c->dag, *to, scaled);
     }
     if (nh_is_zero(c->dag, plain) || nh_is_zero(c->dag, rest)) return e;
@@ -307,6 +321,7 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_forms_clear(&shared.literal);
     nh_forms_clear(&shared.cut);
     nh_index_clear(&shared.done);
+    nh_index_clear(&shared.rational);
     nh_dag_set_simplified(dag, e, result);
     nh_dag_set_simplified(dag, result, result);
     return result;

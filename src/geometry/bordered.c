@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "base/saddle.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
 
@@ -22,7 +23,7 @@ struct nh_bordered {
     nh_tape *tape; /* K, h, F, g, f */
     nh_tape_work *work;
     double *in, *out;
-    double *terms, *matrix, *right; /* of the bordered system, for the accelerations */
+    double *terms, *saddle, *right; /* for the accelerations, and for their solution */
 };
 
 nh_bordered *nh_bordered_create(const nh_model *o)
@@ -51,7 +52,7 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     nh_bordered *b = nh_alloc(sizeof *b);
     *b = (nh_bordered){.m = m, .k = k, .in = nh_alloc_array(1 + 2 * m, sizeof *b->in), .out = nh_alloc_array(total + 1, sizeof *b->out)};
     b->terms = nh_alloc_array(total + 1, sizeof *b->terms);
-    b->matrix = nh_alloc_array((m + k) * (m + k), sizeof *b->matrix);
+    b->saddle = nh_alloc_array(nh_saddle_work(m, k), sizeof *b->saddle);
     b->right = nh_alloc_array(m + k, sizeof *b->right);
     b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
     b->work = nh_tape_work_create(b->tape);
@@ -71,7 +72,7 @@ void nh_bordered_free(nh_bordered *b)
     nh_free(b->in);
     nh_free(b->out);
     nh_free(b->terms);
-    nh_free(b->matrix);
+    nh_free(b->saddle);
     nh_free(b->right);
     nh_free(b);
 }
@@ -114,19 +115,9 @@ bool nh_bordered_terms(nh_bordered *b, double t, const double *q, const double *
 
 bool nh_bordered_accelerations(nh_bordered *b, double t, const double *q, const double *v, double *acceleration)
 {
-    size_t m = b->m, k = b->k, n = m + k;
+    size_t m = b->m, k = b->k;
     double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
-    if (!nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f)) return false;
-    memset(b->matrix, 0, n * n * sizeof *b->matrix);
-    for (size_t s = 0; s < m; s++) {
-        for (size_t r = 0; r < m; r++) b->matrix[s + r * n] = b->terms[s + r * m];
-        for (size_t a = 0; a < k; a++) b->matrix[m + a + s * n] = b->matrix[s + (m + a) * n] = F[a + s * k];
-        b->right[s] = -h[s];
-    }
-    for (size_t a = 0; a < k; a++) b->right[m + a] = -g[a];
-    if (!nh_solve(n, b->matrix, 1, b->right, NULL)) return false;
-    memcpy(acceleration, b->right, m * sizeof *acceleration);
-    return nh_all_finite(m, acceleration);
+    return nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f) && nh_saddle_solve(m, k, b->terms, F, h, g, acceleration, NULL, NULL, b->saddle);
 }
 
 bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *v, const double *mu, double *force)

@@ -25,6 +25,7 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "base/saddle.h"
 #include "motion/sundials.h"
 
 /* The multipliers take part in the error test, or they would be wrong between the steps wherever (q,v) allows long ones (by
@@ -47,6 +48,7 @@ typedef struct {
     double *base, *shifted;    /* (r_2, r_3), m + k each */
     double *point;             /* (q, v), 2m */
     double *scale;             /* 2m + k */
+    double *saddle;
     nh_sundials sundials;
     void *ida;
     N_Vector state, rate, differential;
@@ -102,31 +104,9 @@ static double largest(size_t count, const double *value)
     return result;
 }
 
-/* K/s, h/s and mu/s with s = max|K|, so that the unit of mass does not enter the condition number. */
 static bool solve_bordered(const ida_work *work, double *a, double *mu, double *rcond)
 {
-    size_t m = work->m, k = work->k, n = m + k;
-    double *matrix = nh_alloc_array(n, n * sizeof *matrix), *right = nh_alloc_array(n, sizeof *right);
-    double biggest = largest(m * m, work->K), s = biggest > 0 ? biggest : 1;
-    for (size_t j = 0; j < m; j++) {
-        for (size_t i = 0; i < m; i++)
-            matrix[i + j * n] = work->K[i + j * m] / s;
-        for (size_t c = 0; c < k; c++)
-            matrix[m + c + j * n] = matrix[j + (m + c) * n] = work->F[c + j * k];
-        right[j] = -work->h[j] / s;
-    }
-    for (size_t c = 0; c < k; c++)
-        right[m + c] = -work->g[c];
-    bool good = nh_solve(n, matrix, 1, right, rcond) && *rcond > DBL_EPSILON && nh_all_finite(n, right);
-    if (good) {
-        memcpy(a, right, m * sizeof *a);
-        for (size_t c = 0; c < k; c++)
-            mu[c] = right[m + c] * s;
-        good = nh_all_finite(k, mu);
-    }
-    nh_free(matrix);
-    nh_free(right);
-    return good;
+    return nh_saddle_solve(work->m, work->k, work->K, work->F, work->h, work->g, a, mu, rcond, work->saddle) && *rcond > DBL_EPSILON;
 }
 
 /* What size a multiplier has: that of the forces it balances, or of the momenta when there are none. */
@@ -331,6 +311,7 @@ static void create_arrays(ida_work *work, const double *scale)
     work->shifted = nh_alloc_array(m + k, sizeof(double));
     work->point = nh_alloc_array(2 * m, sizeof(double));
     work->scale = nh_alloc_array(2 * m + k, sizeof(double));
+    work->saddle = nh_alloc_array(nh_saddle_work(m, k), sizeof(double));
     for (size_t i = 0; i < 2 * m; i++)
         work->scale[i] = scale ? scale[i] : 1.0;
 }
@@ -367,6 +348,7 @@ static void destroy_work(ida_work *work)
     nh_free(work->shifted);
     nh_free(work->point);
     nh_free(work->scale);
+    nh_free(work->saddle);
 }
 
 /* The whole start, multipliers included, into the rows that hold it already. */

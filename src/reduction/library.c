@@ -268,6 +268,17 @@ void nh_library_pick(nh_library *out, const nh_library *l, size_t n, const size_
     }
 }
 
+size_t *nh_library_order(const nh_library *l)
+{
+    size_t *order = nh_alloc_array(l->count + 1, sizeof *order);
+    for (size_t i = 0; i < l->count; i++) {
+        size_t j = i;
+        for (; j > 0 && l->complexity[order[j - 1]] > l->complexity[i]; j--) order[j] = order[j - 1];
+        order[j] = i;
+    }
+    return order;
+}
+
 void nh_library_clear(nh_library *l)
 {
     nh_free(l->function);

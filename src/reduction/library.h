@@ -33,6 +33,8 @@ void nh_library_init(nh_library *library, const nh_kinetic *kinetic, const nh_je
 void nh_library_for(nh_library *library, const nh_kinetic *kinetic, size_t components, int level, size_t together, size_t most);
 /* Some columns of another one. */
 void nh_library_pick(nh_library *out, const nh_library *library, size_t n, const size_t *index);
+/* Its columns from the simplest to the most complex, among equals in their order; the caller frees the list. */
+size_t *nh_library_order(const nh_library *library);
 void nh_library_clear(nh_library *library);
 
 #endif

@@ -6,10 +6,10 @@
 #include "base/linalg.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
-#include "noether/echelon.h"
 #include "noether/prove.h"
 #include "noether/recognise.h"
 #include "reduction/library.h"
+#include "reduction/relative.h"
 #include "reduction/subspace.h"
 
 /* Columns: library functions b_j(q) times generators e_a.  The library is that of generators, with `component` the generator's number. */
@@ -19,17 +19,8 @@ typedef struct {
     const nh_options *options;
     nh_library l;
     size_t m, d, f, n;
-    double *row, *value; /* of A and of B, row by row */
-    size_t rows, values, room, space;
+    nh_relative rows;
 } search;
-
-static double *new_row(double **block, size_t *count, size_t *capacity, size_t n)
-{
-    nh_grow(block, capacity, (*count + 1) * n, sizeof **block);
-    double *row = *block + (*count)++ * n;
-    memset(row, 0, n * sizeof *row);
-    return row;
-}
 
 /* Orthonormal for K basis of D at a place: X (m x r). */
 static size_t distribution_basis(const search *s, const double *K, const double *omega, double *X)
@@ -57,7 +48,7 @@ static void place_rows(search *s, const double *K, const double *omega, const do
     double *X = nh_alloc_array(m * m + m * d + 1, sizeof *X), *KXe = X + m * m;
     size_t r = distribution_basis(s, K, omega, X);
     for (size_t i = 0; i < f; i++) {
-        double *row = new_row(&s->row, &s->rows, &s->room, n), size = 0;
+        double *row = nh_relative_condition(&s->rows), size = 0;
         for (size_t q = 0; q < m; q++) size = hypot(size, omega[i * m + q] / sqrt(K[q * (m + 1)]));
         for (size_t c = 0; c < n; c++)
             for (size_t q = 0; q < m; q++) row[c] += b[c] * omega[i * m + q] * E[q + s->l.component[c] * m] / size;
@@ -70,7 +61,7 @@ static void place_rows(search *s, const double *K, const double *omega, const do
         }
     for (size_t i = 0; i < r; i++)
         for (size_t j = 0; j <= i; j++) {
-            double *row = new_row(&s->row, &s->rows, &s->room, n);
+            double *row = nh_relative_condition(&s->rows);
             for (size_t c = 0; c < n; c++) {
                 double along_i = 0, along_j = 0;
                 for (size_t q = 0; q < m; q++) along_i += db[c * m + q] * X[q + i * m], along_j += db[c * m + q] * X[q + j * m];
@@ -78,7 +69,7 @@ static void place_rows(search *s, const double *K, const double *omega, const do
             }
         }
     for (size_t q = 0; q < m; q++) {
-        double *row = new_row(&s->value, &s->values, &s->space, n);
+        double *row = nh_relative_value(&s->rows);
         for (size_t c = 0; c < n; c++) row[c] = b[c] * E[q + s->l.component[c] * m] * sqrt(K[q * (m + 1)]);
     }
     nh_free(X);
@@ -98,46 +89,12 @@ static void collect(search *s)
         for (size_t q = 0; q < m; q++) e[at++] = nh_diff(k->dag, s->l.function[c], k->q[q]);
     double *v = nh_alloc_array(total * places, sizeof *v);
     nh_kinetic_sample(k, total, e, places, v);
-    for (size_t p = 0; p < places && (s->rows < 3 * n + 40 || s->values < 2 * n + 40); p++) {
+    for (size_t p = 0; p < places && nh_relative_wants_more(&s->rows); p++) {
         const double *z = v + p * total, *E = z + m * m + f * m, *b = E + m * d;
         if (isfinite(nh_largest(total, z))) place_rows(s, z, z + m * m, E, b, b + n);
     }
     nh_free(e);
     nh_free(v);
-}
-
-static double *columns_of(size_t rows, size_t n, const double *row)
-{
-    double *a = nh_alloc_array(rows * n + 1, sizeof *a);
-    for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j < n; j++) a[i + j * rows] = row[i * n + j];
-    return a;
-}
-
-/* Null vectors of the conditions relative to the size of the field; in echelon form with the complex functions as pivots. */
-static size_t solve(search *s, double **vector, nh_error *error)
-{
-    nh_basis basis;
-    nh_nullspace_options o = nh_nullspace_options_from(s->options);
-    double *a = columns_of(s->rows, s->n, s->row), *b = columns_of(s->values, s->n, s->value);
-    size_t count = 0;
-    *vector = NULL;
-    if (s->values && nh_basis_init(&basis, s->values, s->n, b, s->values, NULL, &o, error)) {
-        size_t n = basis.count;
-        double *kept = nh_alloc_array(s->rows * n + 1, sizeof *kept), *kernel = nh_alloc_array(n * n + 1, sizeof *kernel);
-        nh_basis_gather(&basis, s->rows, a, s->rows, kept);
-        if (n) nh_solve_triangle_right(s->rows, n, basis.r, n, kept);
-        for (size_t i = 0; i < s->rows * n; i++) kept[i] *= sqrt((double)s->values / (double)(s->rows + 1));
-        count = nh_kernel(s->rows, n, kept, s->options->group, kernel, NULL, NULL);
-        *vector = nh_alloc_array(s->n * count + 1, sizeof **vector);
-        if (count) nh_basis_expand(&basis, s->n, count, kernel, *vector);
-        nh_free(kept);
-        nh_free(kernel);
-        nh_basis_clear(&basis);
-    }
-    nh_free(a);
-    nh_free(b);
-    return count;
 }
 
 /* ---- from vectors to momenta ---- */
@@ -183,41 +140,6 @@ static void prove(search *s, nh_momentum *p)
     if (p->proved) p->proved = nh_normal_is_zero(d, rate, (size_t)s->options->proof_terms) == NH_ZERO || nh_prove_zero(k->model, 1, &rate, false, s->options).proved;
 }
 
-/* Reduced echelon form, the most complex columns as pivots: the rest of each vector is then the simplest. */
-static void reduce(const search *s, size_t count, double *v)
-{
-    static const double small = 1e-6, pivotal = 1e-3;
-    size_t n = s->n, rank = 0, *order = nh_alloc_array(n + 1, sizeof *order);
-    for (size_t i = 0; i < n; i++) {
-        size_t j = i;
-        for (; j > 0 && s->l.complexity[order[j - 1]] > s->l.complexity[i]; j--) order[j] = order[j - 1];
-        order[j] = i;
-    }
-    for (size_t at = n; at-- > 0 && rank < count;) {
-        size_t j = order[at], best = rank;
-        for (size_t r = rank; r < count; r++)
-            if (fabs(v[j + r * n]) > fabs(v[j + best * n])) best = r;
-        double most = nh_largest(n, v + best * n), pivot = v[j + best * n];
-        if (!(fabs(pivot) > pivotal * most)) continue;
-        for (size_t i = 0; i < n; i++) {
-            double x = v[i + best * n] / pivot;
-            v[i + best * n] = v[i + rank * n];
-            v[i + rank * n] = x;
-        }
-        for (size_t r = 0; r < count; r++) {
-            double factor = v[j + r * n];
-            for (size_t i = 0; i < n && r != rank; i++) v[i + r * n] -= factor * v[i + rank * n];
-        }
-        rank++;
-    }
-    for (size_t r = 0; r < count; r++) {
-        double most = nh_largest(n, v + r * n);
-        for (size_t i = 0; i < n; i++)
-            if (fabs(v[i + r * n]) <= small * most) v[i + r * n] = 0;
-    }
-    nh_free(order);
-}
-
 static nh_ex coefficient(const search *s, double value)
 {
     nh_num x;
@@ -254,7 +176,9 @@ static bool multiple(const search *s, const nh_momentum *p)
 static void take(search *s, size_t count, double *v, nh_momenta *out)
 {
     nh_dag *dag = s->k->dag;
-    reduce(s, count, v);
+    size_t *order = nh_library_order(&s->l);
+    nh_relative_echelon(s->n, count, order, NULL, v); /* the most complex columns as pivots: the rest of each vector is then the simplest */
+    nh_free(order);
     out->momentum = nh_arena_alloc(s->k->arena, (count + 1) * sizeof *out->momentum);
     for (size_t r = count; r-- > 0;) {
         nh_momentum *p = &out->momentum[out->count++];
@@ -375,16 +299,15 @@ bool nh_momenta_find(nh_momenta *out, const nh_action *g, const nh_options *opti
     for (int level = 1; level <= 3 && good && g->d; level++) { /* 2: with 1/sin and the like; 3: products of two */
         search s = {.g = g, .k = k, .options = options, .m = k->m, .d = g->d, .f = k->f};
         nh_momenta found = {0};
-        double *vector;
+        size_t count;
         nh_library_for(&s.l, k, g->d, level == 3 ? 1 : level, level == 3 ? 2 : 1, most_columns);
-        s.n = s.l.count;
+        s.n = s.rows.columns = s.l.count;
         collect(&s);
-        size_t count = solve(&s, &vector, error);
+        double *vector = nh_relative_null(&s.rows, options, &count, NULL, NULL, error);
         good = vector != NULL;
         if (good && count > out->count) take(&s, count, vector, &found), *out = found;
         nh_free(vector);
-        nh_free(s.row);
-        nh_free(s.value);
+        nh_relative_clear(&s.rows);
         nh_library_clear(&s.l);
     }
     return good;

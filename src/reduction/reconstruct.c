@@ -6,135 +6,9 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "reduction/group_flow.h"
 #include "reduction/reach.h"
 #include "reduction/subspace.h"
-
-typedef struct {
-    const nh_reduced_chart *chart;
-    const nh_action *action;
-    bool group;                     /* its motion is wanted, too */
-    size_t inner, d, m;
-    double *ad;                     /* d matrices d x d */
-    bool *acts;                     /* ad_a is not zero */
-    double *M, *P, *E, *next, *zeta; /* work */
-    bool direct;                    /* the place itself is integrated beside (x, p, t) */
-    nh_tape *field;                 /* generators at a place */
-    nh_tape_work *field_work;
-    double *e, *before, *spatial;   /* their values; Ad of the factors kept; g' g^-1 */
-} group_flow;
-
-/* Where the generators do not depend on the shape coordinates, T g d/dx^i = d/dx^i, and the place follows the equation
- *     q' = x'^i d/dx^i + (Ad_g zeta)^a e_a(q),
- * which stays on the path of the motion: the flows of the factors take another one, round a pole of the coordinates perhaps. */
-static bool independent_of_shape(const nh_slice *s)
-{
-    const nh_kinetic *k = s->kinetic;
-    for (size_t a = 0; a < s->d; a++)
-        for (size_t r = 0; r < s->m; r++)
-            for (size_t i = 0; i < s->n; i++)
-                if (nh_depends(k->dag, s->action->generator[a].component[r], s->x[i])) return false;
-    return true;
-}
-
-/* M(t) into f->M and Ad_g into f->P. */
-static void second_kind(group_flow *f, const double *t)
-{
-    size_t d = f->d;
-    for (size_t i = 0; i < d * d; i++) f->P[i] = i % (d + 1) == 0;
-    for (size_t a = 0; a < d; a++) {
-        memcpy(f->M + a * d, f->P + a * d, d * sizeof *f->M);
-        if (!f->acts[a] || t[a] == 0) continue;
-        for (size_t i = 0; i < d * d; i++) f->next[i] = t[a] * f->ad[a * d * d + i];
-        nh_matrix_exp(d, f->next, f->E);
-        nh_multiply(d, d, d, f->P, f->E, f->next);
-        memcpy(f->P, f->next, d * d * sizeof *f->P);
-    }
-}
-
-/* rate holds x' and, from `inner` on, Ad_h zeta of the factor in hand. */
-static void place_rate(group_flow *f, const double *q, double *rate)
-{
-    const nh_slice *s = f->chart->slice;
-    double *out = rate + f->inner + f->d;
-    nh_multiply(f->d, 1, f->d, f->before, rate + f->inner, f->spatial);
-    nh_tape_eval(f->field, f->field_work, q, f->e);
-    memset(out, 0, s->m * sizeof *out);
-    for (size_t i = 0; i < s->n; i++) out[s->shape[i]] = rate[i];
-    for (size_t a = 0; a < f->d; a++)
-        for (size_t r = 0; r < s->m; r++) out[r] += f->spatial[a] * f->e[r + a * s->m];
-}
-
-static bool rate_of(double time, const double *z, double *rate, void *context)
-{
-    group_flow *f = context;
-    size_t d = f->d;
-    nh_reduced_flow_time(f->chart->flow, time);
-    if (!nh_reduced_flow_at(f->chart->flow, z, rate, NULL, f->zeta, NULL)) return false;
-    if (!f->group) return true;
-    second_kind(f, z + f->inner);
-    nh_multiply(d, 1, d, f->P, f->zeta, rate + f->inner);
-    if (f->direct) place_rate(f, z + f->inner + d, rate);
-    return d == 0 || nh_solve(d, f->M, 1, rate + f->inner, NULL);
-}
-
-/* What must stay regular in the reduced equations, and sigma_min / sigma_max of M, above what is tolerated. */
-static bool guard_of(double time, const double *z, double *value, void *context)
-{
-    (void)time;
-    static const double least = 0.1;
-    group_flow *f = context;
-    double *s = f->zeta;
-    if (!nh_reduced_flow_guards(f->chart->flow, z, value)) return false;
-    if (!f->d || !f->group) return true;
-    second_kind(f, z + f->inner);
-    nh_singular_values(f->d, f->d, f->M, s);
-    value[2] = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
-    return isfinite(value[2]);
-}
-
-static void group_flow_init(group_flow *f, const nh_action *action, bool group)
-{
-    const nh_algebra *g = &action->algebra;
-    size_t d = g->d, m = action->kinetic->m;
-    *f = (group_flow){.action = action, .group = group, .d = d, .m = m};
-    f->ad = nh_alloc_array(d * d * d + 4 * d * d + d + 1, sizeof *f->ad);
-    f->M = f->ad + d * d * d;
-    f->P = f->M + d * d;
-    f->E = f->P + d * d;
-    f->next = f->E + d * d;
-    f->zeta = f->next + d * d;
-    f->acts = nh_alloc_array(d + 1, sizeof *f->acts);
-    for (size_t a = 0; a < d; a++) {
-        for (size_t i = 0; i < d; i++) f->zeta[i] = i == a;
-        nh_algebra_ad(g, f->zeta, f->ad + a * d * d);
-        f->acts[a] = nh_largest(d * d, f->ad + a * d * d) > 0;
-    }
-    nh_ex *e = nh_alloc_array(m * d + 1, sizeof *e);
-    for (size_t a = 0; a < d; a++) memcpy(e + a * m, action->generator[a].component, m * sizeof *e);
-    f->field = nh_kinetic_tape(action->kinetic, m * d, e);
-    f->field_work = nh_tape_work_create(f->field);
-    f->e = nh_alloc_array(m * d + d * d + d + 1, sizeof *f->e);
-    f->before = f->e + m * d;
-    f->spatial = f->before + d * d;
-    for (size_t i = 0; i < d * d; i++) f->before[i] = i % (d + 1) == 0;
-    nh_free(e);
-}
-
-static void group_flow_chart(group_flow *f, const nh_reduced_chart *chart)
-{
-    f->chart = chart;
-    f->inner = chart->reduced->n + chart->reduced->r;
-    f->direct = f->group && independent_of_shape(chart->slice);
-}
-
-static void group_flow_clear(group_flow *f)
-{
-    nh_tape_work_free(f->field_work);
-    nh_tape_free(f->field);
-    nh_free(f->e);
-    nh_free(f->ad);
-    nh_free(f->acts);
-}
 
 /* q := exp(t_1 e_1) ... exp(t_d e_d) q: the last factor first. */
 static bool move(nh_flows *flows, size_t d, const double *t, double *q)
@@ -152,7 +26,7 @@ static bool move(nh_flows *flows, size_t d, const double *t, double *q)
 
 /* One motion in hand. */
 typedef struct {
-    group_flow f;
+    nh_group_flow f;
     nh_flows *flows;
     nh_atlas *atlas;          /* NULL: one chart only */
     double *factor;           /* of finished stretches: d numbers each, the first one outermost */
@@ -161,12 +35,10 @@ typedef struct {
     nh_reconstruction *out;
 } course;
 
-static size_t size_of(const group_flow *f) { return f->inner + (f->group ? f->d + (f->direct ? f->m : 0) : 0); }
-
 /* The place in Q of a state. */
 static bool place_of(const course *c, const double *z, double *q)
 {
-    const group_flow *f = &c->f;
+    const nh_group_flow *f = &c->f;
     if (f->direct) {
         memcpy(q, z + f->inner + f->d, f->m * sizeof *q);
         return true;
@@ -180,7 +52,7 @@ static bool place_of(const course *c, const double *z, double *q)
 /* Copy what a stretch of the motion reached, from its output `from` on; the places of its points. */
 static bool store(course *c, const nh_motion *motion, size_t from)
 {
-    group_flow *f = &c->f;
+    nh_group_flow *f = &c->f;
     nh_reconstruction *out = c->out;
     bool good = true;
     for (size_t i = from; i < motion->count && good; i++) {
@@ -199,10 +71,10 @@ static bool store(course *c, const nh_motion *motion, size_t from)
 /* Keep the factors of g; the next stretch starts from the identity. */
 static void keep_factors(course *c, const double *t)
 {
-    group_flow *f = &c->f;
+    nh_group_flow *f = &c->f;
     nh_grow(&c->factor, &c->capacity, (c->count + 1) * f->d, sizeof *c->factor);
     memcpy(c->factor + c->count++ * f->d, t, f->d * sizeof *t);
-    second_kind(f, t);
+    nh_group_flow_factors(f, t);
     nh_multiply(f->d, f->d, f->d, f->before, f->P, f->next);
     memcpy(f->before, f->next, f->d * f->d * sizeof *f->before);
 }
@@ -216,7 +88,7 @@ static void limit_guards(course *c, const double *x)
 /* The rest of the state for the inner one: g = identity, and the place where that is integrated. */
 static void begin_stretch(course *c, const double *place)
 {
-    group_flow *f = &c->f;
+    nh_group_flow *f = &c->f;
     if (f->group) memset(c->state + f->inner, 0, f->d * sizeof *c->state);
     if (f->direct) memcpy(c->state + f->inner + f->d, place, f->m * sizeof *c->state);
     limit_guards(c, c->state);
@@ -226,7 +98,7 @@ static void begin_stretch(course *c, const double *place)
 static bool change_chart(course *c, const double *z, bool renew, double *place)
 {
     static const double lost = 1e-4; /* no chart is any good */
-    group_flow *f = &c->f;
+    nh_group_flow *f = &c->f;
     double *q = nh_alloc_array(2 * f->m + f->inner + f->d + 1, sizeof *q), *v = q + f->m, *next = v + f->m, *moved = next + f->inner, value[2];
     nh_error trouble = {0};
     bool good = nh_chart_leave(f->chart, z, q, v), placed = f->group && good && place_of(c, z, place);
@@ -239,7 +111,7 @@ static bool change_chart(course *c, const double *z, bool renew, double *place)
         if (c->out->charts == 1 && chart != f->chart) c->out->first_chart = c->out->count;
         if (f->group) keep_factors(c, z + f->inner);
         if (f->group && renew) keep_factors(c, moved);
-        group_flow_chart(f, chart);
+        nh_group_flow_chart(f, chart);
         f->direct &= placed;
         memcpy(c->state, next, f->inner * sizeof *next);
     }
@@ -258,7 +130,7 @@ static bool renew_chart(course *c, const nh_motion *motion, double *place)
 /* After a stretch that a guard has ended: go on from there; where that fails, or the equations could not be integrated, from the last output. */
 static bool go_on(course *c, const nh_motion *motion, bool renew)
 {
-    group_flow *f = &c->f;
+    nh_group_flow *f = &c->f;
     double *place = nh_alloc_array(f->m + 1, sizeof *place);
     bool good = false;
     c->left[0] = motion->end_time;
@@ -300,13 +172,13 @@ static bool run(course *c, size_t count, const double *times, const nh_options *
 {
     enum { most_stretches = 10000, patience = 3000 };
     nh_reconstruction *out = c->out;
-    group_flow *f = &c->f;
+    nh_group_flow *f = &c->f;
     size_t stretches = 0;
     memcpy(c->left, times, count * sizeof *times);
     for (; !out->complete && stretches < most_stretches; stretches++) {
         double steps = options->steps - (double)out->steps;
         nh_flow_options o = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1)};
-        nh_flow_problem problem = {.size = size_of(f), .context = f, .rate = rate_of, .guards = 2 + (f->d > 0 && f->group), .guard = guard_of};
+        nh_flow_problem problem = {.size = nh_group_flow_size(f), .context = f, .rate = nh_group_flow_rate, .guards = 2 + (f->d > 0 && f->group), .guard = nh_group_flow_guard};
         size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
         if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);
         nh_motion *motion = nh_flow(&problem, c->state, n + first, c->left, &o, error);
@@ -344,8 +216,8 @@ static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool grou
     nh_reconstruction *out = nh_alloc(sizeof *out);
     *out = (nh_reconstruction){.m = m, .size = inner, .first = chart->reduced};
     course c = {.flows = nh_flows_create(slice->action), .atlas = atlas, .out = out};
-    group_flow_init(&c.f, slice->action, group);
-    group_flow_chart(&c.f, chart);
+    nh_group_flow_init(&c.f, slice->action, group);
+    nh_group_flow_chart(&c.f, chart);
     c.state = nh_alloc_array(inner + c.f.d + m + 1, sizeof *c.state);
     c.left = nh_alloc_array(count + 2, sizeof *c.left);
     out->time = nh_alloc_array(count + 1, sizeof *out->time);
@@ -357,7 +229,7 @@ static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool grou
     for (size_t i = 0; i < at->moves && group; i++) keep_factors(&c, at->moved + i * c.f.d);
     begin_stretch(&c, q);
     bool good = run(&c, count, times, options, error);
-    group_flow_clear(&c.f);
+    nh_group_flow_clear(&c.f);
     nh_flows_free(c.flows);
     nh_free(c.factor);
     nh_free(c.state);

@@ -4,13 +4,19 @@
 
 #include "study/result.h"
 
-/* A number for people: all its digits; the shown ones before the power of ten, with a minus sign; whether there is a power.  False: not finite. */
+/* A number for people: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without a mantissa where that is 1.  False: not finite. */
 typedef struct {
     char all[40], mantissa[60];
-    bool has_power;
+    bool minus, has_power;
     int power;
 } nh_shown_number;
 bool nh_facts_number(double value, int digits, nh_shown_number *out);
+
+/* Words with a list of names in parentheses at their end, such as a chart has: "coordinate velocities (x', y')".  The words before the parenthesis, and
+ * the list; NULL without such a list. */
+const char *nh_facts_list(const char *text, char *words, size_t size);
+/* The next name of a list; false after the last. */
+bool nh_facts_next(const char **list, char *name, size_t size);
 
 /* One linear problem in numbers, the first of them counts; NAN for what there is not. */
 enum { NH_SPECTRUM_COUNTS = 4, NH_SPECTRUM_NUMBERS = 7 };

@@ -7,17 +7,18 @@
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
 
-/* "one is the energy" */
+/* "one is minus the energy, one the momentum of x" */
 static void meanings(nh_html_writer *w)
 {
     const nh_result *r = w->r;
     size_t told = 0;
     for (size_t k = 0; k < r->count; k++) {
         if (!r->found[k].meaning[0] || r->found[k].independence != NH_INDEPENDENT) continue;
-        bool one_of_many = !strncmp(r->found[k].meaning, "integral", 8);
+        const char *meaning = r->found[k].meaning;
+        bool bare = !strncmp(meaning, "energy", 6) || !strncmp(meaning, "momentum", 8);
         nh_html_add(w, told++ ? ", one " : "; one is ");
-        nh_html_add(w, one_of_many ? "an " : "the ");
-        nh_html_meaning(w, r->found[k].meaning);
+        nh_html_add(w, bare ? "the " : !strncmp(meaning, "integral", 8) ? "an " : "");
+        nh_html_meaning(w, meaning);
     }
 }
 

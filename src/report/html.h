@@ -22,6 +22,8 @@ void nh_html_reduction(const nh_reduction *reduction, const nh_run *run, nh_text
 
 /* The figures of a page one by one, each a stand-alone SVG document: where the next begins, NULL after the last.  Moves *at on. */
 const char *nh_html_next_figure(const char **at, size_t *length);
+/* Does this text begin as the figure of that number does, from 1? */
+bool nh_html_is_figure(const char *text, size_t number);
 
 /* The plots of one section of a page, for a report of another form.  They last for the call. */
 typedef enum { NH_SECTION_MOTION, NH_SECTION_FIGURES, NH_SECTION_SEARCH } nh_html_section;

@@ -39,8 +39,27 @@ static void series_plot(nh_html_writer *w, const nh_found *f)
     snprintf(title, sizeof title, "Coefficient functions of %.100s", f->name);
     nh_plot plot = {.title = title, .description = "The functions that multiply the velocities, over their coordinate", .x_label = nh_name_of(w->dag, s->coordinate),
                     .y_label = n == 1 ? name[0] : "value", .curves = n, .curve = curve};
-    nh_html_figure(w, &plot, "The coefficient functions; the JSON has their Chebyshev coefficients.");
+    nh_html_figure(w, &plot, "The coefficient functions.");
     nh_free(x);
+}
+
+static void series_table(nh_html_writer *w, const nh_found *f)
+{
+    const nh_series *s = f->series;
+    nh_text heads;
+    nh_text_init(&heads);
+    nh_text_add(&heads, "k");
+    for (size_t i = 0; i < s->words; i++) nh_text_addf(&heads, "|f%zu", i + 1);
+    nh_html_add(w, "<details><summary>Chebyshev coefficients</summary>\n");
+    nh_html_table(w, "Factors of T_k, the interval taken to [-1, 1]", nh_text_string(&heads));
+    nh_text_clear(&heads);
+    for (size_t k = 0; k <= s->degree; k++) {
+        nh_text_addf(w->out, "<tr><th scope=\"row\">%zu</th>", k);
+        for (size_t i = 0; i < s->words; i++) nh_html_cell(w, s->coefficient[i * s->stride + k], 10);
+        nh_html_add(w, "</tr>\n");
+    }
+    nh_html_table_end(w);
+    nh_html_add(w, "</details>\n");
 }
 
 static void series(nh_html_writer *w, const nh_found *f)
@@ -60,6 +79,7 @@ static void series(nh_html_writer *w, const nh_found *f)
     nh_html_number(w, s->high, 4);
     nh_html_add(w, "]: it has no closed form among the functions that were tried.</p>\n");
     series_plot(w, f);
+    series_table(w, f);
 }
 
 static void as_text(nh_html_writer *w, const nh_found *f)

@@ -6,6 +6,7 @@
 #include "expr/normal.h"
 #include "expr/print.h"
 #include "expr/typeset.h"
+#include "report/facts.h"
 #include "report/formula.h"
 #include "report/html_internal.h"
 
@@ -52,24 +53,14 @@ void nh_html_name(nh_html_writer *w, const char *name)
 
 void nh_html_chart(nh_html_writer *w, const char *name)
 {
-    const char *list = strstr(name, " ("), *end = strrchr(name, ')');
-    if (!list || !end || end[1]) {
-        nh_html_text(w, name);
-        return;
-    }
-    nh_text words;
-    nh_text_init(&words);
-    nh_text_add_n(&words, name, (size_t)(list + 1 - name));
-    nh_html_text(w, nh_text_string(&words));
-    nh_text_clear(&words);
+    char words[200], one[200];
+    const char *list = nh_facts_list(name, words, sizeof words);
+    nh_html_text(w, list ? words : name);
+    if (!list) return;
     nh_html_add(w, "<span class=\"word\">(");
-    for (const char *c = list + 2, *next; c < end; c = next) {
-        char one[200];
-        size_t length = strcspn(c, ",)");
-        snprintf(one, sizeof one, "%.*s", (int)length, c);
+    for (bool first = true; nh_facts_next(&list, one, sizeof one); first = false) {
+        nh_html_add(w, first ? "" : ", ");
         nh_html_name(w, one);
-        next = c + length + 1 + strspn(c + length + 1, " ");
-        if (next < end) nh_html_add(w, ", ");
     }
     nh_html_add(w, ")</span>");
 }
@@ -77,13 +68,14 @@ void nh_html_chart(nh_html_writer *w, const char *name)
 void nh_html_meaning(nh_html_writer *w, const char *meaning)
 {
     static const char of[] = "momentum of ";
-    nh_text plain;
-    nh_text_init(&plain);
-    bool named = !strncmp(meaning, of, sizeof of - 1);
-    if (named) nh_html_add(w, of);
-    if (named) nh_typeset_plain(meaning + sizeof of - 1, &plain);
-    nh_html_text(w, named ? nh_text_string(&plain) : meaning);
-    nh_text_clear(&plain);
+    const char *name = strstr(meaning, of);
+    nh_text words;
+    nh_text_init(&words);
+    if (name) name += sizeof of - 1;
+    nh_text_add_n(&words, meaning, name ? (size_t)(name - meaning) : strlen(meaning));
+    if (name) nh_typeset_plain(name, &words);
+    nh_html_text(w, nh_text_string(&words));
+    nh_text_clear(&words);
 }
 
 static void equal(nh_html_writer *w) { nh_html_add(w, "<math><mo>=</mo></math> "); }

@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -7,6 +8,8 @@
 #include "report/facts.h"
 #include "report/glossary.h"
 #include "report/html_internal.h"
+
+enum { FIGURE_ID = 40 };
 
 void nh_html_add(nh_html_writer *w, const char *markup) { nh_text_add(w->out, markup); }
 void nh_html_text(nh_html_writer *w, const char *text) { nh_svg_escape(text, w->out); }
@@ -40,9 +43,8 @@ void nh_html_number(nh_html_writer *w, double value, int digits)
         nh_html_add(w, "\u2013");
         return;
     }
-    bool minus = n.mantissa[0] == '-', one = n.has_power && !strcmp(n.mantissa + minus, "1");
-    nh_text_addf(w->out, "<data value=\"%s\">%s%s", n.all, minus ? "\u2212" : "", one ? "" : n.mantissa + minus);
-    if (n.has_power) nh_text_addf(w->out, "%s10<sup>%s%d</sup>", one ? "" : "\u00b7", n.power < 0 ? "\u2212" : "", n.power < 0 ? -n.power : n.power);
+    nh_text_addf(w->out, "<data value=\"%s\">%s%s", n.all, n.minus ? "\u2212" : "", n.mantissa);
+    if (n.has_power) nh_text_addf(w->out, "%s10<sup>%s%d</sup>", n.mantissa[0] ? "\u00b7" : "", n.power < 0 ? "\u2212" : "", abs(n.power));
     nh_html_add(w, "</data>");
 }
 
@@ -55,14 +57,23 @@ void nh_html_cell(nh_html_writer *w, double value, int digits)
 
 void nh_html_count(nh_html_writer *w, size_t value) { nh_text_addf(w->out, "<data value=\"%zu\">%zu</data>", value, value); }
 
+static void name_figure(size_t number, char id[FIGURE_ID]) { snprintf(id, FIGURE_ID, "fig%zu", number); }
+
+bool nh_html_is_figure(const char *text, size_t number)
+{
+    char id[FIGURE_ID];
+    name_figure(number, id);
+    return nh_svg_is_plot(text, id);
+}
+
 void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption)
 {
-    char id[40];
+    char id[FIGURE_ID];
     if (w->sink) {
         w->sink(w->context, plot, caption);
         return;
     }
-    snprintf(id, sizeof id, "fig%zu", ++w->figures);
+    name_figure(++w->figures, id);
     plot->id = id;
     nh_html_add(w, "<figure>");
     nh_svg_plot(plot, w->out);

@@ -357,11 +357,26 @@ static double legend(const canvas *c, bool draw)
     return y;
 }
 
+static void begin(const char *id, nh_text *out)
+{
+    nh_text_addf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" id=\"%s\" role=\"img\" aria-labelledby=\"%s-t %s-d\"", id, id, id);
+}
+
+bool nh_svg_is_plot(const char *text, const char *id)
+{
+    nh_text head;
+    nh_text_init(&head);
+    begin(id, &head);
+    bool same = !strncmp(text, nh_text_string(&head), head.length);
+    nh_text_clear(&head);
+    return same;
+}
+
 static void head(const canvas *c)
 {
     const nh_plot *p = c->plot;
-    nh_text_addf(c->out, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" id=\"%s\" role=\"img\" aria-labelledby=\"%s-t %s-d\" viewBox=\"0 0 %d %.0f\" width=\"%d\" height=\"%.0f\"", p->id,
-                 p->id, p->id, width, c->height, width, c->height);
+    begin(p->id, c->out);
+    nh_text_addf(c->out, " viewBox=\"0 0 %d %.0f\" width=\"%d\" height=\"%.0f\"", width, c->height, width, c->height);
     if (p->timed) nh_text_addf(c->out, " data-t0=\"%.9g\" data-t1=\"%.9g\" data-x0=\"%.1f\" data-x1=\"%.1f\"", c->x.low, c->x.high, c->x.from, c->x.to);
     nh_text_addf(c->out, "><title id=\"%s-t\">", p->id);
     nh_svg_escape(p->title, c->out);

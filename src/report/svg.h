@@ -29,6 +29,8 @@ typedef struct {
 } nh_plot;
 
 void nh_svg_plot(const nh_plot *plot, nh_text *out);
+/* Does this text begin as the plot with that id does? */
+bool nh_svg_is_plot(const char *text, const char *id);
 
 /* The range of what is finite; false when there is none. */
 bool nh_svg_range(size_t count, const double *value, size_t stride, double *low, double *high);

@@ -158,25 +158,56 @@ static void certificate(nh_tex_writer *w, const nh_found *f)
     nh_tex_add(w, f->local ? "; local: many-valued on an angle.\n" : ".\n");
 }
 
+/* c_k for the functions from..to-1; cells have a width, so that the columns of a long table agree after the first pass of TeX. */
+static void coefficient_table(nh_tex_writer *w, const nh_series *s, size_t from, size_t to)
+{
+    enum { digits = 10 };
+    static const char narrow[] = "\\hbox to 2em{\\hss ", wide[] = " & \\hbox to 9.5em{\\hss ";
+    nh_text_addf(w->out, "{\\footnotesize\\begin{longtable}{*{%zu}{r}}\n%s$k$}", to - from + 1, narrow);
+    for (size_t i = from; i < to; i++) nh_text_addf(w->out, "%s$c_k$ of $f_{%zu}$}", wide, i + 1);
+    nh_tex_add(w, " \\\\\\hline\\endhead\n");
+    for (size_t k = 0; k <= s->degree; k++) {
+        nh_text_addf(w->out, "%s%zu}", narrow, k);
+        for (size_t i = from; i < to; i++) {
+            nh_tex_add(w, wide);
+            nh_tex_number(w, s->coefficient[i * s->stride + k], digits);
+            nh_tex_add(w, "}");
+        }
+        nh_tex_add(w, " \\\\\n");
+    }
+    nh_tex_add(w, "\\end{longtable}}\n");
+}
+
+static void series(nh_tex_writer *w, const nh_found *f)
+{
+    enum { beside = 4 }; /* functions that a page is wide enough for */
+    const nh_series *s = f->series;
+    const char *q = nh_name_of(w->r->model->dag, s->coordinate);
+    nh_tex_add(w, "\\nhformula{");
+    nh_typeset(f->name, NH_LATEX, w->out);
+    nh_tex_add(w, " = ");
+    nh_formula_series(w->r->model->dag, s, NH_LATEX, w->out);
+    nh_tex_add(w, "}\nwithout closed form: for ");
+    nh_tex_name(w, q);
+    nh_tex_add(w, " from $a={}$");
+    nh_tex_number(w, s->low, 10);
+    nh_tex_add(w, " to $b={}$");
+    nh_tex_number(w, s->high, 10);
+    nh_tex_add(w, " each $f$ is a series of Chebyshev polynomials\n\\nhformula{\\sum_{k=0}^{");
+    nh_text_addf(w->out, "%zu} c_k\\, T_k\\!\\left(\\frac{2\\,", s->degree);
+    nh_typeset(q, NH_LATEX, w->out);
+    nh_tex_add(w, " - a - b}{b - a}\\right)}\n");
+    for (size_t i = 0; i < s->words; i += beside) coefficient_table(w, s, i, i + beside < s->words ? i + beside : s->words);
+}
+
 static void current(nh_tex_writer *w, const nh_found *f)
 {
     nh_tex_add(w, "\\subsection*{");
     nh_tex_name(w, f->name);
     if (f->meaning[0]) nh_tex_add(w, ": "), nh_tex_words(w, f->meaning);
     nh_tex_add(w, "}\n");
-    if (f->series) {
-        nh_tex_add(w, "\\nhformula{");
-        nh_typeset(f->name, NH_LATEX, w->out);
-        nh_tex_add(w, " = ");
-        nh_formula_series(w->r->model->dag, f->series, NH_LATEX, w->out);
-        nh_tex_add(w, "}\nwith Chebyshev series of degree ");
-        nh_tex_count(w, f->series->degree);
-        nh_tex_add(w, " in ");
-        nh_tex_name(w, nh_name_of(w->r->model->dag, f->series->coordinate));
-        nh_tex_add(w, " without closed form; the JSON has their coefficients.\n");
-    } else {
-        nh_tex_formula(w, f->name, f->phi);
-    }
+    if (f->series) series(w, f);
+    else nh_tex_formula(w, f->name, f->phi);
     if (f->relation) nh_tex_add(w, "It depends on the others:\n"), nh_tex_display(w, "", f->relation);
     certificate(w, f);
     if (!f->has_symmetry) return;

@@ -100,9 +100,13 @@ void nh_tex_code(nh_tex_writer *w, const char *text)
 void nh_tex_number(nh_tex_writer *w, double value, int digits)
 {
     nh_shown_number n;
-    if (!nh_facts_number(value, digits, &n)) nh_tex_add(w, "--");
-    else if (n.has_power && !strcmp(n.mantissa, "1")) nh_text_addf(w->out, "\\nhnumber{%s}{10^{%d}}", n.all, n.power);
-    else nh_text_addf(w->out, n.has_power ? "\\nhnumber{%s}{%s\\cdot 10^{%d}}" : "\\nhnumber{%s}{%s}", n.all, n.mantissa, n.power);
+    if (!nh_facts_number(value, digits, &n)) {
+        nh_tex_add(w, "--");
+        return;
+    }
+    nh_text_addf(w->out, "\\nhnumber{%s}{%s%s", n.all, n.minus ? "-" : "", n.mantissa);
+    if (n.has_power) nh_text_addf(w->out, "%s10^{%d}", n.mantissa[0] ? "\\cdot " : "", n.power);
+    nh_tex_add(w, "}");
 }
 
 void nh_tex_count(nh_tex_writer *w, size_t value) { nh_text_addf(w->out, "\\nhnumber{%zu}{%zu}", value, value); }
@@ -111,20 +115,14 @@ void nh_tex_count(nh_tex_writer *w, size_t value) { nh_text_addf(w->out, "\\nhnu
 
 void nh_tex_chart(nh_tex_writer *w, const char *name)
 {
-    const char *list = strstr(name, " ("), *end = strrchr(name, ')');
-    char one[200];
-    if (!list || !end || end[1]) {
-        nh_tex_words(w, name);
-        return;
-    }
-    snprintf(one, sizeof one, "%.*s", (int)(list + 2 - name), name);
-    nh_tex_words(w, one);
-    for (const char *c = list + 2, *next; c < end; c = next) {
-        size_t length = strcspn(c, ",)");
-        snprintf(one, sizeof one, "%.*s", (int)length, c);
+    char words[200], one[200];
+    const char *list = nh_facts_list(name, words, sizeof words);
+    nh_tex_words(w, list ? words : name);
+    if (!list) return;
+    nh_tex_add(w, "(");
+    for (bool first = true; nh_facts_next(&list, one, sizeof one); first = false) {
+        nh_tex_add(w, first ? "" : ", ");
         nh_tex_name(w, one);
-        next = c + length + 1 + strspn(c + length + 1, " ");
-        if (next < end) nh_tex_add(w, ", ");
     }
     nh_tex_add(w, ")");
 }

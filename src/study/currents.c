@@ -11,67 +11,9 @@
 #include "noether/refine.h"
 #include "study/coefficients.h"
 #include "study/dependence.h"
+#include "study/described.h"
 
 enum { heldout_count = 256, generic_count = 24, open_digits = 12, least_almost = 6 };
-
-/* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
-
-static bool is_parametric(const nh_model *o, nh_ex e)
-{
-    for (size_t j = 0; j < o->width; j++)
-        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
-    return true;
-}
-
-/* The factor of e that contains numbers and parameters only. */
-static nh_ex parametric_factor(const nh_model *o, nh_ex e)
-{
-    nh_dag *d = o->dag;
-    if (nh_kind_of(d, e) != NH_PRODUCT) return is_parametric(o, e) ? e : nh_int(d, 1);
-    nh_ex factor = nh_number(d, nh_constant_of(d, e));
-    for (size_t i = 0; i < nh_arity(d, e); i++) {
-        nh_ex base = nh_child(d, e, i), x = nh_exponent_of(d, e, i);
-        if (is_parametric(o, base) && is_parametric(o, x)) factor = nh_mul(d, factor, nh_pow(d, base, x));
-    }
-    return factor;
-}
-
-/* What to divide the current by: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest factor of zeta. */
-static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
-{
-    nh_dag *d = o->dag;
-    if (!nh_is_zero(d, Z0) && is_parametric(o, Z0)) return Z0;
-    nh_ex best = nh_int(d, 1);
-    size_t least = SIZE_MAX;
-    for (size_t i = o->n; i-- > 0;) { /* later components win ties */
-        if (nh_is_zero(d, zeta[i])) continue;
-        nh_ex factor = parametric_factor(o, zeta[i]);
-        size_t size = nh_is_number(d, factor, 1) ? 0 : nh_complexity(d, factor);
-        if (size >= least) continue;
-        least = size;
-        best = factor;
-    }
-    return best;
-}
-
-static void normalise(nh_model *o, nh_found *f)
-{
-    nh_dag *d = o->dag;
-    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta), Z0 = nh_symmetry_components(o, f->phi, zeta);
-    nh_ex unit = unit_of(o, Z0, zeta);
-    nh_free(zeta);
-    f->phi = nh_simplify_short(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit), 0);
-}
-
-static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh_error *error)
-{
-    nh_model *o = r->model;
-    if (!f->series) normalise(o, f);
-    f->has_symmetry = nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
-    return f->has_symmetry;
-}
-
-/* ---- checks on points that the fit did not see ---- */
 
 /* max |Gamma(Phi)| / max(sum |terms of it|, 1e-3 |dPhi| |Gamma|). */
 static double heldout_residual(const nh_model *o, const nh_points *points, nh_ex phi)
@@ -101,78 +43,6 @@ static double heldout_residual(const nh_model *o, const nh_points *points, nh_ex
     return worst;
 }
 
-/* Does the current change when an angle goes once around?  Then it is defined locally only. */
-static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi)
-{
-    nh_dag *d = o->dag;
-    for (size_t s = 0; s < o->m; s++) {
-        const nh_coordinate *c = &o->system->coordinate[s];
-        if (c->type != NH_ANGLE || !nh_depends(d, phi, c->q)) continue;
-        nh_ex around = nh_add(d, c->q, nh_mul(d, nh_int(d, 2), nh_pi(d)));
-        nh_ex pair[2] = {phi, nh_substitute(d, phi, 1, &c->q, &around)};
-        double *value = nh_alloc_array(2 * points->count, sizeof *value), worst = 0, size = 0;
-        nh_points_evaluate(points, o, 2, pair, value);
-        for (size_t p = 0; p < points->count; p++) {
-            double change = fabs(value[p] - value[points->count + p]);
-            if (isfinite(change)) worst = fmax(worst, change);
-            if (isfinite(value[p])) size = fmax(size, fabs(value[p]));
-        }
-        nh_free(value);
-        if (worst > 1e-9 * size) return true;
-    }
-    return false;
-}
-
-static bool proportional(nh_model *o, nh_ex phi, nh_ex e)
-{
-    return is_parametric(o, nh_simplify_short(o->dag, nh_div(o->dag, phi, e), 0));
-}
-
-/* phi/e at the points: the same everywhere?  Simplifying the quotient costs a hundred times that. */
-static bool looks_proportional(size_t points, const double *phi, const double *e)
-{
-    static const double same = 1e-6;
-    double low = INFINITY, high = -INFINITY;
-    for (size_t p = 0; p < points; p++) {
-        double ratio = phi[p] / e[p];
-        if (!isfinite(ratio)) continue;
-        low = fmin(low, ratio);
-        high = fmax(high, ratio);
-    }
-    return high - low <= same * fmax(fabs(low), fabs(high));
-}
-
-static const char *meaning_of(nh_result *r, const nh_points *points, nh_ex phi)
-{
-    nh_model *o = r->model;
-    size_t n = 2 + o->m, count = points->count, found = n;
-    nh_ex *e = nh_alloc_array(n, sizeof *e);
-    double *value = nh_alloc_array(n * count, sizeof *value);
-    e[0] = phi;
-    e[1] = o->E;
-    memcpy(e + 2, o->p, o->m * sizeof *e);
-    nh_points_evaluate(points, o, n, e, value);
-    for (size_t j = 1; j < n && found == n; j++)
-        if (!nh_is_zero(o->dag, e[j]) && looks_proportional(count, value, value + j * count) && proportional(o, phi, e[j])) found = j;
-    nh_free(value);
-    nh_free(e);
-    if (found == 1) return "energy";
-    return found < n ? nh_arena_printf(r->arena, "momentum of %s", o->system->coordinate[found - 2].name) : "";
-}
-
-static void in_velocities(nh_result *r, nh_found *f, const nh_ex *inverse, bool invertible)
-{
-    nh_model *o = r->model;
-    nh_ex *v = nh_alloc_array(o->chart->implicit + 1, sizeof *v);
-    for (size_t a = 0; a < o->chart->implicit; a++) v[a] = o->system->coordinate[o->chart->dependent[a]].v;
-    f->has_in_velocities = invertible;
-    f->in_velocities = nh_substitute(o->dag, f->phi, o->chart->implicit, o->chart->u, v);
-    if (invertible && o->chart->quasi)
-        f->in_velocities = nh_simplify_short(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, inverse), 0);
-    if (o->chart->branch) f->in_velocities = nh_chart_both_branches(o->chart, f->in_velocities);
-    nh_free(v);
-}
-
 /* What decides whether it is a current at all. */
 static void decide(nh_workbench *b, nh_candidate *c, nh_found *f)
 {
@@ -185,19 +55,6 @@ static void decide(nh_workbench *b, nh_candidate *c, nh_found *f)
     nh_coefficients_certify(&r->options, f);
 }
 
-/* What is said about a current. */
-static void describe(nh_workbench *b, nh_found *f)
-{
-    nh_result *r = b->result;
-    nh_error trouble;
-    nh_error_clear(&trouble);
-    if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
-    f->all_parameters = f->proof.all_parameters;
-    f->local = is_local(r->model, b->generic, f->phi);
-    f->meaning = meaning_of(r, b->generic, f->phi);
-    in_velocities(r, f, b->inverse, b->invertible);
-}
-
 /* Simple ones first, so that the complicated ones are called dependent. */
 static void sort(nh_result *r)
 {
@@ -205,10 +62,9 @@ static void sort(nh_result *r)
     for (size_t i = 1; i < r->count; i++) {
         nh_found f = r->found[i];
         size_t own = nh_complexity(d, f.phi), j = i;
-        bool energy = !strcmp(f.meaning, "energy");
+        bool energy = f.energy;
         for (; j > 0; j--) {
-            bool before = !strcmp(r->found[j - 1].meaning, "energy");
-            if (before || (!energy && nh_complexity(d, r->found[j - 1].phi) <= own)) break;
+            if (r->found[j - 1].energy || (!energy && nh_complexity(d, r->found[j - 1].phi) <= own)) break;
             r->found[j] = r->found[j - 1];
         }
         r->found[j] = f;
@@ -257,7 +113,7 @@ static void note_almost(nh_workbench *b, const nh_found *f)
     double rate = relative_rate(r->model, b->generic, f->phi);
     nh_found copy = *f;
     if (r->almosts == NH_MOST_ALMOST || !isfinite(rate) || f->refined < least_almost) return;
-    in_velocities(r, &copy, b->inverse, b->invertible);
+    nh_current_in_velocities(b, &copy);
     if (!r->almost) r->almost = nh_arena_alloc(r->arena, NH_MOST_ALMOST * sizeof *r->almost);
     r->almost[r->almosts++] = (nh_almost){f->phi, copy.in_velocities, f->refined, rate};
 }
@@ -343,7 +199,7 @@ bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *
     decide(b, candidate, f);
     if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST) b->near[b->nears++] = candidate;
     if (!keeps(b, f, certain) || ((f->moved || !certain) && nh_currents_known(b, f->phi))) return false;
-    describe(b, f);
+    nh_current_describe(b, f);
     r->count++;
     return true;
 }
@@ -358,7 +214,7 @@ bool nh_currents_add_series(nh_workbench *b, nh_ex phi, const nh_series *series,
     f->proof = nh_prove_current(r->model, phi, false, &r->options);
     nh_coefficients_certify(&r->options, f);
     if (!keeps(b, f, true)) return false;
-    describe(b, f);
+    nh_current_describe(b, f);
     r->count++;
     return true;
 }
@@ -425,7 +281,7 @@ static void miss_energy(nh_workbench *b)
     nh_result *r = b->result;
     const nh_model *o = r->model;
     for (size_t k = 0; k < r->count; k++)
-        if (!strcmp(r->found[k].meaning, "energy")) return;
+        if (r->found[k].energy) return;
     if (!(heldout_residual(o, b->generic, o->E) > r->options.heldout)) return;
     nh_ex rate = nh_model_gamma(o, o->E);
     if (nh_complexity(o->dag, rate) < 10 * longest) rate = nh_simplify(o->dag, rate);

@@ -1,5 +1,6 @@
 #include "study/naming.h"
 
+#include "expr/index.h"
 #include "noether/recognise.h"
 #include "system/sample.h"
 
@@ -16,28 +17,30 @@ static bool parametric_sum(const nh_model *o, nh_ex e)
     return true;
 }
 
-static void harvest(const nh_model *o, nh_ex e, nh_ex *list, size_t *count)
+/* `seen`: a shared graph has exponentially many paths. */
+static void harvest(const nh_model *o, nh_ex e, nh_ex *list, size_t *count, nh_index *seen)
 {
     nh_dag *d = o->dag;
-    if (*count == most_symbols) return;
+    uint32_t known;
+    nh_kind kind = nh_kind_of(d, e);
+    if (*count == most_symbols || kind == NH_SYMBOL || kind == NH_NUMBER || nh_index_get(seen, e, &known)) return;
+    nh_index_put(seen, e, 0);
     if (parametric_sum(o, e)) {
-        for (size_t i = 0; i < *count; i++)
-            if (list[i] == e) return;
         list[(*count)++] = e;
         return;
     }
-    nh_kind kind = nh_kind_of(d, e);
-    if (kind == NH_SYMBOL || kind == NH_NUMBER) return;
-    for (size_t i = 0; i < nh_arity(d, e); i++) harvest(o, nh_child(d, e, i), list, count);
+    for (size_t i = 0; i < nh_arity(d, e); i++) harvest(o, nh_child(d, e, i), list, count, seen);
 }
 
 static size_t atoms_of(const nh_model *o, nh_ex *list)
 {
     size_t count = 0;
+    nh_index seen = {0};
     for (size_t i = 0; i < o->system->parameters && count < most_symbols; i++)
         if (o->parameter_value[i] > 0) list[count++] = o->parameter[i];
-    for (size_t i = 0; i < o->n * o->n; i++) harvest(o, o->M[i], list, &count);
-    for (size_t i = 0; i < o->n; i++) harvest(o, o->a[i], list, &count);
+    for (size_t i = 0; i < o->n * o->n; i++) harvest(o, o->M[i], list, &count, &seen);
+    for (size_t i = 0; i < o->n; i++) harvest(o, o->a[i], list, &count, &seen);
+    nh_index_clear(&seen);
     return count;
 }
 

@@ -22,7 +22,8 @@ typedef struct {
 
 typedef struct {
     const char *name;         /* Phi1, Phi2, ... */
-    const char *meaning;      /* "energy", "momentum of x", or "" */
+    const char *meaning;      /* "energy", "minus the momentum of x", "a multiple of the energy", or "" */
+    bool energy;              /* it is a multiple of the energy */
     nh_ex phi;                /* in the chart */
     nh_ex in_velocities;      /* in t, q, q' and parameters */
     bool has_in_velocities;

@@ -1,0 +1,29 @@
+/* bag: the terms of a sum or the factors of a product while they are put in order, shared by algebra.c and product.c. */
+#ifndef NH_BAG_H
+#define NH_BAG_H
+
+#include "expr/dag.h"
+
+typedef struct {
+    nh_ex e;       /* term of a sum, base of a product */
+    nh_num c;      /* coefficient (sums) */
+    nh_ex x;       /* exponent (products) */
+} nh_bag_item;
+
+/* The caller frees list. */
+typedef struct {
+    nh_num c; /* constant of a sum, coefficient of a product */
+    nh_bag_item *list;
+    size_t count, capacity;
+} nh_bag;
+
+void nh_bag_push(nh_bag *bag, nh_bag_item item);
+/* For qsort: equal expressions side by side. */
+int nh_bag_order(const void *a, const void *b);
+/* The node: NH_SUM or NH_PRODUCT; the items are in order, each expression once. */
+nh_ex nh_bag_intern(nh_dag *dag, nh_kind kind, const nh_bag *bag);
+
+/* The product without its coefficient. */
+nh_ex nh_product_without_number(nh_dag *dag, nh_ex product);
+
+#endif

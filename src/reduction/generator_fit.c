@@ -1,0 +1,171 @@
+#include "reduction/generator_fit.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/diff.h"
+#include "reduction/relative.h"
+
+enum { pushes = 6 }; /* velocities per place where L itself must be invariant */
+
+static bool plain(const nh_kinetic *k) { return k->quadratic && !k->magnetic && k->autonomous; }
+
+/* ---- values at the places ---- */
+
+/* What the rows are made of at (t, q, v): K, dK, dV or dL/dq, dL/dv; f's derivatives; b_k, d_j b_k. */
+typedef struct {
+    size_t K, dK, dV, Lq, Lv, fq, fv, b, db, total;
+} layout;
+
+static layout lay_out(const nh_generator_fit *s)
+{
+    size_t m = s->m, f = s->k->f, at = 0;
+    layout y;
+    y.K = at, at += m * m;
+    y.dK = at, at += m * m * m;
+    y.dV = at, at += m;
+    y.Lq = at, at += m;
+    y.Lv = at, at += m;
+    y.fq = at, at += f * m;
+    y.fv = at, at += f * m;
+    y.b = at, at += s->n;
+    y.db = at, at += s->n * m;
+    y.total = at;
+    return y;
+}
+
+static nh_tape *row_tape(const nh_generator_fit *s, layout y)
+{
+    const nh_kinetic *k = s->k;
+    nh_dag *d = k->dag;
+    size_t m = s->m, width = 1 + 2 * m;
+    nh_ex *e = nh_alloc_array(y.total, sizeof *e), *in = nh_alloc_array(width, sizeof *in), L = k->model->system->lagrangian;
+    in[0] = k->model->system->t;
+    memcpy(in + 1, k->q, m * sizeof *in);
+    memcpy(in + 1 + m, k->v, m * sizeof *in);
+    memcpy(e + y.K, k->K, m * m * sizeof *e);
+    for (size_t r = 0; r < m; r++) {
+        for (size_t i = 0; i < m * m; i++) e[y.dK + r * m * m + i] = nh_diff(d, k->K[i], k->q[r]);
+        e[y.dV + r] = nh_diff(d, k->V, k->q[r]);
+        e[y.Lq + r] = plain(k) ? nh_int(d, 0) : nh_diff(d, L, k->q[r]);
+        e[y.Lv + r] = plain(k) ? nh_int(d, 0) : nh_diff(d, L, k->v[r]);
+        for (size_t a = 0; a < k->f; a++) {
+            e[y.fq + a * m + r] = nh_diff(d, k->force[a], k->q[r]);
+            e[y.fv + a * m + r] = nh_diff(d, k->force[a], k->v[r]);
+        }
+        for (size_t c = 0; c < s->n; c++) e[y.db + c * m + r] = nh_diff(d, s->l.function[c], k->q[r]);
+    }
+    memcpy(e + y.b, s->l.function, s->n * sizeof *e);
+    nh_tape *tape = nh_tape_create(d, width, in, y.total, e, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
+    nh_free(e);
+    nh_free(in);
+    return tape;
+}
+
+/* ---- rows ---- */
+
+static void metric_rows(const nh_generator_fit *s, layout y, const double *z, nh_relative *out)
+{
+    size_t m = s->m;
+    const double *K = z + y.K, *dK = z + y.dK;
+    for (size_t r = 0; r < m; r++)
+        for (size_t q = 0; q <= r; q++) {
+            double *row = nh_relative_condition(out), unit = 1 / sqrt(fabs(K[r * m + r] * K[q * m + q]));
+            for (size_t c = 0; c < s->n; c++) {
+                size_t i = s->l.component[c];
+                const double *db = z + y.db + c * m;
+                row[c] = unit * (z[y.b + c] * dK[i * m * m + r * m + q] + K[i * m + q] * db[r] + K[r * m + i] * db[q]);
+            }
+        }
+}
+
+/* The prolonged field on a function of (q, v) with derivatives eq, ev, at the velocity v. */
+static void function_row(const nh_generator_fit *s, layout y, const double *z, const double *eq, const double *ev, const double *v, double unit, nh_relative *out)
+{
+    double *row = nh_relative_condition(out);
+    for (size_t c = 0; c < s->n; c++) {
+        size_t i = s->l.component[c];
+        double rate = 0;
+        for (size_t r = 0; r < s->m; r++) rate += z[y.db + c * s->m + r] * v[r];
+        row[c] = unit * (z[y.b + c] * eq[i] + rate * ev[i]);
+    }
+}
+
+/* One over the size of a covector on scaled vectors. */
+static double unit_of(const nh_generator_fit *s, const double *e)
+{
+    double size = 0;
+    for (size_t i = 0; i < s->m; i++) size = fmax(size, fabs(e[i]) * s->scale[i]);
+    return size > 0 ? 1 / size : 0;
+}
+
+static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z, nh_relative *out)
+{
+    const nh_kinetic *k = s->k;
+    size_t m = s->m, width = 1 + 2 * m;
+    double *in = nh_alloc_array(width, sizeof *in), sum = 0;
+    const double *v = k->speed + p * m;
+    in[0] = k->time[p];
+    memcpy(in + 1, k->place + p * m, m * sizeof *in);
+    memcpy(in + 1 + m, v, m * sizeof *in);
+    nh_tape_eval(tape, work, in, z);
+    for (size_t i = 0; i < y.total; i++) sum += z[i] - z[i];
+    if (sum == 0) {
+        if (plain(k)) metric_rows(s, y, z, out);
+        if (plain(k)) function_row(s, y, z, z + y.dV, z + y.Lv, v, unit_of(s, z + y.dV), out); /* of its own size: V may be steep elsewhere */
+        for (size_t a = 0; a < k->f; a++) function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, unit_of(s, z + y.fv + a * m), out);
+        for (size_t c = 0; c < m; c++) {
+            double *row = nh_relative_value(out);
+            for (size_t j = 0; j < s->n; j++)
+                if (s->l.component[j] == c) row[j] = z[y.b + j] / s->scale[c];
+        }
+        for (size_t i = 1; i <= pushes && !plain(k); i++) { /* L at velocities that the constraints need not allow */
+            memcpy(in + 1 + m, k->speed + (p + i) % k->places * m, m * sizeof *in);
+            nh_tape_eval(tape, work, in, z);
+            function_row(s, y, z, z + y.Lq, z + y.Lv, in + 1 + m, unit_of(s, z + y.Lv), out);
+        }
+    }
+    nh_free(in);
+    return sum == 0;
+}
+
+static void collect(nh_generator_fit *s, nh_relative *out)
+{
+    layout y = lay_out(s);
+    nh_tape *tape = row_tape(s, y);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *z = nh_alloc_array(y.total, sizeof *z);
+    for (size_t p = 0; p < s->k->places && nh_relative_wants_more(out); p++) place_rows(s, y, tape, work, p, z, out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(z);
+}
+
+bool nh_generator_fit_solve(nh_generator_fit *s, nh_error *error)
+{
+    nh_relative r = {.columns = s->n};
+    collect(s, &r);
+    s->size = nh_alloc_array(s->n + 1, sizeof *s->size);
+    nh_relative_sizes(&r, s->size);
+    s->vector = nh_relative_null(&r, s->options, &s->d, &s->last_null, &s->first_other, error);
+    nh_relative_clear(&r);
+    return s->vector != NULL;
+}
+
+void nh_generator_fit_scale(nh_generator_fit *s)
+{
+    const nh_kinetic *k = s->k;
+    double *K = nh_alloc_array(s->m * s->m, sizeof *K);
+    s->scale = nh_alloc_array(s->m, sizeof *s->scale);
+    nh_kinetic_values(k, s->m * s->m, k->K, k->place, K);
+    for (size_t i = 0; i < s->m; i++) s->scale[i] = K[i * (s->m + 1)] > 0 ? 1 / sqrt(K[i * (s->m + 1)]) : 1;
+    nh_free(K);
+}
+
+void nh_generator_fit_clear(nh_generator_fit *s)
+{
+    nh_library_clear(&s->l);
+    nh_free(s->scale);
+    nh_free(s->vector);
+    nh_free(s->size);
+}

@@ -1,0 +1,26 @@
+/* generator_fit: the combinations of a library's fields that leave a system invariant, by null vectors of their conditions at the places of its
+ * kinetic data.
+ *
+ *     L_xi K = 0, xi(V) = 0  or  xi(L) = 0;   xi(f^a) = 0;   xi = sum_k c_k b_k d/dq^(i_k) */
+#ifndef NH_GENERATOR_FIT_H
+#define NH_GENERATOR_FIT_H
+
+#include "reduction/library.h"
+
+typedef struct {
+    const nh_kinetic *k;
+    const nh_options *options;
+    nh_library l;
+    size_t m, n, d;         /* coordinates, columns, null vectors */
+    double *scale;          /* m: K_ii^(-1/2), or 1 */
+    double *vector, *size;  /* n x d null vectors; n: root mean square of each scaled column */
+    double last_null, first_other;
+} nh_generator_fit;
+
+/* The scales; k, options, m are there. */
+void nh_generator_fit_scale(nh_generator_fit *fit);
+/* Vectors, their sizes and singular values; the library, n and the scales are there.  False with a message when there is nothing to fit at. */
+bool nh_generator_fit_solve(nh_generator_fit *fit, nh_error *error);
+void nh_generator_fit_clear(nh_generator_fit *fit);
+
+#endif

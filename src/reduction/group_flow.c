@@ -1,0 +1,121 @@
+#include "reduction/group_flow.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "base/memory.h"
+#include "reduction/subspace.h"
+
+/* Where the generators do not depend on the shape coordinates, T g d/dx^i = d/dx^i, and the place follows the equation
+ *     q' = x'^i d/dx^i + (Ad_g zeta)^a e_a(q),
+ * which stays on the path of the motion: the flows of the factors take another one, round a pole of the coordinates perhaps. */
+static bool independent_of_shape(const nh_slice *s)
+{
+    const nh_kinetic *k = s->kinetic;
+    for (size_t a = 0; a < s->d; a++)
+        for (size_t r = 0; r < s->m; r++)
+            for (size_t i = 0; i < s->n; i++)
+                if (nh_depends(k->dag, s->action->generator[a].component[r], s->x[i])) return false;
+    return true;
+}
+
+void nh_group_flow_factors(nh_group_flow *f, const double *t)
+{
+    size_t d = f->d;
+    for (size_t i = 0; i < d * d; i++) f->P[i] = i % (d + 1) == 0;
+    for (size_t a = 0; a < d; a++) {
+        memcpy(f->M + a * d, f->P + a * d, d * sizeof *f->M);
+        if (!f->acts[a] || t[a] == 0) continue;
+        for (size_t i = 0; i < d * d; i++) f->next[i] = t[a] * f->ad[a * d * d + i];
+        nh_matrix_exp(d, f->next, f->E);
+        nh_multiply(d, d, d, f->P, f->E, f->next);
+        memcpy(f->P, f->next, d * d * sizeof *f->P);
+    }
+}
+
+/* rate holds x' and, from `inner` on, Ad_h zeta of the factor in hand. */
+static void place_rate(nh_group_flow *f, const double *q, double *rate)
+{
+    const nh_slice *s = f->chart->slice;
+    double *out = rate + f->inner + f->d;
+    nh_multiply(f->d, 1, f->d, f->before, rate + f->inner, f->spatial);
+    nh_tape_eval(f->field, f->field_work, q, f->e);
+    memset(out, 0, s->m * sizeof *out);
+    for (size_t i = 0; i < s->n; i++) out[s->shape[i]] = rate[i];
+    for (size_t a = 0; a < f->d; a++)
+        for (size_t r = 0; r < s->m; r++) out[r] += f->spatial[a] * f->e[r + a * s->m];
+}
+
+bool nh_group_flow_rate(double time, const double *z, double *rate, void *context)
+{
+    nh_group_flow *f = context;
+    size_t d = f->d;
+    nh_reduced_flow_time(f->chart->flow, time);
+    if (!nh_reduced_flow_at(f->chart->flow, z, rate, NULL, f->zeta, NULL)) return false;
+    if (!f->group) return true;
+    nh_group_flow_factors(f, z + f->inner);
+    nh_multiply(d, 1, d, f->P, f->zeta, rate + f->inner);
+    if (f->direct) place_rate(f, z + f->inner + d, rate);
+    return d == 0 || nh_solve(d, f->M, 1, rate + f->inner, NULL);
+}
+
+bool nh_group_flow_guard(double time, const double *z, double *value, void *context)
+{
+    (void)time;
+    static const double least = 0.1;
+    nh_group_flow *f = context;
+    double *s = f->zeta;
+    if (!nh_reduced_flow_guards(f->chart->flow, z, value)) return false;
+    if (!f->d || !f->group) return true;
+    nh_group_flow_factors(f, z + f->inner);
+    nh_singular_values(f->d, f->d, f->M, s);
+    value[2] = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
+    return isfinite(value[2]);
+}
+
+void nh_group_flow_init(nh_group_flow *f, const nh_action *action, bool group)
+{
+    const nh_algebra *g = &action->algebra;
+    size_t d = g->d, m = action->kinetic->m;
+    *f = (nh_group_flow){.action = action, .group = group, .d = d, .m = m};
+    f->ad = nh_alloc_array(d * d * d + 4 * d * d + d + 1, sizeof *f->ad);
+    f->M = f->ad + d * d * d;
+    f->P = f->M + d * d;
+    f->E = f->P + d * d;
+    f->next = f->E + d * d;
+    f->zeta = f->next + d * d;
+    f->acts = nh_alloc_array(d + 1, sizeof *f->acts);
+    for (size_t a = 0; a < d; a++) {
+        for (size_t i = 0; i < d; i++) f->zeta[i] = i == a;
+        nh_algebra_ad(g, f->zeta, f->ad + a * d * d);
+        f->acts[a] = nh_largest(d * d, f->ad + a * d * d) > 0;
+    }
+    nh_ex *e = nh_alloc_array(m * d + 1, sizeof *e);
+    for (size_t a = 0; a < d; a++) memcpy(e + a * m, action->generator[a].component, m * sizeof *e);
+    f->field = nh_kinetic_tape(action->kinetic, m * d, e);
+    f->field_work = nh_tape_work_create(f->field);
+    f->e = nh_alloc_array(m * d + d * d + d + 1, sizeof *f->e);
+    f->before = f->e + m * d;
+    f->spatial = f->before + d * d;
+    for (size_t i = 0; i < d * d; i++) f->before[i] = i % (d + 1) == 0;
+    nh_free(e);
+}
+
+void nh_group_flow_chart(nh_group_flow *f, const nh_reduced_chart *chart)
+{
+    f->chart = chart;
+    f->inner = chart->reduced->n + chart->reduced->r;
+    f->direct = f->group && independent_of_shape(chart->slice);
+}
+
+void nh_group_flow_clear(nh_group_flow *f)
+{
+    nh_tape_work_free(f->field_work);
+    nh_tape_free(f->field);
+    nh_free(f->e);
+    nh_free(f->ad);
+    nh_free(f->acts);
+}
+
+size_t nh_group_flow_size(const nh_group_flow *f) { return f->inner + (f->group ? f->d + (f->direct ? f->m : 0) : 0); }

@@ -1,0 +1,156 @@
+#include "study/described.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/normal.h"
+
+/* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
+
+static bool is_parametric(const nh_model *o, nh_ex e)
+{
+    for (size_t j = 0; j < o->width; j++)
+        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
+    return true;
+}
+
+/* The factor of e that contains numbers and parameters only. */
+static nh_ex parametric_factor(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    if (nh_kind_of(d, e) != NH_PRODUCT) return is_parametric(o, e) ? e : nh_int(d, 1);
+    nh_ex factor = nh_number(d, nh_constant_of(d, e));
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex base = nh_child(d, e, i), x = nh_exponent_of(d, e, i);
+        if (is_parametric(o, base) && is_parametric(o, x)) factor = nh_mul(d, factor, nh_pow(d, base, x));
+    }
+    return factor;
+}
+
+/* What to divide the current by: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest factor of zeta. */
+static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
+{
+    nh_dag *d = o->dag;
+    if (!nh_is_zero(d, Z0) && is_parametric(o, Z0)) return Z0;
+    nh_ex best = nh_int(d, 1);
+    size_t least = SIZE_MAX;
+    for (size_t i = o->n; i-- > 0;) { /* later components win ties */
+        if (nh_is_zero(d, zeta[i])) continue;
+        nh_ex factor = parametric_factor(o, zeta[i]);
+        size_t size = nh_is_number(d, factor, 1) ? 0 : nh_complexity(d, factor);
+        if (size >= least) continue;
+        least = size;
+        best = factor;
+    }
+    return best;
+}
+
+static void normalise(nh_model *o, nh_found *f)
+{
+    nh_dag *d = o->dag;
+    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta), Z0 = nh_symmetry_components(o, f->phi, zeta);
+    nh_ex unit = unit_of(o, Z0, zeta);
+    nh_free(zeta);
+    f->phi = nh_simplify_short(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit), 0);
+}
+
+static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh_error *error)
+{
+    nh_model *o = r->model;
+    if (!f->series) normalise(o, f);
+    f->has_symmetry = nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
+    return f->has_symmetry;
+}
+
+/* ---- what it is ---- */
+
+/* Does the current change when an angle goes once around?  Then it is defined locally only. */
+static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi)
+{
+    nh_dag *d = o->dag;
+    for (size_t s = 0; s < o->m; s++) {
+        const nh_coordinate *c = &o->system->coordinate[s];
+        if (c->type != NH_ANGLE || !nh_depends(d, phi, c->q)) continue;
+        nh_ex around = nh_add(d, c->q, nh_mul(d, nh_int(d, 2), nh_pi(d)));
+        nh_ex pair[2] = {phi, nh_substitute(d, phi, 1, &c->q, &around)};
+        double *value = nh_alloc_array(2 * points->count, sizeof *value), worst = 0, size = 0;
+        nh_points_evaluate(points, o, 2, pair, value);
+        for (size_t p = 0; p < points->count; p++) {
+            double change = fabs(value[p] - value[points->count + p]);
+            if (isfinite(change)) worst = fmax(worst, change);
+            if (isfinite(value[p])) size = fmax(size, fabs(value[p]));
+        }
+        nh_free(value);
+        if (worst > 1e-9 * size) return true;
+    }
+    return false;
+}
+
+/* What phi is of e: "" itself, "minus the ", "a multiple of the "; NULL where phi/e is not constant for all parameters. */
+static const char *part_of(nh_model *o, nh_ex phi, nh_ex e)
+{
+    nh_ex ratio = nh_simplify_short(o->dag, nh_div(o->dag, phi, e), 0);
+    if (!is_parametric(o, ratio)) return NULL;
+    return nh_is_number(o->dag, ratio, 1) ? "" : nh_is_number(o->dag, ratio, -1) ? "minus the " : "a multiple of the ";
+}
+
+/* phi/e at the points: the same everywhere?  Simplifying the quotient costs a hundred times that. */
+static bool looks_proportional(size_t points, const double *phi, const double *e)
+{
+    static const double same = 1e-6;
+    double low = INFINITY, high = -INFINITY;
+    for (size_t p = 0; p < points; p++) {
+        double ratio = phi[p] / e[p];
+        if (!isfinite(ratio)) continue;
+        low = fmin(low, ratio);
+        high = fmax(high, ratio);
+    }
+    return high - low <= same * fmax(fabs(low), fabs(high));
+}
+
+static void find_meaning(nh_result *r, const nh_points *points, nh_found *f)
+{
+    nh_model *o = r->model;
+    size_t n = 2 + o->m, count = points->count, found = 0;
+    nh_ex *e = nh_alloc_array(n, sizeof *e);
+    double *value = nh_alloc_array(n * count, sizeof *value);
+    const char *part = NULL;
+    e[0] = f->phi;
+    e[1] = o->E;
+    memcpy(e + 2, o->p, o->m * sizeof *e);
+    nh_points_evaluate(points, o, n, e, value);
+    for (size_t j = 1; j < n && !part; found = j++)
+        if (!nh_is_zero(o->dag, e[j]) && looks_proportional(count, value, value + j * count)) part = part_of(o, f->phi, e[j]);
+    nh_free(value);
+    nh_free(e);
+    f->energy = part && found == 1;
+    if (!part) f->meaning = "";
+    else if (f->energy) f->meaning = nh_arena_printf(r->arena, "%senergy", part);
+    else f->meaning = nh_arena_printf(r->arena, "%smomentum of %s", part, o->system->coordinate[found - 2].name);
+}
+
+void nh_current_in_velocities(const nh_workbench *b, nh_found *f)
+{
+    nh_model *o = b->result->model;
+    bool invertible = b->invertible;
+    nh_ex *v = nh_alloc_array(o->chart->implicit + 1, sizeof *v);
+    for (size_t a = 0; a < o->chart->implicit; a++) v[a] = o->system->coordinate[o->chart->dependent[a]].v;
+    f->has_in_velocities = invertible;
+    f->in_velocities = nh_substitute(o->dag, f->phi, o->chart->implicit, o->chart->u, v);
+    if (invertible && o->chart->quasi)
+        f->in_velocities = nh_simplify_short(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, b->inverse), 0);
+    if (o->chart->branch) f->in_velocities = nh_chart_both_branches(o->chart, f->in_velocities);
+    nh_free(v);
+}
+
+void nh_current_describe(nh_workbench *b, nh_found *f)
+{
+    nh_result *r = b->result;
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
+    f->all_parameters = f->proof.all_parameters;
+    f->local = is_local(r->model, b->generic, f->phi);
+    find_meaning(r, b->generic, f);
+    nh_current_in_velocities(b, f);
+}

@@ -1,0 +1,14 @@
+/* described: what is said about a current that was found: its simplest multiple, its symmetry, what it means, and how it reads. */
+#ifndef NH_DESCRIBED_H
+#define NH_DESCRIBED_H
+
+#include "study/currents.h"
+
+/* Normalise a current, so that the simplest component of its symmetry has the coefficient one; fill in the symmetry, whether it is local (many-valued
+ * on an angle), what it means and its form in velocities.  A symmetry that cannot be computed is a warning of the result. */
+void nh_current_describe(nh_workbench *bench, nh_found *found);
+
+/* found->phi in the coordinates' velocities, where the chart allows that; without the unknown branch of a constraint that is not linear. */
+void nh_current_in_velocities(const nh_workbench *bench, nh_found *found);
+
+#endif
