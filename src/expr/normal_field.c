@@ -1,8 +1,8 @@
-#include "base/progress.h"
 #include "expr/normal_quotient.h"
 
 #include <math.h>
 
+#include "base/progress.h"
 #include "expr/normal.h"
 #include "expr/normal_flint.h"
 
