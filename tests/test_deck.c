@@ -572,7 +572,7 @@ Test(typed, kinds)
     cr_expect_str_eq(told(&failure), "f.yaml:4:4: `domain` must be a map (`key: value`), found a list\n  l: [1, 2]\n     ^");
     nh_error_clear(&failure);
     cr_assert_not(nh_deck_is(values, of("w"), NH_DECK_LIST, "constraints", &failure));
-    cr_expect_str_eq(told(&failure), "f.yaml:3:4: `constraints` must be a list, found `abc`\n  w: abc\n     ^");
+    cr_expect_str_eq(told(&failure), "f.yaml:3:4: `constraints` must be a list, found `abc`\n  w: abc\n     ^\nhint: a list is written [a, b], or one item per line, each after `- `");
     nh_error_clear(&failure);
     cr_assert_not(nh_deck_is(values, of("m"), NH_DECK_SCALAR, "name", &failure));
     cr_expect_str_eq(told(&failure), "f.yaml:5:4: `name` must be a single value, found a map\n  m: {x: 1}\n     ^");

@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "expr/ball.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
@@ -29,6 +30,7 @@ Test(normal, identities)
         "sin(12*x)-2*sin(6*x)*cos(6*x)", "sin(x/2)^2-(1-cos(x))/2", "cos(x/2+y/3)^2+sin(y/3+x/2)^2-1",
         "sin(x/2)*cos(x/3)+cos(x/2)*sin(x/3)-sin(5*x/6)", "1/(1+tan(f)^2)-cos(f)^2", "sin(f)/(1+cos(f))-tan(f/2)",
         "tan(x+y)-(tan(x)+tan(y))/(1-tan(x)*tan(y))", "sin(x+pi/2)-cos(x)", "cos(x-3*pi)+cos(x)", "sin(pi/7)^2+cos(pi/7)^2-1",
+        "cos(pi/4)-sqrt(2)/2", "sin(-5*pi/6)+1/2", "sin(x+2*pi/3)+sin(x)/2-sqrt(3)/2*cos(x)", "sin(x)+sin(x+2*pi/3)+sin(x+4*pi/3)", "cos(x/2-y-7*pi/4)-cos(pi/4-y+x/2)",
         "sin(x*y+z)^2-1+cos(z+y*x)^2", "sin((x^2-1)/(x-1)+y)-sin(x+1+y)", "sin(2.5*x)^2+cos(2.5*x)^2-1",
         "cosh(x)^2-sinh(x)^2-1", "tanh(x)*cosh(x)-sinh(x)", "cosh(x)+sinh(x)-exp(x)", "cosh(x+y)-cosh(x)*cosh(y)-sinh(x)*sinh(y)",
         "1/cosh(x)^2-1+tanh(x)^2", "tanh(x/2)-sinh(x)/(cosh(x)+1)", "exp(a+b)-exp(a)*exp(b)", "exp(3*x)-exp(x)^3", "exp(-x)*exp(x)-1",
@@ -406,4 +408,15 @@ Test(normal, random_derivatives)
         nh_free(text);
         nh_dag_free(dag);
     }
+}
+
+/* A proof that has begun ends with the time limit, without a verdict. */
+Test(normal, behind_a_deadline_nothing_is_decided)
+{
+    static const char *const long_zero = "(a + b + sin(x))^12*(a - b + cos(x))^9 - (a - b + cos(x))^9*(a + sin(x) + b)^11*(a + b + sin(x))";
+    nh_deadline_set(-1);
+    cr_expect_eq(verdict_of("(a + b)^3*(sin(x)^2 + cos(x)^2) - (a + b)^2*(a + b)"), NH_TOO_LARGE);
+    cr_expect_neq(verdict_of(long_zero), NH_NONZERO);
+    nh_deadline_set(INFINITY);
+    cr_expect_eq(verdict_of("(a + b)^3*(sin(x)^2 + cos(x)^2) - (a + b)^2*(a + b)"), NH_ZERO);
 }

@@ -176,7 +176,7 @@ static const fault_case FAULTS[] = {
     {"(1e300*x)^2", 9, "a number in this expression has become too large", ""},
     {"1e308*x + 1e308*x", 0, "a number in this expression has become too large", ""},
     {"sin x", 4, "`sin` is a function; `(` was expected after it", "write `sin(...)`"},
-    {"sin^2(x)", 3, "`sin` is a function; `(` was expected after it", "write `sin(...)`"},
+    {"sin^2(x)", 3, "`sin` is a function; `(` was expected after it", "write `sin(...)^2`"},
     {"sin", 3, "`sin` is a function; `(` was expected after it", "write `sin(...)`"},
     {"sqrt x", 5, "`sqrt` is a function; `(` was expected after it", "write `sqrt(...)`"},
     {"sin(x, y)", 5, "`sin` takes one argument", ""},

@@ -81,7 +81,7 @@ static const unseen UNSEEN[] = {
      "lagrangian: c^2*(cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)/2\n"
      "domain: {u: [0.5, 1.5], v: [0.5, 1.5]}\n"
      "known: {currents: [{name: px, expr: \"sinh(u)*cos(v)*u' - cosh(u)*sin(v)*v'\"}, {name: py, expr: \"cosh(u)*sin(v)*u' + sinh(u)*cos(v)*v'\"}]}\n",
-     3},
+     4},
     /* integrals of degree two to four */
     {"swinging Atwood machine",
      "parameters: [{name: m, value: 1}, {name: g, value: 1.7}]\n"
@@ -158,6 +158,150 @@ static const unseen UNSEEN[] = {
      "constraints: [\"x'^2 + y'^2 + z'^2 = 2*K\"]\n"
      "known: {currents: [{name: turning, expr: \"(x*y' - y*x')*exp(-k*(x^2 + y^2 + z^2)/(4*K))\"}]}\n",
      3},
+    {"an oscillator with an inverse square breathes",
+     "parameters: [{name: k, value: 0.8}, {name: w, value: 1.1}]\n"
+     "coordinates: [{name: x, type: length}]\n"
+     "lagrangian: x'^2/2 - k/x^2 - w^2/2*x^2\n"
+     "domain: {x: [0.5, 1.5]}\n"
+     "known: {currents: [{name: E, expr: \"x'^2/2 + k/x^2 + w^2/2*x^2\"}, {name: breath, expr: \"(x'^2/2 + k/x^2 - w^2/2*x^2)*cos(2*w*t) + w*x*x'*sin(2*w*t)\"}]}\n",
+     2},
+    /* what turns and what decays: rates in t of squares and cubes */
+    {"Kepler's problem in a turning frame",
+     "parameters: [{name: k, value: 1}, {name: W, value: 0.6}]\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: ((x' - W*y)^2 + (y' + W*x)^2)/2 + k/sqrt(x^2 + y^2)\n"
+     "domain: {x: [0.5, 1.5]}\n"
+     "known: {currents: [{name: turn, expr: \"x*(y' + W*x) - y*(x' - W*y)\"}, {name: energy, expr: \"((x' - W*y)^2 + (y' + W*x)^2)/2 - k/sqrt(x^2 + y^2)\"}, {name: ecc, expr: \"((x*(y' + W*x) - y*(x' - W*y))*(y' + W*x) - k*x/sqrt(x^2+y^2))*cos(W*t) - (-(x*(y' + W*x) - y*(x' - W*y))*(x' - W*y) - k*y/sqrt(x^2+y^2))*sin(W*t)\"}]}\n",
+     3},
+    {"Kepler's problem with linear drag",
+     "parameters: [{name: k, value: 1}, {name: c, value: 0.3}]\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: (x'^2 + y'^2)/2 + k/sqrt(x^2 + y^2)\n"
+     "forces: [\"x = -c*x'\", \"y = -c*y'\"]\n"
+     "domain: {x: [0.5, 1.5]}\n"
+     "known: {currents: [{name: turn, expr: \"(x*y' - y*x')*exp(c*t)\"}]}\n",
+     1},
+    /* the covectors of translations are simple there, their fields are not */
+    {"oscillator in elliptic coordinates",
+     "parameters: [{name: w, value: 1.2}]\n"
+     "coordinates: [mu, nu]\n"
+     "lagrangian: (cosh(mu)^2 - cos(nu)^2)*(mu'^2 + nu'^2)/2 - w^2/2*(cosh(mu)^2*cos(nu)^2 + sinh(mu)^2*sin(nu)^2)\n"
+     "domain: {mu: [0.5, 1.5], nu: [0.5, 1.5]}\n"
+     "known: {currents: [{name: phase, expr: \"cosh(mu)*cos(nu)*cos(w*t) - (sinh(mu)*cos(nu)*mu' - cosh(mu)*sin(nu)*nu')/w*sin(w*t)\"}, {name: ang, expr: \"sin(nu)*cos(nu)*mu' + sinh(mu)*cosh(mu)*nu'\"}]}\n",
+     4},
+    {"parabolic cylinder coordinates",
+     "coordinates: [{name: u, type: length}, {name: v, type: length}, {name: z, type: length}]\n"
+     "lagrangian: ((u^2 + v^2)*(u'^2 + v'^2) + z'^2)/2 - z^2/2\n"
+     "domain: {u: [0.5, 1.5], v: [0.3, 1.2]}\n"
+     "known: {currents: [{name: px, expr: \"u*u' - v*v'\"}, {name: py, expr: \"u*v' + v*u'\"}, {name: pz, expr: \"z*cos(t) - z'*sin(t)\"}]}\n",
+     6},
+    /* separates; among all squares of momenta what does is nearly dependent */
+    {"two centres in spheroidal coordinates",
+     "parameters: [{name: k1, value: 1}, {name: k2, value: 0.6}]\n"
+     "coordinates: [{name: xi, type: length}, {name: eta, type: length}, {name: ph, type: angle}]\n"
+     "lagrangian: ((xi^2 - eta^2)*(xi'^2/(xi^2 - 1) + eta'^2/(1 - eta^2)) + (xi^2 - 1)*(1 - eta^2)*ph'^2)/2 + (k1*(xi - eta) + k2*(xi + eta))/(xi^2 - eta^2)\n"
+     "domain: {xi: [1.2, 2.5], eta: [-0.8, 0.8]}\n"
+     "known: {currents: [{name: sep, expr: \"(1 - eta^2)*((xi^2-eta^2)*eta'/(1 - eta^2))^2 + ((xi^2 - 1)*(1 - eta^2)*ph')^2/(1 - eta^2) + 2*(k1 - k2)*eta + 2*eta^2*(((xi^2 - eta^2)*(xi'^2/(xi^2 - 1) + eta'^2/(1 - eta^2)) + (xi^2 - 1)*(1 - eta^2)*ph'^2)/2 - k1/(xi + eta) - k2/(xi - eta))\"}]}\n",
+     3},
+    {"Kepler's problem of a monopole",
+     "parameters: [{name: g, value: 0.7}, {name: k, value: 1.1}]\n"
+     "coordinates: [x, y, z]\n"
+     "definitions: [\"R = sqrt(x^2 + y^2 + z^2)\"]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 + g*z/R*(x*y' - y*x')/(x^2 + y^2) + k/R - g^2/(2*R^2)\n"
+     "domain: {x: [0.5, 1.5], y: [0.3, 1.2]}\n"
+     "known: {currents: [{name: Jz, expr: \"x*y' - y*x' + g*z/R\"}, {name: Jx, expr: \"y*z' - z*y' + g*x/R\"}, {name: energy, expr: \"x'^2 + y'^2 + z'^2 - 2*k/R + g^2/R^2\"}, {name: Az, expr: \"x'*(z*x' - x*z' + g*y/R) - y'*(y*z' - z*y' + g*x/R) - k*z/R\"}]}\n",
+     5},
+    /* a rotor adds to the momenta of the isometries, and the component of gravity along it to what has weight two */
+    {"gyrostat of Zhukovskii and Volterra",
+     "parameters: [{name: A, value: 1}, {name: B, value: 1.6}, {name: C, value: 2.1}, {name: k1, value: 0.3}, {name: k3, value: 0.8}]\n"
+     "coordinates: [{name: psi, type: angle}, {name: th, type: angle}, {name: ph, type: angle}]\n"
+     "definitions:\n"
+     "  - p = psi'*sin(th)*sin(ph) + th'*cos(ph)\n"
+     "  - q = psi'*sin(th)*cos(ph) - th'*sin(ph)\n"
+     "  - r = psi'*cos(th) + ph'\n"
+     "lagrangian: (A*p^2 + B*q^2 + C*r^2)/2 + k1*p + k3*r\n"
+     "domain: {th: [0.4, 2.7]}\n"
+     "known: {currents: [{name: energy, expr: \"A*p^2 + B*q^2 + C*r^2\"}, {name: total, expr: \"(A*p + k1)^2 + B^2*q^2 + (C*r + k3)^2\"}, {name: vertical, expr: \"(A*p + k1)*sin(th)*sin(ph) + B*q*sin(th)*cos(ph) + (C*r + k3)*cos(th)\"}, {name: x, expr: \"(A*p + k1)*(cos(ph)*cos(psi) - sin(ph)*cos(th)*sin(psi)) + B*q*(-sin(ph)*cos(psi) - cos(ph)*cos(th)*sin(psi)) + (C*r + k3)*sin(th)*sin(psi)\"}]}\n",
+     4},
+    {"Kovalevskaya's gyrostat",
+     "parameters: [{name: c, value: 1}, {name: kap, value: 0.5}]\n"
+     "coordinates: [{name: psi, type: angle}, {name: th, type: angle}, {name: ph, type: angle}]\n"
+     "definitions:\n"
+     "  - p = psi'*sin(th)*sin(ph) + th'*cos(ph)\n"
+     "  - q = psi'*sin(th)*cos(ph) - th'*sin(ph)\n"
+     "  - r = psi'*cos(th) + ph'\n"
+     "lagrangian: p^2 + q^2 + r^2/2 + kap*r - c*sin(th)*sin(ph)\n"
+     "domain: {th: [0.4, 2.7]}\n"
+     "known: {currents: [{name: energy, expr: \"p^2 + q^2 + r^2/2 + c*sin(th)*sin(ph)\"}]}\n",
+     3},
+    {"friction that falls with the distance",
+     "coordinates: [x]\n"
+     "lagrangian: x'^2/2\n"
+     "forces: [\"x = -x'/(1 + x^2)\"]\n"
+     "known: {currents: [{name: v, expr: \"x' + atan(x)\"}]}\n",
+     1},
+    {"a hidden constraint with an arc tangent and a logarithm",
+     "coordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+     "constraints: [\"y' = x'/(1 + x^2) + z'/(z + 3)\"]\n"
+     "known: {currents: [{name: hidden, expr: y - atan(x) - log(z + 3)}]}\n",
+     2},
+    /* turns with an irrational multiple of an angle that is not cyclic, beside three others */
+    {"ball on a lying cylinder",
+     "parameters: [{name: k, value: 0.4}, {name: a, value: 0.2}, {name: R, value: 1}, {name: g, value: 9.8}]\n"
+     "coordinates: [{name: ph, type: angle}, {name: z, type: length}, {name: al, type: angle}, {name: be, type: angle}, {name: ga, type: angle}]\n"
+     "definitions:\n"
+     "  - w1 = be'*cos(al) + ga'*sin(be)*sin(al)\n"
+     "  - w2 = be'*sin(al) - ga'*sin(be)*cos(al)\n"
+     "  - w3 = al' + ga'*cos(be)\n"
+     "lagrangian: ((R + a)^2*ph'^2 + z'^2)/2 + k*a^2/2*(w1^2 + w2^2 + w3^2) - g*(R + a)*sin(ph)\n"
+     "constraints: [\"(R + a)*ph' = a*w3\", \"z' = a*(w1*sin(ph) - w2*cos(ph))\"]\n"
+     "domain: {be: [0.4, 2.7]}\n"
+     "known: {currents: [{name: square, expr: \"k*(w1*cos(ph) + w2*sin(ph))^2 + (k + 1)*z'^2/a^2\"}]}\n",
+     3},
+    /* the centre of mass of a chain of bodies: a product of harmonics of three angles */
+    {"a free-flying arm",
+     "bodies:\n"
+     "  - {name: base, mass: 10, inertia: 1.2}\n"
+     "  - {name: link1, mass: 2, inertia: 0.2, center: [0.5, 0, 0]}\n"
+     "  - {name: link2, mass: 1, inertia: 0.1, center: [0.4, 0, 0]}\n"
+     "joints:\n"
+     "  - {type: planar, child: base, axis: z, coordinates: [x, y, th]}\n"
+     "  - {type: revolute, parent: base, child: link1, at: [0.3, 0, 0], axis: z, coordinates: [q1]}\n"
+     "  - {type: revolute, parent: link1, child: link2, at: [1, 0, 0], axis: z, coordinates: [q2]}\n"
+     "known: {currents: [{name: centre, expr: \"10*x + 2*(x + 0.3*cos(th) + 0.5*cos(th + q1)) + x + 0.3*cos(th) + cos(th + q1) + 0.4*cos(th + q1 + q2) - t*(10*x' + 2*(x' - 0.3*sin(th)*th' - 0.5*sin(th + q1)*(th' + q1')) + x' - 0.3*sin(th)*th' - sin(th + q1)*(th' + q1') - 0.4*sin(th + q1 + q2)*(th' + q1' + q2'))\"}]}\n",
+     6},
+    /* the constraints' determinant is small on much of the domain: doubles lose all digits of the energy's rate */
+    {"three-wheeled scooter",
+     "parameters: [{name: M, value: 2}, {name: J, value: 0.7}, {name: J1, value: 0.1}, {name: l, value: 0.5}, {name: c, value: 0.3}]\n"
+     "coordinates: [x, y, {name: th, type: angle}, {name: a, type: angle}, {name: b, type: angle}]\n"
+     "lagrangian: M/2*(x'^2 + y'^2) + J/2*th'^2 + J1/2*((th' + a')^2 + (th' + b')^2)\n"
+     "constraints: [\"(x' + c*th'*sin(th))*sin(th + a) = (y' - c*th'*cos(th))*cos(th + a) + l*(th' + a')\", \"(x' - c*th'*sin(th))*sin(th + b) = (y' + c*th'*cos(th))*cos(th + b) + l*(th' + b')\"]\n"
+     "known: {currents: [{name: energy, expr: \"M/2*(x'^2 + y'^2) + J/2*th'^2 + J1/2*((th' + a')^2 + (th' + b')^2)\"}]}\n",
+     1},
+    /* cos t has no parameter, and was taken for a wave of a coordinate; two waves together are nearly dependent for t in [0, 1] */
+    {"oscillators, one of them driven by cos t",
+     "coordinates: [x, y]\n"
+     "lagrangian: (x'^2 + y'^2)/2 - (2*x^2 + 3*y^2)/2 + x*cos(t)\n"
+     "known: {currents: [{name: driven, expr: \"(x - cos(t))*cos(sqrt(2)*t) - (x' + sin(t))/sqrt(2)*sin(sqrt(2)*t)\"}]}\n",
+     4},
+    {"lengths that are logarithms",
+     "coordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+     "lagrangian: (x'^2/x^2 + y'^2/y^2)/2\n"
+     "domain: {x: [0.5, 1.5], y: [0.5, 1.5]}\n"
+     "known: {currents: [{name: rotation, expr: \"log(x)*y'/y - log(y)*x'/x\"}]}\n",
+     4},
+    /* sin(2 pi/3) is a number */
+    {"three wheels at angles of 120 degrees",
+     "parameters: [{name: L, value: 0.2}, {name: r, value: 0.05}]\n"
+     "coordinates: [x, y, {name: th, type: angle}, {name: p1, type: angle}, {name: p2, type: angle}, {name: p3, type: angle}]\n"
+     "lagrangian: 2*(x'^2 + y'^2) + 0.1*th'^2 + 0.001*(p1'^2 + p2'^2 + p3'^2)\n"
+     "constraints:\n"
+     "  - -x'*sin(th) + y'*cos(th) + L*th' = r*p1'\n"
+     "  - -x'*sin(th + 2*pi/3) + y'*cos(th + 2*pi/3) + L*th' = r*p2'\n"
+     "  - -x'*sin(th + 4*pi/3) + y'*cos(th + 4*pi/3) + L*th' = r*p3'\n"
+     "known: {currents: [{name: sum, expr: \"r*(p1 + p2 + p3) - 3*L*th\"}]}\n",
+     9},
 };
 enum { COUNT = sizeof UNSEEN / sizeof *UNSEEN };
 

@@ -103,6 +103,8 @@ bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind
     wrong(deck, node, what, error, "%s", wanted[kind]);
     if (fresh && node && kind == NH_DECK_MAP && lacks_space(node))
         nh_error_hint(error, "write a space after the colon");
+    if (fresh && node && kind == NH_DECK_LIST)
+        nh_error_hint(error, "a list is written [a, b], or one item per line, each after `- `");
     return false;
 }
 

@@ -77,6 +77,8 @@ nh_ex nh_sqrt(nh_dag *dag, nh_ex a);
 nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a);
 nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b);
 nh_ex nh_pi(nh_dag *dag);
+/* a = rest + c pi with sin(c pi), cos(c pi) that are numbers or half a root? */
+bool nh_split_turn(nh_dag *dag, nh_ex a, nh_ex *rest, nh_ex *sine, nh_ex *cosine);
 /* sum_i coefficient[i] * term[i] */
 nh_ex nh_linear(nh_dag *dag, size_t n, const nh_num *coefficient, const nh_ex *term);
 nh_ex nh_product(nh_dag *dag, size_t n, const nh_ex *factor);

@@ -204,11 +204,23 @@ static nh_ex rewrite_hyperbolic(nh_forms *s, nh_function f, nh_ex a)
     return nh_div(dag, f == NH_SINH ? sine : cosine, nh_int(dag, 2));
 }
 
+/* sin(rest + c pi) and cos(rest + c pi) by those of the rest. */
+static bool rewrite_turn(nh_forms *s, nh_function f, nh_ex a, nh_ex *out)
+{
+    nh_dag *dag = s->dag;
+    nh_ex rest, sine, cosine;
+    if ((f != NH_SIN && f != NH_COS) || !nh_split_turn(dag, a, &rest, &sine, &cosine)) return false;
+    nh_ex p = nh_call(dag, NH_SIN, rest), q = nh_call(dag, NH_COS, rest);
+    *out = f == NH_SIN ? nh_add(dag, nh_mul(dag, p, cosine), nh_mul(dag, q, sine)) : nh_sub(dag, nh_mul(dag, q, cosine), nh_mul(dag, p, sine));
+    return true;
+}
+
 static nh_ex rewrite_function(nh_forms *s, nh_ex e)
 {
     nh_function f = nh_function_of(s->dag, e);
     if (nh_arity(s->dag, e) == 0) return e;
-    nh_ex a = canonical(s, nh_child(s->dag, e, 0));
+    nh_ex a = canonical(s, nh_child(s->dag, e, 0)), turned;
+    if (rewrite_turn(s, f, a, &turned)) return turned;
     if (f == NH_EXP) return rewrite_exponential(s, a);
     if (!s->literal && (f == NH_SINH || f == NH_COSH || f == NH_TANH)) return rewrite_hyperbolic(s, f, a);
     if (nh_arity(s->dag, e) == 1) return nh_call(s->dag, f, a);

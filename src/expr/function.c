@@ -32,17 +32,48 @@ static bool looks_negative(const nh_dag *dag, nh_ex e)
     return nh_kind_of(dag, e) == NH_PRODUCT && nh_num_value(nh_constant_of(dag, e)) < 0;
 }
 
-/* a = (n/2) pi for a whole n? */
-static bool half_turns(const nh_dag *dag, nh_ex a, int64_t *n)
+/* sin(k pi/12) where it is a number or half a root. */
+static bool sine_of_twelfths(nh_dag *dag, int64_t k, nh_ex *out)
 {
-    nh_num c = nh_num_int(1);
-    if (nh_kind_of(dag, a) == NH_PRODUCT && nh_arity(dag, a) == 1 && nh_is_number(dag, nh_exponent_of(dag, a, 0), 1)) {
-        c = nh_constant_of(dag, a);
-        a = nh_child(dag, a, 0);
+    int64_t turn = (k % 24 + 24) % 24, up = turn % 12, at = up > 6 ? 12 - up : up;
+    nh_num sign = nh_num_int(turn < 12 ? 1 : -1);
+    if (at == 1 || at == 5) return false;
+    if (at == 0 || at == 6) *out = nh_number(dag, at ? sign : nh_num_int(0));
+    else if (at == 2) *out = nh_number(dag, nh_num_mul(sign, nh_num_inv(nh_num_int(2))));
+    else *out = nh_mul(dag, nh_number(dag, nh_num_mul(sign, nh_num_inv(nh_num_int(2)))), nh_sqrt(dag, nh_int(dag, at == 3 ? 2 : 3)));
+    return true;
+}
+
+/* e = c inner. */
+static nh_ex without_factor(const nh_dag *dag, nh_ex e, nh_num *c)
+{
+    *c = nh_num_int(1);
+    if (nh_kind_of(dag, e) != NH_PRODUCT || nh_arity(dag, e) != 1 || !nh_is_number(dag, nh_exponent_of(dag, e, 0), 1)) return e;
+    *c = nh_constant_of(dag, e);
+    return nh_child(dag, e, 0);
+}
+
+static bool is_pi(const nh_dag *dag, nh_ex e) { return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_PI; }
+
+/* sin(c pi), cos(c pi) where these are known: wheels at angles of 2 pi/3. */
+static bool known_turn(nh_dag *dag, nh_num c, nh_ex *sine, nh_ex *cosine)
+{
+    if (c.q < 1 || c.q > 6 || 12 % c.q != 0) return false;
+    int64_t twelfths = c.p % (2 * c.q) * (12 / c.q);
+    return sine_of_twelfths(dag, twelfths, sine) && sine_of_twelfths(dag, twelfths + 6, cosine);
+}
+
+bool nh_split_turn(nh_dag *dag, nh_ex a, nh_ex *rest, nh_ex *sine, nh_ex *cosine)
+{
+    nh_num c, factor;
+    nh_ex inner = without_factor(dag, a, &c);
+    for (size_t i = 0; nh_kind_of(dag, inner) == NH_SUM && i < nh_arity(dag, inner); i++) {
+        if (!is_pi(dag, without_factor(dag, nh_child(dag, inner, i), &factor))) continue;
+        c = nh_num_mul(nh_num_mul(c, factor), nh_coefficient_of(dag, inner, i));
+        *rest = nh_sub(dag, a, nh_mul(dag, nh_number(dag, c), nh_pi(dag)));
+        return known_turn(dag, c, sine, cosine);
     }
-    c = nh_num_mul(c, nh_num_int(2));
-    *n = c.p;
-    return nh_kind_of(dag, a) == NH_FUNCTION && nh_function_of(dag, a) == NH_PI && c.q == 1;
+    return false;
 }
 
 static bool number_value(nh_dag *dag, nh_function f, nh_ex a, nh_ex *out)
@@ -73,17 +104,14 @@ static bool is_call(const nh_dag *dag, nh_ex e, nh_function f)
 
 nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a)
 {
-    nh_ex e;
-    int64_t n;
+    nh_ex e, sine, cosine;
+    nh_num turn;
     if (nh_kind_of(dag, a) == NH_NUMBER && number_value(dag, f, a, &e)) return e;
     if (table[f].parity && looks_negative(dag, a)) {
         e = nh_call(dag, f, nh_neg(dag, a));
         return table[f].parity < 0 ? nh_neg(dag, e) : e;
     }
-    if ((f == NH_SIN || f == NH_COS) && half_turns(dag, a, &n)) {
-        static const int sine[4] = {0, 1, 0, -1};
-        return nh_int(dag, sine[((uint64_t)n + (f == NH_COS)) & 3]);
-    }
+    if ((f == NH_SIN || f == NH_COS) && is_pi(dag, without_factor(dag, a, &turn)) && known_turn(dag, turn, &sine, &cosine)) return f == NH_SIN ? sine : cosine;
     if (f == NH_EXP && is_call(dag, a, NH_LOG)) return nh_child(dag, a, 0);
     if (f == NH_LOG && is_call(dag, a, NH_EXP)) return nh_child(dag, a, 0);
     return nh_dag_intern(dag, NH_FUNCTION, f, 1, &a);

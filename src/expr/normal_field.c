@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/progress.h"
 #include "expr/normal.h"
 #include "expr/normal_flint.h"
 
@@ -66,7 +67,7 @@ static double words(const fmpz_mpoly_t a) { return 1 + fabs((double)fmpz_mpoly_m
 bool nh_field_spend(nh_field *f, double work)
 {
     f->work += work;
-    if (f->work > f->max_work) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if (f->work > f->max_work || nh_late()) nh_field_break(f, NH_FIELD_TOO_LARGE);
     return f->state == NH_FIELD_FINE;
 }
 

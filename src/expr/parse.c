@@ -97,6 +97,7 @@ static bool unexpected(parser *p, const char *wanted)
     if (iscntrl((unsigned char)c)) return fail(p, p->at, "a control character cannot stand here; %s was expected", wanted);
     fail(p, p->at, "`%c` cannot stand here; %s was expected", c, wanted);
     if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*') return hint(p, "powers are written with ^: x^2");
+    if ((c == '<' || c == '>') && p->equation) return hint(p, "only equations can be written: where a motion is looked at, `domain:` says");
     if (c == '=' && p->equation) return hint(p, "an equation has one `=` between two expressions");
     if (c == '=') return hint(p, "an equation is expected only under constraints, forces, definitions and chart maps");
     return false;
@@ -198,8 +199,9 @@ static bool arguments(parser *p, const char *name, size_t count, nh_ex *argument
 {
     static const char *const amount[] = {"no", "one argument", "two arguments"};
     if (peek(p) != '(') {
+        bool power = peek(p) == '^';
         fail(p, p->at, "`%s` is a function; `(` was expected after it", name);
-        return hint(p, "write `%s(...)`", name);
+        return hint(p, power ? "write `%s(...)^2`" : "write `%s(...)`", name);
     }
     p->at++;
     for (size_t i = 0; i < count; i++) {
@@ -234,6 +236,26 @@ static bool square_root(parser *p, size_t at, nh_ex *out)
     return true;
 }
 
+/* What functions are called elsewhere, and what there is instead. */
+static const char *instead_of(const char *name)
+{
+    static const char *const other[][2] = {
+        {"ln", "the natural logarithm is written `log`"},
+        {"cot", "write 1/tan(...)"},
+        {"sec", "write 1/cos(...)"},
+        {"csc", "write 1/sin(...)"},
+        {"diff", "a velocity is written with a prime: x'"},
+        {"Derivative", "a velocity is written with a prime: x'"},
+        {"sgn", "the functions are smooth ones; `abs` is there for what has one sign on the domain"},
+        {"sign", "the functions are smooth ones; `abs` is there for what has one sign on the domain"},
+        {"max", "the functions are smooth ones; `abs` is there for what has one sign on the domain"},
+        {"min", "the functions are smooth ones; `abs` is there for what has one sign on the domain"},
+    };
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+        if (!strcmp(name, other[i][0])) return other[i][1];
+    return NULL;
+}
+
 /* The caller does not know the name, or explained why it cannot stand here. */
 static bool unresolved(parser *p, const char *word, size_t at)
 {
@@ -241,6 +263,8 @@ static bool unresolved(parser *p, const char *word, size_t at)
     bool unknown = !fault->what[0] || !strncmp(fault->what, "unknown name", strlen("unknown name")), called = peek(p) == '(';
     fault->offset = at;
     if (unknown) snprintf(fault->what, sizeof fault->what, "unknown %s `%s`", called ? "function" : "name", word);
+    const char *instead = unknown && called ? instead_of(word) : NULL;
+    if (instead) return hint(p, "%s", instead);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
     return hint(p, "the functions are: sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log sqrt abs");
 }

@@ -14,6 +14,7 @@ typedef struct {
     size_t seen_count, all_waves;
     nh_ex *seen;        /* nodes already looked at */
     nh_ex all_wave[64]; /* every coordinate inside a sine or cosine */
+    bool integrate;     /* in forces and constraints: of 1/(b + c q) the integral is wanted, too */
 } harvester;
 
 static bool is_in(size_t n, const nh_ex *list, nh_ex e)
@@ -103,10 +104,52 @@ static void add_integral(harvester *h, nh_ex base)
     }
 }
 
+/* 1 or -1 where e has one sign at all probes of the chart, else 0. */
+static int sign_of(const nh_model *o, nh_ex e)
+{
+    const nh_chart *c = o->chart;
+    nh_tape *tape = nh_model_tape(o, 1, &e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    size_t above = 0, below = 0;
+    for (size_t p = 0; p < c->probes; p++) {
+        double value;
+        nh_tape_eval(tape, work, c->probe + p * c->width, &value);
+        above += value > 0;
+        below += value < 0;
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return above == c->probes ? 1 : below == c->probes ? -1 : 0;
+}
+
+/* The integral of 1/base by q: log(b + c q), atan(q sqrt(c/b)) of b + c q^2 (atanh where c/b < 0). */
+static void add_logarithm(harvester *h, nh_ex base)
+{
+    nh_model *o = h->o;
+    nh_dag *d = o->dag;
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex q = o->system->coordinate[s].q, zero = nh_int(d, 0), slope = nh_diff(d, base, q), c = nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, q));
+        nh_ex b = nh_substitute(d, base, 1, &q, &zero), by = 0;
+        if (nh_is_zero(d, slope) || has_position(o, b) || has_position(o, c)) continue;
+        if (nh_is_zero(d, c)) {
+            int sign = sign_of(o, base);
+            if (sign) by = nh_call(d, NH_LOG, sign > 0 ? base : nh_neg(d, base));
+        } else if (nh_is_zero(d, nh_substitute(d, slope, 1, &q, &zero)) && !nh_is_zero(d, b)) {
+            int sign = sign_of(o, nh_div(d, c, b));
+            nh_ex scale = nh_div(d, sign < 0 ? nh_neg(d, c) : c, b);
+            if (sign) by = nh_call(d, sign > 0 ? NH_ATAN : NH_ATANH, nh_mul(d, q, nh_sqrt(d, scale)));
+        }
+        if (by) add(h, &h->out->atoms, h->out->atom, by);
+    }
+}
+
+/* Of a coordinate: the stages have those.  What cos t drives is no wave of theirs. */
 static bool plain_wave(const nh_model *o, nh_ex e)
 {
     nh_function f = nh_function_of(o->dag, e);
-    return (f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_kind_of(o->dag, nh_child(o->dag, e, 0)) == NH_SYMBOL;
+    if (f != NH_SIN && f != NH_COS && f != NH_TAN) return false;
+    nh_ex angle = nh_child(o->dag, e, 0);
+    return nh_kind_of(o->dag, angle) == NH_SYMBOL && angle != o->system->t;
 }
 
 static void add_wave(harvester *h, nh_ex e)
@@ -137,6 +180,7 @@ static void walk(harvester *h, nh_ex e)
         bool polynomial = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1 && nh_number_of(d, x).p > 0;
         if (polynomial || !has_position(h->o, child) || has_velocity(h->o, child)) continue;
         add_atom(h, nh_pow(d, child, x));
+        if (h->integrate && nh_is_number(d, x, -1)) add_logarithm(h, child);
     }
 }
 
@@ -243,7 +287,11 @@ static void add_roots(harvester *h)
 {
     nh_model *o = h->o;
     add_roots_of(h, nh_simplify_short(o->dag, determinant(o), 0));
-    for (size_t i = 0; i < o->n; i++) add_roots_of(h, o->M[i * o->n + i]);
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex length = nh_powi(o->dag, even_root(o, o->M[i * o->n + i]), -1); /* x'^2/x^2: log x is the length */
+        add_roots_of(h, o->M[i * o->n + i]);
+        if (has_position(o, length)) add_logarithm(h, length);
+    }
 }
 
 /* One term, and its derivatives by the angles in it. */
@@ -337,8 +385,11 @@ nh_dictionary nh_dictionary_of(nh_model *o)
     harvester h = {.o = o, .out = &out, .seen = nh_alloc_array(most_seen, sizeof *h.seen)};
     for (size_t i = 0; i < o->n; i++) out.velocity[out.velocities++] = o->chart->w[i];
     for (size_t s = 0; s < o->m && out.positions < most_entries; s++) out.position[out.positions++] = o->system->coordinate[s].q;
-    walk(&h, o->system->lagrangian);
+    h.integrate = true;
+    for (size_t s = 0; s < o->m && o->system->has_forces; s++) walk(&h, o->system->force[s]);
     for (size_t a = 0; a < o->k; a++) walk(&h, nh_chart_constraint(o->chart, a));
+    h.integrate = false;
+    walk(&h, o->system->lagrangian);
     for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);

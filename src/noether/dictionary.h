@@ -1,10 +1,11 @@
 /* dictionary: what a system itself is made of.
  *
- * Harvested from the expressions of L, of the constraints and of the embedding, parameters left symbolic:
+ * Harvested from the expressions of L, of the forces, of the constraints and of the embedding, parameters left symbolic:
  *
  *     velocities   the chart's and the dependent ones
  *     forms        sums that are linear and homogeneous in the velocities (angular velocities, rolling forms, momenta)
- *     atoms        non-polynomial functions of position and their inverses (1/r, exp(a - b), sqrt(1 + y^2), sin 2phi)
+ *     atoms        non-polynomial functions of position and their inverses (1/r, exp(a - b), sqrt(1 + y^2), sin 2phi); integrals of 1/(b + c q) and
+ *                  1/(b + c q^2) in forces and constraints
  *     potential    the additive terms of L without velocities, and for angles their first derivatives
  *     frame        M = L D L^T: the forms (L^T w)_i, with the root of D_i's position factor where it is rational (p, q, r of a top)
  *     energy       as one column, whatever it looks like

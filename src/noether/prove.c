@@ -5,6 +5,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "noether/exact.h"
+#include "noether/symmetry.h"
 
 enum { wanted_points = 4, most_tries = 40, double_digits = 8 };
 
@@ -24,15 +25,15 @@ static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_opti
     proof->digits = proof->points == 0 ? 0 : fmax(0, fmin(least, most));
 }
 
-nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool parameters_free, const nh_options *options)
+/* `proof`: what is known already. */
+static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_proof proof, bool parameters_free, const nh_options *options)
 {
-    nh_proof proof = {0};
     nh_dag *d = o->dag;
     nh_ex sum = nh_int(d, 0), *valued = nh_alloc_array(n + 1, sizeof *valued);
     for (size_t i = 0; i < n; i++) sum = nh_add(d, sum, term[i]);
     size_t limit = (size_t)options->proof_terms;
-    if (parameters_free && o->chart->implicit == 0) proof.all_parameters = nh_normal_is_zero(d, sum, limit) == NH_ZERO;
-    proof.proved = proof.all_parameters || nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO;
+    if (!proof.proved && parameters_free && o->chart->implicit == 0) proof.all_parameters = nh_normal_is_zero(d, sum, limit) == NH_ZERO;
+    proof.proved = proof.proved || proof.all_parameters || nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO;
     bool exact = true;
     for (size_t i = 0; i < n; i++) {
         valued[i] = nh_exact_values(o, term[i]);
@@ -47,15 +48,69 @@ nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool para
     return proof;
 }
 
-nh_proof nh_prove_current(const nh_model *o, nh_ex phi, bool parameters_free, const nh_options *options)
+nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool parameters_free, const nh_options *options)
+{
+    return prove_zero(o, n, term, (nh_proof){0}, parameters_free, options);
+}
+
+/* Are X_0(Phi) + A_i zeta^i and Y_j(Phi) - M_ij zeta^i zero?  Then so is Gamma(Phi) = X_0(Phi) + a^j Y_j(Phi), by M a = A and without M^-1, which is what makes
+ * Gamma(Phi) long [docs/method.md, (6), (11)]. */
+static bool equations_hold(const nh_model *o, nh_ex phi, const nh_ex *zeta, bool parameters_free, const nh_options *options)
 {
     nh_dag *d = o->dag;
-    size_t n = 1 + o->m + o->n;
-    nh_ex *term = nh_alloc_array(n, sizeof *term);
+    bool holds = true;
+    for (size_t j = 0; j <= o->n && holds; j++) {
+        nh_ex e = j < o->n ? nh_model_Y(o, j, phi) : nh_model_X0(o, phi);
+        for (size_t i = 0; i < o->n; i++) e = j < o->n ? nh_sub(d, e, nh_mul(d, o->M[i * o->n + j], zeta[i])) : nh_add(d, e, nh_mul(d, o->A[i], zeta[i]));
+        holds = nh_normal_is_zero(d, parameters_free ? e : nh_exact_values(o, e), (size_t)options->proof_terms) == NH_ZERO;
+    }
+    return holds;
+}
+
+/* Energies and momenta have fields with short components however long the accelerations are. */
+static bool proved_by_symmetry(const nh_model *o, nh_ex phi, bool parameters_free, const nh_options *options)
+{
+    enum { longest = 40 };
+    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
+    bool holds = o->n > 0 && o->chart->implicit == 0;
+    if (holds) nh_symmetry_components(o, phi, zeta);
+    for (size_t i = 0; i < o->n && holds; i++) holds = nh_complexity(o->dag, zeta[i]) <= longest;
+    holds = holds && equations_hold(o, phi, zeta, parameters_free, options);
+    nh_free(zeta);
+    return holds;
+}
+
+/* Gamma(Phi) term by term, 1 + m + n of them. */
+static void rate_terms(const nh_model *o, nh_ex phi, nh_ex *term)
+{
+    nh_dag *d = o->dag;
     term[0] = nh_diff(d, phi, o->system->t);
     for (size_t s = 0; s < o->m; s++) term[1 + s] = nh_mul(d, o->rho[s], nh_diff(d, phi, o->system->coordinate[s].q));
     for (size_t i = 0; i < o->n; i++) term[1 + o->m + i] = nh_mul(d, o->a[i], nh_model_Y(o, i, phi));
-    nh_proof proof = nh_prove_zero(o, n, term, parameters_free, options);
+}
+
+double nh_prove_digits(const nh_model *o, nh_ex phi, const nh_options *options)
+{
+    size_t n = 1 + o->m + o->n;
+    nh_ex *term = nh_alloc_array(n, sizeof *term);
+    nh_proof proof = {0};
+    rate_terms(o, phi, term);
+    for (size_t i = 0; i < n; i++) term[i] = nh_exact_values(o, term[i]);
+    cancel(o, n, term, options, &proof);
+    nh_free(term);
+    return proof.digits;
+}
+
+nh_proof nh_prove_current(const nh_model *o, nh_ex phi, bool parameters_free, const nh_options *options)
+{
+    enum { lengthy = 2000 };
+    size_t n = 1 + o->m + o->n, length = 0;
+    nh_ex *term = nh_alloc_array(n, sizeof *term);
+    rate_terms(o, phi, term);
+    for (size_t j = 0; j < n; j++) length += nh_complexity(o->dag, term[j]);
+    nh_proof proof = {0};
+    if (length > lengthy && proved_by_symmetry(o, phi, parameters_free, options)) proof = (nh_proof){.proved = true, .all_parameters = parameters_free};
+    proof = prove_zero(o, n, term, proof, parameters_free, options);
     nh_free(term);
     return proof;
 }

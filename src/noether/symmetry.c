@@ -42,41 +42,47 @@ void nh_symmetry_equations(const nh_model *o, nh_ex phi, nh_ex Z0, const nh_ex *
     }
 }
 
-/* c or c*w_i with a simple number c, when z is that at all probes of the chart; else z. */
+/* c or c*w_i with a simple number c, when z is that at most probes of the chart (near its singularities doubles lose their digits); else z. */
 static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
 {
+    enum { tried = 5 };
     const nh_chart *c = o->chart;
     nh_tape *tape = nh_model_tape(o, 1, &z);
     nh_tape_work *work = nh_tape_work_create(tape);
-    double number = NAN, factor = NAN, value;
-    bool constant = c->probes > 1, linear = constant;
-    for (size_t p = 0; p < c->probes && (constant || linear); p++) {
-        const double *at = c->probe + p * c->width;
-        double w = at[1 + o->m + i];
-        nh_tape_eval(tape, work, at, &value);
-        if (p == 0) number = round(12 * value) / 12, factor = round(12 * value / w) / 12;
-        constant &= fabs(value - number) <= 1e-9;
-        linear &= fabs(value - factor * w) <= 1e-9 * (1 + fabs(value));
+    double *value = nh_alloc_array(c->probes + 1, sizeof *value);
+    nh_ex found = z;
+    for (size_t p = 0; p < c->probes; p++) nh_tape_eval(tape, work, c->probe + p * c->width, &value[p]);
+    for (size_t first = 0; first < c->probes && first < tried && found == z; first++) {
+        double number = round(12 * value[first]) / 12, factor = round(12 * value[first] / c->probe[first * c->width + 1 + o->m + i]) / 12;
+        size_t constant = 0, linear = 0;
+        for (size_t p = 0; p < c->probes; p++) {
+            double w = c->probe[p * c->width + 1 + o->m + i];
+            constant += fabs(value[p] - number) <= 1e-9;
+            linear += fabs(value[p] - factor * w) <= 1e-9 * (1 + fabs(value[p]));
+        }
+        if (2 * constant > c->probes) found = nh_ratio(o->dag, (int64_t)round(12 * number), 12);
+        else if (2 * linear > c->probes) found = nh_mul(o->dag, nh_ratio(o->dag, (int64_t)round(12 * factor), 12), c->w[i]);
     }
+    nh_free(value);
     nh_tape_work_free(work);
     nh_tape_free(tape);
-    if (constant) return nh_ratio(o->dag, (int64_t)round(12 * number), 12);
-    return linear ? nh_mul(o->dag, nh_ratio(o->dag, (int64_t)round(12 * factor), 12), c->w[i]) : z;
+    return found;
 }
 
-/* x = M^-1 b (n).  Where that is too long to be simplified: the fields of energies and momenta have simple components.  What is recognised is
- * proved, M x = b. */
+/* x = M^-1 b (n).  Where that is long, and perhaps too long to be simplified: the fields of energies and momenta have simple components.  What is
+ * recognised is proved, M x = b. */
 static void solve(const nh_model *o, const nh_ex *b, nh_ex *x)
 {
+    enum { lengthy = 300 };
     nh_dag *d = o->dag;
     bool large = false, good = true;
     nh_ex *guess = nh_alloc_array(2 * o->n + 1, sizeof *guess), *right = guess + o->n;
     memcpy(right, b, o->n * sizeof *right);
     nh_lu_solve(o->M_lu, b, x);
-    for (size_t i = 0; i < o->n; i++) large |= nh_complexity(d, x[i]) > large_length;
+    for (size_t i = 0; i < o->n; i++) large |= nh_complexity(d, x[i]) > lengthy;
     for (size_t i = 0; i < o->n && large && good; i++) {
         guess[i] = recognised(o, x[i], i);
-        good = guess[i] != x[i] || nh_complexity(d, x[i]) <= large_length;
+        good = guess[i] != x[i] || nh_complexity(d, x[i]) <= lengthy;
     }
     for (size_t j = 0; j < o->n && large && good; j++) {
         nh_ex off = nh_neg(d, right[j]);

@@ -6,7 +6,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-enum { most_factors = 24 };
+enum { most_factors = 24, covectors = 6 /* the level of fields with simple covectors */, polynomials = 7 };
 
 typedef struct {
     size_t count;
@@ -63,21 +63,21 @@ static void put_circular(nh_dag *d, factors *f, nh_ex angle, int level)
     } else if (level == 3) {
         put(f, nh_mul(d, angle, s));
         put(f, nh_mul(d, angle, c));
-    } else if (level == 5) {
+    } else if (level >= 5) {
         put(f, nh_call(d, NH_SIN, twice));
         put(f, nh_call(d, NH_COS, twice));
     }
 }
 
-/* g, g' and g'/g (cosh, sinh, tanh): Christoffel symbols are made of them; of an exponential also 1/g and roots (logarithmic coordinates). */
-static void put_with_slopes(const nh_kinetic *k, factors *f, nh_ex g, nh_ex q)
+/* g, g' and g'/g (cosh, sinh, tanh), for covectors g g': Christoffel symbols are made of them; of an exponential also 1/g and roots (logarithmic coordinates). */
+static void put_with_slopes(const nh_kinetic *k, factors *f, nh_ex g, nh_ex q, bool for_covectors)
 {
     nh_ex slope = nh_simplify(k->dag, nh_diff(k->dag, g, q));
     put(f, g);
     for (int half = -2; half <= 1 && nh_function_of(k->dag, g) == NH_EXP; half++)
         if (half) put(f, nh_call(k->dag, NH_EXP, nh_mul(k->dag, nh_ratio(k->dag, half, 2), nh_child(k->dag, g, 0))));
     put(f, slope);
-    put(f, nh_div(k->dag, slope, g));
+    put(f, for_covectors ? nh_mul(k->dag, slope, g) : nh_div(k->dag, slope, g));
 }
 
 /* Functions that come near a pole on the sample points would hide the others. */
@@ -109,6 +109,7 @@ static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
     f->count = 0;
     for (size_t i = 0; i < n; i++) turned |= circular(d, found[i]) && nh_depends(d, nh_child(d, found[i], 0), k->q[j]);
     bool powers = !turned || level == 3 || level == 5; /* beside sines they are nearly dependent on a short interval */
+    for (size_t i = 0; i < n && level == covectors; i++) powers &= !of_one(k, found[i], j);
     put(f, nh_int(d, 1));
     if (powers) put(f, k->q[j]);
     if (powers && level > 1 && !(angle && level < 5)) put(f, nh_powi(d, k->q[j], 2));
@@ -116,7 +117,7 @@ static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
     for (size_t i = 0; i < n; i++) {
         if (!of_one(k, found[i], j)) continue;
         if (circular(d, found[i])) put_circular(d, f, nh_child(d, found[i], 0), level);
-        else if (level == 5) put_with_slopes(k, f, found[i], k->q[j]);
+        else if (level >= 5) put_with_slopes(k, f, found[i], k->q[j], level == covectors);
     }
     drop_wild(k, f);
     nh_free(found);
@@ -170,6 +171,44 @@ static void products(nh_library *l, const nh_kinetic *k, const factors *f, const
         products(l, k, f, on, j + 1, nh_mul(k->dag, so_far, f[j].e[i]), together - (i > 0 && together), component, most);
 }
 
+/* Monomials of total degree `degree` at most, of those in `on`. */
+static void monomials(nh_library *l, const nh_kinetic *k, const bool *on, size_t j, nh_ex so_far, int degree, size_t component, size_t most)
+{
+    while (j < k->m && !on[j]) j++;
+    if (l->count >= most) return;
+    if (j == k->m) {
+        add(l, k, so_far, component);
+        return;
+    }
+    for (int power = 0; power <= degree; power++)
+        monomials(l, k, on, j + 1, nh_mul(k->dag, so_far, nh_powi(k->dag, k->q[j], power)), degree - power, component, most);
+}
+
+/* What components are divided by at the level of covectors: K_ii where K is diagonal, else its determinant; 0 where that is a number or unknown. */
+static nh_ex divisor(const nh_kinetic *k, size_t i)
+{
+    nh_dag *d = k->dag;
+    size_t m = k->m;
+    bool diagonal = k->metric;
+    nh_ex e = 0;
+    for (size_t r = 0; r < m; r++)
+        for (size_t s = 0; s < r; s++) diagonal &= nh_is_zero(d, k->K[r * m + s]);
+    if (diagonal) e = k->K[i * m + i];
+    else if (k->metric && m == 2) e = nh_sub(d, nh_mul(d, k->K[0], k->K[3]), nh_mul(d, k->K[1], k->K[2]));
+    e = e ? nh_simplify_short(d, e, 0) : 0;
+    for (size_t s = 0; s < m && e; s++)
+        if (nh_depends(d, e, k->q[s])) return e;
+    return 0;
+}
+
+static void divide(nh_library *l, const nh_kinetic *k, size_t first, nh_ex by)
+{
+    for (size_t j = first; j < l->count; j++) {
+        l->function[j] = nh_div(k->dag, l->function[j], by);
+        l->complexity[j] = (double)nh_complexity(k->dag, l->function[j]);
+    }
+}
+
 void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, int level, size_t most)
 {
     size_t m = k->m;
@@ -178,9 +217,13 @@ void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, in
     factors *f = nh_alloc_array(m, sizeof *f);
     for (size_t j = 0; j < m; j++) factors_of(k, j, level, &f[j]);
     for (size_t i = 0; i < m; i++) {
-        size_t count = 0;
+        size_t count = 0, first = l->count;
         for (size_t j = 0; j < m; j++) count += on[j] = depends[i + m * j];
-        if (nonzero[i]) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);
+        if (nonzero[i] && level == polynomials) monomials(l, k, on, 0, nh_int(k->dag, 1), m <= 3 ? 5 : 3, i, most);
+        else if (nonzero[i]) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);
+        nh_ex by = level == covectors && nonzero[i] ? divisor(k, i) : 0;
+        if (by) divide(l, k, first, by);
+        if (by) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);
     }
     nh_free(nonzero);
     nh_free(depends);

@@ -8,6 +8,9 @@
  *     level 4    as level 2, every coordinate taken for an angle
  *     level 5    sin q, cos q, sin 2q, cos 2q, q, q^2, and the system's other functions of q alone, their derivatives,
  *                and those divided by the functions (cosh, sinh, tanh)
+ *     level 6    as level 5, without powers beside functions, and g g' for g'/g; also all of these divided by K_ii, or by det K: of translations in elliptic or parabolic coordinates the covectors K xi have simple components,
+ *                not the fields
+ *     level 7    monomials to degree five, of more than three coordinates to degree three: what polynomial changes of coordinates make of rotations
  *
  * On which coordinates it depends is known from the jets; without these, any, and at most two at a time. */
 #ifndef NH_LIBRARY_H
@@ -15,7 +18,7 @@
 
 #include "reduction/jets.h"
 
-enum { NH_LIBRARY_LEVELS = 5 };
+enum { NH_LIBRARY_LEVELS = 7 };
 
 typedef struct {
     size_t count, capacity;

@@ -47,6 +47,8 @@ void nh_climb_stage(nh_climb *climb, const char *name, size_t families, const nh
 
 /* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
 void nh_climb_rates(nh_climb *climb);
+/* The same in t alone, for this family. */
+void nh_climb_rates_in(nh_climb *climb, const nh_family *base);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
 void nh_climb_isometries(nh_climb *climb);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */

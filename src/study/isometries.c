@@ -5,10 +5,13 @@
  *
  * is conserved where the potential is invariant and the field tangent to the constraints (Noether); where it is not, quadratic integrals of separable and superintegrable systems on spaces of
  * constant curvature are still quadratic forms in the P with functions of position added. */
+#include <string.h>
+
 #include "base/progress.h"
 #include "expr/normal.h"
 #include "reduction/generators.h"
 #include "study/climb.h"
+#include "study/stages_internal.h"
 
 enum { most_momenta = 10, most_functions = 60, most_coordinates = 6 };
 
@@ -34,7 +37,7 @@ static bool depends_on_position(const nh_kinetic *k)
     return any;
 }
 
-/* xi^s K_sr v^r on the submanifold: what total derivatives add to L, or a magnetic field, is left to the functions. */
+/* xi^s K_sr v^r on the submanifold: what total derivatives add to L is left to the functions. */
 static nh_ex momentum(const nh_kinetic *k, const nh_generator *g)
 {
     nh_dag *d = k->dag;
@@ -44,8 +47,18 @@ static nh_ex momentum(const nh_kinetic *k, const nh_generator *g)
     return nh_simplify_short(d, nh_model_compose(k->model, sum), 0);
 }
 
-/* The momenta of the isometries; 0 where the metric has none or is constant (its isometries are among the polynomials). */
-static size_t momenta(const nh_climb *x, nh_ex *P)
+/* xi^s a_s of L = 1/2 K_rs v^r v^s + a_s v^s - V: what a magnetic field or a rotor that is invariant adds to the momentum. */
+static nh_ex magnetic(const nh_kinetic *k, const nh_ex *a, const nh_generator *g)
+{
+    nh_dag *d = k->dag;
+    nh_ex sum = nh_int(d, 0);
+    for (size_t s = 0; s < k->m; s++) sum = nh_add(d, sum, nh_mul(d, g->component[s], a[s]));
+    return nh_simplify_short(d, sum, 0);
+}
+
+/* The momenta of the isometries, and those of the magnetic parts that are no numbers; 0 where the metric has none or is constant (its isometries are
+ * among the polynomials). */
+static size_t momenta(const nh_climb *x, nh_ex *P, list *also)
 {
     nh_result *r = x->r;
     const nh_model *o = r->model;
@@ -54,7 +67,10 @@ static size_t momenta(const nh_climb *x, nh_ex *P)
     nh_kinetic *k = nh_kinetic_create(o, (uint64_t)r->options.seed + 909, &ignored);
     nh_jets *jets = NULL;
     nh_generators found = {0};
+    nh_ex *a = NULL;
     if (k && k->metric && depends_on_position(k)) {
+        a = nh_arena_alloc(r->arena, (k->m + 1) * sizeof *a);
+        memcpy(a, k->a, k->m * sizeof *a);
         nh_kinetic alone = *k; /* the metric alone */
         alone.V = nh_int(k->dag, 0);
         alone.forced = alone.magnetic = false;
@@ -65,7 +81,11 @@ static size_t momenta(const nh_climb *x, nh_ex *P)
         if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, &r->options, &ignored)) found.count = 0;
     }
     size_t n = 0;
-    for (size_t i = 0; i < found.count && i < most_momenta; i++) P[n++] = momentum(k, &found.generator[i]);
+    for (size_t i = 0; i < found.count && i < most_momenta; i++) {
+        nh_ex with = magnetic(k, a, &found.generator[i]);
+        if (nh_kind_of(k->dag, with) != NH_NUMBER) put(also, with);
+        P[n++] = momentum(k, &found.generator[i]);
+    }
     nh_jets_free(jets);
     nh_kinetic_free(k);
     return n;
@@ -102,6 +122,29 @@ static nh_family functions_family(const nh_climb *x, int most_harmonic, nh_famil
     return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
 }
 
+/* Cartesian coordinates are products of functions of one coordinate in those in which the metric separates: with them the momenta of translations are what
+ * an oscillator turns, whatever its coordinates, and alone what friction takes; of a free motion they are what grows like t. */
+static void cartesian(nh_climb *x, size_t n, const nh_ex *P)
+{
+    enum { few = 3 };
+    nh_result *r = x->r;
+    nh_shelf shelf = {r->arena, r->model, &x->words, NULL, 0};
+    nh_list all = {0}, functions = nh_list_one_coordinate(&shelf), plain = {0};
+    for (size_t s = 0; s < r->model->m; s++)
+        if (r->system->coordinate[s].type != NH_ANGLE) nh_list_put(&plain, r->system->coordinate[s].q);
+    nh_list squares = nh_list_squares(&shelf, &plain);
+    nh_list_put_all(&all, n, P);
+    for (size_t i = 0; i < functions.n; i++)
+        if (nh_kind_of(r->model->dag, functions.e[i]) != NH_NUMBER) nh_list_put(&all, functions.e[i]);
+    nh_list_put_all(&all, plain.n, plain.e);
+    if (plain.n <= few) nh_list_put_all(&all, squares.n, squares.e);
+    nh_family base = nh_shelf_terms(&shelf, &all), grown;
+    nh_climb_rates_in(x, &base);
+    for (size_t i = 0; i < n; i++) nh_list_put(&all, nh_mul(r->model->dag, r->model->system->t, P[i]));
+    grown = nh_shelf_terms(&shelf, &all);
+    if (!nh_climb_done(x)) nh_climb_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
+}
+
 void nh_climb_isometries(nh_climb *x)
 {
     nh_result *r = x->r;
@@ -109,15 +152,21 @@ void nh_climb_isometries(nh_climb *x)
     if (o->m > most_coordinates) return;
     nh_progress("isometries of the kinetic energy", -1);
     nh_ex *P = nh_arena_alloc(r->arena, most_momenta * sizeof *P), *PP = nh_arena_alloc(r->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
-    size_t n = momenta(x, P), squares = 0;
+    list *also = nh_arena_alloc(r->arena, sizeof *also);
+    also->n = 0;
+    put(also, x->r->system->t); /* a force that is uniform along the field */
+    size_t n = momenta(x, P, also), squares = 0;
     if (n == 0) return;
-    nh_family part[4], *all = nh_arena_alloc(r->arena, 2 * sizeof *all);
+    nh_family part[4], *all = nh_arena_alloc(r->arena, 3 * sizeof *all);
     all[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = P};
     all[1] = functions_family(x, 1, part);
-    nh_climb_stage(x, "momenta of the isometries of the kinetic energy, and functions", 2, all);
+    all[2] = (nh_family){.kind = NH_TERMS, .terms = also->n, .term = also->e};
+    nh_climb_stage(x, "momenta of the isometries of the kinetic energy, and functions", 3, all);
+    if (!nh_climb_done(x)) cartesian(x, n, P);
+    if (nh_climb_done(x)) return;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++) PP[squares++] = nh_mul(o->dag, P[i], P[j]);
     all[0] = (nh_family){.kind = NH_TERMS, .terms = squares, .term = PP};
     all[1] = functions_family(x, 2, part + 2);
-    if (!nh_climb_done(x)) nh_climb_stage(x, "their products, and functions", 2, all);
+    nh_climb_stage(x, "their products, and functions", 2, all);
 }

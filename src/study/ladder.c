@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/progress.h"
+#include "noether/prove.h"
 #include "study/climb.h"
 #include "study/integrals.h"
 #include "study/stages.h"
@@ -30,6 +31,25 @@ static void known_stage(nh_climb *x)
     nh_climb_stage(x, "currents found so far times t, positions and the system's functions", 1, both);
 }
 
+/* Where determinants of the constraints are small on parts of the domain, doubles lose all digits of the rates: in ball arithmetic they cancel, or they do not. */
+static void certify(nh_climb *x, nh_ex e, const char *name)
+{
+    nh_result *r = x->r;
+    nh_ex *term = nh_arena_alloc(r->arena, sizeof *term);
+    double *one = nh_arena_alloc(r->arena, sizeof *one);
+    *term = e;
+    *one = 1;
+    nh_candidate *c = nh_arena_alloc(r->arena, sizeof *c);
+    *c = (nh_candidate){.count = 1, .term = term, .coefficient = one, .refitted = true, .all = 1, .all_term = term, .all_coefficient = one, .all_size = one};
+    if (nh_kind_of(r->model->dag, *term) == NH_NUMBER || nh_currents_known(x->bench, *term)) return;
+    if (nh_prove_digits(r->model, *term, &r->options) < r->options.digits) return;
+    nh_tried *note = nh_climb_note(x, name);
+    note->columns = note->sectors = 1;
+    note->found = nh_currents_add(x->bench, c, x->ranges, false);
+    note->dimension = note->found;
+    r->independent += note->found;
+}
+
 /* The energy and each momentum alone: nothing nearly dependent beside them can take their place. */
 static void single_stages(nh_climb *x)
 {
@@ -40,6 +60,7 @@ static void single_stages(nh_climb *x)
         *e = i == 0 ? r->model->E : x->words.momentum[i - 1];
         *all = (nh_family){.kind = NH_TERMS, .terms = 1, .term = e};
         if (nh_climb_promising(x, 1, all)) nh_climb_stage(x, i == 0 ? "energy" : "a momentum", 1, all);
+        else certify(x, *e, i == 0 ? "energy, in ball arithmetic" : "a momentum, in ball arithmetic");
     }
 }
 

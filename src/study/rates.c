@@ -226,19 +226,34 @@ static size_t without_driven(const nh_climb *x, nh_ex q, size_t n, double *re, d
     return kept;
 }
 
-/* Returns whether something new was found. */
-static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, size_t which)
+/* Many waves on a short interval are nearly dependent: what they hide together each may still show alone. */
+static void one_by_one(waves *w, const char *text)
+{
+    nh_climb *x = w->context.x;
+    for (size_t k = 0; k < w->count && !nh_climb_done(x); k++) {
+        waves one = *w;
+        nh_family family[2];
+        one.count = 1;
+        one.re[0] = w->re[k];
+        one.im[0] = w->im[k];
+        one.how[0] = w->how[k];
+        wave_families(&one, family); /* the eigenvectors need the first of them only */
+        if (nh_climb_promising(x, 1, family)) nh_climb_stage(x, text, 1, family);
+    }
+}
+
+/* Returns whether something new was found; `which` of the bases it is. */
+static bool pencil_of(nh_climb *x, nh_ex q, nh_ex power, const char *name, const nh_family *base, size_t which)
 {
     enum { most_rates = 4 };
     nh_result *r = x->r;
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t before = r->independent;
-    size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which; /* elsewhere 1 and q are a pair that rounding splits */
-    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, index), family[2];
-    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, &base, range_points / 2 - 2, &ignored);
+    nh_family family[2];
+    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, base, range_points / 2 - 2, &ignored);
     if (!a) return false;
-    waves w = {.context = {.x = x, .base = a, .q = q, .base_of_power = power}, .base = &base, .which = which};
+    waves w = {.context = {.x = x, .base = a, .q = q, .base_of_power = power}, .base = base, .which = which};
     for (size_t i = 0; i < x->words.waves; i++) w.context.periodic |= x->words.wave[i] == q;
     w.count = without_driven(x, q, rates(r->model, &w.context, w.re, w.im, most_values), w.re, w.im);
     if (w.count > most_rates) w.count = most_rates;
@@ -247,10 +262,21 @@ static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, si
         char text[120];
         snprintf(text, sizeof text, power ? "powers of %.60s with exponents found by the pencil" : "exponentials and waves in %.60s with rates found by the pencil", name);
         nh_climb_stage(x, text, wave_families(&w, family), family);
+        if (w.count > 1) one_by_one(&w, text);
     }
     nh_ansatz_free(a);
     return r->independent > before;
 }
+
+static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, size_t which)
+{
+    nh_result *r = x->r;
+    size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which; /* elsewhere 1 and q are a pair that rounding splits */
+    nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, index);
+    return pencil_of(x, q, power, name, &base, which);
+}
+
+void nh_climb_rates_in(nh_climb *x, const nh_family *base) { pencil_of(x, x->r->model->system->t, 0, "t", base, NH_PENCIL_BASES); }
 
 /* The equations of motion do not depend on it (time included: whether they do is seen soon enough). */
 static bool is_cyclic(const nh_climb *x, nh_ex q)
@@ -285,7 +311,8 @@ static void powers(nh_climb *x)
         if (old || !positive_everywhere(x, Q)) continue;
         tried[n++] = Q;
         char *name = nh_print_string(d, Q);
-        if (!pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 0)) pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 2);
+        bool timely = nh_depends(d, Q, x->r->system->t); /* masses and springs that are powers of t */
+        if (!pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, 0)) pencil_stage(x, nh_call(d, NH_LOG, Q), Q, name, timely ? NH_PENCIL_GROWING : 2);
         nh_free(name);
     }
 }
@@ -315,6 +342,11 @@ void nh_climb_rates(nh_climb *x)
         for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_climb_done(x) && !found; base++) found = pencil_stage(x, q, 0, name, base);
         if (i == 0 && !found && nh_depends(o->dag, o->Lbar, q) && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_GROWING);
         if (o->system->has_forces && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_SQUARES);
+        for (size_t base = NH_PENCIL_QUADRATIC; base <= NH_PENCIL_CUBIC && i == 0 && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
+        if (i > 0 && o->system->coordinate[i - 1].type == NH_ANGLE && x->words.waves > 1 && !found && !nh_climb_done(x)) {
+            nh_family around = nh_stage_pencil_around(x->r->arena, o, &x->words, q);
+            pencil_of(x, q, 0, name, &around, NH_PENCIL_BASES);
+        }
         for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);

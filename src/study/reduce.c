@@ -270,6 +270,15 @@ static bool joint_by_joint(nh_reduction *r, const nh_reduce_request *q, nh_error
 
 /* ---- all of it ---- */
 
+/* Where the metric and the constraints say little about what is wrong, the equations of motion say it with its place in the file. */
+static void explain_failure(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+{
+    nh_error better = {0};
+    nh_model *whole = nh_model_create(r->system, nh_chart_create(r->system, q->chart, (uint64_t)q->options.seed, &better), &better);
+    if (!whole && better.code != NH_OK) *error = better;
+    nh_model_free(whole);
+}
+
 static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
     r->system = nh_system_read(q->system_path, q->settings, q->setting, error);
@@ -277,6 +286,7 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     r->model = nh_model_bare(r->system, nh_chart_create(r->system, q->chart, (uint64_t)q->options.seed, error));
     if (!r->model) return false;
     r->kinetic = nh_kinetic_create(r->model, (uint64_t)q->options.seed, error);
+    if (!r->kinetic) explain_failure(r, q, error);
     if (!r->kinetic || !q->weak) return r->kinetic != NULL;
     if (!r->kinetic->general) {
         nh_fail(error, NH_USAGE, "", "symmetries up to a total derivative are looked for with metrics and constraints that are at most affine only: %s", r->kinetic->obstacle);

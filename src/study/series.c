@@ -311,6 +311,7 @@ void nh_climb_series(nh_climb *x)
     if (x->words.shapes != 1 || o->n > most_words) return;
     problem p = {.x = x, .q = x->words.shape[0]};
     for (size_t i = 0; i < o->n; i++) p.word[p.words++] = o->chart->w[i];
+    if (o->system->has_forces && p.words < most_words) p.word[p.words++] = nh_int(d, 1); /* friction takes what depends on the place alone */
     search(&p, "velocities");
     if (nh_climb_done(x) || 1 + o->n * (o->n + 1) / 2 > most_words) return;
     p.words = 0;

@@ -248,43 +248,25 @@ static void stage_quadratic_waves(nh_shelf *s)
     nh_shelf_add(s, nh_shelf_terms(s, &f));
 }
 
-/* Quadratic in the velocities, linear in positions, atoms of weight two: Runge-Lenz vectors. */
+/* L has terms of degree one in the velocities: a magnetic field. */
+static bool is_magnetic(const nh_shelf *s)
+{
+    const nh_model *o = s->o;
+    nh_ex *zero = nh_arena_alloc(s->arena, (o->n + 1) * sizeof *zero);
+    for (size_t i = 0; i < o->n; i++) zero[i] = nh_int(o->dag, 0);
+    for (size_t k = 0; k < o->m; k++)
+        if (!nh_is_zero(o->dag, nh_substitute(o->dag, o->p[k], o->n, o->chart->w, zero))) return true;
+    return false;
+}
+
+/* Quadratic in the velocities, linear in positions, atoms of weight two: Runge-Lenz vectors; in the field of a monopole also linear in the velocities. */
 static void stage_weights(nh_shelf *s)
 {
-    nh_list l = linear_words(s), q = nh_list_squares(s, &l), x = nh_list_positions(s, true, false), f = nh_list_functions(s, false);
+    nh_list l = linear_words(s), v = {0}, q = nh_list_squares(s, &l), x = nh_list_positions(s, true, false), f = nh_list_functions(s, false);
     nh_shelf_product_of_lists(s, &q, &x);
     nh_shelf_product_of_lists(s, &f, &x);
-}
-
-/* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the energy (Kovalevskaya's
- * integral, Toda's, Calogero's). */
-static void weighted(nh_shelf *s, const nh_list *u, const nh_list *f)
-{
-    nh_list ff = nh_list_squares(s, f);
-    nh_shelf_add(s, nh_shelf_polynomial(s, u, 4));
-    if (f->n) nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_polynomial(s, u, 2), nh_shelf_terms(s, f)}));
-    nh_shelf_add(s, nh_shelf_terms(s, &ff));
-}
-
-static void stage_weight_4(nh_shelf *s)
-{
-    enum { most = 10 };
-    nh_list u = {0}, f = {0};
-    nh_list_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
-    if (s->w->frames == s->o->n) nh_list_put_all(&u, s->w->frames, s->w->frame);
-    else nh_list_put_all(&u, s->o->n, s->o->chart->w);
-    weighted(s, &u, &f);
-}
-
-/* The same in the forms that the system itself shows, where they are as many as the velocities. */
-static void stage_forms_4(nh_shelf *s)
-{
-    enum { most = 10 };
-    nh_list u = {0}, f = {0};
-    if (s->w->forms != s->o->n) return;
-    nh_list_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
-    nh_list_put_all(&u, s->w->forms, s->w->form);
-    weighted(s, &u, &f);
+    nh_list_put_all(&v, s->o->n, s->o->chart->w);
+    if (f.n && is_magnetic(s)) nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &v), nh_shelf_terms(s, &x), nh_shelf_terms(s, &f)}));
 }
 
 /* Rational: P / v with P linear. */
@@ -317,12 +299,13 @@ static const struct {
     {"energy, momenta and forms times positions and the system's own functions", stage_functions},
     {"total degree 2 times the system's own functions", stage_degree_2},
     {"quadratic forms times positions", stage_weights},
-    {"weighted degree 4 in the frame of the kinetic energy", stage_weight_4},
-    {"weighted degree 4 in the system's own forms", stage_forms_4},
+    {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
+    {"weighted degree 4 in the system's own forms", nh_stage_forms_4},
     {"squares of velocities times positions of higher degree, energy and functions times lower", nh_stage_separation},
     {"cubic in velocities times positions, velocities times functions and positions", nh_stage_cubic},
     {"degree four in velocities, as homogeneous as the potential", nh_stage_homogeneous},
     {"velocities times products of functions of one coordinate", nh_stage_one_coordinate},
+    {"squares of single momenta, the energy, and functions of one coordinate", nh_stage_separated},
     {"squares of momenta times functions of one coordinate", nh_stage_momenta},
     {"squares of positions and velocities times functions of time", nh_stage_time},
     {"squares of the frame times lengths and first harmonics", stage_frame},
@@ -354,12 +337,40 @@ static void put_growing(const nh_shelf *s, nh_list *l)
     for (size_t i = 0; i < words.n; i++) nh_list_put(l, nh_mul(s->o->dag, t, words.e[i]));
 }
 
+/* Squares or cubes of velocities and lengths, and the system's functions, for cubes times lengths.  Lists that are too long are left empty. */
+static nh_family power_base(nh_shelf *s, size_t degree)
+{
+    enum { most_variables = 7 };
+    nh_list u = {0}, l = {0}, q = nh_list_lengths(s, false, false), f = nh_list_functions(s, false);
+    nh_list_put_all(&u, s->o->n, s->o->chart->w);
+    nh_list_put_all(&u, s->w->lengths, s->w->length);
+    if (u.n > most_variables || s->w->lengths == 0 || (degree > 2 && (s->w->waves || f.n == 0))) return nh_shelf_terms(s, &l);
+    l = nh_list_squares(s, &u);
+    for (size_t k = 2; k < degree; k++) l = times(s, &l, &u);
+    nh_list g = degree > 2 ? times(s, &f, &q) : f;
+    nh_list_put_all(&l, g.n, g.e);
+    return nh_shelf_terms(s, &l);
+}
+
+nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_dictionary *w, nh_ex angle)
+{
+    nh_dag *d = o->dag;
+    nh_shelf s = {arena, o, w, NULL, 0};
+    nh_list l = linear_words(&s), wave = {0};
+    nh_list_put(&wave, nh_int(d, 1));
+    nh_list_put(&wave, nh_call(d, NH_COS, angle));
+    nh_list_put(&wave, nh_call(d, NH_SIN, angle));
+    nh_list both = times(&s, &l, &wave);
+    return nh_shelf_terms(&s, &both);
+}
+
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t base)
 {
     enum { most_with_waves = 110 };
     nh_shelf s = {arena, o, w, NULL, 0};
     bool growing = base == NH_PENCIL_GROWING, timely = growing || base == NH_PENCIL_TIME;
     if (timely) base = 2;
+    if (base == NH_PENCIL_QUADRATIC || base == NH_PENCIL_CUBIC) return power_base(&s, base == NH_PENCIL_CUBIC ? 3 : 2);
     if (base == NH_PENCIL_SQUARES) {
         nh_list u = {0}, f = nh_list_functions(&s, true);
         nh_list_put_all(&u, o->n, o->chart->w);

@@ -37,10 +37,18 @@ nh_family nh_shelf_polynomial(nh_shelf *shelf, const nh_list *list, size_t degre
 void nh_shelf_add(nh_shelf *shelf, nh_family family);
 void nh_shelf_product_of_lists(nh_shelf *shelf, const nh_list *a, const nh_list *b);
 
+/* ---- stages_weighted.c ---- */
+
+/* Degree four with weights, in the frame of the kinetic energy and in the system's own forms. */
+void nh_stage_weight_4(nh_shelf *shelf);
+void nh_stage_forms_4(nh_shelf *shelf);
+
 /* ---- stages_separation.c ---- */
 
 void nh_stage_separation(nh_shelf *shelf);
 void nh_stage_time(nh_shelf *shelf);
+/* Squares of single momenta, and the energy, with coefficients that are functions of one coordinate each, and these. */
+void nh_stage_separated(nh_shelf *shelf);
 /* Squares of momenta with coefficients that are functions of one coordinate each (Carter's constant). */
 void nh_stage_momenta(nh_shelf *shelf);
 /* Quasi-homogeneous polynomials of degree four in the velocities, for polynomial potentials. */
@@ -49,7 +57,8 @@ void nh_stage_homogeneous(nh_shelf *shelf);
 void nh_stage_cubic(nh_shelf *shelf);
 /* Half angles: parabolic coordinates seen from polar ones. */
 void nh_stage_half_angles(nh_shelf *shelf);
-/* Velocities with products of functions of one coordinate. */
+/* 1 and products of functions of one coordinate, and velocities with these. */
+nh_list nh_list_one_coordinate(const nh_shelf *shelf);
 void nh_stage_one_coordinate(nh_shelf *shelf);
 
 #endif

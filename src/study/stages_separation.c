@@ -108,13 +108,36 @@ static void put_coefficients(const nh_shelf *s, nh_ex q, nh_list *l)
         if (of_one(s, s->w->atom[i], q)) put_tame(s, l, s->w->atom[i], q);
 }
 
+static nh_list coefficients(const nh_shelf *s)
+{
+    nh_list c = {0};
+    nh_list_put(&c, nh_int(s->o->dag, 1));
+    for (size_t i = 0; i < s->w->lengths; i++) put_coefficients(s, s->w->length[i], &c);
+    for (size_t i = 0; i < s->w->waves; i++) put_coefficients(s, s->w->wave[i], &c);
+    return c;
+}
+
+/* What separation of variables gives in orthogonal coordinates: alone, because among all products of momenta these few are nearly dependent. */
+void nh_stage_separated(nh_shelf *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_list pp = {0}, c = {0};
+    if (s->o->k || s->w->frames == 0) return;
+    for (size_t i = 0; i < s->o->m; i++)
+        for (size_t j = 0; j < i; j++)
+            if (!nh_is_zero(d, s->o->M[i * s->o->n + j])) return;
+    c = coefficients(s);
+    for (size_t i = 0; i < s->o->m; i++) nh_list_put(&pp, nh_powi(d, s->o->p[i], 2));
+    nh_list_put(&pp, s->o->E);
+    nh_shelf_product_of_lists(s, &pp, &c);
+    nh_shelf_add(s, nh_shelf_terms(s, &c));
+}
+
 void nh_stage_momenta(nh_shelf *s)
 {
     nh_list p = {0}, c = {0}, e = {0}, none = nh_list_functions(s, false);
     if (s->o->k || s->w->frames == 0) return; /* constant metrics: polynomials */
-    nh_list_put(&c, nh_int(s->o->dag, 1));
-    for (size_t i = 0; i < s->w->lengths; i++) put_coefficients(s, s->w->length[i], &c);
-    for (size_t i = 0; i < s->w->waves; i++) put_coefficients(s, s->w->wave[i], &c);
+    c = coefficients(s);
     nh_list_put_all(&p, s->o->m, s->o->p);
     nh_list_put(&e, s->o->E);
     nh_list pp = nh_list_squares(s, &p);
@@ -139,12 +162,11 @@ static void put_factors(const nh_shelf *s, nh_ex q, nh_list *l)
     }
 }
 
-void nh_stage_one_coordinate(nh_shelf *s)
+nh_list nh_list_one_coordinate(const nh_shelf *s)
 {
     enum { most_each = 7 };
     nh_dag *d = s->o->dag;
-    nh_list w = {0}, all = {0};
-    if (s->w->positions > 3) return;
+    nh_list all = {0};
     nh_list_put(&all, nh_int(d, 1));
     for (size_t i = 0; i < s->w->positions; i++) {
         nh_list own = {0};
@@ -153,6 +175,14 @@ void nh_stage_one_coordinate(nh_shelf *s)
         for (size_t j = 0; j < own.n && j < most_each; j++)
             for (size_t k = 0; k < n; k++) nh_list_put(&all, nh_mul(d, all.e[k], own.e[j]));
     }
+    return all;
+}
+
+void nh_stage_one_coordinate(nh_shelf *s)
+{
+    nh_list w = {0};
+    if (s->w->positions > 3) return;
+    nh_list all = nh_list_one_coordinate(s);
     nh_list_put_all(&w, s->o->n, s->o->chart->w);
     if (all.n > 3) nh_shelf_product_of_lists(s, &w, &all);
 }

@@ -88,6 +88,24 @@ static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
     nh_free(list);
 }
 
+/* xdot, x_dot, dotx for x', and e for exp: how the same is written elsewhere. */
+static void translate(const scope *s, const char *name, nh_parse_fault *fault)
+{
+    const nh_system *y = s->system;
+    size_t length = strlen(name);
+    if (!strcmp(name, "e")) snprintf(fault->hint, sizeof fault->hint, "the exponential function is written exp(...), and 1e-3 without blanks");
+    for (size_t i = 0; i < y->coordinates && y->coordinate[i].v; i++) {
+        const char *q = y->coordinate[i].name, *at = strstr(name, q);
+        size_t n = strlen(q);
+        if (!at || n >= length) continue;
+        const char *rest = at == name ? name + n : name;
+        size_t left = length - n;
+        bool whole = at == name || at + n == name + length;
+        if (whole && ((left == 3 && !strncmp(rest, "dot", 3)) || (left == 4 && (!strncmp(rest, "_dot", 4) || !strncmp(rest, "dot_", 4)))))
+            snprintf(fault->hint, sizeof fault->hint, "the velocity of `%s` is written %s'", q, q);
+    }
+}
+
 static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
 {
     const scope *s = context;
@@ -114,6 +132,7 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
         return false;
     }
     suggest(s, name, fault);
+    translate(s, name, fault);
     return false;
 }
 
