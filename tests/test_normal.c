@@ -410,13 +410,13 @@ Test(normal, random_derivatives)
     }
 }
 
-/* A proof that has begun ends with the time limit, without a verdict. */
-Test(normal, behind_a_deadline_nothing_is_decided)
+/* A proof that has begun ends with the time limit, without a verdict; what is short is still done, so that results can be shown. */
+Test(normal, behind_a_deadline_nothing_long_is_decided)
 {
-    static const char *const long_zero = "(a + b + sin(x))^12*(a - b + cos(x))^9 - (a - b + cos(x))^9*(a + sin(x) + b)^11*(a + b + sin(x))";
+    static const char *const long_zero = "(a + b + x + y + sin(x) + exp(y))^12 - ((a + b + x)^2 + 2*(a + b + x)*(y + sin(x) + exp(y)) + (y + sin(x) + exp(y))^2)^6";
     nh_deadline_set(-1);
-    cr_expect_eq(verdict_of("(a + b)^3*(sin(x)^2 + cos(x)^2) - (a + b)^2*(a + b)"), NH_TOO_LARGE);
-    cr_expect_neq(verdict_of(long_zero), NH_NONZERO);
-    nh_deadline_set(INFINITY);
     cr_expect_eq(verdict_of("(a + b)^3*(sin(x)^2 + cos(x)^2) - (a + b)^2*(a + b)"), NH_ZERO);
+    cr_expect_eq(verdict_of(long_zero), NH_TOO_LARGE);
+    nh_deadline_set(INFINITY);
+    cr_expect_eq(verdict_of(long_zero), NH_ZERO);
 }
