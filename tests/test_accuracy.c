@@ -72,6 +72,23 @@ Test(accuracy, what_is_held_is_true)
     cr_expect(asked >= 10 && 10 * held >= 8 * asked, "%zu of %zu held", held, asked);
 }
 
+/* Errors of 2e-7 at one tolerance and at a tenth of it, of nearly one sign: their difference says less than either is. */
+Test(accuracy, two_runs_that_err_alike_are_not_believed)
+{
+    static const double eps[] = {1e-6, 3e-7, 1e-7, 3e-8, 1e-8};
+    mechanics x = mechanics_of_file("systems/lagrange_top.yaml", NH_CHART_AUTO, 0, NULL);
+    double *at = nh_alloc_array(2 * x.model->m, sizeof *at);
+    accuracy_case c;
+    cr_assert(accuracy_start(&c, x.model, 0, 2, at, at + x.model->m));
+    for (size_t i = 0; i < sizeof eps / sizeof *eps; i++) {
+        c.eps = eps[i];
+        accuracy_try(&c, false);
+        cr_expect(c.known && c.a.held && !c.wrong, "%g asked, %g found (%s)", c.eps, c.error, c.a.why);
+    }
+    nh_free(at);
+    mechanics_clear(&x);
+}
+
 /* x'' = 9 x from (1, -3): e^(-3t) and, from rounding, e^(3t). (Not 16 and 4: powers of two would not be rounded.) */
 Test(accuracy, an_unstable_motion_is_not_passed_off)
 {

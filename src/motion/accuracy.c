@@ -248,7 +248,7 @@ static nh_trajectory *tighten(search *s, size_t ways, const nh_way *way, nh_erro
         }
         s->out->estimate = d * pow(ratio, exponent);
         s->doubtful |= d > nh_accuracy_amplified * coarse;
-        if (!isfinite(d) || (s->out->estimate < eps / 2 && d < 30 * eps) || fine <= tightest) break;
+        if (!isfinite(d) || (s->out->estimate < eps / 2 && d < (i == 1 ? 1 : nh_accuracy_far) * eps) || fine <= tightest) break;
         last_difference = d;
         last_ratio = ratio;
         coarse = fine;

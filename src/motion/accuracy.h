@@ -4,7 +4,7 @@
  *    was measured: an explicit pair of order 8; where that is slow and CVODE BDF much faster, as on stiff motions, CVODE BDF.
  * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that is expected of them).  With d the difference of two successive runs and p the exponent with which differences fall
  *    (0.7 until two differences are known, then measured, within [0.2, 0.9]) the error of the tighter one is about d (tau2/tau1)^p. It is
- *    accepted when that is below eps/2 and d is below 30 eps; otherwise the next tolerance follows from the estimate.  Every second run starts beside
+ *    accepted when that is below eps/2 and d is below 30 eps, of the first two runs below eps (they may err alike); otherwise the next tolerance follows from the estimate.  Every second run starts beside
  *    the start by a part 1e-15 of each number, so that the differences also show what rounding errors grow to.
  * 3. Where the method is implicit, or an error is a thousand times the tolerance, another method must agree to eps, at a tolerance tightened
  *    until it does: step halving alone can be deceived where a motion is unstable.
@@ -35,6 +35,7 @@ static const double nh_accuracy_loosest = 1e-5, nh_accuracy_tightest = 1e-14, /*
     nh_accuracy_first = 3,                     /* parts of eps: the first tolerance */
     nh_accuracy_step = 0.1,                    /* from one tolerance to the next, at most */
     nh_accuracy_exponent = 0.7,                /* with which differences fall, until it is measured */
+    nh_accuracy_far = 30,                      /* in eps: two runs may differ so much where the tighter one is accepted; the first two by eps alone */
     nh_accuracy_disturbance = 1e-15,           /* relative, of the start of every second run: what rounding errors grow to is then seen in the differences */
     nh_accuracy_amplified = 1e3;               /* an error so many times the tolerance is confirmed by another method */
 

@@ -59,7 +59,8 @@ static void compare(search *s, const nh_ensemble *a, const nh_ensemble *b, doubl
 /* `coarse`: the tolerance of the looser run. */
 static bool accepted(const search *s, size_t j, double coarse)
 {
-    return s->estimate[j] < s->eps / 2 && s->off[j] < 30 * s->eps && s->off[j] < nh_accuracy_amplified * coarse;
+    double far = s->out->runs > 2 ? nh_accuracy_far : 1;
+    return s->estimate[j] < s->eps / 2 && s->off[j] < far * s->eps && s->off[j] < nh_accuracy_amplified * coarse;
 }
 
 static size_t left_over(const search *s, double coarse)
