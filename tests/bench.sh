@@ -129,6 +129,7 @@ say "| derivation, ms | $side_derive | ${scipy_derive:-not installed} | by hand 
 ratio_of() { [ -n "$1" ] && [ -n "$2" ] && awk -v x="$1" -v y="$2" 'BEGIN { printf "%.1f", x / y }'; }
 derive_ratio=$(ratio_of "$scipy_derive" "$side_derive")
 move_ratio=$(ratio_of "$scipy_move" "$side_move")
+both_ratio=$(awk -v a="$scipy_derive" -v b="$scipy_move" -v c="$side_derive" -v d="$side_move" 'BEGIN { if (a && b && c && d) printf "%.1f", (a + b) / (c + d) }')
 octave_ratio=$(ratio_of "$octave_move" "$side_move")
 numpy_ratio=$(ratio_of "$numpy_svd" "$one_here")
 numpy_pair_ratio=$(ratio_of "$numpy_pair" "$null_here")
@@ -189,7 +190,8 @@ aim "and below 50 MB" "$memory" " MB" "at most" 50
 aim "SymPy and SciPy, deriving and integrating the same sleigh, beaten by a factor of 40" "$ratio" "" "at least" 40
 aim "the derivation by SymPy beaten by a factor of 40" "$derive_ratio" "" "at least" 40
 aim "the motion by SciPy at no larger error beaten by a factor of 50" "$move_ratio" "" "at least" 50
-aim "and that by Octave" "$octave_ratio" "" "at least" 50
+aim "both together beaten by a factor of 100" "$both_ratio" "" "at least" 100
+aim "the motion by Octave beaten by a factor of 50" "$octave_ratio" "" "at least" 50
 aim "the null space of one matrix by NumPy's singular values beaten by a factor of 2" "$numpy_ratio" "" "at least" 2
 aim "and that of a pair" "$numpy_pair_ratio" "" "at least" 2
 aim "the null space of 1000 columns at 50 % of dgemm's rate" "$rate" " %" "at least" 50
