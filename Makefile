@@ -75,12 +75,12 @@ bench: test-packages
 catalogue: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points.\n\n'; \
-	   $(BUILD)/tests/bench_catalogue systems; } >docs/catalogue.md; code=$$?; $(BUILD)/tests/bench_pictures systems docs/catalogue || code=1; tail -n 1 docs/catalogue.md; exit $$code
+	   $(BUILD)/tests/bench_catalogue systems; } >$(BUILD)/catalogue.md; code=$$?; mv $(BUILD)/catalogue.md docs/; $(BUILD)/tests/bench_pictures systems docs/catalogue || code=1; tail -n 1 docs/catalogue.md; exit $$code
 
 reductions: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@{ printf '# Reductions\n\nWritten by `make reductions`: every system of `systems/` that has a group to reduce by, from $(STATES) initial states of its domain, over ten units of time at the tolerance 1e-10. The last column is a ratio of times on one machine in one run.\n\nKnown: full motions that are known to 100 tolerances up to the end (the others are compared as far as they are known). Followed: reduced motions that go as far, or until the constraints become dependent. Apart: those that are further from the full motion somewhere than 100 tolerances and what that itself is known to (where more than 100 tolerances lie between them: by how much full motions with other tolerances differ; their number stands in brackets). Charts changed: how often another slice or other velocities took over ([method.md](method.md), section 9). Times faster: the time of the full motions divided by that of the reduced ones, with equal tolerances.\n\n'; \
-	   $(BUILD)/tests/bench_reductions systems $(STATES); } >docs/reductions.md; code=$$?; tail -n 1 docs/reductions.md; exit $$code
+	   $(BUILD)/tests/bench_reductions systems $(STATES); } >$(BUILD)/reductions.md; code=$$?; mv $(BUILD)/reductions.md docs/; tail -n 1 docs/reductions.md; exit $$code
 
 random perturbed: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
