@@ -1,9 +1,9 @@
 #include "motion/ensemble.h"
 
 #include <float.h>
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -109,12 +109,6 @@ static void leave_out(batch *b, size_t lane)
     for (size_t i = 0; i < b->kept; i++) b->z[i * lanes + lane] = b->z[i * lanes]; /* any values that can be computed with */
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Members whose error is so far above the middle one that they would hold up the others. */
 static bool leave_out_the_slow(batch *b)
 {
@@ -123,7 +117,7 @@ static bool leave_out_the_slow(batch *b)
     bool any = false;
     for (size_t l = 0; l < b->members; l++)
         if (b->alive[l] && isfinite(b->lane_error[l])) sorted[n++] = b->lane_error[l];
-    qsort(sorted, n, sizeof *sorted, by_value);
+    gsl_sort(sorted, 1, n);
     double limit = n ? fmax(sorted[n / 2], DBL_MIN) * pow(too_slow, order) : 0;
     for (size_t l = 0; l < b->members; l++)
         if (b->alive[l] && b->lane_error[l] > 1 && b->lane_error[l] > limit) {

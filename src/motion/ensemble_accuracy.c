@@ -1,8 +1,8 @@
 #include "motion/ensemble_accuracy.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/progress.h"
@@ -70,14 +70,12 @@ static size_t left_over(const search *s, double coarse)
     return left;
 }
 
-static int by_value(const void *a, const void *b) { return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b); }
-
 /* The estimate that all but those exceed which may be left over. */
 static double usual_estimate(const search *s)
 {
     double *sorted = nh_alloc_array(s->members + 1, sizeof *sorted);
     memcpy(sorted, s->estimate, s->members * sizeof *sorted);
-    qsort(sorted, s->members, sizeof *sorted, by_value);
+    gsl_sort(sorted, 1, s->members);
     double out = sorted[(size_t)((1 - most_left) * (double)(s->members - 1))];
     nh_free(sorted);
     return out;

@@ -85,6 +85,20 @@ bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh
     return true;
 }
 
+bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, double *states)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t m = o->m;
+    double *v = nh_alloc_array(motion->count * m + 1, sizeof *v);
+    bool good = nh_along(dynamics, motion, m, o->rho, v);
+    for (size_t i = 0; i < motion->count; i++) {
+        memcpy(states + 2 * i * m, motion->state + i * motion->size, m * sizeof *states);
+        memcpy(states + (2 * i + 1) * m, v + i * m, m * sizeof *states);
+    }
+    nh_free(v);
+    return good;
+}
+
 /* ---- charts that break down ---- */
 
 bool nh_may_leave_chart(const nh_model *o)
@@ -263,21 +277,15 @@ static nh_motion *in_own_velocities(job *j, nh_error *error)
     return motion;
 }
 
-/* (q, v) at the outputs of a motion in (q, w); the motion is replaced.  False where the velocities cannot be found. */
+/* The motion in (q, v) instead of (q, w). */
 static bool to_coordinates(nh_dynamics *dynamics, nh_motion *motion)
 {
-    const nh_model *o = nh_dynamics_model(dynamics);
-    size_t m = o->m, size = motion->size;
-    double *state = nh_alloc_array(motion->count * 2 * m + 1, sizeof *state), *v = nh_alloc_array(motion->count * m + 1, sizeof *v);
-    bool good = nh_along(dynamics, motion, m, o->rho, v);
-    for (size_t i = 0; i < motion->count && good; i++) {
-        memcpy(state + 2 * i * m, motion->state + i * size, m * sizeof *state);
-        memcpy(state + (2 * i + 1) * m, v + i * m, m * sizeof *state);
-    }
-    nh_free(v);
+    size_t size = 2 * nh_dynamics_model(dynamics)->m;
+    double *states = nh_alloc_array(motion->count * size + 1, sizeof *states);
+    bool good = nh_states_in_coordinates(dynamics, motion, states);
     nh_free(motion->state);
-    motion->state = state;
-    motion->size = 2 * m;
+    motion->state = states;
+    motion->size = size;
     return good;
 }
 

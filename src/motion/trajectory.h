@@ -50,6 +50,9 @@ void nh_trajectory_free(nh_trajectory *trajectory);
 /* value[i * n + k]: expression k of the chart at output i of a motion in (q, w) or in (q, v).  False where implicit velocities cannot be found. */
 bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value);
 
+/* (q, v) at the outputs of a motion in (q, w), into states (motion->count x 2m).  False where implicit velocities cannot be found. */
+bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, double *states);
+
 /* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
 

@@ -47,20 +47,10 @@ void nh_formulation_close(nh_formulation *f)
 
 bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y)
 {
-    if (!f->model) {
-        size_t m2 = f->size; /* multipliers may follow */
-        for (size_t i = 0; i < motion->count; i++) memcpy(y + i * m2, motion->state + i * motion->size, m2 * sizeof *y);
-        return true;
-    }
-    size_t m = f->model->m;
-    double *v = nh_alloc_array(motion->count * m + 1, sizeof *v);
-    bool good = nh_along(f->dynamics, motion, m, f->model->rho, v);
-    for (size_t i = 0; i < motion->count; i++) {
-        memcpy(y + 2 * i * m, motion->state + i * motion->size, m * sizeof *y);
-        memcpy(y + (2 * i + 1) * m, v + i * m, m * sizeof *y);
-    }
-    nh_free(v);
-    return good;
+    if (f->model) return nh_states_in_coordinates(f->dynamics, motion, y);
+    size_t m2 = f->size; /* multipliers may follow */
+    for (size_t i = 0; i < motion->count; i++) memcpy(y + i * m2, motion->state + i * motion->size, m2 * sizeof *y);
+    return true;
 }
 
 /* ---- currents ---- */
