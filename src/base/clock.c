@@ -2,9 +2,12 @@
 
 #include <time.h>
 
-double nh_clock(void)
+static double read_clock(clockid_t which)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(which, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
+
+double nh_clock(void) { return read_clock(CLOCK_MONOTONIC); }
+double nh_clock_of_thread(void) { return read_clock(CLOCK_THREAD_CPUTIME_ID); }

@@ -35,6 +35,52 @@ void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *co
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
 }
 
+/* ---- in turns ---- */
+
+typedef struct {
+    void (*job)(size_t, void *);
+    void *context;
+    pthread_mutex_t turn;
+} line;
+
+static _Thread_local pthread_mutex_t *turn; /* NULL: this thread does no such job */
+static _Thread_local bool mine;
+
+bool nh_in_turns(void) { return turn != NULL; }
+
+bool nh_turn_give(void)
+{
+    if (!turn || !mine) return false;
+    mine = false;
+    pthread_mutex_unlock(turn);
+    return true;
+}
+
+bool nh_turn_take(void)
+{
+    if (!turn || mine) return false;
+    pthread_mutex_lock(turn);
+    return mine = true;
+}
+
+static void do_in_turn(size_t index, void *context)
+{
+    line *l = context;
+    turn = &l->turn;
+    nh_turn_take();
+    l->job(index, l->context);
+    nh_turn_give();
+    turn = NULL;
+}
+
+void nh_parallel_in_turns(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context)
+{
+    line l = {.job = job, .context = context};
+    pthread_mutex_init(&l.turn, NULL);
+    nh_parallel(jobs, threads, do_in_turn, &l);
+    pthread_mutex_destroy(&l.turn);
+}
+
 /* ---- one job that may be left alone ---- */
 
 typedef struct {

@@ -10,6 +10,15 @@
 /* job(i, context) for i = 0 .. jobs-1.  With one thread, or when none can be started, the caller does them in order. */
 void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context);
 
+/* The same for jobs that use and change what they share, as motions do with the graph of their model's expressions: only one goes on at a time, but for what it does
+ * between nh_turn_give() and nh_turn_take(), which touches nothing shared.  These two do nothing elsewhere, nor where the turn is given or taken already, and
+ * say whether they did. */
+void nh_parallel_in_turns(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context);
+bool nh_turn_give(void);
+bool nh_turn_take(void);
+/* Is this thread inside of such a job? */
+bool nh_in_turns(void);
+
 /* A long call into a library that cannot be asked to stop: job(context) on a thread of its own, while the caller looks out for an interruption (base/progress.h).
  * False when one comes: then the job goes on without the caller until it ends, or the process does; context must own all that it needs and is
  * released after it.  True: the job is done, and context is still the caller's. */

@@ -4,25 +4,35 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/progress.h"
 
 enum { most_confirmations = 5 };
 static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const multistep_pair[2] = {"CVODE BDF", "CVODE Adams"};
 static const double loosest = nh_accuracy_loosest, tightest = nh_accuracy_tightest, step = nh_accuracy_step;
 static const double least_exponent = 0.2, most_exponent = 0.9; /* with which differences fall */
-static const double quick = 0.25, faster = 20; /* a first run that takes longer than these seconds is compared with CVODE BDF, which must be so many times faster */
+static const double quick = 0.1, faster = 20;  /* a first run that takes longer than these seconds is compared with CVODE BDF, which must be so many times faster */
 
 static const double patience = 10;        /* times what was measured: the first run may take so long, or `quick` */
+static const double worthwhile = 0.05;    /* seconds: other ways are measured for a motion that takes so long by the winner of the race, */
+static const double survey_share = 0.25;  /* in such a part of that time; */
+static const double gain = 0.8;           /* one of them takes over whose remaining cost is such a part of the winner's */
 static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one number of fixed steps to the next */
 
 typedef struct {
     const nh_trajectory_request *request;
+    const nh_ways *ways;
     double eps;
     nh_accuracy *out;
-    const nh_way *way;     /* measured before; NULL: nothing was, or it did not do here */
+    const nh_way *way;     /* the one that was measured and chosen; NULL: none was, or it did not do here */
+    nh_survey survey;
+    nh_trajectory_request own; /* with the model that a survey had derived */
+    double last;           /* seconds of the last run, with all that it needed */
+    double first;          /* seconds of the whole motion by the winner of the race */
     nh_programs *programs; /* for methods with a fixed step */
     const nh_method *method[2];
     bool doubtful; /* another method is to confirm */
+    bool stopped;  /* the first run of the race, after its time */
     bool tried;    /* something that was measured, whether or not it did */
 } search;
 
@@ -93,8 +103,10 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
         q.programs = s->programs;
         if (fixed(s)) q.step = spacing_of(&q) / steps_at(s, tolerance);
     }
+    double begin = nh_clock();
     nh_trajectory *t = nh_trajectory_create(&q, error);
     nh_free(work);
+    s->last = nh_clock() - begin;
     s->out->runs++;
     if (t) {
         s->out->evaluations += t->motion->evaluations;
@@ -158,27 +170,22 @@ static const nh_method *other_of(const nh_method *method)
     return nh_method_find(pair[method == nh_method_find(pair[0])]);
 }
 
-/* The first run of what was measured to be the cheapest; NULL when nothing was, or it does not reach the end in about the time that it took then. */
-static nh_trajectory *take_measured(search *s, size_t ways, const nh_way *way, double *tolerance)
+/* The first run of a way; NULL when it does not reach the end in so many seconds. */
+static nh_trajectory *take_way(search *s, const nh_way_choice *choice, double seconds, double *tolerance)
 {
-    const nh_trajectory_request *q = s->request;
-    nh_way_limits limits = {.scene = q->smallest, .other = q->other != NULL, .spacing = spacing_of(q)};
-    nh_way_choice choice = nh_way_cheapest(ways, way, s->eps, &limits);
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!choice.way) return NULL;
-    s->way = choice.way;
-    s->tried = true;
-    s->method[0] = choice.way->method;
-    s->method[1] = choice.second ? choice.second : other_of(s->method[0]);
-    if (fixed(s)) s->programs = nh_programs_create(q->model);
+    s->way = choice->way;
+    s->method[0] = choice->way->method;
+    s->method[1] = choice->second ? choice->second : other_of(s->method[0]);
+    if (fixed(s) && !s->programs) s->programs = nh_programs_create(s->request->model);
     if (fixed(s) && nh_method_refused(s->method[0], s->programs)) return NULL;
     double setting = fixed(s) ? s->eps : between(nh_way_setting(s->way, s->eps), 10 * tightest, loosest);
-    nh_trajectory *t = run(s, s->method[0], setting, true, fmax(quick, patience * s->way->seconds * span_of(q)), &ignored);
+    nh_trajectory *t = run(s, s->method[0], setting, true, seconds, &ignored);
     if (complete(t) || (t && nh_interrupted())) {
         s->doubtful = nh_way_doubtful(s->method[0]);
         s->out->measured = true;
-        s->out->next = choice.next;
+        s->out->next = choice->next;
         *tolerance = setting;
         return t;
     }
@@ -186,14 +193,27 @@ static nh_trajectory *take_measured(search *s, size_t ways, const nh_way *way, d
     return NULL;
 }
 
-/* The pair of methods, and the first run. */
-static nh_trajectory *choose(search *s, double tolerance, nh_error *error)
+static nh_way_limits limits_of(const search *s) { return (nh_way_limits){.scene = s->request->smallest, .other = s->request->other != NULL, .spacing = spacing_of(s->request)}; }
+
+/* What was measured before; NULL when nothing was, or it does not reach the end in about the time that it took then. */
+static nh_trajectory *take_kept(search *s, double *tolerance)
+{
+    nh_way_limits limits = limits_of(s);
+    nh_way_choice choice = nh_way_cheapest(s->ways->count, s->ways->way, s->eps, &limits);
+    if (!choice.way) return NULL;
+    s->tried = true;
+    s->out->choice = NH_CHOICE_KEPT;
+    return take_way(s, &choice, fmax(quick, patience * choice.way->seconds * span_of(s->request)), tolerance);
+}
+
+/* The pair of methods, and its first run: not to its end where it takes long, then with the explicit pair. */
+static nh_trajectory *race(search *s, double tolerance)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    s->way = NULL;
     take(s, explicit_pair);
     nh_trajectory *t = run(s, s->method[0], tolerance, true, quick, &ignored);
+    s->stopped = s->last >= quick;
     if (complete(t) || (t && nh_interrupted())) return t;
     take(s, multistep_pair);
     nh_trajectory *other = run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e-3, 1e6), &ignored);
@@ -201,7 +221,75 @@ static nh_trajectory *choose(search *s, double tolerance, nh_error *error)
     if (s->doubtful || nh_interrupted()) return farther(other, t);
     nh_trajectory_free(other);
     take(s, explicit_pair);
-    other = run(s, s->method[0], tolerance, true, s->request->max_seconds, t ? &ignored : error);
+    return t;
+}
+
+/* A state on the way, at which a piece is like the whole: the middle of what there is, or as far as it came.  q_and_v: 2m values. */
+static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double *q_and_v)
+{
+    const nh_model *o = s->request->model;
+    nh_motion *m = t->motion;
+    size_t middle = m->count / 2;
+    nh_state at = *s->request->initial;
+    nh_motion one = {.count = 1, .size = m->size, .time = m->complete ? m->time + middle : &m->end_time, .state = m->complete ? m->state + middle * m->size : m->end_state};
+    if (t->scene) return at;
+    nh_dynamics *d = nh_dynamics_create(o);
+    bool good = nh_states_in_coordinates(d, &one, q_and_v);
+    for (size_t i = 0; i < 2 * o->m; i++) good = good && isfinite(q_and_v[i]);
+    nh_dynamics_free(d);
+    return good ? (nh_state){.t = one.time[0], .q = q_and_v, .v = q_and_v + o->m} : at;
+}
+
+/* What the winner of the race has still to do after its first run, per unit of time; infinite where it did not reach eps on the piece. */
+static double cost_of_winner(const search *s)
+{
+    const nh_way *way = s->survey.way;
+    double least = INFINITY;
+    for (size_t i = 0; i < s->survey.count; i++)
+        if (way[i].method == s->method[0] && way[i].velocities == NH_OWN_VELOCITIES && way[i].error < s->eps)
+            least = fmin(least, nh_way_cost(s->survey.count, way, s->eps, &way[i]) - way[i].seconds);
+    return least;
+}
+
+/* Other ways on a piece of the motion, whose first run by the winner of the race is t; the first run of one that saves time, or NULL. */
+static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *tolerance)
+{
+    if (!s->ways->survey || !t || !(complete(t) || s->stopped)) return NULL;
+    s->first = whole(s->request, t);
+    if (s->first < worthwhile) return s->out->choice = NH_CHOICE_SHORT, NULL;
+    double *work = nh_alloc_array(2 * s->request->model->m + 1, sizeof *work), limit = s->request->max_seconds;
+    nh_state at = state_on_the_way(s, t, work);
+    nh_survey_terms terms = {.eps = s->eps, .best = s->method[0], .seconds = s->first, .budget = survey_share * s->first, .plain = s->ways->plain};
+    if (limit > 0) terms.budget = fmin(terms.budget, survey_share * limit);
+    const nh_model *other = s->ways->derive && !s->ways->plain && !s->request->smallest ? s->ways->derive(s->ways->context, terms.budget) : NULL;
+    if (other) s->own.other = other;
+    nh_survey_make(s->request, &at, &terms, &s->survey);
+    nh_free(work);
+    s->out->choice = NH_CHOICE_SURVEY;
+    s->out->evaluations += s->survey.evaluations;
+    s->out->seconds += s->survey.seconds;
+    if (s->survey.count && s->ways->keep && !nh_interrupted()) s->ways->keep(s->ways->context, s->eps, &s->survey);
+    nh_way_limits limits = limits_of(s);
+    nh_way_choice choice = nh_way_cheapest(s->survey.count, s->survey.way, s->eps, &limits);
+    if (!choice.way || nh_interrupted()) return NULL;
+    if (complete(t) && !(nh_way_cost(s->survey.count, s->survey.way, s->eps, choice.way) < gain * cost_of_winner(s))) return NULL;
+    return take_way(s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->seconds * span_of(s->request))), tolerance);
+}
+
+/* Where nothing was measured before: the pair of methods, and the first run. */
+static nh_trajectory *choose(search *s, double *tolerance, nh_error *error)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    s->way = NULL;
+    s->out->choice = NH_CHOICE_RACE;
+    nh_trajectory *t = race(s, *tolerance);
+    if (t && nh_interrupted()) return t;
+    const nh_method *winner[2] = {s->method[0], s->method[1]};
+    nh_trajectory *other = take_surveyed(s, t, tolerance);
+    if (!other) s->way = NULL, s->method[0] = winner[0], s->method[1] = winner[1];
+    if (!other && complete(t)) return t;
+    if (!other) other = run(s, s->method[0], *tolerance, true, s->request->max_seconds, t ? &ignored : error);
     if (other && !nh_interrupted()) {
         nh_trajectory_free(t);
         return other;
@@ -222,11 +310,11 @@ static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
 }
 
 /* Tighten until the estimate is below eps/2; the last trajectory. */
-static nh_trajectory *tighten(search *s, size_t ways, const nh_way *way, nh_error *error)
+static nh_trajectory *tighten(search *s, nh_error *error)
 {
     double eps = s->eps, coarse = between(nh_accuracy_first * eps, 10 * tightest, loosest), last_difference = 0, last_ratio = 0, exponent = nh_accuracy_exponent;
-    nh_trajectory *a = take_measured(s, ways, way, &coarse);
-    if (!a) a = choose(s, coarse, error);
+    nh_trajectory *a = take_kept(s, &coarse);
+    if (!a) a = choose(s, &coarse, error);
     double fine = tighter(s, coarse, step);
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -282,15 +370,22 @@ static void put_setting(const search *s, const nh_trajectory *t, char *out, size
 }
 
 /* Where the choice comes from. */
-static void explain_choice(const search *s, size_t ways)
+static void explain_choice(const search *s)
 {
     nh_accuracy *a = s->out;
+    bool surveyed = a->choice == NH_CHOICE_SURVEY || s->ways->surveyed;
+    const char *from = a->choice == NH_CHOICE_SURVEY ? "of the ways that were measured" : surveyed ? "of the ways that were measured for an earlier motion" : "in the chart of these equations";
     char *end = a->why + strlen(a->why);
-    size_t left = sizeof a->why - (size_t)(end - a->why);
-    if (!ways) return;
-    if (!a->measured) snprintf(end, left, "; the chart of these equations %s", s->tried ? "has a faster method, which did not reach the end here" : "has no error below that");
-    else if (isnan(a->next)) snprintf(end, left, "; the only one below %.1e in the chart of these equations", s->eps);
-    else snprintf(end, left, "; the cheapest below %.1e in the chart of these equations, where the next takes %.2g times as long", s->eps, a->next);
+#define SAY(...) (end += snprintf(end, sizeof a->why - (size_t)(end - a->why), __VA_ARGS__), end = end < a->why + sizeof a->why ? end : a->why + sizeof a->why - 1)
+    if (s->ways->count && a->choice != NH_CHOICE_KEPT)
+        SAY("; %s %s", s->ways->surveyed ? "what was measured for an earlier motion" : "the chart of these equations", s->tried ? "has a faster method, which did not reach the end here" : "has no error below that");
+    if (a->measured && isnan(a->next) && surveyed) SAY("; the cheapest below %.1e %s, and no other is half as fast", s->eps, from);
+    else if (a->measured && isnan(a->next)) SAY("; the only one below %.1e %s", s->eps, from);
+    else if (a->measured) SAY("; the cheapest below %.1e %s, where the next takes %.2g times as long", s->eps, from, a->next);
+    if (a->choice == NH_CHOICE_SURVEY && a->measured) SAY(" (%zu on %.2g %% of the motion)", s->survey.tried, 100 * s->survey.part);
+    else if (a->choice == NH_CHOICE_SURVEY) SAY("; %zu ways were measured on %.2g %% of the motion: none would save time", s->survey.tried, 100 * s->survey.part);
+    else if (a->choice == NH_CHOICE_SHORT) SAY("; the motion takes %.2g ms: measuring other methods would take longer", 1e3 * s->first);
+#undef SAY
 }
 
 static void explain(search *s, const nh_trajectory *t)
@@ -315,18 +410,31 @@ static void explain(search *s, const nh_trajectory *t)
         snprintf(a->why, size, "the accuracy %.1e was not confirmed: %s estimates an error of %.1e, but %s differs by %.1e", s->eps, t->method, a->estimate, a->second, a->difference);
 }
 
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, size_t ways, const nh_way *way, nh_accuracy *accuracy, nh_error *error)
+/* How the motion was computed, so that others like it can be. */
+static nh_way way_of(const search *s, const nh_trajectory *t)
 {
+    const nh_accuracy *a = s->out;
+    nh_way w = {.method = s->method[0], .velocities = s->way ? s->way->velocities : NH_OWN_VELOCITIES, .tolerance = a->tolerance, .step = NAN, .error = a->estimate};
+    if (w.method->order) w.step = a->step, w.tolerance = NAN;
+    w.seconds = fmax(t->motion->seconds, 1e-9) / span_of(s->request);
+    return w;
+}
+
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error)
+{
+    static const nh_ways none = {.count = 0};
     *accuracy = (nh_accuracy){.wanted = eps, .estimate = INFINITY, .difference = INFINITY, .step = NAN, .next = NAN};
-    search s = {.request = request, .eps = eps, .out = accuracy};
-    nh_trajectory *t = tighten(&s, ways, way, error);
+    search s = {.ways = ways ? ways : &none, .own = *request, .eps = eps, .out = accuracy};
+    s.request = &s.own;
+    nh_trajectory *t = tighten(&s, error);
     if (t) {
         bool good = t->motion->complete && isfinite(accuracy->estimate) && accuracy->estimate < eps / 2;
         if (good && s.doubtful && !nh_interrupted()) confirm(&s, t);
         accuracy->held = good && (!s.doubtful || accuracy->difference < eps);
         if (fixed(&s)) accuracy->step = spacing_of(request) / steps_at(&s, accuracy->tolerance);
         explain(&s, t);
-        if (accuracy->held) explain_choice(&s, ways);
+        if (accuracy->held) explain_choice(&s);
+        accuracy->way = way_of(&s, t);
         if (fixed(&s)) accuracy->tolerance = NAN;
     }
     nh_programs_free(s.programs);

@@ -1,7 +1,9 @@
 /* accuracy: a motion whose error is measured to be below what was asked for, or a plain statement that it is not.
  *
  * 1. The method and its equations are the cheapest of those that were measured before on these equations and had a smaller error (way.h).  Where nothing
- *    was measured: an explicit pair of order 8; where that is slow and CVODE BDF much faster, as on stiff motions, CVODE BDF.
+ *    was measured: an explicit pair of order 8; where that is slow and CVODE BDF much faster, as on stiff motions, CVODE BDF.  Where the motion takes so long
+ *    by it that a choice can pay, other ways are then measured on a piece of the motion (survey.h), in a part of that time, and the cheapest takes over
+ *    if it saves time from there on.
  * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that is expected of them).  With d
  *    the difference of two successive runs and p the exponent with which differences fall (0.7 until two differences are known, then measured,
  *    within [0.2, 0.9]) the error of the tighter one is about d (tau2/tau1)^p. It is accepted when that is below eps/2 and d is below 30 eps, of the
@@ -14,19 +16,39 @@
 #ifndef NH_ACCURACY_H
 #define NH_ACCURACY_H
 
-#include "motion/way.h"
+#include "motion/survey.h"
+
+/* Where the method comes from: the race of two methods; what was measured before; what was measured for this motion; the race, because the motion is too short
+ * to measure anything. */
+typedef enum { NH_CHOICE_RACE, NH_CHOICE_KEPT, NH_CHOICE_SURVEY, NH_CHOICE_SHORT } nh_accuracy_choice;
+
+/* What may be chosen from. */
+typedef struct {
+    size_t count;                       /* ways that were measured before on these equations */
+    const nh_way *way;
+    bool surveyed;                      /* they come from surveys, not from a chart */
+    bool survey;                        /* others may be measured where none of these does */
+    bool plain;                         /* only the model's own velocities and methods with error control, in a survey */
+    void *context;
+    /* The model in other velocities, where it can be had in so many seconds; else NULL.  May be NULL. */
+    const nh_model *(*derive)(void *context, double seconds);
+    /* What was measured for this accuracy.  May be NULL. */
+    void (*keep)(void *context, double eps, const nh_survey *survey);
+} nh_ways;
 
 typedef struct {
     bool held;
     double wanted, estimate, tolerance, step; /* of the motion that is returned: it has a tolerance or a fixed step; the other is NAN */
-    bool measured;                      /* the method is the cheapest of those that were measured before */
+    nh_accuracy_choice choice;
+    bool measured;                      /* the method is the cheapest of those that were measured */
     double next;                        /* then: how many times as long the next takes; NAN: there is none */
     const char *second;                 /* the method that confirms; NULL: there was no doubt */
     double difference;                  /* from it; INFINITY when there was none, or it could not compute the motion */
     size_t quantity;                    /* the wanted expression that is least certain */
     int runs;
-    long evaluations;                   /* of all runs */
+    long evaluations;                   /* of all runs, those of a survey included */
     double seconds;                     /* of all runs, without preparations */
+    nh_way way;                         /* how the motion that is returned was computed, with what it cost and its estimated error */
     char why[512];                      /* the choice, or what failed, in words */
 } nh_accuracy;
 
@@ -47,8 +69,8 @@ double nh_accuracy_difference(size_t count, size_t n, const double *a, const dou
 /* n values, each moved by the part nh_accuracy_disturbance up or down. */
 void nh_accuracy_disturb(size_t n, const double *from, double *to);
 
-/* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be 0.  `way`: what was measured
- * before on these equations; there may be none. */
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, size_t ways, const nh_way *way, nh_accuracy *accuracy, nh_error *error);
+/* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be 0.  `ways` NULL: the
+ * race decides. */
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error);
 
 #endif

@@ -300,7 +300,7 @@ static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh
     memcpy(e, o->chart->symbol + 1, states * sizeof *e);
     for (size_t i = 0; i < q->watches; i++) e[states + i] = q->watch[i].value;
     nh_trajectory_request request = {.model = o, .initial = q->initial, .count = q->outputs, .times = r->times, .options = q->options, .n = n, .e = e, .max_seconds = time_left(r)};
-    nh_trajectory *t = nh_trajectory_accurate(&request, q->accuracy, q->ways, q->way, &r->out->accuracy, error);
+    nh_trajectory *t = nh_trajectory_accurate(&request, q->accuracy, q->ways, &r->out->accuracy, error);
     if (!t) return nh_free(e), false;
     nh_accuracy *a = &r->out->accuracy;
     size_t k = a->quantity, used = strlen(a->why);

@@ -69,8 +69,7 @@ typedef struct {
     const nh_options *options;
     double accuracy;               /* of the states and of what is watched, along the tightest run: its method and tolerance are chosen for it (accuracy.h).
                                       0: CVODE Adams at the tolerance of the options */
-    size_t ways;                   /* what was measured before of these equations, in their own velocities and with error control */
-    const nh_way *way;
+    const nh_ways *ways;           /* with an accuracy: from what may be chosen; only plain ones, in their own velocities and with error control */
 } nh_validation_request;
 
 nh_validation *nh_validate(const nh_validation_request *request, nh_error *error);

@@ -18,7 +18,7 @@
 #define CLONES
 #endif
 
-enum { lanes = 128 };                                                     /* members of a batch */
+enum { lanes = NH_ENSEMBLE_BATCH };
 static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* of the step */
 static const double order = 8;
 static const double too_slow = 20;                                        /* a member that needs so much smaller steps than its batch goes alone */
@@ -31,6 +31,8 @@ typedef struct {
     nh_tape *values;
     bool *alone;
     long *evaluations; /* per batch */
+    double deadline;   /* by the clock of the thread; INFINITY: none */
+    double *reached;   /* times to which batches came; NULL: nobody asks */
 } plan;
 
 /* One batch: arrays of `lanes` values, state after state. */
@@ -175,7 +177,7 @@ static bool go_to(batch *b, double target, long *steps)
 {
     const nh_options *o = b->p->request->options;
     while (b->t != target) {
-        if (nh_interrupted()) return false;
+        if (nh_interrupted() || (b->p->deadline < INFINITY && nh_clock_of_thread() > b->p->deadline)) return false;
         double wanted = b->h, left = target - b->t;
         bool last = fabs(b->h) >= fabs(left) * (1 - 1e-12);
         if (last) b->h = left;
@@ -274,38 +276,53 @@ static void do_batch(size_t index, void *context)
         }
         store(&b, i);
     }
+    if (p->reached) p->reached[index] = b.t;
     close_batch(&b, block);
 }
 
 /* ---- members alone ---- */
 
-/* After an interruption: nothing more is computed. */
-static void give_up(nh_ensemble *e, size_t member)
-{
-    size_t each = e->count * e->n;
-    for (size_t i = 0; i < each; i++) e->value[member * each + i] = NAN;
-    if (!e->incomplete++) snprintf(e->note, sizeof e->note, "member %zu: interrupted", member);
-}
+/* Each has a place of its own, so that nothing depends on which thread was where. */
+typedef struct {
+    size_t member, reached;
+    bool done;
+    long evaluations;
+    char note[200];
+} loner;
 
-static void do_alone(const plan *p, size_t member, nh_error *error)
+typedef struct {
+    const plan *p;
+    loner *one;
+} loners;
+
+static void do_alone(size_t index, void *context)
 {
-    nh_ensemble *e = p->out;
+    const plan *p = ((loners *)context)->p;
+    loner *l = &((loners *)context)->one[index];
+    const nh_ensemble *e = p->out;
     const nh_model *o = p->request->model;
+    if (nh_interrupted()) {
+        unknown_from(p, l->member, 0);
+        return;
+    }
     size_t each = e->count * e->n;
-    double *z = nh_alloc_array(2 * o->m, sizeof *z), *v = z + o->m, *target = e->value + member * each;
+    double *z = nh_alloc_array(2 * o->m, sizeof *z), *v = z + o->m, *target = e->value + l->member * each;
     nh_dynamics *d = nh_dynamics_create(o);
-    nh_motion start = {.count = 1, .size = o->m + o->n, .time = (double *)p->request->times, .state = (double *)p->initial + member * (o->m + o->n)};
+    nh_motion start = {.count = 1, .size = o->m + o->n, .time = (double *)p->request->times, .state = (double *)p->initial + l->member * (o->m + o->n)};
     nh_trajectory_request q = *p->request;
     nh_state state = {.t = q.times[0], .q = z, .v = v};
+    nh_error error;
+    nh_error_clear(&error);
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
     q.method = NULL;
     q.smallest = false; /* to find the smallest model again takes longer than the motion, and most members are here because a chart ends */
-    nh_trajectory *t = nh_along(d, &start, o->m, o->rho, v) ? nh_trajectory_create(&q, error) : NULL;
-    size_t reached = t ? t->motion->count : 0;
-    for (size_t i = 0; i < each; i++) target[i] = i < reached * e->n ? t->value[i] : NAN;
-    if (reached < e->count && !e->incomplete++) snprintf(e->note, sizeof e->note, "member %zu: %.200s", member, t ? t->motion->note : error->what);
-    if (t) e->evaluations += t->motion->evaluations;
+    nh_trajectory *t = nh_along(d, &start, o->m, o->rho, v) ? nh_trajectory_create(&q, &error) : NULL;
+    l->done = true;
+    l->reached = t ? t->motion->count : 0;
+    if (t) l->evaluations = t->motion->evaluations;
+    for (size_t i = 0; i < each; i++) target[i] = i < l->reached * e->n ? t->value[i] : NAN;
+    if (l->reached < e->count) snprintf(l->note, sizeof l->note, "%.199s", t ? t->motion->note : error.what);
     nh_trajectory_free(t);
     nh_dynamics_free(d);
     nh_free(z);
@@ -319,35 +336,42 @@ static void count_interrupted(nh_ensemble *e)
     snprintf(e->note, sizeof e->note, "interrupted");
 }
 
-static void integrate(plan *p, size_t threads)
+/* All that were left out, or all. */
+static void go_alone(plan *p, bool all, size_t threads)
 {
     nh_ensemble *e = p->out;
-    size_t batches = (e->members + lanes - 1) / lanes;
-    double begin = nh_clock();
-    nh_error ignored;
-    p->evaluations = nh_alloc_array(batches, sizeof *p->evaluations);
-    p->alone = nh_alloc_array(e->members, sizeof *p->alone);
-    bool together = !e->scene->implicit && e->scene->kept && nh_tableau_rk8pd(&p->tableau);
-    if (together) nh_parallel(batches, threads, do_batch, p);
-    for (size_t i = 0; i < batches; i++) e->evaluations += p->evaluations[i] * lanes;
-    for (size_t i = 0; i < e->members; i++) {
-        if (together && !p->alone[i]) continue;
-        if (nh_interrupted()) {
-            unknown_from(p, i, 0);
-            continue;
-        }
-        nh_error_clear(&ignored);
-        if (nh_interrupted()) give_up(e, i);
-        else do_alone(p, i, &ignored);
-        e->alone++;
+    loners left = {.p = p, .one = nh_alloc_array(e->members, sizeof *left.one)};
+    size_t n = 0;
+    for (size_t i = 0; i < e->members; i++)
+        if (all || p->alone[i]) left.one[n++].member = i;
+    nh_parallel_in_turns(n, threads, do_alone, &left);
+    for (size_t i = 0; i < n; i++) {
+        const loner *l = &left.one[i];
+        e->alone += l->done;
+        e->evaluations += l->evaluations;
+        if (l->done && l->reached < e->count && !e->incomplete++) snprintf(e->note, sizeof e->note, "member %zu: %s", l->member, l->note);
     }
-    if (nh_interrupted()) count_interrupted(e);
-    e->seconds = nh_clock() - begin;
-    nh_free(p->alone);
-    nh_free(p->evaluations);
+    nh_free(left.one);
 }
 
-nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, const double *initial, size_t threads, nh_error *error)
+/* ---- all ---- */
+
+static bool open_plan(plan *p, const nh_trajectory_request *q, nh_ensemble *e, const double *initial)
+{
+    *p = (plan){.request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e), .deadline = INFINITY};
+    p->evaluations = nh_alloc_array((e->members + lanes - 1) / lanes, sizeof *p->evaluations);
+    p->alone = nh_alloc_array(e->members, sizeof *p->alone);
+    return !e->scene->implicit && e->scene->kept && nh_tableau_rk8pd(&p->tableau);
+}
+
+static void close_plan(plan *p)
+{
+    nh_free(p->alone);
+    nh_free(p->evaluations);
+    nh_tape_free(p->values);
+}
+
+nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *q, size_t members, nh_error *error)
 {
     if (members == 0 || q->count == 0) return nh_fail(error, NH_USAGE, "", "an ensemble needs at least one member and one output time"), NULL;
     nh_ensemble *e = nh_alloc(sizeof *e);
@@ -355,10 +379,51 @@ nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, 
     e->time = nh_alloc_array(q->count, sizeof *e->time);
     memcpy(e->time, q->times, q->count * sizeof *e->time);
     e->value = nh_alloc_array(members * q->count, (q->n ? q->n : 1) * sizeof *e->value);
-    plan p = {.request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e)};
-    integrate(&p, threads);
-    nh_tape_free(p.values);
+    for (size_t i = 0; i < members * q->count * q->n; i++) e->value[i] = NAN;
     return e;
+}
+
+nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, const double *initial, size_t threads, nh_error *error)
+{
+    nh_ensemble *e = nh_ensemble_empty(q, members, error);
+    plan p;
+    if (!e) return NULL;
+    bool together = open_plan(&p, q, e, initial);
+    double begin = nh_clock();
+    size_t batches = (members + lanes - 1) / lanes;
+    if (together) nh_parallel(batches, threads, do_batch, &p);
+    for (size_t i = 0; i < batches; i++) e->evaluations += p.evaluations[i] * lanes;
+    go_alone(&p, !together, threads);
+    if (nh_interrupted()) count_interrupted(e);
+    e->seconds = nh_clock() - begin;
+    close_plan(&p);
+    return e;
+}
+
+nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, const double *initial, double seconds, nh_trial *trial)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    plan p;
+    double begin = nh_clock_of_thread(), reached = q->times[0], span = q->times[q->count - 1] - q->times[0];
+    nh_ensemble *e = nh_ensemble_empty(q, members < lanes ? members : lanes, &ignored);
+    *trial = (nh_trial){.seconds = INFINITY};
+    if (!e) return NULL;
+    bool together = open_plan(&p, q, e, initial);
+    p.deadline = begin + seconds;
+    p.reached = &reached;
+    if (together) do_batch(0, &p);
+    trial->members = e->members;
+    trial->evaluations = p.evaluations[0] * lanes;
+    trial->part = (reached - q->times[0]) / span;
+    bool complete = together && reached == q->times[q->count - 1] && !nh_interrupted();
+    for (size_t i = 0; i < e->members; i++)
+        if (p.alone[i]) trial->left++, unknown_from(&p, i, 0);
+    if (complete) trial->seconds = e->seconds = nh_clock_of_thread() - begin, e->evaluations = trial->evaluations;
+    close_plan(&p);
+    if (complete) return e;
+    nh_ensemble_free(e);
+    return NULL;
 }
 
 void nh_ensemble_free(nh_ensemble *e)

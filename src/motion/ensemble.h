@@ -3,11 +3,13 @@
  * Members are integrated in batches that take common steps, by an explicit Runge-Kutta pair of order 8 (Prince and Dormand) whose right-hand
  * side is evaluated for the whole batch at once; the member that needs the smallest step decides it.  The coefficients are read from GSL's
  * own stepper.  A member that cannot go on (a singularity, a chart that ends), or one that holds up its batch, is computed alone afterwards, in all
- * coordinates if need be.  Each result is that of a motion of its own to the tolerance.                             [Galassi2009] */
+ * coordinates if need be.  Batches and members alone go to several threads; the results do not depend on how many.  Each result is that of a motion of its own to the tolerance.                             [Galassi2009] */
 #ifndef NH_ENSEMBLE_H
 #define NH_ENSEMBLE_H
 
 #include "motion/trajectory.h"
+
+enum { NH_ENSEMBLE_BATCH = 128 }; /* members of a batch */
 
 typedef struct {
     size_t members, count, n;
@@ -23,6 +25,19 @@ typedef struct {
 /* `request`: as for one trajectory (method and smallest do not matter).  initial: members x (m + n) values (q, w) at times[0]. */
 nh_ensemble *nh_ensemble_create(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, nh_error *error);
 void nh_ensemble_free(nh_ensemble *ensemble);
+/* The same before anything is computed: all values are NAN. */
+nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *request, size_t members, nh_error *error);
+
+/* What a batch costs. */
+typedef struct {
+    size_t members, left; /* of the first batch; of these, such as would have to be computed alone */
+    double seconds;       /* of computing, by the clock of the thread; INFINITY: it was ended before */
+    double part;          /* of the motion, that it came to */
+    long evaluations;
+} nh_trial;
+
+/* The first batch for at most so many seconds: its members' motions, NAN where they are left over; NULL when it took longer, or cannot be computed. */
+nh_ensemble *nh_ensemble_try(const nh_trajectory_request *request, size_t members, const double *initial, double seconds, nh_trial *trial);
 
 /* members x (m + n) values: the first is z0, the others lie around it within spread * max(|z0_i|, 1) in every state. */
 void nh_ensemble_states(size_t size, const double *z0, size_t members, double spread, uint64_t seed, double *initial);

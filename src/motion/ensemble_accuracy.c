@@ -5,18 +5,37 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 
 static const double most_left = 0.05; /* of the members: so many may be computed alone rather than all at a smaller tolerance */
 static const double most_step = 1e-5; /* from one tolerance to the next */
 
+static const double passes = 2.3;     /* runs that an ensemble needs, of the cost of the first */
+enum { samples = 2 };                 /* members that are computed alone to see what they cost, beside the first */
+
+/* A member alone. */
+typedef struct {
+    bool done, held, reached; /* reached: the end */
+    long evaluations;
+    double seconds, estimate;
+    char why[400];
+} loner;
+
 typedef struct {
     const nh_trajectory_request *request;
+    nh_trajectory_request own;     /* with the model that a survey had derived */
     size_t members, threads, size; /* size: of a state (q, w) */
     const double *initial;
     double eps;
     nh_ensemble_accuracy *out;
     double *off, *estimate; /* per member: the difference of the last two runs, and what it says of the tighter one */
+    nh_ways ways;           /* for members alone: that of the first one, or what was given */
+    loner *one;             /* per member */
+    size_t *alone;          /* those that are to be computed alone */
+    nh_ensemble *e;
 } search;
 
 static nh_ensemble *run(search *s, double tolerance, bool disturb, nh_error *error)
@@ -81,12 +100,14 @@ static double usual_estimate(const search *s)
     return out;
 }
 
-/* The tightest run, from the members' own starts; *coarse: the tolerance of the one that it was compared with. */
-static nh_ensemble *tighten(search *s, double *coarse, nh_error *error)
+static double first_tolerance(const search *s) { return fmin(fmax(nh_accuracy_first * s->eps, 10 * nh_accuracy_tightest), nh_accuracy_loosest); }
+
+/* The tightest run, from the members' own starts; *coarse: the tolerance of the one that it was compared with.  `first`: the first run, where there was one. */
+static nh_ensemble *tighten(search *s, nh_ensemble *first, double *coarse, nh_error *error)
 {
-    double fine = fmin(fmax(nh_accuracy_first * s->eps, 10 * nh_accuracy_tightest), nh_accuracy_loosest);
+    double fine = first_tolerance(s);
     bool clean = false;
-    nh_ensemble *a = run(s, fine, true, error);
+    nh_ensemble *a = first ? first : run(s, fine, true, error);
     s->out->tolerance = fine;
     for (int i = 1; a && i < NH_ACCURACY_RUNS && !nh_interrupted(); i++) {
         *coarse = fine;
@@ -107,62 +128,180 @@ static nh_ensemble *tighten(search *s, double *coarse, nh_error *error)
     return b;
 }
 
-/* One member by the method and at the tolerance that it needs. */
-static void do_alone(search *s, nh_ensemble *e, size_t member, size_t ways, const nh_way *way)
+/* ---- members alone ---- */
+
+/* By the method and at the tolerance that it needs, into its place; how it was computed into *a.  What a batch found stays where this does not come to the end. */
+static void compute_alone(search *s, size_t member, const nh_ways *ways, nh_accuracy *a)
 {
     const nh_model *o = s->request->model;
+    nh_ensemble *e = s->e;
+    loner *l = &s->one[member];
     size_t each = e->count * e->n;
     double *z = nh_alloc_array(2 * o->m, sizeof *z), *target = e->value + member * each;
     nh_dynamics *d = nh_dynamics_create(o);
     nh_motion start = {.count = 1, .size = s->size, .time = (double *)s->request->times, .state = (double *)s->initial + member * s->size};
     nh_state state = {.t = s->request->times[0], .q = z, .v = z + o->m};
     nh_trajectory_request q = *s->request;
-    nh_accuracy a = {.held = false};
     nh_error error;
     nh_error_clear(&error);
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
-    nh_trajectory *t = nh_along(d, &start, o->m, o->rho, z + o->m) ? nh_trajectory_accurate(&q, s->eps, ways, way, &a, &error) : NULL;
+    nh_trajectory *t = nh_along(d, &start, o->m, o->rho, z + o->m) ? nh_trajectory_accurate(&q, s->eps, ways, a, &error) : NULL;
     size_t reached = t ? t->motion->count : 0;
     bool before = arrived(e, member);
     for (size_t i = 0; i < each && (reached == e->count || !before); i++) target[i] = i < reached * e->n ? t->value[i] : NAN;
-    if (reached == e->count && !before) e->incomplete--;
-    if (!a.held && !s->out->unsure++) snprintf(s->out->why, sizeof s->out->why, "member %zu: %.400s", member, t ? a.why : error.what);
-    s->out->evaluations += a.evaluations;
-    s->out->seconds += a.seconds;
-    s->out->alone++;
+    *l = (loner){.done = true, .held = a->held, .reached = reached == e->count, .evaluations = a->evaluations, .seconds = a->seconds, .estimate = a->estimate};
+    snprintf(l->why, sizeof l->why, "%.399s", t ? a->why : error.what);
     nh_trajectory_free(t);
     nh_dynamics_free(d);
     nh_free(z);
 }
 
+static void do_alone(size_t index, void *context)
+{
+    search *s = context;
+    nh_accuracy a = {.held = false};
+    nh_progress("members alone", (double)index / (double)s->members);
+    if (!s->one[s->alone[index]].done && !nh_interrupted()) compute_alone(s, s->alone[index], &s->ways, &a);
+}
+
+/* `n` members of the list; then what they say, in their order. */
+static void go_alone(search *s, size_t n)
+{
+    nh_ensemble_accuracy *out = s->out;
+    bool *before = nh_alloc_array(n + 1, sizeof *before);
+    for (size_t i = 0; i < n; i++) before[i] = !s->one[s->alone[i]].done && arrived(s->e, s->alone[i]);
+    nh_parallel_in_turns(n, s->threads, do_alone, s);
+    for (size_t i = 0; i < n; i++) {
+        const loner *l = &s->one[s->alone[i]];
+        if (!l->done) continue;
+        if (l->reached && !before[i] && s->e->incomplete) s->e->incomplete--;
+        if (!l->held && !out->unsure++) snprintf(out->why, sizeof out->why, "member %zu: %.400s", s->alone[i], l->why);
+        if (l->held && out->all_alone) out->estimate = fmax(out->estimate, l->estimate);
+        out->evaluations += l->evaluations;
+        out->seconds += l->seconds;
+        out->alone++;
+        if (out->all_alone) s->e->alone++, s->e->evaluations += l->evaluations, s->e->seconds += l->seconds;
+    }
+    nh_free(before);
+}
+
+/* ---- together or alone? ---- */
+
+/* Seconds that a member takes alone, by the way that the first was found to need; INFINITY where that one is not as accurate as is wanted. */
+static double cost_alone(search *s, const nh_ways *ways)
+{
+    nh_accuracy a = {.held = false};
+    nh_ensemble_accuracy *out = s->out;
+    compute_alone(s, 0, ways, &a);
+    if (!a.held || nh_interrupted()) return INFINITY;
+    out->way = a.way;
+    out->choice = a.choice;
+    s->ways = (nh_ways){.count = 1, .way = &out->way};
+    if (a.way.velocities == NH_OTHER_VELOCITIES && !s->own.other) s->own.other = ways->derive(ways->context, INFINITY);
+    double begin = nh_clock_of_thread();
+    size_t n = s->members - 1 < samples ? s->members - 1 : samples;
+    for (size_t i = 1; i <= n && !nh_interrupted(); i++) compute_alone(s, i, &s->ways, &a);
+    return n ? (nh_clock_of_thread() - begin) / (double)n : a.seconds;
+}
+
+/* Is it cheaper to compute all members alone?  *first: the first run of the ensemble in batches, where that was made to see it. */
+static bool cheaper_alone(search *s, double each, nh_ensemble **first)
+{
+    nh_trajectory_request q = *s->request;
+    nh_options options = *q.options;
+    double *start = nh_alloc_array(s->members * s->size + 1, sizeof *start), all;
+    nh_trial trial;
+    nh_accuracy_disturb(s->members * s->size, s->initial, start);
+    options.tolerance = first_tolerance(s);
+    q.options = &options;
+    all = each * (double)(s->members < NH_ENSEMBLE_BATCH ? s->members : NH_ENSEMBLE_BATCH);
+    nh_ensemble *e = nh_ensemble_try(&q, s->members, start, all / passes, &trial);
+    nh_free(start);
+    s->out->evaluations += trial.evaluations;
+    double together = e ? passes * trial.seconds + (double)trial.left * each : all / fmax(trial.part, 1e-6);
+    s->out->ratio = all / together;
+    bool whole = e && e->members == s->members && !trial.left;
+    if (whole && together < all) {
+        *first = e;
+        s->out->runs++;
+        s->out->seconds += e->seconds;
+    } else {
+        nh_ensemble_free(e);
+    }
+    return !(together < all) && !nh_interrupted();
+}
+
 static void explain(search *s)
 {
     nh_ensemble_accuracy *a = s->out;
-    char first[sizeof a->why];
+    size_t size = sizeof a->why;
+    char first[sizeof a->why], how[96] = "";
     snprintf(first, sizeof first, "%s", a->why);
-    if (nh_interrupted()) snprintf(a->why, sizeof a->why, "interrupted before the accuracy %.1e was reached by all members", a->wanted);
-    else if (a->unsure) snprintf(a->why, sizeof a->why, "the accuracy %.1e was not reached by %zu of %zu members; %.380s", a->wanted, a->unsure, s->members, first);
-    else if (a->alone) snprintf(a->why, sizeof a->why, "in batches at tolerance %.1e, estimated errors at most %.1e, %zu of %zu members alone", a->tolerance, a->estimate, a->alone, s->members);
-    else snprintf(a->why, sizeof a->why, "in batches at tolerance %.1e, estimated errors at most %.1e", a->tolerance, a->estimate);
+    if (a->all_alone && isnan(a->way.step)) snprintf(how, sizeof how, "each alone by %s at tolerance %.1e or below", a->way.method->name, a->tolerance);
+    else if (a->all_alone) snprintf(how, sizeof how, "each alone by %s with steps of %.2g or less", a->way.method->name, a->way.step);
+    else snprintf(how, sizeof how, "in batches at tolerance %.1e", a->tolerance);
+    if (nh_interrupted()) snprintf(a->why, size, "interrupted before the accuracy %.1e was reached by all members", a->wanted);
+    else if (a->unsure) snprintf(a->why, size, "the accuracy %.1e was not reached by %zu of %zu members; %.380s", a->wanted, a->unsure, s->members, first);
+    else if (a->alone && !a->all_alone) snprintf(a->why, size, "%s, estimated errors at most %.1e, %zu of %zu members alone", how, a->estimate, a->alone, s->members);
+    else snprintf(a->why, size, "%s, estimated errors at most %.1e", how, a->estimate);
+    size_t used = strlen(a->why);
+    if (nh_interrupted() || a->unsure || !(a->ratio > 0)) return;
+    if (a->all_alone) snprintf(a->why + used, size - used, "; in batches they would take about %.2g times as long", 1 / a->ratio);
+    else snprintf(a->why + used, size - used, "; each alone (%s) would take about %.2g times as long", a->way.method->name, a->ratio);
 }
 
-nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, size_t ways, const nh_way *way,
+/* By batches as far as they go; the others alone. */
+static nh_ensemble *go_together(search *s, nh_ensemble *first, nh_error *error)
+{
+    double coarse = 0;
+    size_t n = 0;
+    for (size_t j = 0; j < s->members; j++) s->out->evaluations += s->one[j].evaluations;
+    s->e = tighten(s, first, &coarse, error);
+    for (size_t j = 0; s->e && j < s->members && !nh_interrupted(); j++) {
+        s->one[j].done = false;
+        if (accepted(s, j, coarse)) s->out->estimate = fmax(s->out->estimate, s->estimate[j]);
+        else s->alone[n++] = j;
+    }
+    if (n) go_alone(s, n);
+    return s->e;
+}
+
+static nh_ensemble *go_each(search *s)
+{
+    s->out->tolerance = s->out->way.tolerance;
+    s->e->incomplete = s->members;
+    for (size_t j = 0; j < s->members; j++) s->alone[j] = j;
+    go_alone(s, s->members);
+    if (s->e->incomplete) snprintf(s->e->note, sizeof s->e->note, "%.200s", nh_interrupted() ? "interrupted" : s->out->why);
+    return s->e;
+}
+
+nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, const nh_ways *ways,
                                   nh_ensemble_accuracy *accuracy, nh_error *error)
 {
+    static const nh_ways none = {.count = 0};
+    if (!ways) ways = &none;
     *accuracy = (nh_ensemble_accuracy){.wanted = eps};
-    search s = {.request = request, .members = members, .threads = threads, .size = request->model->m + request->model->n, .initial = initial, .eps = eps, .out = accuracy};
+    search s = {.own = *request, .members = members, .threads = threads, .size = request->model->m + request->model->n, .initial = initial, .eps = eps, .out = accuracy};
+    s.request = &s.own;
+    s.ways = (nh_ways){.count = ways->count, .way = ways->way};
+    s.e = nh_ensemble_empty(request, members, error);
+    if (!s.e) return NULL;
     s.off = nh_alloc_array(2 * members + 1, sizeof *s.off);
     s.estimate = s.off + members;
+    s.one = nh_alloc_array(members, sizeof *s.one);
+    s.alone = nh_alloc_array(members, sizeof *s.alone);
     for (size_t j = 0; j < members; j++) s.off[j] = s.estimate[j] = INFINITY;
-    double coarse = 0;
-    nh_ensemble *e = tighten(&s, &coarse, error);
-    for (size_t j = 0; e && j < members && !nh_interrupted(); j++) {
-        if (accepted(&s, j, coarse)) accuracy->estimate = fmax(accuracy->estimate, s.estimate[j]);
-        else do_alone(&s, e, j, ways, way);
-    }
+    nh_ensemble *first = NULL;
+    double each = cost_alone(&s, ways);
+    accuracy->all_alone = isfinite(each) && cheaper_alone(&s, each, &first);
+    if (!accuracy->all_alone) nh_ensemble_free(s.e);
+    nh_ensemble *e = accuracy->all_alone ? go_each(&s) : go_together(&s, first, error);
     if (e) explain(&s);
     accuracy->held = e && !accuracy->unsure && !nh_interrupted();
     nh_free(s.off);
+    nh_free(s.one);
+    nh_free(s.alone);
     return e;
 }

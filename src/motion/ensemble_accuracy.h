@@ -1,7 +1,10 @@
 /* ensemble_accuracy: an ensemble whose errors are measured to be below what was asked for, member by member.
  *
- * The whole ensemble runs at ever tighter tolerances, as one motion does (accuracy.h), until nearly every member is accepted; the members that are not,
- * or whose errors are a thousand times the tolerance, are computed alone, each by the method and at the tolerance that it needs. */
+ * The first member alone tells by which way one is computed best (accuracy.h), two more what that costs; the first batch is tried for as long as its
+ * members would take alone, no longer.  The cheaper of the two is done: on stiff motions, where another method is so much better than the batches' pair of order 8
+ * that one by one is faster, and in small ensembles, each member alone by that way, at the tolerance that it needs.  Otherwise the whole ensemble
+ * runs at ever tighter tolerances, as one motion does, until nearly every member is accepted; the members that are not, or whose errors are a thousand times the
+ * tolerance, are computed alone.  Costs are times of computing; nothing depends on the number of threads. */
 #ifndef NH_ENSEMBLE_ACCURACY_H
 #define NH_ENSEMBLE_ACCURACY_H
 
@@ -11,6 +14,10 @@
 typedef struct {
     bool held;                  /* by all members */
     double wanted, estimate, tolerance; /* the largest estimate of the members that were accepted, at the tolerance of the batches */
+    bool all_alone;             /* then by `way`, and the tolerance is that of the first member */
+    nh_way way;                 /* of the first member alone; its method is NULL where that did not do */
+    nh_accuracy_choice choice;  /* where that comes from */
+    double ratio;               /* time of all members alone to that in batches; 0: not known */
     size_t alone, unsure;       /* members that were computed alone for it; that did not reach it all the same */
     int runs;                   /* of the whole ensemble */
     long evaluations;           /* of all runs */
@@ -18,8 +25,8 @@ typedef struct {
     char why[512];
 } nh_ensemble_accuracy;
 
-/* As nh_ensemble_create, and nh_trajectory_accurate for `way`. */
-nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, size_t ways, const nh_way *way,
+/* As nh_ensemble_create, and nh_trajectory_accurate for `ways`. */
+nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, const nh_ways *ways,
                                   nh_ensemble_accuracy *accuracy, nh_error *error);
 
 #endif

@@ -18,6 +18,7 @@
 #include "base/clock.h"
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "motion/sundials.h"
 
@@ -127,7 +128,7 @@ static void tell(const nh_motion *motion, size_t count, const double *times)
 {
     enum { steps_between_words = 2048 };
     double span = times[count - 1] - times[0];
-    if (motion->steps > 0 && motion->steps % steps_between_words == 0 && span != 0) nh_progress("a motion", (motion->end_time - times[0]) / span);
+    if (motion->steps > 0 && motion->steps % steps_between_words == 0 && span != 0 && !nh_in_turns()) nh_progress("a motion", (motion->end_time - times[0]) / span);
 }
 
 /* Whether the motion may take another step. */
@@ -163,6 +164,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     double begin = nh_clock();
     double *work = nh_alloc_array(motion->size, sizeof *work);
     nh_step step = NH_STEP_ON;
+    bool given = nh_turn_give(); /* steps evaluate tapes, and touch no expressions */
     for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, begin);) {
         double time = motion->end_time;
         tell(motion, count, times);
@@ -181,6 +183,8 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     }
     if (motion->steps > 0)
         keep_end_state(motion, work, stepper);
+    if (given)
+        nh_turn_take();
     motion->complete = motion->count == count;
     nh_free(work);
     motion->seconds = nh_clock() - begin;

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/parallel.h"
 #include "expr/diff.h"
 
 typedef struct {
@@ -92,6 +93,7 @@ static size_t outputs(const nh_model *o, nh_program which, nh_ex *e)
 static void compile(nh_programs *s, nh_program which)
 {
     const nh_model *o = s->model;
+    bool taken = nh_turn_take();
     size_t count = outputs(o, which, NULL);
     nh_ex *e = nh_alloc_array(count + 1, sizeof *e);
     outputs(o, which, e);
@@ -101,6 +103,7 @@ static void compile(nh_programs *s, nh_program which)
     p->out = nh_alloc_array(count + 1, sizeof *p->out);
     s->compiled++;
     nh_free(e);
+    if (taken) nh_turn_give();
 }
 
 const double *nh_programs_at(nh_programs *s, nh_program which, double t, const double *z)

@@ -31,7 +31,7 @@ static const nh_way *second_of(size_t n, const nh_way *way, double eps, const nh
 }
 
 /* Two runs, of which the tighter one is taken, and one more where another method confirms it. */
-static double cost_of(size_t n, const nh_way *way, double eps, const nh_way *w)
+double nh_way_cost(size_t n, const nh_way *way, double eps, const nh_way *w)
 {
     const nh_way *second = nh_way_doubtful(w->method) ? second_of(n, way, eps, w->method) : NULL;
     return 2 * w->seconds + (second ? second->seconds : nh_way_doubtful(w->method) ? 2 * w->seconds : 0);
@@ -43,11 +43,11 @@ nh_way_choice nh_way_cheapest(size_t n, const nh_way *way, double eps, const nh_
     double least = INFINITY, other = INFINITY;
     for (size_t i = 0; i < n; i++) {
         if (!usable(&way[i], limits) || !(way[i].error < eps)) continue;
-        double cost = cost_of(n, way, eps, &way[i]);
+        double cost = nh_way_cost(n, way, eps, &way[i]);
         if (cost < least) least = cost, out.way = &way[i];
     }
     for (size_t i = 0; i < n && out.way; i++)
-        if (usable(&way[i], limits) && way[i].error < eps && (way[i].method != out.way->method || way[i].velocities != out.way->velocities)) other = fmin(other, cost_of(n, way, eps, &way[i]));
+        if (usable(&way[i], limits) && way[i].error < eps && (way[i].method != out.way->method || way[i].velocities != out.way->velocities)) other = fmin(other, nh_way_cost(n, way, eps, &way[i]));
     if (isfinite(other)) out.next = other / least;
     const nh_way *second = out.way ? second_of(n, way, eps, out.way->method) : NULL;
     if (second) out.second = second->method;

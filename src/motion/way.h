@@ -28,6 +28,9 @@ typedef struct {
     double next;             /* how many times as long the cheapest by another method or in other equations takes; NAN: there is none */
 } nh_way_choice;
 
+/* What a run with an accuracy costs, per unit of time: two runs, and the confirmation where it is doubtful. */
+double nh_way_cost(size_t n, const nh_way *way, double eps, const nh_way *of);
+
 /* The cheapest run whose error was below eps, counted with its confirmation. */
 nh_way_choice nh_way_cheapest(size_t n, const nh_way *way, double eps, const nh_way_limits *limits);
 

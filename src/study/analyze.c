@@ -208,11 +208,12 @@ static void validate(nh_result *r, const nh_analyze_request *q)
         if (series) valid[k] = (nh_valid){series->coordinate, series->low, series->high};
     }
     const nh_watch *watch = list_tracks(r);
-    nh_ranking ranking = {.count = 0};
-    if (q->accuracy > 0 && q->remember) nh_ranking_read(nh_ranking_key(r->model), r->arena, &ranking);
+    nh_choice choice = {.arena = r->arena, .system = r->system, .model = r->model, .remember = q->remember, .begin = initial.t, .end = r->options.until};
+    if (q->accuracy > 0) nh_choice_open(&choice, q->accuracy, true);
     nh_validation_request request = {.model = r->model, .other = r->other, .currents = r->count, .current = phi, .valid = valid, .watches = r->tracks.count, .watch = watch, .initial = &initial,
-                                     .until = r->options.until, .outputs = motion_outputs, .options = &r->options, .accuracy = q->accuracy, .ways = nh_ranking_adaptive(&ranking), .way = ranking.way};
+                                     .until = r->options.until, .outputs = motion_outputs, .options = &r->options, .accuracy = q->accuracy, .ways = &choice.ways};
     r->validation = nh_validate(&request, &trouble);
+    nh_choice_close(&choice);
     if (!r->validation) {
         nh_result_warn(r, "no motion was computed: %s", trouble.what);
         return;

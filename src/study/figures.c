@@ -24,15 +24,20 @@ static bool open_motion(nh_simulation *s, const nh_result *r, const nh_analyze_r
 }
 
 /* From the initial time to `end`, which may lie before it: quantity k at value[i * n + k], i counted from the initial time. */
-static nh_trajectory *integrate(const nh_simulation *s, const nh_result *r, const nh_figure_request *f, const nh_state *initial, double end, size_t count, double *times, double accuracy, nh_error *error)
+static nh_trajectory *integrate(nh_simulation *s, const nh_result *r, const nh_analyze_request *q, const nh_figure_request *f, const nh_state *initial, double end, size_t count, double *times, nh_error *error)
 {
     nh_options options = r->options;
     nh_ex *e = nh_arena_alloc(s->arena, (f->quantities + 1) * sizeof *e);
     for (size_t k = 0; k < f->quantities; k++) e[k] = f->quantity[k].value;
     for (size_t i = 0; i < count; i++) times[i] = initial->t + (end - initial->t) * (double)i / (double)(count - 1);
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = f->quantities, .e = e};
+    if (!(q->accuracy > 0)) return nh_trajectory_create(&request, error);
     nh_accuracy ignored;
-    return accuracy > 0 ? nh_trajectory_accurate(&request, accuracy, 0, NULL, &ignored, error) : nh_trajectory_create(&request, error);
+    nh_choice choice = {.arena = s->arena, .system = s->system, .model = s->model, .seed = (uint64_t)options.seed, .remember = q->remember, .begin = initial->t, .end = end};
+    nh_choice_open(&choice, q->accuracy, false);
+    nh_trajectory *t = nh_trajectory_accurate(&request, q->accuracy, &choice.ways, &ignored, error);
+    nh_choice_close(&choice);
+    return t;
 }
 
 typedef struct {
@@ -69,7 +74,7 @@ static bool follow(nh_result *r, const nh_analyze_request *q, size_t which, doub
     for (int part = 0; part < 2 && good; part++) {
         double to = part == 0 ? begin : end;
         if (part == 0 ? !(to < initial.t) : !(to > initial.t)) continue;
-        nh_trajectory *t = integrate(s, r, f, &initial, to, outputs, times, q->accuracy, error);
+        nh_trajectory *t = integrate(s, r, q, f, &initial, to, outputs, times, error);
         good = t != NULL;
         if (good) join(out, t, f->quantities, part == 0);
         nh_trajectory_free(t);

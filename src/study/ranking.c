@@ -10,6 +10,8 @@
 #include "expr/fingerprint.h"
 
 enum { name_size = 64, most_ways = 1000 };
+static const char *const measured_names[] = {"chart", "survey", "plain survey"};
+static const double near = 1; /* decades: the cheapest way for one accuracy is so for others */
 static const char *const velocities_names[] = {[NH_OWN_VELOCITIES] = "own velocities", [NH_OTHER_VELOCITIES] = "other velocities", [NH_ALL_COORDINATES] = "all coordinates"};
 
 uint64_t nh_ranking_key(const nh_model *o)
@@ -57,6 +59,9 @@ bool nh_ranking_write(const nh_ranking *r, const char *system, nh_error *error)
     nh_json_put_text(root, "system", system);
     nh_json_put_number(root, "begin", r->begin);
     nh_json_put_number(root, "end", r->end);
+    nh_json_put_text(root, "measured", measured_names[r->surveyed + r->plain]);
+    nh_json *asked = nh_json_put_array(root, "asked");
+    for (size_t i = 0; i < r->asks; i++) nh_json_put_number(nh_json_add_object(asked), "accuracy", r->asked[i]);
     nh_json *ways = nh_json_put_array(root, "ways");
     for (size_t i = 0; i < r->count; i++) {
         nh_json *item = nh_json_add_object(ways);
@@ -70,6 +75,33 @@ bool nh_ranking_write(const nh_ranking *r, const char *system, nh_error *error)
     char *text = nh_json_finish(root);
     bool good = nh_cache_write(name_of(r->key, name), text, error);
     nh_free(text);
+    return good;
+}
+
+bool nh_ranking_tells(const nh_ranking *r, double eps, bool plain)
+{
+    bool tells = r->count && !r->surveyed;
+    for (size_t i = 0; i < r->asks && r->count && (plain || !r->plain); i++) tells |= fabs(log10(eps / r->asked[i])) < near;
+    return tells;
+}
+
+bool nh_ranking_keep(const nh_model *model, nh_ranking *r, nh_error *error)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_ranking old;
+    r->key = nh_ranking_key(model);
+    bool there = nh_ranking_read(r->key, arena, &old), good = r->count && !(there && (!old.surveyed || (r->plain && !old.plain)));
+    bool beside = good && there && old.plain == r->plain && !nh_ranking_tells(&old, r->asked[0], r->plain) && old.count + r->count <= most_ways;
+    if (beside) {
+        nh_way *all = nh_arena_alloc(arena, (old.count + r->count) * sizeof *all);
+        memcpy(all, r->way, r->count * sizeof *all);
+        memcpy(all + r->count, old.way, old.count * sizeof *all);
+        r->way = all;
+        r->count += old.count;
+        for (size_t i = 0; i < old.asks && r->asks < NH_RANKING_ASKED; i++) r->asked[r->asks++] = old.asked[i];
+    }
+    good = good && nh_ranking_write(r, model->system->name, error);
+    nh_arena_free(arena);
     return good;
 }
 
@@ -103,6 +135,14 @@ static bool read_all(const nh_json *root, nh_arena *arena, nh_ranking *out)
     if (!version || strcmp(version, NH_VERSION) || count == 0 || count > most_ways) return false;
     out->begin = nh_json_value(root, "begin");
     out->end = nh_json_value(root, "end");
+    const nh_json *asked = nh_json_get(root, "asked");
+    const char *measured = nh_json_text(root, "measured");
+    out->plain = measured && !strcmp(measured, measured_names[2]);
+    out->surveyed = out->plain || (measured && !strcmp(measured, measured_names[1]));
+    for (size_t i = 0; i < nh_json_count(asked) && out->asks < NH_RANKING_ASKED; i++) {
+        double eps = nh_json_value(nh_json_entry(asked, i), "accuracy");
+        if (eps > 0 && eps < 1) out->asked[out->asks++] = eps;
+    }
     out->way = nh_arena_alloc(arena, count * sizeof *out->way);
     for (size_t i = 0; i < count; i++) out->count += read_way(nh_json_entry(nh_json_get(root, "ways"), i), &out->way[out->count]);
     return out->count > 0;

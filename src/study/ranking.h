@@ -8,9 +8,15 @@
 #include "base/memory.h"
 #include "motion/way.h"
 
+enum { NH_RANKING_ASKED = 16 };
+
 typedef struct {
     uint64_t key;      /* of the equations */
     double begin, end; /* of the motion that was measured */
+    bool surveyed;     /* on pieces of motions, when an accuracy was wanted of them: a chart takes its place, and it never takes a chart's */
+    bool plain;        /* then: only in the model's own velocities, by methods with error control */
+    size_t asks;
+    double asked[NH_RANKING_ASKED]; /* then: these accuracies; it says nothing of others */
     size_t count;
     nh_way *way;
 } nh_ranking;
@@ -20,6 +26,13 @@ uint64_t nh_ranking_key(const nh_model *model);
 
 /* The ranking that was kept for these equations, into the arena; false: there is none. */
 bool nh_ranking_read(uint64_t key, nh_arena *arena, nh_ranking *out);
+
+/* Does it tell what is the cheapest for this accuracy, of all ways or of the plain ones? */
+bool nh_ranking_tells(const nh_ranking *ranking, double eps, bool plain);
+
+/* A survey of the model's equations for one accuracy (asked[0]) is kept beside what others measured for other accuracies; not in place of a
+ * chart, nor a plain one in place of one that is not. */
+bool nh_ranking_keep(const nh_model *model, nh_ranking *ranking, nh_error *error);
 
 /* Only the ways in the model's own velocities with error control are left, at the beginning; how many. */
 size_t nh_ranking_adaptive(nh_ranking *ranking);

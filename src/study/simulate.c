@@ -246,18 +246,25 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
 }
 
 /* Is it worth while to derive the equations in coordinate velocities?  Only if a chart says so, and the motion is long. */
-static void consider_other_velocities(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion)
+static const nh_model *consider_other_velocities(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion)
 {
     static const double runs = 3;
+    const nh_ways *ways = &s->ways.ways;
     nh_way_limits limits = {.scene = motion->smallest, .spacing = INFINITY};
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    const nh_way *own = nh_way_cheapest(s->ranking.count, s->ranking.way, q->accuracy, &limits).way;
+    const nh_way *own = nh_way_cheapest(ways->count, ways->way, q->accuracy, &limits).way;
     limits.other = true;
-    const nh_way *any = nh_way_cheapest(s->ranking.count, s->ranking.way, q->accuracy, &limits).way;
-    if (!any || any->velocities != NH_OTHER_VELOCITIES || q->chart != NH_CHART_AUTO || !s->model->chart->quasi) return;
+    const nh_way *any = nh_way_cheapest(ways->count, ways->way, q->accuracy, &limits).way;
+    if (!any || any->velocities != NH_OTHER_VELOCITIES) return NULL;
     double span = fabs(motion->times[motion->count - 1] - motion->times[0]), saved = own ? runs * span * (own->seconds - any->seconds) : INFINITY;
-    if (saved > s->deriving) s->other = nh_model_create(s->system, nh_chart_create(s->system, NH_CHART_COORDINATES, (uint64_t)q->options.seed, &ignored), &ignored);
+    return saved > s->deriving ? nh_choice_derive(&s->ways) : NULL;
+}
+
+/* From what the method is chosen. */
+static void open_choice(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion)
+{
+    s->ways = (nh_choice){.arena = s->arena, .system = s->system, .model = s->model, .seed = (uint64_t)q->options.seed, .remember = q->remember, .may_derive = q->chart == NH_CHART_AUTO, .deriving = s->deriving,
+                          .begin = motion->times[0], .end = motion->times[motion->count - 1]};
+    nh_choice_open(&s->ways, q->accuracy, motion->smallest);
 }
 
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
@@ -271,14 +278,12 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     nh_ex *known;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
     s->checked = q->accuracy > 0;
-    bool charted = s->checked && q->remember && nh_ranking_read(nh_ranking_key(s->model), s->arena, &s->ranking);
+    if (s->checked) open_choice(s, q, &request);
+    if (s->checked && s->ways.ways.count) request.other = consider_other_velocities(s, q, &request);
     if (q->ensemble) return nh_simulate_many(s, q, &request, error);
-    if (charted) consider_other_velocities(s, q, &request);
-    request.other = s->other;
-    s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, s->ranking.count, s->ranking.way, &s->accuracy, error) : nh_trajectory_create(&request, error);
+    s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, &s->ways.ways, &s->accuracy, error) : nh_trajectory_create(&request, error);
     if (!s->trajectory) return false;
     if (s->checked) s->tolerance = s->accuracy.tolerance, s->held = s->accuracy.held, s->why = s->accuracy.why;
-    if (s->checked && s->held && !s->ranking.count && q->remember && nh_ranking_possible()) strcat(s->accuracy.why, "; `nhsym chart` would measure which method is the cheapest");
     s->motion = s->trajectory->motion;
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
@@ -404,7 +409,7 @@ void nh_simulation_free(nh_simulation *s)
     if (!s) return;
     nh_trajectory_free(s->trajectory);
     nh_ensemble_free(s->ensemble);
-    nh_model_free(s->other);
+    nh_choice_close(&s->ways);
     nh_model_free(s->model);
     nh_analysis_free(s->analysis);
     nh_system_free(s->system);

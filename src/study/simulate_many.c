@@ -18,7 +18,7 @@ bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_t
     nh_dynamics *d = nh_dynamics_create(s->model);
     if (nh_dynamics_start(d, motion->initial, motion->project, z0, error)) {
         nh_ensemble_states(size, z0, q->ensemble, q->spread, (uint64_t)q->options.seed, initial);
-        if (s->checked) s->ensemble = nh_ensemble_accurate(motion, q->ensemble, initial, threads, q->accuracy, s->ranking.count, s->ranking.way, &s->accuracy_of_all, error);
+        if (s->checked) s->ensemble = nh_ensemble_accurate(motion, q->ensemble, initial, threads, q->accuracy, &s->ways.ways, &s->accuracy_of_all, error);
         else s->ensemble = nh_ensemble_create(motion, q->ensemble, initial, threads, error);
     }
     nh_dynamics_free(d);
@@ -27,6 +27,9 @@ bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_t
     if (s->checked) s->tolerance = s->accuracy_of_all.tolerance, s->held = s->accuracy_of_all.held, s->why = s->accuracy_of_all.why;
     s->method = "Prince-Dormand 8, in batches";
     s->formulation = "reduced equations";
-    s->scene = nh_simulate_words(s, s->ensemble->scene, nh_scene_words);
+    const nh_ensemble_accuracy *a = s->checked && s->accuracy_of_all.all_alone ? &s->accuracy_of_all : NULL;
+    if (a) s->method = nh_arena_printf(s->arena, "%s, each alone", a->way.method->name);
+    if (a && a->way.velocities == NH_ALL_COORDINATES) s->formulation = "all coordinates, accelerations from the bordered system";
+    if (!a || motion->smallest) s->scene = nh_simulate_words(s, s->ensemble->scene, nh_scene_words);
     return true;
 }

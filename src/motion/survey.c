@@ -1,0 +1,156 @@
+#include "motion/survey.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/progress.h"
+#include "motion/accuracy.h"
+
+enum { least_outputs = 9, most_outputs = 1000 };
+static const double share = 1.0 / 16, most_part = 0.25; /* of the budget, that the best known way takes for the piece; of the motion */
+static const double patience = 2, least_seconds = 2e-4; /* times the best so far: what takes longer has lost */
+static const double finer = 1e-2, finest_stiff = 1e-13; /* the reference: in parts of the error that is aimed at; CVODE's tolerance */
+static const double least_error = 3e-14;               /* that can be aimed at */
+static const double close = 30;                        /* an error so many times below the aim is as good as that: no second run */
+static const double safety = 3;                        /* the second run aims below */
+static const double long_motion = 1;                   /* second: then the functions of methods with fixed steps are worth deriving */
+
+typedef struct {
+    const char *method;
+    nh_velocities velocities;
+} candidate;
+
+/* In the order in which they are tried: what a short budget leaves out is seldom the cheapest. */
+static const candidate candidates[] = {{"GSL rk8pd", NH_OWN_VELOCITIES},       {"CVODE BDF", NH_OWN_VELOCITIES},   {"CVODE Adams", NH_OWN_VELOCITIES},         {"GSL rk8pd", NH_OTHER_VELOCITIES},
+                                       {"GSL rkf45", NH_OWN_VELOCITIES},       {"ARKODE Verner", NH_OWN_VELOCITIES}, {"GSL rk8pd", NH_ALL_COORDINATES},        {"ARKODE Fehlberg", NH_OWN_VELOCITIES},
+                                       {"CVODE BDF", NH_OTHER_VELOCITIES},     {"CVODE Adams", NH_OTHER_VELOCITIES}, {"ARKODE Dormand-Prince", NH_OWN_VELOCITIES}, {"relaxation, order 8", NH_OWN_VELOCITIES},
+                                       {"CVODE BDF", NH_ALL_COORDINATES},      {"CVODE Adams", NH_ALL_COORDINATES}, {"GSL msadams", NH_OWN_VELOCITIES}};
+
+typedef struct {
+    const nh_trajectory_request *request;
+    const nh_survey_terms *terms;
+    nh_survey *out;
+    nh_trajectory_request piece;
+    nh_options options;
+    nh_programs *programs;
+    nh_trajectory *reference;
+    double begun, length, whole, aim; /* aim: error on the piece that becomes eps on the whole */
+    double best;                      /* seconds for the piece, of what reached the aim */
+    long steps;                       /* of the reference */
+} survey;
+
+static double left(const survey *s) { return s->begun + s->terms->budget - nh_clock(); }
+
+static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velocities, double setting, double seconds)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    s->piece.method = method;
+    s->piece.velocities = velocities;
+    s->piece.programs = method->order ? s->programs : NULL;
+    s->piece.step = method->order ? setting : 0;
+    if (!method->order) s->options.tolerance = setting;
+    s->piece.max_seconds = fmax(fmin(seconds, left(s)), 1e-6);
+    nh_trajectory *t = nh_trajectory_create(&s->piece, &ignored);
+    if (t) s->out->evaluations += t->motion->evaluations;
+    bool other = t && velocities == NH_OTHER_VELOCITIES && !strcmp(t->formulation, "reduced equations"); /* they could not be used */
+    if (t && t->motion->complete && !other && !nh_interrupted()) return t;
+    nh_trajectory_free(t);
+    return NULL;
+}
+
+/* Of a run against the reference. */
+static double error_of(const survey *s, const nh_trajectory *t)
+{
+    size_t which;
+    return nh_accuracy_difference(s->piece.count, s->piece.n, s->reference->value, t->value, s->options.absolute, &which);
+}
+
+/* One method in some velocities, at the setting that its first run asks for. */
+static void try_way(survey *s, const nh_method *method, nh_velocities velocities)
+{
+    nh_way w = {.method = method, .velocities = velocities, .tolerance = NAN, .step = NAN};
+    double setting = method->order ? s->length / (double)(s->steps + 1) : fmin(s->aim, nh_accuracy_loosest);
+    double spacing = s->length / (double)(s->piece.count - 1);
+    s->out->tried++;
+    for (int i = 0; i < 2 && s->out->count < NH_SURVEY_WAYS; i++) {
+        if (method->order) setting = spacing / ceil(spacing / setting * (1 - 1e-9)); /* steps end at the outputs */
+        nh_trajectory *t = run(s, method, velocities, setting, fmax(patience * s->best, least_seconds));
+        if (!t) return;
+        *(method->order ? &w.step : &w.tolerance) = setting;
+        double error = fmax(error_of(s, t), s->aim * finer), seconds = fmax(t->motion->seconds, 1e-9);
+        nh_trajectory_free(t);
+        if (!isfinite(error)) return;
+        w.error = error * s->whole / s->length;
+        w.seconds = seconds / s->length;
+        if (w.error < 1) s->out->way[s->out->count++] = w;
+        if (error < s->aim) s->best = fmin(s->best, seconds);
+        if (error < s->aim && error > s->aim / close) return;
+        double next = nh_way_setting(&w, s->terms->eps / safety);
+        setting = method->order ? fmin(next, spacing) : fmax(nh_accuracy_tightest, fmin(next, nh_accuracy_loosest));
+    }
+}
+
+static bool open_piece(survey *s, const nh_state *from, double **times)
+{
+    const nh_trajectory_request *q = s->request;
+    double begin = q->times[0], end = q->times[q->count - 1], part = fmin(most_part, share * s->terms->budget / s->terms->seconds);
+    s->whole = fabs(end - begin);
+    s->length = fmin(part * s->whole, fabs(end - from->t));
+    double wanted = s->length * (double)q->count / s->whole;
+    size_t count = (size_t)fmax(least_outputs, fmin(most_outputs, wanted));
+    if (!(s->length > 1e-12 * fmax(fabs(begin), fabs(end)))) return false;
+    *times = nh_alloc_array(count, sizeof **times);
+    for (size_t i = 0; i < count; i++) (*times)[i] = from->t + copysign(s->length, end - begin) * (double)i / (double)(count - 1);
+    s->options = *q->options;
+    s->piece = *q;
+    s->piece.initial = from;
+    s->piece.count = count;
+    s->piece.times = *times;
+    s->piece.options = &s->options;
+    s->piece.project = true; /* a state on the way is off the constraints by the error of the motion */
+    s->aim = fmax(least_error, s->terms->eps * s->length / s->whole);
+    s->out->part = s->length / s->whole;
+    return true;
+}
+
+static bool usable(survey *s, const candidate *c, const nh_method *method)
+{
+    bool plain = s->terms->plain || s->request->smallest;
+    if (plain && (method->order || c->velocities != NH_OWN_VELOCITIES)) return false;
+    if (c->velocities == NH_OTHER_VELOCITIES && !s->request->other) return false;
+    if (c->velocities == NH_ALL_COORDINATES && !nh_may_leave_chart(s->request->model)) return false;
+    if (!method->order) return true;
+    if (s->terms->seconds < long_motion) return false;
+    if (!s->programs) s->programs = nh_programs_create(s->request->model);
+    return !nh_method_refused(method, s->programs);
+}
+
+static void try_all(survey *s)
+{
+    const nh_method *best = s->terms->best;
+    double finest = best->family == NH_METHOD_CVODE ? finest_stiff : nh_accuracy_tightest;
+    s->reference = run(s, best, NH_OWN_VELOCITIES, fmax(finest, fmin(s->aim, nh_accuracy_loosest) * finer), s->terms->budget / 2);
+    if (!s->reference) return;
+    s->steps = s->reference->motion->steps;
+    s->best = s->reference->motion->seconds;
+    try_way(s, best, NH_OWN_VELOCITIES);
+    for (size_t i = 0; i < sizeof candidates / sizeof *candidates && left(s) > 0 && !nh_interrupted(); i++) {
+        const nh_method *method = nh_method_find(candidates[i].method);
+        bool first = method == best && candidates[i].velocities == NH_OWN_VELOCITIES;
+        if (!first && usable(s, &candidates[i], method)) try_way(s, method, candidates[i].velocities);
+    }
+    nh_trajectory_free(s->reference);
+    nh_programs_free(s->programs);
+}
+
+void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, const nh_survey_terms *terms, nh_survey *out)
+{
+    survey s = {.request = request, .terms = terms, .out = out, .begun = nh_clock()};
+    double *times = NULL;
+    *out = (nh_survey){.count = 0};
+    if (open_piece(&s, from, &times)) try_all(&s);
+    nh_free(times);
+    out->seconds = nh_clock() - s.begun;
+}

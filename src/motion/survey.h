@@ -1,0 +1,34 @@
+/* survey: a small chart of one motion, made on a piece of it while the motion itself waits.
+ *
+ * The piece begins where the caller says, and is so long that the best way known so far takes a small part of the budget for it.  A run of that way at a
+ * tolerance a hundred times tighter is the reference.  Every other way runs once or twice, at the tolerance (or step) at which its error is expected to
+ * be eps at the end of the whole motion, and no longer than a few times the best so far: what loses is told early.  Errors are taken to grow in proportion to
+ * time, as those of regular motions do; they only rank, and what is chosen is checked as ever (accuracy.h). */
+#ifndef NH_SURVEY_H
+#define NH_SURVEY_H
+
+#include "motion/way.h"
+
+enum { NH_SURVEY_WAYS = 32 };
+
+typedef struct {
+    double eps;
+    const nh_method *best; /* the best so far, in the model's own velocities */
+    double seconds;        /* that it takes for the whole motion */
+    double budget;         /* seconds, all that is needed included */
+    bool plain;            /* only the model's own velocities and methods with error control */
+} nh_survey_terms;
+
+typedef struct {
+    size_t count;             /* ways that were measured, below eps or not; 0: there was no reference */
+    nh_way way[NH_SURVEY_WAYS];
+    size_t tried;             /* methods in velocities */
+    double part;              /* of the motion */
+    long evaluations;
+    double seconds;           /* all that it took */
+} nh_survey;
+
+/* `from`: a state of the motion between its ends, or the initial one. */
+void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, const nh_survey_terms *terms, nh_survey *out);
+
+#endif
