@@ -16,7 +16,7 @@ static nh_trajectory *accurate(const nh_model *o, const nh_state *initial, doubl
     nh_options_default(&options);
     for (int i = 0; i < COUNT; i++) times[i] = initial->t + until * i / (COUNT - 1);
     nh_trajectory_request q = {.model = o, .initial = initial, .count = COUNT, .times = times, .options = &options, .n = n, .e = e, .smallest = smallest};
-    return nh_trajectory_accurate(&q, eps, 0, NULL, a, &error);
+    return nh_trajectory_accurate(&q, eps, NULL, a, &error);
 }
 
 Test(accuracy, the_closed_form_is_met)
@@ -147,10 +147,11 @@ Test(accuracy, the_checked_motion_is_as_accurate)
     nh_options_default(&options);
     nh_way adams = {nh_method_find("CVODE Adams"), NH_OWN_VELOCITIES, 1e-9, NAN, 1e-9, 1e-6};
     nh_ex e = x.model->E;
-    nh_validation_request request = {.model = x.model, .currents = 1, .current = &e, .initial = &initial, .until = 30, .outputs = 61, .options = &options, .way = &adams};
+    nh_validation_request request = {.model = x.model, .currents = 1, .current = &e, .initial = &initial, .until = 30, .outputs = 61, .options = &options};
+    nh_ways measured = {.count = 1, .way = &adams, .plain = true};
     for (double eps = 1e-4; eps > 1e-11; eps /= 100) {
         request.accuracy = eps;
-        request.ways = eps < 1e-7; /* then CVODE is said to be the cheapest */
+        request.ways = eps < 1e-7 ? &measured : NULL; /* then CVODE is said to be the cheapest */
         nh_validation *r = nh_validate(&request, &error);
         must(r != NULL, &error, "the validation");
         cr_expect(r->checked && (r->accuracy.held || eps < 1e-9), "%g: %s", eps, r->accuracy.why);
@@ -162,6 +163,77 @@ Test(accuracy, the_checked_motion_is_as_accurate)
         cr_expect(r->current[0].small, "%g", r->current[0].drift[NH_DRIFT_RUNS - 1]);
         nh_validation_free(r);
     }
+    mechanics_clear(&x);
+}
+
+/* ---- what is measured on the way ---- */
+
+typedef struct {
+    int times;
+    double eps;
+    size_t count;
+} kept;
+
+static void keep(void *context, double eps, const nh_survey *survey)
+{
+    kept *k = context;
+    k->times++;
+    k->eps = eps;
+    k->count = survey->count;
+    for (size_t i = 0; i < survey->count; i++) {
+        const nh_way *w = &survey->way[i];
+        cr_expect(w->method && w->error > 0 && w->error < 1 && w->seconds > 0 && isfinite(w->seconds) && isnan(w->tolerance) != isnan(w->step), "%zu", i);
+    }
+}
+
+static nh_trajectory *surveyed(const nh_model *o, const nh_state *initial, double until, double eps, size_t n, const nh_ex *e, nh_ways *ways, nh_accuracy *a)
+{
+    double times[COUNT];
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    options.steps = 1e8;
+    for (int i = 0; i < COUNT; i++) times[i] = initial->t + until * i / (COUNT - 1);
+    nh_trajectory_request q = {.model = o, .initial = initial, .count = COUNT, .times = times, .options = &options, .n = n, .e = e};
+    ways->survey = true;
+    return nh_trajectory_accurate(&q, eps, ways, a, &error);
+}
+
+/* Many thousands of periods of a driven oscillator, x = 2 sin(t): others are measured, the result is right whatever is chosen.  A tenth of one period: nothing is measured. */
+Test(accuracy, a_long_motion_is_measured_and_a_short_one_is_not)
+{
+    mechanics x = mechanics_of_text("name: test\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - x^2/2\nforces: [\"x = -x'/2 + cos(t)\"]\n", NH_CHART_AUTO);
+    double q[1] = {0}, v[1] = {2}, until = 4e5;
+    nh_state initial = {.q = q, .v = v};
+    kept k = {0};
+    nh_ways ways = {.context = &k, .keep = keep};
+    nh_accuracy a;
+    nh_ex e = formula(x.model, "x");
+    nh_trajectory *t = surveyed(x.model, &initial, until, 1e-5, 1, &e, &ways, &a);
+    cr_assert(t && a.held, "%s", a.why);
+    cr_expect(a.choice == NH_CHOICE_SURVEY && k.times == 1 && k.eps == 1e-5 && k.count > 0 && strstr(a.why, "of the motion"), "%d, %zu: %s", k.times, k.count, a.why);
+    for (int i = 0; i < COUNT; i++) cr_expect_float_eq(t->value[i], 2 * sin(until * i / (COUNT - 1)), 2e-5);
+    nh_trajectory_free(t);
+    t = surveyed(x.model, &initial, 0.6, 1e-6, 1, &e, &ways, &a);
+    cr_expect(t && a.held && a.choice == NH_CHOICE_SHORT && k.times == 1 && strstr(a.why, "would take longer"), "%s", a.why);
+    nh_trajectory_free(t);
+    mechanics_clear(&x);
+}
+
+/* Mildly stiff: the race with BDF, which must win by twenty, is not won, but a piece tells that others are much cheaper. */
+Test(accuracy, a_survey_finds_what_the_race_misses)
+{
+    mechanics x = mechanics_of_text("name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2\nforces: [\"y = -1000*(y' - cos(x))\"]\n", NH_CHART_AUTO);
+    double q[2] = {0.4, 0}, v[2] = {0.3, 0.9};
+    nh_state initial = {.q = q, .v = v};
+    nh_ways ways = {.count = 0};
+    nh_accuracy a;
+    nh_ex e = formula(x.model, "y");
+    nh_trajectory *t = surveyed(x.model, &initial, 1000, 1e-6, 1, &e, &ways, &a);
+    cr_assert(t && a.held, "%s", a.why);
+    cr_expect(strncmp(t->method, "CVODE", 5) == 0, "%s", a.why);
+    cr_expect_lt(t->motion->evaluations, 1000 * 1000, "%ld", t->motion->evaluations); /* rk8pd: 2.5 million */
+    nh_trajectory_free(t);
     mechanics_clear(&x);
 }
 
@@ -183,7 +255,7 @@ static void try_ensemble(const char *text, const double start[4], double until, 
     nh_ensemble_states(size, start, MEMBERS, 0.2, 3, initial);
     nh_trajectory_request q = {.model = x.model, .count = COUNT, .times = times, .options = &options, .n = n, .e = x.model->rho};
     nh_ensemble_accuracy a;
-    nh_ensemble *e = nh_ensemble_accurate(&q, MEMBERS, initial, threads, eps, 0, NULL, &a, &error);
+    nh_ensemble *e = nh_ensemble_accurate(&q, MEMBERS, initial, threads, eps, NULL, &a, &error);
     cr_assert(e && a.held, "%s", a.why);
     options.tolerance = 1e-14;
     for (size_t j = 0; j < MEMBERS; j++) {
@@ -211,6 +283,58 @@ Test(accuracy, every_member_of_an_ensemble_is_as_accurate)
     cr_expect_eq(memcmp(one, two, sizeof one), 0); /* whatever the number of threads */
     try_ensemble(pendulum, (double[]){1, 0.5, 0.2, 0}, 20, 1e-9, 2, NULL);
     try_ensemble(kepler, (double[]){1, 0, 0, 0.5}, 15, 1e-8, 2, NULL);
+}
+
+enum { STIFF_MEMBERS = 8 };
+
+/* From around one state, all states of each member in `value`; how it was done in *a. */
+static nh_ensemble *stiff_ensemble(const char *text, const double start[4], double until, size_t threads, const nh_ways *ways, nh_ensemble_accuracy *a)
+{
+    mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
+    double initial[STIFF_MEMBERS * 4], times[COUNT];
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    options.steps = 1e8;
+    for (int i = 0; i < COUNT; i++) times[i] = until * i / (COUNT - 1);
+    nh_ensemble_states(4, start, STIFF_MEMBERS, 0.1, 3, initial);
+    nh_trajectory_request q = {.model = x.model, .count = COUNT, .times = times, .options = &options, .n = 2, .e = x.model->rho};
+    nh_ensemble *e = nh_ensemble_accurate(&q, STIFF_MEMBERS, initial, threads, 1e-6, ways, a, &error);
+    must(e != NULL, &error, "the ensemble");
+    mechanics_clear(&x);
+    return e;
+}
+
+/* In batches the pair of order 8 would take a hundred thousand steps for what BDF does in some hundred. */
+Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone)
+{
+    static const char *const stiff = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2\nforces: [\"y = -1e5*(y' - cos(x))\"]\n";
+    const double start[4] = {0.4, 0, 0.3, 0.9};
+    nh_ensemble_accuracy a;
+    nh_ensemble *e = stiff_ensemble(stiff, start, 5, 1, NULL, &a);
+    cr_expect(a.held && a.all_alone && a.alone == STIFF_MEMBERS && e->alone == STIFF_MEMBERS && e->incomplete == 0, "%s", a.why);
+    cr_expect(a.way.method && a.way.method->family == NH_METHOD_CVODE && strstr(a.why, "each alone by CVODE") && strstr(a.why, "in batches they would take"), "%s", a.why);
+    cr_expect_lt(e->evaluations, 2000 * 1000, "%ld", e->evaluations); /* in batches more than a million steps of 13 */
+    nh_ensemble_free(e);
+    nh_way bdf = {nh_method_find("CVODE BDF"), NH_OWN_VELOCITIES, 1e-8, NAN, 1e-7, 1e-3};
+    nh_ways ways = {.count = 1, .way = &bdf}; /* what is measured may differ from run to run; this does not */
+    nh_ensemble *one = stiff_ensemble(stiff, start, 5, 1, &ways, &a), *two = stiff_ensemble(stiff, start, 5, 2, &ways, &a);
+    cr_expect(a.all_alone && a.choice == NH_CHOICE_KEPT, "%s", a.why);
+    cr_expect_eq(memcmp(one->value, two->value, STIFF_MEMBERS * COUNT * 2 * sizeof *one->value), 0);
+    nh_ensemble_free(one);
+    nh_ensemble_free(two);
+}
+
+Test(accuracy, members_of_another_stay_in_batches)
+{
+    nh_error error = {0};
+    nh_simulate_request q = {.system_path = "systems/henon_heiles.yaml", .initial = "x=0.1, y'=0.2", .until_given = true, .accuracy = 1e-6, .ensemble = 300, .spread = 0.05};
+    nh_options_default(&q.options);
+    nh_simulation *s = nh_simulate(&q, &error);
+    must(s != NULL, &error, "henon_heiles");
+    const nh_ensemble_accuracy *a = &s->accuracy_of_all;
+    cr_expect(a->held && !a->all_alone && a->ratio > 1 && strstr(a->why, "in batches at") && strstr(a->why, "each alone (GSL rk8pd) would take"), "%s", a->why);
+    nh_simulation_free(s);
 }
 
 Test(accuracy, an_ensemble_says_when_it_is_not)

@@ -193,7 +193,8 @@ static nh_trajectory *accurate(const mechanics *x, const nh_model *other, const 
     for (size_t i = 0; i < count; i++) times[i] = initial->t + until * (double)i / (double)(count - 1);
     nh_ex e[2] = {formula(x->model, "phi"), formula(x->model, "omega")};
     nh_trajectory_request q = {.model = x->model, .other = other, .initial = initial, .count = count, .times = times, .options = &options, .n = 2, .e = e};
-    nh_trajectory *t = nh_trajectory_accurate(&q, eps, ways, way, a, &error);
+    nh_ways from = {.count = ways, .way = way};
+    nh_trajectory *t = nh_trajectory_accurate(&q, eps, &from, a, &error);
     nh_free(times);
     return t;
 }
@@ -260,14 +261,82 @@ Test(ranking, what_does_not_do_is_replaced)
     mechanics_clear(&x);
 }
 
+/* ---- surveys ---- */
+
+/* A survey is kept for accuracies like the one that it was made for, beside others; a chart takes its place for all, and is not touched by later ones. */
+Test(ranking, a_chart_outranks_a_survey)
+{
+    place p;
+    in_folder(&p);
+    nh_error error = {0};
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_AUTO, 0, NULL);
+    nh_way way[2] = {run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-6, 3e-7, 1e-3), run_of("CVODE BDF", NH_OWN_VELOCITIES, 1e-9, 2e-9, 1e-4)};
+    nh_arena *arena = nh_arena_create();
+    nh_ranking back, loose = {.surveyed = true, .asks = 1, .asked = {1e-5}, .count = 1, .way = way}, tight = {.surveyed = true, .asks = 1, .asked = {1e-9}, .count = 2, .way = way},
+                     plain = {.surveyed = true, .plain = true, .asks = 1, .asked = {1e-3}, .count = 1, .way = way};
+    must(nh_ranking_keep(x.model, &loose, &error), &error, "the first survey");
+    cr_assert(nh_ranking_read(nh_ranking_key(x.model), arena, &back));
+    cr_expect(back.surveyed && !back.plain && nh_ranking_tells(&back, 2e-5, false) && nh_ranking_tells(&back, 1e-5, true) && !nh_ranking_tells(&back, 1e-9, false));
+    must(nh_ranking_keep(x.model, &tight, &error), &error, "the second survey");
+    cr_assert(nh_ranking_read(nh_ranking_key(x.model), arena, &back));
+    cr_expect(back.count == 3 && nh_ranking_tells(&back, 1e-5, false) && nh_ranking_tells(&back, 1e-9, false) && !nh_ranking_tells(&back, 1e-7, false), "%zu", back.count);
+    cr_expect(!nh_ranking_keep(x.model, &plain, &error)); /* it says less */
+    nh_ranking chart = {.key = nh_ranking_key(x.model), .end = 10, .count = 1, .way = way + 1};
+    must(nh_ranking_write(&chart, "sleigh", &error), &error, "the chart");
+    loose = (nh_ranking){.surveyed = true, .asks = 1, .asked = {1e-5}, .count = 1, .way = way};
+    cr_expect(!nh_ranking_keep(x.model, &loose, &error));
+    cr_assert(nh_ranking_read(nh_ranking_key(x.model), arena, &back));
+    cr_expect(!back.surveyed && back.count == 1 && back.way[0].method == way[1].method && nh_ranking_tells(&back, 1e-2, false));
+    nh_arena_free(arena);
+    mechanics_clear(&x);
+    place_clear(&p);
+}
+
+/* A survey of plain ways does not tell what is the cheapest of all. */
+Test(ranking, a_plain_survey_says_less)
+{
+    place p;
+    in_folder(&p);
+    nh_error error = {0};
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_AUTO, 0, NULL);
+    nh_way way = run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-6, 3e-7, 1e-3), other = run_of("GSL rk8pd", NH_ALL_COORDINATES, 1e-6, 3e-7, 1e-3);
+    nh_arena *arena = nh_arena_create();
+    nh_ranking back, plain = {.surveyed = true, .plain = true, .asks = 1, .asked = {1e-5}, .count = 1, .way = &way}, full = {.surveyed = true, .asks = 1, .asked = {1e-5}, .count = 1, .way = &other};
+    must(nh_ranking_keep(x.model, &plain, &error), &error, "a plain one");
+    cr_assert(nh_ranking_read(nh_ranking_key(x.model), arena, &back));
+    cr_expect(nh_ranking_tells(&back, 1e-5, true) && !nh_ranking_tells(&back, 1e-5, false));
+    must(nh_ranking_keep(x.model, &full, &error), &error, "one of all ways");
+    cr_assert(nh_ranking_read(nh_ranking_key(x.model), arena, &back));
+    cr_expect(!back.plain && back.count == 1 && back.way[0].velocities == NH_ALL_COORDINATES && nh_ranking_tells(&back, 1e-5, true));
+    nh_arena_free(arena);
+    mechanics_clear(&x);
+    place_clear(&p);
+}
+
 /* ---- as a user sees it ---- */
+
+/* A long motion is measured when it is computed, and what was measured serves the next; a chart takes its place. */
+Test(ranking, a_long_motion_is_surveyed)
+{
+    static const char *const simulate = "simulate driven.yaml --initial x=1 --until 400000 --accuracy 1e-5 --step 200000 --option steps=1e8";
+    static const char *const driven = "name: driven\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - x^2/2\nforces: [\"x = -x'/2 + cos(t)\"]\n";
+    place p = place_with_systems();
+    write_here(&p, "driven.yaml", driven);
+    finished f = run_expecting(&p, simulate, 0);
+    cr_expect(strstr(f.err, "were measured"), "%s", f.err);
+    finished_clear(&f);
+    f = run_expecting(&p, simulate, 0);
+    cr_expect(strstr(f.err, "measured for an earlier motion"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
 
 Test(ranking, a_chart_is_remembered)
 {
     static const char *const simulate = "simulate sleigh --set a=0.4 --initial omega=2 --until 3 --accuracy 1e-6 --step 1";
     place p = place_with_systems();
     finished f = run_expecting(&p, simulate, 0);
-    cr_expect(strstr(f.err, "`nhsym chart` would measure"), "%s", f.err);
+    cr_expect(strstr(f.err, "measuring other methods would take longer"), "%s", f.err);
     finished_clear(&f);
     f = run_expecting(&p, "chart sleigh --set a=0.4 --budget 1 --verbose", 0);
     cr_expect(strstr(f.err, "will choose by this chart"), "%s", f.err);
@@ -276,7 +345,7 @@ Test(ranking, a_chart_is_remembered)
     cr_expect(strstr(f.err, "the chart of these equations"), "%s", f.err); /* which, on a busy machine, may have nothing below that */
     finished_clear(&f);
     f = run_expecting(&p, "simulate sleigh --set a=0.41 --initial omega=2 --until 3 --accuracy 1e-6 --step 1", 0); /* other equations */
-    cr_expect(strstr(f.err, "`nhsym chart` would measure"), "%s", f.err);
+    cr_expect(strstr(f.err, "measuring other methods would take longer") && !strstr(f.err, "chart"), "%s", f.err);
     finished_clear(&f);
     static const char *const nowhere[] = {"NHSYM_CACHE=", NULL};
     f = run_so(&p, &(manner){.environment = nowhere}, simulate);

@@ -16,6 +16,7 @@ static const double quick = 0.1, faster = 20;  /* a first run that takes longer 
 static const double patience = 10;        /* times what was measured: the first run may take so long, or `quick` */
 static const double worthwhile = 0.05;    /* seconds: other ways are measured for a motion that takes so long by the winner of the race, */
 static const double survey_share = 0.25;  /* in such a part of that time; */
+static const double shortest = 5e-4, most_times = 16; /* where there are more motions like it: seconds of one at least, and how many of them count */
 static const double gain = 0.8;           /* one of them takes over whose remaining cost is such a part of the winner's */
 static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one number of fixed steps to the next */
 
@@ -247,7 +248,7 @@ static double cost_of_winner(const search *s)
     double least = INFINITY;
     for (size_t i = 0; i < s->survey.count; i++)
         if (way[i].method == s->method[0] && way[i].velocities == NH_OWN_VELOCITIES && way[i].error < s->eps)
-            least = fmin(least, nh_way_cost(s->survey.count, way, s->eps, &way[i]) - way[i].seconds);
+            least = fmin(least, nh_way_cost(s->survey.count, way, s->eps, &way[i]) - (s->ways->more > 0 ? 0 : way[i].seconds));
     return least;
 }
 
@@ -256,10 +257,10 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
 {
     if (!s->ways->survey || !t || !(complete(t) || s->stopped)) return NULL;
     s->first = whole(s->request, t);
-    if (s->first < worthwhile) return s->out->choice = NH_CHOICE_SHORT, NULL;
+    if (s->first * (1 + s->ways->more) < worthwhile || s->first < shortest) return s->out->choice = NH_CHOICE_SHORT, NULL;
     double *work = nh_alloc_array(2 * s->request->model->m + 1, sizeof *work), limit = s->request->max_seconds;
     nh_state at = state_on_the_way(s, t, work);
-    nh_survey_terms terms = {.eps = s->eps, .best = s->method[0], .seconds = s->first, .budget = survey_share * s->first, .plain = s->ways->plain};
+    nh_survey_terms terms = {.eps = s->eps, .best = s->method[0], .seconds = s->first, .budget = survey_share * s->first * between(s->ways->more, 1, most_times), .plain = s->ways->plain};
     if (limit > 0) terms.budget = fmin(terms.budget, survey_share * limit);
     const nh_model *other = s->ways->derive && !s->ways->plain && !s->request->smallest ? s->ways->derive(s->ways->context, terms.budget) : NULL;
     if (other) s->own.other = other;
@@ -273,7 +274,10 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
     nh_way_choice choice = nh_way_cheapest(s->survey.count, s->survey.way, s->eps, &limits);
     if (!choice.way || nh_interrupted()) return NULL;
     if (complete(t) && !(nh_way_cost(s->survey.count, s->survey.way, s->eps, choice.way) < gain * cost_of_winner(s))) return NULL;
-    return take_way(s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->seconds * span_of(s->request))), tolerance);
+    const nh_method *winner[2] = {s->method[0], s->method[1]};
+    nh_trajectory *found = take_way(s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->seconds * span_of(s->request))), tolerance);
+    if (!found) s->way = NULL, s->method[0] = winner[0], s->method[1] = winner[1];
+    return found;
 }
 
 /* Where nothing was measured before: the pair of methods, and the first run. */
@@ -285,9 +289,7 @@ static nh_trajectory *choose(search *s, double *tolerance, nh_error *error)
     s->out->choice = NH_CHOICE_RACE;
     nh_trajectory *t = race(s, *tolerance);
     if (t && nh_interrupted()) return t;
-    const nh_method *winner[2] = {s->method[0], s->method[1]};
     nh_trajectory *other = take_surveyed(s, t, tolerance);
-    if (!other) s->way = NULL, s->method[0] = winner[0], s->method[1] = winner[1];
     if (!other && complete(t)) return t;
     if (!other) other = run(s, s->method[0], *tolerance, true, s->request->max_seconds, t ? &ignored : error);
     if (other && !nh_interrupted()) {
@@ -341,6 +343,15 @@ static nh_trajectory *tighten(search *s, nh_error *error)
         last_ratio = ratio;
         coarse = fine;
         fine = tighter(s, coarse, between(pow(eps / (4 * s->out->estimate), 1.25), 1e-5, step));
+        bool longer = s->out->choice == NH_CHOICE_SHORT && complete(a) && a->motion->seconds > worthwhile; /* than at the first tolerance */
+        nh_trajectory *other = longer ? take_surveyed(s, a, &coarse) : NULL;
+        if (!other) continue;
+        nh_trajectory_free(a);
+        a = other;
+        clean = false;
+        last_difference = 0;
+        s->out->tolerance = coarse;
+        fine = tighter(s, coarse, step);
     }
     return a && !clean && !nh_interrupted() ? undisturbed(s, a) : a;
 }

@@ -28,6 +28,7 @@ typedef struct {
     const nh_way *way;
     bool surveyed;                      /* they come from surveys, not from a chart */
     bool survey;                        /* others may be measured where none of these does */
+    double more;                        /* motions like this one are to be computed as this one was: measuring pays so much more */
     bool plain;                         /* only the model's own velocities and methods with error control, in a survey */
     void *context;
     /* The model in other velocities, where it can be had in so many seconds; else NULL.  May be NULL. */

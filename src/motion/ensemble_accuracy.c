@@ -14,6 +14,7 @@ static const double most_left = 0.05; /* of the members: so many may be computed
 static const double most_step = 1e-5; /* from one tolerance to the next */
 
 static const double passes = 2.3;     /* runs that an ensemble needs, of the cost of the first */
+static const double slower = 10, least_patience = 0.1; /* than the first a member may be; seconds: a busy machine is not to decide who takes another way */
 enum { samples = 2 };                 /* members that are computed alone to see what they cost, beside the first */
 
 /* A member alone. */
@@ -32,6 +33,7 @@ typedef struct {
     double eps;
     nh_ensemble_accuracy *out;
     double *off, *estimate; /* per member: the difference of the last two runs, and what it says of the tighter one */
+    nh_way usual;           /* that of the first */
     nh_ways ways;           /* for members alone: that of the first one, or what was given */
     loner *one;             /* per member */
     size_t *alone;          /* those that are to be computed alone */
@@ -193,11 +195,15 @@ static double cost_alone(search *s, const nh_ways *ways)
 {
     nh_accuracy a = {.held = false};
     nh_ensemble_accuracy *out = s->out;
-    compute_alone(s, 0, ways, &a);
+    nh_ways all = *ways;
+    all.more = (double)(s->members - 1);
+    compute_alone(s, 0, &all, &a);
     if (!a.held || nh_interrupted()) return INFINITY;
     out->way = a.way;
     out->choice = a.choice;
-    s->ways = (nh_ways){.count = 1, .way = &out->way};
+    s->usual = a.way;
+    s->usual.seconds = fmax(slower * a.way.seconds, least_patience / fabs(s->request->times[s->request->count - 1] - s->request->times[0]));
+    s->ways = (nh_ways){.count = 1, .way = &s->usual};
     if (a.way.velocities == NH_OTHER_VELOCITIES && !s->own.other) s->own.other = ways->derive(ways->context, INFINITY);
     double begin = nh_clock_of_thread();
     size_t n = s->members - 1 < samples ? s->members - 1 : samples;

@@ -7,13 +7,13 @@
 #include "base/progress.h"
 #include "motion/accuracy.h"
 
-enum { least_outputs = 9, most_outputs = 1000 };
+enum { least_outputs = 9, most_outputs = 1000, most_runs = 3 };
 static const double share = 1.0 / 16, most_part = 0.25; /* of the budget, that the best known way takes for the piece; of the motion */
 static const double patience = 2, least_seconds = 2e-4; /* times the best so far: what takes longer has lost */
 static const double finer = 1e-2, finest_stiff = 1e-13; /* the reference: in parts of the error that is aimed at; CVODE's tolerance */
 static const double least_error = 3e-14;               /* that can be aimed at */
-static const double close = 30;                        /* an error so many times below the aim is as good as that: no second run */
-static const double safety = 3;                        /* the second run aims below */
+static const double close = 30;                        /* an error so many times below the aim is as good as that: no further run */
+static const double safety = 3;                        /* further runs aim below */
 static const double long_motion = 1;                   /* second: then the functions of methods with fixed steps are worth deriving */
 
 typedef struct {
@@ -74,7 +74,7 @@ static void try_way(survey *s, const nh_method *method, nh_velocities velocities
     double setting = method->order ? s->length / (double)(s->steps + 1) : fmin(s->aim, nh_accuracy_loosest);
     double spacing = s->length / (double)(s->piece.count - 1);
     s->out->tried++;
-    for (int i = 0; i < 2 && s->out->count < NH_SURVEY_WAYS; i++) {
+    for (int i = 0; i < most_runs && s->out->count < NH_SURVEY_WAYS; i++) {
         if (method->order) setting = spacing / ceil(spacing / setting * (1 - 1e-9)); /* steps end at the outputs */
         nh_trajectory *t = run(s, method, velocities, setting, fmax(patience * s->best, least_seconds));
         if (!t) return;
@@ -134,8 +134,9 @@ static void try_all(survey *s)
     s->reference = run(s, best, NH_OWN_VELOCITIES, fmax(finest, fmin(s->aim, nh_accuracy_loosest) * finer), s->terms->budget / 2);
     if (!s->reference) return;
     s->steps = s->reference->motion->steps;
-    s->best = s->reference->motion->seconds;
+    s->best = INFINITY;
     try_way(s, best, NH_OWN_VELOCITIES);
+    s->best = fmin(s->best, s->reference->motion->seconds);
     for (size_t i = 0; i < sizeof candidates / sizeof *candidates && left(s) > 0 && !nh_interrupted(); i++) {
         const nh_method *method = nh_method_find(candidates[i].method);
         bool first = method == best && candidates[i].velocities == NH_OWN_VELOCITIES;
