@@ -285,6 +285,8 @@ Test(cli_json, accuracy_reaches_the_result)
     finished_clear(&f);
     root = json_of(&p, "simulate sleigh --initial omega=2 --json - --ensemble 20 --accuracy 1e-6 --step 5", 0);
     cr_expect(cJSON_IsTrue(find(root, "accuracy.held")));
+    cr_expect(cJSON_IsBool(find(root, "accuracy.all_alone")) && cJSON_IsString(find(root, "accuracy.method_alone")) && cJSON_IsString(find(root, "accuracy.choice")));
+    cr_expect_gt(cJSON_GetNumberValue(find(root, "accuracy.ratio")), 0);
     cJSON_Delete(root);
     place_clear(&p);
 }

@@ -31,7 +31,7 @@ typedef struct {
     nh_tape *values;
     bool *alone;
     long *evaluations; /* per batch */
-    double deadline;   /* by the clock of the thread; INFINITY: none */
+    double begun, limit; /* seconds by the clock of the thread; INFINITY: any number */
     double *reached;   /* times to which batches came; NULL: nobody asks */
 } plan;
 
@@ -172,12 +172,21 @@ static void store(batch *b, size_t output)
     nh_free(buffer);
 }
 
+/* Is it over with the time, or plainly will be? */
+static bool late(const batch *b)
+{
+    const plan *p = b->p;
+    if (!(p->limit < INFINITY)) return false;
+    double spent = nh_clock_of_thread() - p->begun, begin = p->request->times[0], part = (b->t - begin) / (p->request->times[p->request->count - 1] - begin);
+    return spent > p->limit || (spent > p->limit / 4 && spent > 2 * part * p->limit) || (spent > p->limit / 16 && spent > 4 * part * p->limit);
+}
+
 /* Up to `target`; false when no step is small enough. */
 static bool go_to(batch *b, double target, long *steps)
 {
     const nh_options *o = b->p->request->options;
     while (b->t != target) {
-        if (nh_interrupted() || (b->p->deadline < INFINITY && nh_clock_of_thread() > b->p->deadline)) return false;
+        if (nh_interrupted() || late(b)) return false;
         double wanted = b->h, left = target - b->t;
         bool last = fabs(b->h) >= fabs(left) * (1 - 1e-12);
         if (last) b->h = left;
@@ -301,10 +310,7 @@ static void do_alone(size_t index, void *context)
     loner *l = &((loners *)context)->one[index];
     const nh_ensemble *e = p->out;
     const nh_model *o = p->request->model;
-    if (nh_interrupted()) {
-        unknown_from(p, l->member, 0);
-        return;
-    }
+    if (nh_interrupted()) return unknown_from(p, l->member, 0);
     size_t each = e->count * e->n;
     double *z = nh_alloc_array(2 * o->m, sizeof *z), *v = z + o->m, *target = e->value + l->member * each;
     nh_dynamics *d = nh_dynamics_create(o);
@@ -358,7 +364,7 @@ static void go_alone(plan *p, bool all, size_t threads)
 
 static bool open_plan(plan *p, const nh_trajectory_request *q, nh_ensemble *e, const double *initial)
 {
-    *p = (plan){.request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e), .deadline = INFINITY};
+    *p = (plan){.request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e), .limit = INFINITY};
     p->evaluations = nh_alloc_array((e->members + lanes - 1) / lanes, sizeof *p->evaluations);
     p->alone = nh_alloc_array(e->members, sizeof *p->alone);
     return !e->scene->implicit && e->scene->kept && nh_tableau_rk8pd(&p->tableau);
@@ -402,15 +408,15 @@ nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, 
 
 nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, const double *initial, double seconds, nh_trial *trial)
 {
-    nh_error ignored;
-    nh_error_clear(&ignored);
+    nh_error ignored = {0};
     plan p;
     double begin = nh_clock_of_thread(), reached = q->times[0], span = q->times[q->count - 1] - q->times[0];
     nh_ensemble *e = nh_ensemble_empty(q, members < lanes ? members : lanes, &ignored);
-    *trial = (nh_trial){.seconds = INFINITY};
+    *trial = (nh_trial){.seconds = 0};
     if (!e) return NULL;
     bool together = open_plan(&p, q, e, initial);
-    p.deadline = begin + seconds;
+    p.begun = begin;
+    p.limit = seconds;
     p.reached = &reached;
     if (together) do_batch(0, &p);
     trial->members = e->members;
@@ -419,7 +425,8 @@ nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, con
     bool complete = together && reached == q->times[q->count - 1] && !nh_interrupted();
     for (size_t i = 0; i < e->members; i++)
         if (p.alone[i]) trial->left++, unknown_from(&p, i, 0);
-    if (complete) trial->seconds = e->seconds = nh_clock_of_thread() - begin, e->evaluations = trial->evaluations;
+    trial->seconds = together ? nh_clock_of_thread() - begin : INFINITY;
+    if (complete) e->seconds = trial->seconds, e->evaluations = trial->evaluations;
     close_plan(&p);
     if (complete) return e;
     nh_ensemble_free(e);

@@ -225,7 +225,7 @@ static bool cheaper_alone(search *s, double each, nh_ensemble **first)
     nh_ensemble *e = nh_ensemble_try(&q, s->members, start, all / passes, &trial);
     nh_free(start);
     s->out->evaluations += trial.evaluations;
-    double together = e ? passes * trial.seconds + (double)trial.left * each : all / fmax(trial.part, 1e-6);
+    double together = e ? passes * trial.seconds + (double)trial.left * each : passes * trial.seconds / fmax(trial.part, 1e-6);
     s->out->ratio = all / together;
     bool whole = e && e->members == s->members && !trial.left;
     if (whole && together < all) {

@@ -56,6 +56,9 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
     }
 }
 
+/* Where a method was chosen from. */
+static const char *const choices[] = {[NH_CHOICE_RACE] = "race", [NH_CHOICE_KEPT] = "kept", [NH_CHOICE_SURVEY] = "measured", [NH_CHOICE_SHORT] = "short"};
+
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root)
 {
     if (!a) {
@@ -67,6 +70,7 @@ void nh_accuracy_json(const nh_accuracy *a, nh_json *root)
     nh_json_put_bool(item, "held", a->held);
     nh_json_put_number(item, "estimate", a->estimate);
     nh_json_put_number(item, "step", a->step);
+    nh_json_put_text(item, "choice", choices[a->choice]);
     nh_json_put_bool(item, "measured", a->measured);
     nh_json_put_text(item, "second", a->second);
     nh_json_put_number(item, "difference", a->difference);
@@ -86,6 +90,10 @@ static void put_accuracy_of_all(const nh_simulation *s, nh_json *root)
     nh_json_put_number(item, "wanted", a->wanted);
     nh_json_put_bool(item, "held", a->held);
     nh_json_put_number(item, "estimate", a->estimate);
+    nh_json_put_bool(item, "all_alone", a->all_alone);
+    nh_json_put_text(item, "method_alone", a->way.method ? a->way.method->name : NULL);
+    nh_json_put_text(item, "choice", a->way.method ? choices[a->choice] : NULL);
+    nh_json_put_number(item, "ratio", a->ratio > 0 ? a->ratio : NAN);
     nh_json_put_number(item, "alone", (double)a->alone);
     nh_json_put_number(item, "unsure", (double)a->unsure);
     nh_json_put_number(item, "runs", a->runs);
