@@ -292,6 +292,25 @@ Test(ranking, a_chart_outranks_a_survey)
     place_clear(&p);
 }
 
+/* Another way has to save a fifth beside what remains of the best so far; where that is done with its first run it goes on without being measured again. */
+Test(ranking, a_survey_changes_only_what_pays)
+{
+    nh_survey v = {.count = 3, .way = {run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-8, 1e-9, 3), run_of("ARKODE Verner", NH_OWN_VELOCITIES, 1e-8, 1e-9, 2.7), run_of("GSL rkf45", NH_OWN_VELOCITIES, 1e-8, 1e-7, 0.1)}};
+    const nh_method *best = v.way[0].method;
+    nh_way_limits limits = {.spacing = 1};
+    nh_way_choice c = nh_survey_choose(&v, best, 1e-8, &limits, false);
+    cr_expect(c.way == &v.way[0] && c.next == 1, "%g", c.next);
+    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, true).way == NULL);
+    v.way[1].seconds = 2;
+    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, false).way == &v.way[1]);
+    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, true).way == NULL); /* two runs of 2 against one of 3 */
+    v.way[1].seconds = 1;
+    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, true).way == &v.way[1]);
+    cr_expect(nh_survey_choose(&v, best, 1e-12, &limits, true).way == NULL);
+    v.way[0].error = 1e-7; /* the best so far was not measured below eps: whatever was */
+    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, true).way == &v.way[1]);
+}
+
 /* A survey of plain ways does not tell what is the cheapest of all. */
 Test(ranking, a_plain_survey_says_less)
 {

@@ -17,7 +17,6 @@ static const double patience = 10;        /* times what was measured: the first 
 static const double worthwhile = 0.05;    /* seconds: other ways are measured for a motion that takes so long by the winner of the race, */
 static const double survey_share = 0.25;  /* in such a part of that time; */
 static const double shortest = 5e-4, most_times = 16; /* where there are more motions like it: seconds of one at least, and how many of them count */
-static const double gain = 0.8;           /* one of them takes over whose remaining cost is such a part of the winner's */
 static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one number of fixed steps to the next */
 
 typedef struct {
@@ -241,17 +240,6 @@ static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double
     return good ? (nh_state){.t = one.time[0], .q = q_and_v, .v = q_and_v + o->m} : at;
 }
 
-/* What the winner of the race has still to do after its first run, per unit of time; infinite where it did not reach eps on the piece. */
-static double cost_of_winner(const search *s)
-{
-    const nh_way *way = s->survey.way;
-    double least = INFINITY;
-    for (size_t i = 0; i < s->survey.count; i++)
-        if (way[i].method == s->method[0] && way[i].velocities == NH_OWN_VELOCITIES && way[i].error < s->eps)
-            least = fmin(least, nh_way_cost(s->survey.count, way, s->eps, &way[i]) - (s->ways->more > 0 ? 0 : way[i].seconds));
-    return least;
-}
-
 /* Other ways on a piece of the motion, whose first run by the winner of the race is t; the first run of one that saves time, or NULL. */
 static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *tolerance)
 {
@@ -271,9 +259,8 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
     s->out->seconds += s->survey.seconds;
     if (s->survey.count && s->ways->keep && !nh_interrupted()) s->ways->keep(s->ways->context, s->eps, &s->survey);
     nh_way_limits limits = limits_of(s);
-    nh_way_choice choice = nh_way_cheapest(s->survey.count, s->survey.way, s->eps, &limits);
+    nh_way_choice choice = nh_survey_choose(&s->survey, s->method[0], s->eps, &limits, complete(t) && !(s->ways->more > 0));
     if (!choice.way || nh_interrupted()) return NULL;
-    if (complete(t) && !(nh_way_cost(s->survey.count, s->survey.way, s->eps, choice.way) < gain * cost_of_winner(s))) return NULL;
     const nh_method *winner[2] = {s->method[0], s->method[1]};
     nh_trajectory *found = take_way(s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->seconds * span_of(s->request))), tolerance);
     if (!found) s->way = NULL, s->method[0] = winner[0], s->method[1] = winner[1];

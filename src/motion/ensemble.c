@@ -18,7 +18,7 @@
 #define CLONES
 #endif
 
-enum { lanes = NH_ENSEMBLE_BATCH };
+enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* that say nothing of the time that the others take */
 static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* of the step */
 static const double order = 8;
 static const double too_slow = 20;                                        /* a member that needs so much smaller steps than its batch goes alone */
@@ -173,11 +173,12 @@ static void store(batch *b, size_t output)
 }
 
 /* Is it over with the time, or plainly will be? */
-static bool late(const batch *b)
+static bool late(const batch *b, long steps)
 {
     const plan *p = b->p;
     if (!(p->limit < INFINITY)) return false;
     double spent = nh_clock_of_thread() - p->begun, begin = p->request->times[0], part = (b->t - begin) / (p->request->times[p->request->count - 1] - begin);
+    if (steps < first_steps) return spent > p->limit;
     return spent > p->limit || (spent > p->limit / 4 && spent > 2 * part * p->limit) || (spent > p->limit / 16 && spent > 4 * part * p->limit);
 }
 
@@ -186,7 +187,7 @@ static bool go_to(batch *b, double target, long *steps)
 {
     const nh_options *o = b->p->request->options;
     while (b->t != target) {
-        if (nh_interrupted() || late(b)) return false;
+        if (nh_interrupted() || late(b, *steps)) return false;
         double wanted = b->h, left = target - b->t;
         bool last = fabs(b->h) >= fabs(left) * (1 - 1e-12);
         if (last) b->h = left;

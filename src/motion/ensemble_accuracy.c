@@ -15,6 +15,7 @@ static const double most_step = 1e-5; /* from one tolerance to the next */
 
 static const double passes = 2.3;     /* runs that an ensemble needs, of the cost of the first */
 static const double slower = 10, least_patience = 0.1; /* than the first a member may be; seconds: a busy machine is not to decide who takes another way */
+static const double most_told = 1000;  /* a ratio above this says nothing more */
 enum { samples = 2 };                 /* members that are computed alone to see what they cost, beside the first */
 
 /* A member alone. */
@@ -253,7 +254,8 @@ static void explain(search *s)
     else snprintf(a->why, size, "%s, estimated errors at most %.1e", how, a->estimate);
     size_t used = strlen(a->why);
     if (nh_interrupted() || a->unsure || !(a->ratio > 0)) return;
-    if (a->all_alone) snprintf(a->why + used, size - used, "; in batches they would take about %.2g times as long", 1 / a->ratio);
+    if (a->all_alone && 1 / a->ratio > most_told) snprintf(a->why + used, size - used, "; in batches they would take more than %g times as long", most_told);
+    else if (a->all_alone) snprintf(a->why + used, size - used, "; in batches they would take about %.2g times as long", 1 / a->ratio);
     else snprintf(a->why + used, size - used, "; each alone (%s) would take about %.2g times as long", a->way.method->name, a->ratio);
 }
 

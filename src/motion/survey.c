@@ -16,6 +16,8 @@ static const double close = 30;                        /* an error so many times
 static const double safety = 3;                        /* further runs aim below */
 static const double long_motion = 1;                   /* second: then the functions of methods with fixed steps are worth deriving */
 
+static const double gain = 0.8;                        /* another way than the best so far is chosen when it costs at most such a part of it */
+
 typedef struct {
     const char *method;
     nh_velocities velocities;
@@ -154,4 +156,29 @@ void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, 
     if (open_piece(&s, from, &times)) try_all(&s);
     nh_free(times);
     out->seconds = nh_clock() - s.begun;
+}
+
+/* ---- what it says ---- */
+
+/* The cheapest run of a method in the model's own velocities, or NULL. */
+static const nh_way *way_of(const nh_survey *s, const nh_method *method, double eps)
+{
+    const nh_way *best = NULL;
+    for (size_t i = 0; i < s->count; i++) {
+        const nh_way *w = &s->way[i];
+        if (w->method == method && w->velocities == NH_OWN_VELOCITIES && w->error < eps && (!best || w->seconds < best->seconds)) best = w;
+    }
+    return best;
+}
+
+nh_way_choice nh_survey_choose(const nh_survey *s, const nh_method *best, double eps, const nh_way_limits *limits, bool done)
+{
+    const nh_way *own = way_of(s, best, eps);
+    nh_way_choice choice = nh_way_cheapest(s->count, s->way, eps, limits);
+    if (!choice.way || !own) return choice;
+    double cost = nh_way_cost(s->count, s->way, eps, choice.way), whole = nh_way_cost(s->count, s->way, eps, own);
+    if (cost < gain * (whole - (done ? own->seconds : 0))) return choice;
+    if (choice.way->method != best) choice.next = fmax(1, cost / whole); /* so little is no difference */
+    choice.way = done ? NULL : own;
+    return choice;
 }

@@ -31,4 +31,8 @@ typedef struct {
 /* `from`: a state of the motion between its ends, or the initial one. */
 void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, const nh_survey_terms *terms, nh_survey *out);
 
+/* The cheapest below eps, if it saves time beside the best that was known, which has done one of its runs when `done`: then NULL where nothing does, else that one
+ * itself. */
+nh_way_choice nh_survey_choose(const nh_survey *survey, const nh_method *best, double eps, const nh_way_limits *limits, bool done);
+
 #endif
