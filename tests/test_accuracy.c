@@ -120,7 +120,7 @@ Test(accuracy, a_stiff_motion_gets_another_method)
     nh_ex e = formula(x.model, "y");
     nh_trajectory *t = accurate(x.model, &initial, 20, 1e-6, 1, &e, true, &a);
     cr_assert(t && a.held, "%s", a.why);
-    cr_expect(strncmp(t->method, "CVODE", 5) == 0 && strncmp(a.second, "CVODE", 5) == 0, "%s, %s", t->method, a.second);
+    cr_expect(strcmp(t->method, "CVODE BDF") == 0 && strcmp(a.second, "GSL bsimp") == 0, "%s, %s", t->method, a.second);
     nh_trajectory_free(t);
     mechanics_clear(&x);
 }
@@ -308,20 +308,21 @@ static nh_ensemble *stiff_ensemble(const char *text, const double start[4], doub
     return e;
 }
 
-/* In batches the pair of order 8 would take a hundred thousand steps for what BDF does in some hundred. */
+/* Van der Pol's oscillator while it relaxes: in batches the pair of order 8 would take a hundred thousand steps for what BDF does in some hundred. */
 Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone)
 {
-    static const char *const stiff = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2\nforces: [\"y = -1e5*(y' - cos(x))\"]\n";
-    const double start[4] = {0.4, 0, 0.3, 0.9};
+    static const char *const stiff = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2\nforces: [\"x = 1000*(1 - x^2)*x'\"]\n";
+    const double start[4] = {2, 0.5, 0, 0};
+    nh_ways survey = {.survey = true};
     nh_ensemble_accuracy a;
-    nh_ensemble *e = stiff_ensemble(stiff, start, 5, 1, NULL, &a);
+    nh_ensemble *e = stiff_ensemble(stiff, start, 100, 1, &survey, &a);
     cr_expect(a.held && a.all_alone && a.alone == STIFF_MEMBERS && e->alone == STIFF_MEMBERS && e->incomplete == 0, "%s", a.why);
-    cr_expect(a.way.method && a.way.method->family == NH_METHOD_CVODE && strstr(a.why, "each alone by CVODE") && strstr(a.why, "in batches they would take"), "%s", a.why);
-    cr_expect_lt(e->evaluations, 2000 * 1000, "%ld", e->evaluations); /* in batches more than a million steps of 13 */
+    cr_expect(a.way.method && (a.way.method == nh_method_find("CVODE BDF") || a.way.method == nh_method_find("GSL bsimp")) && strstr(a.why, "each alone by") && strstr(a.why, "in batches they would take"), "%s", a.why);
+    cr_expect_lt(e->evaluations, 5000 * 1000, "%ld", e->evaluations); /* in batches more than a million steps of 13 */
     nh_ensemble_free(e);
     nh_way bdf = {nh_method_find("CVODE BDF"), NH_OWN_VELOCITIES, 1e-8, NAN, 1e-7, 1e-3};
     nh_ways ways = {.count = 1, .way = &bdf}; /* what is measured may differ from run to run; this does not */
-    nh_ensemble *one = stiff_ensemble(stiff, start, 5, 1, &ways, &a), *two = stiff_ensemble(stiff, start, 5, 2, &ways, &a);
+    nh_ensemble *one = stiff_ensemble(stiff, start, 100, 1, &ways, &a), *two = stiff_ensemble(stiff, start, 100, 2, &ways, &a);
     cr_expect(a.all_alone && a.choice == NH_CHOICE_KEPT, "%s", a.why);
     cr_expect_eq(memcmp(one->value, two->value, STIFF_MEMBERS * COUNT * 2 * sizeof *one->value), 0);
     nh_ensemble_free(one);

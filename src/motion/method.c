@@ -6,6 +6,7 @@ static const nh_method methods[] = {
     {"GSL rk8pd", "explicit Runge-Kutta pair of order 8", NH_METHOD_EXPLICIT, NH_RK8PD, false, 0},
     {"GSL rkf45", "explicit Runge-Kutta pair of order 5", NH_METHOD_EXPLICIT, NH_RKF45, false, 0},
     {"GSL msadams", "Adams's method, fixed-point iteration", NH_METHOD_EXPLICIT, NH_MSADAMS, false, 0},
+    {"GSL bsimp", "extrapolated semi-implicit midpoint steps, for stiff equations", NH_METHOD_EXPLICIT, NH_BSIMP, false, 0},
     {"CVODE Adams", "Adams's method, Newton's iteration", NH_METHOD_CVODE, NH_ADAMS, false, 0},
     {"CVODE BDF", "backward differentiation, for stiff equations", NH_METHOD_CVODE, NH_BDF, false, 0},
     {"ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_PAIRS, NH_DORMAND_PRINCE_5, false, 0},
