@@ -292,7 +292,7 @@ Test(ranking, a_chart_outranks_a_survey)
     place_clear(&p);
 }
 
-/* Another way has to save a fifth beside what remains of the best so far; where that is done with its first run it goes on without being measured again. */
+/* Another way has to save three tenths beside what remains of the best so far; where that is done with its first run it goes on without being measured again. */
 Test(ranking, a_survey_changes_only_what_pays)
 {
     nh_survey v = {.count = 3, .way = {run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-8, 1e-9, 3), run_of("ARKODE Verner", NH_OWN_VELOCITIES, 1e-8, 1e-9, 2.7), run_of("GSL rkf45", NH_OWN_VELOCITIES, 1e-8, 1e-7, 0.1)}};

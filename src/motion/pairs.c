@@ -18,13 +18,17 @@
 #define set_user_data ARKodeSetUserData
 #define tolerances    ARKodeSVtolerances
 #define free_memory   ARKodeFree
+#define set_most_fails ARKodeSetMaxErrTestFails
 #else
 #define set_stop_time ERKStepSetStopTime
 #define evolve        ERKStepEvolve
 #define set_user_data ERKStepSetUserData
 #define tolerances    ERKStepSVtolerances
 #define free_memory   ERKStepFree
+#define set_most_fails ERKStepSetMaxErrTestFails
 #endif
+
+enum { most_fails = 100 }; /* of the error test, in one step: at the edge of its stability a pair shortens the step often, by little */
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -87,7 +91,7 @@ static bool set_up(pairs_work *work, nh_pairs_method method, const double *initi
     work->arkode = ERKStepCreate(call_rate, work->times[0], work->state, work->sundials.context);
     return work->arkode && nh_sundials_listen(ERKStep, work->arkode, &work->sundials) &&
            set_user_data(work->arkode, work) == ARK_SUCCESS && ERKStepSetTableNum(work->arkode, tables[method]) == ARK_SUCCESS &&
-           tolerances(work->arkode, rtol, work->tolerance) == ARK_SUCCESS;
+           set_most_fails(work->arkode, most_fails) == ARK_SUCCESS && tolerances(work->arkode, rtol, work->tolerance) == ARK_SUCCESS;
 }
 
 nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,

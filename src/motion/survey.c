@@ -16,7 +16,7 @@ static const double close = 30;                        /* an error so many times
 static const double safety = 3;                        /* further runs aim below */
 static const double long_motion = 1;                   /* second: then the functions of methods with fixed steps are worth deriving */
 
-static const double gain = 0.8;                        /* another way than the best so far is chosen when it costs at most such a part of it */
+static const double gain = 0.7;                        /* another way than the best so far is chosen when it costs at most such a part of it */
 
 typedef struct {
     const char *method;
