@@ -260,3 +260,48 @@ Test(method, outputs_do_not_change_the_motion)
     nh_motion_free(exact);
     mechanics_clear(&x);
 }
+
+/* x'' = -x from (0, 1): the guard x - 0.5 changes its sign at pi/6, 5 pi/6, ... */
+static bool half(double t, const double *z, double *value, void *context)
+{
+    (void)t, (void)context;
+    value[0] = 2;
+    value[1] = z[0] - 0.5;
+    return true;
+}
+
+static bool circle(double t, const double *z, double *rate, void *context)
+{
+    (void)t, (void)context;
+    rate[0] = z[1];
+    rate[1] = -z[0];
+    return true;
+}
+
+/* Every method with error control stops at a guard on request, with all outputs before it, and at a state that is as good as the others. */
+Test(method, guards)
+{
+    enum { count = 41 };
+    double times[count], z[2] = {0, 1};
+    for (size_t i = 0; i < count; i++) times[i] = 0.05 * (double)i;
+    nh_flow_problem problem = {.size = 2, .rate = circle, .guards = 2, .guard = half};
+    for (size_t k = 0; k < nh_method_count(); k++) {
+        const nh_method *method = nh_method_at(k);
+        nh_error error = {0};
+        nh_flow_options options = {.rtol = 1e-11, .guarded = true};
+        if (method->order) continue;
+        nh_motion *motion = nh_method_flow(method, &problem, z, count, times, &options, &error);
+        cr_assert(motion != NULL, "%s: %s", method->name, error.what);
+        cr_expect(!motion->complete && motion->guard_hit == 1, "%s: guard %ld", method->name, motion->guard_hit);
+        cr_expect_float_eq(motion->end_time, M_PI / 6, 1e-6, "%s: %.12g", method->name, motion->end_time);
+        cr_expect_float_eq(motion->end_state[0], sin(motion->end_time), 1e-8, "%s: %g", method->name, motion->end_state[0] - sin(motion->end_time));
+        cr_expect_eq(motion->count, 11, "%s: %zu outputs", method->name, motion->count);
+        for (size_t i = 0; i < motion->count; i++) cr_expect_float_eq(motion->state[2 * i], sin(times[i]), 1e-8, "%s", method->name);
+        nh_motion_free(motion);
+        if (method->family == NH_METHOD_CVODE) continue;
+        options.guarded = false;
+        motion = nh_method_flow(method, &problem, z, count, times, &options, &error);
+        cr_expect(motion && motion->complete, "%s goes on without", method->name);
+        nh_motion_free(motion);
+    }
+}

@@ -86,7 +86,7 @@ static void master_against_full(const char *name, const char *text, const char *
     for (size_t i = 0; i < slice.n; i++) x0[i] = q[shape[i]];
     cr_assert(nh_reduced_start(&reduced, x0, w, z));
     for (size_t i = 0; i < count; i++) times[i] = until * (double)i / (count - 1);
-    nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, count, times, &options, &error);
+    nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, count, times, &(nh_reconstruct_how){.tolerance = options.tolerance, .steps = options.steps}, &error);
     must(r != NULL, &error, name);
     cr_assert(r->complete, "%s: %s", name, r->note);
     double *full = full_motion(&x, q, v, count, times, options.tolerance), off = distance(count * m, r->q, full), way = distance(m, full + (count - 1) * m, full);
@@ -223,7 +223,7 @@ Test(reduction, crane_reference_motions)
         stage_open(&s, "crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, q, &error);
         for (size_t i = 0; i < 4; i++) w[i] = v[s.slice.shape[i]], x[i] = q[s.slice.shape[i]];
         cr_assert(nh_reduced_start(&s.c.reduced, x, w, z));
-        nh_reconstruction *r = nh_reconstruct(&s.c.reduced, &s.slice, z, 2, times, &s.options, &error);
+        nh_reconstruction *r = nh_reconstruct(&s.c.reduced, &s.slice, z, 2, times, &(nh_reconstruct_how){.tolerance = s.options.tolerance, .steps = s.options.steps}, &error);
         must(r && r->complete, &error, "the crane");
         oracle_flat(oracle_get(motion, "qT"), want);
         tally_add(&tq, 8, r->q + 8, want, 0);
@@ -366,7 +366,7 @@ Test(reduction, crane_twice_reduced_reference_values)
         for (size_t i = 0; i < 6; i++) got[i] = z[i < 3 ? order[i] : 3 + order[i - 3]];
         tally_add(&t0, 6, got, want, 0);
         cr_expect_float_eq(z[6], oracle_number(motion, "vartheta"), 1e-12);
-        nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, 2, times, &s.options, &error);
+        nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, 2, times, &(nh_reconstruct_how){.tolerance = s.options.tolerance, .steps = s.options.steps}, &error);
         must(r && r->complete, &error, "the crane, twice reduced");
         oracle_flat(oracle_get(motion, "twice_reduced_T"), want);
         tally_add(&tz, 6, r->z + 7, want, 0);
@@ -408,7 +408,7 @@ static void twice_against_once(const char *name, nh_system *system, const size_t
     cr_expect_eq(t.strong < 1e-10, strong, "%s: (ii') %g", name, t.strong);
     for (size_t i = 0; i < count; i++) times[i] = until * (double)i / (count - 1);
     second_start(&t, x, w, z);
-    nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, count, times, &s.options, &error);
+    nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, count, times, &(nh_reconstruct_how){.tolerance = s.options.tolerance, .steps = s.options.steps}, &error);
     must(r && r->complete, &error, name);
     cr_assert(nh_reduced_start(&s.c.reduced, x, w, z));
     nh_reduced_flow *flow = nh_reduced_flow_create(&s.c.reduced);
@@ -567,7 +567,7 @@ Test(reduction, disk_reference_motions)
             cr_assert(nh_slice_components(&slice, q, v, u));
             for (size_t i = 0; i < 3; i++) w[i] = u[independent[i]];
             cr_assert(nh_reduced_start(&reduced, q, w, z));
-            nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, 2, times, &options, &error);
+            nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, 2, times, &(nh_reconstruct_how){.tolerance = options.tolerance, .steps = options.steps}, &error);
             must(r && r->complete, &error, "disk");
             oracle_flat(oracle_get(motion, "zT"), want);
             tally_add(&tz, 5, r->q + 5, want, 0);

@@ -7,6 +7,7 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include "base/memory.h"
+#include "motion/guards.h"
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -18,6 +19,7 @@ typedef struct {
     size_t count;
     double h, before, now;     /* next step; times before and after the last one */
     double *state, *old, *work; /* now; before the last step */
+    nh_guards guards;
     long evaluations;
 } explicit_work;
 
@@ -36,17 +38,31 @@ static bool changed_after(const explicit_work *work, double t, double *z)
     return !work->options->after || work->options->after(t, z, work->options->after_context);
 }
 
+/* Back to before the last step, where a guard has changed its sign over it. */
+static nh_step go_back(explicit_work *work, nh_guard_verdict verdict, double *time)
+{
+    memcpy(work->state, work->old, work->problem->size * sizeof *work->state);
+    *time = work->now = work->before;
+    gsl_odeiv2_evolve_reset(work->driver->e);
+    gsl_odeiv2_step_reset(work->driver->s);
+    return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
+}
+
 static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
 {
     explicit_work *work = context;
-    double target = work->times[work->between ? work->count - 1 : motion->count], wanted = work->h;
+    double target = work->times[work->between ? work->count - 1 : motion->count];
     size_t size = work->problem->size;
+    if (fabs(work->h) > work->guards.longest) work->h = copysign(work->guards.longest, work->h);
+    double wanted = work->h;
     work->before = *time;
     memcpy(work->old, work->state, size * sizeof *work->old);
     int flag = gsl_odeiv2_evolve_apply(work->driver->e, work->driver->c, work->driver->s, &work->system, time, target, &work->h, work->state);
     motion->evaluations = work->evaluations;
     work->now = *time;
     bool last = *time == work->times[work->count - 1];
+    nh_guard_verdict verdict = flag == GSL_SUCCESS ? nh_guards_judge(&work->guards, work->before, *time, work->state, motion) : NH_GUARD_KEPT;
+    if (verdict != NH_GUARD_KEPT) return go_back(work, verdict, time);
     if (*time == target && fabs(work->h) < fabs(wanted)) work->h = wanted; /* it was cut to end there */
     if (flag == GSL_SUCCESS && work->options->after) {
         if (!changed_after(work, *time, work->state)) {
@@ -128,6 +144,7 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
     work.old = work.state + size;
     work.work = work.old + size;
     memcpy(work.state, initial, size * sizeof *initial);
+    nh_guards_begin(&work.guards, problem, options, initial, count, times);
     bool good = set_up(&work, method, nh_motion_rtol(motion, options));
     if (good) {
         nh_stepper stepper = {.context = &work, .advance = explicit_advance, .state = work.between ? between_state : explicit_state, .stuck = explicit_stuck};
@@ -140,6 +157,7 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
     }
     if (work.between) gsl_odeiv2_step_free(work.between);
     if (work.driver) gsl_odeiv2_driver_free(work.driver);
+    nh_guards_clear(&work.guards);
     nh_free(work.state);
     return motion;
 }

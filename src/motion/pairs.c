@@ -9,6 +9,7 @@
 #include <nvector/nvector_serial.h>
 
 #include "base/memory.h"
+#include "motion/guards.h"
 #include "motion/sundials.h"
 
 /* ARKODE 6.1, which comes with SUNDIALS 7.1, has these in common for all its steppers. */
@@ -18,12 +19,14 @@
 #define set_user_data ARKodeSetUserData
 #define tolerances    ARKodeSVtolerances
 #define free_memory   ARKodeFree
+#define reset         ARKodeReset
 #else
 #define set_stop_time ERKStepSetStopTime
 #define evolve        ERKStepEvolve
 #define set_user_data ERKStepSetUserData
 #define tolerances    ERKStepSVtolerances
 #define free_memory   ERKStepFree
+#define reset         ERKStepReset
 #endif
 
 typedef struct {
@@ -33,6 +36,8 @@ typedef struct {
     N_Vector state, tolerance;
     const double *times;
     size_t count;
+    nh_guards guards;
+    double *old;       /* before the last step, where guards are watched */
     long evaluations;
 } pairs_work;
 
@@ -48,11 +53,21 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
 static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
 {
     pairs_work *work = context;
-    double target = work->times[motion->count];
+    double target = work->times[motion->count], before = *time;
+    size_t bytes = work->problem->size * sizeof *work->old;
+    if (fabs(target - before) > work->guards.longest) target = before + copysign(work->guards.longest, target - before);
+    memcpy(work->old, NV_DATA_S(work->state), bytes);
     int flag = set_stop_time(work->arkode, target);
     if (flag >= 0) flag = evolve(work->arkode, target, work->state, time, ARK_ONE_STEP);
     motion->evaluations = work->evaluations;
     if (flag == ARK_TSTOP_RETURN) *time = target;
+    nh_guard_verdict verdict = flag >= 0 ? nh_guards_judge(&work->guards, before, *time, NV_DATA_S(work->state), motion) : NH_GUARD_KEPT;
+    if (verdict != NH_GUARD_KEPT) {
+        memcpy(NV_DATA_S(work->state), work->old, bytes);
+        *time = before;
+        flag = reset(work->arkode, before, work->state);
+        if (flag >= 0) return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
+    }
     if (flag >= 0) return *time == work->times[work->count - 1] ? NH_STEP_LAST : NH_STEP_ON;
     nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", motion->end_time, work->sundials.message);
     return NH_STEP_FAILED;
@@ -95,7 +110,8 @@ nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, cons
 {
     nh_motion *motion = nh_motion_start(problem->size, problem->size, initial, count, times, options, error);
     if (!motion || motion->complete) return motion;
-    pairs_work work = {.problem = problem, .times = times, .count = count};
+    pairs_work work = {.problem = problem, .times = times, .count = count, .old = nh_alloc_array(problem->size + 1, sizeof *work.old)};
+    nh_guards_begin(&work.guards, problem, options, initial, count, times);
     if (set_up(&work, method, initial, nh_motion_rtol(motion, options), options->scale)) {
         nh_stepper stepper = {.context = &work, .advance = pairs_advance, .state = pairs_state, .stuck = pairs_stuck};
         nh_motion_run(motion, count, times, options, &stepper);
@@ -108,5 +124,7 @@ nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, cons
     if (work.state) N_VDestroy(work.state);
     if (work.tolerance) N_VDestroy(work.tolerance);
     nh_sundials_close(&work.sundials);
+    nh_guards_clear(&work.guards);
+    nh_free(work.old);
     return motion;
 }

@@ -11,7 +11,15 @@
 #define NH_RECONSTRUCT_H
 
 #include "base/option.h"
+#include "motion/method.h"
 #include "reduction/atlas.h"
+
+/* How a motion is computed. */
+typedef struct {
+    const nh_method *method; /* with error control; NULL: CVODE Adams */
+    double tolerance, steps; /* steps: at most */
+    double seconds;          /* of integration at most, a motion that takes longer is not complete; 0: no limit */
+} nh_reconstruct_how;
 
 typedef struct {
     size_t count, m, size; /* output times; coordinates; n + r */
@@ -33,10 +41,10 @@ typedef struct {
 /* The reduced motion from z with g = identity, and the places it stands for.  `slice`: the group divided out, its generators and its slice (whose x are
  * those of `reduced`).  It ends where these become singular.  NULL with a message. */
 nh_reconstruction *nh_reconstruct(const nh_reduced *reduced, const nh_slice *slice, const double *z, size_t count, const double *times,
-                                  const nh_options *options, nh_error *error);
+                                  const nh_reconstruct_how *how, nh_error *error);
 /* The same from a place and its velocity through all charts that are needed; without the group only the reduced motion is computed. */
 nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count, const double *times,
-                                       const nh_options *options, nh_error *error);
+                                       const nh_reconstruct_how *how, nh_error *error);
 void nh_reconstruction_free(nh_reconstruction *reconstruction);
 
 #endif

@@ -84,8 +84,8 @@ bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
         r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
         if (b->reached < fine->count)
             nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
-        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
-        memcpy(b->full, fine->state, fine->count * 2 * m * sizeof *b->full);
+        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
+        for (size_t i = 0; i < fine->count; i++) memcpy(b->full + i * m, fine->state + i * fine->size, m * sizeof *b->full);
         if (ended) nh_reduction_warn(r, "%s", ended);
         else if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
     }
@@ -103,7 +103,7 @@ double nh_reduction_unsure(nh_reduction_bench *b)
     for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
         nh_error ignored = {0};
         nh_motion *other = full_with(b, tolerances[t], b->reached, &ignored);
-        for (size_t i = 0; other && i < b->reached && i < other->count; i++) b->unsure = fmax(b->unsure, nh_reduction_distance(k, other->state + i * other->size, b->full + i * other->size));
+        for (size_t i = 0; other && i < b->reached && i < other->count; i++) b->unsure = fmax(b->unsure, nh_reduction_distance(k, other->state + i * other->size, b->full + i * k->m));
         nh_motion_free(other);
         nh_error_clear(&ignored);
     }
