@@ -82,6 +82,26 @@ static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduct
     return true;
 }
 
+/* By the method that is chosen for the wanted accuracy. */
+static void chosen(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course)
+{
+    nh_reduction *r = b->r;
+    nh_reconstruct_how how;
+    nh_reconstruction *c = nh_reduction_choose(b, s, course, &how);
+    if (!c) {
+        nh_error trouble = {0};
+        nh_reconstruction_free(nh_reduction_follow(b, s, course, true, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = NH_REDUCTION_STEPS}, &trouble));
+        snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
+        nh_error_clear(&trouble);
+        return;
+    }
+    if (course->atlas) reduced_alone(b, s, course, &how);
+    else take_reduced(b, s, c);
+    take_whole(b, s, course, c);
+    nh_reconstruction_free(c);
+    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s: %s", s->group, s->choice.why);
+}
+
 void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course)
 {
     nh_reduction *r = b->r;
@@ -93,8 +113,12 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh
     if (course->atlas) {
         double *start = nh_arena_alloc(r->arena, (s->reduced->n + s->reduced->r + 1) * sizeof *start);
         if (nh_atlas_start(course->atlas, course->q, course->v, start)) s->start = start;
-        reduced_alone(b, s, course, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = fmin(r->options.steps, NH_REDUCTION_STEPS)});
     }
+    if (r->wanted > 0) {
+        chosen(b, s, course);
+        return;
+    }
+    if (course->atlas) reduced_alone(b, s, course, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = fmin(r->options.steps, NH_REDUCTION_STEPS)});
     if (!nearer(b, s, course) || s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
     s->unsure = nh_reduction_unsure(b);
     if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s is %.1e from the one that it is compared with: more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);

@@ -19,8 +19,13 @@ typedef struct {
 
 /* How far two places are apart, relative to 1 + size, angles modulo 2 pi. */
 double nh_reduction_distance(const nh_kinetic *kinetic, const double *a, const double *b);
-/* The reference, and the tolerance of all motions. */
+/* The reference, and the tolerance of all motions; where an accuracy is wanted by the method that reaches it at least cost. */
 bool nh_reduction_full_motion(nh_reduction_bench *bench, nh_error *error);
+/* The same by a method that is chosen for r->wanted: its error is measured in the distance that decides, and is a quarter of that.  False: the motion does not reach its end, or its equations
+ * are not to be had; r->full.why says so, and nothing else has changed. */
+bool nh_reduction_full_accurate(nh_reduction_bench *bench);
+/* The number of outputs up to which two motions (rows of m or more) are no further apart than `allowed`; the largest distance. */
+size_t nh_reduction_reliable(const nh_kinetic *kinetic, size_t count, const double *a, size_t a_stride, const double *b, size_t b_stride, double allowed, double *farthest);
 /* How far full motions with two other tolerances are from the reference at most (it is trusted no further than to 100 tolerances, and this is no larger). */
 double nh_reduction_unsure(nh_reduction_bench *bench);
 
@@ -41,6 +46,8 @@ typedef struct {
 nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *bench, const nh_reduction_stage *stage, const nh_reduction_course *course, bool group, const nh_reconstruct_how *how, nh_error *error);
 /* The largest distance of a motion with the group's from the one that it is to meet, as far as both go. */
 double nh_reduction_farthest(const nh_reduction_stage *stage, const nh_reduction_course *course, const nh_reconstruction *motion);
+/* The cheapest motion that agrees with the full one to r->wanted, or where none does the nearest; and how it is computed.  NULL: none could be started. */
+nh_reconstruction *nh_reduction_choose(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_course *course, nh_reconstruct_how *how);
 /* Integrate, reconstruct, compare; all that the stage says of it. */
 void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_course *course);
 
