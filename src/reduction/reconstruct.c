@@ -62,6 +62,7 @@ static bool store(course *c, const nh_motion *motion, size_t from)
         nh_reduced_flow_time(f->chart->flow, motion->time[i]);
         memcpy(out->z + at * f->inner, z, f->inner * sizeof *z);
         if (!nh_reduced_flow_at(f->chart->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, out->energy + at)) return false;
+        out->energy_size[at] = fmax(nh_reduced_flow_energy_size(f->chart->flow), at ? out->energy_size[at - 1] : 0);
         if (f->group) good = place_of(c, z, out->q + at * out->m);
         out->count += good;
     }
@@ -228,7 +229,8 @@ static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool grou
     out->q = group ? nh_alloc_array(count * m + 1, sizeof *out->q) : NULL;
     out->z = nh_alloc_array(count * inner + 1, sizeof *out->z);
     out->zeta = nh_alloc_array(count * c.f.d + 1, sizeof *out->zeta);
-    out->energy = nh_alloc_array(count + 1, sizeof *out->energy);
+    out->energy = nh_alloc_array(2 * count + 2, sizeof *out->energy);
+    out->energy_size = out->energy + count + 1;
     memcpy(c.state, z, inner * sizeof *z);
     for (size_t i = 0; i < at->moves && group; i++) keep_factors(&c, at->moved + i * c.f.d);
     begin_stretch(&c, q);

@@ -27,6 +27,7 @@ typedef struct {
     double *z;             /* count x (n + r): x and p along the motion, in the chart of that time */
     double *zeta;          /* count x d */
     double *energy;        /* count */
+    double *energy_size;   /* count: the largest of its terms so far, beside which a drift is small or not */
     size_t restarts;       /* of the coordinates of the group */
     size_t charts;         /* changes of the chart */
     size_t first_chart;    /* outputs before the first of them */
