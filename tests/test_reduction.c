@@ -8,6 +8,7 @@
 #include "motion/dynamics.h"
 #include "reduction/chaplygin.h"
 #include "reduction/group.h"
+#include "reduction/group_flow.h"
 #include "reduction/linear.h"
 #include "reduction/momenta.h"
 #include "reduction/reconstruct.h"
@@ -158,6 +159,41 @@ static void stage_close(stage *s)
 }
 
 /* At points and along the motions of the crane: every reduced number of the reference data. */
+/* Ad of a product of exponentials, factor by factor by scaling and squaring. */
+Test(reduction, factors_of_a_group_element)
+{
+    static const struct {
+        const char *file;
+        bool abelian;
+    } cases[] = {{"systems/isotropic_oscillator.yaml", false}, {"systems/sleigh.yaml", false}, {"systems/crane.yaml", false}, {"systems/chaplygin_ball.yaml", false}, {"systems/kepler.yaml", false}, {"systems/contact_oscillator.yaml", true}};
+    static const double parts[] = {0, 0.3, -1.7, 2.9, 11, 1e-9};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_error error = {0};
+        nh_options options = sharp();
+        reducible x = reducible_make(nh_system_read(cases[i].file, 0, NULL, &error), 3, &error);
+        nh_group *g = nh_group_find(x.kinetic, &options, &error);
+        must(g != NULL, &error, cases[i].file);
+        nh_group_flow f;
+        size_t d = g->action.d;
+        double t[10], P[100], next[100], E[100], A[100];
+        nh_group_flow_init(&f, &g->action, true);
+        cr_expect_eq(f.abelian, cases[i].abelian, "%s", cases[i].file);
+        for (size_t a = 0; a < d; a++) t[a] = parts[(a + i) % 6];
+        for (size_t k = 0; k < d * d; k++) P[k] = k % (d + 1) == 0;
+        for (size_t a = 0; a < d; a++) {
+            for (size_t k = 0; k < d * d; k++) A[k] = t[a] * f.ad[a * d * d + k];
+            nh_matrix_exp(d, A, E);
+            nh_multiply(d, d, d, P, E, next);
+            memcpy(P, next, d * d * sizeof *P);
+        }
+        nh_group_flow_factors(&f, t);
+        for (size_t k = 0; k < d * d; k++) cr_expect_float_eq(f.P[k], P[k], 1e-13 * (1 + nh_largest(d * d, P)), "%s, %zu: %.17g, %.17g", cases[i].file, k, f.P[k], P[k]);
+        nh_group_flow_clear(&f);
+        nh_group_free(g);
+        reducible_clear(&x);
+    }
+}
+
 Test(reduction, crane_reference_values)
 {
     nh_error error = {0};

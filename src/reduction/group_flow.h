@@ -11,9 +11,12 @@ typedef struct {
     const nh_reduced_chart *chart;
     const nh_action *action;
     bool group;                     /* its motion is wanted, too */
+    bool abelian;                   /* all ad_a are zero: M = 1 */
     size_t inner, d, m;
     double *ad;                     /* d matrices d x d */
     bool *acts;                     /* ad_a is not zero */
+    bool *cubic;                    /* ad_a^3 = lambda_a ad_a: its exponential has a closed form */
+    double *square, *lambda;        /* ad_a^2, d matrices; lambda_a */
     double *M, *P, *E, *next, *zeta; /* work */
     bool direct;                    /* the place itself is integrated beside (x, p, t) */
     nh_tape *field;                 /* generators at a place */
