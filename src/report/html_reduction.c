@@ -318,6 +318,19 @@ static void answer(nh_html_writer *w, const nh_reduction *r)
     if (r->stages) nh_html_add(w, ".</p>\n");
 }
 
+/* Where an accuracy is wanted: what the stages are compared with. */
+static void full_motion(nh_html_writer *w, const nh_reduction *r)
+{
+    if (!r->full.method) return;
+    nh_html_add(w, "<p>Full motion, ");
+    nh_html_text(w, r->full_formulation);
+    nh_html_add(w, ": ");
+    nh_html_text(w, r->full.why);
+    nh_html_add(w, "; ");
+    nh_html_count(w, (size_t)r->full.evaluations);
+    nh_html_add(w, " evaluations.</p>\n");
+}
+
 void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
 {
     nh_html_writer w = {.out = out, .system = r->system, .dag = r->kinetic->dag, .shown = run->shown, .written = INFINITY};
@@ -330,6 +343,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     if (r->group != r->all) group(&w, r, r->group, r->group->given ? "The group given" : "The group divided out");
     nh_html_add(&w, "</section>\n<section id=\"stages\"><h2>Reduced equations</h2>\n");
     if (!r->stages) nh_html_add(&w, "<p>Nothing could be divided out.</p>\n");
+    full_motion(&w, r);
     for (size_t i = 0; i < r->stages; i++) stage(&w, r, &r->stage[i], i + 1);
     nh_html_add(&w, "</section>\n");
     momenta(&w, r);

@@ -152,7 +152,7 @@ static void put_choice(const nh_reduction *r, const nh_reduction_stage *s, nh_te
 {
     const nh_reduction_choice *c = &s->choice;
     if (!c->method) return;
-    nh_text_addf(out, "  accuracy %.1e %s: %s\n", r->wanted, c->held ? "held" : "not reached", c->why);
+    nh_text_addf(out, "  accuracy %.1e %s up to t = %.4g: %s\n", r->wanted, c->held ? "held" : "not reached", s->reached, c->why);
     nh_text_addf(out, "    %ld evaluations, %.2g ms with the group's motion", c->evaluations, 1e3 * c->seconds);
     if (c->seconds > 0 && r->full.seconds > 0) nh_text_addf(out, ": %.2g times the time of the full motion", c->seconds / r->full.seconds);
     if (s->seconds > 0 && r->full.seconds > 0) nh_text_addf(out, ", %.2g times without it", s->seconds / r->full.seconds);

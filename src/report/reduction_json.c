@@ -329,6 +329,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     put_joints(root, r);
     nh_json_put_bool(root, "partial", r->partial);
     nh_json *full = put_choice(root, &r->full);
+    if (!full) nh_json_put_null(root, "accuracy");
     if (full) {
         nh_json_put_number(full, "wanted", r->wanted);
         nh_json_put_text(full, "formulation", r->full_formulation);

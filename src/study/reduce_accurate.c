@@ -112,6 +112,7 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
     nh_ranking ranking = {.count = 0};
     if (r->remember) nh_ranking_read(nh_ranking_key(r->whole), r->arena, &ranking);
     nh_options options = r->options;
+    options.steps = fmin(options.steps, NH_REDUCTION_STEPS);
     options.compile = 0; /* reduced motions are interpreted: so their times compare */
     nh_ex *place = nh_arena_alloc(r->arena, m * sizeof *place);
     for (size_t s = 0; s < m; s++) place[s] = r->whole->system->coordinate[s].q;
