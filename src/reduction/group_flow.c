@@ -92,21 +92,20 @@ bool nh_group_flow_rate(double time, const double *z, double *rate, void *contex
     return f->abelian || nh_solve(d, f->M, 1, rate + f->inner, NULL);
 }
 
+/* det M does not depend on the basis of the Lie algebra, and vanishes where the coordinates of the second kind are singular (cos t_2 of a rotation).  Where it is far from zero large entries, of
+ * translations above all, cost digits only. */
 bool nh_group_flow_guard(double time, const double *z, double *value, void *context)
 {
     (void)time;
-    static const double least = 0.1;
+    static const double least = 0.2, most = 30;
     nh_group_flow *f = context;
-    double *s = f->zeta;
     if (!nh_reduced_flow_guards(f->chart->flow, z, value)) return false;
     if (!f->d || !f->group) return true;
-    if (f->abelian) {
-        value[2] = 1 - least;
-        return true;
-    }
+    value[2] = 1;
+    if (f->abelian) return true;
     nh_group_flow_factors(f, z + f->inner);
-    nh_singular_values(f->d, f->d, f->M, s);
-    value[2] = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
+    double large = 1 - nh_largest(f->d * f->d, f->M) / most, det = fabs(nh_determinant(f->d, f->M));
+    value[2] = fmin(fmin(det, 1 / det) - least, large);
     return isfinite(value[2]);
 }
 

@@ -34,7 +34,7 @@ void nh_group_flow_clear(nh_group_flow *flow);
 size_t nh_group_flow_size(const nh_group_flow *flow);
 /* z' (context: the flow). */
 bool nh_group_flow_rate(double time, const double *z, double *rate, void *flow);
-/* What must stay regular in the reduced equations, and sigma_min / sigma_max of M, above what is tolerated: three values (context: the flow). */
+/* What must stay regular in the reduced equations, and det M, between limits that it must not leave, with M's entries: three values (context: the flow). */
 bool nh_group_flow_guard(double time, const double *z, double *value, void *flow);
 /* M(t) into flow->M and Ad_g into flow->P, from the d coordinates. */
 void nh_group_flow_factors(nh_group_flow *flow, const double *t);

@@ -5,7 +5,7 @@
  *     M(t) t' = Ad_g zeta,     column a of M: Ad of the first a - 1 factors on e_a,     Ad_exp(t_a e_a) = exp(t_a ad_a)
  *
  * and q = flow_1(t_1) o ... o flow_d(t_d) (sigma(x)); where the generators do not depend on x, q' = x'^i d_i + (Ad_g zeta)^a e_a(q) instead.  Where M
- * becomes ill-conditioned the factors so far are kept and g starts again from the identity; where the slice or the velocities will not do any more another
+ * becomes singular, or large, the factors so far are kept and g starts again from the identity; where the slice or the velocities will not do any more another
  * chart of the atlas takes over. */
 #ifndef NH_RECONSTRUCT_H
 #define NH_RECONSTRUCT_H
