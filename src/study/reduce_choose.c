@@ -127,6 +127,7 @@ nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage
         }
         if (!left || (double)(clock() - r->begin) / CLOCKS_PER_SEC > r->options.reduce_seconds) break;
     }
+    if (isinf(q.seconds) && !nh_interrupted()) nh_reduction_late(r, "what slower methods reach in the motion of a stage");
     *how = q.how;
     if (q.best) {
         s->choice = (nh_reduction_choice){.method = q.how.method->name, .tolerance = q.how.tolerance, .step = NAN, .error = q.distance, .evaluations = q.best->evaluations, .runs = q.runs};
