@@ -52,7 +52,7 @@ static void explain(nh_reduction *r, const nh_accuracy *a)
     if (isnan(c->step)) snprintf(setting, sizeof setting, "tolerance %.1e", c->tolerance);
     else snprintf(setting, sizeof setting, "steps of %.2g", c->step);
     if (c->held) snprintf(c->why, sizeof c->why, "%s at %s: error %.1e, measured against a tighter run%.300s", c->method, setting, c->error, from ? from : "");
-    else snprintf(c->why, sizeof c->why, "the full motion is not known to %.1e: %s at %s is %.1e from a tighter run", share * r->wanted, c->method, setting, c->error);
+    else snprintf(c->why, sizeof c->why, "the full motion is not known to %.1e: %s at %s is %.1e from a run at another tolerance", share * r->wanted, c->method, setting, c->error);
 }
 
 /* What one attempt gave, as reference: the finer of the two motions. */
@@ -125,7 +125,7 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
     b->rtol = fmax(part * r->wanted, least);
     r->full_seconds = r->full.seconds;
     r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
-    if (!r->full.held) nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: %s", r->full_reached, r->full.why);
+    if (!r->full.held) nh_reduction_warn(r, "%s; up to t = %.4g it is", r->full.why, r->full_reached);
     else if (!ranking.count && r->remember && nh_ranking_possible()) strncat(r->full.why, "; `nhsym chart` would measure which method is the cheapest", sizeof r->full.why - strlen(r->full.why) - 1);
     return true;
 }
