@@ -45,7 +45,7 @@ libraries = -lflint $(ARB) -lgmp -lnlopt -lcjson \
             $(if $(filter archive,$(1)),$(if $(WITHOUT_MPI),,$(MPI)) $(FORTRAN),$(MPI)) -lm
 # What OpenBLAS' archive wants.
 FORTRAN  = $(if $(findstring :,$(call archive,openblas)),-l:libgfortran.so.5)
-# Its stand-in is src/cli/no_mpi.c.
+# Its stand-in is src/cli/archives.c.
 WITHOUT_MPI = $(and $(MPI),$(findstring :,$(call archive,sundials_core)))
 
 PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
@@ -130,7 +130,7 @@ $(BUILD)/tests/nhsym-shared: $(CLI) $(BUILD)/libnhsym.a
 	@mkdir -p $(@D)
 	@$(CC) $(OPT) $(LDFLAGS) $(CLI) $(BUILD)/libnhsym.a $(LDLIBS) -o $@
 
-$(BUILD)/src/cli/no_mpi.o: CPPFLAGS += $(if $(WITHOUT_MPI),-DNH_WITHOUT_MPI)
+$(BUILD)/src/cli/archives.o: CPPFLAGS += $(if $(WITHOUT_MPI),-DNH_WITHOUT_MPI)
 
 # The loops over batches of points; see the head of the file for why no -ffast-math.
 $(BUILD)/src/expr/tape_batch.o: CFLAGS += -O3 -fno-math-errno -fno-trapping-math
