@@ -120,8 +120,9 @@ read -r side_derive side_move side_error <"$work/side"
 read -r scipy_derive scipy_move scipy_error <"$work/scipy"
 read -r octave_move octave_error <"$work/octave"
 read -r numpy_svd numpy_qr numpy_dimension numpy_pair numpy_pair_qr <"$work/numpy"
-null_here=$(from nullspace 'NF == 13 && $2 + 0 == 1000 { print $6 + 0 }')
-one_here=$(from nullspace 'NF == 13 && $2 + 0 == 1000 { print $12 + 0 }')
+null_all=$(from nullspace 'NF == 14 && $2 + 0 == 1000 { print $13 + 0 }')
+null_here=$(from nullspace 'NF == 14 && $2 + 0 == 1000 { print $6 + 0 }')
+one_here=$(from nullspace 'NF == 14 && $2 + 0 == 1000 { print $12 + 0 }')
 say "| derivation, ms | $side_derive | ${scipy_derive:-not installed} | by hand |" \
     "| motion, ms (error) | $side_move ($side_error) | ${scipy_move:-not installed} ${scipy_error:+($scipy_error)} | ${octave_move:-not installed} ${octave_error:+($octave_error)} |" \
     "| null space of one matrix, s | $one_here | ${numpy_svd:-not installed}${numpy_qr:+, by QR first $numpy_qr} | |" \
@@ -141,7 +142,7 @@ compiled=$(from tape '/^\| sleigh/ && $9 + 0 > worst { worst = $9 + 0 } END { if
 section "Null space" nullspace \
     "Rate: 2 m n^2 operations for each QR decomposition of m rows and n columns and 5 n^3 for the quotient and its singular vectors, per second, over those of dgemm. The second table is a real" \
     "ansatz in its Chebyshev basis; assembly are the values and rates of all its columns at all samples."
-rate=$(from nullspace 'NF == 13 && $2 + 0 == 1000 { print $9 + 0 }')
+rate=$(from nullspace 'NF == 14 && $2 + 0 == 1000 { print $9 + 0 }')
 gap=$(from nullspace 'NF == 9 && $2 + 0 > 900 { print $8 + 0 }')
 assembly=$(from nullspace 'NF == 9 && $2 + 0 > 900 && $5 > 0 { printf "%.2f", $4 / $5 }')
 
@@ -209,6 +210,6 @@ aim "silently wrong cells in the maps of stress: none" "$silent" "" "at most" 0
 aim "a batch of 256 points at most 1.0 times as long as scalar C by hand, per point" "$batch" "" "at most" 1
 aim "a chain of ten bodies from text to its equations below 1 s" "$ten" " s" "at most" 1
 aim "many motions at once at least 2 times as fast as one by one" "$many" "" "at least" 2
-aim "null space of 1000 columns from 20 000 rows below 2.5 s" "$null_here" " s" "at most" 2.5
+aim "null space of 1000 columns from 20 000 rows below 2.5 s, on all processors" "$null_all" " s" "at most" 2.5
 
 mv "$work/page" "$out" && chmod 644 "$out" && echo "$out"
