@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <time.h>
 
@@ -33,6 +34,45 @@ void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *co
         if (pthread_create(&helper[started], NULL, work, &q) == 0) started++;
     work(&q);
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
+}
+
+size_t nh_threads(double wanted)
+{
+    cpu_set_t mine;
+    if (wanted >= 1) return (size_t)wanted;
+    return sched_getaffinity(0, sizeof mine, &mine) ? 1 : (size_t)CPU_COUNT(&mine);
+}
+
+/* ---- one job beside the caller ---- */
+
+struct nh_aside {
+    pthread_t thread;
+    bool started;
+    void (*job)(void *);
+    void *context;
+};
+
+static void *do_aside(void *argument)
+{
+    nh_aside *a = argument;
+    a->job(a->context);
+    return NULL;
+}
+
+nh_aside *nh_aside_begin(void (*job)(void *), void *context)
+{
+    nh_aside *a = nh_alloc(sizeof *a);
+    *a = (nh_aside){.job = job, .context = context};
+    a->started = pthread_create(&a->thread, NULL, do_aside, a) == 0;
+    if (!a->started) job(context);
+    return a;
+}
+
+void nh_aside_end(nh_aside *a)
+{
+    if (!a) return;
+    if (a->started) pthread_join(a->thread, NULL);
+    nh_free(a);
 }
 
 /* ---- one job that may be left alone ---- */
