@@ -7,7 +7,7 @@
 #include "base/progress.h"
 
 enum { most_confirmations = 5 };
-static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const multistep_pair[2] = {"CVODE BDF", "CVODE Adams"};
+static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const implicit_pair[2] = {"CVODE BDF", "ARKODE ESDIRK"};
 static const double loosest = nh_accuracy_loosest, tightest = nh_accuracy_tightest, step = nh_accuracy_step;
 static const double least_exponent = 0.2, most_exponent = 0.9; /* with which differences fall */
 static const double quick = 0.25, faster = 20; /* a first run that takes longer than these seconds is compared with CVODE BDF, which must be so many times faster */
@@ -154,7 +154,8 @@ static nh_trajectory *farther(nh_trajectory *a, nh_trajectory *b)
 /* The method that confirms one when no second was measured: of the same kind, because what is stiff for one is so for all explicit ones. */
 static const nh_method *other_of(const nh_method *method)
 {
-    const char *const *pair = method->family == NH_METHOD_CVODE ? multistep_pair : explicit_pair;
+    bool implicit = method->family == NH_METHOD_CVODE || method == nh_method_find(implicit_pair[1]);
+    const char *const *pair = implicit ? implicit_pair : explicit_pair;
     return nh_method_find(pair[method == nh_method_find(pair[0])]);
 }
 
@@ -195,7 +196,7 @@ static nh_trajectory *choose(search *s, double tolerance, nh_error *error)
     take(s, explicit_pair);
     nh_trajectory *t = run(s, s->method[0], tolerance, true, quick, &ignored);
     if (complete(t) || (t && nh_interrupted())) return t;
-    take(s, multistep_pair);
+    take(s, implicit_pair);
     nh_trajectory *other = run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e-3, 1e6), &ignored);
     s->doubtful = complete(other); /* implicit methods can damp what grows: always confirmed */
     if (s->doubtful || nh_interrupted()) return farther(other, t);

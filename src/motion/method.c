@@ -11,6 +11,7 @@ static const nh_method methods[] = {
     {"ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_PAIRS, NH_DORMAND_PRINCE_5, false, 0},
     {"ARKODE Verner", "explicit Runge-Kutta pair of order 6", NH_METHOD_PAIRS, NH_VERNER_6, false, 0},
     {"ARKODE Fehlberg", "explicit Runge-Kutta pair of order 8", NH_METHOD_PAIRS, NH_FEHLBERG_8, false, 0},
+    {"ARKODE ESDIRK", "diagonally implicit Runge-Kutta pair of order 5, for stiff equations", NH_METHOD_PAIRS, NH_ESDIRK_5, false, 0},
     {"midpoint", "implicit midpoint rule, order 2", NH_METHOD_MIDPOINT, NH_MIDPOINT, false, 2},
     {"midpoint, order 4", "five implicit midpoint steps composed", NH_METHOD_MIDPOINT, NH_MIDPOINT, true, 4},
     {"Lagrange-d'Alembert", "discrete Lagrange-d'Alembert principle, order 2", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, false, 2},
