@@ -107,6 +107,7 @@ static void explain(race *q, size_t n, const runner *m)
     if (!reached && c->held) snprintf(end, left, ": the nearest to %s", with);
     else if (!reached && isfinite(q->distance)) snprintf(end, left, " is %.1e from %s, and no method comes nearer", q->distance, with);
     else if (!reached) snprintf(end, left, ": no method goes as far as %s is known", with);
+    else if (c->next && c->times < 1.05) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e, and the next, %s, is as quick", reached, with, aim * q->wanted, c->next);
     else if (c->next) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e; the next, %s, takes %.2g times as long", reached, with, aim * q->wanted, c->next, c->times);
     else snprintf(end, left, ": the only one that agrees with %s to %.1e, or the others take more than twice as long", with, aim * q->wanted);
 }
