@@ -30,11 +30,23 @@ CPPFLAGS = $(INCLUDES) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -DNH_DATADIR='"
 # Arb as a library of its own.
 has      = $(if $(findstring /,$(shell $(CC) -print-file-name=lib$(1).so)),-l$(1))
 ARB           := $(call has,flint-arb)
-SUNDIALS_CORE := $(call has,sundials_core)
+SUNDIALS_CORE := $(patsubst -l%,%,$(call has,sundials_core))
 MPI_INCLUDE   := $(if $(SUNDIALS_CORE),$(shell pkg-config --cflags-only-I mpi-c 2>/dev/null))
 MPI           := $(if $(MPI_INCLUDE),-Wl$(comma)--as-needed $(shell pkg-config --libs mpi-c))
-LDLIBS   = -lsundials_cvode -lsundials_arkode -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense \
-           $(SUNDIALS_CORE) $(MPI) -lnlopt -lgsl $(ARB) -lflint -lgmp -lyaml -lcjson -llapacke -lopenblas -lm
+LDLIBS   = $(call libraries,library)
+library  = -l$(1)
+# The program itself takes archives where there are any (ARCHIVES= for none): most of a short command was the loading of shared libraries, OpenBLAS alone
+# has 14 000 symbols that must be looked up.  Those that remain come first, for the same reason.  Tests are many, and stay small.
+ARCHIVES = $(if $(SANITIZE),,yes)
+archive  = -l$(if $(and $(ARCHIVES),$(findstring /,$(shell $(CC) -print-file-name=lib$(1).a))),:lib$(1).a,$(1))
+libraries = -lflint $(ARB) -lgmp -lnlopt -lcjson \
+            $(foreach name,sundials_cvode sundials_arkode sundials_ida sundials_nvecserial sundials_sunmatrixdense sundials_sunlinsoldense $(SUNDIALS_CORE) \
+                           gsl lapacke openblas yaml,$(call $(1),$(name))) \
+            $(if $(filter archive,$(1)),$(if $(WITHOUT_MPI),,$(MPI)) $(FORTRAN),$(MPI)) -lm
+# What OpenBLAS' archive wants.
+FORTRAN  = $(if $(findstring :,$(call archive,openblas)),-l:libgfortran.so.5)
+# Its stand-in is src/cli/archives.c.
+WITHOUT_MPI = $(and $(MPI),$(findstring :,$(call archive,sundials_core)))
 
 PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
 TEST_PACKAGES = $(PACKAGES) libcriterion-dev
@@ -69,7 +81,7 @@ check: check-packages
 tests: $(TESTS) $(BENCHES)
 
 bench: test-packages
-	@$(MAKE) --no-print-directory -j$(JOBS) all tests
+	@$(MAKE) --no-print-directory -j$(JOBS) all tests $(BUILD)/tests/nhsym-shared
 	@sh tests/bench.sh $(BUILD) docs/performance.md
 
 catalogue: test-packages
@@ -111,7 +123,14 @@ $(BUILD)/libnhsym.a: $(OBJECTS)
 
 $(BUILD)/nhsym: $(CLI) $(BUILD)/libnhsym.a
 	@echo "  link $@"
+	@$(CC) $(OPT) $(LDFLAGS) $(CLI) $(BUILD)/libnhsym.a $(call libraries,archive) -o $@
+
+# For `make bench`: what the archives are good for.
+$(BUILD)/tests/nhsym-shared: $(CLI) $(BUILD)/libnhsym.a
+	@mkdir -p $(@D)
 	@$(CC) $(OPT) $(LDFLAGS) $(CLI) $(BUILD)/libnhsym.a $(LDLIBS) -o $@
+
+$(BUILD)/src/cli/archives.o: CPPFLAGS += $(if $(WITHOUT_MPI),-DNH_WITHOUT_MPI)
 
 # The loops over batches of points; see the head of the file for why no -ffast-math.
 $(BUILD)/src/expr/tape_batch.o: CFLAGS += -O3 -fno-math-errno -fno-trapping-math

@@ -19,7 +19,7 @@ static nh_candidates *candidates_of(const nh_model *o, const nh_points *points, 
     nh_nullspace_options limits = nh_nullspace_options_from(&options);
     nh_ansatz *a = ansatz_of(o, points, count, family);
     nh_rows *rows = nh_rows_create(o, a, 0, NULL);
-    nh_equations *equations = nh_equations_create(a->columns);
+    nh_equations *equations = nh_equations_create(a->columns, 1);
     nh_rows_current(rows, points, NULL, equations);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, &error);
     must(s != NULL, &error, "the null space");

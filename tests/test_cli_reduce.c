@@ -94,6 +94,68 @@ Test(cli_reduce, accuracy)
     place_clear(&p);
 }
 
+/* The full motion and every stage say by which method they are computed, and agree to what is asked for: groups of several kinds, one and two stages, equations by stages, a quotient. */
+Test(cli_reduce, accuracy_chooses_methods)
+{
+    static const char *const cases[][2] = {{"sleigh", "1e-5"}, {"sleigh", "1e-10"}, {"suslov", "1e-8"}, {"kepler", "1e-5"}, {"kepler", "1e-10"}, {"crane_lagrangian", "1e-8"}, {"constant_speed", "1e-8"}};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *system = cases[i][0], *eps = cases[i][1];
+        char *more[] = {(char *)system, "--accuracy", (char *)eps, "--json", "-"};
+        finished f = reduce(&p, more, 5);
+        cr_assert_eq(f.code, 0, "%s %s: %d, %s", system, eps, f.code, f.err);
+        cJSON *json = cJSON_Parse(f.out);
+        const cJSON *full = oracle_get(json, "accuracy"), *stages = oracle_get(json, "stages"), *stage;
+        cr_expect(cJSON_IsTrue(oracle_get(full, "held")) && oracle_number(full, "error") < atof(eps) / 4 && oracle_number(full, "evaluations") > 10, "%s %s", system, eps);
+        cr_expect_float_eq(oracle_number(full, "wanted"), atof(eps), 1e-20);
+        cr_expect(cJSON_GetArraySize(stages) > 0);
+        cJSON_ArrayForEach(stage, stages) {
+            const cJSON *choice = oracle_get(stage, "accuracy");
+            const char *method = oracle_get(choice, "method")->valuestring, *why = oracle_get(choice, "why")->valuestring;
+            cr_expect(cJSON_IsTrue(oracle_get(choice, "held")) && oracle_number(choice, "error") < atof(eps), "%s %s: %s", system, eps, why);
+            cr_expect(strstr(why, method) == why && strstr(why, "agree") != NULL, "%s", why);
+            cr_expect(oracle_number(choice, "evaluations") > 10 && oracle_number(choice, "runs") > 1 && oracle_number(choice, "seconds") > 0);
+        }
+        cJSON_Delete(json);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* A dashpot that stops the relative motion of two masses within 1e-6: what is left when their common motion is divided out is stiff. */
+Test(cli_reduce, accuracy_of_a_stiff_reduced_motion)
+{
+    static const char text[] = "name: dashpot\nparameters: [{name: c, value: 500000}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                               "lagrangian: (x'^2 + y'^2)/2 - (x - y)^2/2\nforces: [\"x = -c*(x' - y')\", \"y = c*(x' - y')\"]\n";
+    place p = place_make();
+    char file[PATH_MAX + 20];
+    snprintf(file, sizeof file, "%s/dashpot.yaml", p.folder);
+    FILE *out = fopen(file, "w");
+    cr_assert(out && fputs(text, out) >= 0 && fclose(out) == 0);
+    char *more[] = {file, "--accuracy", "1e-8", "--json", "-"};
+    finished f = reduce(&p, more, 5);
+    cr_assert_eq(f.code, 0, "%s", f.err);
+    cJSON *json = cJSON_Parse(f.out);
+    const char *method = oracle_get(oracle_get(cJSON_GetArrayItem(oracle_get(json, "stages"), 0), "accuracy"), "method")->valuestring;
+    cr_expect(!strcmp(method, "CVODE BDF") || !strcmp(method, "CVODE Adams") || strstr(method, "ESDIRK"), "%s", method);
+    cJSON_Delete(json);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* Euler's disk passes so near to the vertical that no method knows its motion to 1e-10: what is known, and from when on it is not. */
+Test(cli_reduce, accuracy_that_cannot_be_had)
+{
+    place p = place_make();
+    char *more[] = {"euler_disk", "--accuracy", "1e-10"};
+    finished f = reduce(&p, more, 3);
+    cr_expect_eq(f.code, 4, "%d", f.code);
+    cr_expect(strstr(f.err, "the accuracy 1.0e-10 was not reached to the end: stage 1 was compared to t = ") && strstr(f.err, "up to which the motion that it is compared with is known"), "%s", f.err);
+    cr_expect(strstr(f.out, "the full motion is not known to 2.5e-11: GSL rk8pd at tolerance") != NULL, "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* The axis of a rotation: refused for a given group, a warning for one that was found. */
 Test(cli_reduce, starts_where_the_action_is_not_free)
 {

@@ -65,7 +65,7 @@ static void check_below_diagonal(size_t n, const double *r)
 /* Feed the m x n matrix a in blocks of these sizes, cyclically. */
 static double *streamed(size_t m, size_t n, const double *a, const size_t *sizes, size_t count)
 {
-    nh_qr *qr = nh_qr_create(n);
+    nh_qr *qr = nh_qr_create(n, 1);
     double *r = nh_alloc_array(n * n, sizeof *r), *b = copy_of(m * n, a);
     for (size_t done = 0, k = 0; done < m; k++) {
         size_t rows = sizes[k % count] < m - done ? sizes[k % count] : m - done;
@@ -138,7 +138,7 @@ Test(linalg, streaming_qr_goes_on_after_a_look_at_the_triangle)
 {
     enum { M = 90, N = 9 };
     double *a = random_matrix(M, N), *b = copy_of(M * N, a), r[N * N], early[N * N];
-    nh_qr *qr = nh_qr_create(N);
+    nh_qr *qr = nh_qr_create(N, 1);
     nh_qr_add(qr, 31, b, M);
     nh_qr_triangle(qr, early);
     nh_qr_add(qr, M - 31, b + 31, M);
@@ -151,6 +151,26 @@ Test(linalg, streaming_qr_goes_on_after_a_look_at_the_triangle)
     nh_free(b);
     nh_free(expected);
     nh_free(got);
+}
+
+Test(linalg, streaming_qr_beside_the_caller_gives_the_same_triangle)
+{
+    enum { M = 1501, N = 150 };
+    double *a = random_matrix(M, N), *one = streamed(M, N, a, (const size_t[]){64}, 1), *r = nh_alloc_array(N * N, sizeof *r);
+    nh_qr *qr = nh_qr_create(N, 2);
+    for (int again = 0; again < 2; again++) { /* the second time after rows that are forgotten while they are on their way */
+        double *b = copy_of(M * N, a);
+        nh_qr_reset(qr);
+        for (size_t done = 0; done < M; done += 100) nh_qr_add(qr, M - done < 100 ? M - done : 100, b + done, M);
+        nh_free(b);
+        if (again) nh_qr_triangle(qr, r);
+    }
+    cr_assert_eq(nh_qr_rows(qr), M);
+    cr_assert_eq(memcmp(one, r, N * N * sizeof *r), 0);
+    nh_qr_free(qr);
+    nh_free(a);
+    nh_free(one);
+    nh_free(r);
 }
 
 Test(linalg, streaming_qr_with_fewer_rows_than_columns_keeps_the_gram_matrix)
@@ -441,7 +461,7 @@ Test(linalg, empty_matrices_are_harmless)
 {
     double nothing[1] = {0}, im[1];
     size_t pivot[3];
-    nh_qr *qr = nh_qr_create(0);
+    nh_qr *qr = nh_qr_create(0, 1);
     nh_qr_add(qr, 5, nothing, 5);
     nh_qr_triangle(qr, nothing);
     cr_assert_eq(nh_qr_rows(qr), 5);

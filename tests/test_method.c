@@ -16,6 +16,10 @@ static const char *const rolling =
     "name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\n"
     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + 1.7*y^2 + z^2)/2\nconstraints: [\"z' = y*x'\"]\n";
 
+/* With y' = x' at the start both are cos t for ever, but everything beside that comes back with the rate 1e4. */
+static const char *const stiff =
+    "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2\nforces: [\"y = -1e4*(y' - x') - x\"]\n";
+
 static nh_motion *run_method(const nh_model *o, const nh_method *method, const double *z0, size_t count, const double *times, double tolerance, double step)
 {
     nh_error error = {0};
@@ -58,7 +62,7 @@ Test(method, every_one_with_error_control_meets_the_closed_form)
         const nh_method *m = nh_method_at(i);
         if (m->order) continue;
         double loose = sleigh_error(x.model, m, 1e-5, 0), tight = sleigh_error(x.model, m, 1e-10, 0);
-        cr_expect(tight < 3e-8 && (tight < loose / 50 || loose < 1e-13), "%s: %g, %g", m->name, loose, tight);
+        cr_expect(tight < 3e-8 && tight < loose / 50, "%s: %g, %g", m->name, loose, tight);
         cr_expect_eq(nh_method_find(m->name), m);
     }
     cr_expect_null(nh_method_find("Euler"));
@@ -83,46 +87,6 @@ Test(method, pairs_go_on_where_the_error_test_fails_often)
     mechanics_clear(&x);
 }
 
-/* x' = -1e6 (x - cos(t)) - sin(t) beside an oscillator: x = cos(t), in a few hundred evaluations by what is made for stiff equations; and df/dt counts. */
-static bool stiff_rate(double t, const double *z, double *rate, void *context)
-{
-    (void)context;
-    rate[0] = -1e6 * (z[0] - cos(t)) - sin(t);
-    rate[1] = z[2], rate[2] = -z[1];
-    return true;
-}
-
-static bool stiff_jacobian(double t, const double *z, double *jacobian, void *context)
-{
-    static const double columns[9] = {-1e6, 0, 0, 0, 0, -1, 0, 1, 0};
-    (void)t, (void)z, (void)context;
-    memcpy(jacobian, columns, sizeof columns);
-    return true;
-}
-
-Test(method, implicit_ones_do_not_mind_stiffness)
-{
-    static const char *const names[] = {"CVODE BDF", "GSL bsimp"};
-    nh_flow_problem problem = {.size = 3, .rate = stiff_rate, .jacobian = stiff_jacobian};
-    const double start[3] = {1, 1, 0}, times[3] = {0, 3, 10}, scale[3] = {1, 1, 1};
-    for (size_t i = 0; i < 2; i++) {
-        nh_error error = {0};
-        nh_flow_options how = {.rtol = 1e-7, .scale = scale};
-        nh_motion *motion = nh_method_flow(nh_method_find(names[i]), &problem, start, 3, times, &how, &error);
-        cr_assert(motion && motion->complete, "%s: %s", names[i], motion ? motion->note : error.what);
-        for (size_t k = 1; k < 3; k++) {
-            cr_expect_float_eq(motion->state[3 * k], cos(times[k]), 1e-4, "%s", names[i]);
-            cr_expect_float_eq(motion->state[3 * k + 1], cos(times[k]), 1e-4, "%s", names[i]);
-        }
-        cr_expect_lt(motion->evaluations, 20000, "%s: %ld", names[i], motion->evaluations); /* rk8pd: 30 million */
-        nh_motion_free(motion);
-    }
-    problem.jacobian = NULL;
-    nh_error error = {0};
-    nh_flow_options how = {.rtol = 1e-7, .scale = scale};
-    cr_expect(nh_method_flow(nh_method_find("GSL bsimp"), &problem, start, 3, times, &how, &error) == NULL && strstr(error.what, "derivatives"), "%s", error.what);
-}
-
 Test(method, fixed_steps_have_their_order)
 {
     mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_QUASI, 0, NULL);
@@ -137,6 +101,27 @@ Test(method, fixed_steps_have_their_order)
 }
 
 /* Forward and back along the same steps: the implicit methods are symmetric. */
+Test(method, implicit_steps_are_as_long_as_a_stiff_motion_is_smooth)
+{
+    enum { COUNT = 9 };
+    static const char *const names[] = {"CVODE BDF", "ARKODE ESDIRK", "GSL rk8pd"};
+    mechanics x = mechanics_of_text(stiff, NH_CHART_AUTO);
+    const double start[4] = {1, 1, 0, 0};
+    double times[COUNT];
+    for (int i = 0; i < COUNT; i++) times[i] = 2.5 * i;
+    for (int k = 0; k < 3; k++)
+        for (double tolerance = 1e-4; tolerance > 1e-9; tolerance /= 100) {
+            nh_motion *motion = run_method(x.model, nh_method_find(names[k]), start, COUNT, times, tolerance, 0);
+            double worst = 0;
+            for (size_t i = 0; i < COUNT; i++)
+                for (size_t j = 0; j < 4; j++) worst = fmax(worst, fabs(motion->state[4 * i + j] - (j < 2 ? cos(times[i]) : -sin(times[i]))));
+            cr_expect(worst < 200 * tolerance, "%s at %g: %g", names[k], tolerance, worst);
+            cr_expect(k < 2 ? motion->evaluations < 6000 : motion->evaluations > 60000, "%s at %g: %ld", names[k], tolerance, motion->evaluations);
+            nh_motion_free(motion);
+        }
+    mechanics_clear(&x);
+}
+
 Test(method, symmetric_steps_come_back)
 {
     mechanics x = mechanics_of_text(rolling, NH_CHART_AUTO);
@@ -317,4 +302,49 @@ Test(method, outputs_do_not_change_the_motion)
     nh_motion_free(few);
     nh_motion_free(exact);
     mechanics_clear(&x);
+}
+
+/* x'' = -x from (0, 1): the guard x - 0.5 changes its sign at pi/6, 5 pi/6, ... */
+static bool half(double t, const double *z, double *value, void *context)
+{
+    (void)t, (void)context;
+    value[0] = 2;
+    value[1] = z[0] - 0.5;
+    return true;
+}
+
+static bool circle(double t, const double *z, double *rate, void *context)
+{
+    (void)t, (void)context;
+    rate[0] = z[1];
+    rate[1] = -z[0];
+    return true;
+}
+
+/* Every method with error control stops at a guard on request, with all outputs before it, and at a state that is as good as the others. */
+Test(method, guards)
+{
+    enum { count = 41 };
+    double times[count], z[2] = {0, 1};
+    for (size_t i = 0; i < count; i++) times[i] = 0.05 * (double)i;
+    nh_flow_problem problem = {.size = 2, .rate = circle, .guards = 2, .guard = half};
+    for (size_t k = 0; k < nh_method_count(); k++) {
+        const nh_method *method = nh_method_at(k);
+        nh_error error = {0};
+        nh_flow_options options = {.rtol = 1e-11, .guarded = true};
+        if (method->order) continue;
+        nh_motion *motion = nh_method_flow(method, &problem, z, count, times, &options, &error);
+        cr_assert(motion != NULL, "%s: %s", method->name, error.what);
+        cr_expect(!motion->complete && motion->guard_hit == 1, "%s: guard %ld", method->name, motion->guard_hit);
+        cr_expect_float_eq(motion->end_time, M_PI / 6, 1e-6, "%s: %.12g", method->name, motion->end_time);
+        cr_expect_float_eq(motion->end_state[0], sin(motion->end_time), 1e-8, "%s: %g", method->name, motion->end_state[0] - sin(motion->end_time));
+        cr_expect_eq(motion->count, 11, "%s: %zu outputs", method->name, motion->count);
+        for (size_t i = 0; i < motion->count; i++) cr_expect_float_eq(motion->state[2 * i], sin(times[i]), 1e-8, "%s", method->name);
+        nh_motion_free(motion);
+        if (method->family == NH_METHOD_CVODE) continue;
+        options.guarded = false;
+        motion = nh_method_flow(method, &problem, z, count, times, &options, &error);
+        cr_expect(motion && motion->complete, "%s goes on without", method->name);
+        nh_motion_free(motion);
+    }
 }

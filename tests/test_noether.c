@@ -352,7 +352,7 @@ static nh_nullspace *fields(const nh_model *o, size_t n, const char *const *text
     nh_points *points = points_of(o, 200, 1);
     for (size_t i = 0; i < n; i++) b[i] = formula(o, text[i]);
     *columns = nh_rows_field_columns(o, n, b, &column);
-    nh_equations *equations = nh_equations_create(*columns);
+    nh_equations *equations = nh_equations_create(*columns, 1);
     nh_rows_symmetry(o, *columns, column, points, equations);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, &error);
     must(s != NULL, &error, "the null space");

@@ -15,7 +15,7 @@ static const nh_nullspace_options OPTIONS = {1e-9, 100, 1e5, 1e3, 1e6, 1e-7, 1e-
 /* Solve from copies, fed in blocks of these sizes. */
 static nh_nullspace *solve_with(const samples *s, size_t block_a, size_t block_b, const nh_nullspace_options *options, nh_error *error)
 {
-    nh_equations *equations = nh_equations_create(s->columns);
+    nh_equations *equations = nh_equations_create(s->columns, 1);
     size_t count = s->rows * s->columns;
     double *a = nh_alloc_array(count, sizeof *a), *b = nh_alloc_array(count, sizeof *b);
     memcpy(a, s->a, count * sizeof *a);
@@ -418,7 +418,7 @@ Test(nullspace, what_is_not_finite_can_be_left_out)
         samples s = rotation(60, 2, false, true);
         size_t rows = s.rows, n = s.columns;
         nh_nullspace *all = solve(&s);
-        nh_equations *equations = nh_equations_create(n);
+        nh_equations *equations = nh_equations_create(n, 1);
         nh_equations_leave_out(equations);
         (in_values ? s.b : s.a)[47 + 6 * rows] = NAN;
         for (size_t i = 0; i < rows; i += 20) {
@@ -453,7 +453,7 @@ Test(nullspace, too_few_rows_are_refused_with_the_numbers)
     nh_nullspace *n = solve_with(&s, 10, 10, &OPTIONS, NULL);
     cr_assert_eq(n->dimension, 3); /* w, w^2, r^2 */
     nh_nullspace_free(n);
-    nh_equations *equations = nh_equations_create(9);
+    nh_equations *equations = nh_equations_create(9, 1);
     nh_equations_add(equations, 8, s.a, 10);
     nh_equations_add_values(equations, 10, s.b, 10);
     cr_assert_null(nh_nullspace_solve(equations, &OPTIONS, NULL));

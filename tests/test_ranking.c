@@ -6,6 +6,7 @@
 #include "program.h"
 #include "random_expression.h"
 #include "study/ranking.h"
+#include "study/reduce.h"
 
 /* ---- fingerprints ---- */
 
@@ -329,6 +330,34 @@ Test(ranking, a_plain_survey_says_less)
     cr_expect(!back.plain && back.count == 1 && back.way[0].velocities == NH_ALL_COORDINATES && nh_ranking_tells(&back, 1e-5, true));
     nh_arena_free(arena);
     mechanics_clear(&x);
+    place_clear(&p);
+}
+
+/* The full motion of a reduction, by the one method that was measured: with error control, and with fixed steps. */
+Test(ranking, reductions_choose_by_it)
+{
+    static const char *const methods[] = {"ARKODE Verner", "relaxation, order 8"};
+    place p;
+    in_folder(&p);
+    for (size_t i = 0; i < 2; i++) {
+        nh_error error = {0};
+        nh_reduce_request q = {.system_path = "systems/sleigh.yaml", .accuracy = 1e-6};
+        nh_options_default(&q.options);
+        nh_reduction *r = nh_reduce(&q, &error);
+        must(r != NULL, &error, "sleigh");
+        cr_expect(r->full.held && strcmp(r->full.method, methods[i]), "%s", r->full.why);
+        nh_way way = {nh_method_find(methods[i]), NH_OWN_VELOCITIES, i ? NAN : 1e-9, i ? 0.05 : NAN, 1e-8, 1e-5};
+        nh_ranking kept = {.key = nh_ranking_key(r->whole), .begin = 0, .end = 10, .count = 1, .way = &way};
+        must(nh_ranking_write(&kept, "sleigh", &error), &error, "writing");
+        nh_reduction_free(r);
+        q.remember = true;
+        r = nh_reduce(&q, &error);
+        must(r != NULL, &error, "sleigh");
+        cr_expect(r->full.held && !strcmp(r->full.method, methods[i]) && strstr(r->full.why, "in the chart of these equations"), "%s", r->full.why);
+        cr_expect(i ? r->full.step > 0 && isnan(r->full.tolerance) : r->full.tolerance > 0 && isnan(r->full.step), "%s", r->full.why);
+        for (size_t s = 0; s < r->stages; s++) cr_expect(r->stage[s].choice.held && r->stage[s].agreement < 1e-6, "%s", r->stage[s].choice.why);
+        nh_reduction_free(r);
+    }
     place_clear(&p);
 }
 

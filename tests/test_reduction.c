@@ -8,6 +8,7 @@
 #include "motion/dynamics.h"
 #include "reduction/chaplygin.h"
 #include "reduction/group.h"
+#include "reduction/group_flow.h"
 #include "reduction/linear.h"
 #include "reduction/momenta.h"
 #include "reduction/reconstruct.h"
@@ -86,7 +87,7 @@ static void master_against_full(const char *name, const char *text, const char *
     for (size_t i = 0; i < slice.n; i++) x0[i] = q[shape[i]];
     cr_assert(nh_reduced_start(&reduced, x0, w, z));
     for (size_t i = 0; i < count; i++) times[i] = until * (double)i / (count - 1);
-    nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, count, times, &options, &error);
+    nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, count, times, &(nh_reconstruct_how){.tolerance = options.tolerance, .steps = options.steps}, &error);
     must(r != NULL, &error, name);
     cr_assert(r->complete, "%s: %s", name, r->note);
     double *full = full_motion(&x, q, v, count, times, options.tolerance), off = distance(count * m, r->q, full), way = distance(m, full + (count - 1) * m, full);
@@ -158,6 +159,41 @@ static void stage_close(stage *s)
 }
 
 /* At points and along the motions of the crane: every reduced number of the reference data. */
+/* Ad of a product of exponentials, factor by factor by scaling and squaring. */
+Test(reduction, factors_of_a_group_element)
+{
+    static const struct {
+        const char *file;
+        bool abelian;
+    } cases[] = {{"systems/isotropic_oscillator.yaml", false}, {"systems/sleigh.yaml", false}, {"systems/crane.yaml", false}, {"systems/chaplygin_ball.yaml", false}, {"systems/kepler.yaml", false}, {"systems/contact_oscillator.yaml", true}};
+    static const double parts[] = {0, 0.3, -1.7, 2.9, 11, 1e-9};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_error error = {0};
+        nh_options options = sharp();
+        reducible x = reducible_make(nh_system_read(cases[i].file, 0, NULL, &error), 3, &error);
+        nh_group *g = nh_group_find(x.kinetic, &options, &error);
+        must(g != NULL, &error, cases[i].file);
+        nh_group_flow f;
+        size_t d = g->action.d;
+        double t[10], P[100], next[100], E[100], A[100];
+        nh_group_flow_init(&f, &g->action, true);
+        cr_expect_eq(f.abelian, cases[i].abelian, "%s", cases[i].file);
+        for (size_t a = 0; a < d; a++) t[a] = parts[(a + i) % 6];
+        for (size_t k = 0; k < d * d; k++) P[k] = k % (d + 1) == 0;
+        for (size_t a = 0; a < d; a++) {
+            for (size_t k = 0; k < d * d; k++) A[k] = t[a] * f.ad[a * d * d + k];
+            nh_matrix_exp(d, A, E);
+            nh_multiply(d, d, d, P, E, next);
+            memcpy(P, next, d * d * sizeof *P);
+        }
+        nh_group_flow_factors(&f, t);
+        for (size_t k = 0; k < d * d; k++) cr_expect_float_eq(f.P[k], P[k], 1e-13 * (1 + nh_largest(d * d, P)), "%s, %zu: %.17g, %.17g", cases[i].file, k, f.P[k], P[k]);
+        nh_group_flow_clear(&f);
+        nh_group_free(g);
+        reducible_clear(&x);
+    }
+}
+
 Test(reduction, crane_reference_values)
 {
     nh_error error = {0};
@@ -223,7 +259,7 @@ Test(reduction, crane_reference_motions)
         stage_open(&s, "crane", nh_system_parse("crane", CRANE, 0, NULL, &error), CRANE_FOUR, q, &error);
         for (size_t i = 0; i < 4; i++) w[i] = v[s.slice.shape[i]], x[i] = q[s.slice.shape[i]];
         cr_assert(nh_reduced_start(&s.c.reduced, x, w, z));
-        nh_reconstruction *r = nh_reconstruct(&s.c.reduced, &s.slice, z, 2, times, &s.options, &error);
+        nh_reconstruction *r = nh_reconstruct(&s.c.reduced, &s.slice, z, 2, times, &(nh_reconstruct_how){.tolerance = s.options.tolerance, .steps = s.options.steps}, &error);
         must(r && r->complete, &error, "the crane");
         oracle_flat(oracle_get(motion, "qT"), want);
         tally_add(&tq, 8, r->q + 8, want, 0);
@@ -366,7 +402,7 @@ Test(reduction, crane_twice_reduced_reference_values)
         for (size_t i = 0; i < 6; i++) got[i] = z[i < 3 ? order[i] : 3 + order[i - 3]];
         tally_add(&t0, 6, got, want, 0);
         cr_expect_float_eq(z[6], oracle_number(motion, "vartheta"), 1e-12);
-        nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, 2, times, &s.options, &error);
+        nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, 2, times, &(nh_reconstruct_how){.tolerance = s.options.tolerance, .steps = s.options.steps}, &error);
         must(r && r->complete, &error, "the crane, twice reduced");
         oracle_flat(oracle_get(motion, "twice_reduced_T"), want);
         tally_add(&tz, 6, r->z + 7, want, 0);
@@ -408,7 +444,7 @@ static void twice_against_once(const char *name, nh_system *system, const size_t
     cr_expect_eq(t.strong < 1e-10, strong, "%s: (ii') %g", name, t.strong);
     for (size_t i = 0; i < count; i++) times[i] = until * (double)i / (count - 1);
     second_start(&t, x, w, z);
-    nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, count, times, &s.options, &error);
+    nh_reconstruction *r = nh_reconstruct(&t.reduced, &t.slice, z, count, times, &(nh_reconstruct_how){.tolerance = s.options.tolerance, .steps = s.options.steps}, &error);
     must(r && r->complete, &error, name);
     cr_assert(nh_reduced_start(&s.c.reduced, x, w, z));
     nh_reduced_flow *flow = nh_reduced_flow_create(&s.c.reduced);
@@ -567,7 +603,7 @@ Test(reduction, disk_reference_motions)
             cr_assert(nh_slice_components(&slice, q, v, u));
             for (size_t i = 0; i < 3; i++) w[i] = u[independent[i]];
             cr_assert(nh_reduced_start(&reduced, q, w, z));
-            nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, 2, times, &options, &error);
+            nh_reconstruction *r = nh_reconstruct(&reduced, &slice, z, 2, times, &(nh_reconstruct_how){.tolerance = options.tolerance, .steps = options.steps}, &error);
             must(r && r->complete, &error, "disk");
             oracle_flat(oracle_get(motion, "zT"), want);
             tally_add(&tz, 5, r->q + 5, want, 0);

@@ -37,6 +37,8 @@ void nh_deck_free(nh_deck *deck);
  * without that key.  Maps are united and lists appended to those of the included file; what both say, and list entries {name: ...} of one name,
  * this file decides.  Messages about a node name the file in which it stands. */
 bool nh_deck_include(nh_deck *deck, nh_error *error);
+/* A map {x: 1, y: {unit: m}} as the list [{name: x, value: 1}, {name: y, unit: m}] that it is short for; any other node as it is. */
+const nh_deck_node *nh_deck_named(nh_deck *deck, const nh_deck_node *node);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);
 const char *nh_deck_name(const nh_deck *deck);
 

@@ -39,8 +39,50 @@ static void put_entry(nh_arena *arena, nh_deck_node *map, const nh_deck_node *ke
     map->item[map->count++] = value;
 }
 
+static bool all_named(const nh_deck_node *list)
+{
+    bool all = list->kind == NH_DECK_LIST;
+    for (size_t i = 0; i < list->count && all; i++) all = name_of(list->item[i]) != NULL;
+    return all;
+}
+
+/* An entry `x: 1` or `x: {...}` as {name: x, value: 1} or {name: x, ...}; where it stands in the file stays known. */
+static const nh_deck_node *named_item(nh_arena *arena, const nh_deck_node *key, const nh_deck_node *value)
+{
+    bool whole = value->kind == NH_DECK_MAP;
+    size_t count = whole ? value->count : 1;
+    nh_deck_node *node = nh_arena_alloc(arena, sizeof *node), *word = nh_arena_alloc(arena, 2 * sizeof *word);
+    *node = *value;
+    node->kind = NH_DECK_MAP;
+    node->count = 0;
+    node->item = nh_arena_alloc(arena, (count + 1) * sizeof *node->item);
+    node->key = nh_arena_alloc(arena, (count + 1) * sizeof *node->key);
+    word[0] = word[1] = *key;
+    word[0].text = "name";
+    word[1].text = "value";
+    put_entry(arena, node, &word[0], key);
+    for (size_t i = 0; i < count; i++) put_entry(arena, node, whole ? value->key[i] : &word[1], whole ? value->item[i] : value);
+    return node;
+}
+
+static const nh_deck_node *listed(nh_arena *arena, const nh_deck_node *map)
+{
+    if (map->kind != NH_DECK_MAP) return map;
+    nh_deck_node *list = nh_arena_alloc(arena, sizeof *list);
+    *list = *map;
+    list->kind = NH_DECK_LIST;
+    list->key = NULL;
+    list->item = nh_arena_alloc(arena, (map->count + 1) * sizeof *list->item);
+    for (size_t i = 0; i < map->count; i++) list->item[i] = named_item(arena, map->key[i], map->item[i]);
+    return list;
+}
+
+const nh_deck_node *nh_deck_named(nh_deck *deck, const nh_deck_node *node) { return listed(deck->arena, node); }
+
 static const nh_deck_node *merged(nh_arena *arena, const nh_deck_node *base, const nh_deck_node *own)
 {
+    if (all_named(base)) own = listed(arena, own);
+    else if (all_named(own)) base = listed(arena, base);
     if (base->kind != own->kind || own->kind == NH_DECK_SCALAR) return own;
     nh_deck_node *node = nh_arena_alloc(arena, sizeof *node);
     *node = *own;

@@ -18,6 +18,7 @@ enum {
     PANEL = 64,      /* columns factorised at a time, and */
     LEAF = 4,        /* those of them left to LAPACK: the fastest of several (tests/bench_nullspace.c) */
     SMALLEST_BLOCK = 64, /* rows; below it the calls cost more than the flops */
+    ASIDE = 100,     /* columns, from which on the QR of a full block takes longer than to start a thread for it */
     PATIENT = 400    /* columns: decompositions of fewer are not interrupted */
 };
 
@@ -61,24 +62,34 @@ struct nh_qr {
     size_t capacity; /* rows `block` can hold */
     double *r;       /* columns x columns */
     double *block;   /* capacity x columns */
+    double *full;    /* the same: rows that are on their way into the triangle; where nothing is done aside it is the same memory */
+    size_t filled;   /* rows in `full` */
+    nh_aside *aside; /* what is on its way */
     double *t;       /* PANEL x PANEL */
     double *work;    /* PANEL x columns */
 };
 
-nh_qr *nh_qr_create(size_t columns)
+nh_qr *nh_qr_create(size_t columns, size_t threads)
 {
     nh_qr *qr = nh_alloc(sizeof *qr);
-    qr->columns = columns;
-    qr->capacity = larger(2 * columns, SMALLEST_BLOCK);
+    *qr = (nh_qr){.columns = columns, .capacity = larger(2 * columns, SMALLEST_BLOCK)};
     qr->r = nh_alloc_array(columns * columns, sizeof(double));
     qr->block = nh_alloc_array(qr->capacity * columns, sizeof(double));
+    qr->full = threads > 1 && columns >= ASIDE ? nh_alloc_array(qr->capacity * columns, sizeof(double)) : qr->block;
     qr->t = nh_alloc_array(PANEL * PANEL, sizeof(double));
     qr->work = nh_alloc_array(PANEL * columns, sizeof(double));
     return qr;
 }
 
+static void await(nh_qr *qr)
+{
+    nh_aside_end(qr->aside);
+    qr->aside = NULL;
+}
+
 void nh_qr_reset(nh_qr *qr)
 {
+    await(qr);
     memset(qr->r, 0, qr->columns * qr->columns * sizeof *qr->r);
     qr->rows = qr->waiting = 0;
 }
@@ -87,6 +98,8 @@ void nh_qr_free(nh_qr *qr)
 {
     if (!qr)
         return;
+    await(qr);
+    if (qr->full != qr->block) nh_free(qr->full);
     nh_free(qr->r);
     nh_free(qr->block);
     nh_free(qr->t);
@@ -101,9 +114,9 @@ void nh_qr_free(nh_qr *qr)
 static void reflect(nh_qr *qr, size_t first, size_t count, const double *t, size_t right, size_t columns)
 {
     size_t n = qr->columns;
-    lapack_int k = (lapack_int)count, c = (lapack_int)columns, m = (lapack_int)qr->waiting, ld = (lapack_int)qr->capacity;
-    const double *v = qr->block + first * qr->capacity;
-    double *b = qr->block + right * qr->capacity, *r = qr->r + first + right * n, *w = qr->work;
+    lapack_int k = (lapack_int)count, c = (lapack_int)columns, m = (lapack_int)qr->filled, ld = (lapack_int)qr->capacity;
+    const double *v = qr->full + first * qr->capacity;
+    double *b = qr->full + right * qr->capacity, *r = qr->r + first + right * n, *w = qr->work;
     for (size_t j = 0; j < columns; j++)
         memcpy(w + j * count, r + j * n, count * sizeof *w);
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, k, c, m, 1.0, v, ld, b, ld, 1.0, w, k);
@@ -118,8 +131,8 @@ static void reflect(nh_qr *qr, size_t first, size_t count, const double *t, size
  * (13 % slower at 1000 columns).  The triangle of both halves is [T1 T12; 0 T2] with T12 = -T1 V1^T V2 T2. */
 static void factorise(nh_qr *qr, size_t first, size_t count, double *t)
 {
-    lapack_int m = (lapack_int)qr->waiting, n = (lapack_int)qr->columns, ld = (lapack_int)qr->capacity;
-    double *v = qr->block + first * qr->capacity;
+    lapack_int m = (lapack_int)qr->filled, n = (lapack_int)qr->columns, ld = (lapack_int)qr->capacity;
+    double *v = qr->full + first * qr->capacity;
     if (count <= LEAF) {
         LAPACKE_dtpqrt2_work(LAPACK_COL_MAJOR, m, (lapack_int)count, 0, qr->r + first * (qr->columns + 1), n, v, ld, t, PANEL);
         return;
@@ -136,15 +149,30 @@ static void factorise(nh_qr *qr, size_t first, size_t count, double *t)
 }
 
 /* [R; block] = Q R', panel by panel: a reflector acts on one row of R and all rows of the block, so the zeros of R stay. */
-static void flush(nh_qr *qr)
+static void absorb(void *context)
 {
-    for (size_t first = 0; first < qr->columns && qr->waiting > 0; first += PANEL) {
+    nh_qr *qr = context;
+    for (size_t first = 0; first < qr->columns; first += PANEL) {
         size_t count = smaller(PANEL, qr->columns - first), right = first + count;
         factorise(qr, first, count, qr->t);
         if (right < qr->columns)
             reflect(qr, first, count, qr->t, right, qr->columns - right);
     }
+}
+
+/* The rows that wait go into the triangle; with a second block they are exchanged for it, and the caller need not wait. */
+static void flush(nh_qr *qr)
+{
+    await(qr);
+    if (qr->waiting == 0)
+        return;
+    double *next = qr->full;
+    qr->full = qr->block;
+    qr->filled = qr->waiting;
+    qr->block = next;
     qr->waiting = 0;
+    if (qr->full == qr->block) absorb(qr);
+    else qr->aside = nh_aside_begin(absorb, qr);
 }
 
 /* All rows go through the buffer, however they arrive: so the triangle is the same to the last bit for every way of cutting
@@ -166,6 +194,7 @@ void nh_qr_add(nh_qr *qr, size_t rows, double *block, size_t ld)
 void nh_qr_triangle(nh_qr *qr, double *r)
 {
     flush(qr);
+    await(qr);
     memset(r, 0, qr->columns * qr->columns * sizeof *r);
     for (size_t j = 0; j < qr->columns; j++)
         memcpy(r + j * qr->columns, qr->r + j * qr->columns, (j + 1) * sizeof *r);

@@ -6,15 +6,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* One thread for BLAS: starting its threads costs more than our problems are worth (docs/performance.md). */
+/* Threads of BLAS.  One is best: starting its own costs more than most problems are worth, and ours (base/parallel.h) do not change results. */
 void nh_linalg_threads(int count);
 
 /* Whether there is neither NaN nor infinity in x (count).  LAPACK's iterations may not end on a NaN: nothing below lets one in. */
 bool nh_all_finite(size_t count, const double *x);
 
-/* Streaming QR: feed blocks of rows, keep only the triangle.  Memory O(columns^2). */
+/* Streaming QR: feed blocks of rows, keep only the triangle.  Memory O(columns^2).  With more than one thread it is computed beside the caller, who goes on to the
+ * next rows; the triangle is the same to the last bit. */
 typedef struct nh_qr nh_qr;
-nh_qr *nh_qr_create(size_t columns);
+nh_qr *nh_qr_create(size_t columns, size_t threads);
 void nh_qr_free(nh_qr *qr);
 void nh_qr_reset(nh_qr *qr); /* forget all rows */
 /* `rows` x columns block, column-major with leading dimension ld >= rows; it is overwritten. */

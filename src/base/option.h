@@ -15,7 +15,7 @@
     X(columns,          1500,    1,      20000, whole, "columns",  "largest ansatz that is tried")                                           \
     X(stage_columns,    330,     1,      20000, whole, "columns",  "largest part of one stage when the program chooses")                     \
     X(split_columns,    90,      1,      20000, whole, "columns",  "a stage with more columns than this is split by discrete symmetries")    \
-    X(threads,          1,       1,      64,    whole, "threads",  "that work on a stage's parts; the result does not depend on them")       \
+    X(threads,          0,       0,      64,    whole, "threads",  "that share the work; 0: one per processor; the result does not depend on it") \
     X(max_seconds,      10,      0,      1e7,   real,  "s",        "time after which the search by stages ends")                             \
     X(rank,             1e-9,    0,      1,     real,  "",         "columns whose pivot is below this part of the first are dependent")      \
     X(zero,             100,     1,      1e6,   real,  "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \

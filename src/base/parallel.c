@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <time.h>
 
@@ -44,23 +45,23 @@ typedef struct {
 } line;
 
 static _Thread_local pthread_mutex_t *turn; /* NULL: this thread does no such job */
-static _Thread_local bool mine;
+static _Thread_local bool has_turn;
 
 bool nh_in_turns(void) { return turn != NULL; }
 
 bool nh_turn_give(void)
 {
-    if (!turn || !mine) return false;
-    mine = false;
+    if (!turn || !has_turn) return false;
+    has_turn = false;
     pthread_mutex_unlock(turn);
     return true;
 }
 
 bool nh_turn_take(void)
 {
-    if (!turn || mine) return false;
+    if (!turn || has_turn) return false;
     pthread_mutex_lock(turn);
-    return mine = true;
+    return has_turn = true;
 }
 
 static void do_in_turn(size_t index, void *context)
@@ -79,6 +80,45 @@ void nh_parallel_in_turns(size_t jobs, size_t threads, void (*job)(size_t index,
     pthread_mutex_init(&l.turn, NULL);
     nh_parallel(jobs, threads, do_in_turn, &l);
     pthread_mutex_destroy(&l.turn);
+}
+
+size_t nh_threads(double wanted)
+{
+    cpu_set_t mine;
+    if (wanted >= 1) return (size_t)wanted;
+    return sched_getaffinity(0, sizeof mine, &mine) ? 1 : (size_t)CPU_COUNT(&mine);
+}
+
+/* ---- one job beside the caller ---- */
+
+struct nh_aside {
+    pthread_t thread;
+    bool started;
+    void (*job)(void *);
+    void *context;
+};
+
+static void *do_aside(void *argument)
+{
+    nh_aside *a = argument;
+    a->job(a->context);
+    return NULL;
+}
+
+nh_aside *nh_aside_begin(void (*job)(void *), void *context)
+{
+    nh_aside *a = nh_alloc(sizeof *a);
+    *a = (nh_aside){.job = job, .context = context};
+    a->started = pthread_create(&a->thread, NULL, do_aside, a) == 0;
+    if (!a->started) job(context);
+    return a;
+}
+
+void nh_aside_end(nh_aside *a)
+{
+    if (!a) return;
+    if (a->started) pthread_join(a->thread, NULL);
+    nh_free(a);
 }
 
 /* ---- one job that may be left alone ---- */

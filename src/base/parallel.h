@@ -19,6 +19,15 @@ bool nh_turn_take(void);
 /* Is this thread inside of such a job? */
 bool nh_in_turns(void);
 
+/* As many as are wanted; 0: one for each processor that the process may use. */
+size_t nh_threads(double wanted);
+
+/* job(context) beside the caller, who must wait for its end and release it by nh_aside_end (NULL: nothing to wait for).  When no thread can be started it is
+ * done at once. */
+typedef struct nh_aside nh_aside;
+nh_aside *nh_aside_begin(void (*job)(void *context), void *context);
+void nh_aside_end(nh_aside *aside);
+
 /* A long call into a library that cannot be asked to stop: job(context) on a thread of its own, while the caller looks out for an interruption (base/progress.h).
  * False when one comes: then the job goes on without the caller until it ends, or the process does; context must own all that it needs and is
  * released after it.  True: the job is done, and context is still the caller's. */

@@ -8,7 +8,7 @@
 #include "base/progress.h"
 
 enum { most_confirmations = 5 };
-static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const stiff_pair[2] = {"CVODE BDF", "GSL bsimp"}, *const last_resort = "CVODE Adams";
+static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const implicit_pair[2] = {"CVODE BDF", "ARKODE ESDIRK"};
 static const double loosest = nh_accuracy_loosest, tightest = nh_accuracy_tightest, step = nh_accuracy_step;
 static const double least_exponent = 0.2, most_exponent = 0.9; /* with which differences fall */
 static const double quick = 0.1, faster = 20;  /* a first run that takes longer than these seconds is compared with CVODE BDF, which must be so many times faster */
@@ -166,8 +166,8 @@ static nh_trajectory *farther(nh_trajectory *a, nh_trajectory *b)
 /* The method that confirms one when no second was measured: of the same kind, because what is stiff for one is so for all explicit ones. */
 static const nh_method *other_of(const nh_method *method)
 {
-    bool stiff = method->family == NH_METHOD_CVODE || (method->family == NH_METHOD_EXPLICIT && method->kind == NH_BSIMP);
-    const char *const *pair = stiff ? stiff_pair : explicit_pair;
+    bool implicit = method->family == NH_METHOD_CVODE || method == nh_method_find(implicit_pair[1]);
+    const char *const *pair = implicit ? implicit_pair : explicit_pair;
     return nh_method_find(pair[method == nh_method_find(pair[0])]);
 }
 
@@ -216,7 +216,7 @@ static nh_trajectory *race(search *s, double tolerance)
     nh_trajectory *t = run(s, s->method[0], tolerance, true, quick, &ignored);
     s->stopped = s->last >= quick;
     if (complete(t) || (t && nh_interrupted())) return t;
-    take(s, stiff_pair);
+    take(s, implicit_pair);
     nh_trajectory *other = run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e-3, 1e6), &ignored);
     s->doubtful = complete(other); /* implicit methods can damp what grows: always confirmed */
     if (s->doubtful || nh_interrupted()) return farther(other, t);
@@ -344,21 +344,16 @@ static nh_trajectory *tighten(search *s, nh_error *error)
     return a && !clean && !nh_interrupted() ? undisturbed(s, a) : a;
 }
 
-/* The other method at ever tighter tolerances until it agrees; where an implicit one cannot compute the motion, another. */
+/* The other method at ever tighter tolerances until it agrees. */
 static void confirm(search *s, const nh_trajectory *t)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
     double tolerance = s->out->tolerance;
+    s->out->second = s->method[1]->name;
     for (int i = 0; i < most_confirmations && (i == 0 || tolerance > tightest) && !(s->out->difference < s->eps); i++) {
         tolerance = fmax(tolerance / (i == 0 ? 3 : 30), tightest);
         nh_trajectory *other = run(s, s->method[1], tolerance, true, s->request->max_seconds, &ignored);
-        if (i == 0 && !complete(other) && s->method[1] == nh_method_find(stiff_pair[1]) && !nh_interrupted()) {
-            nh_trajectory_free(other);
-            s->method[1] = nh_method_find(last_resort);
-            other = run(s, s->method[1], tolerance, true, s->request->max_seconds, &ignored);
-        }
-        s->out->second = s->method[1]->name;
         s->out->difference = fmin(s->out->difference, difference(s, t, other));
         nh_trajectory_free(other);
     }

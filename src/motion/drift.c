@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/linalg.h"
 #include "base/progress.h"
+#include "expr/terms.h"
 
 typedef struct {
     const nh_model *model;
@@ -31,25 +32,6 @@ static double time_left(const run *r) { return fmax(r->options->check_seconds / 
 
 /* ---- currents along a motion ---- */
 
-/* The current, then its terms: those of a sum, also under a common factor. */
-static size_t terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
-{
-    nh_ex factor = nh_int(d, 1), sum = phi;
-    for (size_t i = 0; nh_kind_of(d, phi) == NH_PRODUCT && i < nh_arity(d, phi); i++) {
-        nh_ex base = nh_child(d, phi, i);
-        if (nh_kind_of(d, base) != NH_SUM || !nh_is_number(d, nh_exponent_of(d, phi, i), 1)) continue;
-        sum = base;
-        factor = nh_div(d, phi, base);
-        break;
-    }
-    size_t n = nh_kind_of(d, sum) == NH_SUM ? nh_arity(d, sum) : 0;
-    nh_ex *e = nh_alloc_array(1 + n, sizeof *e);
-    e[0] = phi;
-    for (size_t j = 0; j < n; j++) e[1 + j] = nh_mul(d, factor, nh_mul(d, nh_number(d, nh_coefficient_of(d, sum, j)), nh_child(d, sum, j)));
-    *out = e;
-    return 1 + n;
-}
-
 /* How many outputs there are before the motion leaves the interval of current k. */
 static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
 {
@@ -69,7 +51,7 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
     bool any, *steep = nh_steep_points(r->dynamics, motion, &any);
     for (size_t k = 0; k < n; k++) {
         nh_ex *e;
-        size_t per = terms_of(r->model->dag, phi[k], &e);
+        size_t per = nh_terms_of(r->model->dag, phi[k], &e);
         double *value = nh_alloc_array(per * motion->count, sizeof *value);
         nh_drift *d = &r->out->current[k];
         double scale = 0, worst = 0;

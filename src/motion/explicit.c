@@ -1,14 +1,13 @@
 #include "motion/explicit.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "base/linalg.h"
 #include "base/memory.h"
+#include "motion/guards.h"
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -20,7 +19,7 @@ typedef struct {
     size_t count;
     double h, before, now;     /* next step; times before and after the last one */
     double *state, *old, *work; /* now; before the last step */
-    double *jacobian;           /* size x size, by columns; NULL: not needed */
+    nh_guards guards;
     long evaluations;
 } explicit_work;
 
@@ -34,36 +33,36 @@ static int call_rate(double t, const double *z, double *rate, void *context)
     return GSL_SUCCESS;
 }
 
-/* GSL wants rows. */
-static int call_jacobian(double t, const double *z, double *rows, double *by_time, void *context)
-{
-    explicit_work *work = context;
-    size_t n = work->problem->size;
-    double later = sqrt(DBL_EPSILON) * fmax(1, fabs(t)), *rate = work->jacobian + n * n;
-    if (!work->problem->jacobian(t, z, work->jacobian, work->problem->context)) return GSL_FAILURE;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) rows[i * n + j] = work->jacobian[i + j * n];
-    if (call_rate(t, z, rate, work) != GSL_SUCCESS || call_rate(t + later, z, by_time, work) != GSL_SUCCESS) return GSL_FAILURE;
-    for (size_t i = 0; i < n; i++) by_time[i] = (by_time[i] - rate[i]) / later;
-    return nh_all_finite(n * n, rows) && nh_all_finite(n, by_time) ? GSL_SUCCESS : GSL_FAILURE;
-}
-
 static bool changed_after(const explicit_work *work, double t, double *z)
 {
     return !work->options->after || work->options->after(t, z, work->options->after_context);
 }
 
+/* Back to before the last step, where a guard has changed its sign over it. */
+static nh_step go_back(explicit_work *work, nh_guard_verdict verdict, double *time)
+{
+    memcpy(work->state, work->old, work->problem->size * sizeof *work->state);
+    *time = work->now = work->before;
+    gsl_odeiv2_evolve_reset(work->driver->e);
+    gsl_odeiv2_step_reset(work->driver->s);
+    return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
+}
+
 static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
 {
     explicit_work *work = context;
-    double target = work->times[work->between ? work->count - 1 : motion->count], wanted = work->h;
+    double target = work->times[work->between ? work->count - 1 : motion->count];
     size_t size = work->problem->size;
+    if (fabs(work->h) > work->guards.longest) work->h = copysign(work->guards.longest, work->h);
+    double wanted = work->h;
     work->before = *time;
     memcpy(work->old, work->state, size * sizeof *work->old);
     int flag = gsl_odeiv2_evolve_apply(work->driver->e, work->driver->c, work->driver->s, &work->system, time, target, &work->h, work->state);
     motion->evaluations = work->evaluations;
     work->now = *time;
     bool last = *time == work->times[work->count - 1];
+    nh_guard_verdict verdict = flag == GSL_SUCCESS ? nh_guards_judge(&work->guards, work->before, *time, work->state, motion) : NH_GUARD_KEPT;
+    if (verdict != NH_GUARD_KEPT) return go_back(work, verdict, time);
     if (*time == target && fabs(work->h) < fabs(wanted)) work->h = wanted; /* it was cut to end there */
     if (flag == GSL_SUCCESS && work->options->after) {
         if (!changed_after(work, *time, work->state)) {
@@ -120,7 +119,7 @@ static double first_step(explicit_work *work, double span)
 
 static bool set_up(explicit_work *work, nh_explicit_method method, double rtol)
 {
-    static const gsl_odeiv2_step_type *const *const types[] = {&gsl_odeiv2_step_rk8pd, &gsl_odeiv2_step_rkf45, &gsl_odeiv2_step_msadams, &gsl_odeiv2_step_bsimp};
+    static const gsl_odeiv2_step_type *const *const types[] = {&gsl_odeiv2_step_rk8pd, &gsl_odeiv2_step_rkf45, &gsl_odeiv2_step_msadams};
     size_t size = work->problem->size;
     double *scale = nh_alloc_array(size, sizeof *scale);
     for (size_t i = 0; i < size; i++) scale[i] = work->options->scale ? work->options->scale[i] : 1;
@@ -128,7 +127,7 @@ static bool set_up(explicit_work *work, nh_explicit_method method, double rtol)
     work->h = first_step(work, work->times[work->count - 1] - work->times[0]);
     /* atol_i = rtol * scale_i; GSL adds the relative part itself */
     if (work->h != 0) work->driver = gsl_odeiv2_driver_alloc_scaled_new(&work->system, *types[method], work->h, rtol, rtol, 1, 0, scale);
-    if (work->driver && (method == NH_RK8PD || method == NH_RKF45)) work->between = gsl_odeiv2_step_alloc(*types[method], size);
+    if (work->driver && method != NH_MSADAMS) work->between = gsl_odeiv2_step_alloc(*types[method], size);
     nh_free(scale);
     return work->driver != NULL;
 }
@@ -137,7 +136,6 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
                        const nh_flow_options *options, nh_error *error)
 {
     size_t size = problem->size;
-    if (method == NH_BSIMP && !problem->jacobian) return nh_fail(error, NH_NUMERIC, "", "this method needs derivatives of the right-hand side, which are not known in all coordinates"), NULL;
     nh_motion *motion = nh_motion_start(size, size, initial, count, times, options, error);
     if (!motion || motion->complete) return motion;
     explicit_work work = {.problem = problem, .options = options, .times = times, .count = count};
@@ -145,11 +143,8 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
     work.state = nh_alloc_array(3 * size, sizeof *work.state);
     work.old = work.state + size;
     work.work = work.old + size;
-    if (method == NH_BSIMP) {
-        work.jacobian = nh_alloc_array(size * size + size, sizeof *work.jacobian);
-        work.system.jacobian = call_jacobian;
-    }
     memcpy(work.state, initial, size * sizeof *initial);
+    nh_guards_begin(&work.guards, problem, options, initial, count, times);
     bool good = set_up(&work, method, nh_motion_rtol(motion, options));
     if (good) {
         nh_stepper stepper = {.context = &work, .advance = explicit_advance, .state = work.between ? between_state : explicit_state, .stuck = explicit_stuck};
@@ -162,7 +157,7 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
     }
     if (work.between) gsl_odeiv2_step_free(work.between);
     if (work.driver) gsl_odeiv2_driver_free(work.driver);
+    nh_guards_clear(&work.guards);
     nh_free(work.state);
-    nh_free(work.jacobian);
     return motion;
 }

@@ -1,6 +1,5 @@
 /* explicit: motions of z' = f(t, z) by GSL's steppers: Runge-Kutta pairs of order 8 (Prince-Dormand) and 5 (Fehlberg), and Adams's method
- * with fixed-point iteration in Nordsieck form.  No Jacobian is needed; guards are not watched.  And one that is not explicit: extrapolated semi-implicit
- * midpoint steps, for stiff equations, which need the Jacobian (and df/dt, which is differenced).                    [BaderDeuflhard1983]
+ * with fixed-point iteration in Nordsieck form.  No Jacobian is needed; guards are not watched.
  *
  * Between steps the one-step methods are read by a shorter step of the same method, so that output times do not change the motion; Adams's
  * method steps to every output time.                                                                                [Galassi2009] */
@@ -9,7 +8,7 @@
 
 #include "motion/flow.h"
 
-typedef enum { NH_RK8PD, NH_RKF45, NH_MSADAMS, NH_BSIMP } nh_explicit_method;
+typedef enum { NH_RK8PD, NH_RKF45, NH_MSADAMS } nh_explicit_method;
 
 /* As nh_flow. */
 nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,

@@ -39,6 +39,7 @@ typedef struct {
     /* Called after every step of a one-step method with the new state, which it may change (a projection); false: it could not. */
     bool (*after)(double t, double *z, void *context);
     void *after_context;
+    bool guarded;            /* guards end the motions of one-step methods, too (guards.h); those of CVODE they always do */
 } nh_flow_options;
 
 typedef struct {

@@ -1,11 +1,12 @@
-/* pairs: motions of z' = f(t, z) by ARKODE's explicit Runge-Kutta pairs.  Steps end at the output times: the interpolation of the pairs has a
- * lower order than their steps.  Guards are not watched.                                                            [Hindmarsh2005] */
+/* pairs: motions of z' = f(t, z) by ARKODE's Runge-Kutta pairs: explicit ones, and one with a diagonally implicit, L-stable, stiffly accurate method for stiff
+ * equations.  Steps end at the output times: the interpolation of the pairs has a lower order than their steps.  Guards are not watched.
+ *                                                                                                                 [Hindmarsh2005] */
 #ifndef NH_PAIRS_H
 #define NH_PAIRS_H
 
 #include "motion/flow.h"
 
-typedef enum { NH_DORMAND_PRINCE_5, NH_VERNER_6, NH_FEHLBERG_8 } nh_pairs_method;
+typedef enum { NH_DORMAND_PRINCE_5, NH_VERNER_6, NH_FEHLBERG_8, NH_ESDIRK_5 } nh_pairs_method;
 
 /* As nh_flow. */
 nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,

@@ -24,10 +24,10 @@ typedef struct {
 } candidate;
 
 /* In the order in which they are tried: what a short budget leaves out is seldom the cheapest. */
-static const candidate candidates[] = {{"GSL rk8pd", NH_OWN_VELOCITIES},       {"CVODE BDF", NH_OWN_VELOCITIES},   {"GSL bsimp", NH_OWN_VELOCITIES}, {"CVODE Adams", NH_OWN_VELOCITIES},         {"GSL rk8pd", NH_OTHER_VELOCITIES},
+static const candidate candidates[] = {{"GSL rk8pd", NH_OWN_VELOCITIES},       {"CVODE BDF", NH_OWN_VELOCITIES},   {"ARKODE ESDIRK", NH_OWN_VELOCITIES}, {"CVODE Adams", NH_OWN_VELOCITIES},         {"GSL rk8pd", NH_OTHER_VELOCITIES},
                                        {"GSL rkf45", NH_OWN_VELOCITIES},       {"ARKODE Verner", NH_OWN_VELOCITIES}, {"GSL rk8pd", NH_ALL_COORDINATES},        {"ARKODE Fehlberg", NH_OWN_VELOCITIES},
                                        {"CVODE BDF", NH_OTHER_VELOCITIES},     {"CVODE Adams", NH_OTHER_VELOCITIES}, {"ARKODE Dormand-Prince", NH_OWN_VELOCITIES}, {"relaxation, order 8", NH_OWN_VELOCITIES},
-                                       {"CVODE BDF", NH_ALL_COORDINATES},      {"CVODE Adams", NH_ALL_COORDINATES}, {"GSL msadams", NH_OWN_VELOCITIES}, {"GSL bsimp", NH_OTHER_VELOCITIES}};
+                                       {"CVODE BDF", NH_ALL_COORDINATES},      {"CVODE Adams", NH_ALL_COORDINATES}, {"GSL msadams", NH_OWN_VELOCITIES}, {"ARKODE ESDIRK", NH_OTHER_VELOCITIES}};
 
 typedef struct {
     const nh_trajectory_request *request;

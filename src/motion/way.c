@@ -6,7 +6,7 @@ static const double exponent = 0.9; /* with which errors fall with the tolerance
 
 bool nh_way_doubtful(const nh_method *method)
 {
-    bool one_step = method->family == NH_METHOD_PAIRS || (method->family == NH_METHOD_EXPLICIT && method->kind != NH_MSADAMS && method->kind != NH_BSIMP);
+    bool one_step = (method->family == NH_METHOD_PAIRS && method->kind != NH_ESDIRK_5) || (method->family == NH_METHOD_EXPLICIT && method->kind != NH_MSADAMS);
     return !one_step;
 }
 

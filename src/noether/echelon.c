@@ -18,7 +18,7 @@ nh_nullspace *nh_echelon_terms(const nh_model *model, const nh_points *points, s
     nh_family family = {.kind = NH_TERMS, .terms = n, .term = term};
     nh_ansatz *a = nh_ansatz_create(model, points, 1, &family, n, error);
     if (!a) return NULL;
-    nh_equations *equations = nh_equations_create(a->columns);
+    nh_equations *equations = nh_equations_create(a->columns, 1);
     nh_rows *rows = nh_rows_create(model, a, 0, NULL);
     nh_rows_current(rows, points, NULL, equations);
     nh_nullspace_options limits = nh_nullspace_options_from(options);

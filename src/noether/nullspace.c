@@ -23,12 +23,12 @@ struct nh_equations {
     bool *left_out;   /* per column that was not finite somewhere; NULL: such a column is an error */
 };
 
-nh_equations *nh_equations_create(size_t columns)
+nh_equations *nh_equations_create(size_t columns, size_t threads)
 {
     nh_equations *equations = nh_alloc(sizeof *equations);
     equations->columns = columns;
-    equations->residuals = nh_qr_create(columns);
-    equations->values = nh_qr_create(columns + 1);
+    equations->residuals = nh_qr_create(columns, threads);
+    equations->values = nh_qr_create(columns + 1, threads);
     equations->chunk = nh_alloc_array(CHUNK * (columns + 1), sizeof(double));
     return equations;
 }

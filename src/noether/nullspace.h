@@ -23,9 +23,9 @@
 
 typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED } nh_verdict;
 
-/* Collects rows. */
+/* Collects rows.  With more than one thread what they are condensed to is computed beside the caller, of A and B at once; the result does not depend on it. */
 typedef struct nh_equations nh_equations;
-nh_equations *nh_equations_create(size_t columns);
+nh_equations *nh_equations_create(size_t columns, size_t threads);
 void nh_equations_free(nh_equations *equations);
 void nh_equations_reset(nh_equations *equations); /* forget all rows */
 /* From now on a column that is not finite at some point is dropped, as dependent ones are, instead of an error: for an ansatz that the program

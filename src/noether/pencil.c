@@ -71,7 +71,7 @@ static bool check_input(const work *w, nh_error *error)
 static void triangle_of_both(const work *w, double *t)
 {
     enum { CHUNK = 64 };
-    nh_qr *qr = nh_qr_create(2 * w->columns);
+    nh_qr *qr = nh_qr_create(2 * w->columns, 1);
     double *chunk = new_matrix(CHUNK, 2 * w->columns);
     for (size_t done = 0; done < w->rows; done += CHUNK) {
         size_t take = w->rows - done < CHUNK ? w->rows - done : CHUNK;
@@ -93,7 +93,7 @@ static void triangle_of_basis(const work *w, const double *t, double *s)
     double *kept = new_matrix(height, 2 * w->n);
     nh_basis_gather(&w->basis, height, t, height, kept);
     nh_basis_gather(&w->basis, height, t + height * w->columns, height, kept + height * w->n);
-    nh_qr *qr = nh_qr_create(2 * w->n);
+    nh_qr *qr = nh_qr_create(2 * w->n, 1);
     nh_qr_add(qr, height, kept, height);
     nh_qr_triangle(qr, s);
     nh_qr_free(qr);

@@ -157,7 +157,7 @@ void nh_sectors_clear(nh_sectors *s)
 typedef struct {
     const nh_sectors *sectors;
     const nh_nullspace_options *options;
-    size_t equations, points;
+    size_t equations, points, threads; /* threads: of one sector */
     double *a, *b; /* weighted rates, equations x columns; values, points x columns */
     nh_nullspace **part;
     nh_error *error; /* one per sector */
@@ -167,7 +167,7 @@ static void solve_sector(size_t s, void *context)
 {
     task *t = context;
     size_t from = t->sectors->first[s], columns = t->sectors->first[s + 1] - from;
-    nh_equations *equations = nh_equations_create(columns);
+    nh_equations *equations = nh_equations_create(columns, t->threads);
     nh_equations_leave_out(equations);
     nh_equations_add(equations, t->equations, t->a + from * t->equations, t->equations);
     nh_equations_add_values(equations, t->points, t->b + from * t->points, t->points);
@@ -235,7 +235,7 @@ nh_nullspace *nh_sectors_solve(const nh_model *o, const nh_ansatz *a, const nh_s
                                const nh_nullspace_options *options, size_t threads, nh_error *error)
 {
     size_t n = a->columns, count = sectors->count;
-    task t = {.sectors = sectors, .options = options, .equations = nh_points_equations(points), .points = points->count};
+    task t = {.sectors = sectors, .options = options, .equations = nh_points_equations(points), .points = points->count, .threads = count < threads ? threads / count : 1};
     t.a = nh_alloc_array(n * (t.equations + t.points) + 1, sizeof *t.a);
     t.b = t.a + n * t.equations;
     t.part = nh_alloc_array(count + 1, sizeof *t.part);

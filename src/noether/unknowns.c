@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "noether/pencil.h"
 #include "system/sample.h"
@@ -306,7 +307,7 @@ static bool open_objective(objective *o, const nh_model *model, size_t families,
     o->ansatz = nh_ansatz_create(model, o->points, count, with, (size_t)options->columns, error);
     if (o->ansatz) {
         o->rows = nh_rows_create(model, o->ansatz, o->n, symbol);
-        o->equations = nh_equations_create(o->ansatz->columns);
+        o->equations = nh_equations_create(o->ansatz->columns, nh_threads(options->threads));
     }
     nh_free(symbol);
     nh_free(with);

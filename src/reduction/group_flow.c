@@ -20,6 +20,39 @@ static bool independent_of_shape(const nh_slice *s)
     return true;
 }
 
+/* Is A^3 = lambda A?  So it is for translations and for rotations, boosts too, in the bases that are usual. */
+static void find_cubic(nh_group_flow *f, size_t a)
+{
+    static const double rounding = 1e-15;
+    size_t d = f->d, n = d * d, most = 0;
+    const double *A = f->ad + a * n;
+    double *square = f->square + a * n, *cube = f->next, off = 0, size = nh_largest(n, A);
+    nh_multiply(d, d, d, A, A, square);
+    nh_multiply(d, d, d, A, square, cube);
+    for (size_t i = 0; i < n; i++)
+        if (fabs(A[i]) > fabs(A[most])) most = i;
+    f->lambda[a] = size > 0 ? cube[most] / A[most] : 0;
+    for (size_t i = 0; i < n; i++) off = fmax(off, fabs(cube[i] - f->lambda[a] * A[i]));
+    if (fabs(f->lambda[a]) <= rounding * size * size) f->lambda[a] = 0;
+    f->cubic[a] = off <= rounding * size * size * size;
+}
+
+/* exp(t ad_a) into f->E: 1 + S ad_a + C ad_a^2 with S = sin(wt)/w, C = (1 - cos(wt))/w^2 for lambda = -w^2, and so on; else by scaling and squaring. */
+static void exponential(nh_group_flow *f, size_t a, double t)
+{
+    size_t d = f->d, n = d * d;
+    const double *A = f->ad + a * n, *square = f->square + a * n;
+    if (!f->cubic[a]) {
+        for (size_t i = 0; i < n; i++) f->next[i] = t * A[i];
+        nh_matrix_exp(d, f->next, f->E);
+        return;
+    }
+    double w = sqrt(fabs(f->lambda[a])), half = t / 2, S = t, C = half * t;
+    if (f->lambda[a] < 0) S = sin(w * t) / w, C = 2 * pow(sin(w * half) / w, 2);
+    if (f->lambda[a] > 0) S = sinh(w * t) / w, C = 2 * pow(sinh(w * half) / w, 2);
+    for (size_t i = 0; i < n; i++) f->E[i] = (i % (d + 1) == 0) + S * A[i] + C * square[i];
+}
+
 void nh_group_flow_factors(nh_group_flow *f, const double *t)
 {
     size_t d = f->d;
@@ -27,8 +60,7 @@ void nh_group_flow_factors(nh_group_flow *f, const double *t)
     for (size_t a = 0; a < d; a++) {
         memcpy(f->M + a * d, f->P + a * d, d * sizeof *f->M);
         if (!f->acts[a] || t[a] == 0) continue;
-        for (size_t i = 0; i < d * d; i++) f->next[i] = t[a] * f->ad[a * d * d + i];
-        nh_matrix_exp(d, f->next, f->E);
+        exponential(f, a, t[a]);
         nh_multiply(d, d, d, f->P, f->E, f->next);
         memcpy(f->P, f->next, d * d * sizeof *f->P);
     }
@@ -57,20 +89,23 @@ bool nh_group_flow_rate(double time, const double *z, double *rate, void *contex
     nh_group_flow_factors(f, z + f->inner);
     nh_multiply(d, 1, d, f->P, f->zeta, rate + f->inner);
     if (f->direct) place_rate(f, z + f->inner + d, rate);
-    return d == 0 || nh_solve(d, f->M, 1, rate + f->inner, NULL);
+    return f->abelian || nh_solve(d, f->M, 1, rate + f->inner, NULL);
 }
 
+/* det M does not depend on the basis of the Lie algebra, and vanishes where the coordinates of the second kind are singular (cos t_2 of a rotation).  Where it is far from zero large entries, of
+ * translations above all, cost digits only. */
 bool nh_group_flow_guard(double time, const double *z, double *value, void *context)
 {
     (void)time;
-    static const double least = 0.1;
+    static const double least = 0.2, most = 30;
     nh_group_flow *f = context;
-    double *s = f->zeta;
     if (!nh_reduced_flow_guards(f->chart->flow, z, value)) return false;
     if (!f->d || !f->group) return true;
+    value[2] = 1;
+    if (f->abelian) return true;
     nh_group_flow_factors(f, z + f->inner);
-    nh_singular_values(f->d, f->d, f->M, s);
-    value[2] = s[0] > 0 ? s[f->d - 1] / s[0] - least : -1;
+    double large = 1 - nh_largest(f->d * f->d, f->M) / most, det = fabs(nh_determinant(f->d, f->M));
+    value[2] = fmin(fmin(det, 1 / det) - least, large);
     return isfinite(value[2]);
 }
 
@@ -78,18 +113,23 @@ void nh_group_flow_init(nh_group_flow *f, const nh_action *action, bool group)
 {
     const nh_algebra *g = &action->algebra;
     size_t d = g->d, m = action->kinetic->m;
-    *f = (nh_group_flow){.action = action, .group = group, .d = d, .m = m};
-    f->ad = nh_alloc_array(d * d * d + 4 * d * d + d + 1, sizeof *f->ad);
-    f->M = f->ad + d * d * d;
+    *f = (nh_group_flow){.action = action, .group = group, .abelian = true, .d = d, .m = m};
+    f->ad = nh_alloc_array(2 * d * d * d + 4 * d * d + 2 * d + 1, sizeof *f->ad);
+    f->square = f->ad + d * d * d;
+    f->lambda = f->square + d * d * d;
+    f->M = f->lambda + d;
     f->P = f->M + d * d;
     f->E = f->P + d * d;
     f->next = f->E + d * d;
     f->zeta = f->next + d * d;
-    f->acts = nh_alloc_array(d + 1, sizeof *f->acts);
+    f->acts = nh_alloc_array(2 * d + 1, sizeof *f->acts);
+    f->cubic = f->acts + d;
     for (size_t a = 0; a < d; a++) {
         for (size_t i = 0; i < d; i++) f->zeta[i] = i == a;
         nh_algebra_ad(g, f->zeta, f->ad + a * d * d);
         f->acts[a] = nh_largest(d * d, f->ad + a * d * d) > 0;
+        f->abelian &= !f->acts[a];
+        find_cubic(f, a);
     }
     nh_ex *e = nh_alloc_array(m * d + 1, sizeof *e);
     for (size_t a = 0; a < d; a++) memcpy(e + a * m, action->generator[a].component, m * sizeof *e);

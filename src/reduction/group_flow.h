@@ -11,9 +11,12 @@ typedef struct {
     const nh_reduced_chart *chart;
     const nh_action *action;
     bool group;                     /* its motion is wanted, too */
+    bool abelian;                   /* all ad_a are zero: M = 1 */
     size_t inner, d, m;
     double *ad;                     /* d matrices d x d */
     bool *acts;                     /* ad_a is not zero */
+    bool *cubic;                    /* ad_a^3 = lambda_a ad_a: its exponential has a closed form */
+    double *square, *lambda;        /* ad_a^2, d matrices; lambda_a */
     double *M, *P, *E, *next, *zeta; /* work */
     bool direct;                    /* the place itself is integrated beside (x, p, t) */
     nh_tape *field;                 /* generators at a place */
@@ -31,7 +34,7 @@ void nh_group_flow_clear(nh_group_flow *flow);
 size_t nh_group_flow_size(const nh_group_flow *flow);
 /* z' (context: the flow). */
 bool nh_group_flow_rate(double time, const double *z, double *rate, void *flow);
-/* What must stay regular in the reduced equations, and sigma_min / sigma_max of M, above what is tolerated: three values (context: the flow). */
+/* What must stay regular in the reduced equations, and det M, between limits that it must not leave, with M's entries: three values (context: the flow). */
 bool nh_group_flow_guard(double time, const double *z, double *value, void *flow);
 /* M(t) into flow->M and Ad_g into flow->P, from the d coordinates. */
 void nh_group_flow_factors(nh_group_flow *flow, const double *t);

@@ -62,6 +62,7 @@ static bool store(course *c, const nh_motion *motion, size_t from)
         nh_reduced_flow_time(f->chart->flow, motion->time[i]);
         memcpy(out->z + at * f->inner, z, f->inner * sizeof *z);
         if (!nh_reduced_flow_at(f->chart->flow, z, NULL, NULL, f->d ? out->zeta + at * f->d : NULL, out->energy + at)) return false;
+        out->energy_size[at] = fmax(nh_reduced_flow_energy_size(f->chart->flow), at ? out->energy_size[at - 1] : 0);
         if (f->group) good = place_of(c, z, out->q + at * out->m);
         out->count += good;
     }
@@ -168,29 +169,33 @@ static bool may_renew(course *c, const nh_motion *motion)
     return c->failures < most_failures;
 }
 
-static bool run(course *c, size_t count, const double *times, const nh_options *options, nh_error *error)
+static bool run(course *c, size_t count, const double *times, const nh_reconstruct_how *how, nh_error *error)
 {
-    enum { most_stretches = 10000, patience = 3000 };
+    enum { most_stretches = 10000 };
+    static const double least = 1e-6; /* seconds */
+    const nh_method *method = how->method ? how->method : nh_method_find("CVODE Adams");
+    double patience = method->family == NH_METHOD_CVODE ? 3000 : 30000; /* one-step methods, above all those of low order, take more and shorter steps */
     nh_reconstruction *out = c->out;
     nh_group_flow *f = &c->f;
     size_t stretches = 0;
     memcpy(c->left, times, count * sizeof *times);
     for (; !out->complete && stretches < most_stretches; stretches++) {
-        double steps = options->steps - (double)out->steps;
-        nh_flow_options o = {.method = NH_ADAMS, .rtol = options->tolerance, .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1)};
+        double steps = how->steps - (double)out->steps;
+        nh_flow_options o = {.rtol = how->tolerance, .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1), .guarded = true};
+        if (how->seconds > 0) o.seconds = fmax(how->seconds - out->seconds, least);
         nh_flow_problem problem = {.size = nh_group_flow_size(f), .context = f, .rate = nh_group_flow_rate, .guards = 2 + (f->d > 0 && f->group), .guard = nh_group_flow_guard};
         size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
         if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);
-        nh_motion *motion = nh_flow(&problem, c->state, n + first, c->left, &o, error);
+        nh_motion *motion = nh_method_flow(method, &problem, c->state, n + first, c->left, &o, error);
         if (!motion) return false;
         out->evaluations += motion->evaluations;
         out->steps += motion->steps;
         out->seconds += motion->seconds;
-        bool found = store(c, motion, first);
+        bool found = store(c, motion, first), late = how->seconds > 0 && out->seconds >= how->seconds;
         out->complete = motion->complete && found;
         bool renew = may_renew(c, motion);
         bool guarded = motion->guard_hit >= 0 && (c->atlas || motion->guard_hit == 2);
-        bool on = !out->complete && found && (double)out->steps < options->steps && (guarded || renew) && go_on(c, motion, renew);
+        bool on = !out->complete && found && (double)out->steps < how->steps && !late && (guarded || renew) && go_on(c, motion, renew);
         if (!out->complete && !on) explain(c, motion, found, times);
         nh_motion_free(motion);
         if (!out->complete && !on) break;
@@ -207,7 +212,7 @@ typedef struct {
     const double *moved;
 } beginning;
 
-static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool group, size_t count, const double *times, const nh_options *options, nh_error *error)
+static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool group, size_t count, const double *times, const nh_reconstruct_how *how, nh_error *error)
 {
     const nh_reduced_chart *chart = at->chart;
     const double *z = at->z, *q = at->q;
@@ -224,11 +229,12 @@ static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool grou
     out->q = group ? nh_alloc_array(count * m + 1, sizeof *out->q) : NULL;
     out->z = nh_alloc_array(count * inner + 1, sizeof *out->z);
     out->zeta = nh_alloc_array(count * c.f.d + 1, sizeof *out->zeta);
-    out->energy = nh_alloc_array(count + 1, sizeof *out->energy);
+    out->energy = nh_alloc_array(2 * count + 2, sizeof *out->energy);
+    out->energy_size = out->energy + count + 1;
     memcpy(c.state, z, inner * sizeof *z);
     for (size_t i = 0; i < at->moves && group; i++) keep_factors(&c, at->moved + i * c.f.d);
     begin_stretch(&c, q);
-    bool good = run(&c, count, times, options, error);
+    bool good = run(&c, count, times, how, error);
     nh_group_flow_clear(&c.f);
     nh_flows_free(c.flows);
     nh_free(c.factor);
@@ -240,19 +246,19 @@ static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool grou
     return NULL;
 }
 
-nh_reconstruction *nh_reconstruct(const nh_reduced *o, const nh_slice *slice, const double *z, size_t count, const double *times, const nh_options *options,
+nh_reconstruction *nh_reconstruct(const nh_reduced *o, const nh_slice *slice, const double *z, size_t count, const double *times, const nh_reconstruct_how *how,
                                   nh_error *error)
 {
     nh_reduced_chart chart = {.slice = slice, .reduced = o, .flow = nh_reduced_flow_create(o)};
     double *q = nh_alloc_array(slice->m, sizeof *q);
     nh_slice_place(slice, z, q);
-    nh_reconstruction *out = follow(NULL, &(beginning){.chart = &chart, .z = z, .q = q}, true, count, times, options, error);
+    nh_reconstruction *out = follow(NULL, &(beginning){.chart = &chart, .z = z, .q = q}, true, count, times, how, error);
     nh_reduced_flow_free(chart.flow);
     nh_free(q);
     return out;
 }
 
-nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count, const double *times, const nh_options *options,
+nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const double *v, bool group, size_t count, const double *times, const nh_reconstruct_how *how,
                                        nh_error *error)
 {
     const nh_action *g = nh_atlas_action(atlas);
@@ -267,7 +273,7 @@ nh_reconstruction *nh_reconstruct_over(nh_atlas *atlas, const double *q, const d
     if (!chart) moves = 0;
     if (!chart) chart = nh_atlas_at(atlas, q, v, z, error);
     nh_error_clear(&ignored);
-    nh_reconstruction *out = chart ? follow(atlas, &(beginning){.chart = chart, .z = z, .q = q, .moves = moves, .moved = moved}, group, count, times, options, error) : NULL;
+    nh_reconstruction *out = chart ? follow(atlas, &(beginning){.chart = chart, .z = z, .q = q, .moves = moves, .moved = moved}, group, count, times, how, error) : NULL;
     nh_free(z);
     return out;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "expr/terms.h"
 #include "reduction/subspace.h"
 
 void nh_reduced_init(nh_reduced *o, const nh_kinetic *k, size_t n, const nh_ex *x, size_t r, size_t d)
@@ -140,9 +141,10 @@ void nh_reduced_independent_at(const nh_slice *s, const double *q, size_t *indep
 
 struct nh_reduced_flow {
     const nh_reduced *o;
-    nh_tape *mass, *rest, *guard; /* M(x); x', F, zeta, energy of (x, w); matrices that must stay regular */
-    nh_tape_work *mass_work, *rest_work, *guard_work;
-    double *M, *in, *out, *regular, time;
+    nh_tape *mass, *rest, *guard, *size; /* M(x); x', F, zeta, energy of (x, w); matrices that must stay regular; the energy with its terms */
+    nh_tape_work *mass_work, *rest_work, *guard_work, *size_work;
+    size_t terms;
+    double *M, *in, *out, *regular, *term, time;
     double sign[2], limit[2], fixed[2];
     bool constant[2];             /* a guard that does not depend on x */
 };
@@ -249,6 +251,12 @@ nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *o)
     e[total - 1] = o->energy;
     f->mass = nh_tape_create(o->kinetic->dag, n, in, r * r, o->M, p, y->parameter, y->parameter_value);
     f->rest = nh_tape_create(o->kinetic->dag, n + r + o->timed, in, total, e, p, y->parameter, y->parameter_value);
+    nh_ex *term;
+    f->terms = nh_terms_of(o->kinetic->dag, o->energy, &term);
+    f->size = nh_tape_create(o->kinetic->dag, n + r + o->timed, in, f->terms, term, p, y->parameter, y->parameter_value);
+    f->size_work = nh_tape_work_create(f->size);
+    f->term = nh_alloc_array(f->terms + 1, sizeof *f->term);
+    nh_free(term);
     f->mass_work = nh_tape_work_create(f->mass);
     f->rest_work = nh_tape_work_create(f->rest);
     guard_tape(f);
@@ -260,6 +268,9 @@ nh_reduced_flow *nh_reduced_flow_create(const nh_reduced *o)
 void nh_reduced_flow_free(nh_reduced_flow *f)
 {
     if (!f) return;
+    nh_tape_work_free(f->size_work);
+    nh_tape_free(f->size);
+    nh_free(f->term);
     nh_tape_work_free(f->mass_work);
     nh_tape_work_free(f->rest_work);
     nh_tape_free(f->mass);
@@ -289,6 +300,14 @@ bool nh_reduced_flow_at(nh_reduced_flow *f, const double *z, double *rate, doubl
     if (zeta && d) memcpy(zeta, f->out + n + r, d * sizeof *zeta);
     if (energy) *energy = f->out[n + r + d];
     return true;
+}
+
+double nh_reduced_flow_energy_size(nh_reduced_flow *f)
+{
+    double most = 0;
+    nh_tape_eval(f->size, f->size_work, f->in, f->term);
+    for (size_t i = 0; i < f->terms; i++) most = fmax(most, fabs(f->term[i]));
+    return most;
 }
 
 void nh_reduced_flow_time(nh_reduced_flow *f, double t) { f->time = t; }

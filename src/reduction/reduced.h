@@ -79,5 +79,7 @@ void nh_reduced_guard_slice(nh_reduced *reduced, const nh_slice *slice);
 void nh_reduced_guard_constraints(nh_reduced *reduced, const nh_slice *slice, const size_t *columns);
 /* All at once at z: rate (n + r), w (r), zeta (d), energy; each may be NULL. */
 bool nh_reduced_flow_at(nh_reduced_flow *flow, const double *z, double *rate, double *w, double *zeta, double *energy);
+/* The largest of the terms of the energy where nh_reduced_flow_at was last. */
+double nh_reduced_flow_energy_size(nh_reduced_flow *flow);
 
 #endif

@@ -183,7 +183,8 @@ static void second(nh_html_writer *w, const nh_reduction_stage *s)
     nh_html_add(w, "</dd>\n");
 }
 
-static void checks(nh_html_writer *w, const nh_reduction_stage *s)
+/* full: seconds of the full motion, where a method was chosen. */
+static void checks(nh_html_writer *w, const nh_reduction_stage *s, double full)
 {
     nh_html_add(w, "<dl><dt>Check</dt><dd>");
     if (s->compared) {
@@ -198,6 +199,15 @@ static void checks(nh_html_writer *w, const nh_reduction_stage *s)
         }
     } else {
         nh_html_add(w, s->against_full ? "not compared with the full motion" : "not compared with the first stage");
+    }
+    if (s->choice.method) {
+        nh_html_add(w, s->choice.held ? "</dd>\n<dt>Method</dt><dd>" : "</dd>\n<dt>Not accurate</dt><dd>");
+        nh_html_text(w, s->choice.why);
+        nh_html_add(w, "; ");
+        nh_html_count(w, (size_t)s->choice.evaluations);
+        nh_html_add(w, " evaluations, ");
+        nh_html_number(w, full > 0 ? s->choice.seconds / full : 0, 2);
+        nh_html_add(w, " times the time of the full motion");
     }
     nh_html_add(w, "</dd>\n<dt>Energy</dt><dd>drifts by ");
     nh_html_number(w, s->energy_drift, 1);
@@ -267,7 +277,7 @@ static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_s
     nh_html_formulas(w, told, label, value);
     nh_free(value);
     nh_free(label);
-    checks(w, s);
+    checks(w, s, r->full.seconds);
     by_stages(w, s);
     nh_html_add(w, "</article>\n");
 }
@@ -308,6 +318,19 @@ static void answer(nh_html_writer *w, const nh_reduction *r)
     if (r->stages) nh_html_add(w, ".</p>\n");
 }
 
+/* Where an accuracy is wanted: what the stages are compared with. */
+static void full_motion(nh_html_writer *w, const nh_reduction *r)
+{
+    if (!r->full.method) return;
+    nh_html_add(w, "<p>Full motion, ");
+    nh_html_text(w, r->full_formulation);
+    nh_html_add(w, ": ");
+    nh_html_text(w, r->full.why);
+    nh_html_add(w, "; ");
+    nh_html_count(w, (size_t)r->full.evaluations);
+    nh_html_add(w, " evaluations.</p>\n");
+}
+
 void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
 {
     nh_html_writer w = {.out = out, .system = r->system, .dag = r->kinetic->dag, .shown = run->shown, .written = INFINITY};
@@ -320,6 +343,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     if (r->group != r->all) group(&w, r, r->group, r->group->given ? "The group given" : "The group divided out");
     nh_html_add(&w, "</section>\n<section id=\"stages\"><h2>Reduced equations</h2>\n");
     if (!r->stages) nh_html_add(&w, "<p>Nothing could be divided out.</p>\n");
+    full_motion(&w, r);
     for (size_t i = 0; i < r->stages; i++) stage(&w, r, &r->stage[i], i + 1);
     nh_html_add(&w, "</section>\n");
     momenta(&w, r);

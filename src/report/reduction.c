@@ -147,6 +147,27 @@ static void put_joints(const nh_reduction *r, nh_text *out)
     }
 }
 
+/* By which method, at which cost, and why. */
+static void put_choice(const nh_reduction *r, const nh_reduction_stage *s, nh_text *out)
+{
+    const nh_reduction_choice *c = &s->choice;
+    if (!c->method) return;
+    nh_text_addf(out, "  accuracy %.1e %s up to t = %.4g: %s\n", r->wanted, c->held ? "held" : "not reached", s->reached, c->why);
+    nh_text_addf(out, "    %ld evaluations, %.2g ms with the group's motion", c->evaluations, 1e3 * c->seconds);
+    if (c->seconds > 0 && r->full.seconds > 0) nh_text_addf(out, ": %.2g times the time of the full motion", c->seconds / r->full.seconds);
+    if (s->seconds > 0 && r->full.seconds > 0) nh_text_addf(out, ", %.2g times without it", s->seconds / r->full.seconds);
+    nh_text_add(out, "\n");
+}
+
+/* The full motion, where an accuracy is wanted. */
+static void put_full(const nh_reduction *r, nh_text *out)
+{
+    const nh_reduction_choice *c = &r->full;
+    if (!c->method) return;
+    nh_text_addf(out, "\nFull motion to t = %.4g, for agreement to %.1e\n  %s\n", r->until, r->wanted, c->why);
+    nh_text_addf(out, "  %s: %ld evaluations, %.2g ms\n", r->full_formulation, c->evaluations, 1e3 * c->seconds);
+}
+
 static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_text *out)
 {
     const char *with = s->against_full ? "the full motion" : "the first stage";
@@ -156,6 +177,7 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
     if (s->reduced->conservative) nh_text_addf(out, r->kinetic->linear || s->kind == NH_STAGE_QUOTIENT ? "; energy drifts by %.1e" : "; the moving energy drifts by %.1e", s->energy_drift);
     if (s->kind == NH_STAGE_SECOND) nh_text_addf(out, ", the momentum by %.1e", s->momentum_drift);
     nh_text_add(out, "\n");
+    put_choice(r, s, out);
     if (s->charts) nh_text_addf(out, "  on the way the slice or the velocities are changed %zu time%s\n", s->charts, s->charts == 1 ? "" : "s");
     if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
 }
@@ -266,6 +288,7 @@ void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
     if (r->all) put_group(r, r->all, verbose, out);
     if (r->group != r->all) put_group(r, r->group, verbose, out);
     put_joints(r, out);
+    put_full(r, out);
     for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, shown, out);
     if (r->group->action.d) put_momenta(r, shown, out);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%swarning: %s\n", i ? "" : "\n", r->warning[i]);

@@ -214,6 +214,25 @@ static void put_locked_inertia(nh_json *to, const nh_slice *s)
     nh_free(e);
 }
 
+/* How a motion is computed where an accuracy is wanted. */
+static nh_json *put_choice(nh_json *to, const nh_reduction_choice *c)
+{
+    if (!c->method) return NULL;
+    nh_json *item = nh_json_put_object(to, "accuracy");
+    nh_json_put_bool(item, "held", c->held);
+    nh_json_put_text(item, "method", c->method);
+    nh_json_put_number(item, "tolerance", c->tolerance);
+    nh_json_put_number(item, "step", c->step);
+    nh_json_put_number(item, "error", c->error);
+    nh_json_put_number(item, "evaluations", (double)c->evaluations);
+    nh_json_put_number(item, "seconds", c->seconds);
+    nh_json_put_text(item, "next", c->next);
+    nh_json_put_number(item, "times", c->times);
+    nh_json_put_number(item, "runs", c->runs);
+    nh_json_put_text(item, "why", c->why);
+    return item;
+}
+
 static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction_stage *s)
 {
     nh_json *to = nh_json_add_object(stages), *list = nh_json_put_array(to, "shape");
@@ -248,6 +267,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (s->compared) nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
     if (s->unsure > 0) nh_json_put_number(to, "unsure", s->unsure);
+    put_choice(to, &s->choice);
     nh_json_put_number(to, "reached", s->reached);
     if (s->reduced->conservative) nh_json_put_number(to, "energy_drift", s->energy_drift);
     else nh_json_put_null(to, "energy_drift");
@@ -308,6 +328,12 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     nh_json_put_bool(root, "chaplygin", chaplygin);
     put_joints(root, r);
     nh_json_put_bool(root, "partial", r->partial);
+    nh_json *full = put_choice(root, &r->full);
+    if (!full) nh_json_put_null(root, "accuracy");
+    if (full) {
+        nh_json_put_number(full, "wanted", r->wanted);
+        nh_json_put_text(full, "formulation", r->full_formulation);
+    }
     stages = nh_json_put_array(root, "stages");
     for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
     put_momenta(root, r);

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/linalg.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "study/coefficients.h"
 #include "study/currents.h"
@@ -108,7 +109,7 @@ static nh_points *fit_points(nh_result *r, size_t columns, nh_error *error)
 
 static nh_nullspace *current_route(nh_result *r, const nh_ansatz *a, const nh_points *points, nh_error *error)
 {
-    nh_equations *equations = nh_equations_create(a->columns);
+    nh_equations *equations = nh_equations_create(a->columns, nh_threads(r->options.threads));
     nh_rows *rows = nh_rows_create(r->model, a, 0, NULL);
     nh_rows_current(rows, points, NULL, equations);
     nh_nullspace_options limits = nh_nullspace_options_from(&r->options);

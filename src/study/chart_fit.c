@@ -90,7 +90,7 @@ static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *poin
         if (!s->columns || points->count * (f->model->n + 1) < s->columns + 16) return false;
     }
     double begin = nh_clock();
-    nh_equations *equations = nh_equations_create(s->columns);
+    nh_equations *equations = nh_equations_create(s->columns, 1);
     if (symmetry) {
         nh_rows_symmetry(f->model, s->columns, column, points, equations);
     } else {

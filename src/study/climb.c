@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/clock.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "expr/normal.h"
 
@@ -122,7 +123,7 @@ nh_solved nh_climb_solve(nh_climb *x, size_t families, const nh_family *family)
         size_t count = (size_t)fmax(least_points, points_per_column * (double)sectors.largest);
         nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
         s.fit = nh_points_cover(r->model, count, (uint64_t)r->options.seed + r->stages, &ignored);
-        if (s.fit) s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, (size_t)r->options.threads, &ignored);
+        if (s.fit) s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, nh_threads(r->options.threads), &ignored);
     }
     nh_sectors_clear(&sectors);
     return s;

@@ -151,7 +151,7 @@ static bool gap_at(const nh_result *r, const nh_ansatz *a, size_t count, double 
 {
     nh_points *points = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed, error);
     if (!points) return false;
-    nh_equations *equations = nh_equations_create(a->columns);
+    nh_equations *equations = nh_equations_create(a->columns, 1);
     nh_rows *rows = nh_rows_create(r->model, a, 0, NULL);
     nh_rows_current(rows, points, NULL, equations);
     nh_nullspace_options limits = nh_nullspace_options_from(&r->options);

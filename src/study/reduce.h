@@ -25,9 +25,24 @@ typedef struct {
     bool weak;                /* symmetries that change L by a total derivative count, too */
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
-    double accuracy;          /* to which reduced and full motions must agree, instead of options.tolerance, which is then a hundredth of it; 0: none is asked for */
+    double accuracy;          /* to which reduced and full motions must agree: their methods and tolerances are chosen for it, options.tolerance is a hundredth of it; 0: none is asked for */
+    bool remember;            /* then: the method that a chart of these equations, in an earlier run, found to be the cheapest for the full motion */
     nh_options options;
 } nh_reduce_request;
+
+/* By which method a motion is computed where an accuracy is wanted. */
+typedef struct {
+    const char *method;       /* NULL: nothing was chosen */
+    double tolerance, step;   /* one of them is NAN */
+    double error;             /* of the full motion: how far a tighter one is from it; of a stage: from the full motion */
+    long evaluations;         /* of this motion, with the group's */
+    double seconds;
+    const char *next;         /* of a stage: the second cheapest method; NULL: no other reaches it */
+    double times;             /* as long as this one the next takes */
+    int runs;                 /* in search of it */
+    bool held;
+    char why[512];            /* all that in words, or what failed */
+} nh_reduction_choice;
 
 typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE, NH_STAGE_QUOTIENT } nh_stage_kind;
 
@@ -51,10 +66,11 @@ typedef struct {
     double agreement;         /* largest difference of a position, relative to 1 + size */
     double unsure;            /* how well the full motion itself is known, measured where the agreement exceeds 100 tolerances; else 0 */
     double reached;           /* time up to which */
-    double energy_drift;      /* of the reduced motion, relative */
+    double energy_drift;      /* of the reduced motion, relative to 1 + the largest of its terms until then */
     double momentum_drift;    /* second kind: of the spatial momentum */
     double seconds, speedup;  /* of the reduced motion; full over reduced */
     size_t restarts, charts;  /* of the group's coordinates; changes of the slice or of the velocities */
+    nh_reduction_choice choice; /* with an accuracy */
     bool compared, complete;
     bool dependent;           /* it ended where the constraints become dependent */
     char note[256];
@@ -75,6 +91,10 @@ typedef struct {
     nh_options options;
     nh_state initial;
     double until, full_seconds;
+    double wanted;            /* the accuracy; 0: none is asked for */
+    bool remember;
+    nh_reduction_choice full; /* with an accuracy */
+    const char *full_formulation;
     double full_reached;      /* time up to which the full motion is known well enough to be compared with */
     const nh_slice *kept[2];  /* the slices that are shown, of the first stage and of the whole group, and their equations: good for every initial state */
     const nh_chaplygin *kept_chaplygin;

@@ -1,5 +1,6 @@
 /* reduce_full: the full motion that reduced ones are compared with, and how well it is known. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "study/reduce_internal.h"
@@ -26,11 +27,21 @@ double nh_reduction_distance(const nh_kinetic *k, const double *a, const double 
     return isfinite(square) ? sqrt(fmax(square, 0)) : INFINITY;
 }
 
-static double farthest(const nh_kinetic *k, const nh_motion *a, const nh_motion *b)
+size_t nh_reduction_reliable(const nh_kinetic *k, size_t count, const double *a, size_t a_stride, const double *b, size_t b_stride, double allowed, double *farthest)
 {
-    double worst = 0;
-    for (size_t i = 0; i < a->count && i < b->count; i++) worst = fmax(worst, nh_reduction_distance(k, a->state + i * a->size, b->state + i * b->size));
-    return worst;
+    size_t n = count;
+    *farthest = 0;
+    for (size_t i = 0; i < count; i++) {
+        double off = nh_reduction_distance(k, a + i * a_stride, b + i * b_stride);
+        if (!(off <= allowed) && i < n) n = i;
+        *farthest = fmax(*farthest, off);
+    }
+    return n;
+}
+
+static size_t reliable(const nh_kinetic *k, const nh_motion *a, const nh_motion *b, double allowed, double *farthest)
+{
+    return nh_reduction_reliable(k, a->count < b->count ? a->count : b->count, a->state, a->size, b->state, b->size, allowed, farthest);
 }
 
 /* ---- the full motion ---- */
@@ -51,17 +62,20 @@ static nh_motion *full_with(nh_reduction_bench *b, double rtol, size_t outputs, 
     return motion;
 }
 
-/* The number of outputs up to which the reference is known well enough to judge by it. */
-static size_t reliable(const nh_kinetic *k, const nh_motion *coarse, const nh_motion *fine, double allowed)
+/* Where no method can be chosen; r->full.why holds the reason. */
+static void take_usual(nh_reduction *r, double tolerance, const nh_motion *motion, double error, bool held)
 {
-    size_t n = 0, least = coarse->count < fine->count ? coarse->count : fine->count;
-    while (n < least && nh_reduction_distance(k, coarse->state + n * coarse->size, fine->state + n * fine->size) <= allowed) n++;
-    return n;
+    nh_reduction_choice *c = &r->full;
+    char reason[sizeof c->why];
+    snprintf(reason, sizeof reason, "%s", c->why);
+    r->full_formulation = "all coordinates, accelerations from the bordered system";
+    *c = (nh_reduction_choice){.method = "CVODE Adams", .tolerance = tolerance, .step = NAN, .error = error, .evaluations = motion->evaluations, .seconds = motion->seconds, .times = NAN, .runs = 2, .held = held};
+    snprintf(c->why, sizeof c->why, "CVODE Adams at tolerance %.1e; none is chosen because %.400s", tolerance, reason);
 }
 
 /* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up along a motion: the tolerance with which
  * all are computed is a hundredth of the one that is asked for, or less where the full motion shows that this would not do. */
-bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
+static bool full_motion(nh_reduction_bench *b, nh_error *error)
 {
     static const double part = 0.01, finest = 1e-14, least = 5e-14, aim = 10, allowed = NH_REDUCTION_ALLOWED; /* in tolerances */
     nh_reduction *r = b->r;
@@ -72,7 +86,8 @@ bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
     size_t outputs = coarse && !coarse->complete && coarse->guard_hit < 0 && coarse->count > 1 ? coarse->count : NH_REDUCTION_OUTPUTS;
     const char *ended = outputs < NH_REDUCTION_OUTPUTS ? nh_arena_printf(r->arena, "the full motion ended at t = %.4g: %s", coarse->end_time, coarse->note) : NULL;
     nh_motion *fine = coarse ? full_with(b, finest, outputs, error) : NULL;
-    double off = fine ? farthest(r->kinetic, coarse, fine) : 0;
+    double off = 0;
+    if (fine) reliable(r->kinetic, coarse, fine, INFINITY, &off);
     if (fine && off > aim * r->options.tolerance && b->rtol > least) {
         b->rtol = fmax(b->rtol * aim * r->options.tolerance / off, least);
         nh_motion_free(coarse);
@@ -80,19 +95,22 @@ bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
     }
     if (coarse && fine) {
         r->full_seconds = coarse->seconds;
-        b->reached = reliable(r->kinetic, coarse, fine, allowed * r->options.tolerance);
+        b->reached = reliable(r->kinetic, coarse, fine, allowed * r->options.tolerance, &off);
         r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
         if (b->reached < fine->count)
             nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
-        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * 2 * m * sizeof *b->full);
-        memcpy(b->full, fine->state, fine->count * 2 * m * sizeof *b->full);
+        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
+        for (size_t i = 0; i < fine->count; i++) memcpy(b->full + i * m, fine->state + i * fine->size, m * sizeof *b->full);
         if (ended) nh_reduction_warn(r, "%s", ended);
         else if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
     }
+    if (b->full && r->wanted > 0) take_usual(r, b->rtol, coarse, off, b->reached == NH_REDUCTION_OUTPUTS);
     nh_motion_free(coarse);
     nh_motion_free(fine);
     return b->full != NULL;
 }
+
+bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error) { return (b->r->wanted > 0 && nh_reduction_full_accurate(b)) || full_motion(b, error); }
 
 /* Errors of one size, made at other places of the motion: what remains of them at the outputs is how well a motion in all coordinates is known, whatever its sensitivity. */
 double nh_reduction_unsure(nh_reduction_bench *b)
@@ -103,7 +121,7 @@ double nh_reduction_unsure(nh_reduction_bench *b)
     for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
         nh_error ignored = {0};
         nh_motion *other = full_with(b, tolerances[t], b->reached, &ignored);
-        for (size_t i = 0; other && i < b->reached && i < other->count; i++) b->unsure = fmax(b->unsure, nh_reduction_distance(k, other->state + i * other->size, b->full + i * other->size));
+        for (size_t i = 0; other && i < b->reached && i < other->count; i++) b->unsure = fmax(b->unsure, nh_reduction_distance(k, other->state + i * other->size, b->full + i * k->m));
         nh_motion_free(other);
         nh_error_clear(&ignored);
     }

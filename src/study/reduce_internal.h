@@ -1,4 +1,4 @@
-/* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages and their motions), reduce_whole.c (the whole group at once) and
+/* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages), reduce_compare.c (their motions), reduce_whole.c (the whole group at once) and
  * reduce_quotient.c (other systems). */
 #ifndef NH_REDUCE_INTERNAL_H
 #define NH_REDUCE_INTERNAL_H
@@ -12,30 +12,52 @@ typedef struct {
     nh_reduction *r;
     double *times;        /* NH_REDUCTION_OUTPUTS */
     size_t reached;       /* outputs of the full motion */
-    double *full;         /* outputs x 2 m */
+    double *full;         /* the places, outputs x m */
     double rtol;          /* of every motion that is compared */
     double unsure;        /* see nh_reduction_unsure; 0: not measured */
 } nh_reduction_bench;
 
 /* How far two places are apart, relative to 1 + size, angles modulo 2 pi. */
 double nh_reduction_distance(const nh_kinetic *kinetic, const double *a, const double *b);
-/* The reference, and the tolerance of all motions. */
+/* The reference, and the tolerance of all motions; where an accuracy is wanted by the method that reaches it at least cost. */
 bool nh_reduction_full_motion(nh_reduction_bench *bench, nh_error *error);
+/* The same by a method that is chosen for r->wanted: its error is measured in the distance that decides, and is a quarter of that.  False: the motion does not reach its end, or its equations
+ * are not to be had; r->full.why says so, and nothing else has changed. */
+bool nh_reduction_full_accurate(nh_reduction_bench *bench);
+/* The number of outputs up to which two motions (rows of m or more) are no further apart than `allowed`; the largest distance. */
+size_t nh_reduction_reliable(const nh_kinetic *kinetic, size_t count, const double *a, size_t a_stride, const double *b, size_t b_stride, double allowed, double *farthest);
 /* How far full motions with two other tolerances are from the reference at most (it is trusted no further than to 100 tolerances, and this is no larger). */
 double nh_reduction_unsure(nh_reduction_bench *bench);
 
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
 void nh_reduction_make_slices(nh_reduction *reduction, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown);
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *reduction, nh_stage_kind kind, const nh_action *action);
-/* Integrate from a place and its velocity (in the coordinates of the action's kinetic), reconstruct, compare with the positions `want` (stride apart) at
- * the first `reached` outputs. */
-void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, nh_atlas *atlas, const double *q, const double *v, const double *want, size_t stride, size_t reached);
+/* The motion of a stage and the one that it is to meet. */
+typedef struct {
+    nh_atlas *atlas;       /* in its charts, from a place and its velocity in the coordinates of the action's kinetic ... */
+    const double *q, *v;
+    const double *z;       /* ... or (atlas NULL) on the stage's slice alone, from this state */
+    size_t outputs;
+    const double *want;    /* positions, `stride` apart, at the first `reached` outputs */
+    size_t stride, reached;
+} nh_reduction_course;
+
+/* One motion, with the group's or without. */
+nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *bench, const nh_reduction_stage *stage, const nh_reduction_course *course, bool group, const nh_reconstruct_how *how, nh_error *error);
+/* The largest distance of a motion with the group's from the one that it is to meet, as far as both go. */
+double nh_reduction_farthest(const nh_reduction_stage *stage, const nh_reduction_course *course, const nh_reconstruction *motion);
+/* The cheapest motion that agrees with the full one to r->wanted, or where none does the nearest; and how it is computed.  NULL: none could be started. */
+nh_reconstruction *nh_reduction_choose(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_course *course, nh_reconstruct_how *how);
+/* Integrate, reconstruct, compare; all that the stage says of it. */
+void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_course *course);
 
 /* A subset of the generators that acts freely, as large as possible; the whole group when that does. */
 bool nh_reduction_free_subgroup(nh_reduction *reduction, nh_action *out);
 /* Divide a group out at once, with the equations by stages where V + D = TQ. */
 bool nh_reduction_whole(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
 
+/* The model with its geometry, on the branch of the initial state. */
+bool nh_reduction_whole_model(nh_reduction *reduction, nh_error *error);
 /* Divide a group out of equations that it leaves invariant, whatever they are (quotient.h); what is conserved there. */
 bool nh_reduction_quotient(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
 bool nh_reduction_quotient_momenta(nh_reduction *reduction, nh_error *error);

@@ -6,40 +6,8 @@
 
 #include "study/reduce_internal.h"
 
-/* The reduced motion with the group's, against the full one. */
-static void compare(nh_reduction_bench *b, nh_reduction_stage *s, const double *z)
-{
-    nh_reduction *r = b->r;
-    nh_options options = r->options;
-    nh_error trouble = {0};
-    if (b->reached < 2) {
-        snprintf(s->note, sizeof s->note, "the full motion is not known anywhere, so that nothing could be compared");
-        return;
-    }
-    options.tolerance = b->rtol;
-    options.steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
-    nh_reconstruction *c = nh_reconstruct(s->reduced, s->slice, z, b->reached, b->times, &options, &trouble);
-    if (!c) snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
-    nh_error_clear(&trouble);
-    if (!c) return;
-    size_t n = c->count < b->reached ? c->count : b->reached;
-    s->complete = c->complete && b->reached == NH_REDUCTION_OUTPUTS;
-    s->restarts = c->restarts;
-    s->compared = n > 1;
-    s->reached = n > 1 ? b->times[n - 1] : 0;
-    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, nh_reduction_distance(r->kinetic, c->q + i * c->m, b->full + i * 2 * c->m));
-    for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + fabs(c->energy[0])));
-    s->seconds = c->seconds;
-    s->speedup = s->complete && s->seconds > 0 ? r->full_seconds / s->seconds : 0;
-    snprintf(s->note, sizeof s->note, "%.250s", c->note);
-    nh_reconstruction_free(c);
-    if (s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
-    s->unsure = nh_reduction_unsure(b);
-    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s is %.1e from the full one: more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);
-}
-
 /* On the branch of a quadratic constraint that the initial state lies on. */
-static bool whole_model(nh_reduction *r, nh_error *error)
+bool nh_reduction_whole_model(nh_reduction *r, nh_error *error)
 {
     double *w = nh_alloc_array(r->kinetic->m + 1, sizeof *w);
     for (int attempt = 0; attempt < 2; attempt++) {
@@ -72,7 +40,7 @@ bool nh_reduction_quotient(nh_reduction_bench *b, const nh_action *action, nh_er
     nh_arena *arena = r->arena;
     nh_slice *slice, *shown;
     const nh_slice *used;
-    if (!whole_model(r, error)) return false;
+    if (!nh_reduction_whole_model(r, error)) return false;
     nh_reduction_make_slices(r, action, r->initial.q, &slice, &shown);
     const nh_reduced *pretty = in_chart(r, slice, shown, &used, error);
     if (!pretty) return false;
@@ -89,13 +57,13 @@ bool nh_reduction_quotient(nh_reduction_bench *b, const nh_action *action, nh_er
     s->shown = pretty;
     s->shown_slice = used;
     s->start = z;
-    compare(b, s, z);
+    nh_reduction_compare(b, s, &(nh_reduction_course){.z = z, .outputs = b->reached, .want = b->full, .stride = r->kinetic->m, .reached = b->reached});
     return true;
 }
 
 bool nh_reduction_quotient_momenta(nh_reduction *r, nh_error *error)
 {
-    if (!whole_model(r, error)) return false;
+    if (!nh_reduction_whole_model(r, error)) return false;
     nh_quotient_momenta(&r->momenta, r->whole, &r->group->action, &r->options);
     return true;
 }

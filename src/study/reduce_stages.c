@@ -82,66 +82,6 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
     nh_free(zero);
 }
 
-/* The reduced motion alone, for its time and its energy. */
-static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas *atlas, const double *q, const double *v, const nh_options *options)
-{
-    nh_error trouble = {0};
-    nh_reconstruction *c = nh_reconstruct_over(atlas, q, v, false, NH_REDUCTION_OUTPUTS, b->times, options, &trouble);
-    nh_error_clear(&trouble);
-    if (!c) return;
-    for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + fabs(c->energy[0])));
-    if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, c->first, c->first_chart, c->z);
-    s->seconds = c->seconds;
-    s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
-    nh_reconstruction_free(c);
-}
-
-/* With the group's motion, from the tolerance of the options; false when it cannot be started. */
-static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas *atlas, const nh_options *options, const double *q, const double *v, const double *want, size_t stride, size_t reached)
-{
-    nh_error trouble = {0};
-    nh_reconstruction *c = nh_reconstruct_over(atlas, q, v, true, NH_REDUCTION_OUTPUTS, b->times, options, &trouble);
-    if (!c) snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
-    nh_error_clear(&trouble);
-    if (!c) return false;
-    size_t n = c->count < reached ? c->count : reached;
-    s->complete = c->complete;
-    s->dependent = c->dependent;
-    s->restarts = c->restarts;
-    s->charts = c->charts;
-    s->compared = n > 1;
-    s->agreement = 0;
-    s->reached = n > 1 ? b->times[n - 1] : 0;
-    for (size_t i = 0; i < n; i++) s->agreement = fmax(s->agreement, nh_reduction_distance(s->action->kinetic, c->q + i * c->m, want + i * stride));
-    snprintf(s->note, sizeof s->note, "%.250s", c->note);
-    nh_reconstruction_free(c);
-    return true;
-}
-
-/* Integrate, reconstruct, compare: positions `want` (stride apart) are those of the motion that is to be met.  Where they are apart the reduced motion is computed
- * again, once, with a smaller tolerance: it may be the more sensitive one; and where they still are it is measured how well the full motion is known itself. */
-void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, nh_atlas *atlas, const double *q, const double *v, const double *want, size_t stride, size_t reached)
-{
-    static const double apart = 50, finer = 0.02, least = 2e-14; /* apart in tolerances */
-    nh_reduction *r = b->r;
-    nh_options options = r->options;
-    options.tolerance = b->rtol;
-    options.steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
-    if (nh_reduction_late(r, "the motion of a stage")) return;
-    double *start = nh_arena_alloc(r->arena, (s->reduced->n + s->reduced->r + 1) * sizeof *start);
-    if (nh_atlas_start(atlas, q, v, start)) s->start = start;
-    reduced_alone(b, s, atlas, q, v, &options);
-    if (!reduced_and_group(b, s, atlas, &options, q, v, want, stride, reached) || s->agreement <= apart * r->options.tolerance) return;
-    nh_reduction_stage before = *s;
-    options.tolerance = fmax(options.tolerance * finer, least);
-    if (!reduced_and_group(b, s, atlas, &options, q, v, want, stride, reached) || s->reached < before.reached || s->agreement > before.agreement) *s = before;
-    if (s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
-    s->unsure = nh_reduction_unsure(b);
-    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s is %.1e from the one that it is compared with: more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);
-}
-
-bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options) { return s->compared && !(s->agreement <= NH_REDUCTION_ALLOWED * options->tolerance + s->unsure); }
-
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
     nh_reduction_stage *s = &r->stage[r->stages++];
@@ -188,7 +128,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
         nh_atlas_add(atlas, pretty->slice, &pretty->reduced, independent, NULL);
         nh_atlas_prefer(atlas);
     }
-    nh_reduction_compare(b, s, atlas, r->initial.q, r->initial.v, b->full, 2 * m, b->reached);
+    nh_reduction_compare(b, s, &(nh_reduction_course){.atlas = atlas, .q = r->initial.q, .v = r->initial.v, .outputs = NH_REDUCTION_OUTPUTS, .want = b->full, .stride = m, .reached = b->reached});
     nh_atlas_free(atlas);
     return true;
 }
@@ -255,7 +195,7 @@ static double *full_shape(const nh_reduction_bench *b, const nh_slice *s)
             if (!nh_is_zero(s->dag, g->generator[a].component[s->shape[i]])) return NULL;
     double *out = nh_arena_alloc(b->r->arena, (b->reached * s->n + 1) * sizeof *out);
     for (size_t k = 0; k < b->reached; k++)
-        for (size_t i = 0; i < s->n; i++) out[k * s->n + i] = b->full[k * 2 * s->m + s->shape[i]];
+        for (size_t i = 0; i < s->n; i++) out[k * s->n + i] = b->full[k * s->m + s->shape[i]];
     return out;
 }
 
@@ -306,7 +246,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         nh_action both = both_groups(s1->action, d, field, &r->options);
         nh_atlas *atlas = nh_atlas_create_second(t, both.closes ? &both : NULL);
         nh_atlas_add(atlas, &t->slice, &t->reduced, NULL, t);
-        nh_reduction_compare(b, s, atlas, x, u, full ? full : want, n, full ? b->reached : reached);
+        nh_reduction_compare(b, s, &(nh_reduction_course){.atlas = atlas, .q = x, .v = u, .outputs = NH_REDUCTION_OUTPUTS, .want = full ? full : want, .stride = n, .reached = full ? b->reached : reached});
         nh_atlas_free(atlas);
         nh_action_clear(&both);
     }

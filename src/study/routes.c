@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "study/spans.h"
 
 /* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this it is left out, and said. */
@@ -10,7 +11,7 @@ enum { most_columns = 400 };
 
 static nh_nullspace *solve(nh_result *r, size_t n, const nh_field_column *column, const nh_points *points, nh_error *error)
 {
-    nh_equations *equations = nh_equations_create(n);
+    nh_equations *equations = nh_equations_create(n, nh_threads(r->options.threads));
     nh_rows_symmetry(r->model, n, column, points, equations);
     nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);

@@ -1,6 +1,8 @@
 /* simulate_many: ensembles of motions. */
 #include "study/simulate_internal.h"
 
+#include "base/parallel.h"
+
 const char *nh_simulate_words(nh_simulation *s, const nh_scene *scene, void (*write)(const nh_scene *scene, nh_text *out))
 {
     nh_text words;
@@ -13,7 +15,7 @@ const char *nh_simulate_words(nh_simulation *s, const nh_scene *scene, void (*wr
 
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion, nh_error *error)
 {
-    size_t size = s->model->m + s->model->n, threads = (size_t)q->options.threads;
+    size_t size = s->model->m + s->model->n, threads = nh_threads(q->options.threads);
     double *z0 = nh_arena_alloc(s->arena, size * sizeof *z0), *initial = nh_alloc_array(q->ensemble, size * sizeof *initial);
     nh_dynamics *d = nh_dynamics_create(s->model);
     if (nh_dynamics_start(d, motion->initial, motion->project, z0, error)) {

@@ -98,7 +98,7 @@ static bool solve(fit *f, const nh_points *points, size_t n, const nh_ex *e, int
         s->e = nh_alloc_array(s->columns + 1, sizeof *s->e);
         for (size_t j = 0; j < s->columns; j++) s->e[j] = nh_rows_field_current(f->model, &column[j]);
     }
-    nh_equations *equations = nh_equations_create(s->columns);
+    nh_equations *equations = nh_equations_create(s->columns, 1);
     if (symmetry) nh_rows_symmetry(f->model, s->columns, column, points, equations);
     else add_current_rows(f, points, n, e, size, equations);
     s->space = plain ? nh_nullspace_plain(equations, &f->limits, &error) : nh_nullspace_solve(equations, &f->limits, &error);

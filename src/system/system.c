@@ -83,7 +83,7 @@ static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
     bool meant = near && (!prime || strchr(near, '\'')); /* m' is not a misspelt m */
     if (meant) snprintf(fault->hint, sizeof fault->hint, "did you mean `%s`?", near);
     else if (prime) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate or the rate of a definition, and `%.*s` is none", (int)(prime - name), name);
-    else if (s->extras) snprintf(fault->hint, sizeof fault->hint, "declare it under definitions or unknowns here, or in the system file");
+    else if (s->extras) snprintf(fault->hint, sizeof fault->hint, "declare it in the system file (parameters, coordinates, definitions), or where this has definitions, unknowns or a start of its own");
     else snprintf(fault->hint, sizeof fault->hint, "declare it under parameters, coordinates or definitions");
     nh_free(list);
 }

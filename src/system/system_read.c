@@ -59,10 +59,11 @@ bool nh_system_new_name(reader *r, const nh_deck_node *node)
 static bool read_parameters(reader *r)
 {
     static const char *const keys[] = {"name", "value", "unit", "doc"};
-    const nh_deck_node *list;
-    size_t n;
+    const nh_deck_node *list = nh_deck_get(r->root, "parameters");
     nh_system *s = r->system;
-    if (!nh_system_list_of(r, r->root, "parameters", &list, &n)) return false;
+    if (list) list = nh_deck_named(r->deck, list);
+    if (list && !nh_deck_is(r->deck, list, NH_DECK_LIST, "parameters", r->error)) return false;
+    size_t n = list ? list->count : 0;
     s->parameter = nh_system_take(r, n, sizeof *s->parameter);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i];

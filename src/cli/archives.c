@@ -1,0 +1,18 @@
+/* archives: what libraries need that are linked into the program, before it starts. */
+#include <stdlib.h>
+
+/* OpenBLAS starts a thread per core when it is loaded, and each of them asks for work for 25 ms: it is to have none, because blocks of work are shared out above it
+ * (base/parallel.h), with results that do not depend on the number of threads.  Must run before the constructors of the libraries, which have no priority. */
+__attribute__((constructor(101))) static void keep_blas_single(void) { setenv("OPENBLAS_NUM_THREADS", "1", 0); }
+
+/* SUNDIALS 7 as Debian builds it refers to MPI, of which a single process needs nothing but the address that stands for "no processes".  These take the place of
+ * MPI's library: loading that can take 30 times as long as loading all others, because it measures the processor's clock. */
+#ifdef NH_WITHOUT_MPI
+extern char ompi_mpi_comm_null[1];
+int MPI_Comm_dup(void), MPI_Comm_free(void), MPI_Comm_rank(void);
+
+char ompi_mpi_comm_null[1];
+int MPI_Comm_dup(void) { abort(); }
+int MPI_Comm_free(void) { abort(); }
+int MPI_Comm_rank(void) { abort(); }
+#endif

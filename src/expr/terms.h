@@ -1,0 +1,10 @@
+/* terms: what an expression is the sum of, for the size that it would have if nothing in it cancelled. */
+#ifndef NH_TERMS_H
+#define NH_TERMS_H
+
+#include "expr/dag.h"
+
+/* The expression itself, then its terms: those of a sum, also under a common factor.  Their number; the caller frees *out. */
+size_t nh_terms_of(nh_dag *dag, nh_ex e, nh_ex **out);
+
+#endif

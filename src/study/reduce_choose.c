@@ -1,0 +1,141 @@
+/* reduce_choose: by which method a reduced motion is computed that is to agree with the full one to a wanted accuracy.
+ *
+ * A race: each method with error control runs, with the group's motion, at ever smaller tolerances until its places are near enough to the full motion's; no run may take longer than
+ * the quickest that was.  At first none may take longer than a quarter of a second, so that a method that is no good for these equations (an explicit one on stiff ones) does
+ * not hold up the others; that grows until one gets through.  Nothing is estimated: what is compared is what was asked for. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/progress.h"
+#include "study/reduce_internal.h"
+
+enum { most_runs = 7 };       /* of one method */
+static const double aim = 0.5, loosest = 1e-5, tightest = 1e-14; /* aim: in what is wanted; tolerances */
+static const double patient = 0.25, more = 16, quick = 0.01;     /* seconds: the first limit; times that the next; a run so short is timed twice */
+
+typedef struct {
+    const nh_method *method;
+    bool out;                 /* it fails, or did not get near enough at the smallest tolerance */
+    double seconds;           /* of the run that reached it; INFINITY */
+} runner;
+
+typedef struct {
+    nh_reduction_bench *b;
+    nh_reduction_stage *s;
+    const nh_reduction_course *course;
+    double wanted, limit;     /* seconds that a run may take */
+    int runs;
+    nh_reconstruction *best;  /* the quickest that is near enough, or while none is the nearest */
+    nh_reconstruct_how how;   /* it was computed */
+    double distance, seconds; /* of it; seconds: INFINITY while none is near enough */
+} race;
+
+static nh_reconstruction *run(race *q, const nh_method *method, double tolerance, double seconds)
+{
+    nh_error ignored = {0};
+    nh_reconstruct_how how = {.method = method, .tolerance = tolerance, .steps = q->b->r->options.steps, .seconds = seconds};
+    q->runs++;
+    nh_reconstruction *c = nh_reduction_follow(q->b, q->s, q->course, true, &how, &ignored);
+    nh_error_clear(&ignored);
+    return c;
+}
+
+/* As far as what it is compared with goes, or as there are equations. */
+static bool goes_far_enough(const race *q, const nh_reconstruction *c) { return c->count >= q->course->reached || c->dependent; }
+
+static void keep(race *q, nh_reconstruction *c, const nh_method *method, double tolerance, double distance, double seconds)
+{
+    nh_reconstruction_free(q->best);
+    q->best = c;
+    q->how = (nh_reconstruct_how){.method = method, .tolerance = tolerance, .steps = q->b->r->options.steps};
+    q->distance = distance;
+    q->seconds = seconds;
+}
+
+/* A run that is near enough: its time, and whether it is the quickest. */
+static void arrive(race *q, runner *m, nh_reconstruction *c, double tolerance, double distance)
+{
+    m->seconds = c->seconds;
+    if (c->seconds < quick) {
+        nh_reconstruction *again = run(q, m->method, tolerance, 0);
+        if (again && goes_far_enough(q, again)) m->seconds = fmin(m->seconds, again->seconds);
+        nh_reconstruction_free(again);
+    }
+    if (m->seconds < q->seconds) keep(q, c, m->method, tolerance, distance, m->seconds);
+    else nh_reconstruction_free(c);
+}
+
+/* One method, at ever smaller tolerances. */
+static void enter(race *q, runner *m)
+{
+    double tolerance = fmin(loosest, q->wanted);
+    for (int i = 0; i < most_runs && !m->out && !nh_interrupted(); i++) {
+        double limit = fmin(q->limit, fmax(2 * q->seconds, quick)); /* the second quickest is told, too */
+        nh_reconstruction *c = run(q, m->method, tolerance, limit);
+        bool far = c && goes_far_enough(q, c), late = c && !far && c->seconds >= limit;
+        double distance = far ? nh_reduction_farthest(q->s, q->course, c) : INFINITY;
+        m->out = !far && !late;
+        if (distance <= aim * q->wanted) {
+            arrive(q, m, c, tolerance, distance);
+            return;
+        }
+        bool nearest = c && isinf(q->seconds) && (!q->best || (far && distance < q->distance));
+        if (nearest) keep(q, c, m->method, tolerance, distance, INFINITY);
+        else nh_reconstruction_free(c);
+        if (!far) return;
+        m->out = tolerance <= tightest;
+        tolerance = fmax(tightest, tolerance * fmax(1e-5, fmin(0.3, pow(aim * q->wanted / (2 * distance), 1 / 0.9))));
+    }
+    m->out |= !(m->seconds < INFINITY);
+}
+
+/* The second quickest, and the words. */
+static void explain(race *q, size_t n, const runner *m)
+{
+    nh_reduction_choice *c = &q->s->choice;
+    const char *with = q->s->against_full ? "the full motion" : "the first stage";
+    double next = INFINITY;
+    size_t reached = 0;
+    for (size_t i = 0; i < n; i++) {
+        reached += m[i].seconds < INFINITY;
+        if (m[i].method != q->how.method && m[i].seconds < next) next = m[i].seconds, c->next = m[i].method->name;
+    }
+    c->times = isfinite(next) ? next / c->seconds : NAN;
+    int at = snprintf(c->why, sizeof c->why, "%s at tolerance %.1e", c->method, c->tolerance);
+    char *end = c->why + at;
+    size_t left = sizeof c->why - (size_t)at;
+    if (!reached && c->held) snprintf(end, left, ": the nearest to %s", with);
+    else if (!reached && isfinite(q->distance)) snprintf(end, left, " is %.1e from %s, and no method comes nearer", q->distance, with);
+    else if (!reached) snprintf(end, left, ": no method goes as far as %s is known", with);
+    else if (c->next && c->times < 1.05) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e, and the next, %s, is as quick", reached, with, aim * q->wanted, c->next);
+    else if (c->next) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e; the next, %s, takes %.2g times as long", reached, with, aim * q->wanted, c->next, c->times);
+    else snprintf(end, left, ": the only one that agrees with %s to %.1e, or the others take more than twice as long", with, aim * q->wanted);
+}
+
+nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, nh_reconstruct_how *how)
+{
+    nh_reduction *r = b->r;
+    race q = {.b = b, .s = s, .course = course, .wanted = r->wanted, .distance = INFINITY, .seconds = INFINITY};
+    runner *m = nh_alloc_array(nh_method_count() + 1, sizeof *m);
+    size_t n = 0;
+    for (size_t i = 0; i < nh_method_count(); i++)
+        if (!nh_method_at(i)->order) m[n++] = (runner){.method = nh_method_at(i), .seconds = INFINITY};
+    for (q.limit = patient; isinf(q.seconds) && q.limit < more * fmax(r->options.reduce_seconds, patient) && !nh_interrupted(); q.limit *= more) {
+        bool left = false;
+        for (size_t i = 0; i < n && !nh_interrupted(); i++) {
+            if (!m[i].out) enter(&q, &m[i]);
+            left |= !m[i].out;
+        }
+        if (!left || (double)(clock() - r->begin) / CLOCKS_PER_SEC > r->options.reduce_seconds) break;
+    }
+    if (isinf(q.seconds) && !nh_interrupted()) nh_reduction_late(r, "what slower methods reach in the motion of a stage");
+    *how = q.how;
+    if (q.best) {
+        s->choice = (nh_reduction_choice){.method = q.how.method->name, .tolerance = q.how.tolerance, .step = NAN, .error = q.distance, .evaluations = q.best->evaluations, .runs = q.runs};
+        s->choice.seconds = isfinite(q.seconds) ? q.seconds : q.best->seconds;
+        s->choice.held = q.distance < q.wanted;
+        explain(&q, n, m);
+    }
+    nh_free(m);
+    return q.best;
+}

@@ -1,0 +1,127 @@
+/* reduce_compare: the motion of a stage, with the group's found again, against the full one. */
+#include <math.h>
+#include <stdio.h>
+
+#include "study/reduce_internal.h"
+
+nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_reduction_stage *s, const nh_reduction_course *c, bool group, const nh_reconstruct_how *how, nh_error *error)
+{
+    if (c->atlas) return nh_reconstruct_over(c->atlas, c->q, c->v, group, c->outputs, b->times, how, error);
+    return nh_reconstruct(s->reduced, s->slice, c->z, c->outputs, b->times, how, error);
+}
+
+double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_course *c, const nh_reconstruction *motion)
+{
+    double worst = 0;
+    for (size_t i = 0; i < motion->count && i < c->reached; i++) worst = fmax(worst, nh_reduction_distance(s->action->kinetic, motion->q + i * motion->m, c->want + i * c->stride));
+    return worst;
+}
+
+/* Time, energy and what is conserved, of the reduced motion (on one slice alone the group's motion belongs to it). */
+static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reconstruction *c)
+{
+    for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + c->energy_size[i]));
+    if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, c->first, c->first_chart, c->z);
+    s->seconds = c->seconds;
+    s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
+}
+
+/* How far it goes and how near it comes. */
+static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, const nh_reconstruction *c)
+{
+    size_t n = c->count < course->reached ? c->count : course->reached;
+    s->complete = c->complete && course->outputs == NH_REDUCTION_OUTPUTS;
+    s->dependent = c->dependent;
+    s->restarts = c->restarts;
+    s->charts = c->charts;
+    s->compared = n > 1;
+    s->reached = n > 1 ? b->times[n - 1] : 0;
+    s->agreement = nh_reduction_farthest(s, course, c);
+    snprintf(s->note, sizeof s->note, "%.250s", c->note);
+}
+
+/* The reduced motion alone. */
+static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, const nh_reconstruct_how *how)
+{
+    nh_error trouble = {0};
+    nh_reconstruction *c = nh_reduction_follow(b, s, course, false, how, &trouble);
+    nh_error_clear(&trouble);
+    if (c) take_reduced(b, s, c);
+    nh_reconstruction_free(c);
+}
+
+/* With the group's motion; false when it cannot be started. */
+static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, const nh_reconstruct_how *how, bool first)
+{
+    nh_error trouble = {0};
+    nh_reconstruction *c = nh_reduction_follow(b, s, course, true, how, &trouble);
+    if (!c) snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
+    nh_error_clear(&trouble);
+    if (!c) return false;
+    if (!course->atlas && first) take_reduced(b, s, c);
+    take_whole(b, s, course, c);
+    nh_reconstruction_free(c);
+    return true;
+}
+
+/* Where the two are apart the reduced motion is computed again with a smaller tolerance: it may be the more sensitive one.  The errors of a multistep method can be
+ * large beside its tolerance all the same, as where a disk passes the vertical and its angles turn by pi within a few steps; so at last by a pair of order 8. */
+static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course)
+{
+    static const double apart = 50, finer = 0.02, least = 2e-14, least_of_pair = 3e-13; /* apart in tolerances */
+    const nh_reduction *r = b->r;
+    nh_reconstruct_how how[] = {{.tolerance = b->rtol}, {.tolerance = fmax(b->rtol * finer, least)}, {.method = nh_method_find("GSL rk8pd"), .tolerance = fmax(b->rtol, least_of_pair)}};
+    for (size_t i = 0; i < sizeof how / sizeof *how; i++) {
+        nh_reduction_stage before = *s;
+        how[i].steps = fmin(r->options.steps, NH_REDUCTION_STEPS);
+        bool found = reduced_and_group(b, s, course, &how[i], i == 0);
+        if (i == 0 && !found) return false;
+        if (i > 0 && (!found || s->reached < before.reached || s->agreement > before.agreement)) *s = before;
+        if (s->agreement <= apart * r->options.tolerance) break;
+    }
+    return true;
+}
+
+/* By the method that is chosen for the wanted accuracy. */
+static void chosen(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course)
+{
+    nh_reduction *r = b->r;
+    nh_reconstruct_how how;
+    nh_reconstruction *c = nh_reduction_choose(b, s, course, &how);
+    if (!c) {
+        nh_error trouble = {0};
+        nh_reconstruction_free(nh_reduction_follow(b, s, course, true, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = NH_REDUCTION_STEPS}, &trouble));
+        snprintf(s->note, sizeof s->note, "%.250s", trouble.what);
+        nh_error_clear(&trouble);
+        return;
+    }
+    if (course->atlas) reduced_alone(b, s, course, &how);
+    else take_reduced(b, s, c);
+    take_whole(b, s, course, c);
+    nh_reconstruction_free(c);
+    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s: %s", s->group, s->choice.why);
+}
+
+void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course)
+{
+    nh_reduction *r = b->r;
+    if (nh_reduction_late(r, "the motion of a stage")) return;
+    if (!course->atlas && course->reached < 2) {
+        snprintf(s->note, sizeof s->note, "the motion that it is compared with is not known anywhere, so that nothing could be compared");
+        return;
+    }
+    if (course->atlas) {
+        double *start = nh_arena_alloc(r->arena, (s->reduced->n + s->reduced->r + 1) * sizeof *start);
+        if (nh_atlas_start(course->atlas, course->q, course->v, start)) s->start = start;
+    }
+    if (r->wanted > 0) {
+        chosen(b, s, course);
+        return;
+    }
+    if (course->atlas) reduced_alone(b, s, course, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = fmin(r->options.steps, NH_REDUCTION_STEPS)});
+    if (!nearer(b, s, course) || s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
+    s->unsure = nh_reduction_unsure(b);
+    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s is %.1e from the one that it is compared with: more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);
+}
+
+bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options) { return s->compared && !(s->agreement <= NH_REDUCTION_ALLOWED * options->tolerance + s->unsure); }
