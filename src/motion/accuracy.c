@@ -352,7 +352,7 @@ static void confirm(search *s, const nh_trajectory *t)
     double tolerance = s->out->tolerance;
     s->out->second = s->method[1]->name;
     for (int i = 0; i < most_confirmations && (i == 0 || tolerance > tightest) && !(s->out->difference < s->eps); i++) {
-        tolerance = fmax(tolerance / (i == 0 ? 3 : 30), tightest);
+        tolerance = i == 0 ? fmax(tolerance / 3, s->eps / 100) : fmax(tolerance / 30, tightest); /* one that agrees is tight enough, whatever the first needed */
         nh_trajectory *other = run(s, s->method[1], tolerance, true, s->request->max_seconds, &ignored);
         s->out->difference = fmin(s->out->difference, difference(s, t, other));
         nh_trajectory_free(other);
