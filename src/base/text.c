@@ -57,22 +57,107 @@ void nh_text_addf(nh_text *text, const char *format, ...)
     va_end(again);
 }
 
-/* 15 digits are what a decimal survives, 17 what a double needs; the first that reads back is the shortest. */
-void nh_text_number(double value, char *out, size_t size)
+/* ---- numbers ----
+ *
+ * 15 digits are what a decimal survives, 17 what a double needs; the first that reads back is the shortest.  Output is mostly numbers, and printf takes longest: so it is
+ * asked once, for 17 digits, and fewer are found by rounding those. */
+
+enum { most_digits = 17, least_digits = 15 };
+
+/* A number 0.d1 d2 ... d_count * 10^(exponent + 1). */
+typedef struct {
+    bool negative;
+    int count, exponent;
+    char digit[most_digits];
+} decimal;
+
+static decimal decimal_of(double value, int count)
 {
-    if (isnan(value)) {
-        snprintf(out, size, "nan"); /* printf would write "-nan" for some */
+    char text[32];
+    decimal d = {.negative = value < 0, .count = count};
+    snprintf(text, sizeof text, "%.*e", count - 1, fabs(value));
+    d.digit[0] = text[0];
+    memcpy(d.digit + 1, text + 2, (size_t)count - 1);
+    d.exponent = atoi(text + count + 2);
+    return d;
+}
+
+/* As many of its digits; a tie of what is left over is the value's own matter. */
+static decimal rounded(const decimal *d, int count, double value)
+{
+    decimal out = *d;
+    bool tie = d->digit[count] == '5';
+    for (int i = count + 1; i < d->count; i++) tie = tie && d->digit[i] == '0';
+    if (tie) return decimal_of(value, count);
+    out.count = count;
+    if (d->digit[count] < '5') return out;
+    int i = count - 1;
+    for (; i >= 0 && out.digit[i] == '9'; i--) out.digit[i] = '0';
+    if (i >= 0) return out.digit[i]++, out;
+    out.digit[0] = '1';
+    out.exponent++;
+    return out;
+}
+
+static char *put_digits(char *out, const decimal *d, int from, int to)
+{
+    memcpy(out, d->digit + from, (size_t)(to - from));
+    return out + (to - from);
+}
+
+static void put_exponential(char *out, const decimal *d, int count)
+{
+    if (d->negative) *out++ = '-';
+    out = put_digits(out, d, 0, 1);
+    if (count > 1) *out++ = '.';
+    out = put_digits(out, d, 1, count);
+    int e = abs(d->exponent);
+    *out++ = 'e';
+    *out++ = d->exponent < 0 ? '-' : '+';
+    if (e >= 100) *out++ = (char)('0' + e / 100);
+    *out++ = (char)('0' + e / 10 % 10);
+    *out++ = (char)('0' + e % 10);
+    *out = '\0';
+}
+
+/* As printf's %g. */
+static void put_decimal(char *out, const decimal *d)
+{
+    int count = d->count, whole = d->exponent + 1;
+    while (count > 1 && d->digit[count - 1] == '0') count--;
+    if (d->exponent < -4 || d->exponent >= d->count) {
+        put_exponential(out, d, count);
         return;
     }
-    if (value == 0)
-        value = 0; /* "-0" means nothing to a reader */
-    char digits[32] = "";
-    for (int precision = 15; precision <= 17; precision++) {
-        snprintf(digits, sizeof digits, "%.*g", precision, value);
-        if (strtod(digits, NULL) == value)
-            break;
+    if (d->negative) *out++ = '-';
+    if (whole <= 0) out += sprintf(out, "0.%.*s", -whole, "0000");
+    else out = put_digits(out, d, 0, whole);
+    if (whole > 0 && count > whole) *out++ = '.';
+    if (count > whole) out = put_digits(out, d, whole > 0 ? whole : 0, count);
+    *out = '\0';
+}
+
+static bool reads_back(const decimal *d, double value)
+{
+    char text[32];
+    put_exponential(text, d, d->count);
+    return strtod(text, NULL) == value;
+}
+
+void nh_text_number(double value, char *out, size_t size)
+{
+    char text[32] = "0"; /* "-0" means nothing to a reader */
+    if (!isfinite(value)) snprintf(text, sizeof text, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"); /* printf would write "-nan" for some */
+    else if (value != 0) {
+        decimal all = decimal_of(value, most_digits), best = all;
+        for (int count = most_digits - 1; count >= least_digits; count--) {
+            decimal fewer = rounded(&all, count, value);
+            if (!reads_back(&fewer, value)) break;
+            best = fewer;
+        }
+        put_decimal(text, &best);
     }
-    snprintf(out, size, "%s", digits);
+    snprintf(out, size, "%s", text);
 }
 
 static const char *skip_digits(const char *s)
