@@ -256,6 +256,33 @@ Test(cli, nhsym_path_is_searched_in_order)
     place_clear(&p);
 }
 
+/* A folder of NHSYM_PATH without subfolders: files of one name, or of both kinds, do not stand in each other's way. */
+Test(cli, a_folder_may_hold_systems_and_analyses)
+{
+    static const char *const path[] = {"NHSYM_PATH=mixed:bare", NULL};
+    place p = place_make();
+    folder_here(&p, "mixed", 0755);
+    folder_here(&p, "bare", 0755);
+    write_here(&p, "mixed/weight.yaml", "name: weight\ncoordinates: [x]\nlagrangian: x'^2/2 - 9.81*x\n");
+    write_here(&p, "mixed/spring.yaml", "name: of the spring\nsystem: spring\nansatz: [{basis: polynomial, in: [x, x'], degree: 2}]\n");
+    write_here(&p, "bare/spring.yaml", "name: spring\ntitle: A spring\ncoordinates: [x]\nlagrangian: x'^2/2 - x^2/2\n");
+    finished a = run_so(&p, &(manner){.environment = path}, "analyze weight"), b = run_so(&p, &(manner){.environment = path}, "analyze spring");
+    finished c = run_so(&p, &(manner){.environment = path}, "simulate weight --initial x=1 --until 1"), d = run_so(&p, &(manner){.environment = path}, "list");
+    cr_expect_eq(a.code, 0);
+    check_contains(a.out, "(minus the energy)");
+    cr_expect_eq(b.code, 0);
+    check_contains(b.out, "A spring");
+    check_contains(b.out, "as given in the analysis file");
+    cr_expect_eq(c.code, 0);
+    check_contains(d.out, "A spring");
+    cr_expect(!strstr(d.out, "unknown key"), "%s", d.out);
+    finished_clear(&a);
+    finished_clear(&b);
+    finished_clear(&c);
+    finished_clear(&d);
+    place_clear(&p);
+}
+
 /* `make install` into a folder; the program is then run there from elsewhere, without any setting. */
 Test(cli, the_installed_program_works_from_anywhere, .timeout = 300)
 {

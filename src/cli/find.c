@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/deck.h"
 #include "cli/cli.h"
 
 enum { most_places = 64 };
@@ -22,38 +23,56 @@ static const char *prefix_of_program(nh_cli *cli)
     return nh_arena_strdup(cli->arena, path);
 }
 
-/* Folders to search, in order: here, each entry of NHSYM_PATH (itself, and its systems/), the installed data. */
-static size_t places(nh_cli *cli, const char *kind, const char **out)
+/* In a folder of both kinds: a file of the other? One that cannot be read is what it is asked for, and its mistakes are told. */
+static bool is_of_kind(const char *file, const char *kind)
+{
+    static const char *const of_systems[] = {"coordinates", "lagrangian", "bodies", "include"};
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_deck *deck = nh_deck_read(file, &ignored);
+    bool system = false, analysis = !strcmp(kind, "analyses"), readable = deck && nh_deck_root(deck)->kind == NH_DECK_MAP;
+    for (size_t i = 0; readable && i < sizeof of_systems / sizeof *of_systems; i++) system |= nh_deck_get(nh_deck_root(deck), of_systems[i]) != NULL;
+    nh_deck_free(deck);
+    return !readable || system != analysis;
+}
+
+typedef struct {
+    const char *folder;
+    bool mixed; /* systems and analyses */
+} place;
+
+/* Folders to search, in order: here, each entry of NHSYM_PATH (its systems/ or analyses/, and itself), the installed data. */
+static size_t places(nh_cli *cli, const char *kind, place *out)
 {
     size_t n = 0;
-    out[n++] = nh_arena_strdup(cli->arena, kind);
+    out[n++].folder = nh_arena_strdup(cli->arena, kind);
     const char *path = getenv("NHSYM_PATH");
     while (path && *path && n + 5 < most_places) {
         size_t length = strcspn(path, ":");
         if (length) {
-            out[n++] = nh_arena_printf(cli->arena, "%.*s/%s", (int)length, path, kind);
-            out[n++] = nh_arena_strndup(cli->arena, path, length);
+            out[n++].folder = nh_arena_printf(cli->arena, "%.*s/%s", (int)length, path, kind);
+            out[n++] = (place){.folder = nh_arena_strndup(cli->arena, path, length), .mixed = true};
         }
         path += length + (path[length] == ':');
     }
     const char *prefix = prefix_of_program(cli);
-    if (prefix) out[n++] = nh_arena_printf(cli->arena, "%s/share/nhsym/%s", prefix, kind);
-    if (prefix) out[n++] = nh_arena_printf(cli->arena, "%s/%s", prefix, kind); /* built, and not installed: beside the folder of the build */
-    out[n++] = nh_arena_printf(cli->arena, "%s/%s", NH_DATADIR, kind);
+    if (prefix) out[n++].folder = nh_arena_printf(cli->arena, "%s/share/nhsym/%s", prefix, kind);
+    if (prefix) out[n++].folder = nh_arena_printf(cli->arena, "%s/%s", prefix, kind); /* built, and not installed: beside the folder of the build */
+    out[n++].folder = nh_arena_printf(cli->arena, "%s/%s", NH_DATADIR, kind);
     return n;
 }
 
 const char *nh_cli_look(nh_cli *cli, const char *kind, const char *name)
 {
-    const char *folder[most_places];
+    place where[most_places] = {{NULL, false}};
     if (strchr(name, '/') || (strlen(name) > 5 && !strcmp(name + strlen(name) - 5, ".yaml"))) return access(name, F_OK) ? NULL : name;
-    size_t n = places(cli, kind, folder);
+    size_t n = places(cli, kind, where);
     for (size_t i = 0; i < n; i++) {
-        const char *file = nh_arena_printf(cli->arena, "%s/%s.yaml", folder[i], name);
-        if (!access(file, F_OK)) return file;
+        const char *file = nh_arena_printf(cli->arena, "%s/%s.yaml", where[i].folder, name);
+        if (!access(file, F_OK) && (!where[i].mixed || is_of_kind(file, kind))) return file;
     }
     for (size_t i = 0; i < n; i++) { /* those that are there for chart --stress, and not listed */
-        const char *file = nh_arena_printf(cli->arena, "%s/stress/%s.yaml", folder[i], name);
+        const char *file = nh_arena_printf(cli->arena, "%s/stress/%s.yaml", where[i].folder, name);
         if (!access(file, F_OK)) return file;
     }
     return NULL;
@@ -63,13 +82,15 @@ static int by_name(const void *a, const void *b) { return strcmp(*(const char *c
 
 size_t nh_cli_names(nh_cli *cli, const char *kind, const char ***names)
 {
-    const char *folder[most_places], **list = NULL;
-    size_t places_count = places(cli, kind, folder), count = 0, capacity = 0, kept = 0;
+    place where[most_places] = {{NULL, false}};
+    const char **list = NULL;
+    size_t places_count = places(cli, kind, where), count = 0, capacity = 0, kept = 0;
     for (size_t i = 0; i < places_count; i++) {
-        DIR *directory = opendir(folder[i]);
+        DIR *directory = opendir(where[i].folder);
         for (struct dirent *entry; directory && (entry = readdir(directory));) {
             size_t length = strlen(entry->d_name);
             if (length < 6 || strcmp(entry->d_name + length - 5, ".yaml")) continue;
+            if (where[i].mixed && !is_of_kind(nh_arena_printf(cli->arena, "%s/%s", where[i].folder, entry->d_name), kind)) continue;
             nh_grow(&list, &capacity, count + 1, sizeof *list);
             list[count++] = nh_arena_strndup(cli->arena, entry->d_name, length - 5);
         }
