@@ -166,6 +166,30 @@ Test(accuracy, the_checked_motion_is_as_accurate)
     mechanics_clear(&x);
 }
 
+/* A chart of another motion may have been too hopeful: the accuracy is reached without it. */
+Test(accuracy, what_was_measured_is_not_the_last_word)
+{
+    mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_AUTO, 0, NULL);
+    double q[3] = {0}, v[3] = {2, 0, 0}, times[COUNT];
+    nh_state initial = {.q = q, .v = v};
+    nh_ex e = formula(x.model, "phi");
+    nh_options options;
+    nh_error error = {0};
+    nh_options_default(&options);
+    for (int i = 0; i < COUNT; i++) times[i] = 6.0 * i / (COUNT - 1);
+    nh_trajectory_request request = {.model = x.model, .initial = &initial, .count = COUNT, .times = times, .options = &options, .n = 1, .e = &e};
+    nh_way hopeful = {nh_method_find("midpoint"), NH_OWN_VELOCITIES, NAN, 0.1, 1e-13, 1e-9};
+    nh_accuracy a;
+    nh_trajectory *t = nh_trajectory_accurate(&request, 1e-12, &(nh_ways){.count = 1, .way = &hopeful}, &a, &error);
+    cr_assert(t && a.held, "%s", a.why);
+    cr_expect_str_eq(t->method, "GSL rk8pd");
+    cr_expect(strstr(a.why, "midpoint, did not reach it"), "%s", a.why);
+    cr_expect(!a.measured && a.runs > 4);
+    cr_expect_float_eq(t->value[COUNT - 1], 4 * atan(tanh(3.0)), 1e-11);
+    nh_trajectory_free(t);
+    mechanics_clear(&x);
+}
+
 /* ---- what is measured on the way ---- */
 
 typedef struct {

@@ -117,8 +117,9 @@ const char *nh_cli_find(nh_cli *cli, const char *kind, const char *name, nh_erro
     const char **names;
     size_t count = nh_cli_names(cli, kind, &names);
     nh_fail(error, NH_INPUT, "", "there is no %s `%s` in ./%s, in NHSYM_PATH or among the installed ones", strcmp(kind, "systems") ? "analysis" : "system", name, kind);
-    const char *near = nh_text_nearest(name, names, count);
-    if (near) nh_error_hint(error, "did you mean `%s`?", near);
+    const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(cli->arena, "%s.yaml", name);
+    if (!access(file, F_OK)) nh_error_hint(error, "there is a file %s here: write its whole name", file);
+    else if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "give the path of a file, or see `nhsym list`");
     return NULL;
 }

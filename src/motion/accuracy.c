@@ -65,15 +65,6 @@ static double tighter(const search *s, double coarse, double part)
     return fine;
 }
 
-void nh_accuracy_disturb(size_t n, const double *from, double *to)
-{
-    uint64_t random = 0x9e3779b97f4a7c15u;
-    for (size_t i = 0; i < n; i++) {
-        random = random * 6364136223846793005u + 1442695040888963407u;
-        to[i] = from[i] * (random >> 63 ? 1 + nh_accuracy_disturbance : 1 - nh_accuracy_disturbance);
-    }
-}
-
 /* The start, beside itself. */
 static nh_state disturbed(const nh_trajectory_request *q, double *q_and_v)
 {
@@ -113,23 +104,6 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
         s->out->seconds += t->motion->seconds;
     }
     return t;
-}
-
-double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, double least, size_t *which)
-{
-    double worst = 0;
-    for (size_t k = 0; k < n; k++) {
-        double scale = least, d = 0;
-        for (size_t i = 0; i < count; i++) {
-            double x = a[i * n + k], y = b[i * n + k];
-            if (!isfinite(x) && !isfinite(y)) continue;
-            if (!isfinite(x) || !isfinite(y)) return *which = k, INFINITY;
-            scale = fmax(scale, fabs(x));
-            d = fmax(d, fabs(x - y));
-        }
-        if (d / scale > worst) worst = d / scale, *which = k;
-    }
-    return worst;
 }
 
 /* Infinity when one motion did not reach its end. */
@@ -359,12 +333,13 @@ static void confirm(search *s, const nh_trajectory *t)
     }
 }
 
+static const char *where(const nh_way *w) { return w->velocities == NH_OWN_VELOCITIES ? "" : w->velocities == NH_ALL_COORDINATES ? " in all coordinates" : " in other velocities"; }
+
 /* "GSL rk8pd at tolerance 1.0e-09", "relaxation, order 8 with steps of 0.01" */
 static void put_setting(const search *s, const nh_trajectory *t, char *out, size_t size)
 {
     const nh_accuracy *a = s->out;
-    const char *where = !a->measured || s->way->velocities == NH_OWN_VELOCITIES ? "" : s->way->velocities == NH_ALL_COORDINATES ? " in all coordinates" : " in other velocities";
-    if (isnan(a->step)) snprintf(out, size, "%s%s at tolerance %.1e", t->method, where, a->tolerance);
+    if (isnan(a->step)) snprintf(out, size, "%s%s at tolerance %.1e", t->method, a->measured ? where(s->way) : "", a->tolerance);
     else snprintf(out, size, "%s with steps of %.2g", t->method, a->step);
 }
 
@@ -419,7 +394,7 @@ static nh_way way_of(const search *s, const nh_trajectory *t)
     return w;
 }
 
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error)
+static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error)
 {
     static const nh_ways none = {.count = 0};
     *accuracy = (nh_accuracy){.wanted = eps, .estimate = INFINITY, .difference = INFINITY, .step = NAN, .next = NAN};
@@ -437,5 +412,31 @@ nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, doub
         if (fixed(&s)) accuracy->tolerance = NAN;
     }
     nh_programs_free(s.programs);
+    return t;
+}
+
+/* What was measured tells of another motion, or of a piece of this one: where it does not do here, without it. */
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error)
+{
+    nh_trajectory *t = attempt(request, eps, ways, accuracy, error);
+    if (!t || accuracy->held || !accuracy->measured || nh_interrupted()) return t;
+    nh_accuracy plain;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_trajectory *other = attempt(request, eps, NULL, &plain, &ignored);
+    plain.runs += accuracy->runs;
+    plain.evaluations += accuracy->evaluations;
+    plain.seconds += accuracy->seconds;
+    if (other && plain.held) {
+        size_t used = strlen(plain.why);
+        snprintf(plain.why + used, sizeof plain.why - used, "; what was measured to be the cheapest, %s%s, did not reach it here", t->method, where(&accuracy->way));
+        *accuracy = plain;
+        nh_trajectory_free(t);
+        return other;
+    }
+    accuracy->runs = plain.runs;
+    accuracy->evaluations = plain.evaluations;
+    accuracy->seconds = plain.seconds;
+    nh_trajectory_free(other);
     return t;
 }
