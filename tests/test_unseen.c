@@ -57,6 +57,36 @@ static const unseen UNSEEN[] = {
      "lagrangian: m/2*(x'^2 + y'^2) - k/2*(x^2 + y^2)\n"
      "known: {currents: [{name: turning, expr: \"x*y' - y*x'\"}, {name: phase, expr: \"x*cos(sqrt(k/m)*t) - x'*sqrt(m/k)*sin(sqrt(k/m)*t)\"}]}\n",
      4},
+    /* driven by forces that are no part of the Lagrangian */
+    {"cart with a pendulum and a motor",
+     "parameters: {M: 2, m: 0.5, l: 0.7, g: 9.81, F: 0.4, w: 2}\n"
+     "coordinates: [x, {name: a, type: angle}]\n"
+     "lagrangian: (M + m)*x'^2/2 + m*l*x'*a'*cos(a) + m*l^2*a'^2/2 + m*g*l*cos(a)\n"
+     "forces: [x = F*cos(w*t)]\n"
+     "known: {currents: [{name: momentum, expr: \"(M + m)*x' + m*l*a'*cos(a) - F*sin(w*t)/w\"},"
+     " {name: centre of mass, expr: \"(M + m)*(x - t*x') + m*l*(sin(a) - t*a'*cos(a)) + F*(t*sin(w*t)/w + cos(w*t)/w^2)\"}]}\n",
+     2},
+    /* powers of t that nothing needs are nearly dependent on the functions that something does */
+    {"pull that decays and pull that grows",
+     "parameters: {M: 2, F: 0.4, w: 2, g: 9.81}\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: M*(x'^2 + y'^2)/2 - M*g*y\n"
+     "forces: [x = F*exp(-w*t), y = F*t^3]\n"
+     "known: {currents: [{name: along x, expr: \"M*x' + F*exp(-w*t)/w\"}, {name: along y, expr: \"M*(y - t*y') - M*g*t^2/2 + F*t^5/5\"}]}\n",
+     4},
+    {"two driving frequencies",
+     "parameters: {m: 1, A: 0.3, B: 0.5, w: 2, u: 3.3}\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: m*(x'^2 + y'^2)/2 + A*x*cos(w*t) + B*y*sin(u*t)\n"
+     "known: {currents: [{name: along x, expr: \"m*x' - A*sin(w*t)/w\"}, {name: along y, expr: \"m*y' + B*cos(u*t)/u\"}]}\n",
+     4},
+    {"pull that fades like 1/t",
+     "parameters: {M: 2, F: 0.4}\n"
+     "coordinates: [x]\n"
+     "lagrangian: M*x'^2/2\n"
+     "forces: [x = F/(1 + t)]\n"
+     "known: {currents: [{name: momentum, expr: \"M*x' - F*log(1 + t)\"}]}\n",
+     2},
     /* rotations in disguise */
     {"sphere in Mercator's coordinates",
      "coordinates: [u, {name: ph, type: angle}]\n"

@@ -14,7 +14,7 @@ typedef struct {
     size_t seen_count, all_waves;
     nh_ex *seen;        /* nodes already looked at */
     nh_ex all_wave[64]; /* every coordinate inside a sine or cosine */
-    bool integrate;     /* in forces and constraints: of 1/(b + c q) the integral is wanted, too */
+    bool integrate;     /* in forces and constraints: of 1/(b + c q) the integral is wanted, too; in the Lagrangian that of 1/(b + c t) */
 } harvester;
 
 static bool is_in(size_t n, const nh_ex *list, nh_ex e)
@@ -122,13 +122,13 @@ static int sign_of(const nh_model *o, nh_ex e)
     return above == c->probes ? 1 : below == c->probes ? -1 : 0;
 }
 
-/* The integral of 1/base by q: log(b + c q), atan(q sqrt(c/b)) of b + c q^2 (atanh where c/b < 0). */
-static void add_logarithm(harvester *h, nh_ex base)
+/* The integral of 1/base by a coordinate or t: log(b + c q), atan(q sqrt(c/b)) of b + c q^2 (atanh where c/b < 0). */
+static void add_logarithm(harvester *h, nh_ex base, bool of_time_alone)
 {
     nh_model *o = h->o;
     nh_dag *d = o->dag;
-    for (size_t s = 0; s < o->m; s++) {
-        nh_ex q = o->system->coordinate[s].q, zero = nh_int(d, 0), slope = nh_diff(d, base, q), c = nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, q));
+    for (size_t s = of_time_alone ? o->m : 0; s <= o->m; s++) {
+        nh_ex q = s < o->m ? o->system->coordinate[s].q : o->system->t, zero = nh_int(d, 0), slope = nh_diff(d, base, q), c = nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, q));
         nh_ex b = nh_substitute(d, base, 1, &q, &zero), by = 0;
         if (nh_is_zero(d, slope) || has_position(o, b) || has_position(o, c)) continue;
         if (nh_is_zero(d, c)) {
@@ -180,7 +180,7 @@ static void walk(harvester *h, nh_ex e)
         bool polynomial = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1 && nh_number_of(d, x).p > 0;
         if (polynomial || !has_position(h->o, child) || has_velocity(h->o, child)) continue;
         add_atom(h, nh_pow(d, child, x));
-        if (h->integrate && nh_is_number(d, x, -1)) add_logarithm(h, child);
+        if (nh_is_number(d, x, -1)) add_logarithm(h, child, !h->integrate);
     }
 }
 
@@ -290,7 +290,7 @@ static void add_roots(harvester *h)
     for (size_t i = 0; i < o->n; i++) {
         nh_ex length = nh_powi(o->dag, even_root(o, o->M[i * o->n + i]), -1); /* x'^2/x^2: log x is the length */
         add_roots_of(h, o->M[i * o->n + i]);
-        if (has_position(o, length)) add_logarithm(h, length);
+        if (has_position(o, length)) add_logarithm(h, length, false);
     }
 }
 

@@ -178,15 +178,58 @@ static void put_time(const nh_shelf *s, nh_list *l)
     }
 }
 
+bool nh_shelf_timely(const nh_shelf *s)
+{
+    const nh_model *o = s->o;
+    nh_ex t = o->system->t;
+    bool timely = nh_depends(o->dag, o->Lbar, t);
+    for (size_t k = 0; k < o->m; k++) timely |= nh_depends(o->dag, o->rho[k], t) || (o->system->has_forces && nh_depends(o->dag, o->system->force[k], t));
+    return timely;
+}
+
+enum { most_powers = 6, longest_walk = 1000 };
+
+/* The highest power of t in a sum of products; inside of functions and roots it does not count. */
+static long power_of_time(const nh_model *o, nh_ex e, int *left)
+{
+    nh_dag *d = o->dag;
+    nh_kind kind = nh_kind_of(d, e);
+    if (e == o->system->t) return 1;
+    if (kind != NH_SUM && kind != NH_PRODUCT) return 0;
+    if (--*left < 0) return most_powers;
+    long highest = 0, all = 0;
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        long power = power_of_time(o, nh_child(d, e, i), left);
+        nh_ex x = kind == NH_PRODUCT ? nh_exponent_of(d, e, i) : nh_int(d, 1);
+        if (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || nh_number_of(d, x).p < 0) continue;
+        power = power * nh_number_of(d, x).p < most_powers ? power * nh_number_of(d, x).p : most_powers;
+        highest = power > highest ? power : highest;
+        all += power;
+    }
+    return kind == NH_SUM ? highest : all < most_powers ? all : most_powers;
+}
+
+/* That a force t^p, and no function of t, needs twice integrated.  More would be nearly dependent on the functions, where t has a short interval. */
+static long powers_of_time(const nh_model *o)
+{
+    int left = longest_walk;
+    long p = power_of_time(o, o->system->lagrangian, &left);
+    for (size_t k = 0; k < o->m; k++) {
+        long here = power_of_time(o, o->rho[k], &left), force = o->system->has_forces ? power_of_time(o, o->system->force[k], &left) : 0;
+        p = here > p ? here : p;
+        p = force > p ? force : p;
+    }
+    return p + 2 < most_powers ? p + 2 : most_powers;
+}
+
 /* What a force that depends on t alone adds to momenta and centres of mass: powers of t, and functions of t by themselves and times t. */
 static void add_drive(nh_shelf *s)
 {
-    enum { highest = 6 };
     nh_dag *d = s->o->dag;
     nh_ex t = s->o->system->t;
     nh_list f = {0}, powers = {0}, some = {0};
     put_time(s, &f);
-    for (int k = 1; k <= highest; k++) nh_list_put(&powers, nh_powi(d, t, k));
+    for (long k = 1; k <= powers_of_time(s->o); k++) nh_list_put(&powers, nh_powi(d, t, k));
     nh_list_put(&some, nh_int(d, 1));
     nh_list_put(&some, t);
     nh_shelf_add(s, nh_shelf_terms(s, &powers));
@@ -199,7 +242,7 @@ static void stage_words_positions(nh_shelf *s)
     nh_shelf_product_of_lists(s, &l, &q);
     nh_list tq = nh_list_positions(s, false, true);
     nh_shelf_add(s, nh_shelf_terms(s, &f));
-    bool timely = nh_depends(s->o->dag, s->o->Lbar, s->o->system->t);
+    bool timely = nh_shelf_timely(s);
     nh_shelf_add(s, nh_shelf_polynomial(s, &tq, timely ? 2 : 1));
     if (timely) add_drive(s);
 }

@@ -36,6 +36,8 @@ nh_family nh_shelf_product(nh_shelf *shelf, size_t n, const nh_family *part);
 nh_family nh_shelf_polynomial(nh_shelf *shelf, const nh_list *list, size_t degree);
 void nh_shelf_add(nh_shelf *shelf, nh_family family);
 void nh_shelf_product_of_lists(nh_shelf *shelf, const nh_list *a, const nh_list *b);
+/* Does the Lagrangian, a force or a constraint depend on time? */
+bool nh_shelf_timely(const nh_shelf *shelf);
 
 /* ---- stages_weighted.c ---- */
 

@@ -28,7 +28,7 @@ void nh_stage_time(nh_shelf *s)
     nh_dag *d = s->o->dag;
     nh_list l = {0}, f = nh_list_functions(s, true), g = {0};
     nh_ex t = s->o->system->t;
-    if (!nh_depends(d, s->o->Lbar, t) || s->w->positions > 3) return;
+    if (!nh_shelf_timely(s) || s->w->positions > 3) return;
     nh_list_put_all(&l, s->w->positions, s->w->position);
     nh_list_put_all(&l, s->o->n, s->o->chart->w);
     nh_list v = nh_list_squares(s, &l);
