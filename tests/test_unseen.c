@@ -80,6 +80,14 @@ static const unseen UNSEEN[] = {
      "lagrangian: m*(x'^2 + y'^2)/2 + A*x*cos(w*t) + B*y*sin(u*t)\n"
      "known: {currents: [{name: along x, expr: \"m*x' - A*sin(w*t)/w\"}, {name: along y, expr: \"m*y' + B*cos(u*t)/u\"}]}\n",
      4},
+    /* a mass that changes: log(m0 - b t); many smooth functions on a short interval hid it, and left coefficients of 1e-134 */
+    {"mass that is burnt",
+     "parameters: {m0: 3, b: 0.4, g: 9.81}\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: (m0 - b*t)*(x'^2 + y'^2)/2 - (m0 - b*t)*g*y\n"
+     "known: {currents: [{name: along x, expr: \"(m0 - b*t)*x'\"}, {name: start of x, expr: \"b*x + (m0 - b*t)*x'*log(m0 - b*t)\"},"
+     " {name: along y, expr: \"(m0 - b*t)*y' + g*(m0*t - b*t^2/2)\"}]}\n",
+     3},
     {"pull that fades like 1/t",
      "parameters: {M: 2, F: 0.4}\n"
      "coordinates: [x]\n"

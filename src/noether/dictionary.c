@@ -184,10 +184,22 @@ static void walk(harvester *h, nh_ex e)
     }
 }
 
+/* Has what depends on position even powers only? */
+static bool is_square(const nh_model *o, nh_ex product)
+{
+    nh_dag *d = o->dag;
+    for (size_t i = 0; i < nh_arity(d, product); i++) {
+        nh_ex x = nh_exponent_of(d, product, i);
+        if (has_position(o, nh_child(d, product, i)) && (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || nh_number_of(d, x).p % 2)) return false;
+    }
+    return true;
+}
+
 static void add_root(harvester *h, nh_ex e)
 {
     nh_model *o = h->o;
     if (nh_kind_of(o->dag, e) != NH_SUM || !has_position(o, e) || has_velocity(o, e)) return;
+    if (nh_kind_of(o->dag, nh_simplify_short(o->dag, e, 0)) == NH_PRODUCT && is_square(o, nh_simplify_short(o->dag, e, 0))) return; /* no root */
     add_atom(h, nh_sqrt(o->dag, e));
     add_integral(h, e);
 }
@@ -390,6 +402,7 @@ nh_dictionary nh_dictionary_of(nh_model *o)
     for (size_t a = 0; a < o->k; a++) walk(&h, nh_chart_constraint(o->chart, a));
     h.integrate = false;
     walk(&h, o->system->lagrangian);
+    for (size_t i = 0; i < o->n; i++) add_logarithm(&h, o->M[i * o->n + i], true); /* velocities of masses that change: the integral of 1/M */
     for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);

@@ -9,6 +9,8 @@
 
 enum { spare_rows = 8, heldout_points = 4, most_tries = 4, series_spare = 24 };
 
+static const double believed = 0.75; /* of the digits to which a rate cancels: a smaller coefficient is what rounding made of zero */
+
 /* The normal equations halve the digits: twice the bits. */
 static nh_ball *ball_for(const nh_model *o, const nh_options *options) { return nh_ball_create(o->dag, 2 * (long)options->bits); }
 
@@ -57,8 +59,12 @@ static nh_refined run(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t
     out.coefficient = nh_alloc_array(n * out.count + 1, sizeof *out.coefficient);
     out.digits = nh_alloc_array(out.count + 1, sizeof *out.digits);
     if (!check(o, ball, fit, &state, options, &out)) out.count = 0;
-    for (size_t k = 0; k < out.count; k++)
-        for (size_t j = 0; j < n; j++) out.coefficient[k * n + j] = nh_ball_fit_coefficient(fit, k, j);
+    for (size_t k = 0; k < out.count; k++) {
+        double *c = out.coefficient + k * n, largest = 0;
+        for (size_t j = 0; j < n; j++) largest = fmax(largest, fabs(c[j] = nh_ball_fit_coefficient(fit, k, j)));
+        for (size_t j = 0; j < n; j++)
+            if (fabs(c[j]) < largest * pow(10, -believed * out.digits[k])) c[j] = 0;
+    }
     nh_ball_fit_free(fit);
     nh_ball_free(ball);
     return out;

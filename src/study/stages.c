@@ -163,88 +163,15 @@ static void stage_words(nh_shelf *s)
     nh_shelf_add(s, nh_shelf_terms(s, &l));
 }
 
-/* Functions of t alone, with their derivatives. */
-static void put_time(const nh_shelf *s, nh_list *l)
-{
-    nh_dag *d = s->o->dag;
-    nh_list f = nh_list_functions(s, true);
-    for (size_t i = 0; i < f.n; i++) {
-        bool timely = true;
-        for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
-        if (!timely) continue;
-        nh_list_put(l, f.e[i]);
-        nh_ex slope = nh_diff(d, f.e[i], s->o->system->t);
-        if (nh_kind_of(d, slope) != NH_NUMBER) nh_list_put(l, slope);
-    }
-}
-
-bool nh_shelf_timely(const nh_shelf *s)
-{
-    const nh_model *o = s->o;
-    nh_ex t = o->system->t;
-    bool timely = nh_depends(o->dag, o->Lbar, t);
-    for (size_t k = 0; k < o->m; k++) timely |= nh_depends(o->dag, o->rho[k], t) || (o->system->has_forces && nh_depends(o->dag, o->system->force[k], t));
-    return timely;
-}
-
-enum { most_powers = 6, longest_walk = 1000 };
-
-/* The highest power of t in a sum of products; inside of functions and roots it does not count. */
-static long power_of_time(const nh_model *o, nh_ex e, int *left)
-{
-    nh_dag *d = o->dag;
-    nh_kind kind = nh_kind_of(d, e);
-    if (e == o->system->t) return 1;
-    if (kind != NH_SUM && kind != NH_PRODUCT) return 0;
-    if (--*left < 0) return most_powers;
-    long highest = 0, all = 0;
-    for (size_t i = 0; i < nh_arity(d, e); i++) {
-        long power = power_of_time(o, nh_child(d, e, i), left);
-        nh_ex x = kind == NH_PRODUCT ? nh_exponent_of(d, e, i) : nh_int(d, 1);
-        if (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || nh_number_of(d, x).p < 0) continue;
-        power = power * nh_number_of(d, x).p < most_powers ? power * nh_number_of(d, x).p : most_powers;
-        highest = power > highest ? power : highest;
-        all += power;
-    }
-    return kind == NH_SUM ? highest : all < most_powers ? all : most_powers;
-}
-
-/* That a force t^p, and no function of t, needs twice integrated.  More would be nearly dependent on the functions, where t has a short interval. */
-static long powers_of_time(const nh_model *o)
-{
-    int left = longest_walk;
-    long p = power_of_time(o, o->system->lagrangian, &left);
-    for (size_t k = 0; k < o->m; k++) {
-        long here = power_of_time(o, o->rho[k], &left), force = o->system->has_forces ? power_of_time(o, o->system->force[k], &left) : 0;
-        p = here > p ? here : p;
-        p = force > p ? force : p;
-    }
-    return p + 2 < most_powers ? p + 2 : most_powers;
-}
-
-/* What a force that depends on t alone adds to momenta and centres of mass: powers of t, and functions of t by themselves and times t. */
-static void add_drive(nh_shelf *s)
-{
-    nh_dag *d = s->o->dag;
-    nh_ex t = s->o->system->t;
-    nh_list f = {0}, powers = {0}, some = {0};
-    put_time(s, &f);
-    for (long k = 1; k <= powers_of_time(s->o); k++) nh_list_put(&powers, nh_powi(d, t, k));
-    nh_list_put(&some, nh_int(d, 1));
-    nh_list_put(&some, t);
-    nh_shelf_add(s, nh_shelf_terms(s, &powers));
-    nh_shelf_product_of_lists(s, &f, &some);
-}
-
 static void stage_words_positions(nh_shelf *s)
 {
     nh_list l = words(s), q = nh_list_positions(s, true, true), f = nh_list_functions(s, false);
     nh_shelf_product_of_lists(s, &l, &q);
     nh_list tq = nh_list_positions(s, false, true);
-    nh_shelf_add(s, nh_shelf_terms(s, &f));
     bool timely = nh_shelf_timely(s);
     nh_shelf_add(s, nh_shelf_polynomial(s, &tq, timely ? 2 : 1));
-    if (timely) add_drive(s);
+    nh_shelf_add(s, nh_shelf_terms(s, &f));
+    if (timely) nh_shelf_drive(s);
 }
 
 static void stage_linear_waves(nh_shelf *s)
@@ -336,7 +263,8 @@ static const struct {
     void (*build)(nh_shelf *);
 } stages[] = {
     {"energy, momenta, velocities, forms, positions, terms of the potential", stage_words},
-    {"the same times 1, t and the positions", stage_words_positions},
+    {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
+    {"energy, momenta, velocities and forms times 1, t and the positions", stage_words_positions},
     {"velocities and forms times first harmonics of the angles", stage_linear_waves},
     {"velocities and forms times the system's own functions", stage_linear_functions},
     {"energy, momenta and forms times positions and the system's own functions", stage_functions},
@@ -439,7 +367,7 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     size_t words_count = l.n;
     for (size_t i = 0; i < words_count && base > 0 && words_count * v.n <= most_with_waves; i++)
         for (size_t j = 0; j < v.n; j++) nh_list_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
-    if (timely) put_time(&s, &l);
+    if (timely) nh_list_put_time(&s, &l);
     if (growing) put_growing(&s, &l);
     if (base < 2) return nh_shelf_terms(&s, &l);
     nh_list_put_all(&l, q.n, q.e);

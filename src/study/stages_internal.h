@@ -36,8 +36,19 @@ nh_family nh_shelf_product(nh_shelf *shelf, size_t n, const nh_family *part);
 nh_family nh_shelf_polynomial(nh_shelf *shelf, const nh_list *list, size_t degree);
 void nh_shelf_add(nh_shelf *shelf, nh_family family);
 void nh_shelf_product_of_lists(nh_shelf *shelf, const nh_list *a, const nh_list *b);
+
+/* ---- stages_time.c ---- */
+
 /* Does the Lagrangian, a force or a constraint depend on time? */
 bool nh_shelf_timely(const nh_shelf *shelf);
+/* Functions of t alone, with their derivatives. */
+void nh_list_put_time(const nh_shelf *shelf, nh_list *list);
+/* What a force that depends on t alone adds to momenta and centres of mass. */
+void nh_shelf_drive(nh_shelf *shelf);
+/* Momenta, positions, powers and logarithms of t, and no more. */
+void nh_stage_drive(nh_shelf *shelf);
+/* Squares of positions and velocities with coefficients that depend on time: Ermakov and Lewis. */
+void nh_stage_time(nh_shelf *shelf);
 
 /* ---- stages_weighted.c ---- */
 
@@ -48,7 +59,6 @@ void nh_stage_forms_4(nh_shelf *shelf);
 /* ---- stages_separation.c ---- */
 
 void nh_stage_separation(nh_shelf *shelf);
-void nh_stage_time(nh_shelf *shelf);
 /* Squares of single momenta, and the energy, with coefficients that are functions of one coordinate each, and these. */
 void nh_stage_separated(nh_shelf *shelf);
 /* Squares of momenta with coefficients that are functions of one coordinate each (Carter's constant). */

@@ -22,32 +22,6 @@ void nh_stage_separation(nh_shelf *s)
     nh_shelf_add(s, nh_shelf_polynomial(s, &q, 4));
 }
 
-/* Squares of positions and velocities with coefficients that depend on time: Ermakov and Lewis. */
-void nh_stage_time(nh_shelf *s)
-{
-    nh_dag *d = s->o->dag;
-    nh_list l = {0}, f = nh_list_functions(s, true), g = {0};
-    nh_ex t = s->o->system->t;
-    if (!nh_shelf_timely(s) || s->w->positions > 3) return;
-    nh_list_put_all(&l, s->w->positions, s->w->position);
-    nh_list_put_all(&l, s->o->n, s->o->chart->w);
-    nh_list v = nh_list_squares(s, &l);
-    nh_list_put(&g, nh_int(d, 1));
-    nh_list_put(&g, t);
-    nh_list_put(&g, nh_powi(d, t, 2));
-    for (size_t i = 0; i < f.n; i++) {
-        bool timely = nh_depends(d, f.e[i], t);
-        for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
-        if (timely) nh_list_put(&g, f.e[i]);
-    }
-    nh_shelf_product_of_lists(s, &v, &g);
-    nh_shelf_product_of_lists(s, &l, &g);
-    nh_list p = {0}, powers = {0};
-    nh_list_put_all(&p, s->w->potentials, s->w->potential);
-    for (int k = 0; k <= 4; k++) nh_list_put(&powers, nh_powi(d, t, k));
-    nh_shelf_product_of_lists(s, &p, &powers);
-}
-
 /* ---- functions of one coordinate ---- */
 
 static bool of_one(const nh_shelf *s, nh_ex e, nh_ex q)

@@ -1,0 +1,119 @@
+/* stages_time: what the stages add where the Lagrangian, a force or a constraint depends on time. */
+#include "expr/diff.h"
+#include "study/stages_internal.h"
+
+enum { most_powers = 6, longest_walk = 1000 };
+
+void nh_list_put_time(const nh_shelf *s, nh_list *l)
+{
+    nh_dag *d = s->o->dag;
+    nh_list f = nh_list_functions(s, true);
+    for (size_t i = 0; i < f.n; i++) {
+        bool timely = true;
+        for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
+        if (!timely) continue;
+        nh_list_put(l, f.e[i]);
+        nh_ex slope = nh_diff(d, f.e[i], s->o->system->t);
+        if (nh_kind_of(d, slope) != NH_NUMBER) nh_list_put(l, slope);
+    }
+}
+
+bool nh_shelf_timely(const nh_shelf *s)
+{
+    const nh_model *o = s->o;
+    nh_ex t = o->system->t;
+    bool timely = nh_depends(o->dag, o->Lbar, t);
+    for (size_t k = 0; k < o->m; k++) timely |= nh_depends(o->dag, o->rho[k], t) || (o->system->has_forces && nh_depends(o->dag, o->system->force[k], t));
+    return timely;
+}
+
+/* The highest power of t in a sum of products; inside of functions and roots it does not count. */
+static long power_of_time(const nh_model *o, nh_ex e, int *left)
+{
+    nh_dag *d = o->dag;
+    nh_kind kind = nh_kind_of(d, e);
+    if (e == o->system->t) return 1;
+    if (kind != NH_SUM && kind != NH_PRODUCT) return 0;
+    if (--*left < 0) return most_powers;
+    long highest = 0, all = 0;
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        long power = power_of_time(o, nh_child(d, e, i), left);
+        nh_ex x = kind == NH_PRODUCT ? nh_exponent_of(d, e, i) : nh_int(d, 1);
+        if (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || nh_number_of(d, x).p < 0) continue;
+        power = power * nh_number_of(d, x).p < most_powers ? power * nh_number_of(d, x).p : most_powers;
+        highest = power > highest ? power : highest;
+        all += power;
+    }
+    return kind == NH_SUM ? highest : all < most_powers ? all : most_powers;
+}
+
+/* That a force t^p, and no function of t, needs twice integrated.  More would be nearly dependent on the functions, where t has a short interval. */
+static long powers_of_time(const nh_model *o)
+{
+    int left = longest_walk;
+    long p = power_of_time(o, o->system->lagrangian, &left);
+    for (size_t k = 0; k < o->m; k++) {
+        long here = power_of_time(o, o->rho[k], &left), force = o->system->has_forces ? power_of_time(o, o->system->force[k], &left) : 0;
+        p = here > p ? here : p;
+        p = force > p ? force : p;
+    }
+    return p + 2 < most_powers ? p + 2 : most_powers;
+}
+
+/* What a force that depends on t alone adds to momenta and centres of mass: powers of t, and functions of t by themselves and times t. */
+void nh_shelf_drive(nh_shelf *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_ex t = s->o->system->t;
+    nh_list f = {0}, powers = {0}, some = {0};
+    nh_list_put_time(s, &f);
+    for (long k = 1; k <= powers_of_time(s->o); k++) nh_list_put(&powers, nh_powi(d, t, k));
+    nh_list_put(&some, nh_int(d, 1));
+    nh_list_put(&some, t);
+    nh_shelf_add(s, nh_shelf_terms(s, &powers));
+    nh_shelf_product_of_lists(s, &f, &some);
+}
+
+/* The least that a momentum, and a centre of mass, along which nothing acts but time can need: many functions of t are nearly dependent where t has a short interval. */
+void nh_stage_drive(nh_shelf *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_ex t = s->o->system->t;
+    nh_list p = {0}, g = {0}, q = nh_list_positions(s, false, false), f = nh_list_functions(s, false), powers = {0};
+    if (!nh_shelf_timely(s)) return;
+    nh_list_put_all(&p, s->w->momenta, s->w->momentum);
+    nh_list_put(&g, nh_int(d, 1));
+    nh_list_put(&g, t);
+    for (size_t i = 0; i < f.n; i++)
+        if (nh_function_of(d, f.e[i]) == NH_LOG && nh_depends(d, f.e[i], t)) nh_list_put(&g, f.e[i]);
+    for (long k = 1; k <= powers_of_time(s->o); k++) nh_list_put(&powers, nh_powi(d, t, k));
+    nh_shelf_product_of_lists(s, &p, &g);
+    nh_shelf_add(s, nh_shelf_terms(s, &q));
+    nh_shelf_add(s, nh_shelf_terms(s, &powers));
+}
+
+/* Squares of positions and velocities with coefficients that depend on time: Ermakov and Lewis. */
+void nh_stage_time(nh_shelf *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_list l = {0}, f = nh_list_functions(s, true), g = {0};
+    nh_ex t = s->o->system->t;
+    if (!nh_shelf_timely(s) || s->w->positions > 3) return;
+    nh_list_put_all(&l, s->w->positions, s->w->position);
+    nh_list_put_all(&l, s->o->n, s->o->chart->w);
+    nh_list v = nh_list_squares(s, &l);
+    nh_list_put(&g, nh_int(d, 1));
+    nh_list_put(&g, t);
+    nh_list_put(&g, nh_powi(d, t, 2));
+    for (size_t i = 0; i < f.n; i++) {
+        bool timely = nh_depends(d, f.e[i], t);
+        for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
+        if (timely) nh_list_put(&g, f.e[i]);
+    }
+    nh_shelf_product_of_lists(s, &v, &g);
+    nh_shelf_product_of_lists(s, &l, &g);
+    nh_list p = {0}, powers = {0};
+    nh_list_put_all(&p, s->w->potentials, s->w->potential);
+    for (int k = 0; k <= 4; k++) nh_list_put(&powers, nh_powi(d, t, k));
+    nh_shelf_product_of_lists(s, &p, &powers);
+}
