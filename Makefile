@@ -35,8 +35,8 @@ MPI_INCLUDE   := $(if $(SUNDIALS_CORE),$(shell pkg-config --cflags-only-I mpi-c 
 MPI           := $(if $(MPI_INCLUDE),-Wl$(comma)--as-needed $(shell pkg-config --libs mpi-c))
 LDLIBS   = $(call libraries,library)
 library  = -l$(1)
-# The program itself takes archives where there are any (ARCHIVES= for none): most of a short command was the loading of shared libraries, OpenBLAS alone
-# has 14 000 symbols that must be looked up.  Those that remain come first, for the same reason.  Tests are many, and stay small.
+# The program itself takes archives where there are any (ARCHIVES= for none): most of a short command was the loading of shared libraries
+# (docs/performance.md, "A whole run").  Those that remain come first, for the same reason.  Tests are many, and stay small.
 ARCHIVES = $(if $(SANITIZE),,yes)
 archive  = -l$(if $(and $(ARCHIVES),$(findstring /,$(shell $(CC) -print-file-name=lib$(1).a))),:lib$(1).a,$(1))
 libraries = -lflint $(ARB) -lgmp -lnlopt -lcjson \

@@ -53,6 +53,17 @@ static void teardown(void)
 
 TestSuite(include, .init = setup, .fini = teardown);
 
+static void check_parameters(const nh_system *s)
+{
+    static const char *const names[] = {"k", "m", "c"};
+    static const double values[] = {5, 3, 7};
+    cr_assert_eq(s->parameters, 3);
+    for (size_t i = 0; i < 3; i++) {
+        cr_expect_str_eq(s->parameter[i].name, names[i]);
+        cr_expect_eq(s->parameter[i].value, values[i]);
+    }
+}
+
 Test(include, lists_grow_maps_unite_and_the_later_file_decides)
 {
     nh_error error;
@@ -63,13 +74,7 @@ Test(include, lists_grow_maps_unite_and_the_later_file_decides)
     cr_assert_not_null(s, "%s", error.what);
     cr_expect_str_eq(s->name, "three");
     cr_expect_str_eq(s->title, "A spring");
-    static const char *const names[] = {"k", "m", "c"};
-    static const double values[] = {5, 3, 7};
-    cr_assert_eq(s->parameters, 3);
-    for (size_t i = 0; i < 3; i++) {
-        cr_expect_str_eq(s->parameter[i].name, names[i]);
-        cr_expect_eq(s->parameter[i].value, values[i]);
-    }
+    check_parameters(s);
     cr_assert_eq(s->coordinates, 2);
     cr_expect_str_eq(s->coordinate[1].name, "y");
     cr_expect_eq(s->definitions, 2);
@@ -82,28 +87,22 @@ Test(include, lists_grow_maps_unite_and_the_later_file_decides)
 }
 
 /* `two` and `three`, one after the other built upon the spring, have k = 5, m = 3 and c = 7 in this order. */
-static void check_parameters(const char *two, const char *three)
+static void try_parameters(const char *two, const char *three)
 {
     nh_error error;
     put("two.yaml", two);
     put("three.yaml", three);
     nh_system *s = get("three.yaml", &error);
     cr_assert_not_null(s, "%s", error.what);
-    static const char *const names[] = {"k", "m", "c"};
-    static const double values[] = {5, 3, 7};
-    cr_assert_eq(s->parameters, 3);
-    for (size_t i = 0; i < 3; i++) {
-        cr_expect_str_eq(s->parameter[i].name, names[i]);
-        cr_expect_eq(s->parameter[i].value, values[i]);
-    }
+    check_parameters(s);
     cr_expect_str_eq(s->parameter[2].unit, "N/m");
     nh_system_free(s);
 }
 
 Test(include, parameters_may_be_a_map_in_any_of_the_files)
 {
-    check_parameters("include: parts/spring.yaml\nparameters: {k: 5, c: {value: 7, unit: N/m}}\n", "include: two.yaml\nname: three\n");
-    check_parameters("include: parts/spring.yaml\nparameters: {c: 8}\n", "include: two.yaml\nparameters:\n  - {name: k, value: 5}\n  - {name: c, value: 7, unit: N/m}\n");
+    try_parameters("include: parts/spring.yaml\nparameters: {k: 5, c: {value: 7, unit: N/m}}\n", "include: two.yaml\nname: three\n");
+    try_parameters("include: parts/spring.yaml\nparameters: {c: 8}\n", "include: two.yaml\nparameters:\n  - {name: k, value: 5}\n  - {name: c, value: 7, unit: N/m}\n");
     nh_error error;
     put("bad.yaml", "name: bad\nparameters: {k: 5, c: {value: 7, unti: N/m}}\ncoordinates: [x]\nlagrangian: x'^2\n");
     cr_assert_null(get("bad.yaml", &error));

@@ -6,7 +6,7 @@
 __attribute__((constructor(101))) static void keep_blas_single(void) { setenv("OPENBLAS_NUM_THREADS", "1", 0); }
 
 /* SUNDIALS 7 as Debian builds it refers to MPI, of which a single process needs nothing but the address that stands for "no processes".  These take the place of
- * MPI's library: loading that can take 30 times as long as loading all others, because it measures the processor's clock. */
+ * MPI's library: where that is loaded it may measure the processor's clock, which takes longer than a short command. */
 #ifdef NH_WITHOUT_MPI
 extern char ompi_mpi_comm_null[1];
 int MPI_Comm_dup(void), MPI_Comm_free(void), MPI_Comm_rank(void);

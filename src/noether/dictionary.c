@@ -199,7 +199,8 @@ static void add_root(harvester *h, nh_ex e)
 {
     nh_model *o = h->o;
     if (nh_kind_of(o->dag, e) != NH_SUM || !has_position(o, e) || has_velocity(o, e)) return;
-    if (nh_kind_of(o->dag, nh_simplify_short(o->dag, e, 0)) == NH_PRODUCT && is_square(o, nh_simplify_short(o->dag, e, 0))) return; /* no root */
+    nh_ex factored = nh_simplify_short(o->dag, e, 0);
+    if (nh_kind_of(o->dag, factored) == NH_PRODUCT && is_square(o, factored)) return; /* no root */
     add_atom(h, nh_sqrt(o->dag, e));
     add_integral(h, e);
 }

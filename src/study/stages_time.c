@@ -67,7 +67,7 @@ void nh_shelf_drive(nh_shelf *s)
     nh_ex t = s->o->system->t;
     nh_list f = {0}, powers = {0}, some = {0};
     nh_list_put_time(s, &f);
-    for (long k = 1; k <= powers_of_time(s->o); k++) nh_list_put(&powers, nh_powi(d, t, k));
+    for (long k = 1, most = powers_of_time(s->o); k <= most; k++) nh_list_put(&powers, nh_powi(d, t, k));
     nh_list_put(&some, nh_int(d, 1));
     nh_list_put(&some, t);
     nh_shelf_add(s, nh_shelf_terms(s, &powers));
@@ -86,7 +86,7 @@ void nh_stage_drive(nh_shelf *s)
     nh_list_put(&g, t);
     for (size_t i = 0; i < f.n; i++)
         if (nh_function_of(d, f.e[i]) == NH_LOG && nh_depends(d, f.e[i], t)) nh_list_put(&g, f.e[i]);
-    for (long k = 1; k <= powers_of_time(s->o); k++) nh_list_put(&powers, nh_powi(d, t, k));
+    for (long k = 1, most = powers_of_time(s->o); k <= most; k++) nh_list_put(&powers, nh_powi(d, t, k));
     nh_shelf_product_of_lists(s, &p, &g);
     nh_shelf_add(s, nh_shelf_terms(s, &q));
     nh_shelf_add(s, nh_shelf_terms(s, &powers));
