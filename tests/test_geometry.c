@@ -445,7 +445,7 @@ Test(geometry, a_direction_without_inertia_is_named)
 typedef struct {
     const char *name, *text;
     nh_constraint_type type;
-    bool rheonomic, semiholonomic, holonomic;
+    bool rheonomic, holonomic;
     size_t length, growth[NH_MOST_GROWTH], hidden;
 } kind;
 
@@ -471,31 +471,31 @@ static const char ENGEL[] = PARTICLE("Engel", AND_Z "  - {name: u, type: length}
  * part by a right angle, twice.  Car: drive, steer; their bracket turns, its bracket with drive slips sideways.  Carriage: the wheels'
  * angles add up to the heading, one combination never leaves its level. */
 static const kind KINDS[] = {
-    {"sleigh", NULL, NH_LINEAR, false, false, false, 2, {2, 3}, 0},
-    {"disk", DISK, NH_LINEAR, false, false, false, 3, {3, 4, 5}, 0},
-    {"car", CAR, NH_LINEAR, false, false, false, 3, {2, 3, 4}, 0},
-    {"carriage", CARRIAGE, NH_LINEAR, false, false, false, 3, {2, 3, 4}, 1},
-    {"Engel", ENGEL, NH_LINEAR, false, false, false, 3, {2, 3, 4}, 0},
-    {"Heisenberg", IN_SPACE("z' = y*x' - x*y'"), NH_LINEAR, false, false, false, 2, {2, 3}, 0},
-    {"Martinet", IN_SPACE("z' = y^2*x'"), NH_LINEAR, false, false, false, 2, {2, 3}, 0},
-    {"integrable", IN_SPACE("z' = y*x' + x*y'"), NH_LINEAR, false, true, true, 1, {2}, 1},
-    {"not really moving", IN_SPACE("exp(t)*z' = exp(t)*(y*x' + x*y')"), NH_LINEAR, false, true, true, 1, {2}, 1},
-    {"not really curved", IN_SPACE("(z' - y*x')*(1 + x'^2) = 0"), NH_LINEAR, false, false, false, 2, {2, 3}, 0},
-    {"integrable, factor", IN_SPACE("exp(x)*z' = exp(x)*(y*x' + x*y')"), NH_LINEAR, false, true, true, 1, {2}, 1},
-    {"position", IN_SPACE("z = sin(x)*y"), NH_LINEAR, false, true, true, 1, {2}, 0},
-    {"moving position", IN_SPACE("z = t + x"), NH_AFFINE, true, true, true, 1, {3}, 0},
-    {"affine", AFFINE, NH_AFFINE, false, false, false, 2, {3, 4}, 0},
-    {"affine in space", IN_SPACE("z' = m*x + x'"), NH_AFFINE, false, false, false, 2, {3, 4}, 0},
-    {"conveyor", IN_SPACE("z' = m"), NH_AFFINE, false, true, true, 1, {3}, 1},
-    {"turntable", TURNTABLE, NH_AFFINE, false, false, false, 2, {4, 6}, 0},
-    {"rheonomic", RHEONOMIC, NH_LINEAR, true, false, false, 2, {3, 4}, 0},
-    {"moving surface", IN_SPACE("z' = t*x' + x"), NH_AFFINE, true, true, true, 1, {3}, 1},
-    {"projectile", PROJECTILE_EXPLICIT, NH_NONLINEAR, false, true, false, 2, {3, 4}, 0},
-    {"quadratic projectile", PROJECTILE_QUADRATIC, NH_NONLINEAR, false, true, false, 2, {3, 4}, 0},
-    {"implicit projectile", PROJECTILE_IMPLICIT, NH_NONLINEAR, false, true, false, 2, {3, 4}, 0},
-    {"Appell-Hamel", APPELL_HAMEL, NH_NONLINEAR, false, true, false, 2, {5, 6}, 0},
-    {"coupled", COUPLED, NH_NONLINEAR, false, false, false, 3, {5, 6, 7}, 0},
-    {"unconstrained", DRIVEN, NH_UNCONSTRAINED, false, false, false, 0, {0}, 0},
+    {"sleigh", NULL, NH_LINEAR, false, false, 2, {2, 3}, 0},
+    {"disk", DISK, NH_LINEAR, false, false, 3, {3, 4, 5}, 0},
+    {"car", CAR, NH_LINEAR, false, false, 3, {2, 3, 4}, 0},
+    {"carriage", CARRIAGE, NH_LINEAR, false, false, 3, {2, 3, 4}, 1},
+    {"Engel", ENGEL, NH_LINEAR, false, false, 3, {2, 3, 4}, 0},
+    {"Heisenberg", IN_SPACE("z' = y*x' - x*y'"), NH_LINEAR, false, false, 2, {2, 3}, 0},
+    {"Martinet", IN_SPACE("z' = y^2*x'"), NH_LINEAR, false, false, 2, {2, 3}, 0},
+    {"integrable", IN_SPACE("z' = y*x' + x*y'"), NH_LINEAR, false, true, 1, {2}, 1},
+    {"not really moving", IN_SPACE("exp(t)*z' = exp(t)*(y*x' + x*y')"), NH_LINEAR, false, true, 1, {2}, 1},
+    {"not really curved", IN_SPACE("(z' - y*x')*(1 + x'^2) = 0"), NH_LINEAR, false, false, 2, {2, 3}, 0},
+    {"integrable, factor", IN_SPACE("exp(x)*z' = exp(x)*(y*x' + x*y')"), NH_LINEAR, false, true, 1, {2}, 1},
+    {"position", IN_SPACE("z = sin(x)*y"), NH_LINEAR, false, true, 1, {2}, 0},
+    {"moving position", IN_SPACE("z = t + x"), NH_AFFINE, true, true, 1, {3}, 0},
+    {"affine", AFFINE, NH_AFFINE, false, false, 2, {3, 4}, 0},
+    {"affine in space", IN_SPACE("z' = m*x + x'"), NH_AFFINE, false, false, 2, {3, 4}, 0},
+    {"conveyor", IN_SPACE("z' = m"), NH_AFFINE, false, true, 1, {3}, 1},
+    {"turntable", TURNTABLE, NH_AFFINE, false, false, 2, {4, 6}, 0},
+    {"rheonomic", RHEONOMIC, NH_LINEAR, true, false, 2, {3, 4}, 0},
+    {"moving surface", IN_SPACE("z' = t*x' + x"), NH_AFFINE, true, true, 1, {3}, 1},
+    {"projectile", PROJECTILE_EXPLICIT, NH_NONLINEAR, false, false, 2, {3, 4}, 0},
+    {"quadratic projectile", PROJECTILE_QUADRATIC, NH_NONLINEAR, false, false, 2, {3, 4}, 0},
+    {"implicit projectile", PROJECTILE_IMPLICIT, NH_NONLINEAR, false, false, 2, {3, 4}, 0},
+    {"Appell-Hamel", APPELL_HAMEL, NH_NONLINEAR, false, false, 2, {5, 6}, 0},
+    {"coupled", COUPLED, NH_NONLINEAR, false, false, 3, {5, 6, 7}, 0},
+    {"unconstrained", DRIVEN, NH_UNCONSTRAINED, false, false, 0, {0}, 0},
 };
 
 static void check_kind(const kind *k, bool quasi)
@@ -505,7 +505,6 @@ static void check_kind(const kind *k, bool quasi)
     nh_distribution d = nh_distribution_of(x.model);
     cr_assert_eq(d.type, k->type, "%s is %s", k->name, nh_constraint_type_name(d.type));
     cr_assert_eq(d.rheonomic, k->rheonomic, "%s: rheonomic", k->name);
-    cr_assert_eq(d.semiholonomic, k->semiholonomic, "%s: semiholonomic %d", k->name, d.semiholonomic);
     cr_assert_eq(d.holonomic, k->holonomic, "%s: holonomic %d", k->name, d.holonomic);
     cr_assert_eq(d.growth.length, k->length, "%s: growth vector of length %zu", k->name, d.growth.length);
     for (size_t i = 0; i < k->length; i++) cr_assert_eq(d.growth.rank[i], k->growth[i], "%s: growth_%zu is %zu", k->name, i, d.growth.rank[i]);

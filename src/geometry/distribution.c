@@ -71,18 +71,6 @@ static bool is_rheonomic(const nh_model *o)
     return false;
 }
 
-static bool is_semiholonomic(const nh_model *o)
-{
-    nh_ex *x = nh_alloc_array(o->m + 1, sizeof *x);
-    bool semi = true;
-    for (size_t l = 0; l < o->n && semi; l++) {
-        for (size_t s = 0; s < o->m; s++) x[s] = nh_sub(o->dag, nh_model_X0(o, o->R[s * o->n + l]), nh_model_X(o, l, o->rho[s]));
-        for (size_t a = 0; a < o->k && semi; a++) semi = vanishes(o, across(o, a, x));
-    }
-    nh_free(x);
-    return semi;
-}
-
 /* ---- growth ---- */
 
 static bool any_depends(const nh_model *o, size_t n, const nh_ex *e, size_t symbols, const nh_ex *symbol)
@@ -162,7 +150,6 @@ nh_distribution nh_distribution_of(const nh_model *o)
     out.growth = growth(o, &out);
     if (!out.growth.cut) out.integrals = out.growth.dimension - out.growth.rank[out.growth.length - 1];
     out.holonomic = out.type != NH_NONLINEAR && out.integrals == o->k;
-    out.semiholonomic = out.type == NH_NONLINEAR ? is_semiholonomic(o) : out.holonomic;
     for (size_t a = 0; a < o->k; a++) out.positions += o->system->constraint[a].position;
     out.hidden = out.integrals > out.positions ? out.integrals - out.positions : 0;
     return out;

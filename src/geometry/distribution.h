@@ -4,9 +4,8 @@
  *     homogeneous    nu^a_s rho^s = 0: with a velocity all its multiples are allowed
  *     linear         both
  *     rheonomic      df^a/dt is not zero on the submanifold; for a constraint between positions, its own rate at rest is not
- *     holonomic      affine and integrable: as many functions of (t, q) stay constant as there are constraints
- *     semiholonomic  nu^a_s (X_0(R^s_l) - X_l(rho^s)) = 0, which is eps'_l(g^a) = 0 [CechMusilova2014, sec. 2.3]; for affine constraints the
- *                    same as holonomic; for nonlinear ones it depends on the coordinates
+ *     holonomic      affine and integrable: as many functions of (t, q) stay constant as there are constraints.  Semiholonomic constraints,
+ *                    eps'_l(g^a) = 0, are defined for linear and affine ones only and are the same [CechMusilova2014, sec. 3.2]
  *     growth         of the distribution of virtual displacements (linear, no t), of d/dt + rho^s d/dq^s and R^s_i d/dq^s on (t, q) (affine or t),
  *                    of the canonical distribution on (t, q, w) (nonlinear)
  *     hidden         functions of (t, q) that the constraints hold constant, besides those of the constraints between positions
@@ -21,7 +20,7 @@ typedef enum { NH_UNCONSTRAINED, NH_LINEAR, NH_AFFINE, NH_NONLINEAR } nh_constra
 
 typedef struct {
     nh_constraint_type type;
-    bool homogeneous, rheonomic, semiholonomic, holonomic;
+    bool homogeneous, rheonomic, holonomic;
     size_t positions;   /* constraints that were given between positions */
     nh_growth growth;   /* length 0 without constraints */
     size_t integrals;   /* functions of (t, q) that stay constant: dimension minus last rank */

@@ -41,6 +41,62 @@ bool nh_facts_next(const char **list, char *name, size_t size)
     return true;
 }
 
+static void ranks(nh_text *out, const char *before, size_t n, const size_t *rank)
+{
+    for (size_t i = 0; i < n; i++) nh_text_addf(out, "%s%zu", i ? "," : before, rank[i]);
+}
+
+void nh_facts_constraint(const nh_result *r, nh_text *out)
+{
+    static const char *const spaces[] = {"growth vector ", "growth vector with time ", "growth vector on the submanifold "};
+    const nh_distribution *d = &r->constraint;
+    const nh_growth *g = &d->growth;
+    nh_text_addf(out, "%s%s constraint%s%s (%s", d->type == NH_NONLINEAR && d->homogeneous ? "homogeneous " : "", nh_constraint_type_name(d->type),
+                 r->model->k == 1 ? "" : "s", d->rheonomic ? ", time-dependent" : "", nh_constraint_integrability(r->model, d));
+    if (g->length > 1) {
+        nh_text_add(out, "; ");
+        ranks(out, spaces[g->space], g->length, g->rank);
+        if (g->cut) nh_text_add(out, ",...");
+    }
+    if (g->drops) {
+        if (g->where) nh_text_addf(out, ", at %s = 0 ", nh_name_of(r->model->dag, g->where));
+        ranks(out, g->where ? "" : ", at the origin ", g->length_there, g->rank_there);
+    }
+    nh_text_addf(out, ")%s", g->proved ? "" : " (by numbers)");
+}
+
+/* The signs of one kind of report. */
+typedef struct {
+    const char *capital, *small, *Z, *Gamma, *bracket; /* how "Case" begins */
+} signs;
+
+static const signs signs_of[] = {
+    [NH_FACTS_TEXT] = {"case", "the case", "Z", "Gamma", "[Gamma,Z]"},
+    [NH_FACTS_PAGE] = {"case", "the case", "Z", "\u0393", "[\u0393,\u2009Z]"},
+    [NH_FACTS_TEX] = {"Case", "The case", "$Z$", "$\\Gamma$", "$[\\Gamma, Z]$"},
+};
+
+void nh_facts_symmetry(const nh_symmetry *z, nh_facts_form form, const char *between, nh_text *out)
+{
+    const signs *s = &signs_of[form];
+    switch (z->kase) {
+    case 1: nh_text_addf(out, "%s 1: %s is also a symmetry of the equations of motion", s->capital, s->Z); break;
+    case 2: nh_text_addf(out, "%s 2: %s lies in the span of %s and %s", s->capital, s->bracket, s->Gamma, s->Z); break;
+    case 3: nh_text_addf(out, "%s 3: %s is not a symmetry of the equations of motion", s->capital, s->Z); break;
+    default: nh_text_addf(out, "%s could not be decided", s->small);
+    }
+    nh_text_addf(out, "%s%s %s the canonical distribution", between, s->bracket, z->bracket_in_distribution ? "lies in" : "leaves");
+    if (z->projectable) nh_text_addf(out, "; %s is projectable", s->Z);
+}
+
+const char *nh_facts_drift(const nh_drift *d)
+{
+    double tight = d->drift[NH_DRIFT_RUNS - 1];
+    if (tight == 0) return "no digit of it changes";
+    if (!d->falls) return "it does not fall with the tolerance";
+    return tight < d->drift[0] ? "it falls with the tolerance" : "it is as small as rounding at every tolerance";
+}
+
 void nh_facts_spectrum(const nh_spectrum *s, double number[NH_SPECTRUM_NUMBERS])
 {
     const double all[NH_SPECTRUM_NUMBERS] = {(double)s->columns, (double)s->rank, (double)s->rows, (double)s->dimension, s->dimension && s->dimension <= s->rank ? s->spectrum[s->dimension - 1] : NAN,

@@ -2,6 +2,7 @@
 #ifndef NH_FACTS_H
 #define NH_FACTS_H
 
+#include "base/text.h"
 #include "study/result.h"
 
 /* A number for people: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without a mantissa where that is 1.  False: not finite. */
@@ -17,6 +18,17 @@ bool nh_facts_number(double value, int digits, nh_shown_number *out);
 const char *nh_facts_list(const char *text, char *words, size_t size);
 /* The next name of a list; false after the last. */
 bool nh_facts_next(const char **list, char *name, size_t size);
+
+/* "homogeneous nonlinear constraint, time-dependent (nonholonomic; growth vector 2,3)" */
+void nh_facts_constraint(const nh_result *result, nh_text *out);
+
+/* What kind of symmetry Z is: its case, whether [Gamma,Z] lies in the canonical distribution, whether Z is projectable.  `between`: what stands between the
+ * case and the rest. */
+typedef enum { NH_FACTS_TEXT, NH_FACTS_PAGE, NH_FACTS_TEX } nh_facts_form;
+void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const char *between, nh_text *out);
+
+/* How the drift of a current behaves when the tolerance of the integration falls. */
+const char *nh_facts_drift(const nh_drift *drift);
 
 /* One linear problem in numbers, the first of them counts; NAN for what there is not. */
 enum { NH_SPECTRUM_COUNTS = 4, NH_SPECTRUM_NUMBERS = 7 };

@@ -29,7 +29,8 @@ static const nh_glossary_entry entries[] = {
     {"caught", "It failed, or its error is larger than may be expected, and a guard says so."},
     {"wrong", "It ended without complaint, and its error is larger than may be expected: options chart_wrong, chart_far and chart_fixed."},
     {"timeout", "An integration that was given up because it took too long."},
-    {"semiholonomic", "eps'_l(g) = 0: a nonlinear constraint that behaves like a holonomic one in these coordinates."},
+    {"semiholonomic", "eps'_l(g) = 0 for a constraint that is linear or affine in the velocities: it is integrable.  Not defined for nonlinear constraints."},
+    {"projectable", "The components of Z along time and coordinates do not depend on velocities.  Whether Z is a symmetry of the equations of motion is another question."},
 };
 
 size_t nh_glossary_count(void) { return sizeof entries / sizeof *entries; }

@@ -75,7 +75,7 @@ void nh_html(const nh_result *r, nh_text *out)
     nh_html_figures(&w);
     nh_html_system(&w);
     nh_html_evidence(&w);
-    nh_html_words(&w, "current symmetry case distribution independent local residual drift gap multiplier nonholonomic growth");
+    nh_html_words(&w, "current symmetry case distribution projectable independent local residual drift gap multiplier nonholonomic growth");
     nh_html_repeat(&w, &run);
     nh_html_end(&w);
 }

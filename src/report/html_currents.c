@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "expr/print.h"
+#include "report/facts.h"
 #include "report/formula.h"
 #include "report/html_internal.h"
 
@@ -122,7 +123,7 @@ static void drift_line(nh_html_writer *w, const nh_found *f)
     nh_html_number(w, f->drift.drift[NH_DRIFT_RUNS - 1], 2);
     nh_html_add(w, " along a motion computed with tolerance ");
     nh_html_number(w, v->tolerance[NH_DRIFT_RUNS - 1], 2);
-    nh_html_add(w, f->drift.falls ? "; it falls with the tolerance</dd>\n" : "; it does not fall with the tolerance</dd>\n");
+    nh_text_addf(w->out, "; %s</dd>\n", nh_facts_drift(&f->drift));
 }
 
 static void standing(nh_html_writer *w, const nh_found *f)
@@ -143,16 +144,6 @@ static void standing(nh_html_writer *w, const nh_found *f)
     nh_html_add(w, "<div class=\"formula\">");
     nh_html_source(w, f->relation);
     nh_html_add(w, "</div>\n");
-}
-
-const char *nh_html_case(int kase)
-{
-    switch (kase) {
-    case 1: return "case 1: Z is also a symmetry of the equations of motion";
-    case 2: return "case 2: [\u0393,\u2009Z] lies in the span of \u0393 and Z";
-    case 3: return "case 3: Z is not a symmetry of the equations of motion";
-    default: return "the case could not be decided";
-    }
 }
 
 void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const nh_ex *e)
@@ -191,9 +182,11 @@ static void symmetry(nh_html_writer *w, const nh_found *f)
     nh_html_field(w, count, along, e);
     nh_free(e);
     nh_free(along);
+    if (!f->symmetry.bracket_in_distribution) nh_html_add(w, "<p>By how much [\u0393,\u2009Z] leaves the canonical distribution:</p>\n");
     for (size_t a = 0; a < o->k && !f->symmetry.bracket_in_distribution; a++) {
-        nh_html_add(w, "<p>By how much [\u0393,\u2009Z] leaves the canonical distribution:</p>\n");
-        nh_html_formula(w, "", f->symmetry.bracket_form[a]);
+        char label[240];
+        snprintf(label, sizeof label, "<msub><mi>i</mi><mrow><mo>[</mo><mi mathvariant=\"normal\">\u0393</mi><mo>,</mo><mi>Z</mi><mo>]</mo></mrow></msub><msup><mi>\u03d5</mi><mn>%zu</mn></msup>", a + 1);
+        nh_html_formula(w, label, f->symmetry.bracket_form[a]);
     }
     nh_html_add(w, "</details>\n");
 }
@@ -235,8 +228,9 @@ static void card(nh_html_writer *w, const nh_found *f)
     certificate(w, f);
     drift_line(w, f);
     if (f->has_symmetry) {
-        nh_text_addf(w->out, "<dt>Symmetry</dt><dd>%s; [\u0393,\u2009Z] %s the canonical distribution%s</dd>\n", nh_html_case(f->symmetry.kase),
-                     f->symmetry.bracket_in_distribution ? "lies in" : "leaves", f->symmetry.projectable ? "; Z is a point symmetry" : "");
+        nh_html_add(w, "<dt>Symmetry</dt><dd>");
+        nh_facts_symmetry(&f->symmetry, NH_FACTS_PAGE, "; ", w->out);
+        nh_html_add(w, "</dd>\n");
     }
     nh_html_add(w, "</dl>\n");
     if (f->has_symmetry && !f->series) symmetry(w, f);

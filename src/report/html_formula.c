@@ -80,12 +80,14 @@ void nh_html_meaning(nh_html_writer *w, const char *meaning)
 
 static void equal(nh_html_writer *w) { nh_html_add(w, "<math><mo>=</mo></math> "); }
 
-/* A name, or Z|x': Z with the index x'. */
+/* A name, or Z|x': Z with the index x', or MathML, which begins with <. */
 static void put_label(nh_html_writer *w, const char *label)
 {
     const char *bar = strchr(label, '|');
     if (!label[0]) return;
-    if (bar) {
+    if (label[0] == '<') {
+        nh_text_addf(w->out, "<math>%s</math> ", label);
+    } else if (bar) {
         nh_text_addf(w->out, "<math><msub><mi>%.*s</mi><mrow>", (int)(bar - label), label);
         nh_typeset(bar + 1, NH_MATHML, w->out);
         nh_html_add(w, "</mrow></msub></math> ");

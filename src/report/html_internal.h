@@ -37,7 +37,8 @@ void nh_html_source(nh_html_writer *w, const char *text);
 void nh_html_name(nh_html_writer *w, const char *name);
 /* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
 void nh_html_chart(nh_html_writer *w, const char *name);
-/* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, or `Z|x'`: Z with the index x'. */
+/* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, `Z|x'`: Z with the index x', or
+ * MathML that begins with <. */
 void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e);
 /* Several that belong together: what occurs in them more than once gets one name for all. */
 void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e);
@@ -70,7 +71,6 @@ void nh_html_course(nh_html_writer *w, const nh_course *course);  /* the slider 
 /* The components of a field along n coordinates and velocities that do not vanish, as Z with an index. */
 void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const nh_ex *e);
 void nh_html_meaning(nh_html_writer *w, const char *meaning); /* "momentum of phi", with the letter */
-const char *nh_html_case(int kase); /* case 1, 2 or 3 in words */
 
 extern const char *const nh_html_font; /* WOFF2 in base 64 */
 extern const char *const nh_html_style;

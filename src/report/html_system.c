@@ -99,8 +99,8 @@ static void kind(nh_html_writer *w)
     nh_html_add(w, r->model->m == 1 ? " coordinate, " : " coordinates, ");
     if (r->model->k) {
         nh_html_count(w, r->model->k);
-        nh_text_addf(w->out, " %s constraint%s: %s%s%s", nh_constraint_type_name(d->type), r->model->k == 1 ? "" : "s", nh_constraint_integrability(r->model, d),
-                     d->semiholonomic && !d->holonomic ? ", semiholonomic" : "", d->rheonomic ? ", time-dependent" : "");
+        nh_text_addf(w->out, " %s%s constraint%s: %s%s", d->type == NH_NONLINEAR && d->homogeneous ? "homogeneous " : "", nh_constraint_type_name(d->type), r->model->k == 1 ? "" : "s", nh_constraint_integrability(r->model, d),
+                     d->rheonomic ? ", time-dependent" : "");
         if (d->growth.length > 1) {
             nh_html_add(w, "; growth vector (");
             growth(w, d->growth.length, d->growth.rank);

@@ -1,7 +1,9 @@
 /* The answer to `verify` as a page. */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/memory.h"
+#include "report/facts.h"
 #include "report/html_internal.h"
 
 static void certificate(nh_html_writer *w, const nh_verdict_of_one *v)
@@ -61,7 +63,34 @@ static void symmetry(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
     nh_html_field(w, 1 + m + n, along, e);
     nh_free(e);
     nh_free(along);
-    nh_text_addf(w->out, "<dl><dt>Symmetry</dt><dd>%s; [\u0393,\u2009Z] %s the canonical distribution</dd></dl>\n</section>\n", nh_html_case(v->symmetry.kase), v->symmetry.bracket_in_distribution ? "lies in" : "leaves");
+    nh_html_add(w, "<dl><dt>Symmetry</dt><dd>");
+    nh_facts_symmetry(&v->symmetry, NH_FACTS_PAGE, "; ", w->out);
+    nh_html_add(w, "</dd></dl>\n</section>\n");
+}
+
+/* What a field has outside of the canonical distribution; it has no current then. */
+static void outside(nh_html_writer *w, const nh_verdict_of_one *v)
+{
+    nh_html_add(w, "<p>Z is not in the canonical distribution:</p>\n");
+    for (size_t a = 0; a < v->model->k; a++) {
+        char label[200];
+        snprintf(label, sizeof label, "<msub><mi>i</mi><mi>Z</mi></msub><msup><mi>\u03d5</mi><mn>%zu</mn></msup>", a + 1);
+        nh_html_formula(w, label, v->form[a]);
+    }
+}
+
+static void question(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
+{
+    if (v->outside) nh_html_add(w, "<section id=\"question\"><h2>The field</h2>\n");
+    else if (field) nh_html_add(w, "<section id=\"question\"><h2>The current of the field</h2>\n");
+    else nh_html_add(w, "<section id=\"question\"><h2>The question</h2>\n<p>Does this stay constant along every motion?</p>\n");
+    nh_html_add(w, "<article class=\"card\">\n");
+    if (v->outside) outside(w, v);
+    else nh_html_formula(w, "Phi", v->current);
+    nh_html_add(w, "<dl><dt>Residual</dt><dd>");
+    nh_html_number(w, v->residual, 2);
+    nh_html_add(w, field ? ", the largest of its conditions at random states, relative to their terms</dd></dl>\n</article></section>\n"
+                         : ", its largest rate at random states, relative to the terms of the rate</dd></dl>\n</article></section>\n");
 }
 
 void nh_html_verdict(const nh_verdict_of_one *v, bool field, const nh_run *run, nh_text *out)
@@ -73,12 +102,7 @@ void nh_html_verdict(const nh_verdict_of_one *v, bool field, const nh_run *run, 
     nh_html_links(&w, v->has_counterexample ? "question|The question|counterexample|Where it fails|system|System|words|Words|repeat|Repeat it"
                       : shown               ? "question|The question|symmetry|The symmetry|system|System|words|Words|repeat|Repeat it"
                                             : "question|The question|system|System|words|Words|repeat|Repeat it");
-    nh_html_add(&w, field ? "<section id=\"question\"><h2>The current of the field</h2>\n" : "<section id=\"question\"><h2>The question</h2>\n<p>Does this stay constant along every motion?</p>\n");
-    nh_html_add(&w, "<article class=\"card\">\n");
-    nh_html_formula(&w, "Phi", v->current);
-    nh_html_add(&w, "<dl><dt>Residual</dt><dd>");
-    nh_html_number(&w, v->residual, 2);
-    nh_html_add(&w, ", its largest rate at random states, relative to the terms of the rate</dd></dl>\n</article></section>\n");
+    question(&w, v, field);
     counterexample(&w, v, field);
     symmetry(&w, v, field);
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
@@ -86,7 +110,7 @@ void nh_html_verdict(const nh_verdict_of_one *v, bool field, const nh_run *run, 
     nh_html_add(&w, "<h3>As it was understood</h3>\n");
     nh_html_equations(&w, v->model);
     nh_html_add(&w, "</section>\n");
-    nh_html_words(&w, "current symmetry case distribution residual");
+    nh_html_words(&w, "current symmetry case distribution projectable residual");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }

@@ -75,7 +75,8 @@ static void put_constraint(const writer *w, nh_json *to)
     nh_json *item = nh_json_put_object(to, "constraint");
     nh_json_put_text(item, "type", nh_constraint_type_name(d->type));
     nh_json_put_bool(item, "homogeneous", d->homogeneous);
-    nh_json_put_bool(item, "semiholonomic", d->semiholonomic);
+    if (d->type == NH_NONLINEAR) nh_json_put_null(item, "semiholonomic"); /* defined for linear and affine constraints */
+    else nh_json_put_bool(item, "semiholonomic", d->holonomic);
     nh_json_put_bool(item, "holonomic", d->holonomic);
     nh_json_put_bool(item, "rheonomic", d->rheonomic);
     nh_json_put_text(item, "integrability", nh_constraint_integrability(w->r->model, d));

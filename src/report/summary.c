@@ -6,6 +6,7 @@
 
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/facts.h"
 #include "report/formula.h"
 
 enum { line_width = 100 };
@@ -63,31 +64,6 @@ static void formula(nh_summary_writer *w, int indent, const char *label, nh_ex e
 
 /* ---- the system ---- */
 
-static void ranks(nh_summary_writer *w, const char *before, size_t n, const size_t *rank)
-{
-    for (size_t i = 0; i < n; i++) nh_text_addf(w->out, "%s%zu", i ? "," : before, rank[i]);
-}
-
-/* "(nonholonomic; growth vector 2,3)" */
-static void kind_of_constraint(nh_summary_writer *w)
-{
-    static const char *const spaces[] = {"growth vector ", "growth vector with time ", "growth vector on the submanifold "};
-    const nh_distribution *d = &w->r->constraint;
-    const nh_growth *g = &d->growth;
-    const char *kind = nh_constraint_integrability(w->r->model, d);
-    nh_text_addf(w->out, " (%s%s", kind, d->semiholonomic && !d->holonomic ? ", semiholonomic" : "");
-    if (g->length > 1) {
-        nh_text_add(w->out, "; ");
-        ranks(w, spaces[g->space], g->length, g->rank);
-        if (g->cut) nh_text_add(w->out, ",...");
-    }
-    if (g->drops) {
-        if (g->where) nh_text_addf(w->out, ", at %s = 0 ", nh_name_of(w->r->model->dag, g->where));
-        ranks(w, g->where ? "" : ", at the origin ", g->length_there, g->rank_there);
-    }
-    nh_text_addf(w->out, ")%s", g->proved ? "" : " (by numbers)");
-}
-
 /* Which functions the constraints alone keep constant. */
 static void integrals_line(nh_summary_writer *w)
 {
@@ -111,14 +87,12 @@ static void system_lines(nh_summary_writer *w)
 {
     const nh_result *r = w->r;
     const nh_system *s = r->system;
-    const nh_distribution *d = &r->constraint;
     nh_text_addf(w->out, "%s%s%s", w->style.colour ? "\033[1m" : "", s->title, w->style.colour ? "\033[0m" : "");
     for (size_t i = 0; i < s->parameters; i++) nh_text_addf(w->out, "%s%s = %.10g", i ? ", " : "   with ", s->parameter[i].name, s->parameter[i].value);
     nh_text_addf(w->out, "\n%zu coordinate%s", s->coordinates, s->coordinates == 1 ? "" : "s");
     if (s->constraints) {
-        nh_text_addf(w->out, ", %zu %s%s constraint%s%s", s->constraints, d->type == NH_NONLINEAR && d->homogeneous ? "homogeneous " : "",
-                     nh_constraint_type_name(d->type), s->constraints == 1 ? "" : "s", d->rheonomic ? ", time-dependent" : "");
-        kind_of_constraint(w);
+        nh_text_addf(w->out, ", %zu ", s->constraints);
+        nh_facts_constraint(r, w->out);
     } else {
         nh_text_add(w->out, ", no constraints");
     }
@@ -161,16 +135,6 @@ static void equations(nh_summary_writer *w)
 }
 
 /* ---- currents ---- */
-
-static const char *case_text(int kase)
-{
-    switch (kase) {
-    case 1: return "case 1: Z is also a symmetry of the equations of motion";
-    case 2: return "case 2: [Gamma,Z] lies in the span of Gamma and Z";
-    case 3: return "case 3: Z is not a symmetry of the equations of motion";
-    default: return "the case could not be decided";
-    }
-}
 
 /* A plus or minus outside all parentheses, after the first character. */
 static bool reads_as_sum(const char *text)
@@ -231,8 +195,9 @@ static void certificate(nh_summary_writer *w, const nh_found *f)
 static void bracket_lines(nh_summary_writer *w, const nh_found *f)
 {
     const nh_result *r = w->r;
-    nh_text_addf(w->out, "        %s;\n        [Gamma,Z] %s the canonical distribution%s\n", case_text(f->symmetry.kase),
-                 f->symmetry.bracket_in_distribution ? "lies in" : "leaves", f->symmetry.projectable ? "; Z is a point symmetry" : "");
+    nh_text_add(w->out, "        ");
+    nh_facts_symmetry(&f->symmetry, NH_FACTS_TEXT, ";\n        ", w->out);
+    nh_text_add(w->out, "\n");
     if (f->symmetry.bracket_in_distribution) return;
     for (size_t a = 0; a < r->model->k; a++) {
         nh_text label;

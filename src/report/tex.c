@@ -5,6 +5,7 @@
 #include "base/versions.h"
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "expr/typeset.h"
 #include "report/facts.h"
 #include "report/formula.h"
 #include "report/html.h"
@@ -93,6 +94,18 @@ static void equations(nh_tex_writer *w, const nh_model *o)
     }
 }
 
+static void constraint_words(nh_tex_writer *w)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_facts_constraint(w->r, &words);
+    nh_tex_count(w, w->r->model->k);
+    nh_tex_add(w, " ");
+    nh_tex_words(w, nh_text_string(&words));
+    nh_tex_add(w, "\n");
+    nh_text_clear(&words);
+}
+
 static void system_section(nh_tex_writer *w)
 {
     const nh_result *r = w->r;
@@ -102,7 +115,7 @@ static void system_section(nh_tex_writer *w)
     parameters(w);
     nh_tex_add(w, "Lagrangian\n");
     nh_tex_formula(w, "L", s->lagrangian);
-    if (s->constraints) nh_text_addf(w->out, "Constraints (%s, %s)\n", nh_constraint_type_name(r->constraint.type), nh_constraint_integrability(r->model, &r->constraint));
+    if (s->constraints) constraint_words(w);
     for (size_t i = 0; i < s->constraints; i++) nh_tex_display(w, "", s->constraint[i].text);
     equations(w, r->model);
     if (r->other) equations(w, r->other);
@@ -110,28 +123,32 @@ static void system_section(nh_tex_writer *w)
 
 /* ---- currents ---- */
 
-static const char *case_text(int kase)
-{
-    switch (kase) {
-    case 1: return "Case 1: $Z$ is also a symmetry of the equations of motion";
-    case 2: return "Case 2: $[\\Gamma, Z]$ lies in the span of $\\Gamma$ and $Z$";
-    case 3: return "Case 3: $Z$ is not a symmetry of the equations of motion";
-    default: return "The case could not be decided";
-    }
-}
-
-/* Along time and coordinates; along Gamma and what is left, where that is much shorter. */
+/* Z = Z_Gamma Gamma + Z_x d/dx + ..., its components, and by how much the bracket leaves the canonical distribution: what text and page have. */
 static void field(nh_tex_writer *w, const nh_found *f)
 {
     nh_field_term *term;
     size_t n = nh_formula_field(w->r, &f->symmetry, &term);
-    bool relative = n && !term[0].along;
-    nh_tex_add(w, relative ? "Its symmetry is $Z_{\\Gamma}\\,\\Gamma$ and, besides it, has the components\n" : "Its symmetry has the components\n");
+    nh_text label;
+    nh_tex_add(w, n ? "Its symmetry is $Z = " : "Its symmetry is $Z = 0$.\n");
     for (size_t i = 0; i < n; i++) {
-        char label[200];
-        const char *along = term[i].along ? term[i].along : "Gamma";
-        snprintf(label, sizeof label, "Z_%.180s", along);
-        if (!strchr(along, '\'')) nh_tex_formula(w, label, term[i].coefficient);
+        nh_text_addf(w->out, "%sZ_{", i ? " + " : "");
+        nh_typeset(term[i].along ? term[i].along : "Gamma", NH_LATEX, w->out);
+        nh_tex_add(w, term[i].along ? "}\\,\\partial/\\partial " : "}\\,\\Gamma");
+        if (term[i].along) nh_typeset(term[i].along, NH_LATEX, w->out);
+    }
+    nh_tex_add(w, n ? "$ with\n" : "");
+    for (size_t i = 0; i < n; i++) {
+        nh_text_init(&label);
+        nh_text_add(&label, "Z_{");
+        nh_typeset(term[i].along ? term[i].along : "Gamma", NH_LATEX, &label);
+        nh_text_add(&label, "}");
+        nh_tex_labelled(w, nh_text_string(&label), term[i].coefficient);
+        nh_text_clear(&label);
+    }
+    for (size_t a = 0; a < w->r->model->k && !f->symmetry.bracket_in_distribution; a++) {
+        char name[80];
+        snprintf(name, sizeof name, "i_{[\\Gamma, Z]}\\,\\phi^{%zu}", a + 1);
+        nh_tex_labelled(w, name, f->symmetry.bracket_form[a]);
     }
 }
 
@@ -208,12 +225,29 @@ static void current(nh_tex_writer *w, const nh_found *f)
     nh_tex_add(w, "}\n");
     if (f->series) series(w, f);
     else nh_tex_formula(w, f->name, f->phi);
-    if (f->relation) nh_tex_add(w, "It depends on the others:\n"), nh_tex_display(w, "", f->relation);
+    if (f->independence == NH_DEPENDENT) nh_tex_add(w, f->relation ? "It depends on the others:\n" : "It depends on the others. ");
+    if (f->independence == NH_DOUBTFUL) nh_tex_add(w, "Perhaps it depends on the others. ");
+    if (f->independence == NH_CONSTANT) nh_tex_add(w, "It is constant on the submanifold. ");
+    if (f->relation) nh_tex_display(w, "", f->relation);
     certificate(w, f);
     if (!f->has_symmetry) return;
-    nh_text_addf(w->out, "%s; $[\\Gamma, Z]$ %s the canonical distribution%s.\n", case_text(f->symmetry.kase), f->symmetry.bracket_in_distribution ? "lies in" : "leaves",
-                 f->symmetry.projectable ? "; $Z$ is a point symmetry" : "");
+    nh_facts_symmetry(&f->symmetry, NH_FACTS_TEX, "; ", w->out);
+    nh_tex_add(w, ".\n");
     if (!f->series) field(w, f);
+}
+
+static void almost(nh_tex_writer *w)
+{
+    const nh_result *r = w->r;
+    if (r->almosts) nh_tex_add(w, "\\subsection*{Almost conserved, not currents}\n");
+    for (size_t k = 0; k < r->almosts; k++) {
+        nh_tex_formula(w, "", r->almost[k].phi);
+        nh_tex_add(w, "Its rate cancels to ");
+        nh_tex_number(w, floor(r->almost[k].digits), 6);
+        nh_tex_add(w, " digits and no further; it changes by ");
+        nh_tex_number(w, r->almost[k].rate, 2);
+        nh_tex_add(w, " of its own variation per unit of time.\n");
+    }
 }
 
 static void currents_section(nh_tex_writer *w)
@@ -225,6 +259,7 @@ static void currents_section(nh_tex_writer *w)
         nh_tex_add(w, i ? "" : "\\medskip Here\n");
         nh_tex_display(w, a->definition[i].name, a->definition[i].text);
     }
+    almost(w);
 }
 
 /* ---- figures and tables ---- */

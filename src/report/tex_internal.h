@@ -29,6 +29,8 @@ void nh_tex_chart(nh_tex_writer *w, const char *name);
 void nh_tex_display(nh_tex_writer *w, const char *label, const char *text);
 /* The same for an expression, with the user's abbreviations. */
 void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e);
+/* The same with a label in LaTeX, such as Z_{\dot{x}}. */
+void nh_tex_labelled(nh_tex_writer *w, const char *latex, nh_ex e);
 
 /* A figure, drawn by pgfplots from the numbers themselves. */
 void nh_tex_plot(nh_tex_writer *w, const nh_plot *plot, const char *caption);

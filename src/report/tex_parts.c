@@ -154,34 +154,65 @@ static void put_piece(void *context, const char *piece)
     nh_text_addf(context, "%s\n", piece);
 }
 
-void nh_tex_display(nh_tex_writer *w, const char *label, const char *text)
+/* `latex`: what stands before it, in LaTeX and followed by its sign; `plain`: the same where it is no formula of the language. */
+static void display(nh_tex_writer *w, const char *latex, const char *plain, const char *text)
 {
     nh_text formula;
     nh_text_init(&formula);
     if (nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, &formula)) {
-        nh_tex_add(w, "\\nhformula{");
-        if (label[0] && nh_typeset(label, NH_LATEX, w->out)) nh_tex_add(w, " = ");
-        nh_text_addf(w->out, "%s}\n", nh_text_string(&formula));
-    } else { /* no formula of the language, such as one that is nested too deep */
+        nh_text_addf(w->out, "\\nhformula{%s%s}\n", latex, nh_text_string(&formula));
+    } else { /* such as one that is nested too deep */
         nh_tex_add(w, "\\par{\\footnotesize\\raggedright ");
-        nh_tex_code(w, label);
-        nh_tex_add(w, label[0] ? " = " : "");
+        nh_tex_code(w, plain);
+        nh_tex_add(w, plain[0] ? " = " : "");
         nh_tex_code(w, text);
         nh_tex_add(w, "\\par}\n");
     }
     nh_text_clear(&formula);
 }
 
+void nh_tex_display(nh_tex_writer *w, const char *label, const char *text)
+{
+    nh_text latex;
+    nh_text_init(&latex);
+    if (label[0] && nh_typeset(label, NH_LATEX, &latex)) nh_text_add(&latex, " = ");
+    display(w, nh_text_string(&latex), label, text);
+    nh_text_clear(&latex);
+}
+
+/* What is too long for a page, under its name in LaTeX. */
+static void too_long(nh_tex_writer *w, const char *name, nh_ex e)
+{
+    bool known = (double)nh_complexity(w->r->model->dag, e) <= w->r->options.written;
+    nh_text_addf(w->out, "\\par %s: too long for a page%s.\\par\n", name, known ? "; the JSON has it" : "");
+}
+
+static char *text_of(const nh_tex_writer *w, nh_ex e) { return nh_print_short(w->r->model->dag, nh_formula_abbreviate(w->r, e), w->r->options.shown); }
+
 void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e)
 {
-    nh_dag *d = w->r->model->dag;
-    char *text = nh_print_short(d, nh_formula_abbreviate(w->r, e), w->r->options.shown);
+    char *text = text_of(w, e);
     if (text) {
         nh_tex_display(w, label, text);
     } else {
-        nh_tex_add(w, "\\par ");
-        nh_tex_name(w, label);
-        nh_text_addf(w->out, ": too long for a page%s.\\par\n", (double)nh_complexity(d, e) <= w->r->options.written ? "; the JSON has it" : "");
+        nh_text name;
+        nh_tex_writer inner = {w->r, &name};
+        nh_text_init(&name);
+        nh_tex_name(&inner, label);
+        too_long(w, nh_text_string(&name), e);
+        nh_text_clear(&name);
     }
+    nh_free(text);
+}
+
+void nh_tex_labelled(nh_tex_writer *w, const char *latex, nh_ex e)
+{
+    char *text = text_of(w, e);
+    nh_text name;
+    nh_text_init(&name);
+    nh_text_addf(&name, text ? "%s = " : "$%s$", latex);
+    if (text) display(w, nh_text_string(&name), latex, text);
+    else too_long(w, nh_text_string(&name), e);
+    nh_text_clear(&name);
     nh_free(text);
 }

@@ -1,10 +1,12 @@
 #include "report/verdict.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "base/json.h"
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/facts.h"
 
 /* Longer than `shown` symbols: only how long. */
 static void put(nh_text *out, nh_dag *dag, const char *label, nh_ex e, double shown)
@@ -39,13 +41,28 @@ static void put_field(const nh_verdict_of_one *v, double shown, nh_text *out)
         nh_text_addf(out, "    %s: ", nh_name_of(d, v->model->chart->w[i]));
         put(out, d, "", z->W[i], shown);
     }
-    nh_text_addf(out, "  case %d; [Gamma,Z] %s the canonical distribution\n", z->kase, z->bracket_in_distribution ? "lies in" : "leaves");
+    nh_text_add(out, "  ");
+    nh_facts_symmetry(z, NH_FACTS_TEXT, ";\n  ", out);
+    nh_text_add(out, "\n");
+}
+
+/* By how much a field leaves the canonical distribution: its current is defined for fields in it only. */
+static void put_outside(const nh_verdict_of_one *v, double shown, nh_text *out)
+{
+    nh_text_add(out, "Z is not in the canonical distribution:\n");
+    for (size_t a = 0; a < v->model->k; a++) {
+        char label[80];
+        snprintf(label, sizeof label, "  i_Z phi^%zu = ", a + 1);
+        put(out, v->model->dag, label, v->form[a], shown);
+        nh_text_addf(out, "    where phi^%zu belongs to %s\n", a + 1, v->system->constraint[a].text);
+    }
 }
 
 void nh_verdict_text(const nh_verdict_of_one *v, bool field, double shown, nh_text *out)
 {
     nh_dag *d = v->model->dag;
-    if (field) put(out, d, "the field's current is  ", v->current, shown);
+    if (field && v->outside) put_outside(v, shown, out);
+    else if (field) put(out, d, "the field's current is  ", v->current, shown);
     else put(out, d, "Phi = ", v->current, INFINITY);
     if (!v->conserved) {
         nh_text_addf(out, "%s\n  at ", field ? "NO: this is not a constraint symmetry" : "NO: this is not conserved");
@@ -77,8 +94,27 @@ static void put_symmetry(const nh_verdict_of_one *v, nh_json *to)
     put_expression(components, "t", d, v->symmetry.Z0);
     for (size_t s = 0; s < v->model->m; s++) put_expression(components, v->system->coordinate[s].name, d, v->symmetry.field.space[s]);
     for (size_t i = 0; i < v->model->n; i++) put_expression(components, nh_name_of(d, v->model->chart->w[i]), d, v->symmetry.W[i]);
-    nh_json_put_number(item, "case", v->symmetry.kase);
+    if (v->symmetry.kase) nh_json_put_number(item, "case", v->symmetry.kase);
+    else nh_json_put_null(item, "case");
     nh_json_put_bool(item, "bracket_in_distribution", v->symmetry.bracket_in_distribution);
+    nh_json_put_bool(item, "projectable", v->symmetry.projectable);
+}
+
+/* Of a field: does it lie in the canonical distribution, and what it has outside of it. */
+static void put_forms(const nh_verdict_of_one *v, nh_json *to)
+{
+    if (!v->form) {
+        nh_json_put_null(to, "in_distribution");
+        nh_json_put_null(to, "i_Z_phi");
+        return;
+    }
+    nh_json_put_bool(to, "in_distribution", !v->outside);
+    nh_json *list = nh_json_put_array(to, "i_Z_phi");
+    for (size_t a = 0; a < v->model->k; a++) {
+        char *text = nh_print_string(v->model->dag, v->form[a]);
+        nh_json_add_text(list, text);
+        nh_free(text);
+    }
 }
 
 char *nh_verdict_json(const nh_verdict_of_one *v, const nh_run *run)
@@ -87,7 +123,9 @@ char *nh_verdict_json(const nh_verdict_of_one *v, const nh_run *run)
     nh_json *root = nh_json_object();
     nh_json_put_number(root, "schema", 1);
     nh_json_put_bool(root, "conserved", v->conserved);
-    put_expression(root, "current", d, v->current);
+    if (v->outside) nh_json_put_null(root, "current");
+    else put_expression(root, "current", d, v->current);
+    put_forms(v, root);
     nh_json_put_bool(root, "trivial", v->trivial);
     if (v->has_symmetry) put_symmetry(v, root);
     else nh_json_put_null(root, "symmetry");

@@ -86,35 +86,43 @@ static bool accepts(const nh_proof *proof, double residual, const nh_options *op
     return proof->proved || (proof->digits >= enough && residual <= options->heldout);
 }
 
-/* Constant wherever it is smooth, however it is written. */
+/* Constant on the submanifold: all derivatives vanish there, by normal form; or wherever it is smooth, however it is written. */
 static bool is_constant(const nh_model *o, const nh_points *generic, nh_ex phi, const nh_options *options)
 {
     nh_independence kind;
+    bool proved = true;
+    for (size_t j = 0; j < 1 + o->m + o->n && proved; j++)
+        proved = nh_normal_is_zero(o->dag, nh_diff(o->dag, phi, o->chart->symbol[j]), (size_t)options->proof_terms) == NH_ZERO;
+    if (proved) return true;
     nh_independence_test(o, generic, 1, &phi, options->sure, options->doubt, &kind, NULL);
     return kind == NH_CONSTANT;
+}
+
+/* The symmetry of what is conserved, and whether that is trivial. */
+static bool describe(nh_verdict_of_one *v, const nh_options *options, nh_error *error)
+{
+    nh_points *generic = nh_points_create(v->model, generic_points, 1, (uint64_t)options->seed + 8, error);
+    if (!generic) return false;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    v->trivial = is_constant(v->model, generic, v->current, options);
+    v->has_symmetry = nh_symmetry_of(v->model, generic, v->current, options->same, &v->symmetry, &ignored);
+    nh_points_free(generic);
+    return true;
 }
 
 static bool examine(nh_verdict_of_one *v, const nh_options *options, nh_error *error)
 {
     nh_points *points = nh_points_create(v->model, test_points, 1.2, (uint64_t)options->seed + 7, error);
-    nh_points *generic = points ? nh_points_create(v->model, generic_points, 1, (uint64_t)options->seed + 8, error) : NULL;
-    if (!generic) {
-        nh_points_free(points);
-        return false;
-    }
+    if (!points) return false;
     nh_ex *term;
     size_t n = rate_terms(v, v->current, &term);
     v->proof = nh_prove_zero(v->model, n, term, true, options);
     bool found = worst_point(v, points, n, term, &v->residual);
     v->conserved = accepts(&v->proof, v->residual, options);
     v->has_counterexample = found && !v->conserved;
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    v->trivial = v->conserved && (v->trivial || is_constant(v->model, generic, v->current, options));
-    if (v->conserved) v->has_symmetry = nh_symmetry_of(v->model, generic, v->current, options->same, &v->symmetry, &ignored);
-    nh_points_free(generic);
     nh_points_free(points);
-    return true;
+    return !v->conserved || describe(v, options, error);
 }
 
 nh_verdict_of_one *nh_verify_current(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
@@ -125,7 +133,6 @@ nh_verdict_of_one *nh_verify_current(nh_system *system, nh_chart_choice chart, c
     bool good = nh_system_expression_text(system, "--current", text, 0, NULL, &e, error) && nh_analysis_to_chart(v->model, e, &v->current, error);
     if (good) {
         v->current = nh_simplify(v->model->dag, v->current);
-        v->trivial = nh_kind_of(v->model->dag, v->current) == NH_NUMBER;
         good = examine(v, options, error);
     }
     if (good) return v;
@@ -196,29 +203,44 @@ static bool solve_zeta(nh_verdict_of_one *v, nh_ex time, const nh_ex *space, nh_
     return true;
 }
 
-/* The terms of the k-th condition: Z in the canonical distribution (m), (N0), (NY) (n); (NX) (n) only determines W and is checked only when
- * the user gave W. */
+/* i_Z phi^a = nu^a_s (Z^s - rho^s Z^0), which vanish iff Z lies in the canonical distribution. */
+static void outside(nh_verdict_of_one *v, const given *g)
+{
+    const nh_model *o = v->model;
+    nh_dag *d = o->dag;
+    v->form = nh_arena_alloc(v->arena, (o->k + 1) * sizeof *v->form);
+    for (size_t a = 0; a < o->k; a++) {
+        nh_ex sum = nh_int(d, 0);
+        for (size_t s = 0; s < o->m; s++)
+            sum = nh_add(d, sum, nh_mul(d, o->nu[a * o->m + s], nh_sub(d, g->space[s], nh_mul(d, o->rho[s], g->time))));
+        v->form[a] = nh_simplify(d, sum);
+    }
+}
+
+/* The terms of the k-th condition: Z in the canonical distribution (as many as constraints), (N0), (NY) (n); (NX) (n) only determines W and is checked
+ * only when the user gave W. */
 static size_t condition(nh_verdict_of_one *v, const given *g, size_t k, nh_ex *term)
 {
     const nh_model *o = v->model;
     nh_dag *d = o->dag;
-    size_t n = 0, m = o->m;
-    if (k < m) { /* Z^s = zeta^i R^s_i + rho^s Z^0 */
-        term[n++] = nh_neg(d, g->space[k]);
-        term[n++] = nh_mul(d, o->rho[k], g->time);
-        for (size_t i = 0; i < o->n; i++) term[n++] = nh_mul(d, g->zeta[i], o->R[k * o->n + i]);
-        v->equation = nh_arena_printf(v->arena, "the canonical distribution, component %s", o->system->coordinate[k].name);
-    } else if (k == m) {
+    size_t n = 0;
+    if (k < o->k) {
+        for (size_t s = 0; s < o->m; s++) {
+            term[n++] = nh_mul(d, o->nu[k * o->m + s], g->space[s]);
+            term[n++] = nh_neg(d, nh_product(d, 3, (nh_ex[]){o->nu[k * o->m + s], o->rho[s], g->time}));
+        }
+        v->equation = nh_arena_printf(v->arena, "the canonical distribution, i_Z phi^%zu", k + 1);
+    } else if (k == o->k) {
         term[n++] = nh_model_X0(o, v->current);
         for (size_t i = 0; i < o->n; i++) term[n++] = nh_mul(d, o->A[i], g->zeta[i]);
         v->equation = "(N0)";
-    } else if (k <= m + o->n) {
-        size_t j = k - m - 1;
+    } else if (k <= o->k + o->n) {
+        size_t j = k - o->k - 1;
         term[n++] = nh_model_Y(o, j, v->current);
         for (size_t i = 0; i < o->n; i++) term[n++] = nh_neg(d, nh_mul(d, o->M[i * o->n + j], g->zeta[i]));
         v->equation = nh_arena_printf(v->arena, "(NY) for %s", nh_name_of(d, o->chart->w[j]));
     } else {
-        size_t j = k - m - 1 - o->n;
+        size_t j = k - o->k - 1 - o->n;
         term[n++] = nh_model_X(o, j, v->current);
         term[n++] = nh_neg(d, nh_mul(d, o->A[j], g->time));
         for (size_t i = 0; i < o->n; i++) {
@@ -235,8 +257,8 @@ static bool check_field(nh_verdict_of_one *v, const given *g, const nh_options *
     const nh_model *o = v->model;
     nh_points *points = nh_points_create(o, test_points, 1.2, (uint64_t)options->seed + 7, error);
     if (!points) return false;
-    size_t total = o->m + 1 + (g->has_W ? 2 : 1) * o->n;
-    nh_ex *term = nh_arena_alloc(v->arena, (2 * o->n + 4) * sizeof *term);
+    size_t total = o->k + 1 + (g->has_W ? 2 : 1) * o->n;
+    nh_ex *term = nh_arena_alloc(v->arena, (2 * (o->m + o->n) + 4) * sizeof *term);
     v->conserved = true;
     v->proof = (nh_proof){.proved = true, .all_parameters = true, .digits = INFINITY};
     for (size_t k = 0; k < total && v->conserved; k++) {
@@ -246,6 +268,7 @@ static bool check_field(nh_verdict_of_one *v, const given *g, const nh_options *
         bool found = worst_point(v, points, n, term, &residual);
         v->residual = fmax(v->residual, residual);
         v->conserved = accepts(&proof, residual, options);
+        v->outside |= !v->conserved && k < o->k;
         v->has_counterexample = found && !v->conserved;
         v->proof.proved &= proof.proved;
         v->proof.all_parameters &= proof.all_parameters;
@@ -271,14 +294,9 @@ nh_verdict_of_one *nh_verify_field(nh_system *system, nh_chart_choice chart, con
     good = good && solve_zeta(v, g.time, g.space, g.zeta, error);
     if (good) {
         v->current = nh_simplify(o->dag, nh_symmetry_current(o, g.time, g.zeta));
-        v->trivial = nh_kind_of(o->dag, v->current) == NH_NUMBER;
-        good = check_field(v, &g, options, error);
+        outside(v, &g);
+        good = check_field(v, &g, options, error) && (!v->conserved || describe(v, options, error));
     }
-    nh_points *generic = good && v->conserved ? nh_points_create(o, generic_points, 1, (uint64_t)options->seed + 8, error) : NULL;
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    if (generic) v->has_symmetry = nh_symmetry_of(o, generic, v->current, options->same, &v->symmetry, &ignored);
-    nh_points_free(generic);
     if (good) return v;
     nh_verdict_free(v);
     return NULL;

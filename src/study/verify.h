@@ -11,7 +11,9 @@ typedef struct {
     nh_arena *arena;
     nh_system *system;
     nh_model *model;
-    nh_ex current;            /* in the chart; of a field: its current alpha(Z) */
+    nh_ex current;            /* in the chart; of a field: its current alpha(Z), if it lies in the canonical distribution */
+    nh_ex *form;              /* of a field: i_Z phi^a, one for each constraint; else NULL */
+    bool outside;             /* of a field: they do not vanish, Z is not in the canonical distribution */
     bool conserved;           /* or: is a constraint symmetry */
     bool trivial;             /* the current is constant */
     bool has_symmetry;

@@ -1,0 +1,209 @@
+/* What `analyze` and `verify` say: text, page, LaTeX and JSON say the same, each word means what it says, and nothing is said of what it does not hold for. */
+#include <cjson/cJSON.h>
+
+#include "program.h"
+
+/* ---- the reports of one run ---- */
+
+typedef struct {
+    char *text, *page, *tex, *source;
+    cJSON *json;
+} reports;
+
+static char *read_or_fail(const place *p, const char *name)
+{
+    char *text = read_here(p, name);
+    cr_assert_not_null(text, "no file %s", name);
+    return text;
+}
+
+static reports analyze(const place *p, const char *system)
+{
+    char line[300];
+    snprintf(line, sizeof line, "analyze %s --json a.json --html a.html --tex a.tex", system);
+    finished f = run_expecting(p, line, 0);
+    reports r = {.text = f.out, .page = read_or_fail(p, "a.html"), .tex = read_or_fail(p, "a.tex"), .source = read_or_fail(p, "a.json")};
+    free(f.err);
+    r.json = cJSON_Parse(r.source);
+    cr_assert_not_null(r.json, "%s", line);
+    return r;
+}
+
+static reports verify(const place *p, const char *question, int code)
+{
+    char line[400];
+    reports r = {0};
+    snprintf(line, sizeof line, "verify %s --json a.json --html a.html", question);
+    finished f = run_expecting(p, line, code);
+    r.text = f.out;
+    free(f.err);
+    r.page = read_or_fail(p, "a.html");
+    r.source = read_or_fail(p, "a.json");
+    r.json = cJSON_Parse(r.source);
+    cr_assert_not_null(r.json, "%s", line);
+    return r;
+}
+
+static void reports_clear(reports *r)
+{
+    cJSON_Delete(r->json);
+    free(r->text);
+    free(r->page);
+    free(r->tex);
+    free(r->source);
+}
+
+static size_t occurrences(const char *text, const char *words)
+{
+    size_t n = 0;
+    for (const char *at = text; (at = strstr(at, words)); at += strlen(words)) n++;
+    return n;
+}
+
+static const cJSON *item(const cJSON *of, const char *key)
+{
+    const cJSON *found = cJSON_GetObjectItemCaseSensitive(of, key);
+    cr_assert_not_null(found, "no key %s", key);
+    return found;
+}
+
+/* ---- words ---- */
+
+/* A current's Z may be free of velocities along time and space without being a symmetry of the equations of motion: the word is projectable. */
+Test(statements, projectable_is_said_alike)
+{
+    place p = place_with_systems();
+    reports r = analyze(&p, "sleigh");
+    size_t projectable = 0, third = 0, both = 0;
+    const cJSON *current;
+    cJSON_ArrayForEach(current, item(r.json, "currents"))
+    {
+        bool is = cJSON_IsTrue(item(current, "projectable")), case_3 = item(current, "case")->valueint == 3;
+        projectable += is;
+        third += case_3;
+        both += is && case_3;
+    }
+    cr_assert(projectable > 0 && both > 0);
+    cr_expect_eq(occurrences(r.text, "; Z is projectable\n"), projectable);
+    cr_expect_eq(occurrences(r.page, "; Z is projectable</dd>"), projectable);
+    cr_expect_eq(occurrences(r.tex, "; $Z$ is projectable."), projectable);
+    cr_expect_eq(occurrences(r.text, "case 3: Z is not a symmetry of the equations of motion"), third);
+    cr_expect_eq(occurrences(r.tex, "Case 3: $Z$ is not a symmetry of the equations of motion"), third);
+    cr_expect(!strstr(r.text, "point symmetry") && !strstr(r.page, "point symmetry") && !strstr(r.tex, "point symmetry"));
+    reports_clear(&r);
+    r = verify(&p, "sleigh --current m*(v*sin(phi/k)+a*k*omega*cos(phi/k))", 0);
+    cr_expect(cJSON_IsTrue(item(item(r.json, "symmetry"), "projectable")));
+    cr_expect(strstr(r.text, "Z is projectable") && strstr(r.page, "Z is projectable"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* Semiholonomic is a property of linear and affine constraints: of nonlinear ones nothing is said. */
+Test(statements, semiholonomic_is_for_constraints_that_it_is_defined_for)
+{
+    place p = place_with_systems();
+    reports r = analyze(&p, "constant_speed");
+    cr_expect(cJSON_IsNull(item(item(r.json, "constraint"), "semiholonomic")), "%s", cJSON_Print(item(r.json, "constraint")));
+    cr_expect(!strstr(r.text, "semiholonomic") && !strstr(r.page, "semiholonomic") && !strstr(r.tex, "semiholonomic"));
+    reports_clear(&r);
+    write_here(&p, "plane.yaml", "name: plane\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
+                                 "lagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z' = y*x' + x*y'\"]\n");
+    r = analyze(&p, "plane.yaml");
+    cr_expect(cJSON_IsTrue(item(item(r.json, "constraint"), "semiholonomic")));
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* The kind of the constraints in the same words. */
+Test(statements, the_constraints_are_named_alike)
+{
+    static const char *const systems[] = {"appell_hamel", "skate_on_belt", "sleigh", "bead_on_turning_wire"};
+    place p = place_with_systems();
+    for (size_t s = 0; s < sizeof systems / sizeof *systems; s++) {
+        reports r = analyze(&p, systems[s]);
+        const cJSON *c = item(r.json, "constraint");
+        const char *type = item(c, "type")->valuestring;
+        bool homogeneous = !strcmp(type, "nonlinear") && cJSON_IsTrue(item(c, "homogeneous")), moving = cJSON_IsTrue(item(c, "rheonomic"));
+        const char *const all[] = {r.text, r.page, r.tex};
+        for (size_t i = 0; i < 3; i++) {
+            char words[100];
+            snprintf(words, sizeof words, "%s%s constraint", homogeneous ? "homogeneous " : "", type);
+            cr_expect_not_null(strstr(all[i], words), "%s: report %zu does not say %s", systems[s], i, words);
+            cr_expect_eq(strstr(all[i], ", time-{}dependent") || strstr(all[i], ", time-dependent"), moving, "%s: report %zu", systems[s], i);
+            cr_expect_not_null(strstr(all[i], item(c, "integrability")->valuestring), "%s: report %zu", systems[s], i);
+        }
+        reports_clear(&r);
+    }
+    place_clear(&p);
+}
+
+/* What does not change does not fall. */
+Test(statements, a_drift_of_zero_is_zero)
+{
+    place p = place_with_systems();
+    reports r = analyze(&p, "relativistic_particle");
+    size_t zero = 0;
+    const cJSON *current;
+    cJSON_ArrayForEach(current, item(r.json, "currents")) zero += item(current, "drift")->valuedouble == 0;
+    cr_assert_gt(zero, 0u);
+    cr_expect_eq(occurrences(r.page, "; no digit of it changes</dd>"), zero);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* ---- fields ---- */
+
+/* Every component and every i_[Gamma,Z] phi^a of the text is in the document and on the page. */
+Test(statements, a_field_is_complete_in_every_report)
+{
+    static const char *const systems[] = {"sleigh", "constant_speed", "skate_on_belt", "relativistic_particle", "appell_hamel"};
+    place p = place_with_systems();
+    for (size_t s = 0; s < sizeof systems / sizeof *systems; s++) {
+        reports r = analyze(&p, systems[s]);
+        size_t terms = occurrences(r.text, "\n        Z = ") + occurrences(r.text, "\n          + "), forms = occurrences(r.text, "\n        i_[Gamma,Z] phi^");
+        cr_assert_gt(terms, 0u);
+        cr_expect_eq(occurrences(r.tex, "\\nhformula{Z_{") + occurrences(r.tex, "\\par $Z_{"), terms, "%s: %zu components in the text, %zu in LaTeX", systems[s], terms,
+                     occurrences(r.tex, "\\nhformula{Z_{"));
+        cr_expect_eq(occurrences(r.tex, "\\nhformula{i_{[\\Gamma, Z]}"), forms, "%s: %zu forms", systems[s], forms);
+        cr_expect_eq(occurrences(r.page, "<msub><mi>Z</mi><mrow>"), terms, "%s: %zu components in the text, %zu on the page", systems[s], terms,
+                     occurrences(r.page, "<msub><mi>Z</mi><mrow>"));
+        cr_expect_eq(occurrences(r.page, "<mi>\u03d5</mi>"), forms, "%s: %zu forms", systems[s], forms);
+        reports_clear(&r);
+    }
+    place_clear(&p);
+}
+
+/* d/dy is not in the sleigh's canonical distribution, its phi^1(d/dy) = 1 (for y' = x' tan(phi)); it has no current. */
+Test(statements, a_field_outside_the_distribution_has_no_current)
+{
+    place p = place_with_systems();
+    reports r = verify(&p, "sleigh --field y=1", 1);
+    cr_expect(strstr(r.text, "Z is not in the canonical distribution") && strstr(r.text, "i_Z phi^1 = 1\n") && !strstr(r.text, "the field's current"), "%s", r.text);
+    cr_expect(strstr(r.page, "Z is not in the canonical distribution") && !strstr(r.page, "current of the field"));
+    cr_expect(cJSON_IsNull(item(r.json, "current")) && cJSON_IsFalse(item(r.json, "in_distribution")));
+    cr_expect_str_eq(cJSON_GetArrayItem(item(r.json, "i_Z_phi"), 0)->valuestring, "1");
+    reports_clear(&r);
+    r = verify(&p, "sleigh --field phi=1", 1); /* in the distribution, and no symmetry */
+    cr_expect(strstr(r.text, "the field's current is  m*a^2*k^2*omega\n"), "%s", r.text);
+    cr_expect(cJSON_IsTrue(item(r.json, "in_distribution")));
+    cr_expect_str_eq(item(r.json, "current")->valuestring, "m*a^2*k^2*omega");
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* A unit of the four-velocity: Lbar = -m/2, so that Gamma is a symmetry with a constant current.  In the chart of (x', y'), and of a constraint that is not solved. */
+Test(statements, a_constant_current_is_trivial_on_the_submanifold)
+{
+    place p = place_make();
+    for (int power = 1; power <= 3; power += 2) {
+        char text[600];
+        snprintf(text, sizeof text, "name: four\nparameters: [{name: m, value: 1.3}]\ncoordinates: [{name: T, type: length}, {name: x, type: length}, {name: y, type: length}]\n"
+                                    "lagrangian: -m/2*(T'^2 - x'^2 - y'^2)\nconstraints: [\"(T'^2 - x'^2 - y'^2)^%d = 1\"]\ndomain: {T': [1, 2]}\n", power);
+        write_here(&p, "four.yaml", text);
+        reports r = verify(&p, "four.yaml --field t=1;T=T';x=x';y=y'", 0);
+        cr_expect(cJSON_IsTrue(item(r.json, "trivial")), "%s", r.source);
+        cr_expect_not_null(strstr(r.text, "it is trivial: the current is constant"), "%s", r.text);
+        reports_clear(&r);
+    }
+    place_clear(&p);
+}
