@@ -334,15 +334,15 @@ bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
     return t == 0 || nh_runge(m, field_rate, f, 0, t, tolerance, largest, q);
 }
 
-static bool returns(nh_flows *f, const double *c, double time)
+static bool returns(nh_flows *f, const double *c, double time, const double *start)
 {
     static const double same = 1e-8, turn = 6.283185307179586;
     const nh_kinetic *k = f->action->kinetic;
     double *q = nh_alloc_array(k->m, sizeof *q);
-    memcpy(q, k->place, k->m * sizeof *q);
+    memcpy(q, start, k->m * sizeof *q);
     bool closed = nh_flows_move(f, c, time, q);
     for (size_t s = 0; s < k->m && closed; s++) {
-        double way = q[s] - k->place[s];
+        double way = q[s] - start[s];
         if (k->angle[s]) way -= turn * round(way / turn);
         closed = fabs(way) < same * (1 + fabs(q[s]));
     }
@@ -350,8 +350,8 @@ static bool returns(nh_flows *f, const double *c, double time)
     return closed;
 }
 
-/* The slowest rotation among the eigenvalues of the Jacobian at the first place; 0 when there is none. */
-static double frequency(const nh_flows *f, const double *c)
+/* The slowest rotation among the eigenvalues of the Jacobian at a place; 0 when there is none. */
+static double frequency(const nh_flows *f, const double *c, const double *q)
 {
     const nh_kinetic *k = f->action->kinetic;
     size_t m = k->m;
@@ -363,7 +363,7 @@ static double frequency(const nh_flows *f, const double *c)
             for (size_t a = 0; a < f->action->d; a++)
                 if (c[a] != 0) e[s + r * m] = nh_add(k->dag, e[s + r * m], nh_mul(k->dag, nh_real(k->dag, c[a]), nh_diff(k->dag, f->action->generator[a].component[s], k->q[r])));
         }
-    nh_kinetic_values(k, m * m, e, k->place, J);
+    nh_kinetic_values(k, m * m, e, q, J);
     if (nh_eigen(m, J, re, im, NULL))
         for (size_t i = 0; i < m; i++)
             if (fabs(im[i]) > 1e-6 && (least == 0 || fabs(im[i]) < least)) least = fabs(im[i]);
@@ -374,9 +374,14 @@ static double frequency(const nh_flows *f, const double *c)
 
 bool nh_flows_closed(nh_flows *f, const double *c)
 {
+    enum { places = 4 }; /* the flow may meet a pole of the coordinates on its way from some */
     static const double turn = 6.283185307179586;
-    double omega = frequency(f, c);
+    const nh_kinetic *k = f->action->kinetic;
     bool closed = false;
-    for (int i = 1; i <= 4 && !closed; i++) closed = (i <= 2 && returns(f, c, i * turn)) || (omega > 0 && returns(f, c, i * turn / omega));
+    for (size_t p = 0; p < places && p < k->places && !closed; p++) {
+        const double *q = k->place + p * k->m;
+        double omega = frequency(f, c, q);
+        for (int i = 1; i <= 4 && !closed; i++) closed = (i <= 2 && returns(f, c, i * turn, q)) || (omega > 0 && returns(f, c, i * turn / omega, q));
+    }
     return closed;
 }

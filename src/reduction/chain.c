@@ -4,12 +4,11 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
 #include "expr/tape.h"
+#include "reduction/joint.h"
 #include "system/sample.h"
 
-enum { states = 30, most_basis = 6 };
+enum { states = 30, most_basis = NH_MOST_SCREWS };
 static const double null_bound = 1e-10; /* of singular values; rows are scaled to size one */
 
 typedef struct {
@@ -29,22 +28,6 @@ const char *nh_chain_rule_name(nh_chain_rule rule)
 
 /* ---- a joint and its algebra ---- */
 
-/* A basis of Lie(Q_i) in the joint's frame: its screws, except that Euler's angles stand for all rotations. */
-static size_t basis_of(const work *w, const nh_joint *j, nh_twist basis[most_basis])
-{
-    nh_dag *d = w->dag;
-    bool euler = j->kind == NH_JOINT_SPHERICAL || j->kind == NH_JOINT_FREE;
-    for (size_t k = 0; k < j->screws; k++) {
-        basis[k] = nh_screw_twist(d, &w->chain->screw[j->first + k]);
-        if (!euler || k + 3 < j->screws) continue;
-        for (size_t i = 0; i < 3; i++) {
-            basis[k].v[i] = nh_int(d, 0);
-            basis[k].w[i] = nh_int(d, i == k + 3 - j->screws);
-        }
-    }
-    return j->screws;
-}
-
 /* [a, b] of twists: (w_a x v_b + v_a x w_b, w_a x w_b). */
 static nh_twist bracket(nh_dag *d, const nh_twist *a, const nh_twist *b)
 {
@@ -57,20 +40,10 @@ static nh_twist bracket(nh_dag *d, const nh_twist *a, const nh_twist *b)
     return out;
 }
 
-static nh_pose pose_of_joint(nh_dag *d, const nh_chain *c, const nh_joint *j)
-{
-    nh_pose a = nh_pose_identity(d);
-    for (size_t k = 0; k < j->screws; k++) {
-        nh_pose step = nh_screw_pose(d, &c->screw[j->first + k]);
-        a = nh_pose_product(d, &a, &step);
-    }
-    return a;
-}
-
 /* F in the joint's frame. */
 static nh_wrench momentum_behind(const work *w, const nh_joint *j)
 {
-    nh_pose a = pose_of_joint(w->dag, w->chain, j);
+    nh_pose a = nh_joint_pose(w->dag, w->chain, j);
     return nh_wrench_outwards(w->dag, &a, &w->behind[j->child]);
 }
 
@@ -170,53 +143,6 @@ static void reduce(size_t rows, size_t n, double *a)
 
 /* ---- fields ---- */
 
-static double score(void *context, nh_ex e)
-{
-    const work *w = context;
-    const nh_system *s = w->system;
-    const nh_ex *symbols;
-    const double *values;
-    double point[2 * 64 + 1], x = 0;
-    uint64_t seed = 3;
-    size_t m = s->coordinates < 128 ? s->coordinates : 128;
-    nh_ex in[128];
-    for (size_t i = 0; i < m; i++) in[i] = s->coordinate[i].q, point[i] = 0.3 + nh_random(&seed);
-    nh_system_bindings(s, &symbols, &values);
-    nh_tape *tape = nh_tape_create(s->dag, m, in, 1, &e, s->parameters, symbols, values);
-    nh_tape_work *scratch = nh_tape_work_create(tape);
-    nh_tape_eval(tape, scratch, point, &x);
-    nh_tape_work_free(scratch);
-    nh_tape_free(tape);
-    return isfinite(x) && fabs(x) > 1e-12 ? fabs(x) : 0;
-}
-
-/* The rates of the joint's own coordinates with E^-1 E' = xi: columns B_k = Ad(what is behind screw k)^-1 xi_k, s' = (B^T B)^-1 B^T xi. */
-static bool rates_of(work *w, const nh_joint *j, const nh_twist *xi, nh_ex *rate)
-{
-    nh_dag *d = w->dag;
-    size_t n = j->screws;
-    nh_twist B[NH_MOST_SCREWS];
-    nh_ex N[NH_MOST_SCREWS * NH_MOST_SCREWS];
-    nh_pose behind = nh_pose_identity(d);
-    for (size_t k = n; k-- > 0;) {
-        const nh_screw *s = &w->chain->screw[j->first + k];
-        nh_twist own = nh_screw_twist(d, s);
-        nh_pose step = nh_screw_pose(d, s);
-        B[k] = nh_twist_inwards(d, &behind, &own);
-        behind = nh_pose_product(d, &step, &behind);
-    }
-    for (size_t k = 0; k < n; k++) {
-        for (size_t l = 0; l < n; l++) N[k * n + l] = nh_simplify(d, nh_add(d, nh_dot(d, B[k].v, B[l].v), nh_dot(d, B[k].w, B[l].w)));
-        rate[k] = nh_simplify(d, nh_add(d, nh_dot(d, B[k].v, xi->v), nh_dot(d, B[k].w, xi->w)));
-    }
-    nh_lu *lu = nh_lu_create(d, n, N, score, w, NULL);
-    if (!lu) return false;
-    nh_lu_solve(lu, rate, rate);
-    for (size_t k = 0; k < n; k++) rate[k] = nh_simplify(d, rate[k]);
-    nh_lu_free(lu);
-    return true;
-}
-
 static nh_twist combination(nh_dag *d, size_t n, const nh_twist *basis, const double *coefficient)
 {
     nh_twist sum;
@@ -237,9 +163,12 @@ static void add_field(work *w, nh_chain_rule rule, size_t joint, const nh_twist 
     const nh_joint *j = &w->chain->joint[joint];
     nh_ex rate[NH_MOST_SCREWS];
     nh_twist xi = *a;
-    nh_pose pose = pose_of_joint(w->dag, w->chain, j);
+    nh_pose pose = nh_joint_pose(w->dag, w->chain, j);
     if (rule != NH_CHAIN_EXTREMITY) xi = nh_twist_inwards(w->dag, &pose, a);
-    if (!rates_of(w, j, &xi, rate)) return;
+    nh_joint_rates *rates = nh_joint_rates_create(w->system, j);
+    if (!rates) return;
+    nh_joint_rates_of(rates, &xi, rate);
+    nh_joint_rates_free(rates);
     nh_chain_field *f = &w->out->field[w->out->fields++];
     *f = (nh_chain_field){.rule = rule, .joint = joint};
     f->component = nh_arena_alloc(w->out->arena, w->system->coordinates * sizeof *f->component);
@@ -309,7 +238,7 @@ static void space_moves(work *w, size_t joint)
     nh_pose before;
     nh_ex e[36];
     double inverse[most_basis * most_basis], null[36];
-    size_t n = basis_of(w, j, basis);
+    size_t n = nh_joint_basis(w->dag, w->chain, j, basis);
     nh_chain_frame(w->chain, d, j->parent, 0, &before, &U);
     before = nh_pose_product(d, &before, &j->placement);
     if (!dual_basis(w, n, basis, inverse)) return;
@@ -337,7 +266,7 @@ static void joint_symmetries(work *w, size_t joint)
     nh_twist basis[most_basis], U, V;
     nh_pose pose;
     nh_ex e[most_basis];
-    size_t n = basis_of(w, j, basis);
+    size_t n = nh_joint_basis(w->dag, w->chain, j, basis);
     for (size_t k = 0; k < n; k++)
         if (c->screw[j->first + k].coordinate < 0) return;
     if (n == 0) return;

@@ -28,8 +28,8 @@ static layout lay_out(const nh_generator_fit *s)
     y.Lv = at, at += m;
     y.fq = at, at += f * m;
     y.fv = at, at += f * m;
-    y.b = at, at += s->n;
-    y.db = at, at += s->n * m;
+    y.b = at, at += s->terms;
+    y.db = at, at += s->terms * m;
     y.total = at;
     return y;
 }
@@ -53,9 +53,9 @@ static nh_tape *row_tape(const nh_generator_fit *s, layout y)
             e[y.fq + a * m + r] = nh_diff(d, k->force[a], k->q[r]);
             e[y.fv + a * m + r] = nh_diff(d, k->force[a], k->v[r]);
         }
-        for (size_t c = 0; c < s->n; c++) e[y.db + c * m + r] = nh_diff(d, s->l.function[c], k->q[r]);
+        for (size_t c = 0; c < s->terms; c++) e[y.db + c * m + r] = nh_diff(d, s->b[c], k->q[r]);
     }
-    memcpy(e + y.b, s->l.function, s->n * sizeof *e);
+    memcpy(e + y.b, s->b, s->terms * sizeof *e);
     nh_tape *tape = nh_tape_create(d, width, in, y.total, e, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
     nh_free(e);
     nh_free(in);
@@ -71,10 +71,10 @@ static void metric_rows(const nh_generator_fit *s, layout y, const double *z, nh
     for (size_t r = 0; r < m; r++)
         for (size_t q = 0; q <= r; q++) {
             double *row = nh_relative_condition(out), unit = 1 / sqrt(fabs(K[r * m + r] * K[q * m + q]));
-            for (size_t c = 0; c < s->n; c++) {
-                size_t i = s->l.component[c];
+            for (size_t c = 0; c < s->terms; c++) {
+                size_t i = s->component[c];
                 const double *db = z + y.db + c * m;
-                row[c] = unit * (z[y.b + c] * dK[i * m * m + r * m + q] + K[i * m + q] * db[r] + K[r * m + i] * db[q]);
+                row[s->column[c]] += unit * (z[y.b + c] * dK[i * m * m + r * m + q] + K[i * m + q] * db[r] + K[r * m + i] * db[q]);
             }
         }
 }
@@ -83,11 +83,11 @@ static void metric_rows(const nh_generator_fit *s, layout y, const double *z, nh
 static void function_row(const nh_generator_fit *s, layout y, const double *z, const double *eq, const double *ev, const double *v, double unit, nh_relative *out)
 {
     double *row = nh_relative_condition(out);
-    for (size_t c = 0; c < s->n; c++) {
-        size_t i = s->l.component[c];
+    for (size_t c = 0; c < s->terms; c++) {
+        size_t i = s->component[c];
         double rate = 0;
         for (size_t r = 0; r < s->m; r++) rate += z[y.db + c * s->m + r] * v[r];
-        row[c] = unit * (z[y.b + c] * eq[i] + rate * ev[i]);
+        row[s->column[c]] += unit * (z[y.b + c] * eq[i] + rate * ev[i]);
     }
 }
 
@@ -116,8 +116,8 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
         for (size_t a = 0; a < k->f; a++) function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, unit_of(s, z + y.fv + a * m), out);
         for (size_t c = 0; c < m; c++) {
             double *row = nh_relative_value(out);
-            for (size_t j = 0; j < s->n; j++)
-                if (s->l.component[j] == c) row[j] = z[y.b + j] / s->scale[c];
+            for (size_t j = 0; j < s->terms; j++)
+                if (s->component[j] == c) row[s->column[j]] = z[y.b + j] / s->scale[c];
         }
         for (size_t i = 1; i <= pushes && !plain(k); i++) { /* L at velocities that the constraints need not allow */
             memcpy(in + 1 + m, k->speed + (p + i) % k->places * m, m * sizeof *in);
@@ -141,9 +141,28 @@ static void collect(nh_generator_fit *s, nh_relative *out)
     nh_free(z);
 }
 
+/* The columns as sums of b d/dq^i. */
+static void list_terms(nh_generator_fit *s)
+{
+    size_t most = s->n * (s->l.whole ? s->m : 1);
+    s->b = nh_alloc_array(most + 1, sizeof *s->b);
+    s->component = nh_alloc_array(most + 1, sizeof *s->component);
+    s->column = nh_alloc_array(most + 1, sizeof *s->column);
+    s->terms = 0;
+    for (size_t c = 0; c < s->n; c++)
+        for (size_t i = 0; i < s->m; i++) {
+            nh_ex b = nh_library_component(&s->l, s->k->dag, c, i);
+            if (nh_is_zero(s->k->dag, b)) continue;
+            s->b[s->terms] = b;
+            s->component[s->terms] = i;
+            s->column[s->terms++] = c;
+        }
+}
+
 bool nh_generator_fit_solve(nh_generator_fit *s, nh_error *error)
 {
     nh_relative r = {.columns = s->n};
+    list_terms(s);
     collect(s, &r);
     s->size = nh_alloc_array(s->n + 1, sizeof *s->size);
     nh_relative_sizes(&r, s->size);
@@ -168,4 +187,7 @@ void nh_generator_fit_clear(nh_generator_fit *s)
     nh_free(s->scale);
     nh_free(s->vector);
     nh_free(s->size);
+    nh_free(s->b);
+    nh_free(s->component);
+    nh_free(s->column);
 }

@@ -1,7 +1,9 @@
 /* generator_fit: the combinations of a library's fields that leave a system invariant, by null vectors of their conditions at the places of its
  * kinetic data.
  *
- *     L_xi K = 0, xi(V) = 0  or  xi(L) = 0;   xi(f^a) = 0;   xi = sum_k c_k b_k d/dq^(i_k) */
+ *     L_xi K = 0, xi(V) = 0  or  xi(L) = 0;   xi(f^a) = 0;   xi = sum_k c_k b_k d/dq^(i_k)
+ *
+ * A column of the library may also be a whole field: it is a sum of terms b d/dq^i then. */
 #ifndef NH_GENERATOR_FIT_H
 #define NH_GENERATOR_FIT_H
 
@@ -15,6 +17,9 @@ typedef struct {
     double *scale;          /* m: K_ii^(-1/2), or 1 */
     double *vector, *size;  /* n x d null vectors; n: root mean square of each scaled column */
     double last_null, first_other;
+    size_t terms;           /* of all columns together */
+    nh_ex *b;
+    size_t *component, *column;
 } nh_generator_fit;
 
 /* The scales; k, options, m are there. */

@@ -8,6 +8,7 @@
 #include "expr/relation.h"
 #include "noether/recognise.h"
 #include "reduction/generator_fit.h"
+#include "reduction/joint_fields.h"
 #include "reduction/relative.h"
 
 enum { most_columns = 420 };
@@ -74,7 +75,9 @@ static void assemble(const nh_generator_fit *s, const nh_ex *coefficient, nh_ex 
     nh_dag *d = s->k->dag;
     for (size_t i = 0; i < s->m; i++) component[i] = nh_int(d, 0);
     for (size_t j = 0; j < s->n; j++)
-        component[s->l.component[j]] = nh_add(d, component[s->l.component[j]], nh_mul(d, coefficient[j], s->l.function[j]));
+        for (size_t i = 0; i < s->m && !nh_is_zero(d, coefficient[j]); i++)
+            component[i] = nh_add(d, component[i], nh_mul(d, coefficient[j], nh_library_component(&s->l, d, j, i)));
+    for (size_t i = 0; i < s->m && s->l.whole; i++) component[i] = nh_simplify(d, component[i]);
 }
 
 /* Coefficients in Q(parameters): the conditions of each term, told apart by symbols of their own, must cancel identically. */
@@ -87,7 +90,7 @@ static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient)
     for (size_t i = 0; i < total; i++) mark[i] = nh_symbol_fresh(d, "mark");
     for (size_t j = 0; j < s->n; j++) {
         if (s->vector[j + r * s->n] == 0) continue;
-        for (size_t i = 0; i < m; i++) field[i] = i == s->l.component[j] ? s->l.function[j] : nh_int(d, 0);
+        for (size_t i = 0; i < m; i++) field[i] = nh_library_component(&s->l, d, j, i);
         size_t n = nh_invariance_equations(k, field, equation) + 1 + k->f;
         e[terms] = nh_int(d, 0);
         for (size_t i = 0; i < n; i++) e[terms] = nh_add(d, e[terms], nh_mul(d, mark[i], equation[i]));
@@ -127,23 +130,51 @@ static void make_generators(nh_generator_fit *s, nh_generators *out)
     nh_free(coefficient);
 }
 
+static size_t for_all_parameters(const nh_generators *found)
+{
+    size_t n = 0;
+    for (size_t a = 0; a < found->count; a++) {
+        const nh_generator *g = &found->generator[a];
+        n += g->metric.all_parameters && g->potential.all_parameters && g->constraints.all_parameters;
+    }
+    return n;
+}
+
+/* The generators that one library has, taken when they are more than were known, or as many and more of them hold for all parameters; *good is false with a
+ * message after a breakdown. */
+static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, int level, const nh_joint_fields *joints, const nh_options *options, nh_error *error, bool *good)
+{
+    nh_generator_fit s = {.k = k, .options = options, .m = k->m};
+    nh_generators found = {.level = level};
+    nh_library_init(&s.l, k, jets, level, most_columns);
+    if (joints->count) nh_library_put_before(&s.l, k, joints->count, joints->component);
+    found.columns = s.n = s.l.count;
+    nh_generator_fit_scale(&s);
+    *good = s.n == 0 || nh_generator_fit_solve(&s, error);
+    if (*good && s.d) make_generators(&s, &found);
+    found.last_null = s.last_null;
+    found.first_other = s.first_other;
+    nh_generator_fit_clear(&s);
+    bool more = *good && (found.count > out->count || !out->level || (found.count == out->count && for_all_parameters(&found) > for_all_parameters(out)));
+    if (more) *out = found;
+    return more;
+}
+
+static bool complete(const nh_generators *found, const nh_jets *jets) { return jets && found->count >= jets->dimension; }
+
 bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, const nh_options *options, nh_error *error)
 {
     *out = (nh_generators){0};
-    for (int level = 1; level <= NH_LIBRARY_LEVELS && !(jets && out->count >= jets->dimension) && !(out->level && nh_late()); level++) {
-        nh_generator_fit s = {.k = k, .options = options, .m = k->m};
-        nh_generators found = {.level = level};
-        nh_library_init(&s.l, k, jets, level, most_columns);
-        found.columns = s.n = s.l.count;
-        nh_generator_fit_scale(&s);
-        bool good = s.n == 0 || nh_generator_fit_solve(&s, error);
-        if (good && s.d) make_generators(&s, &found);
-        found.last_null = s.last_null;
-        found.first_other = s.first_other;
-        nh_generator_fit_clear(&s);
-        if (!good) return false;
-        if (found.count > out->count || !out->level) *out = found;
-        else if (!jets) break;
+    nh_joint_fields joints = {0};
+    bool good = true, enough = false;
+    for (int level = 1; level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && nh_late()); level++) {
+        bool more = one_library(out, k, jets, level, &joints, options, error, &good);
+        enough = complete(out, jets) || (!more && !jets);
+        if (level > 1 || (enough && for_all_parameters(out) == out->count) || !good || !k->model->system->chain) continue;
+        nh_joint_fields_init(&joints, k->model->system); /* simple fields are found without them */
+        one_library(out, k, jets, level, &joints, options, error, &good);
+        enough = complete(out, jets);
     }
-    return true;
+    nh_joint_fields_clear(&joints);
+    return good;
 }

@@ -1,6 +1,7 @@
 /* generators: infinitesimal symmetries in closed form.
  *
- * xi = sum_k c_k b_k(q) d/dq^i(k) over a library that grows (library.h) until as many fields are found as the jets say there are.  The rows are
+ * xi = sum_k c_k b_k(q) d/dq^i(k) over a library that grows (library.h) until as many fields are found as the jets say there are; of a chain of bodies
+ * with the fields of its joints (joint_fields.h).  The rows are
  * the conditions of invariance.h at sample points; c is a null vector of A relative to B, the values of the fields (a quotient, as in
  * [GolubVanLoan2013, sec. 8.7.4]).  The null space is brought to reduced echelon form, its numbers to rationals or, with the parameters, to an exact
  * relation, and every field is then checked by itself. */

@@ -12,7 +12,7 @@ static size_t circles(const nh_group *g, const nh_options *options)
 {
     const nh_algebra *c = &g->action.algebra;
     size_t d = c->d, count = 0, rank;
-    double *all = nh_alloc_array(4 * d * d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
+    double *all = nh_alloc_array(4 * d * d + d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
     nh_flows *flows = nh_flows_create(&g->action);
     for (size_t i = 0; i < d * d; i++) all[i] = i % (d + 1) == 0;
     size_t n1 = nh_algebra_brackets(c, d, all, d, all, options->group, d1);
@@ -21,8 +21,11 @@ static size_t circles(const nh_group *g, const nh_options *options)
         for (size_t i = 0; i < d * d; i++) commutes &= c->c[a * d * d + i] == 0;
         if (commutes && nh_flows_closed(flows, all + a * d)) memcpy(central + count++ * d, all + a * d, d * sizeof *central);
     }
-    for (size_t i = 0; i < g->report.pieces; i++)
-        if (g->report.piece[i].kind == NH_R && nh_flows_closed(flows, g->report.piece[i].basis)) memcpy(central + count++ * d, g->report.piece[i].basis, d * sizeof *central);
+    for (size_t i = 0; i < g->report.pieces; i++) {
+        double *line = central + count * d, size = nh_largest(d, g->report.piece[i].basis);
+        for (size_t a = 0; a < d; a++) line[a] = g->report.piece[i].basis[a] / (size > 0 ? size : 1); /* turns of 2 pi are tried */
+        count += g->report.piece[i].kind == NH_R && nh_flows_closed(flows, line);
+    }
     nh_project_off(d, count, central, n1, d1);
     rank = nh_span(d, count, central, sqrt(options->group), all);
     nh_flows_free(flows);

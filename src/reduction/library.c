@@ -257,11 +257,40 @@ void nh_library_for(nh_library *l, const nh_kinetic *k, size_t components, int l
     nh_free(f);
 }
 
+void nh_library_put_before(nh_library *l, const nh_kinetic *k, size_t count, const nh_ex *component)
+{
+    nh_library out = {0};
+    const nh_ex **whole = nh_alloc_array(count + l->count + 1, sizeof *whole);
+    for (size_t c = 0; c < count; c++) {
+        add(&out, k, nh_int(k->dag, 0), 0);
+        out.complexity[c] = 0;
+        whole[c] = component + c * k->m;
+        for (size_t i = 0; i < k->m; i++)
+            if (!nh_is_number(k->dag, whole[c][i], 1) && !nh_is_zero(k->dag, whole[c][i])) out.complexity[c] += (double)nh_complexity(k->dag, whole[c][i]);
+    }
+    for (size_t j = 0; j < l->count; j++) {
+        whole[out.count] = l->whole ? l->whole[j] : NULL;
+        add(&out, k, l->function[j], l->component[j]);
+        out.complexity[out.count - 1] = l->complexity[j];
+    }
+    nh_library_clear(l);
+    *l = out;
+    l->whole = whole;
+}
+
+nh_ex nh_library_component(const nh_library *l, nh_dag *d, size_t column, size_t i)
+{
+    if (l->whole && l->whole[column]) return l->whole[column][i];
+    return i == l->component[column] ? l->function[column] : nh_int(d, 0);
+}
+
 void nh_library_pick(nh_library *out, const nh_library *l, size_t n, const size_t *index)
 {
     *out = (nh_library){.count = n, .capacity = n, .function = nh_alloc_array(n + 1, sizeof *out->function),
                         .component = nh_alloc_array(n + 1, sizeof *out->component), .complexity = nh_alloc_array(n + 1, sizeof *out->complexity)};
+    if (l->whole) out->whole = nh_alloc_array(n + 1, sizeof *out->whole);
     for (size_t i = 0; i < n; i++) {
+        if (l->whole) out->whole[i] = l->whole[index[i]];
         out->function[i] = l->function[index[i]];
         out->component[i] = l->component[index[i]];
         out->complexity[i] = l->complexity[index[i]];
@@ -284,5 +313,6 @@ void nh_library_clear(nh_library *l)
     nh_free(l->function);
     nh_free(l->component);
     nh_free(l->complexity);
+    nh_free(l->whole);
     *l = (nh_library){0};
 }

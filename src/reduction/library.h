@@ -25,12 +25,17 @@ typedef struct {
     nh_ex *function;      /* b_k */
     size_t *component;    /* the field is b_k d/dq^component */
     double *complexity;
+    const nh_ex **whole;  /* NULL, or per column: NULL, or the m components of a field that is not of this form */
 } nh_library;
 
 /* `jets` may be NULL. */
 void nh_library_init(nh_library *library, const nh_kinetic *kinetic, const nh_jets *jets, int level, size_t most);
 /* The same functions, of at most `together` coordinates at a time, for each of `components` coefficients (of sections, see momenta.h). */
 void nh_library_for(nh_library *library, const nh_kinetic *kinetic, size_t components, int level, size_t together, size_t most);
+/* Other fields (m components each, kept by the caller) as columns before the others. */
+void nh_library_put_before(nh_library *library, const nh_kinetic *kinetic, size_t count, const nh_ex *component);
+/* Component i of a column's field. */
+nh_ex nh_library_component(const nh_library *library, nh_dag *dag, size_t column, size_t i);
 /* Some columns of another one. */
 void nh_library_pick(nh_library *out, const nh_library *library, size_t n, const size_t *index);
 /* Its columns from the simplest to the most complex, among equals in their order; the caller frees the list. */

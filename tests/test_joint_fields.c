@@ -1,0 +1,94 @@
+/* Closed forms of the symmetries of chains: what the jets count is given by the displacements of the joints. */
+#include "reduced.h"
+
+#include "reduction/group.h"
+#include "reduction/joint_fields.h"
+
+#define HEAD "parameters: [{name: g, value: 9.81}, {name: al, value: 0.4}, {name: A, value: 0.4}, {name: m, value: 1.2}]\n"
+
+typedef struct {
+    const char *name, *text, *group;
+    size_t dimension;
+} chain;
+
+static const chain chains[] = {
+    {"ball on a column", "bodies: [{name: a, mass: 1, inertia: 0.7}, {name: b, mass: m, inertia: [A, A, A]}]\njoints:\n  - {type: revolute, child: a, coordinates: [p]}\n"
+     "  - {type: spherical, parent: a, child: b, at: [0.5, 0, 0.9], coordinates: [u, v, w]}\n", "SO(3)^2 x SO(2)", 7},
+    {"ball on a tilted column", "bodies: [{name: a, mass: 1, inertia: [0.5, 0.6, 0.7]}, {name: b, mass: m, inertia: [A, A, A]}]\njoints:\n"
+     "  - {type: revolute, axis: y, child: a, rotation: {x: al}, coordinates: [p]}\n"
+     "  - {type: spherical, parent: a, child: b, rotation: {y: 0.3}, at: [0.5, 0, 0.9], angles: zxz, coordinates: [u, v, w]}\n", "SO(3)^2 x SO(2)", 7},
+    {"free, turned about y", "gravity: g\nbodies: [{name: b, mass: m, inertia: [A, 0.6, 0.7], center: [0.1, 0.2, 0.3]}]\njoints:\n"
+     "  - {type: free, child: b, rotation: {y: al}, coordinates: [x, y, z, u, v, w]}\n", "SO(3) x SE(2)", 6},
+    {"round and free, turned about x", "gravity: g\nbodies: [{name: b, mass: m, inertia: [A, A, 0.7]}]\njoints:\n"
+     "  - {type: free, child: b, rotation: {x: al}, coordinates: [x, y, z, u, v, w]}\n", "SO(3) x SE(2) x SO(2)", 7},
+    {"free ball, its centre elsewhere", "bodies: [{name: b, mass: m, inertia: A, center: [0.1, 0, 0]}]\njoints:\n  - {type: free, child: b, coordinates: [x, y, z, u, v, w]}\n", "SE(3) x SO(3)^2", 12},
+    {"cylinder in a turned sphere", "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5]}, {name: b, mass: m, inertia: [A, A, 0.2]}]\njoints:\n"
+     "  - {type: spherical, child: a, rotation: {y: al}, coordinates: [u, v, w]}\n  - {type: cylindrical, parent: a, child: b, axis: z, coordinates: [s, p]}\n", "SO(3) x SO(2)", 4},
+    {"helix on an oblique slide", "bodies: [{name: a, mass: 1}, {name: b, mass: m, inertia: [A, A, 0.2]}]\njoints:\n  - {type: prismatic, axis: [1, 2, 2], child: a, coordinates: [x]}\n"
+     "  - {type: helical, parent: a, child: b, axis: z, pitch: 0.2, coordinates: [p]}\n", NULL, 3},
+    {"ball on a slide", "bodies: [{name: a, mass: 1}, {name: b, mass: m, inertia: [A, 0.5, 0.6]}]\njoints:\n  - {type: prismatic, axis: [1, 2, 2], child: a, coordinates: [x]}\n"
+     "  - {type: spherical, parent: a, child: b, rotation: {y: al}, coordinates: [u, v, w]}\n", "SO(3) x R", 4},
+    {"top on a cart, turned about x", "gravity: g\nbodies: [{name: a, mass: 1}, {name: b, mass: m, inertia: [A, A, 0.6], center: [0, 0, 0.4]}]\njoints:\n"
+     "  - {type: translation, axes: [x, z], rotation: {x: pi/2}, child: a, coordinates: [x, y]}\n  - {type: spherical, parent: a, child: b, coordinates: [u, v, w]}\n", NULL, 5},
+    {"ball in an arm", "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.2, 0, 0]}, {name: b, mass: m, inertia: A}]\njoints:\n"
+     "  - {type: spherical, child: a, coordinates: [a1, a2, a3]}\n  - {type: spherical, parent: a, child: b, at: [0.5, 0, 0], coordinates: [u, v, w]}\n", "SO(3)^3", 9},
+    {"ball in two arms", "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5]}, {name: c, mass: 0.5, inertia: [0.1, 0.2, 0.25]}, {name: b, mass: m, inertia: A}]\njoints:\n"
+     "  - {type: revolute, axis: y, child: a, coordinates: [p]}\n  - {type: revolute, axis: x, parent: a, child: c, at: [0.4, 0, 0], coordinates: [q]}\n"
+     "  - {type: spherical, parent: c, child: b, at: [0, 0.5, 0], coordinates: [u, v, w]}\n", "SO(3)^2 x SO(2)", 7},
+    {"two free bodies", "gravity: g\nbodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5]}, {name: b, mass: m, inertia: [A, 0.2, 0.3], center: [0, 0.1, 0]}]\njoints:\n"
+     "  - {type: free, child: a, rotation: {x: 0.3}, coordinates: [x, y, z, a1, a2, a3]}\n"
+     "  - {type: revolute, axis: [0, 0.6, 0.8], parent: a, child: b, at: [0.5, 0, 0], coordinates: [u]}\n", "SO(3) x SE(2)", 6},
+    {"a free body by two joints", "bodies: [{name: a}, {name: b, mass: m, inertia: [A, 0.5, 0.6], center: [0.1, 0.2, 0]}]\njoints:\n"
+     "  - {type: translation, axes: [x, y, z], child: a, coordinates: [x, y, z]}\n  - {type: spherical, parent: a, child: b, coordinates: [u, v, w]}\n", "SE(3) x SO(3)", 9},
+    {"two plates", "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.1, 0, 0]}, {name: b, mass: m, inertia: [A, 0.3, 0.2], center: [0.2, 0, 0]}]\njoints:\n"
+     "  - {type: planar, axis: y, child: a, coordinates: [x, y, h]}\n  - {type: revolute, axis: y, parent: a, child: b, at: [0.4, 0, 0], coordinates: [p]}\n", NULL, 4},
+};
+
+Test(joint_fields, give_what_the_jets_count)
+{
+    for (size_t i = 0; i < sizeof chains / sizeof *chains; i++) {
+        nh_error error = {0};
+        nh_options options;
+        nh_options_default(&options);
+        nh_text text;
+        nh_text_init(&text);
+        nh_text_addf(&text, "name: test\n" HEAD "%s", chains[i].text);
+        reducible x = reducible_make(nh_system_parse("test.yaml", nh_text_string(&text), 0, NULL, &error), 1, &error);
+        cr_assert_not_null(x.kinetic, "%s: %s", chains[i].name, error.what);
+        nh_group *g = nh_group_find(x.kinetic, &options, &error);
+        must(g != NULL, &error, chains[i].name);
+        cr_expect_eq(g->jets->dimension, chains[i].dimension, "%s: %zu symmetries", chains[i].name, g->jets->dimension);
+        cr_expect_eq(g->missing, 0, "%s: %zu without a closed form", chains[i].name, g->missing);
+        cr_expect(g->action.closes, "%s: closure %g", chains[i].name, g->action.closure);
+        if (chains[i].group) cr_expect_str_eq(g->name, chains[i].group, "%s: %s", chains[i].name, g->name);
+        for (size_t a = 0; a < g->action.d; a++) {
+            const nh_generator *e = &g->action.generator[a];
+            cr_expect(e->metric.proved && e->potential.proved && e->constraints.proved, "%s: generator %zu is not proved", chains[i].name, a + 1);
+        }
+        nh_group_free(g);
+        reducible_clear(&x);
+        nh_text_clear(&text);
+    }
+}
+
+/* A sum of several fields of joints with the parameters in its coefficients: a plate turns about its centre of mass. */
+Test(joint_fields, coefficients_over_the_parameters)
+{
+    nh_error error = {0};
+    nh_options options;
+    nh_options_default(&options);
+    nh_system *s = nh_system_parse("test.yaml", "parameters: [{name: c, value: 0.37}, {name: J, value: 0.61}]\nbodies: [{name: a, mass: 1, inertia: J, center: [c, 0, 0]}]\n"
+                                                "joints: [{type: planar, child: a, coordinates: [x, y, h]}]\n", 0, NULL, &error);
+    nh_joint_fields f;
+    nh_joint_fields_init(&f, s);
+    cr_expect_geq(f.count, 6);
+    for (size_t i = 0; i < f.count; i++)
+        for (size_t j = 0; j < i; j++) cr_expect_neq(memcmp(f.component + i * f.m, f.component + j * f.m, f.m * sizeof *f.component), 0, "fields %zu and %zu", i, j);
+    nh_joint_fields_clear(&f);
+    reducible x = reducible_make(s, 1, &error);
+    nh_group *g = nh_group_find(x.kinetic, &options, &error);
+    must(g != NULL, &error, "the group");
+    for (size_t a = 0; a < g->action.d; a++) cr_expect(g->action.generator[a].metric.all_parameters, "generator %zu", a + 1);
+    nh_group_free(g);
+    reducible_clear(&x);
+}
