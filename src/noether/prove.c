@@ -5,6 +5,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "noether/exact.h"
+#include "noether/fixed.h"
 #include "noether/symmetry.h"
 
 enum { wanted_points = 4, most_tries = 40, double_digits = 8 };
@@ -25,15 +26,40 @@ static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_opti
     proof->digits = proof->points == 0 ? 0 : fmax(0, fmin(least, most));
 }
 
+static nh_ex with_symbols(const nh_model *o, const bool *fixed, nh_ex e) { return fixed ? nh_fixed_values(o, fixed, e) : e; }
+
+static nh_proof holding(nh_proof proof, const bool *fixed)
+{
+    proof.proved = true;
+    proof.all_parameters = !fixed;
+    proof.fixed = fixed;
+    return proof;
+}
+
+typedef struct {
+    const nh_model *o;
+    nh_ex e;
+    size_t limit;
+} zero_problem;
+
+static bool vanishes(const bool *fixed, void *context)
+{
+    const zero_problem *z = context;
+    return nh_normal_is_zero(z->o->dag, nh_fixed_values(z->o, fixed, z->e), z->limit) == NH_ZERO;
+}
+
 /* `proof`: what is known already. */
-static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_proof proof, bool parameters_free, const nh_options *options)
+static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_proof proof, nh_claim claim, const nh_options *options)
 {
     nh_dag *d = o->dag;
     nh_ex sum = nh_int(d, 0), *valued = nh_alloc_array(n + 1, sizeof *valued);
     for (size_t i = 0; i < n; i++) sum = nh_add(d, sum, term[i]);
     size_t limit = (size_t)options->proof_terms;
-    if (!proof.proved && parameters_free && o->chart->implicit == 0) proof.all_parameters = nh_normal_is_zero(d, sum, limit) == NH_ZERO;
-    proof.proved = proof.proved || proof.all_parameters || nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO;
+    nh_zero_verdict symbols = NH_TOO_LARGE;
+    if (!proof.proved && claim.free && o->chart->implicit == 0) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
+    if (symbols == NH_ZERO) proof = holding(proof, claim.fixed);
+    proof.proved = proof.proved || nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO;
+    if (proof.proved && symbols == NH_NONZERO) proof.fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});
     bool exact = true;
     for (size_t i = 0; i < n; i++) {
         valued[i] = nh_exact_values(o, term[i]);
@@ -50,32 +76,32 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
 
 nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool parameters_free, const nh_options *options)
 {
-    return prove_zero(o, n, term, (nh_proof){0}, parameters_free, options);
+    return prove_zero(o, n, term, (nh_proof){0}, (nh_claim){.free = parameters_free}, options);
 }
 
 /* Are X_0(Phi) + A_i zeta^i and Y_j(Phi) - M_ij zeta^i zero?  Then so is Gamma(Phi) = X_0(Phi) + a^j Y_j(Phi), by M a = A and without M^-1, which is what makes
  * Gamma(Phi) long [docs/method.md, (6), (11)]. */
-static bool equations_hold(const nh_model *o, nh_ex phi, const nh_ex *zeta, bool parameters_free, const nh_options *options)
+static bool equations_hold(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_claim claim, const nh_options *options)
 {
     nh_dag *d = o->dag;
     bool holds = true;
     for (size_t j = 0; j <= o->n && holds; j++) {
         nh_ex e = j < o->n ? nh_model_Y(o, j, phi) : nh_model_X0(o, phi);
         for (size_t i = 0; i < o->n; i++) e = j < o->n ? nh_sub(d, e, nh_mul(d, o->M[i * o->n + j], zeta[i])) : nh_add(d, e, nh_mul(d, o->A[i], zeta[i]));
-        holds = nh_normal_is_zero(d, parameters_free ? e : nh_exact_values(o, e), (size_t)options->proof_terms) == NH_ZERO;
+        holds = nh_normal_is_zero(d, claim.free ? with_symbols(o, claim.fixed, e) : nh_exact_values(o, e), (size_t)options->proof_terms) == NH_ZERO;
     }
     return holds;
 }
 
 /* Energies and momenta have fields with short components however long the accelerations are. */
-static bool proved_by_symmetry(const nh_model *o, nh_ex phi, bool parameters_free, const nh_options *options)
+static bool proved_by_symmetry(const nh_model *o, nh_ex phi, nh_claim claim, const nh_options *options)
 {
     enum { longest = 40 };
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
     bool holds = o->n > 0 && o->chart->implicit == 0;
     if (holds) nh_symmetry_components(o, phi, zeta);
     for (size_t i = 0; i < o->n && holds; i++) holds = nh_complexity(o->dag, zeta[i]) <= longest;
-    holds = holds && equations_hold(o, phi, zeta, parameters_free, options);
+    holds = holds && equations_hold(o, phi, zeta, claim, options);
     nh_free(zeta);
     return holds;
 }
@@ -101,7 +127,7 @@ double nh_prove_digits(const nh_model *o, nh_ex phi, const nh_options *options)
     return proof.digits;
 }
 
-nh_proof nh_prove_current(const nh_model *o, nh_ex phi, bool parameters_free, const nh_options *options)
+nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_options *options)
 {
     enum { lengthy = 2000 };
     size_t n = 1 + o->m + o->n, length = 0;
@@ -109,8 +135,14 @@ nh_proof nh_prove_current(const nh_model *o, nh_ex phi, bool parameters_free, co
     rate_terms(o, phi, term);
     for (size_t j = 0; j < n; j++) length += nh_complexity(o->dag, term[j]);
     nh_proof proof = {0};
-    if (length > lengthy && proved_by_symmetry(o, phi, parameters_free, options)) proof = (nh_proof){.proved = true, .all_parameters = parameters_free};
-    proof = prove_zero(o, n, term, proof, parameters_free, options);
+    if (claim.related) proof = holding(proof, claim.fixed);
+    else if (length > lengthy && proved_by_symmetry(o, phi, claim, options)) proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
+    proof = prove_zero(o, n, term, proof, claim, options);
     nh_free(term);
     return proof;
+}
+
+nh_proof nh_prove_current(const nh_model *o, nh_ex phi, bool parameters_free, const nh_options *options)
+{
+    return nh_prove_claim(o, phi, (nh_claim){.free = parameters_free}, options);
 }

@@ -13,13 +13,22 @@
 typedef struct {
     bool proved;          /* exactly zero, at least for the given parameters */
     bool all_parameters;  /* for all parameter values */
+    const bool *fixed;    /* else, where it is proved for all values of some: the others, which must have theirs; NULL: for the given values only */
     double digits;        /* of cancellation, least over the points; 0 when it could not be evaluated */
     size_t points;        /* that could be evaluated */
     bool rounded;         /* numbers in it were too long for exact rationals: more than a double's digits cannot be asked for */
     bool refuted;         /* a ball excludes zero: Phi with these coefficients is not conserved */
 } nh_proof;
 
-/* `parameters_free`: the coefficients of phi hold for all parameter values, so that step 1 makes sense. */
+/* What is known of a current. */
+typedef struct {
+    bool free;         /* its coefficients hold for all parameter values, so that step 1 makes sense; but for those fixed: */
+    const bool *fixed; /* per parameter: it must have its value; NULL: none must */
+    bool related;      /* an exact relation of its terms' rates is the proof */
+} nh_claim;
+nh_proof nh_prove_claim(const nh_model *model, nh_ex phi, nh_claim claim, const nh_options *options);
+
+/* `parameters_free`: the claim's `free`, with nothing fixed. */
 nh_proof nh_prove_current(const nh_model *model, nh_ex phi, bool parameters_free, const nh_options *options);
 
 /* The same for any expression that should vanish on the submanifold. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "noether/fixed.h"
 
 bool nh_facts_number(double value, int digits, nh_shown_number *out)
 {
@@ -102,4 +103,33 @@ void nh_facts_spectrum(const nh_spectrum *s, double number[NH_SPECTRUM_NUMBERS])
     const double all[NH_SPECTRUM_NUMBERS] = {(double)s->columns, (double)s->rank, (double)s->rows, (double)s->dimension, s->dimension && s->dimension <= s->rank ? s->spectrum[s->dimension - 1] : NAN,
                                              s->dimension < s->rank ? s->spectrum[s->dimension] : NAN, s->gap};
     memcpy(number, all, sizeof all);
+}
+
+/* Some fixed and some not: only then there is something to say between all and none. */
+static bool some_fixed(const nh_model *o, const nh_proof *p) { return p->proved && p->fixed && !nh_fixed_all(o, p->fixed); }
+
+const char *nh_facts_holds(const nh_model *o, const nh_proof *p, bool names)
+{
+    const nh_system *s = o->system;
+    if (!s->parameters) return "";
+    if (some_fixed(o, p)) return nh_arena_printf(o->arena, " for %s", nh_fixed_text(o, p->fixed));
+    if (!p->all_parameters) return " for these parameter values only";
+    if (!names) return " for all parameter values";
+    nh_text text;
+    nh_text_init(&text);
+    for (size_t i = 0; i < s->parameters; i++) nh_text_addf(&text, "%s%s", i ? ", " : " for all ", s->parameter[i].name);
+    const char *out = nh_arena_strdup(o->arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}
+
+void nh_facts_put_holds(nh_json *item, const nh_model *o, const nh_proof *p)
+{
+    if (!some_fixed(o, p)) {
+        nh_json_put_text(item, "holds", p->all_parameters || !o->system->parameters ? "all parameters" : "these values");
+        return;
+    }
+    nh_json *list = nh_json_put_object(item, "holds");
+    for (size_t i = 0; i < o->system->parameters; i++)
+        if (p->fixed[i]) nh_json_put_number(list, o->system->parameter[i].name, o->parameter_value[i]);
 }

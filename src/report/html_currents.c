@@ -100,16 +100,15 @@ static void as_text(nh_html_writer *w, const nh_found *f)
 
 static void certificate(nh_html_writer *w, const nh_found *f)
 {
-    const nh_system *s = w->system;
     nh_html_add(w, "<dt>Certified</dt><dd>");
-    if (f->proof.all_parameters) nh_html_add(w, s->parameters ? "proved for all parameter values" : "proved");
-    else if (f->proof.proved) nh_html_add(w, "proved for these parameter values");
+    if (f->proof.proved) nh_html_add(w, "proved");
     else {
         nh_html_add(w, "conserved to ");
         nh_html_number(w, floor(f->proof.digits), 6);
         nh_html_add(w, " digits");
         nh_html_add(w, nh_formula_doubt(f));
     }
+    nh_html_text(w, nh_facts_holds(w->r->model, &f->proof, false));
     nh_html_add(w, "</dd>\n<dt>Residual</dt><dd>");
     nh_html_number(w, f->heldout, 2);
     nh_html_add(w, " at points not used to find it</dd>\n");

@@ -8,9 +8,10 @@
 
 static void certificate(nh_html_writer *w, const nh_verdict_of_one *v)
 {
-    if (v->proof.all_parameters) nh_html_add(w, ", proved for all parameter values");
-    else if (v->proof.proved) nh_html_add(w, ", proved for these parameter values");
-    else {
+    if (v->proof.proved) {
+        nh_html_add(w, ", proved");
+        nh_html_text(w, nh_facts_holds(v->model, &v->proof, false));
+    } else {
         nh_html_add(w, ", to ");
         nh_html_number(w, floor(v->proof.digits), 6);
         nh_html_add(w, v->proof.rounded ? " digits (its numbers are rounded to doubles)" : " digits");

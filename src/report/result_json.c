@@ -7,6 +7,7 @@
 #include "base/json.h"
 #include "expr/print.h"
 #include "expr/typeset.h"
+#include "report/facts.h"
 #include "report/formula.h"
 #include "report/result_json_internal.h"
 #include "report/run.h"
@@ -297,6 +298,7 @@ static void put_current(const writer *w, nh_json *currents, const nh_found *f)
     nh_json_put_number(item, "certified_digits", floor(f->proof.digits));
     nh_json_put_bool(item, "proved", f->proof.proved);
     nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
+    nh_facts_put_holds(item, w->r->model, &f->proof);
     nh_json_put_bool(item, "exact", f->exact);
     nh_json_put_number(item, "printed_digits", floor(f->printed_digits));
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);

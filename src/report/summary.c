@@ -177,16 +177,10 @@ static void field_lines(nh_summary_writer *w, const nh_found *f)
 
 static void certificate(nh_summary_writer *w, const nh_found *f)
 {
-    const nh_system *s = w->r->system;
     nh_text_add(w->out, "        ");
-    if (f->proof.all_parameters) {
-        nh_text_add(w->out, s->parameters ? "proved for all " : "proved");
-        for (size_t i = 0; i < s->parameters; i++) nh_text_addf(w->out, "%s%s", i ? ", " : "", s->parameter[i].name);
-    } else if (f->proof.proved) {
-        nh_text_add(w->out, "proved for these parameter values");
-    } else {
-        nh_text_addf(w->out, "conserved to %.0f digits%s", f->proof.digits, nh_formula_doubt(f));
-    }
+    const char *holds = nh_facts_holds(w->r->model, &f->proof, true);
+    if (f->proof.proved) nh_text_addf(w->out, "proved%s", holds);
+    else nh_text_addf(w->out, "conserved to %.0f digits%s%s", f->proof.digits, nh_formula_doubt(f), holds);
     nh_text_addf(w->out, "; held-out residual %.1e", f->heldout);
     if (w->r->validation) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
     nh_text_add(w->out, "\n");

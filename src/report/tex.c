@@ -155,15 +155,15 @@ static void field(nh_tex_writer *w, const nh_found *f)
 static void certificate(nh_tex_writer *w, const nh_found *f)
 {
     const nh_validation *v = w->r->validation;
-    if (f->proof.all_parameters) nh_tex_add(w, w->r->system->parameters ? "Proved for all parameter values." : "Proved.");
-    else if (f->proof.proved) nh_tex_add(w, "Proved for these parameter values.");
+    if (f->proof.proved) nh_tex_add(w, "Proved");
     else {
         nh_tex_add(w, "Conserved to ");
         nh_tex_number(w, floor(f->proof.digits), 6);
         nh_tex_add(w, " digits");
         nh_tex_add(w, nh_formula_doubt(f));
-        nh_tex_add(w, ".");
     }
+    nh_tex_words(w, nh_facts_holds(w->r->model, &f->proof, false));
+    nh_tex_add(w, ".");
     nh_tex_add(w, " Residual ");
     nh_tex_number(w, f->heldout, 2);
     if (v) {

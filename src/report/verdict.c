@@ -71,8 +71,7 @@ void nh_verdict_text(const nh_verdict_of_one *v, bool field, double shown, nh_te
         return;
     }
     nh_text_add(out, field ? "YES: this is a constraint symmetry" : "YES: this is conserved");
-    if (v->proof.all_parameters) nh_text_add(out, ", proved for all parameter values");
-    else if (v->proof.proved) nh_text_add(out, ", proved for these parameter values");
+    if (v->proof.proved) nh_text_addf(out, ", proved%s", nh_facts_holds(v->model, &v->proof, false));
     else nh_text_addf(out, ", to %.0f digits%s", v->proof.digits, v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
     nh_text_addf(out, "%s\n", v->trivial ? "; but it is trivial: the current is constant" : "");
     if (v->has_symmetry && !v->trivial) put_field(v, shown, out);
@@ -133,6 +132,7 @@ char *nh_verdict_json(const nh_verdict_of_one *v, const nh_run *run)
     nh_json_put_number(root, "certified_digits", floor(v->proof.digits));
     nh_json_put_bool(root, "proved", v->proof.proved);
     nh_json_put_bool(root, "proved_for_all_parameters", v->proof.all_parameters);
+    nh_facts_put_holds(root, v->model, &v->proof);
     if (v->has_counterexample) {
         nh_json *point = nh_json_put_object(root, "counterexample");
         for (size_t j = 0; j < v->model->width; j++) nh_json_put_number(point, nh_name_of(d, v->model->chart->symbol[j]), v->counterexample[j]);

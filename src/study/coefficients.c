@@ -1,61 +1,24 @@
 #include "study/coefficients.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "expr/normal.h"
-#include "expr/relation.h"
+#include "noether/fixed.h"
 #include "noether/recognise.h"
 #include "noether/refine.h"
 #include "noether/sharpen.h"
 
-static nh_ex parameter_value(const nh_model *o, size_t i)
+/* Exact: Gamma of the support's terms are linearly related over the field of the parameters, some of them at their given values where that is needed. */
+static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, nh_claim *claim)
 {
-    nh_num ratio;
-    double x = o->parameter_value[i];
-    return nh_recognise_ratio(x, 1000000000, DBL_EPSILON, &ratio) ? nh_number(o->dag, ratio) : nh_real(o->dag, x);
-}
-
-/* ---- coefficients ---- */
-
-/* Exact: Gamma of the support's terms are linearly related over the field of the parameters, or at their given values. */
-static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, bool *all_parameters)
-{
-    nh_dag *d = o->dag;
-    size_t n = c->count, p = o->system->parameters, limit = (size_t)options->proof_terms;
-    nh_ex *rate = nh_alloc_array(n + 1, sizeof *rate), *value = nh_alloc_array(p + 1, sizeof *value);
-    for (size_t j = 0; j < n; j++) rate[j] = nh_model_gamma(o, c->term[j]);
-    *all_parameters = nh_relation_find(d, n, rate, p, o->parameter, limit, out) == NH_RELATION_UNIQUE;
-    bool good = *all_parameters;
-    if (!good) {
-        for (size_t i = 0; i < p; i++) value[i] = parameter_value(o, i);
-        for (size_t j = 0; j < n; j++) rate[j] = nh_substitute(d, rate[j], p, o->parameter, value);
-        good = nh_relation_find(d, n, rate, 0, NULL, limit, out) == NH_RELATION_UNIQUE;
-    }
-    nh_free(value);
+    nh_ex *rate = nh_alloc_array(c->count + 1, sizeof *rate);
+    for (size_t j = 0; j < c->count; j++) rate[j] = nh_model_gamma(o, c->term[j]);
+    nh_fixed relation = nh_fixed_relation(o, c->count, rate, c->coefficient, options, out);
+    for (size_t j = 0; j < c->count && relation.fixed && relation.found && !relation.too_large; j++) c->term[j] = nh_fixed_values(o, relation.fixed, c->term[j]);
+    *claim = (nh_claim){.free = true, .fixed = relation.fixed, .related = relation.found};
     nh_free(rate);
-    return good;
-}
-
-/* Are the exact coefficients the fitted ones, up to a factor?  (A relation may exist that is not the current we fitted.) */
-static bool same_direction(const nh_model *o, const nh_candidate *c, const nh_ex *exact)
-{
-    double *value = nh_alloc_array(c->count + 1, sizeof *value), largest = 0, factor = 0, worst = 0;
-    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, c->count, exact, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, value);
-    for (size_t j = 0; j < c->count; j++)
-        if (fabs(c->coefficient[j]) > largest) {
-            largest = fabs(c->coefficient[j]);
-            factor = value[j] / c->coefficient[j];
-        }
-    for (size_t j = 0; j < c->count; j++) worst = fmax(worst, fabs(value[j] - factor * c->coefficient[j]));
-    bool same = isfinite(factor) && factor != 0 && worst <= 1e-6 * fabs(factor) * largest;
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(value);
-    return same;
+    return relation.found;
 }
 
 /* ---- many digits ---- */
@@ -127,18 +90,18 @@ bool nh_coefficients_refuted(const nh_found *f, const nh_options *options)
     return f->asked && f->refined >= 0 && f->refined < options->digits && !nh_coefficients_certain(f, options);
 }
 
-nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f)
+nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f, nh_claim *claim)
 {
     nh_dag *d = o->dag;
     nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k);
     refine(o, c, options, f); /* relations of many terms cost more */
     bool hopeless = f->refined >= 0 && f->refined < options->digits;
-    f->exact = !hopeless && exact_coefficients(o, c, options, k, &f->all_parameters) && same_direction(o, c, k);
+    f->exact = !hopeless && exact_coefficients(o, c, options, k, claim);
     if (!f->exact) {
-        f->all_parameters = false;
         f->exact = true;
         for (size_t j = 0; j < c->count; j++) f->exact &= nh_recognise_number(d, c->coefficient[j], options->recognise, &k[j]);
     }
+    if (!claim->related) *claim = (nh_claim){.free = f->exact};
     nh_ex phi = combination(d, c, f->exact ? k : NULL);
     nh_free(k);
     return phi;

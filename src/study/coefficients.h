@@ -7,8 +7,8 @@
 
 #include "study/result.h"
 
-/* The current as an expression; found->exact and ->all_parameters say what its coefficients are, ->refined how far they cancel. */
-nh_ex nh_coefficients_assemble(const nh_model *model, nh_candidate *candidate, const nh_options *options, nh_found *found);
+/* The current as an expression; found->exact says whether its coefficients are, ->refined how far they cancel, the claim what is known of it. */
+nh_ex nh_coefficients_assemble(const nh_model *model, nh_candidate *candidate, const nh_options *options, nh_found *found, nh_claim *claim);
 
 /* After the proof: where that left the question open the refined digits are the certificate. */
 void nh_coefficients_certify(const nh_options *options, nh_found *found);

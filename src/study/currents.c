@@ -48,10 +48,11 @@ static void decide(nh_workbench *b, nh_candidate *c, nh_found *f)
 {
     nh_result *r = b->result;
     f->quotient = c->quotient;
-    f->phi = nh_coefficients_assemble(r->model, c, &r->options, f);
+    nh_claim claim = {0};
+    f->phi = nh_coefficients_assemble(r->model, c, &r->options, f, &claim);
     f->heldout = heldout_residual(r->model, b->heldout, f->phi);
     if (nh_coefficients_refuted(f, &r->options)) return;
-    f->proof = nh_prove_current(r->model, f->phi, f->exact, &r->options);
+    f->proof = nh_prove_claim(r->model, f->phi, claim, &r->options);
     nh_coefficients_certify(&r->options, f);
 }
 

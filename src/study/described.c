@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/normal.h"
+#include "noether/fixed.h"
 
 /* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
 
@@ -45,13 +46,42 @@ static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
     return best;
 }
 
+/* The fixed parameters' values in a list of expressions. */
+static void put_values(nh_model *o, const bool *fixed, size_t n, nh_ex *e)
+{
+    for (size_t i = 0; i < n && e; i++) e[i] = nh_simplify_short(o->dag, nh_fixed_values(o, fixed, e[i]), 0);
+}
+
 static void normalise(nh_model *o, nh_found *f)
 {
     nh_dag *d = o->dag;
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta), Z0 = nh_symmetry_components(o, f->phi, zeta);
+    put_values(o, f->proof.fixed, f->proof.fixed ? o->n : 0, zeta);
     nh_ex unit = unit_of(o, Z0, zeta);
     nh_free(zeta);
     f->phi = nh_simplify_short(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit), 0);
+}
+
+/* The same in a field, time first. */
+static void put_values_in_field(nh_model *o, const bool *fixed, nh_field *z)
+{
+    if (!z->space) return;
+    put_values(o, fixed, 1, &z->time);
+    put_values(o, fixed, o->m, z->space);
+    put_values(o, fixed, o->n, z->velocity);
+}
+
+static void put_values_in_symmetry(nh_model *o, const bool *fixed, nh_symmetry *z)
+{
+    put_values(o, fixed, 1, &z->Z0);
+    put_values(o, fixed, o->n, z->zeta);
+    put_values(o, fixed, o->n, z->W);
+    put_values_in_field(o, fixed, &z->field);
+    put_values_in_field(o, fixed, &z->relative);
+    put_values_in_field(o, fixed, &z->bracket);
+    put_values(o, fixed, o->m, z->coordinate_rate);
+    put_values(o, fixed, o->m, z->relative_rate);
+    put_values(o, fixed, o->k, z->bracket_form);
 }
 
 static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh_error *error)
@@ -59,6 +89,7 @@ static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh
     nh_model *o = r->model;
     if (!f->series) normalise(o, f);
     f->has_symmetry = nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
+    if (f->has_symmetry && f->proof.fixed) put_values_in_symmetry(o, f->proof.fixed, &f->symmetry);
     return f->has_symmetry;
 }
 
@@ -149,7 +180,6 @@ void nh_current_describe(nh_workbench *b, nh_found *f)
     nh_error trouble;
     nh_error_clear(&trouble);
     if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
-    f->all_parameters = f->proof.all_parameters;
     f->local = is_local(r->model, b->generic, f->phi);
     find_meaning(r, b->generic, f);
     nh_current_in_velocities(b, f);

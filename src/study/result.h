@@ -28,7 +28,6 @@ typedef struct {
     nh_ex in_velocities;      /* in t, q, q' and parameters */
     bool has_in_velocities;
     bool exact;               /* every coefficient was recognised */
-    bool all_parameters;      /* and holds for all parameter values */
     double quotient, heldout;
     nh_proof proof;
     bool asked;               /* were the coefficients refined with many digits?  */

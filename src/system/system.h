@@ -14,6 +14,7 @@ typedef struct {
     const char *name, *unit, *doc;
     nh_ex symbol;
     double value;
+    bool set; /* by the user, not by the file */
 } nh_parameter;
 
 typedef struct {

@@ -296,6 +296,7 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
             if (!strcmp(s->parameter[i].name, setting[k].name)) found = &s->parameter[i];
         if (found) {
             found->value = setting[k].value;
+            found->set = true;
             continue;
         }
         const char **names = nh_system_take(r, s->parameters, sizeof *names);

@@ -1,0 +1,43 @@
+/* fixed: exact relations that hold for all values of the parameters, or for as many as possible.
+ *
+ *     sum_j c_j e_j = 0,    c_j in Q(parameters)
+ *
+ * First every parameter is a symbol.  Where there is no such relation some of them must have their values: beginning with all of them fixed, one after the
+ * other is set free as long as the relation remains.  Those that the user set, and short values (1 before 0.6173), are set free last, because it
+ * is at these that something special happens. */
+#ifndef NH_FIXED_H
+#define NH_FIXED_H
+
+#include "base/option.h"
+#include "geometry/model.h"
+
+typedef struct {
+    bool found;
+    bool all_parameters; /* none is fixed */
+    const bool *fixed;   /* per parameter, in the model's arena; NULL with all_parameters */
+    bool too_large;      /* what holds for other values than the given ones could not be decided */
+} nh_fixed;
+
+/* The coefficients of the only relation among e (n of them); `like`: it must be this vector at the parameters' values, up to a factor (NULL: any). */
+nh_fixed nh_fixed_relation(const nh_model *model, size_t n, const nh_ex *e, const double *like, const nh_options *options, nh_ex *coefficient);
+
+/* Which parameters must have their values for something to hold that holds with all of them fixed: `occurring` are expressions with those that matter. */
+typedef bool nh_fixed_test(const bool *fixed, void *context);
+const bool *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds, void *context);
+
+/* What must be fixed for two statements: NULL as well as an empty list means nothing. */
+const bool *nh_fixed_both(const nh_model *model, const bool *a, const bool *b);
+
+/* e with the fixed parameters at their exact values; all of them with `fixed` NULL. */
+nh_ex nh_fixed_values(const nh_model *model, const bool *fixed, nh_ex e);
+
+/* A list of all. */
+const bool *nh_fixed_every(const nh_model *model);
+
+/* Are all parameters fixed?  (True for NULL.) */
+bool nh_fixed_all(const nh_model *model, const bool *fixed);
+
+/* "k = 1, a = 2" of the fixed ones, in the model's arena. */
+const char *nh_fixed_text(const nh_model *model, const bool *fixed);
+
+#endif
