@@ -173,7 +173,7 @@ Test(cli_reduce, starts_where_the_action_is_not_free)
     place_clear(&p);
 }
 
-/* Exit code 5: what was found until then is printed, and marked. */
+/* Exit code 5: little was found until then, which is marked, or nothing, and nothing is printed. */
 Test(cli_reduce, time_limit)
 {
     static const char *const systems[] = {"crane", "sleigh", "snakeboard", "kepler"};
@@ -182,11 +182,8 @@ Test(cli_reduce, time_limit)
         char *more[] = {(char *)systems[i], "--max-seconds", "0", "--json", "-"};
         finished f = reduce(&p, more, 5);
         cr_expect_eq(f.code, 5, "%s: exit code %d\n%s", systems[i], f.code, f.err);
-        cJSON *json = cJSON_Parse(f.out);
-        cr_assert(json != NULL, "%s printed\n%s", systems[i], f.out);
-        cr_expect(oracle_number(oracle_get(json, "group"), "dimension") > 0, "%s: the group is found all the same", systems[i]);
-        cr_expect_eq(cJSON_GetArraySize(oracle_get(json, "stages")), 0);
-        cr_expect(strstr(f.out, "the time limit of 0 s left out") != NULL, "%s", systems[i]);
+        cJSON *json = *f.out ? cJSON_Parse(f.out) : NULL;
+        cr_expect(*f.out ? cJSON_IsTrue(cJSON_GetObjectItem(json, "partial")) : strstr(f.err, "time limit") && strstr(f.err, "--max-seconds raises it"), "%s: %s%s", systems[i], f.out, f.err);
         cJSON_Delete(json);
         finished_clear(&f);
     }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/progress.h"
 #include "expr/normal.h"
 #include "expr/print.h"
 #include "reduction/reach.h"
@@ -12,11 +13,10 @@
 #include "reductions.h"
 #include "scratch.h"
 
-static nh_reduction *reduce_file(const char *path, const char *initial, double seconds, nh_error *error)
+static nh_reduction *reduce_file(const char *path, const char *initial, nh_error *error)
 {
     nh_reduce_request q = {.system_path = path, .initial = initial};
     nh_options_default(&q.options);
-    if (seconds >= 0) q.options.reduce_seconds = seconds;
     return nh_reduce(&q, error);
 }
 
@@ -24,7 +24,7 @@ static nh_reduction *reduce_text(const char *text, nh_error *error)
 {
     char path[SCRATCH];
     cr_assert(scratch_text(path, text));
-    nh_reduction *r = reduce_file(path, NULL, -1, error);
+    nh_reduction *r = reduce_file(path, NULL, error);
     remove(path);
     return r;
 }
@@ -75,7 +75,7 @@ Test(reductions, passes_a_removable_singularity)
     } cases[] = {{"systems/car_trailers_5.yaml", 15}, {"systems/car_with_trailer.yaml", 40}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         nh_error error = {0};
-        nh_reduction *r = reduce_file(cases[i].path, NULL, -1, &error);
+        nh_reduction *r = reduce_file(cases[i].path, NULL, &error);
         must(r != NULL, &error, cases[i].path);
         must(nh_reduction_again(r, cases[i].place, &error), &error, cases[i].path);
         followed(r, cases[i].path);
@@ -89,7 +89,7 @@ Test(reductions, passes_near_a_pole)
 {
     enum { place = 42 };
     nh_error error = {0};
-    nh_reduction *r = reduce_file("systems/euler_disk.yaml", NULL, -1, &error);
+    nh_reduction *r = reduce_file("systems/euler_disk.yaml", NULL, &error);
     must(r != NULL, &error, "disk");
     must(nh_reduction_again(r, place, &error), &error, "disk");
     followed(r, "disk");
@@ -133,7 +133,7 @@ Test(reductions, apart_beyond_what_the_full_motion_is_known_to)
 Test(reductions, starts_at_a_singular_place_of_the_connection)
 {
     nh_error error = {0};
-    nh_reduction *r = reduce_file("systems/sleigh_inertia.yaml", "h=1.5707963267948966, y'=0.8, h'=0.5", -1, &error);
+    nh_reduction *r = reduce_file("systems/sleigh_inertia.yaml", "h=1.5707963267948966, y'=0.8, h'=0.5", &error);
     must(r != NULL, &error, "sleigh");
     followed(r, "sleigh");
     nh_reduction_free(r);
@@ -258,7 +258,7 @@ Test(reductions, quotients)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         nh_error error = {0};
-        nh_reduction *r = cases[i].text ? reduce_text(cases[i].text, &error) : reduce_file(cases[i].system, NULL, -1, &error);
+        nh_reduction *r = cases[i].text ? reduce_text(cases[i].text, &error) : reduce_file(cases[i].system, NULL, &error);
         must(r != NULL, &error, cases[i].group);
         cr_assert_eq(r->stages, 1);
         cr_expect(r->stage[0].kind == NH_STAGE_QUOTIENT && !strcmp(r->stage[0].group, cases[i].group), "%s", r->stage[0].group);
@@ -288,7 +288,7 @@ Test(reductions, quotients)
 Test(reductions, quotient_in_chart_and_frame)
 {
     nh_error error = {0};
-    nh_reduction *r = reduce_file("systems/constant_speed.yaml", NULL, -1, &error);
+    nh_reduction *r = reduce_file("systems/constant_speed.yaml", NULL, &error);
     must(r != NULL, &error, "speed");
     const nh_reduction_stage *s = &r->stage[0];
     nh_reduced_flow *frame = nh_reduced_flow_create(s->reduced), *chart = nh_reduced_flow_create(s->shown);
@@ -334,7 +334,7 @@ Test(reductions, symmetries_up_to_a_total_derivative)
     char path[SCRATCH];
     nh_error error = {0};
     cr_assert(scratch_text(path, text));
-    nh_reduction *r = reduce_file(path, NULL, -1, &error);
+    nh_reduction *r = reduce_file(path, NULL, &error);
     must(r != NULL, &error, "charge");
     cr_expect(r->all->action.d == 1 && r->weaker == 3, "%zu and %zu more", r->all->action.d, r->weaker);
     nh_reduction_free(r);
@@ -364,7 +364,7 @@ Test(reductions, known_integrals)
     } cases[] = {{"systems/cart_on_disc.yaml", "moving energy"}, {"systems/charged_particle.yaml", "angular momentum"}, {"systems/ball_on_turntable.yaml", "Emov"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         nh_error error = {0};
-        nh_reduction *r = reduce_file(cases[i].system, NULL, -1, &error);
+        nh_reduction *r = reduce_file(cases[i].system, NULL, &error);
         must(r != NULL, &error, cases[i].system);
         bool found = false;
         for (size_t c = 0; c < r->system->currents; c++)
@@ -383,7 +383,7 @@ Test(reductions, densities)
     } cases[] = {{"systems/nonholonomic_oscillator.yaml", "1/sqrt(y^2 + 1)"}, {"systems/contact_oscillator.yaml", "1/sqrt(1/y^2 + 1)"}, {"systems/chaplygin_ball.yaml", NULL}, {"systems/veselova.yaml", NULL}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         nh_error error = {0};
-        nh_reduction *r = reduce_file(cases[i].system, NULL, -1, &error);
+        nh_reduction *r = reduce_file(cases[i].system, NULL, &error);
         must(r != NULL, &error, cases[i].system);
         const nh_chaplygin_measure *m = &r->stage[0].measure;
         cr_assert(m->measure && m->closed, "%s", cases[i].system);
@@ -399,7 +399,7 @@ Test(reductions, densities)
 Test(reductions, a_density_of_many_values)
 {
     nh_error error = {0};
-    nh_reduction *r = reduce_file("systems/two_wheel_cart.yaml", NULL, -1, &error);
+    nh_reduction *r = reduce_file("systems/two_wheel_cart.yaml", NULL, &error);
     must(r != NULL, &error, "cart");
     cr_expect(r->stage[0].measure.measure && r->stage[0].measure.local);
     nh_reduction_free(r);
@@ -408,7 +408,9 @@ Test(reductions, a_density_of_many_values)
 Test(reductions, time_limit)
 {
     nh_error error = {0};
-    nh_reduction *r = reduce_file("systems/crane.yaml", NULL, 0, &error);
+    nh_deadline_set(0);
+    nh_reduction *r = reduce_file("systems/crane.yaml", NULL, &error);
+    nh_deadline_set(INFINITY);
     must(r != NULL, &error, "crane");
     cr_expect(r->partial && r->stages == 0 && r->warnings > 0 && strstr(r->warning[0], "time limit"));
     cr_expect_eq(r->all->action.d, 6, "the group is found all the same");
@@ -419,7 +421,7 @@ Test(reductions, time_limit)
 Test(reductions, joint_by_joint)
 {
     nh_error error = {0};
-    nh_reduction *r = reduce_file("systems/crane.yaml", NULL, -1, &error);
+    nh_reduction *r = reduce_file("systems/crane.yaml", NULL, &error);
     must(r != NULL, &error, "crane");
     cr_assert(r->joints != NULL && r->joints->fields > 0);
     size_t symmetries[NH_CHAIN_RULES] = {0}, others = 0;
@@ -462,7 +464,7 @@ Test(reductions, moved_onto_a_slice)
         char path[100];
         nh_error error = {0};
         snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);
-        nh_reduction *r = reduce_file(path, NULL, -1, &error);
+        nh_reduction *r = reduce_file(path, NULL, &error);
         must(r != NULL, &error, systems[i]);
         const nh_reduction_stage *s = &r->stage[0];
         const nh_slice *slice = s->chaplygin ? s->chaplygin->slice : s->shown_slice;
@@ -492,7 +494,7 @@ Test(reductions, moved_onto_a_slice)
 Test(reductions, linear_currents_that_are_not_followed)
 {
     nh_error error = {0};
-    nh_reduction *r = reduce_file("systems/euler_disk.yaml", NULL, -1, &error);
+    nh_reduction *r = reduce_file("systems/euler_disk.yaml", NULL, &error);
     must(r != NULL, &error, "disk");
     const nh_reduction_stage *s = &r->stage[r->stages - 1];
     cr_assert(s->linear.count == 2);

@@ -15,12 +15,15 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/leave.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 enum { longest_path = 512 };
 static const double most_seconds = 60;
 
 struct nh_compilation {
+    nh_leaving leaving; /* first; while there is a folder */
     char folder[longest_path], source[longest_path + 16], object[longest_path + 16], message[longest_path + 16]; /* folder: empty when it is gone */
     const char *program;
     pid_t child;  /* 0: none runs */
@@ -31,15 +34,31 @@ struct nh_compilation {
 
 /* ---- the folder ---- */
 
-static void remove_folder(nh_compilation *c)
+static void empty_folder(const nh_compilation *c)
 {
-    if (!*c->folder) return;
     DIR *folder = opendir(c->folder); /* an interrupted compiler leaves files of its own there */
     for (struct dirent *entry; folder && (entry = readdir(folder));)
         if (strcmp(entry->d_name, ".") && strcmp(entry->d_name, "..")) unlinkat(dirfd(folder), entry->d_name, 0);
     if (folder) closedir(folder);
     rmdir(c->folder);
+}
+
+static void remove_folder(nh_compilation *c)
+{
+    if (!*c->folder) return;
+    nh_leave_hold();
+    nh_leave_remove(&c->leaving);
+    empty_folder(c);
     *c->folder = 0;
+    nh_leave_release();
+}
+
+/* The process ends at once: without the compiler and its folder. */
+static void forget(nh_leaving *leaving)
+{
+    nh_compilation *c = (nh_compilation *)leaving;
+    if (c->child) kill(-c->child, SIGKILL);
+    empty_folder(c);
 }
 
 /* Nobody else may be able to rename what lies in there: the folder above is not writable to others, or it is sticky. */
@@ -66,7 +85,12 @@ static bool make_folder(nh_compilation *c)
         *c->folder = 0;
         return false;
     }
-    if (!mkdtemp(c->folder)) {
+    nh_leave_hold();
+    bool made = mkdtemp(c->folder) != NULL;
+    c->leaving.undo = forget;
+    if (made) nh_leave_add(&c->leaving);
+    nh_leave_release();
+    if (!made) {
         snprintf(c->words, sizeof c->words, "not compiled: no folder can be made in %.200s: %s", above, strerror(errno));
         *c->folder = 0;
         return false;
@@ -116,19 +140,24 @@ static bool start(nh_compilation *c)
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); /* its own group: it has children, which are to be ended with it */
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK); /* its own group: it has children, which are to be ended with it */
+    sigset_t none;
+    sigemptyset(&none); /* this thread may leave signals to another */
+    posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&files, 2, c->message, O_WRONLY | O_CREAT, 0600);
     char **around = surroundings(c);
+    nh_leave_hold();
     int reason = posix_spawnp(&c->child, c->program, &files, &attributes, argument, around);
+    if (reason) c->child = 0;
+    nh_leave_release();
     nh_free(around[0]);
     nh_free(around);
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
     if (!reason) return true;
-    c->child = 0;
     snprintf(c->words, sizeof c->words, "not compiled: %.100s: %s", c->program, strerror(reason));
     return false;
 }
@@ -169,9 +198,12 @@ static void explain(nh_compilation *c, int status)
 static bool ended(nh_compilation *c)
 {
     int status = 0;
+    nh_leave_hold();
     pid_t who = waitpid(c->child, &status, WNOHANG);
-    if (who == 0 || (who < 0 && errno == EINTR)) return false;
-    c->child = 0; /* who < 0: somebody else has waited for it, so that its status is lost */
+    bool runs = who == 0 || (who < 0 && errno == EINTR);
+    if (!runs) c->child = 0;
+    nh_leave_release();
+    if (runs) return false; /* who < 0: somebody else has waited for it, so that its status is lost */
     if (status == 0) load(c);
     else explain(c, status);
     remove_folder(c);
@@ -181,7 +213,7 @@ static bool ended(nh_compilation *c)
 void *nh_compile_result(nh_compilation *c, const char *function, bool wait, bool *busy)
 {
     static const struct timespec pause = {0, 1000000};
-    while (c->child && !ended(c) && wait && nh_clock() - c->begun < most_seconds) nanosleep(&pause, NULL);
+    while (c->child && !ended(c) && wait && nh_clock() - c->begun < most_seconds && !nh_interrupted()) nanosleep(&pause, NULL);
     *busy = c->child != 0;
     return c->handle ? dlsym(c->handle, function) : NULL;
 }
@@ -194,6 +226,7 @@ void nh_compile_free(nh_compilation *c)
     if (c->child) {
         kill(-c->child, SIGKILL);
         while (waitpid(c->child, NULL, 0) < 0 && errno == EINTR) continue;
+        c->child = 0;
     }
     remove_folder(c);
     if (c->handle) dlclose(c->handle);

@@ -38,8 +38,22 @@ static bool write_directly(const char *path, const char *text, size_t length, nh
     return reason ? failed(error, path, "written", reason) : true;
 }
 
+static void forget(nh_leaving *leaving) { unlink(((nh_output_file *)leaving)->temporary); }
+
+/* The temporary file, open; it does not stay behind when the process ends at once. */
+static int open_beside(const char *path, nh_output_file *out)
+{
+    nh_leave_hold();
+    snprintf(out->temporary, NH_OUTPUT_LONGEST, "%s.XXXXXX", path);
+    int file = mkstemp(out->temporary);
+    out->leaving.undo = forget;
+    if (file >= 0) nh_leave_add(&out->leaving);
+    nh_leave_release();
+    return file;
+}
+
 /* A temporary file beside `path` with the whole text on the disk; *direct: it was written to `path` itself, which is no regular file. */
-static bool write_beside(const char *path, const char *text, size_t length, char temporary[NH_OUTPUT_LONGEST], bool *direct, nh_error *error)
+static bool write_beside(const char *path, const char *text, size_t length, nh_output_file *out, bool *direct, nh_error *error)
 {
     struct stat info;
     mode_t mode = 0644;
@@ -51,14 +65,16 @@ static bool write_beside(const char *path, const char *text, size_t length, char
         mode = info.st_mode & 0777;
     }
     if (strlen(path) + 8 > NH_OUTPUT_LONGEST) return failed(error, "", "written", ENAMETOOLONG);
-    snprintf(temporary, NH_OUTPUT_LONGEST, "%s.XXXXXX", path);
-    int file = mkstemp(temporary);
+    int file = open_beside(path, out);
     if (file < 0) return failed(error, path, "written", errno);
     int reason = write_all(file, text, length);
     if (!reason && fchmod(file, mode)) reason = errno;
     if (close(file) && !reason) reason = errno;
     if (!reason) return true;
-    unlink(temporary);
+    nh_leave_hold();
+    nh_leave_remove(&out->leaving);
+    unlink(out->temporary);
+    nh_leave_release();
     return failed(error, path, "written", reason);
 }
 
@@ -73,7 +89,7 @@ bool nh_output_add(nh_output_set *set, const char *path, const char *text, size_
 {
     bool direct;
     nh_output_file *file = nh_alloc(sizeof *file);
-    if (!write_beside(path, text, length, file->temporary, &direct, error) || direct) {
+    if (!write_beside(path, text, length, file, &direct, error) || direct) {
         nh_free(file);
         return direct && (!error || error->code == NH_OK);
     }
@@ -93,8 +109,10 @@ void nh_output_drop(nh_output_set *set, const char *path)
 
 bool nh_output_end(nh_output_set *set, bool keep, nh_error *error)
 {
+    nh_leave_hold(); /* all or none */
     for (nh_output_file *file; (file = set->first); nh_free(file)) {
         set->first = file->next;
+        nh_leave_remove(&file->leaving);
         int reason = keep && rename(file->temporary, file->path) ? errno : 0;
         if (!keep || reason) unlink(file->temporary);
         if (reason) keep = failed(error, file->path, "written", reason);
@@ -104,6 +122,7 @@ bool nh_output_end(nh_output_set *set, bool keep, nh_error *error)
         set->dropped = file->next;
         if (keep && unlink(file->path) && errno != ENOENT) good = failed(error, file->path, "removed", errno);
     }
+    nh_leave_release();
     return good;
 }
 

@@ -3,6 +3,7 @@
 #define NH_OUTPUT_H
 
 #include "base/error.h"
+#include "base/leave.h"
 
 /* Write to a temporary file beside `path`, flush it to the disk, then rename.  On any failure an old file stays. */
 bool nh_output_write(const char *path, const char *text, size_t length, nh_error *error);
@@ -10,6 +11,7 @@ bool nh_output_write(const char *path, const char *text, size_t length, nh_error
 /* Files that belong together: all are on the disk, beside their places, before the first is renamed, so that a full disk leaves all old ones. */
 enum { NH_OUTPUT_LONGEST = 4200 };
 typedef struct nh_output_file {
+    nh_leaving leaving; /* first: the temporary file does not stay behind */
     struct nh_output_file *next;
     char path[NH_OUTPUT_LONGEST], temporary[NH_OUTPUT_LONGEST];
 } nh_output_file;

@@ -1,8 +1,15 @@
-/* progress: what a long computation tells its caller, and how the caller ends it.  One per process, as memory's handler is. */
+/* progress: what a long computation tells its caller, and how it is ended: by a signal, or by the time limit of the run.  One per process, as memory's handler is.
+ *
+ * Both ends are one thing to whoever computes: nh_interrupted() is true from then on for ever, and the computation returns soon, with what it has.  What it says
+ * then is partial: nothing that was computed afterwards is a proof or a refutation.  The limit is an emergency brake.  How much is computed in a run that it does
+ * not end is decided by counted work, not by time. */
 #ifndef NH_PROGRESS_H
 #define NH_PROGRESS_H
 
 #include <stdbool.h>
+#include <stddef.h>
+
+#include "base/error.h"
 
 /* part: of the time or work that it may take, in [0, 1]; below 0: not known. */
 typedef void nh_progress_handler(void *context, const char *doing, double part);
@@ -10,13 +17,27 @@ typedef void nh_progress_handler(void *context, const char *doing, double part);
 /* NULL: nobody wants to know.  Called from the thread that computes. */
 void nh_progress_set(nh_progress_handler *handler, void *context);
 void nh_progress(const char *doing, double part);
+/* What was said last, from any thread. */
+void nh_progress_last(char *out, size_t size);
 
 /* Ask the computation to end soon, with what it has; safe in a signal handler. */
 void nh_interrupt(void);
+/* The time limit of the run: `seconds` from now, as the user feels them (not of the processor); none when they are not finite. */
+void nh_limit_set(double seconds);
+/* Ended, by either. */
 bool nh_interrupted(void);
-/* A time limit for what comes: `seconds` from now; none when they are not finite.  Work that cannot be divided is not started after it. */
+/* Ended by the limit. */
+bool nh_limit_reached(void);
+/* Of an ended computation: its exit code, and "interrupted" or "the time limit of 1 s was reached". */
+nh_code nh_ended_code(void);
+void nh_ended_words(char *out, size_t size);
+/* Records that it was ended, while doing that, with the cure; returns false. */
+bool nh_fail_ended(nh_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A moment after which no new part is begun, so that time is left for what follows: `seconds` from now, and earlier where the limit is near; none when
+ * they are not finite. */
 void nh_deadline_set(double seconds);
-/* Interrupted, or behind the deadline. */
+/* Ended, or behind that moment. */
 bool nh_late(void);
 /* For integrators: nh_interrupted as a callback; the context is not used. */
 bool nh_interrupted_callback(void *context);

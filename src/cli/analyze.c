@@ -79,12 +79,12 @@ static bool write_summary(nh_cli *cli, const nh_result *result, nh_error *error)
 int nh_cli_analyze(nh_cli *cli, nh_error *error)
 {
     nh_analyze_request request;
+    nh_cli_watch_begin(cli);
     if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     request.no_figures = !cli->html && !cli->tex && !cli->json;
-    nh_cli_watch_begin(cli);
     nh_result *result = nh_analyze(&request, error);
     nh_cli_watch_end();
-    if (!result) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
+    if (!result) return nh_cli_failed(error);
     bool good = write_summary(cli, result, error) && (!cli->json || nh_cli_write_json(cli, nh_result_json(result), error)) && write_html(cli, result, error)
                 && write_tex(cli, result, error);
     good = nh_cli_written(cli, good, error);
@@ -93,5 +93,5 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
     if (good && cli->accuracy > 0 && !partial && !(v && v->accuracy.held)) nh_fail(error, NH_NUMERIC, "", "%s", v ? v->accuracy.why : "no motion was computed, and so none with the accuracy that was asked for");
     nh_result_free(result);
     if (!good) return error->code;
-    return nh_interrupted() ? NH_INTERRUPTED : partial ? NH_LIMIT : (int)error->code;
+    return nh_interrupted() ? (int)nh_ended_code() : partial ? NH_LIMIT : (int)error->code;
 }

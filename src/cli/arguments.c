@@ -47,6 +47,12 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     return true;
 }
 
+static bool set_option(nh_cli *cli, const char *name, const char *text, nh_error *error)
+{
+    cli->limited = cli->limited || !strcmp(name, "max_seconds");
+    return nh_options_set(&cli->options, name, text, error);
+}
+
 static bool positive(const char *text, const char *option, double *out, nh_error *error)
 {
     if (nh_text_to_number(text, out) && *out > 0) return true;
@@ -136,7 +142,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
     case opt_threads: return nh_options_set(&cli->options, "threads", value, error);
-    case opt_max_seconds: return nh_options_set(&cli->options, "max_seconds", value, error) && nh_options_set(&cli->options, "reduce_seconds", value, error);
+    case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
     case opt_project: return cli->project = true;
     case opt_weak: return cli->weak = true;
@@ -156,7 +162,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_current: cli->current = value; return true;
     case opt_field: cli->field = value; return true;
     case opt_columns: return nh_options_set(&cli->options, "columns", value, error);
-    case opt_option: return assignment(cli, value, "option", &name, &text, error) && nh_options_set(&cli->options, name, text, error);
+    case opt_option: return assignment(cli, value, "option", &name, &text, error) && set_option(cli, name, text, error);
     case opt_chart: return set_chart(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);

@@ -44,11 +44,11 @@ static void keep(const nh_cli *cli, const nh_comparison *c)
 int nh_cli_chart(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
+    nh_cli_watch_begin(cli);
     if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
     const double longest = 300;
     double budget = cli->budget > 0 ? cli->budget : 5, of_stress = cli->budget > 0 ? budget / 2 : longest;
-    nh_cli_watch_begin(cli);
     nh_comparison *c = nh_compare(&request, cli->stress && cli->budget > 0 ? budget / 2 : budget, error);
     nh_stress *s = c && cli->stress && !nh_interrupted() ? nh_stress_create(&request, cli->over, of_stress, error) : NULL;
     nh_cli_watch_end();
@@ -56,7 +56,7 @@ int nh_cli_chart(nh_cli *cli, nh_error *error)
     if (c && error->code == NH_OK && !nh_interrupted()) keep(cli, c);
     if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);
     nh_stress_free(s);
-    if (c && error->code == NH_OK && nh_interrupted()) nh_fail(error, NH_INTERRUPTED, "", "interrupted: this is what was measured until then");
+    if (c && error->code == NH_OK && nh_interrupted()) nh_fail_ended(error, "while methods were compared: this is what was measured until then");
     nh_comparison_free(c);
-    return nh_interrupted() && !c ? NH_INTERRUPTED : (int)error->code;
+    return c ? (int)error->code : nh_cli_failed(error);
 }

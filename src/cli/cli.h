@@ -42,6 +42,7 @@ typedef struct {
     nh_chart_choice chart;
     nh_options options;
     bool seed_given, samples_given, tolerance_given, until_given;
+    bool limited;                /* a time limit was given */
     bool quiet, verbose, colour, help;
     nh_output_set files;         /* that are written and not yet in their places */
     nh_arena *arena;
@@ -57,9 +58,16 @@ nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_chart, nh_
 /* What simulate and chart ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);
 
-/* Show on stderr what is being done, as --progress says, and end soon with what there is on SIGINT and SIGTERM; a second signal ends at once. */
+/* Before the work: what is being done is shown on stderr, as --progress says; --max-seconds, SIGINT and SIGTERM end the work with what there is.  After it, before
+ * anything is written: signals end the process at once. */
 void nh_cli_watch_begin(const nh_cli *cli);
 void nh_cli_watch_end(void);
+/* Of these two: signals and the limit in seconds (none when it is not finite). */
+void nh_cli_guard_begin(double limit);
+void nh_cli_guard_writing(void);
+
+/* Nothing came of the work: the exit code.  Where it was ended, that is the reason, whatever failed for it. */
+int nh_cli_failed(nh_error *error);
 
 /* To repeat this command. */
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);

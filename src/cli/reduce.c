@@ -47,11 +47,11 @@ static void complain(const nh_reduction *r, double accuracy, nh_error *error)
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     nh_reduce_request request;
-    if (!request_of(cli, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_cli_watch_begin(cli);
+    if (!request_of(cli, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_reduction *r = nh_reduce(&request, error);
     nh_cli_watch_end();
-    if (!r) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
+    if (!r) return nh_cli_failed(error);
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
     if (!to_stdout && !cli->quiet) print(cli, r);
@@ -66,5 +66,5 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     bool partial = r->partial;
     if (good && cli->accuracy > 0 && !partial) complain(r, cli->accuracy, error);
     nh_reduction_free(r);
-    return !good ? (int)error->code : nh_interrupted() ? NH_INTERRUPTED : partial ? NH_LIMIT : (int)error->code;
+    return !good ? (int)error->code : nh_interrupted() ? (int)nh_ended_code() : partial ? NH_LIMIT : (int)error->code;
 }

@@ -63,11 +63,11 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
-    if (!nh_cli_motion_request(cli, example, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_cli_watch_begin(cli);
+    if (!nh_cli_motion_request(cli, example, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_simulation *s = nh_simulate(&request, error);
     nh_cli_watch_end();
-    if (!s) return nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
+    if (!s) return nh_cli_failed(error);
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     bool good = true;
     put_table(cli, s);
@@ -82,5 +82,5 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     if (s->astray && !cli->quiet) fprintf(stderr, "warning: %s\n", s->astray);
     if (good) complain(s, error);
     nh_simulation_free(s);
-    return good && nh_interrupted() ? NH_INTERRUPTED : (int)error->code;
+    return good && nh_interrupted() ? (int)nh_ended_code() : (int)error->code;
 }

@@ -23,7 +23,9 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
 {
     nh_verdict_of_one *v = NULL;
     nh_run run;
-    if (!nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return error->code;
+    nh_cli_watch_begin(cli);
+    if (!nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(error);
+    nh_cli_watch_end();
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true, conserved = v->conserved;
     if (!to_stdout && !cli->quiet) {
         nh_text text;

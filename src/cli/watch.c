@@ -1,6 +1,5 @@
-/* watch: progress on stderr, and signals. */
+/* watch: progress on stderr. */
 #include <math.h>
-#include <signal.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -13,12 +12,6 @@ enum { widest = 60 };
 static bool live; /* a line that is rewritten, on a terminal */
 static double begun, told; /* seconds */
 static char last[widest + 1];
-
-static void on_signal(int number)
-{
-    (void)number;
-    nh_interrupt();
-}
 
 /* "42 %, 7 s left: ": as if it went on as before. */
 static void put_part(double part)
@@ -47,10 +40,7 @@ static void show(void *context, const char *doing, double part)
 
 void nh_cli_watch_begin(const nh_cli *cli)
 {
-    struct sigaction act = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&act.sa_mask);
-    sigaction(SIGINT, &act, NULL);
-    sigaction(SIGTERM, &act, NULL);
+    nh_cli_guard_begin(cli->limited ? cli->options.max_seconds : INFINITY);
     bool terminal = isatty(STDERR_FILENO);
     if (cli->progress == NH_PROGRESS_NEVER || (cli->progress == NH_PROGRESS_AUTO && (!terminal || cli->quiet))) return;
     live = terminal;
@@ -60,8 +50,19 @@ void nh_cli_watch_begin(const nh_cli *cli)
 
 void nh_cli_watch_end(void)
 {
+    nh_cli_guard_writing();
     nh_progress_set(NULL, NULL);
     if (live) fputs("\r\033[K", stderr);
     live = false;
     fflush(stderr);
+}
+
+int nh_cli_failed(nh_error *error)
+{
+    char doing[80];
+    if (!nh_interrupted() || error->code == NH_USAGE) return error->code;
+    nh_error_clear(error);
+    nh_progress_last(doing, sizeof doing);
+    nh_fail_ended(error, "before there was anything to report%s%s", *doing ? ": " : "", doing);
+    return error->code;
 }

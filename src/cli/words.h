@@ -42,9 +42,9 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_samples,     "samples",     required_argument, "N",                  "analyze", "sample points")                                                         \
     X(opt_columns,     "columns",     required_argument, "N",                  "analyze", "largest ansatz that is tried")                                          \
     X(opt_threads,     "threads",     required_argument, "N",                  "analyze", "processors to use; they do not change the result")                      \
-    X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze reduce", "time after which the search ends, with what there is")           \
+    X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze verify simulate chart reduce", "an emergency brake: the time after which the run ends, with what there is") \
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate chart reduce", "any number of `nhsym explain options`")    \
-    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze simulate chart reduce", "what is being done, on standard error")           \
+    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate chart reduce", "what is being done, on standard error")           \
     X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate chart reduce new", "-q: no summary")                       \
     X('v',             "verbose",     no_argument,       "",                   "analyze simulate chart reduce", "-v: more of it")                                    \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate chart reduce", "no colours; NO_COLOR does the same")       \

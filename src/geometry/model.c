@@ -14,8 +14,8 @@ static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, 
 
 enum { large_length = 3000 }; /* nh_complexity of a Lagrangian */
 
-/* Behind a deadline longer formulas are better than none. */
-static nh_ex simple(const nh_model *o, nh_ex e) { return nh_late() ? e : nh_simplify_short(o->dag, e, 0); }
+/* Of an ended run nothing is kept: see nh_model_create. */
+static nh_ex simple(const nh_model *o, nh_ex e) { return nh_interrupted() ? e : nh_simplify_short(o->dag, e, 0); }
 
 /* ---- derivatives along fields ---- */
 
@@ -342,7 +342,12 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     momenta(o, &slope);
     inertial_forces(o, &slope);
     matrices(o, &slope);
-    if (accelerations(o, error) && multipliers(o, &slope, error)) return o;
+    bool good = !nh_interrupted() && accelerations(o, error) && multipliers(o, &slope, error);
+    if (nh_interrupted()) {
+        nh_error_clear(error);
+        good = nh_fail_ended(error, "while the equations of motion were derived");
+    }
+    if (good) return o;
     nh_model_free(o);
     return NULL;
 }

@@ -127,7 +127,7 @@ static bool check_input(const nh_equations *equations, nh_error *error)
 {
     size_t n = equations->columns, of_a = nh_qr_rows(equations->residuals), of_b = nh_qr_rows(equations->values);
     if (nh_late()) /* rows are missing then */
-        return nh_fail(error, NH_INTERRUPTED, "", "interrupted while %zu columns were compared", n);
+        return nh_fail_ended(error, "while %zu columns were compared", n);
     if (equations->bad)
         return nh_fail(error, NH_NUMERIC, "", "column %zu of the ansatz is not finite in %s at some sample point",
                        equations->bad_column, equations->bad);
@@ -162,7 +162,7 @@ static bool quotient(nh_equations *equations, const nh_basis *basis, double *spe
     nh_free(s);
     nh_free(vt);
     if (nh_interrupted())
-        return nh_fail(error, NH_INTERRUPTED, "", "interrupted while %zu columns were compared", n);
+        return nh_fail_ended(error, "while %zu columns were compared", n);
     return ok || nh_fail(error, NH_NUMERIC, "", "the singular value decomposition of %zu columns failed", k);
 }
 

@@ -55,6 +55,9 @@ void nh_analysis_free(nh_analysis *analysis);
 /* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its chart. */
 bool nh_analysis_resolve(nh_analysis *analysis, const nh_model *model, nh_error *error);
 
+/* Does it name an initial state?  Known before there is a model. */
+bool nh_analysis_starts(const nh_analysis *analysis);
+
 /* Any expression of the system (coordinate velocities, quasi-velocities) as a function of the model's chart. */
 bool nh_analysis_to_chart(const nh_model *model, nh_ex e, nh_ex *out, nh_error *error);
 

@@ -238,14 +238,13 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     r->command = q->command ? nh_arena_strdup(r->arena, q->command) : NULL;
     r->system_path = nh_arena_strdup(r->arena, q->system_path);
     r->analysis_path = q->analysis_path ? nh_arena_strdup(r->arena, q->analysis_path) : NULL;
+    nh_progress("the system file", -1);
     if (!read_files(r, q, error)) return false;
     merge_options(r, q);
     r->route = r->analysis ? r->analysis->route : NH_ROUTE_BOTH;
     r->timing.read = lap(&clock);
-    nh_deadline_set(r->options.max_seconds);
-    bool made = make_models(r, q, error);
-    nh_deadline_set(INFINITY);
-    if (!made) return false;
+    nh_progress("the equations of motion", -1);
+    if (!make_models(r, q, error)) return false;
     merge_options(r, q); /* now the analysis' motion is known too */
     r->timing.geometry = lap(&clock);
     size_t families = r->analysis ? r->analysis->families : 0;
@@ -271,7 +270,9 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     if (!nh_interrupted() && !q->no_figures) nh_figures_compute(r, q, families, family);
     if (nh_interrupted()) {
         r->partial = true;
-        nh_result_warn(r, "interrupted: this is what was found until then%s", r->validation ? "" : ", and no motion was computed");
+        char words[80];
+        nh_ended_words(words, sizeof words);
+        nh_result_warn(r, "%s: this is what was found until then%s%s", words, r->validation ? "" : ", and no motion was computed", nh_limit_reached() ? "; --max-seconds raises it" : "");
     }
     r->timing.validation = lap(&clock);
     r->timing.total = nh_clock() - start;

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "study/chart_internal.h"
 #include "study/reduce.h"
 
@@ -36,8 +37,10 @@ static nh_reduction *reduce(const nh_bench *c, const nh_simulate_request *q, nh_
     if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
     nh_reduce_request r = {.system_path = q->system_path, .settings = count + q->settings, .setting = setting, .chart = q->chart, .initial = initial_words(c), .project = true, .options = q->options};
     r.options.until = c->out->end - c->out->begin;
-    r.options.reduce_seconds = fmin(r.options.reduce_seconds, c->budget);
-    return nh_reduce(&r, error);
+    nh_deadline_set(c->budget);
+    nh_reduction *out = nh_reduce(&r, error);
+    nh_deadline_set(INFINITY);
+    return out;
 }
 
 /* Two methods in (x, p); why they are no reference, or NULL. */

@@ -49,7 +49,7 @@ static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
 
 bool nh_climb_done(const nh_climb *x)
 {
-    return nh_interrupted() || x->r->independent >= x->r->local_maximum || nh_clock() - x->start > x->r->options.max_seconds;
+    return nh_late() || x->r->independent >= x->r->local_maximum;
 }
 
 /* Certificates of vectors that are only likely are dear and mostly refused: the time limit ends them too, and leaves the question open. */

@@ -106,8 +106,9 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
         if (i + 1 == isometries_after && !nh_climb_done(&x)) nh_climb_isometries(&x);
         if (i + 1 == series_after && !nh_climb_done(&x)) nh_climb_series(&x);
     }
+    bool late = nh_late();
     nh_deadline_set(INFINITY);
-    if (nh_clock() - x.start > r->options.max_seconds) {
+    if (late && !nh_interrupted()) {
         r->partial = true;
         nh_result_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
     }

@@ -30,8 +30,8 @@ void nh_reduction_warn(nh_reduction *r, const char *format, ...)
 
 bool nh_reduction_late(nh_reduction *r, const char *what)
 {
-    if ((double)(clock() - r->begin) / CLOCKS_PER_SEC <= r->options.reduce_seconds) return false;
-    nh_reduction_warn(r, "the time limit of %g s left out %s; --max-seconds raises it", r->options.reduce_seconds, what);
+    if (!nh_late()) return false;
+    nh_reduction_warn(r, "the time limit left out %s; --max-seconds raises it", what);
     return r->partial = true;
 }
 
@@ -335,7 +335,12 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     if (divide) nh_progress("reduced equations, and motions of both", -1);
     if (divide && !nh_interrupted()) good = nh_reduction_stages(r, error);
     if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
-    if (nh_interrupted()) nh_reduction_warn(r, "interrupted: this is what was found until then");
+    if (nh_interrupted()) {
+        char words[80];
+        nh_ended_words(words, sizeof words);
+        nh_reduction_warn(r, "%s: this is what was found until then%s", words, nh_limit_reached() ? "; --max-seconds raises it" : "");
+        r->partial = true;
+    }
     if (good && nh_interrupted()) nh_error_clear(error);
     r->seconds = (double)(clock() - r->begin) / CLOCKS_PER_SEC;
     if (good) return r;

@@ -117,7 +117,7 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
     options.compile = 0; /* reduced motions are interpreted: so their times compare */
     nh_ex *place = nh_arena_alloc(r->arena, m * sizeof *place);
     for (size_t s = 0; s < m; s++) place[s] = r->whole->system->coordinate[s].q;
-    nh_trajectory_request request = {.model = r->whole, .initial = &r->initial, .count = NH_REDUCTION_OUTPUTS, .times = b->times, .options = &options, .n = m, .e = place, .max_seconds = r->options.reduce_seconds};
+    nh_trajectory_request request = {.model = r->whole, .initial = &r->initial, .count = NH_REDUCTION_OUTPUTS, .times = b->times, .options = &options, .n = m, .e = place};
     b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
     if (!attempts(b, &request, &ranking)) {
         b->full = NULL;

@@ -11,7 +11,7 @@
 
 enum { most_runs = 7 };       /* of one method */
 static const double aim = 0.5, loosest = 1e-5, tightest = 1e-14; /* aim: in what is wanted; tolerances */
-static const double patient = 0.25, more = 16, quick = 0.01;     /* seconds: the first limit; times that the next; a run so short is timed twice */
+static const double patient = 0.25, more = 16, longest = 2000, quick = 0.01; /* seconds: the first limit; times that the next; what no limit is above; a run so short is timed twice */
 
 typedef struct {
     const nh_method *method;
@@ -120,13 +120,13 @@ nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage
     size_t n = 0;
     for (size_t i = 0; i < nh_method_count(); i++)
         if (!nh_method_at(i)->order) m[n++] = (runner){.method = nh_method_at(i), .seconds = INFINITY};
-    for (q.limit = patient; isinf(q.seconds) && q.limit < more * fmax(r->options.reduce_seconds, patient) && !nh_interrupted(); q.limit *= more) {
+    for (q.limit = patient; isinf(q.seconds) && q.limit < longest && !nh_late(); q.limit *= more) {
         bool left = false;
         for (size_t i = 0; i < n && !nh_interrupted(); i++) {
             if (!m[i].out) enter(&q, &m[i]);
             left |= !m[i].out;
         }
-        if (!left || (double)(clock() - r->begin) / CLOCKS_PER_SEC > r->options.reduce_seconds) break;
+        if (!left) break;
     }
     if (isinf(q.seconds) && !nh_interrupted()) nh_reduction_late(r, "what slower methods reach in the motion of a stage");
     *how = q.how;

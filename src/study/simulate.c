@@ -80,6 +80,13 @@ static bool choose_initial(nh_simulation *s, nh_state *initial)
     return true;
 }
 
+static bool no_initial(const nh_simulation *s, nh_error *error)
+{
+    const char *name = s->system->coordinate[0].name;
+    nh_fail(error, NH_USAGE, "", "simulate needs an initial state");
+    return nh_error_hint(error, "--initial \"%s=0, %s'=1\"; what is not named is 0 or follows from the constraints", name, name);
+}
+
 bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_choose, nh_state *initial, double *until, nh_error *error)
 {
     nh_analysis *own = NULL;
@@ -89,6 +96,7 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_c
     if (count) memcpy(setting, s->analysis->setting, count * sizeof *setting);
     if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
     if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
+    if (!may_choose && !q->initial && !(s->analysis && nh_analysis_starts(s->analysis))) return no_initial(s, error); /* before minutes of work */
     bool good = resolve(s, q, &own, error);
     const nh_analysis *first = own ? own : s->analysis;
     if (good && first && first->has_initial && needs_other_chart(s, &first->initial)) good = resolve_again(s, q, &own, error);
@@ -112,9 +120,7 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_c
     *until = !q->until_given && s->analysis && s->analysis->has_until ? s->analysis->until : q->options.until;
     s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance : q->options.tolerance;
     nh_analysis_free(own);
-    if (given || (may_choose && choose_initial(s, initial))) return true;
-    nh_fail(error, NH_USAGE, "", "simulate needs an initial state");
-    return nh_error_hint(error, "--initial \"%s=0, %s=1\"; what is not named is 0 or follows from the constraints", s->system->coordinate[0].name, nh_name_of(s->model->dag, s->model->chart->w[0]));
+    return given || (may_choose && choose_initial(s, initial)) || no_initial(s, error);
 }
 
 /* ---- what is wanted along the motion ---- */

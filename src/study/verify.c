@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "noether/fixed.h"
@@ -27,6 +28,15 @@ static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const 
     nh_verdict_of_one *v = nh_arena_alloc(arena, sizeof *v);
     *v = (nh_verdict_of_one){.arena = arena, .system = system, .model = model};
     return v;
+}
+
+/* The verdict; of an ended run neither "yes" nor "no" is known. */
+static nh_verdict_of_one *complete(nh_verdict_of_one *v, bool good, nh_error *error)
+{
+    if (good && nh_interrupted()) good = nh_fail_ended(error, "before this was decided");
+    if (good) return v;
+    nh_verdict_free(v);
+    return NULL;
 }
 
 void nh_verdict_free(nh_verdict_of_one *v)
@@ -136,9 +146,7 @@ nh_verdict_of_one *nh_verify_current(nh_system *system, nh_chart_choice chart, c
         v->current = nh_simplify(v->model->dag, v->current);
         good = examine(v, options, error);
     }
-    if (good) return v;
-    nh_verdict_free(v);
-    return NULL;
+    return complete(v, good, error);
 }
 
 /* ---- fields ---- */
@@ -299,7 +307,5 @@ nh_verdict_of_one *nh_verify_field(nh_system *system, nh_chart_choice chart, con
         outside(v, &g);
         good = check_field(v, &g, options, error) && (!v->conserved || describe(v, options, error));
     }
-    if (good) return v;
-    nh_verdict_free(v);
-    return NULL;
+    return complete(v, good, error);
 }

@@ -1,0 +1,22 @@
+/* leave: what must not stay behind when the process ends at once: temporary files, folders, child processes. */
+#ifndef NH_LEAVE_H
+#define NH_LEAVE_H
+
+/* Part of whatever would stay behind. */
+typedef struct nh_leaving {
+    void (*undo)(struct nh_leaving *leaving); /* called from any thread; works without memory */
+    struct nh_leaving *next, **link;
+} nh_leaving;
+
+/* Between these the process does not end at once: files take their places together.  Short, and not nested. */
+void nh_leave_hold(void);
+void nh_leave_release(void);
+
+/* Between those: when the thing comes into being, and when it is gone or has its place. */
+void nh_leave_add(nh_leaving *leaving);
+void nh_leave_remove(nh_leaving *leaving);
+
+/* Undo everything; the caller ends the process then.  Whoever wants to hold waits for ever. */
+void nh_leave_now(void);
+
+#endif

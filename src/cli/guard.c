@@ -1,0 +1,89 @@
+/* guard: signals and the time limit.
+ *
+ * One thread waits for both.  The first signal, and the limit, end the computation by base/progress.h: it returns soon, with what it has.  A second signal, one that
+ * comes while results are written, and a computation that is still not back `grace` after the limit end the process at once: without temporary files, folders and
+ * children (base/leave.h), so that every file is whole or as it was. */
+#include <math.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/leave.h"
+#include "base/progress.h"
+#include "cli/cli.h"
+
+static atomic_bool writing;
+static double end; /* by the monotonic clock */
+
+static void end_at_once(int code)
+{
+    char doing[80] = "";
+    nh_leave_now();
+    nh_progress_last(doing, sizeof doing);
+    if (code == NH_INTERRUPTED) dprintf(STDERR_FILENO, "nhsym: interrupted\n");
+    else
+        dprintf(STDERR_FILENO, "nhsym: %s%s%sthe time limit was reached, and nothing could be reported in time\nhint: --max-seconds raises it\n", doing, *doing ? ": " : "",
+                atomic_load(&writing) ? "the results were being written when " : "");
+    _exit(code);
+}
+
+static sigset_t signals(void)
+{
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    return set;
+}
+
+/* The next signal; 0: the time is over, or nothing came for an hour. */
+static int next_signal(const sigset_t *set)
+{
+    static const double longest = 3600;
+    double left = fmin(fmax(end - nh_clock(), 0), longest), whole = floor(left);
+    struct timespec pause = {(time_t)whole, (long)(1e9 * (left - whole))};
+    int number = sigtimedwait(set, NULL, &pause);
+    return number > 0 ? number : 0;
+}
+
+static void *stand(void *unused)
+{
+    sigset_t set = signals();
+    while (true) {
+        if (next_signal(&set)) {
+            if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED);
+            nh_interrupt();
+        } else if (nh_clock() >= end) {
+            end_at_once(NH_LIMIT);
+        }
+    }
+    return unused;
+}
+
+static void on_signal(int number)
+{
+    (void)number;
+    nh_interrupt();
+}
+
+void nh_cli_guard_begin(double limit)
+{
+    /* of the limit, and in seconds: what a computation may take to come back, and to write what there is */
+    static const double grace = 0.15, more = 0.15;
+    struct sigaction act = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND}; /* somebody may have us ignore them; and where no thread can be had */
+    sigset_t set = signals();
+    pthread_t thread;
+    sigemptyset(&act.sa_mask);
+    sigaction(SIGINT, &act, NULL);
+    sigaction(SIGTERM, &act, NULL);
+    nh_limit_set(limit);
+    end = nh_clock() + (1 + grace) * limit + more;
+    pthread_sigmask(SIG_BLOCK, &set, NULL);
+    if (pthread_create(&thread, NULL, stand, NULL)) pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+    else pthread_detach(thread);
+}
+
+void nh_cli_guard_writing(void) { atomic_store(&writing, true); }

@@ -1,0 +1,66 @@
+/* The time limit is an emergency brake: what a run says after it is marked as partial, and is never a refutation; nothing stays behind.  How late a run may end is
+ * measured by tests/limits.sh, not here. */
+#include "program.h"
+
+#include <cjson/cJSON.h>
+
+static bool ends(const finished *f) { return strstr(f->err, "time limit") || strstr(f->out, "time limit"); }
+
+/* A system that takes minutes: exit code 5, with a partial result or with none. */
+static void brake(const place *p, const char *arguments)
+{
+    finished f = run_expecting(p, arguments, 5);
+    cJSON *root = *f.out ? cJSON_Parse(f.out) : NULL;
+    cr_expect(ends(&f), "%s: %s%s", arguments, f.out, f.err);
+    cr_expect(!*f.out || root, "%s: half a result: %.300s", arguments, f.out);
+    if (root) {
+        const char *verdict = cJSON_GetStringValue(cJSON_GetObjectItem(root, "verdict"));
+        cr_expect(cJSON_IsTrue(cJSON_GetObjectItem(root, "partial")), "%s", arguments);
+        cr_expect(!verdict || strcmp(verdict, "NONE"), "%s", arguments);
+    }
+    cJSON_Delete(root);
+    finished_clear(&f);
+}
+
+Test(limits, every_command_has_the_brake)
+{
+    static const char *const lines[] = {"analyze nasty/many_functions.yaml", "reduce nasty/free_particles.yaml", "analyze nasty/robot_12.yaml", "verify nasty/quadratic_constraints.yaml --current \"q1'\"",
+                                        "simulate nasty/dense_mass.yaml --initial \"q1'=1\" --until 1000"};
+    place p = place_make();
+    char from[PATH_MAX + 40], to[PATH_MAX + 40], line[300];
+    snprintf(from, sizeof from, "%.4000s/tests/data/nasty", p.project);
+    snprintf(to, sizeof to, "%.4000s/nasty", p.folder);
+    cr_assert_eq(symlink(from, to), 0);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        snprintf(line, sizeof line, "%s --max-seconds 0.1 --json -", lines[i]);
+        brake(&p, line);
+    }
+    finished f = run_expecting(&p, "simulate nasty/dense_mass.yaml", 2); /* before the equations, which take minutes */
+    cr_expect(strstr(f.err, "simulate needs an initial state"), "%s", f.err);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* ---- a signal while the output is written ---- */
+
+/* Standard output is a pipe that nobody empties, so that the program is writing when the signal comes. */
+Test(limits, a_signal_ends_the_writing_at_once)
+{
+    place p = place_with_systems();
+    char command[900];
+    write_here(&p, "page.html", "an older page");
+    snprintf(command, sizeof command,
+             "mkfifo pipe; exec 3<>pipe\n"
+             "'%.200s' simulate sleigh --initial omega=2 --ensemble 500 --until 10 --step 0.01 --html page.html >pipe 2>err & p=$!\n"
+             "(sleep 60; kill -KILL $p) >/dev/null 2>&1 & w=$!\n"
+             "read -r line <&3\nkill -INT $p\nwait $p; code=$?\nkill $w\nls\nexit $code", p.program);
+    finished f = run_vector(&p, &(manner){0}, (char *[]){"sh", "-c", command, NULL});
+    cr_expect_eq(f.code, 130, "exit code %d: %s", f.code, f.err);
+    cr_expect_null(strstr(f.out, "page.html."), "a temporary file stayed: %s", f.out);
+    char *page = read_here(&p, "page.html"), *err = read_here(&p, "err");
+    cr_expect_str_eq(page, "an older page");
+    cr_expect_not_null(strstr(err, "interrupted"));
+    free(page), free(err);
+    finished_clear(&f);
+    place_clear(&p);
+}
