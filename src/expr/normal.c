@@ -18,6 +18,15 @@ nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms)
     return verdict;
 }
 
+nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms)
+{
+    nh_forms forms;
+    nh_forms_init(&forms, dag, false, max_terms ? max_terms : default_terms);
+    e = nh_form_rewrite(&forms, e);
+    nh_forms_clear(&forms);
+    return e;
+}
+
 /* ---- how long it looks ---- */
 
 static const size_t endless = SIZE_MAX / 4; /* a shared graph can be exponentially long on paper */

@@ -29,6 +29,9 @@ nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most);
  * sin(x) - y*cos(x)); e itself when the size bound is met. */
 nh_ex nh_numerator(nh_dag *dag, nh_ex e);
 
+/* An equal expression with canonical arguments of functions, radicands and exponents, so that equal ones are the same node. */
+nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms);
+
 /* Is every number in e a rational?  Is it one of 64 bits, which can be printed as such?  Where an expression has longer ones while its source
  * has none, it is no simpler form. */
 bool nh_is_exact(const nh_dag *dag, nh_ex e);

@@ -1,0 +1,51 @@
+/* count: how many integrals polynomial in the velocities a system has, and whether those that are known are all.
+ *
+ *     Phi = sum over |alpha| <= d of c_alpha(q) w^alpha   or c_alpha(t, q),    any functions c_alpha
+ *
+ * The number N of power series that solve Gamma(Phi) = 0 up to an order r, at a point and modulo a prime, is an upper bound for the dimension of the space
+ * of integrals of degree d on every connected open set of regular points (docs/method.md, sec. 10); products of known integrals that are linearly
+ * independent modulo the prime are a lower one.  Where both are equal there are no others.
+ *
+ * Out of reach: velocities that are given implicitly, equations that are not polynomial in the velocities, functions that are related in ways that a
+ * choice of residues does not follow.  Then there is an obstacle, and no number. */
+#ifndef NH_COUNT_H
+#define NH_COUNT_H
+
+#include "integrals/adapted_frame.h"
+#include "integrals/graded_solver.h"
+
+enum { NH_COUNT_HIGHEST_DEGREE = 12 };
+
+typedef struct {
+    size_t degree;
+    size_t bound;           /* N: with the constant 1 */
+    size_t known;           /* independent products of known integrals of this degree at most, with 1 */
+    size_t order;           /* r */
+    bool bounded;           /* the symbol was injective below this order: `bound` is one */
+    bool settled;           /* N did not change over the last orders; otherwise more of them may lower it */
+    bool complete;          /* bound == known */
+} nh_count_row;
+
+typedef struct {
+    bool time;              /* coefficients may depend on t */
+    bool generic;           /* for parameters that are algebraically independent, otherwise at the values given */
+    size_t rows;
+    nh_count_row row[NH_COUNT_HIGHEST_DEGREE]; /* of degrees 1, 2, .. */
+    size_t step;            /* the largest weight: brackets of this length span everything */
+    size_t leaf;            /* coordinates across the leaves of integrable constraints */
+    uint64_t prime;
+    const char *obstacle;   /* why nothing was counted, or NULL */
+    const char *end;        /* why no higher degree was counted, or NULL */
+} nh_count;
+
+typedef struct {
+    bool time, generic;
+    size_t degree;          /* up to which; 0: as far as `work` goes */
+    double work;            /* products of residues, about 5e8 a second */
+    size_t known;
+    const nh_ex *current;   /* integrals in t, q, w: what is not polynomial in the velocities is left out */
+} nh_count_question;
+
+nh_count nh_count_integrals(const nh_model *model, const nh_count_question *question);
+
+#endif

@@ -1,0 +1,332 @@
+/* The linear system Gamma(Phi) = 0 weight by weight, with sparse elimination of the symbol, component by component, and FLINT's echelon form for the
+ * conditions on the parameters. */
+#include "integrals/graded_internal.h"
+
+#include <flint/nmod_mat.h>
+#include <string.h>
+
+enum { spare_rows = 8, no_alpha = -1 };
+
+/* One term of Gamma: `series` times d/dz_index (derivative) or d/dw^index, which adds the exponent `shift` to alpha. */
+typedef struct nh_graded_term {
+    bool derivative;
+    size_t index;
+    const nh_residue *series;
+    int *alpha;             /* per target monomial beta: the alpha that it comes from, or no_alpha */
+} term;
+
+/* ---- monomials in the velocities ---- */
+
+static size_t monomials(size_t n, size_t degree, int parity, uint8_t *out)
+{
+    uint8_t *e = nh_alloc(n + 1);
+    size_t count = 0;
+    for (bool more = true; more;) {
+        size_t sum = 0;
+        for (size_t i = 0; i < n; i++) sum += e[i];
+        if (sum <= degree && (parity < 0 || (int)(sum % 2) == parity)) {
+            if (out) memcpy(out + count * n, e, n);
+            count++;
+        }
+        size_t i = 0;
+        while (i < n && (sum >= degree || e[i] == degree)) sum -= e[i], e[i++] = 0;
+        more = i < n;
+        if (more) e[i]++;
+    }
+    nh_free(e);
+    return count;
+}
+
+static uint64_t code(size_t n, size_t degree, const int *e)
+{
+    uint64_t c = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (e[i] < 0 || e[i] > (int)degree) return UINT64_MAX;
+        c = c * (degree + 2) + (uint64_t)e[i];
+    }
+    return c;
+}
+
+static int find_alpha(const nh_graded_system *s, const int *e)
+{
+    size_t n = s->p->n;
+    uint64_t wanted = code(n, s->p->degree, e);
+    if (wanted == UINT64_MAX) return no_alpha;
+    for (size_t a = 0; a < s->alphas; a++) {
+        bool same = true;
+        for (size_t i = 0; i < n && same; i++) same = s->alpha[a * n + i] == e[i];
+        if (same) return (int)a;
+    }
+    return no_alpha;
+}
+
+/* Where alpha = beta - shift. */
+static void add_term(nh_graded_system *s, bool derivative, size_t index, const nh_residue *series, const int *shift)
+{
+    size_t n = s->p->n;
+    if (nh_jet_is_zero(s->r, series)) return;
+    term *t = &s->t[s->terms++];
+    *t = (term){derivative, index, series, nh_arena_alloc(s->arena, (s->betas + 1) * sizeof *t->alpha)};
+    int *e = nh_alloc_array(n + 1, sizeof *e);
+    for (size_t b = 0; b < s->betas; b++) {
+        for (size_t i = 0; i < n; i++) e[i] = s->beta[b * n + i] - shift[i];
+        t->alpha[b] = find_alpha(s, e);
+    }
+    nh_free(e);
+}
+
+/* w^i X_i^k d/dz_k,  X_0^k d/dz_k,  and the rates' monomials times d/dw^l */
+static void list_terms(nh_graded_system *s)
+{
+    const nh_graded_problem *p = s->p;
+    size_t n = p->n, m = s->r->variables, e = s->r->size, count = 1 + n + n * (n + 1) / 2;
+    int *shift = nh_alloc_array(n + 1, sizeof *shift);
+    s->t = nh_arena_alloc(s->arena, (p->fields * m + n * count + 1) * sizeof *s->t);
+    for (size_t i = 0; i < p->fields; i++) {
+        memset(shift, 0, (n + 1) * sizeof *shift);
+        if (i < n) shift[i] = 1;
+        for (size_t k = 0; k < m; k++) add_term(s, true, k, p->field + (i * m + k) * e, shift);
+    }
+    for (size_t l = 0; l < n; l++)
+        for (size_t mu = 0, i = 0, j = 0; mu < count; mu++) {
+            memset(shift, 0, (n + 1) * sizeof *shift);
+            shift[l]--;
+            if (mu > 0 && mu <= n) shift[mu - 1]++;
+            if (mu > n) {
+                shift[i]++;
+                shift[j]++;
+                if (++j == n) j = ++i;
+            }
+            add_term(s, false, l, p->rate + (l * count + mu) * e, shift);
+        }
+    nh_free(shift);
+}
+
+/* ---- rows ---- */
+
+static void more_room(nh_graded_system *s)
+{
+    size_t rows = s->alphas * s->r->size, old = s->stride;
+    if (s->N < old) return;
+    size_t stride = old ? 2 * old : 64;
+    if (stride > s->p->most_parameters) stride = s->p->most_parameters;
+    if (stride <= s->N) {
+        s->over = true;
+        return;
+    }
+    nh_residue *wider = nh_alloc_array(rows * stride, sizeof *wider), *conditions = nh_alloc_array(s->conditions * stride + 1, sizeof *conditions);
+    for (size_t i = 0; old && i < rows; i++) memcpy(wider + i * stride, s->row + i * old, s->N * sizeof *wider);
+    for (size_t i = 0; old && i < s->conditions; i++) memcpy(conditions + i * stride, s->condition + i * old, s->reached * sizeof *conditions);
+    nh_free(s->row);
+    nh_free(s->condition);
+    s->row = wider;
+    s->condition = conditions;
+    s->stride = stride;
+}
+
+void nh_graded_parameter(nh_graded_system *s, size_t alpha, size_t exponent)
+{
+    more_room(s);
+    if (!s->over) nh_graded_row(s, alpha, exponent)[s->N++] = 1;
+}
+
+/* ---- the equations of weight k ---- */
+
+/* The equation of beta and exponent `e`: what is known, and the symbol. */
+static void equation(nh_graded_system *s, size_t beta, size_t e, size_t number, uint64_t *sum)
+{
+    const nh_jet_ring *r = s->r;
+    size_t n = s->p->n, m = r->variables;
+    memset(sum, 0, (s->N + 1) * sizeof *sum);
+    for (size_t i = 0; i < s->terms; i++) {
+        const term *t = &s->t[i];
+        if (t->alpha[beta] == no_alpha) continue;
+        size_t a = (size_t)t->alpha[beta];
+        for (size_t z = r->pairs[e]; z < r->pairs[e + 1]; z++) {
+            nh_residue v = t->series[r->left[z]];
+            if (!v) continue;
+            size_t u = t->derivative ? r->up[t->index * r->size + r->right[z]] : r->right[z];
+            v = nh_residue_mul(s->f, v, t->derivative ? r->exponent[u * m + t->index] : s->alpha[a * n + t->index]);
+            if (!v) continue;
+            if (u == UINT32_MAX || r->degree[u] > s->k + 1) { /* the coordinates do not have these weights */
+                s->over = true;
+                return;
+            }
+            if (r->degree[u] == s->k + 1) {
+                nh_grow(&s->symbol, &s->capacity, s->entries + 1, sizeof *s->symbol);
+                s->symbol[s->entries++] = (nh_graded_entry){number, a * s->unknowns_of + (u - s->first), v};
+                continue;
+            }
+            const nh_residue *x = nh_graded_row(s, a, u);
+            for (size_t j = 0; j < s->N; j++) sum[j] = nh_residue_gather(s->f, sum[j], v, x[j]);
+            s->work += (double)s->N;
+        }
+    }
+    for (size_t j = 0; j < s->N; j++) s->known[number * s->N + j] = (nh_residue)(sum[j] % s->f.p);
+}
+
+static void equations(nh_graded_system *s)
+{
+    const nh_jet_ring *r = s->r;
+    size_t from = r->first[s->k], to = r->first[s->k + 1], count = to - from;
+    s->first = to;
+    s->unknowns_of = r->first[s->k + 2] - to;
+    s->equations = s->betas * count;
+    s->entries = 0;
+    s->known = nh_alloc_array(s->equations * s->N + 1, sizeof *s->known);
+    s->start = nh_alloc_array(s->equations + 1, sizeof *s->start);
+    uint64_t *sum = nh_alloc_array(s->N + 1, sizeof *sum);
+    for (size_t q = 0; q < s->equations && !s->over && s->work < s->p->most_work; q++) {
+        s->start[q] = s->entries;
+        equation(s, q / count, from + q % count, q, sum);
+    }
+    s->over |= s->work >= s->p->most_work;
+    s->start[s->equations] = s->entries;
+    nh_free(sum);
+}
+
+/* ---- conditions on the parameters ---- */
+
+/* The new conditions, as few random combinations as can have their rank (fewer conditions can only leave more parameters). */
+static void compress(nh_graded_system *s, nmod_mat_t out)
+{
+    size_t columns = s->before, wanted = columns - s->conditions + spare_rows;
+    nmod_mat_t all;
+    nmod_mat_init(all, (slong)s->fresh_count, (slong)columns, s->f.p);
+    for (size_t q = 0; q < s->fresh_count; q++) /* the latest parameters first: these are eliminated */
+        for (size_t j = 0; j < columns; j++) nmod_mat_entry(all, q, columns - 1 - j) = s->fresh[q * columns + j];
+    if (s->fresh_count <= wanted) {
+        nmod_mat_init_set(out, all);
+    } else {
+        nmod_mat_t mix;
+        uint64_t state = s->k + 1;
+        nmod_mat_init(mix, (slong)wanted, (slong)s->fresh_count, s->f.p);
+        for (size_t i = 0; i < wanted; i++)
+            for (size_t j = 0; j < s->fresh_count; j++) nmod_mat_entry(mix, i, j) = nh_residue_random(s->f, &state);
+        nmod_mat_init(out, (slong)wanted, (slong)columns, s->f.p);
+        nmod_mat_mul(out, mix, all);
+        nmod_mat_clear(mix);
+        s->work += (double)wanted * (double)s->fresh_count * (double)columns;
+    }
+    nmod_mat_clear(all);
+}
+
+/* Every row: what belongs to the pivots is replaced, and the rest moves together. */
+static void substitute(nh_graded_system *s, const nmod_mat_t echelon, size_t rank)
+{
+    size_t columns = s->reached, kept = 0;
+    size_t *pivot = nh_alloc_array(rank + 1, sizeof *pivot), *to = nh_alloc_array(s->N + 1, sizeof *to);
+    for (size_t j = 0; j < s->N; j++) to[j] = 0;
+    for (size_t q = 0; q < rank; q++) {
+        size_t j = 0;
+        while (!nmod_mat_entry(echelon, q, j)) j++;
+        pivot[q] = columns - 1 - j;
+        to[pivot[q]] = SIZE_MAX;
+    }
+    for (size_t j = 0; j < s->N; j++)
+        if (to[j] != SIZE_MAX) to[j] = kept++;
+    nh_residue *condition = nh_alloc_array(rank * columns + 1, sizeof *condition);
+    for (size_t q = 0; q < rank; q++)
+        for (size_t j = 0; j < columns; j++) condition[q * columns + columns - 1 - j] = (nh_residue)nmod_mat_entry(echelon, q, j);
+    size_t last = s->k + 1;
+    for (size_t a = 0; a < s->alphas; a++)
+        for (size_t e = 0; e < s->r->first[last + 1]; e++) {
+            nh_residue *x = nh_graded_row(s, a, e);
+            for (size_t q = 0; q < rank; q++) nh_residue_add_multiple(s->f, columns, x, condition + q * columns, nh_residue_negative(s->f, x[pivot[q]]));
+            for (size_t j = 0; j < s->N; j++)
+                if (to[j] != SIZE_MAX) x[to[j]] = x[j];
+            memset(x + kept, 0, (s->N - kept) * sizeof *x);
+        }
+    s->work += (double)s->alphas * (double)s->r->first[last + 1] * (double)rank * (double)columns;
+    s->N = kept;
+    nh_free(condition);
+    nh_free(to);
+    nh_free(pivot);
+}
+
+/* All conditions in echelon form; they are substituted where few parameters survive. */
+static void use_conditions(nh_graded_system *s)
+{
+    size_t columns = s->before;
+    if (!s->fresh_count || !columns) return;
+    nmod_mat_t fresh, all;
+    compress(s, fresh);
+    nmod_mat_init(all, (slong)s->conditions + nmod_mat_nrows(fresh), (slong)columns, s->f.p);
+    for (size_t q = 0; q < s->conditions; q++)
+        for (size_t j = 0; j < s->reached; j++) nmod_mat_entry(all, q, columns - 1 - j) = s->condition[q * s->stride + j];
+    for (slong q = 0; q < nmod_mat_nrows(fresh); q++)
+        for (size_t j = 0; j < columns; j++) nmod_mat_entry(all, s->conditions + (size_t)q, j) = nmod_mat_entry(fresh, q, j);
+    nmod_mat_clear(fresh);
+    size_t rank = (size_t)nmod_mat_rref(all);
+    s->work += (double)nmod_mat_nrows(all) * (double)columns * (double)rank;
+    s->reached = columns;
+    if (4 * (s->N - rank) <= s->N) {
+        substitute(s, all, rank);
+        s->conditions = 0;
+    } else {
+        nh_free(s->condition);
+        s->condition = nh_alloc_array(rank * s->stride + 1, sizeof *s->condition);
+        for (size_t q = 0; q < rank; q++)
+            for (size_t j = 0; j < columns; j++) s->condition[q * s->stride + columns - 1 - j] = (nh_residue)nmod_mat_entry(all, q, j);
+        s->conditions = rank;
+    }
+    nmod_mat_clear(all);
+}
+
+/* ---- weight by weight ---- */
+
+static void solve_weight(nh_graded_system *s, nh_graded_count *out)
+{
+    s->before = s->N;
+    equations(s);
+    s->fresh = NULL;
+    size_t before = s->N;
+    if (!s->over) nh_graded_solve_symbol(s);
+    bool fresh = s->N > before;
+    out->most = s->N > out->most ? s->N : out->most;
+    if (!s->over) use_conditions(s);
+    if (fresh) out->injective = false;
+    else if (!out->injective) out->injective = true, out->injective_at = s->k + 1;
+    out->total[s->k + 1] = s->N - s->conditions;
+    nh_free(s->fresh);
+    nh_free(s->known);
+    nh_free(s->start);
+}
+
+static void start(nh_graded_system *s)
+{
+    const nh_graded_problem *p = s->p;
+    int own = p->parity == NH_ALL_DEGREES ? -1 : p->parity == NH_ODD_DEGREES, other = own < 0 ? -1 : 1 - own;
+    s->alphas = monomials(p->n, p->degree, own, NULL);
+    s->alpha = nh_arena_alloc(s->arena, s->alphas * p->n + 1);
+    monomials(p->n, p->degree, own, s->alpha);
+    s->betas = monomials(p->n, p->degree + 1, other, NULL);
+    s->beta = nh_arena_alloc(s->arena, s->betas * p->n + 1);
+    monomials(p->n, p->degree + 1, other, s->beta);
+    list_terms(s);
+    for (size_t a = 0; a < s->alphas && !s->over; a++) nh_graded_parameter(s, a, 0);
+}
+
+nh_graded_count *nh_graded_solve(const nh_graded_problem *p)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_graded_count *out = nh_arena_alloc(arena, sizeof *out);
+    *out = (nh_graded_count){.order = p->ring->order, .arena = arena};
+    out->total = nh_arena_alloc(arena, (out->order + 1) * sizeof *out->total);
+    nh_graded_system s = {.p = p, .r = p->ring, .f = p->ring->field, .arena = arena};
+    start(&s);
+    out->unknowns = s.alphas * s.r->size;
+    out->total[0] = out->most = s.N;
+    for (s.k = 0; s.k < out->order && !s.over; s.k++) solve_weight(&s, out);
+    out->solved = !s.over;
+    out->work = s.work;
+    nh_free(s.symbol);
+    nh_free(s.condition);
+    nh_free(s.row);
+    return out;
+}
+
+void nh_graded_count_clear(nh_graded_count *count)
+{
+    if (count) nh_arena_free(count->arena);
+}

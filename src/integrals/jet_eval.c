@@ -1,0 +1,286 @@
+/* Expressions as truncated power series modulo a prime: one pass over the graph, operands first. */
+#include "integrals/jet_eval.h"
+
+#include <string.h>
+
+struct nh_jet_eval {
+    nh_jet_point *point;
+    const nh_jet_ring *ring;
+    nh_dag *dag;
+    size_t nodes;
+    nh_residue **value;   /* per node; NULL: not known */
+    bool *varies, *wanted;
+    bool unlucky;
+};
+
+nh_jet_eval *nh_jet_eval_create(nh_jet_point *point, const nh_jet_ring *ring)
+{
+    nh_jet_eval *v = nh_alloc(sizeof *v);
+    *v = (nh_jet_eval){.point = point, .ring = ring, .dag = point->dag, .nodes = nh_dag_size(point->dag)};
+    v->value = nh_alloc_array(v->nodes + 1, sizeof *v->value);
+    v->varies = nh_alloc_array(v->nodes + 1, sizeof *v->varies);
+    v->wanted = nh_alloc_array(v->nodes + 1, sizeof *v->wanted);
+    return v;
+}
+
+void nh_jet_eval_free(nh_jet_eval *v)
+{
+    if (!v) return;
+    for (size_t i = 0; i < v->nodes; i++) nh_free(v->value[i]);
+    nh_free(v->value);
+    nh_free(v->varies);
+    nh_free(v->wanted);
+    nh_free(v);
+}
+
+void nh_jet_eval_set(nh_jet_eval *v, nh_ex symbol, const nh_residue *series, bool varies)
+{
+    for (size_t i = 0; varies && i < v->nodes; i++)
+        if (v->varies[i] && nh_kind_of(v->dag, (nh_ex)i) != NH_SYMBOL) {
+            nh_free(v->value[i]);
+            v->value[i] = NULL;
+        }
+    if (!v->value[symbol]) v->value[symbol] = nh_alloc_array(v->ring->size, sizeof **v->value);
+    memcpy(v->value[symbol], series, v->ring->size * sizeof *series);
+    v->varies[symbol] = varies;
+}
+
+/* ---- one node ---- */
+
+static nh_residue number(nh_jet_eval *v, nh_num a)
+{
+    nh_residue r = 0;
+    if (!nh_jet_point_number(v->point, a, &r)) v->unlucky = true;
+    return r;
+}
+
+static void sum(nh_jet_eval *v, nh_ex e, nh_residue *out)
+{
+    nh_jet_constant(v->ring, number(v, nh_constant_of(v->dag, e)), out);
+    for (size_t i = 0; i < nh_arity(v->dag, e); i++) nh_jet_add_multiple(v->ring, out, number(v, nh_coefficient_of(v->dag, e, i)), v->value[nh_child(v->dag, e, i)]);
+}
+
+static void whole_power(nh_jet_eval *v, const nh_residue *base, int64_t n, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    if (base[0]) { /* by the recurrence */
+        nh_residue at = nh_residue_power(r->field, base[0], (uint64_t)(n < 0 ? -n : n));
+        nh_jet_power(r, base, nh_residue_of(r->field, n), n < 0 ? nh_residue_inverse(r->field, at) : at, out);
+        return;
+    }
+    v->unlucky |= n < 0;
+    nh_residue *square = nh_alloc_array(2 * r->size, sizeof *square), *product = square + r->size;
+    memcpy(square, base, r->size * sizeof *square);
+    nh_jet_constant(r, 1, out);
+    for (uint64_t k = (uint64_t)(n < 0 ? 0 : n); k; k >>= 1) {
+        if (k & 1) {
+            nh_jet_mul(r, out, square, product);
+            memcpy(out, product, r->size * sizeof *out);
+        }
+        nh_jet_mul(r, square, square, product);
+        memcpy(square, product, r->size * sizeof *square);
+    }
+    nh_free(square);
+}
+
+static void power(nh_jet_eval *v, nh_ex base, nh_num exponent, nh_residue *out)
+{
+    const nh_residue *b = v->value[base];
+    nh_residue at, s = number(v, exponent);
+    if (exponent.q == 1) {
+        whole_power(v, b, exponent.p, out);
+    } else if (b[0] && nh_jet_point_root(v->point, base, b[0], exponent, &at)) {
+        nh_jet_power(v->ring, b, s, at, out);
+    } else {
+        v->unlucky = true;
+    }
+}
+
+static void product(nh_jet_eval *v, nh_ex e, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    nh_residue *factor = nh_alloc_array(2 * r->size, sizeof *factor), *both = factor + r->size;
+    nh_jet_constant(r, number(v, nh_constant_of(v->dag, e)), out);
+    for (size_t i = 0; i < nh_arity(v->dag, e) && !v->unlucky; i++) {
+        nh_num x = nh_number_of(v->dag, nh_exponent_of(v->dag, e, i));
+        bool plain = nh_num_is(x, 1);
+        if (!plain) power(v, nh_child(v->dag, e, i), x, factor);
+        nh_jet_mul(r, out, plain ? v->value[nh_child(v->dag, e, i)] : factor, both);
+        memcpy(out, both, r->size * sizeof *out);
+    }
+    nh_free(factor);
+}
+
+/* tan = sin/cos, and the hyperbolic functions by exp: numerator and denominator */
+static void divide(nh_jet_eval *v, const nh_residue *top, const nh_residue *bottom, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    if (!bottom[0]) {
+        v->unlucky = true;
+        return;
+    }
+    nh_residue *inverse = nh_alloc_array(r->size, sizeof *inverse);
+    nh_jet_power(r, bottom, (nh_residue)(r->field.p - 1), nh_residue_inverse(r->field, bottom[0]), inverse);
+    nh_jet_mul(r, top, inverse, out);
+    nh_free(inverse);
+}
+
+static void circular(nh_jet_eval *v, nh_ex e, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    nh_ex argument = nh_child(v->dag, e, 0);
+    nh_function f = nh_function_of(v->dag, e);
+    nh_residue *sine = nh_alloc_array(2 * r->size, sizeof *sine), *cosine = sine + r->size, s, c;
+    v->unlucky |= !nh_jet_point_circle(v->point, argument, &s, &c);
+    if (!v->unlucky) {
+        nh_jet_circle(r, v->value[argument], s, c, sine, cosine);
+        if (f == NH_TAN) divide(v, sine, cosine, out);
+        else memcpy(out, f == NH_SIN ? sine : cosine, r->size * sizeof *out);
+    }
+    nh_free(sine);
+}
+
+static void exponential(nh_jet_eval *v, nh_ex e, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    nh_ex argument = nh_child(v->dag, e, 0);
+    nh_function f = nh_function_of(v->dag, e);
+    nh_residue *up = nh_alloc_array(4 * r->size, sizeof *up), *down = up + r->size, *sine = down + r->size, *cosine = sine + r->size, at;
+    nh_jet_point_exponential(v->point, argument, &at);
+    nh_jet_exponential(r, v->value[argument], at, up);
+    if (f == NH_EXP) {
+        memcpy(out, up, r->size * sizeof *out);
+    } else {
+        nh_residue half = nh_residue_inverse(r->field, 2), minus = nh_residue_negative(r->field, half);
+        nh_jet_power(r, up, (nh_residue)(r->field.p - 1), nh_residue_inverse(r->field, at), down);
+        nh_jet_add_multiple(r, sine, half, up);
+        nh_jet_add_multiple(r, sine, minus, down);
+        nh_jet_add_multiple(r, cosine, half, up);
+        nh_jet_add_multiple(r, cosine, half, down);
+        if (f == NH_TANH) divide(v, sine, cosine, out);
+        else memcpy(out, f == NH_SINH ? sine : cosine, r->size * sizeof *out);
+    }
+    nh_free(up);
+}
+
+/* f'(u) of the inverse functions and the logarithm: (+-1) (c + s u^2)^(-1/2) or 1/(c + s u^2), or 1/u.  The root gets a value of its own: it is no
+ * node of the graph. */
+static bool slope(nh_jet_eval *v, nh_function f, const nh_residue *u, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    nh_prime p = r->field;
+    nh_residue minus = (nh_residue)(p.p - 1), root;
+    if (f == NH_LOG) {
+        if (u[0]) nh_jet_power(r, u, minus, nh_residue_inverse(p, u[0]), out);
+        return u[0] != 0;
+    }
+    bool rational = f == NH_ATAN || f == NH_ATANH, good = true;
+    nh_residue *inner = nh_alloc_array(2 * r->size, sizeof *inner), *square = inner + r->size;
+    nh_jet_mul(r, u, u, square);
+    nh_jet_constant(r, f == NH_ACOSH ? minus : 1, inner);
+    nh_jet_add_multiple(r, inner, f == NH_ASIN || f == NH_ACOS || f == NH_ATANH ? minus : 1, square);
+    if (rational) good = inner[0] != 0;
+    else good = inner[0] && nh_residue_root(p, inner[0], 2, &root);
+    if (good && rational) nh_jet_power(r, inner, minus, nh_residue_inverse(p, inner[0]), out);
+    if (good && !rational) nh_jet_power(r, inner, nh_residue_negative(p, nh_residue_inverse(p, 2)), nh_residue_inverse(p, root), out);
+    if (good && f == NH_ACOS) nh_jet_scale(r, out, minus);
+    nh_free(inner);
+    return good;
+}
+
+/* E(atan2(y, x)) = (x E(y) - y E(x))/(x^2 + y^2) */
+static bool angle(nh_jet_eval *v, const nh_residue *y, const nh_residue *x, nh_residue at, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    nh_residue *work = nh_alloc_array(4 * r->size, sizeof *work), *top = work + r->size, *bottom = top + r->size, *rate = bottom + r->size;
+    nh_jet_euler(r, y, work);
+    nh_jet_add_product(r, top, x, work);
+    nh_jet_euler(r, x, work);
+    nh_jet_sub_product(r, top, y, work);
+    nh_jet_add_product(r, bottom, x, x);
+    nh_jet_add_product(r, bottom, y, y);
+    divide(v, top, bottom, rate);
+    if (!v->unlucky) nh_jet_euler_inverse(r, rate, at, out);
+    nh_free(work);
+    return !v->unlucky;
+}
+
+static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    nh_function f = nh_function_of(v->dag, e);
+    nh_residue at = nh_jet_point_free_value(v->point, e), root;
+    if (f == NH_PI) {
+        nh_jet_constant(r, at, out);
+        return;
+    }
+    const nh_residue *u = v->value[nh_child(v->dag, e, 0)];
+    if (f == NH_ABS || f == NH_SIGN) { /* the sign with which it is a square */
+        nh_residue sign = u[0] && nh_residue_root(r->field, u[0], 2, &root) ? 1 : (nh_residue)(r->field.p - 1);
+        v->unlucky |= !u[0];
+        nh_jet_constant(r, f == NH_SIGN ? sign : 0, out);
+        if (f == NH_ABS) nh_jet_add_multiple(r, out, sign, u);
+    } else if (f == NH_ATAN2) {
+        v->unlucky |= !angle(v, u, v->value[nh_child(v->dag, e, 1)], at, out);
+    } else {
+        nh_residue *rate = nh_alloc_array(r->size, sizeof *rate);
+        if (slope(v, f, u, rate)) nh_jet_integral(r, u, rate, at, out);
+        else v->unlucky = true;
+        nh_free(rate);
+    }
+}
+
+static void compute(nh_jet_eval *v, nh_ex e)
+{
+    nh_residue *out = v->value[e] = nh_alloc_array(v->ring->size, sizeof *out);
+    switch (nh_kind_of(v->dag, e)) {
+    case NH_NUMBER: nh_jet_constant(v->ring, number(v, nh_number_of(v->dag, e)), out); return;
+    case NH_SYMBOL: v->unlucky = true; return; /* not set */
+    case NH_SUM: sum(v, e, out); break;
+    case NH_PRODUCT: product(v, e, out); break;
+    default:
+        switch (nh_function_of(v->dag, e)) {
+        case NH_SIN: case NH_COS: case NH_TAN: circular(v, e, out); break;
+        case NH_EXP: case NH_SINH: case NH_COSH: case NH_TANH: exponential(v, e, out); break;
+        default: primitive(v, e, out); break;
+        }
+    }
+    for (size_t i = 0; i < nh_arity(v->dag, e); i++) v->varies[e] |= v->varies[nh_child(v->dag, e, i)];
+}
+
+/* ---- many ---- */
+
+bool nh_jet_eval_all(nh_jet_eval *v, size_t n, const nh_ex *e, nh_residue *out)
+{
+    memset(v->wanted, 0, v->nodes * sizeof *v->wanted);
+    nh_jet_reach(v->dag, n, e, v->wanted);
+    for (size_t i = 0; i < v->nodes && !v->unlucky; i++)
+        if (v->wanted[i] && !v->value[i]) compute(v, (nh_ex)i);
+    for (size_t k = 0; k < n && !v->unlucky; k++) memcpy(out + k * v->ring->size, v->value[e[k]], v->ring->size * sizeof *out);
+    return !v->unlucky;
+}
+
+/* Does a kernel belong to the family of exp and log, or to that of sin, cos and their inverses? */
+static bool belongs(const nh_jet_eval *v, const nh_jet_kernel *k, bool real)
+{
+    if (k->kind == NH_JET_CIRCLE || k->kind == NH_JET_EXPONENTIAL) return (k->kind == NH_JET_EXPONENTIAL) == real && nh_kind_of(v->dag, k->key) != NH_NUMBER;
+    if (k->kind != NH_JET_FREE) return false;
+    nh_function f = nh_function_of(v->dag, k->key);
+    if (f == NH_ABS || f == NH_SIGN || f == NH_PI) return false;
+    return (f == NH_LOG || f == NH_ASINH || f == NH_ACOSH || f == NH_ATANH) == real;
+}
+
+bool nh_jet_eval_atoms(nh_jet_eval *v, bool real, size_t *count, nh_residue *out)
+{
+    const nh_jet_point *x = v->point;
+    bool good = true;
+    *count = 0;
+    for (size_t i = 0; i < x->kernels && good; i++) {
+        if (!belongs(v, &x->kernel[i], real)) continue;
+        nh_residue *series = out ? out + *count * v->ring->size : NULL;
+        good = !out || nh_jet_eval_all(v, 1, &x->kernel[i].key, series);
+        if (out) series[0] = 0;
+        ++*count;
+    }
+    return good;
+}

@@ -1,0 +1,224 @@
+/* Residues for the functions in expressions, chosen such that the relations between them hold. */
+#include "integrals/jet_point.h"
+
+#include <gmp.h>
+
+#include "base/memory.h"
+#include "expr/kernel.h"
+#include "expr/num_long.h"
+
+static const uint64_t most_order = (uint64_t)1 << 40; /* of the common denominator of the multiples of one atom */
+
+nh_jet_point *nh_jet_point_create(nh_dag *dag)
+{
+    nh_jet_point *x = nh_alloc(sizeof *x);
+    x->dag = dag;
+    return x;
+}
+
+void nh_jet_point_free(nh_jet_point *x)
+{
+    if (!x) return;
+    nh_free(x->kernel);
+    nh_free(x);
+}
+
+void nh_jet_reach(const nh_dag *d, size_t n, const nh_ex *e, bool *wanted)
+{
+    nh_ex top = 0;
+    for (size_t k = 0; k < n; k++) {
+        wanted[e[k]] = true;
+        if (e[k] > top) top = e[k];
+    }
+    for (size_t i = n ? (size_t)top + 1 : 0; i-- > 0;) { /* operands stand before what is made of them */
+        nh_kind kind = nh_kind_of(d, (nh_ex)i);
+        if (!wanted[i] || kind == NH_NUMBER || kind == NH_SYMBOL) continue;
+        for (size_t k = 0; k < nh_arity(d, (nh_ex)i); k++) wanted[nh_child(d, (nh_ex)i, k)] = true;
+    }
+}
+
+/* ---- which kernels there are ---- */
+
+static nh_jet_kernel *find(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex key)
+{
+    for (size_t i = 0; i < x->kernels; i++)
+        if (x->kernel[i].kind == kind && x->kernel[i].key == key) return &x->kernel[i];
+    return NULL;
+}
+
+static bool note(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex key, uint64_t order)
+{
+    nh_jet_kernel *k = find(x, kind, key);
+    if (!k) {
+        nh_grow(&x->kernel, &x->capacity, x->kernels + 1, sizeof *x->kernel);
+        k = &x->kernel[x->kernels++];
+        *k = (nh_jet_kernel){.kind = kind, .key = key, .order = 1};
+    }
+    if (order > most_order / k->order) x->obstacle = "multiples of one angle or exponent with large denominators";
+    else k->order *= order / (uint64_t)nh_gcd((int64_t)k->order, (int64_t)order);
+    return !x->obstacle;
+}
+
+static bool note_parts(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex argument)
+{
+    nh_parts parts;
+    nh_parts_make(x->dag, false, argument, &parts);
+    for (size_t i = 0; i < parts.count && !x->obstacle; i++) {
+        const nh_part *p = &parts.item[i];
+        bool pi = nh_kind_of(x->dag, p->atom) == NH_FUNCTION && nh_function_of(x->dag, p->atom) == NH_PI;
+        if (!nh_num_short(p->coefficient) || (pi && kind == NH_JET_CIRCLE)) x->obstacle = "an angle or exponent that is no rational multiple of its parts";
+        else note(x, kind, p->atom, (uint64_t)p->coefficient.q);
+    }
+    nh_free(parts.item);
+    return !x->obstacle;
+}
+
+static bool note_function(nh_jet_point *x, nh_ex e)
+{
+    switch (nh_function_of(x->dag, e)) {
+    case NH_SIN: case NH_COS: case NH_TAN: return note_parts(x, NH_JET_CIRCLE, nh_child(x->dag, e, 0));
+    case NH_EXP: case NH_SINH: case NH_COSH: case NH_TANH: return note_parts(x, NH_JET_EXPONENTIAL, nh_child(x->dag, e, 0));
+    case NH_ABS: case NH_SIGN:
+        if (find(x, NH_JET_FREE, e)) return true;
+        if (x->pieces++) x->obstacle = "several functions that are defined piece by piece";
+        return note(x, NH_JET_FREE, e, 1);
+    case NH_ASIN: case NH_ACOS: case NH_ASINH: case NH_ACOSH: case NH_ATAN: case NH_ATANH: case NH_LOG: case NH_ATAN2: case NH_PI: return note(x, NH_JET_FREE, e, 1);
+    default: x->obstacle = "a function without a power series"; return false;
+    }
+}
+
+static bool note_product(nh_jet_point *x, nh_ex e)
+{
+    for (size_t i = 0; i < nh_arity(x->dag, e) && !x->obstacle; i++) {
+        nh_ex exponent = nh_exponent_of(x->dag, e, i);
+        nh_exponent_kind kind = nh_exponent_kind_of(x->dag, exponent);
+        if (kind == NH_EXPONENT_ROOT) note(x, NH_JET_ROOT, nh_child(x->dag, e, i), (uint64_t)nh_number_of(x->dag, exponent).q);
+        else if (kind != NH_EXPONENT_WHOLE) x->obstacle = "powers with exponents that are no simple fractions";
+    }
+    return !x->obstacle;
+}
+
+bool nh_jet_point_register(nh_jet_point *x, size_t n, const nh_ex *e)
+{
+    size_t size = nh_dag_size(x->dag);
+    bool *wanted = nh_alloc_array(size + 1, sizeof *wanted);
+    nh_jet_reach(x->dag, n, e, wanted);
+    for (size_t i = 0; i < size && !x->obstacle; i++) {
+        if (!wanted[i]) continue;
+        nh_kind kind = nh_kind_of(x->dag, (nh_ex)i);
+        if (kind == NH_FUNCTION) note_function(x, (nh_ex)i);
+        else if (kind == NH_PRODUCT) note_product(x, (nh_ex)i);
+        else if (kind == NH_NUMBER && !nh_num_exact(nh_number_of(x->dag, (nh_ex)i))) x->obstacle = "numbers that are not exact";
+    }
+    nh_free(wanted);
+    return !x->obstacle;
+}
+
+/* ---- values ---- */
+
+void nh_jet_point_choose(nh_jet_point *x, nh_prime field, uint64_t seed)
+{
+    x->field = field;
+    x->random = seed;
+    for (size_t i = 0; i < x->kernels; i++) x->kernel[i].chosen = false;
+}
+
+bool nh_jet_point_number(const nh_jet_point *x, nh_num a, nh_residue *out)
+{
+    if (nh_num_short(a)) {
+        nh_residue bottom = nh_residue_of(x->field, a.q);
+        if (bottom) *out = nh_residue_mul(x->field, nh_residue_of(x->field, a.p), a.q == 1 ? 1 : nh_residue_inverse(x->field, bottom));
+        return bottom != 0;
+    }
+    if (!nh_num_exact(a)) return false;
+    mpq_t q;
+    mpq_init(q);
+    nh_num_get_mpq(q, a);
+    nh_residue top = (nh_residue)mpz_fdiv_ui(mpq_numref(q), x->field.p), bottom = (nh_residue)mpz_fdiv_ui(mpq_denref(q), x->field.p);
+    mpq_clear(q);
+    if (bottom) *out = nh_residue_mul(x->field, top, nh_residue_inverse(x->field, bottom));
+    return bottom != 0;
+}
+
+/* base^exponent for a base that is not 0 */
+static nh_residue signed_power(nh_prime f, nh_residue base, int64_t exponent)
+{
+    nh_residue r = nh_residue_power(f, base, (uint64_t)(exponent < 0 ? -exponent : exponent));
+    return exponent < 0 ? nh_residue_inverse(f, r) : r;
+}
+
+bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num exponent, nh_residue *out)
+{
+    nh_jet_kernel *k = find(x, NH_JET_ROOT, radicand);
+    if (!k->chosen && !nh_residue_root(x->field, value, k->order, &k->value)) return false;
+    k->chosen = true;
+    *out = signed_power(x->field, k->value, exponent.p * (int64_t)(k->order / (uint64_t)exponent.q));
+    return true;
+}
+
+/* A rational point of the circle: ((1 - u^2), 2 u)/(1 + u^2). */
+static bool choose_angle(nh_jet_point *x, nh_jet_kernel *k)
+{
+    nh_prime f = x->field;
+    nh_residue u = nh_residue_random(f, &x->random), square = nh_residue_mul(f, u, u), bottom = nh_residue_add(f, 1, square);
+    if (!bottom) return false;
+    nh_residue inverse = nh_residue_inverse(f, bottom);
+    k->value = nh_residue_mul(f, nh_residue_sub(f, 1, square), inverse);
+    k->sine = nh_residue_mul(f, nh_residue_add(f, u, u), inverse);
+    return k->chosen = true;
+}
+
+/* (c, s) := the angle that is the sum of (c, s) and `times` times that of k. */
+static void turn(nh_prime f, const nh_jet_kernel *k, int64_t times, nh_residue *c, nh_residue *s)
+{
+    nh_residue x = k->value, y = times < 0 ? nh_residue_negative(f, k->sine) : k->sine;
+    for (uint64_t n = (uint64_t)(times < 0 ? -times : times); n; n >>= 1) {
+        if (n & 1) {
+            nh_residue both = nh_residue_sub(f, nh_residue_mul(f, *c, x), nh_residue_mul(f, *s, y));
+            *s = nh_residue_add(f, nh_residue_mul(f, *c, y), nh_residue_mul(f, *s, x));
+            *c = both;
+        }
+        nh_residue twice = nh_residue_mul(f, x, y);
+        x = nh_residue_sub(f, nh_residue_mul(f, x, x), nh_residue_mul(f, y, y));
+        y = nh_residue_add(f, twice, twice);
+    }
+}
+
+bool nh_jet_point_circle(nh_jet_point *x, nh_ex argument, nh_residue *sine, nh_residue *cosine)
+{
+    nh_parts parts;
+    bool good = true;
+    nh_parts_make(x->dag, false, argument, &parts);
+    *sine = 0;
+    *cosine = 1;
+    for (size_t i = 0; i < parts.count && good; i++) {
+        nh_jet_kernel *k = find(x, NH_JET_CIRCLE, parts.item[i].atom);
+        nh_num c = parts.item[i].coefficient;
+        good = k->chosen || choose_angle(x, k);
+        if (good) turn(x->field, k, c.p * (int64_t)(k->order / (uint64_t)c.q), cosine, sine);
+    }
+    nh_free(parts.item);
+    return good;
+}
+
+bool nh_jet_point_exponential(nh_jet_point *x, nh_ex argument, nh_residue *out)
+{
+    nh_parts parts;
+    nh_parts_make(x->dag, false, argument, &parts);
+    *out = 1;
+    for (size_t i = 0; i < parts.count; i++) {
+        nh_jet_kernel *k = find(x, NH_JET_EXPONENTIAL, parts.item[i].atom);
+        nh_num c = parts.item[i].coefficient;
+        if (!k->chosen) k->value = nh_residue_random(x->field, &x->random), k->chosen = true;
+        *out = nh_residue_mul(x->field, *out, signed_power(x->field, k->value, c.p * (int64_t)(k->order / (uint64_t)c.q)));
+    }
+    nh_free(parts.item);
+    return true;
+}
+
+nh_residue nh_jet_point_free_value(nh_jet_point *x, nh_ex primitive)
+{
+    nh_jet_kernel *k = find(x, NH_JET_FREE, primitive);
+    if (!k->chosen) k->value = nh_residue_random(x->field, &x->random), k->chosen = true;
+    return k->value;
+}

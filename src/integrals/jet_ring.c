@@ -1,0 +1,322 @@
+/* Truncated power series modulo a prime: products by lists of pairs grouped by their sum, everything else by recurrences of the Euler field. */
+#include "integrals/jet_ring.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- exponents ---- */
+
+/* Exponents of one weighted degree, in lexicographic order. */
+static size_t list(size_t variables, const size_t *weight, size_t left, uint8_t *current, size_t k, uint8_t *out, size_t most)
+{
+    if (k + 1 == variables) {
+        if (left % weight[k]) return 0;
+        current[k] = (uint8_t)(left / weight[k]);
+        if (out) memcpy(out, current, variables);
+        return 1;
+    }
+    size_t count = 0;
+    for (size_t e = 0; e * weight[k] <= left && count <= most; e++) {
+        current[k] = (uint8_t)e;
+        count += list(variables, weight, left - e * weight[k], current, k + 1, out ? out + count * variables : NULL, most);
+    }
+    return count;
+}
+
+size_t nh_jet_ring_size(size_t variables, const size_t *weight, size_t order, size_t most)
+{
+    if (order > UINT8_MAX) return SIZE_MAX;
+    if (variables == 0) return 1;
+    uint8_t *current = nh_alloc(variables);
+    size_t size = 0;
+    for (size_t degree = 0; degree <= order && size <= most; degree++) size += list(variables, weight, degree, current, 0, NULL, most);
+    nh_free(current);
+    return size <= most ? size : SIZE_MAX;
+}
+
+static int compare(const nh_jet_ring *r, const uint8_t *a, size_t degree_a, const uint8_t *b, size_t degree_b)
+{
+    if (degree_a != degree_b) return degree_a < degree_b ? -1 : 1;
+    return memcmp(a, b, r->variables);
+}
+
+static size_t degree_of(const nh_jet_ring *r, const uint8_t *e)
+{
+    size_t degree = 0;
+    for (size_t k = 0; k < r->variables; k++) degree += e[k] * r->weight[k];
+    return degree;
+}
+
+size_t nh_jet_ring_find(const nh_jet_ring *r, const uint8_t *e)
+{
+    size_t degree = degree_of(r, e), low = r->first[degree], high = r->first[degree + 1];
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        if (compare(r, r->exponent + middle * r->variables, r->degree[middle], e, degree) <= 0) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+static void list_exponents(nh_jet_ring *r)
+{
+    uint8_t *current = nh_alloc(r->variables + 1);
+    size_t at = 0;
+    for (size_t degree = 0; degree <= r->order; degree++) {
+        r->first[degree] = at;
+        size_t more = r->variables ? list(r->variables, r->weight, degree, current, 0, r->exponent + at * r->variables, SIZE_MAX - 1) : degree == 0;
+        for (size_t i = 0; i < more; i++) r->degree[at + i] = degree;
+        at += more;
+    }
+    r->first[r->order + 1] = at;
+    nh_free(current);
+}
+
+/* The pairs of each sum: all left exponents that are nowhere larger, found through the right one. */
+static void list_pairs(nh_jet_ring *r)
+{
+    size_t m = r->variables, count = 0, capacity = 0;
+    uint8_t *rest = nh_alloc(m + 1);
+    r->pairs = nh_arena_alloc(r->arena, (r->size + 1) * sizeof *r->pairs);
+    uint32_t *pair = NULL;
+    for (size_t e = 0; e < r->size; e++) {
+        const uint8_t *sum = r->exponent + e * m;
+        r->pairs[e] = count;
+        memset(rest, 0, m + 1);
+        for (bool more = true; more;) { /* all left exponents below `sum`, as an odometer */
+            nh_grow(&pair, &capacity, 2 * (count + 1), sizeof *pair);
+            pair[2 * count] = (uint32_t)nh_jet_ring_find(r, rest);
+            for (size_t k = 0; k < m; k++) rest[k] = (uint8_t)(sum[k] - rest[k]);
+            pair[2 * count++ + 1] = (uint32_t)nh_jet_ring_find(r, rest);
+            for (size_t k = 0; k < m; k++) rest[k] = (uint8_t)(sum[k] - rest[k]);
+            size_t k = 0;
+            while (k < m && rest[k] == sum[k]) rest[k++] = 0;
+            more = k < m;
+            if (more) rest[k]++;
+        }
+    }
+    r->pairs[r->size] = count;
+    r->left = nh_arena_alloc(r->arena, (count + 1) * sizeof *r->left);
+    r->right = nh_arena_alloc(r->arena, (count + 1) * sizeof *r->right);
+    for (size_t i = 0; i < count; i++) r->left[i] = pair[2 * i], r->right[i] = pair[2 * i + 1];
+    nh_free(pair);
+    nh_free(rest);
+}
+
+static void list_steps(nh_jet_ring *r)
+{
+    size_t m = r->variables;
+    uint8_t *next = nh_alloc(m + 1);
+    r->up = nh_arena_alloc(r->arena, (m * r->size + 1) * sizeof *r->up);
+    for (size_t k = 0; k < m; k++)
+        for (size_t e = 0; e < r->size; e++) {
+            memcpy(next, r->exponent + e * m, m);
+            next[k]++;
+            r->up[k * r->size + e] = r->degree[e] + r->weight[k] <= r->order ? (uint32_t)nh_jet_ring_find(r, next) : UINT32_MAX;
+        }
+    nh_free(next);
+}
+
+nh_jet_ring *nh_jet_ring_create(nh_prime field, size_t variables, const size_t *weight, size_t order)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_jet_ring *r = nh_arena_alloc(arena, sizeof *r);
+    size_t *own = nh_arena_alloc(arena, (variables + 1) * sizeof *own);
+    memcpy(own, weight, variables * sizeof *own);
+    *r = (nh_jet_ring){.field = field, .variables = variables, .order = order, .weight = own, .arena = arena};
+    r->size = nh_jet_ring_size(variables, weight, order, SIZE_MAX - 1);
+    r->exponent = nh_arena_alloc(arena, r->size * variables + 1);
+    r->degree = nh_arena_alloc(arena, (r->size + 1) * sizeof *r->degree);
+    r->first = nh_arena_alloc(arena, (order + 2) * sizeof *r->first);
+    r->inverse = nh_arena_alloc(arena, (order + 1) * sizeof *r->inverse);
+    for (size_t k = 1; k <= order; k++) r->inverse[k] = nh_residue_inverse(field, (nh_residue)k);
+    list_exponents(r);
+    list_pairs(r);
+    list_steps(r);
+    return r;
+}
+
+void nh_jet_ring_free(nh_jet_ring *ring)
+{
+    if (ring) nh_arena_free(ring->arena);
+}
+
+/* ---- linear operations and products ---- */
+
+bool nh_jet_is_constant(const nh_jet_ring *r, const nh_residue *a)
+{
+    for (size_t e = 1; e < r->size; e++)
+        if (a[e]) return false;
+    return true;
+}
+
+bool nh_jet_is_zero(const nh_jet_ring *r, const nh_residue *a) { return a[0] == 0 && nh_jet_is_constant(r, a); }
+
+void nh_jet_constant(const nh_jet_ring *r, nh_residue c, nh_residue *out)
+{
+    memset(out, 0, r->size * sizeof *out);
+    out[0] = c;
+}
+
+void nh_jet_add_multiple(const nh_jet_ring *r, nh_residue *sum, nh_residue c, const nh_residue *a)
+{
+    nh_residue_add_multiple(r->field, r->size, sum, a, c);
+}
+
+void nh_jet_scale(const nh_jet_ring *r, nh_residue *a, nh_residue c)
+{
+    for (size_t e = 0; e < r->size; e++) a[e] = nh_residue_mul(r->field, a[e], c);
+}
+
+void nh_jet_mul(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, nh_residue *out)
+{
+    bool constant = nh_jet_is_constant(r, a);
+    if (constant || nh_jet_is_constant(r, b)) {
+        nh_jet_constant(r, 0, out);
+        nh_jet_add_multiple(r, out, constant ? a[0] : b[0], constant ? b : a);
+        return;
+    }
+    for (size_t e = 0; e < r->size; e++) {
+        uint64_t sum = 0;
+        for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++) sum = nh_residue_gather(r->field, sum, a[r->left[i]], b[r->right[i]]);
+        out[e] = (nh_residue)(sum % r->field.p);
+    }
+}
+
+static void add_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue *a, const nh_residue *b, bool minus)
+{
+    if (nh_jet_is_zero(r, a) || nh_jet_is_zero(r, b)) return;
+    nh_residue *product = nh_alloc_array(r->size, sizeof *product);
+    nh_jet_mul(r, a, b, product);
+    nh_jet_add_multiple(r, sum, minus ? (nh_residue)(r->field.p - 1) : 1, product);
+    nh_free(product);
+}
+
+void nh_jet_add_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue *a, const nh_residue *b) { add_product(r, sum, a, b, false); }
+void nh_jet_sub_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue *a, const nh_residue *b) { add_product(r, sum, a, b, true); }
+
+void nh_jet_derivative(const nh_jet_ring *r, const nh_residue *a, size_t k, nh_residue *out)
+{
+    for (size_t e = 0; e < r->size; e++) {
+        uint32_t up = r->up[k * r->size + e];
+        out[e] = up == UINT32_MAX ? 0 : nh_residue_mul(r->field, a[up], r->exponent[up * r->variables + k]);
+    }
+}
+
+void nh_jet_euler(const nh_jet_ring *r, const nh_residue *a, nh_residue *out)
+{
+    for (size_t e = 0; e < r->size; e++) out[e] = nh_residue_mul(r->field, a[e], (nh_residue)r->degree[e]);
+}
+
+void nh_jet_euler_inverse(const nh_jet_ring *r, const nh_residue *a, nh_residue at, nh_residue *out)
+{
+    for (size_t e = 0; e < r->size; e++) out[e] = r->degree[e] ? nh_residue_mul(r->field, a[e], r->inverse[r->degree[e]]) : at;
+}
+
+/* ---- functions: coefficient by coefficient, by increasing |e| ---- */
+
+void nh_jet_power(const nh_jet_ring *r, const nh_residue *a, nh_residue s, nh_residue at, nh_residue *out)
+{
+    nh_prime f = r->field;
+    nh_jet_constant(r, at, out);
+    if (nh_jet_is_constant(r, a)) return;
+    nh_residue *factor = nh_alloc_array((r->order + 1) * (r->order + 1), sizeof *factor), lead = nh_residue_inverse(f, a[0]);
+    for (size_t g = 0; g <= r->order; g++) /* a E(y) = s E(a) y:  a_0 |e| y_e = sum over g != 0 of (s |g| - |e - g|) a_g y_(e-g) */
+        for (size_t h = 0; h <= r->order; h++)
+            factor[g * (r->order + 1) + h] = nh_residue_sub(f, nh_residue_mul(f, s, (nh_residue)g), (nh_residue)h);
+    for (size_t e = 1; e < r->size; e++) {
+        uint64_t sum = 0;
+        for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++) {
+            size_t g = r->left[i], h = r->right[i];
+            if (g && a[g] && out[h]) sum = nh_residue_gather(f, sum, nh_residue_mul(f, a[g], factor[r->degree[g] * (r->order + 1) + r->degree[h]]), out[h]);
+        }
+        out[e] = nh_residue_mul(f, (nh_residue)(sum % f.p), nh_residue_mul(f, lead, r->inverse[r->degree[e]]));
+    }
+    nh_free(factor);
+}
+
+/* |e| y_e = sum of (E u)_g x_(e-g) */
+static nh_residue step(const nh_jet_ring *r, const nh_residue *euler, const nh_residue *x, size_t e)
+{
+    uint64_t sum = 0;
+    for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++) sum = nh_residue_gather(r->field, sum, euler[r->left[i]], x[r->right[i]]);
+    return nh_residue_mul(r->field, (nh_residue)(sum % r->field.p), r->inverse[r->degree[e]]);
+}
+
+void nh_jet_exponential(const nh_jet_ring *r, const nh_residue *u, nh_residue at, nh_residue *out)
+{
+    nh_residue *euler = nh_alloc_array(r->size, sizeof *euler);
+    nh_jet_euler(r, u, euler);
+    nh_jet_constant(r, at, out);
+    for (size_t e = 1; e < r->size; e++) out[e] = step(r, euler, out, e);
+    nh_free(euler);
+}
+
+void nh_jet_circle(const nh_jet_ring *r, const nh_residue *u, nh_residue sine, nh_residue cosine, nh_residue *sin, nh_residue *cos)
+{
+    nh_residue *euler = nh_alloc_array(r->size, sizeof *euler);
+    nh_jet_euler(r, u, euler);
+    nh_jet_constant(r, sine, sin);
+    nh_jet_constant(r, cosine, cos);
+    for (size_t e = 1; e < r->size; e++) {
+        nh_residue slope = step(r, euler, cos, e);
+        cos[e] = nh_residue_negative(r->field, step(r, euler, sin, e));
+        sin[e] = slope;
+    }
+    nh_free(euler);
+}
+
+void nh_jet_integral(const nh_jet_ring *r, const nh_residue *u, const nh_residue *slope, nh_residue at, nh_residue *out)
+{
+    nh_residue *euler = nh_alloc_array(2 * r->size, sizeof *euler), *rate = euler + r->size;
+    nh_jet_euler(r, u, euler);
+    nh_jet_mul(r, euler, slope, rate);
+    nh_jet_euler_inverse(r, rate, at, out);
+    nh_free(euler);
+}
+
+/* ---- linear equations ---- */
+
+static void swap_rows(size_t length, nh_residue *a, nh_residue *b)
+{
+    for (size_t k = 0; k < length; k++) {
+        nh_residue x = a[k];
+        a[k] = b[k];
+        b[k] = x;
+    }
+}
+
+/* row := row - factor * other, from its entry `from` on */
+static void subtract_row(const nh_jet_ring *r, size_t from, size_t length, nh_residue *row, const nh_residue *factor, const nh_residue *other)
+{
+    for (size_t k = from; k < length; k++) nh_jet_sub_product(r, row + k * r->size, factor, other + k * r->size);
+}
+
+bool nh_jet_solve(const nh_jet_ring *r, size_t n, nh_residue *M, size_t count, nh_residue *b)
+{
+    size_t e = r->size;
+    nh_residue *inverse = nh_alloc_array(3 * e, sizeof *inverse), *product = inverse + e, *factor = product + e;
+    bool regular = true;
+    for (size_t c = 0; c < n && regular; c++) {
+        size_t p = c;
+        while (p < n && !M[(p * n + c) * e]) p++;
+        regular = p < n;
+        if (!regular) break;
+        if (p != c) swap_rows(n * e, M + p * n * e, M + c * n * e), swap_rows(count * e, b + p * count * e, b + c * count * e);
+        const nh_residue *pivot = M + (c * n + c) * e;
+        nh_jet_power(r, pivot, (nh_residue)(r->field.p - 1), nh_residue_inverse(r->field, pivot[0]), inverse);
+        for (size_t k = c; k < n + count; k++) {
+            nh_residue *entry = k < n ? M + (c * n + k) * e : b + (c * count + k - n) * e;
+            nh_jet_mul(r, entry, inverse, product);
+            memcpy(entry, product, e * sizeof *entry);
+        }
+        for (size_t i = 0; i < n; i++) {
+            if (i == c || nh_jet_is_zero(r, M + (i * n + c) * e)) continue;
+            memcpy(factor, M + (i * n + c) * e, e * sizeof *factor);
+            subtract_row(r, c, n, M + i * n * e, factor, M + c * n * e);
+            subtract_row(r, 0, count, b + i * count * e, factor, b + c * count * e);
+        }
+    }
+    nh_free(inverse);
+    return regular;
+}

@@ -1,0 +1,56 @@
+/* Arithmetic modulo a prime of 31 bits; powers, inverses and the search for primes are FLINT's. */
+#include "integrals/residue.h"
+
+#include <flint/nmod.h>
+#include <flint/ulong_extras.h>
+
+nh_prime nh_prime_at(size_t index)
+{
+    uint64_t n = ((uint64_t)1 << 31) + 3; /* 11 modulo 12 */
+    for (size_t found = 0; found <= index;) {
+        n -= 12;
+        found += n % 5 != 1 && n % 7 != 1 && n_is_prime(n);
+    }
+    return (nh_prime){n, ((uint64_t)1 << 62) / n * n};
+}
+
+void nh_residue_add_multiple(nh_prime f, size_t n, nh_residue *restrict y, const nh_residue *restrict x, nh_residue c)
+{
+    if (!c) return;
+    for (size_t i = 0; i < n; i++) y[i] = (nh_residue)((y[i] + (uint64_t)c * x[i]) % f.p);
+}
+
+nh_residue nh_residue_of(nh_prime f, int64_t value)
+{
+    int64_t r = value % (int64_t)f.p;
+    return (nh_residue)(r < 0 ? r + (int64_t)f.p : r);
+}
+
+nh_residue nh_residue_power(nh_prime f, nh_residue a, uint64_t exponent)
+{
+    nmod_t mod;
+    nmod_init(&mod, f.p);
+    return (nh_residue)nmod_pow_ui(a, exponent, mod);
+}
+
+nh_residue nh_residue_inverse(nh_prime f, nh_residue a) { return (nh_residue)n_invmod(a, f.p); }
+
+bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root)
+{
+    for (; order % 2 == 0; order /= 2) { /* p = 3 modulo 4: of two roots one is a square again */
+        nh_residue r = nh_residue_power(f, a, (f.p + 1) / 4);
+        if (nh_residue_mul(f, r, r) != a) return false;
+        a = r;
+    }
+    if (!a || n_gcd(order, f.p - 1) != 1) return false;
+    *root = order == 1 ? a : nh_residue_power(f, a, n_invmod(order % (f.p - 1), f.p - 1));
+    return true;
+}
+
+nh_residue nh_residue_random(nh_prime f, uint64_t *state)
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return (nh_residue)(1 + (z ^ z >> 31) % (f.p - 1));
+}

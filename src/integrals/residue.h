@@ -1,0 +1,58 @@
+/* residue: whole numbers modulo a prime of 31 bits.
+ *
+ * Products of two residues fit into 62 bits, so sums of products are reduced by one conditional subtraction (nh_residue_gather), and by a
+ * division only at the end.
+ *
+ * The primes are 11 modulo 12, and neither 1 modulo 5 nor modulo 7: roots of order 3, 5 and 7 exist and are unique, square roots exist for
+ * half of the residues. */
+#ifndef NH_RESIDUE_H
+#define NH_RESIDUE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef uint32_t nh_residue;
+
+typedef struct {
+    uint64_t p;
+    uint64_t bound; /* the largest multiple of p up to 2^62 */
+} nh_prime;
+
+/* The `index`-th such prime below 2^31, from above. */
+nh_prime nh_prime_at(size_t index);
+
+static inline nh_residue nh_residue_add(nh_prime f, nh_residue a, nh_residue b)
+{
+    uint64_t s = (uint64_t)a + b;
+    return (nh_residue)(s >= f.p ? s - f.p : s);
+}
+
+static inline nh_residue nh_residue_negative(nh_prime f, nh_residue a) { return a ? (nh_residue)(f.p - a) : 0; }
+
+static inline nh_residue nh_residue_sub(nh_prime f, nh_residue a, nh_residue b) { return nh_residue_add(f, a, nh_residue_negative(f, b)); }
+
+static inline nh_residue nh_residue_mul(nh_prime f, nh_residue a, nh_residue b) { return (nh_residue)((uint64_t)a * b % f.p); }
+
+/* sum + a b, for a sum below the bound; reduce it by `% p` in the end. */
+static inline uint64_t nh_residue_gather(nh_prime f, uint64_t sum, nh_residue a, nh_residue b)
+{
+    sum += (uint64_t)a * b;
+    return sum >= f.bound ? sum - f.bound : sum;
+}
+
+/* y += c x, componentwise. */
+void nh_residue_add_multiple(nh_prime f, size_t n, nh_residue *restrict y, const nh_residue *restrict x, nh_residue c);
+
+nh_residue nh_residue_of(nh_prime f, int64_t value);
+nh_residue nh_residue_power(nh_prime f, nh_residue a, uint64_t exponent);
+nh_residue nh_residue_inverse(nh_prime f, nh_residue a); /* of a residue that is not 0 */
+
+/* The root of this order, for whole orders whose odd part is prime to p - 1: of a square root the one that is a square itself.  False when
+ * there is none, or a is 0. */
+bool nh_residue_root(nh_prime f, nh_residue a, uint64_t order, nh_residue *root);
+
+/* Random residues that follow from the state alone (SplitMix64); never 0. */
+nh_residue nh_residue_random(nh_prime f, uint64_t *state);
+
+#endif

@@ -1,0 +1,51 @@
+/* bench_count: how many integrals polynomial in the velocities systems have, beside those that their files know.
+ *
+ *     bench_count [DEGREE [time|generic]] FILE...      a line per file and degree; degree 0: as far as it goes
+ */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "integrals/count.h"
+#include "study/analysis.h"
+
+static void count_file(const char *path, size_t degree, bool time, bool generic)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_system *y = nh_system_read(path, 0, NULL, &error);
+    nh_chart *chart = y ? nh_chart_create(y, NH_CHART_AUTO, 1, &error) : NULL;
+    nh_model *o = chart ? nh_model_create(y, chart, &error) : NULL;
+    if (!o) {
+        printf("%s: %s\n", path, error.what);
+        return;
+    }
+    nh_ex *known = calloc(y->currents + 1, sizeof *known);
+    size_t n = 0;
+    for (size_t k = 0; k < y->currents; k++) n += nh_analysis_to_chart(o, y->current[k].value, &known[n], &error);
+    nh_count_question q = {.time = time, .generic = generic, .degree = degree, .work = 3e9, .known = n, .current = known};
+    double start = nh_clock();
+    nh_count c = nh_count_integrals(o, &q);
+    printf("%s: %.3f s, step %zu, leaf %zu, prime %lu%s%s%s%s\n", path, nh_clock() - start, c.step, c.leaf, (unsigned long)c.prime, c.obstacle ? ", OBSTACLE: " : "", c.obstacle ? c.obstacle : "",
+           c.end ? ", end: " : "", c.end ? c.end : "");
+    for (size_t k = 0; k < c.rows; k++)
+        printf("   degree %zu: N = %zu, known %zu, order %zu%s%s\n", c.row[k].degree, c.row[k].bound, c.row[k].known, c.row[k].order, c.row[k].settled ? ", settled" : "", c.row[k].complete ? ", COMPLETE" : "");
+    fflush(stdout);
+    free(known);
+    nh_model_free(o);
+}
+
+int main(int argc, char **argv)
+{
+    size_t degree = 2;
+    bool time = false, generic = false;
+    for (int i = 1; i < argc; i++) {
+        if (isdigit((unsigned char)argv[i][0])) degree = strtoul(argv[i], NULL, 10);
+        else if (!strcmp(argv[i], "time")) time = true;
+        else if (!strcmp(argv[i], "generic")) generic = true;
+        else count_file(argv[i], degree, time, generic);
+    }
+    return 0;
+}

@@ -1,0 +1,432 @@
+/* Power series modulo primes, adapted frames, and the count of polynomial integrals: against closed forms, published numbers, and attempts to break it. */
+#include <criterion/criterion.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "expr/normal.h"
+#include "integrals/count.h"
+#include "study/analysis.h"
+#include "names.h"
+
+/* ---- series ---- */
+
+static nh_jet_ring *ring_of(size_t order)
+{
+    return nh_jet_ring_create(nh_prime_at(0), 3, (const size_t[]){1, 2, 1}, order);
+}
+
+static nh_residue *random_series(const nh_jet_ring *r, uint64_t seed)
+{
+    nh_residue *a = nh_alloc_array(r->size, sizeof *a);
+    for (size_t e = 0; e < r->size; e++) a[e] = nh_residue_random(r->field, &seed);
+    return a;
+}
+
+static bool equal(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b) { return memcmp(a, b, r->size * sizeof *a) == 0; }
+
+Test(count, primes_have_the_roots_that_are_promised)
+{
+    for (size_t i = 0; i < 8; i++) {
+        nh_prime f = nh_prime_at(i);
+        cr_assert_eq(f.p % 12, 11);
+        cr_assert(f.p % 5 != 1 && f.p % 7 != 1 && f.p < (uint64_t)1 << 31);
+        if (i) cr_assert(f.p < nh_prime_at(i - 1).p);
+        uint64_t state = i;
+        for (int k = 0; k < 50; k++) {
+            nh_residue a = nh_residue_random(f, &state), root, square = nh_residue_mul(f, a, a);
+            cr_assert(nh_residue_root(f, square, 2, &root));
+            cr_assert_eq(nh_residue_mul(f, root, root), square);
+            cr_assert(nh_residue_root(f, a, 15, &root));
+            cr_assert_eq(nh_residue_power(f, root, 15), a);
+            cr_assert_eq(nh_residue_mul(f, a, nh_residue_inverse(f, a)), 1);
+        }
+    }
+}
+
+Test(count, exponents_are_as_many_as_partitions_say)
+{
+    nh_jet_ring *r = ring_of(9);
+    size_t expected = 0;
+    for (size_t total = 0; total <= 9; total++)
+        for (size_t b = 0; 2 * b <= total; b++) expected += total - 2 * b + 1;
+    cr_assert_eq(r->size, expected);
+    cr_assert_eq(nh_jet_ring_size(3, (const size_t[]){1, 2, 1}, 9, 10000), expected);
+    cr_assert_eq(nh_jet_ring_size(3, (const size_t[]){1, 2, 1}, 9, expected - 1), SIZE_MAX);
+    for (size_t e = 0; e < r->size; e++) {
+        cr_assert_eq(nh_jet_ring_find(r, r->exponent + 3 * e), e);
+        for (size_t i = r->pairs[e]; i < r->pairs[e + 1]; i++)
+            for (size_t k = 0; k < 3; k++) cr_assert_eq(r->exponent[3 * r->left[i] + k] + r->exponent[3 * r->right[i] + k], r->exponent[3 * e + k]);
+    }
+    nh_jet_ring_free(r);
+}
+
+Test(count, functions_of_series_obey_their_identities)
+{
+    nh_jet_ring *r = ring_of(7);
+    nh_prime f = r->field;
+    nh_residue *a = random_series(r, 1), *b = random_series(r, 2), *x = nh_alloc_array(6 * r->size, sizeof *x);
+    nh_residue *y = x + r->size, *z = y + r->size, *u = z + r->size, *v = u + r->size, *one = v + r->size;
+    nh_jet_constant(r, 1, one);
+    nh_jet_power(r, a, (nh_residue)(f.p - 1), nh_residue_inverse(f, a[0]), x);
+    nh_jet_mul(r, a, x, y);
+    cr_assert(equal(r, y, one), "a/a is 1");
+    nh_jet_mul(r, a, a, x); /* sqrt(a^2) = +-a */
+    nh_jet_power(r, x, nh_residue_inverse(f, 2), a[0], y);
+    cr_assert(equal(r, y, a), "the root of a square");
+    nh_jet_exponential(r, a, 5, x);
+    nh_jet_exponential(r, b, 7, y);
+    nh_jet_mul(r, x, y, z);
+    memcpy(u, a, r->size * sizeof *u);
+    nh_jet_add_multiple(r, u, 1, b);
+    nh_jet_exponential(r, u, 35, v);
+    cr_assert(equal(r, z, v), "exp(a) exp(b) is exp(a + b)");
+    nh_residue inverse = nh_residue_inverse(f, 5); /* (3/5, 4/5) is on the circle */
+    nh_jet_circle(r, a, nh_residue_mul(f, 3, inverse), nh_residue_mul(f, 4, inverse), x, y);
+    nh_jet_mul(r, x, x, z);
+    nh_jet_add_product(r, z, y, y);
+    cr_assert(equal(r, z, one), "sin^2 + cos^2 is 1");
+    nh_jet_power(r, a, (nh_residue)(f.p - 1), nh_residue_inverse(f, a[0]), z); /* log a, and back */
+    nh_jet_integral(r, a, z, 11, u);
+    nh_jet_exponential(r, u, a[0], v);
+    cr_assert(equal(r, v, a), "exp(log a) is a");
+    nh_free(x);
+    nh_free(b);
+    nh_free(a);
+    nh_jet_ring_free(r);
+}
+
+Test(count, linear_equations_of_series_are_solved)
+{
+    enum { n = 4, columns = 2 };
+    nh_jet_ring *r = ring_of(5);
+    size_t e = r->size;
+    nh_residue *M = nh_alloc_array(n * n * e, sizeof *M), *copy = nh_alloc_array(n * n * e, sizeof *copy), *b = nh_alloc_array(n * columns * e, sizeof *b), *x = nh_alloc_array(n * columns * e, sizeof *x);
+    uint64_t state = 9;
+    for (size_t i = 0; i < n * n * e; i++) M[i] = copy[i] = nh_residue_random(r->field, &state);
+    for (size_t i = 0; i < n * columns * e; i++) b[i] = x[i] = nh_residue_random(r->field, &state);
+    M[0] = copy[0] = 0; /* rows have to change places */
+    cr_assert(nh_jet_solve(r, n, M, columns, x));
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < columns; k++) {
+            nh_residue *sum = nh_alloc_array(e, sizeof *sum);
+            for (size_t j = 0; j < n; j++) nh_jet_add_product(r, sum, copy + (i * n + j) * e, x + (j * columns + k) * e);
+            cr_assert(equal(r, sum, b + (i * columns + k) * e));
+            nh_free(sum);
+        }
+    memset(copy, 0, n * n * e * sizeof *copy);
+    cr_assert_not(nh_jet_solve(r, n, copy, columns, x));
+    nh_free(x);
+    nh_free(b);
+    nh_free(copy);
+    nh_free(M);
+    nh_jet_ring_free(r);
+}
+
+/* ---- expressions ---- */
+
+static const char *const PLANE = "name: plane\nparameters: [{name: a, value: 2}]\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2\n";
+
+/* Equal expressions that are different nodes have equal series; false when no point was found. */
+static bool agree(const char *left, const char *right)
+{
+    nh_system *s = system_of(PLANE);
+    nh_ex e[2] = {nh_canonical(s->dag, expression_of(s, left), 0), nh_canonical(s->dag, expression_of(s, right), 0)};
+    nh_jet_point *p = nh_jet_point_create(s->dag);
+    cr_assert(nh_jet_point_register(p, 2, e), "%s", p->obstacle);
+    nh_ex symbol[3] = {s->coordinate[0].q, s->coordinate[1].q, s->parameter[0].symbol};
+    bool done = false, same = false;
+    for (uint64_t seed = 1; seed < 60 && !done; seed++) {
+        nh_jet_ring *r = nh_jet_ring_create(nh_prime_at(seed % 7), 2, (const size_t[]){1, 1}, 5);
+        nh_jet_point_choose(p, r->field, seed);
+        nh_jet_eval *v = nh_jet_eval_create(p, r);
+        nh_residue *x = nh_alloc_array(3 * r->size, sizeof *x);
+        for (size_t k = 0; k < 3; k++) {
+            memset(x, 0, r->size * sizeof *x);
+            if (k < 2) x[r->up[k * r->size]] = 1;
+            x[0] = 1000 + 7 * (nh_residue)seed + (nh_residue)k;
+            nh_jet_eval_set(v, symbol[k], x, false);
+        }
+        done = nh_jet_eval_all(v, 2, e, x);
+        same = done && equal(r, x, x + r->size);
+        nh_free(x);
+        nh_jet_eval_free(v);
+        nh_jet_ring_free(r);
+    }
+    cr_assert(done, "%s has a series somewhere", left);
+    nh_jet_point_free(p);
+    nh_system_free(s);
+    return same;
+}
+
+Test(count, relations_between_functions_are_kept)
+{
+    cr_assert(agree("sin(x + y)", "sin(x)*cos(y) + cos(x)*sin(y)"));
+    cr_assert(agree("cos(2*x/3)^2", "(1 + cos(4*x/3))/2"));
+    cr_assert(agree("tan(2*x)", "2*tan(x)/(1 - tan(x)^2)"));
+    cr_assert(agree("exp(x/2)*exp(x/3)*exp(y)", "exp(5*x/6 + y)"));
+    cr_assert(agree("cosh(x)^2 - sinh(x)^2", "1"));
+    cr_assert(agree("tanh(x)", "(exp(2*x) - 1)/(exp(2*x) + 1)"));
+    cr_assert(agree("sqrt(1 + x)*sqrt(1 + y)", "sqrt((1 + x)*(1 + y))"));
+    cr_assert(agree("(1 + x)^(1/3)*(1 + x)^(1/6)", "sqrt(1 + x)"));
+    cr_assert(agree("sqrt(2)*sqrt(3)*y", "sqrt(6)*y"));
+    cr_assert(agree("(x^2 + y^2)^(-3/2)", "1/((x^2 + y^2)*sqrt(x^2 + y^2))"));
+    cr_assert(agree("sin(x + pi/3)", "sin(x)/2 + sqrt(3)/2*cos(x)"));
+    cr_assert_not(agree("sin(x)", "cos(x)"));
+    cr_assert_not(agree("sqrt(1 + x)", "1 + x/2"));
+}
+
+/* d/dx by the series of the function and by the series of its derivative. */
+static bool derives(const char *function, const char *derivative)
+{
+    nh_system *s = system_of(PLANE);
+    nh_ex e[2] = {expression_of(s, function), expression_of(s, derivative)};
+    nh_jet_point *p = nh_jet_point_create(s->dag);
+    cr_assert(nh_jet_point_register(p, 2, e), "%s", p->obstacle);
+    bool done = false, same = true;
+    for (uint64_t seed = 1; seed < 60 && !done; seed++) {
+        nh_jet_ring *r = nh_jet_ring_create(nh_prime_at(0), 1, (const size_t[]){1}, 8);
+        nh_jet_point_choose(p, r->field, seed);
+        nh_jet_eval *v = nh_jet_eval_create(p, r);
+        nh_residue *x = nh_alloc_array(3 * r->size, sizeof *x);
+        x[0] = (nh_residue)(100 + seed);
+        x[1] = 1;
+        nh_jet_eval_set(v, s->coordinate[0].q, x, false);
+        done = nh_jet_eval_all(v, 2, e, x);
+        if (done) nh_jet_derivative(r, x, 0, x + 2 * r->size);
+        for (size_t k = 0; done && k + 1 < r->size; k++) same &= x[r->size + k] == x[2 * r->size + k];
+        nh_free(x);
+        nh_jet_eval_free(v);
+        nh_jet_ring_free(r);
+    }
+    cr_assert(done, "%s has a series somewhere", function);
+    nh_jet_point_free(p);
+    nh_system_free(s);
+    return same;
+}
+
+Test(count, primitives_have_their_derivatives)
+{
+    cr_assert(derives("log(1 + x^2)", "2*x/(1 + x^2)"));
+    cr_assert(derives("atan(x^2)", "2*x/(1 + x^4)"));
+    cr_assert(derives("atanh(x)", "1/(1 - x^2)"));
+    cr_assert(derives("asin(x)", "1/sqrt(1 - x^2)"));
+    cr_assert(derives("acos(x)", "-1/sqrt(1 - x^2)"));
+    cr_assert(derives("asinh(3*x)", "3/sqrt(1 + 9*x^2)"));
+    cr_assert(derives("acosh(x)", "1/sqrt(x^2 - 1)"));
+    cr_assert(derives("atan2(x, 2)", "2/(4 + x^2)"));
+    cr_assert(derives("abs(x)^3", "3*x*abs(x)"));
+}
+
+/* ---- counts ---- */
+
+typedef struct {
+    nh_system *system;
+    nh_model *model;
+    nh_ex *known;
+    size_t count;
+} problem;
+
+/* A system with the integrals that it is claimed to have, by `known: currents`. */
+static problem problem_of(const char *text)
+{
+    nh_error error = {0};
+    problem p = {.system = system_of(text)};
+    nh_chart *chart = nh_chart_create(p.system, NH_CHART_AUTO, 1, &error);
+    must(chart != NULL, &error, "the chart");
+    p.model = nh_model_create(p.system, chart, &error);
+    must(p.model != NULL, &error, "the model");
+    p.known = nh_alloc_array(p.system->currents + 1, sizeof *p.known);
+    for (size_t k = 0; k < p.system->currents; k++)
+        must(nh_analysis_to_chart(p.model, p.system->current[k].value, &p.known[p.count++], &error), &error, "a current");
+    return p;
+}
+
+static void problem_clear(problem *p)
+{
+    nh_free(p->known);
+    nh_model_free(p->model);
+    nh_system_free(p->system);
+}
+
+static nh_count count_in(const char *text, size_t degree, bool time, bool generic)
+{
+    problem p = problem_of(text);
+    nh_count_question q = {.time = time, .generic = generic, .degree = degree, .work = 1e10, .known = p.count, .current = p.known};
+    nh_count c = nh_count_integrals(p.model, &q);
+    problem_clear(&p);
+    return c;
+}
+
+static nh_count count_text(const char *text, size_t degree) { return count_in(text, degree, false, false); }
+
+static void expect(const char *name, const nh_count *c, size_t degrees, const size_t *bound)
+{
+    cr_assert_null(c->obstacle, "%s: %s", name, c->obstacle);
+    cr_assert_eq(c->rows, degrees, "%s: %zu degrees, because of %s", name, c->rows, c->end ? c->end : "nothing");
+    for (size_t d = 0; d < degrees; d++) cr_assert_eq(c->row[d].bound, bound[d], "%s, degree %zu: %zu instead of %zu", name, d + 1, c->row[d].bound, bound[d]);
+}
+
+#define EXPECT(text, ...)                                                                                                                            \
+    do {                                                                                                                                             \
+        size_t bound_[] = {__VA_ARGS__}, degrees_ = sizeof bound_ / sizeof *bound_;                                                                  \
+        nh_count count_ = count_text(text, degrees_);                                                                                                \
+        expect(#text, &count_, degrees_, bound_);                                                                                                    \
+    } while (0)
+
+static const char *const FREE_1 = "name: f\ncoordinates: [{name: x}]\nlagrangian: x'^2/2\n";
+static const char *const FREE_2 = "name: f\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2\n";
+static const char *const FREE_3 = "name: f\ncoordinates: [{name: x}, {name: y}, {name: z}]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n";
+static const char *const FREE_POLAR = "name: f\ncoordinates: [{name: r, type: length}, {name: h, type: angle}]\nlagrangian: (r'^2 + r^2*h'^2)/2\n";
+static const char *const SPHERE = "name: f\ncoordinates: [{name: a, type: angle}, {name: b, type: angle}]\nlagrangian: (a'^2 + sin(a)^2*b'^2)/2\n";
+
+/* Killing tensors of rank k on a space of constant curvature: (m + k - 1)! (m + k)!/((m - 1)! m! k! (k + 1)!) [Thompson1986]. */
+static size_t killing(size_t m, size_t k)
+{
+    double n = 1;
+    for (size_t i = 1; i <= k; i++) n *= (double)(m + i - 1) / (double)i;
+    for (size_t i = 1; i <= k; i++) n *= (double)(m + i) / (double)(i + 1);
+    return (size_t)(n + 0.5);
+}
+
+static void flat(const char *text, size_t m, size_t degree)
+{
+    nh_count c = count_text(text, degree);
+    size_t total = 1;
+    cr_assert_null(c.obstacle, "%s", c.obstacle);
+    cr_assert_eq(c.rows, degree);
+    for (size_t d = 1; d <= degree; d++) cr_assert_eq(c.row[d - 1].bound, total += killing(m, d), "%zu coordinates, degree %zu: %zu", m, d, c.row[d - 1].bound);
+}
+
+Test(count, free_motion_in_spaces_of_constant_curvature)
+{
+    flat(FREE_1, 1, 8);
+    flat(FREE_2, 2, 6);
+    flat(FREE_POLAR, 2, 6);
+    flat(SPHERE, 2, 5);
+    flat(FREE_3, 3, 4);
+}
+
+#define PLANAR(potential) "name: h\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\ndomain: {x: [0.5, 1.5]}\nlagrangian: (x'^2 + y'^2)/2 - (" potential ")\n"
+
+Test(count, potentials_in_the_plane)
+{
+    EXPECT(PLANAR("(x^2 + y^2)/2 + x^2*y + y^3/3"), 1, 3, 3, 6);
+    EXPECT(PLANAR("(x^2 + 16*y^2)/2 + x^2*y + 16/3*y^3"), 1, 2, 2, 4);
+    EXPECT(PLANAR("(x^2 + y^2)/2 + x^2*y - y^3/3"), 1, 2, 2, 3);
+    EXPECT(PLANAR("(x^2 + 16*y^2)/2 + x^2*y + 16/3*y^3 + 7/10/x^2"), 1, 2, 2, 4);
+    EXPECT(PLANAR("12*x^(4/3) + y^2*x^(-2/3)"), 1, 2, 2, 3, 3, 5);
+    EXPECT(PLANAR("exp(x - y) + exp(-x) + exp(y)"), 1, 2, 2);
+    EXPECT(PLANAR("1/sqrt(x^2 + y^2)"), 2, 6, 10, 19); /* A^2 + B^2 = 2 E L^2 + 1 */
+}
+
+#define RIGID(A, B, C, potential) "name: top\ncoordinates: [{name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\ndomain: {h: [0.4, 2.6]}\n" \
+    "lagrangian: (" A ")*(p'*sin(h)*sin(s) + h'*cos(s))^2/2 + (" B ")*(p'*sin(h)*cos(s) - h'*sin(s))^2/2 + (" C ")*(p'*cos(h) + s')^2/2 - (" potential ")\n"
+
+Test(count, rigid_bodies)
+{
+    EXPECT(RIGID("2", "3", "5", "0"), 4, 11, 24);
+    EXPECT(RIGID("2", "2", "5", "cos(h)"), 3, 7, 13, 22);
+    EXPECT(RIGID("2", "2", "1", "sin(h)*sin(s)"), 2, 4, 6, 10);
+}
+
+#define SLEIGH(J) "name: sl\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}]\nconstraints: [\"x'*sin(h) - y'*cos(h) = 0\"]\n" \
+    "lagrangian: (" J ")*h'^2/2 + 13/10*((x' - 4/10*h'*sin(h))^2 + (y' + 4/10*h'*cos(h))^2)/2\n"
+#define SPACE(constraint, potential) "name: c\ncoordinates: [{name: x}, {name: y}, {name: z}]\nconstraints: [\"" constraint "\"]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (" potential ")\n"
+
+Test(count, nonholonomic_systems)
+{
+    EXPECT(SLEIGH("7/10"), 3, 6, 10, 15);
+    EXPECT(SPACE("z' = y*x'", "(x^2 + y^2 + z^2)/2"), 1, 3);
+    EXPECT("name: d\ncoordinates: [{name: x}, {name: y}, {name: p, type: angle}, {name: s, type: angle}]\nconstraints: [\"x' = 6/10*s'*cos(p)\", \"y' = 6/10*s'*sin(p)\"]\n"
+           "lagrangian: 13/10*(x'^2 + y'^2)/2 + 7/10*p'^2/2 + 4/10*s'^2/2\n", 7, 27);
+}
+
+/* Velocities of other kinds and other coordinates give the same numbers. */
+Test(count, numbers_do_not_depend_on_velocities_or_coordinates)
+{
+    const char *const BODY = "name: sl\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}]\n"
+                             "chart: {velocities: [om, v], map: [\"h' = om\", \"x' = v*cos(h)\", \"y' = v*sin(h)\"]}\nconstraints: [\"x'*sin(h) - y'*cos(h) = 0\"]\n"
+                             "lagrangian: 7/10*h'^2/2 + 13/10*((x' - 4/10*h'*sin(h))^2 + (y' + 4/10*h'*cos(h))^2)/2\n";
+    EXPECT(BODY, 3, 6, 10);
+    EXPECT("name: k\ncoordinates: [{name: r, type: length}, {name: h, type: angle}]\ndomain: {r: [0.5, 2]}\nlagrangian: (r'^2 + r^2*h'^2)/2 + 1/r\n", 2, 6, 10, 19);
+    EXPECT("name: k\ncoordinates: [{name: u, type: length}, {name: v, type: length}]\ndomain: {u: [0.5, 2]}\nlagrangian: (u^2 + v^2)*(u'^2 + v'^2)*2 + 1/(u^2 + v^2)\n", 2, 6, 10);
+}
+
+Test(count, integrable_constraints_are_followed_along_their_leaves)
+{
+    EXPECT(SPACE("x*x' + y*y' + z*z' = 0", "0"), 4, 10);                                   /* a sphere: 1, 3 + 1, 6 + 3 + 1 */
+    EXPECT(SPACE("z' = x*x' + y*y'", "0"), 2, 4);                                          /* a paraboloid: rotation and energy */
+    EXPECT("name: two\ncoordinates: [{name: x}, {name: y}, {name: z}, {name: u}]\nconstraints: [\"z' = y*x'\", \"u*u' + x*x' = 0\"]\ndomain: {u: [1, 2]}\n"
+           "lagrangian: (x'^2 + y'^2 + z'^2 + u'^2)/2 - y\n", 2, 4);                       /* a contact structure on a leaf: sqrt(1 + y^2 cos(a)^2) a', and the energy */
+}
+
+Test(count, time_is_a_coordinate)
+{
+    nh_count c = count_in(FREE_1, 3, true, false);
+    size_t line[] = {3, 6, 10}; /* polynomials in x' and x - t x' */
+    expect("a line in time", &c, 3, line);
+    c = count_in("name: o\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - x^2\n", 2, true, false);
+    size_t oscillator[] = {3, 6};
+    expect("an oscillator in time", &c, 2, oscillator);
+    c = count_in("name: o\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - t*x^2\n", 2, false, false);
+    cr_assert(c.time, "it depends on time by itself");
+    expect("Airy's equation", &c, 2, oscillator);
+    c = count_in("name: o\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - t*x^4\n", 2, false, false);
+    size_t none[] = {1, 1};
+    expect("a quartic oscillator that stiffens", &c, 2, none);
+}
+
+Test(count, known_integrals_are_compared)
+{
+    const char *const KEPLER = "name: k\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\ndomain: {x: [0.5, 2]}\nlagrangian: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)\n"
+                               "known:\n  currents:\n    - {name: E, expr: (x'^2 + y'^2)/2 - 1/sqrt(x^2 + y^2)}\n    - {name: L, expr: x*y' - y*x'}\n";
+    nh_count c = count_text(KEPLER, 2);
+    cr_assert(c.row[0].complete);
+    cr_assert_not(c.row[1].complete, "the vector of Laplace, Runge and Lenz is missing");
+    cr_assert_eq(c.row[1].bound, 6);
+    cr_assert_eq(c.row[1].known, 4); /* 1, E, L, L^2 */
+    char *all = nh_alloc(4096);
+    snprintf(all, 4096, "%s    - {name: A, expr: y'*(x*y' - y*x') - x/sqrt(x^2 + y^2)}\n    - {name: B, expr: -x'*(x*y' - y*x') - y/sqrt(x^2 + y^2)}\n", KEPLER);
+    c = count_text(all, 4);
+    nh_free(all);
+    for (size_t d = 0; d < 4; d++) cr_assert(c.row[d].complete, "degree %zu: %zu of %zu", d + 1, c.row[d].known, c.row[d].bound);
+}
+
+Test(count, generic_parameters_have_no_more_than_special_ones)
+{
+    const char *const text = "name: h\nparameters: [{name: b, value: 1}, {name: e, value: 3}]\ncoordinates: [{name: x}, {name: y}]\n"
+                             "lagrangian: (x'^2 + y'^2)/2 - (x^2 + b*y^2)/2 - x^2*y - y^3/e\nknown: {currents: [{name: E, expr: (x'^2 + y'^2)/2 + (x^2 + b*y^2)/2 + x^2*y + y^3/e}]}\n";
+    nh_count c = count_in(text, 4, false, true);
+    size_t generic[] = {1, 2, 2, 3}, special[] = {1, 3, 3, 6};
+    expect("all b, e", &c, 4, generic);
+    cr_assert(c.row[3].complete);
+    c = count_in(text, 4, false, false);
+    expect("b = 1, e = 3", &c, 4, special);
+    cr_assert_not(c.row[3].complete);
+}
+
+/* Systems of step 2 and 3, whose numbers fall slowly: what stays the same once may fall again. */
+Test(count, numbers_that_fall_slowly_are_not_taken_for_settled)
+{
+    const char *const CONTACT = SPACE("z' = y*x'", "x^2/2 + y^2/2 + z^2/2");
+    nh_count c = count_text(CONTACT, 4);
+    cr_assert_null(c.obstacle);
+    for (size_t d = 1; d < c.rows; d++) cr_assert(c.row[d].bound >= c.row[d - 1].bound);
+    cr_assert(c.row[1].settled && c.row[1].bound == 3);
+}
+
+Test(count, what_is_out_of_reach_is_said)
+{
+    cr_assert_not_null(count_text("name: r\ncoordinates: [{name: x}, {name: y}]\nlagrangian: -sqrt(1 - x'^2 - y'^2)\n", 2).obstacle);
+    cr_assert_not_null(count_text("name: s\ncoordinates: [{name: x}, {name: y}, {name: z}]\nconstraints: [\"z' = sqrt(x'^2 + y'^2)\"]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n", 2).obstacle);
+    cr_assert_not_null(count_text(PLANAR("abs(x) + abs(y)"), 2).obstacle);
+    cr_assert_not_null(count_text(PLANAR("x^pi"), 2).obstacle);
+    cr_assert_null(count_text(PLANAR("abs(x)"), 2).obstacle);
+}
+
+/* exp(x) and exp(2 x) are one function: with two independent ones there would be fewer integrals (A2 and others of Toda's kind). */
+Test(count, exponentials_of_multiples_are_not_independent)
+{
+    EXPECT(PLANAR("exp(2*x) + exp(-x)*cosh(sqrt(3)*y)*2"), 1, 2, 3); /* Toda A2, periodic */
+    EXPECT("name: m\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - exp(x) - exp(2*x) - exp(x/3)\n", 1, 2, 2, 3);
+}
