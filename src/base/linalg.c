@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 
@@ -19,7 +20,8 @@ enum {
     LEAF = 4,        /* those of them left to LAPACK: the fastest of several (tests/bench_nullspace.c) */
     SMALLEST_BLOCK = 64, /* rows; below it the calls cost more than the flops */
     ASIDE = 100,     /* columns, from which on the QR of a full block takes longer than to start a thread for it */
-    PATIENT = 400    /* columns: decompositions of fewer are not interrupted */
+    PATIENT = 400,   /* columns: decompositions of fewer are not interrupted */
+    SVD = 12, PIVOTED = 3, EIGEN = 20 /* times m n min(m, n) multiplications */
 };
 
 void nh_linalg_threads(int count)
@@ -42,6 +44,11 @@ static size_t larger(size_t a, size_t b)
 static lapack_int leading(size_t rows)
 {
     return (lapack_int)larger(rows, 1);
+}
+
+static double product(size_t a, size_t b, size_t c)
+{
+    return (double)a * (double)b * (double)c;
 }
 
 /* x - x is 0 for finite x and NaN otherwise. */
@@ -179,6 +186,7 @@ static void flush(nh_qr *qr)
  * the rows into blocks. */
 void nh_qr_add(nh_qr *qr, size_t rows, double *block, size_t ld)
 {
+    nh_work_add(NH_WORK_DENSE, product(rows, qr->columns, qr->columns + SMALLEST_BLOCK));
     for (size_t done = 0; done < rows;) {
         size_t take = smaller(rows - done, qr->capacity - qr->waiting);
         for (size_t j = 0; j < qr->columns; j++)
@@ -267,6 +275,7 @@ bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
     bool ok = k == 0, sides = u || vt; /* LAPACK computes both or none */
     if (!nh_all_finite(m * n, a))
         return false;
+    nh_work_add(NH_WORK_DENSE, SVD * product(m, n, k));
     for (int slow = 0; slow < 2 && !ok; slow++) {
         decomposition *d = nh_alloc(sizeof *d);
         *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .u = sides ? kept(m * k, NULL) : NULL, .vt = sides ? kept(k * n, NULL) : NULL, .slow = slow};
@@ -296,6 +305,7 @@ bool nh_qr_pivoted(size_t m, size_t n, double *a, size_t *pivot)
         return true;
     if (!nh_all_finite(m * n, a))
         return false;
+    nh_work_add(NH_WORK_DENSE, PIVOTED * product(m, n, k));
     decomposition *d = nh_alloc(sizeof *d);
     *d = (decomposition){.m = m, .n = n, .a = kept(m * n, a), .s = kept(k, NULL), .order = nh_alloc_array(n, sizeof *d->order)}; /* order 0: every column may move */
     if (!run(compute_qr, d))
@@ -317,6 +327,7 @@ bool nh_eigen(size_t n, double *a, double *re, double *im, double *v)
         return true;
     if (!nh_all_finite(n * n, a))
         return false;
+    nh_work_add(NH_WORK_DENSE, EIGEN * product(n, n, n));
     lapack_int size = (lapack_int)n;
     return LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', v ? 'V' : 'N', size, a, size, re, im, NULL, size, v, size) == 0;
 }
@@ -331,6 +342,7 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
         return true;
     if (!nh_all_finite(n * n, a) || !nh_all_finite(n * nrhs, b))
         return false;
+    nh_work_add(NH_WORK_DENSE, product(n, n, n + nrhs));
     lapack_int size = (lapack_int)n;
     double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, '1', size, size, a, size);
     lapack_int *swap = nh_alloc_array(n, sizeof *swap);
@@ -354,6 +366,7 @@ int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size
             memset(b + j * ldb, 0, n * sizeof *b);
         return 0;
     }
+    nh_work_add(NH_WORK_DENSE, PIVOTED * product(m, n, smaller(m, n)));
     lapack_int rank = -1;
     lapack_int *order = nh_alloc_array(n, sizeof *order);
     for (size_t j = 0; j < nrhs && m < n; j++)
@@ -372,6 +385,7 @@ void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b,
         memset(c, 0, m * n * sizeof *c);
     if (m == 0 || n == 0 || k == 0)
         return;
+    nh_work_add(NH_WORK_DENSE, product(m, n, k));
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (lapack_int)m, (lapack_int)n, (lapack_int)k, 1.0, a, (lapack_int)m, b,
                 (lapack_int)k, 0.0, c, (lapack_int)m);
 }
@@ -380,6 +394,7 @@ void nh_solve_triangle_right(size_t m, size_t n, const double *r, size_t ldr, do
 {
     if (m == 0 || n == 0)
         return;
+    nh_work_add(NH_WORK_DENSE, product(m, n, n) / 2);
     cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)m, (lapack_int)n, 1.0, r,
                 (lapack_int)ldr, b, (lapack_int)m);
 }
@@ -388,6 +403,7 @@ void nh_solve_triangle(size_t n, size_t nrhs, const double *r, size_t ldr, doubl
 {
     if (n == 0 || nrhs == 0)
         return;
+    nh_work_add(NH_WORK_DENSE, product(n, n, nrhs) / 2);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)n, (lapack_int)nrhs, 1.0, r,
                 (lapack_int)ldr, x, (lapack_int)ldx);
 }

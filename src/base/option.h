@@ -16,7 +16,8 @@
     X(stage_columns,    330,     1,      20000, whole, "columns",  "largest part of one stage when the program chooses")                     \
     X(split_columns,    90,      1,      20000, whole, "columns",  "a stage with more columns than this is split by discrete symmetries")    \
     X(threads,          0,       0,      64,    whole, "threads",  "that share the work; 0: one per processor; the result does not depend on it") \
-    X(max_seconds,      10,      0,      1e7,   real,  "s",        "time after which the search by stages ends")                             \
+    X(work,             1e4,     0,      1e9,   real,  "millions", "of units of work (about a nanosecond each) after which the search by stages ends") \
+    X(max_seconds,      120,     0,      1e7,   real,  "s",        "time after which the search ends, whatever was counted: a brake for slow machines") \
     X(rank,             1e-9,    0,      1,     real,  "",         "columns whose pivot is below this part of the first are dependent")      \
     X(zero,             100,     1,      1e6,   real,  "epsilon",  "generalized singular values up to zero*epsilon*max(1,largest) are null") \
     X(undecided,        1e5,     1,      1e10,  real,  "",         "up to this many times the null bound a value is undecided")              \
@@ -58,7 +59,7 @@
     X(chart_closed,     100,     1,      1e15,  real,  "",         "chart: how many times what two methods agree to a closed form may be off")  \
     X(chart_steps,      32,      1,      1e6,   whole, "steps",    "chart: of the longest fixed step; then four times as many at each level") \
     X(chart_columns,    220,     2,      5000,  whole, "columns",  "chart: largest ansatz of the discrete problem")                          \
-    X(check_seconds,    4,       0.01,   1e7,   real,  "s",        "time that the motions of the check may take together")                   \
+    X(check_work,       4000,    1,      1e9,   real,  "millions", "of units of work that the motions of the check may take together")       \
     X(until,            10,      -1e9,   1e9,   real,  "time",     "end of the validation motion")
 
 typedef enum { NH_OPTION_real, NH_OPTION_whole } nh_option_kind;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/budget.h"
 #include "base/memory.h"
 #include "expr/ball_internal.h"
 #include "expr/num_long.h"
@@ -217,8 +218,17 @@ static bool eval_function(nh_ball *ball, nh_ex e, arb_t out)
     return fine;
 }
 
+double nh_ball_products(long bits)
+{
+    static const double more = 3;
+    return ((double)bits / 64 + more) * ((double)bits / 64 + more);
+}
+
 static bool eval_node(nh_ball *ball, nh_ex e, arb_t out)
 {
+    enum { function = 20 }; /* as dear as so many products */
+    double each = nh_kind_of(ball->dag, e) == NH_FUNCTION ? function : (double)nh_arity(ball->dag, e) + 1;
+    nh_work_add(NH_WORK_BALL, each * nh_ball_products(ball->bits));
     switch (nh_kind_of(ball->dag, e)) {
     case NH_NUMBER: set_number(ball, out, nh_number_of(ball->dag, e)); return true;
     case NH_SYMBOL: return eval_symbol(ball, e, out);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/budget.h"
 #include "base/memory.h"
 #include "expr/ball_internal.h"
 
@@ -17,6 +18,9 @@ struct nh_ball_fit {
     arb_mat_t normal; /* A^T A, upper triangle, in that order */
     arb_mat_t c;      /* n x solutions */
 };
+
+/* Products of words in one of numbers. */
+static double products(const nh_ball_fit *f) { return nh_ball_products(f->bits); }
 
 /* ---- making and filling rows ---- */
 
@@ -139,6 +143,7 @@ bool nh_ball_fit_add(nh_ball_fit *f)
 {
     if (!evaluate(f)) return false;
     scale_row(f);
+    nh_work_add(NH_WORK_BALL, 0.5 * (double)f->n * (double)f->n * products(f));
     for (size_t i = 0; i < f->n; i++) {
         arf_srcptr x = arb_midref(f->row + i);
         if (arf_is_zero(x)) continue;
@@ -160,6 +165,7 @@ static bool follow(const nh_ball_fit *f, arb_mat_t X)
 {
     size_t m = f->n - f->leading;
     arb_mat_t N, B;
+    nh_work_add(NH_WORK_BALL, (double)m * (double)m * ((double)m / 3 + (double)f->leading) * products(f));
     arb_mat_init(N, (slong)m, (slong)m);
     arb_mat_init(B, (slong)m, (slong)f->leading);
     for (size_t i = 0; i < m; i++) {
@@ -225,6 +231,7 @@ static size_t eliminate(arb_mat_t G, bool *used, size_t *at, double bound_log10,
     for (; rank < most && find_pivot(G, used, bound_log10, &row, &column); rank++) {
         used[row] = used[d + column] = true;
         at[column] = row;
+        nh_work_add(NH_WORK_BALL, (double)d * (double)d * nh_ball_products(bits));
         for (size_t i = 0; i < d; i++) {
             if (i == row) continue;
             arb_div(factor, arb_mat_entry(G, i, column), arb_mat_entry(G, row, column), bits);

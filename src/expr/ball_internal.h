@@ -8,6 +8,9 @@
 /* The value of e; false when it is not finite or a symbol has no value. */
 bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out);
 
+/* Products of words in a product of two numbers of so many bits; what else is done with them counts as if they were longer. */
+double nh_ball_products(long bits);
+
 /* log10 of rigorous bounds of |v|. */
 double nh_ball_log10_upper(const arb_t v);
 double nh_ball_log10_lower(const arb_t v);

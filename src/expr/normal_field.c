@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/budget.h"
 #include "base/progress.h"
 #include "expr/normal.h"
 #include "expr/normal_flint.h"
@@ -9,7 +10,7 @@
 /* Products are refused when they need more than this many term products per admitted term; a whole computation may
  * do `patience` times that. */
 enum { slack = 50, patience = 20, highest_degree = 1 << 30 };
-/* Behind a deadline so much of a computation is still done: what was found by then is to be shown in short form. */
+/* Behind a budget or a deadline so much of a computation is still done: what was found by then is to be shown in short form. */
 static const double hurried = 0.02;
 /* A gcd is tried below this many pairs of terms and below this degree: a fraction that is not cancelled is still right. */
 static const double gcd_pairs = 2e4;
@@ -69,7 +70,8 @@ static double words(const fmpz_mpoly_t a) { return 1 + fabs((double)fmpz_mpoly_m
 bool nh_field_spend(nh_field *f, double work)
 {
     f->work += work;
-    if (f->work > f->max_work || (f->work > hurried * f->max_work && nh_late())) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    nh_work_add(NH_WORK_TERM, work);
+    if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late()))) nh_field_break(f, NH_FIELD_TOO_LARGE);
     return f->state == NH_FIELD_FINE;
 }
 

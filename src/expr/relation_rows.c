@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "expr/normal_flint.h"
 
 #include <flint/nmod.h>
@@ -194,6 +195,7 @@ static void subtract(echelon *e, ulong *from, ulong factor, const ulong *row)
 
 static bool insert(echelon *e, ulong *v)
 {
+    nh_work_add(NH_WORK_RESIDUE, (double)e->rank * (double)e->n);
     for (size_t i = 0; i < e->rank; i++) subtract(e, v, v[e->pivot[i]], e->row + i * e->n);
     size_t p = 0;
     while (p < e->n && !v[p]) p++;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "base/text.h"
@@ -14,8 +15,8 @@ static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, 
 
 enum { large_length = 3000 }; /* nh_complexity of a Lagrangian */
 
-/* Of an ended run nothing is kept: see nh_model_create. */
-static nh_ex simple(const nh_model *o, nh_ex e) { return nh_interrupted() ? e : nh_simplify_short(o->dag, e, 0); }
+/* Behind a budget longer formulas are better than none; of an ended run nothing is kept: see nh_model_create. */
+static nh_ex simple(const nh_model *o, nh_ex e) { return nh_budget_spent() || nh_interrupted() ? e : nh_simplify_short(o->dag, e, 0); }
 
 /* ---- derivatives along fields ---- */
 

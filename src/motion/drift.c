@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/clock.h"
+#include "base/budget.h"
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "expr/terms.h"
@@ -20,15 +20,20 @@ typedef struct {
     size_t watches;
     const nh_watch *watch;
     const nh_valid *valid;
-    double start;     /* when the check began */
     const nh_method *method;
     bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
     size_t currents;
     const nh_ex *current; /* of the chart */
 } run;
 
-/* Of the time for all motions of the check; some is left for each. */
-static double time_left(const run *r) { return fmax(r->options->check_seconds / 20, r->options->check_seconds + r->start - nh_clock()); }
+/* Of the work for all motions of the check each has the same part, in steps: what one takes depends on the equations alone.  A step evaluates them about
+ * twice, and makes a new Jacobian once in a while, which takes about as much. */
+static double most_steps(const run *r)
+{
+    enum { evaluations = 3, motions = NH_DRIFT_RUNS + 1, least = 1000 };
+    double each = nh_work_millions(NH_WORK_VALUE, evaluations * (double)nh_dynamics_length(r->dynamics));
+    return fmin(r->options->steps, fmax(least, floor(r->options->check_work / motions / each)));
+}
 
 /* ---- currents along a motion ---- */
 
@@ -125,7 +130,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     first.count = 1;
     bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
     double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, r->options->steps), .seconds = time_left(r), .cancelled = nh_interrupted_callback};
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, most_steps(r)), .cancelled = nh_interrupted_callback};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
@@ -250,7 +255,7 @@ static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_erro
 static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
-        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = r->options->steps, .seconds = time_left(r), .cancelled = nh_interrupted_callback};
+        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = most_steps(r), .cancelled = nh_interrupted_callback};
         if (i == 0 && nh_meets_pivot(r->dynamics, r->method, r->z0, (double[]){r->times[0], r->times[r->outputs - 1]}, &options)) r->everywhere = true;
         nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, r->method, r->z0, r->outputs, r->times, &options, NULL, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
@@ -281,7 +286,7 @@ static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
     memcpy(e, o->chart->symbol + 1, states * sizeof *e);
     for (size_t i = 0; i < q->watches; i++) e[states + i] = q->watch[i].value;
-    nh_trajectory_request request = {.model = o, .initial = q->initial, .count = q->outputs, .times = r->times, .options = q->options, .n = n, .e = e, .max_seconds = time_left(r)};
+    nh_trajectory_request request = {.model = o, .initial = q->initial, .count = q->outputs, .times = r->times, .options = q->options, .n = n, .e = e, .max_seconds = q->options->max_seconds};
     nh_trajectory *t = nh_trajectory_accurate(&request, q->accuracy, q->ways, &r->out->accuracy, error);
     if (!t) return nh_free(e), false;
     nh_accuracy *a = &r->out->accuracy;
@@ -304,7 +309,7 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     double tolerance = q->options->tolerance;
     *v = (nh_validation){.arena = arena, .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, o->chart->name),
                          .begin = q->initial->t, .end = q->until, .currents = q->currents, .current = nh_arena_alloc(arena, (q->currents + 1) * sizeof *v->current), .crossing = NAN};
-    run r = {.model = o, .dynamics = nh_dynamics_create(o), .out = v, .options = q->options, .outputs = q->outputs, .watches = q->watches, .watch = q->watch, .valid = q->valid, .currents = q->currents, .current = q->current, .start = nh_clock(), .method = nh_method_find("CVODE Adams")};
+    run r = {.model = o, .dynamics = nh_dynamics_create(o), .out = v, .options = q->options, .outputs = q->outputs, .watches = q->watches, .watch = q->watch, .valid = q->valid, .currents = q->currents, .current = q->current, .method = nh_method_find("CVODE Adams")};
     r.times = nh_alloc_array(q->outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
     for (size_t i = 0; i < q->outputs; i++) r.times[i] = q->initial->t + (q->until - q->initial->t) * (double)i / (double)(q->outputs - 1);

@@ -115,6 +115,8 @@ void nh_dynamics_hasten(nh_dynamics *d, double patience)
 }
 
 double nh_dynamics_patience(const nh_dynamics *d) { return d->patience; }
+size_t nh_dynamics_length(const nh_dynamics *d) { return nh_tape_length(d->rate) + 1; }
+
 const char *nh_dynamics_words(const nh_dynamics *d) { return nh_tape_words(d->rate_work); }
 
 const nh_model *nh_dynamics_model(const nh_dynamics *d) { return d->model; }

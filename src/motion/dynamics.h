@@ -21,6 +21,8 @@ nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
 void nh_dynamics_hasten(nh_dynamics *dynamics, double patience);
 double nh_dynamics_patience(const nh_dynamics *dynamics);
 const char *nh_dynamics_words(const nh_dynamics *dynamics);
+/* Instructions of one evaluation of the reduced equations. */
+size_t nh_dynamics_length(const nh_dynamics *dynamics);
 /* Does the model's chart have a pivot to watch? */
 bool nh_dynamics_watched(const nh_model *model);
 const nh_model *nh_dynamics_model(const nh_dynamics *dynamics);

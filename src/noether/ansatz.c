@@ -300,6 +300,30 @@ static void order_columns(builder *b)
     nh_free(r);
 }
 
+/* Monomials of n variables to a degree: n + degree over degree. */
+static double size_of(const nh_family *f)
+{
+    double n = (double)f->in_count, size = 1;
+    switch (f->kind) {
+    case NH_POLYNOMIAL:
+    case NH_CHEBYSHEV:
+        for (size_t k = 1; k <= f->degree; k++) size *= (n + (double)k) / (double)k;
+        return round(size);
+    case NH_FOURIER: return 2 * n * (double)f->degree + f->constant;
+    case NH_TERMS: return (double)f->terms;
+    default: break;
+    }
+    for (size_t i = 0; i < f->parts; i++) size *= size_of(&f->part[i]);
+    return size;
+}
+
+double nh_ansatz_size(size_t families, const nh_family *family)
+{
+    double sum = 0;
+    for (size_t i = 0; i < families; i++) sum += size_of(&family[i]);
+    return sum;
+}
+
 nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, size_t most,
                             nh_error *error)
 {

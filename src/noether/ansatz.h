@@ -47,6 +47,8 @@ typedef struct {
 nh_ansatz *nh_ansatz_create(const nh_model *model, const nh_points *points, size_t families, const nh_family *family, size_t most,
                             nh_error *error);
 void nh_ansatz_free(nh_ansatz *ansatz);
+/* How many columns the families have, those that they share counted several times: not fewer than the ansatz would have. */
+double nh_ansatz_size(size_t families, const nh_family *family);
 
 /* A column as an expression. */
 nh_ex nh_ansatz_column(const nh_ansatz *ansatz, size_t column);

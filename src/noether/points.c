@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/linalg.h"
 #include "geometry/bordered.h"
 #include "system/sample.h"
@@ -36,6 +37,7 @@ void nh_points_run(const nh_points *points, const nh_tape *tape, double *const *
     size_t n_out = nh_tape_outputs(tape);
     const double **in = nh_alloc_array(points->width, sizeof *in);
     double **to = nh_alloc_array(n_out + 1, sizeof *to);
+    nh_work_add(NH_WORK_VALUE, (double)points->count * (double)nh_tape_length(tape));
     for (size_t start = 0; start < points->count; start += NH_BATCH) {
         size_t left = points->count - start;
         for (size_t j = 0; j < points->width; j++) in[j] = points->column[j] + start;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/progress.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
@@ -138,6 +139,7 @@ static size_t run(nh_rows *r, const nh_tape *tape, nh_tape_work *work, const nh_
     size_t left = points->count - start, count = left < NH_BATCH ? left : NH_BATCH;
     for (size_t j = 0; j < points->width; j++) r->in[j] = points->column[j] + start;
     for (size_t j = 0; j < r->unknowns; j++) r->in[points->width + j] = r->theta + j * NH_BATCH;
+    nh_work_add(NH_WORK_VALUE, (double)count * (double)(nh_tape_length(tape) + a->columns));
     nh_tape_eval_batch(tape, work, count, r->in, r->row);
     for (size_t j = 0; j < a->columns; j++)
         leibniz(&a->column[j], count, r->row, r->row + a->factors, r->value + j * NH_BATCH, r->rate + j * NH_BATCH);

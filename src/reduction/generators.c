@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/progress.h"
 #include "expr/normal.h"
 #include "expr/relation.h"
@@ -167,7 +168,7 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
     *out = (nh_generators){0};
     nh_joint_fields joints = {0};
     bool good = true, enough = false;
-    for (int level = 1; level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && nh_late()); level++) {
+    for (int level = 1; level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
         bool more = one_library(out, k, jets, level, &joints, options, error, &good);
         enough = complete(out, jets) || (!more && !jets);
         if (level > 1 || (enough && for_all_parameters(out) == out->count) || !good || !k->model->system->chain) continue;

@@ -133,3 +133,19 @@ void nh_facts_put_holds(nh_json *item, const nh_model *o, const nh_proof *p)
     for (size_t i = 0; i < o->system->parameters; i++)
         if (p->fixed[i]) nh_json_put_number(list, o->system->parameter[i].name, o->parameter_value[i]);
 }
+
+/* ---- the answer ---- */
+
+const char *nh_facts_nothing(const nh_result *r)
+{
+    if (r->verdict == NH_NONE) return "No current in this ansatz";
+    return r->search == NH_SEARCH_CUT ? "Undecided: no current so far" : "Undecided: nothing found got a certificate";
+}
+
+const char *nh_facts_search(const nh_result *r)
+{
+    if (r->search == NH_SEARCH_COMPLETE) return "The search is complete. There cannot be more currents: together they determine every orbit locally.";
+    if (r->search == NH_SEARCH_EXHAUSTED) return "The search is exhausted: all that there was to try was tried, and there may be other currents.";
+    if (r->partial) return "The search was cut before all stages were tried: there may be more currents.";
+    return "The search was cut: stages that were too large were left out, and there may be more currents.";
+}

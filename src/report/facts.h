@@ -31,6 +31,11 @@ void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const ch
 /* How the drift of a current behaves when the tolerance of the integration falls. */
 const char *nh_facts_drift(const nh_drift *drift);
 
+/* What is said where no current was found. */
+const char *nh_facts_nothing(const nh_result *result);
+/* How the search ended: whole sentences. */
+const char *nh_facts_search(const nh_result *result);
+
 /* One linear problem in numbers, the first of them counts; NAN for what there is not. */
 enum { NH_SPECTRUM_COUNTS = 4, NH_SPECTRUM_NUMBERS = 7 };
 #define NH_SPECTRUM_HEADS "columns|independent|rows|null values|largest of them|next value|gap"

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "report/facts.h"
 #include "report/html_internal.h"
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
@@ -33,12 +34,13 @@ static void answer(nh_html_writer *w)
         nh_html_count(w, r->local_maximum);
         meanings(w);
     } else {
-        nh_html_add(w, r->verdict == NH_NONE ? "No current in this ansatz" : "Undecided: nothing found got a certificate");
+        nh_html_add(w, nh_facts_nothing(r));
     }
     nh_html_add(w, ".</p>\n");
     if (r->count && r->verdict == NH_UNDECIDED) nh_html_add(w, "<p>Not every one is certified; the cards say which.</p>\n");
-    if (r->count && r->independent == r->local_maximum) nh_html_add(w, "<p>There cannot be more: together they determine every orbit locally.</p>\n");
-    if (r->partial) nh_html_add(w, "<p class=\"warning\"><strong>Partial:</strong> the search ended before all stages were tried.</p>\n");
+    nh_html_add(w, r->partial ? "<p class=\"warning\"><strong>Partial:</strong> " : "<p>");
+    nh_html_text(w, nh_facts_search(r));
+    nh_html_add(w, "</p>\n");
 }
 
 static void warnings(nh_html_writer *w)

@@ -83,7 +83,9 @@ static void stages(nh_html_writer *w)
         nh_html_text(w, s->name);
         nh_html_add(w, "</th>");
         if (s->skipped) {
-            nh_html_add(w, "<td colspan=\"3\">not tried: too large</td></tr>\n");
+            nh_html_add(w, "<td colspan=\"3\">not tried, too large: <code>");
+            nh_html_text(w, nh_limit_words(r->arena, &s->limit));
+            nh_html_add(w, "</code></td></tr>\n");
             continue;
         }
         nh_html_cell(w, (double)s->columns, 10);

@@ -189,6 +189,7 @@ static void put_search(const writer *w, nh_json *to)
 {
     const nh_result *r = w->r;
     nh_json_put_text(to, "verdict", verdict_name(r->verdict));
+    nh_json_put_text(to, "search", nh_search_word(r->search));
     nh_json_put_text(to, "ansatz", r->ansatz_note);
     put_spectrum(to, "nullspace", &r->current);
     put_spectrum(to, "symmetry_route", &r->symmetry);

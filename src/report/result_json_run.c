@@ -105,6 +105,7 @@ void nh_result_json_stages(const nh_result *r, nh_json *to)
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "name", s->name);
         nh_json_put_bool(item, "too_large", s->skipped);
+        if (s->skipped) nh_json_put_text(item, "brought_in_by", nh_limit_words(r->arena, &s->limit));
         nh_json_put_number(item, "columns", (double)s->columns);
         nh_json_put_number(item, "sectors", (double)s->sectors);
         nh_json_put_number(item, "dimension", (double)s->dimension);

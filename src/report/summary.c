@@ -255,8 +255,9 @@ static void answer(nh_summary_writer *w)
     static const char *const verdicts[] = {"FOUND", "NONE", "UNDECIDED"};
     nh_text title;
     nh_text_init(&title);
-    if (r->count == 0) nh_text_addf(&title, "%s: no current in this ansatz", verdicts[r->verdict]);
+    if (r->count == 0) nh_text_addf(&title, "%s: no current %s", verdicts[r->verdict], r->search == NH_SEARCH_CUT ? "so far" : "in this ansatz");
     else nh_text_addf(&title, "%s: %zu independent current%s of at most %zu", verdicts[r->verdict], r->independent, r->independent == 1 ? "" : "s", r->local_maximum);
+    nh_text_addf(&title, " (search %s)", nh_search_word(r->search));
     nh_summary_heading(w, nh_text_string(&title));
     nh_text_clear(&title);
     for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);

@@ -98,7 +98,7 @@ static void stages(nh_summary_writer *w)
     const nh_result *r = w->r;
     for (size_t i = 0; i < r->stages; i++) {
         const nh_tried *s = &r->stage[i];
-        if (s->skipped) nh_text_addf(w->out, "    %-80s too large\n", s->name);
+        if (s->skipped) nh_text_addf(w->out, "    %-80s too large: %s\n", s->name, nh_limit_words(r->arena, &s->limit));
         else {
             nh_text_addf(w->out, "    %-80s %4zu columns", s->name, s->columns);
             if (s->sectors > 1) nh_text_addf(w->out, " in %zu sectors", s->sectors);

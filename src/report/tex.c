@@ -42,9 +42,12 @@ static void answer(nh_tex_writer *w)
         nh_tex_count(w, r->local_maximum);
         nh_tex_add(w, ".");
     } else {
-        nh_tex_add(w, r->verdict == NH_NONE ? "No current in this ansatz." : "Undecided: nothing found got a certificate.");
+        nh_tex_add(w, nh_facts_nothing(r));
+        nh_tex_add(w, ".");
     }
-    nh_tex_add(w, r->partial ? " The search was ended early.\n" : "\n");
+    nh_tex_add(w, " ");
+    nh_tex_words(w, nh_facts_search(r));
+    nh_tex_add(w, "\n");
     for (size_t i = 0; i < r->warnings; i++) {
         nh_tex_add(w, "\n\\textbf{Warning:} ");
         nh_tex_words(w, r->warning[i]);
@@ -335,7 +338,9 @@ static void stages(nh_tex_writer *w)
         nh_tex_words(w, s->name);
         nh_tex_add(w, "\\strut} & ");
         if (s->skipped) {
-            nh_tex_add(w, "too large & & \\\\\n");
+            nh_tex_add(w, "\\multicolumn{3}{l}{too large: \\texttt{");
+            nh_tex_words(w, nh_limit_words(r->arena, &s->limit));
+            nh_tex_add(w, "}} \\\\\n");
             continue;
         }
         nh_tex_count(w, s->columns);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/clock.h"
 #include "base/linalg.h"
 #include "base/parallel.h"
@@ -160,15 +161,29 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
     return good;
 }
 
+/* What is behind the deadline may be missing anywhere. */
+static void watch_deadline(nh_result *r)
+{
+    bool late = nh_late() && r->search != NH_SEARCH_COMPLETE;
+    if (late) r->search = NH_SEARCH_CUT;
+    if (late && !nh_interrupted()) {
+        r->partial = true;
+        nh_result_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
+    }
+    nh_deadline_set(INFINITY);
+}
+
 /* FOUND needs a certificate for every current; NONE needs a spectrum without a gap at rounding. */
 static void conclude(nh_result *r)
 {
     bool certified = true;
     for (size_t k = 0; k < r->count; k++) certified &= nh_coefficients_certain(&r->found[k], &r->options);
-    bool open = r->open > 0 || nh_interrupted(), failed = r->count == 0 && r->current.dimension > 0;
+    bool open = r->open > 0 || r->search == NH_SEARCH_CUT, failed = r->count == 0 && r->current.dimension > 0;
     r->verdict = r->count == 0 ? (open || failed ? NH_UNDECIDED : NH_NONE) : certified ? NH_FOUND : NH_UNDECIDED;
     if (!certified)
         nh_result_warn(r, "a current could not be certified to %g digits; it is conserved to the digits given with it", r->options.digits);
+    if (r->count == 0 && r->search == NH_SEARCH_CUT)
+        nh_result_warn(r, "what a limit left out may hold currents%s", nh_result_left_out(r) ? ": the list of stages names the options that bring it in" : "");
     if (r->count == 0 && r->open)
         nh_result_warn(r, "some null vectors could be true but got no certificate: another ansatz, or more samples (--samples), would decide");
     if (r->stages == 0 && r->current.rank_in_doubt)
@@ -244,7 +259,11 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     r->route = r->analysis ? r->analysis->route : NH_ROUTE_BOTH;
     r->timing.read = lap(&clock);
     nh_progress("the equations of motion", -1);
-    if (!make_models(r, q, error)) return false;
+    nh_budget_begin(r->options.work);
+    bool made = make_models(r, q, error);
+    nh_budget_begin(INFINITY);
+    if (!made) return false;
+    nh_deadline_set(r->options.max_seconds);
     merge_options(r, q); /* now the analysis' motion is known too */
     r->timing.geometry = lap(&clock);
     size_t families = r->analysis ? r->analysis->families : 0;
@@ -256,13 +275,14 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     } else {
         r->ansatz_note = "as given in the analysis file";
         nh_progress("the ansatz of the analysis file", -1);
-        if (!nh_specials_find(r, &families, &family, error)) return false;
+        bool solved = nh_specials_find(r, &families, &family, error);
         r->timing.unknowns = lap(&clock);
-        if (!linear_problem(r, families, family, &clock, error)) {
-            if (!nh_interrupted()) return false;
-            nh_error_clear(error);
-        }
+        solved = solved && linear_problem(r, families, family, &clock, error);
+        if (!solved && !nh_late()) return false;
+        if (!solved) nh_error_clear(error);
+        r->search = !solved ? NH_SEARCH_CUT : r->independent >= r->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
     }
+    watch_deadline(r);
     conclude(r);
     nh_integrals_of_constraints(r);
     nh_progress("a motion to check it", -1);
@@ -285,7 +305,10 @@ nh_result *nh_analyze(const nh_analyze_request *request, nh_error *error)
     nh_arena *arena = nh_arena_create();
     nh_result *r = nh_arena_alloc(arena, sizeof *r);
     r->arena = arena;
-    if (run(r, request, error)) return r;
+    bool good = run(r, request, error);
+    nh_deadline_set(INFINITY);
+    nh_budget_begin(INFINITY);
+    if (good) return r;
     nh_result_free(r);
     return NULL;
 }

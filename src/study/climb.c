@@ -1,7 +1,9 @@
 #include "study/climb.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "base/budget.h"
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -49,10 +51,10 @@ static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
 
 bool nh_climb_done(const nh_climb *x)
 {
-    return nh_late() || x->r->independent >= x->r->local_maximum;
+    return x->r->independent >= x->r->local_maximum || nh_budget_spent() || nh_late();
 }
 
-/* Certificates of vectors that are only likely are dear and mostly refused: the time limit ends them too, and leaves the question open. */
+/* Certificates of vectors that are only likely are dear and mostly refused: the limit of work ends them too, and leaves the question open. */
 static size_t add_new(nh_climb *x, nh_candidates *list, const nh_points *fit, bool certain)
 {
     nh_result *r = x->r;
@@ -82,9 +84,12 @@ static size_t add_new(nh_climb *x, nh_candidates *list, const nh_points *fit, bo
 nh_tried *nh_climb_note(nh_climb *x, const char *name)
 {
     nh_result *r = x->r;
-    enum { most_stages = 64 };
-    if (!r->stage) r->stage = nh_arena_alloc(r->arena, most_stages * sizeof *r->stage);
-    if (r->stages == most_stages) r->stages--;
+    if (r->stages == r->stage_capacity) { /* no note is being written while the next one is made */
+        nh_tried *old = r->stage;
+        r->stage_capacity = 2 * r->stage_capacity + 64;
+        r->stage = nh_arena_alloc(r->arena, r->stage_capacity * sizeof *r->stage);
+        if (r->stages) memcpy(r->stage, old, r->stages * sizeof *old);
+    }
     r->stage[r->stages] = (nh_tried){.name = nh_arena_strdup(r->arena, name)};
     return &r->stage[r->stages++];
 }
@@ -106,6 +111,28 @@ static nh_sectors split(nh_climb *x, nh_ansatz *a)
     return nh_sectors_split(r->model, large ? x->reflections : &none, x->ranges, a);
 }
 
+/* What the null spaces of the parts take: both triangles, then two decompositions of each. */
+static double dense_work(const nh_sectors *sectors, size_t points)
+{
+    static const double decompositions = 16;
+    double sum = 0;
+    for (size_t i = 0; i < sectors->count; i++) {
+        double c = (double)(sectors->first[i + 1] - sectors->first[i]);
+        sum += c * c * (2 * (double)points + decompositions * c);
+    }
+    return sum;
+}
+
+/* A stage is solved whole or not at all. */
+static nh_limit limit_of(const nh_options *options, const nh_sectors *sectors, size_t points)
+{
+    static const double room = 1.2;
+    double work = dense_work(sectors, points);
+    if (sectors->largest > (size_t)options->stage_columns) return (nh_limit){"stage_columns", (double)sectors->largest};
+    if (!nh_budget_allows(NH_WORK_DENSE, work)) return (nh_limit){"work", ceil(room * (nh_budget_used() + nh_work_millions(NH_WORK_DENSE, work)))};
+    return (nh_limit){0};
+}
+
 /* Columns are limited by the largest part, and by what can be held at all. */
 nh_solved nh_climb_solve(nh_climb *x, size_t families, const nh_family *family)
 {
@@ -113,14 +140,18 @@ nh_solved nh_climb_solve(nh_climb *x, size_t families, const nh_family *family)
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_solved s = {.ansatz = nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.columns, &ignored)};
-    if (!s.ansatz) return s;
+    if (!s.ansatz) {
+        s.limit = (nh_limit){"columns", nh_ansatz_size(families, family)};
+        return s;
+    }
     nh_sectors sectors = split(x, s.ansatz);
+    size_t count = (size_t)fmax(least_points, points_per_column * (double)sectors.largest);
     s.sectors = sectors.count;
-    if (sectors.largest > (size_t)r->options.stage_columns) {
+    s.limit = limit_of(&r->options, &sectors, count);
+    if (s.limit.option) {
         nh_ansatz_free(s.ansatz);
         s.ansatz = NULL;
     } else if (sectors.count) {
-        size_t count = (size_t)fmax(least_points, points_per_column * (double)sectors.largest);
         nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
         s.fit = nh_points_cover(r->model, count, (uint64_t)r->options.seed + r->stages, &ignored);
         if (s.fit) s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, nh_threads(r->options.threads), &ignored);
@@ -164,13 +195,14 @@ static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certai
 
 void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_family *family)
 {
-    nh_progress(name, (nh_clock() - x->start) / x->r->options.max_seconds);
+    nh_progress(name, nh_budget_part());
     nh_result *r = x->r;
     if (families == 0) return;
     double start = nh_clock();
     nh_tried *note = nh_climb_note(x, name);
     nh_solved s = nh_climb_solve(x, families, family);
     note->skipped = !s.ansatz;
+    note->limit = s.limit;
     note->columns = s.ansatz ? s.ansatz->columns : 0;
     note->sectors = s.sectors;
     if (s.nullspace) {

@@ -17,7 +17,6 @@ typedef struct {
     nh_reflections *reflections; /* found when a stage is large */
     size_t factors;              /* simple currents, dependent ones too: factors of later stages */
     nh_ex factor[NH_MOST_FACTORS];
-    double start;
 } nh_climb;
 
 /* A stage's linear problem, solved. */
@@ -26,9 +25,10 @@ typedef struct {
     nh_points *fit;
     nh_nullspace *nullspace; /* NULL when something went wrong */
     size_t sectors;
+    nh_limit limit;          /* why it was not solved: too large */
 } nh_solved;
 
-/* Nothing more to find, or no time left. */
+/* Nothing more to find, or no work or time left. */
 bool nh_climb_done(const nh_climb *climb);
 
 /* Columns are limited by the largest part, and by what can be held at all. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
+#include "base/budget.h"
 #include "base/progress.h"
 #include "noether/prove.h"
 #include "study/climb.h"
@@ -81,19 +81,33 @@ static void function_stages(nh_climb *x)
     }
 }
 
+/* Work ends it at the same place everywhere, time does not; a stage that was too large keeps it from being exhausted, but ends nothing. */
+static void how_it_ended(nh_result *r)
+{
+    bool spent = nh_budget_spent(), left_out = false;
+    for (size_t i = 0; i < r->stages; i++) {
+        left_out |= r->stage[i].skipped;
+        spent |= r->stage[i].limit.option && !strcmp(r->stage[i].limit.option, "work");
+    }
+    if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
+    else r->search = spent || left_out || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
+    if (r->search != NH_SEARCH_CUT || !spent) return;
+    r->partial = true;
+    nh_result_warn(r, "the limit of %g million units of work ended the search; --option work=%g raises it", r->options.work, 10 * r->options.work);
+}
+
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
     enum { pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 4 };
-    nh_climb x = {.r = r, .start = nh_clock()};
+    nh_climb x = {.r = r};
     x.ranges = nh_points_create(r->model, range_points, 1, (uint64_t)r->options.seed, error);
     if (!x.ranges) return false;
-    nh_deadline_set(r->options.max_seconds);
     x.bench = nh_workbench_create(r, error);
     if (!x.bench) {
         nh_points_free(x.ranges);
-        nh_deadline_set(INFINITY);
         return false;
     }
+    nh_budget_begin(r->options.work);
     x.words = nh_dictionary_of(r->model);
     nh_stage stage;
     nh_integrals_find(&x);
@@ -106,12 +120,8 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
         if (i + 1 == isometries_after && !nh_climb_done(&x)) nh_climb_isometries(&x);
         if (i + 1 == series_after && !nh_climb_done(&x)) nh_climb_series(&x);
     }
-    bool late = nh_late();
-    nh_deadline_set(INFINITY);
-    if (late && !nh_interrupted()) {
-        r->partial = true;
-        nh_result_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
-    }
+    how_it_ended(r);
+    nh_budget_begin(INFINITY);
     nh_currents_finish(x.bench);
     nh_workbench_free(x.bench);
     nh_reflections_free(x.reflections);

@@ -2,7 +2,7 @@
  *
  * Each stage is a list of families made of the system's own dictionary; its null space is searched for currents that do not
  * depend on those found before.  The ladder ends when as many independent currents are known as can exist locally, when the stages
- * are used up, or when the time is. */
+ * are used up, or when the budget is. */
 #ifndef NH_LADDER_H
 #define NH_LADDER_H
 

@@ -15,6 +15,21 @@ nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
     return c;
 }
 
+const char *nh_search_word(nh_search search)
+{
+    static const char *const words[] = {[NH_SEARCH_COMPLETE] = "complete", [NH_SEARCH_EXHAUSTED] = "exhausted", [NH_SEARCH_CUT] = "cut"};
+    return words[search];
+}
+
+const char *nh_limit_words(nh_arena *arena, const nh_limit *limit) { return nh_arena_printf(arena, "--option %s=%.0f", limit->option, limit->value); }
+
+size_t nh_result_left_out(const nh_result *r)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < r->stages; i++) count += r->stage[i].skipped;
+    return count;
+}
+
 void nh_result_warn(nh_result *r, const char *format, ...)
 {
     char text[1000];

@@ -61,12 +61,22 @@ typedef struct {
 
 enum { NH_MOST_ALMOST = 6 };
 
+/* What kept something out, and from which value on it would not; option: NULL: nothing did. */
+typedef struct {
+    const char *option;
+    double value;
+} nh_limit;
+
+/* How the search ended: with everything of the kind that can exist, with all that there was to try, or by a limit (of work, size or time). */
+typedef enum { NH_SEARCH_COMPLETE, NH_SEARCH_EXHAUSTED, NH_SEARCH_CUT } nh_search;
+
 /* A stage of the ladder. */
 typedef struct {
     const char *name;
     size_t columns, sectors, dimension, found; /* sectors: parts that were solved apart; found: new independent currents */
     double gap, seconds;
-    bool skipped, undecided;          /* skipped: too many columns; undecided: likely null vectors without a certificate */
+    bool skipped, undecided;          /* skipped: too large; undecided: likely null vectors without a certificate */
+    nh_limit limit;                   /* of a stage that was skipped */
 } nh_tried;
 
 typedef struct {
@@ -106,7 +116,7 @@ typedef struct {
     nh_route route;
     const char *ansatz_note;  /* what was tried, in words */
     size_t samples, beyond, rejected; /* beyond: where the chart's pivot is near zero, from the multiplier form */
-    size_t stages;
+    size_t stages, stage_capacity;
     nh_tried *stage;          /* the ladder's; empty with an analysis file */
     nh_spectrum current, symmetry;
     bool routes_compared, routes_agree;
@@ -122,15 +132,23 @@ typedef struct {
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
     size_t *integral;         /* found[integral[i]] */
     nh_verdict verdict;
+    nh_search search;         /* NONE is impossible where it was cut */
     nh_tracks tracks;         /* validation->watch holds their values, row by row */
     size_t figures;
     nh_figure *figure;        /* those that the analysis asks for */
     nh_validation *validation; /* NULL when no motion could be computed */
     size_t warnings;
     const char **warning;
-    bool partial;
+    bool partial;             /* work or time ended the search, or the user did */
     nh_timing timing;
 } nh_result;
+
+/* "complete", "exhausted", "cut". */
+const char *nh_search_word(nh_search search);
+/* "--option stage_columns=412": what would bring a stage in that was too large.  In the arena. */
+const char *nh_limit_words(nh_arena *arena, const nh_limit *limit);
+/* How many stages were too large. */
+size_t nh_result_left_out(const nh_result *result);
 
 /* A null space's numbers, copied into an arena. */
 nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *nullspace);

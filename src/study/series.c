@@ -151,7 +151,8 @@ static table find(problem *p, nh_tried *note)
         bool goes_on = s.nullspace && converging(s.nullspace);
         note->columns = s.ansatz ? s.ansatz->columns : 0;
         note->sectors = s.sectors;
-        note->skipped = !s.nullspace;
+        note->skipped = !s.ansatz;
+        note->limit = s.limit;
         if (s.nullspace) {
             note->dimension = s.nullspace->dimension;
             note->gap = s.nullspace->gap;

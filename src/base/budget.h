@@ -1,0 +1,39 @@
+/* budget: how much has been computed, in units that depend on what is computed only, not on the clock, the load, or the number of threads.
+ *
+ * A search ends when its budget is spent, so that the same question has the same answer on every machine; the deadline of base/progress.h is the
+ * emergency brake behind it.  Any thread may add work; whether the budget is spent, or how much of it is left, is asked only where no other thread is
+ * working, or the answer would depend on which of them came first.  One per process, as the deadline is. */
+#ifndef NH_BUDGET_H
+#define NH_BUDGET_H
+
+#include <stdbool.h>
+
+/*    name      units  of what; a unit is about a nanosecond on an ordinary machine of today */
+#define NH_WORK_TABLE(X)                                                                        \
+    X(DENSE,    0.2, "a multiplication and an addition of dense linear algebra, in doubles")    \
+    X(VALUE,    3,   "an instruction of a straight-line program at one point")                  \
+    X(NODE,     250, "an expression that was made, or found to be there already")               \
+    X(TERM,     4,   "a product of two terms of exact polynomials, per word of the coefficients") \
+    X(BALL,     1,   "a product of two words in ball arithmetic")                               \
+    X(RESIDUE,  6,   "a multiplication modulo a prime")
+
+typedef enum {
+#define X(name, units, doc) NH_WORK_##name,
+    NH_WORK_TABLE(X)
+#undef X
+} nh_work;
+
+/* What comes from here on may take so many millions of units; none when that is not finite. */
+void nh_budget_begin(double millions);
+void nh_work_add(nh_work kind, double count);
+bool nh_budget_spent(void);
+/* Would so much more be too much? */
+bool nh_budget_allows(nh_work kind, double count);
+/* Of so much of it. */
+double nh_work_millions(nh_work kind, double count);
+/* What part of it is spent, from 0 on; 0 when there is no limit. */
+double nh_budget_part(void);
+/* Millions of units since it began. */
+double nh_budget_used(void);
+
+#endif
