@@ -162,6 +162,36 @@ static void add_wave(harvester *h, nh_ex e)
     }
 }
 
+/* u with e = |u|: of abs(u), and of the root of a square; 0 where e is neither. */
+static nh_ex inside_of_absolute(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    if (nh_kind_of(d, e) == NH_FUNCTION) return nh_function_of(d, e) == NH_ABS ? nh_child(d, e, 0) : 0;
+    if (nh_kind_of(d, e) != NH_PRODUCT || nh_arity(d, e) != 1 || !nh_num_is(nh_constant_of(d, e), 1)) return 0;
+    nh_ex x = nh_exponent_of(d, e, 0), square = nh_simplify_short(d, nh_child(d, e, 0), 0);
+    if (nh_kind_of(d, x) != NH_NUMBER || !nh_num_equal(nh_number_of(d, x), nh_num_ratio(1, 2)) || nh_kind_of(d, square) != NH_PRODUCT) return 0;
+    nh_ex u = nh_int(d, 1);
+    for (size_t i = 0; i < nh_arity(d, square); i++) {
+        nh_ex power = nh_exponent_of(d, square, i);
+        if (nh_kind_of(d, power) != NH_NUMBER || nh_number_of(d, power).q != 1 || nh_number_of(d, power).p % 2) return 0;
+        u = nh_mul(d, u, nh_powi(d, nh_child(d, square, i), nh_number_of(d, power).p / 2));
+    }
+    return u;
+}
+
+/* With |u| go its integrals u |u|/2 and |u|^3/6, and with sign(u) those and |u|: what forces that change their direction leave in momenta and centres of mass. */
+static void add_absolutes(harvester *h, nh_ex e)
+{
+    nh_dag *d = h->o->dag;
+    bool sign = nh_kind_of(d, e) == NH_FUNCTION && nh_function_of(d, e) == NH_SIGN;
+    nh_ex u = sign ? nh_child(d, e, 0) : inside_of_absolute(h->o, e);
+    if (!u) return;
+    nh_ex size = sign ? nh_call(d, NH_ABS, u) : e;
+    if (sign) add(h, &h->out->atoms, h->out->atom, size);
+    add(h, &h->out->atoms, h->out->atom, nh_mul(d, u, size));
+    if (nh_depends(d, u, h->o->system->t)) add(h, &h->out->atoms, h->out->atom, nh_mul(d, nh_powi(d, u, 2), size));
+}
+
 static void walk(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
@@ -171,7 +201,10 @@ static void walk(harvester *h, nh_ex e)
     bool moving = has_velocity(h->o, e), placed = has_position(h->o, e);
     if (kind == NH_SUM && moving && is_form(h->o, e)) add(h, &h->out->forms, h->out->form, e);
     if (kind == NH_FUNCTION && placed) add_wave(h, e);
-    if (kind == NH_FUNCTION && placed && !moving && !plain_wave(h->o, e)) add_atom(h, e);
+    if (kind == NH_FUNCTION && placed && !moving && !plain_wave(h->o, e)) {
+        add_atom(h, e);
+        add_absolutes(h, e);
+    }
     for (size_t i = 0; i < nh_arity(d, e); i++) {
         nh_ex child = nh_child(d, e, i);
         walk(h, child);
@@ -180,6 +213,7 @@ static void walk(harvester *h, nh_ex e)
         bool polynomial = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1 && nh_number_of(d, x).p > 0;
         if (polynomial || !has_position(h->o, child) || has_velocity(h->o, child)) continue;
         add_atom(h, nh_pow(d, child, x));
+        add_absolutes(h, nh_pow(d, child, x));
         if (nh_is_number(d, x, -1)) add_logarithm(h, child, !h->integrate);
     }
 }

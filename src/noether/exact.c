@@ -64,6 +64,15 @@ static double set_near(nh_ball *ball, nh_ex symbol, double x, double span)
     return x;
 }
 
+/* The explicit symbols are set; the implicit velocities are solved for. */
+static bool complete(const nh_model *o, nh_ball *ball, double *z)
+{
+    bool usable = nh_chart_complete(o->chart, z);
+    for (size_t j = o->width - o->chart->implicit; j < o->width; j++) nh_ball_set_double(ball, o->chart->symbol[j], z[j]);
+    if (usable && o->chart->implicit) refine_implicit(o, ball, z);
+    return usable;
+}
+
 bool nh_exact_point(const nh_model *o, nh_ball *ball, uint64_t *state)
 {
     double *z = nh_alloc_array(o->width, sizeof *z);
@@ -73,9 +82,22 @@ bool nh_exact_point(const nh_model *o, nh_ball *ball, uint64_t *state)
         z[j] = o->chart->low[j] + span * nh_random(state);
         if (j < explicit_width) z[j] = set_near(ball, o->chart->symbol[j], z[j], span);
     }
-    bool usable = nh_chart_complete(o->chart, z);
-    for (size_t j = explicit_width; j < o->width; j++) nh_ball_set_double(ball, o->chart->symbol[j], z[j]);
-    if (usable && o->chart->implicit) refine_implicit(o, ball, z);
+    bool usable = complete(o, ball, z);
     nh_free(z);
     return usable;
+}
+
+bool nh_exact_at(const nh_model *o, nh_ball *ball, double *z)
+{
+    for (size_t j = 0; j < o->width - o->chart->implicit; j++) nh_ball_set_double(ball, o->chart->symbol[j], z[j]);
+    return complete(o, ball, z);
+}
+
+void nh_exact_parameters(const nh_model *o, nh_ball *ball)
+{
+    for (size_t i = 0; i < o->system->parameters; i++) {
+        nh_num value = nh_num_decimal(o->parameter_value[i]);
+        if (nh_num_short(value)) nh_ball_set_ratio(ball, o->parameter[i], value.p, value.q);
+        else nh_ball_set_double(ball, o->parameter[i], o->parameter_value[i]);
+    }
 }

@@ -26,6 +26,21 @@ static void cancel(const nh_model *o, size_t n, const nh_ex *term, const nh_opti
     proof->digits = proof->points == 0 ? 0 : fmax(0, fmin(least, most));
 }
 
+/* sign(u) as |u|/u, of which the normal form knows the square. */
+static nh_ex without_signs(nh_dag *d, nh_ex e)
+{
+    enum { most = 32 };
+    nh_ex call[most], by[most];
+    size_t n = nh_functions_in(d, e, call, most), signs = 0;
+    for (size_t i = 0; i < n && n <= most; i++) {
+        if (nh_function_of(d, call[i]) != NH_SIGN) continue;
+        nh_ex u = nh_child(d, call[i], 0);
+        by[signs] = nh_div(d, nh_call(d, NH_ABS, u), u);
+        call[signs++] = call[i];
+    }
+    return signs ? nh_substitute(d, e, signs, call, by) : e;
+}
+
 static nh_ex with_symbols(const nh_model *o, const bool *fixed, nh_ex e) { return fixed ? nh_fixed_values(o, fixed, e) : e; }
 
 static nh_proof holding(nh_proof proof, const bool *fixed)
@@ -54,6 +69,7 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     nh_dag *d = o->dag;
     nh_ex sum = nh_int(d, 0), *valued = nh_alloc_array(n + 1, sizeof *valued);
     for (size_t i = 0; i < n; i++) sum = nh_add(d, sum, term[i]);
+    sum = without_signs(d, sum);
     size_t limit = (size_t)options->proof_terms;
     nh_zero_verdict symbols = NH_TOO_LARGE;
     if (!proof.proved && claim.free && o->chart->implicit == 0) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
@@ -106,8 +122,7 @@ static bool proved_by_symmetry(const nh_model *o, nh_ex phi, nh_claim claim, con
     return holds;
 }
 
-/* Gamma(Phi) term by term, 1 + m + n of them. */
-static void rate_terms(const nh_model *o, nh_ex phi, nh_ex *term)
+void nh_rate_terms(const nh_model *o, nh_ex phi, nh_ex *term)
 {
     nh_dag *d = o->dag;
     term[0] = nh_diff(d, phi, o->system->t);
@@ -120,7 +135,7 @@ double nh_prove_digits(const nh_model *o, nh_ex phi, const nh_options *options)
     size_t n = 1 + o->m + o->n;
     nh_ex *term = nh_alloc_array(n, sizeof *term);
     nh_proof proof = {0};
-    rate_terms(o, phi, term);
+    nh_rate_terms(o, phi, term);
     for (size_t i = 0; i < n; i++) term[i] = nh_exact_values(o, term[i]);
     cancel(o, n, term, options, &proof);
     nh_free(term);
@@ -132,7 +147,7 @@ nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_o
     enum { lengthy = 2000 };
     size_t n = 1 + o->m + o->n, length = 0;
     nh_ex *term = nh_alloc_array(n, sizeof *term);
-    rate_terms(o, phi, term);
+    nh_rate_terms(o, phi, term);
     for (size_t j = 0; j < n; j++) length += nh_complexity(o->dag, term[j]);
     nh_proof proof = {0};
     if (claim.related) proof = holding(proof, claim.fixed);

@@ -20,6 +20,9 @@ typedef struct {
     bool refuted;         /* a ball excludes zero: Phi with these coefficients is not conserved */
 } nh_proof;
 
+/* Gamma(Phi) term by term, one for each direction: 1 + m + n of them. */
+void nh_rate_terms(const nh_model *model, nh_ex phi, nh_ex *term);
+
 /* What is known of a current. */
 typedef struct {
     bool free;         /* its coefficients hold for all parameter values, so that step 1 makes sense; but for those fixed: */

@@ -254,6 +254,27 @@ static void abbreviations(nh_html_writer *w)
     }
 }
 
+static void pieces(nh_html_writer *w)
+{
+    const nh_result *r = w->r;
+    if (!r->pieces) return;
+    nh_html_add(w, "<h3>In a part of the motions only</h3>\n<p>These stay constant while a motion stays in the region that is given. They are not counted.</p>\n");
+    for (size_t k = 0; k < r->pieces; k++) {
+        const nh_found *f = &r->piece[k];
+        nh_html_add(w, "<article class=\"card\">\n<h4>");
+        nh_html_source(w, f->name);
+        nh_html_add(w, "</h4>\n");
+        nh_html_formula(w, f->name, f->phi);
+        nh_html_add(w, "<dl>\n<dt>Holds</dt><dd>");
+        nh_html_text(w, f->region);
+        nh_html_add(w, "</dd>\n");
+        certificate(w, f);
+        nh_html_add(w, "</dl>\n");
+        as_text(w, f);
+        nh_html_add(w, "</article>\n");
+    }
+}
+
 static void almost(nh_html_writer *w)
 {
     const nh_result *r = w->r;
@@ -277,6 +298,7 @@ void nh_html_currents(nh_html_writer *w)
     if (!r->count) nh_html_add(w, "<p>None was found. What was tried is listed below.</p>\n");
     for (size_t k = 0; k < r->count; k++) card(w, &r->found[k]);
     abbreviations(w);
+    pieces(w);
     almost(w);
     nh_html_add(w, "</section>\n");
 }

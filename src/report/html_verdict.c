@@ -24,6 +24,9 @@ static void answer(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
     if (v->conserved) {
         nh_html_add(w, field ? "Yes: this is a constraint symmetry" : "Yes: this is conserved");
         certificate(w, v);
+    } else if (v->region) {
+        nh_html_add(w, "No: this is conserved in a part of the motions only: ");
+        nh_html_text(w, v->region);
     } else {
         nh_html_add(w, field ? "No: this is not a constraint symmetry" : "No: this is not conserved");
     }

@@ -182,7 +182,7 @@ static void certificate(nh_summary_writer *w, const nh_found *f)
     if (f->proof.proved) nh_text_addf(w->out, "proved%s", holds);
     else nh_text_addf(w->out, "conserved to %.0f digits%s%s", f->proof.digits, nh_formula_doubt(f), holds);
     nh_text_addf(w->out, "; held-out residual %.1e", f->heldout);
-    if (w->r->validation) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
+    if (w->r->validation && !f->region) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
     nh_text_add(w->out, "\n");
 }
 
@@ -224,6 +224,7 @@ static void current(nh_summary_writer *w, const nh_found *f)
     if (f->independence == NH_DOUBTFUL) nh_text_addf(w->out, "  perhaps dependent on the currents above (gradient fraction %.1e)", f->fraction);
     if (f->independence == NH_CONSTANT) nh_text_add(w->out, "  constant on the submanifold");
     if (f->local) nh_text_add(w->out, "  [local: many-valued on an angle]");
+    if (f->region) nh_text_addf(w->out, "  %s", f->region);
     nh_text_add(w->out, "\n");
     if (f->series) series_lines(w, f->series);
     else formula(w, 8, "", f->phi);
@@ -255,12 +256,14 @@ static void answer(nh_summary_writer *w)
     static const char *const verdicts[] = {"FOUND", "NONE", "UNDECIDED"};
     nh_text title;
     nh_text_init(&title);
-    if (r->count == 0) nh_text_addf(&title, "%s: no current %s", verdicts[r->verdict], r->search == NH_SEARCH_CUT ? "so far" : "in this ansatz");
+    if (r->count == 0) nh_text_addf(&title, "%s: no current%s %s", verdicts[r->verdict], r->pieces ? " of all motions" : "", r->search == NH_SEARCH_CUT ? "so far" : "in this ansatz");
     else nh_text_addf(&title, "%s: %zu independent current%s of at most %zu", verdicts[r->verdict], r->independent, r->independent == 1 ? "" : "s", r->local_maximum);
     nh_text_addf(&title, " (search %s)", nh_search_word(r->search));
     nh_summary_heading(w, nh_text_string(&title));
     nh_text_clear(&title);
     for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);
+    if (r->pieces) nh_text_add(w->out, "\n  In a part of the motions only, and not counted:\n");
+    for (size_t k = 0; k < r->pieces; k++) current(w, &r->piece[k]);
     almost(w);
     abbreviations(w);
 }

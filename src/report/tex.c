@@ -239,6 +239,16 @@ static void current(nh_tex_writer *w, const nh_found *f)
     if (!f->series) field(w, f);
 }
 
+static void piece(nh_tex_writer *w, const nh_found *f)
+{
+    nh_tex_add(w, "\\subsection*{");
+    nh_tex_name(w, f->name);
+    nh_tex_add(w, "}\nIt holds in a part of the motions only, and is not counted: ");
+    nh_tex_words(w, f->region);
+    nh_tex_add(w, ".\n");
+    nh_tex_formula(w, f->name, f->phi);
+}
+
 static void almost(nh_tex_writer *w)
 {
     const nh_result *r = w->r;
@@ -258,6 +268,7 @@ static void currents_section(nh_tex_writer *w)
     const nh_analysis *a = w->r->analysis;
     nh_tex_add(w, "\\section{Currents}\n");
     for (size_t k = 0; k < w->r->count; k++) current(w, &w->r->found[k]);
+    for (size_t k = 0; k < w->r->pieces; k++) piece(w, &w->r->piece[k]);
     for (size_t i = 0; a && w->r->count && i < a->definitions; i++) {
         nh_tex_add(w, i ? "" : "\\medskip Here\n");
         nh_tex_display(w, a->definition[i].name, a->definition[i].text);

@@ -64,6 +64,10 @@ void nh_verdict_text(const nh_verdict_of_one *v, bool field, double shown, nh_te
     if (field && v->outside) put_outside(v, shown, out);
     else if (field) put(out, d, "the field's current is  ", v->current, shown);
     else put(out, d, "Phi = ", v->current, INFINITY);
+    if (v->region) {
+        nh_text_addf(out, "NO: this is conserved in a part of the motions only: %s\n", v->region);
+        return;
+    }
     if (!v->conserved) {
         nh_text_addf(out, "%s\n  at ", field ? "NO: this is not a constraint symmetry" : "NO: this is not conserved");
         if (v->has_counterexample) put_point(v, out);
@@ -122,6 +126,7 @@ char *nh_verdict_json(const nh_verdict_of_one *v, const nh_run *run)
     nh_json *root = nh_json_object();
     nh_json_put_number(root, "schema", 1);
     nh_json_put_bool(root, "conserved", v->conserved);
+    nh_json_put_text(root, "region", v->region);
     if (v->outside) nh_json_put_null(root, "current");
     else put_expression(root, "current", d, v->current);
     put_forms(v, root);

@@ -192,6 +192,40 @@ bool nh_currents_known(const nh_workbench *b, nh_ex current)
     return old;
 }
 
+/* ---- what holds in a part of the motions only ---- */
+
+/* Where the current holds; NULL: everywhere.  What cancels to fewer digits as printed need not do better anywhere. */
+static const char *region_of(nh_workbench *b, const nh_found *f)
+{
+    nh_result *r = b->result;
+    nh_model *o = r->model;
+    if (!b->surveyed) b->terrain = nh_terrain_of(o, &r->options, r->arena);
+    b->surveyed = true;
+    double digits = f->proof.proved ? 0 : fmax(least_almost, fmin(f->printed_digits, r->options.digits) / 2);
+    nh_region region = nh_region_of(o, &b->terrain, f->phi, digits, &r->options, r->arena);
+    return nh_region_text(o->dag, &region, r->arena);
+}
+
+/* A function of the currents and of the pieces so far is no news. */
+static void keep_piece(nh_workbench *b, const nh_found *f)
+{
+    nh_result *r = b->result;
+    size_t n = r->count + r->pieces;
+    if (r->pieces == NH_MOST_PIECES) return;
+    nh_ex *phi = nh_alloc_array(n + 1, sizeof *phi);
+    nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
+    for (size_t k = 0; k < n; k++) phi[k] = k < r->count ? r->found[k].phi : r->piece[k - r->count].phi;
+    phi[n] = f->phi;
+    nh_independence_test(r->model, b->generic, n + 1, phi, r->options.sure, r->options.doubt, kind, NULL);
+    if (!r->piece) r->piece = nh_arena_alloc(r->arena, NH_MOST_PIECES * sizeof *r->piece);
+    if (kind[n] == NH_INDEPENDENT) {
+        r->piece[r->pieces] = *f;
+        nh_current_describe(b, &r->piece[r->pieces++]);
+    }
+    nh_free(kind);
+    nh_free(phi);
+}
+
 bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *fit, bool certain)
 {
     nh_result *r = b->result;
@@ -200,6 +234,11 @@ bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *
     decide(b, candidate, f);
     if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST) b->near[b->nears++] = candidate;
     if (!keeps(b, f, certain) || ((f->moved || !certain) && nh_currents_known(b, f->phi))) return false;
+    f->region = region_of(b, f);
+    if (f->region) {
+        keep_piece(b, f);
+        return false;
+    }
     nh_current_describe(b, f);
     r->count++;
     return true;
@@ -301,8 +340,23 @@ static void forget_known_almosts(nh_workbench *b)
     r->almosts = kept;
 }
 
+/* Nor is a piece that is a function of currents found since. */
+static void name_pieces(nh_workbench *b)
+{
+    nh_result *r = b->result;
+    size_t kept = 0;
+    for (size_t k = 0; k < r->pieces; k++) {
+        if (nh_currents_known(b, r->piece[k].phi)) continue;
+        r->piece[kept] = r->piece[k];
+        r->piece[kept].name = nh_arena_printf(r->arena, "Phi%zu", r->count + kept + 1);
+        kept++;
+    }
+    r->pieces = kept;
+}
+
 void nh_currents_finish(nh_workbench *b)
 {
+    name_pieces(b);
     forget_known_almosts(b);
     sort(b->result);
     independence(b->result, b->generic);

@@ -8,6 +8,8 @@
 typedef struct {
     nh_result *result;
     nh_points *heldout, *generic; /* points that no fit has seen */
+    nh_terrain terrain;           /* where motions cross walls; of the first current on */
+    bool surveyed;
     nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
     bool invertible;
     size_t nears;                 /* candidates of the present list that are nearly conserved, and only nearly */

@@ -6,6 +6,7 @@
 #include "motion/drift.h"
 #include "noether/independence.h"
 #include "noether/prove.h"
+#include "noether/region.h"
 #include "noether/symmetry.h"
 #include "noether/unknowns.h"
 #include "study/tracks.h"
@@ -38,6 +39,7 @@ typedef struct {
     double fraction;
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
     bool has_symmetry, by_current_route, by_symmetry_route, local;
+    const char *region;       /* of a piece: where it holds, "for x > 0" */
     const nh_series *series;  /* NULL for a closed form */
     nh_symmetry symmetry;
     nh_drift drift;
@@ -59,7 +61,7 @@ typedef struct {
     bool rank_in_doubt;
 } nh_spectrum;
 
-enum { NH_MOST_ALMOST = 6 };
+enum { NH_MOST_ALMOST = 6, NH_MOST_PIECES = 6 };
 
 /* What kept something out, and from which value on it would not; option: NULL: nothing did. */
 typedef struct {
@@ -127,6 +129,8 @@ typedef struct {
     size_t count, capacity, independent, local_maximum;
     size_t open;              /* null vectors that could be true but got no certificate */
     nh_found *found;
+    size_t pieces;            /* currents of a part of the motions only (noether/region.h): not counted; at most NH_MOST_PIECES */
+    nh_found *piece;
     size_t almosts;           /* nearly conserved, found by the way: at most NH_MOST_ALMOST */
     nh_almost *almost;
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */

@@ -76,20 +76,6 @@ static bool worst_point(nh_verdict_of_one *v, const nh_points *points, size_t n,
     return true;
 }
 
-/* The terms of Gamma(Phi): one for each direction. */
-static size_t rate_terms(nh_verdict_of_one *v, nh_ex phi, nh_ex **out)
-{
-    const nh_model *o = v->model;
-    nh_dag *d = o->dag;
-    size_t n = 1 + o->m + o->n;
-    nh_ex *term = nh_arena_alloc(v->arena, n * sizeof *term);
-    term[0] = nh_diff(d, phi, o->system->t);
-    for (size_t s = 0; s < o->m; s++) term[1 + s] = nh_mul(d, o->rho[s], nh_diff(d, phi, o->system->coordinate[s].q));
-    for (size_t i = 0; i < o->n; i++) term[1 + o->m + i] = nh_mul(d, o->a[i], nh_model_Y(o, i, phi));
-    *out = term;
-    return n;
-}
-
 static bool accepts(const nh_proof *proof, double residual, const nh_options *options)
 {
     enum { double_digits = 12 };
@@ -122,16 +108,27 @@ static bool describe(nh_verdict_of_one *v, const nh_options *options, nh_error *
     return true;
 }
 
+/* Conserved wherever it is smooth: all along the motions, too? */
+static void delimit(nh_verdict_of_one *v, const nh_options *options)
+{
+    nh_terrain terrain = nh_terrain_of(v->model, options, v->arena);
+    nh_region region = nh_region_of(v->model, &terrain, v->current, v->proof.proved ? 0 : v->proof.digits / 2, options, v->arena);
+    v->region = nh_region_text(v->model->dag, &region, v->arena);
+    v->conserved = !v->region;
+}
+
 static bool examine(nh_verdict_of_one *v, const nh_options *options, nh_error *error)
 {
     nh_points *points = nh_points_create(v->model, test_points, 1.2, (uint64_t)options->seed + 7, error);
     if (!points) return false;
-    nh_ex *term;
-    size_t n = rate_terms(v, v->current, &term);
+    size_t n = 1 + v->model->m + v->model->n;
+    nh_ex *term = nh_arena_alloc(v->arena, n * sizeof *term);
+    nh_rate_terms(v->model, v->current, term);
     v->proof = nh_prove_zero(v->model, n, term, true, options);
     bool found = worst_point(v, points, n, term, &v->residual);
     v->conserved = accepts(&v->proof, v->residual, options);
     v->has_counterexample = found && !v->conserved;
+    if (v->conserved) delimit(v, options);
     nh_points_free(points);
     return !v->conserved || describe(v, options, error);
 }

@@ -15,6 +15,7 @@ typedef struct {
     nh_ex *form;              /* of a field: i_Z phi^a, one for each constraint; else NULL */
     bool outside;             /* of a field: they do not vanish, Z is not in the canonical distribution */
     bool conserved;           /* or: is a constraint symmetry */
+    const char *region;       /* a current is conserved in a part of the motions only: where (noether/region.h); then `conserved` is false */
     bool trivial;             /* the current is constant */
     bool has_symmetry;
     nh_symmetry symmetry;

@@ -32,6 +32,11 @@ static void default_range(const nh_system *s, nh_ex symbol, double *low, double 
         *low = -half;
         *high = half;
     }
+    for (size_t i = 0; i < s->reaches; i++) {
+        if (s->reach[i].symbol != symbol) continue;
+        *low = fmin(*low, s->reach[i].low);
+        *high = fmax(*high, s->reach[i].high);
+    }
 }
 
 void nh_embedding_range(const nh_system *s, nh_ex symbol, double *low, double *high)

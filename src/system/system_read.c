@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "expr/diff.h"
 #include "expr/parse.h"
+#include "system/reach.h"
 #include "system/system_internal.h"
 
 typedef nh_system_reader reader;
@@ -337,7 +338,10 @@ static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *se
     s->deck = deck;
     s->dag = nh_dag_create();
     reader r = {s, deck, nh_deck_root(deck), error};
-    if (read_all(&r, settings, setting)) return s;
+    if (read_all(&r, settings, setting)) {
+        nh_reach_walls(s);
+        return s;
+    }
     nh_system_free(s);
     return NULL;
 }

@@ -1,0 +1,76 @@
+#include "expr/walls.h"
+
+#include "base/memory.h"
+#include "expr/normal.h"
+
+enum { most_nested = 6 };
+
+static void put(nh_walls *w, nh_ex e)
+{
+    for (size_t i = 0; i < w->count; i++)
+        if (w->e[i] == e) return;
+    if (w->count < NH_MOST_WALLS) w->e[w->count++] = e;
+}
+
+/* The factors of something that vanishes on a wall: of a product all bases, since a quotient changes its sign at a pole, too. */
+static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, int depth)
+{
+    nh_kind kind = nh_kind_of(d, e);
+    if (kind == NH_NUMBER || depth > most_nested) return;
+    if (kind == NH_FUNCTION && nh_function_of(d, e) == NH_ABS) {
+        put_factors(w, d, nh_child(d, e, 0), depth + 1);
+    } else if (kind == NH_PRODUCT) {
+        for (size_t i = 0; i < nh_arity(d, e); i++) put_factors(w, d, nh_child(d, e, i), depth + 1);
+    } else if (kind != NH_FUNCTION || nh_function_of(d, e) != NH_EXP) {
+        nh_ex factored = kind == NH_SUM && depth == 0 ? nh_simplify_short(d, e, 0) : e;
+        if (factored != e) put_factors(w, d, factored, depth + 1);
+        else put(w, e);
+    }
+}
+
+/* Where v is infinite: the bases of its negative powers, the cosines of its tangents. */
+static void put_poles(nh_walls *w, nh_dag *d, nh_ex v, int depth)
+{
+    nh_kind kind = nh_kind_of(d, v);
+    if (depth > most_nested || kind == NH_NUMBER || kind == NH_SYMBOL) return;
+    if (kind == NH_FUNCTION && nh_function_of(d, v) == NH_TAN) put_factors(w, d, nh_call(d, NH_COS, nh_child(d, v, 0)), 0);
+    for (size_t i = 0; i < nh_arity(d, v); i++) {
+        nh_ex x = kind == NH_PRODUCT ? nh_exponent_of(d, v, i) : nh_int(d, 1), base = nh_child(d, v, i);
+        if (nh_kind_of(d, x) != NH_NUMBER || nh_num_value(nh_number_of(d, x)) < 0) put_factors(w, d, base, 0);
+        if (kind != NH_FUNCTION || nh_function_of(d, v) != NH_TAN) put_poles(w, d, base, depth + 1);
+    }
+}
+
+static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
+{
+    nh_ex v = nh_arity(d, e) ? nh_child(d, e, 0) : 0, one = nh_int(d, 1);
+    switch (nh_function_of(d, e)) {
+    case NH_ABS: case NH_SIGN: case NH_ATAN2: put_factors(w, d, v, 0); break;
+    case NH_ATAN: put_poles(w, d, v, 0); break;
+    case NH_ASIN: case NH_ACOS: put_factors(w, d, nh_sub(d, one, nh_powi(d, v, 2)), 0); break;
+    case NH_ACOSH: put_factors(w, d, nh_sub(d, v, one), 0); break;
+    default: break;
+    }
+}
+
+/* Operands stand before what is made of them: from e downwards each node is met once. */
+void nh_walls_add(nh_walls *w, nh_dag *d, nh_ex top)
+{
+    bool *wanted = nh_alloc_array((size_t)top + 1, sizeof *wanted);
+    wanted[top] = true;
+    for (size_t k = (size_t)top + 1; k-- > 0;) {
+        nh_ex e = (nh_ex)k;
+        nh_kind kind = nh_kind_of(d, e);
+        if (!wanted[k] || kind == NH_NUMBER || kind == NH_SYMBOL) continue;
+        if (kind == NH_FUNCTION) put_function(w, d, e);
+        for (size_t i = 0; i < nh_arity(d, e); i++) {
+            wanted[nh_child(d, e, i)] = true;
+            if (kind != NH_PRODUCT) continue;
+            nh_ex x = nh_exponent_of(d, e, i);
+            wanted[x] = true;
+            bool whole = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1;
+            if (!whole) put_factors(w, d, nh_child(d, e, i), 0);
+        }
+    }
+    nh_free(wanted);
+}

@@ -1,0 +1,182 @@
+#include "noether/region.h"
+
+#include <math.h>
+
+#include "base/text.h"
+#include "expr/diff.h"
+#include "expr/print.h"
+#include "noether/exact.h"
+#include "noether/prove.h"
+
+enum { seed_offset = 505 };
+
+nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena *arena)
+{
+    nh_terrain out = {0};
+    uint64_t state = (uint64_t)options->seed + seed_offset;
+    nh_walls_add(&out.walls, o->dag, o->Lbar);
+    nh_walls_add(&out.walls, o->dag, o->E);
+    for (size_t s = 0; s < o->m; s++) {
+        nh_walls_add(&out.walls, o->dag, o->rho[s]);
+        if (o->system->has_forces) nh_walls_add(&out.walls, o->dag, nh_model_compose(o, o->system->force[s]));
+    }
+    for (size_t i = 0; i < o->chart->implicit; i++) nh_walls_add(&out.walls, o->dag, o->chart->residual[i]);
+    out.crossings = nh_crossings_find(o, &out.walls, &state, arena);
+    return out;
+}
+
+/* Those of phi that the equations of motion do not have. */
+static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options, nh_arena *arena)
+{
+    nh_walls all = terrain->walls, own = {0};
+    uint64_t state = (uint64_t)options->seed + 2 * seed_offset;
+    nh_walls_add(&all, o->dag, phi);
+    for (size_t i = terrain->walls.count; i < all.count; i++) own.e[own.count++] = all.e[i];
+    return nh_crossings_find(o, &own, &state, arena);
+}
+
+/* ---- one crossing ---- */
+
+typedef struct {
+    const nh_model *o;
+    nh_ball *ball;
+    nh_ex phi, *term;
+    size_t terms;
+    double digits;
+} judge;
+
+/* Phi - Phi on the other side neither falls towards the wall nor is it rounding, and Phi stays finite. */
+static bool jumps(judge *j, const nh_crossing *c)
+{
+    static const double rounding = 1e-8, growth = 1.3;
+    double value[2][NH_CROSSING_DEPTHS], radius, size = 0;
+    for (int side = 0; side < 2; side++)
+        for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++) {
+            if (!nh_exact_at(j->o, j->ball, c->point[side][k]) || !nh_ball_value(j->ball, j->phi, &value[side][k], &radius)) return false;
+            size = fmax(size, fabs(value[side][k]));
+        }
+    double near = fabs(value[1][2] - value[0][2]), far = fabs(value[1][1] - value[0][1]);
+    for (int side = 0; side < 2; side++)
+        if (fabs(value[side][2]) > growth * fabs(value[side][1]) + rounding * size) return false; /* a pole */
+    return near > far / 2 && near > rounding * size;
+}
+
+/* Does Gamma(Phi) vanish on this side?  1, 0, or -1 where it cannot be evaluated. */
+static int holds(judge *j, double *z)
+{
+    double ratio;
+    bool zero = true;
+    if (!nh_exact_at(j->o, j->ball, z)) return -1;
+    if (nh_ball_relative_sum(j->ball, j->terms, j->term, &ratio)) return -ratio >= j->digits;
+    for (size_t i = 0; i < j->terms && zero; i++) {
+        double mid, radius;
+        if (!nh_ball_value(j->ball, j->term[i], &mid, &radius)) return -1;
+        zero = mid == 0 && radius == 0;
+    }
+    return zero ? 1 : -1;
+}
+
+/* ---- all of them ---- */
+
+/* What was seen at the crossings of one wall. */
+typedef struct {
+    bool below, above, jump; /* it failed below while it held above; the other way; it held on both sides and jumped */
+} seen;
+
+static void look(judge *j, const nh_crossing *c, seen *s)
+{
+    int below = j->digits > 0 ? holds(j, c->point[0][0]) : 1, above = j->digits > 0 ? holds(j, c->point[1][0]) : 1;
+    s->below |= below == 0 && above == 1;
+    s->above |= above == 0 && below == 1;
+    s->jump |= below == 1 && above == 1 && jumps(j, c);
+}
+
+static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
+{
+    if ((!s->below && !s->above && !s->jump) || r->count == NH_MOST_WALLS) return;
+    r->wall[r->count] = wall;
+    r->kind[r->count++] = s->below && s->above   ? NH_REGION_PARTS
+                          : s->below || s->above ? (touches ? NH_REGION_PARTS : s->below ? NH_REGION_ABOVE : NH_REGION_BELOW)
+                                                 : NH_REGION_APART;
+}
+
+/* Crossings of one wall need not follow each other. */
+static void look_at_all(judge *j, const nh_crossings *c, nh_region *out)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        bool first = true, touches = false;
+        seen s = {0};
+        for (size_t k = 0; k < i; k++) first &= c->item[k].wall != c->item[i].wall;
+        for (size_t k = i; k < c->count && first; k++) {
+            if (c->item[k].wall != c->item[i].wall) continue;
+            touches |= c->item[k].touches;
+            look(j, &c->item[k], &s);
+        }
+        note(out, c->item[i].wall, &s, touches);
+    }
+}
+
+nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, double digits, const nh_options *options, nh_arena *arena)
+{
+    nh_region out = {0};
+    nh_crossings own = own_crossings(o, terrain, phi, options, arena);
+    if (own.count + terrain->crossings.count == 0) return out;
+    judge j = {.o = o, .ball = nh_ball_create(o->dag, (long)options->bits), .phi = phi, .terms = 1 + o->m + o->n, .digits = digits};
+    j.term = nh_alloc_array(j.terms, sizeof *j.term);
+    nh_rate_terms(o, phi, j.term);
+    nh_exact_parameters(o, j.ball);
+    look_at_all(&j, &terrain->crossings, &out);
+    look_at_all(&j, &own, &out);
+    nh_free(j.term);
+    nh_ball_free(j.ball);
+    return out;
+}
+
+/* ---- in words ---- */
+
+/* The wall c (x - root) of one symbol and numbers. */
+static bool is_level(nh_dag *d, nh_ex wall, nh_ex *symbol, nh_ex *root, bool *rising)
+{
+    nh_ex zero = nh_int(d, 0);
+    if (nh_symbols_in(d, wall, symbol, 1) != 1) return false;
+    nh_ex slope = nh_diff(d, wall, *symbol), rest = nh_substitute(d, wall, 1, symbol, &zero);
+    if (nh_kind_of(d, slope) != NH_NUMBER || nh_kind_of(d, rest) != NH_NUMBER) return false;
+    *rising = nh_num_value(nh_number_of(d, slope)) > 0;
+    *root = nh_neg(d, nh_div(d, rest, slope));
+    return true;
+}
+
+/* "x - 2*y > 0", "t < 2" */
+static void condition(nh_dag *d, nh_ex wall, int sign, nh_text *out)
+{
+    nh_ex symbol, root;
+    bool rising, level = is_level(d, wall, &symbol, &root, &rising);
+    if (level && !rising) sign = -sign;
+    nh_print(d, level ? symbol : wall, out);
+    nh_text_add(out, sign > 0 ? " > " : sign < 0 ? " < " : " = ");
+    nh_print(d, level ? root : nh_int(d, 0), out);
+}
+
+const char *nh_region_text(nh_dag *d, const nh_region *r, nh_arena *arena)
+{
+    if (r->count == 0) return NULL;
+    nh_text text;
+    nh_text_init(&text);
+    const char *between = "";
+    for (size_t i = 0; i < r->count; i++) {
+        if (r->kind[i] != NH_REGION_ABOVE && r->kind[i] != NH_REGION_BELOW) continue;
+        nh_text_addf(&text, "%s", *between ? " and " : "for ");
+        condition(d, r->wall[i], r->kind[i] == NH_REGION_ABOVE ? 1 : -1, &text);
+        between = ", ";
+    }
+    for (size_t i = 0; i < r->count; i++) {
+        if (r->kind[i] == NH_REGION_ABOVE || r->kind[i] == NH_REGION_BELOW) continue;
+        nh_text_addf(&text, "%s%s", between, r->kind[i] == NH_REGION_APART ? "on each side of " : "in some parts that end at ");
+        condition(d, r->wall[i], 0, &text);
+        nh_text_add(&text, r->kind[i] == NH_REGION_APART ? ", where it jumps" : "");
+        between = ", ";
+    }
+    const char *out = nh_arena_strdup(arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}

@@ -1,0 +1,92 @@
+#include "system/reach.h"
+
+#include <math.h>
+
+#include "expr/tape.h"
+#include "expr/walls.h"
+#include "system/embedding_internal.h"
+
+/* How far out of the interval a wall is looked for, in half widths, and in how many steps. */
+enum { farthest = 16, steps = 512 };
+
+static bool is_given(const nh_system *s, nh_ex symbol)
+{
+    for (size_t i = 0; i < s->intervals; i++)
+        if (s->interval[i].symbol == symbol) return true;
+    return false;
+}
+
+/* The one symbol of time, position or velocity in the wall, whose interval is a default one and no full turn. */
+static bool only_symbol(const nh_system *s, nh_ex wall, nh_ex *out)
+{
+    size_t n = 0;
+    if (nh_depends(s->dag, wall, s->t)) {
+        *out = s->t;
+        n++;
+    }
+    for (size_t i = 0; i < s->coordinates; i++) {
+        const nh_coordinate *c = &s->coordinate[i];
+        bool place = nh_depends(s->dag, wall, c->q), moves = nh_depends(s->dag, wall, c->v);
+        if (!place && !moves) continue;
+        if (place && c->type == NH_ANGLE) return false;
+        *out = place ? c->q : c->v;
+        n += (size_t)place + (size_t)moves;
+    }
+    return n == 1 && !is_given(s, *out);
+}
+
+/* The sign changes nearest to the middle on both sides of it; infinite where there is none. */
+static void roots_around(const nh_tape *tape, double low, double high, double *below, double *above)
+{
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double middle = (low + high) / 2, step = farthest * (high - low) / 2 / steps;
+    *below = -INFINITY;
+    *above = INFINITY;
+    for (int side = -1; side <= 1; side += 2) {
+        double last = NAN;
+        for (int k = 0; k <= steps; k++) {
+            double x = middle + side * step * (k + 0.5), value, *found = side < 0 ? below : above;
+            nh_tape_eval(tape, work, &x, &value);
+            if (last * value < 0) {
+                *found = x - side * step / 2;
+                break;
+            }
+            last = value;
+        }
+    }
+    nh_tape_work_free(work);
+}
+
+static void reach(nh_system *s, nh_ex wall, nh_ex symbol)
+{
+    double low, high, below, above;
+    nh_ex *parameter = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *parameter);
+    double *value = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *value);
+    for (size_t i = 0; i < s->parameters; i++) {
+        parameter[i] = s->parameter[i].symbol;
+        value[i] = s->parameter[i].value;
+    }
+    nh_tape *tape = nh_tape_create(s->dag, 1, &symbol, 1, &wall, s->parameters, parameter, value);
+    nh_embedding_range(s, symbol, &low, &high);
+    roots_around(tape, low, high, &below, &above);
+    nh_tape_free(tape);
+    double half = (high - low) / 2, margin = half / 2;
+    bool inside = below > low + margin / 2 || above < high - margin / 2;
+    if (inside || (isinf(below) && isinf(above))) return;
+    if (above - high <= low - below) high = fmax(high, above + half);
+    else low = fmin(low, below - half);
+    s->reach[s->reaches++] = (nh_interval){symbol, low, high};
+}
+
+void nh_reach_walls(nh_system *s)
+{
+    nh_walls walls = {0};
+    nh_walls_add(&walls, s->dag, s->lagrangian);
+    for (size_t i = 0; i < s->coordinates && s->has_forces; i++) nh_walls_add(&walls, s->dag, s->force[i]);
+    for (size_t a = 0; a < s->constraints; a++) nh_walls_add(&walls, s->dag, nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs));
+    if (walls.count) s->reach = nh_arena_alloc(s->arena, walls.count * sizeof *s->reach);
+    for (size_t i = 0; i < walls.count; i++) {
+        nh_ex symbol;
+        if (only_symbol(s, walls.e[i], &symbol)) reach(s, walls.e[i], symbol);
+    }
+}

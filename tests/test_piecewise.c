@@ -1,0 +1,211 @@
+/* Piecewise systems: what is FOUND stays constant along motions that cross the kinks, what only holds in parts of the motions is told apart, with the part,
+ * and the true continuous currents are found. */
+#include <criterion/criterion.h>
+
+#include <unistd.h>
+
+#include "catalogue.h"
+#include "noether/region.h"
+#include "scratch.h"
+#include "study/verify.h"
+#include "system/sample.h"
+
+typedef struct {
+    const char *name, *text;
+    size_t independent; /* how many there are to be found, and no more */
+    const char *region; /* a piece that holds here is listed; NULL: none is looked for */
+} piecewise;
+
+static const piecewise PIECEWISE[] = {
+    {"|x|", "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - abs(x)\nknown: {currents: [{name: energy, expr: x'^2/2 + abs(x)}]}\n", 1, NULL},
+    {"root of a square of a difference",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - sqrt((x - y)^2)\n"
+     "known: {currents: [{name: momentum, expr: x' + y'}, {name: centre, expr: x + y - t*(x' + y')}, {name: energy, expr: (x'^2 + y'^2)/2 + abs(x - y)}]}\n",
+     3, "on each side of x - y = 0, where it jumps"},
+    {"the same, multiplied out",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - sqrt(x^2 - 2*x*y + y^2)\n"
+     "known: {currents: [{name: momentum, expr: x' + y'}, {name: centre, expr: x + y - t*(x' + y')}]}\n",
+     3, "on each side of x - y = 0, where it jumps"},
+    {"|t - 2|, a kink beyond the default interval",
+     "coordinates: [x]\nlagrangian: x'^2/2 - x*abs(t - 2)\n"
+     "known: {currents: [{name: momentum, expr: x' + (t - 2)*abs(t - 2)/2}, {name: start, expr: x - (t - 2)*x' - abs(t - 2)^3/3}]}\n",
+     2, NULL},
+    {"root of a square of t",
+     "parameters: [{name: c, value: 1.3}]\ncoordinates: [x]\nlagrangian: x'^2/2 - x*sqrt((t - c)^2)\n"
+     "known: {currents: [{name: momentum, expr: x' + (t - c)*abs(t - c)/2}]}\n",
+     2, NULL},
+    {"a force that changes its sign at t = 0",
+     "coordinates: [x]\nlagrangian: x'^2/2 - x*sign(t)\n"
+     "known: {currents: [{name: momentum, expr: x' + abs(t)}, {name: start, expr: x - t*x' - t*abs(t)/2}]}\n",
+     2, NULL},
+    {"the polar angle as potential: its cut",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - atan2(y, x)\nknown: {currents: [{name: turning, expr: \"x*y' - y*x' + t\"}]}\n",
+     1, "on each side of y = 0, where it jumps"},
+    {"a saw tooth",
+     "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - atan(tan(x))\nknown: {currents: [{name: momentum, expr: x' + t}, {name: place, expr: x + x'^2/2}]}\n",
+     2, NULL},
+    {"a triangle wave", "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - acos(cos(x))\nknown: {currents: [{name: energy, expr: x'^2/2 + acos(cos(x))}]}\n", 1, NULL},
+    {"two kinks",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - abs(x) - abs(y)\n"
+     "known: {currents: [{name: one, expr: x'^2/2 + abs(x)}, {name: other, expr: y'^2/2 + abs(y)}]}\n",
+     2, "on each side of x = 0, where it jumps, on each side of y = 0, where it jumps"},
+    {"two slanted kinks",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - abs(x - y) - abs(x + y)\n"
+     "known: {currents: [{name: one, expr: (x' + y')^2/4 + abs(x + y)}, {name: other, expr: (x' - y')^2/4 + abs(x - y)}]}\n",
+     2, NULL},
+    {"|sin t|: no elementary integral is continuous", "coordinates: [x]\nlagrangian: x'^2/2 - x*abs(sin(t))\n", 0, "on each side of sin(t) = 0, where it jumps"},
+    {"|x'|: an invariant wall, which is not crossed",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + abs(x') - y\n"
+     "known: {currents: [{name: momentum, expr: x' + sign(x')}, {name: fall, expr: y' + t}]}\n",
+     4, NULL},
+    {"a magnetic field that changes its sign",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + abs(x)*y'\nknown: {currents: [{name: momentum, expr: y' + abs(x)}, {name: energy, expr: x'^2 + y'^2}]}\n", 2, NULL},
+    {"a constraint with a kink",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [\"y' = abs(x)*x'\"]\nknown: {currents: [{name: hidden, expr: y - x*abs(x)/2}, {name: speed, expr: x'^2 + y'^2}]}\n", 2, NULL},
+    {"the domain knows one side only",
+     "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - abs(x)\ndomain: {x: [0.5, 2]}\nknown: {currents: [{name: energy, expr: x'^2/2 + abs(x)}]}\n", 1, "for x > 0"},
+};
+enum { COUNT = sizeof PIECEWISE / sizeof *PIECEWISE };
+
+static nh_result *analysed(const char *text)
+{
+    char path[SCRATCH];
+    nh_error error = {0};
+    FILE *out = scratch_open(path);
+    cr_assert_not_null(out);
+    fprintf(out, "name: piecewise\n%s", text);
+    fclose(out);
+    nh_analyze_request q = {.system_path = path, .seed_given = true};
+    nh_options_default(&q.options);
+    q.options.max_seconds = 1e6; /* the same on every machine */
+    nh_result *r = nh_analyze(&q, &error);
+    remove(path);
+    cr_assert_not_null(r, "%s", error.what);
+    return r;
+}
+
+/* ---- along motions of its own: Runge and Kutta with steps that no kink can hide between ---- */
+
+enum { STEPS = 16000, STATES = 12 };
+static const double LENGTH = 8;
+
+static void advance(const nh_tape *tape, nh_tape_work *work, size_t n, double *z, double h)
+{
+    double k[4][16], at[16];
+    for (int stage = 0; stage < 4; stage++) {
+        double part = stage == 0 ? 0 : stage == 3 ? h : h / 2;
+        for (size_t j = 0; j < n; j++) at[j] = z[j] + (stage ? part * k[stage - 1][j] : 0);
+        k[stage][0] = 1; /* t */
+        nh_tape_eval(tape, work, at, k[stage] + 1);
+    }
+    for (size_t j = 0; j < n; j++) z[j] += h / 6 * (k[0][j] + 2 * k[1][j] + 2 * k[2][j] + k[3][j]);
+}
+
+/* The largest change of phi along motions from several states of a box around zero, relative to 1 + |phi|. */
+static double largest_change(const nh_model *o, nh_ex phi)
+{
+    size_t n = 1 + o->m + o->n;
+    nh_ex rate[16];
+    double z[16], worst = 0;
+    uint64_t seed = 5;
+    for (size_t j = 0; j + 1 < n; j++) rate[j] = j < o->m ? o->rho[j] : o->a[j - o->m];
+    nh_tape *motion = nh_model_tape(o, n - 1, rate), *value = nh_model_tape(o, 1, &phi);
+    nh_tape_work *motion_work = nh_tape_work_create(motion), *value_work = nh_tape_work_create(value);
+    for (int k = 0; k < STATES; k++) {
+        double first, now;
+        z[0] = -1;
+        for (size_t j = 1; j < n; j++) z[j] = 3 * nh_random(&seed) - 1.5;
+        nh_tape_eval(value, value_work, z, &first);
+        for (int i = 0; i < STEPS; i++) {
+            advance(motion, motion_work, n, z, LENGTH / STEPS);
+            nh_tape_eval(value, value_work, z, &now);
+            if (isfinite(now) && isfinite(first)) worst = fmax(worst, fabs(now - first) / (1 + fabs(first)));
+        }
+    }
+    nh_tape_work_free(motion_work);
+    nh_tape_work_free(value_work);
+    nh_tape_free(motion);
+    nh_tape_free(value);
+    return worst;
+}
+
+Test(piecewise, currents_are_continuous_along_motions)
+{
+    for (size_t i = 0; i < COUNT; i++) {
+        const piecewise *p = &PIECEWISE[i];
+        nh_result *r = analysed(p->text);
+        row o = {.rate = -INFINITY};
+        compare(r, &o);
+        cr_expect_eq(o.missing + o.wrong, 0, "%s: %s", p->name, o.names);
+        cr_expect_eq(r->independent, p->independent, "%s: %zu independent", p->name, r->independent);
+        cr_expect_eq(r->verdict, p->independent ? NH_FOUND : NH_UNDECIDED, "%s", p->name);
+        for (size_t k = 0; k < r->count; k++) {
+            double change = largest_change(r->model, r->found[k].phi);
+            cr_expect(change < 5e-3, "%s: %s changes by %.1e", p->name, r->found[k].name, change);
+        }
+        bool listed = !p->region;
+        for (size_t k = 0; k < r->pieces; k++) {
+            double change = largest_change(r->model, r->piece[k].phi);
+            listed |= p->region && !strcmp(p->region, r->piece[k].region);
+            cr_expect(change > 0.02, "%s: the piece %s, %s, changes by %.1e only", p->name, r->piece[k].name, r->piece[k].region, change);
+        }
+        cr_expect(listed, "%s: nothing holds %s", p->name, p->region);
+        nh_result_free(r);
+    }
+}
+
+/* Without a kink nothing is cut, and what has poles is no piece. */
+Test(piecewise, smooth_and_rational_currents_hold_everywhere)
+{
+    static const char *const text[] = {
+        "name: free\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n",
+        "name: kepler\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)\n",
+    };
+    static const char *const current[][3] = {{"y'/x'", "(x*y' - y*x')/x'", "x' + y'*abs(x')"}, {"x*y' - y*x'", "x'^2 + y'^2 - 2/sqrt(x^2 + y^2)", "(x'^2 + y'^2 - 2/sqrt(x^2 + y^2))/(x*y' - y*x')"}};
+    for (size_t i = 0; i < 2; i++) {
+        nh_error error = {0};
+        nh_system *system = nh_system_parse("smooth.yaml", text[i], 0, NULL, &error);
+        cr_assert_not_null(system, "%s", error.what);
+        nh_model *model = nh_model_create(system, nh_chart_create(system, NH_CHART_AUTO, 1, &error), &error);
+        cr_assert_not_null(model, "%s", error.what);
+        nh_options options;
+        nh_options_default(&options);
+        nh_arena *arena = nh_arena_create();
+        nh_terrain terrain = nh_terrain_of(model, &options, arena);
+        for (size_t k = 0; k < 3; k++) {
+            nh_ex e = 0, phi = 0;
+            cr_assert(nh_system_expression_text(system, "test", current[i][k], 0, NULL, &e, &error) && nh_analysis_to_chart(model, e, &phi, &error), "%s", error.what);
+            nh_region region = nh_region_of(model, &terrain, phi, 20, &options, arena);
+            cr_expect_eq(region.count, 0, "%s: %s", current[i][k], nh_region_text(model->dag, &region, arena));
+        }
+        nh_arena_free(arena);
+        nh_model_free(model);
+        nh_system_free(system);
+    }
+}
+
+Test(piecewise, a_single_current_is_told_its_region)
+{
+    static const struct {
+        const char *lagrangian, *current, *region;
+    } asked[] = {
+        {"x'^2/2 - abs(x)", "x'^2/2 + abs(x)", NULL},
+        {"x'^2/2 - abs(x)", "x' + t*sign(x)", "on each side of x = 0, where it jumps"},
+        {"x'^2/2 - x*abs(t - 2)", "x' + (t - 2)*abs(t - 2)/2", NULL},
+        {"x'^2/2 - x*abs(t - 2)", "x' + (t - 2)*abs(t - 2)/2 + sign(t - 2)", "on each side of t = 2, where it jumps"},
+        {"x'^2/2 - acos(cos(x))", "x'^2/2 + acos(cos(x))", NULL},
+    };
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        char text[400];
+        nh_error error = {0};
+        nh_options options;
+        nh_options_default(&options);
+        snprintf(text, sizeof text, "name: asked\ncoordinates: [{name: x, type: length}]\nlagrangian: %s\n", asked[i].lagrangian);
+        nh_verdict_of_one *v = nh_verify_current(nh_system_parse("asked.yaml", text, 0, NULL, &error), NH_CHART_AUTO, asked[i].current, &options, &error);
+        cr_assert_not_null(v, "%s: %s", asked[i].current, error.what);
+        cr_expect_eq(v->conserved, asked[i].region == NULL, "%s", asked[i].current);
+        if (asked[i].region) cr_expect_str_eq(v->region, asked[i].region);
+        else cr_expect_null(v->region, "%s: %s", asked[i].current, v->region);
+        nh_verdict_free(v);
+    }
+}
