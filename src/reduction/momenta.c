@@ -183,7 +183,7 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
     for (size_t r = count; r-- > 0;) {
         nh_momentum *p = &out->momentum[out->count++];
         normalise(s, v + r * s->n);
-        p->horizontal = true;
+        *p = (nh_momentum){.horizontal = true};
         p->f = nh_arena_alloc(s->k->arena, (s->d + 1) * sizeof *p->f);
         for (size_t a = 0; a < s->d; a++) p->f[a] = nh_int(dag, 0);
         for (size_t c = 0; c < s->n; c++) {
@@ -192,6 +192,7 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
             p->f[a] = nh_add(dag, p->f[a], nh_mul(dag, coefficient(s, v[c + r * s->n]), s->l.function[c]));
             p->horizontal &= s->l.complexity[c] == 0;
         }
+        p->gauge = !p->horizontal;
         fill(s, p);
         prove(s, p);
         out->count -= multiple(s, p);

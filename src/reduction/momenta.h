@@ -18,7 +18,8 @@
 #include "reduction/action.h"
 
 typedef struct {
-    bool horizontal;       /* f is constant */
+    bool horizontal;       /* f is constant, and f^a e_a lies in D */
+    bool gauge;            /* f is not constant; neither: f is constant, and the reaction does no work along f^a e_a though that is not in D */
     bool moving;           /* not a momentum: the moving energy, f = c */
     nh_ex *f;              /* d */
     nh_ex *field;          /* m: f^a e_a */

@@ -193,12 +193,26 @@ static double *sampled(const nh_model *o, const nh_kinetic *k, size_t count, con
     return out;
 }
 
+/* Does the field lie in the distribution: xi^s df^A/dv^s = 0 for all constraints, exactly? */
+static bool admissible(const nh_model *o, const nh_kinetic *k, const nh_ex *field, const nh_options *options)
+{
+    nh_dag *d = o->dag;
+    bool good = true;
+    for (size_t a = 0; a < k->f && good; a++) {
+        nh_ex e = nh_int(d, 0);
+        for (size_t s = 0; s < o->m; s++) e = plus(d, e, field[s], nh_diff(d, k->force[a], k->v[s]));
+        e = nh_model_compose(o, e);
+        good = nh_is_zero(d, e) || nh_prove_zero(o, 1, &e, false, options).proved;
+    }
+    return good;
+}
+
 static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const double *c, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
     nh_dag *d = o->dag;
     nh_momentum *p = &out->momentum[out->count++];
-    *p = (nh_momentum){.horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + o->m) * sizeof *p->f), .value = nh_int(d, 0)};
+    *p = (nh_momentum){.f = nh_arena_alloc(k->arena, (g->d + o->m) * sizeof *p->f), .value = nh_int(d, 0)};
     p->field = p->f + g->d;
     for (size_t s = 0; s < o->m; s++) p->field[s] = nh_int(d, 0);
     for (size_t a = 0; a < g->d; a++) {
@@ -207,6 +221,7 @@ static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const do
         for (size_t s = 0; s < o->m; s++) p->field[s] = plus(d, p->field[s], p->f[a], g->generator[a].component[s]);
     }
     for (size_t s = 0; s < o->m; s++) p->value = plus(d, p->value, p->field[s], nh_diff(d, o->system->lagrangian, k->v[s]));
+    p->horizontal = admissible(o, k, p->field, options);
     nh_ex rate = nh_model_gamma(o, nh_model_compose(o, p->value));
     p->value = nh_simplify(d, p->value);
     p->proved = nh_prove_zero(o, 1, &rate, false, options).proved;

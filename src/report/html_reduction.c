@@ -1,4 +1,5 @@
 /* A symmetry group and the reductions by it, as a page. */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -178,14 +179,15 @@ static void second(nh_html_writer *w, const nh_reduction_stage *s)
         nh_html_add(w, ", isotropy of dimension ");
         nh_html_count(w, t->d - t->orbit);
     }
-    nh_html_add(w, "; it drifts by ");
-    nh_html_number(w, s->momentum_drift, 1);
+    if (s->momentum_drift >= 0) nh_html_add(w, "; it drifts by ");
+    if (s->momentum_drift >= 0) nh_html_number(w, s->momentum_drift, 1);
     nh_html_add(w, "</dd>\n");
 }
 
-/* full: seconds of the full motion, where a method was chosen. */
-static void checks(nh_html_writer *w, const nh_reduction_stage *s, double full)
+static void checks(nh_html_writer *w, const nh_reduction *r, const nh_reduction_stage *s)
 {
+    double full = r->full.seconds; /* where a method was chosen */
+    const char *why = nh_reduction_no_energy(r, s);
     nh_html_add(w, "<dl><dt>Check</dt><dd>");
     if (s->compared) {
         nh_html_add(w, "with the group's motion found again ");
@@ -209,8 +211,10 @@ static void checks(nh_html_writer *w, const nh_reduction_stage *s, double full)
         nh_html_number(w, full > 0 ? s->choice.seconds / full : 0, 2);
         nh_html_add(w, " times the time of the full motion");
     }
-    nh_html_add(w, "</dd>\n<dt>Energy</dt><dd>drifts by ");
-    nh_html_number(w, s->energy_drift, 1);
+    nh_html_add(w, strcmp(nh_reduction_energy(r, s), "energy") ? "</dd>\n<dt>Moving energy</dt><dd>" : "</dd>\n<dt>Energy</dt><dd>");
+    nh_html_add(w, why ? "not followed: " : "drifts by ");
+    if (why) nh_html_text(w, why);
+    else nh_html_number(w, s->energy_drift, 1);
     nh_html_add(w, "</dd>\n");
     second(w, s);
     measure(w, s);
@@ -251,12 +255,13 @@ static bool names_itself(const nh_dag *d, const nh_reduction_equation *e)
     return bar && name && !strncmp(name, e->name, length) && !strcmp(name + length, bar + 1);
 }
 
-static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_stage *s, size_t number)
+static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
 {
+    const nh_reduction_stage *s = &r->stage[number];
     static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of", "the quotient by"};
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
-    nh_text_addf(w->out, "<article class=\"card\">\n<h3>Stage %zu: %s ", number, titles[s->kind]);
+    nh_text_addf(w->out, "<article class=\"card\">\n<h3>%s: %s ", nh_reduction_stage_title(r, number), titles[s->kind]);
     name_of_group(w, s->group);
     nh_html_add(w, "</h3>\n<p>Divided out: ");
     for (size_t a = 0; a < s->action->d; a++) {
@@ -277,7 +282,7 @@ static void stage(nh_html_writer *w, const nh_reduction *r, const nh_reduction_s
     nh_html_formulas(w, told, label, value);
     nh_free(value);
     nh_free(label);
-    checks(w, s, r->full.seconds);
+    checks(w, r, s);
     by_stages(w, s);
     nh_html_add(w, "</article>\n");
 }
@@ -287,12 +292,19 @@ static bool has_momenta(const nh_reduction *r) { return r->stages > 0 && r->grou
 static void momenta(nh_html_writer *w, const nh_reduction *r)
 {
     if (!has_momenta(r)) return;
-    nh_html_add(w, r->momenta.count ? "<section id=\"momenta\"><h2>Conserved momenta</h2>\n" : "<section id=\"momenta\"><h2>Conserved momenta</h2>\n<p>No momentum of the group is conserved, among the sections that were tried.</p>\n");
+    size_t linear = nh_reduction_linear_stage(r);
+    nh_html_add(w, "<section id=\"momenta\"><h2>Conserved momenta</h2>\n");
+    if (!r->momenta.count && linear < r->stages) {
+        nh_html_add(w, "<p>The ");
+        nh_html_count(w, r->stage[linear].linear.count);
+        nh_text_addf(w->out, " currents of stage %zu that are linear in the velocities are conserved; no momentum of the group has a closed form, among the sections that were tried.</p>\n", linear + 1);
+    } else if (!r->momenta.count) nh_html_add(w, "<p>No momentum of the group is conserved, among the sections that were tried.</p>\n");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_html_add(w, "<article class=\"card\">\n");
-        nh_html_formula(w, "J", p->value);
-        nh_html_add(w, p->horizontal ? "<p>Horizontal symmetry: the momentum of " : "<p>Gauge momentum of ");
+        nh_html_formula(w, p->moving ? "E - J" : "J", p->value);
+        const char *kind = nh_reduction_momentum_kind(p);
+        nh_text_addf(w->out, "<p>%c%s ", toupper((unsigned char)*kind), kind + 1);
         field(w, r->kinetic, p->field);
         nh_html_add(w, p->proved ? "; proved</p>\n</article>\n" : "; to rounding</p>\n</article>\n");
     }
@@ -302,7 +314,7 @@ static void momenta(nh_html_writer *w, const nh_reduction *r)
 static void answer(nh_html_writer *w, const nh_reduction *r)
 {
     const nh_group *g = r->all ? r->all : r->group;
-    nh_html_add(w, g->action.d + g->missing ? "<p class=\"answer found\">Symmetry group " : "<p class=\"answer none\">No symmetry of kinetic energy, potential and constraints together");
+    nh_html_add(w, g->action.d + g->missing ? g->given ? "<p class=\"answer found\">Group given: " : "<p class=\"answer found\">Symmetry group " : "<p class=\"answer none\">No symmetry of kinetic energy, potential and constraints together");
     if (g->action.d + g->missing) {
         name_of_group(w, g->name);
         nh_html_add(w, ", of dimension ");
@@ -310,7 +322,7 @@ static void answer(nh_html_writer *w, const nh_reduction *r)
     }
     nh_html_add(w, ".</p>\n");
     for (size_t i = 0; i < r->stages; i++) {
-        nh_html_add(w, i ? ", then to " : "<p>It reduces ");
+        nh_html_add(w, !i ? "<p>It reduces " : nh_reduction_instead(r, i) ? "; in one step to " : ", then to ");
         if (!i) nh_html_count(w, r->kinetic->m);
         if (!i) nh_html_add(w, r->kinetic->m == 1 ? " coordinate to " : " coordinates to ");
         nh_html_count(w, r->stage[i].shown->n);
@@ -344,7 +356,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     nh_html_add(&w, "</section>\n<section id=\"stages\"><h2>Reduced equations</h2>\n");
     if (!r->stages) nh_html_add(&w, "<p>Nothing could be divided out.</p>\n");
     full_motion(&w, r);
-    for (size_t i = 0; i < r->stages; i++) stage(&w, r, &r->stage[i], i + 1);
+    for (size_t i = 0; i < r->stages; i++) stage(&w, r, i);
     nh_html_add(&w, "</section>\n");
     momenta(&w, r);
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");

@@ -174,8 +174,10 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
     if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
     if (s->compared && s->unsure > 0) nh_text_addf(out, ", which is known to %.1e itself", s->unsure);
     if (!s->compared) nh_text_addf(out, "  not compared with %s", with);
-    if (s->reduced->conservative) nh_text_addf(out, r->kinetic->linear || s->kind == NH_STAGE_QUOTIENT ? "; energy drifts by %.1e" : "; the moving energy drifts by %.1e", s->energy_drift);
-    if (s->kind == NH_STAGE_SECOND) nh_text_addf(out, ", the momentum by %.1e", s->momentum_drift);
+    const char *why = nh_reduction_no_energy(r, s), *energy = nh_reduction_energy(r, s);
+    if (why) nh_text_addf(out, "; %s not followed: %s", energy, why);
+    else nh_text_addf(out, "; %s drifts by %.1e", energy, s->energy_drift);
+    if (s->kind == NH_STAGE_SECOND && s->momentum_drift >= 0) nh_text_addf(out, why ? "; the momentum drifts by %.1e" : ", the momentum by %.1e", s->momentum_drift);
     nh_text_add(out, "\n");
     put_choice(r, s, out);
     if (s->charts) nh_text_addf(out, "  on the way the slice or the velocities are changed %zu time%s\n", s->charts, s->charts == 1 ? "" : "s");
@@ -243,10 +245,11 @@ static void put_chain(const nh_reduction_stage *s, nh_text *out)
     nh_text_addf(out, "  bracket by stages against the bracket %.1e, Euler-Poincare right-hand side %.1e\n", p->bracket, p->euler_poincare);
 }
 
-static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, double shown, nh_text *out)
+static void put_stage(const nh_reduction *r, size_t number, double shown, nh_text *out)
 {
+    const nh_reduction_stage *s = &r->stage[number];
     static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of", "the quotient by"};
-    nh_text_addf(out, "\nStage %zu: %s %s\n", number, titles[s->kind], s->group);
+    nh_text_addf(out, "\n%s: %s %s\n", nh_reduction_stage_title(r, number), titles[s->kind], s->group);
     for (size_t a = 0; a < s->action->d; a++) {
         nh_text_add(out, a ? "; " : "  group    ");
         nh_generator_text(s->action->kinetic, &s->action->generator[a], out);
@@ -268,11 +271,14 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
 static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
 {
     if (!r->stages || (r->partial && !r->momenta.count)) return;
-    nh_text_addf(out, "\n%s\n", r->momenta.count ? "Conserved momenta of the group" : "No momentum of the group is conserved (among the sections that were tried)");
+    size_t linear = nh_reduction_linear_stage(r);
+    if (r->momenta.count) nh_text_add(out, "\nConserved momenta of the group\n");
+    else if (linear < r->stages) nh_text_addf(out, "\nConserved momenta of the group: the %zu of stage %zu; none has a closed form among the sections that were tried\n", r->stage[linear].linear.count, linear + 1);
+    else nh_text_add(out, "\nNo momentum of the group is conserved (among the sections that were tried)\n");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_generator field = {.component = p->field};
-        nh_text_addf(out, "  %s of ", p->moving ? "energy less the momentum" : p->horizontal ? "horizontal symmetry: momentum" : "gauge momentum");
+        nh_text_addf(out, "  %s ", nh_reduction_momentum_kind(p));
         nh_generator_text(r->kinetic, &field, out);
         nh_text_add(out, p->proved ? " (proved)\n" : " (to rounding)\n");
         put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, shown);
@@ -289,7 +295,7 @@ void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
     if (r->group != r->all) put_group(r, r->group, verbose, out);
     put_joints(r, out);
     put_full(r, out);
-    for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, shown, out);
+    for (size_t i = 0; i < r->stages; i++) put_stage(r, i, shown, out);
     if (r->group->action.d) put_momenta(r, shown, out);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%swarning: %s\n", i ? "" : "\n", r->warning[i]);
 }

@@ -21,6 +21,18 @@ typedef struct {
 } nh_reduction_equation;
 size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_reduction_equation **out);
 
+/* "Stage 3, in one step instead of stages 1 and 2": the first and the second one build on each other, what divides the whole group is an alternative. */
+const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);
+bool nh_reduction_instead(const nh_reduction *reduction, size_t stage);
+/* Why the energy of a stage's motion was not followed; NULL where it was. */
+const char *nh_reduction_no_energy(const nh_reduction *reduction, const nh_reduction_stage *stage);
+/* "energy", or the moving energy of affine constraints. */
+const char *nh_reduction_energy(const nh_reduction *reduction, const nh_reduction_stage *stage);
+/* The stage whose momenta obey a linear equation in the shape, so that as many currents are conserved though none may have a closed form; or SIZE_MAX. */
+size_t nh_reduction_linear_stage(const nh_reduction *reduction);
+/* "gauge momentum of", before the field. */
+const char *nh_reduction_momentum_kind(const nh_momentum *momentum);
+
 /* "joint of wheel", of a joint of the chain. */
 const char *nh_reduction_joint_name(const nh_reduction *reduction, size_t joint);
 

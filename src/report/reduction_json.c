@@ -182,7 +182,8 @@ static void put_second(nh_json *to, const nh_reduction *r, const nh_reduction_st
     nh_json_put_number(to, "isotropy", (double)(t->d - t->orbit));
     nh_json_put_number(to, "condition_weak", t->weak);
     nh_json_put_number(to, "condition_strong", t->strong);
-    nh_json_put_number(to, "momentum_drift", s->momentum_drift);
+    if (s->momentum_drift >= 0) nh_json_put_number(to, "momentum_drift", s->momentum_drift);
+    else nh_json_put_null(to, "momentum_drift");
     put_measure(to, r, s);
 }
 
@@ -239,6 +240,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     nh_dag *d = r->kinetic->dag;
     nh_json_put_text(to, "kind", nh_stage_kind_name(s->kind));
     nh_json_put_text(to, "group", s->group);
+    nh_json_put_bool(to, "alternative", nh_reduction_instead(r, (size_t)(s - r->stage)));
     put_fields(to, s->action);
     for (size_t i = 0; i < s->shown->n; i++) nh_json_add_text(list, nh_name_of(d, s->shown->x[i]));
     list = nh_json_put_array(to, "velocities");
@@ -267,9 +269,11 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (s->compared) nh_json_put_number(to, s->against_full ? "agreement_with_full" : "agreement_with_first", s->agreement);
     else nh_json_put_null(to, "agreement_with_full");
     if (s->unsure > 0) nh_json_put_number(to, "unsure", s->unsure);
+    const char *why = nh_reduction_no_energy(r, s);
+    if (why) nh_json_put_text(to, "energy_not_followed", why);
     put_choice(to, &s->choice);
     nh_json_put_number(to, "reached", s->reached);
-    if (s->reduced->conservative) nh_json_put_number(to, "energy_drift", s->energy_drift);
+    if (s->energy_drift >= 0) nh_json_put_number(to, "energy_drift", s->energy_drift);
     else nh_json_put_null(to, "energy_drift");
     nh_json_put_number(to, "restarts", (double)s->restarts);
     nh_json_put_number(to, "charts", (double)s->charts);
@@ -284,7 +288,7 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_json *item = nh_json_add_object(list), *field = nh_json_put_object(item, "field");
-        nh_json_put_text(item, "kind", p->moving ? "moving energy" : p->horizontal ? "horizontal" : "gauge");
+        nh_json_put_text(item, "kind", p->moving ? "moving energy" : p->horizontal ? "horizontal" : p->gauge ? "gauge" : "momentum");
         for (size_t s = 0; s < k->m; s++)
             if (!nh_is_zero(k->dag, p->field[s])) put_expression(field, k->name[s], k->dag, p->field[s]);
         put_expression(item, "expression", k->dag, p->value);

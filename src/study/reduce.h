@@ -66,8 +66,8 @@ typedef struct {
     double agreement;         /* largest difference of a position, relative to 1 + size */
     double unsure;            /* how well the full motion itself is known, measured where the agreement exceeds 100 tolerances; else 0 */
     double reached;           /* time up to which */
-    double energy_drift;      /* of the reduced motion, relative to 1 + the largest of its terms until then */
-    double momentum_drift;    /* second kind: of the spatial momentum */
+    double energy_drift;      /* of the reduced motion, relative to 1 + the largest of its terms until then; negative: not followed */
+    double momentum_drift;    /* second kind: of the spatial momentum; negative: not followed */
     double seconds, speedup;  /* of the reduced motion; full over reduced */
     size_t restarts, charts;  /* of the group's coordinates; changes of the slice or of the velocities */
     nh_reduction_choice choice; /* with an accuracy */

@@ -20,6 +20,7 @@ double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_cou
 /* Time, energy and what is conserved, of the reduced motion (on one slice alone the group's motion belongs to it). */
 static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reconstruction *c)
 {
+    if (c->count > 1 && s->reduced->conservative) s->energy_drift = 0;
     for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + c->energy_size[i]));
     if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, c->first, c->first_chart, c->z);
     s->seconds = c->seconds;

@@ -85,7 +85,7 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
     nh_reduction_stage *s = &r->stage[r->stages++];
-    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action), .against_full = true, .linear_drift = -1};
+    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action), .against_full = true, .linear_drift = -1, .energy_drift = -1, .momentum_drift = -1};
     return s;
 }
 
@@ -166,8 +166,8 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
     nh_flow_options options = {.method = NH_ADAMS, .rtol = b->rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
     double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d + n, sizeof *E), *start = E + n * d, *magnetic = start + 2 * d, size = 1;
-    *drift = 0;
     *reached = motion ? motion->count : 0;
+    *drift = *reached > 1 ? 0 : -1;
     for (size_t i = 0; i < *reached; i++) {
         const double *at = motion->state + i * 2 * n;
         memcpy(out + i * n, at, n * sizeof *out);
@@ -278,8 +278,8 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
-        if (n && !d && !first->plain) nh_reduction_warn(r, "no second stage: in the reduced system forces act along the further symmetries (%zu) that normalise the first group, so that no momentum is conserved", n);
-        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, q, v, d, field, &trouble)) nh_reduction_warn(r, "no second stage: %s", trouble.what);
+        if (n && !d && !first->plain) nh_reduction_warn(r, "stage 1 is not reduced further: in the reduced system forces act along the further symmetries (%zu) that normalise the first group, so that no momentum is conserved", n);
+        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, q, v, d, field, &trouble)) nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
         nh_free(field);
     }
     nh_free(index);

@@ -1,0 +1,44 @@
+/* reduction_facts: what text, page, LaTeX and C say alike of a reduction. */
+#include "report/reduction.h"
+
+bool nh_reduction_instead(const nh_reduction *r, size_t i)
+{
+    nh_stage_kind kind = r->stage[i].kind;
+    return i > 0 && kind != NH_STAGE_CHAPLYGIN && kind != NH_STAGE_SECOND;
+}
+
+const char *nh_reduction_stage_title(const nh_reduction *r, size_t i)
+{
+    nh_arena *arena = r->kinetic->arena;
+    if (!nh_reduction_instead(r, i)) return nh_arena_printf(arena, "Stage %zu", i + 1);
+    if (i == 1) return nh_arena_printf(arena, "Stage %zu, in one step instead of stage 1", i + 1);
+    return nh_arena_printf(arena, "Stage %zu, in one step instead of stages 1 %s %zu", i + 1, i == 2 ? "and" : "to", i);
+}
+
+const char *nh_reduction_no_energy(const nh_reduction *r, const nh_reduction_stage *s)
+{
+    const nh_kinetic *k = r->kinetic;
+    if (s->energy_drift >= 0) return NULL;
+    if (s->reduced->conservative) return "the reduced motion could not be computed";
+    if (!k->autonomous) return "the equations depend on time";
+    if (r->strict) return "the potential counts as a force here";
+    return k->forced ? "forces act" : k->linear ? "it is not conserved" : "the constraints do work";
+}
+
+const char *nh_reduction_energy(const nh_reduction *r, const nh_reduction_stage *s)
+{
+    return r->kinetic->linear || s->kind == NH_STAGE_QUOTIENT ? "energy" : "the moving energy";
+}
+
+size_t nh_reduction_linear_stage(const nh_reduction *r)
+{
+    for (size_t i = 0; i < r->stages; i++)
+        if (r->stage[i].linear.count) return i;
+    return SIZE_MAX;
+}
+
+const char *nh_reduction_momentum_kind(const nh_momentum *p)
+{
+    if (p->moving) return "energy less the momentum of";
+    return p->horizontal ? "horizontal symmetry: momentum of" : p->gauge ? "gauge momentum of" : "not horizontal, conserved all the same: momentum of";
+}

@@ -1,0 +1,121 @@
+/* What `reduce` says of a system: text, page and JSON agree with each other and with what was computed. */
+#include "oracle.h"
+
+#include "report/html.h"
+#include "report/reduction.h"
+#include "scratch.h"
+
+typedef struct {
+    nh_reduction *r;
+    nh_text text, page; /* the page without its tags */
+    char *json;
+} told;
+
+static void strip_tags(const char *html, nh_text *out)
+{
+    bool tag = false;
+    for (const char *c = html; *c; c++) {
+        if (*c == '<') tag = true;
+        else if (*c == '>') tag = false;
+        else if (!tag) nh_text_addf(out, "%c", *c);
+    }
+}
+
+static told tell_file(const char *path, size_t settings, const nh_setting *setting)
+{
+    told t;
+    nh_error error = {0};
+    nh_reduce_request q = {.system_path = path, .settings = settings, .setting = setting};
+    nh_options_default(&q.options);
+    t.r = nh_reduce(&q, &error);
+    must(t.r != NULL, &error, path);
+    nh_text html;
+    nh_text_init(&t.text), nh_text_init(&t.page), nh_text_init(&html);
+    nh_reduction_text(t.r, false, &t.text);
+    nh_html_reduction(t.r, &(nh_run){.command = "nhsym reduce", .system_path = path, .seed = 1, .shown = 200, .seconds = NAN}, &html);
+    strip_tags(nh_text_string(&html), &t.page);
+    t.json = nh_reduction_json(t.r, NULL);
+    nh_text_clear(&html);
+    return t;
+}
+
+
+static void done(told *t)
+{
+    nh_reduction_free(t->r);
+    nh_text_clear(&t->text);
+    nh_text_clear(&t->page);
+    nh_free(t->json);
+}
+
+#define SAYS(where, words) cr_expect(strstr((where), (words)) != NULL, "\"%s\" is missing in\n%.6000s", (words), (where))
+#define IS_SILENT(where, words) cr_expect(strstr((where), (words)) == NULL, "\"%s\" is in\n%.6000s", (words), (where))
+#define TEXT(t) nh_text_string(&(t).text)
+#define PAGE(t) nh_text_string(&(t).page)
+
+/* An energy that was not followed does not drift by zero. */
+Test(reduce_statements, energy_that_is_not_followed)
+{
+    told t = tell_file("systems/skate_with_friction.yaml", 0, NULL);
+    cr_assert_gt(t.r->stages, 1);
+    SAYS(TEXT(t), "energy not followed: forces act");
+    SAYS(PAGE(t), "Energynot followed: forces act");
+    IS_SILENT(PAGE(t), "Energydrifts by 0");
+    SAYS(t.json, "\"energy_drift\":\tnull");
+    SAYS(t.json, "\"energy_not_followed\":\t\"forces act\"");
+    IS_SILENT(TEXT(t), "no second stage");
+    SAYS(TEXT(t), "warning: stage 1 is not reduced further");
+    done(&t);
+    t = tell_file("systems/cart_on_disc.yaml", 0, NULL);
+    SAYS(TEXT(t), "the moving energy drifts by");
+    SAYS(PAGE(t), "Moving energydrifts by");
+    SAYS(TEXT(t), "energy less the momentum of");
+    SAYS(PAGE(t), "Energy less the momentum of");
+    IS_SILENT(PAGE(t), "Gauge momentum");
+    done(&t);
+}
+
+/* The whole group divided at once is an alternative, not what follows. */
+Test(reduce_statements, stages_that_do_not_follow_each_other)
+{
+    told t = tell_file("systems/crane.yaml", 0, NULL);
+    SAYS(TEXT(t), "\nStage 2: second stage, by SO(2)");
+    SAYS(TEXT(t), "\nStage 3, in one step instead of stages 1 and 2: ");
+    SAYS(PAGE(t), "It reduces 8 coordinates to 4, then to 3; in one step to 2.");
+    nh_text code;
+    nh_text_init(&code);
+    nh_reduction_latex(t.r, &code);
+    SAYS(nh_text_string(&code), "% Stage 3, in one step instead of stages 1 and 2 (");
+    nh_text_clear(&code);
+    done(&t);
+    t = tell_file("systems/sleigh.yaml", 0, NULL);
+    SAYS(TEXT(t), "\nStage 2, in one step instead of stage 1: ");
+    done(&t);
+}
+
+/* Currents that are conserved without a closed form are conserved. */
+Test(reduce_statements, momenta_without_a_closed_form)
+{
+    told t = tell_file("systems/euler_disk.yaml", 0, NULL);
+    cr_assert_eq(t.r->momenta.count, 0);
+    SAYS(TEXT(t), "Conserved momenta of the group: the 2 of stage 2; none has a closed form");
+    IS_SILENT(TEXT(t), "No momentum of the group is conserved");
+    SAYS(PAGE(t), "The 2 currents of stage 2 that are linear in the velocities are conserved");
+    IS_SILENT(PAGE(t), "No momentum of the group is conserved");
+    done(&t);
+}
+
+/* A symmetry that is not in D, along which the reaction does no work all the same. */
+Test(reduce_statements, momenta_of_symmetries_outside_the_distribution)
+{
+    told t = tell_file("systems/sleigh.yaml", 1, (nh_setting[]){{.name = "k", .value = 1}});
+    cr_assert_eq(t.r->momenta.count, 3);
+    for (size_t i = 0; i < 3; i++) cr_expect(!t.r->momenta.momentum[i].horizontal && !t.r->momenta.momentum[i].gauge);
+    SAYS(TEXT(t), "not horizontal, conserved all the same: momentum of d/dx");
+    IS_SILENT(TEXT(t), "horizontal symmetry");
+    SAYS(t.json, "\"kind\":\t\"momentum\"");
+    done(&t);
+    t = tell_file("systems/relativistic_charge.yaml", 0, NULL); /* no constraints: every field is horizontal */
+    for (size_t i = 0; i < t.r->momenta.count; i++) cr_expect(t.r->momenta.momentum[i].horizontal);
+    done(&t);
+}
