@@ -40,6 +40,15 @@ static told tell_file(const char *path, size_t settings, const nh_setting *setti
 }
 
 
+static told tell(const char *text)
+{
+    char path[SCRATCH];
+    cr_assert(scratch_text(path, text));
+    told t = tell_file(path, 0, NULL);
+    remove(path);
+    return t;
+}
+
 static void done(told *t)
 {
     nh_reduction_free(t->r);
@@ -118,4 +127,39 @@ Test(reduce_statements, momenta_of_symmetries_outside_the_distribution)
     t = tell_file("systems/relativistic_charge.yaml", 0, NULL); /* no constraints: every field is horizontal */
     for (size_t i = 0; i < t.r->momenta.count; i++) cr_expect(t.r->momenta.momentum[i].horizontal);
     done(&t);
+}
+
+/* A density that vanishes where the orbits become tangent to D, as the stage ends there, has one value on the angle all the same; one that grows from turn to turn has not. */
+Test(reduce_statements, measures_that_are_local)
+{
+    static const struct {
+        const char *text;
+        bool local;
+    } own[] = {
+        {"name: blade\nparameters: [{name: m, value: 2}, {name: J, value: 0.5}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: f, type: angle}]\n"
+         "lagrangian: m*(x'^2 + y'^2)/2 + J*f'^2/2\nconstraints: [\"x'*sin(f) - y'*cos(f) = 0\"]\n", false},
+        {"name: wave\nparameters: [{name: m, value: 2}, {name: J, value: 0.5}]\ncoordinates: [{name: x, type: length}, {name: f, type: angle}, {name: z, type: length}]\n"
+         "lagrangian: m*(x'^2 + z'^2)/2 + J*f'^2/2\nconstraints: [\"z' - (2 + cos(f))*x' = 0\"]\n", false},
+        {"name: ramp\nparameters: [{name: m, value: 2}, {name: J, value: 0.5}]\ncoordinates: [{name: x, type: length}, {name: f, type: angle}, {name: z, type: length}]\n"
+         "lagrangian: m*x'^2/2 + m*exp(-f/5)*z'^2/2 + J*f'^2/2\nconstraints: [\"z' - exp(f/5)*x' = 0\"]\n", true},
+    };
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
+        told t = tell(own[i].text);
+        cr_assert_gt(t.r->stages, 0, "%zu", i);
+        const nh_chaplygin_measure *m = &t.r->stage[0].measure;
+        cr_expect(m->measure && m->size > 0, "%zu: %d, %g", i, m->measure, m->size);
+        cr_expect_eq(m->local, own[i].local, "%zu\n%s", i, TEXT(t));
+        cr_expect_eq(strstr(TEXT(t), "locally only") != NULL, own[i].local);
+        cr_expect_eq(strstr(PAGE(t), "locally only") != NULL, own[i].local);
+        done(&t);
+    }
+    static const char *const shipped[] = {"knife_edge", "disc_on_slope", "suslov_principal", "two_wheel_cart"};
+    for (size_t i = 0; i < sizeof shipped / sizeof *shipped; i++) {
+        char path[SCRATCH];
+        snprintf(path, sizeof path, "systems/%s.yaml", shipped[i]);
+        told t = tell_file(path, 0, NULL);
+        cr_expect(t.r->stage[0].measure.measure);
+        cr_expect_eq(t.r->stage[0].measure.local, i == 3, "%s", shipped[i]); /* the cart's grows with the difference of its wheels' angles */
+        done(&t);
+    }
 }

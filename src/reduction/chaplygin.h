@@ -49,7 +49,8 @@ bool nh_chaplygin_init(nh_chaplygin *chaplygin, const nh_slice *slice, nh_error 
 typedef struct {
     bool tested;
     bool measure, simple, factor;
-    bool local;         /* the density has no single value on an angle: a measure (and a factor) exists locally only */
+    bool local;         /* the density is many-valued: Theta has a period along a turn of an angle on which the stage is regular.  A density that vanishes, or grows without bound,
+                         * where the coordinates are singular or orbits are tangent to D is not local: the stage ends there */
     double size;        /* of Theta: 0 means that the Liouville measure is invariant */
     double curl;        /* largest |d Theta| */
     double phi_simple;  /* largest residual of the algebraic condition */

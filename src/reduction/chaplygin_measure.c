@@ -73,55 +73,68 @@ static double off_simple(const gyro *g)
     return off;
 }
 
-/* The mean of Theta_j over a full turn of an angle x^j, the others as at the first sample point: not zero means that sigma has no single value.  False when the
- * turn meets a singularity. */
-static bool period(const nh_slice *s, const nh_ex *K, const nh_ex *U, size_t j, double *mean)
+/* The mean of Theta_j over a full turn of an angle x^j in steps that start at the given part of one, and the largest value; the others as in q.  False where it
+ * is not finite. */
+static bool mean_over_turn(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, size_t steps, double start, double *q, double *mean, double *largest)
 {
-    enum { steps = 48 };
-    static const double turn = 6.283185307179586, regular = 0.02; /* of the metric: a pole lies between */
-    const nh_kinetic *k = s->kinetic;
+    static const double turn = 6.283185307179586;
     size_t n = s->n, cube = n * n * n;
-    nh_ex *e = nh_alloc_array(n * n + cube, sizeof *e);
-    double *value = nh_alloc_array(2 * n * n + cube + k->m, sizeof *value), *q = value + n * n + cube, *copy = q + k->m, low = INFINITY, high = 0;
+    double *value = nh_alloc_array(n * n + cube, sizeof *value);
     bool good = true;
-    memcpy(e, K, n * n * sizeof *e);
-    memcpy(e + n * n, U, cube * sizeof *e);
-    memcpy(q, k->place, k->m * sizeof *q);
-    nh_tape *tape = nh_kinetic_tape(k, n * n + cube, e);
-    nh_tape_work *work = nh_tape_work_create(tape);
     *mean = 0;
     for (size_t i = 0; i < steps && good; i++) {
-        q[s->shape[j]] = turn * ((double)i + 0.37) / steps;
+        double theta = 0;
+        q[s->shape[j]] = turn * ((double)i + start) / (double)steps;
         nh_tape_eval(tape, work, q, value);
-        good = isfinite(nh_largest(n * n + cube, value));
-        if (good) memcpy(copy, value, n * n * sizeof *copy);
-        double det = good ? nh_determinant(n, copy) : 0;
-        for (size_t l = 0; l < n && good; l++) det /= value[l * (n + 1)];
-        low = fmin(low, det);
-        high = fmax(high, det);
-        good = good && nh_solve(n, value, n * n, value + n * n, NULL);
-        for (size_t l = 0; l < n && good; l++) *mean += value[n * n + (l + (l * n + j) * n)] / steps;
+        good = isfinite(nh_largest(n * n + cube, value)) && nh_solve(n, value, n * n, value + n * n, NULL);
+        for (size_t l = 0; l < n && good; l++) theta += value[n * n + (l + (l * n + j) * n)];
+        *mean += theta / (double)steps;
+        *largest = fmax(*largest, fabs(theta));
     }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(e);
     nh_free(value);
-    return good && low > regular * high;
+    return good;
+}
+
+/* The period of Theta along a turn of x^j through a place.  The means over equidistant steps converge exponentially where Theta is regular on the way, wherever
+ * they start; where it has a pole, as where the orbits become tangent to D, they depend on the start: then the turn is no curve in the region in which the
+ * stage is defined, and there is no period: false. */
+static bool period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, const double *place, double small, double *mean)
+{
+    enum { fewest = 24, most = 1536 };
+    size_t m = s->kinetic->m;
+    double *q = nh_alloc_array(m + 1, sizeof *q);
+    bool regular = true, found = false;
+    memcpy(q, place, m * sizeof *q);
+    for (size_t steps = fewest; steps <= most && regular && !found; steps *= 2) {
+        double other = 0, largest = 0;
+        regular = mean_over_turn(s, tape, work, j, steps, 0.37, q, mean, &largest) && mean_over_turn(s, tape, work, j, steps, 0.11, q, &other, &largest);
+        found = regular && fabs(*mean - other) <= small * (1 + largest);
+    }
+    nh_free(q);
+    return found;
 }
 
 /* K^-1 acts on the first index of U_kij: the columns are the pairs (i, j), as nh_solve wants them. */
 static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, double small)
 {
-    size_t n = s->n;
-    nh_ex *turned = nh_alloc_array(n * n * n + 1, sizeof *turned); /* U with the first index running fastest */
+    enum { most_places = 6 };
+    const nh_kinetic *k = s->kinetic;
+    size_t n = s->n, cube = n * n * n, places = k->places < most_places ? k->places : most_places;
+    nh_ex *e = nh_alloc_array(n * n + cube + 1, sizeof *e), *turned = e + n * n; /* U with the first index running fastest */
     bool many = false;
-    for (size_t k = 0; k < n; k++)
-        for (size_t pair = 0; pair < n * n; pair++) turned[k + pair * n] = U[k * n * n + pair];
-    for (size_t j = 0; j < n && !many; j++) {
-        double mean;
-        if (s->kinetic->angle[s->shape[j]] && period(s, K, turned, j, &mean)) many = fabs(mean) > small;
-    }
-    nh_free(turned);
+    memcpy(e, K, n * n * sizeof *e);
+    for (size_t i = 0; i < n; i++)
+        for (size_t pair = 0; pair < n * n; pair++) turned[i + pair * n] = U[i * n * n + pair];
+    nh_tape *tape = nh_kinetic_tape(k, n * n + cube, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t j = 0; j < n; j++)
+        for (size_t p = 0; p < places && k->angle[s->shape[j]] && !many; p++) {
+            double mean;
+            many = period(s, tape, work, j, k->place + p * k->m, small, &mean) && fabs(mean) > small;
+        }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(e);
     return many;
 }
 

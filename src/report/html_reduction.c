@@ -152,13 +152,13 @@ static void measure(nh_html_writer *w, const nh_reduction_stage *s)
     const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
     nh_html_add(w, "<dt>Measure</dt><dd>");
-    if (m->measure) nh_html_add(w, m->size == 0 ? "Liouville's is invariant" : "an invariant one exists");
+    if (m->measure) nh_html_add(w, m->size == 0 ? "Liouville's is invariant" : m->local ? "an invariant one exists, but locally only: its density is many-valued on an angle" : "an invariant one exists");
     else {
         nh_html_add(w, "none with a density on the shape space is invariant (|d\u0398| = ");
         nh_html_number(w, m->curl, 2);
         nh_html_add(w, ")");
     }
-    if (s->kind != NH_STAGE_SECOND || s->shown->n <= 2) nh_html_add(w, m->factor ? "; a conformal factor makes it Hamiltonian" : "; no conformal factor makes it Hamiltonian");
+    if (s->kind != NH_STAGE_SECOND || s->shown->n <= 2) nh_html_add(w, m->factor ? m->local ? "; a conformal factor makes it Hamiltonian, locally only" : "; a conformal factor makes it Hamiltonian" : "; no conformal factor makes it Hamiltonian");
     nh_html_add(w, "</dd>\n");
 }
 

@@ -188,7 +188,7 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, doub
 {
     const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
-    if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : m->local ? ", but locally only: its density has no single value on an angle" : "");
+    if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : m->local ? ", but locally only: its density is many-valued on an angle" : "");
     if (m->measure && m->closed) {
         put_expression(out, "    ", "density", r->kinetic->dag, m->density, shown);
         if (!m->proved) nh_text_add(out, "      (to rounding)\n");
@@ -197,7 +197,7 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, doub
     if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) return; /* what the momentum adds to the form would have to be closed, too */
     if (m->factor && m->closed && s->shown->n == 2) nh_text_add(out, "  the density is a conformal factor that makes it Hamiltonian, in the time d tau = density dt\n");
     else if (m->factor && m->closed && s->shown->n > 2) nh_text_addf(out, "  density^(1/%zu) is a conformal factor that makes it Hamiltonian\n", s->shown->n - 1);
-    else if (m->factor) nh_text_add(out, "  a conformal factor makes it Hamiltonian\n");
+    else if (m->factor) nh_text_addf(out, "  a conformal factor makes it Hamiltonian%s\n", m->local ? ", locally only" : "");
     else nh_text_addf(out, "  no conformal factor makes it Hamiltonian%s\n", m->simple ? "" : " (Ups is not phi-simple)");
 }
 

@@ -23,6 +23,7 @@ static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_
     if (c->count > 1 && s->reduced->conservative) s->energy_drift = 0;
     for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + c->energy_size[i]));
     if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, c->first, c->first_chart, c->z);
+    s->charts = c->charts;
     s->seconds = c->seconds;
     s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
 }
@@ -34,7 +35,7 @@ static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const
     s->complete = c->complete && course->outputs == NH_REDUCTION_OUTPUTS;
     s->dependent = c->dependent;
     s->restarts = c->restarts;
-    s->charts = c->charts;
+    if (c->charts > s->charts) s->charts = c->charts;
     s->compared = n > 1;
     s->reached = n > 1 ? b->times[n - 1] : 0;
     s->agreement = nh_reduction_farthest(s, course, c);

@@ -102,6 +102,7 @@ static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *sl
 {
     nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, &r->options);
     if (m.tested && m.measure && m.size > r->options.group) m.closed = nh_density_find(shown, Ks, Us, &r->options, &m.density, &m.proved);
+    if (m.closed) m.local = !nh_density_single_valued(shown, m.density);
     return m;
 }
 
