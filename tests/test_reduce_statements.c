@@ -163,3 +163,59 @@ Test(reduce_statements, measures_that_are_local)
         done(&t);
     }
 }
+
+/* On a torus a rotation of two angles is no symmetry: it is one of the plane that covers it. */
+Test(reduce_statements, symmetries_that_are_local)
+{
+    told t = tell("name: torus\nparameters: [{name: J, value: 0.7}]\ncoordinates: [{name: a, type: angle}, {name: b, type: angle}, {name: c, type: angle}]\nlagrangian: J*(a'^2 + b'^2 + c'^2)/2\n");
+    cr_assert_eq(t.r->all->action.d, 6);
+    for (size_t i = 0; i < 6; i++) cr_expect_eq(t.r->all->action.generator[i].local, i >= 3, "generator %zu", i + 1);
+    cr_expect_eq(t.r->all->global, 3);
+    SAYS(TEXT(t), "Symmetry group, locally: SE(3), dimension 6; globally: SO(2)^3, of dimension 3");
+    SAYS(TEXT(t), "-b d/da + a d/db   (local: many-valued on an angle)");
+    SAYS(TEXT(t), "momentum of -b d/da + a d/db (proved; local: many-valued on an angle)");
+    SAYS(PAGE(t), "The whole group, locally: SE(3); globally: SO(2)3, of dimension 3");
+    SAYS(t.json, "\"global\":\t{\n\t\t\t\"dimension\":\t3,\n\t\t\t\"name\":\t\"SO(2)^3\",\n\t\t\t\"complete\":\ttrue");
+    SAYS(t.json, "\"local\":\ttrue");
+    for (size_t i = 0; i < t.r->stages; i++) cr_expect_not(t.r->stage[i].local); /* global ones are divided out where there are as many */
+    done(&t);
+    t = tell("name: plane\nparameters: [{name: J, value: 0.7}]\ncoordinates: [{name: a, type: length}, {name: b, type: length}]\nlagrangian: J*(a'^2 + b'^2)/2\n");
+    IS_SILENT(TEXT(t), "ocally");
+    IS_SILENT(TEXT(t), "(local:");
+    IS_SILENT(t.json, "\"local\":\ttrue");
+    cr_expect_not(t.r->all->local);
+    done(&t);
+}
+
+/* A Lagrangian may be many-valued and its symmetries not; dividing by a symmetry that is local is said to be so. */
+Test(reduce_statements, stages_that_are_local)
+{
+    static const char text[] = "name: coiled\nparameters: [{name: k, value: 0.3}]\ncoordinates: [{name: r, type: length}, {name: f, type: angle}, {name: z, type: length}]\n"
+                               "domain: {r: [0.5, 2]}\nlagrangian: (r'^2 + r^2*f'^2 + (1 + r^2)*(z' - f*r')^2)/2\n";
+    char path[SCRATCH];
+    cr_assert(scratch_text(path, text));
+    nh_error error = {0};
+    nh_reduce_request q = {.system_path = path};
+    nh_options_default(&q.options);
+    nh_reduction *r = nh_reduce(&q, &error);
+    remove(path);
+    must(r != NULL, &error, "coiled");
+    size_t local = 0;
+    for (size_t a = 0; a < r->all->action.d; a++) local += r->all->action.generator[a].local;
+    cr_expect_eq(r->all->action.d, 2, "%zu", r->all->action.d); /* d/dz and d/df + r d/dz, single-valued though L is not */
+    cr_expect_eq(local, 0);
+    nh_reduction_free(r);
+    /* r^2 (a^2 + b^2) with angles a, b: their rotation is the only symmetry */
+    told t = tell("name: two_angles\ncoordinates: [{name: a, type: angle}, {name: b, type: angle}]\ndomain: {a: [0.5, 1.5], b: [0.5, 1.5]}\nlagrangian: (a'^2 + b'^2)/2 - (a^2 + b^2)^2\n");
+    cr_assert(t.r->stages == 1 && t.r->all->action.d == 1);
+    cr_expect(t.r->stage[0].local && t.r->all->local && t.r->all->global == 0);
+    SAYS(TEXT(t), "Symmetry group, locally: SO(2), dimension 1; globally: none");
+    SAYS(TEXT(t), "acts locally only: many-valued on an angle");
+    SAYS(PAGE(t), "this group acts locally only");
+    nh_text code;
+    nh_text_init(&code);
+    nh_reduction_c(t.r, &code);
+    SAYS(nh_text_string(&code), "which acts locally.");
+    nh_text_clear(&code);
+    done(&t);
+}

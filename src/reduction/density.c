@@ -168,27 +168,3 @@ bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, cons
     nh_free(s);
     return good;
 }
-
-bool nh_density_single_valued(const nh_slice *slice, nh_ex density)
-{
-    static const double turn = 6.283185307179586, same = 1e-6;
-    const nh_kinetic *k = slice->kinetic;
-    size_t places = k->places < most_places ? k->places : most_places;
-    double *q = nh_alloc_array(k->m + 1, sizeof *q);
-    bool single = true;
-    nh_tape *tape = nh_kinetic_tape(k, 1, &density);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    for (size_t j = 0; j < slice->n; j++)
-        for (size_t p = 0; p < places && single && k->angle[slice->shape[j]]; p++) {
-            double before, after;
-            memcpy(q, k->place + p * k->m, k->m * sizeof *q);
-            nh_tape_eval(tape, work, q, &before);
-            q[slice->shape[j]] += turn;
-            nh_tape_eval(tape, work, q, &after);
-            single = !isfinite(before) || !isfinite(after) || fabs(fabs(after) - fabs(before)) <= same * fabs(before);
-        }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(q);
-    return single;
-}

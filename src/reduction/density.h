@@ -11,7 +11,4 @@
  * where none of this form is found.  *proved: the equation is an identity, else it holds to rounding at the sample points. */
 bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_options *options, nh_ex *density, bool *proved);
 
-/* Does the density return to its value, but for the sign, when an angle turns once? */
-bool nh_density_single_valued(const nh_slice *slice, nh_ex density);
-
 #endif

@@ -48,6 +48,49 @@ static void name_group(nh_group *g, const nh_options *options)
     nh_text_clear(&name);
 }
 
+/* The combinations of generators that are single-valued on all angles form an algebra: the null space of their changes after a turn. */
+static size_t single_valued(const nh_action *g, const nh_options *options, double *c)
+{
+    enum { most_places = 8 };
+    static const double turn = 6.283185307179586;
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, d = g->d, places = k->places < most_places ? k->places : most_places, rows = places * m * m;
+    double *a = nh_alloc_array(rows * d + 2 * m * d + m + 1, sizeof *a), *before = a + rows * d, *after = before + m * d, *q = after + m * d, size = 0;
+    for (size_t p = 0; p < places; p++) {
+        memcpy(q, k->place + p * m, m * sizeof *q);
+        nh_action_values(g, q, before);
+        size = fmax(size, nh_largest(m * d, before));
+        for (size_t s = 0; s < m; s++) {
+            if (!k->angle[s]) continue;
+            q[s] += turn;
+            nh_action_values(g, q, after);
+            q[s] -= turn;
+            for (size_t e = 0; e < d; e++)
+                for (size_t i = 0; i < m; i++) a[(p * m + s) * m + i + e * rows] = (after[i + e * m] - before[i + e * m]) / (1 + fabs(before[i + e * m]));
+        }
+    }
+    size_t n = nh_kernel(rows, d, a, options->group, c, NULL, NULL);
+    nh_column_echelon(d, n, options->group, c);
+    nh_free(a);
+    return n;
+}
+
+static void find_global(nh_group *g, const nh_options *options)
+{
+    g->local = g->missing > 0;
+    for (size_t a = 0; a < g->action.d; a++) g->local |= g->action.generator[a].local;
+    if (!g->local || !g->action.d) return;
+    double *c = nh_alloc_array(g->action.d * g->action.d + 1, sizeof *c);
+    nh_action sub;
+    g->global = single_valued(&g->action, options, c);
+    nh_action_sub(&sub, &g->action, g->global, c, options);
+    nh_group *whole = sub.closes ? nh_group_of(g->kinetic, sub.d, sub.generator, options) : NULL;
+    g->global_name = whole ? nh_strdup(whole->name) : NULL;
+    nh_group_free(whole);
+    nh_action_clear(&sub);
+    nh_free(c);
+}
+
 nh_group *nh_group_find(const nh_kinetic *k, const nh_options *options, nh_error *error)
 {
     nh_group *g = nh_alloc(sizeof *g);
@@ -60,6 +103,7 @@ nh_group *nh_group_find(const nh_kinetic *k, const nh_options *options, nh_error
     g->missing = g->jets && g->jets->dimension > g->found.count ? g->jets->dimension - g->found.count : 0;
     nh_action_init(&g->action, k, g->found.count, g->found.generator, options);
     name_group(g, options);
+    find_global(g, options);
     return g;
 }
 
@@ -80,6 +124,7 @@ void nh_group_free(nh_group *g)
     nh_algebra_report_clear(&g->report);
     nh_free(g->closed);
     nh_free(g->name);
+    nh_free(g->global_name);
     nh_free(g);
 }
 
@@ -142,13 +187,21 @@ static size_t interacting(const nh_algebra *g, size_t count, const size_t *subse
     return n;
 }
 
+static size_t local_ones(const nh_action *g, size_t count, const size_t *subset)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) n += g->generator[subset[i]].local;
+    return n;
+}
+
 typedef struct {
-    size_t along, normal, interacting;
+    size_t along, normal, interacting, local;
     double transversality;
 } merit;
 
 static bool better(merit a, merit b)
 {
+    if (a.local != b.local) return a.local < b.local;
     if (a.normal != b.normal) return a.normal > b.normal;
     if (a.interacting != b.interacting) return a.interacting > b.interacting;
     if (a.along != b.along) return a.along > b.along;
@@ -218,7 +271,7 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
     for (size_t i = 0; i < f && i <= d; i++) subset[i] = i;
     if (f > 0 && f <= d && g->action.closes) do {
             if (!subalgebra(&g->action.algebra, f, subset)) continue;
-            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), interacting(&g->action.algebra, f, subset), transversality(&g->action, on, subset)};
+            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest), interacting(&g->action.algebra, f, subset), local_ones(&g->action, f, subset), transversality(&g->action, on, subset)};
             if (m.transversality <= options->transversal || (found && !better(m, best))) continue;
             best = m;
             found = true;
@@ -247,21 +300,31 @@ static double independence(size_t m, size_t d, size_t places, const double *E, s
     return least;
 }
 
+/* The first subset of this size that generates a free action, with or without local symmetries in it; *trials are left. */
+static bool free_of_size(const nh_group *g, const nh_options *options, const double *E, bool local, size_t size, size_t *trials, size_t *index)
+{
+    const nh_action *a = &g->action;
+    for (size_t i = 0; i < size; i++) index[i] = i;
+    do {
+        if ((local_ones(a, size, index) > 0) != local) continue;
+        if (*trials == 0) return false;
+        --*trials;
+        if (subalgebra(&a->algebra, size, index) && independence(g->kinetic->m, a->d, g->kinetic->places, E, size, index) > options->group) return true;
+    } while (next_subset(a->d, size, index));
+    return false;
+}
+
 size_t nh_group_free_subset(const nh_group *g, const nh_options *options, size_t *index)
 {
     enum { most_trials = 20000 };
     const nh_kinetic *k = g->kinetic;
-    size_t d = g->action.d, trials = 0, found = 0;
+    size_t d = g->action.d, trials = most_trials, found = 0;
     nh_ex *e = nh_alloc_array(k->m * d + 1, sizeof *e);
     double *E = nh_alloc_array(k->places * k->m * d + 1, sizeof *E);
     for (size_t a = 0; a < d; a++) memcpy(e + a * k->m, g->action.generator[a].component, k->m * sizeof *e);
     nh_kinetic_sample(k, k->m * d, e, k->places, E);
-    for (size_t size = g->action.orbit; size > 0 && !found; size--) {
-        for (size_t i = 0; i < size; i++) index[i] = i;
-        do {
-            if (subalgebra(&g->action.algebra, size, index) && independence(k->m, d, k->places, E, size, index) > options->group) found = size;
-        } while (!found && ++trials < most_trials && next_subset(d, size, index));
-    }
+    for (size_t size = g->action.orbit; size > 0 && !found; size--)
+        if (free_of_size(g, options, E, false, size, &trials, index) || free_of_size(g, options, E, true, size, &trials, index)) found = size;
     nh_free(e);
     nh_free(E);
     return found;

@@ -14,7 +14,10 @@ typedef struct {
     bool *closed;               /* per piece of the report: a circle */
     char *name;                 /* "SE(2) x SO(2)^3" */
     bool given;                 /* the user named the fields */
-    size_t missing;             /* local symmetries without a closed form */
+    size_t missing;             /* symmetries, counted in a neighbourhood of a place, without a closed form */
+    bool local;                 /* some may not be symmetries of the whole configuration space: many-valued on an angle, or without a closed form */
+    size_t global;              /* then: the dimension of the subgroup of those that are known to be */
+    char *global_name;
 } nh_group;
 
 /* NULL on failure. */

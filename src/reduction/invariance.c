@@ -186,6 +186,7 @@ void nh_generator_init(nh_generator *g, const nh_kinetic *k, const char *name, c
     }
     g->constraints = condition(k, k->f, e + of_metric + 1, largest_residual(k, k->f, raw, unit), options);
     g->forces = k->forced ? forces_invariant(k, component, options) : (nh_condition){.holds = true, .proved = true, .all_parameters = true};
+    g->local = nh_kinetic_many_valued(k, m, component);
     g->invariant = g->metric.holds && g->potential.holds && g->constraints.holds && g->forces.holds;
     nh_free(e);
 }

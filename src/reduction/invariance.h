@@ -24,6 +24,7 @@ typedef struct {
     nh_ex *component;      /* m */
     nh_condition metric, potential, constraints, forces;
     bool invariant;        /* all of them hold */
+    bool local;            /* many-valued on an angle: a field on a covering of the configuration space only */
 } nh_generator;
 
 /* Components along the coordinates, as m expressions, into the generator (in the kinetic's arena), with the three conditions checked. */

@@ -245,3 +245,29 @@ static void run(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places
 void nh_kinetic_values(const nh_kinetic *k, size_t count, const nh_ex *e, const double *q, double *out) { run(k, count, e, 1, q, out); }
 
 void nh_kinetic_sample(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, double *out) { run(k, count, e, places, k->place, out); }
+
+bool nh_kinetic_many_valued(const nh_kinetic *k, size_t count, const nh_ex *e)
+{
+    enum { most_places = 6 };
+    static const double turn = 6.283185307179586, same = 1e-8;
+    size_t places = k->places < most_places ? k->places : most_places;
+    double *q = nh_alloc_array(k->m + 2 * count + 1, sizeof *q), *before = q + k->m, *after = before + count;
+    bool many = false;
+    nh_tape *tape = nh_kinetic_tape(k, count, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t p = 0; p < places && !many; p++) {
+        memcpy(q, k->place + p * k->m, k->m * sizeof *q);
+        nh_tape_eval(tape, work, q, before);
+        for (size_t s = 0; s < k->m && !many; s++) {
+            if (!k->angle[s]) continue;
+            q[s] += turn;
+            nh_tape_eval(tape, work, q, after);
+            q[s] -= turn;
+            for (size_t i = 0; i < count; i++) many |= fabs(after[i] - before[i]) > same * (1 + fabs(before[i]));
+        }
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(q);
+    return many;
+}

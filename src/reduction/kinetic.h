@@ -42,6 +42,7 @@ nh_tape *nh_kinetic_tape(const nh_kinetic *kinetic, size_t count, const nh_ex *o
 void nh_kinetic_values(const nh_kinetic *kinetic, size_t count, const nh_ex *e, const double *q, double *out);
 /* At the first `places` sample points, count values each. */
 void nh_kinetic_sample(const nh_kinetic *kinetic, size_t count, const nh_ex *e, size_t places, double *out);
-
+/* Does one of them change its value when an angle goes once around?  It is defined on a covering of the configuration space only then. */
+bool nh_kinetic_many_valued(const nh_kinetic *kinetic, size_t count, const nh_ex *e);
 
 #endif

@@ -199,6 +199,20 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
     }
 }
 
+void nh_momenta_mark(nh_momenta *out, const nh_kinetic *k)
+{
+    nh_dag *d = k->dag;
+    size_t n = k->m + 1;
+    nh_ex *from = nh_alloc_array(2 * n, sizeof *from), *to = from + n;
+    for (size_t s = 0; s < k->m; s++) from[s] = k->v[s], to[s] = nh_real(d, k->speed[s]);
+    from[k->m] = k->model->system->t, to[k->m] = nh_real(d, k->time[0]);
+    for (size_t i = 0; i < out->count; i++) {
+        nh_ex value = nh_substitute(d, out->momentum[i].value, n, from, to);
+        out->momentum[i].local = nh_kinetic_many_valued(k, k->m, out->momentum[i].field) || nh_kinetic_many_valued(k, 1, &value);
+    }
+    nh_free(from);
+}
+
 /* ---- other systems: affine constraints, a part of L linear in the velocities, forces ---- */
 
 /* f^a e_a and f^a e_a . (K v + a). */

@@ -26,6 +26,7 @@ typedef struct {
     nh_ex value;           /* f^a J_a (or E - f^a J_a) as a function of (q, v) */
     double residual;       /* of the two conditions, relative */
     bool proved;
+    bool local;            /* the field or the value is many-valued on an angle */
 } nh_momentum;
 
 typedef struct {
@@ -33,6 +34,8 @@ typedef struct {
     nh_momentum *momentum; /* in the kinetic's arena */
 } nh_momenta;
 
+/* Which of them are local. */
+void nh_momenta_mark(nh_momenta *momenta, const nh_kinetic *kinetic);
 bool nh_momenta_find(nh_momenta *out, const nh_action *action, const nh_options *options, nh_error *error);
 
 #endif

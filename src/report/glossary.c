@@ -15,7 +15,7 @@ static const nh_glossary_entry entries[] = {
     {"residual", "The rate of change of a current at points that were not used to find it, relative to the size of its terms: rounding is near 1e-16."},
     {"gap", "The ratio of the first singular value that is not null to the last that is.  Below 1000 nothing is decided."},
     {"drift", "The largest change of a current along a computed motion, relative to the size of its terms."},
-    {"local", "The current changes when an angle goes once around: it is defined on a part of the configuration space only."},
+    {"local", "The current, field or density changes when an angle goes once around: it is defined on a part of the configuration space only."},
     {"region", "Where a current holds that jumps, or ends, where motions cross a kink or a cut of |x|, sqrt(x^2), atan2, ...  Such a current is not counted."},
     {"independent", "Its gradient is not a combination of the gradients of the currents before it."},
     {"group", "The symmetries that leave kinetic energy, potential and constraints invariant: fields on configuration space (nhsym reduce)."},

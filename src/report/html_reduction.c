@@ -57,6 +57,7 @@ static void generators(nh_html_writer *w, const nh_action *g)
         nh_html_add(w, "<tr><th scope=\"row\">");
         nh_text_addf(w->out, "%zu</th><td>", a + 1); /* a name, for --group */
         field(w, g->kinetic, g->generator[a].component);
+        if (g->generator[a].local) nh_html_add(w, "(local: many-valued on an angle)");
         nh_text_addf(w->out, "</td><td>%s</td><td>%s</td><td>%s</td></tr>\n", condition(&g->generator[a].metric), condition(&g->generator[a].potential), condition(&g->generator[a].constraints));
     }
     nh_html_table_end(w);
@@ -121,8 +122,9 @@ static void constraints(nh_html_writer *w, const nh_reduction *r, const nh_actio
 
 static void group(nh_html_writer *w, const nh_reduction *r, const nh_group *g, const char *title)
 {
-    nh_text_addf(w->out, "<h3>%s: ", title);
+    nh_text_addf(w->out, "<h3>%s%s: ", title, g->local && !g->given ? ", locally" : "");
     name_of_group(w, g->name);
+    name_of_group(w, nh_reduction_globally(r, g));
     nh_html_add(w, "</h3>\n");
     if (g->jets) {
         nh_html_add(w, "<p>Local symmetries of kinetic energy, potential and constraints, counted without an ansatz: ");
@@ -268,6 +270,7 @@ static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
         nh_html_add(w, a ? "; " : "");
         field(w, s->action->kinetic, s->action->generator[a].component);
     }
+    if (s->local) nh_html_add(w, " (this group acts locally only: it is many-valued on an angle)");
     nh_html_add(w, s->shown->n ? "</p>\n<p>What is left, the shape: " : "</p>\n<p>What is left, the shape, is a point.");
     for (size_t i = 0; i < s->shown->n; i++) {
         nh_html_add(w, i ? ", " : "");
@@ -306,6 +309,7 @@ static void momenta(nh_html_writer *w, const nh_reduction *r)
         const char *kind = nh_reduction_momentum_kind(p);
         nh_text_addf(w->out, "<p>%c%s ", toupper((unsigned char)*kind), kind + 1);
         field(w, r->kinetic, p->field);
+        nh_html_add(w, p->local ? "; local: many-valued on an angle" : "");
         nh_html_add(w, p->proved ? "; proved</p>\n</article>\n" : "; to rounding</p>\n</article>\n");
     }
     nh_html_add(w, "</section>\n");
@@ -319,6 +323,8 @@ static void answer(nh_html_writer *w, const nh_reduction *r)
         name_of_group(w, g->name);
         nh_html_add(w, ", of dimension ");
         nh_html_count(w, g->action.d + g->missing);
+        if (g->local && !g->given) nh_html_add(w, ", locally");
+        name_of_group(w, nh_reduction_globally(r, g));
     }
     nh_html_add(w, ".</p>\n");
     for (size_t i = 0; i < r->stages; i++) {

@@ -64,7 +64,7 @@ static void put_generators(const nh_reduction *r, const nh_group *g, bool verbos
     for (size_t a = 0; a < g->action.d; a++) {
         nh_text_addf(out, "  e%zu  ", a + 1);
         nh_generator_text(r->kinetic, &g->action.generator[a], out);
-        nh_text_add(out, "\n");
+        nh_text_add(out, g->action.generator[a].local ? "   (local: many-valued on an angle)\n" : "\n");
         if (!verbose) continue;
         nh_text_add(out, "      leaves invariant: ");
         put_condition(out, "kinetic energy", &g->action.generator[a].metric);
@@ -97,7 +97,7 @@ static void put_brackets(const nh_algebra *g, nh_text *out)
 
 static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh_text *out)
 {
-    nh_text_addf(out, g->given ? "Group given: %s, dimension %zu\n" : "Symmetry group: %s, dimension %zu\n", g->name, g->action.d + g->missing);
+    nh_text_addf(out, "%s: %s, dimension %zu%s\n", g->given ? "Group given" : g->local ? "Symmetry group, locally" : "Symmetry group", g->name, g->action.d + g->missing, nh_reduction_globally(r, g));
     if (g->jets)
         nh_text_addf(out, "  local symmetries of kinetic energy, potential and constraints: %zu (counted without an ansatz; of the kinetic energy alone: %zu)\n", g->jets->dimension, g->jets->of_metric);
     if (r->weaker && g == r->all)
@@ -143,7 +143,7 @@ static void put_joints(const nh_reduction *r, nh_text *out)
         for (size_t j = i; j < c->fields; j++)
             if (same_field(r, i, j)) nh_text_addf(out, "%s%s", j > i ? ", " : " (", nh_chain_rule_name(c->field[j].rule));
         const char *also = g->potential.holds ? g->constraints.holds ? "a symmetry of the system" : "not of the constraints" : g->constraints.holds ? "not of the potential" : "neither of the potential nor of the constraints";
-        nh_text_addf(out, "): %s\n", also);
+        nh_text_addf(out, "): %s%s\n", g->local ? "locally " : "", also);
     }
 }
 
@@ -254,6 +254,7 @@ static void put_stage(const nh_reduction *r, size_t number, double shown, nh_tex
         nh_text_add(out, a ? "; " : "  group    ");
         nh_generator_text(s->action->kinetic, &s->action->generator[a], out);
     }
+    if (s->local) nh_text_add(out, "\n           acts locally only: many-valued on an angle");
     nh_text_add(out, "\n  shape    ");
     for (size_t i = 0; i < s->shown->n; i++) nh_text_addf(out, "%s%s", i ? ", " : "", nh_name_of(r->kinetic->dag, s->shown->x[i]));
     if (!s->shown->n) nh_text_add(out, "none: a point");
@@ -280,7 +281,7 @@ static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
         nh_generator field = {.component = p->field};
         nh_text_addf(out, "  %s ", nh_reduction_momentum_kind(p));
         nh_generator_text(r->kinetic, &field, out);
-        nh_text_add(out, p->proved ? " (proved)\n" : " (to rounding)\n");
+        nh_text_addf(out, " (%s%s)\n", p->proved ? "proved" : "to rounding", p->local ? "; local: many-valued on an angle" : "");
         put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, shown);
     }
 }

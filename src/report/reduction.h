@@ -24,6 +24,8 @@ size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_
 /* "Stage 3, in one step instead of stages 1 and 2": the first and the second one build on each other, what divides the whole group is an alternative. */
 const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);
 bool nh_reduction_instead(const nh_reduction *reduction, size_t stage);
+/* "; globally: SO(2)^3 of dimension 3" where not all symmetries are known to be so, else "". */
+const char *nh_reduction_globally(const nh_reduction *reduction, const nh_group *group);
 /* Why the energy of a stage's motion was not followed; NULL where it was. */
 const char *nh_reduction_no_energy(const nh_reduction *reduction, const nh_reduction_stage *stage);
 /* "energy", or the moving energy of affine constraints. */

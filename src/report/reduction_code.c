@@ -79,7 +79,7 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
     nh_dag *d = r->kinetic->dag;
     nh_arena *arena = r->kinetic->arena;
     size_t n = o->n, w = o->r, temporaries = 0, total = n + w;
-    nh_text_addf(out, "\n/* %s (%s), by %s.  state_ = (", nh_reduction_stage_title(r, number - 1), nh_stage_kind_name(s->kind), s->group);
+    nh_text_addf(out, "\n/* %s (%s), by %s%s.  state_ = (", nh_reduction_stage_title(r, number - 1), nh_stage_kind_name(s->kind), s->group, s->local ? ", which acts locally" : "");
     put_names(out, r, o);
     nh_text_addf(out, "): %zu values;\n * rate_: their derivatives; zeta_: the %zu components of the group's body velocity.  0, or -1 where the mass matrix is singular. */\n", total, o->d);
     nh_text_addf(out, "int stage%zu(%sconst double *state_, double *rate_, double *zeta_)\n{\n", number, o->timed ? "double t, " : "");
@@ -148,7 +148,7 @@ void nh_reduction_latex(const nh_reduction *r, nh_text *out)
 {
     nh_text_addf(out, "%% %s: reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s", r->system->title, nh_tex_formula_macro);
     for (size_t i = 0; i < r->stages; i++) {
-        nh_text_addf(out, "\n%% %s (%s), by %s\n", nh_reduction_stage_title(r, i), nh_stage_kind_name(r->stage[i].kind), r->stage[i].group);
+        nh_text_addf(out, "\n%% %s (%s), by %s%s\n", nh_reduction_stage_title(r, i), nh_stage_kind_name(r->stage[i].kind), r->stage[i].group, r->stage[i].local ? ", which acts locally" : "");
         put_stage_latex(r, &r->stage[i], out);
     }
 }

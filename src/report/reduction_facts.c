@@ -42,3 +42,11 @@ const char *nh_reduction_momentum_kind(const nh_momentum *p)
     if (p->moving) return "energy less the momentum of";
     return p->horizontal ? "horizontal symmetry: momentum of" : p->gauge ? "gauge momentum of" : "not horizontal, conserved all the same: momentum of";
 }
+
+const char *nh_reduction_globally(const nh_reduction *r, const nh_group *g)
+{
+    const char *least = g->missing ? "at least " : "";
+    if (!g->local) return "";
+    if (!g->global || !g->global_name) return g->missing ? "" : "; globally: none";
+    return nh_arena_printf(r->kinetic->arena, "; globally: %s%s, of dimension %zu", least, g->global_name, g->global);
+}

@@ -37,6 +37,7 @@ static void put_fields(nh_json *to, const nh_action *g)
         put_condition(item, "kinetic_energy", &g->generator[a].metric);
         put_condition(item, "potential", &g->generator[a].potential);
         put_condition(item, "constraints", &g->generator[a].constraints);
+        nh_json_put_bool(item, "local", g->generator[a].local);
     }
 }
 
@@ -79,6 +80,10 @@ static void put_group(nh_json *root, const char *key, const nh_reduction *r, con
     nh_json *to = nh_json_put_object(root, key);
     nh_json_put_number(to, "dimension", (double)(g->action.d + g->missing));
     nh_json_put_text(to, "name", g->name);
+    nh_json *global = nh_json_put_object(to, "global");
+    nh_json_put_number(global, "dimension", (double)(g->local ? g->global : g->action.d));
+    nh_json_put_text(global, "name", !g->local ? g->name : g->global_name ? g->global_name : NULL);
+    nh_json_put_bool(global, "complete", g->missing == 0);
     put_fields(to, &g->action);
     put_algebra(to, &g->action.algebra);
     put_momentum_map(to, &g->action);
@@ -240,6 +245,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     nh_dag *d = r->kinetic->dag;
     nh_json_put_text(to, "kind", nh_stage_kind_name(s->kind));
     nh_json_put_text(to, "group", s->group);
+    nh_json_put_bool(to, "local", s->local);
     nh_json_put_bool(to, "alternative", nh_reduction_instead(r, (size_t)(s - r->stage)));
     put_fields(to, s->action);
     for (size_t i = 0; i < s->shown->n; i++) nh_json_add_text(list, nh_name_of(d, s->shown->x[i]));
@@ -293,6 +299,7 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
             if (!nh_is_zero(k->dag, p->field[s])) put_expression(field, k->name[s], k->dag, p->field[s]);
         put_expression(item, "expression", k->dag, p->value);
         nh_json_put_bool(item, "proved", p->proved);
+        nh_json_put_bool(item, "local", p->local);
     }
 }
 
@@ -312,6 +319,7 @@ static void put_joints(nh_json *root, const nh_reduction *r)
         nh_json_put_bool(item, "kinetic_energy", g->metric.holds);
         nh_json_put_bool(item, "potential", g->potential.holds);
         nh_json_put_bool(item, "constraints", g->constraints.holds);
+        nh_json_put_bool(item, "local", g->local);
     }
 }
 

@@ -335,6 +335,7 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     if (divide) nh_progress("reduced equations, and motions of both", -1);
     if (divide && !nh_interrupted()) good = nh_reduction_stages(r, error);
     if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
+    if (good) nh_momenta_mark(&r->momenta, r->kinetic);
     if (nh_interrupted()) {
         char words[80];
         nh_ended_words(words, sizeof words);

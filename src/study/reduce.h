@@ -50,6 +50,7 @@ typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_
 typedef struct {
     nh_stage_kind kind;
     char *group;              /* name of the group divided out */
+    bool local;               /* a generator of it is many-valued on an angle */
     const nh_action *action;
     const nh_slice *slice, *shown_slice;
     const nh_reduced *reduced, *shown;

@@ -85,7 +85,9 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
 nh_reduction_stage *nh_reduction_new_stage(nh_reduction *r, nh_stage_kind kind, const nh_action *action)
 {
     nh_reduction_stage *s = &r->stage[r->stages++];
-    *s = (nh_reduction_stage){.kind = kind, .action = action, .group = name_of(r, action), .against_full = true, .linear_drift = -1, .energy_drift = -1, .momentum_drift = -1};
+    bool local = false;
+    for (size_t a = 0; a < action->d; a++) local |= action->generator[a].local;
+    *s = (nh_reduction_stage){.local = local, .kind = kind, .action = action, .group = name_of(r, action), .against_full = true, .linear_drift = -1, .energy_drift = -1, .momentum_drift = -1};
     return s;
 }
 
@@ -102,7 +104,8 @@ static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *sl
 {
     nh_chaplygin_measure m = nh_chaplygin_measure_of(slice, K, U, &r->options);
     if (m.tested && m.measure && m.size > r->options.group) m.closed = nh_density_find(shown, Ks, Us, &r->options, &m.density, &m.proved);
-    if (m.closed) m.local = !nh_density_single_valued(shown, m.density);
+    nh_ex size = m.closed ? nh_call(shown->dag, NH_ABS, m.density) : 0; /* its sign is no matter */
+    if (m.closed) m.local = nh_kinetic_many_valued(shown->kinetic, 1, &size);
     return m;
 }
 
