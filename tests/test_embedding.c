@@ -5,7 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "expr/diff.h"
+#include "expr/normal.h"
+#include "expr/print.h"
 #include "names.h"
 #include "system/sample.h"
 
@@ -157,6 +160,15 @@ Test(embedding, two_nonlinear_constraints)
     check_chart(SPACE4 "constraints:\n  - z'^3 + 2*z' + 0.3*sin(s') = x'^2\n  - s'^3 + 3*s' = y*y' + 0.2*z'^2\ndependent: [z, s]\n", 2, "z s");
 }
 
+/* Several constraints of which some are linear: those go first; a quadratic one that is left is a root, whatever else there is. */
+Test(embedding, linear_constraints_go_first)
+{
+    check_chart(SPACE4 "constraints:\n  - s' = y*x'\n  - z'^2 = 0.3*x'^2 + y'^2\ndependent: [z, s]\n", 0, "z s");
+    check_chart(SPACE4 "constraints:\n  - z'^2 = 0.3*x'^2 + y'^2 + 0.1*(s' - z')^2\n  - 2*s' = y*x' + z'\ndependent: [z, s]\n", 0, "s z");
+    check_chart(SPACE4 "constraints:\n  - z' = s'^2 + x*x'\n  - s' = y*y' + x'^3\ndependent: [z, s]\n", 0, "s z");
+    check_chart(SPACE4 "constraints:\n  - s' = y*x' + z'\n  - z'^3 + 2*z' = x'^2 + y*y'\ndependent: [s, z]\n", 1, "z s");
+}
+
 /* ---- branches ---- */
 
 static int branch_of(const char *domain, double *root)
@@ -179,6 +191,38 @@ Test(embedding, the_domain_chooses_the_branch)
     cr_expect_eq(above, -below);
     cr_expect(fabs(up - 1.385) < 1e-15, "%.17g", up); /* x'^2 + y'^2 = 1 */
     cr_expect(fabs(down + 1.385) < 1e-15, "%.17g", down);
+}
+
+/* Each branch has its name; what is shown has the velocity where the chart has its root, also where the user wrote it so. */
+Test(embedding, a_root_is_shown_as_the_velocity)
+{
+    static const struct { const char *constraint, *domain, *name, *other, *shown; } list[] = {
+        {"z'^2 = k^2*(x'^2 + y'^2)", "domain: {z': [0.1, 3]}\n", "z' > 0", "z' < 0", "z'"},
+        {"z'^2 = k^2*(x'^2 + y'^2)", "domain: {z': [-3, -0.1]}\n", "z' < 0", "z' > 0", "z'"},
+        {"-k*z'^2 = -k*(x'^2 + y'^2)", "domain: {z': [0.1, 3]}\n", "z' > 0", "z' < 0", "z'"},
+        {"(z' - x')^2 = k*(x'^2 + y'^2)", "domain: {z': [1, 3], x': [-0.2, 0.2]}\n", "z' - x' > 0", "z' - x' < 0", "z'"},
+        {"z' = k*sqrt(x'^2 + y'^2) + 2*x'", "", NULL, NULL, "z'"},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        char text[500];
+        snprintf(text, sizeof text, SPEED "constraints: [\"%s\"]\ndependent: [z]\n%s", list[i].constraint, list[i].domain);
+        embedded e = embed(text, NH_CHART_COORDINATES);
+        nh_dag *d = e.system->dag;
+        char *shown = nh_print_string(d, nh_chart_shown(e.chart, e.chart->rho[2])), *here = NULL, *there = NULL;
+        cr_expect_str_eq(shown, list[i].shown, "%s: %s", list[i].constraint, shown);
+        cr_expect_eq(e.chart->branch != 0, list[i].name != NULL);
+        if (list[i].name) {
+            here = nh_chart_branch_name(e.chart, e.chart->branch);
+            there = nh_chart_branch_name(e.chart, -e.chart->branch);
+            cr_expect(!strcmp(here, list[i].name) && !strcmp(there, list[i].other), "%s: %s, %s", list[i].constraint, here, there);
+        }
+        nh_ex back = nh_chart_composed(e.chart, nh_chart_shown(e.chart, e.chart->rho[2]), e.chart);
+        cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, back, e.chart->rho[2]), 0), NH_ZERO);
+        nh_free(here);
+        nh_free(there);
+        nh_free(shown);
+        embed_clear(&e);
+    }
 }
 
 /* ---- derivatives of implicit velocities ---- */

@@ -69,6 +69,30 @@ Test(normal, non_identities)
     }
 }
 
+/* A symbol that satisfies a polynomial: expressions are reduced by it, on all of its branches at once. */
+Test(normal, what_a_symbol_satisfies)
+{
+    static const struct { unsigned order; const char *value, *zero, *nonzero; } list[] = {
+        {2, "x^2 + y^2", "(u^5 + u)/(1 + (x^2 + y^2)^2) - u", "u - sqrt(x^2 + y^2)"},
+        {2, "x^2 + y^2", "1/(1 + u) - (1 - u)/(1 - x^2 - y^2)", "u - x - y"},
+        {2, "x^2 + y^2", "sqrt(u^2 + 1) - sqrt(x^2 + y^2 + 1)", "sqrt(u^2 + 1) - sqrt(x^2 + y^2)"},
+        {2, "3*x*u - 2*x^2", "u^3 - 7*x^2*u + 6*x^3", "u - x"}, /* u = x or u = 2 x */
+        {2, "(c^2 - x*u)/(1 + y^2)", "u^3*(1 + y^2)^2 - (c^2 - x*u)*u*(1 + y^2)", "u^2*(1 + y^2) - c^2"},
+        {2, "sin(x)", "u^4 + cos(x)^2 - 1", "u^2 - cos(x)"},
+        {3, "x + y*u", "u^5 - x*u^2 - x*y - y^2*u", "u^3 - x"},
+        {1, "x*y", "u^2 + u - x^2*y^2 - x*y", "u - x"},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        nh_dag *dag = nh_dag_create();
+        nh_ex zero = ex(dag, list[i].zero), nonzero = ex(dag, list[i].nonzero);
+        nh_relate(dag, nh_symbol(dag, "u"), list[i].order, ex(dag, list[i].value));
+        cr_expect_eq(nh_normal_is_zero(dag, zero, 0), NH_ZERO, "u^%u = %s: %s", list[i].order, list[i].value, list[i].zero);
+        cr_expect_eq(nh_normal_is_zero(dag, nonzero, 0), NH_NONZERO, "u^%u = %s: %s", list[i].order, list[i].value, list[i].nonzero);
+        cr_expect(nh_is_zero(dag, nh_simplify(dag, zero)), "u^%u = %s: %s", list[i].order, list[i].value, list[i].zero);
+        nh_dag_free(dag);
+    }
+}
+
 Test(normal, doubles_are_what_they_are)
 {
     nh_dag *dag = nh_dag_create();

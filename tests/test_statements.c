@@ -207,3 +207,31 @@ Test(statements, a_constant_current_is_trivial_on_the_submanifold)
     }
     place_clear(&p);
 }
+
+/* ---- modulo the constraints ---- */
+
+#define FOUR_COORDINATES "parameters: [{name: m, value: 1.3}, {name: g, value: 0.9}]\n" \
+    "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: u, type: length}, {name: w, type: length}]\n" \
+    "lagrangian: m/2*(x'^2 + y'^2 + u'^2 + w'^2) - m*g*w\ndomain: {w': [0.2, 1.5], x': [0.3, 1], y': [0.3, 1]}\n"
+
+/* The energy belongs to d/dt, whatever the constraints are: formulas are reduced by them, and proofs need no values of the parameters. */
+Test(statements, formulas_are_reduced_by_the_constraints)
+{
+    static const char *const constraints[] = {"u' = y*x'\", \"w'^2 = x'^2 + y'^2", "w'^3 = x'^2*y' + y'^3\", \"u' = y*x'", "w'^2 = x'^2 + y'^2\", \"u'^2 + u'*w' = 3*x'^2",
+                                              "w'^3 + w'*x'^2 = x'^2*y' + y'^3\", \"u' = y*w'"};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof constraints / sizeof *constraints; i++) {
+        char text[700];
+        snprintf(text, sizeof text, "name: reduced\n" FOUR_COORDINATES "constraints: [\"%s\"]\n", constraints[i]);
+        write_here(&p, "reduced.yaml", text);
+        reports r = verify(&p, "reduced.yaml --current m/2*(x'^2+y'^2+u'^2+w'^2)+m*g*w", 0);
+        const cJSON *z = item(r.json, "symmetry"), *component;
+        cr_expect_str_eq(item(z, "Z0")->valuestring, "-1", "%s: %s", constraints[i], item(z, "Z0")->valuestring);
+        size_t vanish = 0;
+        cJSON_ArrayForEach(component, item(z, "components")) vanish += !strcmp(component->valuestring, "0");
+        cr_expect_eq(vanish, 6u, "%s\n%s", constraints[i], r.source);
+        cr_expect(cJSON_IsTrue(item(r.json, "proved_for_all_parameters")), "%s", constraints[i]);
+        reports_clear(&r);
+    }
+    place_clear(&p);
+}

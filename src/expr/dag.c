@@ -29,6 +29,7 @@ void nh_dag_free(nh_dag *dag)
     nh_free(dag->memo);
     nh_free(dag->simplified);
     nh_free(dag->rule);
+    nh_free(dag->power);
     nh_arena_free(dag->names);
     nh_free(dag);
 }

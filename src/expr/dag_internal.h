@@ -28,6 +28,12 @@ typedef struct {
     nh_ex u, x, value;
 } nh_diff_rule_entry;
 
+/* symbol^order = value, see normal.h. */
+typedef struct {
+    nh_ex symbol, value;
+    unsigned order;
+} nh_power_rule;
+
 struct nh_dag {
     nh_node *node;
     size_t node_count, node_capacity;
@@ -44,7 +50,12 @@ struct nh_dag {
     size_t simplified_capacity;
     nh_diff_rule_entry *rule;
     size_t rule_count, rule_capacity;
+    nh_power_rule *power;
+    size_t power_count, power_capacity;
 };
+
+/* What a symbol satisfies, or NULL. */
+const nh_power_rule *nh_dag_power_rule(const nh_dag *dag, nh_ex symbol);
 
 /* The memo of nh_simplify: *out when known. */
 bool nh_dag_simplified(const nh_dag *dag, nh_ex e, nh_ex *out);

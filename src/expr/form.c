@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "expr/dag_internal.h"
 #include "expr/emit.h"
 #include "expr/normal.h"
 
@@ -24,10 +25,13 @@ void nh_forms_clear(nh_forms *forms)
 
 /* ---- canonical arguments ---- */
 
+/* A symbol that satisfies nothing. */
+static bool free_symbol(const nh_dag *dag, nh_ex e) { return nh_kind_of(dag, e) == NH_SYMBOL && !nh_dag_power_rule(dag, e); }
+
 static bool plain_product(const nh_dag *dag, nh_ex e)
 {
     for (size_t i = 0; i < nh_arity(dag, e); i++) {
-        if (nh_kind_of(dag, nh_child(dag, e, i)) != NH_SYMBOL) return false;
+        if (!free_symbol(dag, nh_child(dag, e, i))) return false;
         if (nh_exponent_kind_of(dag, nh_exponent_of(dag, e, i)) != NH_EXPONENT_WHOLE) return false;
     }
     return true;
@@ -37,7 +41,7 @@ static bool plain_product(const nh_dag *dag, nh_ex e)
 static bool is_plain(const nh_dag *dag, nh_ex e)
 {
     nh_kind kind = nh_kind_of(dag, e);
-    if (kind == NH_NUMBER || kind == NH_SYMBOL) return true;
+    if (kind == NH_NUMBER || kind == NH_SYMBOL) return kind == NH_NUMBER || free_symbol(dag, e);
     if (kind == NH_PRODUCT) {
         if (nh_arity(dag, e) == 1 && nh_is_number(dag, nh_exponent_of(dag, e, 0), 1)) return is_plain(dag, nh_child(dag, e, 0));
         return plain_product(dag, e);
@@ -45,8 +49,7 @@ static bool is_plain(const nh_dag *dag, nh_ex e)
     if (kind != NH_SUM) return false;
     for (size_t i = 0; i < nh_arity(dag, e); i++) {
         nh_ex term = nh_child(dag, e, i);
-        nh_kind inner = nh_kind_of(dag, term);
-        if (inner != NH_SYMBOL && !(inner == NH_PRODUCT && plain_product(dag, term))) return false;
+        if (!free_symbol(dag, term) && !(nh_kind_of(dag, term) == NH_PRODUCT && plain_product(dag, term))) return false;
     }
     return true;
 }
@@ -279,12 +282,14 @@ static nh_ex rewrite(nh_forms *s, nh_ex e)
 
 /* ---- the whole ---- */
 
-/* Radicands come before their roots, so that every relation is known before it is needed. */
+/* Radicands come before their roots, and what a symbol satisfies before it, so that every relation is known before it is needed. */
 static void relate(nh_form *f)
 {
     for (size_t n = 0; n < f->kernels.count; n++) {
         size_t i = f->kernels.order[n];
         const nh_kernel *k = &f->kernels.item[i];
+        const nh_power_rule *rule = k->kind == NH_KERNEL_PLAIN ? nh_dag_power_rule(f->kernels.dag, k->atom) : NULL;
+        if (rule) nh_field_relate(f->field, i, rule->order, nh_form_eval(f, rule->value)), nh_field_repeat(f->field);
         if (k->kind == NH_KERNEL_SIN || k->kind == NH_KERNEL_SINH)
             nh_field_relate_pair(f->field, i, k->partner, k->kind == NH_KERNEL_SINH);
         if (k->kind == NH_KERNEL_ROOT) nh_field_relate(f->field, i, (unsigned)k->unit.q, nh_form_eval(f, k->atom));

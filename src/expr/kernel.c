@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "expr/dag_internal.h"
 
 enum {
     most_angle = 12,     /* sin(12 a) is written as a polynomial in sin(a), cos(a), sin(13 a) is not */
@@ -196,6 +197,21 @@ static void collect_function(nh_kernels *k, nh_ex e, int depth)
     }
 }
 
+const nh_power_rule *nh_dag_power_rule(const nh_dag *dag, nh_ex symbol)
+{
+    for (size_t i = 0; i < dag->power_count; i++)
+        if (dag->power[i].symbol == symbol) return &dag->power[i];
+    return NULL;
+}
+
+/* What a symbol satisfies comes before it. */
+static void collect_symbol(nh_kernels *k, nh_ex e, int depth)
+{
+    const nh_power_rule *rule = nh_dag_power_rule(k->dag, e);
+    if (rule) collect(k, rule->value, depth);
+    note_plain(k, e);
+}
+
 static void collect(nh_kernels *k, nh_ex e, int depth)
 {
     uint32_t known;
@@ -204,7 +220,7 @@ static void collect(nh_kernels *k, nh_ex e, int depth)
     nh_kind kind = nh_kind_of(k->dag, e);
     if (depth > deepest) k->too_deep = true;
     else if (kind == NH_NUMBER) note_number(k, nh_number_of(k->dag, e));
-    else if (kind == NH_SYMBOL) note_plain(k, e);
+    else if (kind == NH_SYMBOL) collect_symbol(k, e, depth + 1);
     else if (kind == NH_FUNCTION) collect_function(k, e, depth + 1);
     else {
         note_number(k, nh_constant_of(k->dag, e));

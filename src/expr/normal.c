@@ -1,5 +1,6 @@
 #include "expr/normal.h"
 
+#include "expr/dag_internal.h"
 #include "expr/form.h"
 
 enum { default_terms = 20000 };
@@ -25,6 +26,12 @@ nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms)
     e = nh_form_rewrite(&forms, e);
     nh_forms_clear(&forms);
     return e;
+}
+
+void nh_relate(nh_dag *dag, nh_ex symbol, unsigned order, nh_ex value)
+{
+    nh_grow(&dag->power, &dag->power_capacity, dag->power_count + 1, sizeof *dag->power);
+    dag->power[dag->power_count++] = (nh_power_rule){symbol, value, order};
 }
 
 /* ---- how long it looks ---- */

@@ -32,6 +32,11 @@ nh_ex nh_numerator(nh_dag *dag, nh_ex e);
 /* An equal expression with canonical arguments of functions, radicands and exponents, so that equal ones are the same node. */
 nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms);
 
+/* From now on normal forms reduce by symbol^order = value.  The value is a quotient of polynomials in symbols, sines and the like, and in lower powers of the
+ * symbol itself; its other symbols satisfy nothing, or something that was said before.  A zero normal form is then a proof wherever this relation holds:
+ * on all branches of a constraint that is a polynomial in the symbol.  Say it before the symbol is used. */
+void nh_relate(nh_dag *dag, nh_ex symbol, unsigned order, nh_ex value);
+
 /* Is every number in e a rational?  Is it one of 64 bits, which can be printed as such?  Where an expression has longer ones while its source
  * has none, it is no simpler form. */
 bool nh_is_exact(const nh_dag *dag, nh_ex e);

@@ -128,12 +128,13 @@ static void split_by_power(nh_field *f, const nh_relation *r, const fmpz_mpoly_t
     fmpz_clear(c);
 }
 
-/* p with g^order replaced by num/den, times den^J to stay a polynomial; returns J. */
+/* p with g^order replaced by num/den, times den^J to stay a polynomial; returns J.  Where the value has lower powers of g every step of Horner's rule is reduced again:
+ * its degree falls each time. */
 static ulong reduce(nh_field *f, const nh_relation *r, fmpz_mpoly_t p)
 {
     slong degree = fmpz_mpoly_degree_si(p, r->generator, f->ctx);
     if (degree < (slong)r->order) return 0;
-    ulong top = (ulong)degree / r->order;
+    ulong top = (ulong)degree / r->order, scaled = 0;
     if (!nh_field_spend(f, (double)top)) return 0;
     fmpz_mpoly_struct *part = nh_alloc_array(top + 1, sizeof *part);
     for (ulong j = 0; j <= top; j++) fmpz_mpoly_init(part + j, f->ctx);
@@ -141,12 +142,14 @@ static ulong reduce(nh_field *f, const nh_relation *r, fmpz_mpoly_t p)
     fmpz_mpoly_swap(p, part + top, f->ctx);
     for (ulong j = top; j-- > 0 && f->state == NH_FIELD_FINE;) { /* Horner in num/den */
         nh_field_times(f, p, p, r->num);
-        if (!r->integral) times_power(f, part + j, r->den, top - j);
+        scaled++;
+        if (!r->integral) times_power(f, part + j, r->den, scaled);
         fmpz_mpoly_add(p, p, part + j, f->ctx);
+        if (r->mixed) scaled += reduce(f, r, p);
     }
     for (ulong j = 0; j <= top; j++) fmpz_mpoly_clear(part + j, f->ctx);
     nh_free(part);
-    return top;
+    return scaled;
 }
 
 /* 1/r = r^(order-1) / r^order, so that equal quotients of roots look equal. */
@@ -170,7 +173,7 @@ static void lift_root(nh_field *f, const nh_relation *r, nh_quotient *q)
 static void apply(nh_field *f, const nh_relation *r, nh_quotient *q)
 {
     ulong above = reduce(f, r, q->num), below = reduce(f, r, q->den);
-    if (!r->pair) {
+    if (!r->pair && !r->mixed) {
         lift_root(f, r, q);
         above += reduce(f, r, q->num);
         below += reduce(f, r, q->den);
@@ -204,7 +207,8 @@ void nh_quotient_cancel(nh_field *f, nh_quotient *q)
 /* Later relations first: their values contain earlier generators only. */
 const nh_quotient *nh_quotient_normalise(nh_field *f, nh_quotient *q)
 {
-    for (size_t i = f->relations; i-- > 0 && f->state == NH_FIELD_FINE;) apply(f, &f->relation[i], q);
+    for (int round = 0; round <= f->repeat; round++)
+        for (size_t i = f->relations; i-- > 0 && f->state == NH_FIELD_FINE;) apply(f, &f->relation[i], q);
     if (f->state != NH_FIELD_FINE) return q;
     if (fmpz_mpoly_is_zero(q->den, f->ctx)) nh_field_break(f, NH_FIELD_UNDEFINED);
     else nh_quotient_cancel(f, q);
@@ -232,7 +236,10 @@ void nh_field_relate(nh_field *field, size_t generator, unsigned order, const nh
     fmpz_mpoly_set(r->num, value->num, field->ctx);
     fmpz_mpoly_set(r->den, value->den, field->ctx);
     r->integral = is_one(field, r->den);
+    r->mixed = nh_quotient_has(field, value, generator);
 }
+
+void nh_field_repeat(nh_field *field) { field->repeat = true; }
 
 /* s^2 = 1 - c^2, s^2 = c^2 - 1, c^2 = 1 - s^2, c^2 = 1 + s^2 */
 static void set_pair(nh_field *f, nh_relation *r, bool eliminate_cosine)

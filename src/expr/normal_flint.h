@@ -21,6 +21,7 @@ typedef struct {
     ulong order;
     fmpz_mpoly_t num, den;
     bool integral; /* den = 1 */
+    bool mixed;    /* num or den has lower powers of the generator */
     bool pair, hyperbolic;
     slong sine, cosine;
 } nh_relation;
@@ -33,6 +34,7 @@ struct nh_field {
     nh_quotient *all;
     ulong *exponent; /* scratch, one per generator */
     double max_terms, work, max_work;
+    bool repeat; /* the relations once more, after the last: values may need later ones */
     nh_field_state state;
 };
 

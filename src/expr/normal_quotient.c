@@ -151,7 +151,7 @@ const nh_quotient *nh_quotient_rationalise(nh_field *field, const nh_quotient *a
 {
     for (size_t i = field->relations; i-- > 0 && field->state == NH_FIELD_FINE;) {
         slong g = field->relation[i].generator;
-        if (field->relation[i].order != 2 || fmpz_mpoly_degree_si(a->den, g, field->ctx) != 1) continue;
+        if (field->relation[i].order != 2 || field->relation[i].mixed || fmpz_mpoly_degree_si(a->den, g, field->ctx) != 1) continue;
         if ((double)(a->num->length + a->den->length) * (double)a->den->length > conjugate_pairs) return a;
         nh_quotient *q = nh_quotient_fresh(field);
         fmpz_mpoly_t conjugate;

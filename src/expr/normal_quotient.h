@@ -20,8 +20,10 @@ void nh_field_free(nh_field *field);
 nh_field_state nh_field_state_of(const nh_field *field);
 void nh_field_break(nh_field *field, nh_field_state why);
 
-/* From now on generator^order = value, a quotient in generators without relation or with an earlier one. */
+/* From now on generator^order = value, a quotient in generators without relation or with an earlier one, and in lower powers of the generator. */
 void nh_field_relate(nh_field *field, size_t generator, unsigned order, const nh_quotient *value);
+/* The value of a relation may need later relations: they are all applied twice. */
+void nh_field_repeat(nh_field *field);
 /* s^2 = 1 - c^2 or, hyperbolic, s^2 = c^2 - 1.  Flipping eliminates even powers of c instead of s. */
 void nh_field_relate_pair(nh_field *field, size_t s, size_t c, bool hyperbolic);
 size_t nh_field_pairs(const nh_field *field);

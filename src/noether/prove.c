@@ -72,7 +72,7 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     sum = without_signs(d, sum);
     size_t limit = (size_t)options->proof_terms;
     nh_zero_verdict symbols = NH_TOO_LARGE;
-    if (!proof.proved && claim.free && o->chart->implicit == 0) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
+    if (!proof.proved && claim.free) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
     if (symbols == NH_ZERO) proof = holding(proof, claim.fixed);
     proof.proved = proof.proved || nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO;
     if (proof.proved && symbols == NH_NONZERO) proof.fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});
@@ -114,7 +114,7 @@ static bool proved_by_symmetry(const nh_model *o, nh_ex phi, nh_claim claim, con
 {
     enum { longest = 40 };
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
-    bool holds = o->n > 0 && o->chart->implicit == 0;
+    bool holds = o->n > 0;
     if (holds) nh_symmetry_components(o, phi, zeta);
     for (size_t i = 0; i < o->n && holds; i++) holds = nh_complexity(o->dag, zeta[i]) <= longest;
     holds = holds && equations_hold(o, phi, zeta, claim, options);

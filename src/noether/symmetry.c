@@ -73,7 +73,7 @@ static nh_ex recognised(const nh_model *o, nh_ex z, size_t i)
  * recognised is proved, M x = b. */
 static void solve(const nh_model *o, const nh_ex *b, nh_ex *x)
 {
-    enum { lengthy = 300 };
+    enum { lengthy = 80 };
     nh_dag *d = o->dag;
     bool large = false, good = true;
     nh_ex *guess = nh_alloc_array(2 * o->n + 1, sizeof *guess), *right = guess + o->n;

@@ -146,12 +146,50 @@ static bool solve_linear(nh_chart *chart, const nh_cloud *c, const nh_ex *G, con
     return good;
 }
 
-/* Nonlinear: the dependent velocities stay, as implicit symbols with du/dz = -G^-1 df/dz. */
-static bool keep_implicit(nh_chart *chart, const nh_cloud *c, const nh_ex *G, const nh_ex *f)
+/* f = sum_j c_j u^j, a polynomial of degree 1 to most_degree in u: u^degree = -(c_0 + ... + c_(degree-1) u^(degree-1)) / c_degree.  False: it is none. */
+static bool relate(nh_dag *d, nh_ex f, nh_ex u)
+{
+    enum { most_degree = 8 };
+    nh_ex slope = f, zero = nh_int(d, 0), sum = zero, c = zero, power = nh_int(d, 1);
+    for (unsigned j = 0; j <= most_degree; j++) {
+        c = nh_simplify(d, nh_substitute(d, slope, 1, &u, &zero));
+        slope = nh_simplify(d, nh_div(d, nh_diff(d, slope, u), nh_int(d, (int64_t)j + 1))); /* f^(j+1) / (j+1)! */
+        if (nh_is_zero(d, slope) && (j == 0 || nh_is_zero(d, c))) return false;
+        if (nh_is_zero(d, slope)) {
+            nh_relate(d, u, j, nh_simplify(d, nh_neg(d, nh_div(d, sum, c))));
+            return true;
+        }
+        sum = nh_add(d, sum, nh_mul(d, c, power));
+        power = nh_mul(d, power, u);
+    }
+    return false;
+}
+
+/* What implicit velocities satisfy, for normal forms: a constraint that is a polynomial in one of them, and has no other of which nothing is known. */
+static void relate_implicit(nh_chart *chart, size_t k, const nh_ex *f)
+{
+    nh_dag *d = chart->system->dag;
+    bool *known = nh_alloc_array(2 * k + 1, sizeof *known), *used = known + k, more = true;
+    while (more) {
+        more = false;
+        for (size_t a = 0; a < k; a++) {
+            size_t open = 0, which = 0;
+            for (size_t i = 0; i < k && !used[a]; i++)
+                if (!known[i] && nh_depends(d, f[a], chart->u[i])) open++, which = i;
+            if (open != 1 || !relate(d, f[a], chart->u[which])) continue;
+            used[a] = known[which] = more = true;
+        }
+    }
+    nh_free(known);
+}
+
+/* Nonlinear: k dependent velocities stay, as implicit symbols with du/dz = -G^-1 df/dz. */
+static bool keep_implicit(nh_chart *chart, const nh_cloud *c, size_t k, const nh_ex *G, const nh_ex *f)
 {
     const nh_system *s = c->system;
     nh_dag *d = s->dag;
-    size_t k = c->k, explicit_width = chart->width - k;
+    relate_implicit(chart, k, f);
+    size_t explicit_width = chart->width - k;
     nh_lu *lu = nh_lu_create(d, k, G, nh_embedding_score, chart, NULL);
     if (!lu) return false;
     nh_ex *b = nh_alloc_array(k * explicit_width + 1, sizeof *b);
@@ -176,39 +214,89 @@ static bool keep_implicit(nh_chart *chart, const nh_cloud *c, const nh_ex *G, co
     return true;
 }
 
-/* The branch that most points of the domain lie on, counting those in the user's range for u: the sign of df/du. */
-static int branch_of(const nh_cloud *c, size_t which)
+/* The branch that most points of the domain lie on, counting those in the user's range for u: the sign of 2 a u + b. */
+static int branch_of(const nh_cloud *c, size_t which, nh_ex linear)
 {
-    double low, high;
+    const nh_system *s = c->system;
+    const nh_ex *symbols;
+    const double *values;
+    double low, high, slope;
     long balance = 0;
-    if (c->system->branch) return c->system->branch;
-    nh_embedding_range(c->system, c->system->coordinate[which].v, &low, &high);
+    if (s->branch) return s->branch;
+    nh_ex *in = nh_alloc_array(c->width, sizeof *in);
+    in[0] = s->t;
+    for (size_t i = 0; i < c->m; i++) in[1 + i] = s->coordinate[i].q, in[1 + c->m + i] = s->coordinate[i].v;
+    nh_system_bindings(s, &symbols, &values);
+    nh_embedding_range(s, s->coordinate[which].v, &low, &high);
+    nh_tape *tape = nh_tape_create(s->dag, c->width, in, 1, &linear, s->parameters, symbols, values);
+    nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t p = 0; p < c->count; p++) {
         const double *z = c->point + p * c->width;
         double u = z[1 + c->m + which], inside = u >= low && u <= high ? 1000 : 1;
-        nh_tape_eval(c->tape, c->work, z, c->out);
-        balance += (long)(c->out[c->k + which * c->k] > 0 ? inside : -inside);
+        nh_tape_eval(tape, work, z, &slope);
+        balance += (long)(slope > 0 ? inside : -inside);
     }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(in);
     return balance >= 0 ? 1 : -1;
 }
 
-/* One constraint a u^2 + b u + c = 0: u = (-b + s sqrt(b^2 - 4 a c)) / (2 a), so that everything that follows is explicit. */
-static bool quadratic_root(const nh_cloud *c, size_t which, int branch, nh_ex *out, nh_ex *radicand, nh_ex *in_velocities)
+/* f = a u^2 + b u + c with u the velocity `which`: u = (-b + s sqrt(b^2 - 4 a c)) / (2 a), so that everything that follows is explicit. */
+static bool quadratic_root(const nh_cloud *cloud, size_t which, nh_ex f, nh_quadratic *q)
+{
+    const nh_system *s = cloud->system;
+    nh_dag *d = s->dag;
+    nh_ex u = s->coordinate[which].v, zero = nh_int(d, 0), slope = nh_diff(d, f, u);
+    q->a = nh_simplify(d, nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, u)));
+    if (nh_depends(d, q->a, u) || nh_is_zero(d, q->a)) return false;
+    q->b = nh_simplify(d, nh_substitute(d, slope, 1, &u, &zero));
+    q->c = nh_substitute(d, f, 1, &u, &zero);
+    q->radicand = nh_simplify(d, nh_sub(d, nh_powi(d, q->b, 2), nh_mul(d, nh_int(d, 4), nh_mul(d, q->a, q->c))));
+    q->linear = nh_add(d, nh_mul(d, nh_int(d, 2), nh_mul(d, q->a, u)), q->b); /* = branch * sqrt(radicand) */
+    q->branch = branch_of(cloud, which, q->linear);
+    nh_ex root = nh_mul(d, nh_int(d, q->branch), nh_sqrt(d, q->radicand));
+    q->u = nh_simplify(d, nh_div(d, nh_sub(d, root, q->b), nh_mul(d, nh_int(d, 2), q->a)));
+    return true;
+}
+
+/* ---- several constraints, some of them linear ---- */
+
+typedef struct {
+    size_t k, left;         /* constraints; those not solved yet, which are the first in f and dependent */
+    nh_ex *f;               /* k: what must vanish; of solved ones: what their velocity is */
+    size_t *dependent;      /* k */
+} triangle;
+
+static bool contains_only_parameters(const nh_cloud *c, nh_ex e)
+{
+    const nh_system *s = c->system;
+    bool only = !nh_depends(s->dag, e, s->t);
+    for (size_t i = 0; i < c->m && only; i++) only = !nh_depends(s->dag, e, s->coordinate[i].q) && !nh_depends(s->dag, e, s->coordinate[i].v);
+    return only;
+}
+
+/* u' with f_a = slope u' + rest, the slope a number or a parameter, goes out of all others: it depends on the rest. */
+static bool solve_one(const nh_cloud *c, triangle *t)
 {
     const nh_system *s = c->system;
     nh_dag *d = s->dag;
-    if (c->k != 1) return false;
-    nh_ex u = s->coordinate[which].v, zero = nh_int(d, 0), f = nh_sub(d, s->constraint[0].lhs, s->constraint[0].rhs);
-    nh_ex slope = nh_diff(d, f, u), a = nh_simplify(d, nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, u)));
-    if (nh_depends(d, a, u) || nh_is_zero(d, a)) return false;
-    nh_ex b = nh_simplify(d, nh_substitute(d, slope, 1, &u, &zero)), rest = nh_substitute(d, f, 1, &u, &zero);
-    nh_ex under = nh_simplify(d, nh_sub(d, nh_powi(d, b, 2), nh_mul(d, nh_int(d, 4), nh_mul(d, a, rest))));
-    nh_ex root = nh_mul(d, nh_int(d, branch), nh_sqrt(d, under));
-    nh_ex linear = nh_add(d, nh_mul(d, nh_int(d, 2), nh_mul(d, a, u)), b); /* 2 a u + b = branch * sqrt(under) */
-    *out = nh_simplify(d, nh_div(d, nh_sub(d, root, b), nh_mul(d, nh_int(d, 2), a)));
-    *radicand = under;
-    *in_velocities = nh_mul(d, nh_int(d, branch), linear);
-    return true;
+    nh_ex zero = nh_int(d, 0);
+    for (size_t a = 0; a < t->left; a++)
+        for (size_t i = 0; i < t->left; i++) {
+            nh_ex u = s->coordinate[t->dependent[i]].v, slope = nh_simplify(d, nh_diff(d, t->f[a], u));
+            if (nh_is_zero(d, slope) || !contains_only_parameters(c, slope)) continue;
+            nh_ex value = nh_simplify(d, nh_neg(d, nh_div(d, nh_substitute(d, t->f[a], 1, &u, &zero), slope)));
+            size_t last = --t->left, which = t->dependent[i];
+            t->f[a] = t->f[last];
+            t->dependent[i] = t->dependent[last];
+            t->f[last] = value;
+            t->dependent[last] = which;
+            for (size_t b = 0; b < t->k; b++)
+                if (b != last) t->f[b] = nh_substitute(d, t->f[b], 1, &u, &value);
+            return true;
+        }
+    return false;
 }
 
 static const char *chart_name(const nh_chart *chart, char *buffer, size_t size)
@@ -220,54 +308,93 @@ static const char *chart_name(const nh_chart *chart, char *buffer, size_t size)
     return buffer;
 }
 
-static nh_chart *build(const nh_cloud *c, const size_t *dependent, double pivot, nh_error *error)
+/* df/dv_dep of what is left, by rows; are all its entries free of those velocities? */
+static bool slopes(const nh_cloud *c, const triangle *t, nh_ex *G)
+{
+    const nh_system *s = c->system;
+    bool linear = true;
+    for (size_t a = 0; a < t->left; a++)
+        for (size_t i = 0; i < t->left; i++) {
+            G[a * t->left + i] = nh_diff(s->dag, t->f[a], s->coordinate[t->dependent[i]].v);
+            for (size_t j = 0; j < t->left; j++) linear &= !nh_depends(s->dag, G[a * t->left + i], s->coordinate[t->dependent[j]].v);
+        }
+    return linear;
+}
+
+/* The independent velocities are known. */
+static nh_chart *chart_of(const nh_cloud *c, const triangle *t, size_t implicit, double pivot)
 {
     nh_system *s = c->system;
-    nh_dag *d = s->dag;
-    size_t k = c->k, m = c->m;
-    nh_ex *f = nh_alloc_array(k + k * k + 1, sizeof *f), *G = f + k;
-    bool linear = true;
-    for (size_t a = 0; a < k; a++) {
-        f[a] = nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs);
-        for (size_t i = 0; i < k; i++) {
-            G[a * k + i] = nh_diff(d, f[a], s->coordinate[dependent[i]].v);
-            for (size_t j = 0; j < k; j++) linear &= !nh_depends(d, G[a * k + i], s->coordinate[dependent[j]].v);
-        }
-    }
-    nh_ex root = 0, radicand = 0, in_velocities = 0;
-    int branch = linear ? 0 : branch_of(c, dependent[0]);
-    bool quadratic = !linear && quadratic_root(c, dependent[0], branch, &root, &radicand, &in_velocities), implicit = !linear && !quadratic;
-    nh_chart *chart = nh_embedding_new(s, "", m - k, implicit ? k : 0);
-    memcpy(chart->dependent, dependent, k * sizeof *dependent);
-    chart->pivot = pivot;
+    nh_chart *chart = nh_embedding_new(s, "", c->m - c->k, implicit);
+    char buffer[400];
     size_t n = 0;
-    for (size_t i = 0; i < m; i++) {
+    memcpy(chart->dependent, t->dependent, c->k * sizeof *t->dependent);
+    chart->pivot = pivot;
+    for (size_t i = 0; i < c->m; i++) {
         chart->rho[i] = s->coordinate[i].v;
-        if (is_dependent(dependent, k, i)) continue;
+        if (is_dependent(t->dependent, c->k, i)) continue;
         chart->free[n] = i;
         chart->w[n++] = s->coordinate[i].v;
     }
-    nh_ex *v = nh_alloc_array(k + 1, sizeof *v);
-    for (size_t a = 0; a < k && implicit; a++) {
-        v[a] = s->coordinate[dependent[a]].v;
-        chart->rho[dependent[a]] = chart->u[a] = nh_symbol_fresh(d, nh_name_of(d, v[a]));
+    for (size_t a = 0; a < implicit; a++) {
+        size_t i = t->dependent[a];
+        chart->rho[i] = chart->u[a] = nh_symbol_fresh(s->dag, nh_name_of(s->dag, s->coordinate[i].v));
     }
-    for (size_t a = 0; a < k + k * k && implicit; a++) f[a] = nh_substitute(d, f[a], k, v, chart->u);
-    if (quadratic) {
-        chart->rho[dependent[0]] = root;
-        chart->branch = branch;
-        chart->radicand = radicand;
-        chart->root = in_velocities;
-    }
-    nh_free(v);
     nh_embedding_symbols(chart);
     copy_probes(chart, c);
-    char buffer[400];
     chart->name = nh_arena_strdup(chart->arena, chart_name(chart, buffer, sizeof buffer));
-    bool good = k == 0 || quadratic || (linear ? solve_linear(chart, c, G, f) : keep_implicit(chart, c, G, f));
-    nh_free(f);
+    return chart;
+}
+
+/* What was solved before, in terms of the rest. */
+static void put_solved(nh_chart *chart, const triangle *t)
+{
+    const nh_system *s = chart->system;
+    for (size_t a = t->left; a < t->k; a++) {
+        nh_ex e = t->f[a];
+        for (size_t i = 0; i < t->left; i++) e = nh_substitute(s->dag, e, 1, &s->coordinate[t->dependent[i]].v, &chart->rho[t->dependent[i]]);
+        chart->rho[t->dependent[a]] = nh_simplify(s->dag, e);
+    }
+}
+
+/* Linear constraints all at once; of others the linear ones first.  What is left is a root when it is one and quadratic, and stays implicit otherwise. */
+static nh_chart *solved(const nh_cloud *c, triangle *t, nh_ex *G, double pivot)
+{
+    nh_dag *d = c->system->dag;
+    nh_quadratic root;
+    bool linear = slopes(c, t, G), good = true;
+    while (!linear && solve_one(c, t)) continue;
+    bool quadratic = !linear && t->left == 1 && quadratic_root(c, t->dependent[0], t->f[0], &root);
+    size_t implicit = linear || quadratic ? 0 : t->left;
+    if (!linear) slopes(c, t, G);
+    nh_chart *chart = chart_of(c, t, implicit, pivot);
+    nh_ex *v = nh_alloc_array(implicit + 1, sizeof *v);
+    for (size_t a = 0; a < implicit; a++) v[a] = c->system->coordinate[t->dependent[a]].v;
+    for (size_t a = 0; a < implicit * implicit; a++) G[a] = nh_substitute(d, G[a], implicit, v, chart->u);
+    for (size_t a = 0; a < implicit; a++) t->f[a] = nh_substitute(d, t->f[a], implicit, v, chart->u);
+    if (quadratic) nh_branches_quadratic(chart, t->dependent[0], &root);
+    else if (linear && c->k) good = solve_linear(chart, c, G, t->f);
+    else if (implicit) good = keep_implicit(chart, c, implicit, G, t->f);
+    if (!linear) put_solved(chart, t);
+    nh_free(v);
+    if (good) nh_branches_note(chart);
     if (good) return chart;
     nh_chart_free(chart);
+    return NULL;
+}
+
+static nh_chart *build(const nh_cloud *c, const size_t *dependent, double pivot, nh_error *error)
+{
+    nh_system *s = c->system;
+    size_t k = c->k;
+    nh_ex *f = nh_alloc_array(k + k * k + 1, sizeof *f);
+    triangle t = {.k = k, .left = k, .f = f, .dependent = nh_alloc_array(k + 1, sizeof *t.dependent)};
+    memcpy(t.dependent, dependent, k * sizeof *dependent);
+    for (size_t a = 0; a < k; a++) f[a] = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs);
+    nh_chart *chart = solved(c, &t, f + k, pivot);
+    nh_free(t.dependent);
+    nh_free(f);
+    if (chart) return chart;
     nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "the constraints cannot be solved for the chosen dependent velocities");
     nh_error_hint(error, "name others under `dependent:`, or leave it out");
     return NULL;

@@ -63,6 +63,7 @@ nh_chart *nh_embedding_new(nh_system *s, const char *name, size_t n, size_t impl
     c->u = nh_arena_alloc(arena, (implicit + 1) * sizeof *c->u);
     c->residual = nh_arena_alloc(arena, (implicit + 1) * sizeof *c->residual);
     c->dependent = nh_arena_alloc(arena, (s->constraints + 1) * sizeof *c->dependent);
+    c->root_of = nh_arena_alloc(arena, (s->constraints + 1) * sizeof *c->root_of);
     c->free = nh_arena_alloc(arena, (n + 1) * sizeof *c->free);
     c->symbol = nh_arena_alloc(arena, width * sizeof *c->symbol);
     c->low = nh_arena_alloc(arena, width * sizeof *c->low);
@@ -105,19 +106,6 @@ nh_ex nh_chart_constraint(const nh_chart *c, size_t a)
 {
     const nh_constraint *f = &c->system->constraint[a];
     return nh_sub(c->system->dag, f->lhs, f->rhs);
-}
-
-/* Simplification may have split the radicand (4 k^2 (x'^2 + y'^2) into 2 sqrt(k^2 (x'^2 + y'^2))): its square-free parts are tried too. */
-nh_ex nh_chart_both_branches(const nh_chart *c, nh_ex e)
-{
-    nh_dag *d = c->system->dag;
-    nh_ex root = nh_sqrt(d, c->radicand), scale = nh_int(d, 1), base = c->radicand;
-    if (nh_kind_of(d, root) == NH_PRODUCT) {
-        scale = nh_number(d, nh_constant_of(d, root));
-        nh_ex rest = nh_div(d, root, scale);
-        if (nh_kind_of(d, rest) == NH_PRODUCT && nh_arity(d, rest) == 1) base = nh_child(d, rest, 0);
-    }
-    return nh_substitute_root(d, e, base, nh_div(d, c->root, scale));
 }
 
 bool nh_chart_complete(const nh_chart *c, double *z)

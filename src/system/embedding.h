@@ -13,6 +13,13 @@
 
 typedef enum { NH_CHART_AUTO, NH_CHART_QUASI, NH_CHART_COORDINATES } nh_chart_choice;
 
+/* A dependent velocity that is a root: v^s = alpha sqrt(base) + beta.  In formulas for people it stands for itself, as a symbol of its own. */
+typedef struct {
+    size_t coordinate;
+    nh_ex base, symbol;       /* symbol: prints as the velocity does */
+    nh_ex value, square;      /* sqrt(base) and symbol^2 in terms of the symbol */
+} nh_root;
+
 typedef struct {
     const nh_system *system;
     nh_arena *arena;
@@ -21,7 +28,7 @@ typedef struct {
     size_t n, implicit;
     nh_ex *w;                 /* n velocities of the chart */
     nh_ex *rho;               /* m: coordinate velocities as functions of (t, q, w, u) */
-    size_t *dependent;        /* k coordinate indices, coordinate charts only */
+    size_t *dependent;        /* k coordinate indices, coordinate charts only; those of implicit velocities, or of a root with two branches, come first */
     size_t *free;             /* n coordinate indices: whose velocities the w are, coordinate charts only */
     nh_ex *u, *residual;      /* implicit velocities and the constraints that determine them */
     size_t width;             /* 1 + m + n + implicit: the point (t, q, w, u) */
@@ -32,6 +39,8 @@ typedef struct {
     size_t probes;
     int branch;               /* of a quadratic constraint: the sign of its root; 0 otherwise */
     nh_ex radicand, root;     /* of that root, and the root in coordinate velocities: branch*(2 a u + b), valid on both branches */
+    size_t roots;             /* dependent velocities that are roots; that of a quadratic constraint is the first */
+    nh_root *root_of;
     double pivot;             /* least pivot of the elimination over the probes, relative */
     bool replaced;            /* the dependent velocities that the user had in mind are not determined anywhere near the domain: others were chosen */
 } nh_chart;
@@ -56,6 +65,13 @@ bool nh_chart_inverse(const nh_chart *chart, nh_ex *w_of_v);
 /* An expression of a chart on one branch of a quadratic constraint, with the root written in coordinate velocities again: it then
  * holds on both branches. */
 nh_ex nh_chart_both_branches(const nh_chart *chart, nh_ex e);
+
+/* For people: no root where a dependent velocity is equal to it.  With the symbols of the chart's roots, reduced by what they satisfy. */
+nh_ex nh_chart_shown(const nh_chart *chart, nh_ex e);
+/* Such an expression as one of another chart of the same velocities, on its branch. */
+nh_ex nh_chart_composed(const nh_chart *chart, nh_ex shown, const nh_chart *other);
+/* "z' < 0": where a chart with a branch is, or, with -chart->branch, where it is not.  To be freed. */
+char *nh_chart_branch_name(const nh_chart *chart, int branch);
 
 /* nh_pivot_score over the chart's probes (context: the chart). */
 double nh_chart_pivot_score(void *chart, nh_ex e);

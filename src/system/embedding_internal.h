@@ -4,6 +4,14 @@
 
 #include "system/embedding.h"
 
+/* a u^2 + b u + c = 0 with the coefficients free of u: u = (-b + branch sqrt(radicand)) / (2 a), radicand = b^2 - 4 a c, linear = 2 a u + b. */
+typedef struct {
+    nh_ex a, b, c, radicand, linear, u;
+    int branch;
+} nh_quadratic;
+void nh_branches_quadratic(nh_chart *chart, size_t coordinate, const nh_quadratic *quadratic); /* that velocity is this root */
+void nh_branches_note(nh_chart *chart);  /* and other dependent velocities are roots, as they were written */
+
 void nh_embedding_range(const nh_system *system, nh_ex symbol, double *low, double *high);
 nh_chart *nh_embedding_new(nh_system *system, const char *name, size_t n, size_t implicit);
 void nh_embedding_symbols(nh_chart *chart);          /* symbol, low, high from w and u */
