@@ -30,6 +30,8 @@ typedef struct {
     double last;           /* seconds of the last run, with all that it needed */
     double first;          /* seconds of the whole motion by the winner of the race */
     nh_programs *programs; /* for methods with a fixed step */
+    double *floor;         /* least scales of what is wanted */
+    bool measured_terms;   /* they are among them */
     const nh_method *method[2];
     bool doubtful; /* another method is to confirm */
     bool stopped;  /* the first run of the race, after its time */
@@ -103,6 +105,7 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
         s->out->evaluations += t->motion->evaluations;
         s->out->seconds += t->motion->seconds;
     }
+    if (t && t->motion->complete && !s->measured_terms) nh_accuracy_terms(s->request, t, s->floor), s->measured_terms = true;
     return t;
 }
 
@@ -110,7 +113,7 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
 static double difference(const search *s, const nh_trajectory *a, const nh_trajectory *b)
 {
     if (!a || !b || !a->motion->complete || !b->motion->complete) return INFINITY;
-    return nh_accuracy_difference(a->motion->count, s->request->n, a->value, b->value, s->request->options->absolute, &s->out->quantity);
+    return nh_accuracy_difference(a->motion->count, s->request->n, a->value, b->value, s->floor, &s->out->quantity);
 }
 
 static double between(double x, double low, double high) { return fmax(low, fmin(high, x)); }
@@ -223,7 +226,7 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
     if (s->first * (1 + s->ways->more) < worthwhile || s->first < shortest) return s->out->choice = NH_CHOICE_SHORT, NULL;
     double *work = nh_alloc_array(2 * s->request->model->m + 1, sizeof *work), limit = s->request->max_seconds;
     nh_state at = state_on_the_way(s, t, work);
-    nh_survey_terms terms = {.eps = s->eps, .best = s->method[0], .seconds = s->first, .budget = survey_share * s->first * between(s->ways->more, 1, most_times), .plain = s->ways->plain};
+    nh_survey_terms terms = {.eps = s->eps, .best = s->method[0], .seconds = s->first, .budget = survey_share * s->first * between(s->ways->more, 1, most_times), .plain = s->ways->plain, .floor = s->floor};
     if (limit > 0) terms.budget = fmin(terms.budget, survey_share * limit);
     const nh_model *other = s->ways->derive && !s->ways->plain && !s->request->smallest ? s->ways->derive(s->ways->context, terms.budget) : NULL;
     if (other) s->own.other = other;
@@ -300,7 +303,7 @@ static nh_trajectory *tighten(search *s, nh_error *error)
         }
         s->out->estimate = d * pow(ratio, exponent);
         s->doubtful |= d > nh_accuracy_amplified * coarse;
-        if (!isfinite(d) || (s->out->estimate < eps / 2 && d < (i == 1 ? 1 : nh_accuracy_far) * eps) || fine <= tightest) break;
+        if (!isfinite(d) || (s->out->estimate < eps / 2 && d < (i == 1 ? nh_accuracy_alike : nh_accuracy_far) * eps) || fine <= tightest) break;
         last_difference = d;
         last_ratio = ratio;
         coarse = fine;
@@ -362,6 +365,8 @@ static void explain_choice(const search *s)
 #undef SAY
 }
 
+static const char *words_of_size(const search *s, const nh_trajectory *t) { return nh_accuracy_cancels(s->request, t, s->out->quantity, &s->out->size) ? ", in which larger terms cancel" : ""; }
+
 static void explain(search *s, const nh_trajectory *t)
 {
     nh_accuracy *a = s->out;
@@ -372,9 +377,10 @@ static void explain(search *s, const nh_trajectory *t)
         snprintf(a->why, size, "interrupted before the accuracy %.1e was reached: this is %s, and its error is not known", s->eps, what);
     else if (!t->motion->complete)
         snprintf(a->why, size, "the accuracy %.1e was not reached: the motion ended at t = %.6g", s->eps, t->motion->end_time);
-    else if (!(a->estimate < s->eps / 2))
-        snprintf(a->why, size, "the accuracy %.1e was not reached: %s has an estimated error of %.1e", s->eps, what, a->estimate);
-    else if (!s->doubtful)
+    else if (!(a->estimate < s->eps / 2)) {
+        const char *words = words_of_size(s, t);
+        snprintf(a->why, size, "the accuracy %.1e was not reached: %s has an estimated error of %.1e, in a quantity of size %.1e%s", s->eps, what, a->estimate, a->size, words);
+    } else if (!s->doubtful)
         snprintf(a->why, size, "%s, estimated error %.1e", what, a->estimate);
     else if (a->held)
         snprintf(a->why, size, "%s, estimated error %.1e, %s agrees to %.1e", what, a->estimate, a->second, a->difference);
@@ -400,6 +406,8 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
     *accuracy = (nh_accuracy){.wanted = eps, .estimate = INFINITY, .difference = INFINITY, .step = NAN, .next = NAN};
     search s = {.ways = ways ? ways : &none, .own = *request, .eps = eps, .out = accuracy};
     s.request = &s.own;
+    s.floor = nh_alloc_array(request->n + 1, sizeof *s.floor);
+    nh_accuracy_zeros(request, s.floor);
     nh_trajectory *t = tighten(&s, error);
     if (t) {
         bool good = t->motion->complete && isfinite(accuracy->estimate) && accuracy->estimate < eps / 2;
@@ -412,6 +420,7 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
         if (fixed(&s)) accuracy->tolerance = NAN;
     }
     nh_programs_free(s.programs);
+    nh_free(s.floor);
     return t;
 }
 

@@ -7,12 +7,13 @@
  * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that is expected of them).  With d
  *    the difference of two successive runs and p the exponent with which differences fall (0.7 until two differences are known, then measured,
  *    within [0.2, 0.9]) the error of the tighter one is about d (tau2/tau1)^p. It is accepted when that is below eps/2 and d is below 30 eps, of the
- *    first two runs below eps (they may err alike); otherwise the next tolerance follows from the estimate.  Every second run starts beside the start
+ *    first two runs below eps/10 (they may err alike); otherwise the next tolerance follows from the estimate.  Every second run starts beside the start
  *    by a part 1e-15 of each number, so that the differences also show what rounding errors grow to.
  * 3. Where the method is implicit, or an error is a thousand times the tolerance, another method must agree to eps, at a tolerance tightened
  *    until it does: step halving alone can be deceived where a motion is unstable.
  *
- * No run is extrapolated in time. Errors are those of the wanted expressions, each relative to its largest value along the motion. */
+ * No run is extrapolated in time. Errors are those of the wanted expressions, each relative to its largest value along the motion, however small that is; those of currents and
+ * energies, which are sums that may cancel, relative to the largest of their terms.  What is zero along the motion (vanishing.h) has no error. */
 #ifndef NH_ACCURACY_H
 #define NH_ACCURACY_H
 
@@ -46,6 +47,7 @@ typedef struct {
     const char *second;                 /* the method that confirms; NULL: there was no doubt */
     double difference;                  /* from it; INFINITY when there was none, or it could not compute the motion */
     size_t quantity;                    /* the wanted expression that is least certain */
+    double size;                        /* of it, along the motion */
     int runs;
     long evaluations;                   /* of all runs, those of a survey included */
     double seconds;                     /* of all runs, without preparations */
@@ -59,13 +61,22 @@ static const double nh_accuracy_loosest = 1e-5, nh_accuracy_tightest = 1e-14, /*
     nh_accuracy_first = 3,                     /* parts of eps: the first tolerance */
     nh_accuracy_step = 0.1,                    /* from one tolerance to the next, at most */
     nh_accuracy_exponent = 0.7,                /* with which differences fall, until it is measured */
-    nh_accuracy_far = 30,                      /* in eps: two runs may differ so much where the tighter one is accepted; the first two by eps alone */
+    nh_accuracy_far = 30,                      /* in eps: two runs may differ so much where the tighter one is accepted; */
+    nh_accuracy_alike = 0.1,                   /* the first two so much: steps so large that errors do not fall yet can make both err alike */
     nh_accuracy_disturbance = 1e-15,           /* relative, of the start of every second run: what rounding errors grow to is then seen in the differences */
     nh_accuracy_amplified = 1e3;               /* an error so many times the tolerance is confirmed by another method */
 
-/* The largest difference of n values at `count` outputs (row by row), each relative to its largest value, or `least`; *which: the value that differs
- * most.  What is undefined in both does not count; in one of them: INFINITY. */
-double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, double least, size_t *which);
+/* The largest difference of n values at `count` outputs (row by row), each relative to its largest value, or to floor[k] where that is larger (NULL: all 0); *which: the
+ * value that differs most.  What is undefined in both does not count; in one of them: INFINITY. */
+double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, const double *floor, size_t *which);
+
+/* The least scales of the wanted expressions: INFINITY for those that are zero along the motion (vanishing.h), 0 for others.  False: there is no motion. */
+bool nh_accuracy_zeros(const nh_trajectory_request *request, double *floor);
+/* For those of request->by_terms, the largest of their terms along a motion: larger floors. */
+void nh_accuracy_terms(const nh_trajectory_request *request, const nh_trajectory *along, double *floor);
+
+/* Is the wanted expression number k much smaller along the motion than its terms?  *size: its own. */
+bool nh_accuracy_cancels(const nh_trajectory_request *request, const nh_trajectory *along, size_t k, double *size);
 
 /* n values, each moved by the part nh_accuracy_disturbance up or down. */
 void nh_accuracy_disturb(size_t n, const double *from, double *to);

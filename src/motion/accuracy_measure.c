@@ -1,7 +1,9 @@
 /* accuracy_measure: how far two runs of a motion are apart, and how the second is begun beside the first (accuracy.h). */
 #include <math.h>
 
+#include "expr/terms.h"
 #include "motion/accuracy.h"
+#include "motion/vanishing.h"
 
 void nh_accuracy_disturb(size_t n, const double *from, double *to)
 {
@@ -12,11 +14,11 @@ void nh_accuracy_disturb(size_t n, const double *from, double *to)
     }
 }
 
-double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, double least, size_t *which)
+double nh_accuracy_difference(size_t count, size_t n, const double *a, const double *b, const double *floor, size_t *which)
 {
     double worst = 0;
     for (size_t k = 0; k < n; k++) {
-        double scale = least, d = 0;
+        double scale = floor ? floor[k] : 0, d = 0;
         for (size_t i = 0; i < count; i++) {
             double x = a[i * n + k], y = b[i * n + k];
             if (!isfinite(x) && !isfinite(y)) continue;
@@ -24,7 +26,74 @@ double nh_accuracy_difference(size_t count, size_t n, const double *a, const dou
             scale = fmax(scale, fabs(x));
             d = fmax(d, fabs(x - y));
         }
-        if (d / scale > worst) worst = d / scale, *which = k;
+        if (d > 0 && !(d / scale <= worst)) worst = d / scale, *which = k;
     }
     return worst;
+}
+
+bool nh_accuracy_zeros(const nh_trajectory_request *q, double *floor)
+{
+    const nh_model *o = q->model;
+    double *z = nh_alloc_array(o->m + o->n + 1, sizeof *z);
+    bool *zero = nh_alloc_array(q->n + 1, sizeof *zero);
+    nh_dynamics *d = nh_dynamics_create(o);
+    nh_vanishing *v = nh_vanishing_create(o, q->n, q->e);
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    bool good = nh_dynamics_start(d, q->initial, q->project, z, &ignored);
+    if (good) nh_vanishing_test(v, z, zero);
+    for (size_t k = 0; k < q->n; k++) floor[k] = good && zero[k] ? INFINITY : 0;
+    nh_vanishing_free(v);
+    nh_dynamics_free(d);
+    nh_free(zero);
+    nh_free(z);
+    return good;
+}
+
+void nh_accuracy_terms(const nh_trajectory_request *q, const nh_trajectory *t, double *floor)
+{
+    if (!q->by_terms || !t || t->scene) return;
+    nh_dynamics *d = nh_dynamics_create(q->model);
+    for (size_t k = 0; k < q->n; k++) {
+        if (!q->by_terms[k]) continue;
+        nh_ex *e;
+        size_t n = nh_terms_of(q->model->dag, q->e[k], &e);
+        double *value = nh_alloc_array(n * t->motion->count + 1, sizeof *value);
+        bool good = nh_along(d, t->motion, n, e, value);
+        for (size_t i = 0; i < n * t->motion->count && good; i++)
+            if (isfinite(value[i])) floor[k] = fmax(floor[k], fabs(value[i]));
+        nh_free(value);
+        nh_free(e);
+    }
+    nh_dynamics_free(d);
+}
+
+/* The largest of the terms of one expression, along a motion of their own that need not be exact: the given one may have left out what they need. */
+static double terms_alone(const nh_trajectory_request *request, nh_ex one)
+{
+    static const double loose = 1e-6;
+    nh_ex *e;
+    nh_trajectory_request q = *request;
+    nh_options options = *request->options;
+    nh_error ignored;
+    double largest = 0;
+    nh_error_clear(&ignored);
+    options.tolerance = loose;
+    q.options = &options;
+    q.n = nh_terms_of(q.model->dag, one, &e);
+    q.e = e;
+    nh_trajectory *t = nh_trajectory_create(&q, &ignored);
+    for (size_t i = 0; t && i < q.n * t->motion->count; i++)
+        if (isfinite(t->value[i])) largest = fmax(largest, fabs(t->value[i]));
+    nh_trajectory_free(t);
+    nh_free(e);
+    return largest;
+}
+
+bool nh_accuracy_cancels(const nh_trajectory_request *q, const nh_trajectory *t, size_t k, double *size)
+{
+    static const double much = 1e3;
+    *size = 0;
+    for (size_t i = 0; i < t->motion->count; i++) *size = fmax(*size, fabs(t->value[i * q->n + k]));
+    return terms_alone(q, q->e[k]) > much * *size;
 }

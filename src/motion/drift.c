@@ -16,7 +16,7 @@ typedef struct {
     nh_validation *out;
     const nh_options *options;
     size_t outputs;
-    double *times, *z0, *scale;
+    double *times, *z0;
     size_t watches;
     const nh_watch *watch;
     const nh_valid *valid;
@@ -255,7 +255,7 @@ static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_erro
 static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
-        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .scale = r->scale, .max_steps = most_steps(r), .cancelled = nh_interrupted_callback};
+        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .absolute = fmax(r->options->absolute, DBL_MIN), .max_steps = most_steps(r), .cancelled = nh_interrupted_callback};
         if (i == 0 && nh_meets_pivot(r->dynamics, r->method, r->z0, (double[]){r->times[0], r->times[r->outputs - 1]}, &options)) r->everywhere = true;
         nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, r->method, r->z0, r->outputs, r->times, &options, NULL, error) : reduced_motion(r, &options, error);
         if (!motion) return false;
@@ -285,9 +285,14 @@ static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh
     size_t states = o->m + o->n, n = states + q->watches;
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
     memcpy(e, o->chart->symbol + 1, states * sizeof *e);
-    for (size_t i = 0; i < q->watches; i++) e[states + i] = q->watch[i].value;
-    nh_trajectory_request request = {.model = o, .initial = q->initial, .count = q->outputs, .times = r->times, .options = q->options, .n = n, .e = e, .max_seconds = q->options->max_seconds};
+    bool *by_terms = nh_alloc_array(n + 1, sizeof *by_terms);
+    for (size_t i = 0; i < q->watches; i++) {
+        e[states + i] = q->watch[i].value;
+        by_terms[states + i] = q->watch[i].by_terms;
+    }
+    nh_trajectory_request request = {.model = o, .initial = q->initial, .count = q->outputs, .times = r->times, .options = q->options, .n = n, .e = e, .by_terms = by_terms, .max_seconds = q->options->max_seconds};
     nh_trajectory *t = nh_trajectory_accurate(&request, q->accuracy, q->ways, &r->out->accuracy, error);
+    nh_free(by_terms);
     if (!t) return nh_free(e), false;
     nh_accuracy *a = &r->out->accuracy;
     size_t k = a->quantity, used = strlen(a->why);
@@ -313,8 +318,6 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     r.times = nh_alloc_array(q->outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
     for (size_t i = 0; i < q->outputs; i++) r.times[i] = q->initial->t + (q->until - q->initial->t) * (double)i / (double)(q->outputs - 1);
-    r.scale = nh_alloc_array(size + 1, sizeof *r.scale);
-    for (size_t i = 0; i < size; i++) r.scale[i] = q->options->absolute;
     bool good = nh_dynamics_start(r.dynamics, q->initial, false, r.z0, error) && (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
     v->method = r.method->name;
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
@@ -322,7 +325,6 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     if (good) judge(v, q->options);
     nh_dynamics_free(r.dynamics);
     nh_free(r.times);
-    nh_free(r.scale);
     nh_free(r.z0);
     if (good) return v;
     nh_validation_free(v);

@@ -48,6 +48,7 @@ typedef struct {
     const char *name;
     nh_ex value;
     bool asked; /* by the user: what the scene is made for */
+    bool by_terms; /* a sum that may cancel (nh_trajectory_request) */
 } nh_watch;
 
 /* Where a current makes sense: while `coordinate` lies between low and high; coordinate 0: everywhere. */

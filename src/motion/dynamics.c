@@ -195,12 +195,34 @@ static double fit_step(nh_dynamics *d, const nh_state *state, double *w)
     return size;
 }
 
-static double mismatch(nh_dynamics *d, const nh_state *state)
+/* The largest of v_s and the terms of rho_s = R_si w_i + b_s. */
+static double size_of_velocity(const nh_dynamics *d, const nh_state *state, const double *w, size_t s)
 {
-    double worst = 0;
+    const double *R = d->out + d->m;
+    double largest = fabs(state->v[s]), sum = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        largest = fmax(largest, fabs(R[s + i * d->m] * w[i]));
+        sum += R[s + i * d->m] * w[i];
+    }
+    return fmax(largest, fabs(d->out[s] - sum));
+}
+
+/* |v_s - rho_s| beside the sizes of the velocities of this kind (angles, or others); *off: the difference itself where that is largest. */
+static double mismatch(nh_dynamics *d, const nh_state *state, const double *w, double *off)
+{
+    const nh_system *system = d->model->system;
+    double worst = 0, size[2] = {0, 0};
     nh_tape_eval(d->velocity, d->velocity_work, d->point, d->out);
-    for (size_t s = 0; s < d->m; s++)
-        if (!state->given || state->given[s]) worst = fmax(worst, fabs(state->v[s] - d->out[s]) / (1 + fabs(state->v[s])));
+    for (size_t s = 0; s < d->m; s++) {
+        bool angle = system->coordinate[s].type == NH_ANGLE;
+        size[angle] = fmax(size[angle], size_of_velocity(d, state, w, s));
+    }
+    for (size_t s = 0; s < d->m; s++) {
+        double difference = fabs(state->v[s] - d->out[s]), beside = size[system->coordinate[s].type == NH_ANGLE];
+        if ((state->given && !state->given[s]) || !(difference > worst * beside)) continue;
+        worst = difference / beside;
+        *off = difference;
+    }
     return worst;
 }
 
@@ -225,8 +247,8 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
         nh_fail(error, NH_NUMERIC, "", "the initial state has no place in the chart of %s: no velocities near the given ones satisfy the constraints there", c->name);
         return nh_error_hint(error, "give fewer velocities (the others follow from the constraints), other values, or another `domain:` to choose another branch");
     }
-    double off = mismatch(d, state);
-    if (off <= on_constraint || project) return true;
+    double off = 0;
+    if (mismatch(d, state, z + d->m, &off) <= on_constraint || project) return true;
     nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g", off);
     return nh_error_hint(error, "leave the dependent ones out: they follow from the constraints; or --project takes the nearest that satisfy them");
 }

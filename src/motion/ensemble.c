@@ -9,14 +9,9 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "motion/sizes.h"
 #include "motion/tableau.h"
 #include "system/sample.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define CLONES
-#endif
 
 enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* that say nothing of the time that the others take */
 static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* of the step */
@@ -46,32 +41,11 @@ typedef struct {
     double *lane_error;
     bool *alive;
     double t, h;
+    nh_sizes sizes;    /* of all states in all lanes, as of one large motion */
+    double *allowed;   /* errors, whatever the states are now: kept x lanes */
     nh_dynamics *dynamics; /* of a chart whose pivot is watched; else NULL */
     double *pivot, *whole;
 } batch;
-
-/* ---- kernels over all lanes ---- */
-
-CLONES static void add_stages(size_t count, int stages, const double *weight, double h, const double *k, size_t stride, const double *z, double *to)
-{
-    memcpy(to, z, count * sizeof *to);
-    for (int j = 0; j < stages; j++) {
-        double x = h * weight[j];
-        if (x == 0) continue;
-        const double *from = k + (size_t)j * stride;
-        for (size_t i = 0; i < count; i++) to[i] += x * from[i];
-    }
-}
-
-CLONES static void error_of_lanes(size_t kept, double rtol, double atol, const double *error, const double *z, const double *next, double *lane)
-{
-    for (size_t l = 0; l < lanes; l++) lane[l] = 0;
-    for (size_t i = 0; i < kept; i++)
-        for (size_t l = 0; l < lanes; l++) {
-            double x = fabs(z[i * lanes + l]), y = fabs(next[i * lanes + l]), e = fabs(error[i * lanes + l]) / (atol + rtol * (x > y ? x : y));
-            lane[l] = e > lane[l] || e != e ? e : lane[l];
-        }
-}
 
 /* ---- one batch ---- */
 
@@ -91,13 +65,14 @@ static double try_step(batch *b)
     const nh_options *o = b->p->request->options;
     size_t count = b->kept * lanes;
     for (int i = 0; i < r->stages; i++) {
-        add_stages(count, i, r->a[i], b->h, b->k, count, b->z, b->stage);
+        nh_tableau_add(count, i, r->a[i], b->h, b->k, count, b->z, b->stage);
         rates(b, b->t + r->c[i] * b->h, b->stage, b->k + (size_t)i * count);
     }
-    add_stages(count, r->stages, r->b, b->h, b->k, count, b->z, b->next);
+    nh_tableau_add(count, r->stages, r->b, b->h, b->k, count, b->z, b->next);
     memset(b->stage, 0, count * sizeof *b->stage);
-    add_stages(count, r->stages, r->e, b->h, b->k, count, b->stage, b->error);
-    error_of_lanes(b->kept, o->tolerance, o->tolerance * o->absolute, b->error, b->z, b->next, b->lane_error);
+    nh_tableau_add(count, r->stages, r->e, b->h, b->k, count, b->stage, b->error);
+    for (size_t i = 0; i < count; i++) b->allowed[i] = nh_sizes_absolute(&b->sizes, o->tolerance, i);
+    nh_tableau_error(b->kept, lanes, o->tolerance, b->allowed, b->error, b->z, b->next, b->lane_error);
     double worst = 0;
     for (size_t l = 0; l < b->members; l++)
         if (b->alive[l]) worst = fmax(worst, isfinite(b->lane_error[l]) ? b->lane_error[l] : INFINITY);
@@ -199,6 +174,7 @@ static bool go_to(batch *b, double target, long *steps)
             double *swap = b->z;
             b->z = b->next;
             b->next = swap;
+            nh_sizes_follow(&b->sizes, b->t, b->z);
             b->h = last ? (fabs(b->h * growth) > fabs(wanted) ? b->h * growth : wanted) : b->h * growth;
             watch_pivots(b);
         } else {
@@ -223,8 +199,8 @@ static void open_batch(batch *b, const plan *p, size_t index)
     b->members = p->out->members - b->first < lanes ? p->out->members - b->first : lanes;
     b->rate = nh_tape_work_create(s->rate);
     b->values = nh_tape_work_create(p->values);
-    b->z = nh_alloc_array(count * 4 + (size_t)p->tableau.stages * count, sizeof *b->z);
-    b->next = b->z + count, b->stage = b->next + count, b->error = b->stage + count, b->k = b->error + count;
+    b->z = nh_alloc_array(count * 5 + (size_t)p->tableau.stages * count, sizeof *b->z);
+    b->next = b->z + count, b->stage = b->next + count, b->error = b->stage + count, b->allowed = b->error + count, b->k = b->allowed + count;
     b->fixed = nh_alloc_array(b->width * lanes, sizeof *b->fixed);
     b->in = nh_alloc_array(b->width, sizeof *b->in);
     b->out = nh_alloc_array(s->kept, sizeof *b->out);
@@ -241,8 +217,11 @@ static void open_batch(batch *b, const plan *p, size_t index)
     }
 }
 
+static bool rates_of_all(double t, const double *z, double *rate, void *context) { return rates(context, t, z, rate), true; }
+
 static void close_batch(batch *b, double *block)
 {
+    nh_sizes_clear(&b->sizes);
     nh_tape_work_free(b->rate);
     nh_tape_work_free(b->values);
     nh_free(block);
@@ -275,6 +254,11 @@ static void do_batch(size_t index, void *context)
         watch_pivots(&b);
     }
     b.h = span / 1000;
+    nh_flow_problem all = {.size = b.kept * lanes, .context = &b, .rate = rates_of_all};
+    if (!nh_sizes_begin(&b.sizes, &all, fmax(p->request->options->absolute, DBL_MIN), b.z, b.t, b.t + span)) { /* a member is not defined, and will be left out */
+        nh_sizes_clear(&b.sizes);
+        nh_sizes_given(&b.sizes, &all, NULL);
+    }
     for (size_t i = 0; i < p->out->count; i++) {
         if (!go_to(&b, p->request->times[i], &steps)) {
             for (size_t l = 0; l < b.members; l++) {

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "motion/vanishing.h"
 
 static const double most_left = 0.05; /* of the members: so many may be computed alone rather than all at a smaller tolerance */
 static const double most_step = 1e-5; /* from one tolerance to the next */
@@ -33,6 +34,7 @@ typedef struct {
     const double *initial;
     double eps;
     nh_ensemble_accuracy *out;
+    double *floor;          /* per member and value: the least scales (accuracy.h) */
     double *off, *estimate; /* per member: the difference of the last two runs, and what it says of the tighter one */
     nh_way usual;           /* that of the first */
     nh_ways ways;           /* for members alone: that of the first one, or what was given */
@@ -73,7 +75,7 @@ static void compare(search *s, const nh_ensemble *a, const nh_ensemble *b, doubl
 {
     for (size_t j = 0; j < s->members; j++) {
         size_t at = j * b->count * b->n, which = 0;
-        s->off[j] = arrived(a, j) && arrived(b, j) ? nh_accuracy_difference(b->count, b->n, a->value + at, b->value + at, s->request->options->absolute, &which) : INFINITY;
+        s->off[j] = arrived(a, j) && arrived(b, j) ? nh_accuracy_difference(b->count, b->n, a->value + at, b->value + at, s->floor + j * b->n, &which) : INFINITY;
         s->estimate[j] = s->off[j] * pow(ratio, nh_accuracy_exponent);
     }
 }
@@ -81,7 +83,7 @@ static void compare(search *s, const nh_ensemble *a, const nh_ensemble *b, doubl
 /* `coarse`: the tolerance of the looser run. */
 static bool accepted(const search *s, size_t j, double coarse)
 {
-    double far = s->out->runs > 2 ? nh_accuracy_far : 1;
+    double far = s->out->runs > 2 ? nh_accuracy_far : nh_accuracy_alike;
     return s->estimate[j] < s->eps / 2 && s->off[j] < far * s->eps && s->off[j] < nh_accuracy_amplified * coarse;
 }
 
@@ -131,6 +133,31 @@ static nh_ensemble *tighten(search *s, nh_ensemble *first, double *coarse, nh_er
     return b;
 }
 
+/* ---- least scales ---- */
+
+static void find_zeros(search *s)
+{
+    const nh_trajectory_request *q = s->request;
+    nh_vanishing *v = nh_vanishing_create(q->model, q->n, q->e);
+    bool *zero = nh_alloc_array(q->n + 1, sizeof *zero);
+    for (size_t j = 0; j < s->members; j++) {
+        nh_vanishing_test(v, s->initial + j * s->size, zero);
+        for (size_t k = 0; k < q->n; k++) s->floor[j * q->n + k] = zero[k] ? INFINITY : 0;
+    }
+    nh_free(zero);
+    nh_vanishing_free(v);
+}
+
+/* Those of sums that may cancel are taken from the first member's motion. */
+static void share_terms(search *s, const nh_trajectory_request *q, const nh_trajectory *t)
+{
+    double *terms = nh_alloc_array(q->n + 1, sizeof *terms);
+    nh_accuracy_terms(q, t, terms);
+    for (size_t j = 0; j < s->members; j++)
+        for (size_t k = 0; k < q->n; k++) s->floor[j * q->n + k] = fmax(s->floor[j * q->n + k], terms[k]);
+    nh_free(terms);
+}
+
 /* ---- members alone ---- */
 
 /* By the method and at the tolerance that it needs, into its place; how it was computed into *a.  What a batch found stays where this does not come to the end. */
@@ -150,6 +177,7 @@ static void compute_alone(search *s, size_t member, const nh_ways *ways, nh_accu
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
     nh_trajectory *t = nh_along(d, &start, o->m, o->rho, z + o->m) ? nh_trajectory_accurate(&q, s->eps, ways, a, &error) : NULL;
+    if (member == 0) share_terms(s, &q, t);
     size_t reached = t ? t->motion->count : 0;
     bool before = arrived(e, member);
     for (size_t i = 0; i < each && (reached == e->count || !before); i++) target[i] = i < reached * e->n ? t->value[i] : NAN;
@@ -298,6 +326,8 @@ nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t m
     if (!s.e) return NULL;
     s.off = nh_alloc_array(2 * members + 1, sizeof *s.off);
     s.estimate = s.off + members;
+    s.floor = nh_alloc_array(members * request->n + 1, sizeof *s.floor);
+    find_zeros(&s);
     s.one = nh_alloc_array(members, sizeof *s.one);
     s.alone = nh_alloc_array(members, sizeof *s.alone);
     for (size_t j = 0; j < members; j++) s.off[j] = s.estimate[j] = INFINITY;
@@ -309,6 +339,7 @@ nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t m
     if (e) explain(&s);
     accuracy->held = e && !accuracy->unsure && !nh_interrupted();
     nh_free(s.off);
+    nh_free(s.floor);
     nh_free(s.one);
     nh_free(s.alone);
     return e;

@@ -1,5 +1,6 @@
 #include "motion/explicit.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -8,6 +9,7 @@
 
 #include "base/memory.h"
 #include "motion/guards.h"
+#include "motion/sizes.h"
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -20,8 +22,78 @@ typedef struct {
     double h, before, now;     /* next step; times before and after the last one */
     double *state, *old, *work; /* now; before the last step */
     nh_guards guards;
+    nh_sizes sizes;
+    double rtol;
     long evaluations;
 } explicit_work;
+
+/* ---- error control ----
+ *
+ * GSL's own, with D_i = rtol |z_i| and the sizes' part of it (sizes.h), which changes along the motion; GSL's takes scales that do not.  With r = max_i |e_i|/D_i and a
+ * method of order q the next step is 0.9 h r^(-1/q) where r > 1.1, at least h/5, and 0.9 h r^(-1/(q+1)) where r < 1/2, at most 5 h. */
+
+typedef struct {
+    const explicit_work *work;
+} control_state;
+
+static void *control_alloc(void) { return nh_alloc(sizeof(control_state)); }
+static void control_free(void *state) { nh_free(state); }
+
+static int control_init(void *state, double absolute, double relative, double of_state, double of_rate)
+{
+    (void)state, (void)absolute, (void)relative, (void)of_state, (void)of_rate;
+    return GSL_SUCCESS;
+}
+
+static double allowed(const explicit_work *work, size_t i, double z) { return work->rtol * fabs(z) + nh_sizes_absolute(&work->sizes, work->rtol, i); }
+
+static int control_adjust(void *state, size_t n, unsigned int order, const double *z, const double *error, const double *rate, double *h)
+{
+    static const double safety = 0.9, too_large = 1.1, small = 0.5, most = 5;
+    (void)rate;
+    double worst = 0, before = *h;
+    for (size_t i = 0; i < n; i++) {
+        double r = fabs(error[i]) / allowed(((control_state *)state)->work, i, z[i]);
+        if (!(r <= worst)) worst = r; /* also where it is not a number */
+    }
+    if (!(worst <= too_large)) {
+        *h = before * fmax(safety / pow(worst, 1.0 / order), 1 / most);
+        return GSL_ODEIV_HADJ_DEC;
+    }
+    if (!(worst < small)) return GSL_ODEIV_HADJ_NIL;
+    *h = before * fmax(1, fmin(safety / pow(fmax(worst, DBL_MIN), 1.0 / (order + 1.0)), most));
+    return GSL_ODEIV_HADJ_INC;
+}
+
+static int control_level(void *state, double z, double rate, double h, size_t i, double *level)
+{
+    (void)rate, (void)h;
+    *level = allowed(((control_state *)state)->work, i, z);
+    return GSL_SUCCESS;
+}
+
+static int control_set_driver(void *state, const gsl_odeiv2_driver *driver)
+{
+    (void)state, (void)driver;
+    return GSL_SUCCESS;
+}
+
+static const gsl_odeiv2_control_type control_type = {"sizes", control_alloc, control_init, control_adjust, control_level, control_set_driver, control_free};
+
+/* A driver with this control in place of its own. */
+static gsl_odeiv2_driver *driver_of(explicit_work *work, const gsl_odeiv2_step_type *type)
+{
+    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(&work->system, type, work->h, work->rtol, work->rtol);
+    gsl_odeiv2_control *own = driver ? gsl_odeiv2_control_alloc(&control_type) : NULL;
+    if (!own) return driver ? (gsl_odeiv2_driver_free(driver), NULL) : NULL;
+    ((control_state *)own->state)->work = work;
+    gsl_odeiv2_control_free(driver->c);
+    driver->c = own;
+    gsl_odeiv2_control_set_driver(own, driver);
+    return driver;
+}
+
+/* ---- steps ---- */
 
 static int call_rate(double t, const double *z, double *rate, void *context)
 {
@@ -71,7 +143,10 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
         }
         gsl_odeiv2_evolve_reset(work->driver->e);
     }
-    if (flag == GSL_SUCCESS) return last ? NH_STEP_LAST : NH_STEP_ON;
+    if (flag == GSL_SUCCESS) {
+        nh_sizes_follow(&work->sizes, *time, work->state);
+        return last ? NH_STEP_LAST : NH_STEP_ON;
+    }
     nh_motion_note(motion, "no step near t = %.10g is small enough, or the right-hand side cannot be evaluated there", *time);
     return NH_STEP_FAILED;
 }
@@ -106,29 +181,27 @@ static void explicit_stuck(nh_motion *motion, void *context)
 static double first_step(explicit_work *work, double span)
 {
     double size = 0, speed = 0;
+    if (work->sizes.tau > 0) return copysign(fmin(0.1 * work->sizes.tau, fabs(span)), span);
     if (!work->problem->rate(work->times[0], work->state, work->work, work->problem->context)) return 0;
     work->evaluations++;
     for (size_t i = 0; i < work->problem->size; i++) {
-        double scale = work->options->scale ? work->options->scale[i] : 1;
-        size = fmax(size, fmax(fabs(work->state[i]), scale));
+        size = fmax(size, fmax(fabs(work->state[i]), work->sizes.size[i]));
         speed = fmax(speed, fabs(work->work[i]));
     }
     double h = speed > 0 ? fmin(0.01 * size / speed, fabs(span)) : fabs(span) * 0.01;
     return span < 0 ? -h : h;
 }
 
-static bool set_up(explicit_work *work, nh_explicit_method method, double rtol)
+static bool set_up(explicit_work *work, nh_explicit_method method)
 {
     static const gsl_odeiv2_step_type *const *const types[] = {&gsl_odeiv2_step_rk8pd, &gsl_odeiv2_step_rkf45, &gsl_odeiv2_step_msadams};
     size_t size = work->problem->size;
-    double *scale = nh_alloc_array(size, sizeof *scale);
-    for (size_t i = 0; i < size; i++) scale[i] = work->options->scale ? work->options->scale[i] : 1;
     gsl_set_error_handler_off();
+    if (!nh_sizes_open(&work->sizes, work->problem, work->options, work->state, work->count, work->times)) return false;
+    work->evaluations += work->sizes.evaluations;
     work->h = first_step(work, work->times[work->count - 1] - work->times[0]);
-    /* atol_i = rtol * scale_i; GSL adds the relative part itself */
-    if (work->h != 0) work->driver = gsl_odeiv2_driver_alloc_scaled_new(&work->system, *types[method], work->h, rtol, rtol, 1, 0, scale);
+    if (work->h != 0) work->driver = driver_of(work, *types[method]);
     if (work->driver && method != NH_MSADAMS) work->between = gsl_odeiv2_step_alloc(*types[method], size);
-    nh_free(scale);
     return work->driver != NULL;
 }
 
@@ -145,7 +218,8 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
     work.work = work.old + size;
     memcpy(work.state, initial, size * sizeof *initial);
     nh_guards_begin(&work.guards, problem, options, initial, count, times);
-    bool good = set_up(&work, method, nh_motion_rtol(motion, options));
+    work.rtol = nh_motion_rtol(motion, options);
+    bool good = set_up(&work, method);
     if (good) {
         nh_stepper stepper = {.context = &work, .advance = explicit_advance, .state = work.between ? between_state : explicit_state, .stuck = explicit_stuck};
         nh_motion_run(motion, count, times, options, &stepper);
@@ -158,6 +232,7 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
     if (work.between) gsl_odeiv2_step_free(work.between);
     if (work.driver) gsl_odeiv2_driver_free(work.driver);
     nh_guards_clear(&work.guards);
+    nh_sizes_clear(&work.sizes);
     nh_free(work.state);
     return motion;
 }

@@ -20,6 +20,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "motion/sizes.h"
 #include "motion/sundials.h"
 
 /* CVODE and IDA refuse to work below some 10 roundings; the error stops falling well before. */
@@ -202,7 +203,8 @@ typedef struct {
     const nh_flow_problem *problem;
     nh_sundials sundials;
     void *cvode;
-    N_Vector state, tolerance;
+    N_Vector state;
+    nh_sizes sizes;
     SUNMatrix matrix;
     SUNLinearSolver solver;
     int *root;   /* per guard: +1 rising, -1 falling, 0 none */
@@ -243,6 +245,14 @@ static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix
         nh_all_finite(problem->size * problem->size, SM_DATA_D(matrix)))
         return 0;
     return not_computed(work, "Jacobian of the right-hand side", t);
+}
+
+static int call_weight(N_Vector state, N_Vector weight, void *user)
+{
+    const cvode_work *work = user;
+    for (size_t i = 0; i < work->problem->size; i++)
+        NV_DATA_S(weight)[i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
+    return nh_all_finite(work->problem->size, NV_DATA_S(weight)) ? 0 : -1;
 }
 
 static int call_guard(sunrealtype t, N_Vector state, sunrealtype *value, void *user)
@@ -299,6 +309,8 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     int flag = CVode(work->cvode, work->stop, work->state, time, CV_ONE_STEP);
     motion->evaluations = work->evaluations;
     CVodeGetNumJacEvals(work->cvode, &motion->jacobians);
+    if (flag >= 0)
+        nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
     if (flag == CV_ROOT_RETURN)
         return end_at_guard(*time, motion, work);
     if (flag >= 0)
@@ -327,25 +339,22 @@ static bool create_objects(cvode_work *work, nh_flow_method method)
     if (!nh_sundials_open(&work->sundials))
         return false;
     work->state = N_VNew_Serial(size, work->sundials.context);
-    work->tolerance = N_VNew_Serial(size, work->sundials.context);
     work->matrix = SUNDenseMatrix(size, size, work->sundials.context);
-    if (!work->state || !work->tolerance || !work->matrix)
+    if (!work->state || !work->matrix)
         return false;
     work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials.context);
     work->cvode = CVodeCreate(method == NH_BDF ? CV_BDF : CV_ADAMS, work->sundials.context);
     return work->solver && work->cvode;
 }
 
-static bool set_up(cvode_work *work, double start, const double *initial, const double *scale)
+static bool set_up(cvode_work *work, double start, const double *initial)
 {
     const nh_flow_problem *problem = work->problem;
     memcpy(NV_DATA_S(work->state), initial, problem->size * sizeof *initial);
-    for (size_t i = 0; i < problem->size; i++)
-        NV_DATA_S(work->tolerance)[i] = work->rtol * (scale ? scale[i] : 1.0);
     bool good = nh_sundials_listen(CVode, work->cvode, &work->sundials) &&
                 CVodeInit(work->cvode, call_rate, start, work->state) == CV_SUCCESS &&
                 CVodeSetUserData(work->cvode, work) == CV_SUCCESS &&
-                CVodeSVtolerances(work->cvode, work->rtol, work->tolerance) == CV_SUCCESS &&
+                CVodeWFtolerances(work->cvode, call_weight) == CV_SUCCESS &&
                 CVodeSetLinearSolver(work->cvode, work->solver, work->matrix) == CV_SUCCESS &&
                 CVodeSetStopTime(work->cvode, work->stop) == CV_SUCCESS;
     if (good && problem->jacobian)
@@ -361,10 +370,10 @@ static void destroy_objects(cvode_work *work)
     CVodeFree(&work->cvode);
     SUNLinSolFree(work->solver);
     SUNMatDestroy(work->matrix);
-    N_VDestroy(work->tolerance);
     N_VDestroy(work->state);
     nh_sundials_close(&work->sundials);
     nh_free(work->root);
+    nh_sizes_clear(&work->sizes);
 }
 
 /* The right-hand side at the start: a motion that cannot begin is an error, one that cannot go on is not. */
@@ -391,7 +400,9 @@ nh_motion *nh_flow(const nh_flow_problem *problem, const double *initial, size_t
         goto done;
     work.rtol = nh_motion_rtol(motion, options);
     work.root = nh_alloc_array(problem->guards, sizeof *work.root);
-    good = create_objects(&work, options->method) && set_up(&work, times[0], initial, options->scale);
+    good = nh_sizes_open(&work.sizes, problem, options, initial, count, times);
+    work.evaluations = work.sizes.evaluations;
+    good = good && create_objects(&work, options->method) && set_up(&work, times[0], initial);
     if (!good) {
         nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.sundials.message[0] ? work.sundials.message : "out of memory");
         goto done;

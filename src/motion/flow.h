@@ -1,7 +1,7 @@
 /* flow: motions of z' = f(t, z) by CVODE, with dense output, events and an honest account of what happened.
  *
  * The right-hand side comes as a callback, so that this module knows nothing of mechanics.  Tolerances: relative rtol and
- * absolute atol_i = rtol * scale_i (scale from the caller). Roots of guard functions are events: a chart's pivot that changes
+ * absolute atol_i, a part of the largest size that the state has had (sizes.h), or rtol * scale_i.  Roots of guard functions are events: a chart's pivot that changes
  * sign stops the integration there (integrators step over chart singularities without any failure flag).
  *
  * Reference: [Hindmarsh2005]. */
@@ -30,7 +30,8 @@ typedef struct {
 typedef struct {
     nh_flow_method method;
     double rtol;
-    const double *scale;     /* size entries; NULL: all 1 */
+    double absolute;         /* below this part of the largest size that a state has had its error is absolute: rtol * absolute * size */
+    const double *scale;     /* size entries: rtol * scale[i] instead; NULL and absolute == 0: all 1 */
     double max_steps;        /* in total; 0: the default of 1e7 */
     double seconds;          /* of wall-clock time; 0: no limit */
     bool (*cancelled)(void *context); /* polled; may be NULL */

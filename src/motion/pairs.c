@@ -11,8 +11,10 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
+#include "base/linalg.h"
 #include "base/memory.h"
 #include "motion/guards.h"
+#include "motion/sizes.h"
 #include "motion/sundials.h"
 
 /* ARKODE 6.1, which comes with SUNDIALS 7.1, has these in common for all its steppers. */
@@ -20,7 +22,7 @@
 #define set_stop_time ARKodeSetStopTime
 #define evolve        ARKodeEvolve
 #define set_user_data ARKodeSetUserData
-#define tolerances    ARKodeSVtolerances
+#define tolerances    ARKodeWFtolerances
 #define free_memory   ARKodeFree
 #define set_most_fails ARKodeSetMaxErrTestFails
 #define reset         ARKodeReset
@@ -35,7 +37,7 @@
 #define set_stop_time ARKStepSetStopTime
 #define evolve        ARKStepEvolve
 #define set_user_data ARKStepSetUserData
-#define tolerances    ARKStepSVtolerances
+#define tolerances    ARKStepWFtolerances
 #define free_memory   ARKStepFree
 #define set_most_fails ARKStepSetMaxErrTestFails
 #define reset         ARKStepReset
@@ -55,7 +57,9 @@ typedef struct {
     const nh_flow_problem *problem;
     nh_sundials sundials;
     void *arkode;
-    N_Vector state, tolerance;
+    N_Vector state;
+    nh_sizes sizes;
+    double rtol;
     SUNMatrix matrix; /* of implicit steps */
     SUNLinearSolver solver;
     const double *times;
@@ -72,6 +76,14 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
     bool good = work->problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), work->problem->context);
     for (size_t i = 0; i < work->problem->size && good; i++) good = isfinite(NV_DATA_S(rate)[i]);
     return good ? 0 : 1; /* "recoverable": a smaller step is tried */
+}
+
+static int call_weight(N_Vector state, N_Vector weight, void *user)
+{
+    const pairs_work *work = user;
+    for (size_t i = 0; i < work->problem->size; i++)
+        NV_DATA_S(weight)[i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
+    return nh_all_finite(work->problem->size, NV_DATA_S(weight)) ? 0 : -1;
 }
 
 /* SUNDIALS' dense matrices are stored by columns without gaps, as flow.h wants them. */
@@ -104,6 +116,7 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
         flag = reset(work->arkode, before, work->state);
         if (flag >= 0) return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
     }
+    if (flag >= 0) nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
     if (flag >= 0) return *time == work->times[work->count - 1] ? NH_STEP_LAST : NH_STEP_ON;
     nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", motion->end_time, work->sundials.message);
     return NH_STEP_FAILED;
@@ -136,23 +149,21 @@ static bool set_up_implicit(pairs_work *work)
            solve_by(work->arkode, work->solver, work->matrix) == ARK_SUCCESS && (!work->problem->jacobian || set_jacobian(work->arkode, call_jacobian) == ARK_SUCCESS) && jacobian_of_every(work->arkode, 1) == ARK_SUCCESS;
 }
 
-static bool set_up(pairs_work *work, nh_pairs_method method, const double *initial, double rtol, const double *scale)
+static bool set_up(pairs_work *work, nh_pairs_method method, const double *initial, const nh_flow_options *options)
 {
     static const ARKODE_ERKTableID tables[] = {ARKODE_DORMAND_PRINCE_7_4_5, ARKODE_VERNER_8_5_6, ARKODE_FEHLBERG_13_7_8};
     bool implicit = method == NH_ESDIRK_5;
     sunindextype size = (sunindextype)work->problem->size;
     if (!nh_sundials_open(&work->sundials)) return false;
     work->state = N_VNew_Serial(size, work->sundials.context);
-    work->tolerance = N_VNew_Serial(size, work->sundials.context);
-    if (!work->state || !work->tolerance) return false;
-    for (sunindextype i = 0; i < size; i++) {
-        NV_DATA_S(work->state)[i] = initial[i];
-        NV_DATA_S(work->tolerance)[i] = rtol * (scale ? scale[i] : 1);
-    }
+    if (!work->state) return false;
+    memcpy(NV_DATA_S(work->state), initial, work->problem->size * sizeof *initial);
+    if (!nh_sizes_open(&work->sizes, work->problem, options, initial, work->count, work->times)) return false;
+    work->evaluations += work->sizes.evaluations;
     work->arkode = ARKStepCreate(implicit ? NULL : call_rate, implicit ? call_rate : NULL, work->times[0], work->state, work->sundials.context);
     return work->arkode && nh_sundials_listen(ARKStep, work->arkode, &work->sundials) && set_user_data(work->arkode, work) == ARK_SUCCESS &&
            (implicit ? set_up_implicit(work) : ARKStepSetTableNum(work->arkode, ARKODE_DIRK_NONE, tables[method]) == ARK_SUCCESS) &&
-           set_most_fails(work->arkode, most_fails) == ARK_SUCCESS && tolerances(work->arkode, rtol, work->tolerance) == ARK_SUCCESS;
+           set_most_fails(work->arkode, most_fails) == ARK_SUCCESS && tolerances(work->arkode, call_weight) == ARK_SUCCESS;
 }
 
 nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
@@ -162,7 +173,8 @@ nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, cons
     if (!motion || motion->complete) return motion;
     pairs_work work = {.problem = problem, .times = times, .count = count, .old = nh_alloc_array(problem->size + 1, sizeof *work.old)};
     nh_guards_begin(&work.guards, problem, options, initial, count, times);
-    if (set_up(&work, method, initial, nh_motion_rtol(motion, options), options->scale)) {
+    work.rtol = nh_motion_rtol(motion, options);
+    if (set_up(&work, method, initial, options)) {
         nh_stepper stepper = {.context = &work, .advance = pairs_advance, .state = pairs_state, .stuck = pairs_stuck};
         nh_motion_run(motion, count, times, options, &stepper);
     } else {
@@ -174,9 +186,9 @@ nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, cons
     if (work.solver) SUNLinSolFree(work.solver);
     if (work.matrix) SUNMatDestroy(work.matrix);
     if (work.state) N_VDestroy(work.state);
-    if (work.tolerance) N_VDestroy(work.tolerance);
     nh_sundials_close(&work.sundials);
     nh_guards_clear(&work.guards);
+    nh_sizes_clear(&work.sizes);
     nh_free(work.old);
     return motion;
 }

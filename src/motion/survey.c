@@ -66,7 +66,7 @@ static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velo
 static double error_of(const survey *s, const nh_trajectory *t)
 {
     size_t which;
-    return nh_accuracy_difference(s->piece.count, s->piece.n, s->reference->value, t->value, s->options.absolute, &which);
+    return nh_accuracy_difference(s->piece.count, s->piece.n, s->reference->value, t->value, s->terms->floor, &which);
 }
 
 /* One method in some velocities, at the setting that its first run asks for. */

@@ -17,6 +17,7 @@ typedef struct {
     double seconds;        /* that it takes for the whole motion */
     double budget;         /* seconds, all that is needed included */
     bool plain;            /* only the model's own velocities and methods with error control */
+    const double *floor;   /* least scales of what is wanted (nh_accuracy_difference) */
 } nh_survey_terms;
 
 typedef struct {

@@ -2,6 +2,7 @@
  * for and what it returns are rows of its tableau. */
 #include "motion/tableau.h"
 
+#include <math.h>
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
@@ -30,4 +31,33 @@ bool nh_tableau_rk8pd(nh_tableau *tableau)
     int flag = gsl_odeiv2_step_apply(step, 0, 1, tableau->b, tableau->e, NULL, NULL, &system);
     gsl_odeiv2_step_free(step);
     return flag == GSL_SUCCESS;
+}
+
+/* ---- steps of many motions at once ---- */
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define CLONES
+#endif
+
+CLONES void nh_tableau_add(size_t count, int stages, const double *weight, double h, const double *k, size_t stride, const double *z, double *to)
+{
+    memcpy(to, z, count * sizeof *to);
+    for (int j = 0; j < stages; j++) {
+        double x = h * weight[j];
+        if (x == 0) continue;
+        const double *from = k + (size_t)j * stride;
+        for (size_t i = 0; i < count; i++) to[i] += x * from[i];
+    }
+}
+
+CLONES void nh_tableau_error(size_t kept, size_t lanes, double rtol, const double *atol, const double *error, const double *z, const double *next, double *lane)
+{
+    for (size_t l = 0; l < lanes; l++) lane[l] = 0;
+    for (size_t i = 0; i < kept; i++)
+        for (size_t l = 0; l < lanes; l++) {
+            double x = fabs(z[i * lanes + l]), y = fabs(next[i * lanes + l]), e = fabs(error[i * lanes + l]) / (atol[i * lanes + l] + rtol * (x > y ? x : y));
+            lane[l] = e > lane[l] || e != e ? e : lane[l];
+        }
 }

@@ -1,5 +1,6 @@
 #include "motion/trajectory.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -165,10 +166,10 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, 
     nh_bordered_hasten(b, nh_dynamics_patience(dynamics));
     nh_flow_problem problem = nh_bordered_flow(b);
     nh_flow_options options = *given;
-    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = nh_alloc_array(2 * m, sizeof *scale);
+    double *y = nh_alloc_array(2 * m, sizeof *y), *scale = given->scale ? nh_alloc_array(2 * m, sizeof *scale) : NULL;
     nh_motion first = {.count = 1, .size = m + o->n, .time = (double *)times, .state = (double *)z0};
     memcpy(y, z0, m * sizeof *y);
-    for (size_t s = 0; s < 2 * m; s++) scale[s] = given->scale[0];
+    for (size_t s = 0; s < 2 * m && scale; s++) scale[s] = given->scale[0];
     options.scale = scale;
     bool good = nh_along(dynamics, &first, m, o->rho, y + m);
     nh_motion *motion = good ? nh_method_flow(method ? method : nh_method_find(usual), &problem, y, count, times, &options, error) : NULL;
@@ -339,10 +340,8 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     nh_trajectory *out = nh_alloc(sizeof *out);
     *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
     job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
-    double *scale = nh_alloc_array(size + 1, sizeof *scale);
     nh_dynamics_hasten(j.dynamics, q->options->compile);
-    for (size_t i = 0; i < size; i++) scale[i] = q->options->absolute;
-    j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .scale = scale, .max_steps = q->options->steps};
+    j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .absolute = fmax(q->options->absolute, DBL_MIN), .max_steps = q->options->steps};
     j.how.step = q->step;
     j.how.cancelled = late;
     j.how.cancel_context = &j.deadline;
@@ -355,7 +354,6 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
         if (!(scene && in_scene(&j, &ignored)) && !(other && in_other_velocities(&j, &ignored))) in_all_states(&j, error);
     }
     nh_dynamics_free(j.dynamics);
-    nh_free(scale);
     nh_free(j.z0);
     if (out->motion) return out;
     nh_trajectory_free(out);

@@ -21,6 +21,7 @@ typedef struct {
     const nh_options *options; /* tolerance, absolute, steps, compile */
     size_t n;
     const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
+    const bool *by_terms;     /* n, or NULL: their errors are relative to the largest of their terms, with an accuracy (accuracy.h) */
     bool smallest;            /* integrate only what they need */
     size_t currents;          /* of the chart, known to be conserved: they may make states superfluous there */
     const nh_ex *current;

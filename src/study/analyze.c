@@ -202,7 +202,7 @@ static const nh_watch *list_tracks(nh_result *r)
     nh_tracks_add_drawing(t, r->analysis);
     nh_tracks_add_watches(t, r->analysis);
     nh_watch *watch = nh_arena_alloc(r->arena, (t->count + 1) * sizeof *watch);
-    for (size_t i = 0; i < t->count; i++) watch[i] = (nh_watch){t->track[i].name, t->track[i].value, t->track[i].kind == NH_TRACK_WATCH};
+    for (size_t i = 0; i < t->count; i++) watch[i] = (nh_watch){t->track[i].name, t->track[i].value, t->track[i].kind == NH_TRACK_WATCH, t->track[i].kind == NH_TRACK_CURRENT || t->track[i].kind == NH_TRACK_ENERGY};
     return watch;
 }
 

@@ -279,7 +279,9 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     options.tolerance = s->tolerance;
     nh_ex *e = nh_arena_alloc(s->arena, (s->columns.count + 1) * sizeof *e);
     for (size_t k = 0; k < s->columns.count; k++) e[k] = s->columns.track[k].value;
-    nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns.count, .e = e,
+    bool *by_terms = nh_arena_alloc(s->arena, (s->columns.count + 1) * sizeof *by_terms);
+    for (size_t k = 0; k < s->columns.count; k++) by_terms[k] = s->columns.track[k].kind == NH_TRACK_CURRENT || s->columns.track[k].kind == NH_TRACK_ENERGY;
+    nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns.count, .e = e, .by_terms = by_terms,
                                      .smallest = q->watch || q->scene, .project = q->project};
     nh_ex *known;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
