@@ -5,26 +5,37 @@
 
 enum { most_nested = 6 };
 
-static void put(nh_walls *w, nh_ex e)
+static void put(nh_walls *w, nh_ex e, bool edge)
 {
-    for (size_t i = 0; i < w->count; i++)
-        if (w->e[i] == e) return;
-    if (w->count < NH_MOST_WALLS) w->e[w->count++] = e;
+    for (size_t i = 0; i < w->count; i++) {
+        if (w->e[i] != e) continue;
+        w->edge[i] = w->edge[i] && edge;
+        return;
+    }
+    if (w->count == NH_MOST_WALLS) return;
+    w->e[w->count] = e;
+    w->edge[w->count++] = edge;
 }
 
-/* The factors of something that vanishes on a wall: of a product all bases, since a quotient changes its sign at a pole, too. */
-static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, int depth)
+static bool is_even(const nh_dag *d, nh_ex exponent)
+{
+    nh_num x = nh_kind_of(d, exponent) == NH_NUMBER ? nh_number_of(d, exponent) : nh_num_int(1);
+    return x.q == 1 && x.p % 2 == 0;
+}
+
+/* The factors of something that vanishes on a wall: of a product all bases, since a quotient changes its sign at a pole, too.  `edge`: under a root. */
+static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
 {
     nh_kind kind = nh_kind_of(d, e);
     if (kind == NH_NUMBER || depth > most_nested) return;
     if (kind == NH_FUNCTION && nh_function_of(d, e) == NH_ABS) {
-        put_factors(w, d, nh_child(d, e, 0), depth + 1);
+        put_factors(w, d, nh_child(d, e, 0), false, depth + 1);
     } else if (kind == NH_PRODUCT) {
-        for (size_t i = 0; i < nh_arity(d, e); i++) put_factors(w, d, nh_child(d, e, i), depth + 1);
+        for (size_t i = 0; i < nh_arity(d, e); i++) put_factors(w, d, nh_child(d, e, i), edge && !is_even(d, nh_exponent_of(d, e, i)), depth + 1);
     } else if (kind != NH_FUNCTION || nh_function_of(d, e) != NH_EXP) {
         nh_ex factored = kind == NH_SUM && depth == 0 ? nh_simplify_short(d, e, 0) : e;
-        if (factored != e) put_factors(w, d, factored, depth + 1);
-        else put(w, e);
+        if (factored != e) put_factors(w, d, factored, edge, depth + 1);
+        else put(w, e, edge);
     }
 }
 
@@ -33,10 +44,10 @@ static void put_poles(nh_walls *w, nh_dag *d, nh_ex v, int depth)
 {
     nh_kind kind = nh_kind_of(d, v);
     if (depth > most_nested || kind == NH_NUMBER || kind == NH_SYMBOL) return;
-    if (kind == NH_FUNCTION && nh_function_of(d, v) == NH_TAN) put_factors(w, d, nh_call(d, NH_COS, nh_child(d, v, 0)), 0);
+    if (kind == NH_FUNCTION && nh_function_of(d, v) == NH_TAN) put_factors(w, d, nh_call(d, NH_COS, nh_child(d, v, 0)), false, 0);
     for (size_t i = 0; i < nh_arity(d, v); i++) {
         nh_ex x = kind == NH_PRODUCT ? nh_exponent_of(d, v, i) : nh_int(d, 1), base = nh_child(d, v, i);
-        if (nh_kind_of(d, x) != NH_NUMBER || nh_num_value(nh_number_of(d, x)) < 0) put_factors(w, d, base, 0);
+        if (nh_kind_of(d, x) != NH_NUMBER || nh_num_value(nh_number_of(d, x)) < 0) put_factors(w, d, base, false, 0);
         if (kind != NH_FUNCTION || nh_function_of(d, v) != NH_TAN) put_poles(w, d, base, depth + 1);
     }
 }
@@ -45,10 +56,10 @@ static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
 {
     nh_ex v = nh_arity(d, e) ? nh_child(d, e, 0) : 0, one = nh_int(d, 1);
     switch (nh_function_of(d, e)) {
-    case NH_ABS: case NH_SIGN: case NH_ATAN2: put_factors(w, d, v, 0); break;
+    case NH_ABS: case NH_SIGN: case NH_ATAN2: put_factors(w, d, v, false, 0); break;
     case NH_ATAN: put_poles(w, d, v, 0); break;
-    case NH_ASIN: case NH_ACOS: put_factors(w, d, nh_sub(d, one, nh_powi(d, v, 2)), 0); break;
-    case NH_ACOSH: put_factors(w, d, nh_sub(d, v, one), 0); break;
+    case NH_ASIN: case NH_ACOS: put_factors(w, d, nh_sub(d, one, nh_powi(d, v, 2)), false, 0); break;
+    case NH_ACOSH: put_factors(w, d, nh_sub(d, v, one), false, 0); break;
     default: break;
     }
 }
@@ -69,7 +80,7 @@ void nh_walls_add(nh_walls *w, nh_dag *d, nh_ex top)
             nh_ex x = nh_exponent_of(d, e, i);
             wanted[x] = true;
             bool whole = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1;
-            if (!whole) put_factors(w, d, nh_child(d, e, i), 0);
+            if (!whole) put_factors(w, d, nh_child(d, e, i), true, 0);
         }
     }
     nh_free(wanted);

@@ -17,7 +17,8 @@ enum { NH_MOST_WALLS = 24 };
 
 typedef struct {
     size_t count;
-    nh_ex e[NH_MOST_WALLS]; /* expressions that are zero on a wall; each once */
+    nh_ex e[NH_MOST_WALLS];     /* expressions that are zero on a wall; each once */
+    bool edge[NH_MOST_WALLS];   /* the base of a root, and no square: where it changes its sign the root ends */
 } nh_walls;
 
 /* Add the walls of e; more than fit are left out. */

@@ -31,7 +31,7 @@ static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, 
     nh_walls all = terrain->walls, own = {0};
     uint64_t state = (uint64_t)options->seed + 2 * seed_offset;
     nh_walls_add(&all, o->dag, phi);
-    for (size_t i = terrain->walls.count; i < all.count; i++) own.e[own.count++] = all.e[i];
+    for (size_t i = terrain->walls.count; i < all.count; i++) own.e[own.count++] = all.e[i]; /* ends of roots are not crossed, and are found out */
     return nh_crossings_find(o, &own, &state, arena);
 }
 

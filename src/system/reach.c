@@ -87,6 +87,6 @@ void nh_reach_walls(nh_system *s)
     if (walls.count) s->reach = nh_arena_alloc(s->arena, walls.count * sizeof *s->reach);
     for (size_t i = 0; i < walls.count; i++) {
         nh_ex symbol;
-        if (only_symbol(s, walls.e[i], &symbol)) reach(s, walls.e[i], symbol);
+        if (!walls.edge[i] && only_symbol(s, walls.e[i], &symbol)) reach(s, walls.e[i], symbol);
     }
 }
