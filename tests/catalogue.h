@@ -96,6 +96,27 @@ static void check_file(const nh_system *y, const multiplier_motion *motion, row 
     }
 }
 
+/* What is called almost conserved is slow, and the slowest come first: the root mean square of its rate over that of its variation, at points of this test. */
+static void judge_almosts(const nh_result *r, const nh_points *generic, row *o)
+{
+    static const double other_points = 3;
+    double last = 0, unit = r->pace > 0 ? r->pace : 1;
+    for (size_t k = 0; k < r->almosts; k++) {
+        nh_ex pair[2] = {r->almost[k].phi, nh_model_gamma(r->model, r->almost[k].phi)};
+        double *value = nh_alloc_array(2 * generic->count, sizeof *value), mean = 0, variation = 0, rate = 0;
+        nh_points_evaluate(generic, r->model, 2, pair, value);
+        for (size_t p = 0; p < generic->count; p++) mean += value[p] / (double)generic->count;
+        for (size_t p = 0; p < generic->count; p++) {
+            variation += pow(value[p] - mean, 2);
+            rate += pow(value[generic->count + p], 2);
+        }
+        nh_free(value);
+        bool slow = sqrt(rate / variation) <= other_points * 1e-2 * unit && r->almost[k].rate >= last;
+        if (!slow) o->wrong++, note(o, "not slow", "almost conserved");
+        last = r->almost[k].rate;
+    }
+}
+
 static void compare(nh_result *r, row *o)
 {
     nh_error error;
@@ -107,6 +128,7 @@ static void compare(nh_result *r, row *o)
     o->seconds = r->timing.total;
     multiplier_motion *motion = multiplier_motion_create(r->model, generic, bits);
     judge(r, motion, o);
+    judge_almosts(r, generic, o);
     check_file(r->system, motion, o);
     multiplier_motion_free(motion);
     for (size_t k = 0; k < r->system->currents; k++) {

@@ -57,6 +57,14 @@ static const unseen UNSEEN[] = {
      "lagrangian: m/2*(x'^2 + y'^2) - k/2*(x^2 + y^2)\n"
      "known: {currents: [{name: turning, expr: \"x*y' - y*x'\"}, {name: phase, expr: \"x*cos(sqrt(k/m)*t) - x'*sqrt(m/k)*sin(sqrt(k/m)*t)\"}]}\n",
      4},
+    /* combinations with a number for a frequency cancel to 10 digits: they were counted */
+    {"Smorodinsky and Winternitz with couplings far apart",
+     "parameters: [{name: k, value: 1}, {name: a, value: 1e-6}, {name: b, value: 1e6}]\n"
+     "coordinates: [x, y]\n"
+     "lagrangian: (x'^2 + y'^2)/2 - k/2*(x^2 + y^2) - a/x^2 - b/y^2\n"
+     "domain: {x: [0.5, 1.5], y: [0.5, 1.5]}\n"
+     "known: {currents: [{name: one, expr: \"y'^2/2 + k/2*y^2 + b/y^2\"}, {name: breath, expr: \"(y'^2/2 + b/y^2 - k/2*y^2)*cos(2*sqrt(k)*t) + sqrt(k)*y*y'*sin(2*sqrt(k)*t)\"}]}\n",
+     3},
     /* driven by forces that are no part of the Lagrangian */
     {"cart with a pendulum and a motor",
      "parameters: {M: 2, m: 0.5, l: 0.7, g: 9.81, F: 0.4, w: 2}\n"

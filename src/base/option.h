@@ -27,6 +27,7 @@
     X(trivial,          1e-11,   0,      1,     real,  "",         "a column that varies by less than this part of its size is constant")    \
     X(split,            1e-4,    0,      1,     real,  "",         "pencil eigenvalues below this are split Jordan blocks at zero")          \
     X(heldout,          1e-8,    0,      1,     real,  "",         "largest relative residual of a current on points not used in the fit")   \
+    X(slow,             1e-2,    0,      1e6,   real,  "",         "almost conserved: what changes by less than this part of its variation in a unit of time") \
     X(support,          3e-7,    0,      1,     real,  "",         "coefficients below this part of the largest are tried as zero")          \
     X(sure,             1e-2,    0,      1,     real,  "",         "gradient fraction above which a current is independent")                 \
     X(doubt,            1e-6,    0,      1,     real,  "",         "gradient fraction below which a current is dependent")                   \

@@ -279,13 +279,13 @@ static void almost(nh_html_writer *w)
 {
     const nh_result *r = w->r;
     if (!r->almosts) return;
-    nh_html_add(w, "<h3>Almost conserved, not currents</h3>\n<p>In double precision these look constant. With more digits they are not.</p>\n");
+    nh_html_add(w, "<h3>Almost conserved, not currents</h3>\n<p>In double precision these look constant. With more digits they are not, or nothing certifies that they are. Slowest first; they are not counted.</p>\n");
     for (size_t k = 0; k < r->almosts; k++) {
         nh_html_add(w, "<article class=\"card almost\">\n");
         nh_html_formula(w, "", r->almost[k].phi);
         nh_html_add(w, "<p>Its rate cancels to ");
         nh_html_number(w, floor(r->almost[k].digits), 6);
-        nh_html_add(w, " digits and no further; it changes by ");
+        nh_html_add(w, " digits; it changes by ");
         nh_html_number(w, r->almost[k].rate, 2);
         nh_html_add(w, " of its own variation per unit of time.</p>\n</article>\n");
     }

@@ -243,7 +243,7 @@ static void almost(nh_summary_writer *w)
     for (size_t k = 0; k < r->almosts && k < most; k++) {
         const nh_almost *a = &r->almost[k];
         bool brief = nh_complexity(r->model->dag, a->phi) <= longest;
-        nh_text_addf(w->out, "\n  almost conserved, not a current: its rate cancels to %.0f digits and no further; it changes by %.0e of its own variation per unit of time%s\n",
+        nh_text_addf(w->out, "\n  almost conserved, not a current: its rate cancels to %.0f digits; it changes by %.0e of its own variation per unit of time%s\n",
                      a->digits, a->rate, brief ? "" : " (expression in the JSON)");
         if (brief) formula(w, 8, "", a->phi);
     }

@@ -257,7 +257,7 @@ static void almost(nh_tex_writer *w)
         nh_tex_formula(w, "", r->almost[k].phi);
         nh_tex_add(w, "Its rate cancels to ");
         nh_tex_number(w, floor(r->almost[k].digits), 6);
-        nh_tex_add(w, " digits and no further; it changes by ");
+        nh_tex_add(w, " digits; it changes by ");
         nh_tex_number(w, r->almost[k].rate, 2);
         nh_tex_add(w, " of its own variation per unit of time.\n");
     }

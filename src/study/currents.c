@@ -107,33 +107,42 @@ static double relative_rate(const nh_model *o, const nh_points *points, nh_ex ph
     return variation > 0 && isfinite(rate) ? sqrt(rate / variation) : NAN;
 }
 
-/* Decided not to be exact, although doubles could not tell: worth a word, as what it is. */
-static void note_almost(nh_workbench *b, const nh_found *f)
+/* No current, or none for certain, although doubles could not tell: worth a word when it is slow, as what it is.  The slowest come first. */
+static void note_almost(nh_workbench *b, const nh_found *f, double digits)
 {
     nh_result *r = b->result;
-    double rate = relative_rate(r->model, b->generic, f->phi);
-    nh_found copy = *f;
-    if (r->almosts == NH_MOST_ALMOST || !isfinite(rate) || f->refined < least_almost) return;
-    nh_current_in_velocities(b, &copy);
+    double rate = relative_rate(r->model, b->generic, f->phi), unit = r->pace > 0 ? r->pace : 1;
+    if (!(rate <= r->options.slow * unit) || digits < least_almost) return;
     if (!r->almost) r->almost = nh_arena_alloc(r->arena, NH_MOST_ALMOST * sizeof *r->almost);
-    r->almost[r->almosts++] = (nh_almost){f->phi, copy.in_velocities, f->refined, rate};
+    size_t at = r->almosts;
+    while (at > 0 && r->almost[at - 1].rate > rate) at--;
+    if (at == NH_MOST_ALMOST) return;
+    if (r->almosts < NH_MOST_ALMOST) r->almosts++;
+    for (size_t k = r->almosts - 1; k > at; k--) r->almost[k] = r->almost[k - 1];
+    nh_found copy = *f;
+    nh_current_in_velocities(b, &copy);
+    r->almost[at] = (nh_almost){f->phi, copy.in_velocities, digits, rate};
 }
 
 /* A candidate that fails on held-out points, is refuted exactly or does not cancel with many digits is no current: it is left out, with a word
- * about it. */
+ * about it.  Nor is what has no certificate, although nothing speaks against it: it remains an open question. */
 static bool keeps(nh_workbench *b, const nh_found *f, bool certain)
 {
     nh_result *r = b->result;
     if (nh_coefficients_certain(f, &r->options)) return true;
     if (nh_coefficients_refuted(f, &r->options)) {
-        note_almost(b, f);
+        note_almost(b, f, f->refined);
         return false;
     }
     if (!certain) { /* it was only likely: what cancels as far as doubles go remains an open question, the rest is answered */
         r->open += f->proof.digits >= open_digits;
         return false;
     }
-    if (f->heldout <= r->options.heldout && !(f->exact && f->proof.refuted)) return true; /* fitted coefficients never cancel further */
+    if (f->heldout <= r->options.heldout && !(f->exact && f->proof.refuted)) { /* fitted coefficients never cancel further */
+        r->open++;
+        note_almost(b, f, f->proof.digits);
+        return false;
+    }
     nh_result_warn(r, "a combination that fits the samples to %.1e is not conserved (held-out residual %.1e, its rate cancels to %.0f digits): left out",
                    f->quotient, f->heldout, f->proof.digits);
     return false;
