@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "names.h"
+#include "system/units.h"
 
 /* Every key of FORMAT.md; numbers that are not found by accident. */
 static const char ALL[] =
@@ -321,4 +322,25 @@ Test(system, the_systems_that_ship_are_read)
     cr_expect_eq(s->quasi, 2u);
     cr_expect_geq(s->currents, 3u);
     nh_system_free(s);
+}
+
+/* Units of the SI with prefixes, products, quotients and powers; what is none is pointed at. */
+Test(system, units)
+{
+    static const char *const good[] = {"", "1", "m", "kg m^2", "kg*m^2", "N/m", "1/s", "1/s^2", "rad/s", "kg/(m s)", "m^(1/2)", "m^-1", "kg\u00b7m\u00b2", "s\u207b\u00b9", "\u00b5m", "mmol", "deg", "\u00b0",
+                                       "N m s/rad", "GHz", "eV", "(kg m)/s^2", "%"};
+    static const struct {
+        const char *text, *nearest;
+        size_t offset, length;
+    } bad[] = {{"banana", NULL, 0, 6}, {"kg metre", "m", 3, 5}, {"N/", NULL, 2, 1}, {"kg^x", NULL, 3, 1}, {"(m", NULL, 0, 1}, {"m)", NULL, 1, 1}, {"kkg", "kg", 0, 3}, {"2 m", NULL, 0, 1}, {"m^2^2", NULL, 3, 1}, {"kmin", "min", 0, 4}};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        nh_unit_fault fault = {0};
+        cr_expect(nh_is_unit(good[i], &fault), "`%s` is refused at %zu", good[i], fault.offset);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        nh_unit_fault fault = {0};
+        cr_expect_not(nh_is_unit(bad[i].text, &fault), "`%s`", bad[i].text);
+        cr_expect(fault.offset == bad[i].offset && fault.length == bad[i].length, "`%s`: %zu, %zu", bad[i].text, fault.offset, fault.length);
+        cr_expect(bad[i].nearest ? fault.nearest && !strcmp(fault.nearest, bad[i].nearest) : !fault.nearest, "`%s`: %s", bad[i].text, fault.nearest ? fault.nearest : "nothing");
+    }
 }

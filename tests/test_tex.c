@@ -207,7 +207,7 @@ Test(tex, a_hostile_file_is_set_as_text)
 {
     place p = place_make();
     write_here(&p, "h.yaml", "name: h\ntitle: \"\\\\input{/etc/passwd} 100% $x^2$ #1 & ~ {\\\\end{document} \\\"quoted\\\" a|b <c> \u4e2d \u0105 \u00e9\u03c9 -- ''\"\n"
-                             "source: \"\\\\immediate\\\\write18{touch pwned} ^^M\"\nparameters:\n  - {name: m, value: 1e-300, unit: \"k_g^2\", doc: \"% }{\"}\n"
+                             "source: \"\\\\immediate\\\\write18{touch pwned} ^^M\"\nparameters:\n  - {name: m, value: 1e-300, unit: kg^2, doc: \"% }{\"}\n"
                              "coordinates:\n  - {name: x_1_long_name, type: length}\nlagrangian: x_1_long_name'^2\n");
     finished f = run_expecting(&p, "analyze h.yaml --quiet --tex a.tex", 0);
     finished_clear(&f);

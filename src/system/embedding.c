@@ -10,6 +10,7 @@
 #include "expr/normal.h"
 #include "expr/solve.h"
 #include "system/embedding_internal.h"
+#include "system/levels.h"
 #include "system/sample.h"
 
 const double nh_chart_least_pivot = 0.02;
@@ -280,8 +281,11 @@ nh_chart *nh_chart_create(nh_system *system, nh_chart_choice choice, uint64_t se
         nh_error_hint(error, "add a `chart:` to the system file");
         return NULL;
     }
-    if (system->quasi && choice != NH_CHART_COORDINATES) return quasi_chart(system, seed, error);
-    return nh_embedding_coordinates(system, seed, error);
+    bool quasi = system->quasi && choice != NH_CHART_COORDINATES;
+    nh_chart *chart = quasi ? quasi_chart(system, seed, error) : nh_embedding_coordinates(system, seed, error);
+    if (!chart || nh_levels_check(system, seed, error)) return chart;
+    nh_chart_free(chart);
+    return NULL;
 }
 
 /* ---- back from coordinate velocities ---- */

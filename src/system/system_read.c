@@ -7,6 +7,7 @@
 #include "expr/parse.h"
 #include "system/reach.h"
 #include "system/system_internal.h"
+#include "system/units.h"
 
 typedef nh_system_reader reader;
 
@@ -57,6 +58,17 @@ bool nh_system_new_name(reader *r, const nh_deck_node *node)
     return true;
 }
 
+/* The unit of a parameter or coordinate; absent: none. */
+static bool read_unit(reader *r, const nh_deck_node *item, const char **out)
+{
+    nh_unit_fault fault;
+    if (!nh_system_text_of(r, item, "unit", "", out)) return false;
+    if (nh_is_unit(*out, &fault)) return true;
+    nh_deck_fail(r->deck, nh_deck_get(item, "unit"), fault.offset, r->error, "`%.*s` is no unit that is known here", (int)fault.length, *out + fault.offset);
+    if (fault.nearest) return nh_error_hint(r->error, "did you mean `%s`?", fault.nearest);
+    return nh_error_hint(r->error, "units are those of the SI and what is used with it, as in m, kg m^2, N/m, rad/s, 1/s, deg; anything else can stand under `doc`");
+}
+
 static bool read_parameters(reader *r)
 {
     static const char *const keys[] = {"name", "value", "unit", "doc"};
@@ -75,7 +87,7 @@ static bool read_parameters(reader *r)
         if (!nh_system_new_name(r, name)) return false;
         nh_parameter *p = &s->parameter[i];
         *p = (nh_parameter){.name = name->text};
-        if (!nh_system_text_of(r, item, "unit", "", &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc)) return false;
+        if (!read_unit(r, item, &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc)) return false;
         if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
         if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error)) return false;
         p->symbol = nh_symbol(s->dag, p->name);
@@ -128,7 +140,7 @@ static bool read_coordinates(reader *r)
             name = nh_deck_get(item, "name");
             if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this coordinate has no `name`");
             if (!read_type(r, nh_deck_get(item, "type"), &c->type)) return false;
-            if (!nh_system_text_of(r, item, "doc", "", &c->doc) || !nh_system_text_of(r, item, "unit", "", &c->unit)) return false;
+            if (!nh_system_text_of(r, item, "doc", "", &c->doc) || !read_unit(r, item, &c->unit)) return false;
         }
         if (!nh_system_new_name(r, name)) return false;
         c->name = name->text;
