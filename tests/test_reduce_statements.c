@@ -109,7 +109,7 @@ Test(reduce_statements, momenta_without_a_closed_form)
     cr_assert_eq(t.r->momenta.count, 0);
     SAYS(TEXT(t), "Conserved momenta of the group: the 2 of stage 2; none has a closed form");
     IS_SILENT(TEXT(t), "No momentum of the group is conserved");
-    SAYS(PAGE(t), "The 2 currents of stage 2 that are linear in the velocities are conserved");
+    SAYS(PAGE(t), "The 2 of stage 2, linear in the velocities, are conserved");
     IS_SILENT(PAGE(t), "No momentum of the group is conserved");
     done(&t);
 }
@@ -217,5 +217,27 @@ Test(reduce_statements, stages_that_are_local)
     nh_reduction_c(t.r, &code);
     SAYS(nh_text_string(&code), "which acts locally.");
     nh_text_clear(&code);
+    done(&t);
+}
+
+/* A density that is a power of the determinant's numerator alone, without the pole of the angles. */
+Test(reduce_statements, densities)
+{
+    told t;
+    static const char *const dense[] = {"chaplygin_ball", "veselova", "spherical_robot", "routh_sphere"};
+    for (size_t i = 0; i < sizeof dense / sizeof *dense; i++) {
+        char path[SCRATCH];
+        snprintf(path, sizeof path, "systems/%s.yaml", dense[i]);
+        t = tell_file(path, 0, NULL);
+        SAYS(TEXT(t), "density = 1/sqrt(");
+        cr_expect(t.r->stage[0].measure.proved);
+        done(&t);
+    }
+}
+
+Test(reduce_statements, one_coordinate)
+{
+    told t = tell_file("systems/damped_oscillator.yaml", 0, NULL);
+    SAYS(TEXT(t), "\n1 coordinate, 0 constraints");
     done(&t);
 }

@@ -148,7 +148,10 @@ bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, cons
     double *column = nh_alloc_array(most_places * n * (most_factors + 1) + 1, sizeof *column), *want = column + most_places * n * most_factors;
     nh_num power[2];
     bool good = n > 0 && n <= 4 && slice->tidy && minus_theta(s, K, U, theta);
-    if (good) offer(s, nh_simplify(d, determinant(d, n, K)));
+    nh_ex det = good ? nh_simplify(d, determinant(d, n, K)) : 0;
+    if (good) offer(s, det);
+    if (good) walk(s, det);
+    if (good) walk(s, nh_simplify(d, nh_numerator(d, det)));
     for (size_t i = 0; i < n * n && good; i++) walk(s, K[i]);
     for (size_t i = 0; i < s->factors; i++)
         for (size_t j = 0; j < n; j++) slope[i * n + j] = nh_div(d, nh_diff(d, s->factor[i], slice->x[j]), s->factor[i]);

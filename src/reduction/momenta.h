@@ -31,6 +31,7 @@ typedef struct {
 
 typedef struct {
     size_t count;
+    bool untried;          /* constraints that are not solved for velocities: nothing was looked for */
     nh_momentum *momentum; /* in the kinetic's arena */
 } nh_momenta;
 

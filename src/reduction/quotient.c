@@ -233,7 +233,8 @@ void nh_quotient_momenta(nh_momenta *out, const nh_model *o, const nh_action *g,
     nh_dag *dag = o->dag;
     size_t d = g->d, places;
     *out = (nh_momenta){.momentum = nh_arena_alloc(k->arena, (d + 1) * sizeof *out->momentum)};
-    if (!d || o->chart->implicit) return;
+    out->untried = o->chart->implicit;
+    if (!d || out->untried) return;
     nh_ex *rate = nh_alloc_array(d, sizeof *rate);
     for (size_t a = 0; a < d; a++) {
         nh_ex J = nh_int(dag, 0);

@@ -223,8 +223,8 @@ static void checks(nh_html_writer *w, const nh_reduction *r, const nh_reduction_
     if (s->linear.count) {
         nh_html_add(w, "<dt>Linear</dt><dd>");
         nh_html_count(w, s->linear.count);
-        nh_html_add(w, " currents linear in the velocities");
-        if (s->linear_drift >= 0) nh_html_add(w, "; they drift by ");
+        nh_html_add(w, s->linear.count == 1 ? " current linear in the velocities" : " currents linear in the velocities");
+        if (s->linear_drift >= 0) nh_html_add(w, s->linear.count == 1 ? "; it drifts by " : "; they drift by ");
         if (s->linear_drift >= 0) nh_html_number(w, s->linear_drift, 1);
         nh_html_add(w, "</dd>\n");
     }
@@ -300,8 +300,9 @@ static void momenta(nh_html_writer *w, const nh_reduction *r)
     if (!r->momenta.count && linear < r->stages) {
         nh_html_add(w, "<p>The ");
         nh_html_count(w, r->stage[linear].linear.count);
-        nh_text_addf(w->out, " currents of stage %zu that are linear in the velocities are conserved; no momentum of the group has a closed form, among the sections that were tried.</p>\n", linear + 1);
-    } else if (!r->momenta.count) nh_html_add(w, "<p>No momentum of the group is conserved, among the sections that were tried.</p>\n");
+        nh_text_addf(w->out, " of stage %zu, linear in the velocities, %s; no momentum of the group has a closed form, among the sections that were tried.</p>\n", linear + 1, r->stage[linear].linear.count == 1 ? "is conserved" : "are conserved");
+    } else if (r->momenta.untried) nh_html_add(w, "<p>They were not looked for: the constraints are not solved for velocities.</p>\n");
+    else if (!r->momenta.count) nh_html_add(w, "<p>No momentum of the group is conserved, among the sections that were tried.</p>\n");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_html_add(w, "<article class=\"card\">\n");

@@ -215,10 +215,10 @@ static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, doubl
     nh_dag *d = r->kinetic->dag;
     if (!l->count) return;
     const char *x = nh_name_of(d, s->shown->x[0]);
-    nh_text_addf(out, "  %zu currents linear in the velocities: Y(%s)^-1 p with dY/d%s = N Y, p = (", l->count, x, x);
+    nh_text_addf(out, "  %zu current%s linear in the velocities: Y(%s)^-1 p with dY/d%s = N Y, p = (", l->count, l->count == 1 ? "" : "s", x, x);
     for (size_t a = 0; a < l->count; a++) nh_text_addf(out, "%s%s", a ? ", " : "", s->shown->momentum[l->index[a]]);
     nh_text_add(out, ")");
-    if (s->linear_drift >= 0) nh_text_addf(out, "; they drift by %.1e", s->linear_drift);
+    if (s->linear_drift >= 0) nh_text_addf(out, l->count == 1 ? "; it drifts by %.1e" : "; they drift by %.1e", s->linear_drift);
     nh_text_add(out, "\n");
     for (size_t a = 0; a < l->count * l->count; a++)
         if (!nh_is_zero(d, l->N[a])) {
@@ -275,6 +275,7 @@ static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
     size_t linear = nh_reduction_linear_stage(r);
     if (r->momenta.count) nh_text_add(out, "\nConserved momenta of the group\n");
     else if (linear < r->stages) nh_text_addf(out, "\nConserved momenta of the group: the %zu of stage %zu; none has a closed form among the sections that were tried\n", r->stage[linear].linear.count, linear + 1);
+    else if (r->momenta.untried) nh_text_add(out, "\nMomenta of the group were not looked for: the constraints are not solved for velocities\n");
     else nh_text_add(out, "\nNo momentum of the group is conserved (among the sections that were tried)\n");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
@@ -291,7 +292,7 @@ void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
     double shown = r->options.shown;
     nh_text_addf(out, "%s   with ", r->system->title);
     for (size_t i = 0; i < r->system->parameters; i++) nh_text_addf(out, "%s%s = %.6g", i ? ", " : "", r->system->parameter[i].name, r->system->parameter[i].value);
-    nh_text_addf(out, "%s\n%zu coordinates, %zu constraint%s\n\n", r->system->parameters ? "" : "no parameters", r->kinetic->m, r->kinetic->f, r->kinetic->f == 1 ? "" : "s");
+    nh_text_addf(out, "%s\n%zu coordinate%s, %zu constraint%s\n\n", r->system->parameters ? "" : "no parameters", r->kinetic->m, r->kinetic->m == 1 ? "" : "s", r->kinetic->f, r->kinetic->f == 1 ? "" : "s");
     if (r->all) put_group(r, r->all, verbose, out);
     if (r->group != r->all) put_group(r, r->group, verbose, out);
     put_joints(r, out);

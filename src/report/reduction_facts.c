@@ -21,7 +21,7 @@ const char *nh_reduction_no_energy(const nh_reduction *r, const nh_reduction_sta
     if (s->energy_drift >= 0) return NULL;
     if (s->reduced->conservative) return "the reduced motion could not be computed";
     if (!k->autonomous) return "the equations depend on time";
-    if (r->strict) return "the potential counts as a force here";
+    if (r->strict) return "with --weak all but the kinetic energy counts as a force";
     return k->forced ? "forces act" : k->linear ? "it is not conserved" : "the constraints do work";
 }
 
