@@ -75,3 +75,44 @@ Test(parameters, momenta_of_three_bodies_hold_for_all_masses)
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "currents")) cr_expect_str_eq(text_of(item, "holds"), "all parameters", "%s", text_of(item, "expression"));
     cJSON_Delete(root);
 }
+
+/* ---- groups ---- */
+
+static const cJSON *momentum(const cJSON *root, size_t i) { return cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(root, "momenta"), (int)i); }
+
+Test(parameters, gauge_momenta_have_parameters_whatever_the_values)
+{
+    static const char *const line[] = {"reduce vertical_disk --json -", "reduce vertical_disk --json - --set r=0.6173", "reduce vertical_disk --json - --set r=2 --set J=3"};
+    for (size_t i = 0; i < 3; i++) {
+        cJSON *root = answer(line[i]);
+        const cJSON *p = momentum(root, 1);
+        cr_expect_str_eq(text_of(p, "expression"), "J*h'/r + m*(y'*sin(p) + x'*cos(p))", "%s", line[i]);
+        cr_expect_str_eq(text_of(cJSON_GetObjectItemCaseSensitive(p, "field"), "h"), "1/r");
+        cr_expect_str_eq(text_of(p, "holds"), "all parameters");
+        cJSON_Delete(root);
+    }
+}
+
+/* The masses' ratio, although both sums of distances keep their roots in the potential. */
+Test(parameters, generators_have_parameters_whatever_the_values)
+{
+    static const char *const line[] = {"reduce three_bodies --json -", "reduce three_bodies --json - --set a=1.43778 --set b=0.86224"};
+    for (size_t i = 0; i < 2; i++) {
+        cJSON *root = answer(line[i]), *group = cJSON_GetObjectItemCaseSensitive(root, "group");
+        const cJSON *generators = cJSON_GetObjectItemCaseSensitive(group, "generators"), *holds = cJSON_GetObjectItemCaseSensitive(group, "holds"), *g;
+        cr_assert_eq(cJSON_GetArraySize(generators), 4);
+        cr_expect_str_eq(text_of(cJSON_GetArrayItem(generators, 3), "y3"), "x1 + b*x2/a");
+        cJSON_ArrayForEach(g, holds) cr_expect(cJSON_IsString(g) && !strcmp(g->valuestring, "all parameters"));
+        cr_expect_eq(cJSON_GetArraySize(holds), 4);
+        cJSON_Delete(root);
+    }
+}
+
+Test(parameters, a_second_group_has_parameters)
+{
+    cJSON *root = answer("reduce routh_sphere --json -");
+    const cJSON *second = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(root, "stages"), 1), *field = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(second, "generators"), 0);
+    cr_expect_str_eq(text_of(field, "p"), "r/l");
+    cr_expect_str_eq(text_of(field, "s"), "1");
+    cJSON_Delete(root);
+}

@@ -68,7 +68,7 @@ Test(reduce, groups_and_motions_of_the_shipped_systems)
         bool short_one = !strcmp(catalogue[i].system, "snakeboard") || !strcmp(catalogue[i].system, "euler_disk"); /* axles become parallel; a sensitive motion */
         cr_expect(r->stages == 0 || short_one || r->full_reached >= r->until, "%s: the full motion is known up to %g", catalogue[i].system, r->full_reached);
         cr_expect(compared > 0 || r->stages == 0, "%s: nothing is compared", catalogue[i].system);
-        for (size_t k = 0; k < r->momenta.count; k++) cr_expect(r->momenta.momentum[k].proved, "%s: momentum %zu", catalogue[i].system, k + 1);
+        for (size_t k = 0; k < r->momenta.count; k++) cr_expect(r->momenta.momentum[k].proof.proved, "%s: momentum %zu", catalogue[i].system, k + 1);
         nh_reduction_free(r);
     }
 }

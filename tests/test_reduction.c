@@ -531,7 +531,7 @@ static void momenta_of(const char *name, nh_system *system, size_t count, size_t
         nh_symmetry z;
         nh_ex phi = nh_model_compose(o, p.momentum[i].value);
         constant += p.momentum[i].horizontal;
-        cr_expect(p.momentum[i].proved, "%s: momentum %zu", name, i);
+        cr_expect(p.momentum[i].proof.proved, "%s: momentum %zu", name, i);
         must(nh_symmetry_of(o, points, phi, 1e-9, &z, &error), &error, name);
         cr_expect(z.noether_residual < 1e-9, "%s: %g", name, z.noether_residual);
         double at[30], want[12], got[12];

@@ -90,6 +90,17 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     return proof;
 }
 
+nh_proof nh_proof_both(const nh_model *o, nh_proof a, nh_proof b)
+{
+    nh_proof out = {.proved = a.proved && b.proved, .all_parameters = a.all_parameters && b.all_parameters, .digits = fmin(a.digits, b.digits)};
+    const bool *of_a = a.all_parameters || a.fixed ? a.fixed : nh_fixed_every(o), *of_b = b.all_parameters || b.fixed ? b.fixed : nh_fixed_every(o);
+    if (out.proved && !out.all_parameters) out.fixed = nh_fixed_both(o, of_a, of_b);
+    out.points = a.points < b.points ? a.points : b.points;
+    out.rounded = a.rounded || b.rounded;
+    out.refuted = a.refuted || b.refuted;
+    return out;
+}
+
 nh_proof nh_prove_zero(const nh_model *o, size_t n, const nh_ex *term, bool parameters_free, const nh_options *options)
 {
     return prove_zero(o, n, term, (nh_proof){0}, (nh_claim){.free = parameters_free}, options);

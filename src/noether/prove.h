@@ -37,6 +37,9 @@ nh_proof nh_prove_current(const nh_model *model, nh_ex phi, bool parameters_free
 /* The same for any expression that should vanish on the submanifold. */
 nh_proof nh_prove_zero(const nh_model *model, size_t terms, const nh_ex *term, bool parameters_free, const nh_options *options);
 
+/* Of two statements together. */
+nh_proof nh_proof_both(const nh_model *model, nh_proof a, nh_proof b);
+
 /* Only the digits of step 3: a few evaluations. */
 double nh_prove_digits(const nh_model *model, nh_ex phi, const nh_options *options);
 

@@ -6,11 +6,12 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "expr/normal.h"
-#include "expr/relation.h"
+#include "noether/fixed.h"
 #include "noether/recognise.h"
 #include "reduction/generator_fit.h"
 #include "reduction/joint_fields.h"
 #include "reduction/relative.h"
+#include "reduction/section.h"
 
 enum { most_columns = 420 };
 
@@ -81,33 +82,78 @@ static void assemble(const nh_generator_fit *s, const nh_ex *coefficient, nh_ex 
     for (size_t i = 0; i < s->m && s->l.whole; i++) component[i] = nh_simplify(d, component[i]);
 }
 
-/* Coefficients in Q(parameters): the conditions of each term, told apart by symbols of their own, must cancel identically. */
-static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient)
+/* The conditions on column j, told apart by the marks.  by_terms: xi(V_i)/V_i of the potential's terms instead of xi(V): where each vanishes the sum
+ * does, and no roots of different distances come together. */
+static nh_ex conditions(const nh_generator_fit *s, size_t j, bool by_terms, const nh_ex *mark, nh_ex *field, nh_ex *equation)
 {
     const nh_kinetic *k = s->k;
     nh_dag *d = k->dag;
-    size_t m = s->m, total = m * (m + 1) / 2 + 1 + k->f, terms = 0, *index = nh_alloc_array(s->n + 1, sizeof *index);
-    nh_ex *mark = nh_alloc_array(2 * total, sizeof *mark), *equation = mark + total, *e = nh_alloc_array(2 * s->n + m + 1, sizeof *e), *found = e + s->n, *field = found + s->n;
-    for (size_t i = 0; i < total; i++) mark[i] = nh_symbol_fresh(d, "mark");
+    nh_ex V = nh_invariance_sum(k);
+    for (size_t i = 0; i < s->m; i++) field[i] = nh_library_component(&s->l, d, j, i);
+    size_t of_metric = nh_invariance_equations(k, field, equation), n = of_metric + 1 + k->f;
+    if (by_terms) equation[of_metric] = nh_int(d, 0);
+    nh_ex sum = nh_section_marked(d, n, mark, equation);
+    for (size_t i = 0; i < nh_arity(d, V) && by_terms; i++) {
+        nh_ex term = nh_child(d, V, i);
+        sum = nh_add(d, sum, nh_mul(d, mark[n + i], nh_div(d, nh_field_along(k, field, term), term)));
+    }
+    return sum;
+}
+
+/* The exact relation among the fields of one vector; index: their columns. */
+static nh_fixed related(const nh_generator_fit *s, size_t r, bool by_terms, size_t *terms, size_t *index, double *like, nh_ex *found)
+{
+    const nh_kinetic *k = s->k;
+    size_t m = s->m, total = m * (m + 1) / 2 + 1 + k->f, marks = total + nh_arity(k->dag, nh_invariance_sum(k));
+    nh_ex *e = nh_alloc_array(s->n + m + total + marks + 1, sizeof *e), *field = e + s->n, *equation = field + m, *mark = equation + total;
+    nh_section_marks(k->dag, marks, mark);
+    *terms = 0;
     for (size_t j = 0; j < s->n; j++) {
         if (s->vector[j + r * s->n] == 0) continue;
-        for (size_t i = 0; i < m; i++) field[i] = nh_library_component(&s->l, d, j, i);
-        size_t n = nh_invariance_equations(k, field, equation) + 1 + k->f;
-        e[terms] = nh_int(d, 0);
-        for (size_t i = 0; i < n; i++) e[terms] = nh_add(d, e[terms], nh_mul(d, mark[i], equation[i]));
-        index[terms++] = j;
+        like[*terms] = s->vector[j + r * s->n];
+        e[*terms] = conditions(s, j, by_terms, mark, field, equation);
+        index[(*terms)++] = j;
     }
-    bool good = nh_relation_find(d, terms, e, k->model->system->parameters, k->model->parameter, (size_t)s->options->proof_terms, found) == NH_RELATION_UNIQUE;
-    nh_ex unit = 0;
+    nh_fixed how = nh_fixed_relation(k->model, *terms, e, like, s->options, found);
+    nh_free(e);
+    return how;
+}
+
+/* Coefficients in Q(parameters): the conditions must cancel identically. */
+static bool parametric(nh_generator_fit *s, size_t r, nh_ex *coefficient, const bool **fixed)
+{
+    nh_dag *d = s->k->dag;
+    size_t terms, *index = nh_alloc_array(s->n + 1, sizeof *index);
+    nh_ex *found = nh_alloc_array(s->n + 1, sizeof *found), unit = 0;
+    double *like = nh_alloc_array(s->n + 1, sizeof *like);
+    nh_fixed how = related(s, r, false, &terms, index, like, found);
+    if (how.too_large && nh_kind_of(d, nh_invariance_sum(s->k)) == NH_SUM) how = related(s, r, true, &terms, index, like, found);
+    bool good = how.found && !how.too_large;
     for (size_t i = 0; i < terms && good; i++)
-        if (s->vector[index[i] + r * s->n] == 1) unit = found[i];
+        if (like[i] == 1) unit = found[i];
     good = good && unit && !nh_is_zero(d, unit);
     for (size_t j = 0; j < s->n && good; j++) coefficient[j] = nh_int(d, 0);
     for (size_t i = 0; i < terms && good; i++) coefficient[index[i]] = nh_simplify(d, nh_div(d, found[i], unit));
+    *fixed = how.fixed;
+    nh_free(like);
+    nh_free(found);
     nh_free(index);
-    nh_free(mark);
-    nh_free(e);
     return good;
+}
+
+/* With rational numbers where these hold for all parameters, else with an exact relation; with what the numbers look like when there is none. */
+static void make_generator(nh_generator_fit *s, size_t r, nh_ex *coefficient, nh_ex *component, nh_generator *out)
+{
+    const bool *fixed;
+    nh_generator related;
+    rational(s, r, coefficient);
+    assemble(s, coefficient, component);
+    nh_generator_init(out, s->k, NULL, component, s->options);
+    if (nh_generator_proof(s->k, out).all_parameters || !parametric(s, r, coefficient, &fixed)) return;
+    assemble(s, coefficient, component);
+    for (size_t i = 0; i < s->m && fixed; i++) component[i] = nh_fixed_values(s->k->model, fixed, component[i]);
+    nh_generator_init(&related, s->k, NULL, component, s->options);
+    if (related.invariant) *out = related;
 }
 
 static void make_generators(nh_generator_fit *s, nh_generators *out)
@@ -121,22 +167,18 @@ static void make_generators(nh_generator_fit *s, nh_generators *out)
     for (size_t r = s->d; r-- > 0;) { /* the pivots came from the most complex down */
         refit(s, r);
         normalise(s, order, r);
-        if (!rational(s, r, coefficient)) parametric(s, r, coefficient);
-        assemble(s, coefficient, component);
-        nh_generator *g = &out->generator[out->count];
-        nh_generator_init(g, k, NULL, component, s->options);
-        out->count += g->invariant;
+        make_generator(s, r, coefficient, component, &out->generator[out->count]);
+        out->count += out->generator[out->count].invariant;
     }
     nh_free(order);
     nh_free(coefficient);
 }
 
-static size_t for_all_parameters(const nh_generators *found)
+static size_t for_all_parameters(const nh_kinetic *k, const nh_generators *found)
 {
     size_t n = 0;
     for (size_t a = 0; a < found->count; a++) {
-        const nh_generator *g = &found->generator[a];
-        n += g->metric.all_parameters && g->potential.all_parameters && g->constraints.all_parameters;
+        n += nh_generator_proof(k, &found->generator[a]).all_parameters;
     }
     return n;
 }
@@ -156,7 +198,7 @@ static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *
     found.last_null = s.last_null;
     found.first_other = s.first_other;
     nh_generator_fit_clear(&s);
-    bool more = *good && (found.count > out->count || !out->level || (found.count == out->count && for_all_parameters(&found) > for_all_parameters(out)));
+    bool more = *good && (found.count > out->count || !out->level || (found.count == out->count && for_all_parameters(k, &found) > for_all_parameters(k, out)));
     if (more) *out = found;
     return more;
 }
@@ -171,7 +213,7 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
     for (int level = 1; level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
         bool more = one_library(out, k, jets, level, &joints, options, error, &good);
         enough = complete(out, jets) || (!more && !jets);
-        if (level > 1 || (enough && for_all_parameters(out) == out->count) || !good || !k->model->system->chain) continue;
+        if (level > 1 || (enough && for_all_parameters(k, out) == out->count) || !good || !k->model->system->chain) continue;
         nh_joint_fields_init(&joints, k->model->system); /* simple fields are found without them */
         one_library(out, k, jets, level, &joints, options, error, &good);
         enough = complete(out, jets);

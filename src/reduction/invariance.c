@@ -6,7 +6,6 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/print.h"
-#include "noether/prove.h"
 
 nh_ex nh_field_along(const nh_kinetic *k, const nh_ex *xi, nh_ex e) { return nh_diff_along(k->dag, e, k->m, k->q, xi); }
 
@@ -102,33 +101,55 @@ static double largest_residual(const nh_kinetic *k, size_t n, const nh_ex *e, co
     return worst;
 }
 
+static nh_proof proof_of(const nh_condition *c) { return (nh_proof){.proved = c->proved, .all_parameters = c->all_parameters, .fixed = c->fixed}; }
+
+static void join(const nh_kinetic *k, nh_condition *c, nh_proof proof)
+{
+    proof = nh_proof_both(k->model, proof_of(c), proof);
+    c->proved = proof.proved;
+    c->all_parameters = proof.all_parameters;
+    c->fixed = proof.fixed;
+}
+
+nh_proof nh_generator_proof(const nh_kinetic *k, const nh_generator *g)
+{
+    nh_proof proof = nh_proof_both(k->model, proof_of(&g->metric), proof_of(&g->potential));
+    proof = nh_proof_both(k->model, proof, proof_of(&g->constraints));
+    return nh_proof_both(k->model, proof, proof_of(&g->forces));
+}
+
 static nh_condition condition(const nh_kinetic *k, size_t n, const nh_ex *e, double residual, const nh_options *options)
 {
     nh_condition c = {.holds = residual <= options->group, .residual = residual};
     c.proved = c.all_parameters = c.holds;
     for (size_t i = 0; i < n && c.proved; i++) {
         if (nh_normal_is_zero(k->dag, e[i], (size_t)options->proof_terms) == NH_ZERO) continue;
-        nh_proof proof = nh_prove_zero(k->model, 1, &e[i], false, options);
-        c.all_parameters = false;
-        c.proved = proof.proved;
+        nh_proof proof = nh_prove_zero(k->model, 1, &e[i], true, options);
+        join(k, &c, proof);
         if (proof.refuted && !proof.proved) c.holds = c.residual <= options->same; /* a number that was fitted, not an exact one */
     }
     return c;
+}
+
+nh_ex nh_invariance_sum(const nh_kinetic *k)
+{
+    const nh_dag *d = k->dag;
+    bool minus = nh_kind_of(d, k->V) == NH_PRODUCT && nh_arity(d, k->V) == 1 && nh_is_number(d, nh_exponent_of(d, k->V, 0), 1);
+    return minus ? nh_child(d, k->V, 0) : k->V;
 }
 
 /* A potential of many terms may be too large for one proof: xi of each term vanishes by itself, often. */
 static void prove_by_terms(const nh_kinetic *k, const nh_ex *xi, const nh_options *options, nh_condition *c)
 {
     nh_dag *d = k->dag;
-    bool minus = nh_kind_of(d, k->V) == NH_PRODUCT && nh_arity(d, k->V) == 1 && nh_is_number(d, nh_exponent_of(d, k->V, 0), 1);
-    nh_ex V = minus ? nh_child(d, k->V, 0) : k->V;
+    nh_ex V = nh_invariance_sum(k);
     if (!c->holds || c->proved || nh_kind_of(d, V) != NH_SUM) return;
     c->proved = c->all_parameters = true;
+    c->fixed = NULL;
     for (size_t i = 0; i < nh_arity(d, V) && c->proved; i++) {
         nh_ex rate = nh_field_along(k, xi, nh_child(d, V, i));
         if (nh_normal_is_zero(d, rate, (size_t)options->proof_terms) == NH_ZERO) continue;
-        c->all_parameters = false;
-        c->proved = nh_prove_zero(k->model, 1, &rate, false, options).proved;
+        join(k, c, nh_prove_zero(k->model, 1, &rate, true, options));
     }
 }
 

@@ -11,10 +11,12 @@
 #define NH_INVARIANCE_H
 
 #include "base/text.h"
+#include "noether/prove.h"
 #include "reduction/kinetic.h"
 
 typedef struct {
     bool holds, proved, all_parameters; /* at the sample points; exactly; for all parameter values */
+    const bool *fixed;                  /* else those that must have their values; NULL: all (nh_proof) */
     double residual;                    /* largest relative violation over the sample points */
 } nh_condition;
 
@@ -30,9 +32,15 @@ typedef struct {
 /* Components along the coordinates, as m expressions, into the generator (in the kinetic's arena), with the three conditions checked. */
 void nh_generator_init(nh_generator *generator, const nh_kinetic *kinetic, const char *name, const nh_ex *component, const nh_options *options);
 
+/* All its conditions together. */
+nh_proof nh_generator_proof(const nh_kinetic *kinetic, const nh_generator *generator);
+
 /* The conditions as expressions: h of the metric (or 1: of L), 1 of the potential, f of the constraints (composed with the chart);
  * `out` has room for h + 1 + f, h = m(m+1)/2.  Returns the number of those of the metric. */
 size_t nh_invariance_equations(const nh_kinetic *kinetic, const nh_ex *component, nh_ex *out);
+
+/* The potential, or what it is a multiple of. */
+nh_ex nh_invariance_sum(const nh_kinetic *kinetic);
 
 /* "-y d/dx + x d/dy + d/dtheta". */
 void nh_generator_text(const nh_kinetic *kinetic, const nh_generator *generator, nh_text *out);

@@ -6,10 +6,9 @@
 #include "base/linalg.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
-#include "noether/prove.h"
-#include "noether/recognise.h"
 #include "reduction/library.h"
 #include "reduction/relative.h"
+#include "reduction/section.h"
 #include "reduction/subspace.h"
 
 /* Columns: library functions b_j(q) times generators e_a.  The library is that of generators, with `component` the generator's number. */
@@ -117,48 +116,49 @@ static void fill(search *s, nh_momentum *p)
     p->value = nh_simplify(dag, p->value);
 }
 
-/* The conditions exactly: omega(field), and (f^a)' J_a for v in D, as functions on the submanifold. */
-static void prove(search *s, nh_momentum *p)
+/* The conditions on column c, told apart by the marks: omega(b_c e_a), and (b_c)' J_a for v in D, as functions on the submanifold. */
+static nh_ex conditions(const search *s, size_t c, const nh_ex *mark)
 {
     const nh_kinetic *k = s->k;
     nh_dag *d = k->dag;
-    p->proved = true;
-    for (size_t i = 0; i < s->f && p->proved; i++) {
-        nh_ex e = nh_int(d, 0);
-        for (size_t q = 0; q < s->m; q++) e = nh_add(d, e, nh_mul(d, k->omega[i * s->m + q], p->field[q]));
-        p->proved = nh_normal_is_zero(d, e, (size_t)s->options->proof_terms) == NH_ZERO || nh_prove_zero(k->model, 1, &e, false, s->options).proved;
-    }
-    nh_ex rate = nh_int(d, 0);
-    for (size_t a = 0; a < s->d && p->proved; a++) {
-        nh_ex along = nh_diff_along(d, p->f[a], s->m, k->q, k->v), J = nh_int(d, 0);
-        if (nh_is_zero(d, along)) continue;
-        for (size_t r = 0; r < s->m; r++)
-            for (size_t q = 0; q < s->m; q++) J = nh_add(d, J, nh_mul(d, nh_mul(d, s->g->generator[a].component[r], k->K[r * s->m + q]), k->v[q]));
-        rate = nh_add(d, rate, nh_mul(d, along, J));
-    }
-    rate = nh_chart_compose(k->model->chart, rate);
-    if (p->proved) p->proved = nh_normal_is_zero(d, rate, (size_t)s->options->proof_terms) == NH_ZERO || nh_prove_zero(k->model, 1, &rate, false, s->options).proved;
+    const nh_ex *field = s->g->generator[s->l.component[c]].component;
+    nh_ex sum = nh_int(d, 0), J = nh_int(d, 0), along = nh_diff_along(d, s->l.function[c], s->m, k->q, k->v);
+    for (size_t i = 0; i < s->f; i++)
+        for (size_t q = 0; q < s->m; q++)
+            sum = nh_add(d, sum, nh_mul(d, mark[i], nh_mul(d, k->omega[i * s->m + q], nh_mul(d, s->l.function[c], field[q]))));
+    if (nh_is_zero(d, along)) return sum;
+    for (size_t r = 0; r < s->m; r++)
+        for (size_t q = 0; q < s->m; q++) J = nh_add(d, J, nh_mul(d, nh_mul(d, field[r], k->K[r * s->m + q]), k->v[q]));
+    return nh_add(d, sum, nh_mul(d, mark[s->f], nh_chart_compose(k->model->chart, nh_mul(d, along, J))));
 }
 
-static nh_ex coefficient(const search *s, double value)
+/* The coefficients of the vector v; the pivot is its most complex column. */
+static nh_proof coefficients(const search *s, const double *v, const size_t *order, nh_ex *c)
 {
-    nh_num x;
-    nh_ex e;
-    if (nh_recognise_ratio(value, 1000, s->options->same, &x)) return nh_number(s->k->dag, x);
-    if (nh_recognise_ratio(value, 100000, s->options->same / 1000, &x)) return nh_number(s->k->dag, x); /* the proof decides */
-    return nh_recognise_number(s->k->dag, value, s->options->recognise, &e) ? e : nh_real(s->k->dag, value);
+    nh_dag *d = s->k->dag;
+    nh_ex *e = nh_alloc_array(s->n + s->f + 1, sizeof *e), *mark = e + s->n;
+    size_t pivot = 0;
+    nh_section_marks(d, s->f + 1, mark);
+    for (size_t j = 0; j < s->n; j++) e[j] = v[j] == 0 ? nh_int(d, 0) : conditions(s, j, mark);
+    for (size_t at = 0; at < s->n; at++)
+        if (v[order[at]] != 0) pivot = order[at];
+    nh_proof proof = nh_section_coefficients(s->k, s->n, e, v, pivot, s->options, c);
+    nh_free(e);
+    return proof;
 }
 
-/* The simplest term, of the last generator, gets a positive coefficient. */
-static void normalise(const search *s, double *v)
+/* The simplest term, of the last generator, gets no minus sign. */
+static void normalise(const search *s, nh_ex *c)
 {
-    double sign = 1, complexity = INFINITY;
-    for (size_t c = 0; c < s->n; c++) {
-        if (v[c] == 0 || s->l.complexity[c] > complexity) continue;
-        complexity = s->l.complexity[c];
-        sign = v[c] < 0 ? -1 : 1;
+    double complexity = INFINITY;
+    size_t simplest = 0;
+    for (size_t j = 0; j < s->n; j++) {
+        if (nh_is_zero(s->k->dag, c[j]) || s->l.complexity[j] > complexity) continue;
+        complexity = s->l.complexity[j];
+        simplest = j;
     }
-    for (size_t c = 0; c < s->n; c++) v[c] *= sign;
+    if (!nh_section_negative(s->k->dag, c[simplest])) return;
+    for (size_t j = 0; j < s->n; j++) c[j] = nh_neg(s->k->dag, c[j]);
 }
 
 /* A coefficient that is not constant but constant along D: a momentum that is known, times a function of the leaf of an integrable distribution. */
@@ -177,26 +177,27 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
 {
     nh_dag *dag = s->k->dag;
     size_t *order = nh_library_order(&s->l);
+    nh_ex *exact = nh_alloc_array(s->n + 1, sizeof *exact);
     nh_relative_echelon(s->n, count, order, NULL, v); /* the most complex columns as pivots: the rest of each vector is then the simplest */
-    nh_free(order);
     out->momentum = nh_arena_alloc(s->k->arena, (count + 1) * sizeof *out->momentum);
     for (size_t r = count; r-- > 0;) {
         nh_momentum *p = &out->momentum[out->count++];
-        normalise(s, v + r * s->n);
-        *p = (nh_momentum){.horizontal = true};
+        *p = (nh_momentum){.horizontal = true, .proof = coefficients(s, v + r * s->n, order, exact)};
+        normalise(s, exact);
         p->f = nh_arena_alloc(s->k->arena, (s->d + 1) * sizeof *p->f);
         for (size_t a = 0; a < s->d; a++) p->f[a] = nh_int(dag, 0);
         for (size_t c = 0; c < s->n; c++) {
             if (v[c + r * s->n] == 0) continue;
             size_t a = s->l.component[c];
-            p->f[a] = nh_add(dag, p->f[a], nh_mul(dag, coefficient(s, v[c + r * s->n]), s->l.function[c]));
+            p->f[a] = nh_add(dag, p->f[a], nh_mul(dag, exact[c], s->l.function[c]));
             p->horizontal &= s->l.complexity[c] == 0;
         }
         p->gauge = !p->horizontal;
         fill(s, p);
-        prove(s, p);
         out->count -= multiple(s, p);
     }
+    nh_free(exact);
+    nh_free(order);
 }
 
 void nh_momenta_mark(nh_momenta *out, const nh_kinetic *k)
@@ -231,35 +232,39 @@ static void fill_general(const nh_action *g, nh_momentum *p)
     }
 }
 
-static bool vanishes(const nh_kinetic *k, nh_ex e, const nh_options *options)
+/* The conditions on generator a, told apart by the marks: omega(e_a) = 0 and e_a . Q = 0. */
+static nh_ex general_conditions(const nh_action *g, size_t a, const nh_ex *mark)
 {
-    return nh_normal_is_zero(k->dag, e, (size_t)options->proof_terms) == NH_ZERO || nh_prove_zero(k->model, 1, &e, false, options).proved;
-}
-
-/* omega(field) + offset b = 0 and field . Q = 0. */
-static bool proved_general(const nh_kinetic *k, const nh_momentum *p, bool offset, const nh_options *options)
-{
+    const nh_kinetic *k = g->kinetic;
     nh_dag *d = k->dag;
-    bool good = true;
-    for (size_t i = 0; i < k->f && good; i++) {
-        nh_ex e = offset ? k->b[i] : nh_int(d, 0);
-        for (size_t s = 0; s < k->m; s++) e = nh_add(d, e, nh_mul(d, k->omega[i * k->m + s], p->field[s]));
-        good = vanishes(k, e, options);
+    nh_ex sum = nh_int(d, 0);
+    for (size_t s = 0; s < k->m; s++) {
+        nh_ex x = g->generator[a].component[s];
+        for (size_t i = 0; i < k->f; i++) sum = nh_add(d, sum, nh_mul(d, mark[i], nh_mul(d, k->omega[i * k->m + s], x)));
+        if (k->forced) sum = nh_add(d, sum, nh_mul(d, mark[k->f], nh_mul(d, k->Q[s], x)));
     }
-    nh_ex power = nh_int(d, 0);
-    for (size_t s = 0; s < k->m && k->forced; s++) power = nh_add(d, power, nh_mul(d, p->field[s], k->Q[s]));
-    return good && vanishes(k, power, options);
+    return sum;
 }
 
-/* A number, or the parameter (or its negative) whose value it is. */
-static nh_ex named(const nh_kinetic *k, double c, const nh_options *options)
+nh_proof nh_momenta_horizontal(const nh_action *g, const double *c, bool offset, const nh_options *options, nh_ex *out)
 {
-    nh_num x;
-    for (size_t i = 0; i < k->model->system->parameters; i++) {
-        double value = k->model->parameter_value[i];
-        if (value != 0 && fabs(fabs(c) - fabs(value)) <= options->same * fabs(value)) return c * value > 0 ? k->model->parameter[i] : nh_neg(k->dag, k->model->parameter[i]);
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *d = k->dag;
+    size_t n = g->d + offset;
+    nh_ex *e = nh_alloc_array(2 * n + k->f + 1, sizeof *e), *exact = e + n, *mark = exact + n;
+    double *v = nh_alloc_array(n + 1, sizeof *v);
+    nh_section_marks(d, k->f + 1, mark);
+    for (size_t a = 0; a < g->d; a++) {
+        e[a] = general_conditions(g, a, mark);
+        v[a] = fabs(c[a]) <= options->same ? 0 : c[a];
     }
-    return nh_recognise_ratio(c, 1000, options->same, &x) ? nh_number(k->dag, x) : nh_real(k->dag, c);
+    if (offset) e[g->d] = nh_section_marked(d, k->f, mark, k->b);
+    if (offset) v[g->d] = 1;
+    nh_proof proof = nh_section_coefficients(k, n, e, v, offset ? g->d : nh_section_pivot(n, v), options, exact);
+    memcpy(out, exact, g->d * sizeof *out);
+    nh_free(v);
+    nh_free(e);
+    return proof;
 }
 
 static nh_ex energy_of(const nh_kinetic *k)
@@ -283,20 +288,18 @@ static void find_general(nh_momenta *out, const nh_action *g, const nh_options *
     for (size_t j = 0; j < n; j++) {
         nh_momentum *p = &out->momentum[out->count];
         *p = (nh_momentum){.horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + 1) * sizeof *p->f)};
-        for (size_t a = 0; a < g->d; a++) p->f[a] = named(k, c[a + j * g->d], options);
+        p->proof = nh_momenta_horizontal(g, c + j * g->d, false, options, p->f);
         fill_general(g, p);
         p->value = nh_simplify(d, p->value);
-        p->proved = proved_general(k, p, false, options);
-        out->count += p->proved;
+        out->count += p->proof.proved;
     }
     if (!k->linear && !k->forced && nh_action_moving(g, c)) {
         nh_momentum *p = &out->momentum[out->count];
         *p = (nh_momentum){.moving = true, .f = nh_arena_alloc(k->arena, (g->d + 1) * sizeof *p->f)};
-        for (size_t a = 0; a < g->d; a++) p->f[a] = fabs(c[a]) <= options->same ? nh_int(d, 0) : named(k, c[a], options);
+        p->proof = nh_momenta_horizontal(g, c, true, options, p->f);
         fill_general(g, p);
         p->value = nh_simplify(d, nh_sub(d, energy_of(k), p->value));
-        p->proved = proved_general(k, p, true, options);
-        out->count += p->proved;
+        out->count += p->proof.proved;
     }
     nh_free(c);
 }

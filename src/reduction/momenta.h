@@ -15,6 +15,7 @@
 #ifndef NH_MOMENTA_H
 #define NH_MOMENTA_H
 
+#include "noether/prove.h"
 #include "reduction/action.h"
 
 typedef struct {
@@ -25,7 +26,7 @@ typedef struct {
     nh_ex *field;          /* m: f^a e_a */
     nh_ex value;           /* f^a J_a (or E - f^a J_a) as a function of (q, v) */
     double residual;       /* of the two conditions, relative */
-    bool proved;
+    nh_proof proof;
     bool local;            /* the field or the value is many-valued on an angle */
 } nh_momentum;
 
@@ -37,6 +38,10 @@ typedef struct {
 
 /* Which of them are local. */
 void nh_momenta_mark(nh_momenta *momenta, const nh_kinetic *kinetic);
+
+/* Constants c (d) with omega(c^a e_a) = 0 (with `offset`: + b = 0) and c^a e_a . Q = 0, known in doubles, as expressions of the parameters. */
+nh_proof nh_momenta_horizontal(const nh_action *action, const double *c, bool offset, const nh_options *options, nh_ex *out);
+
 bool nh_momenta_find(nh_momenta *out, const nh_action *action, const nh_options *options, nh_error *error);
 
 #endif

@@ -7,8 +7,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/solve.h"
-#include "noether/prove.h"
-#include "noether/recognise.h"
+#include "reduction/section.h"
 #include "reduction/subspace.h"
 
 static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
@@ -207,7 +206,7 @@ static bool admissible(const nh_model *o, const nh_kinetic *k, const nh_ex *fiel
     return good;
 }
 
-static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const double *c, const nh_options *options)
+static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const nh_ex *rate, const double *c, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
     nh_dag *d = o->dag;
@@ -215,16 +214,13 @@ static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const do
     *p = (nh_momentum){.f = nh_arena_alloc(k->arena, (g->d + o->m) * sizeof *p->f), .value = nh_int(d, 0)};
     p->field = p->f + g->d;
     for (size_t s = 0; s < o->m; s++) p->field[s] = nh_int(d, 0);
+    p->proof = nh_section_coefficients(k, g->d, rate, c, nh_section_pivot(g->d, c), options, p->f);
     for (size_t a = 0; a < g->d; a++) {
-        nh_num x;
-        p->f[a] = nh_recognise_ratio(c[a], 1000, options->same, &x) ? nh_number(d, x) : nh_real(d, c[a]);
         for (size_t s = 0; s < o->m; s++) p->field[s] = plus(d, p->field[s], p->f[a], g->generator[a].component[s]);
     }
     for (size_t s = 0; s < o->m; s++) p->value = plus(d, p->value, p->field[s], nh_diff(d, o->system->lagrangian, k->v[s]));
     p->horizontal = admissible(o, k, p->field, options);
-    nh_ex rate = nh_model_gamma(o, nh_model_compose(o, p->value));
     p->value = nh_simplify(d, p->value);
-    p->proved = nh_prove_zero(o, 1, &rate, false, options).proved;
 }
 
 void nh_quotient_momenta(nh_momenta *out, const nh_model *o, const nh_action *g, const nh_options *options)
@@ -246,7 +242,7 @@ void nh_quotient_momenta(nh_momenta *out, const nh_model *o, const nh_action *g,
         for (size_t a = 0; a < d; a++) rows[p + a * places] = value[p * d + a];
     size_t n = places ? nh_kernel(places, d, rows, options->group, c, NULL, NULL) : 0;
     nh_column_echelon(d, n, options->group, c);
-    for (size_t j = 0; j < n; j++) add(out, o, g, c + j * d, options);
+    for (size_t j = 0; j < n; j++) add(out, o, g, rate, c + j * d, options);
     nh_free(value);
     nh_free(rows);
     nh_free(rate);

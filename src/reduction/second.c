@@ -6,6 +6,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/solve.h"
+#include "reduction/section.h"
 #include "reduction/subspace.h"
 
 enum { most_places = 16 };
@@ -44,17 +45,24 @@ bool nh_second_descend(const nh_chaplygin *f, const nh_ex *field, nh_ex *out)
     return good;
 }
 
-/* zeta^i U_lij at the sample points: out[(p*n + l)*n + j]. */
-static double *interior(const nh_chaplygin *f, const nh_ex *zeta, size_t places)
+/* e[l*n + j] = zeta^i U_lij */
+static void contract(const nh_chaplygin *f, const nh_ex *zeta, nh_ex *e)
 {
     size_t n = f->n, at = 0;
-    nh_ex *e = nh_alloc_array(n * n, sizeof *e);
-    double *out = nh_alloc_array(places * n * n + 1, sizeof *out);
     for (size_t l = 0; l < n; l++)
         for (size_t j = 0; j < n; j++, at++) {
             e[at] = nh_int(f->dag, 0);
             for (size_t i = 0; i < n; i++) e[at] = plus(f->dag, e[at], zeta[i], f->U[(l * n + i) * n + j]);
         }
+}
+
+/* The same at the sample points: out[(p*n + l)*n + j]. */
+static double *interior(const nh_chaplygin *f, const nh_ex *zeta, size_t places)
+{
+    size_t n = f->n;
+    nh_ex *e = nh_alloc_array(n * n, sizeof *e);
+    double *out = nh_alloc_array(places * n * n + 1, sizeof *out);
+    contract(f, zeta, e);
     nh_kinetic_sample(f->slice->kinetic, n * n, e, places, out);
     nh_free(e);
     return out;
@@ -145,6 +153,24 @@ size_t nh_second_candidates(const nh_chaplygin *f, size_t candidates, const nh_e
     nh_free(a);
     nh_free(zeta);
     return count;
+}
+
+void nh_second_coefficients(const nh_chaplygin *f, size_t candidates, const nh_ex *field, const double *c, const nh_options *options, nh_ex *exact)
+{
+    nh_dag *d = f->dag;
+    size_t n = f->n, m = f->slice->m;
+    nh_ex *e = nh_alloc_array(candidates + n + 2 * n * n + 1, sizeof *e), *zeta = e + candidates, *inside = zeta + n, *mark = inside + n * n;
+    nh_section_marks(d, n * n, mark);
+    for (size_t b = 0; b < candidates; b++) {
+        e[b] = exact[b] = nh_real(d, c[b]);
+        if (c[b] == 0 || !f->plain || !nh_second_descend(f, field + b * m, zeta)) continue;
+        contract(f, zeta, inside);
+        e[b] = nh_int(d, 0);
+        for (size_t l = 0; l < n; l++)
+            for (size_t j = 0; j <= l; j++) e[b] = plus(d, e[b], mark[l * n + j], nh_add(d, inside[l * n + j], inside[j * n + l]));
+    }
+    if (f->plain) nh_section_coefficients(f->slice->kinetic, candidates, e, c, nh_section_pivot(candidates, c), options, exact);
+    nh_free(e);
 }
 
 /* The shape space with Khat and V. */

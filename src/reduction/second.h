@@ -46,6 +46,8 @@ bool nh_second_descend(const nh_chaplygin *first, const nh_ex *field, nh_ex *out
 /* Combinations c (count columns of length `candidates`) of fields that satisfy the weak condition (ii): echelon form; returns their number.
  * `field`: candidates x m components. */
 size_t nh_second_candidates(const nh_chaplygin *first, size_t candidates, const nh_ex *field, const nh_options *options, double *c);
+/* One of these columns as expressions of the parameters. */
+void nh_second_coefficients(const nh_chaplygin *first, size_t candidates, const nh_ex *field, const double *c, const nh_options *options, nh_ex *exact);
 
 /* Find N on the shape space from fields on Q, and check (i) and (ii).  Call nh_second_equations afterwards. */
 bool nh_second_init(nh_second *second, const nh_chaplygin *first, size_t d, const nh_ex *field, const nh_options *options, nh_error *error);

@@ -123,15 +123,24 @@ const char *nh_facts_holds(const nh_model *o, const nh_proof *p, bool names)
     return out;
 }
 
+static const char *all_or_these(const nh_model *o, const nh_proof *p) { return p->all_parameters || !o->system->parameters ? "all parameters" : "these values"; }
+
+static void put_fixed(nh_json *object, const nh_model *o, const bool *fixed)
+{
+    for (size_t i = 0; i < o->system->parameters; i++)
+        if (fixed[i]) nh_json_put_number(object, o->system->parameter[i].name, o->parameter_value[i]);
+}
+
 void nh_facts_put_holds(nh_json *item, const nh_model *o, const nh_proof *p)
 {
-    if (!some_fixed(o, p)) {
-        nh_json_put_text(item, "holds", p->all_parameters || !o->system->parameters ? "all parameters" : "these values");
-        return;
-    }
-    nh_json *list = nh_json_put_object(item, "holds");
-    for (size_t i = 0; i < o->system->parameters; i++)
-        if (p->fixed[i]) nh_json_put_number(list, o->system->parameter[i].name, o->parameter_value[i]);
+    if (some_fixed(o, p)) put_fixed(nh_json_put_object(item, "holds"), o, p->fixed);
+    else nh_json_put_text(item, "holds", all_or_these(o, p));
+}
+
+void nh_facts_add_holds(nh_json *list, const nh_model *o, const nh_proof *p)
+{
+    if (some_fixed(o, p)) put_fixed(nh_json_add_object(list), o, p->fixed);
+    else nh_json_add_text(list, all_or_these(o, p));
 }
 
 /* ---- the answer ---- */

@@ -45,5 +45,6 @@ void nh_facts_spectrum(const nh_spectrum *spectrum, double number[NH_SPECTRUM_NU
  * "holds": "all parameters", an object of those that must have their values, "these values". */
 const char *nh_facts_holds(const nh_model *model, const nh_proof *proof, bool names);
 void nh_facts_put_holds(nh_json *item, const nh_model *model, const nh_proof *proof);
+void nh_facts_add_holds(nh_json *list, const nh_model *model, const nh_proof *proof);
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "expr/print.h"
 #include "expr/typeset.h"
+#include "report/facts.h"
 #include "report/html_internal.h"
 #include "report/reduction.h"
 
@@ -311,7 +312,9 @@ static void momenta(nh_html_writer *w, const nh_reduction *r)
         nh_text_addf(w->out, "<p>%c%s ", toupper((unsigned char)*kind), kind + 1);
         field(w, r->kinetic, p->field);
         nh_html_add(w, p->local ? "; local: many-valued on an angle" : "");
-        nh_html_add(w, p->proved ? "; proved</p>\n</article>\n" : "; to rounding</p>\n</article>\n");
+        nh_html_add(w, p->proof.proved ? "; proved" : "; to rounding");
+        nh_html_text(w, p->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &p->proof, false));
+        nh_html_add(w, "</p>\n</article>\n");
     }
     nh_html_add(w, "</section>\n");
 }

@@ -6,6 +6,7 @@
 
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/facts.h"
 #include "report/formula.h"
 
 /* Simplified unless it is so large that nobody would read it. */
@@ -59,12 +60,21 @@ static void put_condition(nh_text *out, const char *what, const nh_condition *c)
     nh_text_addf(out, "%s %s", what, !c->holds ? "no" : c->all_parameters ? "proved" : c->proved ? "proved here" : "to rounding");
 }
 
+/* What limits a symmetry, in parentheses behind it, and the end of the line. */
+static void put_holds(const nh_kinetic *k, const nh_proof *proof, bool local, nh_text *out)
+{
+    const char *around = local ? "local: many-valued on an angle" : "", *holds = proof->all_parameters ? "" : proof->proved ? nh_facts_holds(k->model, proof, false) + 1 : "to rounding";
+    if (*around || *holds) nh_text_addf(out, "   (%s%s%s)", around, *around && *holds ? "; " : "", holds);
+    nh_text_add(out, "\n");
+}
+
 static void put_generators(const nh_reduction *r, const nh_group *g, bool verbose, nh_text *out)
 {
     for (size_t a = 0; a < g->action.d; a++) {
         nh_text_addf(out, "  e%zu  ", a + 1);
         nh_generator_text(r->kinetic, &g->action.generator[a], out);
-        nh_text_add(out, g->action.generator[a].local ? "   (local: many-valued on an angle)\n" : "\n");
+        nh_proof proof = nh_generator_proof(r->kinetic, &g->action.generator[a]);
+        put_holds(r->kinetic, &proof, g->action.generator[a].local, out);
         if (!verbose) continue;
         nh_text_add(out, "      leaves invariant: ");
         put_condition(out, "kinetic energy", &g->action.generator[a].metric);
@@ -282,7 +292,7 @@ static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
         nh_generator field = {.component = p->field};
         nh_text_addf(out, "  %s ", nh_reduction_momentum_kind(p));
         nh_generator_text(r->kinetic, &field, out);
-        nh_text_addf(out, " (%s%s)\n", p->proved ? "proved" : "to rounding", p->local ? "; local: many-valued on an angle" : "");
+        nh_text_addf(out, " (%s%s%s)\n", p->proof.proved ? "proved" : "to rounding", p->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &p->proof, false), p->local ? "; local: many-valued on an angle" : "");
         put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, shown);
     }
 }

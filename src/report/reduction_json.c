@@ -4,6 +4,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/facts.h"
 #include "report/reduction.h"
 
 static void put_expression(nh_json *to, const char *key, nh_dag *d, nh_ex e)
@@ -30,6 +31,11 @@ static void put_fields(nh_json *to, const nh_action *g)
         nh_json *item = nh_json_add_object(list);
         for (size_t s = 0; s < k->m; s++)
             if (!nh_is_zero(k->dag, g->generator[a].component[s])) put_expression(item, k->name[s], k->dag, g->generator[a].component[s]);
+    }
+    nh_json *holds = nh_json_put_array(to, "holds");
+    for (size_t a = 0; a < g->d; a++) {
+        nh_proof proof = nh_generator_proof(k, &g->generator[a]);
+        nh_facts_add_holds(holds, k->model, &proof);
     }
     checks = nh_json_put_array(to, "invariance");
     for (size_t a = 0; a < g->d; a++) {
@@ -298,7 +304,8 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
         for (size_t s = 0; s < k->m; s++)
             if (!nh_is_zero(k->dag, p->field[s])) put_expression(field, k->name[s], k->dag, p->field[s]);
         put_expression(item, "expression", k->dag, p->value);
-        nh_json_put_bool(item, "proved", p->proved);
+        nh_json_put_bool(item, "proved", p->proof.proved);
+        nh_facts_put_holds(item, k->model, &p->proof);
         nh_json_put_bool(item, "local", p->local);
     }
 }

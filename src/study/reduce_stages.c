@@ -144,16 +144,17 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t r
 {
     nh_dag *d = r->kinetic->dag;
     size_t m = r->kinetic->m;
-    nh_ex *all = nh_alloc_array(rest * m + 1, sizeof *all);
+    nh_ex *all = nh_alloc_array(rest * m + rest + 1, sizeof *all), *exact = all + rest * m;
     double *c = nh_alloc_array(rest * rest + 1, sizeof *c);
     for (size_t i = 0; i < rest; i++) memcpy(all + i * m, r->group->action.generator[index[i]].component, m * sizeof *all);
     size_t n = nh_second_candidates(first, rest, all, &r->options, c);
-    for (size_t j = 0; j < n; j++)
+    for (size_t j = 0; j < n; j++) {
+        nh_second_coefficients(first, rest, all, c + j * rest, &r->options, exact);
         for (size_t s = 0; s < m; s++) {
             field[j * m + s] = nh_int(d, 0);
-            for (size_t i = 0; i < rest; i++)
-                if (c[i + j * rest] != 0) field[j * m + s] = nh_add(d, field[j * m + s], nh_mul(d, nh_real(d, c[i + j * rest]), all[i * m + s]));
+            for (size_t i = 0; i < rest; i++) field[j * m + s] = nh_add(d, field[j * m + s], nh_mul(d, exact[i], all[i * m + s]));
         }
+    }
     nh_free(all);
     nh_free(c);
     return n;

@@ -7,7 +7,6 @@
 #include "base/progress.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
-#include "noether/fixed.h"
 #include "noether/independence.h"
 #include "study/pace.h"
 
@@ -276,10 +275,7 @@ static bool check_field(nh_verdict_of_one *v, const given *g, const nh_options *
         v->conserved = accepts(&proof, residual, options);
         v->outside |= !v->conserved && k < o->k;
         v->has_counterexample = found && !v->conserved;
-        v->proof.proved &= proof.proved;
-        v->proof.fixed = proof.all_parameters ? v->proof.fixed : proof.fixed ? nh_fixed_both(o, v->proof.fixed, proof.fixed) : nh_fixed_every(o);
-        v->proof.all_parameters &= proof.all_parameters;
-        v->proof.digits = fmin(v->proof.digits, proof.digits);
+        v->proof = nh_proof_both(o, v->proof, proof);
     }
     nh_points_free(points);
     return true;

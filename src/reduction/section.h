@@ -1,0 +1,27 @@
+/* section: the coefficients of combinations of fields, as expressions of the parameters.
+ *
+ *     sum_j c_j e_j = 0,     e_j: the conditions on field j, told apart by symbols of their own
+ *
+ * c is known in doubles, at the parameters' values; the relation is solved again with the parameters as symbols, which is the proof of what the conditions are
+ * for.  Where that is too large the numbers are recognised, and the sum is proved to vanish, or not. */
+#ifndef NH_SECTION_H
+#define NH_SECTION_H
+
+#include "noether/prove.h"
+#include "reduction/kinetic.h"
+
+/* sum_i mark[i] e[i] */
+nh_ex nh_section_marked(nh_dag *dag, size_t n, const nh_ex *mark, const nh_ex *e);
+/* n new symbols. */
+void nh_section_marks(nh_dag *dag, size_t n, nh_ex *mark);
+
+/* v, c: n; those of v that are zero stay so, v[pivot] = 1 too. */
+nh_proof nh_section_coefficients(const nh_kinetic *kinetic, size_t n, const nh_ex *e, const double *v, size_t pivot, const nh_options *options, nh_ex *c);
+
+/* The first entry that is 1, or the largest. */
+size_t nh_section_pivot(size_t n, const double *v);
+
+/* Is the number in front of it negative? */
+bool nh_section_negative(const nh_dag *dag, nh_ex e);
+
+#endif
