@@ -120,3 +120,30 @@ size_t nh_complexity(const nh_dag *dag, nh_ex e)
     nh_index_clear(&known);
     return length;
 }
+
+/* ---- how deep it is ---- */
+
+static size_t nesting(const nh_dag *dag, nh_ex e, nh_index *known)
+{
+    uint32_t found;
+    size_t most = 0, n = nh_arity(dag, e);
+    nh_kind kind = nh_kind_of(dag, e);
+    if (kind == NH_NUMBER || kind == NH_SYMBOL) return 0;
+    if (nh_index_get(known, e, &found)) return found;
+    for (size_t i = 0; i < n; i++) {
+        nh_ex child = nh_child(dag, e, i), exponent = kind == NH_PRODUCT ? nh_exponent_of(dag, e, i) : 0;
+        size_t here = nesting(dag, child, known) + (kind == NH_FUNCTION || (kind == NH_PRODUCT && nh_kind_of(dag, child) == NH_SUM));
+        if (here > most) most = here;
+        if (kind == NH_PRODUCT && (here = nesting(dag, exponent, known) + (nh_kind_of(dag, exponent) != NH_NUMBER)) > most) most = here;
+    }
+    nh_index_put(known, e, (uint32_t)most);
+    return most;
+}
+
+size_t nh_nesting(const nh_dag *dag, nh_ex e)
+{
+    nh_index known = {0};
+    size_t most = nesting(dag, e, &known);
+    nh_index_clear(&known);
+    return most;
+}

@@ -45,6 +45,9 @@ bool nh_is_short(const nh_dag *dag, nh_ex e);
 /* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);
 
+/* How many functions, and powers of sums, stand inside of each other at most; whatever was named by a definition counts. */
+size_t nh_nesting(const nh_dag *dag, nh_ex e);
+
 /* Give back what FLINT and Arb keep for their next use; call it last. */
 void nh_normal_cleanup(void);
 

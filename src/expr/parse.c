@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/normal.h"
 #include "expr/num_long.h"
 
 enum { max_depth = 200, max_name = 63, max_power = 18 /* of ten, that is exact */, max_typed_power = 310, max_digits = 80 };
@@ -418,16 +419,18 @@ static bool expression(parser *p, nh_ex *out)
     return good && stays_finite(p, *out, start);
 }
 
-static bool finish(parser *p)
+/* Definitions can nest what no single text does. */
+static bool finish(parser *p, nh_ex e)
 {
-    return !peek(p) || no_operator(p, "an operator or the end of the expression");
+    if (peek(p)) return no_operator(p, "an operator or the end of the expression");
+    return nh_nesting(p->dag, e) <= max_depth || fail(p, 0, "with its definitions it is nested deeper than %d levels", max_depth);
 }
 
 bool nh_parse(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *out, nh_parse_fault *fault)
 {
     memset(fault, 0, sizeof *fault);
     parser p = {.dag = dag, .text = text, .resolve = resolve, .context = context, .fault = fault, .depth = -1};
-    return expression(&p, out) && finish(&p);
+    return expression(&p, out) && finish(&p, *out);
 }
 
 bool nh_parse_equation(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *lhs, nh_ex *rhs,
@@ -446,5 +449,5 @@ bool nh_parse_equation(nh_dag *dag, const char *text, nh_resolve *resolve, void 
     }
     p.at++;
     if (peek(&p) == '=') return fail(&p, p.at, "an equation is written with a single `=`");
-    return expression(&p, rhs) && finish(&p);
+    return expression(&p, rhs) && finish(&p, *rhs);
 }
