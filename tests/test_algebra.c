@@ -12,6 +12,7 @@
 #include "system/sample.h"
 
 static const double SMALL = 1e-7, CLUSTER = 2e-3;
+enum { MOST = 21 };
 
 static void put(nh_algebra *g, size_t at, int a, int b, int k, double value)
 {
@@ -75,6 +76,7 @@ static const struct {
     {"h", "Heisenberg", 1},      {"hr", "Heisenberg x R", 2}, {"hh", "Heisenberg^2", 2},
     {"s", "SE(3)", 0},           {"srr", "SE(3) x R^2", 2},   {"la", "SL(2,R) x Aff(1)", 0},
     {"p", "E(1,1)", 0},          {"per", "SE(2) x E(1,1) x R", 1}, {"oehr", "SO(3) x SE(2) x Heisenberg x R", 2},
+    {"sss", "SE(3)^3", 0},       {"hhh", "Heisenberg^3", 3}, {"ooooooo", "SO(3)^7", 0}, {"oooooooo", "(an algebra of dimension 24)", 0},
     {"rrrr", "R^4", 4},          {"f", "(an algebra of dimension 4)", 1},  {"d", "(an algebra of dimension 3)", 0},
 };
 
@@ -89,7 +91,7 @@ Test(algebra, products_in_random_bases_are_named)
             nh_text name;
             nh_text_init(&name);
             cr_expect_lt(nh_algebra_jacobi(&plain), 1e-14);
-            nh_algebra_report_init(&r, &g, SMALL, CLUSTER, seed);
+            nh_algebra_report_init(&r, &g, SMALL, CLUSTER, MOST, seed);
             nh_algebra_name(&r, NULL, &name);
             cr_expect_str_eq(nh_text_string(&name), products[i].name, "%s, seed %d: %s", products[i].letters, (int)seed, nh_text_string(&name));
             cr_expect_eq(r.centre, products[i].centre, "%s: centre %zu", products[i].letters, r.centre);
@@ -118,7 +120,7 @@ Test(algebra, series_of_known_algebras)
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         nh_algebra g = product(known[i].letters);
         nh_algebra_report r;
-        nh_algebra_report_init(&r, &g, SMALL, CLUSTER, 3);
+        nh_algebra_report_init(&r, &g, SMALL, CLUSTER, MOST, 3);
         cr_expect_eq(r.derived_length, known[i].derived_length, "%s: derived length %zu", known[i].letters, r.derived_length);
         cr_expect_eq(r.lower_length, known[i].lower_length, "%s: lower length %zu", known[i].letters, r.lower_length);
         for (size_t k = 0; k < known[i].derived_length; k++) cr_expect_eq(r.derived[k], known[i].derived[k], "%s", known[i].letters);
@@ -136,7 +138,7 @@ Test(algebra, circles_are_told_from_lines)
     nh_text name;
     nh_text_init(&name);
     bool closed[3] = {false, true, true};
-    nh_algebra_report_init(&r, &g, SMALL, CLUSTER, 5);
+    nh_algebra_report_init(&r, &g, SMALL, CLUSTER, MOST, 5);
     nh_algebra_name(&r, closed, &name);
     cr_expect_str_eq(nh_text_string(&name), "SE(2) x SO(2)^2");
     nh_text_clear(&name);

@@ -69,7 +69,7 @@ Test(group, dimension_and_algebra_without_an_ansatz)
             nh_algebra_report r;
             nh_text name;
             nh_text_init(&name);
-            nh_algebra_report_init(&r, &j->algebra, options.group, options.cluster, 5);
+            nh_algebra_report_init(&r, &j->algebra, options.group, options.cluster, (size_t)options.ideals, 5);
             nh_algebra_name(&r, NULL, &name);
             cr_expect_str_eq(nh_text_string(&name), e->algebra, "%s: %s", e->name, nh_text_string(&name));
             if (getenv("NHSYM_TEST_FIGURES"))

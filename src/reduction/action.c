@@ -41,6 +41,12 @@ static void find_constants(nh_action *g, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
     size_t d = g->d, m = k->m, long_m = places_of(k) * m;
+    g->algebra = nh_algebra_create(d);
+    g->closure = 0;
+    if (!d) {
+        g->closes = true;
+        return;
+    }
     nh_ex *e = nh_alloc_array(d * m + 1, sizeof *e), *b = nh_alloc_array(d * d * m + 1, sizeof *b);
     for (size_t a = 0; a < d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
     for (size_t i = 0; i < d * d * m; i++) b[i] = nh_int(k->dag, 0);
@@ -50,10 +56,13 @@ static void find_constants(nh_action *g, const nh_options *options)
             for (size_t s = 0; s < m; s++) b[(c * d + a) * m + s] = nh_neg(k->dag, b[(a * d + c) * m + s]);
         }
     double *E = stacked(k, d, e), *B = stacked(k, d * d, b);
-    g->algebra = nh_algebra_create(d);
-    g->closure = 0;
+    double *rest = nh_alloc_array(long_m * d * d + 1, sizeof *rest);
+    bool all = isfinite(nh_coordinates(long_m, d, E, d * d, B, g->algebra.c)); /* one decomposition for all */
+    for (size_t i = 0; i < d * d * d && !all; i++) g->algebra.c[i] = 0; /* some bracket is not finite */
+    nh_multiply(long_m, d * d, d, E, g->algebra.c, rest);
+    for (size_t i = 0; i < long_m * d * d; i++) rest[i] -= B[i];
     for (size_t pair = 0; pair < d * d; pair++) {
-        double off = nh_coordinates(long_m, d, E, 1, B + pair * long_m, g->algebra.c + pair * d), size = nh_largest(long_m, B + pair * long_m);
+        double off = nh_largest(long_m, rest + pair * long_m), size = nh_largest(long_m, B + pair * long_m);
         off = isfinite(off) && size > 0 ? off / (1e-300 + size) : size > 0 ? INFINITY : 0;
         if (off > g->closure) {
             g->closure = off;
@@ -72,6 +81,7 @@ static void find_constants(nh_action *g, const nh_options *options)
     nh_free(b);
     nh_free(E);
     nh_free(B);
+    nh_free(rest);
 }
 
 /* ---- ranks ---- */

@@ -59,8 +59,9 @@ typedef struct {
     nh_algebra_piece *piece;
 } nh_algebra_report;
 
-/* `cluster`: eigenvalues of a random element of the centroid that are nearer than this part of the spectral radius belong together. */
-void nh_algebra_report_init(nh_algebra_report *report, const nh_algebra *algebra, double small, double cluster, uint64_t seed);
+/* `cluster`: eigenvalues of a random element of the centroid that are nearer than this part of the spectral radius belong together; an algebra of more than `most`
+ * dimensions stays in one piece. */
+void nh_algebra_report_init(nh_algebra_report *report, const nh_algebra *algebra, double small, double cluster, size_t most, uint64_t seed);
 void nh_algebra_report_clear(nh_algebra_report *report);
 /* "SE(2) x SO(2)^3"; closed[i]: the one-dimensional piece i is a circle (NULL: none is). */
 void nh_algebra_name(const nh_algebra_report *report, const bool *closed, nh_text *out);

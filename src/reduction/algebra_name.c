@@ -139,21 +139,72 @@ nh_algebra_kind nh_algebra_kind_of(const nh_algebra *g, double small, uint64_t s
 
 /* ---- splitting ---- */
 
-/* Rows of T[x,y] = [Tx,y] in the w^2 unknown entries of T (column-major), for every pair of basis vectors. */
-static double *centroid_rows(const nh_algebra *g)
+/* T is in the centroid when it commutes with ad_y for every y: T[x,y] = -T ad_y x and [Tx,y] = -ad_y T x.  Then it commutes with ad_[y,z] too, so that a few random y
+ * say almost everything: the rows of T ad_y - ad_y T = 0 in the w^2 entries of T (column-major) for `few` of them. */
+enum { few = 3 };
+
+static void random_ad(const nh_algebra *g, uint64_t *seed, double *ad)
 {
-    size_t w = g->d, rows = w * w * w;
-    double *a = nh_alloc_array(rows * w * w + 1, sizeof *a);
-    for (size_t x = 0; x < w; x++)
-        for (size_t y = 0; y < w; y++)
-            for (size_t k = 0; k < w; k++) {
-                size_t row = (x * w + y) * w + k;
-                for (size_t l = 0; l < w; l++) {
-                    a[row + (k + l * w) * rows] += g->c[(x * w + y) * w + l]; /* T^k_l C_xy^l */
-                    a[row + (l + x * w) * rows] -= g->c[(l * w + y) * w + k]; /* T^l_x C_ly^k */
+    double *y = nh_alloc_array(g->d + 1, sizeof *y);
+    for (size_t i = 0; i < g->d; i++) y[i] = 2 * nh_random(seed) - 1;
+    nh_algebra_ad(g, y, ad);
+    nh_free(y);
+}
+
+static double *commutant_rows(const nh_algebra *g, uint64_t *seed)
+{
+    size_t w = g->d, rows = few * w * w;
+    double *a = nh_alloc_array(rows * w * w + 1, sizeof *a), *ad = nh_alloc_array(w * w + 1, sizeof *ad);
+    for (size_t draw = 0; draw < few; draw++) {
+        random_ad(g, seed, ad);
+        for (size_t k = 0; k < w; k++)
+            for (size_t l = 0; l < w; l++) {
+                size_t row = (draw * w + k) * w + l; /* (T ad)_kl - (ad T)_kl */
+                for (size_t i = 0; i < w; i++) {
+                    a[row + (k + i * w) * rows] += ad[i + l * w];
+                    a[row + (i + l * w) * rows] -= ad[k + i * w];
                 }
             }
+    }
+    nh_free(ad);
     return a;
+}
+
+/* Of n matrices T_j the combinations that commute with one more random ad_y; returns their number. */
+static size_t shrink(const nh_algebra *g, double small, size_t n, double *kernel, uint64_t *seed)
+{
+    size_t w = g->d, length = w * w;
+    double *ad = nh_alloc_array(3 * length + 1, sizeof *ad), *left = ad + length, *right = left + length;
+    double *rows = nh_alloc_array(length * n + 1, sizeof *rows), *mix = nh_alloc_array(n * n + 1, sizeof *mix), *out = nh_alloc_array(length * n + 1, sizeof *out);
+    random_ad(g, seed, ad);
+    for (size_t j = 0; j < n; j++) {
+        nh_multiply(w, w, w, kernel + j * length, ad, left);
+        nh_multiply(w, w, w, ad, kernel + j * length, right);
+        for (size_t i = 0; i < length; i++) rows[i + j * length] = left[i] - right[i];
+    }
+    size_t kept = nh_kernel(length, n, rows, small, mix, NULL, NULL);
+    nh_multiply(length, kept, n, kernel, mix, out);
+    memcpy(kernel, out, length * kept * sizeof *out);
+    nh_free(ad);
+    nh_free(rows);
+    nh_free(mix);
+    nh_free(out);
+    return kept;
+}
+
+/* A basis of the centroid; out is w^2 x w^2.  It ends when two more elements change nothing. */
+static size_t centroid(const nh_algebra *g, double small, uint64_t *seed, double *out)
+{
+    size_t w = g->d, n, same = 0;
+    double *a = commutant_rows(g, seed);
+    n = nh_kernel(few * w * w, w * w, a, small * scale_of(g), out, NULL, NULL);
+    nh_free(a);
+    for (size_t draws_left = 2 * w; n > 1 && same < 2 && draws_left > 0; draws_left--) {
+        size_t kept = shrink(g, small * scale_of(g), n, out, seed);
+        same = kept == n ? same + 1 : 0;
+        n = kept;
+    }
+    return n;
 }
 
 typedef struct {
@@ -235,15 +286,16 @@ static bool valid_splitting(const nh_algebra *g, const splitting *s, double smal
     return good && total == w;
 }
 
-static void finest_splitting(const nh_algebra *g, double small, double cluster, uint64_t seed, splitting *best)
+static void finest_splitting(const nh_algebra *g, double small, double cluster, size_t most, uint64_t seed, splitting *best)
 {
-    size_t w = g->d, rows = w * w * w, unknowns = w * w;
-    double *a = centroid_rows(g), *kernel = nh_alloc_array(unknowns * unknowns + 1, sizeof *kernel), *t = nh_alloc_array(unknowns + 1, sizeof *t);
-    size_t n = nh_kernel(rows, unknowns, a, small * scale_of(g), kernel, NULL, NULL);
-    splitting s = {.basis = nh_alloc_array(w * w + 1, sizeof(double))};
     best->count = 1;
-    best->dimension[0] = w;
-    identity(w, best->basis);
+    best->dimension[0] = g->d;
+    identity(g->d, best->basis);
+    if (g->d > most) return;
+    size_t w = g->d, unknowns = w * w;
+    double *kernel = nh_alloc_array(unknowns * unknowns + 1, sizeof *kernel), *t = nh_alloc_array(unknowns + 1, sizeof *t);
+    size_t n = centroid(g, small, &seed, kernel);
+    splitting s = {.basis = nh_alloc_array(w * w + 1, sizeof(double))};
     for (int draw = 0; draw < draws && n > 1; draw++) {
         memset(t, 0, unknowns * sizeof *t);
         for (size_t j = 0; j < n; j++) {
@@ -256,7 +308,6 @@ static void finest_splitting(const nh_algebra *g, double small, double cluster, 
         memcpy(best->dimension, s.dimension, sizeof s.dimension);
         memcpy(best->basis, s.basis, w * w * sizeof *s.basis);
     }
-    nh_free(a);
     nh_free(kernel);
     nh_free(t);
     nh_free(s.basis);
@@ -311,7 +362,7 @@ static void add_piece(nh_algebra_report *r, nh_algebra_kind kind, size_t n, cons
     memcpy(p->basis, basis, r->d * n * sizeof *basis);
 }
 
-void nh_algebra_report_init(nh_algebra_report *r, const nh_algebra *g, double small, double cluster, uint64_t seed)
+void nh_algebra_report_init(nh_algebra_report *r, const nh_algebra *g, double small, double cluster, size_t most, uint64_t seed)
 {
     size_t d = g->d, w;
     double *scratch = nh_alloc_array(5 * d * d + 1, sizeof *scratch), *flat = scratch, *rest = flat + d * d, *basis = rest + d * d, *lifted = basis + d * d;
@@ -325,7 +376,7 @@ void nh_algebra_report_init(nh_algebra_report *r, const nh_algebra *g, double sm
     if (w) {
         nh_algebra core = nh_algebra_change(g, w, rest, NULL);
         splitting s = {.basis = basis};
-        finest_splitting(&core, small, cluster, seed, &s);
+        finest_splitting(&core, small, cluster, most, seed, &s);
         for (size_t i = 0, at = 0; i < s.count; at += s.dimension[i], i++) {
             nh_multiply(d, s.dimension[i], w, rest, basis + at * w, lifted);
             nh_algebra part = nh_algebra_change(g, s.dimension[i], lifted, NULL);

@@ -38,7 +38,7 @@ static void name_group(nh_group *g, const nh_options *options)
     nh_text name;
     nh_text_init(&name);
     const nh_algebra *algebra = g->missing ? &g->jets->algebra : &g->action.algebra;
-    nh_algebra_report_init(&g->report, algebra, options->group, options->cluster, (uint64_t)options->seed);
+    nh_algebra_report_init(&g->report, algebra, options->group, options->cluster, (size_t)options->ideals, (uint64_t)options->seed);
     g->closed = nh_alloc_array(g->report.pieces + 1, sizeof *g->closed);
     size_t n = g->missing || !g->action.closes ? 0 : circles(g, options);
     for (size_t i = 0; i < g->report.pieces; i++)

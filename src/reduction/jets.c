@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "base/progress.h"
 #include "reduction/jet_conditions.h"
 #include "reduction/subspace.h"
 
@@ -61,7 +62,7 @@ static void find_algebra(nh_jet_conditions *s, const double *jet, nh_jets *out)
     size_t m = s->m, d = out->dimension, size = s->t.size;
     double *brackets = nh_alloc_array(size * d * d + 1, sizeof *brackets), *rate = nh_alloc_array(size, sizeof *rate);
     out->algebra = nh_algebra_create(d);
-    for (size_t a = 0; a < d; a++) {
+    for (size_t a = 0; a < d && !nh_interrupted(); a++) {
         const double *A = jet + a * size;
         nh_transport_at(&s->t, out->place, A);
         for (size_t b = 0; b < d; b++) {
@@ -151,7 +152,7 @@ static void run(nh_jet_conditions *s, nh_jets *out)
     nh_transport_at(&s->t, out->place, s->x);
     first_jets(s, jets);
     nh_jet_conditions_at(s, out->place, jets);
-    for (size_t p = 1; p < s->kinetic->places && out->places < wanted && s->columns; p++) {
+    for (size_t p = 1; p < s->kinetic->places && out->places < wanted && s->columns && !nh_interrupted(); p++) {
         double *end = out->end + out->places * m, *here = moved + out->places * length;
         if (follow_ray(s, out->place, s->kinetic->place + p * m, jets, end, here) && nh_jet_conditions_at(s, end, here)) out->places++;
         if (out->places == 1 && length == s->t.size * m * (m + 1) / 2) {
@@ -160,24 +161,29 @@ static void run(nh_jet_conditions *s, nh_jets *out)
             wanted = rays_wanted(s);
         }
     }
-    for (size_t p = 0; p + 1 < out->places && p < triangles && s->columns; p++)
+    for (size_t p = 0; p + 1 < out->places && p < triangles && s->columns && !nh_interrupted(); p++)
         triangle_rows(s, out->end + p * m, out->end + (p + 1) * m, moved + p * length, moved + (p + 1) * length);
-    if (out->places) conclude(s, jets, moved, out);
+    if (out->places && !nh_interrupted()) conclude(s, jets, moved, out);
     nh_free(jets);
 }
 
 nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *error)
 {
+    size_t m = k->m, unknowns = m * (m + 1) / 2;
+    if ((double)unknowns > options->jets) {
+        nh_fail(error, NH_LIMIT, "", "the symmetries of a kinetic energy in %zu coordinates are not looked for: %zu unknowns", m, unknowns);
+        return nh_error_hint(error, "name the group by --group \"%s=1; ...\", or allow more by --option jets=%zu", k->name[0], unknowns), NULL;
+    }
     nh_jets *out = nh_alloc(sizeof *out);
-    size_t m = k->m;
     nh_jet_conditions s;
     *out = (nh_jets){.m = m, .place = nh_alloc_array(m, sizeof *out->place)};
     memcpy(out->place, k->place, m * sizeof *out->place);
     nh_jet_conditions_init(&s, k, options, out->place);
     run(&s, out);
     nh_jet_conditions_clear(&s);
-    if (out->places) return out;
+    if (out->places && !nh_interrupted()) return out;
     nh_jets_free(out);
+    if (nh_interrupted()) return nh_fail_ended(error, "while symmetries of the kinetic energy were looked for"), NULL;
     nh_fail(error, NH_NUMERIC, "", "no way could be found along which symmetries of the metric could be followed");
     nh_error_hint(error, "give a domain without singularities of the coordinates");
     return NULL;

@@ -4,6 +4,8 @@
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
 
+#include "base/progress.h"
+
 typedef struct {
     size_t n;
     nh_runge_rate *rate;
@@ -13,7 +15,7 @@ typedef struct {
 static int rate_of(double t, const double *y, double *rate, void *context)
 {
     problem *p = context;
-    if (!p->rate(t, y, rate, p->context)) return GSL_EBADFUNC;
+    if (nh_interrupted() || !p->rate(t, y, rate, p->context)) return GSL_EBADFUNC;
     for (size_t i = 0; i < p->n; i++)
         if (!isfinite(rate[i])) return GSL_EBADFUNC;
     return GSL_SUCCESS;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "base/progress.h"
 #include "expr/diff.h"
 #include "reduction/runge.h"
 
@@ -166,7 +167,7 @@ static bool rate_of(double s, const double *y, double *rate, void *context)
     nh_transport *t = w->t;
     for (size_t i = 0; i < t->m; i++) t->q[i] = w->from[i] + s * w->x[i] * t->scale[i];
     if (!nh_transport_at(t, t->q, w->x)) return false;
-    for (size_t j = 0; j < w->count; j++) nh_transport_rate(t, w->x, y + j * t->size, rate + j * t->size);
+    for (size_t j = 0; j < w->count && !nh_interrupted(); j++) nh_transport_rate(t, w->x, y + j * t->size, rate + j * t->size);
     return true;
 }
 
