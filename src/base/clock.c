@@ -10,4 +10,5 @@ static double read_clock(clockid_t which)
 }
 
 double nh_clock(void) { return read_clock(CLOCK_MONOTONIC); }
+double nh_clock_of_process(void) { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
 double nh_clock_of_thread(void) { return read_clock(CLOCK_THREAD_CPUTIME_ID); }

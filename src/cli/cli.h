@@ -62,8 +62,8 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
  * anything is written: signals end the process at once. */
 void nh_cli_watch_begin(const nh_cli *cli);
 void nh_cli_watch_end(void);
-/* Of these two: signals and the limit in seconds (none when it is not finite). */
-void nh_cli_guard_begin(double limit);
+/* Of these two: signals and the limit (none when it is not finite). */
+void nh_cli_guard_begin(double seconds);
 void nh_cli_guard_writing(void);
 
 /* Nothing came of the work: the exit code.  Where it was ended, that is the reason, whatever failed for it. */

@@ -1,7 +1,7 @@
 /* guard: signals and the time limit.
  *
  * One thread waits for both.  The first signal, and the limit, end the computation by base/progress.h: it returns soon, with what it has.  A second signal, one that
- * comes while results are written, and a computation that is still not back `grace` after the limit end the process at once: without temporary files, folders and
+ * comes while results are written, and a computation that has still not come back when it has used `grace` more of the processor end the process at once: without temporary files, folders and
  * children (base/leave.h), so that every file is whole or as it was. */
 #include <math.h>
 #include <pthread.h>
@@ -16,7 +16,7 @@
 #include "cli/cli.h"
 
 static atomic_bool writing;
-static double end; /* by the monotonic clock */
+static double limit, end; /* seconds; by the monotonic clock */
 
 static void end_at_once(int code)
 {
@@ -39,14 +39,26 @@ static sigset_t signals(void)
     return set;
 }
 
-/* The next signal; 0: the time is over, or nothing came for an hour. */
+/* The next signal; 0: it is time to look at the clocks. */
 static int next_signal(const sigset_t *set)
 {
-    static const double longest = 3600;
-    double left = fmin(fmax(end - nh_clock(), 0), longest), whole = floor(left);
+    static const double shortest = 0.01, longest = 3600;
+    double left = fmin(fmax(end - nh_clock(), shortest), longest), whole = floor(left);
     struct timespec pause = {(time_t)whole, (long)(1e9 * (left - whole))};
     int number = sigtimedwait(set, NULL, &pause);
     return number > 0 ? number : 0;
+}
+
+/* What a computation may take to come back, and to write what there is: of the processor, so that a busy machine does not take a result away.  Whoever waits for
+ * something else than the processor may do so for `patience` times as long. */
+static bool past_grace(void)
+{
+    static const double part = 0.12, more = 0.12, patience = 10;
+    static double used; /* when the limit was reached */
+    double grace = part * limit + more, now = nh_clock();
+    if (now < end) return false;
+    if (used == 0) used = nh_clock_of_process();
+    return nh_clock_of_process() - used > grace || now - end > patience * grace;
 }
 
 static void *stand(void *unused)
@@ -56,7 +68,7 @@ static void *stand(void *unused)
         if (next_signal(&set)) {
             if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED);
             nh_interrupt();
-        } else if (nh_clock() >= end) {
+        } else if (past_grace()) {
             end_at_once(NH_LIMIT);
         }
     }
@@ -69,18 +81,17 @@ static void on_signal(int number)
     nh_interrupt();
 }
 
-void nh_cli_guard_begin(double limit)
+void nh_cli_guard_begin(double seconds)
 {
-    /* of the limit, and in seconds: what a computation may take to come back, and to write what there is */
-    static const double grace = 0.15, more = 0.15;
     struct sigaction act = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND}; /* somebody may have us ignore them; and where no thread can be had */
     sigset_t set = signals();
     pthread_t thread;
     sigemptyset(&act.sa_mask);
     sigaction(SIGINT, &act, NULL);
     sigaction(SIGTERM, &act, NULL);
-    nh_limit_set(limit);
-    end = nh_clock() + (1 + grace) * limit + more;
+    nh_limit_set(seconds);
+    limit = seconds;
+    end = nh_clock() + seconds;
     pthread_sigmask(SIG_BLOCK, &set, NULL);
     if (pthread_create(&thread, NULL, stand, NULL)) pthread_sigmask(SIG_UNBLOCK, &set, NULL);
     else pthread_detach(thread);

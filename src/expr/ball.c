@@ -4,6 +4,7 @@
 
 #include "base/budget.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "expr/ball_internal.h"
 #include "expr/num_long.h"
 
@@ -247,7 +248,7 @@ static bool eval(nh_ball *ball, nh_ex e, arb_t out)
         for (size_t i = old; i < ball->capacity; i++) ball->of[i] = (memo){.epoch = 0};
     }
     if (ball->of[e].epoch != ball->epoch) {
-        if (ball->depth > deepest) return false;
+        if (ball->depth > deepest || nh_interrupted()) return false;
         ball->depth++;
         bool finite = eval_node(ball, e, out) && arb_is_finite(out);
         ball->depth--;

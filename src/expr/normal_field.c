@@ -55,6 +55,7 @@ void nh_field_break(nh_field *field, nh_field_state why)
 
 nh_quotient *nh_quotient_fresh(nh_field *f)
 {
+    if (nh_interrupted()) nh_field_break(f, NH_FIELD_TOO_LARGE);
     nh_quotient *q = nh_alloc(sizeof *q);
     fmpz_mpoly_init(q->num, f->ctx);
     fmpz_mpoly_init(q->den, f->ctx);
@@ -71,7 +72,7 @@ bool nh_field_spend(nh_field *f, double work)
 {
     f->work += work;
     nh_work_add(NH_WORK_TERM, work);
-    if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late()))) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late())) || nh_interrupted()) nh_field_break(f, NH_FIELD_TOO_LARGE);
     return f->state == NH_FIELD_FINE;
 }
 

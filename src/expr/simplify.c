@@ -1,4 +1,5 @@
 /* nh_simplify: several forms of one expression compete, the shortest wins. */
+#include "base/progress.h"
 #include "expr/dag_internal.h"
 #include "expr/emit.h"
 #include "expr/form.h"
@@ -243,7 +244,7 @@ static nh_ex simplify(context *shared, nh_ex e)
 {
     uint32_t known;
     contest c = {.shared = shared, .dag = shared->dag, .best = e, .last = e, .length = nh_complexity(shared->dag, e)};
-    if (c.length <= shortest || shared->depth > deepest) return e;
+    if (c.length <= shortest || shared->depth > deepest || nh_interrupted()) return e;
     if (nh_index_get(&shared->done, e, &known)) return known;
     shared->depth++;
     c.inexact = !nh_is_short(c.dag, e);
@@ -322,6 +323,7 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_forms_clear(&shared.cut);
     nh_index_clear(&shared.done);
     nh_index_clear(&shared.rational);
+    if (nh_interrupted()) return result; /* not the shortest that there is */
     nh_dag_set_simplified(dag, e, result);
     nh_dag_set_simplified(dag, result, result);
     return result;

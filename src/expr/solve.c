@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "expr/normal.h"
 
 struct nh_lu {
@@ -47,7 +48,7 @@ static void eliminate(nh_lu *lu, size_t r, size_t k)
     nh_dag *d = lu->dag;
     size_t n = lu->n;
     nh_ex pivot = lu->a[r * n + k];
-    for (size_t i = r + 1; i < n; i++) {
+    for (size_t i = r + 1; i < n && !nh_interrupted(); i++) {
         nh_ex *row = lu->a + i * n;
         if (nh_is_zero(d, row[k])) continue;
         row[k] = nh_simplify_short(d, nh_div(d, row[k], pivot), 0);
@@ -65,7 +66,7 @@ nh_lu *nh_lu_create(nh_dag *dag, size_t n, const nh_ex *a, nh_pivot_score *score
     if (n) memcpy(lu->a, a, n * n * sizeof *a);
     for (size_t i = 0; i < n; i++) lu->row[i] = i;
     size_t r = 0; /* = k until a column has no pivot; from then on only the rank is of interest */
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < n && !nh_interrupted(); k++) {
         size_t best;
         if (choose_pivot(lu, r, k, score, context, &best) == 0) continue;
         swap_rows(lu, r, best);
