@@ -1,6 +1,8 @@
 /* Closed forms of the symmetries of chains: what the jets count is given by the displacements of the joints. */
 #include "reduced.h"
 
+#include "expr/normal.h"
+#include "reduction/chain.h"
 #include "reduction/group.h"
 #include "reduction/joint_fields.h"
 
@@ -91,4 +93,27 @@ Test(joint_fields, coefficients_over_the_parameters)
     for (size_t a = 0; a < g->action.d; a++) cr_expect(g->action.generator[a].metric.all_parameters, "generator %zu", a + 1);
     nh_group_free(g);
     reducible_clear(&x);
+}
+
+/* Displacements of space are named by the joint's axes, which are exact, not by numbers found at the parameters' values. */
+Test(joint_fields, displacements_of_space_are_exact)
+{
+    nh_error error = {0};
+    nh_system *s = nh_system_parse("test.yaml", "parameters: [{name: al, value: 0.37}, {name: h, value: 0.21}]\nbodies: [{name: a, mass: 1, inertia: 0.3}, {name: b, mass: 2, inertia: 0.1, center: [0.2, 0, 0]}]\n"
+                                                "joints:\n  - {type: planar, child: a, rotation: {y: al}, coordinates: [x, y, p]}\n  - {type: helical, child: b, axis: [1, 2, 2], pitch: h, coordinates: [q]}\n", 0, NULL, &error);
+    nh_chain_symmetries *c = nh_chain_symmetries_find(s, 5, &error);
+    must(c != NULL, &error, "symmetries");
+    size_t moves = 0;
+    for (size_t i = 0; i < c->fields; i++) {
+        if (c->field[i].rule != NH_CHAIN_AP1) continue;
+        moves++;
+        for (size_t k = 0; k < s->coordinates; k++) {
+            nh_ex e = c->field[i].component[k];
+            cr_expect_not(nh_depends(s->dag, e, s->parameter[0].symbol) || nh_depends(s->dag, e, s->parameter[1].symbol), "field %zu, component %zu", i, k);
+            cr_expect(nh_is_exact(s->dag, e), "field %zu, component %zu", i, k);
+        }
+    }
+    cr_expect_eq(moves, 4, "%zu", moves); /* x, y, p of one body, q of the other */
+    nh_chain_symmetries_free(c);
+    nh_system_free(s);
 }

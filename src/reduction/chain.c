@@ -210,8 +210,8 @@ static bool dual_basis(const work *w, size_t n, const nh_twist *basis, double *i
     return nh_solve(n, gram, n, inverse, NULL);
 }
 
-/* t less its orthogonal projection on the span of the basis: column c of e (6 x 6). */
-static void part_off(const work *w, size_t n, const nh_twist *basis, const double *inverse, const nh_twist *t, size_t c, nh_ex *e)
+/* t less its orthogonal projection on the span of the basis: column c of e (6 x columns). */
+static void part_off(const work *w, size_t n, const nh_twist *basis, const double *inverse, const nh_twist *t, size_t columns, size_t c, nh_ex *e)
 {
     nh_dag *d = w->dag;
     nh_twist off = *t;
@@ -224,36 +224,54 @@ static void part_off(const work *w, size_t n, const nh_twist *basis, const doubl
             }
         }
     for (size_t i = 0; i < 3; i++) {
-        e[i * 6 + c] = off.v[i];
-        e[(i + 3) * 6 + c] = off.w[i];
+        e[i * columns + c] = off.v[i];
+        e[(i + 3) * columns + c] = off.w[i];
     }
 }
 
-/* AP1: the part of Ad(pose before the joint)^-1 c off Lie(Q_i), for the six unit twists c of space. */
+/* The combinations of n twists, known in the frame in which `pose` is that before the joint, that stay in Lie(Q_i) everywhere: echelon form; local: the twists
+ * before the joint.  Returns their number; *whole: all coefficients are whole numbers. */
+static size_t staying(work *w, const nh_joint *j, const nh_pose *pose, size_t n, const nh_twist *twist, nh_twist *local, double *null, bool *whole)
+{
+    nh_twist basis[most_basis];
+    nh_ex e[6 * most_basis];
+    double inverse[most_basis * most_basis];
+    size_t m = nh_joint_basis(w->dag, w->chain, j, basis);
+    *whole = true;
+    if (!dual_basis(w, m, basis, inverse)) return 0;
+    for (size_t k = 0; k < n; k++) {
+        local[k] = nh_twist_inwards(w->dag, pose, &twist[k]);
+        part_off(w, m, basis, inverse, &local[k], n, k, e);
+    }
+    size_t dimension = null_space(w, 6, n, e, null);
+    reduce(dimension, n, null);
+    for (size_t i = 0; i < dimension * n; i++) *whole &= null[i] == round(null[i]);
+    return dimension;
+}
+
+/* AP1: twists c of space with Ad(P)^-1 c in Lie(Q_i) everywhere, P the pose before the joint.  At rest they are Ad(P0) b with b in Lie(Q_i): first the
+ * coefficients of b are looked for, then, unless these are whole numbers, those of the unit twists of space: one of both frames has the axes as they were given. */
 static void space_moves(work *w, size_t joint)
 {
     const nh_joint *j = &w->chain->joint[joint];
     nh_dag *d = w->dag;
-    nh_twist basis[most_basis], space[6], U;
-    nh_pose before;
-    nh_ex e[36];
-    double inverse[most_basis * most_basis], null[36];
-    size_t n = nh_joint_basis(w->dag, w->chain, j, basis);
+    nh_twist twist[most_basis], local[most_basis], U;
+    nh_pose before, rest, since;
+    double null[most_basis * most_basis];
+    bool whole;
+    size_t n = nh_joint_basis(d, w->chain, j, twist);
     nh_chain_frame(w->chain, d, j->parent, 0, &before, &U);
     before = nh_pose_product(d, &before, &j->placement);
-    if (!dual_basis(w, n, basis, inverse)) return;
-    for (size_t c = 0; c < 6; c++) {
-        for (size_t i = 0; i < 3; i++) {
-            space[c].v[i] = nh_int(d, c == i);
-            space[c].w[i] = nh_int(d, c == 3 + i);
-        }
-        nh_twist local = nh_twist_inwards(d, &before, &space[c]);
-        part_off(w, n, basis, inverse, &local, c, e);
+    rest = nh_joint_at_rest(w->system, &before);
+    since = nh_pose_between(d, &rest, &before);
+    size_t dimension = staying(w, j, &since, n, twist, local, null, &whole);
+    if (!whole) {
+        for (size_t c = 0; c < 6; c++)
+            for (size_t i = 0; i < 3; i++) twist[c].v[i] = nh_int(d, c == i), twist[c].w[i] = nh_int(d, c == 3 + i);
+        dimension = staying(w, j, &before, n = 6, twist, local, null, &whole);
     }
-    size_t dimension = null_space(w, 6, 6, e, null);
-    reduce(dimension, 6, null);
     for (size_t k = 0; k < dimension; k++) {
-        nh_twist c = combination(d, 6, space, null + 6 * k), a = nh_twist_inwards(d, &before, &c);
+        nh_twist a = combination(d, n, local, null + n * k);
         add_field(w, NH_CHAIN_AP1, joint, &a);
     }
 }

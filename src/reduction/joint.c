@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/memory.h"
 #include "expr/normal.h"
 #include "expr/solve.h"
 #include "expr/tape.h"
@@ -36,6 +37,19 @@ nh_pose nh_joint_pose(nh_dag *d, const nh_chain *c, const nh_joint *j)
         a = nh_pose_product(d, &a, &step);
     }
     return a;
+}
+
+nh_pose nh_joint_at_rest(const nh_system *s, const nh_pose *pose)
+{
+    nh_dag *d = s->dag;
+    size_t n = s->coordinates + 1;
+    nh_ex *from = nh_alloc_array(2 * n, sizeof *from), *zero = from + n;
+    nh_pose out = *pose;
+    for (size_t i = 0; i < n; i++) from[i] = i < s->coordinates ? s->coordinate[i].q : s->t, zero[i] = nh_int(d, 0);
+    for (int i = 0; i < 9; i++) out.R[i] = nh_substitute(d, out.R[i], n, from, zero);
+    for (int i = 0; i < 3; i++) out.p[i] = nh_substitute(d, out.p[i], n, from, zero);
+    nh_free(from);
+    return out;
 }
 
 /* The size of a pivot at one place. */

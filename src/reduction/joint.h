@@ -12,6 +12,9 @@ size_t nh_joint_basis(nh_dag *dag, const nh_chain *chain, const nh_joint *joint,
 /* E. */
 nh_pose nh_joint_pose(nh_dag *dag, const nh_chain *chain, const nh_joint *joint);
 
+/* A pose where all coordinates and the time are zero. */
+nh_pose nh_joint_at_rest(const nh_system *system, const nh_pose *pose);
+
 /* NULL where the angles are singular everywhere. */
 typedef struct nh_joint_rates nh_joint_rates;
 nh_joint_rates *nh_joint_rates_create(const nh_system *system, const nh_joint *joint);

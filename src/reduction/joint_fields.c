@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/diff.h"
 #include "expr/normal.h"
 #include "reduction/joint.h"
 
@@ -111,23 +110,11 @@ static bool is_turned(const work *w)
     return memcmp(identity.R, w->joint->placement.R, sizeof identity.R);
 }
 
-static void at_rest(const work *w, nh_pose *pose)
-{
-    const nh_system *s = w->system;
-    nh_ex *q = nh_alloc_array(2 * s->coordinates + 1, sizeof *q), *zero = q + s->coordinates;
-    for (size_t i = 0; i < s->coordinates; i++) q[i] = s->coordinate[i].q, zero[i] = nh_int(w->dag, 0);
-    for (int i = 0; i < 9; i++) pose->R[i] = nh_substitute(w->dag, pose->R[i], s->coordinates, q, zero);
-    for (int i = 0; i < 3; i++) pose->p[i] = nh_substitute(w->dag, pose->p[i], s->coordinates, q, zero);
-    nh_free(q);
-}
-
 /* P: the joint's frame in that of a body before it. */
 static void fixed_in(work *w, const nh_pose *P, const nh_pose *E, bool own)
 {
     nh_dag *d = w->dag;
-    nh_pose all = nh_pose_product(d, P, E), P0 = *P, since;
-    at_rest(w, &P0);
-    since = nh_pose_between(d, &P0, &all);
+    nh_pose all = nh_pose_product(d, P, E), P0 = nh_joint_at_rest(w->system, P), since = nh_pose_between(d, &P0, &all);
     for (size_t k = 0; k < w->n && own; k++) add_fixed(w, &since, &w->basis[k]);
     for (size_t i = 0; i < 6; i++) {
         nh_twist c = unit_twist(d, i);
