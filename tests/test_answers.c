@@ -5,6 +5,7 @@
 
 #include "noether/independence.h"
 #include "noether/prove.h"
+#include "noether/rank.h"
 #include "noether/recognise.h"
 #include "noether/unknowns.h"
 #include "system/sample.h"
@@ -161,7 +162,7 @@ Test(independence, functions_of_what_was_found_are_seen)
 {
     static const char *const text[] = {"E", PHI2, PHI2B, "E^2 - 3*(" PHI2 ")", "t*sqrt(E)", "exp(" PHI2 ")*E", "2.5", "x + 1e-4*y", "x", "y"};
     const nh_independence want[] = {NH_INDEPENDENT, NH_INDEPENDENT, NH_DEPENDENT, NH_DEPENDENT, NH_INDEPENDENT, NH_DEPENDENT, NH_CONSTANT, NH_INDEPENDENT,
-                                    NH_DOUBTFUL, NH_INDEPENDENT};
+                                    NH_INDEPENDENT, NH_DEPENDENT};
     enum { COUNT = sizeof want / sizeof *want };
     mechanics x = sleigh(1.3, 0.7, 1.5);
     nh_points *points = points_of(x.model, 24, 6);
@@ -361,5 +362,32 @@ Test(unknowns, nothing_where_there_is_nothing)
     nh_hits *h = hits_of(x.model, &s, 1);
     cr_expect(h->count == 0 && h->best > 1e-4, "%zu values, best %.1e", h->count, h->best);
     nh_hits_free(h);
+    mechanics_clear(&x);
+}
+
+/* Gradients that differ by little: doubles doubt, balls prove; with fitted numbers what is left has to be larger than their errors. */
+Test(independence, small_differences_are_decided)
+{
+    mechanics x = mechanics_of_text(PARTICLE("free", "") "lagrangian: (x'^2 + y'^2)/2\n", NH_CHART_AUTO);
+    nh_points *points = points_of(x.model, 24, 3);
+    nh_dag *d = x.model->dag;
+    nh_ex first = formula(x.model, "x'"), near = formula(x.model, "x' + y'/10000"), nearer = formula(x.model, "x' + y'/10^12"), root = formula(x.model, "sqrt(x'^2)*3 + x'^2");
+    nh_ex fitted = nh_add(d, first, nh_mul(d, nh_real(d, 1.2345678901e-9), formula(x.model, "y'"))), loose = nh_add(d, first, nh_mul(d, nh_real(d, 1.2345678901e-3), formula(x.model, "y'")));
+    const struct {
+        nh_ex phi;
+        nh_rank_answer answer;
+        bool proved;
+    } asked[] = {{near, NH_RANK_GROWS, true}, {nearer, NH_RANK_GROWS, true}, {root, NH_RANK_STAYS, false}, {fitted, NH_RANK_STAYS, false}, {loose, NH_RANK_GROWS, false}};
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        nh_ex pair[2] = {first, asked[i].phi};
+        nh_rank rank = nh_rank_decide(x.model, 1, pair, 1e-6);
+        cr_expect(rank.answer == asked[i].answer && rank.proved == asked[i].proved, "%zu: %d", i, (int)rank.answer);
+        cr_expect(rank.answer != NH_RANK_STAYS || rank.digits > 6, "%zu: %g digits", i, rank.digits);
+    }
+    nh_ex pair[2] = {first, near};
+    nh_independence kind[2];
+    nh_independence_test(x.model, points, 2, pair, 1e-2, 1e-6, kind, NULL);
+    cr_expect(kind[0] == NH_INDEPENDENT && kind[1] == NH_INDEPENDENT, "%d %d", (int)kind[0], (int)kind[1]);
+    nh_points_free(points);
     mechanics_clear(&x);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "expr/diff.h"
+#include "noether/rank.h"
 
 enum { levels = 4 };
 
@@ -88,6 +89,19 @@ static void accept(frame *f, const double *rest)
     f->accepted++;
 }
 
+/* phi[k] against the accepted ones before it, where doubles leave a doubt. */
+static nh_independence decide(const nh_model *o, size_t k, const nh_ex *phi, const nh_independence *kind, double doubt)
+{
+    nh_ex *list = nh_alloc_array(k + 1, sizeof *list);
+    size_t n = 0;
+    for (size_t i = 0; i < k; i++)
+        if (kind[i] == NH_INDEPENDENT) list[n++] = phi[i];
+    list[n] = phi[k];
+    nh_rank rank = nh_rank_decide(o, n, list, doubt);
+    nh_free(list);
+    return rank.answer == NH_RANK_GROWS ? NH_INDEPENDENT : rank.answer == NH_RANK_STAYS ? NH_DEPENDENT : NH_DOUBTFUL;
+}
+
 void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, double sure, double doubt,
                           nh_independence *out, double *fraction)
 {
@@ -106,6 +120,7 @@ void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, 
         double m = median(usable, left);
         if (fraction) fraction[k] = usable ? m : 0;
         out[k] = still >= usable ? NH_CONSTANT : m > sure ? NH_INDEPENDENT : m < doubt ? NH_DEPENDENT : NH_DOUBTFUL;
+        if (out[k] == NH_DOUBTFUL) out[k] = decide(o, k, phi, out, doubt);
         if (out[k] == NH_INDEPENDENT && f.accepted < width) accept(&f, rest);
     }
     nh_free(left);

@@ -303,6 +303,7 @@ static void put_current(const writer *w, nh_json *currents, const nh_found *f)
     nh_json_put_bool(item, "exact", f->exact);
     nh_json_put_number(item, "printed_digits", floor(f->printed_digits));
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);
+    nh_json_put_text(item, "independence_by", f->rank.proved ? "proof" : f->rank.answer != NH_RANK_UNDECIDED ? "digits" : "doubles");
     nh_json_put_text(item, "relation", f->relation);
     nh_json_put_bool(item, "local", f->local);
     put_series(w, item, f->series);

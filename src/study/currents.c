@@ -72,6 +72,25 @@ static void sort(nh_result *r)
     }
 }
 
+/* What doubles propose, with many digits at exact points: they have the last word. */
+static void decide_ranks(nh_result *r, const nh_ex *phi, nh_independence *kind)
+{
+    nh_ex *list = nh_alloc_array(r->count + 1, sizeof *list);
+    size_t n = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        list[n] = phi[k];
+        if (kind[k] == NH_CONSTANT || r->found[k].series) {
+            n += kind[k] == NH_INDEPENDENT;
+            continue;
+        }
+        nh_rank *rank = &r->found[k].rank;
+        *rank = nh_rank_decide(r->model, n, list, r->options.doubt);
+        if (rank->answer != NH_RANK_UNDECIDED) kind[k] = rank->answer == NH_RANK_GROWS ? NH_INDEPENDENT : NH_DEPENDENT;
+        n += kind[k] == NH_INDEPENDENT;
+    }
+    nh_free(list);
+}
+
 static void independence(nh_result *r, const nh_points *generic)
 {
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
@@ -79,6 +98,7 @@ static void independence(nh_result *r, const nh_points *generic)
     double *fraction = nh_alloc_array(r->count + 1, sizeof *fraction);
     for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
     nh_independence_test(r->model, generic, r->count, phi, r->options.sure, r->options.doubt, kind, fraction);
+    decide_ranks(r, phi, kind);
     r->independent = 0;
     for (size_t k = 0; k < r->count; k++) {
         r->found[k].independence = kind[k];

@@ -6,6 +6,7 @@
 #include "motion/drift.h"
 #include "noether/independence.h"
 #include "noether/prove.h"
+#include "noether/rank.h"
 #include "noether/region.h"
 #include "noether/symmetry.h"
 #include "noether/unknowns.h"
@@ -37,6 +38,7 @@ typedef struct {
     double printed_digits;    /* the digits to which the current cancels with its coefficients as printed */
     nh_independence independence;
     double fraction;
+    nh_rank rank;             /* how that was decided; undecided: by doubles */
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
     bool has_symmetry, by_current_route, by_symmetry_route, local;
     const char *region;       /* of a piece: where it holds, "for x > 0" */
