@@ -71,8 +71,8 @@ static double words(const fmpz_mpoly_t a) { return 1 + fabs((double)fmpz_mpoly_m
 bool nh_field_spend(nh_field *f, double work)
 {
     f->work += work;
-    nh_work_add(NH_WORK_TERM, work);
     if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late())) || nh_interrupted()) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if (f->state == NH_FIELD_FINE) nh_work_add(NH_WORK_TERM, work); /* what is refused is not done */
     return f->state == NH_FIELD_FINE;
 }
 

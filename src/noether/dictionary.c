@@ -6,14 +6,15 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-enum { most_entries = 24, most_seen = 4096, longest = 60 };
+enum { least_entries = 24, entries_each = 3, seen_each = 512, least_seen = 4096, longest = 60 };
 
 typedef struct {
     nh_model *o;
     nh_dictionary *out;
+    size_t most, most_seen; /* entries of each list, and nodes that are looked at: they grow with the coordinates */
     size_t seen_count, all_waves;
     nh_ex *seen;        /* nodes already looked at */
-    nh_ex all_wave[64]; /* every coordinate inside a sine or cosine */
+    nh_ex *all_wave;    /* every coordinate inside a sine or cosine */
     bool integrate;     /* in forces and constraints: of 1/(b + c q) the integral is wanted, too; in the Lagrangian that of 1/(b + c t) */
 } harvester;
 
@@ -33,7 +34,7 @@ static void add(harvester *h, size_t *n, nh_ex *list, nh_ex e)
         nh_num c = nh_constant_of(d, e);
         if (!nh_num_is(c, 1)) e = nh_mul(d, e, nh_number(d, nh_num_inv(c)));
     }
-    if (nh_kind_of(d, e) == NH_NUMBER || *n == most_entries || nh_complexity(d, e) > longest || is_in(*n, list, e)) return;
+    if (nh_kind_of(d, e) == NH_NUMBER || *n == h->most || nh_complexity(d, e) > longest || is_in(*n, list, e)) return;
     list[(*n)++] = e;
 }
 
@@ -58,14 +59,16 @@ static bool has_position(const nh_model *o, nh_ex e)
 static bool is_form(const nh_model *o, nh_ex e)
 {
     nh_dag *d = o->dag;
-    nh_ex v[2 * 64], zero[2 * 64] = {0};
+    nh_ex *v = nh_alloc_array(2 * o->m + o->n + 1, sizeof *v), *zero = nh_alloc_array(2 * o->m + o->n + 1, sizeof *zero);
     size_t n = 0;
-    if (o->m > 64) return false;
+    bool form = true;
     for (size_t s = 0; s < o->m; s++) v[n++] = o->system->coordinate[s].v;
     for (size_t i = 0; i < o->n && o->chart->quasi; i++) v[n++] = o->chart->w[i];
-    for (size_t i = 0; i < n; i++)
-        if (has_velocity(o, nh_diff(d, e, v[i]))) return false;
-    return nh_is_zero(d, nh_substitute(d, e, n, v, zero));
+    for (size_t i = 0; i < n && form; i++) form = !nh_depends(d, e, v[i]) || !has_velocity(o, nh_diff(d, e, v[i]));
+    form = form && nh_is_zero(d, nh_substitute(d, e, n, v, zero));
+    nh_free(zero);
+    nh_free(v);
+    return form;
 }
 
 /* A momentum is a word whatever it looks like, as the energy is. */
@@ -74,7 +77,7 @@ static void add_momentum(harvester *h, nh_ex p)
     nh_dictionary *out = h->out;
     nh_ex e = nh_model_compose(h->o, p);
     if (nh_complexity(h->o->dag, e) <= longest) add(h, &out->momenta, out->momentum, p);
-    else if (out->momenta < most_entries && !is_in(out->momenta, out->momentum, e)) out->momentum[out->momenta++] = e;
+    else if (out->momenta < h->most && !is_in(out->momenta, out->momentum, e)) out->momentum[out->momenta++] = e;
 }
 
 /* A function of position that no polynomial and no plain sine or cosine of a coordinate is. */
@@ -158,7 +161,7 @@ static void add_wave(harvester *h, nh_ex e)
     if (f != NH_SIN && f != NH_COS && f != NH_TAN) return;
     for (size_t s = 0; s < h->o->m; s++) {
         nh_ex q = h->o->system->coordinate[s].q;
-        if (h->all_waves < 64 && nh_depends(h->o->dag, e, q) && !is_in(h->all_waves, h->all_wave, q)) h->all_wave[h->all_waves++] = q;
+        if (nh_depends(h->o->dag, e, q) && !is_in(h->all_waves, h->all_wave, q)) h->all_wave[h->all_waves++] = q;
     }
 }
 
@@ -196,7 +199,7 @@ static void walk(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
     nh_kind kind = nh_kind_of(d, e);
-    if (kind == NH_NUMBER || kind == NH_SYMBOL || is_in(h->seen_count, h->seen, e) || h->seen_count == most_seen) return;
+    if (kind == NH_NUMBER || kind == NH_SYMBOL || is_in(h->seen_count, h->seen, e) || h->seen_count == h->most_seen) return;
     h->seen[h->seen_count++] = e;
     bool moving = has_velocity(h->o, e), placed = has_position(h->o, e);
     if (kind == NH_SUM && moving && is_form(h->o, e)) add(h, &h->out->forms, h->out->form, e);
@@ -377,11 +380,11 @@ static void potentials(harvester *h)
 {
     nh_model *o = h->o;
     nh_dag *d = o->dag;
-    nh_ex zero[64] = {0}, v[64];
-    if (o->m > 64) return;
+    nh_ex *zero = nh_alloc_array(o->m + 1, sizeof *zero), *v = nh_alloc_array(o->m + 1, sizeof *v);
     for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v;
-    nh_ex V = nh_substitute(d, o->system->lagrangian, o->m, v, zero);
-    potential_terms(h, V, 3);
+    potential_terms(h, nh_substitute(d, o->system->lagrangian, o->m, v, zero), 3);
+    nh_free(v);
+    nh_free(zero);
 }
 
 /* Outside sines and cosines; `seen`: per node, looked at already (a shared graph has exponentially many paths). */
@@ -423,15 +426,20 @@ static void shapes(harvester *h)
     }
 }
 
-static nh_ex *take(nh_model *o) { return nh_arena_alloc(o->arena, (most_entries + 64) * sizeof(nh_ex)); }
+static size_t larger(size_t a, size_t b) { return a > b ? a : b; }
+
+static nh_ex *take(const harvester *h) { return nh_arena_alloc(h->o->arena, (h->most + h->o->m + h->o->n + 1) * sizeof(nh_ex)); }
 
 nh_dictionary nh_dictionary_of(nh_model *o)
 {
-    nh_dictionary out = {.velocity = take(o), .form = take(o), .atom = take(o), .potential = take(o), .momentum = take(o),
-                         .position = take(o), .wave = take(o), .frame = take(o), .length = take(o), .shape = take(o)};
-    harvester h = {.o = o, .out = &out, .seen = nh_alloc_array(most_seen, sizeof *h.seen)};
+    harvester h = {.o = o, .most = larger(least_entries, entries_each * o->m), .most_seen = larger(least_seen, seen_each * o->m)};
+    nh_dictionary out = {.velocity = take(&h), .form = take(&h), .atom = take(&h), .potential = take(&h), .momentum = take(&h),
+                         .position = take(&h), .wave = take(&h), .frame = take(&h), .length = take(&h), .shape = take(&h)};
+    h.out = &out;
+    h.seen = nh_alloc_array(h.most_seen, sizeof *h.seen);
+    h.all_wave = nh_alloc_array(o->m + 1, sizeof *h.all_wave);
     for (size_t i = 0; i < o->n; i++) out.velocity[out.velocities++] = o->chart->w[i];
-    for (size_t s = 0; s < o->m && out.positions < most_entries; s++) out.position[out.positions++] = o->system->coordinate[s].q;
+    for (size_t s = 0; s < o->m; s++) out.position[out.positions++] = o->system->coordinate[s].q;
     h.integrate = true;
     for (size_t s = 0; s < o->m && o->system->has_forces; s++) walk(&h, o->system->force[s]);
     for (size_t a = 0; a < o->k; a++) walk(&h, nh_chart_constraint(o->chart, a));
@@ -446,6 +454,7 @@ nh_dictionary nh_dictionary_of(nh_model *o)
     frame(&h);
     add_roots(&h);
     shapes(&h);
+    nh_free(h.all_wave);
     nh_free(h.seen);
     return out;
 }

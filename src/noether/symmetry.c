@@ -6,7 +6,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 
-enum { large_length = 3000 }; /* nh_complexity */
+enum { large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
 
 /* A long formula with rounded coefficients, a series, has no simpler form; a very long one none that could be found in reasonable time. */
 static nh_ex tidy(nh_dag *d, nh_ex e)
@@ -106,7 +106,8 @@ nh_ex nh_symmetry_components(const nh_model *o, nh_ex phi, nh_ex *zeta)
     return tidy(d, nh_div(d, rest, o->Lbar));
 }
 
-/* zeta, Z^0, W and the field's components in the chart. */
+/* zeta, Z^0, W and the field's components in the chart.  Of many coordinates every component has the long Z^0 as a factor: without it (take_motion_away) they are
+ * short, and with it not worth the work. */
 static void solve_components(nh_model *o, nh_symmetry *z)
 {
     nh_dag *d = o->dag;
@@ -119,13 +120,17 @@ static void solve_components(nh_model *o, nh_symmetry *z)
     }
     solve(o, z->W, z->W);
     z->field = (nh_field){z->Z0, take(o, m), take(o, n)};
-    for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = tidy(d, z->W[i]);
+    bool many = m > many_coordinates && nh_kind_of(d, z->Z0) != NH_NUMBER;
+    for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = many ? z->W[i] : tidy(d, z->W[i]);
     for (size_t s = 0; s < m; s++) {
         nh_ex e = nh_mul(d, o->rho[s], z->Z0);
         for (size_t i = 0; i < n; i++) e = nh_add(d, e, nh_mul(d, o->R[s * n + i], z->zeta[i]));
-        z->field.space[s] = tidy(d, e);
+        z->field.space[s] = many ? e : tidy(d, e);
     }
-    for (size_t s = 0; s < m; s++) z->coordinate_rate[s] = tidy(d, nh_model_along(o, &z->field, o->rho[s]));
+    for (size_t s = 0; s < m; s++) {
+        nh_ex rate = nh_model_along(o, &z->field, o->rho[s]);
+        z->coordinate_rate[s] = many ? rate : tidy(d, rate);
+    }
 }
 
 static size_t total_complexity(const nh_model *o, const nh_field *f, const nh_ex *rate)

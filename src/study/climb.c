@@ -9,7 +9,7 @@
 #include "base/progress.h"
 #include "expr/normal.h"
 
-enum { least_points = 256, most_tested = 60, short_factor = 14 };
+enum { least_points = 256, least_tested = 60, short_factor = 14 };
 static const double points_per_column = 2.5;
 
 /* ---- which candidates are new ---- */
@@ -33,7 +33,7 @@ static void keep_factor(nh_climb *x, nh_ex phi)
 static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
 {
     nh_result *r = x->r;
-    size_t known = r->count, n = list->count < most_tested ? list->count : most_tested, fresh = 0;
+    size_t known = r->count, most = least_tested > r->local_maximum ? least_tested : r->local_maximum, n = list->count < most ? list->count : most, fresh = 0;
     nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
     nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
     for (size_t k = 0; k < known; k++) phi[k] = r->found[k].phi;
@@ -124,11 +124,12 @@ static double dense_work(const nh_sectors *sectors, size_t points)
 }
 
 /* A stage is solved whole or not at all. */
-static nh_limit limit_of(const nh_options *options, const nh_sectors *sectors, size_t points)
+static nh_limit limit_of(const nh_climb *x, const nh_sectors *sectors, size_t points)
 {
     static const double room = 1.2;
+    const nh_options *options = &x->r->options;
     double work = dense_work(sectors, points);
-    if (sectors->largest > (size_t)options->stage_columns) return (nh_limit){"stage_columns", (double)sectors->largest};
+    if (!x->wide && sectors->largest > (size_t)options->stage_columns) return (nh_limit){"stage_columns", (double)sectors->largest};
     if (!nh_budget_allows(NH_WORK_DENSE, work)) return (nh_limit){"work", ceil(room * (nh_budget_used() + nh_work_millions(NH_WORK_DENSE, work)))};
     return (nh_limit){0};
 }
@@ -147,7 +148,7 @@ nh_solved nh_climb_solve(nh_climb *x, size_t families, const nh_family *family)
     nh_sectors sectors = split(x, s.ansatz);
     size_t count = (size_t)fmax(least_points, points_per_column * (double)sectors.largest);
     s.sectors = sectors.count;
-    s.limit = limit_of(&r->options, &sectors, count);
+    s.limit = limit_of(x, &sectors, count);
     if (s.limit.option) {
         nh_ansatz_free(s.ansatz);
         s.ansatz = NULL;

@@ -17,6 +17,7 @@ typedef struct {
     nh_reflections *reflections; /* found when a stage is large */
     size_t factors;              /* simple currents, dependent ones too: factors of later stages */
     nh_ex factor[NH_MOST_FACTORS];
+    bool wide;                   /* the stage at hand has few columns for what it looks for: it may have as many as any ansatz */
 } nh_climb;
 
 /* A stage's linear problem, solved. */
@@ -49,6 +50,8 @@ void nh_climb_stage(nh_climb *climb, const char *name, size_t families, const nh
 void nh_climb_rates(nh_climb *climb);
 /* The same in t alone, for this family. */
 void nh_climb_rates_in(nh_climb *climb, const nh_family *base);
+/* Systems, or blocks of coordinates, whose equations of motion are linear with constant coefficients. */
+void nh_climb_linear(nh_climb *climb);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
 void nh_climb_isometries(nh_climb *climb);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */

@@ -10,7 +10,7 @@
 #include "study/integrals.h"
 #include "study/stages.h"
 
-enum { range_points = 256 };
+enum { range_points = 256, range_points_each = 10 };
 
 /* Currents found so far as factors: Phi times 1, t, positions and the system's functions. */
 static void known_stage(nh_climb *x)
@@ -81,6 +81,17 @@ static void function_stages(nh_climb *x)
     }
 }
 
+/* What classical systems of many bodies have, before stages that are too large for them. */
+static void stages_of_many(nh_climb *x)
+{
+    enum { few_coordinates = 6 };
+    nh_stage stage;
+    x->wide = true;
+    for (size_t i = 0; x->r->model->m > few_coordinates && !nh_climb_done(x) && nh_stage_of_many(x->r->arena, x->r->model, &x->words, i, &stage); i++)
+        nh_climb_stage(x, stage.name, stage.families, stage.family);
+    x->wide = false;
+}
+
 /* Work ends it at the same place everywhere, time does not; a stage that was too large keeps it from being exhausted, but ends nothing. */
 static void how_it_ended(nh_result *r)
 {
@@ -100,7 +111,8 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
     enum { pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 4 };
     nh_climb x = {.r = r};
-    x.ranges = nh_points_create(r->model, range_points, 1, (uint64_t)r->options.seed, error);
+    size_t points = range_points_each * r->model->m;
+    x.ranges = nh_points_create(r->model, points > range_points ? points : range_points, 1, (uint64_t)r->options.seed, error);
     if (!x.ranges) return false;
     x.bench = nh_workbench_create(r, error);
     if (!x.bench) {
@@ -114,7 +126,9 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
     single_stages(&x);
     for (size_t i = 0; !nh_climb_done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
         nh_climb_stage(&x, stage.name, stage.families, stage.family);
-        if (i + 1 == pencils_after) nh_climb_rates(&x);
+        if (i + 1 == pencils_after) stages_of_many(&x);
+        if (i + 1 == pencils_after && !nh_climb_done(&x)) nh_climb_linear(&x);
+        if (i + 1 == pencils_after && !nh_climb_done(&x)) nh_climb_rates(&x);
         if (i + 1 == known_after) function_stages(&x);
         if (i + 1 == known_after && !nh_climb_done(&x)) known_stage(&x);
         if (i + 1 == isometries_after && !nh_climb_done(&x)) nh_climb_isometries(&x);

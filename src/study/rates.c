@@ -10,7 +10,7 @@
 #include "study/naming.h"
 #include "study/stages.h"
 
-enum { most_values = 24, range_points = 256 };
+enum { most_values = 24, most_rates = 4 };
 static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as two that differ by the root of rounding */
 
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
@@ -245,13 +245,12 @@ static void one_by_one(waves *w, const char *text)
 /* Returns whether something new was found; `which` of the bases it is. */
 static bool pencil_of(nh_climb *x, nh_ex q, nh_ex power, const char *name, const nh_family *base, size_t which)
 {
-    enum { most_rates = 4 };
     nh_result *r = x->r;
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t before = r->independent;
     nh_family family[2];
-    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, base, range_points / 2 - 2, &ignored);
+    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, base, x->ranges->count / 2 - 2, &ignored);
     if (!a) return false;
     waves w = {.context = {.x = x, .base = a, .q = q, .base_of_power = power}, .base = base, .which = which};
     for (size_t i = 0; i < x->words.waves; i++) w.context.periodic |= x->words.wave[i] == q;

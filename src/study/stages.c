@@ -258,10 +258,17 @@ static void stage_linear_waves_2(nh_shelf *s)
     if (s->w->waves) nh_shelf_product_of_lists(s, &l, &w);
 }
 
-static const struct {
+typedef struct {
     const char *name;
     void (*build)(nh_shelf *);
-} stages[] = {
+} recipe;
+
+static const recipe of_many[] = {
+    {"momenta times 1 and t, and positions", nh_stage_centres},
+    {"positions turned into each other", nh_stage_turns},
+};
+
+static const recipe stages[] = {
     {"energy, momenta, velocities, forms, positions, terms of the potential", stage_words},
     {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
     {"energy, momenta, velocities and forms times 1, t and the positions", stage_words_positions},
@@ -289,12 +296,24 @@ static const struct {
     {"total degree 6", stage_degree_6},
 };
 
+static nh_stage cook(const recipe *r, nh_arena *arena, const nh_model *o, const nh_dictionary *w)
+{
+    nh_shelf s = {arena, o, w, nh_arena_alloc(arena, NH_MOST_FAMILIES * sizeof(nh_family)), 0};
+    r->build(&s);
+    return (nh_stage){r->name, s.count, s.family};
+}
+
 bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t index, nh_stage *out)
 {
     if (index >= sizeof stages / sizeof *stages) return false;
-    nh_shelf s = {arena, o, w, nh_arena_alloc(arena, NH_MOST_FAMILIES * sizeof(nh_family)), 0};
-    stages[index].build(&s);
-    *out = (nh_stage){stages[index].name, s.count, s.family};
+    *out = cook(&stages[index], arena, o, w);
+    return true;
+}
+
+bool nh_stage_of_many(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t index, nh_stage *out)
+{
+    if (index >= sizeof of_many / sizeof *of_many) return false;
+    *out = cook(&of_many[index], arena, o, w);
     return true;
 }
 

@@ -14,6 +14,9 @@ typedef struct {
 /* Stage `index` for this dictionary, in the arena; false when there are no more.  A stage may have no families. */
 bool nh_stage_at(nh_arena *arena, const nh_model *model, const nh_dictionary *dictionary, size_t index, nh_stage *out);
 
+/* The same of the stages of few columns, for systems of many coordinates. */
+bool nh_stage_of_many(nh_arena *arena, const nh_model *model, const nh_dictionary *dictionary, size_t index, nh_stage *out);
+
 /* What the search for unknown rates starts from: 0 the velocities, 1 with first harmonics of the angles, 2 everything of degree one; for cyclic
  * coordinates also, with first harmonics, 3 the frame of the kinetic energy times lengths and t, 4 its squares times lengths (vectors and
  * tensors in polar coordinates); and, when asked for by themselves, 5 velocities and

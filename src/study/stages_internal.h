@@ -4,7 +4,7 @@
 
 #include "study/stages.h"
 
-enum { NH_MOST_LIST = 200, NH_MOST_FAMILIES = 24 };
+enum { NH_MOST_LIST = 1600, NH_MOST_FAMILIES = 24 };
 
 /* The families of one stage. */
 typedef struct {
@@ -15,7 +15,7 @@ typedef struct {
     size_t count;
 } nh_shelf;
 
-/* Expressions, each once; more than fit are left out. */
+/* Expressions, each once; more than fit are left out: a list that is full has more columns than the option `columns` lets any ansatz have. */
 typedef struct {
     size_t n;
     nh_ex e[NH_MOST_LIST];
@@ -49,6 +49,11 @@ void nh_shelf_drive(nh_shelf *shelf);
 void nh_stage_drive(nh_shelf *shelf);
 /* Squares of positions and velocities with coefficients that depend on time: Ermakov and Lewis. */
 void nh_stage_time(nh_shelf *shelf);
+
+/* ---- stages_many.c ---- */
+
+void nh_stage_centres(nh_shelf *shelf);
+void nh_stage_turns(nh_shelf *shelf);
 
 /* ---- stages_weighted.c ---- */
 

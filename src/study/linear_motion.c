@@ -1,0 +1,219 @@
+/* The ladder's stage for what moves linearly: where the equations of motion are, for all coordinates or for some that depend on no others,
+ *
+ *     z' = A z + b,     z = (q, w) of one block, A and b numbers or parameters,
+ *
+ * each left eigenvector l A = lambda l gives exp(-lambda t) (l . z + c) as a current, and lambda = 0, where A is defective, polynomials in t.  A's blocks are
+ * solved one by one, so that many coordinates are no more trouble than few; the rates of a block of two come as formulas, those of larger ones as numbers that are then
+ * named, and the vectors from the null space of z times the waves of one rate, as everywhere. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "expr/diff.h"
+#include "expr/normal.h"
+#include "noether/recognise.h"
+#include "study/climb.h"
+#include "study/naming.h"
+
+enum { longest = 2000 }; /* symbols of an equation of motion */
+static const double defective = 1e-5, /* of the largest rate: a rate below it is zero, whose double eigenvalue is split by the root of rounding */
+                    equal = 1e-6;     /* relatively: one rate, likewise */
+
+typedef struct {
+    nh_climb *x;
+    size_t size;       /* of z */
+    nh_ex *z, *entry;  /* entry[i + j size]: A; 0 (the number) where there is none */
+    size_t *block;     /* per variable: the first of its block */
+    size_t count, *of; /* of the block at hand: its variables */
+    bool turns;        /* of the rate that is followed: its imaginary part is meant */
+} linear;
+
+/* ---- the matrix ---- */
+
+static bool constant(const nh_model *o, nh_ex e)
+{
+    for (size_t j = 0; j < o->width; j++)
+        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
+    return true;
+}
+
+static size_t root(linear *l, size_t i)
+{
+    while (l->block[i] != i) i = l->block[i];
+    return i;
+}
+
+static void join(linear *l, size_t i, size_t j)
+{
+    size_t a = root(l, i), b = root(l, j);
+    l->block[a > b ? a : b] = a > b ? b : a;
+}
+
+/* Row i of A; false when z_i' is not linear. */
+static bool row(linear *l, size_t i, nh_ex rate)
+{
+    const nh_model *o = l->x->r->model;
+    if (nh_depends(o->dag, rate, o->system->t) || nh_complexity(o->dag, rate) > longest) return false;
+    for (size_t j = 0; j < l->size; j++) {
+        if (!nh_depends(o->dag, rate, l->z[j])) continue;
+        nh_ex slope = nh_simplify_short(o->dag, nh_diff(o->dag, rate, l->z[j]), 0);
+        if (!constant(o, slope)) return false;
+        l->entry[i + j * l->size] = slope;
+        if (!nh_is_zero(o->dag, slope)) join(l, i, j);
+    }
+    return true;
+}
+
+static bool read_matrix(linear *l)
+{
+    const nh_model *o = l->x->r->model;
+    if (o->chart->implicit) return false;
+    for (size_t i = 0; i < l->size; i++) {
+        l->block[i] = i;
+        l->z[i] = o->chart->symbol[1 + i];
+    }
+    for (size_t i = 0; i < l->size; i++)
+        if (!row(l, i, i < o->m ? o->rho[i] : o->a[i - o->m])) return false;
+    return true;
+}
+
+/* ---- rates ---- */
+
+/* Eigenvalues of the block, as it is at this model's parameters. */
+static bool eigenvalues(const linear *l, const nh_model *o, double *re, double *im)
+{
+    size_t n = l->count;
+    nh_ex *e = nh_alloc_array(n * n + 1, sizeof *e);
+    double *A = nh_alloc_array(n * n + 1, sizeof *A);
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < n; i++) e[i + j * n] = l->entry[l->of[i] + l->of[j] * l->size];
+    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, n * n, e, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, NULL, A);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    bool good = nh_eigen(n, A, re, im, NULL);
+    nh_free(A);
+    nh_free(e);
+    return good;
+}
+
+static bool follow(const nh_model *changed, double near, double *value, void *context)
+{
+    const linear *l = context;
+    double *re = nh_alloc_array(2 * l->count + 1, sizeof *re), *im = re + l->count, best = HUGE_VAL;
+    bool good = eigenvalues(l, changed, re, im);
+    for (size_t i = 0; i < l->count && good; i++) {
+        double v = l->turns ? im[i] : re[i];
+        if (fabs(v - near) >= best) continue;
+        best = fabs(v - near);
+        *value = v;
+    }
+    nh_free(re);
+    return good && best < 0.5 * fabs(near);
+}
+
+static nh_ex named(linear *l, double value, bool turns)
+{
+    const nh_result *r = l->x->r;
+    nh_dag *d = r->model->dag;
+    if (value == 0) return nh_int(d, 0);
+    l->turns = turns;
+    nh_ex e = nh_name_value(r->model, value, follow, l, r->options.recognise, (uint64_t)r->options.seed);
+    return e ? e : nh_real(d, value);
+}
+
+/* exp(-re t) {cos(im t), sin(im t)}, or without the waves. */
+static size_t waves(nh_dag *d, nh_ex t, nh_ex re, nh_ex im, nh_ex *out)
+{
+    nh_ex decay = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, re, t))), angle = nh_mul(d, im, t);
+    out[0] = decay;
+    if (nh_is_zero(d, im)) return 1;
+    out[0] = nh_mul(d, decay, nh_call(d, NH_COS, angle));
+    out[1] = nh_mul(d, decay, nh_call(d, NH_SIN, angle));
+    return 2;
+}
+
+/* A block of two: lambda = T/2 +- sqrt(T^2/4 - D) with the trace T and the determinant D. */
+static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
+{
+    nh_dag *d = l->x->r->model->dag;
+    size_t i = l->of[0], j = l->of[1], n = l->size;
+    const nh_ex *e = l->entry;
+    nh_ex half = nh_mul(d, nh_ratio(d, 1, 2), nh_add(d, e[i + i * n], e[j + j * n]));
+    nh_ex D = nh_sub(d, nh_mul(d, e[i + i * n], e[j + j * n]), nh_mul(d, e[i + j * n], e[j + i * n]));
+    nh_ex apart = nh_simplify_short(d, nh_sub(d, nh_mul(d, half, half), D), 0), t = l->x->r->system->t;
+    if (turns) return waves(d, t, half, nh_sqrt(d, nh_neg(d, apart)), out);
+    nh_ex s = nh_sqrt(d, apart);
+    out[0] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_add(d, half, s), t)));
+    out[1] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_sub(d, half, s), t)));
+    return out[0] == out[1] ? 1 : 2;
+}
+
+/* ---- the stages of one block ---- */
+
+/* Its variables and 1, times these functions of t, and these alone. */
+static void stage(linear *l, const char *name, size_t functions, const nh_ex *function)
+{
+    nh_result *r = l->x->r;
+    nh_ex *term = nh_arena_alloc(r->arena, (l->count + 1) * sizeof *term), *copy = nh_arena_alloc(r->arena, (functions + 1) * sizeof *copy);
+    nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
+    for (size_t i = 0; i < l->count; i++) term[i] = l->z[l->of[i]];
+    term[l->count] = nh_int(r->model->dag, 1);
+    memcpy(copy, function, functions * sizeof *copy);
+    part[0] = (nh_family){.kind = NH_TERMS, .terms = l->count + 1, .term = term};
+    part[1] = (nh_family){.kind = NH_TERMS, .terms = functions, .term = copy};
+    all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    if (!nh_climb_done(l->x)) nh_climb_stage(l->x, name, 1, all);
+}
+
+static void polynomials(linear *l)
+{
+    nh_dag *d = l->x->r->model->dag;
+    nh_ex t = l->x->r->system->t, f[3] = {nh_int(d, 1), t, nh_mul(d, t, t)};
+    stage(l, "what moves linearly, times powers of t", 3, f);
+}
+
+/* Each rate once, with its conjugate: of two values that differ by rounding the first. */
+static void solve_block(linear *l)
+{
+    size_t n = l->count, done = 0;
+    double *re = nh_alloc_array(2 * n + 1, sizeof *re), *im = re + n, largest = 0;
+    bool good = eigenvalues(l, l->x->r->model, re, im), null = false, formulas = n == 2;
+    for (size_t k = 0; k < n && good; k++) largest = fmax(largest, hypot(re[k], im[k]));
+    for (size_t k = 0; k < n && good; k++) null |= hypot(re[k], im[k]) <= defective * largest;
+    if (good && null) polynomials(l);
+    for (size_t k = 0; k < n && good; k++) {
+        if (fabs(re[k]) <= equal * fabs(im[k])) re[k] = 0;
+        if (fabs(im[k]) <= equal * fabs(re[k])) im[k] = 0;
+        bool old = im[k] < 0 || hypot(re[k], im[k]) <= defective * largest || (formulas && done);
+        for (size_t j = 0; j < k && !old; j++) old = im[j] >= 0 && hypot(re[j] - re[k], im[j] - im[k]) <= equal * largest;
+        if (old || nh_climb_done(l->x)) continue;
+        nh_ex wave[2];
+        size_t count = formulas && !null ? waves_of_two(l, im[k] != 0, wave)
+                                         : waves(l->x->r->model->dag, l->x->r->system->t, named(l, re[k], false), named(l, im[k], true), wave);
+        stage(l, "what moves linearly, times exponentials and waves in t", count, wave);
+        done++;
+    }
+    nh_free(re);
+}
+
+void nh_climb_linear(nh_climb *x)
+{
+    const nh_model *o = x->r->model;
+    size_t size = o->m + o->n;
+    linear l = {.x = x, .size = size, .z = nh_alloc_array(size + 1, sizeof *l.z), .entry = nh_alloc_array(size * size + 1, sizeof *l.entry), .block = nh_alloc_array(size + 1, sizeof *l.block),
+                .of = nh_alloc_array(size + 1, sizeof *l.of)};
+    bool is = read_matrix(&l);
+    for (size_t first = 0; first < size && is && !nh_climb_done(x); first++) {
+        l.count = 0;
+        for (size_t i = 0; i < size; i++)
+            if (root(&l, i) == first) l.of[l.count++] = i;
+        if (l.count) solve_block(&l);
+    }
+    nh_free(l.of);
+    nh_free(l.block);
+    nh_free(l.entry);
+    nh_free(l.z);
+}

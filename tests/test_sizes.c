@@ -1,0 +1,140 @@
+/* sizes: what is found does not end with the number of coordinates. */
+#include <criterion/criterion.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/print.h"
+#include "scratch.h"
+#include "study/analyze.h"
+
+/* The search alone: a motion would only take time. */
+static nh_result *search(nh_text *text, double work)
+{
+    char path[SCRATCH];
+    nh_error error;
+    nh_error_clear(&error);
+    cr_assert(scratch_text(path, nh_text_string(text)));
+    nh_text_clear(text);
+    nh_analyze_request q = {.system_path = path, .no_figures = true};
+    nh_options_default(&q.options);
+    q.options.max_seconds = 1e6;
+    q.options.steps = 10;
+    if (work > 0) q.options.work = work;
+    nh_result *r = nh_analyze(&q, &error);
+    unlink(path);
+    cr_assert_not_null(r, "%s %s", error.where, error.what);
+    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits, "%zu coordinates, %s", r->model->m, r->found[k].name);
+    return r;
+}
+
+static void coordinates(nh_text *text, size_t n, const char *names)
+{
+    nh_text_init(text);
+    nh_text_add(text, "name: many\nparameters: [{name: m, value: 0.7}, {name: k, value: 1.3}]\ncoordinates: [");
+    for (size_t i = 1; i <= n; i++)
+        for (const char *c = names; *c; c++) nh_text_addf(text, "%s%c%zu", i > 1 || c > names ? ", " : "", *c, i);
+    nh_text_add(text, "]\nlagrangian: ");
+}
+
+static bool meant(const nh_result *r, const char *words)
+{
+    bool any = false;
+    for (size_t k = 0; k < r->count; k++) any |= strstr(r->found[k].meaning, words) != NULL;
+    return any;
+}
+
+/* Of different frequencies: the energy and the phase of each. */
+Test(sizes, oscillators, .timeout = 600)
+{
+    static const size_t sizes[] = {4, 5, 6, 8, 12};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        nh_text text;
+        coordinates(&text, sizes[s], "x");
+        for (size_t i = 1; i <= sizes[s]; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
+        nh_text_add(&text, "\n");
+        nh_result *r = search(&text, 0);
+        cr_expect_eq(r->independent, 2 * sizes[s], "%zu of %zu", r->independent, 2 * sizes[s]);
+        cr_expect_eq(r->verdict, NH_FOUND);
+        cr_expect_eq(r->search, NH_SEARCH_COMPLETE);
+        nh_result_free(r);
+    }
+}
+
+/* So many that the work is not enough for all: most are found all the same, the same ones with any number of threads. */
+Test(sizes, forty_oscillators, .timeout = 600)
+{
+    nh_text text;
+    coordinates(&text, 40, "x");
+    for (size_t i = 1; i <= 40; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
+    nh_text_add(&text, "\n");
+    nh_result *r = search(&text, 2000);
+    cr_expect_geq(r->independent, 10);
+    cr_expect(meant(r, "energy"));
+    nh_result_free(r);
+}
+
+static void chain(nh_text *text, size_t n, bool closed)
+{
+    coordinates(text, n, "x");
+    for (size_t i = 1; i <= n; i++) nh_text_addf(text, "%sm*x%zu'^2/2", i > 1 ? " + " : "", i);
+    for (size_t i = 1; i < n; i++) nh_text_addf(text, " - k*(x%zu - x%zu)^2/2", i + 1, i);
+    if (closed) nh_text_addf(text, " - k*(x1 - x%zu)^2/2\n", n);
+    else nh_text_addf(text, " - k*x1^2/2 - k*x%zu^2/2\n", n);
+}
+
+Test(sizes, chains, .timeout = 600)
+{
+    static const size_t sizes[] = {6, 8, 10};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        nh_text text;
+        chain(&text, sizes[s], false);
+        nh_result *r = search(&text, 0);
+        cr_expect_eq(r->independent, 2 * sizes[s], "%zu of %zu", r->independent, 2 * sizes[s]);
+        nh_result_free(r);
+    }
+}
+
+/* The total momentum, the centre of mass, the energy. */
+Test(sizes, ring_of_forty, .timeout = 600)
+{
+    static const char *const wanted[] = {"m*(x1' + ", "m*(t*(x1' + "};
+    nh_text text;
+    chain(&text, 40, true);
+    nh_result *r = search(&text, 1500);
+    cr_expect(meant(r, "energy"));
+    for (size_t i = 0; i < 2; i++) {
+        bool any = false;
+        for (size_t k = 0; k < r->count; k++) {
+            char *phi = nh_print_string(r->model->dag, r->found[k].phi);
+            any |= strstr(phi, wanted[i]) != NULL;
+            nh_free(phi);
+        }
+        cr_expect(any, "%s", wanted[i]);
+    }
+    nh_result_free(r);
+}
+
+/* Energy, momentum, angular momentum and centre of mass. */
+Test(sizes, bodies_in_space, .timeout = 600)
+{
+    static const size_t sizes[] = {5, 6, 10};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        nh_text text;
+        size_t n = sizes[s];
+        coordinates(&text, n, "xyz");
+        for (size_t i = 1; i <= n; i++) nh_text_addf(&text, "%s%.2f*m*(x%zu'^2 + y%zu'^2 + z%zu'^2)/2", i > 1 ? " + " : "", 0.5 + 0.37 * (double)i, i, i, i);
+        for (size_t i = 1; i <= n; i++)
+            for (size_t j = i + 1; j <= n; j++) nh_text_addf(&text, " + k/sqrt((x%zu - x%zu)^2 + (y%zu - y%zu)^2 + (z%zu - z%zu)^2)", i, j, i, j, i, j);
+        nh_text_add(&text, "\ndomain:\n");
+        for (size_t i = 1; i <= n; i++) {
+            double a = 2.4 * (double)i, radius = 2 * sqrt((double)i / 2), at[3] = {radius * cos(a), radius * sin(a), 0.3 * (double)(i % 5)};
+            for (size_t c = 0; c < 3; c++) nh_text_addf(&text, "  %c%zu: [%.2f, %.2f]\n", "xyz"[c], i, at[c], at[c] + 0.5);
+        }
+        nh_result *r = search(&text, 0);
+        cr_expect_eq(r->independent, 10, "%zu bodies: %zu", n, r->independent);
+        cr_expect_eq(r->verdict, NH_FOUND);
+        nh_result_free(r);
+    }
+}
