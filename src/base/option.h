@@ -48,6 +48,7 @@
     X(transversal,      5e-3,   0,      1,     real,  "",         "a group is divided out by Chaplygin reduction when its orbits stay so far from the distribution") \
     X(cluster,          2e-3,   0,      1,     real,  "",         "eigenvalues nearer than this part of the largest belong to one ideal of an algebra") \
     X(transport,        1e-11,  1e-14,  1e-4,  real,  "",         "tolerance to which 1-jets of symmetries are transported")             \
+    X(transport_steps,  4000,   1,      1e9,   whole, "steps",    "of the transport of 1-jets, in all")                                    \
     X(jets,             240,     1,      1e5,   whole, "unknowns", "reduce: m coordinates give m (m + 1)/2 unknowns of local symmetries of the metric; more are not solved for") \
     X(ideals,           24,      1,      1000,  whole, "dimensions", "reduce: a larger Lie algebra is not taken apart into ideals")           \
     X(compile,          1,       0,      1e6,   real,  "",         "a motion's equations are compiled once interpreting them took so many times what compiling takes; 0: never") \

@@ -341,7 +341,7 @@ bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
             for (size_t s = 0; s < m && c[a] != 0; s++) q[s] += t * c[a] * f->E[s + a * m];
         return true;
     }
-    return t == 0 || nh_runge(m, field_rate, f, 0, t, tolerance, largest, q);
+    return t == 0 || nh_runge(m, field_rate, f, 0, t, tolerance, largest, NULL, q);
 }
 
 static bool returns(nh_flows *f, const double *c, double time, const double *start)

@@ -61,6 +61,7 @@ void nh_jet_conditions_init(nh_jet_conditions *s, const nh_kinetic *k, const nh_
     s->out = nh_alloc_array(forms_total(k) + 1, sizeof *s->out);
     s->x = nh_alloc_array(m, sizeof *s->x);
     nh_transport_init(&s->t, k, q0);
+    s->t.steps = (size_t)options->transport_steps;
 }
 
 void nh_jet_conditions_clear(nh_jet_conditions *s)

@@ -180,10 +180,15 @@ nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *
     memcpy(out->place, k->place, m * sizeof *out->place);
     nh_jet_conditions_init(&s, k, options, out->place);
     run(&s, out);
+    size_t left = s.t.steps;
     nh_jet_conditions_clear(&s);
-    if (out->places && !nh_interrupted()) return out;
+    if (out->places && left > 0 && !nh_interrupted()) return out;
     nh_jets_free(out);
     if (nh_interrupted()) return nh_fail_ended(error, "while symmetries of the kinetic energy were looked for"), NULL;
+    if (!left) {
+        nh_fail(error, NH_LIMIT, "", "the symmetries of the kinetic energy could not be followed from place to place within %g steps", options->transport_steps);
+        return nh_error_hint(error, "are there masses or lengths of very different sizes?  --option transport_steps=%g allows more, --group names the group", 10 * options->transport_steps), NULL;
+    }
     nh_fail(error, NH_NUMERIC, "", "no way could be found along which symmetries of the metric could be followed");
     nh_error_hint(error, "give a domain without singularities of the coordinates");
     return NULL;

@@ -105,7 +105,7 @@ double nh_linear_momenta_drift(const nh_linear_momenta *l, const nh_reduced *o, 
     bool good = true;
     for (size_t i = 1; i < count && good; i++) { /* from state to state, so that Y is followed along the motion */
         double from = z[(i - 1) * size], to = z[i * size];
-        good = from == to || nh_runge(g * g, rate_of, &q, from, to, tolerance, largest, Y);
+        good = from == to || nh_runge(g * g, rate_of, &q, from, to, tolerance, largest, NULL, Y);
         memcpy(copy, Y, g * g * sizeof *copy);
         for (size_t a = 0; a < g; a++) p[a] = z[i * size + o->n + l->index[a]];
         good = good && nh_solve(g, copy, 1, p, NULL);

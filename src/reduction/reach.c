@@ -35,7 +35,7 @@ bool nh_action_push(const nh_action *g, size_t a, double time, double *z)
     for (size_t s = 0; s < m; s++) out[m + s] = nh_diff_along(k->dag, out[s], m, k->q, k->v);
     push p = {.m = m, .tape = nh_tape_create(k->dag, 2 * m, in, 2 * m, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value)};
     p.work = nh_tape_work_create(p.tape);
-    bool good = nh_runge(2 * m, push_rate, &p, 0, time, tolerance, largest, z);
+    bool good = nh_runge(2 * m, push_rate, &p, 0, time, tolerance, largest, NULL, z);
     nh_tape_work_free(p.work);
     nh_tape_free(p.tape);
     nh_free(in);

@@ -21,7 +21,7 @@ static int rate_of(double t, const double *y, double *rate, void *context)
     return GSL_SUCCESS;
 }
 
-bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, double *y)
+bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, size_t *steps, double *y)
 {
     enum { most_steps = 20000 };
     problem p = {n, rate, context};
@@ -32,8 +32,13 @@ bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1
     gsl_odeiv2_control *control = gsl_odeiv2_control_y_new(tolerance, tolerance);
     gsl_odeiv2_evolve *evolve = gsl_odeiv2_evolve_alloc(n);
     bool good = stepper && control && evolve;
-    for (int i = 0; good && t != t1; i++) {
-        good = i < most_steps && gsl_odeiv2_evolve_apply(evolve, control, stepper, &system, &t, t1, &step, y) == GSL_SUCCESS;
+    size_t before = 0, none = most_steps;
+    if (!steps) steps = &none;
+    while (good && t != t1) {
+        good = *steps > 0 && gsl_odeiv2_evolve_apply(evolve, control, stepper, &system, &t, t1, &step, y) == GSL_SUCCESS;
+        size_t taken = evolve->count + evolve->failed_steps - before;
+        before += taken;
+        *steps -= taken < *steps ? taken : *steps;
         for (size_t j = 0; good && j < n; j++) good = fabs(y[j]) < largest;
     }
     if (evolve) gsl_odeiv2_evolve_free(evolve);

@@ -7,8 +7,8 @@
 
 typedef bool nh_runge_rate(double t, const double *y, double *rate, void *context);
 
-/* From t0 to t1 with absolute and relative tolerance; y is overwritten.  False when the rate fails, y grows beyond `largest`, or after too
- * many steps. */
-bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, double *y);
+/* From t0 to t1 with absolute and relative tolerance; y is overwritten.  False when the rate fails, y grows beyond `largest`, or no steps are
+ * left: *steps is counted down (NULL: 20000). */
+bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, size_t *steps, double *y);
 
 #endif

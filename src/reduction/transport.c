@@ -177,7 +177,7 @@ bool nh_transport_along(nh_transport *t, const double *q0, const double *q1, siz
     double *x = nh_alloc_array(t->m, sizeof *x);
     way w = {t, q0, x, count};
     for (size_t i = 0; i < t->m; i++) x[i] = (q1[i] - q0[i]) / t->scale[i];
-    bool good = nh_runge(t->size * count, rate_of, &w, 0, 1, tolerance, largest, y);
+    bool good = nh_runge(t->size * count, rate_of, &w, 0, 1, tolerance, largest, &t->steps, y);
     nh_free(x);
     return good;
 }

@@ -8,6 +8,7 @@
 
 typedef struct {
     const nh_kinetic *kinetic;
+    size_t steps;          /* that may still be taken along lines */
     size_t m, h, size;     /* h = m(m+1)/2; size = m + m^2: length of a jet */
     nh_tape *tape;         /* K, dK, ddK, packed */
     nh_tape_work *work;
