@@ -164,6 +164,19 @@ static nh_ex rate_of_momentum(const nh_model *o, const slopes *slope, size_t s)
     return slope->large ? nh_diff(o->dag, o->p[s], slope->tau) : nh_model_X0(o, o->p[s]);
 }
 
+/* M_ij = Y_i(p_s) R^s_j, as it comes. */
+static void mass_matrix(nh_model *o)
+{
+    nh_dag *d = o->dag;
+    size_t n = o->n;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++) {
+            nh_ex M = nh_int(d, 0);
+            for (size_t s = 0; s < o->m; s++) M = nh_add(d, M, nh_mul(d, nh_model_Y(o, i, o->p[s]), o->R[s * n + j]));
+            o->M[i * n + j] = o->M[j * n + i] = M;
+        }
+}
+
 static void matrices(nh_model *o, const slopes *slope)
 {
     nh_dag *d = o->dag;
@@ -179,13 +192,12 @@ static void matrices(nh_model *o, const slopes *slope)
         }
         o->A[i] = simple(o, o->A[i]);
         for (size_t j = 0; j < n; j++) {
-            nh_ex M = nh_int(d, 0), G = M;
+            nh_ex G = nh_int(d, 0);
             for (size_t s = 0; s < o->m; s++) {
-                M = nh_add(d, M, nh_mul(d, nh_model_Y(o, i, o->p[s]), o->R[s * n + j]));
                 if (j > i) G = nh_add(d, G, nh_mul(d, nh_model_X(o, i, o->p[s]), o->R[s * n + j]));
                 if (j > i) G = nh_sub(d, G, nh_mul(d, nh_model_X(o, j, o->p[s]), o->R[s * n + i]));
             }
-            o->M[i * n + j] = j < i ? o->M[j * n + i] : simple(o, M);
+            o->M[i * n + j] = j < i ? o->M[j * n + i] : simple(o, o->M[i * n + j]);
             if (j <= i) continue;
             o->G[i * n + j] = simple(o, G);
             o->G[j * n + i] = nh_neg(d, o->G[i * n + j]);
@@ -269,6 +281,28 @@ static bool singular(const nh_model *o, nh_error *error)
                                             : "keep `domain:` away from there");
 }
 
+/* In units in which its diagonal is one the mass matrix has a singular value of the size of rounding at every probe: this is known before minutes of simplification. */
+static bool surely_singular(const nh_model *o)
+{
+    static const double rounding = 1e-14; /* times n */
+    size_t n = o->n, found = 0, finite = 0;
+    nh_tape *tape = nh_model_tape(o, n * n, o->M);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *a = nh_alloc_array(n * n + 2 * n + 1, sizeof *a), *s = a + n * n, *unit = s + n;
+    for (size_t p = 0; p < o->chart->probes; p++) {
+        nh_tape_eval(tape, work, o->chart->probe + p * o->width, a);
+        if (!nh_all_finite(n * n, a)) continue;
+        for (size_t i = 0; i < n; i++) unit[i] = a[i * (n + 1)] != 0 ? 1 / sqrt(fabs(a[i * (n + 1)])) : 1;
+        for (size_t i = 0; i < n * n; i++) a[i] *= unit[i / n] * unit[i % n];
+        finite++;
+        found += nh_svd(n, n, a, s, NULL, NULL) && s[n - 1] <= rounding * (double)n * s[0];
+    }
+    nh_free(a);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return finite > 1 && found == finite;
+}
+
 static bool accelerations(nh_model *o, nh_error *error)
 {
     o->M_lu = nh_lu_create(o->dag, o->n, o->M, nh_chart_pivot_score, o->chart, NULL);
@@ -341,6 +375,12 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     o->reaction = take(o, m);
     slopes slope = slopes_of(o);
     momenta(o, &slope);
+    mass_matrix(o);
+    if (o->n && surely_singular(o)) {
+        singular(o, error);
+        nh_model_free(o);
+        return NULL;
+    }
     inertial_forces(o, &slope);
     matrices(o, &slope);
     bool good = !nh_interrupted() && accelerations(o, error) && multipliers(o, &slope, error);
