@@ -89,7 +89,7 @@ static void check_keys(const cJSON *root, const char *under, size_t n, const key
 static const key SCHEMA[] = {
     {"schema", "n"}, {"version", "s"}, {"system", "s"}, {"parameters", "o"},
     {"dimension.coordinates", "n"}, {"dimension.constraints", "n"}, {"dimension.submanifold", "n"},
-    {"constraint.type", "s"}, {"constraint.semiholonomic", "b0"}, {"constraint.holonomic", "b"}, {"constraint.rheonomic", "b"}, {"constraint.homogeneous", "b"}, {"constraint.integrability", "s"},
+    {"constraint.type", "s"}, {"constraint.semiholonomic", "b0"}, {"constraint.branch", "o0"}, {"constraint.holonomic", "b"}, {"constraint.rheonomic", "b"}, {"constraint.homogeneous", "b"}, {"constraint.integrability", "s"},
     {"constraint.growth_proved", "b"}, {"constraint.growth_space", "s"}, {"constraint.hidden_holonomic.count", "n"}, {"constraint.hidden_holonomic.without_closed_form", "n"},
     {"reduced_equations", "a"}, {"reduced_equations.0.velocity", "s"}, {"reduced_equations.0.rate", "s"}, {"multipliers", "a"},
     {"nullspace.columns", "n"}, {"nullspace.rows", "n"}, {"nullspace.spectrum", "a"}, {"nullspace.gap", "n0"}, {"nullspace.dimension", "n"},
@@ -118,7 +118,7 @@ static size_t null_numbers(const cJSON *item)
 {
     static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "components_with_gamma", "symmetry_route",
                                         "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file", "accuracy",
-                                        "semiholonomic"};
+                                        "semiholonomic", "branch", "on_both_branches"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {
         for (size_t i = 0; i < COUNT(texts); i++)

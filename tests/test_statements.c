@@ -235,3 +235,97 @@ Test(statements, formulas_are_reduced_by_the_constraints)
     }
     place_clear(&p);
 }
+
+/* ---- branches ---- */
+
+/* The text from the answer to the equations: what is said of currents. */
+static char *currents_of(const char *text, const char *from, const char *to)
+{
+    const char *begin = strstr(text, from), *end = begin ? strstr(begin, to) : NULL;
+    cr_assert(begin && end, "no %s", begin ? to : from);
+    return strndup(begin, (size_t)(end - begin));
+}
+
+#define CONE "name: cone\nparameters: [{name: m, value: 1.3}, {name: g, value: 0.9}, {name: k, value: 0.8}]\n" \
+    "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\nlagrangian: -g*m*z + m*(x'^2 + y'^2 + z'^2)/2\n"
+
+static void write_branches(const place *p)
+{
+    write_here(p, "up.yaml", CONE "constraints: [\"z'^2 = k^2*(x'^2 + y'^2)\"]\ndomain: {z': [0.1, 3]}\n");
+    write_here(p, "down.yaml", CONE "constraints: [\"z'^2 = k^2*(x'^2 + y'^2)\"]\ndomain: {z': [-3, -0.1]}\n");
+    write_here(p, "root.yaml", CONE "constraints: [\"z' = -k*sqrt(x'^2 + y'^2)\"]\n");
+}
+
+/* Printed with the velocity, not the root, every current holds on both branches: asked of each of them by itself. */
+Test(statements, currents_are_printed_so_that_they_hold_on_both_branches)
+{
+    place p = place_make();
+    write_branches(&p);
+    reports r = analyze(&p, "up.yaml");
+    char *text = currents_of(r.text, "FOUND", "How it was found"), *tex = currents_of(r.tex, "\\section{Currents}", "\\section{The system}");
+    char *page = currents_of(r.page, "<section id=\"currents\">", "<section id=\"system\">");
+    cr_expect(!strstr(text, "sqrt") && !strstr(tex, "\\sqrt") && !strstr(page, "msqrt"), "%s", text);
+    cr_expect_not_null(strstr(r.text, "computed on the branch z' > 0; the equations hold on the branch z' < 0 too\n"), "%s", r.text);
+    size_t count = 0;
+    const cJSON *current;
+    cJSON_ArrayForEach(current, item(r.json, "currents"))
+    {
+        char question[400] = "", *to = question;
+        cr_expect(cJSON_IsTrue(item(current, "on_both_branches")));
+        for (const char *c = item(current, "expression")->valuestring; *c; c++)
+            if (*c != ' ') *to++ = *c;
+        for (int side = 0; side < 2; side++) {
+            char line[500];
+            snprintf(line, sizeof line, "%s --current %s", side ? "down.yaml" : "up.yaml", question);
+            reports v = verify(&p, line, 0);
+            cr_expect(strstr(v.text, ", on both branches\n") && cJSON_IsTrue(item(v.json, "on_both_branches")), "%s", v.text);
+            reports_clear(&v);
+        }
+        count++;
+    }
+    cr_assert_geq(count, 4u);
+    cr_expect_eq(occurrences(text, ", on both branches; "), count);
+    cr_expect_eq(occurrences(tex, ", on both branches."), count);
+    cr_expect_eq(occurrences(page, ", on both branches</dd>"), count);
+    free(text), free(tex), free(page);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* With the root of x' and y' in it a current of one branch is none of the other. */
+Test(statements, a_current_of_one_branch_says_so)
+{
+    static const char *const rooted = "--current m*(y'*sqrt(k^2*(x'^2+y'^2))*(k^2+1)-2*g*k^2*y)", *const other = "--current m*(y'*sqrt(k^2*(x'^2+y'^2))*(k^2+1)+2*g*k^2*y)";
+    char line[300];
+    place p = place_make();
+    write_branches(&p);
+    snprintf(line, sizeof line, "down.yaml %s", rooted);
+    reports r = verify(&p, line, 0);
+    cr_expect(strstr(r.text, ", on the branch z' < 0 only\n") && strstr(r.page, ", on the branch z"), "%s", r.text);
+    cr_expect(cJSON_IsFalse(item(r.json, "on_both_branches")));
+    cr_expect_not_null(strstr(item(r.json, "current")->valuestring, "sqrt"), "%s", r.source);
+    reports_clear(&r);
+    snprintf(line, sizeof line, "up.yaml %s", rooted);
+    r = verify(&p, line, 1);
+    reports_clear(&r);
+    snprintf(line, sizeof line, "up.yaml %s", other);
+    r = verify(&p, line, 0);
+    cr_expect_not_null(strstr(r.text, ", on the branch z' > 0 only\n"), "%s", r.text);
+    reports_clear(&r);
+    place_clear(&p);
+}
+
+/* A root that the user wrote is a dependent velocity too; it has no other branch. */
+Test(statements, a_root_is_printed_as_its_velocity)
+{
+    place p = place_make();
+    write_branches(&p);
+    reports r = analyze(&p, "root.yaml");
+    char *text = currents_of(r.text, "FOUND", "Chetaev multipliers");
+    cr_expect_null(strstr(text, "sqrt"), "%s", text);
+    cr_expect(!strstr(r.text, "branch"), "%s", r.text);
+    cr_expect(cJSON_IsNull(item(item(r.json, "constraint"), "branch")));
+    free(text);
+    reports_clear(&r);
+    place_clear(&p);
+}

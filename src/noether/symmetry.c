@@ -269,17 +269,17 @@ static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const n
 }
 
 /* The largest residual of the constraint Noether equations, relative to the largest of their terms. */
-static double residual(nh_model *o, const nh_points *points, const nh_symmetry *z)
+double nh_symmetry_residual(const nh_model *o, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta, const nh_ex *W)
 {
     size_t n = 1 + 2 * o->n, count = points->count;
     nh_ex *e = nh_alloc_array(2 * n + 1, sizeof *e);
-    nh_symmetry_equations(o, z->phi, z->Z0, z->zeta, z->W, e);
-    e[n] = nh_model_X0(o, z->phi);
+    nh_symmetry_equations(o, phi, Z0, zeta, W, e);
+    e[n] = nh_model_X0(o, phi);
     for (size_t j = 0; j < o->n; j++) {
-        e[n + 1 + j] = nh_model_X(o, j, z->phi);
-        e[n + 1 + o->n + j] = nh_model_Y(o, j, z->phi);
+        e[n + 1 + j] = nh_model_X(o, j, phi);
+        e[n + 1 + o->n + j] = nh_model_Y(o, j, phi);
     }
-    e[2 * n] = z->phi;
+    e[2 * n] = phi;
     double *value = nh_alloc_array((2 * n + 1) * count, sizeof *value), worst = 0;
     nh_points_evaluate(points, o, 2 * n + 1, e, value);
     for (size_t p = 0; p < count; p++) {
@@ -328,6 +328,6 @@ bool nh_symmetry_of(nh_model *o, const nh_points *points, nh_ex phi, double same
     bracket(o, z, first, second);
     decide(o, points, z, first, second, same);
     z->projectable = is_projectable(o, points, z, same);
-    z->noether_residual = residual(o, points, z);
+    z->noether_residual = nh_symmetry_residual(o, points, phi, z->Z0, z->zeta, z->W);
     return true;
 }

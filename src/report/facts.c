@@ -143,6 +143,22 @@ void nh_facts_add_holds(nh_json *list, const nh_model *o, const nh_proof *p)
     else nh_json_add_text(list, all_or_these(o, p));
 }
 
+/* ---- branches ---- */
+
+void nh_facts_branch(const nh_result *r, nh_text *out)
+{
+    if (!r->branch) return;
+    nh_text_addf(out, "computed on the branch %s; ", r->branch);
+    if (r->equations_on_both) nh_text_addf(out, "the equations hold on the branch %s too", r->other_branch);
+    else nh_text_add(out, "the equations hold on this branch only");
+}
+
+const char *nh_facts_on_branches(const nh_result *r, const nh_found *f)
+{
+    if (!r->model->chart->branch) return "";
+    return f->on_both ? ", on both branches" : nh_arena_printf(r->arena, ", on the branch %s only", r->branch);
+}
+
 /* ---- the answer ---- */
 
 const char *nh_facts_nothing(const nh_result *r)

@@ -31,6 +31,10 @@ void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const ch
 /* How the drift of a current behaves when the tolerance of the integration falls. */
 const char *nh_facts_drift(const nh_drift *drift);
 
+/* Of a constraint with two branches (else ""): which was computed, and whether the equations hold on the other one; and of a current on which it holds. */
+void nh_facts_branch(const nh_result *result, nh_text *out);
+const char *nh_facts_on_branches(const nh_result *result, const nh_found *found);
+
 /* What is said where no current was found. */
 const char *nh_facts_nothing(const nh_result *result);
 /* How the search ended: whole sentences. */

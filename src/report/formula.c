@@ -20,7 +20,9 @@ nh_ex nh_formula_shortened(const nh_analysis *a, nh_dag *d, nh_ex e)
     return e;
 }
 
-nh_ex nh_formula_abbreviate(const nh_result *r, nh_ex e) { return nh_formula_shortened(r->analysis, r->model->dag, e); }
+nh_ex nh_formula_shown(const nh_result *r, nh_ex e) { return nh_chart_shown(r->other && r->other->chart->roots ? r->other->chart : r->model->chart, e); }
+
+nh_ex nh_formula_abbreviate(const nh_result *r, nh_ex e) { return nh_formula_shortened(r->analysis, r->model->dag, nh_formula_shown(r, e)); }
 
 /* ---- names for what is repeated ---- */
 

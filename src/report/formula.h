@@ -7,6 +7,8 @@
 
 /* e with the user's own abbreviations, from the analysis file (or NULL), instead of what they stand for. */
 nh_ex nh_formula_shortened(const nh_analysis *analysis, nh_dag *dag, nh_ex e);
+/* e without roots that are dependent velocities; and with the abbreviations besides. */
+nh_ex nh_formula_shown(const nh_result *result, nh_ex e);
 nh_ex nh_formula_abbreviate(const nh_result *result, nh_ex e);
 
 /* Long formulas with names for what occurs in them more than once: the n formulas are changed, part[i] = {name, value} in an order in which each uses only

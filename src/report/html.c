@@ -61,7 +61,8 @@ static void links(nh_html_writer *w)
 
 static nh_html_writer writer_of(const nh_result *r, nh_text *out)
 {
-    return (nh_html_writer){.out = out, .system = r->system, .analysis = r->analysis, .dag = r->model->dag, .shown = r->options.shown, .written = r->options.written, .r = r};
+    const nh_chart *chart = r->other && r->other->chart->roots ? r->other->chart : r->model->chart;
+    return (nh_html_writer){.out = out, .system = r->system, .analysis = r->analysis, .dag = r->model->dag, .chart = chart, .shown = r->options.shown, .written = r->options.written, .r = r};
 }
 
 void nh_html(const nh_result *r, nh_text *out)

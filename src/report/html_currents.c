@@ -86,7 +86,9 @@ static void series(nh_html_writer *w, const nh_found *f)
 static void as_text(nh_html_writer *w, const nh_found *f)
 {
     nh_dag *d = w->dag;
-    char *text = nh_print_short(d, f->phi, w->shown), *plain = f->has_in_velocities ? nh_print_short(d, f->in_velocities, w->shown) : NULL;
+    nh_ex own = nh_formula_shown(w->r, f->phi);
+    bool other = f->has_in_velocities && f->in_velocities != nh_chart_in_velocities(w->r->model->chart, own);
+    char *text = nh_print_short(d, own, w->shown), *plain = other ? nh_print_short(d, f->in_velocities, w->shown) : NULL;
     if (text || plain) nh_html_add(w, "<details class=\"copy\"><summary>As text, to copy</summary>\n");
     if (text) nh_html_tagged(w, "pre", text);
     if (plain) nh_html_add(w, "<p>in coordinate velocities</p>\n");
@@ -109,6 +111,7 @@ static void certificate(nh_html_writer *w, const nh_found *f)
         nh_html_add(w, nh_formula_doubt(f));
     }
     nh_html_text(w, nh_facts_holds(w->r->model, &f->proof, false));
+    nh_html_text(w, nh_facts_on_branches(w->r, f));
     nh_html_add(w, "</dd>\n<dt>Residual</dt><dd>");
     nh_html_number(w, f->heldout, 2);
     nh_html_add(w, " at points not used to find it</dd>\n");

@@ -167,7 +167,7 @@ void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, con
     bool needed[NH_FORMULA_PARTS] = {false}, any = false, *shown = nh_alloc_array(n + 1, sizeof *shown);
     double used_up = 0;
     nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
-    for (size_t i = 0; i < n; i++) brief[i] = nh_formula_shortened(w->analysis, w->dag, e[i]);
+    for (size_t i = 0; i < n; i++) brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
     size_t parts = nh_formula_parts(w->dag, n, brief, part);
     for (size_t i = 0; i < n; i++) shown[i] = room(w, brief[i], parts, part, needed, &used_up);
     for (size_t k = 0; k < parts; k++) any |= needed[k];

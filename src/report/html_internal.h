@@ -12,6 +12,7 @@ typedef struct {
     const nh_system *system;
     const nh_analysis *analysis; /* its abbreviations are used in formulas; or NULL */
     nh_dag *dag;                 /* of the formulas */
+    const nh_chart *chart;       /* whose roots are shown as velocities; or NULL */
     double shown;                /* option `shown`: longer formulas are left to the JSON */
     double written;              /* option `written` */
     const nh_result *r;          /* of `analyze`, else NULL */

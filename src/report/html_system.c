@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "report/facts.h"
 #include "report/html_internal.h"
 
 /* ---- as it was written ---- */
@@ -111,7 +112,17 @@ static void kind(nh_html_writer *w)
     }
     nh_html_add(w, ". Constraint submanifold of dimension ");
     nh_html_count(w, 1 + r->model->m + r->model->n);
-    nh_html_add(w, ".</p>\n");
+    nh_html_add(w, ".");
+    if (r->branch) {
+        nh_text words;
+        nh_text_init(&words);
+        nh_facts_branch(r, &words);
+        nh_html_add(w, " Everything was ");
+        nh_html_text(w, nh_text_string(&words));
+        nh_html_add(w, ".");
+        nh_text_clear(&words);
+    }
+    nh_html_add(w, "</p>\n");
 }
 
 /* "mu", or "mu_1", ...; "F_x"; "x'": n labels in one block. */

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "report/facts.h"
 #include "report/html_internal.h"
+#include "report/verdict.h"
 
 static void certificate(nh_html_writer *w, const nh_verdict_of_one *v)
 {
@@ -24,6 +25,7 @@ static void answer(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
     if (v->conserved) {
         nh_html_add(w, field ? "Yes: this is a constraint symmetry" : "Yes: this is conserved");
         certificate(w, v);
+        nh_html_text(w, nh_verdict_branches(v));
     } else if (v->region) {
         nh_html_add(w, "No: this is conserved in a part of the motions only: ");
         nh_html_text(w, v->region);
@@ -99,7 +101,7 @@ static void question(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
 
 void nh_html_verdict(const nh_verdict_of_one *v, bool field, const nh_run *run, nh_text *out)
 {
-    nh_html_writer w = {.out = out, .system = v->system, .dag = v->model->dag, .shown = run->shown, .written = INFINITY};
+    nh_html_writer w = {.out = out, .system = v->system, .dag = v->model->dag, .chart = nh_verdict_chart(v), .shown = run->shown, .written = INFINITY};
     bool shown = v->has_symmetry && !v->trivial;
     nh_html_begin(&w, field ? "is it a symmetry?" : "is it conserved?");
     answer(&w, v, field);

@@ -21,7 +21,7 @@ typedef struct {
 /* NULL, counted, when it is too long. */
 static char *text_of(const writer *w, nh_ex e)
 {
-    char *text = nh_print_short(w->dag, e, w->r->options.written);
+    char *text = nh_print_short(w->dag, nh_formula_shown(w->r, e), w->r->options.written);
     *w->left_out += !text;
     return text;
 }
@@ -68,6 +68,19 @@ static void put_integrals(const writer *w, nh_json *to)
     nh_json_put_number(item, "without_closed_form", (double)(r->constraint.hidden - r->integrals));
 }
 
+static void put_branch(const writer *w, nh_json *to)
+{
+    const nh_result *r = w->r;
+    nh_json *item = r->branch ? nh_json_put_object(to, "branch") : NULL;
+    if (!item) {
+        nh_json_put_null(to, "branch");
+        return;
+    }
+    nh_json_put_text(item, "computed", r->branch);
+    nh_json_put_text(item, "other", r->other_branch);
+    nh_json_put_bool(item, "equations_on_both", r->equations_on_both);
+}
+
 static void put_constraint(const writer *w, nh_json *to)
 {
     static const char *const spaces[] = {"positions", "time and positions", "submanifold"};
@@ -90,6 +103,7 @@ static void put_constraint(const writer *w, nh_json *to)
         nh_json_put_text(drop, "where", g->where ? nh_name_of(w->dag, g->where) : "origin");
         put_ranks(drop, "growth_vector", g->length_there, g->rank_there);
     }
+    put_branch(w, item);
     put_integrals(w, item);
 }
 
@@ -276,7 +290,7 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
 /* As LaTeX; null when it is too long to be shown. */
 static void put_latex(const writer *w, nh_json *to, nh_ex e)
 {
-    char *text = nh_print_short(w->dag, e, w->r->options.shown);
+    char *text = nh_print_short(w->dag, nh_formula_shown(w->r, e), w->r->options.shown);
     nh_text latex;
     nh_text_init(&latex);
     bool good = text && nh_typeset(text, NH_LATEX, &latex);
@@ -300,6 +314,8 @@ static void put_current(const writer *w, nh_json *currents, const nh_found *f)
     nh_json_put_bool(item, "proved", f->proof.proved);
     nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
     nh_facts_put_holds(item, w->r->model, &f->proof);
+    if (w->r->model->chart->branch) nh_json_put_bool(item, "on_both_branches", f->on_both);
+    else nh_json_put_null(item, "on_both_branches");
     nh_json_put_bool(item, "exact", f->exact);
     nh_json_put_number(item, "printed_digits", floor(f->printed_digits));
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);

@@ -97,6 +97,8 @@ static void system_lines(nh_summary_writer *w)
         nh_text_add(w->out, ", no constraints");
     }
     nh_text_addf(w->out, "; constraint submanifold of dimension %zu\n", 1 + r->model->m + r->model->n);
+    nh_facts_branch(r, w->out);
+    nh_text_add(w->out, r->branch ? "\n" : "");
     integrals_line(w);
 }
 
@@ -181,6 +183,7 @@ static void certificate(nh_summary_writer *w, const nh_found *f)
     const char *holds = nh_facts_holds(w->r->model, &f->proof, true);
     if (f->proof.proved) nh_text_addf(w->out, "proved%s", holds);
     else nh_text_addf(w->out, "conserved to %.0f digits%s%s", f->proof.digits, nh_formula_doubt(f), holds);
+    nh_text_add(w->out, nh_facts_on_branches(w->r, f));
     nh_text_addf(w->out, "; held-out residual %.1e", f->heldout);
     if (w->r->validation && !f->region) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
     nh_text_add(w->out, "\n");

@@ -102,6 +102,8 @@ static void constraint_words(nh_tex_writer *w)
     nh_text words;
     nh_text_init(&words);
     nh_facts_constraint(w->r, &words);
+    nh_text_add(&words, w->r->branch ? "; " : "");
+    nh_facts_branch(w->r, &words);
     nh_tex_count(w, w->r->model->k);
     nh_tex_add(w, " ");
     nh_tex_words(w, nh_text_string(&words));
@@ -166,6 +168,7 @@ static void certificate(nh_tex_writer *w, const nh_found *f)
         nh_tex_add(w, nh_formula_doubt(f));
     }
     nh_tex_words(w, nh_facts_holds(w->r->model, &f->proof, false));
+    nh_tex_words(w, nh_facts_on_branches(w->r, f));
     nh_tex_add(w, ".");
     nh_tex_add(w, " Residual ");
     nh_tex_number(w, f->heldout, 2);

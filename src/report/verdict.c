@@ -8,9 +8,30 @@
 #include "expr/print.h"
 #include "report/facts.h"
 
-/* Longer than `shown` symbols: only how long. */
-static void put(nh_text *out, nh_dag *dag, const char *label, nh_ex e, double shown)
+const nh_chart *nh_verdict_chart(const nh_verdict_of_one *v)
 {
+    bool here_only = v->branch && v->conserved && !v->on_both && !v->form;
+    return here_only ? NULL : v->model->chart;
+}
+
+static nh_ex as_shown(const nh_verdict_of_one *v, nh_ex e)
+{
+    const nh_chart *chart = nh_verdict_chart(v);
+    return chart ? nh_chart_shown(chart, e) : e;
+}
+
+const char *nh_verdict_branches(const nh_verdict_of_one *v)
+{
+    if (!v->branch) return "";
+    if (v->on_both) return ", on both branches";
+    return nh_arena_printf(v->arena, v->form ? ", on the branch %s" : ", on the branch %s only", v->branch);
+}
+
+/* Longer than `shown` symbols: only how long. */
+static void put(const nh_verdict_of_one *v, nh_text *out, const char *label, nh_ex e, double shown)
+{
+    nh_dag *dag = v->model->dag;
+    e = as_shown(v, e);
     char *text = nh_print_short(dag, e, shown);
     if (text) nh_text_addf(out, "%s%s\n", label, text);
     else nh_text_addf(out, "%s... (%zu symbols: too long to be shown; option `shown`)\n", label, nh_complexity(dag, e));
@@ -29,17 +50,16 @@ static void put_point(const nh_verdict_of_one *v, nh_text *out)
 
 static void put_field(const nh_verdict_of_one *v, double shown, nh_text *out)
 {
-    nh_dag *d = v->model->dag;
     const nh_symmetry *z = &v->symmetry;
     nh_text_add(out, "  its symmetry has the components\n");
-    put(out, d, "    t: ", z->Z0, shown);
+    put(v, out, "    t: ", z->Z0, shown);
     for (size_t s = 0; s < v->model->m; s++) {
         nh_text_addf(out, "    %s: ", v->system->coordinate[s].name);
-        put(out, d, "", z->field.space[s], shown);
+        put(v, out, "", z->field.space[s], shown);
     }
     for (size_t i = 0; i < v->model->n; i++) {
-        nh_text_addf(out, "    %s: ", nh_name_of(d, v->model->chart->w[i]));
-        put(out, d, "", z->W[i], shown);
+        nh_text_addf(out, "    %s: ", nh_name_of(v->model->dag, v->model->chart->w[i]));
+        put(v, out, "", z->W[i], shown);
     }
     nh_text_add(out, "  ");
     nh_facts_symmetry(z, NH_FACTS_TEXT, ";\n  ", out);
@@ -53,17 +73,16 @@ static void put_outside(const nh_verdict_of_one *v, double shown, nh_text *out)
     for (size_t a = 0; a < v->model->k; a++) {
         char label[80];
         snprintf(label, sizeof label, "  i_Z phi^%zu = ", a + 1);
-        put(out, v->model->dag, label, v->form[a], shown);
+        put(v, out, label, v->form[a], shown);
         nh_text_addf(out, "    where phi^%zu belongs to %s\n", a + 1, v->system->constraint[a].text);
     }
 }
 
 void nh_verdict_text(const nh_verdict_of_one *v, bool field, double shown, nh_text *out)
 {
-    nh_dag *d = v->model->dag;
     if (field && v->outside) put_outside(v, shown, out);
-    else if (field) put(out, d, "the field's current is  ", v->current, shown);
-    else put(out, d, "Phi = ", v->current, INFINITY);
+    else if (field) put(v, out, "the field's current is  ", v->current, shown);
+    else put(v, out, "Phi = ", v->current, INFINITY);
     if (v->region) {
         nh_text_addf(out, "NO: this is conserved in a part of the motions only: %s\n", v->region);
         return;
@@ -77,13 +96,14 @@ void nh_verdict_text(const nh_verdict_of_one *v, bool field, double shown, nh_te
     nh_text_add(out, field ? "YES: this is a constraint symmetry" : "YES: this is conserved");
     if (v->proof.proved) nh_text_addf(out, ", proved%s", nh_facts_holds(v->model, &v->proof, false));
     else nh_text_addf(out, ", to %.0f digits%s", v->proof.digits, v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
+    nh_text_add(out, nh_verdict_branches(v));
     nh_text_addf(out, "%s\n", v->trivial ? "; but it is trivial: the current is constant" : "");
     if (v->has_symmetry && !v->trivial) put_field(v, shown, out);
 }
 
-static void put_expression(nh_json *to, const char *key, nh_dag *dag, nh_ex e)
+static void put_expression(const nh_verdict_of_one *v, nh_json *to, const char *key, nh_ex e)
 {
-    char *text = nh_print_string(dag, e);
+    char *text = nh_print_string(v->model->dag, as_shown(v, e));
     nh_json_put_text(to, key, text);
     nh_free(text);
 }
@@ -92,11 +112,11 @@ static void put_symmetry(const nh_verdict_of_one *v, nh_json *to)
 {
     nh_dag *d = v->model->dag;
     nh_json *item = nh_json_put_object(to, "symmetry"), *components;
-    put_expression(item, "Z0", d, v->symmetry.Z0);
+    put_expression(v, item, "Z0", v->symmetry.Z0);
     components = nh_json_put_object(item, "components");
-    put_expression(components, "t", d, v->symmetry.Z0);
-    for (size_t s = 0; s < v->model->m; s++) put_expression(components, v->system->coordinate[s].name, d, v->symmetry.field.space[s]);
-    for (size_t i = 0; i < v->model->n; i++) put_expression(components, nh_name_of(d, v->model->chart->w[i]), d, v->symmetry.W[i]);
+    put_expression(v, components, "t", v->symmetry.Z0);
+    for (size_t s = 0; s < v->model->m; s++) put_expression(v, components, v->system->coordinate[s].name, v->symmetry.field.space[s]);
+    for (size_t i = 0; i < v->model->n; i++) put_expression(v, components, nh_name_of(d, v->model->chart->w[i]), v->symmetry.W[i]);
     if (v->symmetry.kase) nh_json_put_number(item, "case", v->symmetry.kase);
     else nh_json_put_null(item, "case");
     nh_json_put_bool(item, "bracket_in_distribution", v->symmetry.bracket_in_distribution);
@@ -114,7 +134,7 @@ static void put_forms(const nh_verdict_of_one *v, nh_json *to)
     nh_json_put_bool(to, "in_distribution", !v->outside);
     nh_json *list = nh_json_put_array(to, "i_Z_phi");
     for (size_t a = 0; a < v->model->k; a++) {
-        char *text = nh_print_string(v->model->dag, v->form[a]);
+        char *text = nh_print_string(v->model->dag, as_shown(v, v->form[a]));
         nh_json_add_text(list, text);
         nh_free(text);
     }
@@ -128,9 +148,12 @@ char *nh_verdict_json(const nh_verdict_of_one *v, const nh_run *run)
     nh_json_put_bool(root, "conserved", v->conserved);
     nh_json_put_text(root, "region", v->region);
     if (v->outside) nh_json_put_null(root, "current");
-    else put_expression(root, "current", d, v->current);
+    else put_expression(v, root, "current", v->current);
     put_forms(v, root);
     nh_json_put_bool(root, "trivial", v->trivial);
+    nh_json_put_text(root, "branch", v->branch);
+    if (v->branch && !v->form && v->conserved) nh_json_put_bool(root, "on_both_branches", v->on_both);
+    else nh_json_put_null(root, "on_both_branches");
     if (v->has_symmetry) put_symmetry(v, root);
     else nh_json_put_null(root, "symmetry");
     nh_json_put_number(root, "residual", v->residual);

@@ -8,6 +8,7 @@
 #include "base/linalg.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "study/branch.h"
 #include "study/coefficients.h"
 #include "study/currents.h"
 #include "study/defaults.h"
@@ -281,6 +282,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     watch_deadline(r);
     conclude(r);
     nh_integrals_of_constraints(r);
+    nh_branch_compare(r);
     nh_progress("a motion to check it", -1);
     if (!nh_interrupted()) validate(r, q);
     if (!nh_interrupted() && !q->no_figures) nh_figures_compute(r, q, families, family);

@@ -170,7 +170,7 @@ void nh_current_in_velocities(const nh_workbench *b, nh_found *f)
     f->in_velocities = nh_substitute(o->dag, f->phi, o->chart->implicit, o->chart->u, v);
     if (invertible && o->chart->quasi)
         f->in_velocities = nh_simplify_short(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, b->inverse), 0);
-    if (o->chart->branch) f->in_velocities = nh_chart_both_branches(o->chart, f->in_velocities);
+    f->in_velocities = nh_chart_in_velocities(o->chart, nh_chart_shown(o->chart, f->in_velocities));
     nh_free(v);
 }
 

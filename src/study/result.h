@@ -41,6 +41,7 @@ typedef struct {
     nh_rank rank;             /* how that was decided; undecided: by doubles */
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
     bool has_symmetry, by_current_route, by_symmetry_route, local;
+    bool on_both;             /* of two branches: as printed, current and field hold on the other one too */
     const char *region;       /* of a piece: where it holds, "for x > 0" */
     const nh_series *series;  /* NULL for a closed form */
     nh_symmetry symmetry;
@@ -115,6 +116,8 @@ typedef struct {
     nh_analysis *analysis;    /* NULL: chosen by the program */
     nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
     nh_distribution constraint; /* the kind of constraint */
+    const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where everything was computed, and "z' > 0"; NULL: there are no branches */
+    bool equations_on_both;     /* as printed, the equations hold on the other branch too */
     nh_options options;
     double pace;                /* Omega of study/pace.h where the system was found fast (or long), else 0 */
     nh_route route;

@@ -8,9 +8,32 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "noether/independence.h"
+#include "study/branch.h"
 #include "study/pace.h"
 
 enum { test_points = 256, generic_points = 24 };
+
+static void name_branches(nh_verdict_of_one *v)
+{
+    const nh_chart *c = v->model->chart;
+    if (!c->branch) return;
+    char *here = nh_chart_branch_name(c, c->branch), *there = nh_chart_branch_name(c, -c->branch);
+    v->branch = nh_arena_strdup(v->arena, here);
+    v->other_branch = nh_arena_strdup(v->arena, there);
+    nh_free(here);
+    nh_free(there);
+}
+
+/* Is the expression, as the user wrote it, conserved on the other branch? */
+static void ask_other_branch(nh_verdict_of_one *v, nh_ex e, const nh_options *options)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    nh_model *other = v->conserved ? nh_branch_other(v->model, options) : NULL;
+    nh_ex phi;
+    if (other && nh_analysis_to_chart(other, e, &phi, &ignored)) v->on_both = nh_branch_conserves(other, phi, &v->proof, options);
+    nh_model_free(other);
+}
 
 static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const nh_options *options, nh_error *error)
 {
@@ -26,6 +49,7 @@ static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const 
     nh_arena *arena = nh_arena_create();
     nh_verdict_of_one *v = nh_arena_alloc(arena, sizeof *v);
     *v = (nh_verdict_of_one){.arena = arena, .system = system, .model = model};
+    name_branches(v);
     return v;
 }
 
@@ -141,6 +165,7 @@ nh_verdict_of_one *nh_verify_current(nh_system *system, nh_chart_choice chart, c
     if (good) {
         v->current = nh_simplify(v->model->dag, v->current);
         good = examine(v, options, error);
+        if (good) ask_other_branch(v, e, options);
     }
     return complete(v, good, error);
 }

@@ -17,6 +17,8 @@ typedef struct {
     bool conserved;           /* or: is a constraint symmetry */
     const char *region;       /* a current is conserved in a part of the motions only: where (noether/region.h); then `conserved` is false */
     bool trivial;             /* the current is constant */
+    const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
+    bool on_both;             /* a current, as it was asked for, is conserved on the other branch too */
     bool has_symmetry;
     nh_symmetry symmetry;
     nh_proof proof;

@@ -123,6 +123,13 @@ nh_ex nh_chart_shown(const nh_chart *c, nh_ex e)
     return e;
 }
 
+nh_ex nh_chart_in_velocities(const nh_chart *c, nh_ex shown)
+{
+    const nh_system *s = c->system;
+    for (size_t k = 0; k < c->roots; k++) shown = nh_substitute(s->dag, shown, 1, &c->root_of[k].symbol, &s->coordinate[c->root_of[k].coordinate].v);
+    return shown;
+}
+
 nh_ex nh_chart_composed(const nh_chart *c, nh_ex shown, const nh_chart *other)
 {
     nh_dag *d = c->system->dag;

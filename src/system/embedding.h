@@ -68,7 +68,9 @@ nh_ex nh_chart_both_branches(const nh_chart *chart, nh_ex e);
 
 /* For people: no root where a dependent velocity is equal to it.  With the symbols of the chart's roots, reduced by what they satisfy. */
 nh_ex nh_chart_shown(const nh_chart *chart, nh_ex e);
-/* Such an expression as one of another chart of the same velocities, on its branch. */
+/* Such an expression in t, q, q'. */
+nh_ex nh_chart_in_velocities(const nh_chart *chart, nh_ex shown);
+/* And as one of another chart of the same velocities, on its branch. */
 nh_ex nh_chart_composed(const nh_chart *chart, nh_ex shown, const nh_chart *other);
 /* "z' < 0": where a chart with a branch is, or, with -chart->branch, where it is not.  To be freed. */
 char *nh_chart_branch_name(const nh_chart *chart, int branch);
