@@ -241,3 +241,18 @@ Test(reduce_statements, one_coordinate)
     SAYS(TEXT(t), "\n1 coordinate, 0 constraints");
     done(&t);
 }
+
+/* A momentum is not called by the letter of a parameter. */
+Test(reduce_statements, momenta_beside_a_parameter_of_that_name)
+{
+    told t = tell_file("systems/vertical_disk.yaml", 0, NULL);
+    IS_SILENT(TEXT(t), "    J = ");
+    SAYS(TEXT(t), "    p_xi = K*p'\n");
+    done(&t);
+    t = tell_file("systems/snakeboard.yaml", 0, NULL);
+    SAYS(TEXT(t), "    p_xi = ");
+    done(&t);
+    t = tell_file("systems/crane.yaml", 0, NULL);
+    SAYS(TEXT(t), "    J = ");
+    done(&t);
+}

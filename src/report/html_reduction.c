@@ -307,7 +307,7 @@ static void momenta(nh_html_writer *w, const nh_reduction *r)
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_html_add(w, "<article class=\"card\">\n");
-        nh_html_formula(w, p->moving ? "E - J" : "J", p->value);
+        nh_html_formula(w, nh_reduction_momentum_name(r, p), p->value);
         const char *kind = nh_reduction_momentum_kind(p);
         nh_text_addf(w->out, "<p>%c%s ", toupper((unsigned char)*kind), kind + 1);
         field(w, r->kinetic, p->field);

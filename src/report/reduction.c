@@ -293,7 +293,7 @@ static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
         nh_text_addf(out, "  %s ", nh_reduction_momentum_kind(p));
         nh_generator_text(r->kinetic, &field, out);
         nh_text_addf(out, " (%s%s%s)\n", p->proof.proved ? "proved" : "to rounding", p->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &p->proof, false), p->local ? "; local: many-valued on an angle" : "");
-        put_expression(out, "    ", p->moving ? "E - J" : "J", r->kinetic->dag, p->value, shown);
+        put_expression(out, "    ", nh_reduction_momentum_name(r, p), r->kinetic->dag, p->value, shown);
     }
 }
 

@@ -32,6 +32,8 @@ const char *nh_reduction_no_energy(const nh_reduction *reduction, const nh_reduc
 const char *nh_reduction_energy(const nh_reduction *reduction, const nh_reduction_stage *stage);
 /* The stage whose momenta obey a linear equation in the shape, so that as many currents are conserved though none may have a closed form; or SIZE_MAX. */
 size_t nh_reduction_linear_stage(const nh_reduction *reduction);
+/* "J", or "E - J"; other letters where the system has these for something else. */
+const char *nh_reduction_momentum_name(const nh_reduction *reduction, const nh_momentum *momentum);
 /* "gauge momentum of", before the field. */
 const char *nh_reduction_momentum_kind(const nh_momentum *momentum);
 

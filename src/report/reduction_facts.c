@@ -1,6 +1,8 @@
 /* reduction_facts: what text, page, LaTeX and C say alike of a reduction. */
 #include "report/reduction.h"
 
+#include <string.h>
+
 bool nh_reduction_instead(const nh_reduction *r, size_t i)
 {
     nh_stage_kind kind = r->stage[i].kind;
@@ -49,4 +51,17 @@ const char *nh_reduction_globally(const nh_reduction *r, const nh_group *g)
     if (!g->local) return "";
     if (!g->global || !g->global_name) return g->missing ? "" : "; globally: none";
     return nh_arena_printf(r->kinetic->arena, "; globally: %s%s, of dimension %zu", least, g->global_name, g->global);
+}
+
+static bool names(const nh_system *s, const char *name)
+{
+    bool taken = nh_system_coordinate(s, name) >= 0;
+    for (size_t i = 0; i < s->parameters; i++) taken |= !strcmp(s->parameter[i].name, name);
+    return taken;
+}
+
+const char *nh_reduction_momentum_name(const nh_reduction *r, const nh_momentum *p)
+{
+    const char *J = names(r->system, "J") ? "p_xi" : "J", *E = names(r->system, "E") ? "energy" : "E";
+    return p->moving ? nh_arena_printf(r->kinetic->arena, "%s - %s", E, J) : J;
 }
