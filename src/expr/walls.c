@@ -23,7 +23,8 @@ static bool is_even(const nh_dag *d, nh_ex exponent)
     return x.q == 1 && x.p % 2 == 0;
 }
 
-/* The factors of something that vanishes on a wall: of a product all bases, since a quotient changes its sign at a pole, too.  `edge`: under a root. */
+/* The factors of something that vanishes on a wall: of a product all bases, since a quotient changes its sign at a
+ * pole, too.  `edge`: under a root. */
 static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
 {
     nh_kind kind = nh_kind_of(d, e);
@@ -31,7 +32,8 @@ static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
     if (kind == NH_FUNCTION && nh_function_of(d, e) == NH_ABS) {
         put_factors(w, d, nh_child(d, e, 0), false, depth + 1);
     } else if (kind == NH_PRODUCT) {
-        for (size_t i = 0; i < nh_arity(d, e); i++) put_factors(w, d, nh_child(d, e, i), edge && !is_even(d, nh_exponent_of(d, e, i)), depth + 1);
+        for (size_t i = 0; i < nh_arity(d, e); i++)
+            put_factors(w, d, nh_child(d, e, i), edge && !is_even(d, nh_exponent_of(d, e, i)), depth + 1);
     } else if (kind != NH_FUNCTION || nh_function_of(d, e) != NH_EXP) {
         nh_ex factored = kind == NH_SUM && depth == 0 ? nh_simplify_short(d, e, 0) : e;
         if (factored != e) put_factors(w, d, factored, edge, depth + 1);
@@ -44,7 +46,8 @@ static void put_poles(nh_walls *w, nh_dag *d, nh_ex v, int depth)
 {
     nh_kind kind = nh_kind_of(d, v);
     if (depth > most_nested || kind == NH_NUMBER || kind == NH_SYMBOL) return;
-    if (kind == NH_FUNCTION && nh_function_of(d, v) == NH_TAN) put_factors(w, d, nh_call(d, NH_COS, nh_child(d, v, 0)), false, 0);
+    if (kind == NH_FUNCTION && nh_function_of(d, v) == NH_TAN)
+        put_factors(w, d, nh_call(d, NH_COS, nh_child(d, v, 0)), false, 0);
     for (size_t i = 0; i < nh_arity(d, v); i++) {
         nh_ex x = kind == NH_PRODUCT ? nh_exponent_of(d, v, i) : nh_int(d, 1), base = nh_child(d, v, i);
         if (nh_kind_of(d, x) != NH_NUMBER || nh_num_value(nh_number_of(d, x)) < 0) put_factors(w, d, base, false, 0);

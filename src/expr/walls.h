@@ -1,13 +1,15 @@
 /* walls: where an expression may jump or have a kink, although it is finite on both sides.
  *
- * Sums, products, whole powers, sin, exp, ... are analytic wherever they are finite: quotients of them have poles, and no jumps.  What is left are the zero sets of
+ * Sums, products, whole powers, sin, exp, ... are analytic wherever they are finite: quotients of them have poles,
+ * and no jumps.  What is left are the zero sets of
  *
  *     u          of |u|, sign(u) and u^x with a broken exponent x
  *     y          of atan2(y, x), whose cut is y = 0, x < 0
  *     1/v        of atan(v): where v is infinite
  *     1 - v^2    of asin(v), acos(v);  v - 1 of acosh(v)
  *
- * each cut into its factors, so that sqrt((x - y)^2) gives x - y.  These are candidates: whether something happens there is for whoever evaluates. */
+ * each cut into its factors, so that sqrt((x - y)^2) gives x - y.  These are candidates: whether something happens
+ * there is for whoever evaluates. */
 #ifndef NH_WALLS_H
 #define NH_WALLS_H
 

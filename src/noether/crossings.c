@@ -25,7 +25,8 @@ typedef struct {
     nh_crossings list;
 } finder;
 
-/* The functions of all walls at s into f, their derivatives along the line into slope; false where they are not finite or there is no point. */
+/* The functions of all walls at s into f, their derivatives along the line into slope; false where they are not
+ * finite or there is no point. */
 static bool at(finder *x, double s, double *f, double *slope)
 {
     for (size_t j = 0; j < x->explicit_width; j++) x->z[j] = x->origin[j] + s * x->direction[j];
@@ -89,7 +90,8 @@ static bool is_crossed(finder *x, nh_crossing *c)
 {
     passage far[2], near[2];
     for (int side = 0; side < 2; side++) {
-        if (!passage_at(x, c->wall, c->point[side][1], &far[side]) || !passage_at(x, c->wall, c->point[side][2], &near[side])) return false;
+        if (!passage_at(x, c->wall, c->point[side][1], &far[side])
+            || !passage_at(x, c->wall, c->point[side][2], &near[side])) return false;
         bool stops = !(fabs(near[side].speed) > fabs(far[side].speed) / 2);
         bool diverges = near[side].strength * depth[2] > far[side].strength * depth[1] / 2;
         if (stops || diverges) return false;
@@ -132,7 +134,8 @@ static void look_between(finder *x, size_t i, const double *s, const double *f, 
 static double grid_point(size_t k)
 {
     if (k == steps_out) return 0;
-    return k > steps_out ? first_step * pow(ratio, (double)(k - steps_out - 1)) : -first_step * pow(ratio, (double)(steps_out - 1 - k));
+    return k > steps_out ? first_step * pow(ratio, (double)(k - steps_out - 1))
+        : -first_step * pow(ratio, (double)(steps_out - 1 - k));
 }
 
 static void follow(finder *x)
@@ -143,7 +146,8 @@ static void follow(finder *x)
     for (size_t k = 0; k < grid; k++) {
         s[1] = grid_point(k);
         bool here = at(x, s[1], f[1], slope[1]);
-        for (size_t i = 0; i < n && here && before; i++) look_between(x, i, s, (double[]){f[0][i], f[1][i]}, (double[]){slope[0][i], slope[1][i]});
+        for (size_t i = 0; i < n && here && before; i++)
+            look_between(x, i, s, (double[]){f[0][i], f[1][i]}, (double[]){slope[0][i], slope[1][i]});
         before = here;
         s[0] = s[1];
         memcpy(f[0], f[1], n * sizeof **f);

@@ -1,9 +1,11 @@
 /* crossings: points at which motions cross a wall (expr/walls.h), with points on both sides of it.
  *
- * Lines through the sampling box, and far beyond it, are followed until a wall's function g changes its sign, or touches zero like (x - y)^2.  A motion crosses
- * there when it goes through with a speed that stays: Gamma(g)/|grad g| has one sign on both sides (opposite ones where g only touches zero) and does not
- * fall to zero towards the wall, and the equations of motion are finite on both sides, or integrable: eps |Gamma| falls with the distance eps.
- * An invariant wall (x' = 0 of a free particle), a wall that repels without bound and the end of the domain of a root are not crossed. */
+ * Lines through the sampling box, and far beyond it, are followed until a wall's function g changes its sign, or
+ * touches zero like (x - y)^2.  A motion crosses there when it goes through with a speed that stays: Gamma(g)/|grad
+ * g| has one sign on both sides (opposite ones where g only touches zero) and does not fall to zero towards the
+ * wall, and the equations of motion are finite on both sides, or integrable: eps |Gamma| falls with the distance
+ * eps. An invariant wall (x' = 0 of a free particle), a wall that repels without bound and the end of the domain of
+ * a root are not crossed. */
 #ifndef NH_CROSSINGS_H
 #define NH_CROSSINGS_H
 
@@ -17,7 +19,8 @@ enum { NH_CROSSING_DEPTHS = 3 };
 typedef struct {
     nh_ex wall;
     bool touches;                           /* the function has one sign on both sides */
-    double *point[2][NH_CROSSING_DEPTHS];   /* (t, q, w, u): where the function is negative, positive; nearer and nearer */
+    /* (t, q, w, u): where the function is negative, positive; nearer and nearer */
+    double *point[2][NH_CROSSING_DEPTHS];
 } nh_crossing;
 
 typedef struct {

@@ -33,7 +33,8 @@ nh_rank nh_rank_decide(const nh_model *o, size_t n, const nh_ex *phi, double dou
     nh_exact_parameters(o, ball);
     for (int tries = 0; tries < most_tries && points < wanted && out.answer != NH_RANK_GROWS; tries++) {
         double lower, upper;
-        if (!nh_exact_point(o, ball, &state) || !nh_ball_rank_left(ball, n + 1, width, e, scale, &lower, &upper)) continue;
+        if (!nh_exact_point(o, ball, &state) || !nh_ball_rank_left(ball, n + 1, width, e, scale, &lower, &upper))
+            continue;
         points++;
         digits = fmin(digits, -upper);
         if (exact ? isfinite(lower) : lower > log10(doubt)) out = (nh_rank){.answer = NH_RANK_GROWS, .proved = exact};

@@ -1,8 +1,10 @@
-/* rank: does a current's gradient lie in the span of others' gradients?  Decided in ball arithmetic at random exact points of the constraint submanifold.
+/* rank: does a current's gradient lie in the span of others' gradients?  Decided in ball arithmetic at random exact
+ * points of the constraint submanifold.
  *
- * Where what is left of it excludes zero at one point, it is independent, and that is a proof for the given parameters: no relation between functions is assumed.  Where it
- * contains zero at every point, within many digits, it depends on the others as far as these digits go.  Numbers in a current that were fitted (they are no
- * rationals) are wrong in their last digits, and what is left has to be larger than these. */
+ * Where what is left of it excludes zero at one point, it is independent, and that is a proof for the given
+ * parameters: no relation between functions is assumed.  Where it contains zero at every point, within many digits,
+ * it depends on the others as far as these digits go.  Numbers in a current that were fitted (they are no rationals)
+ * are wrong in their last digits, and what is left has to be larger than these. */
 #ifndef NH_RANK_H
 #define NH_RANK_H
 
@@ -17,7 +19,8 @@ typedef struct {
     double digits; /* it stays: to which nothing is left, least over the points */
 } nh_rank;
 
-/* phi[0..n-1] are independent (or n is 0): is phi[n] independent of them?  `doubt`: with fitted numbers, what is left below this part is nothing. */
+/* phi[0..n-1] are independent (or n is 0): is phi[n] independent of them?  `doubt`: with fitted numbers, what is
+ * left below this part is nothing. */
 nh_rank nh_rank_decide(const nh_model *model, size_t n, const nh_ex *phi, double doubt);
 
 #endif

@@ -26,12 +26,14 @@ nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena 
 }
 
 /* Those of phi that the equations of motion do not have. */
-static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options, nh_arena *arena)
+static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
+    nh_arena *arena)
 {
     nh_walls all = terrain->walls, own = {0};
     uint64_t state = (uint64_t)options->seed + 2 * seed_offset;
     nh_walls_add(&all, o->dag, phi);
-    for (size_t i = terrain->walls.count; i < all.count; i++) own.e[own.count++] = all.e[i]; /* ends of roots are not crossed, and are found out */
+    /* ends of roots are not crossed, and are found out */
+    for (size_t i = terrain->walls.count; i < all.count; i++) own.e[own.count++] = all.e[i];
     return nh_crossings_find(o, &own, &state, arena);
 }
 
@@ -52,7 +54,8 @@ static bool jumps(judge *j, const nh_crossing *c)
     double value[2][NH_CROSSING_DEPTHS], radius, size = 0;
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++) {
-            if (!nh_exact_at(j->o, j->ball, c->point[side][k]) || !nh_ball_value(j->ball, j->phi, &value[side][k], &radius)) return false;
+            if (!nh_exact_at(j->o, j->ball, c->point[side][k])
+                || !nh_ball_value(j->ball, j->phi, &value[side][k], &radius)) return false;
             size = fmax(size, fabs(value[side][k]));
         }
     double near = fabs(value[1][2] - value[0][2]), far = fabs(value[1][1] - value[0][1]);
@@ -96,7 +99,8 @@ static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
     if ((!s->below && !s->above && !s->jump) || r->count == NH_MOST_WALLS) return;
     r->wall[r->count] = wall;
     r->kind[r->count++] = s->below && s->above   ? NH_REGION_PARTS
-                          : s->below || s->above ? (touches ? NH_REGION_PARTS : s->below ? NH_REGION_ABOVE : NH_REGION_BELOW)
+                          : s->below || s->above ? (touches ? NH_REGION_PARTS : s->below ? NH_REGION_ABOVE
+                              : NH_REGION_BELOW)
                                                  : NH_REGION_APART;
 }
 
@@ -116,12 +120,14 @@ static void look_at_all(judge *j, const nh_crossings *c, nh_region *out)
     }
 }
 
-nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, double digits, const nh_options *options, nh_arena *arena)
+nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, double digits,
+    const nh_options *options, nh_arena *arena)
 {
     nh_region out = {0};
     nh_crossings own = own_crossings(o, terrain, phi, options, arena);
     if (own.count + terrain->crossings.count == 0) return out;
-    judge j = {.o = o, .ball = nh_ball_create(o->dag, (long)options->bits), .phi = phi, .terms = 1 + o->m + o->n, .digits = digits};
+    judge j = {.o = o, .ball = nh_ball_create(o->dag, (long)options->bits), .phi = phi, .terms = 1 + o->m + o->n,
+        .digits = digits};
     j.term = nh_alloc_array(j.terms, sizeof *j.term);
     nh_rate_terms(o, phi, j.term);
     nh_exact_parameters(o, j.ball);
@@ -171,7 +177,8 @@ const char *nh_region_text(nh_dag *d, const nh_region *r, nh_arena *arena)
     }
     for (size_t i = 0; i < r->count; i++) {
         if (r->kind[i] == NH_REGION_ABOVE || r->kind[i] == NH_REGION_BELOW) continue;
-        nh_text_addf(&text, "%s%s", between, r->kind[i] == NH_REGION_APART ? "on each side of " : "in some parts that end at ");
+        nh_text_addf(&text, "%s%s", between, r->kind[i] == NH_REGION_APART ? "on each side of "
+            : "in some parts that end at ");
         condition(d, r->wall[i], 0, &text);
         nh_text_add(&text, r->kind[i] == NH_REGION_APART ? ", where it jumps" : "");
         between = ", ";

@@ -1,9 +1,10 @@
 /* region: where does a current hold?
  *
- * A proof, or any number of digits, says that Gamma(Phi) = 0 wherever everything is smooth.  At a wall that motions cross Phi may still jump: then it is one
- * current on each side and no current of the whole motion.  Or Gamma(Phi) = 0 on one side only, the side of the sampling box.  Decided at crossings: Phi in
- * ball arithmetic nearer and nearer to the wall on both sides (a difference that does not fall is a jump; what grows without bound is a pole, which no motion with
- * a finite Phi reaches), and Gamma(Phi) there. */
+ * A proof, or any number of digits, says that Gamma(Phi) = 0 wherever everything is smooth.  At a wall that motions
+ * cross Phi may still jump: then it is one current on each side and no current of the whole motion.  Or Gamma(Phi) =
+ * 0 on one side only, the side of the sampling box.  Decided at crossings: Phi in ball arithmetic nearer and nearer
+ * to the wall on both sides (a difference that does not fall is a jump; what grows without bound is a pole, which no
+ * motion with a finite Phi reaches), and Gamma(Phi) there. */
 #ifndef NH_REGION_H
 #define NH_REGION_H
 
@@ -15,18 +16,22 @@ typedef enum { NH_REGION_ABOVE, NH_REGION_BELOW, NH_REGION_APART, NH_REGION_PART
 typedef struct {
     size_t count;
     nh_ex wall[NH_MOST_WALLS];
-    nh_region_kind kind[NH_MOST_WALLS]; /* holds where wall > 0, wall < 0; on both sides, but jumps; in some parts of both */
+    /* holds where wall > 0, wall < 0; on both sides, but jumps; in some parts of both */
+    nh_region_kind kind[NH_MOST_WALLS];
 } nh_region;
 
-/* The walls of the equations of motion, and where they are crossed: the same for all currents.  Belongs to the arena. */
+/* The walls of the equations of motion, and where they are crossed: the same for all currents.  Belongs to the
+ * arena. */
 typedef struct {
     nh_walls walls;
     nh_crossings crossings;
 } nh_terrain;
 nh_terrain nh_terrain_of(const nh_model *model, const nh_options *options, nh_arena *arena);
 
-/* `digits`: to which Gamma(Phi) has to cancel where Phi holds; 0: it is known to vanish on all sides.  No walls in the result: Phi holds everywhere. */
-nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits, const nh_options *options, nh_arena *arena);
+/* `digits`: to which Gamma(Phi) has to cancel where Phi holds; 0: it is known to vanish on all sides.  No walls in
+ * the result: Phi holds everywhere. */
+nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits,
+    const nh_options *options, nh_arena *arena);
 
 /* "for x > 0", "on each side of x - y = 0, where it jumps"; NULL for everywhere. */
 const char *nh_region_text(nh_dag *dag, const nh_region *region, nh_arena *arena);

@@ -37,7 +37,8 @@ static range power_of(range b, nh_num x)
     }
     if (x.q == 1 && x.p > 0) return (range){pow(b.low, (double)x.p), pow(b.high, (double)x.p)};
     bool even = x.q == 1 && x.p % 2 == 0;
-    return even || x.q != 1 ? (range){0, INFINITY} : b.low >= 0 ? (range){0, INFINITY} : everything; /* roots are not negative */
+    /* roots are not negative */
+    return even || x.q != 1 ? (range){0, INFINITY} : b.low >= 0 ? (range){0, INFINITY} : everything;
 }
 
 static range function_of(nh_function f, range a)
@@ -87,7 +88,8 @@ static range range_of(const nh_system *s, nh_ex e, int depth)
             out = product_of(out, numeric ? power_of(base, nh_number_of(d, x)) : everything);
         }
         return out;
-    default: return function_of(nh_function_of(d, e), nh_arity(d, e) ? range_of(s, nh_child(d, e, 0), depth + 1) : everything);
+    default: return function_of(nh_function_of(d, e), nh_arity(d, e) ? range_of(s, nh_child(d, e, 0), depth + 1)
+        : everything);
     }
 }
 
@@ -128,7 +130,8 @@ static double residual(const search *x)
     return sqrt(sum);
 }
 
-/* From z, by steps that are halved until |f| falls: 1 for a point, 0 for none, -1 where the levels cannot be evaluated.  t stays. */
+/* From z, by steps that are halved until |f| falls: 1 for a point, 0 for none, -1 where the levels cannot be
+ * evaluated.  t stays. */
 static int descend(search *x, double *z)
 {
     size_t k = x->k, m = x->m, big = k > m ? k : m;
@@ -221,11 +224,14 @@ bool nh_levels_check(nh_system *s, uint64_t seed, nh_error *error)
         good = !proved && has_point(s, k, level, seed);
         if (good) continue;
         const nh_deck_node *node = s->constraint[a].node;
-        if (proved) nh_deck_fail(s->deck, node, 0, error, "no real positions satisfy this constraint: its two sides differ everywhere");
+        if (proved) nh_deck_fail(s->deck, node, 0, error,
+            "no real positions satisfy this constraint: its two sides differ everywhere");
         else if (k == 1) nh_deck_fail(s->deck, node, 0, error, "no positions were found that satisfy this constraint");
-        else nh_deck_fail(s->deck, node, 0, error, "no positions were found that satisfy this constraint and those before it");
+        else nh_deck_fail(s->deck, node, 0, error,
+            "no positions were found that satisfy this constraint and those before it");
         if (proved) nh_error_hint(error, "is a sign wrong, or the value of a parameter?");
-        else nh_error_hint(error, "Newton's method looked for them from %d places, up to %g times the sampling domain around its middle; if there are some, give a `domain:` near them", starts, farthest);
+        else nh_error_hint(error, "Newton's method looked for them from %d places, up to %g times the sampling domain around its middle; "
+                                    "if there are some, give a `domain:` near them", starts, farthest);
     }
     nh_free(level);
     return good;

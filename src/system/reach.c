@@ -83,7 +83,8 @@ void nh_reach_walls(nh_system *s)
     nh_walls walls = {0};
     nh_walls_add(&walls, s->dag, s->lagrangian);
     for (size_t i = 0; i < s->coordinates && s->has_forces; i++) nh_walls_add(&walls, s->dag, s->force[i]);
-    for (size_t a = 0; a < s->constraints; a++) nh_walls_add(&walls, s->dag, nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs));
+    for (size_t a = 0; a < s->constraints; a++)
+        nh_walls_add(&walls, s->dag, nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs));
     if (walls.count) s->reach = nh_arena_alloc(s->arena, walls.count * sizeof *s->reach);
     for (size_t i = 0; i < walls.count; i++) {
         nh_ex symbol;

@@ -9,16 +9,27 @@
 enum { longest_name = 24, deepest = 20 };
 
 /* Those that take prefixes (the SI brochure of the BIPM), and those that do not. */
-static const char *const scaled[] = {"m", "g", "s", "A", "K", "mol", "cd", "rad", "sr", "Hz", "N", "Pa", "J", "W", "C", "V", "F", "ohm", "\u03a9", "\u2126", "S", "Wb", "T", "H",
-                                     "lm", "lx", "Bq", "Gy", "Sv", "kat", "eV", "bar", "L", "l", "t", "cal", "Wh", "pc"};
-static const char *const plain[] = {"min", "h", "d", "yr", "deg", "\u00b0", "arcmin", "arcsec", "rev", "turn", "rpm", "au", "ha", "u", "Da", "atm", "in", "ft", "mi", "lb", "lbf", "psi", "hp",
-                                    "%", "degC", "\u00b0C"};
-static const char *const prefixes[] = {"k", "m", "c", "d", "da", "h", "M", "G", "T", "P", "E", "Z", "Y", "u", "\u00b5", "\u03bc", "n", "p", "f", "a", "z", "y"};
+static const char *const scaled[] = {
+    "m", "g", "s", "A", "K", "mol", "cd", "rad", "sr", "Hz", "N", "Pa", "J", "W", "C", "V", "F", "ohm", "\u03a9",
+    "\u2126", "S", "Wb", "T", "H", "lm", "lx", "Bq", "Gy", "Sv", "kat", "eV", "bar", "L", "l", "t", "cal", "Wh", "pc"};
+static const char *const plain[] = {
+    "min", "h", "d", "yr", "deg", "\u00b0", "arcmin", "arcsec", "rev", "turn", "rpm", "au", "ha", "u", "Da", "atm",
+    "in", "ft", "mi", "lb", "lbf", "psi", "hp", "%", "degC", "\u00b0C"};
+static const char *const prefixes[] = {
+    "k", "m", "c", "d", "da", "h", "M", "G", "T", "P", "E", "Z", "Y", "u", "\u00b5", "\u03bc", "n", "p", "f", "a",
+    "z", "y"};
 /* Words that people write for them: not understood, and pointed to the symbol. */
-static const char *const words[][2] = {{"meter", "m"}, {"metre", "m"}, {"meters", "m"}, {"metres", "m"}, {"kilogram", "kg"}, {"gram", "g"}, {"second", "s"}, {"seconds", "s"}, {"sec", "s"},
-                                       {"newton", "N"}, {"joule", "J"}, {"watt", "W"}, {"volt", "V"}, {"ampere", "A"}, {"amp", "A"}, {"tesla", "T"}, {"hertz", "Hz"}, {"pascal", "Pa"},
-                                       {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"}, {"radians", "rad"}, {"hour", "h"}, {"minute", "min"}, {"kelvin", "K"}};
-enum { scaled_count = sizeof scaled / sizeof *scaled, plain_count = sizeof plain / sizeof *plain, prefix_count = sizeof prefixes / sizeof *prefixes, word_count = sizeof words / sizeof *words };
+static const char *const words[][2] = {
+    {"meter", "m"}, {"metre", "m"}, {"meters", "m"}, {"metres", "m"}, {"kilogram", "kg"}, {"gram", "g"},
+    {"second", "s"}, {"seconds", "s"}, {"sec", "s"}, {"newton", "N"}, {"joule", "J"}, {"watt", "W"}, {"volt", "V"},
+    {"ampere", "A"}, {"amp", "A"}, {"tesla", "T"}, {"hertz", "Hz"}, {"pascal", "Pa"}, {"degree", "deg"},
+    {"degrees", "deg"}, {"radian", "rad"}, {"radians", "rad"}, {"hour", "h"}, {"minute", "min"}, {"kelvin", "K"}};
+enum {
+    scaled_count = sizeof scaled / sizeof *scaled,
+    plain_count = sizeof plain / sizeof *plain,
+    prefix_count = sizeof prefixes / sizeof *prefixes,
+    word_count = sizeof words / sizeof *words
+};
 
 static bool is_in(size_t n, const char *const *list, const char *name)
 {
@@ -40,8 +51,10 @@ static bool is_name(const char *name)
 /* One letter is near to every other: only longer names are compared. */
 static const char *nearest(const char *name)
 {
-    static const char *const common[] = {"kg", "mm", "cm", "km", "ms", "kHz", "MHz", "kN", "mN", "mol", "rad", "Hz", "Pa", "kPa", "MPa", "kJ", "kW", "mV", "kV", "mA", "Wb", "ohm",
-                                         "bar", "eV", "min", "deg", "rpm", "arcmin", "arcsec", "atm", "lbf", "turn", "rev"};
+    static const char *const common[] = {
+        "kg", "mm", "cm", "km", "ms", "kHz", "MHz", "kN", "mN", "mol", "rad", "Hz", "Pa", "kPa", "MPa", "kJ", "kW",
+        "mV", "kV", "mA", "Wb", "ohm", "bar", "eV", "min", "deg", "rpm", "arcmin", "arcsec", "atm", "lbf", "turn",
+        "rev"};
     for (size_t i = 0; i < word_count; i++)
         if (!strcmp(words[i][0], name)) return words[i][1];
     return strlen(name) < 2 ? NULL : nh_text_nearest(name, common, sizeof common / sizeof *common);
@@ -75,7 +88,8 @@ static bool take(reader *r, const char *sign)
 
 static bool superscript(reader *r)
 {
-    static const char *const signs[] = {"\u207b", "\u00b9", "\u00b2", "\u00b3", "\u2070", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    static const char *const signs[] = {
+        "\u207b", "\u00b9", "\u00b2", "\u00b3", "\u2070", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
         if (take(r, signs[i])) return true;
     return false;
@@ -100,7 +114,8 @@ static bool exponent(reader *r)
 
 static bool is_letter(const reader *r)
 {
-    return isalpha((unsigned char)*r->at) || *r->at == '%' || *r->at == '_' || ((unsigned char)*r->at >= 0x80 && strncmp(r->at, "\u00b7", 2));
+    return isalpha((unsigned char)*r->at) || *r->at == '%' || *r->at == '_'
+        || ((unsigned char)*r->at >= 0x80 && strncmp(r->at, "\u00b7", 2));
 }
 
 static bool name(reader *r)

@@ -4,15 +4,16 @@
  *     product := factor { (" " | "*" | "·") factor }
  *     factor  := ("1" | name | "(" unit ")") [ "^" exponent | superscripts ]
  *
- * Names are those of the SI and of what is accepted beside it (min, h, deg, bar, eV, ...), with the SI's prefixes where these are used.  Units are for the
- * reader: nothing is converted, and dimensions are not compared. */
+ * Names are those of the SI and of what is accepted beside it (min, h, deg, bar, eV, ...), with the SI's prefixes
+ * where these are used.  Units are for the reader: nothing is converted, and dimensions are not compared. */
 #ifndef NH_UNITS_H
 #define NH_UNITS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* When it is none: where the part that is not understood begins, how long it is, and the nearest unit that is known, or NULL. */
+/* When it is none: where the part that is not understood begins, how long it is, and the nearest unit that is known,
+ * or NULL. */
 typedef struct {
     size_t offset, length;
     const char *nearest;
