@@ -28,6 +28,8 @@ struct nh_deck_node {
 
 typedef struct nh_deck nh_deck;
 
+enum { NH_DECK_SIZE_LIMIT = 4 << 20 }; /* bytes of a file */
+
 /* Read a file, or a text that is called `name` in messages.  NULL on failure. */
 nh_deck *nh_deck_read(const char *path, nh_error *error);
 nh_deck *nh_deck_parse(const char *name, const char *text, size_t length, nh_error *error);

@@ -1,8 +1,8 @@
 /* deck_include: one file that builds on another. */
-#include <stdio.h>
 #include <string.h>
 
 #include "base/deck_source.h"
+#include "base/files.h"
 
 enum { deepest = 16 };
 
@@ -124,13 +124,17 @@ static bool include(nh_deck *deck, int depth, nh_error *error)
     const char *slash = strrchr(deck->name, '/');
     int folder = slash && node->text[0] != '/' ? (int)(slash - deck->name) + 1 : 0;
     char *path = nh_arena_printf(deck->arena, "%.*s%s", folder, deck->name, node->text);
-    FILE *file = fopen(path, "rb"); /* so that the message points at the word that asks for it */
-    if (!file) {
+    size_t length;
+    nh_error unreadable;
+    nh_error_clear(&unreadable);
+    char *text = nh_files_read(path, NH_DECK_SIZE_LIMIT, &length, &unreadable);
+    if (!text && !strstr(unreadable.what, "cannot be opened")) return *error = unreadable, false;
+    if (!text) { /* the message points at the word that asks for it */
         nh_deck_fail(deck, node, 0, error, "the file `%s` cannot be opened", path);
         return nh_error_hint(error, "the name of an included file is relative to the folder of the file that includes it");
     }
-    fclose(file);
-    deck->included = nh_deck_read(path, error);
+    deck->included = nh_deck_parse(path, text, length, error);
+    nh_free(text);
     if (!deck->included || !include(deck->included, depth + 1, error)) return false;
     if (!nh_deck_is(deck->included, deck->included->root, NH_DECK_MAP, "an included file (name: ..., ...)", error)) return false;
     deck->root = merged(deck->arena, deck->included->root, without(deck->arena, deck->root, "include"));

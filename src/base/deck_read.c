@@ -1,15 +1,15 @@
 /* deck_read: from a file through libyaml's events to the tree of a deck. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <yaml.h>
 
 #include "base/deck_source.h"
 #include "base/deck_yaml.h"
+#include "base/escape.h"
+#include "base/files.h"
 
-enum { SIZE_LIMIT = 4 << 20, NODE_LIMIT = 200000, DEPTH_LIMIT = 64 };
+enum { SIZE_LIMIT = NH_DECK_SIZE_LIMIT, NODE_LIMIT = 200000, DEPTH_LIMIT = 64 };
 
 static const char comma_hint[] = "inside { } and [ ] a comma ends the entry: " NH_DECK_QUOTE_HINT;
 
@@ -63,14 +63,14 @@ static bool check_properties(builder *b, const yaml_event_t *event)
     return nh_error_hint(b->error, NH_DECK_QUOTE_HINT);
 }
 
-/* A text of the program has no control characters: escapes could bring them in. */
+/* A text of the program has no invisible characters: escapes could bring them in. */
 static bool check_scalar_text(builder *b, const char *text, size_t length, size_t begin)
 {
-    for (size_t i = 0; i < length; i++) {
-        unsigned char c = (unsigned char)text[i], next = (unsigned char)(i + 1 < length ? text[i + 1] : 0);
-        bool control = (c < 0x20 && c != '\n' && c != '\t') || c == 0x7F || (c == 0xC2 && next >= 0x80 && next < 0xA0);
-        if (control)
-            return refuse(b, begin, "this text contains a control character", "remove the escape that stands for it");
+    for (size_t i = 0, bytes; i < length; i += bytes ? bytes : 1) {
+        uint32_t code = 0;
+        bytes = nh_utf8_decode(text + i, length - i, &code);
+        if (bytes && (nh_is_invisible(code) || code == '\r'))
+            return refuse(b, begin, code < 0x20 || (code >= 0x7F && code < 0xA0) ? "this text contains a control character" : "this text contains an invisible character", "remove the escape that stands for it");
     }
     return true;
 }
@@ -337,42 +337,11 @@ nh_deck *nh_deck_parse(const char *name, const char *text, size_t length, nh_err
     return NULL;
 }
 
-/* The whole stream, or one byte more than is allowed. */
-static char *slurp(FILE *file, size_t *length)
-{
-    char *text = NULL;
-    size_t capacity = 0, got;
-    *length = 0;
-    do {
-        nh_grow(&text, &capacity, *length + 4096, 1);
-        size_t room = capacity - *length, left = (size_t)SIZE_LIMIT + 1 - *length;
-        got = fread(text + *length, 1, room < left ? room : left, file);
-        *length += got;
-    } while (got > 0);
-    return text;
-}
-
 nh_deck *nh_deck_read(const char *path, nh_error *error)
 {
-    struct stat status;
-    nh_deck *deck = NULL;
     size_t length;
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        nh_fail(error, NH_INPUT, path, "this file cannot be opened: %s", strerror(errno));
-        return NULL;
-    }
-    if (fstat(fileno(file), &status) == 0 && S_ISDIR(status.st_mode)) {
-        nh_fail(error, NH_INPUT, path, "this is a directory, not a file");
-        fclose(file);
-        return NULL;
-    }
-    char *text = slurp(file, &length);
-    if (ferror(file))
-        nh_fail(error, NH_INPUT, path, "this file cannot be read: %s", strerror(errno));
-    else
-        deck = nh_deck_parse(path, text, length, error);
+    char *text = nh_files_read(path, SIZE_LIMIT, &length, error);
+    nh_deck *deck = text ? nh_deck_parse(path, text, length, error) : NULL;
     nh_free(text);
-    fclose(file);
     return deck;
 }

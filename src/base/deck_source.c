@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/escape.h"
 
 bool nh_deck_is_break(char c)
 {
@@ -175,32 +175,6 @@ void nh_deck_shorten(const char *text, char out[NH_DECK_SHOWN])
     out[used] = '\0';
 }
 
-/* One character, by the table of RFC 3629: its length, or 0 when it is not UTF-8 (overlong, surrogate, cut off). */
-static size_t decode(const char *text, size_t left, uint32_t *code)
-{
-    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    unsigned char lead = (unsigned char)text[0];
-    size_t length = lead < 0x80 ? 1 : lead < 0xC0 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF8 ? 4 : 0;
-    if (length == 0 || length > left)
-        return 0;
-    *code = length == 1 ? lead : lead & (0x7Fu >> length);
-    for (size_t i = 1; i < length; i++) {
-        if (leads(text[i]))
-            return 0;
-        *code = *code << 6 | ((unsigned char)text[i] & 0x3Fu);
-    }
-    bool surrogate = *code >= 0xD800 && *code <= 0xDFFF;
-    return *code < least[length] || surrogate || *code > 0x10FFFF ? 0 : length;
-}
-
-/* Control characters, and the separators that libyaml takes for line breaks but editors do not. */
-static bool is_invisible(uint32_t code)
-{
-    if (code < 0x20)
-        return code != '\t' && code != '\n' && code != '\r';
-    return (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029 || code == 0xFEFF || code == 0xFFFE || code == 0xFFFF;
-}
-
 /* What is wrong with the character at `byte`, recorded; true when nothing is. */
 static bool judge(const nh_deck *deck, size_t byte, unsigned char original, size_t length, uint32_t code, nh_error *error)
 {
@@ -224,8 +198,8 @@ bool nh_deck_check_text(nh_deck *deck, nh_error *error)
     unsigned char original = 0;
     for (size_t i = 0, length; i < deck->length; i += length ? length : 1) {
         uint32_t code = 0;
-        length = decode(deck->source + i, deck->length - i, &code);
-        if (length && !is_invisible(code))
+        length = nh_utf8_decode(deck->source + i, deck->length - i, &code);
+        if (length && !nh_is_invisible(code))
             continue;
         if (first == SIZE_MAX) {
             first = i;

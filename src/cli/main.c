@@ -2,6 +2,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/escape.h"
+#include "base/files.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/words.h"
@@ -66,14 +68,20 @@ int main(int argc, char **argv)
     nh_error error;
     nh_error_clear(&error);
     nh_memory_set_handler(out_of_memory);
+    nh_files_begin();
     nh_cli cli = {.arena = nh_arena_create()};
     cli.line = line_of(&cli, argc, argv);
     int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
     if (error.code != NH_OK) {
         char text[4096];
         nh_error_format(&error, text, sizeof text);
-        fprintf(stderr, "nhsym: %s\n", text);
+        nh_text shown;
+        nh_text_init(&shown);
+        nh_escape_terminal(text, &shown);
+        fprintf(stderr, "nhsym: %s\n", nh_text_string(&shown));
+        nh_text_clear(&shown);
     }
+    nh_files_end();
     nh_arena_free(cli.arena);
     nh_machine_cleanup();
     nh_normal_cleanup();

@@ -1,6 +1,9 @@
 /* small: the commands that need no computation. */
 #include <string.h>
 
+#include "base/deck.h"
+#include "base/escape.h"
+#include "base/files.h"
 #include "cli/cli.h"
 #include "report/glossary.h"
 
@@ -39,12 +42,21 @@ int nh_cli_show(nh_cli *cli, nh_error *error)
     }
     const char *path = nh_cli_find(cli, "systems", cli->operand[0], error);
     if (!path) return error->code;
-    FILE *file = fopen(path, "r");
-    if (!file) return nh_fail(error, NH_INPUT, path, "cannot be read"), NH_INPUT;
-    char buffer[4096];
-    for (size_t n; (n = fread(buffer, 1, sizeof buffer, file)) > 0;) fwrite(buffer, 1, n, stdout);
-    fclose(file);
-    return NH_OK;
+    size_t length;
+    char *text = nh_files_read(path, NH_DECK_SIZE_LIMIT, &length, error);
+    if (!text) return error->code;
+    if (length > NH_DECK_SIZE_LIMIT) nh_fail(error, NH_INPUT, path, "the file is larger than %d MiB", NH_DECK_SIZE_LIMIT >> 20);
+    nh_text shown;
+    nh_text_init(&shown);
+    nh_text_add_n(&shown, text, length);
+    nh_text safe;
+    nh_text_init(&safe);
+    nh_escape_terminal(nh_text_string(&shown), &safe);
+    if (error->code == NH_OK) fputs(nh_text_string(&safe), stdout);
+    nh_text_clear(&safe);
+    nh_text_clear(&shown);
+    nh_free(text);
+    return error->code;
 }
 
 static void explain_options(void)

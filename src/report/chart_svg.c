@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "base/memory.h"
 #include "report/chart.h"
 
@@ -45,14 +46,14 @@ static double up(const panel *d, const mark *m) { return y_of(d, log10(m->second
 /* At most so many characters, the last of them points. */
 static void escaped(nh_text *out, const char *text, size_t most)
 {
-    size_t letters = 0, all = strlen(text);
-    for (; *text && (all <= most || letters + 3 < most); text++, letters++) {
-        if (*text == '&') nh_text_add(out, "&amp;");
-        else if (*text == '<') nh_text_add(out, "&lt;");
-        else if (*text == '>') nh_text_add(out, "&gt;");
-        else nh_text_add_n(out, text, 1);
-    }
-    if (*text) nh_text_add(out, "...");
+    size_t letters = 0, bytes = 0, all = nh_text_width(text);
+    nh_text part;
+    nh_text_init(&part);
+    for (; text[bytes] && (all <= most || letters + 3 < most || ((unsigned char)text[bytes] & 0xC0) == 0x80); bytes++) letters += ((unsigned char)text[bytes + 1] & 0xC0) != 0x80;
+    nh_text_add_n(&part, text, bytes);
+    nh_escape_xml(nh_text_string(&part), out);
+    if (text[bytes]) nh_text_add(out, "...");
+    nh_text_clear(&part);
 }
 
 /* ---- one panel ---- */

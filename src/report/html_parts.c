@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "base/memory.h"
 #include "base/versions.h"
 #include "report/facts.h"
@@ -12,7 +13,7 @@
 enum { FIGURE_ID = 40 };
 
 void nh_html_add(nh_html_writer *w, const char *markup) { nh_text_add(w->out, markup); }
-void nh_html_text(nh_html_writer *w, const char *text) { nh_svg_escape(text, w->out); }
+void nh_html_text(nh_html_writer *w, const char *text) { nh_escape_xml(text, w->out); }
 
 void nh_html_prose(nh_html_writer *w, const char *text)
 {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "base/memory.h"
 #include "report/course.h"
 
@@ -19,7 +20,12 @@ static void put_name(const nh_tracks *t, size_t which, nh_text *out)
     static const char *const kinds[] = {"state", "current", "multiplier", "energy", "watched", "shape"};
     bool taken = false;
     for (size_t k = 0; k < which; k++) taken |= !strcmp(t->track[k].name, t->track[which].name);
-    nh_text_addf(out, taken ? ",%s (%s)" : ",%s", t->track[which].name, kinds[t->track[which].kind]);
+    nh_text name;
+    nh_text_init(&name);
+    nh_text_addf(&name, taken ? "%s (%s)" : "%s", t->track[which].name, kinds[t->track[which].kind]);
+    nh_text_add(out, ",");
+    nh_escape_csv(nh_text_string(&name), out);
+    nh_text_clear(&name);
 }
 
 void nh_motion_csv(const nh_simulation *s, nh_text *out)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/escape.h"
 #include "base/memory.h"
 #include "report/svg.h"
 
@@ -116,7 +117,7 @@ bool nh_portrait(const nh_course *c, const char *title, nh_text *out)
     p.count = until_far(&p);
     if (!c->shapes || !fit(&p)) return false;
     nh_text_addf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\"><title>", wide, high, wide, high);
-    nh_svg_escape(title, out);
+    nh_escape_xml(title, out);
     nh_text_addf(out, "</title>\n<rect width=\"%d\" height=\"%d\" rx=\"6\" fill=\"#fff\"/>\n", wide, high);
     for (size_t s = 0; s < c->shapes; s++)
         if (c->shape[s].kind != NH_SHAPE_SEGMENT) track(&p, s);

@@ -1,6 +1,7 @@
 /* reduction_code: the reduced equations as C and as LaTeX. */
 #include <string.h>
 
+#include "base/escape.h"
 #include "base/memory.h"
 #include "expr/print.h"
 #include "expr/typeset.h"
@@ -107,7 +108,9 @@ static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t
 
 void nh_reduction_c(const nh_reduction *r, nh_text *out)
 {
-    nh_text_addf(out, "/* %s: reduced equations of motion, written by nhsym " NH_VERSION ". */\n", r->system->title);
+    nh_text_add(out, "/* ");
+    nh_escape_c_comment(r->system->title, out);
+    nh_text_add(out, ": reduced equations of motion, written by nhsym " NH_VERSION ". */\n");
     nh_text_add(out, c_head);
     for (size_t i = 0; i < r->stages; i++) put_stage(r, &r->stage[i], i + 1, out);
 }
@@ -146,7 +149,9 @@ static void put_stage_latex(const nh_reduction *r, const nh_reduction_stage *s, 
 
 void nh_reduction_latex(const nh_reduction *r, nh_text *out)
 {
-    nh_text_addf(out, "%% %s: reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s", r->system->title, nh_tex_formula_macro);
+    nh_text_add(out, "% ");
+    nh_escape_line(r->system->title, out);
+    nh_text_addf(out, ": reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s", nh_tex_formula_macro);
     for (size_t i = 0; i < r->stages; i++) {
         nh_text_addf(out, "\n%% %s (%s), by %s%s\n", nh_reduction_stage_title(r, i), nh_stage_kind_name(r->stage[i].kind), r->stage[i].group, r->stage[i].local ? ", which acts locally" : "");
         put_stage_latex(r, &r->stage[i], out);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "expr/typeset.h"
 
 enum { width = 640, height = 300, left = 74, right = 22, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
@@ -23,21 +24,6 @@ typedef struct {
     axis x, y;
     double legend, height;
 } canvas;
-
-void nh_svg_escape(const char *text, nh_text *out)
-{
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        switch (*c) {
-        case '<': nh_text_add(out, "&lt;"); break;
-        case '>': nh_text_add(out, "&gt;"); break;
-        case '&': nh_text_add(out, "&amp;"); break;
-        case '"': nh_text_add(out, "&quot;"); break;
-        case '\'': nh_text_add(out, "&#39;"); break;
-        default:
-            if (*c >= 0x20 || *c == '\n' || *c == '\t') nh_text_add_n(out, (const char *)c, 1);
-        }
-    }
-}
 
 bool nh_svg_range(size_t count, const double *value, size_t stride, double *low, double *high)
 {
@@ -127,7 +113,7 @@ static void part(const canvas *c, const char *text, size_t length)
     nh_text piece;
     nh_text_init(&piece);
     nh_text_add_n(&piece, text, length);
-    nh_svg_escape(nh_text_string(&piece), c->out);
+    nh_escape_xml(nh_text_string(&piece), c->out);
     nh_text_clear(&piece);
 }
 
@@ -379,9 +365,9 @@ static void head(const canvas *c)
     nh_text_addf(c->out, " viewBox=\"0 0 %d %.0f\" width=\"%d\" height=\"%.0f\"", width, c->height, width, c->height);
     if (p->timed) nh_text_addf(c->out, " data-t0=\"%.9g\" data-t1=\"%.9g\" data-x0=\"%.1f\" data-x1=\"%.1f\"", c->x.low, c->x.high, c->x.from, c->x.to);
     nh_text_addf(c->out, "><title id=\"%s-t\">", p->id);
-    nh_svg_escape(p->title, c->out);
+    nh_escape_xml(p->title, c->out);
     nh_text_addf(c->out, "</title><desc id=\"%s-d\">", p->id);
-    nh_svg_escape(p->description, c->out);
+    nh_escape_xml(p->description, c->out);
     nh_text_add(c->out, "</desc>");
 }
 

@@ -35,7 +35,4 @@ bool nh_svg_is_plot(const char *text, const char *id);
 /* The range of what is finite; false when there is none. */
 bool nh_svg_range(size_t count, const double *value, size_t stride, double *low, double *high);
 
-/* Characters that mean something in XML become entities; what no XML document may hold is left out. */
-void nh_svg_escape(const char *text, nh_text *out);
-
 #endif

@@ -1,0 +1,17 @@
+/* files: the files of one run are read once.
+ *
+ * What was read stays in memory while this is on, so that all parts of a run see one text, whatever becomes of the file meanwhile, and so that a
+ * pipe can be read as often as it is needed. */
+#ifndef NH_FILES_H
+#define NH_FILES_H
+
+#include "base/error.h"
+
+/* From now on until the end; not for callers that want to see changes of files.  Not while threads read. */
+void nh_files_begin(void);
+void nh_files_end(void);
+
+/* The bytes of a file, at most limit + 1 of them; nh_free.  NULL with a message. */
+char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *error);
+
+#endif
