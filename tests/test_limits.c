@@ -34,7 +34,7 @@ static void brake(const place *p, const char *arguments)
 
 Test(limits, every_command_has_the_brake)
 {
-    static const char *const lines[] = {"analyze nasty/many_functions.yaml", "reduce nasty/spherical_chain.yaml", "analyze nasty/robot_12.yaml", "verify nasty/quadratic_constraints.yaml --current \"q1'\"",
+    static const char *const lines[] = {"analyze nasty/many_functions.yaml", "reduce nasty/spherical_chain.yaml", "analyze nasty/robot_12.yaml", "chart liouville --budget 100", "verify nasty/quadratic_constraints.yaml --current \"q1'\"",
                                         "simulate nasty/dense_mass.yaml --initial \"q1'=1\" --until 1000"};
     place p = place_with_nasty();
     char line[300];

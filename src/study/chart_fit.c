@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/progress.h"
 #include "noether/echelon.h"
 #include "noether/rows.h"
 #include "study/chart_fit.h"
@@ -131,7 +132,7 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
     double begin = nh_clock();
     *out = (nh_fitted){.functions = a->columns, .samples = points_wanted, .basis = chebyshev ? "Chebyshev" : "monomials", .route = symmetry ? "symmetry" : "current",
                        .solver = plain ? "plain SVD" : "generalized", .seconds = INFINITY, .error = NAN};
-    for (int i = 0; points && i < most_repeats && (i == 0 || nh_clock() - begin < enough_seconds); i++) {
+    for (int i = 0; points && i < most_repeats && !nh_interrupted() && (i == 0 || nh_clock() - begin < enough_seconds); i++) {
         solved s = {0};
         bool good = assemble_and_solve(f, a, points, symmetry, plain, &s);
         if (good && i == 0) judge(f, &s, out);
@@ -147,6 +148,8 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
 /* ---- all of it ---- */
 
 /* The most careful way of each route decides what the dimension is: Chebyshev polynomials, generalized, most points. */
+static bool past(const fit *f) { return nh_interrupted() || nh_clock() >= f->deadline; }
+
 static void measure_level(fit *f)
 {
     nh_comparison *out = f->c->out;
@@ -154,7 +157,7 @@ static void measure_level(fit *f)
     bool known[2] = {false, false};
     for (size_t d = densities; d-- > 0;) {
         size_t points = (size_t)ceil(density[d] * (double)n) + 16;
-        for (int way = 0; way < ways && nh_clock() < f->deadline; way++) {
+        for (int way = 0; way < ways && !past(f); way++) {
             if ((way & 4) && d + 1 < densities && !known[1]) continue; /* too large for this route */
             nh_fitted *m = &out->fit[out->fits];
             measure(f, points, !(way & 1), way & 4, way & 2, m);
@@ -166,7 +169,7 @@ static void measure_level(fit *f)
             m->right = known[symmetry] && !m->undecided && m->dimension == m->wanted && !(m->error > f->options.agreement);
         }
     }
-    out->fits_partial |= nh_clock() >= f->deadline;
+    out->fits_partial |= past(f);
 }
 
 static void mark_front(nh_comparison *out)
@@ -241,7 +244,7 @@ void nh_chart_fit(nh_bench *c, double seconds)
     out->fit = nh_arena_alloc(out->arena, (most_levels * densities * ways + 1) * sizeof *out->fit);
     f.ranges = nh_points_create(f.model, heldout_points, 1, seed, &ignored);
     f.heldout = nh_points_create(f.model, 2 * (size_t)f.options.chart_columns, 1, seed + 77, &ignored);
-    for (size_t degree = 1; f.ranges && f.heldout && degree <= most_levels && nh_clock() < f.deadline; degree++)
+    for (size_t degree = 1; f.ranges && f.heldout && degree <= most_levels && !past(&f); degree++)
         if (!measure_degree(&f, letters, letter, degree)) break;
     mark_front(out);
     nh_points_free(f.ranges);
