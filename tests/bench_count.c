@@ -26,12 +26,12 @@ static void count_file(const char *path, size_t degree, bool time, bool generic)
     size_t n = 0;
     for (size_t k = 0; k < y->currents; k++) n += nh_analysis_to_chart(o, y->current[k].value, &known[n], &error);
     nh_count_question q = {.time = time, .generic = generic, .degree = degree, .work = 3e9, .known = n, .current = known};
-    double start = nh_clock();
+    double start = nh_clock_of_thread();
     nh_count c = nh_count_integrals(o, &q);
-    printf("%s: %.3f s, step %zu, leaf %zu, prime %lu%s%s%s%s\n", path, nh_clock() - start, c.step, c.leaf, (unsigned long)c.prime, c.obstacle ? ", OBSTACLE: " : "", c.obstacle ? c.obstacle : "",
+    printf("%s: %.3f s, work %.1e, step %zu, leaf %zu, prime %lu%s%s%s%s\n", path, nh_clock_of_thread() - start, c.work, c.step, c.leaf, (unsigned long)c.prime, c.obstacle ? ", OBSTACLE: " : "", c.obstacle ? c.obstacle : "",
            c.end ? ", end: " : "", c.end ? c.end : "");
     for (size_t k = 0; k < c.rows; k++)
-        printf("   degree %zu: N = %zu, known %zu, order %zu%s%s\n", c.row[k].degree, c.row[k].bound, c.row[k].known, c.row[k].order, c.row[k].settled ? ", settled" : "", c.row[k].complete ? ", COMPLETE" : "");
+        printf("   degree %zu: N = %zu, known %zu, rank %zu of %zu, order %zu%s%s\n", c.row[k].degree, c.row[k].bound, c.row[k].known, c.row[k].known_rank, c.row[k].rank, c.row[k].order, c.row[k].settled ? ", settled" : "", c.row[k].complete ? ", COMPLETE" : "");
     fflush(stdout);
     free(known);
     nh_model_free(o);

@@ -118,13 +118,15 @@ static size_t null_numbers(const cJSON *item)
 {
     static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "components_with_gamma", "symmetry_route",
                                         "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file", "accuracy",
-                                        "semiholonomic", "branch", "on_both_branches"};
+                                        "semiholonomic", "branch", "on_both_branches",
+                                        "completeness", "in_time", "obstacle", "of", "proved", "missing_at"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {
         for (size_t i = 0; i < COUNT(texts); i++)
             if (item->string && !strcmp(item->string, texts[i])) return 0;
         return 1;
     }
+    if (cJSON_IsString(cJSON_GetObjectItem(item, "obstacle"))) return 0; /* why there are no numbers */
     for (const cJSON *child = item->child; child; child = child->next) n += null_numbers(child);
     if (cJSON_IsNull(cJSON_GetObjectItem(item, "parameter"))) { /* a figure in which nothing is varied: no curve has a value of it */
         const cJSON *curve;

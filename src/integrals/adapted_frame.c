@@ -4,6 +4,8 @@
 #include <flint/nmod_mat.h>
 #include <string.h>
 
+#include "base/progress.h"
+
 enum { most_fields = 60, largest_ring = 4000 };
 
 /* ---- brackets ---- */
@@ -194,7 +196,7 @@ static void correct_degree(nh_adapted_frame *x, const nh_jet_ring *r, const nh_r
     nh_prime p = r->field;
     uint8_t *alpha = nh_alloc(x->kept + 1);
     nh_residue *sum = nh_alloc_array(2 * r->size, sizeof *sum), *power = sum + r->size;
-    for (bool more = true; more;) {
+    for (bool more = !nh_late(); more;) {
         size_t total = 0, weight = 0;
         for (size_t i = 0; i < x->kept; i++) total += alpha[i], weight += alpha[i] * x->weight[i];
         nh_residue value = total == degree && weight < x->weight[j] ? iterated(r, x->all, x->kept, Y, alpha, f) : 0;

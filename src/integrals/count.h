@@ -20,10 +20,14 @@ typedef struct {
     size_t degree;
     size_t bound;           /* N: with the constant 1 */
     size_t known;           /* independent products of known integrals of this degree at most, with 1 */
+    size_t lower;           /* of these, products of integrals of lower degree: bound - lower are new at this degree when it is complete */
+    size_t rank;            /* of the differentials of what the bound allows and of the known integrals of any degree, at a point modulo the prime */
+    size_t known_rank;      /* of the latter alone */
     size_t order;           /* r */
     bool bounded;           /* the symbol was injective below this order: `bound` is one */
     bool settled;           /* N did not change over the last orders; otherwise more of them may lower it */
-    bool complete;          /* bound == known */
+    bool complete;          /* bound == known: all are polynomials in the known ones */
+    bool functions;         /* rank == known_rank: as far as this point tells, all are functions of the known ones */
 } nh_count_row;
 
 typedef struct {
@@ -34,6 +38,7 @@ typedef struct {
     size_t step;            /* the largest weight: brackets of this length span everything */
     size_t leaf;            /* coordinates across the leaves of integrable constraints */
     uint64_t prime;
+    double work;            /* products of residues, about */
     const char *obstacle;   /* why nothing was counted, or NULL */
     const char *end;        /* why no higher degree was counted, or NULL */
 } nh_count;
@@ -46,6 +51,7 @@ typedef struct {
     const nh_ex *current;   /* integrals in t, q, w: what is not polynomial in the velocities is left out */
 } nh_count_question;
 
+/* Behind the deadline (base/progress.h) what comes out is of no use. */
 nh_count nh_count_integrals(const nh_model *model, const nh_count_question *question);
 
 #endif

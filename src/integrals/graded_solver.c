@@ -1,8 +1,10 @@
 /* The linear system Gamma(Phi) = 0 weight by weight, with sparse elimination of the symbol, component by component, and FLINT's echelon form for the
  * conditions on the parameters. */
+#include "base/progress.h"
 #include "integrals/graded_internal.h"
 
 #include <flint/nmod_mat.h>
+#include <math.h>
 #include <string.h>
 
 enum { spare_rows = 8, no_alpha = -1 };
@@ -142,6 +144,7 @@ static void equation(nh_graded_system *s, size_t beta, size_t e, size_t number, 
         const term *t = &s->t[i];
         if (t->alpha[beta] == no_alpha) continue;
         size_t a = (size_t)t->alpha[beta];
+        s->work += (double)(r->pairs[e + 1] - r->pairs[e]);
         for (size_t z = r->pairs[e]; z < r->pairs[e + 1]; z++) {
             nh_residue v = t->series[r->left[z]];
             if (!v) continue;
@@ -176,11 +179,11 @@ static void equations(nh_graded_system *s)
     s->known = nh_alloc_array(s->equations * s->N + 1, sizeof *s->known);
     s->start = nh_alloc_array(s->equations + 1, sizeof *s->start);
     uint64_t *sum = nh_alloc_array(s->N + 1, sizeof *sum);
-    for (size_t q = 0; q < s->equations && !s->over && s->work < s->p->most_work; q++) {
+    for (size_t q = 0; q < s->equations && !s->over && !nh_late() && s->work < s->p->most_work; q++) {
         s->start[q] = s->entries;
         equation(s, q / count, from + q % count, q, sum);
     }
-    s->over |= s->work >= s->p->most_work;
+    s->over |= s->work >= s->p->most_work || nh_late();
     s->start[s->equations] = s->entries;
     nh_free(sum);
 }
@@ -244,11 +247,22 @@ static void substitute(nh_graded_system *s, const nmod_mat_t echelon, size_t ran
     nh_free(pivot);
 }
 
+/* Is there work left for it? */
+static bool may_substitute(nh_graded_system *s, size_t rank)
+{
+    double work = (double)s->alphas * (double)s->r->first[s->k + 2] * (double)rank * (double)s->reached;
+    s->over |= s->work + work > s->p->most_work;
+    return !s->over;
+}
+
 /* All conditions in echelon form; they are substituted where few parameters survive. */
 static void use_conditions(nh_graded_system *s)
 {
     size_t columns = s->before;
     if (!s->fresh_count || !columns) return;
+    double rows = (double)s->conditions + fmin((double)s->fresh_count, (double)(columns - s->conditions + spare_rows));
+    s->over |= s->work + rows * (double)columns * (double)columns > s->p->most_work;
+    if (s->over) return;
     nmod_mat_t fresh, all;
     compress(s, fresh);
     nmod_mat_init(all, (slong)s->conditions + nmod_mat_nrows(fresh), (slong)columns, s->f.p);
@@ -260,7 +274,7 @@ static void use_conditions(nh_graded_system *s)
     size_t rank = (size_t)nmod_mat_rref(all);
     s->work += (double)nmod_mat_nrows(all) * (double)columns * (double)rank;
     s->reached = columns;
-    if (4 * (s->N - rank) <= s->N) {
+    if (4 * (s->N - rank) <= s->N && may_substitute(s, rank)) {
         substitute(s, all, rank);
         s->conditions = 0;
     } else {
@@ -282,6 +296,7 @@ static void solve_weight(nh_graded_system *s, nh_graded_count *out)
     s->fresh = NULL;
     size_t before = s->N;
     if (!s->over) nh_graded_solve_symbol(s);
+    s->over |= nh_late();
     bool fresh = s->N > before;
     out->most = s->N > out->most ? s->N : out->most;
     if (!s->over) use_conditions(s);
@@ -307,6 +322,31 @@ static void start(nh_graded_system *s)
     for (size_t a = 0; a < s->alphas && !s->over; a++) nh_graded_parameter(s, a, 0);
 }
 
+/* What is left of the conditions is used, and the first jets of the solutions are kept. */
+static void finish(nh_graded_system *s, nh_graded_count *out)
+{
+    size_t m = s->r->variables;
+    s->k = out->order ? out->order - 1 : 0;
+    if (s->conditions && may_substitute(s, s->conditions)) {
+        nmod_mat_t all;
+        nmod_mat_init(all, (slong)s->conditions, (slong)s->reached, s->f.p);
+        for (size_t q = 0; q < s->conditions; q++)
+            for (size_t j = 0; j < s->reached; j++) nmod_mat_entry(all, q, s->reached - 1 - j) = s->condition[q * s->stride + j];
+        substitute(s, all, s->conditions);
+        nmod_mat_clear(all);
+        s->conditions = 0;
+    }
+    if (s->over) return;
+    out->alphas = s->alphas;
+    out->alpha = s->alpha;
+    out->jet = nh_arena_alloc(s->arena, s->alphas * (1 + m) * s->N * sizeof *out->jet + 1);
+    for (size_t a = 0; a < s->alphas; a++)
+        for (size_t k = 0; k <= m; k++) {
+            size_t e = k ? s->r->up[(k - 1) * s->r->size] : 0;
+            if (e < s->r->size) memcpy(out->jet + (a * (1 + m) + k) * s->N, nh_graded_row(s, a, e), s->N * sizeof *out->jet);
+        }
+}
+
 nh_graded_count *nh_graded_solve(const nh_graded_problem *p)
 {
     nh_arena *arena = nh_arena_create();
@@ -318,6 +358,7 @@ nh_graded_count *nh_graded_solve(const nh_graded_problem *p)
     out->unknowns = s.alphas * s.r->size;
     out->total[0] = out->most = s.N;
     for (s.k = 0; s.k < out->order && !s.over; s.k++) solve_weight(&s, out);
+    if (!s.over) finish(&s, out);
     out->solved = !s.over;
     out->work = s.work;
     nh_free(s.symbol);

@@ -32,6 +32,9 @@ typedef struct {
     bool injective;             /* the symbol was, from this weight on: */
     size_t injective_at;        /* k0 + 1: N(r) is a bound for r >= this */
     size_t unknowns, most;      /* coefficients; the largest number of parameters */
+    size_t alphas;              /* monomials in the velocities */
+    const uint8_t *alpha;       /* alphas x n: their exponents */
+    nh_residue *jet;            /* alphas x (1 + variables) x N(order): c_alpha(0) and its derivatives along the coordinates, of every solution */
     double work;
     nh_arena *arena;
 } nh_graded_count;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "integrals/graded_internal.h"
 
 /* A condition on the parameters, unless it is empty. */
@@ -53,7 +54,7 @@ static void combine(nh_graded_system *s, component *c, size_t to, size_t from, n
     c->cells[to] = out;
     c->length[to] = n;
     nh_residue_add_multiple(s->f, s->before, s->known + c->equation[to] * s->before, s->known + c->equation[from] * s->before, factor);
-    s->work += (double)s->before;
+    s->work += (double)(s->before + 8 * n); /* an entry costs more than a product: its row is made anew */
 }
 
 static const cell *find_cell(const component *c, size_t i, size_t column)
@@ -80,6 +81,7 @@ static void take_pivot(nh_graded_system *s, component *c, size_t i)
         c->count[c->cells[i][z].column]--;
     }
     for (size_t j = 0; j < s->before; j++) known[j] = nh_residue_mul(s->f, known[j], inverse);
+    s->work += (double)(c->rows + 40); /* rows are looked through, an inverse is computed */
     c->done[i] = c->pivoted[column] = true;
     c->pivot_row[c->rank] = i;
     c->pivot_column[c->rank++] = column;
@@ -95,7 +97,7 @@ static void eliminate(nh_graded_system *s, component *c)
         size_t best = SIZE_MAX;
         for (size_t i = 0; i < c->rows && (best == SIZE_MAX || c->length[best] > 1); i++)
             if (!c->done[i] && c->length[i] && (best == SIZE_MAX || c->length[i] < c->length[best])) best = i;
-        if (best == SIZE_MAX) return;
+        if (best == SIZE_MAX || nh_late()) return;
         take_pivot(s, c, best);
     }
 }
@@ -209,7 +211,7 @@ void nh_graded_solve_symbol(nh_graded_system *s)
     group(connected, of, components, rows, order);
     group(unknowns, number, components, columns, member);
     for (size_t i = 0; i < connected; i++) order[i] = list[order[i]];
-    for (size_t k = 0; k < components && !s->over; k++) {
+    for (size_t k = 0; k < components && !s->over && !nh_late(); k++) {
         component c = {.rows = rows[k + 1] - rows[k], .columns = columns[k + 1] - columns[k], .equation = order + rows[k], .unknown = member + columns[k]};
         for (size_t j = 0; j < c.columns; j++) place[c.unknown[j]] = j;
         solve_component(s, &c, place);

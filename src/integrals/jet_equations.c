@@ -34,12 +34,12 @@ static bool has_velocities_inside(const nh_jet_equations *x, size_t first_kernel
     return found;
 }
 
-bool nh_jet_equations_take(nh_jet_equations *x, nh_ex *e)
+bool nh_jet_equations_take(nh_jet_equations *x, bool polynomial, nh_ex *e)
 {
     size_t kernels = x->point->kernels;
     *e = canonical(x, *e);
     if (!nh_jet_point_register(x->point, 1, e)) x->obstacle = x->point->obstacle;
-    else if (has_velocities_inside(x, kernels, *e)) x->obstacle = "functions that are not polynomial in the velocities";
+    else if (polynomial && has_velocities_inside(x, kernels, *e)) x->obstacle = "functions that are not polynomial in the velocities";
     return !x->obstacle;
 }
 
@@ -48,7 +48,7 @@ static nh_ex *take(nh_jet_equations *x, size_t n, const nh_ex *e)
     nh_ex *own = nh_arena_alloc(x->arena, (n + 1) * sizeof *own);
     for (size_t i = 0; i < n; i++) {
         own[i] = e[i];
-        if (!x->obstacle) nh_jet_equations_take(x, &own[i]);
+        if (!x->obstacle) nh_jet_equations_take(x, true, &own[i]);
     }
     return own;
 }
@@ -88,7 +88,7 @@ nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool gen
     x->coordinates = o->m + x->time;
     x->coordinate = o->chart->symbol + !x->time; /* t, q */
     x->fields = o->n + (x->time || (!x->obstacle && affine(x)));
-    x->at = nh_arena_alloc(arena, (x->coordinates + o->system->parameters + 1) * sizeof *x->at);
+    x->at = nh_arena_alloc(arena, (x->coordinates + o->system->parameters + 2) * sizeof *x->at);
     return x;
 }
 
@@ -103,7 +103,7 @@ void nh_jet_equations_choose(nh_jet_equations *x, nh_prime field, uint64_t seed)
 {
     uint64_t random = seed + 12345;
     nh_jet_point_choose(x->point, field, seed);
-    for (size_t k = 0; k < x->coordinates + x->model->system->parameters; k++) x->at[k] = nh_residue_random(field, &random);
+    for (size_t k = 0; k <= x->coordinates + x->model->system->parameters; k++) x->at[k] = nh_residue_random(field, &random);
 }
 
 /* ---- values ---- */
@@ -121,6 +121,7 @@ nh_jet_eval *nh_jet_equations_eval(nh_jet_equations *x, const nh_jet_ring *ring,
     nh_jet_eval *v = nh_jet_eval_create(x->point, ring);
     for (size_t k = 0; k < x->coordinates; k++) nh_jet_eval_set(v, x->coordinate[k], coordinate + k * ring->size, false);
     for (size_t k = 0; k < x->model->system->parameters; k++) set_constant(v, ring, x->model->parameter[k], x->at[x->coordinates + k], false);
+    if (!x->time) set_constant(v, ring, x->model->system->t, x->at[x->coordinates + x->model->system->parameters], false);
     for (size_t i = 0; i < x->n; i++) set_constant(v, ring, x->w[i], 0, true);
     return v;
 }
@@ -270,15 +271,16 @@ bool nh_jet_equations_accelerations(nh_jet_equations *x, const nh_jet_ring *ring
 
 /* ---- relations between kernels ---- */
 
-/* Series of low order at one point for all atoms of a kind, into columns from `first` on.  False: another point. */
+/* Series of low order in time and the coordinates, at one point, for all atoms of a kind, into columns from `first` on.  False: another point. */
 static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nmod_mat_t rows, size_t first)
 {
-    nh_residue *q = nh_alloc_array(x->coordinates * ring->size + 1, sizeof *q);
-    for (size_t k = 0; k < x->coordinates; k++) {
+    nh_residue *q = nh_alloc_array(ring->variables * ring->size + 1, sizeof *q);
+    for (size_t k = 0; k < ring->variables; k++) {
         q[k * ring->size + ring->up[k * ring->size]] = 1;
-        q[k * ring->size] = x->at[k];
+        q[k * ring->size] = x->at[k < x->coordinates ? k : x->coordinates + x->model->system->parameters];
     }
     nh_jet_eval *v = nh_jet_equations_eval(x, ring, q);
+    if (!x->time) nh_jet_eval_set(v, x->model->system->t, q + x->coordinates * ring->size, false);
     size_t count;
     nh_jet_eval_atoms(v, real, &count, NULL);
     nh_residue *series = nh_alloc_array(count * ring->size + 1, sizeof *series);
@@ -294,9 +296,9 @@ static bool atoms_at(nh_jet_equations *x, const nh_jet_ring *ring, bool real, nm
 bool nh_jet_equations_related(nh_jet_equations *x, nh_prime field)
 {
     enum { order = 3, points = 2, most_tries = 200 };
-    size_t *one = nh_alloc_array(x->coordinates + 1, sizeof *one), count;
-    for (size_t k = 0; k < x->coordinates; k++) one[k] = 1;
-    nh_jet_ring *ring = nh_jet_ring_create(field, x->coordinates, one, order);
+    size_t *one = nh_alloc_array(x->coordinates + 2, sizeof *one), variables = x->coordinates + !x->time, count;
+    for (size_t k = 0; k < variables; k++) one[k] = 1;
+    nh_jet_ring *ring = nh_jet_ring_create(field, variables, one, order);
     bool independent = true;
     for (int real = 0; real < 2 && independent; real++) {
         nmod_mat_t rows;

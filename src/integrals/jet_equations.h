@@ -21,7 +21,8 @@ typedef struct {
     const nh_ex *coordinate, *w;
     nh_ex *rho, *M, *A;      /* m, n x n, n: canonical, with parameters at their values unless generic */
     size_t fields;           /* n, and one more when b is not zero or time is a coordinate */
-    nh_residue *at;          /* the point, and after the coordinates the parameters when they are indeterminates */
+    nh_residue *at;          /* the point, and after the coordinates the parameters, which matter when they are indeterminates, and t when it is no
+                              * coordinate */
     const char *obstacle;    /* why nothing can be counted; NULL */
 } nh_jet_equations;
 
@@ -35,8 +36,9 @@ void nh_jet_equations_choose(nh_jet_equations *equations, nh_prime field, uint64
 /* An evaluator with the coordinates at these series, and all velocities zero. */
 nh_jet_eval *nh_jet_equations_eval(nh_jet_equations *equations, const nh_jet_ring *ring, const nh_residue *coordinate);
 
-/* An expression in t, q, w as the equations have theirs: registered, so that it can be evaluated.  False with an obstacle. */
-bool nh_jet_equations_take(nh_jet_equations *equations, nh_ex *e);
+/* An expression in t, q, w as the equations have theirs: registered, so that it can be evaluated.  False with an obstacle, which is also that it is
+ * not `polynomial` in the velocities. */
+bool nh_jet_equations_take(nh_jet_equations *equations, bool polynomial, nh_ex *e);
 
 /* May there be relations between kernels that the point does not keep?  False proves that there are none: the atoms of either kind, as series at two
  * points together, are linearly independent modulo the prime, hence over Q.  True also when no such points were found. */

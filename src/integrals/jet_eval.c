@@ -1,4 +1,4 @@
-/* Expressions as truncated power series modulo a prime: one pass over the graph, operands first. */
+/* Expressions as truncated power series modulo a prime: every node of the graph once, operands first. */
 #include "integrals/jet_eval.h"
 
 #include <string.h>
@@ -9,7 +9,9 @@ struct nh_jet_eval {
     nh_dag *dag;
     size_t nodes;
     nh_residue **value;   /* per node; NULL: not known */
-    bool *varies, *wanted;
+    bool *varies;
+    nh_ex *changing, *stack; /* computed and varying; to be computed */
+    size_t changes, change_capacity, stack_capacity;
     bool unlucky;
 };
 
@@ -19,7 +21,6 @@ nh_jet_eval *nh_jet_eval_create(nh_jet_point *point, const nh_jet_ring *ring)
     *v = (nh_jet_eval){.point = point, .ring = ring, .dag = point->dag, .nodes = nh_dag_size(point->dag)};
     v->value = nh_alloc_array(v->nodes + 1, sizeof *v->value);
     v->varies = nh_alloc_array(v->nodes + 1, sizeof *v->varies);
-    v->wanted = nh_alloc_array(v->nodes + 1, sizeof *v->wanted);
     return v;
 }
 
@@ -29,17 +30,18 @@ void nh_jet_eval_free(nh_jet_eval *v)
     for (size_t i = 0; i < v->nodes; i++) nh_free(v->value[i]);
     nh_free(v->value);
     nh_free(v->varies);
-    nh_free(v->wanted);
+    nh_free(v->changing);
+    nh_free(v->stack);
     nh_free(v);
 }
 
 void nh_jet_eval_set(nh_jet_eval *v, nh_ex symbol, const nh_residue *series, bool varies)
 {
-    for (size_t i = 0; varies && i < v->nodes; i++)
-        if (v->varies[i] && nh_kind_of(v->dag, (nh_ex)i) != NH_SYMBOL) {
-            nh_free(v->value[i]);
-            v->value[i] = NULL;
-        }
+    for (size_t i = 0; varies && i < v->changes; i++) {
+        nh_free(v->value[v->changing[i]]);
+        v->value[v->changing[i]] = NULL;
+    }
+    if (varies) v->changes = 0;
     if (!v->value[symbol]) v->value[symbol] = nh_alloc_array(v->ring->size, sizeof **v->value);
     memcpy(v->value[symbol], series, v->ring->size * sizeof *series);
     v->varies[symbol] = varies;
@@ -245,17 +247,40 @@ static void compute(nh_jet_eval *v, nh_ex e)
         default: primitive(v, e, out); break;
         }
     }
+    v->varies[e] = false;
     for (size_t i = 0; i < nh_arity(v->dag, e); i++) v->varies[e] |= v->varies[nh_child(v->dag, e, i)];
+    if (!v->varies[e]) return;
+    nh_grow(&v->changing, &v->change_capacity, v->changes + 1, sizeof *v->changing);
+    v->changing[v->changes++] = e;
+}
+
+/* e and what it is made of, operands first. */
+static void compute_all(nh_jet_eval *v, nh_ex e)
+{
+    size_t depth = 0;
+    nh_grow(&v->stack, &v->stack_capacity, 1, sizeof *v->stack);
+    v->stack[depth++] = e;
+    while (depth && !v->unlucky) {
+        nh_ex top = v->stack[depth - 1];
+        nh_kind kind = nh_kind_of(v->dag, top);
+        size_t before = depth, arity = v->value[top] || kind == NH_NUMBER || kind == NH_SYMBOL ? 0 : nh_arity(v->dag, top);
+        for (size_t i = 0; i < arity; i++) {
+            nh_ex child = nh_child(v->dag, top, i);
+            if (v->value[child]) continue;
+            nh_grow(&v->stack, &v->stack_capacity, depth + 1, sizeof *v->stack);
+            v->stack[depth++] = child;
+        }
+        if (depth > before) continue;
+        if (!v->value[top]) compute(v, top);
+        depth--;
+    }
 }
 
 /* ---- many ---- */
 
 bool nh_jet_eval_all(nh_jet_eval *v, size_t n, const nh_ex *e, nh_residue *out)
 {
-    memset(v->wanted, 0, v->nodes * sizeof *v->wanted);
-    nh_jet_reach(v->dag, n, e, v->wanted);
-    for (size_t i = 0; i < v->nodes && !v->unlucky; i++)
-        if (v->wanted[i] && !v->value[i]) compute(v, (nh_ex)i);
+    for (size_t k = 0; k < n && !v->unlucky; k++) compute_all(v, e[k]);
     for (size_t k = 0; k < n && !v->unlucky; k++) memcpy(out + k * v->ring->size, v->value[e[k]], v->ring->size * sizeof *out);
     return !v->unlucky;
 }

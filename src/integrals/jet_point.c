@@ -23,7 +23,8 @@ void nh_jet_point_free(nh_jet_point *x)
     nh_free(x);
 }
 
-void nh_jet_reach(const nh_dag *d, size_t n, const nh_ex *e, bool *wanted)
+/* Mark what is reachable from these expressions. */
+static void reach(const nh_dag *d, size_t n, const nh_ex *e, bool *wanted)
 {
     nh_ex top = 0;
     for (size_t k = 0; k < n; k++) {
@@ -102,7 +103,7 @@ bool nh_jet_point_register(nh_jet_point *x, size_t n, const nh_ex *e)
 {
     size_t size = nh_dag_size(x->dag);
     bool *wanted = nh_alloc_array(size + 1, sizeof *wanted);
-    nh_jet_reach(x->dag, n, e, wanted);
+    reach(x->dag, n, e, wanted);
     for (size_t i = 0; i < size && !x->obstacle; i++) {
         if (!wanted[i]) continue;
         nh_kind kind = nh_kind_of(x->dag, (nh_ex)i);

@@ -55,7 +55,4 @@ bool nh_jet_point_circle(nh_jet_point *point, nh_ex argument, nh_residue *sine, 
 bool nh_jet_point_exponential(nh_jet_point *point, nh_ex argument, nh_residue *out);
 nh_residue nh_jet_point_free_value(nh_jet_point *point, nh_ex primitive);
 
-/* Mark what is reachable from these expressions: `wanted` has an entry for each node of the graph. */
-void nh_jet_reach(const nh_dag *dag, size_t n, const nh_ex *e, bool *wanted);
-
 #endif

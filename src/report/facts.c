@@ -174,3 +174,10 @@ const char *nh_facts_search(const nh_result *r)
     if (r->partial) return "The search was cut before all stages were tried: there may be more currents.";
     return "The search was cut: stages that were too large were left out, and there may be more currents.";
 }
+
+void nh_facts_completeness(const nh_result *r, nh_text *out)
+{
+    size_t uncertain = 0;
+    for (size_t k = 0; k < r->count; k++) uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);
+    nh_completeness_words(r->completeness, uncertain, out);
+}

@@ -28,6 +28,9 @@ void nh_facts_constraint(const nh_result *result, nh_text *out);
 typedef enum { NH_FACTS_TEXT, NH_FACTS_PAGE, NH_FACTS_TEX } nh_facts_form;
 void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const char *between, nh_text *out);
 
+/* Whether the currents found are all that are polynomial in the velocities, in sentences; "" when this was not counted. */
+void nh_facts_completeness(const nh_result *result, nh_text *out);
+
 /* How the drift of a current behaves when the tolerance of the integration falls. */
 const char *nh_facts_drift(const nh_drift *drift);
 

@@ -12,6 +12,7 @@ static const nh_glossary_entry entries[] = {
     {"exhausted", "A search that tried all that there was to try.  There may be currents of another kind."},
     {"cut", "A search from which a limit kept something: work, time, or the size of a stage.  The list of stages names the option that brings it in."},
     {"multiplier", "Chetaev's multiplier mu_a: the force that keeps constraint a is mu_a times its derivatives by the velocities."},
+    {"complete", "Every integral that is polynomial in the velocities up to a degree, whatever functions its coefficients are, is a polynomial in the currents found.  It is proved by counting: an upper bound (power series modulo a prime) and a lower one (products of the currents) agree.  Integrals of other kinds, and those of higher degree, are not excluded."},
     {"residual", "The rate of change of a current at points that were not used to find it, relative to the size of its terms: rounding is near 1e-16."},
     {"gap", "The ratio of the first singular value that is not null to the last that is.  Below 1000 nothing is decided."},
     {"drift", "The largest change of a current along a computed motion, relative to the size of its terms."},

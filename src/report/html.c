@@ -23,6 +23,19 @@ static void meanings(nh_html_writer *w)
     }
 }
 
+static void completeness(nh_html_writer *w)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_facts_completeness(w->r, &words);
+    if (nh_text_string(&words)[0]) {
+        nh_html_add(w, "<p>");
+        nh_html_text(w, nh_text_string(&words));
+        nh_html_add(w, "</p>\n");
+    }
+    nh_text_clear(&words);
+}
+
 static void answer(nh_html_writer *w)
 {
     const nh_result *r = w->r;
@@ -41,6 +54,7 @@ static void answer(nh_html_writer *w)
     nh_html_add(w, r->partial ? "<p class=\"warning\"><strong>Partial:</strong> " : "<p>");
     nh_html_text(w, nh_facts_search(r));
     nh_html_add(w, "</p>\n");
+    completeness(w);
 }
 
 static void warnings(nh_html_writer *w)

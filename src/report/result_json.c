@@ -220,6 +220,7 @@ static void put_search(const writer *w, nh_json *to)
     nh_json_put_number(samples, "rejected", (double)r->rejected);
     nh_json_put_number(samples, "seed", r->options.seed);
     put_unknowns(w, to);
+    nh_result_json_completeness(r, to);
     nh_result_json_stages(r, to);
 }
 

@@ -9,6 +9,7 @@ void nh_result_json_validation(const nh_result *result, nh_json *to); /* the mot
 void nh_result_json_figures(const nh_result *result, nh_json *to);    /* those that were asked for */
 /* How many values along the motion have no value. */
 size_t nh_result_json_holes(const nh_result *result);
+void nh_result_json_completeness(const nh_result *result, nh_json *to); /* how many integrals there are */
 void nh_result_json_stages(const nh_result *result, nh_json *to);     /* what was tried */
 
 #endif

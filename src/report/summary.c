@@ -253,6 +253,31 @@ static void almost(nh_summary_writer *w)
     if (r->almosts > most) nh_text_addf(w->out, "\n  almost conserved too: %zu more, in the JSON\n", r->almosts - most);
 }
 
+/* Words that begin at this column. */
+static void sentence(nh_summary_writer *w, int indent, const char *text)
+{
+    int at = 0;
+    while (*text) {
+        size_t length = strcspn(text, " ");
+        bool fits = at && at + 1 + (int)length <= line_width;
+        if (fits) nh_text_add(w->out, " ");
+        else nh_text_addf(w->out, "%s%*s", at ? "\n" : "", indent, "");
+        at = (fits ? at + 1 : indent) + (int)length;
+        nh_text_add_n(w->out, text, length);
+        text += length + (text[length] == ' ');
+    }
+    nh_text_add(w->out, "\n");
+}
+
+static void completeness(nh_summary_writer *w)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_facts_completeness(w->r, &words);
+    if (nh_text_string(&words)[0]) sentence(w, 2, nh_text_string(&words));
+    nh_text_clear(&words);
+}
+
 static void answer(nh_summary_writer *w)
 {
     const nh_result *r = w->r;
@@ -264,6 +289,7 @@ static void answer(nh_summary_writer *w)
     nh_text_addf(&title, " (search %s)", nh_search_word(r->search));
     nh_summary_heading(w, nh_text_string(&title));
     nh_text_clear(&title);
+    completeness(w);
     for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);
     if (r->pieces) nh_text_add(w->out, "\n  In a part of the motions only, and not counted:\n");
     for (size_t k = 0; k < r->pieces; k++) current(w, &r->piece[k]);

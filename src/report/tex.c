@@ -47,6 +47,12 @@ static void answer(nh_tex_writer *w)
     }
     nh_tex_add(w, " ");
     nh_tex_words(w, nh_facts_search(r));
+    nh_tex_add(w, " ");
+    nh_text words;
+    nh_text_init(&words);
+    nh_facts_completeness(r, &words);
+    nh_tex_words(w, nh_text_string(&words));
+    nh_text_clear(&words);
     nh_tex_add(w, "\n");
     for (size_t i = 0; i < r->warnings; i++) {
         nh_tex_add(w, "\n\\textbf{Warning:} ");

@@ -3,6 +3,7 @@
 #define NH_RESULT_H
 
 #include "geometry/distribution.h"
+#include "integrals/completeness.h"
 #include "motion/drift.h"
 #include "noether/independence.h"
 #include "noether/prove.h"
@@ -140,6 +141,7 @@ typedef struct {
     nh_almost *almost;
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
     size_t *integral;         /* found[integral[i]] */
+    nh_completeness completeness[NH_COMPLETENESS_KINDS];
     nh_verdict verdict;
     nh_search search;         /* NONE is impossible where it was cut */
     nh_tracks tracks;         /* validation->watch holds their values, row by row */

@@ -1,0 +1,75 @@
+/* The count compared with what is known, for the parameters' values and for generic ones, and in words. */
+#include "integrals/completeness.h"
+
+/* The highest degree that is settled by the rows; what is missing at the next. */
+static void read_rows(nh_completeness *c, bool all)
+{
+    c->degree = c->missing_at = c->missing = 0;
+    c->linear = c->count.rows > 0;
+    while (c->degree < c->count.rows && (all || c->count.row[c->degree].complete || c->count.row[c->degree].functions)) c->linear &= c->count.row[c->degree++].complete;
+    if (c->degree == c->count.rows) return;
+    const nh_count_row *row = &c->count.row[c->degree];
+    if (c->degree && !row->settled) return; /* the work was not enough for more */
+    c->missing_at = row->degree;
+    c->missing = row->rank > row->known_rank ? row->rank - row->known_rank : 0;
+}
+
+/* For generic parameters the bound can only be lower: the same products have to meet it. */
+static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
+{
+    if (!model->system->parameters || !q->general || !c->degree) return false;
+    nh_count_question question = {.time = c->count.time, .generic = true, .degree = c->degree, .work = q->work, .known = q->known, .current = q->current};
+    nh_completeness generic = {.count = nh_count_integrals(model, &question)};
+    read_rows(&generic, q->all);
+    return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
+}
+
+void nh_completeness_of(const nh_model *model, const nh_completeness_question *q, nh_completeness out[NH_COMPLETENESS_KINDS])
+{
+    enum { few = 4, high = 4, low = 2 };
+    for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) {
+        nh_completeness *c = &out[kind];
+        size_t coordinates = model->m + (kind == NH_COMPLETE_IN_TIME);
+        nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME, .degree = q->degree ? q->degree : coordinates <= few ? high : low, .work = q->work,
+                                      .known = q->known, .current = q->current};
+        *c = (nh_completeness){.counted = true, .count = nh_count_integrals(model, &question)};
+        if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {
+            *c = (nh_completeness){0};
+            continue;
+        }
+        read_rows(c, q->all);
+        c->generic = holds_generically(model, q, c);
+    }
+}
+
+static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
+
+static void coordinates_words(const nh_completeness *c, const char *coefficients, nh_text *out)
+{
+    const char *most = c->degree > 1 ? "at most " : "";
+    if (c->degree && c->count.row[c->degree - 1].bound == 1)
+        nh_text_addf(out, "Complete to degree %zu: no function polynomial in the velocities of degree %s%zu, with any functions of %s as coefficients, is conserved", c->degree, most, c->degree, coefficients);
+    else if (c->degree)
+        nh_text_addf(out, "Complete to degree %zu: every integral polynomial in the velocities of degree %s%zu, with any functions of %s%s as coefficients, is a %s those found", c->degree, most, c->degree,
+                     coefficients, c->count.leaf ? " (and of what the constraints keep constant)" : "", c->linear ? "polynomial in" : "function of");
+    if (c->degree) nh_text_addf(out, " (%s %s).", c->linear ? "proved for" : "the number of all is proved, the rank of their differentials taken modulo a prime, for", c->generic ? "generic parameters, and these" : "these parameters");
+    if (!c->missing_at) return;
+    const nh_count_row *row = &c->count.row[c->missing_at - 1];
+    nh_text_addf(out, "%s degree %zu%s at most %zu more independent integral%s (order %zu%s).", c->degree ? " At" : "Not complete: at", c->missing_at,
+                 c->degree ? " there may be" : ", with any functions of the coordinates as coefficients, there may be", c->missing, plural(c->missing), row->order, row->settled ? "" : ", not settled");
+}
+
+void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_t uncertain, nh_text *out)
+{
+    const nh_completeness *first = &c[c[0].counted ? 0 : 1], *time = &c[NH_COMPLETE_IN_TIME];
+    if (!first->counted) return;
+    if (first->count.obstacle) {
+        nh_text_addf(out, "Whether there are more was not counted: %s.", first->count.obstacle);
+        return;
+    }
+    coordinates_words(first, first == time ? "time and the coordinates" : "the coordinates", out);
+    if (first->missing_at && uncertain) nh_text_addf(out, " The %zu current%s that %s certified, not proved, may be among them.", uncertain, plural(uncertain), uncertain == 1 ? "is" : "are");
+    if (first == time || !time->counted || time->count.obstacle) return;
+    if (time->degree) nh_text_addf(out, " With time in the coefficients: complete to degree %zu%s", time->degree, time->missing_at ? "" : ".");
+    if (time->missing_at) nh_text_addf(out, "%s at degree %zu at most %zu more.", time->degree ? ";" : " With time in the coefficients:", time->missing_at, time->missing);
+}

@@ -1,0 +1,38 @@
+/* completeness: are the currents that were found all that there are, among those polynomial in the velocities?
+ *
+ * Two kinds are counted: with functions of the coordinates as coefficients, and with functions of time and the coordinates; of a system that depends on time
+ * only the latter.  Products of the currents that are proved are compared with the bound, degree by degree (integrals/count.h). */
+#ifndef NH_COMPLETENESS_H
+#define NH_COMPLETENESS_H
+
+#include "base/text.h"
+#include "integrals/count.h"
+
+enum { NH_COMPLETE_IN_COORDINATES, NH_COMPLETE_IN_TIME, NH_COMPLETENESS_KINDS };
+
+typedef struct {
+    bool counted;           /* this kind was looked at */
+    nh_count count;         /* for the parameters' values */
+    size_t degree;          /* complete up to this degree; 0: not even to the first */
+    bool linear;            /* up to there all are polynomials in the known ones, which is proved; otherwise functions of them, tested at a point */
+    bool generic;           /* and so for algebraically independent parameters */
+    size_t missing_at;      /* the least degree at which the bound is not reached, or 0 */
+    size_t missing;         /* how many functionally independent ones are missing there at most */
+} nh_completeness;
+
+/* The known currents hold for the parameters' values, those of `general` for all. */
+typedef struct {
+    size_t known;
+    const nh_ex *current;
+    bool general;           /* all of them hold for all parameters */
+    bool all;               /* there can be no more functionally independent ones */
+    size_t degree;          /* 0: chosen */
+    double work;
+} nh_completeness_question;
+
+void nh_completeness_of(const nh_model *model, const nh_completeness_question *question, nh_completeness out[NH_COMPLETENESS_KINDS]);
+
+/* What is proved, in sentences; nothing when nothing was counted.  `uncertain`: how many currents are certified numerically and not proved. */
+void nh_completeness_words(const nh_completeness completeness[NH_COMPLETENESS_KINDS], size_t uncertain, nh_text *out);
+
+#endif

@@ -1,0 +1,235 @@
+/* What is known, beside what there can be: products of known integrals, and differentials of both, as ranks modulo the prime. */
+#include <flint/nmod_mat.h>
+#include <string.h>
+
+#include "base/progress.h"
+#include "integrals/count_internal.h"
+
+enum { most_products = 3000, spare_columns = 8, most_failures = 40 };
+
+/* ---- known integrals ---- */
+
+/* Values along the line w = a + s b for s = 0 .. count - 1, as differences: the degree is the last that is not zero. */
+static bool line_degree(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, nh_ex e, size_t *degree)
+{
+    enum { values = NH_COUNT_HIGHEST_DEGREE + 4 };
+    nh_jet_equations *x = c->equations;
+    nh_residue y[values], *w = nh_alloc_array(2 * x->n + 1, sizeof *w), *series = nh_alloc_array(ring->size, sizeof *series);
+    uint64_t random = 4711;
+    bool good = true;
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
+    for (size_t i = 0; i < 2 * x->n; i++) w[i] = nh_residue_random(ring->field, &random);
+    for (size_t s = 0; s < values && good; s++) {
+        nh_jet_equations_velocities(x, v, ring, w);
+        good = nh_jet_eval_all(v, 1, &e, series);
+        y[s] = series[0];
+        for (size_t i = 0; i < x->n; i++) w[i] = nh_residue_add(ring->field, w[i], w[x->n + i]);
+    }
+    *degree = 0;
+    for (size_t k = 1; k < values && good; k++) {
+        for (size_t s = values - 1; s >= k; s--) y[s] = nh_residue_sub(ring->field, y[s], y[s - 1]);
+        for (size_t s = k; s < values; s++)
+            if (y[s]) *degree = k;
+    }
+    nh_jet_eval_free(v);
+    nh_free(series);
+    nh_free(w);
+    return good;
+}
+
+static void move_known(nh_counter *c, size_t to, size_t from)
+{
+    size_t n = c->equations->n;
+    c->failed[to] = c->failed[from];
+    c->current[to] = c->current[from];
+    memmove(c->slope + to * n, c->slope + from * n, n * sizeof *c->slope);
+}
+
+/* The degrees of those of the kind that is counted, 0 for others: they count for functional dependence only.  A current that cannot be evaluated makes
+ * the point a bad one, and one that never can is left out. */
+bool nh_count_take_known(nh_counter *c)
+{
+    nh_jet_equations *x = c->equations;
+    size_t *one = nh_alloc_array(x->coordinates + 1, sizeof *one);
+    for (size_t k = 0; k < x->coordinates; k++) one[k] = 1;
+    nh_jet_ring *ring = nh_jet_ring_create(x->point->field, x->coordinates, one, 0);
+    bool good = true;
+    size_t kept = 0;
+    for (size_t k = 0; k < c->known && good; k++) {
+        size_t degree;
+        good = line_degree(c, ring, x->at, c->current[k], &degree);
+        bool hopeless = !good && ++c->failed[k] > most_failures;
+        good |= hopeless;
+        if (hopeless) continue;
+        bool timely = !x->time && nh_depends(x->dag, c->current[k], x->model->system->t);
+        if (good && (timely || degree > NH_COUNT_HIGHEST_DEGREE)) degree = 0; /* no product of it is of the kind that is counted */
+        move_known(c, kept, k);
+        c->degree[kept++] = degree;
+        if (!good) { /* the rest as it is */
+            for (k++; k < c->known; k++) move_known(c, kept++, k);
+        }
+    }
+    c->known = kept;
+    nh_jet_ring_free(ring);
+    nh_free(one);
+    return good;
+}
+
+/* Exponents of all products up to a degree, the empty one first: `known` numbers each; 0 when they are too many. */
+static size_t list_products(const nh_counter *c, size_t degree, uint8_t *out)
+{
+    uint8_t *e = nh_alloc(c->known + 1);
+    size_t count = 0;
+    for (bool more = true; more && count <= most_products;) {
+        if (out) memcpy(out + count * c->known, e, c->known);
+        count++;
+        size_t i = 0, sum = 0;
+        for (size_t k = 0; k < c->known; k++) sum += e[k] * c->degree[k];
+        while (i < c->known && (!c->degree[i] || sum + c->degree[i] > degree)) sum -= e[i] * c->degree[i], e[i++] = 0;
+        more = i < c->known;
+        if (more) e[i]++;
+    }
+    nh_free(e);
+    return count <= most_products ? count : 0;
+}
+
+/* All products at one choice of velocities, each from one that came before by a factor. */
+static void multiply_products(const nh_jet_ring *ring, size_t known, size_t count, const uint8_t *exponent, const nh_residue *phi, nh_residue *out)
+{
+    uint8_t *less = nh_alloc(known + 1);
+    nh_jet_constant(ring, 1, out);
+    for (size_t p = 1; p < count; p++) {
+        size_t k = 0, before = p;
+        while (!exponent[p * known + k]) k++;
+        memcpy(less, exponent + p * known, known);
+        less[k]--;
+        while (before-- > 0 && memcmp(exponent + before * known, less, known) != 0) {}
+        nh_jet_mul(ring, out + before * ring->size, phi + k * ring->size, out + p * ring->size);
+    }
+    nh_free(less);
+}
+
+/* The rank of those rows that are no current of this degree by itself. */
+static size_t lower_rank(const nh_counter *c, const nmod_mat_t rows, const uint8_t *exponent, size_t degree)
+{
+    size_t count = (size_t)nmod_mat_nrows(rows), kept = 0;
+    nmod_mat_t lower;
+    nmod_mat_init(lower, nmod_mat_nrows(rows), nmod_mat_ncols(rows), rows->mod.n);
+    for (size_t p = 0; p < count; p++) {
+        bool own = false;
+        for (size_t k = 0; k < c->known; k++) own |= exponent[p * c->known + k] && c->degree[k] == degree;
+        for (slong j = 0; j < nmod_mat_ncols(rows) && !own; j++) nmod_mat_entry(lower, kept, j) = nmod_mat_entry(rows, p, j);
+        kept += !own;
+    }
+    size_t rank = (size_t)nmod_mat_rank(lower);
+    nmod_mat_clear(lower);
+    return rank;
+}
+
+/* The rank of the products modulo the prime: each column is a random combination of their Taylor coefficients at random velocities. */
+bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, nh_count_row *out)
+{
+    nh_jet_equations *x = c->equations;
+    size_t count = list_products(c, degree, NULL), columns = count + spare_columns;
+    out->known = out->lower = 1;
+    if (!count || !c->known) return true;
+    uint8_t *exponent = nh_alloc(count * c->known + 1);
+    list_products(c, degree, exponent);
+    nh_residue *phi = nh_alloc_array(c->known * ring->size, sizeof *phi), *product = nh_alloc_array(count * ring->size, sizeof *product), *w = nh_alloc_array(x->n + 1, sizeof *w);
+    uint64_t random = 1234567 + degree;
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
+    nmod_mat_t rows;
+    nmod_mat_init(rows, (slong)count, (slong)columns, ring->field.p);
+    bool good = true;
+    for (size_t j = 0; j < columns && good && !nh_late(); j++) {
+        for (size_t i = 0; i < x->n; i++) w[i] = nh_residue_random(ring->field, &random);
+        nh_jet_equations_velocities(x, v, ring, w);
+        good = nh_jet_eval_all(v, c->known, c->current, phi);
+        if (good) multiply_products(ring, c->known, count, exponent, phi, product);
+        for (size_t e = 0; e < ring->size; e++) {
+            nh_residue factor = nh_residue_random(ring->field, &random);
+            for (size_t p = 0; p < count; p++)
+                nmod_mat_entry(rows, p, j) = nh_residue_add(ring->field, (nh_residue)nmod_mat_entry(rows, p, j), nh_residue_mul(ring->field, factor, product[p * ring->size + e]));
+        }
+        c->work += (double)count * (double)ring->pairs[ring->size];
+    }
+    out->known = (size_t)nmod_mat_rank(rows);
+    out->lower = lower_rank(c, rows, exponent, degree);
+    nmod_mat_clear(rows);
+    nh_jet_eval_free(v);
+    nh_free(w);
+    nh_free(product);
+    nh_free(phi);
+    nh_free(exponent);
+    return good;
+}
+
+/* ---- functional independence ---- */
+
+static nh_residue *more_rows(nh_differentials *d, size_t count)
+{
+    size_t width = d->kept + d->n, old = d->rows;
+    nh_grow(&d->row, &d->capacity, (old + count) * width + 1, sizeof *d->row);
+    memset(d->row + old * width, 0, count * width * sizeof *d->row);
+    d->rows += count;
+    return d->row + old * width;
+}
+
+size_t nh_count_rank(const nh_differentials *d, nh_prime f)
+{
+    size_t width = d->kept + d->n;
+    nmod_mat_t m;
+    nmod_mat_init(m, (slong)d->rows, (slong)width, f.p);
+    for (size_t i = 0; i < d->rows * width; i++) nmod_mat_entry(m, i / width, i % width) = d->row[i];
+    size_t rank = (size_t)nmod_mat_rank(m);
+    nmod_mat_clear(m);
+    return rank;
+}
+
+/* w^alpha without one factor w_l (l = n: all of it) */
+static nh_residue velocity_power(const nh_differentials *d, nh_prime f, const uint8_t *alpha, size_t l)
+{
+    nh_residue r = 1;
+    for (size_t i = 0; i < d->n; i++) r = nh_residue_mul(f, r, nh_residue_power(f, d->w[i], (uint64_t)(alpha[i] - (i == l))));
+    return r;
+}
+
+/* d Phi = sum of d c_alpha w^alpha + c_alpha alpha_l w^(alpha - 1_l) dw^l, of every solution */
+void nh_count_solutions_differ(const nh_graded_count *g, nh_prime f, nh_differentials *d)
+{
+    size_t N = g->total[g->order], width = d->kept + d->n;
+    nh_residue *out = more_rows(d, N);
+    for (size_t a = 0; a < g->alphas; a++) {
+        const uint8_t *alpha = g->alpha + a * d->n;
+        const nh_residue *jet = g->jet + a * (1 + d->kept) * N;
+        nh_residue power = velocity_power(d, f, alpha, d->n);
+        for (size_t k = 0; k < width; k++) {
+            size_t l = k - d->kept; /* when not along a coordinate */
+            if (k >= d->kept && !alpha[l]) continue;
+            nh_residue factor = k < d->kept ? power : nh_residue_mul(f, alpha[l], velocity_power(d, f, alpha, l));
+            const nh_residue *c = jet + (k < d->kept ? 1 + k : 0) * N;
+            for (size_t j = 0; j < N; j++) out[j * width + k] = nh_residue_add(f, out[j * width + k], nh_residue_mul(f, factor, c[j]));
+        }
+    }
+}
+
+/* The same of the known integrals, by their series and their derivatives in the velocities. */
+bool nh_count_known_differ(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, nh_differentials *d)
+{
+    size_t width = d->kept + d->n;
+    nh_residue *series = nh_alloc_array(ring->size, sizeof *series);
+    nh_jet_eval *v = nh_jet_equations_eval(c->equations, ring, coordinate);
+    nh_jet_equations_velocities(c->equations, v, ring, d->w);
+    bool good = true;
+    for (size_t k = 0; k < c->known && good; k++) {
+        nh_residue *out = more_rows(d, 1);
+        for (size_t j = 0; j < width && good; j++) {
+            nh_ex e = j < d->kept ? c->current[k] : c->slope[k * d->n + j - d->kept];
+            if (j == 0 || j >= d->kept) good = nh_jet_eval_all(v, 1, &e, series);
+            out[j] = series[j < d->kept ? ring->up[j * ring->size] : 0];
+        }
+    }
+    nh_jet_eval_free(v);
+    nh_free(series);
+    return good;
+}
