@@ -177,7 +177,7 @@ Test(reductions, affine_constraints_magnetic_terms_and_forces)
         followed(r, general[i].name);
         size_t momenta = 0, moving = 0;
         for (size_t k = 0; k < r->momenta.count; k++) {
-            cr_expect(r->momenta.momentum[k].proved);
+            cr_expect(r->momenta.momentum[k].proof.proved);
             momenta += !r->momenta.momentum[k].moving;
             moving += r->momenta.momentum[k].moving;
         }
@@ -266,7 +266,7 @@ Test(reductions, quotients)
         cr_expect_eq(r->stage[0].reduced->conservative, cases[i].conservative);
         cr_expect(r->stage[0].energy_drift < 1e-8);
         cr_expect_eq(r->momenta.count, cases[i].momenta);
-        for (size_t k = 0; k < r->momenta.count; k++) cr_expect(r->momenta.momentum[k].proved);
+        for (size_t k = 0; k < r->momenta.count; k++) cr_expect(r->momenta.momentum[k].proof.proved);
         nh_reduction_equation *e;
         size_t n = nh_reduction_equations(r, &r->stage[0], &e), found = 0;
         for (size_t k = 0; k < n; k++) {
@@ -321,7 +321,7 @@ static bool conserved(const nh_reduction *r, const char *text)
     nh_ex want = 0;
     must(nh_system_expression_text(r->system, "test", text, 0, NULL, &want, &error), &error, text);
     for (size_t k = 0; k < r->momenta.count; k++)
-        if (nh_normal_is_zero(r->kinetic->dag, nh_sub(r->kinetic->dag, want, r->momenta.momentum[k].value), 0) == NH_ZERO) return r->momenta.momentum[k].proved;
+        if (nh_normal_is_zero(r->kinetic->dag, nh_sub(r->kinetic->dag, want, r->momenta.momentum[k].value), 0) == NH_ZERO) return r->momenta.momentum[k].proof.proved;
     return false;
 }
 
