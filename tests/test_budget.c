@@ -101,7 +101,7 @@ Test(budget, names_what_brings_a_stage_in)
     for (size_t i = 0; i < r->stages && !name; i++)
         if (r->stage[i].skipped && !strcmp(r->stage[i].limit.option, "stage_columns")) name = r->stage[i].name, needed = r->stage[i].limit.value;
     cr_assert_not_null(name);
-    cr_expect_eq(r->search, NH_SEARCH_CUT);
+    cr_expect_eq(r->search, NH_SEARCH_EXHAUSTED);
     cr_expect(!r->partial);
     cr_expect_gt(needed, 12);
     wider = search("systems/double_pendulum.yaml", 1e4, 1e6, 1, needed);

@@ -164,15 +164,20 @@ const char *nh_facts_on_branches(const nh_result *r, const nh_found *f)
 const char *nh_facts_nothing(const nh_result *r)
 {
     if (r->verdict == NH_NONE) return "No current in this ansatz";
-    return r->search == NH_SEARCH_CUT ? "Undecided: no current so far" : "Undecided: nothing found got a certificate";
+    return r->search == NH_SEARCH_CUT || nh_result_left_out(r) ? "Undecided: no current so far" : "Undecided: nothing found got a certificate";
 }
 
 const char *nh_facts_search(const nh_result *r)
 {
+    size_t left_out = nh_result_left_out(r);
+    bool counted = false; /* what else there can be is said by the count */
+    for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++) counted |= r->completeness[i].counted && !r->completeness[i].count.obstacle;
     if (r->search == NH_SEARCH_COMPLETE) return "The search is complete. There cannot be more currents: together they determine every orbit locally.";
-    if (r->search == NH_SEARCH_EXHAUSTED) return "The search is exhausted: all that there was to try was tried, and there may be other currents.";
-    if (r->partial) return "The search was cut before all stages were tried: there may be more currents.";
-    return "The search was cut: stages that were too large were left out, and there may be more currents.";
+    if (r->search == NH_SEARCH_CUT) return "The search was cut before all stages were tried: there may be more currents.";
+    if (left_out)
+        return nh_arena_printf(r->arena, "The search is exhausted: every stage was tried but %zu that %s too large; the list of stages names the option that brings %s in.", left_out, left_out == 1 ? "is" : "are",
+                               left_out == 1 ? "it" : "them");
+    return counted ? "The search is exhausted: all that there was to try was tried." : "The search is exhausted: all that there was to try was tried, and there may be other currents.";
 }
 
 void nh_facts_completeness(const nh_result *r, nh_text *out)

@@ -284,7 +284,7 @@ static void answer(nh_summary_writer *w)
     static const char *const verdicts[] = {"FOUND", "NONE", "UNDECIDED"};
     nh_text title;
     nh_text_init(&title);
-    if (r->count == 0) nh_text_addf(&title, "%s: no current%s %s", verdicts[r->verdict], r->pieces ? " of all motions" : "", r->search == NH_SEARCH_CUT ? "so far" : "in this ansatz");
+    if (r->count == 0) nh_text_addf(&title, "%s: no current%s %s", verdicts[r->verdict], r->pieces ? " of all motions" : "", r->verdict == NH_NONE ? "in this ansatz" : "so far");
     else nh_text_addf(&title, "%s: %zu independent current%s of at most %zu", verdicts[r->verdict], r->independent, r->independent == 1 ? "" : "s", r->local_maximum);
     nh_text_addf(&title, " (search %s)", nh_search_word(r->search));
     nh_summary_heading(w, nh_text_string(&title));

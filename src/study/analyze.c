@@ -177,9 +177,9 @@ static void watch_deadline(nh_result *r)
 /* FOUND needs a certificate for every current; NONE needs a spectrum without a gap at rounding. */
 static void conclude(nh_result *r)
 {
-    bool open = r->open > 0 || r->search == NH_SEARCH_CUT, failed = r->count == 0 && r->current.dimension > 0;
+    bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_result_left_out(r)), open = r->open > 0 || kept_out, failed = r->count == 0 && r->current.dimension > 0;
     r->verdict = r->count == 0 ? (open || failed || r->pieces ? NH_UNDECIDED : NH_NONE) : NH_FOUND;
-    if (r->count == 0 && r->search == NH_SEARCH_CUT)
+    if (r->count == 0 && kept_out)
         nh_result_warn(r, "what a limit left out may hold currents%s", nh_result_left_out(r) ? ": the list of stages names the options that bring it in" : "");
     if (r->count == 0 && r->open)
         nh_result_warn(r, "some null vectors could be true but got no certificate: another ansatz, or more samples (--samples), would decide");

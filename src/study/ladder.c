@@ -92,16 +92,13 @@ static void stages_of_many(nh_climb *x)
     x->wide = false;
 }
 
-/* Work ends it at the same place everywhere, time does not; a stage that was too large keeps it from being exhausted, but ends nothing. */
+/* Work ends it at the same place everywhere, time does not; a stage that was too large is left out and ends nothing. */
 static void how_it_ended(nh_result *r)
 {
-    bool spent = nh_budget_spent(), left_out = false;
-    for (size_t i = 0; i < r->stages; i++) {
-        left_out |= r->stage[i].skipped;
-        spent |= r->stage[i].limit.option && !strcmp(r->stage[i].limit.option, "work");
-    }
+    bool spent = nh_budget_spent();
+    for (size_t i = 0; i < r->stages; i++) spent |= r->stage[i].limit.option && !strcmp(r->stage[i].limit.option, "work");
     if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-    else r->search = spent || left_out || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
+    else r->search = spent || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
     if (r->search != NH_SEARCH_CUT || !spent) return;
     r->partial = true;
     nh_result_warn(r, "the limit of %g million units of work ended the search; --option work=%g raises it", r->options.work, 10 * r->options.work);
