@@ -269,10 +269,10 @@ static void write_every_page(const place *p)
     char *argument[] = {"sh", "-c", (char[6 * PATH_MAX]){0}, NULL};
     snprintf(argument[2], 6 * PATH_MAX,
              "for s in systems/*.yaml; do basename $s .yaml; done >names\n"
-             "xargs -P 2 -I @ sh -c \"'%.4000s' analyze @ --quiet --max-seconds %.20s %s --html page-@.html; test \\$? = 0 -o \\$? = 5\" <names || exit 1\n"
+             "xargs -P 2 -I @ sh -c \"'%.4000s' analyze @ --quiet %s%.20s %s --html page-@.html; test \\$? = 0 -o \\$? = 5\" <names || exit 1\n"
              "{ echo '<!DOCTYPE html><html><head><title>every page</title></head><body><script>var PAGES = ['; sed 's/.*/\"page-&.html\",/' names; echo '];</script><script>'; "
-             "cat '%.4000s/tests/browser/sweep.js'; echo '</script></body></html>'; } >every.html", p->program, seconds ? seconds : "0.1",
-             seconds ? "" : "--until 2", p->project);
+             "cat '%.4000s/tests/browser/sweep.js'; echo '</script></body></html>'; } >every.html", p->program, seconds ? "--max-seconds " : "--option work=",
+             seconds ? seconds : "100", seconds ? "" : "--until 2", p->project);
     finished f = run_vector(p, &(manner){0}, argument);
     cr_assert_eq(f.code, 0, "%s", f.err);
     finished_clear(&f);
