@@ -72,9 +72,9 @@ static nh_proof prove_zero(const nh_model *o, size_t n, const nh_ex *term, nh_pr
     sum = without_signs(d, sum);
     size_t limit = (size_t)options->proof_terms;
     nh_zero_verdict symbols = NH_TOO_LARGE;
-    if (!proof.proved && claim.free) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
+    if (!proof.proved && claim.free && !claim.rounded) symbols = nh_normal_is_zero(d, with_symbols(o, claim.fixed, sum), limit);
     if (symbols == NH_ZERO) proof = holding(proof, claim.fixed);
-    proof.proved = proof.proved || nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO;
+    proof.proved = proof.proved || (!claim.rounded && nh_normal_is_zero(d, nh_exact_values(o, sum), limit) == NH_ZERO);
     if (proof.proved && symbols == NH_NONZERO) proof.fixed = nh_fixed_least(o, 1, &sum, vanishes, &(zero_problem){o, sum, limit});
     bool exact = true;
     for (size_t i = 0; i < n; i++) {
@@ -161,8 +161,10 @@ nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_o
     nh_rate_terms(o, phi, term);
     for (size_t j = 0; j < n; j++) length += nh_complexity(o->dag, term[j]);
     nh_proof proof = {0};
+    claim.rounded = !nh_is_exact(o->dag, nh_exact_values(o, phi));
+    if (claim.rounded) claim.related = false;
     if (claim.related) proof = holding(proof, claim.fixed);
-    else if (length > lengthy && proved_by_symmetry(o, phi, claim, options)) proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
+    else if (!claim.rounded && length > lengthy && proved_by_symmetry(o, phi, claim, options)) proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
     proof = prove_zero(o, n, term, proof, claim, options);
     nh_free(term);
     return proof;

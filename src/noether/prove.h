@@ -28,6 +28,7 @@ typedef struct {
     bool free;         /* its coefficients hold for all parameter values, so that step 1 makes sense; but for those fixed: */
     const bool *fixed; /* per parameter: it must have its value; NULL: none must */
     bool related;      /* an exact relation of its terms' rates is the proof */
+    bool rounded;         /* set by the proof: Phi holds numbers that are no rationals, whose sums may come out whole; nothing is proved of it */
 } nh_claim;
 nh_proof nh_prove_claim(const nh_model *model, nh_ex phi, nh_claim claim, const nh_options *options);
 
