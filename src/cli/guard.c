@@ -15,7 +15,8 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 
-static atomic_bool writing;
+static atomic_bool writing, standing;
+static pthread_t guard;
 static double limit, end; /* seconds; by the monotonic clock */
 
 static void end_at_once(int code)
@@ -75,17 +76,22 @@ static void *stand(void *unused)
     return unused;
 }
 
+/* A thread that a library began before main takes signals that all of ours leave to the guard: they are passed on.  Where no guard could be had the first ends the
+ * computation, and the second the process. */
 static void on_signal(int number)
 {
-    (void)number;
+    if (atomic_load(&standing)) {
+        pthread_kill(guard, number);
+        return;
+    }
     nh_interrupt();
+    signal(number, SIG_DFL);
 }
 
 void nh_cli_guard_begin(double seconds)
 {
-    struct sigaction act = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND}; /* somebody may have us ignore them; and where no thread can be had */
+    struct sigaction act = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     sigset_t set = signals();
-    pthread_t thread;
     sigemptyset(&act.sa_mask);
     sigaction(SIGINT, &act, NULL);
     sigaction(SIGTERM, &act, NULL);
@@ -93,8 +99,10 @@ void nh_cli_guard_begin(double seconds)
     limit = seconds;
     end = nh_clock() + seconds;
     pthread_sigmask(SIG_BLOCK, &set, NULL);
-    if (pthread_create(&thread, NULL, stand, NULL)) pthread_sigmask(SIG_UNBLOCK, &set, NULL);
-    else pthread_detach(thread);
+    bool stands = pthread_create(&guard, NULL, stand, NULL) == 0;
+    atomic_store(&standing, stands);
+    if (!stands) pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+    else pthread_detach(guard);
 }
 
 void nh_cli_guard_writing(void) { atomic_store(&writing, true); }
