@@ -95,7 +95,7 @@ static const unseen UNSEEN[] = {
      "lagrangian: (m0 - b*t)*(x'^2 + y'^2)/2 - (m0 - b*t)*g*y\n"
      "known: {currents: [{name: along x, expr: \"(m0 - b*t)*x'\"}, {name: start of x, expr: \"b*x + (m0 - b*t)*x'*log(m0 - b*t)\"},"
      " {name: along y, expr: \"(m0 - b*t)*y' + g*(m0*t - b*t^2/2)\"}]}\n",
-     3},
+     4},
     {"pull that fades like 1/t",
      "parameters: {M: 2, F: 0.4}\n"
      "coordinates: [x]\n"

@@ -62,12 +62,14 @@ nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, 
     size_t count = 0, at = 0, *index = nh_alloc_array(n + 1, sizeof *index);
     nh_ex *own = nh_alloc_array(2 * n + 1, sizeof *own), *found = own + n;
     double *like = nh_alloc_array(n + 1, sizeof *like);
+    bool free = true; /* nothing is asked of the coefficients: whatever they are they hold */
     for (size_t j = 0; j < n; j++) {
         if (v[j] == 0) continue;
         if (j == pivot) at = count;
         own[count] = e[j];
         like[count] = v[j];
         index[count++] = j;
+        free &= nh_is_zero(d, e[j]);
     }
     nh_proof proof = {0};
     nh_fixed how = nh_fixed_relation(k->model, count, own, like, options, found);
@@ -76,6 +78,7 @@ nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, 
     for (size_t j = 0; j < count && good; j++) c[index[j]] = nh_simplify(d, nh_div(d, found[j], found[at]));
     if (good) proof = (nh_proof){.proved = true, .all_parameters = how.all_parameters, .fixed = how.fixed};
     else proof = by_numbers(k, n, e, v, options, c);
+    if (free) proof = (nh_proof){.proved = true, .all_parameters = true};
     nh_free(like);
     nh_free(own);
     nh_free(index);

@@ -84,7 +84,9 @@ static bool fill(nh_momentum *p, const nh_kinetic *k, const nh_action *g, const 
     *p = (nh_momentum){.horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + m) * sizeof *p->f), .value = nh_int(d, 0)};
     p->field = p->f + g->d;
     for (size_t s = 0; s < m; s++) p->field[s] = nh_int(d, 0);
-    p->proof = nh_momenta_horizontal(g, c, false, options, p->f);
+    nh_action strict = *g; /* of the system itself: what --weak calls a force is no condition */
+    strict.kinetic = k;
+    p->proof = nh_momenta_horizontal(&strict, c, false, options, p->f);
     for (size_t a = 0; a < g->d; a++) {
         for (size_t s = 0; s < m; s++) p->field[s] = plus(d, p->field[s], p->f[a], g->generator[a].component[s]);
     }
