@@ -190,7 +190,7 @@ static void expect_points(const cJSON *seen, const cJSON *result, const char *li
     cr_expect_gt(curves, 2, "%s: %d curves over time", line, curves);
 }
 
-static const char *const SYSTEMS[] = {"sleigh", "car_with_trailer --max-seconds 2", "three_bodies --max-seconds 2", "kepler --max-seconds 2"};
+static const char *const SYSTEMS[] = {"sleigh", "car_with_trailer --option work=600", "three_bodies --option work=600", "kepler --option work=600"};
 
 /* Nothing said on the console, nothing fetched, no formula without a box, nothing wider than the window, nobody kept out. */
 static void expect_sound(const place *p, const cJSON *seen, const char *line)

@@ -106,7 +106,7 @@ static char *page_of(const place *p, const char *line, int code)
     return page;
 }
 
-static const char *const SYSTEMS[] = {"sleigh", "euler_disk --max-seconds 3", "contact_oscillator --max-seconds 1", "perpendicular_velocities --max-seconds 1", "rolling_ball --max-seconds 3", "heisenberg_particle", "appell_hamel", "kepler --max-seconds 3", "free_particle", "spherical_pendulum"};
+static const char *const SYSTEMS[] = {"sleigh", "euler_disk --option work=900", "contact_oscillator --option work=300", "perpendicular_velocities --option work=300", "rolling_ball --option work=900", "heisenberg_particle", "appell_hamel", "kepler --option work=900", "free_particle", "spherical_pendulum"};
 
 /* The whole page, number by number: <data value="x"> is in the JSON, to the last digit, and what is shown is x rounded.  Returns how many. */
 static size_t compare_numbers(const char *page, const cJSON *json, const char *line)
@@ -325,7 +325,7 @@ Test(html, units_are_on_the_axes)
     place p = place_make();
     write_here(&p, "u.yaml", "coordinates:\n  - {name: phi, type: angle}\n  - {name: x, type: length, unit: km}\n  - {name: y, type: length, unit: km}\n  - {name: u, unit: A}\n"
                              "  - {name: w, unit: V}\nlagrangian: phi'^2 + x'^2 + y'^2 + u'^2 + w'^2 - x^2\n");
-    finished f = run_expecting(&p, "analyze u.yaml --quiet --max-seconds 1 --html page.html", 0);
+    finished f = run_expecting(&p, "analyze u.yaml --quiet --option work=300 --html page.html", 0);
     finished_clear(&f);
     char *page = read_here(&p, "page.html");
     cr_expect_not_null(strstr(page, ">\u03c6 / rad</text>"), "a curve alone names its axis");

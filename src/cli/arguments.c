@@ -7,7 +7,7 @@
 #include "cli/cli.h"
 #include "cli/words.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X){NULL, 0, NULL, 0}};
@@ -162,6 +162,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_current: cli->current = value; return true;
     case opt_field: cli->field = value; return true;
     case opt_columns: return nh_options_set(&cli->options, "columns", value, error);
+    case opt_degree: return nh_options_set(&cli->options, "degree", value, error);
     case opt_option: return assignment(cli, value, "option", &name, &text, error) && set_option(cli, name, text, error);
     case opt_chart: return set_chart(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
@@ -183,7 +184,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 /* Numbers of any computation, and how much is said, may stand behind every command: scripts give them to all. */
 static bool for_all(int code)
 {
-    static const int codes[] = {'q', 'v', 'h', opt_no_color, opt_progress, opt_version, opt_option, opt_seed, opt_samples, opt_columns, opt_tolerance, opt_until, opt_threads, opt_max_seconds};
+    static const int codes[] = {'q', 'v', 'h', opt_no_color, opt_progress, opt_version, opt_option, opt_seed, opt_samples, opt_columns, opt_degree, opt_tolerance, opt_until, opt_threads, opt_max_seconds};
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
         if (code == codes[i]) return true;
     return false;

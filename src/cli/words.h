@@ -41,6 +41,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_seed,        "seed",        required_argument, "N",                  "analyze", "of every random choice")                                                \
     X(opt_samples,     "samples",     required_argument, "N",                  "analyze", "sample points")                                                         \
     X(opt_columns,     "columns",     required_argument, "N",                  "analyze", "largest ansatz that is tried")                                          \
+    X(opt_degree,      "degree",      required_argument, "D",                  "analyze", "count integrals polynomial in the velocities up to this degree")        \
     X(opt_threads,     "threads",     required_argument, "N",                  "analyze", "processors to use; they do not change the result")                      \
     X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze verify simulate chart reduce", "an emergency brake: the time after which the run ends, with what there is") \
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate chart reduce", "any number of `nhsym explain options`")    \
