@@ -86,7 +86,7 @@ bench: test-packages
 
 catalogue: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
-	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points.\n\n'; \
+	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points. Complete to degree: up to this degree in the velocities nothing but functions of what was found is conserved, whatever functions of the coordinates (with t: of time and the coordinates) the coefficients are; generic: for generic parameters as well ([method.md](method.md), section 10).\n\n'; \
 	   $(BUILD)/tests/bench_catalogue systems; } >$(BUILD)/catalogue.md; code=$$?; mv $(BUILD)/catalogue.md docs/; $(BUILD)/tests/bench_pictures systems docs/catalogue || code=1; tail -n 1 docs/catalogue.md; exit $$code
 
 reductions: test-packages

@@ -32,7 +32,8 @@ typedef struct {
      * to be had in the velocities of the coordinates */
     size_t known, found, missing, excused, wrong, untrue, uncertain, unread, rounded, maximum;
     double seconds, rate; /* rate: the largest of a certified current in the multiplier form, relative, as log10 */
-    char names[800]; /* of what is missing or wrong */
+    char complete[80]; /* to which degree nothing else polynomial in the velocities exists */
+    char names[800];   /* of what is missing or wrong */
 } row;
 
 /* Is e a function of the currents found?  Its gradient is in the span of theirs at generic points. */
@@ -117,6 +118,20 @@ static void judge_almosts(const nh_result *r, const nh_points *generic, row *o)
     }
 }
 
+/* "4, generic", "4; with t 2, generic", "-" */
+static void complete_to(const nh_result *r, char *out, size_t size)
+{
+    size_t n = 0;
+    out[0] = 0;
+    for (size_t i = 0; i < NH_COMPLETENESS_KINDS && n < size; i++) {
+        const nh_completeness *c = &r->completeness[i];
+        if (!c->counted) continue;
+        n += (size_t)snprintf(out + n, size - n, "%s%s", n ? "; " : "", i ? "with t " : "");
+        if (n < size && c->degree) n += (size_t)snprintf(out + n, size - n, "%zu%s", c->degree, c->generic ? ", generic" : "");
+        else if (n < size) n += (size_t)snprintf(out + n, size - n, "-");
+    }
+}
+
 static void compare(nh_result *r, row *o)
 {
     nh_error error;
@@ -126,6 +141,7 @@ static void compare(nh_result *r, row *o)
     o->found = r->independent;
     o->maximum = r->local_maximum;
     o->seconds = r->timing.total;
+    complete_to(r, o->complete, sizeof o->complete);
     multiplier_motion *motion = multiplier_motion_create(r->model, generic, bits);
     judge(r, motion, o);
     judge_almosts(r, generic, o);
@@ -199,14 +215,14 @@ static inline row compare_file(const char *folder, const char *name, uint64_t se
 
 static inline void print_head(const char *first)
 {
-    printf("| %s | known | independent found | at most | missing | false | not certified | rate | seconds | which |\n|---|---|---|---|---|---|---|---|---|---|\n", first);
+    printf("| %s | known | independent found | at most | missing | false | not certified | rate | complete to degree | seconds | which |\n|---|---|---|---|---|---|---|---|---|---|---|\n", first);
 }
 
 static inline void print_row(const char *name, const row *o)
 {
     char rate[32] = "0";
     if (isfinite(o->rate)) snprintf(rate, sizeof rate, "1e%.0f", o->rate);
-    printf("| %s | %zu | %zu | %zu | %zu | %zu | %zu | %s | %.2f | %s |\n", name, o->known, o->found, o->maximum, o->missing, o->wrong, o->uncertain, rate, o->seconds, o->names);
+    printf("| %s | %zu | %zu | %zu | %zu | %zu | %zu | %s | %s | %.2f | %s |\n", name, o->known, o->found, o->maximum, o->missing, o->wrong, o->uncertain, rate, o->complete, o->seconds, o->names);
     fflush(stdout);
 }
 
