@@ -17,6 +17,7 @@ static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const n
     nh_fixed relation = nh_fixed_relation(o, c->count, rate, c->coefficient, options, out);
     for (size_t j = 0; j < c->count && relation.fixed && relation.found && !relation.too_large; j++) c->term[j] = nh_fixed_values(o, relation.fixed, c->term[j]);
     *claim = (nh_claim){.free = true, .fixed = relation.fixed, .related = relation.found};
+    if (relation.too_large) *claim = (nh_claim){.free = true}; /* nothing is known of other values: the proof may be shorter than the relation */
     nh_free(rate);
     return relation.found;
 }
