@@ -135,6 +135,20 @@ static size_t waves(nh_dag *d, nh_ex t, nh_ex re, nh_ex im, nh_ex *out)
     return 2;
 }
 
+/* sqrt(e) or -sqrt(e), whichever is written without a root: w for w^2.  Both are rates. */
+static nh_ex either_root(nh_dag *d, nh_ex e)
+{
+    if (nh_kind_of(d, e) != NH_PRODUCT || nh_num_value(nh_constant_of(d, e)) < 0) return nh_sqrt(d, e);
+    nh_ex root = nh_sqrt(d, nh_number(d, nh_constant_of(d, e)));
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex exponent = nh_exponent_of(d, e, i);
+        nh_num x = nh_kind_of(d, exponent) == NH_NUMBER ? nh_number_of(d, exponent) : nh_num_real(0.5);
+        if (!nh_num_short(x) || x.q != 1 || x.p % 2) return nh_sqrt(d, e);
+        root = nh_mul(d, root, nh_powi(d, nh_child(d, e, i), x.p / 2));
+    }
+    return root;
+}
+
 /* A block of two: lambda = T/2 +- sqrt(T^2/4 - D) with the trace T and the determinant D. */
 static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
 {
@@ -144,8 +158,8 @@ static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
     nh_ex half = nh_mul(d, nh_ratio(d, 1, 2), nh_add(d, e[i + i * n], e[j + j * n]));
     nh_ex D = nh_sub(d, nh_mul(d, e[i + i * n], e[j + j * n]), nh_mul(d, e[i + j * n], e[j + i * n]));
     nh_ex apart = nh_simplify_short(d, nh_sub(d, nh_mul(d, half, half), D), 0), t = l->x->r->system->t;
-    if (turns) return waves(d, t, half, nh_sqrt(d, nh_neg(d, apart)), out);
-    nh_ex s = nh_sqrt(d, apart);
+    if (turns) return waves(d, t, half, either_root(d, nh_neg(d, apart)), out);
+    nh_ex s = either_root(d, apart);
     out[0] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_add(d, half, s), t)));
     out[1] = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, nh_sub(d, half, s), t)));
     return out[0] == out[1] ? 1 : 2;
