@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "expr/normal.h"
-#include "integrals/count.h"
+#include "integrals/completeness.h"
 #include "study/analysis.h"
 #include "names.h"
 
@@ -429,4 +429,29 @@ Test(count, exponentials_of_multiples_are_not_independent)
 {
     EXPECT(PLANAR("exp(2*x) + exp(-x)*cosh(sqrt(3)*y)*2"), 1, 2, 3); /* Toda A2, periodic */
     EXPECT("name: m\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - exp(x) - exp(2*x) - exp(x/3)\n", 1, 2, 2, 3);
+}
+
+/* What is said of a system, nothing of which is known; `all`: there can be no more independent integrals. */
+static void words_of(const char *text, bool all, nh_text *out)
+{
+    problem p = problem_of(text);
+    nh_completeness c[NH_COMPLETENESS_KINDS];
+    nh_completeness_of(p.model, &(nh_completeness_question){.known = p.count, .current = p.known, .general = true, .all = all, .degree = 2, .work = 1e9}, c);
+    nh_text_init(out);
+    nh_completeness_words(c, 0, out);
+    problem_clear(&p);
+}
+
+Test(count, words_say_which_coefficients_are_meant)
+{
+    nh_text said;
+    words_of("name: o\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - t*x^2\n", false, &said);
+    cr_expect_not_null(strstr(nh_text_string(&said), "Not complete: at degree 1, with any functions of time and the coordinates"), "%s", nh_text_string(&said));
+    nh_text_clear(&said);
+    words_of(PLANAR("x^4 + 3*y^3*x + y"), false, &said);
+    cr_expect_not_null(strstr(nh_text_string(&said), "Complete to degree 1: no function"), "%s", nh_text_string(&said));
+    nh_text_clear(&said);
+    words_of(FREE_2, true, &said);
+    cr_expect_not_null(strstr(nh_text_string(&said), "is a function of those found: there cannot be more independent ones."), "%s", nh_text_string(&said));
+    nh_text_clear(&said);
 }

@@ -6,6 +6,7 @@ static void read_rows(nh_completeness *c, bool all)
 {
     c->degree = c->missing_at = c->missing = 0;
     c->linear = c->count.rows > 0;
+    c->all = all;
     while (c->degree < c->count.rows && (all || c->count.row[c->degree].complete || c->count.row[c->degree].functions)) c->linear &= c->count.row[c->degree++].complete;
     if (c->degree == c->count.rows) return;
     const nh_count_row *row = &c->count.row[c->degree];
@@ -52,11 +53,13 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
     else if (c->degree)
         nh_text_addf(out, "Complete to degree %zu: every integral polynomial in the velocities of degree %s%zu, with any functions of %s%s as coefficients, is a %s those found", c->degree, most, c->degree,
                      coefficients, c->count.leaf ? " (and of what the constraints keep constant)" : "", c->linear ? "polynomial in" : "function of");
-    if (c->degree) nh_text_addf(out, " (%s %s).", c->linear ? "proved for" : "the number of all is proved, the rank of their differentials taken modulo a prime, for", c->generic ? "generic parameters, and these" : "these parameters");
+    if (c->degree && c->all && !c->linear) nh_text_add(out, ": there cannot be more independent ones.");
+    else if (c->degree) nh_text_addf(out, " (%s %s).", c->linear ? "proved for" : "the number of all is proved, the rank of their differentials taken modulo a prime, for", c->generic ? "generic parameters, and these" : "these parameters");
     if (!c->missing_at) return;
     const nh_count_row *row = &c->count.row[c->missing_at - 1];
-    nh_text_addf(out, "%s degree %zu%s at most %zu more independent integral%s (order %zu%s).", c->degree ? " At" : "Not complete: at", c->missing_at,
-                 c->degree ? " there may be" : ", with any functions of the coordinates as coefficients, there may be", c->missing, plural(c->missing), row->order, row->settled ? "" : ", not settled");
+    nh_text_addf(out, "%s degree %zu", c->degree ? " At" : "Not complete: at", c->missing_at);
+    if (!c->degree) nh_text_addf(out, ", with any functions of %s as coefficients,", coefficients);
+    nh_text_addf(out, " there may be at most %zu more independent integral%s (order %zu%s).", c->missing, plural(c->missing), row->order, row->settled ? "" : ", not settled");
 }
 
 void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_t uncertain, nh_text *out)

@@ -15,6 +15,7 @@ typedef struct {
     nh_count count;         /* for the parameters' values */
     size_t degree;          /* complete up to this degree; 0: not even to the first */
     bool linear;            /* up to there all are polynomials in the known ones, which is proved; otherwise functions of them, tested at a point */
+    bool all;               /* functions of them in any case: there can be no more functionally independent ones */
     bool generic;           /* and so for algebraically independent parameters */
     size_t missing_at;      /* the least degree at which the bound is not reached, or 0 */
     size_t missing;         /* how many functionally independent ones are missing there at most */
