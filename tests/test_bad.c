@@ -1,68 +1,90 @@
-/* bad: every file tests/bad/NAME.yaml is refused with exactly the words of tests/bad/NAME.txt.
+/* bad: every wrong file of the tables in tests/bad is refused with exactly the message that stands below it.
  *
- * analysis_*.yaml are analysis files (of the system they name), the others system files.  To add one: write the file and the
- * message a person should read, then make the program say it. */
+ * A table is a sequence of cases, "=== NAME", the lines of the file, "=== message", the lines that a person should read; analyses.txt holds
+ * analysis files (of the system that they name), the others system files.  To add one: write the file and the message, then make the program
+ * say it. */
 #include <criterion/criterion.h>
 
-#include <dirent.h>
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/files.h"
 #include "base/memory.h"
 #include "geometry/model.h"
+#include "scratch.h"
 #include "study/analysis.h"
 
-static const char FOLDER[] = "tests/bad";
-enum { least_systems = 40, least_analyses = 10, most_files = 1000 };
+enum { least_systems = 250, least_analyses = 70, most_cases = 1000, most_table = 1 << 20 };
 
-/* ---- the files ---- */
+/* ---- the tables ---- */
 
-static bool ends_with(const char *text, const char *end)
+typedef struct bad_case { /* parts of the text of its table */
+    char *name, *file, *message;
+    bool  analysis;
+} bad_case;
+
+typedef struct bad_tables {
+    size_t   cases, tables;
+    bad_case at[most_cases];
+    char    *text[16];
+} bad_tables;
+
+/* The line after the next line that begins with `mark`, whose rest is in *rest; that line ends the text before it.  NULL at the end. */
+static char *after_mark(char *text, const char *mark, char **rest)
 {
-    size_t n = strlen(text), k = strlen(end);
-    return n > k && !strcmp(text + n - k, end);
-}
-
-static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
-
-/* The names in the folder that end with `end`, without it, sorted. */
-static size_t names_with(const char *end, char **out)
-{
-    DIR *folder = opendir(FOLDER);
-    size_t n = 0;
-    cr_assert_not_null(folder, "%s cannot be read: run the tests from the top folder of the project", FOLDER);
-    for (struct dirent *entry; (entry = readdir(folder));) {
-        if (!ends_with(entry->d_name, end)) continue;
-        cr_assert_lt(n, (size_t)most_files);
-        out[n] = nh_strdup(entry->d_name);
-        out[n++][strlen(entry->d_name) - strlen(end)] = 0;
+    char *at = text;
+    while (at && strncmp(at, mark, strlen(mark)) != 0) {
+        at = strchr(at, '\n');
+        if (at) at++;
     }
-    closedir(folder);
-    qsort(out, n, sizeof *out, by_name);
-    return n;
+    if (!at) return NULL;
+    char *end = strchr(at, '\n');
+    cr_assert_not_null(end);
+    *at = *end = 0;
+    *rest = at + strlen(mark);
+    return end + 1;
 }
 
-static void forget(char **names, size_t n)
+static void read_table(bad_tables *tables, const char *path)
 {
-    for (size_t i = 0; i < n; i++) nh_free(names[i]);
+    nh_error error;
+    size_t   length;
+    nh_error_clear(&error);
+    char *rest, *next, *text, *bytes = nh_files_read(path, most_table, &length, &error);
+    cr_assert_not_null(bytes, "%s cannot be read", path);
+    tables->text[tables->tables++] = text = nh_alloc_array(length + 1, 1);
+    memcpy(text, bytes, length);
+    nh_free(bytes);
+    cr_assert_eq(strncmp(text, "=== ", 4), 0, "%s is not a table of cases", path);
+    for (text = after_mark(text, "=== ", &rest); text; text = next) {
+        bad_case *c = &tables->at[tables->cases++];
+        cr_assert_lt(tables->cases, (size_t)most_cases);
+        *c = (bad_case){.name = rest, .file = text, .analysis = strstr(path, "analyses") != NULL};
+        c->message = after_mark(c->file, "=== message", &rest);
+        cr_assert_not_null(c->message, "%s has no message", c->name);
+        next = after_mark(c->message, "=== ", &rest);
+    }
 }
 
-/* A whole file as a string, or NULL. */
-static char *contents(const char *name, const char *end)
+static bad_tables *read_tables(void)
 {
-    char path[300];
-    snprintf(path, sizeof path, "%s/%s%s", FOLDER, name, end);
-    FILE *file = fopen(path, "r");
-    if (!file) return NULL;
-    char *text = nh_alloc(1 << 16);
-    size_t n = fread(text, 1, (1 << 16) - 1, file);
-    text[n] = 0;
-    fclose(file);
-    return text;
+    bad_tables *tables = nh_alloc(sizeof *tables);
+    glob_t      found;
+    *tables = (bad_tables){0};
+    cr_assert_eq(glob("tests/bad/*.txt", 0, NULL, &found), 0, "run the tests from the top folder of the project");
+    for (size_t i = 0; i < found.gl_pathc; i++) read_table(tables, found.gl_pathv[i]);
+    globfree(&found);
+    return tables;
 }
 
-static bool is_analysis(const char *name) { return !strncmp(name, "analysis_", strlen("analysis_")); }
+static void forget(bad_tables *tables)
+{
+    for (size_t i = 0; i < tables->tables; i++) nh_free(tables->text[i]);
+    nh_free(tables);
+}
 
 /* ---- what the program says ---- */
 
@@ -95,47 +117,56 @@ static void judge_analysis(const char *path, nh_error *error)
     nh_analysis_free(analysis);
 }
 
-static nh_code judge(const char *name, char *message, size_t size)
+/* Each "FOLDER/" of the text away: where the file lies is not part of the message. */
+static void without_folder(char *text, const char *folder)
+{
+    size_t n = strlen(folder) + 1;
+    for (char *at; (at = strstr(text, folder));) memmove(at, at + n, strlen(at + n) + 1);
+}
+
+/* What the program says of the bytes as the file NAME.yaml in this folder. */
+static nh_code judge(const char *folder, const char *name, bool analysis, const char *bytes, size_t n, char *message, size_t size)
 {
     nh_error error;
-    char path[300];
+    char path[SCRATCH + 100];
     nh_error_clear(&error);
-    snprintf(path, sizeof path, "%s/%s.yaml", FOLDER, name);
-    (is_analysis(name) ? judge_analysis : judge_system)(path, &error);
+    cr_assert_lt(snprintf(path, sizeof path, "%s/%s.yaml", folder, name), (int)sizeof path);
+    FILE *file = fopen(path, "w");
+    cr_assert(file && fwrite(bytes, 1, n, file) == n && fclose(file) == 0, "%s cannot be written", path);
+    (analysis ? judge_analysis : judge_system)(path, &error);
+    cr_assert_eq(remove(path), 0);
     nh_error_format(&error, message, size - 1);
     strcat(message, "\n");
+    without_folder(message, folder);
     return error.code;
 }
 
 Test(bad, every_bad_file_is_refused_with_its_message)
 {
-    char *names[most_files], message[4096];
-    size_t n = names_with(".yaml", names), systems = 0, analyses = 0;
-    for (size_t i = 0; i < n; i++) {
-        char *expected = contents(names[i], ".txt");
-        *(is_analysis(names[i]) ? &analyses : &systems) += 1;
-        nh_code code = judge(names[i], message, sizeof message);
-        cr_expect_not_null(expected, "%s.txt is missing; the program says:\n%s", names[i], message);
-        cr_expect_eq(code, NH_INPUT, "%s.yaml: code %d", names[i], (int)code);
-        if (expected) cr_expect_str_eq(message, expected, "%s.yaml\n-- expected\n%s-- said\n%s", names[i], expected, message);
-        nh_free(expected);
+    bad_tables *tables = read_tables();
+    char folder[SCRATCH], message[4096];
+    size_t analyses = 0;
+    scratch_name(folder);
+    cr_assert_not_null(mkdtemp(folder));
+    for (size_t i = 0; i < tables->cases; i++) {
+        const bad_case *c = &tables->at[i];
+        nh_code code = judge(folder, c->name, c->analysis, c->file, strlen(c->file), message, sizeof message);
+        analyses += c->analysis;
+        cr_expect_eq(code, NH_INPUT, "%s: code %d", c->name, (int)code);
+        cr_expect_str_eq(message, c->message, "%s\n-- expected\n%s-- said\n%s", c->name, c->message, message);
     }
-    forget(names, n);
-    cr_expect_geq(systems, (size_t)least_systems, "only %zu system files", systems);
+    cr_expect_eq(rmdir(folder), 0);
+    cr_expect_geq(tables->cases - analyses, (size_t)least_systems, "only %zu system files", tables->cases - analyses);
     cr_expect_geq(analyses, (size_t)least_analyses, "only %zu analysis files", analyses);
+    forget(tables);
 }
 
-Test(bad, every_message_belongs_to_a_file)
+Test(bad, no_two_cases_have_one_name)
 {
-    char *names[most_files];
-    size_t n = names_with(".txt", names);
-    for (size_t i = 0; i < n; i++) {
-        char *text = contents(names[i], ".yaml");
-        cr_expect_not_null(text, "%s.txt has no %s.yaml", names[i], names[i]);
-        nh_free(text);
-    }
-    forget(names, n);
-    cr_expect_gt(n, (size_t)0);
+    bad_tables *tables = read_tables();
+    for (size_t i = 0; i < tables->cases; i++)
+        for (size_t j = 0; j < i; j++) cr_expect_str_neq(tables->at[i].name, tables->at[j].name);
+    forget(tables);
 }
 
 /* ---- are the places true? ---- */
@@ -173,16 +204,10 @@ static void check_place(const char *name, const char *message, const char *sourc
 
 Test(bad, messages_show_the_line_they_name)
 {
-    char *names[most_files];
-    size_t n = names_with(".txt", names);
-    for (size_t i = 0; i < n; i++) {
-        char *message = contents(names[i], ".txt"), *source = contents(names[i], ".yaml");
-        if (source) check_place(names[i], message, source);
-        nh_free(message);
-        nh_free(source);
-    }
-    forget(names, n);
-    cr_expect_gt(n, (size_t)0);
+    bad_tables *tables = read_tables();
+    for (size_t i = 0; i < tables->cases; i++) check_place(tables->at[i].name, tables->at[i].message, tables->at[i].file);
+    cr_expect_gt(tables->cases, (size_t)0);
+    forget(tables);
 }
 
 /* ---- files that are no text files ---- */
@@ -201,4 +226,16 @@ Test(bad, files_that_cannot_be_read)
     nh_error_format(&error, message, sizeof message);
     cr_expect_str_eq(message, "tests/bad: this is a directory, not a file");
     cr_expect_eq(error.code, NH_INPUT);
+}
+
+/* A file that no table can hold: its bytes are not text. */
+Test(bad, a_file_in_another_encoding)
+{
+    static const char utf16[] = "\xff\xfen\0a\0m\0e\0:\0 \0w\0\n\0";
+    char folder[SCRATCH], message[4096];
+    scratch_name(folder);
+    cr_assert_not_null(mkdtemp(folder));
+    cr_expect_eq(judge(folder, "bytes_utf16", false, utf16, sizeof utf16 - 1, message, sizeof message), NH_INPUT);
+    cr_expect_str_eq(message, "bytes_utf16.yaml: the file is in the encoding UTF-16\nhint: save the file in the encoding UTF-8\n");
+    cr_expect_eq(rmdir(folder), 0);
 }

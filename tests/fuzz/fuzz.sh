@@ -31,7 +31,9 @@ for target in fuzz_expression fuzz_system; do
     mkdir -p "$corpus"
     clang $flags -fsanitize=fuzzer "tests/fuzz/$target.c" "$build"/src_*.o $libraries -o "$build/$target" || exit 2
     if [ "$target" = fuzz_system ]; then
-        seeds="systems tests/bad"
+        seeds="systems $build/bad" # every wrong file of the tables is a seed
+        mkdir -p "$build/bad"
+        awk -v out="$build/bad/" '/^=== message$/ {file = ""; next} /^=== / {close(file); file = out $2 ".yaml"; printf "" >file; next} file {print >file}' tests/bad/*.txt
     else # every expression of the systems is a seed
         seeds="$build/expressions"
         mkdir -p "$seeds"
