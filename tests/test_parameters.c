@@ -38,18 +38,13 @@ static const cJSON *current(const cJSON *root, const char *expression)
 
 /* ---- currents ---- */
 
-Test(parameters, only_the_special_one_is_fixed)
+/* At k = 1 the arguments have no letter, and the formulas hold for all k nevertheless. */
+Test(parameters, a_value_that_only_looks_special_is_none)
 {
     cJSON *root = answer("analyze sleigh --json - --set k=1 --set a=0.7");
-    const cJSON *phi = current(root, "m*(v*sin(phi) + a*omega*cos(phi))"), *holds = cJSON_GetObjectItemCaseSensitive(phi, "holds");
-    cr_assert_not_null(phi, "the momentum along a fixed direction is not there with its parameters");
-    cr_expect(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(phi, "proved")) && cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(phi, "proved_for_all_parameters")));
-    cr_expect(cJSON_GetArraySize(holds) == 1 && number_of(holds, "k") == 1, "holds: %s", cJSON_PrintUnformatted(holds));
-    char *field = cJSON_PrintUnformatted(cJSON_GetObjectItemCaseSensitive(phi, "symmetry"));
-    cr_expect_null(strstr(field, "k^2"), "the field has k: %s", field);
-    cJSON_free(field);
-    const cJSON *first = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(root, "currents"), 0);
-    cr_expect_str_eq(text_of(first, "holds"), "all parameters");
+    const cJSON *phi = current(root, "m*(v*sin(phi/k) + a*k*omega*cos(phi/k))");
+    cr_assert_not_null(phi, "the current that is a momentum at k = 1 is not there with its parameters");
+    cr_expect_str_eq(text_of(phi, "holds"), "all parameters");
     cJSON_Delete(root);
 }
 
@@ -74,6 +69,124 @@ Test(parameters, momenta_of_three_bodies_hold_for_all_masses)
     const cJSON *item;
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "currents")) cr_expect_str_eq(text_of(item, "holds"), "all parameters", "%s", text_of(item, "expression"));
     cJSON_Delete(root);
+}
+
+/* ---- numbers inside of terms: rates, frequencies, exponents ---- */
+
+/* What `--set` gives the parameters: the same formulas, each for all parameters. */
+typedef struct {
+    const char *system, *set[3];
+    int currents;
+} named_case;
+
+static cJSON *analyzed(const place *p, const char *set)
+{
+    char line[200];
+    snprintf(line, sizeof line, "analyze s.yaml --json - %s", set);
+    finished f = run(p, line);
+    cJSON *root = cJSON_Parse(f.out);
+    cr_assert_not_null(root, "%s: %s", line, f.err);
+    finished_clear(&f);
+    return root;
+}
+
+static void expect_names(const named_case *c)
+{
+    place p = place_make();
+    write_here(&p, "s.yaml", c->system);
+    cJSON *first = NULL;
+    for (size_t i = 0; i < 3 && c->set[i]; i++) {
+        cJSON *root = analyzed(&p, c->set[i]);
+        const cJSON *list = cJSON_GetObjectItemCaseSensitive(root, "currents"), *item;
+        cr_expect_eq(cJSON_GetArraySize(list), c->currents, "%s: %d currents", c->set[i], cJSON_GetArraySize(list));
+        cJSON_ArrayForEach(item, list)
+        {
+            const char *e = text_of(item, "expression");
+            cr_expect_str_eq(text_of(item, "holds"), "all parameters", "%s: %s", c->set[i], e);
+            cr_expect(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(item, "proved")), "%s: %s", c->set[i], e);
+            cr_expect(!first || current(first, e), "%s gives another formula: %s", c->set[i], e);
+        }
+        if (first) cJSON_Delete(root);
+        else first = root;
+    }
+    cJSON_Delete(first);
+    place_clear(&p);
+}
+
+/* Frequencies are no products of parameters: (H +- sqrt(H^2 - 4 a M))/(2 M), and whole numbers at some values. */
+Test(parameters, frequencies_of_a_trap_are_named)
+{
+    expect_names(&(named_case){"name: s\nparameters: {a: 0.7, H: 3.1, M: 1.9}\ncoordinates: [u, v]\n"
+                               "lagrangian: M*(u'^2 + v'^2)/2 + H*(u*v' - v*u')/2 + a*(u^2 + v^2)/2\n",
+                               {"", "--set a=0.4321 --set H=2.7183 --set M=1.1", "--set a=2 --set H=3 --set M=1"}, 4});
+}
+
+Test(parameters, frequencies_in_a_turning_frame_are_named)
+{
+    expect_names(&(named_case){"name: s\nparameters: {w: 2.3, W: 0.31}\ncoordinates: [x, y]\n"
+                               "lagrangian: (x'^2 + y'^2)/2 + W*(x*y' - y*x') - (w^2 - W^2)/2*(x^2 + y^2)\n",
+                               {"", "--set w=1.9173 --set W=0.7712", "--set w=3 --set W=1"}, 4});
+}
+
+/* A decay and a frequency together; two decays. */
+Test(parameters, rates_of_damped_motions_are_named)
+{
+    static const char damped[] = "name: s\nparameters: {m: 1.3, k: 2.1, c: 0.3, b: 0.7}\ncoordinates: [x, y]\n"
+                                 "lagrangian: m*(x'^2 + y'^2)/2 - k*(x^2 + y^2)/2 - b*x*y\nforces: [\"x = -c*x'\", \"y = -c*y'\"]\n";
+    expect_names(&(named_case){damped, {"", "--set m=0.9174 --set k=1.7731 --set c=0.4 --set b=0.3219"}, 4});
+    static const char one[] = "name: s\nparameters: {m: 1.3, k: 2.1, c: 0.3}\ncoordinates: [x]\nlagrangian: m*x'^2/2 - k*x^2/2\nforces: [\"x = -c*x'\"]\n";
+    expect_names(&(named_case){one, {"", "--set m=2 --set k=1.7 --set c=0.4321"}, 2});
+    expect_names(&(named_case){one, {"--set c=5.3", "--set c=4.7719 --set m=0.7", "--set m=1 --set k=2 --set c=3"}, 2});
+}
+
+/* The speed is kept: momenta grow with exp(E x/(M u^2)). */
+Test(parameters, rates_of_a_thermostat_are_named)
+{
+    expect_names(&(named_case){"name: s\nparameters: {M: 0.83, E: 1.37, u: 0.91}\ncoordinates: [x, y, z]\nlagrangian: M*(x'^2 + y'^2 + z'^2)/2 + E*x\n"
+                               "constraints: [\"x'^2 + y'^2 + z'^2 = u^2\"]\ndependent: [z]\ndomain: {x': [-0.4, 0.4], y': [-0.4, 0.4], z': [0.3, 0.9]}\n",
+                               {"", "--set M=1.2719 --set E=0.9123 --set u=1.1", "--set M=2 --set E=3 --set u=1"}, 3});
+}
+
+/* The one current with these values fixed, all others for all parameters. */
+static void expect_special(const char *system, const char *parameter, double value, const char *expression)
+{
+    place p = place_make();
+    write_here(&p, "s.yaml", system);
+    cJSON *root = analyzed(&p, "");
+    const cJSON *special = current(root, expression), *holds = cJSON_GetObjectItemCaseSensitive(special, "holds");
+    cr_assert_not_null(special, "no %s", expression);
+    cr_expect(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(special, "proved")) && cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(special, "proved_for_all_parameters")));
+    cr_expect(cJSON_GetArraySize(holds) == 1 && number_of(holds, parameter) == value, "holds: %s", cJSON_PrintUnformatted(holds));
+    const cJSON *first = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(root, "currents"), 0);
+    cr_expect_str_eq(text_of(first, "holds"), "all parameters");
+    cJSON_Delete(root);
+    place_clear(&p);
+}
+
+/* x^n with n = -2: given as a parameter it must have its value, and the others stay symbols; given as a number nothing is special. */
+Test(parameters, only_the_special_one_is_fixed)
+{
+    expect_special("name: s\nparameters: {m: 1.3, k: 0.7, n: -2}\ncoordinates: [x]\nlagrangian: m*x'^2/2 - k*x^n\ndomain: {x: [0.5, 2]}\n", "n", -2,
+                   "m*x*x' - t*(m*x'^2 + 2*k/x^2)");
+    expect_special("name: s\nparameters: {g: 2, m: 1.3, c: 2.1, d: 1.7, b: 0.9}\ncoordinates: [x, y]\n"
+                   "lagrangian: m*(x'^2 + y'^2)/2 - c*x^2/2 - d*y^2/2 - b*(x^2*y + g*y^3)\n", "g", 2,
+                   "(m*x'^2*(4*c - d - 4*b*y) + x*(4*m*b*x'*y' + x*(c*(4*c - d + 4*b*y) + b^2*(x^2 + 4*y^2))))/2");
+    expect_names(&(named_case){"name: s\nparameters: {m: 1.3, k: 0.7}\ncoordinates: [x]\nlagrangian: m*x'^2/2 - k*x^(-2)\ndomain: {x: [0.5, 2]}\n",
+                               {"", "--set m=0.9127 --set k=1.1371"}, 2});
+}
+
+Test(parameters, rates_of_shipped_systems_are_named)
+{
+    static const char *const name[] = {"penning_trap", "foucault_pendulum", "omni_robot", "constant_speed"};
+    for (size_t i = 0; i < 4; i++) {
+        char line[80];
+        snprintf(line, sizeof line, "analyze %s --json -", name[i]);
+        cJSON *root = answer(line);
+        const cJSON *item;
+        cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "currents"))
+            cr_expect_str_eq(text_of(item, "holds"), "all parameters", "%s: %s", name[i], text_of(item, "expression"));
+        cJSON_Delete(root);
+    }
 }
 
 /* ---- groups ---- */

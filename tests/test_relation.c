@@ -12,6 +12,7 @@
 #include "expr/normal.h"
 #include "expr/print.h"
 #include "expr/relation.h"
+#include "expr/relation_unknown.h"
 #include "expr/tape.h"
 #include "typed.h"
 
@@ -408,4 +409,57 @@ Test(relation, dense)
         cr_expect(nh_normal_is_zero(dag, sum, 0) == NH_ZERO);
         nh_dag_free(dag);
     }
+}
+
+/* ---- numbers for which there is a relation ---- */
+
+/* Rates of terms along x'' = .., with unknown numbers A, B; at the values of the parameters a, b, k these are `value`. */
+typedef struct {
+    const char *what, *rate[4];
+    double c[4], parameter[3], value[2];
+    const char *expected[2];
+} unknown_case;
+
+static void expect_unknown(const unknown_case *s)
+{
+    nh_dag *dag = nh_dag_create();
+    nh_ex e[4], parameter[3], unknown[2], x[2];
+    size_t n = 0, unknowns = s->expected[1] ? 2 : 1;
+    symbols(dag, "a b k", parameter);
+    symbols(dag, "A B", unknown);
+    for (; n < 4 && s->rate[n]; n++) e[n] = ex(dag, s->rate[n]);
+    nh_unknown_numbers numbers = {dag, 3, parameter, s->parameter, unknowns, unknown, s->value, 0};
+    cr_assert(nh_relation_unknown(&numbers, n, e, s->c, x), "%s: nothing found", s->what);
+    for (size_t i = 0; i < unknowns; i++) {
+        char *text = nh_print_string(dag, x[i]);
+        cr_expect(nh_normal_is_zero(dag, nh_sub(dag, x[i], ex(dag, s->expected[i])), 0) == NH_ZERO, "%s: %s", s->what, text);
+        nh_free(text);
+    }
+    nh_dag_free(dag);
+}
+
+Test(relation, numbers_are_solved_for)
+{
+    /* v' = -k x/a: v cos(A t) + A x sin(A t) */
+    expect_unknown(&(unknown_case){"a frequency", {"-k*x/a*cos(A*t) - A*v*sin(A*t)", "v*sin(A*t) + A*x*cos(A*t)"}, {1, 1.5}, {2, 1, 4.5}, {1.5}, {"sqrt(k)/sqrt(a)"}});
+    /* v' = -a v - k x, underdamped: e^(A t) (c_1 x sin(B t) + c_2 x cos(B t) + v cos(B t)), A = a/2 and B^2 = k - a^2/4 */
+    expect_unknown(&(unknown_case){"a decay with a frequency", {"exp(A*t)*(v*sin(B*t) + A*x*sin(B*t) + B*x*cos(B*t))", "exp(A*t)*(v*cos(B*t) + A*x*cos(B*t) - B*x*sin(B*t))",
+                                    "exp(A*t)*(-(a*v + k*x)*cos(B*t) + A*v*cos(B*t) - B*v*sin(B*t))"}, {1.2, 0.5, 1}, {1, 3, 1.69}, {0.5, 1.2}, {"a/2", "sqrt(4*k - a^2)/2"}});
+    /* v' = -a v - k x, overdamped */
+    expect_unknown(&(unknown_case){"one of two decays", {"exp(A*t)*(A*x + v)", "exp(A*t)*(A*v - a*v - k*x)"}, {2, 1}, {3, 1, 2}, {1}, {"(a - sqrt(a^2 - 4*k))/2"}});
+    expect_unknown(&(unknown_case){"an exponent", {"x^A*v*(A*a - b)"}, {1}, {3, 1, 2}, {1. / 3}, {"b/a"}});
+}
+
+/* A number that no relation needs is no function of the parameters, and neither is one of a cubic equation. */
+Test(relation, numbers_without_a_form_are_left_alone)
+{
+    nh_dag *dag = nh_dag_create();
+    nh_ex e[1] = {ex(dag, "x*(A^3 - A - a)")}, parameter[1], unknown[1], x[1];
+    double a = 6, value = 2, c = 1;
+    symbols(dag, "a", parameter);
+    symbols(dag, "A", unknown);
+    cr_expect_not(nh_relation_unknown(&(nh_unknown_numbers){dag, 1, parameter, &a, 1, unknown, &value, 0}, 1, e, &c, x));
+    value = 3; /* there is no relation */
+    cr_expect_not(nh_relation_unknown(&(nh_unknown_numbers){dag, 1, parameter, &a, 1, unknown, &value, 0}, 1, e, &c, x));
+    nh_dag_free(dag);
 }

@@ -1,4 +1,4 @@
-/* lift: rounded numbers in an expression as symbols, so that they can be varied. */
+/* lift: numbers in an expression as symbols, so that they can be varied. */
 #ifndef NH_LIFT_H
 #define NH_LIFT_H
 
@@ -9,11 +9,22 @@ enum { NH_MOST_LIFTED = 4 };
 typedef struct {
     size_t count;
     double value[NH_MOST_LIFTED]; /* positive; each stands for its negative too */
+    nh_num exact[NH_MOST_LIFTED]; /* the same number */
     nh_ex symbol[NH_MOST_LIFTED];
     bool overflow;                /* there were more */
 } nh_lifted;
 
 /* e with every inexact number (constant, coefficient, exponent) replaced by its symbol in the table, which grows. */
 nh_ex nh_lift(nh_dag *dag, nh_ex e, nh_lifted *table);
+
+/* Which numbers inside of functions and exponents are meant. */
+typedef enum {
+    NH_LIFT_ROUGH,     /* neither whole nor half: 0.7 in cos(0.7 t), not in x^(1/2) */
+    NH_LIFT_FRACTIONS, /* all that are not whole */
+    NH_LIFT_ALL        /* all factors in arguments, 1 too: cos(t) as cos(x t) */
+} nh_lift_kind;
+
+/* e with symbols for the rational factors in arguments of exp, sin and the like, and for exponents; what depends on the `constant` symbols alone stays. */
+nh_ex nh_lift_inside(nh_dag *dag, nh_ex e, nh_lift_kind kind, size_t constants, const nh_ex *constant, nh_lifted *table);
 
 #endif

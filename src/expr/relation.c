@@ -3,21 +3,11 @@
 #include "expr/emit.h"
 #include "expr/form.h"
 #include "expr/normal.h"
-#include "expr/relation_solve.h"
+#include "expr/relation_internal.h"
 
 enum { default_terms = 20000, most_kernels = 300 };
 
-/* All expressions in one field. */
-typedef struct {
-    nh_dag *dag;
-    size_t n, parameters;
-    const nh_ex *parameter;
-    nh_forms forms;
-    nh_form form;
-    nh_ex *e; /* with canonical arguments */
-    bool *constant; /* kernel -> does it depend on parameters only? */
-    const nh_quotient **value, **c;
-} question;
+typedef nh_relation_question question;
 
 /* ---- kernels ---- */
 
@@ -184,10 +174,9 @@ static bool emit(question *q, const nh_quotient *value, nh_ex *out)
 
 static bool emit_all(question *q, nh_ex *coefficient)
 {
-    for (size_t i = 0; i < q->form.kernels.count; i++) q->form.kernels.item[i].length = 1; /* they are symbols mostly */
     for (size_t j = 0; j < q->n; j++) {
         coefficient[j] = nh_int(q->dag, 0);
-        if (q->c[j] && !emit(q, q->c[j], &coefficient[j])) return false;
+        if (q->c[j] && !nh_relation_question_emit(q, q->c[j], &coefficient[j])) return false;
     }
     return true;
 }
@@ -216,28 +205,52 @@ static bool evaluate_all(question *q)
 
 static nh_relation_verdict ask(question *q, const nh_ex *e, nh_ex *coefficient)
 {
-    if (!rewrite_all(q, e) || !collect_kernels(q) || !evaluate_all(q)) return NH_RELATION_TOO_LARGE;
-    nh_relation_system system = {.field = q->form.field, .constant = q->constant, .n = q->n, .value = q->value};
+    if (!nh_relation_question_read(q, e)) return NH_RELATION_TOO_LARGE;
+    nh_relation_system system = nh_relation_question_system(q);
     nh_relation_verdict verdict = nh_relation_solve(&system, q->c);
     if (verdict == NH_RELATION_UNIQUE && !emit_all(q, coefficient)) verdict = NH_RELATION_TOO_LARGE;
     return verdict;
+}
+
+void nh_relation_question_init(question *q, nh_dag *dag, size_t n, size_t parameters, const nh_ex *parameter, size_t max_terms)
+{
+    *q = (question){.dag = dag, .n = n, .parameters = parameters, .parameter = parameter};
+    nh_forms_init(&q->forms, dag, false, max_terms ? max_terms : default_terms);
+    q->e = nh_alloc_array(n, sizeof *q->e);
+    q->value = nh_alloc_array(n, sizeof *q->value);
+    q->c = nh_alloc_array(n, sizeof *q->c);
+}
+
+bool nh_relation_question_read(question *q, const nh_ex *e) { return rewrite_all(q, e) && collect_kernels(q) && evaluate_all(q); }
+
+nh_relation_system nh_relation_question_system(const question *q)
+{
+    return (nh_relation_system){.field = q->form.field, .constant = q->constant, .n = q->n, .value = q->value};
+}
+
+bool nh_relation_question_emit(question *q, const nh_quotient *value, nh_ex *out)
+{
+    for (size_t i = 0; i < q->form.kernels.count; i++) q->form.kernels.item[i].length = 1; /* they are symbols mostly */
+    return emit(q, value, out);
+}
+
+void nh_relation_question_clear(question *q)
+{
+    nh_form_clear(&q->form);
+    nh_forms_clear(&q->forms);
+    nh_free(q->e);
+    nh_free(q->constant);
+    nh_free(q->value);
+    nh_free(q->c);
 }
 
 nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter, size_t max_terms,
                                      nh_ex *coefficient)
 {
     if (n == 0) return NH_RELATION_NONE;
-    question q = {.dag = dag, .n = n, .parameters = parameters, .parameter = parameter};
-    nh_forms_init(&q.forms, dag, false, max_terms ? max_terms : default_terms);
-    q.e = nh_alloc_array(n, sizeof *q.e);
-    q.value = nh_alloc_array(n, sizeof *q.value);
-    q.c = nh_alloc_array(n, sizeof *q.c);
+    question q;
+    nh_relation_question_init(&q, dag, n, parameters, parameter, max_terms);
     nh_relation_verdict verdict = ask(&q, e, coefficient);
-    nh_form_clear(&q.form);
-    nh_forms_clear(&q.forms);
-    nh_free(q.e);
-    nh_free(q.constant);
-    nh_free(q.value);
-    nh_free(q.c);
+    nh_relation_question_clear(&q);
     return verdict;
 }

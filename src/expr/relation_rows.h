@@ -18,7 +18,7 @@ typedef struct {
     size_t columns, terms; /* within the support that was weighed */
 } nh_relation_row;
 
-typedef struct {
+typedef struct nh_relation_rows {
     const nh_relation_system *system;
     size_t width, terms, rows;
     uint32_t *exponent;

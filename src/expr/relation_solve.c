@@ -294,6 +294,15 @@ static bool solve_support(nh_relation_rows *rows, const size_t *column, size_t n
     return good;
 }
 
+bool nh_relation_solve_rows(nh_relation_rows *rows, const size_t *chosen, const nh_quotient **c)
+{
+    size_t n = rows->system->n, *column = nh_alloc_array(n + 1, sizeof *column);
+    for (size_t j = 0; j < n; j++) column[j] = j;
+    bool good = solve_support(rows, column, n, chosen, c);
+    nh_free(column);
+    return good;
+}
+
 /* sum_j c_j N_j = 0 */
 static bool verify(const nh_relation_system *s, const nh_quotient *const *c)
 {

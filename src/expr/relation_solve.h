@@ -21,6 +21,10 @@ typedef struct {
 /* The verdict; when unique, c[j] gets quotients without denominators and without common factor. */
 nh_relation_verdict nh_relation_solve(const nh_relation_system *system, const nh_quotient **c);
 
+/* The vector that n - 1 independent rows leave, like c of the verdict; false where it is too large or one of its entries is zero. */
+struct nh_relation_rows;
+bool nh_relation_solve_rows(struct nh_relation_rows *rows, const size_t *chosen, const nh_quotient **c);
+
 /* q[j] times a common factor such that there are no denominators, also none that come from relations.  False, with the
  * field broken, when that is too large. */
 bool nh_relation_clear_denominators(nh_field *field, size_t n, const nh_quotient **q);

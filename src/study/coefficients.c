@@ -5,20 +5,37 @@
 
 #include "expr/normal.h"
 #include "noether/fixed.h"
+#include "noether/letters.h"
 #include "noether/recognise.h"
 #include "noether/refine.h"
 #include "noether/sharpen.h"
 
+/* The relation of the terms' rates; where it needs values of parameters, or has no exact numbers, with names for the numbers inside of terms. */
+static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out)
+{
+    bool rounded = false;
+    nh_ex *rate = nh_alloc_array(c->count + 1, sizeof *rate);
+    for (size_t j = 0; j < c->count; j++) {
+        rate[j] = nh_model_gamma(o, c->term[j]);
+        rounded = rounded || !nh_is_short(o->dag, c->term[j]);
+    }
+    nh_fixed relation = nh_fixed_relation(o, c->count, rate, c->coefficient, options, out);
+    if (!relation.all_parameters && (rounded || !relation.too_large)) {
+        nh_fixed named = nh_letters_relation(o, c->count, c->term, c->coefficient, options, rate);
+        if (named.found) relation = named;
+        if (named.found) memcpy(out, rate, c->count * sizeof *out);
+    }
+    nh_free(rate);
+    return relation;
+}
+
 /* Exact: Gamma of the support's terms are linearly related over the field of the parameters, some of them at their given values where that is needed. */
 static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, nh_claim *claim)
 {
-    nh_ex *rate = nh_alloc_array(c->count + 1, sizeof *rate);
-    for (size_t j = 0; j < c->count; j++) rate[j] = nh_model_gamma(o, c->term[j]);
-    nh_fixed relation = nh_fixed_relation(o, c->count, rate, c->coefficient, options, out);
+    nh_fixed relation = relation_of(o, c, options, out);
     for (size_t j = 0; j < c->count && relation.fixed && relation.found && !relation.too_large; j++) c->term[j] = nh_fixed_values(o, relation.fixed, c->term[j]);
     *claim = (nh_claim){.free = true, .fixed = relation.fixed, .related = relation.found};
     if (relation.too_large) *claim = (nh_claim){.free = true}; /* nothing is known of other values: the proof may be shorter than the relation */
-    nh_free(rate);
     return relation.found;
 }
 
@@ -61,6 +78,20 @@ static nh_refined refine_terms(const nh_model *o, const nh_candidate *c, const n
     return better;
 }
 
+/* Terms that turn out to have no part are no terms: they may have relations of their own. */
+static void drop_zeros(nh_candidate *c)
+{
+    size_t n = 0, pivot = 0;
+    for (size_t j = 0; j < c->count; j++) {
+        if (c->coefficient[j] == 0 && j != c->pivot) continue;
+        if (j == c->pivot) pivot = n;
+        c->term[n] = c->term[j];
+        c->coefficient[n++] = c->coefficient[j];
+    }
+    c->count = n;
+    c->pivot = pivot;
+}
+
 static void refine(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f)
 {
     nh_refined better = refine_terms(o, c, options);
@@ -72,6 +103,7 @@ static void refine(const nh_model *o, nh_candidate *c, const nh_options *options
     f->refined = better.count ? better.digits[0] : -1;
     f->moved = better.count && !near(c->count, c->coefficient, better.coefficient); /* of the same terms, but not the one that doubles saw */
     if (better.count) memcpy(c->coefficient, better.coefficient, c->count * sizeof *c->coefficient);
+    if (better.count) drop_zeros(c);
     nh_refined_clear(&better);
 }
 
