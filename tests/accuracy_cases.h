@@ -10,19 +10,17 @@
 
 #include "motion/accuracy.h"
 
-enum { accuracy_outputs = 6, accuracy_starts = 3, first_start = 2, accuracy_asked = 8, cheap_methods = 3 };
+enum { accuracy_outputs = 6, accuracy_starts = 6, accuracy_times = 3, first_start = 2, accuracy_asked = 8, cheap_methods = 3 };
 
 typedef struct {
     const nh_model *model;
     nh_state initial;
     double until, eps;
-    size_t ways;          /* that were measured before, from another start; 0: none */
-    const nh_way *way;
     nh_accuracy a;
     bool complete, known, wrong; /* known: there is a truth */
     double error;                /* of the motion that is returned; NAN where there is no truth */
     long least_evaluations;      /* of the cheapest run that suffices; 0: none does */
-    double least_seconds;
+    double least_effort, least_seconds;
 } accuracy_case;
 
 static inline nh_trajectory *accuracy_run(const accuracy_case *c, const char *method, double tolerance, bool search, nh_accuracy *a)
@@ -37,7 +35,7 @@ static inline nh_trajectory *accuracy_run(const accuracy_case *c, const char *me
     for (int i = 0; i < accuracy_outputs; i++) times[i] = c->initial.t + c->until * i / (accuracy_outputs - 1);
     nh_trajectory_request q = {.model = c->model, .initial = &c->initial, .count = accuracy_outputs, .times = times, .options = &options, .n = c->model->m, .e = c->model->rho,
                                .max_seconds = 3, .method = search ? NULL : nh_method_find(method)};
-    nh_ways ways = {.count = c->ways, .way = c->way, .survey = true};
+    nh_ways ways = {.survey = true};
     return search ? nh_trajectory_accurate(&q, c->eps, &ways, a, &error) : nh_trajectory_create(&q, &error);
 }
 
@@ -62,13 +60,13 @@ static inline double accuracy_difference(const accuracy_case *c, const nh_trajec
 static inline void cheapest(accuracy_case *c, const nh_trajectory *truth)
 {
     static const char *const names[cheap_methods] = {"GSL rk8pd", "GSL rkf45", "CVODE Adams"};
-    c->least_seconds = INFINITY;
+    c->least_effort = c->least_seconds = INFINITY;
     for (int i = 0; i < cheap_methods; i++)
         for (double tolerance = fmin(1e-2, 10 * c->eps), good = 0; tolerance > 1e-14 && !good; tolerance /= 3) {
             nh_trajectory *t = accuracy_run(c, names[i], tolerance, false, NULL);
             good = accuracy_difference(c, t, truth) < c->eps;
             if (good && (!c->least_evaluations || t->motion->evaluations < c->least_evaluations)) c->least_evaluations = t->motion->evaluations;
-            if (good) c->least_seconds = fmin(c->least_seconds, t->motion->seconds);
+            if (good) c->least_effort = fmin(c->least_effort, t->motion->effort), c->least_seconds = fmin(c->least_seconds, t->motion->seconds);
             nh_trajectory_free(t);
         }
 }
@@ -91,13 +89,13 @@ static inline void accuracy_try(accuracy_case *c, bool compare)
 /* The start and time number `index` of the system number `system`; false when there are not so many.  q and v: m values each. */
 static inline bool accuracy_start(accuracy_case *c, const nh_model *o, size_t system, size_t index, double *q, double *v)
 {
-    static const double times[accuracy_starts] = {3.7, 12.9, 47};
+    static const double times[accuracy_times] = {3.7, 12.9, 47};
     const nh_chart *chart = o->chart;
     if (first_start + index >= chart->probes) return false;
     const double *point = chart->probe + (first_start + index) * chart->width;
     nh_tape *tape = nh_model_tape(o, o->m, o->rho);
     nh_tape_work *work = nh_tape_work_create(tape);
-    *c = (accuracy_case){.model = o, .until = times[index % accuracy_starts], .eps = pow(10, -4 - (double)((3 * system + 5 * index) % accuracy_asked)), .initial = {.t = point[0], .q = q, .v = v}};
+    *c = (accuracy_case){.model = o, .until = times[index % accuracy_times], .eps = pow(10, -4 - (double)((3 * system + 5 * index) % accuracy_asked)), .initial = {.t = point[0], .q = q, .v = v}};
     memcpy(q, point + 1, o->m * sizeof *q);
     nh_tape_eval(tape, work, point, v);
     nh_tape_work_free(work);

@@ -9,7 +9,6 @@ program=${NHSYM:-build/nhsym}
 [ $# -gt 0 ] || set -- systems/*.yaml tests/data/nasty/*.yaml
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
-export NHSYM_CACHE="$work/cache"
 
 # One run: command, system, exit code, processor seconds, and how it ended.
 one()

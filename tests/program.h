@@ -131,7 +131,6 @@ static inline void set_environment(const manner *how)
 {
     static const char *const ours[] = {"NHSYM_PATH", "NO_COLOR", "MAKEFLAGS", "MAKELEVEL", "MFLAGS", NULL};
     for (size_t i = 0; ours[i]; i++) unsetenv(ours[i]);
-    setenv("NHSYM_CACHE", ".cache", 1); /* in the folder where it runs, not in the home of whoever tests */
     for (size_t i = 0; how->environment && how->environment[i]; i++)
         if (strchr(how->environment[i], '=')) putenv((char *)how->environment[i]);
         else unsetenv(how->environment[i]);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/budget.h"
+#include "base/effort.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 
@@ -23,6 +24,8 @@ enum {
     PATIENT = 400,   /* columns: decompositions of fewer are not interrupted */
     SVD = 12, PIVOTED = 3, EIGEN = 20 /* times m n min(m, n) multiplications */
 };
+
+static const double CALL = 350, ROW = 50, FLOP = 0.4; /* units of effort: of LAPACK, per row, and per multiplication in small matrices */
 
 void nh_linalg_threads(int count)
 {
@@ -343,6 +346,7 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
     if (!nh_all_finite(n * n, a) || !nh_all_finite(n * nrhs, b))
         return false;
     nh_work_add(NH_WORK_DENSE, product(n, n, n + nrhs));
+    nh_effort_add(CALL + ROW * (double)n + FLOP * product(n, n, n + nrhs));
     lapack_int size = (lapack_int)n;
     double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, '1', size, size, a, size);
     lapack_int *swap = nh_alloc_array(n, sizeof *swap);
@@ -367,6 +371,7 @@ int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size
         return 0;
     }
     nh_work_add(NH_WORK_DENSE, PIVOTED * product(m, n, smaller(m, n)));
+    nh_effort_add(PIVOTED * (CALL + ROW * (double)n + FLOP * product(m, n, smaller(m, n))));
     lapack_int rank = -1;
     lapack_int *order = nh_alloc_array(n, sizeof *order);
     for (size_t j = 0; j < nrhs && m < n; j++)

@@ -53,7 +53,7 @@
     X(transport_steps,  4000,   1,      1e9,   whole, "steps",    "of the transport of 1-jets, in all")                                    \
     X(jets,             240,     1,      1e5,   whole, "unknowns", "reduce: m coordinates give m (m + 1)/2 unknowns of local symmetries of the metric; more are not solved for") \
     X(ideals,           24,      1,      1000,  whole, "dimensions", "reduce: a larger Lie algebra is not taken apart into ideals")           \
-    X(compile,          1,       0,      1e6,   real,  "",         "a motion's equations are compiled once interpreting them took so many times what compiling takes; 0: never") \
+    X(compile,          1,       0,      1e6,   real,  "",         "a motion's equations are compiled once interpreting them needed so many times the counted work of compiling; 0: never") \
     X(stress_tolerance, 1e-8,    1e-14,  1e-2,  real,  "",         "of the motions of chart --stress")                                       \
     X(stress_error,     1e-4,    1e-12,  1,     real,  "",         "an error up to this is right in chart --stress")                         \
     X(stress_steps,     3e4,     10,     1e10,  whole, "steps",    "a motion of chart --stress that needs more steps is out of time")        \

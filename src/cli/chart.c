@@ -28,19 +28,6 @@ static bool write_all(nh_cli *cli, const nh_run *run, const nh_comparison *c, co
     return nh_cli_written(cli, good, error);
 }
 
-/* For `simulate --accuracy`, in the folder of cache.h. */
-static void keep(const nh_cli *cli, const nh_comparison *c)
-{
-    nh_error trouble;
-    nh_error_clear(&trouble);
-    bool good = true;
-    for (size_t i = 0; i < c->rankings; i++)
-        if (c->ranking[i].count) good = good && nh_ranking_write(&c->ranking[i], c->question->system->name, &trouble);
-    if (cli->quiet || (good && !cli->verbose)) return;
-    if (good) fprintf(stderr, "nhsym: `simulate --accuracy` will choose by this chart\n");
-    else fprintf(stderr, "warning: the chart is not kept for `simulate --accuracy`: %s\n", trouble.what);
-}
-
 int nh_cli_chart(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
@@ -53,7 +40,6 @@ int nh_cli_chart(nh_cli *cli, nh_error *error)
     nh_stress *s = c && cli->stress && !nh_interrupted() ? nh_stress_create(&request, cli->over, of_stress, error) : NULL;
     nh_cli_watch_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
-    if (c && error->code == NH_OK && !nh_interrupted()) keep(cli, c);
     if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);
     nh_stress_free(s);
     if (c && error->code == NH_OK && nh_interrupted()) nh_fail_ended(error, "while methods were compared: this is what was measured until then");

@@ -99,7 +99,7 @@ static void manual_page(void)
         putchar('\n');
     }
     puts(".SH EXIT STATUS\n0 done; 1 verify says no; 2 a wrong command line; 3 a wrong file; 4 a computation failed for a reason that is told; 5 a limit was reached; 130 interrupted. "
-         "With 5 and 130 partial results are written and marked partial.\n.SH ENVIRONMENT\n.TP\n.B NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for long motions instead of cc; empty: none\n.TP\n.B NHSYM_CACHE\nthe folder for what chart measures, instead of ~/.cache/nhsym; empty: nothing is kept\n.TP\n.B NO_COLOR\n"
+         "With 5 and 130 partial results are written and marked partial.\n.SH ENVIRONMENT\n.TP\n.B NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for long motions instead of cc; empty: none\n.TP\n.B NO_COLOR\n"
          "no colours");
 }
 

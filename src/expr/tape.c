@@ -4,8 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/effort.h"
 #include "base/memory.h"
 #include "expr/tape_internal.h"
+
+static const double call = 8, each_value = 0.3; /* units of an evaluation beside its instructions: at all, and per input and output */
 
 /* ---- values of single operations ---- */
 
@@ -317,6 +320,8 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
     tape->code = nh_alloc_array(c.length + 1, sizeof *tape->code);
     tape->output = nh_alloc_array(n_out + 1, sizeof *tape->output);
     assign(&c, tape, virtual_out);
+    tape->effort = call + each_value * (double)(n_in + n_out);
+    for (size_t i = 0; i < tape->length; i++) tape->effort += nh_op_effort(tape->code[i].op);
     nh_free(virtual_out);
     nh_free(c.value);
     nh_free(c.kind);
@@ -370,11 +375,12 @@ void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, dou
 {
     static void *const plain[] = {[NH_OP_ADD] = &&add, [NH_OP_SUB] = &&sub, [NH_OP_MUL] = &&mul, [NH_OP_DIV] = &&div, [NH_OP_NEG] = &&other,
                                   [NH_OP_INV] = &&other, [NH_OP_SQUARE] = &&square, [NH_OP_SQRT] = &&other, [NH_OP_POW] = &&other};
+    nh_effort_add(tape->effort);
     if (work->code) {
         work->code(in, out);
         return;
     }
-    if (work->left && --work->left == 0) nh_tape_look(tape, work, in);
+    if (work->left && --work->left == 0) nh_tape_look(tape, work);
     double *r = work->scalar;
     const nh_instruction *x = tape->code, *end = x + tape->length;
     if (tape->inputs) memcpy(r, in, tape->inputs * sizeof *r);

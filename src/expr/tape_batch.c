@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/effort.h"
 #include "base/memory.h"
 #include "expr/tape_internal.h"
 
@@ -35,6 +36,8 @@ extern VECTOR double log(double);
 extern VECTOR double pow(double, double);
 extern VECTOR double atan2(double, double);
 #endif
+
+static const double in_batch = 0.25; /* of the units of an evaluation by itself */
 
 /* Points are computed in whole blocks, the widest vector of doubles: no loop has a remainder. */
 enum { BLOCK = 8 };
@@ -101,6 +104,7 @@ static void prepare(const nh_tape *tape, nh_tape_work *work)
 void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, const double *const *in, double *const *out)
 {
     if (count == 0) return;
+    nh_effort_add(in_batch * tape->effort * (double)count);
     if (!work->batch) prepare(tape, work);
     double **row = work->row;
     size_t padded = (count + BLOCK - 1) / BLOCK * BLOCK;

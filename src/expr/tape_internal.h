@@ -17,6 +17,7 @@ typedef struct {
 /* Registers: [0, inputs) inputs, [inputs, inputs + constants) constants, then temporaries. */
 struct nh_tape {
     size_t inputs, constants, registers, length, outputs;
+    double effort;    /* units of one evaluation (base/effort.h) */
     double *constant;
     nh_instruction *code;
     uint32_t *output; /* register of each output */
@@ -32,11 +33,14 @@ struct nh_tape_work {
     nh_machine *machine;   /* where the code comes from, or will */
     double patience;       /* it is compiled after so many times what compiling costs */
     uint64_t left;         /* evaluations until the next look at it; 0: never */
-    double each;           /* seconds of an evaluation; 0: not measured yet */
+    bool looked;           /* there was a first look at whether another motion has paid for it */
     const char *words;     /* why there is no machine; or NULL */
 };
 
-/* One look: time an evaluation, start the compiler, or see whether it is ready (tape_hasten.c). */
-void nh_tape_look(const nh_tape *tape, nh_tape_work *work, const double *in);
+/* One look: has another motion paid for the code, start the compiler, or see whether it is ready (tape_hasten.c). */
+void nh_tape_look(const nh_tape *tape, nh_tape_work *work);
+
+/* Units of one instruction, interpreted. */
+double nh_op_effort(unsigned op);
 
 #endif

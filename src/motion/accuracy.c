@@ -4,19 +4,18 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "base/progress.h"
 
 enum { most_confirmations = 5 };
 static const char *const explicit_pair[2] = {"GSL rk8pd", "ARKODE Fehlberg"}, *const implicit_pair[2] = {"CVODE BDF", "ARKODE ESDIRK"};
 static const double loosest = nh_accuracy_loosest, tightest = nh_accuracy_tightest, step = nh_accuracy_step;
 static const double least_exponent = 0.2, most_exponent = 0.9; /* with which differences fall */
-static const double quick = 0.1, faster = 20;  /* a first run that takes longer than these seconds is compared with CVODE BDF, which must be so many times faster */
-
-static const double patience = 10;        /* times what was measured: the first run may take so long, or `quick` */
-static const double worthwhile = 0.05;    /* seconds: other ways are measured for a motion that takes so long by the winner of the race, */
-static const double survey_share = 0.25;  /* in such a part of that time; */
-static const double shortest = 5e-4, most_times = 16; /* where there are more motions like it: seconds of one at least, and how many of them count */
+/* In units of base/effort.h. */
+static const double quick = 1e8, faster = 20;  /* a first run that needs more than this is compared with CVODE BDF, which must need so many times less */
+static const double patience = 10;        /* times what was measured: the first run may need so much, or `quick` */
+static const double worthwhile = 5e7;     /* other ways are measured for a motion that needs so much by the winner of the race, */
+static const double survey_share = 0.25;  /* with such a part of it; */
+static const double shortest = 5e5, most_times = 16; /* where there are more motions like it: what one needs at least, and how many of them count */
 static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one number of fixed steps to the next */
 
 typedef struct {
@@ -24,18 +23,16 @@ typedef struct {
     const nh_ways *ways;
     double eps;
     nh_accuracy *out;
-    const nh_way *way;     /* the one that was measured and chosen; NULL: none was, or it did not do here */
+    const nh_way *way;     /* the one that was given, or measured and chosen; NULL: none was, or it did not do here */
     nh_survey survey;
     nh_trajectory_request own; /* with the model that a survey had derived */
-    double last;           /* seconds of the last run, with all that it needed */
-    double first;          /* seconds of the whole motion by the winner of the race */
+    double first;          /* units of the whole motion by the winner of the race */
     nh_programs *programs; /* for methods with a fixed step */
     double *floor;         /* least scales of what is wanted */
     bool measured_terms;   /* they are among them */
     const nh_method *method[2];
     bool doubtful; /* another method is to confirm */
-    bool stopped;  /* the first run of the race, after its time */
-    bool tried;    /* something that was measured, whether or not it did */
+    bool stopped;  /* the first run of the race, by its limit */
 } search;
 
 static double span_of(const nh_trajectory_request *q) { return fabs(q->times[q->count - 1] - q->times[0]); }
@@ -80,7 +77,7 @@ static nh_state disturbed(const nh_trajectory_request *q, double *q_and_v)
     return out;
 }
 
-static nh_trajectory *run(search *s, const nh_method *method, double tolerance, bool disturb, double max_seconds, nh_error *error)
+static nh_trajectory *run(search *s, const nh_method *method, double tolerance, bool disturb, double max_effort, nh_error *error)
 {
     nh_trajectory_request q = *s->request;
     nh_options options = *q.options;
@@ -90,19 +87,18 @@ static nh_trajectory *run(search *s, const nh_method *method, double tolerance, 
     options.tolerance = tolerance;
     q.options = &options;
     q.method = method;
-    q.max_seconds = max_seconds;
+    q.max_effort = max_effort;
     if (s->way && method == s->way->method) {
         q.velocities = s->way->velocities;
         q.programs = s->programs;
         if (fixed(s)) q.step = spacing_of(&q) / steps_at(s, tolerance);
     }
-    double begin = nh_clock();
     nh_trajectory *t = nh_trajectory_create(&q, error);
     nh_free(work);
-    s->last = nh_clock() - begin;
     s->out->runs++;
     if (t) {
         s->out->evaluations += t->motion->evaluations;
+        s->out->effort += t->motion->effort;
         s->out->seconds += t->motion->seconds;
     }
     if (t && t->motion->complete && !s->measured_terms) nh_accuracy_terms(s->request, t, s->floor), s->measured_terms = true;
@@ -125,11 +121,11 @@ static void take(search *s, const char *const pair[2])
 
 static bool complete(const nh_trajectory *t) { return t && t->motion->complete; }
 
-/* Seconds that a run would have taken to its end. */
+/* Units that a run would have needed to its end. */
 static double whole(const nh_trajectory_request *q, const nh_trajectory *t)
 {
     double begin = q->times[0], done = t ? (t->motion->end_time - begin) / (q->times[q->count - 1] - begin) : 0;
-    return t ? t->motion->seconds / fmax(done, 1e-6) : INFINITY;
+    return t ? t->motion->effort / fmax(done, 1e-6) : INFINITY;
 }
 
 /* After an interruption: the one that came farther. */
@@ -148,8 +144,8 @@ static const nh_method *other_of(const nh_method *method)
     return nh_method_find(pair[method == nh_method_find(pair[0])]);
 }
 
-/* The first run of a way; NULL when it does not reach the end in so many seconds. */
-static nh_trajectory *take_way(search *s, const nh_way_choice *choice, double seconds, double *tolerance)
+/* The first run of a way; NULL when it does not reach the end with so much effort. */
+static nh_trajectory *take_way(search *s, const nh_way_choice *choice, double effort, double *tolerance)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -159,10 +155,11 @@ static nh_trajectory *take_way(search *s, const nh_way_choice *choice, double se
     if (fixed(s) && !s->programs) s->programs = nh_programs_create(s->request->model);
     if (fixed(s) && nh_method_refused(s->method[0], s->programs)) return NULL;
     double setting = fixed(s) ? s->eps : between(nh_way_setting(s->way, s->eps), 10 * tightest, loosest);
-    nh_trajectory *t = run(s, s->method[0], setting, true, seconds, &ignored);
+    nh_trajectory *t = run(s, s->method[0], setting, true, effort, &ignored);
     if (complete(t) || (t && nh_interrupted())) {
         s->doubtful = nh_way_doubtful(s->method[0]);
         s->out->measured = true;
+        s->out->other = choice->other ? choice->other->method : NULL;
         s->out->next = choice->next;
         *tolerance = setting;
         return t;
@@ -173,28 +170,27 @@ static nh_trajectory *take_way(search *s, const nh_way_choice *choice, double se
 
 static nh_way_limits limits_of(const search *s) { return (nh_way_limits){.scene = s->request->smallest, .other = s->request->other != NULL, .spacing = spacing_of(s->request)}; }
 
-/* What was measured before; NULL when nothing was, or it does not reach the end in about the time that it took then. */
-static nh_trajectory *take_kept(search *s, double *tolerance)
+/* What was given; NULL when nothing was, or it does not reach the end with about the work that it needed then. */
+static nh_trajectory *take_given(search *s, double *tolerance)
 {
     nh_way_limits limits = limits_of(s);
     nh_way_choice choice = nh_way_cheapest(s->ways->count, s->ways->way, s->eps, &limits);
     if (!choice.way) return NULL;
-    s->tried = true;
-    s->out->choice = NH_CHOICE_KEPT;
-    return take_way(s, &choice, fmax(quick, patience * choice.way->seconds * span_of(s->request)), tolerance);
+    s->out->choice = NH_CHOICE_GIVEN;
+    return take_way(s, &choice, fmax(quick, patience * choice.way->effort * span_of(s->request)), tolerance);
 }
 
-/* The pair of methods, and its first run: not to its end where it takes long, then with the explicit pair. */
+/* The pair of methods, and its first run: not to its end where it needs much work, then with the explicit pair. */
 static nh_trajectory *race(search *s, double tolerance)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
     take(s, explicit_pair);
     nh_trajectory *t = run(s, s->method[0], tolerance, true, quick, &ignored);
-    s->stopped = s->last >= quick;
+    s->stopped = t && !complete(t) && t->motion->effort > quick;
     if (complete(t) || (t && nh_interrupted())) return t;
     take(s, implicit_pair);
-    nh_trajectory *other = run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e-3, 1e6), &ignored);
+    nh_trajectory *other = run(s, s->method[0], tolerance, true, between(whole(s->request, t) / faster, 1e6, 1e15), &ignored);
     s->doubtful = complete(other); /* implicit methods can damp what grows: always confirmed */
     if (s->doubtful || nh_interrupted()) return farther(other, t);
     nh_trajectory_free(other);
@@ -218,34 +214,33 @@ static nh_state state_on_the_way(const search *s, const nh_trajectory *t, double
     return good ? (nh_state){.t = one.time[0], .q = q_and_v, .v = q_and_v + o->m} : at;
 }
 
-/* Other ways on a piece of the motion, whose first run by the winner of the race is t; the first run of one that saves time, or NULL. */
+/* Other ways on a piece of the motion, whose first run by the winner of the race is t; the first run of one that saves work, or NULL. */
 static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *tolerance)
 {
     if (!s->ways->survey || !t || !(complete(t) || s->stopped)) return NULL;
     s->first = whole(s->request, t);
     if (s->first * (1 + s->ways->more) < worthwhile || s->first < shortest) return s->out->choice = NH_CHOICE_SHORT, NULL;
-    double *work = nh_alloc_array(2 * s->request->model->m + 1, sizeof *work), limit = s->request->max_seconds;
+    double *work = nh_alloc_array(2 * s->request->model->m + 1, sizeof *work);
     nh_state at = state_on_the_way(s, t, work);
-    nh_survey_terms terms = {.eps = s->eps, .best = s->method[0], .seconds = s->first, .budget = survey_share * s->first * between(s->ways->more, 1, most_times), .plain = s->ways->plain, .floor = s->floor};
-    if (limit > 0) terms.budget = fmin(terms.budget, survey_share * limit);
+    nh_survey_terms terms = {.eps = s->eps, .best = s->method[0], .effort = s->first, .budget = survey_share * s->first * between(s->ways->more, 1, most_times), .plain = s->ways->plain, .floor = s->floor};
     const nh_model *other = s->ways->derive && !s->ways->plain && !s->request->smallest ? s->ways->derive(s->ways->context, terms.budget) : NULL;
     if (other) s->own.other = other;
     nh_survey_make(s->request, &at, &terms, &s->survey);
     nh_free(work);
     s->out->choice = NH_CHOICE_SURVEY;
     s->out->evaluations += s->survey.evaluations;
+    s->out->effort += s->survey.effort;
     s->out->seconds += s->survey.seconds;
-    if (s->survey.count && s->ways->keep && !nh_interrupted()) s->ways->keep(s->ways->context, s->eps, &s->survey);
     nh_way_limits limits = limits_of(s);
     nh_way_choice choice = nh_survey_choose(&s->survey, s->method[0], s->eps, &limits, complete(t) && !(s->ways->more > 0));
     if (!choice.way || nh_interrupted()) return NULL;
     const nh_method *winner[2] = {s->method[0], s->method[1]};
-    nh_trajectory *found = take_way(s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->seconds * span_of(s->request))), tolerance);
+    nh_trajectory *found = take_way(s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->effort * span_of(s->request))), tolerance);
     if (!found) s->way = NULL, s->method[0] = winner[0], s->method[1] = winner[1];
     return found;
 }
 
-/* Where nothing was measured before: the pair of methods, and the first run. */
+/* Where nothing was given: the pair of methods, and the first run. */
 static nh_trajectory *choose(search *s, double *tolerance, nh_error *error)
 {
     nh_error ignored;
@@ -256,7 +251,7 @@ static nh_trajectory *choose(search *s, double *tolerance, nh_error *error)
     if (t && nh_interrupted()) return t;
     nh_trajectory *other = take_surveyed(s, t, tolerance);
     if (!other && complete(t)) return t;
-    if (!other) other = run(s, s->method[0], *tolerance, true, s->request->max_seconds, t ? &ignored : error);
+    if (!other) other = run(s, s->method[0], *tolerance, true, 0, t ? &ignored : error);
     if (other && !nh_interrupted()) {
         nh_trajectory_free(t);
         return other;
@@ -269,7 +264,7 @@ static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_trajectory *b = run(s, s->method[0], s->out->tolerance, false, s->request->max_seconds, &ignored);
+    nh_trajectory *b = run(s, s->method[0], s->out->tolerance, false, 0, &ignored);
     if (!b || nh_interrupted()) return farther(a, b);
     s->out->estimate = fmax(s->out->estimate, difference(s, a, b));
     nh_trajectory_free(a);
@@ -280,7 +275,7 @@ static nh_trajectory *undisturbed(search *s, nh_trajectory *a)
 static nh_trajectory *tighten(search *s, nh_error *error)
 {
     double eps = s->eps, coarse = between(nh_accuracy_first * eps, 10 * tightest, loosest), last_difference = 0, last_ratio = 0, exponent = nh_accuracy_exponent;
-    nh_trajectory *a = take_kept(s, &coarse);
+    nh_trajectory *a = take_given(s, &coarse);
     if (!a) a = choose(s, &coarse, error);
     double fine = tighter(s, coarse, step);
     nh_error ignored;
@@ -288,7 +283,7 @@ static nh_trajectory *tighten(search *s, nh_error *error)
     bool clean = false;
     s->out->tolerance = coarse;
     for (int i = 1; complete(a) && i < NH_ACCURACY_RUNS; i++) {
-        nh_trajectory *b = run(s, s->method[0], fine, clean, s->request->max_seconds, &ignored);
+        nh_trajectory *b = run(s, s->method[0], fine, clean, 0, &ignored);
         if (nh_interrupted()) {
             nh_trajectory_free(b); /* the coarser one is complete */
             break;
@@ -308,7 +303,7 @@ static nh_trajectory *tighten(search *s, nh_error *error)
         last_ratio = ratio;
         coarse = fine;
         fine = tighter(s, coarse, between(pow(eps / (4 * s->out->estimate), 1.25), 1e-5, step));
-        bool longer = s->out->choice == NH_CHOICE_SHORT && complete(a) && a->motion->seconds > worthwhile; /* than at the first tolerance */
+        bool longer = s->out->choice == NH_CHOICE_SHORT && complete(a) && a->motion->effort > worthwhile; /* than at the first tolerance */
         nh_trajectory *other = longer ? take_surveyed(s, a, &coarse) : NULL;
         if (!other) continue;
         nh_trajectory_free(a);
@@ -330,7 +325,7 @@ static void confirm(search *s, const nh_trajectory *t)
     s->out->second = s->method[1]->name;
     for (int i = 0; i < most_confirmations && (i == 0 || tolerance > tightest) && !(s->out->difference < s->eps); i++) {
         tolerance = i == 0 ? fmax(tolerance / 3, s->eps / 100) : fmax(tolerance / 30, tightest); /* one that agrees is tight enough, whatever the first needed */
-        nh_trajectory *other = run(s, s->method[1], tolerance, true, s->request->max_seconds, &ignored);
+        nh_trajectory *other = run(s, s->method[1], tolerance, true, 0, &ignored);
         s->out->difference = fmin(s->out->difference, difference(s, t, other));
         nh_trajectory_free(other);
     }
@@ -350,19 +345,14 @@ static void put_setting(const search *s, const nh_trajectory *t, char *out, size
 static void explain_choice(const search *s)
 {
     nh_accuracy *a = s->out;
-    bool surveyed = a->choice == NH_CHOICE_SURVEY || s->ways->surveyed;
-    const char *from = a->choice == NH_CHOICE_SURVEY ? "of the ways that were measured" : surveyed ? "of the ways that were measured for an earlier motion" : "in the chart of these equations";
     char *end = a->why + strlen(a->why);
-#define SAY(...) (end += snprintf(end, sizeof a->why - (size_t)(end - a->why), __VA_ARGS__), end = end < a->why + sizeof a->why ? end : a->why + sizeof a->why - 1)
-    if (s->ways->count && a->choice != NH_CHOICE_KEPT)
-        SAY("; %s %s", s->ways->surveyed ? "what was measured for an earlier motion" : "the chart of these equations", s->tried ? "has a faster method, which did not reach the end here" : "has no error below that");
-    if (a->measured && isnan(a->next) && surveyed) SAY("; the cheapest below %.1e %s, and no other is half as fast", s->eps, from);
-    else if (a->measured && isnan(a->next)) SAY("; the only one below %.1e %s", s->eps, from);
-    else if (a->measured) SAY("; the cheapest below %.1e %s, where the next takes %.2g times as long", s->eps, from, a->next);
-    if (a->choice == NH_CHOICE_SURVEY && a->measured) SAY(" (%zu on %.2g %% of the motion)", s->survey.tried, 100 * s->survey.part);
-    else if (a->choice == NH_CHOICE_SURVEY) SAY("; %zu ways were measured on %.2g %% of the motion: none would save time", s->survey.tried, 100 * s->survey.part);
-    else if (a->choice == NH_CHOICE_SHORT) SAY("; the motion takes %.2g ms: measuring other methods would take longer", 1e3 * s->first);
-#undef SAY
+    size_t left = sizeof a->why - strlen(a->why);
+    double part = 100 * s->survey.part;
+    if (a->choice == NH_CHOICE_SHORT) snprintf(end, left, "; the motion needs %.2g million counted operations: measuring other methods would need more", s->first / 1e6);
+    if (a->choice != NH_CHOICE_SURVEY) return;
+    if (!a->measured) snprintf(end, left, "; %zu ways were measured on %.2g %% of the motion: none would save work", s->survey.tried, part);
+    else if (a->other) snprintf(end, left, "; the cheapest below %.1e of %zu ways that were measured on %.2g %% of the motion, where the next, %s, needs %.2g times as much counted work", s->eps, s->survey.tried, part, a->other->name, a->next);
+    else snprintf(end, left, "; the cheapest below %.1e of %zu ways that were measured on %.2g %% of the motion, and no other needs less than twice as much counted work", s->eps, s->survey.tried, part);
 }
 
 static const char *words_of_size(const search *s, const nh_trajectory *t) { return nh_accuracy_cancels(s->request, t, s->out->quantity, &s->out->size) ? ", in which larger terms cancel" : ""; }
@@ -396,7 +386,7 @@ static nh_way way_of(const search *s, const nh_trajectory *t)
     const nh_accuracy *a = s->out;
     nh_way w = {.method = s->method[0], .velocities = s->way ? s->way->velocities : NH_OWN_VELOCITIES, .tolerance = a->tolerance, .step = NAN, .error = a->estimate};
     if (w.method->order) w.step = a->step, w.tolerance = NAN;
-    w.seconds = fmax(t->motion->seconds, 1e-9) / span_of(s->request);
+    w.effort = fmax(t->motion->effort, 1) / span_of(s->request);
     return w;
 }
 
@@ -424,7 +414,7 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
     return t;
 }
 
-/* What was measured tells of another motion, or of a piece of this one: where it does not do here, without it. */
+/* What was given or measured tells of another motion, or of a piece of this one: where it does not do here, without it. */
 nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error)
 {
     nh_trajectory *t = attempt(request, eps, ways, accuracy, error);
@@ -435,16 +425,18 @@ nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, doub
     nh_trajectory *other = attempt(request, eps, NULL, &plain, &ignored);
     plain.runs += accuracy->runs;
     plain.evaluations += accuracy->evaluations;
+    plain.effort += accuracy->effort;
     plain.seconds += accuracy->seconds;
     if (other && plain.held) {
         size_t used = strlen(plain.why);
-        snprintf(plain.why + used, sizeof plain.why - used, "; what was measured to be the cheapest, %s%s, did not reach it here", t->method, where(&accuracy->way));
+        snprintf(plain.why + used, sizeof plain.why - used, "; what seemed to be the cheapest, %s%s, did not reach it here", t->method, where(&accuracy->way));
         *accuracy = plain;
         nh_trajectory_free(t);
         return other;
     }
     accuracy->runs = plain.runs;
     accuracy->evaluations = plain.evaluations;
+    accuracy->effort = plain.effort;
     accuracy->seconds = plain.seconds;
     nh_trajectory_free(other);
     return t;

@@ -1,9 +1,9 @@
 /* accuracy: a motion whose error is measured to be below what was asked for, or a plain statement that it is not.
  *
- * 1. The method and its equations are the cheapest of those that were measured before on these equations and had a smaller error (way.h).  Where nothing
- *    was measured: an explicit pair of order 8; where that is slow and CVODE BDF much faster, as on stiff motions, CVODE BDF.  Where the motion takes so long
- *    by it that a choice can pay, other ways are then measured on a piece of the motion (survey.h), in a part of that time, and the cheapest takes over
- *    if it saves time from there on.
+ * 1. The method is an explicit pair of order 8; where that needs much work and CVODE BDF much less, as on stiff motions, CVODE BDF.  Where the motion needs so much
+ *    by it that a choice can pay, other ways are then measured on a piece of the motion (survey.h), with a part of that work, and the cheapest takes over if it saves
+ *    work from there on.  Work is counted (base/effort.h), not timed: the same motion is computed in the same way everywhere.  A caller who knows by which way motions
+ *    like this one were computed gives that.
  * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that is expected of them).  With d
  *    the difference of two successive runs and p the exponent with which differences fall (0.7 until two differences are known, then measured,
  *    within [0.2, 0.9]) the error of the tighter one is about d (tau2/tau1)^p. It is accepted when that is below eps/2 and d is below 30 eps, of the
@@ -19,23 +19,20 @@
 
 #include "motion/survey.h"
 
-/* Where the method comes from: the race of two methods; what was measured before; what was measured for this motion; the race, because the motion is too short
- * to measure anything. */
-typedef enum { NH_CHOICE_RACE, NH_CHOICE_KEPT, NH_CHOICE_SURVEY, NH_CHOICE_SHORT } nh_accuracy_choice;
+/* Where the method comes from: the race of two methods; who asked; what was measured for this motion; the race, because the motion is too short to measure
+ * anything. */
+typedef enum { NH_CHOICE_RACE, NH_CHOICE_GIVEN, NH_CHOICE_SURVEY, NH_CHOICE_SHORT } nh_accuracy_choice;
 
 /* What may be chosen from. */
 typedef struct {
-    size_t count;                       /* ways that were measured before on these equations */
+    size_t count;                       /* ways that a motion like this one was computed by */
     const nh_way *way;
-    bool surveyed;                      /* they come from surveys, not from a chart */
     bool survey;                        /* others may be measured where none of these does */
     double more;                        /* motions like this one are to be computed as this one was: measuring pays so much more */
     bool plain;                         /* only the model's own velocities and methods with error control, in a survey */
     void *context;
-    /* The model in other velocities, where it can be had in so many seconds; else NULL.  May be NULL. */
-    const nh_model *(*derive)(void *context, double seconds);
-    /* What was measured for this accuracy.  May be NULL. */
-    void (*keep)(void *context, double eps, const nh_survey *survey);
+    /* The model in other velocities, where deriving it costs no more than so many units of effort; else NULL.  May be NULL. */
+    const nh_model *(*derive)(void *context, double effort);
 } nh_ways;
 
 typedef struct {
@@ -43,14 +40,16 @@ typedef struct {
     double wanted, estimate, tolerance, step; /* of the motion that is returned: it has a tolerance or a fixed step; the other is NAN */
     nh_accuracy_choice choice;
     bool measured;                      /* the method is the cheapest of those that were measured */
-    double next;                        /* then: how many times as long the next takes; NAN: there is none */
+    const nh_method *other;             /* then: the method of the next, NULL: there is none; */
+    double next;                        /* how many times as much work that one needs; NAN */
     const char *second;                 /* the method that confirms; NULL: there was no doubt */
     double difference;                  /* from it; INFINITY when there was none, or it could not compute the motion */
     size_t quantity;                    /* the wanted expression that is least certain */
     double size;                        /* of it, along the motion */
     int runs;
     long evaluations;                   /* of all runs, those of a survey included */
-    double seconds;                     /* of all runs, without preparations */
+    double effort;                      /* units of base/effort.h of all runs, */
+    double seconds;                     /* and their time, which decides nothing */
     nh_way way;                         /* how the motion that is returned was computed, with what it cost and its estimated error */
     char why[512];                      /* the choice, or what failed, in words */
 } nh_accuracy;

@@ -7,14 +7,16 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/effort.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "motion/sizes.h"
 #include "motion/tableau.h"
 #include "system/sample.h"
 
-enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* that say nothing of the time that the others take */
+enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* that say nothing of what the others need */
 static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* of the step */
+static const double step_units = 500, sum_units = 0.3;                    /* of effort: of a step, and of a sum with one number of one member */
 static const double order = 8;
 static const double too_slow = 20;                                        /* a member that needs so much smaller steps than its batch goes alone */
 
@@ -26,7 +28,7 @@ typedef struct {
     nh_tape *values;
     bool *alone;
     long *evaluations; /* per batch */
-    double begun, limit; /* seconds by the clock of the thread; INFINITY: any number */
+    double begun, limit; /* units of effort of the thread; INFINITY: any number */
     double *reached;   /* times to which batches came; NULL: nobody asks */
 } plan;
 
@@ -147,12 +149,12 @@ static void store(batch *b, size_t output)
     nh_free(buffer);
 }
 
-/* Is it over with the time, or plainly will be? */
+/* Is the limit passed, or plainly will be? */
 static bool late(const batch *b, long steps)
 {
     const plan *p = b->p;
     if (!(p->limit < INFINITY)) return false;
-    double spent = nh_clock_of_thread() - p->begun, begin = p->request->times[0], part = (b->t - begin) / (p->request->times[p->request->count - 1] - begin);
+    double spent = nh_effort() - p->begun, begin = p->request->times[0], part = (b->t - begin) / (p->request->times[p->request->count - 1] - begin);
     if (steps < first_steps) return spent > p->limit;
     return spent > p->limit || (spent > p->limit / 4 && spent > 2 * part * p->limit) || (spent > p->limit / 16 && spent > 4 * part * p->limit);
 }
@@ -168,6 +170,7 @@ static bool go_to(batch *b, double target, long *steps)
         if (last) b->h = left;
         double worst = try_step(b);
         b->p->evaluations[b->first / lanes] += b->p->tableau.stages;
+        nh_effort_add(step_units + sum_units * (double)(b->p->tableau.stages * b->p->tableau.stages) / 2 * (double)(b->kept * lanes));
         double growth = worst > 0 && isfinite(worst) ? fmin(most_growth, fmax(least_growth, safety * pow(worst, -1 / order))) : isfinite(worst) ? most_growth : least_growth;
         if (worst <= 1) {
             b->t = last ? target : b->t + b->h;
@@ -391,17 +394,17 @@ nh_ensemble *nh_ensemble_create(const nh_trajectory_request *q, size_t members, 
     return e;
 }
 
-nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, const double *initial, double seconds, nh_trial *trial)
+nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, const double *initial, double effort, nh_trial *trial)
 {
     nh_error ignored = {0};
     plan p;
-    double begin = nh_clock_of_thread(), reached = q->times[0], span = q->times[q->count - 1] - q->times[0];
+    double begin = nh_effort(), clock = nh_clock(), reached = q->times[0], span = q->times[q->count - 1] - q->times[0];
     nh_ensemble *e = nh_ensemble_empty(q, members < lanes ? members : lanes, &ignored);
-    *trial = (nh_trial){.seconds = 0};
+    *trial = (nh_trial){.effort = 0};
     if (!e) return NULL;
     bool together = open_plan(&p, q, e, initial);
     p.begun = begin;
-    p.limit = seconds;
+    p.limit = effort;
     p.reached = &reached;
     if (together) do_batch(0, &p);
     trial->members = e->members;
@@ -410,8 +413,8 @@ nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, con
     bool complete = together && reached == q->times[q->count - 1] && !nh_interrupted();
     for (size_t i = 0; i < e->members; i++)
         if (p.alone[i]) trial->left++, unknown_from(&p, i, 0);
-    trial->seconds = together ? nh_clock_of_thread() - begin : INFINITY;
-    if (complete) e->seconds = trial->seconds, e->evaluations = trial->evaluations;
+    trial->effort = together ? nh_effort() - begin : INFINITY;
+    if (complete) e->seconds = nh_clock() - clock, e->evaluations = trial->evaluations;
     close_plan(&p);
     if (complete) return e;
     nh_ensemble_free(e);

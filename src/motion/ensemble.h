@@ -32,14 +32,14 @@ nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *request, size_t memb
 /* What a batch costs. */
 typedef struct {
     size_t members, left; /* of the first batch; of these, such as would have to be computed alone */
-    double seconds;       /* of computing, by the clock of the thread, for `part` of the motion; INFINITY: there are no batches of such equations */
+    double effort;        /* units of base/effort.h for `part` of the motion; INFINITY: there are no batches of such equations */
     double part;
     long evaluations;
 } nh_trial;
 
-/* The first batch for at most so many seconds: its members' motions, NAN where they are left over; NULL when it took longer,
+/* The first batch with at most so much effort: its members' motions, NAN where they are left over; NULL when it needed more,
  * or would by what it did until then, or cannot be computed. */
-nh_ensemble *nh_ensemble_try(const nh_trajectory_request *request, size_t members, const double *initial, double seconds, nh_trial *trial);
+nh_ensemble *nh_ensemble_try(const nh_trajectory_request *request, size_t members, const double *initial, double effort, nh_trial *trial);
 
 /* members x (m + n) values: the first is z0, the others lie around it within spread * max(|z0_i|, 1) in every state. */
 void nh_ensemble_states(size_t size, const double *z0, size_t members, double spread, uint64_t seed, double *initial);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/clock.h"
+#include "base/effort.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -15,7 +15,7 @@ static const double most_left = 0.05; /* of the members: so many may be computed
 static const double most_step = 1e-5; /* from one tolerance to the next */
 
 static const double passes = 2.3;     /* runs that an ensemble needs, of the cost of the first */
-static const double slower = 10, least_patience = 0.1; /* than the first a member may be; seconds: a busy machine is not to decide who takes another way */
+static const double slower = 10;      /* than the first a member may be, in counted work */
 static const double most_told = 1000;  /* a ratio above this says nothing more */
 enum { samples = 2 };                 /* members that are computed alone to see what they cost, beside the first */
 
@@ -23,7 +23,7 @@ enum { samples = 2 };                 /* members that are computed alone to see 
 typedef struct {
     bool done, held, reached; /* reached: the end */
     long evaluations;
-    double seconds, estimate;
+    double effort, seconds, estimate;
     char why[400];
 } loner;
 
@@ -181,7 +181,7 @@ static void compute_alone(search *s, size_t member, const nh_ways *ways, nh_accu
     size_t reached = t ? t->motion->count : 0;
     bool before = arrived(e, member);
     for (size_t i = 0; i < each && (reached == e->count || !before); i++) target[i] = i < reached * e->n ? t->value[i] : NAN;
-    *l = (loner){.done = true, .held = a->held, .reached = reached == e->count, .evaluations = a->evaluations, .seconds = a->seconds, .estimate = a->estimate};
+    *l = (loner){.done = true, .held = a->held, .reached = reached == e->count, .evaluations = a->evaluations, .effort = a->effort, .seconds = a->seconds, .estimate = a->estimate};
     snprintf(l->why, sizeof l->why, "%.399s", t ? a->why : error.what);
     nh_trajectory_free(t);
     nh_dynamics_free(d);
@@ -219,7 +219,7 @@ static void go_alone(search *s, size_t n)
 
 /* ---- together or alone? ---- */
 
-/* Seconds that a member takes alone, by the way that the first was found to need; INFINITY where that one is not as accurate as is wanted. */
+/* Units of effort that a member needs alone, by the way that the first was found to need; INFINITY where that one is not as accurate as is wanted. */
 static double cost_alone(search *s, const nh_ways *ways)
 {
     nh_accuracy a = {.held = false};
@@ -231,13 +231,13 @@ static double cost_alone(search *s, const nh_ways *ways)
     out->way = a.way;
     out->choice = a.choice;
     s->usual = a.way;
-    s->usual.seconds = fmax(slower * a.way.seconds, least_patience / fabs(s->request->times[s->request->count - 1] - s->request->times[0]));
+    s->usual.effort = slower * a.way.effort;
     s->ways = (nh_ways){.count = 1, .way = &s->usual};
     if (a.way.velocities == NH_OTHER_VELOCITIES && !s->own.other) s->own.other = ways->derive(ways->context, INFINITY);
-    double begin = nh_clock_of_thread();
+    double begin = nh_effort();
     size_t n = s->members - 1 < samples ? s->members - 1 : samples;
     for (size_t i = 1; i <= n && !nh_interrupted(); i++) compute_alone(s, i, &s->ways, &a);
-    return n ? (nh_clock_of_thread() - begin) / (double)n : a.seconds;
+    return n ? (nh_effort() - begin) / (double)n : a.effort;
 }
 
 /* Is it cheaper to compute all members alone?  *first: the first run of the ensemble in batches, where that was made to see it. */
@@ -254,7 +254,7 @@ static bool cheaper_alone(search *s, double each, nh_ensemble **first)
     nh_ensemble *e = nh_ensemble_try(&q, s->members, start, all / passes, &trial);
     nh_free(start);
     s->out->evaluations += trial.evaluations;
-    double together = e ? passes * trial.seconds + (double)trial.left * each : passes * trial.seconds / fmax(trial.part, 1e-6);
+    double together = e ? passes * trial.effort + (double)trial.left * each : passes * trial.effort / fmax(trial.part, 1e-6);
     s->out->ratio = all / together;
     bool whole = e && e->members == s->members && !trial.left;
     if (whole && together < all) {
@@ -282,9 +282,9 @@ static void explain(search *s)
     else snprintf(a->why, size, "%s, estimated errors at most %.1e", how, a->estimate);
     size_t used = strlen(a->why);
     if (nh_interrupted() || a->unsure || !(a->ratio > 0)) return;
-    if (a->all_alone && 1 / a->ratio > most_told) snprintf(a->why + used, size - used, "; in batches they would take more than %g times as long", most_told);
-    else if (a->all_alone) snprintf(a->why + used, size - used, "; in batches they would take about %.2g times as long", 1 / a->ratio);
-    else snprintf(a->why + used, size - used, "; each alone (%s) would take about %.2g times as long", a->way.method->name, a->ratio);
+    if (a->all_alone && 1 / a->ratio > most_told) snprintf(a->why + used, size - used, "; in batches they would need more than %g times as much counted work", most_told);
+    else if (a->all_alone) snprintf(a->why + used, size - used, "; in batches they would need about %.2g times as much counted work", 1 / a->ratio);
+    else snprintf(a->why + used, size - used, "; each alone (%s) would need about %.2g times as much counted work", a->way.method->name, a->ratio);
 }
 
 /* By batches as far as they go; the others alone. */

@@ -17,7 +17,7 @@ typedef struct {
     bool all_alone;             /* then by `way`, and the tolerance is that of the first member */
     nh_way way;                 /* of the first member alone; its method is NULL where that did not do */
     nh_accuracy_choice choice;  /* where that comes from */
-    double ratio;               /* time of all members alone to that in batches; 0: not known */
+    double ratio;               /* counted work of all members alone to that in batches; 0: not known */
     size_t alone, unsure;       /* members that were computed alone for it; that did not reach it all the same */
     int runs;                   /* of the whole ensemble */
     long evaluations;           /* of all runs */

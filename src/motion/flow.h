@@ -33,7 +33,7 @@ typedef struct {
     double absolute;         /* below this part of the largest size that a state has had its error is absolute: rtol * absolute * size */
     const double *scale;     /* size entries: rtol * scale[i] instead; NULL and absolute == 0: all 1 */
     double max_steps;        /* in total; 0: the default of 1e7 */
-    double seconds;          /* of wall-clock time; 0: no limit */
+    double effort;           /* units of base/effort.h, after which it ends; 0: no limit */
     bool (*cancelled)(void *context); /* polled; may be NULL */
     void *cancel_context;
     double step;             /* of methods with a fixed step */
@@ -53,7 +53,8 @@ typedef struct {
     double end_time;  /* where it ended */
     double *end_state; /* size: the state there; at a guard it is past the last output, and the next chart starts from it */
     long evaluations, steps, jacobians;
-    double seconds;
+    double effort;    /* units of base/effort.h that it took */
+    double seconds;   /* of wall-clock time, to be shown */
     char note[256];   /* why it ended early, in words */
 } nh_motion;
 
@@ -73,6 +74,7 @@ typedef struct {
     nh_step (*advance)(double *time, nh_motion *motion, void *context);
     /* The state at a time inside the last step; false when there is none. */
     bool (*state)(double time, double *state, void *context);
+    double step_effort;   /* units of one step, beside the right-hand sides and what is counted elsewhere */
     /* The last NH_STUCK_AFTER steps did not move the time: write the note. */
     void (*stuck)(nh_motion *motion, void *context);
 } nh_stepper;

@@ -8,6 +8,7 @@
 #include "expr/diff.h"
 
 enum { most_iterations = 30, gauss_points = 5, most_substeps = 5 };
+static const double step_units = 100, step_vectors = 10; /* units of effort (base/effort.h) of a step, and per number of the state */
 static const double same_equations = 1e-9; /* relative difference of the pair from the equations of motion that is rounding */
 
 /* Gauss-Legendre on [0, 1]. */
@@ -326,7 +327,7 @@ nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool compos
     k->t = times[0];
     k->step = options->step > 0 ? options->step : fabs(times[count - 1] - times[0]) / 100;
     memcpy(k->z0, initial, size * sizeof *initial);
-    nh_stepper stepper = {.context = k, .advance = midpoint_advance, .state = midpoint_state, .stuck = midpoint_stuck};
+    nh_stepper stepper = {.context = k, .advance = midpoint_advance, .state = midpoint_state, .stuck = midpoint_stuck, .step_effort = (double)k->substeps * (step_units + step_vectors * (double)size)};
     nh_motion_run(motion, count, times, options, &stepper);
     work_free(k);
     return motion;

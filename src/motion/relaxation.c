@@ -9,6 +9,7 @@
 enum { most_iterations = 20, most_halvings = 3 };
 static const double conserved = 1e-9; /* relative rate of the energy at the probes that is rounding */
 static const double farthest = 0.1;   /* of the factor from 1 */
+static const double step_units = 100, stage_vectors = 0.7; /* units of effort: of a step, and of the sums for each pair of stages */
 static const double rounding = 64 * DBL_EPSILON; /* of the energy, relative to the terms that it is made of */
 
 static const nh_tableau classical = {.stages = 4, .a = {[1] = {0.5}, [2] = {0, 0.5}, [3] = {0, 0, 1}}, .b = {1. / 6, 1. / 3, 1. / 3, 1. / 6}, .c = {0, 0.5, 0.5, 1}};
@@ -150,7 +151,7 @@ nh_motion *nh_relaxation(nh_programs *programs, nh_relaxation_rule rule, const d
     k.step = options->step > 0 ? options->step : fabs(times[count - 1] - times[0]) / 100;
     memcpy(k.z, initial, size * sizeof *initial);
     k.energy = nh_programs_at(programs, NH_PROGRAM_GRADIENT, k.t, k.z)[size];
-    nh_stepper stepper = {.context = &k, .advance = relaxation_advance, .state = relaxation_state, .stuck = relaxation_stuck};
+    nh_stepper stepper = {.context = &k, .advance = relaxation_advance, .state = relaxation_state, .stuck = relaxation_stuck, .step_effort = step_units + stage_vectors * (double)k.tableau.stages * (double)(k.tableau.stages * size)};
     nh_motion_run(motion, count, times, options, &stepper);
     nh_free(k.z);
     return motion;

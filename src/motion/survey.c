@@ -4,17 +4,18 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/effort.h"
 #include "base/progress.h"
 #include "motion/accuracy.h"
 
 enum { least_outputs = 9, most_outputs = 1000, most_runs = 3 };
 static const double share = 1.0 / 16, most_part = 0.25; /* of the budget, that the best known way takes for the piece; of the motion */
-static const double patience = 2, least_seconds = 2e-4; /* times the best so far: what takes longer has lost */
+static const double patience = 2, least_effort = 2e5;  /* times the best so far: what costs more has lost */
 static const double finer = 1e-2, finest_stiff = 1e-13; /* the reference: in parts of the error that is aimed at; CVODE's tolerance */
 static const double least_error = 3e-14;               /* that can be aimed at */
 static const double close = 30;                        /* an error so many times below the aim is as good as that: no further run */
 static const double safety = 3;                        /* further runs aim below */
-static const double long_motion = 1;                   /* second: then the functions of methods with fixed steps are worth deriving */
+static const double long_motion = 1e9;                 /* units: then the functions of methods with fixed steps are worth deriving */
 
 static const double gain = 0.7;                        /* another way than the best so far is chosen when it costs at most such a part of it */
 
@@ -38,13 +39,13 @@ typedef struct {
     nh_programs *programs;
     nh_trajectory *reference;
     double begun, length, whole, aim; /* aim: error on the piece that becomes eps on the whole */
-    double best;                      /* seconds for the piece, of what reached the aim */
+    double best;                      /* units for the piece, of what reached the aim */
     long steps;                       /* of the reference */
 } survey;
 
-static double left(const survey *s) { return s->begun + s->terms->budget - nh_clock(); }
+static double left(const survey *s) { return s->begun + s->terms->budget - nh_effort(); }
 
-static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velocities, double setting, double seconds)
+static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velocities, double setting, double effort)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -53,7 +54,7 @@ static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velo
     s->piece.programs = method->order ? s->programs : NULL;
     s->piece.step = method->order ? setting : 0;
     if (!method->order) s->options.tolerance = setting;
-    s->piece.max_seconds = fmax(fmin(seconds, left(s)), 1e-6);
+    s->piece.max_effort = fmax(fmin(effort, left(s)), 1);
     nh_trajectory *t = nh_trajectory_create(&s->piece, &ignored);
     if (t) s->out->evaluations += t->motion->evaluations;
     bool other = t && velocities == NH_OTHER_VELOCITIES && !strcmp(t->formulation, "reduced equations"); /* they could not be used */
@@ -78,16 +79,16 @@ static void try_way(survey *s, const nh_method *method, nh_velocities velocities
     s->out->tried++;
     for (int i = 0; i < most_runs && s->out->count < NH_SURVEY_WAYS; i++) {
         if (method->order) setting = spacing / ceil(spacing / setting * (1 - 1e-9)); /* steps end at the outputs */
-        nh_trajectory *t = run(s, method, velocities, setting, fmax(patience * s->best, least_seconds));
+        nh_trajectory *t = run(s, method, velocities, setting, fmax(patience * s->best, least_effort));
         if (!t) return;
         *(method->order ? &w.step : &w.tolerance) = setting;
-        double error = fmax(error_of(s, t), s->aim * finer), seconds = fmax(t->motion->seconds, 1e-9);
+        double error = fmax(error_of(s, t), s->aim * finer), effort = fmax(t->motion->effort, 1);
         nh_trajectory_free(t);
         if (!isfinite(error)) return;
         w.error = error * s->whole / s->length;
-        w.seconds = seconds / s->length;
+        w.effort = effort / s->length;
         if (w.error < 1) s->out->way[s->out->count++] = w;
-        if (error < s->aim) s->best = fmin(s->best, seconds);
+        if (error < s->aim) s->best = fmin(s->best, effort);
         if (error < s->aim && error > s->aim / close) return;
         double next = nh_way_setting(&w, s->terms->eps / safety);
         setting = method->order ? fmin(next, spacing) : fmax(nh_accuracy_tightest, fmin(next, nh_accuracy_loosest));
@@ -97,7 +98,7 @@ static void try_way(survey *s, const nh_method *method, nh_velocities velocities
 static bool open_piece(survey *s, const nh_state *from, double **times)
 {
     const nh_trajectory_request *q = s->request;
-    double begin = q->times[0], end = q->times[q->count - 1], part = fmin(most_part, share * s->terms->budget / s->terms->seconds);
+    double begin = q->times[0], end = q->times[q->count - 1], part = fmin(most_part, share * s->terms->budget / s->terms->effort);
     s->whole = fabs(end - begin);
     s->length = fmin(part * s->whole, fabs(end - from->t));
     double wanted = s->length * (double)q->count / s->whole;
@@ -124,7 +125,7 @@ static bool usable(survey *s, const candidate *c, const nh_method *method)
     if (c->velocities == NH_OTHER_VELOCITIES && !s->request->other) return false;
     if (c->velocities == NH_ALL_COORDINATES && !nh_may_leave_chart(s->request->model)) return false;
     if (!method->order) return true;
-    if (s->terms->seconds < long_motion) return false;
+    if (s->terms->effort < long_motion) return false;
     if (!s->programs) s->programs = nh_programs_create(s->request->model);
     return !nh_method_refused(method, s->programs);
 }
@@ -138,7 +139,7 @@ static void try_all(survey *s)
     s->steps = s->reference->motion->steps;
     s->best = INFINITY;
     try_way(s, best, NH_OWN_VELOCITIES);
-    s->best = fmin(s->best, s->reference->motion->seconds);
+    s->best = fmin(s->best, s->reference->motion->effort);
     for (size_t i = 0; i < sizeof candidates / sizeof *candidates && left(s) > 0 && !nh_interrupted(); i++) {
         const nh_method *method = nh_method_find(candidates[i].method);
         bool first = method == best && candidates[i].velocities == NH_OWN_VELOCITIES;
@@ -150,12 +151,14 @@ static void try_all(survey *s)
 
 void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, const nh_survey_terms *terms, nh_survey *out)
 {
-    survey s = {.request = request, .terms = terms, .out = out, .begun = nh_clock()};
+    survey s = {.request = request, .terms = terms, .out = out, .begun = nh_effort()};
+    double begun = nh_clock();
     double *times = NULL;
     *out = (nh_survey){.count = 0};
     if (open_piece(&s, from, &times)) try_all(&s);
     nh_free(times);
-    out->seconds = nh_clock() - s.begun;
+    out->effort = nh_effort() - s.begun;
+    out->seconds = nh_clock() - begun;
 }
 
 /* ---- what it says ---- */
@@ -166,7 +169,7 @@ static const nh_way *way_of(const nh_survey *s, const nh_method *method, double 
     const nh_way *best = NULL;
     for (size_t i = 0; i < s->count; i++) {
         const nh_way *w = &s->way[i];
-        if (w->method == method && w->velocities == NH_OWN_VELOCITIES && w->error < eps && (!best || w->seconds < best->seconds)) best = w;
+        if (w->method == method && w->velocities == NH_OWN_VELOCITIES && w->error < eps && (!best || w->effort < best->effort)) best = w;
     }
     return best;
 }
@@ -177,7 +180,7 @@ nh_way_choice nh_survey_choose(const nh_survey *s, const nh_method *best, double
     nh_way_choice choice = nh_way_cheapest(s->count, s->way, eps, limits);
     if (!choice.way || !own) return choice;
     double cost = nh_way_cost(s->count, s->way, eps, choice.way), whole = nh_way_cost(s->count, s->way, eps, own);
-    if (cost < gain * (whole - (done ? own->seconds : 0))) return choice;
+    if (cost < gain * (whole - (done ? own->effort : 0))) return choice;
     if (choice.way->method != best) choice.next = fmax(1, cost / whole); /* so little is no difference */
     choice.way = done ? NULL : own;
     return choice;

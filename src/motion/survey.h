@@ -1,6 +1,6 @@
 /* survey: a small chart of one motion, made on a piece of it while the motion itself waits.
  *
- * The piece begins where the caller says, and is so long that the best way known so far takes a small part of the budget for it.  A run of that way at a
+ * The piece begins where the caller says, and is so long that the best way known so far takes a small part of the budget for it, all in counted work (base/effort.h).  A run of that way at a
  * tolerance a hundred times tighter is the reference.  Every other way runs a few times, at the tolerance (or step) at which its error is expected to
  * be eps at the end of the whole motion, and no longer than a few times the best so far: what loses is told early.  Errors are taken to grow in proportion to
  * time, as those of regular motions do; they only rank, and what is chosen is checked as ever (accuracy.h). */
@@ -14,8 +14,8 @@ enum { NH_SURVEY_WAYS = 32 };
 typedef struct {
     double eps;
     const nh_method *best; /* the best so far, in the model's own velocities */
-    double seconds;        /* that it takes for the whole motion */
-    double budget;         /* seconds, all that is needed included */
+    double effort;         /* units of base/effort.h that it takes for the whole motion */
+    double budget;         /* units, all that is needed included */
     bool plain;            /* only the model's own velocities and methods with error control */
     const double *floor;   /* least scales of what is wanted (nh_accuracy_difference) */
 } nh_survey_terms;
@@ -26,13 +26,13 @@ typedef struct {
     size_t tried;             /* methods in velocities */
     double part;              /* of the motion */
     long evaluations;
-    double seconds;           /* all that it took */
+    double effort, seconds;   /* all that it took */
 } nh_survey;
 
 /* `from`: a state of the motion between its ends, or the initial one. */
 void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, const nh_survey_terms *terms, nh_survey *out);
 
-/* The cheapest below eps, if it saves time beside the best that was known, which has done one of its runs when `done`: then NULL where nothing does, else that one
+/* The cheapest below eps, if it saves work beside the best that was known, which has done one of its runs when `done`: then NULL where nothing does, else that one
  * itself. */
 nh_way_choice nh_survey_choose(const nh_survey *survey, const nh_method *best, double eps, const nh_way_limits *limits, bool done);
 

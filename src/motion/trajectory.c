@@ -316,6 +316,9 @@ static bool in_other_velocities(job *j, nh_error *error)
     return good;
 }
 
+/* Was it ended by the limit? */
+static bool spent_all(const nh_trajectory_request *q, const nh_motion *motion) { return !motion->complete && q->max_effort > 0 && motion->effort > q->max_effort; }
+
 static void in_all_states(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
@@ -323,7 +326,7 @@ static void in_all_states(job *j, nh_error *error)
     say_machine(nh_dynamics_words(j->dynamics), j->out->machine);
     bool any = j->leave;
     if (motion) nh_free(nh_steep_points(j->dynamics, motion, &any));
-    bool out_of_time = late(&j->deadline);
+    bool out_of_time = late(&j->deadline) || (motion && spent_all(q, motion));
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
@@ -341,7 +344,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
     job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
     nh_dynamics_hasten(j.dynamics, q->options->compile);
-    j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .absolute = fmax(q->options->absolute, DBL_MIN), .max_steps = q->options->steps};
+    j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .absolute = fmax(q->options->absolute, DBL_MIN), .max_steps = q->options->steps, .effort = q->max_effort};
     j.how.step = q->step;
     j.how.cancelled = late;
     j.how.cancel_context = &j.deadline;

@@ -25,7 +25,7 @@ static const nh_way *second_of(size_t n, const nh_way *way, double eps, const nh
     const nh_way *best = NULL;
     for (size_t i = 0; i < n; i++) {
         const nh_way *w = &way[i];
-        if (w->method != first && !w->method->order && w->velocities == NH_OWN_VELOCITIES && w->error < eps && (!best || w->seconds < best->seconds)) best = w;
+        if (w->method != first && !w->method->order && w->velocities == NH_OWN_VELOCITIES && w->error < eps && (!best || w->effort < best->effort)) best = w;
     }
     return best;
 }
@@ -34,7 +34,7 @@ static const nh_way *second_of(size_t n, const nh_way *way, double eps, const nh
 double nh_way_cost(size_t n, const nh_way *way, double eps, const nh_way *w)
 {
     const nh_way *second = nh_way_doubtful(w->method) ? second_of(n, way, eps, w->method) : NULL;
-    return 2 * w->seconds + (second ? second->seconds : nh_way_doubtful(w->method) ? 2 * w->seconds : 0);
+    return 2 * w->effort + (second ? second->effort : nh_way_doubtful(w->method) ? 2 * w->effort : 0);
 }
 
 nh_way_choice nh_way_cheapest(size_t n, const nh_way *way, double eps, const nh_way_limits *limits)
@@ -46,8 +46,12 @@ nh_way_choice nh_way_cheapest(size_t n, const nh_way *way, double eps, const nh_
         double cost = nh_way_cost(n, way, eps, &way[i]);
         if (cost < least) least = cost, out.way = &way[i];
     }
-    for (size_t i = 0; i < n && out.way; i++)
-        if (usable(&way[i], limits) && way[i].error < eps && (way[i].method != out.way->method || way[i].velocities != out.way->velocities)) other = fmin(other, nh_way_cost(n, way, eps, &way[i]));
+    for (size_t i = 0; i < n && out.way; i++) {
+        bool another = way[i].method != out.way->method || way[i].velocities != out.way->velocities;
+        if (!another || !usable(&way[i], limits) || !(way[i].error < eps)) continue;
+        double cost = nh_way_cost(n, way, eps, &way[i]);
+        if (cost < other) other = cost, out.other = &way[i];
+    }
     if (isfinite(other)) out.next = other / least;
     const nh_way *second = out.way ? second_of(n, way, eps, out.way->method) : NULL;
     if (second) out.second = second->method;

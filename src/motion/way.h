@@ -1,4 +1,4 @@
-/* way: how a motion can be computed, as it was measured before: a method, in some equations, and what a run of it cost and gave. */
+/* way: how a motion can be computed, as it was measured on a piece of it: a method, in some equations, and what a run of it cost and gave. */
 #ifndef NH_WAY_H
 #define NH_WAY_H
 
@@ -9,7 +9,7 @@ typedef struct {
     nh_velocities velocities;
     double tolerance, step; /* of the run that was measured; one of them is NAN */
     double error;           /* that it had; not below what the reference could tell */
-    double seconds;         /* per unit of time of the motion */
+    double effort;          /* units of base/effort.h per unit of time of the motion */
 } nh_way;
 
 /* A multistep or an implicit method can damp what grows: another one is to confirm it. */
@@ -25,7 +25,8 @@ typedef struct {
 typedef struct {
     const nh_way *way;       /* NULL: none was measured below eps */
     const nh_method *second; /* that confirms it where it is doubtful: the cheapest other one with error control; NULL: none was measured */
-    double next;             /* how many times as long the cheapest by another method or in other equations takes; NAN: there is none */
+    const nh_way *other;     /* the cheapest by another method or in other equations; NULL: none was measured below eps */
+    double next;             /* how many times as much that one costs; NAN: there is none */
 } nh_way_choice;
 
 /* What a run with an accuracy costs, per unit of time: two runs, and the confirmation where it is doubtful. */

@@ -172,7 +172,6 @@ static bool may_renew(course *c, const nh_motion *motion)
 static bool run(course *c, size_t count, const double *times, const nh_reconstruct_how *how, nh_error *error)
 {
     enum { most_stretches = 10000 };
-    static const double least = 1e-6; /* seconds */
     const nh_method *method = how->method ? how->method : nh_method_find("CVODE Adams");
     double patience = method->family == NH_METHOD_CVODE ? 3000 : 30000; /* one-step methods, above all those of low order, take more and shorter steps */
     nh_reconstruction *out = c->out;
@@ -182,7 +181,7 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
     for (; !out->complete && stretches < most_stretches; stretches++) {
         double steps = how->steps - (double)out->steps;
         nh_flow_options o = {.rtol = how->tolerance, .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1), .guarded = true};
-        if (how->seconds > 0) o.seconds = fmax(how->seconds - out->seconds, least);
+        if (how->effort > 0) o.effort = fmax(how->effort - out->effort, 1);
         nh_flow_problem problem = {.size = nh_group_flow_size(f), .context = f, .rate = nh_group_flow_rate, .guards = 2 + (f->d > 0 && f->group), .guard = nh_group_flow_guard};
         size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
         if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);
@@ -190,8 +189,9 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
         if (!motion) return false;
         out->evaluations += motion->evaluations;
         out->steps += motion->steps;
+        out->effort += motion->effort;
         out->seconds += motion->seconds;
-        bool found = store(c, motion, first), late = how->seconds > 0 && out->seconds >= how->seconds;
+        bool found = store(c, motion, first), late = how->effort > 0 && out->effort >= how->effort;
         out->complete = motion->complete && found;
         bool renew = may_renew(c, motion);
         bool guarded = motion->guard_hit >= 0 && (c->atlas || motion->guard_hit == 2);

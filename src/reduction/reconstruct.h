@@ -18,7 +18,7 @@
 typedef struct {
     const nh_method *method; /* with error control; NULL: CVODE Adams */
     double tolerance, steps; /* steps: at most */
-    double seconds;          /* of integration at most, a motion that takes longer is not complete; 0: no limit */
+    double effort;           /* units of base/effort.h of integration at most, a motion that needs more is not complete; 0: no limit */
 } nh_reconstruct_how;
 
 typedef struct {
@@ -36,7 +36,7 @@ typedef struct {
     bool dependent;        /* it ended where the constraints become dependent: no equations go on there */
     char note[256];
     long evaluations, steps;
-    double seconds;        /* of integration, without the building of charts */
+    double effort, seconds; /* of integration, without the building of charts */
 } nh_reconstruction;
 
 /* The reduced motion from z with g = identity, and the places it stands for.  `slice`: the group divided out, its generators and its slice (whose x are

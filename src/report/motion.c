@@ -63,7 +63,7 @@ void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
 }
 
 /* Where a method was chosen from. */
-static const char *const choices[] = {[NH_CHOICE_RACE] = "race", [NH_CHOICE_KEPT] = "kept", [NH_CHOICE_SURVEY] = "measured", [NH_CHOICE_SHORT] = "short"};
+static const char *const choices[] = {[NH_CHOICE_RACE] = "race", [NH_CHOICE_GIVEN] = "given", [NH_CHOICE_SURVEY] = "measured", [NH_CHOICE_SHORT] = "short"};
 
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root)
 {
@@ -78,6 +78,8 @@ void nh_accuracy_json(const nh_accuracy *a, nh_json *root)
     nh_json_put_number(item, "step", a->step);
     nh_json_put_text(item, "choice", choices[a->choice]);
     nh_json_put_bool(item, "measured", a->measured);
+    nh_json_put_text(item, "next", a->measured && a->other ? a->other->name : NULL);
+    nh_json_put_number(item, "times", a->measured ? a->next : NAN);
     nh_json_put_text(item, "second", a->second);
     nh_json_put_number(item, "difference", a->difference);
     nh_json_put_number(item, "runs", a->runs);

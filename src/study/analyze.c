@@ -242,8 +242,8 @@ static void validate(nh_result *r, const nh_analyze_request *q)
         if (series) valid[k] = (nh_valid){series->coordinate, series->low, series->high};
     }
     const nh_watch *watch = list_tracks(r);
-    nh_choice choice = {.arena = r->arena, .system = r->system, .model = r->model, .remember = q->remember, .begin = initial.t, .end = r->options.until};
-    if (q->accuracy > 0) nh_choice_open(&choice, q->accuracy, true);
+    nh_choice choice = {.system = r->system, .model = r->model};
+    nh_choice_open(&choice, true);
     nh_validation_request request = {.model = r->model, .other = r->other, .currents = r->count, .current = phi, .valid = valid, .watches = r->tracks.count, .watch = watch, .initial = &initial,
                                      .until = r->options.until, .outputs = motion_outputs, .options = &r->options, .accuracy = q->accuracy, .ways = &choice.ways};
     r->validation = nh_validate(&request, &trouble);

@@ -16,7 +16,6 @@ typedef struct {
     nh_chart_choice chart;       /* NH_CHART_AUTO: the analysis' choice */
     nh_options options;
     double accuracy;             /* of the motions; 0: that of options.tolerance, unchecked */
-    bool remember;               /* with an accuracy: what was measured on these equations is used, and what is measured now is kept */
     bool no_figures;             /* those that the analysis asks for stay uncomputed: nobody will look at them */
     bool seed_given, samples_given, tolerance_given, until_given; /* these options outrank the analysis file's values */
 } nh_analyze_request;

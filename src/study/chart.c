@@ -419,7 +419,6 @@ nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_
     c.begun = nh_clock(); /* the budget is for measuring: what came before is needed in any case */
     measure_all(&c);
     collect(&c);
-    nh_chart_rank(&c);
     nh_chart_derivatives(&c.formulation[0], c.out);
     nh_chart_fit(&c, budget * share_of_fits);
     c.out->partial |= nh_interrupted();

@@ -6,7 +6,6 @@
 #ifndef NH_STUDY_CHART_H
 #define NH_STUDY_CHART_H
 
-#include "study/ranking.h"
 #include "study/simulate.h"
 
 typedef enum { NH_RIGHT, NH_WARNED, NH_CAUGHT, NH_FAILED, NH_TIMEOUT, NH_WRONG } nh_measured_status;
@@ -60,8 +59,6 @@ typedef struct {
     bool fits_partial;           /* there was no time for more of them */
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
-    size_t rankings;
-    nh_ranking ranking[2];       /* what --accuracy may choose from: for motions in the chart, and in the other velocities if there are any */
     bool partial;                /* the budget ended it */
     bool doubtful;               /* they do not agree well enough for it to be a reference (options.chart_trusted): errors then say little, and nothing is right */
     bool shortened;              /* the motion did not reach the time that was meant, and nobody had chosen that */

@@ -116,8 +116,6 @@ void nh_bench_add(nh_bench *bench, const nh_method *method, size_t formulation);
 void nh_bench_refuse(nh_bench *bench, const char *method, const char *why);
 /* One run, with repetitions for its time unless bench->once. */
 void nh_bench_measure(nh_bench *bench, nh_contender *candidate, double tolerance, double step, nh_measured *measured);
-/* The rankings, from the grid. */
-void nh_chart_rank(nh_bench *bench);
 /* The discrete problem, in about so many seconds. */
 void nh_chart_fit(nh_bench *bench, double seconds);
 

@@ -57,7 +57,7 @@ static const char *own_reference(nh_bench *c, nh_formulation *f)
     for (int i = 0; i < 2; i++) {
         nh_error ignored;
         nh_error_clear(&ignored);
-        nh_flow_options how = {.rtol = two[i].tolerance, .scale = f->scale, .max_steps = 1e6, .seconds = c->budget / 4};
+        nh_flow_options how = {.rtol = two[i].tolerance, .scale = f->scale, .max_steps = 1e6, .effort = 1e9 * c->budget / 4};
         nh_motion *motion = nh_method_flow(nh_method_find(two[i].method), &f->problem, f->z0, NH_CHART_OUTPUTS, c->yard.times, &how, &ignored);
         bool good = motion && motion->complete;
         const char *why = good ? NULL : nh_arena_printf(c->out->arena, "its motion does not reach the end in one chart of the reduced equations: %s", motion ? motion->note : ignored.what);

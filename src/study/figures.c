@@ -33,8 +33,8 @@ static nh_trajectory *integrate(nh_simulation *s, const nh_result *r, const nh_a
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = f->quantities, .e = e};
     if (!(q->accuracy > 0)) return nh_trajectory_create(&request, error);
     nh_accuracy ignored;
-    nh_choice choice = {.arena = s->arena, .system = s->system, .model = s->model, .seed = (uint64_t)options.seed, .remember = q->remember, .begin = initial->t, .end = end};
-    nh_choice_open(&choice, q->accuracy, false);
+    nh_choice choice = {.system = s->system, .model = s->model, .seed = (uint64_t)options.seed};
+    nh_choice_open(&choice, false);
     nh_trajectory *t = nh_trajectory_accurate(&request, q->accuracy, &choice.ways, &ignored, error);
     nh_choice_close(&choice);
     return t;

@@ -316,7 +316,6 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     r->begin = clock();
     r->options = q->options;
     r->wanted = q->accuracy;
-    r->remember = q->remember;
     if (q->accuracy > 0) r->options.tolerance = q->accuracy / NH_REDUCTION_ALLOWED;
     if (!(r->options.tolerance >= finest)) {
         nh_fail(error, NH_USAGE, "", "reduced motions can be compared to %.0e at best, not to %.0e", NH_REDUCTION_ALLOWED * finest, q->accuracy);

@@ -26,7 +26,6 @@ typedef struct {
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     double accuracy;          /* to which reduced and full motions must agree: their methods and tolerances are chosen for it, options.tolerance is a hundredth of it; 0: none is asked for */
-    bool remember;            /* then: the method that a chart of these equations, in an earlier run, found to be the cheapest for the full motion */
     nh_options options;
 } nh_reduce_request;
 
@@ -36,9 +35,9 @@ typedef struct {
     double tolerance, step;   /* one of them is NAN */
     double error;             /* of the full motion: how far a tighter one is from it; of a stage: from the full motion */
     long evaluations;         /* of this motion, with the group's */
-    double seconds;
+    double effort, seconds;   /* counted (base/effort.h), which decides; and the time, which is shown */
     const char *next;         /* of a stage: the second cheapest method; NULL: no other reaches it */
-    double times;             /* as long as this one the next takes */
+    double times;             /* as much counted work as this one the next needs */
     int runs;                 /* in search of it */
     bool held;
     char why[512];            /* all that in words, or what failed */
@@ -93,7 +92,6 @@ typedef struct {
     nh_state initial;
     double until, full_seconds;
     double wanted;            /* the accuracy; 0: none is asked for */
-    bool remember;
     nh_reduction_choice full; /* with an accuracy */
     const char *full_formulation;
     double full_reached;      /* time up to which the full motion is known well enough to be compared with */

@@ -1,6 +1,6 @@
 /* reduce_accurate: the full motion that reduced ones are compared with, where an accuracy is wanted.
  *
- * Its method, equations and tolerance are chosen as everywhere else (accuracy.h), from what was measured before if there is something.  What counts here is the distance of places
+ * Its method, equations and tolerance are chosen as everywhere else (accuracy.h).  What counts here is the distance of places
  * (reduce_full.c), which is another norm: so the motion is computed once more with a much smaller tolerance, and is accepted where that moves it by less than a quarter of what is wanted.  The
  * finer of the two is the reference. */
 #include <math.h>
@@ -9,7 +9,6 @@
 
 #include "base/progress.h"
 #include "motion/accuracy.h"
-#include "study/ranking.h"
 #include "study/reduce_internal.h"
 
 enum { most_attempts = 4 };
@@ -62,7 +61,7 @@ static void take(nh_reduction_bench *b, const nh_trajectory_request *request, co
     size_t m = r->kinetic->m;
     nh_reduction_choice *c = &r->full;
     int runs = c->runs;
-    *c = (nh_reduction_choice){.method = t->method, .tolerance = a->tolerance, .step = a->step, .evaluations = t->motion->evaluations, .seconds = t->motion->seconds, .times = NAN, .runs = runs};
+    *c = (nh_reduction_choice){.method = t->method, .tolerance = a->tolerance, .step = a->step, .evaluations = t->motion->evaluations, .effort = t->motion->effort, .seconds = t->motion->seconds, .times = NAN, .runs = runs};
     r->full_formulation = t->formulation;
     b->reached = nh_reduction_reliable(r->kinetic, NH_REDUCTION_OUTPUTS, t->value, m, other->value, m, share * r->wanted, &c->error);
     c->held = b->reached == NH_REDUCTION_OUTPUTS;
@@ -74,12 +73,12 @@ static void take(nh_reduction_bench *b, const nh_trajectory_request *request, co
 static bool complete(const nh_trajectory *t) { return t && t->motion->complete; }
 
 /* At ever smaller errors until the distance is small enough; false when there is no motion to its end. */
-static bool attempts(nh_reduction_bench *b, const nh_trajectory_request *request, const nh_ranking *ranking)
+static bool attempts(nh_reduction_bench *b, const nh_trajectory_request *request)
 {
     nh_reduction *r = b->r;
     double eps = share * r->wanted;
     bool some = false;
-    nh_ways ways = {.count = ranking->count, .way = ranking->way, .surveyed = ranking->surveyed};
+    nh_ways ways = {.survey = true};
     for (int i = 0; i < most_attempts && !r->full.held && !nh_interrupted(); i++) {
         nh_error trouble = {0};
         nh_accuracy a;
@@ -110,8 +109,6 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
         return false;
     }
     size_t m = r->kinetic->m;
-    nh_ranking ranking = {.count = 0};
-    if (r->remember) nh_ranking_read(nh_ranking_key(r->whole), r->arena, &ranking);
     nh_options options = r->options;
     options.steps = fmin(options.steps, NH_REDUCTION_STEPS);
     options.compile = 0; /* reduced motions are interpreted: so their times compare */
@@ -119,7 +116,7 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
     for (size_t s = 0; s < m; s++) place[s] = r->whole->system->coordinate[s].q;
     nh_trajectory_request request = {.model = r->whole, .initial = &r->initial, .count = NH_REDUCTION_OUTPUTS, .times = b->times, .options = &options, .n = m, .e = place};
     b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
-    if (!attempts(b, &request, &ranking)) {
+    if (!attempts(b, &request)) {
         b->full = NULL;
         return false;
     }
@@ -127,6 +124,5 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
     r->full_seconds = r->full.seconds;
     r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
     if (!r->full.held) nh_reduction_warn(r, "%s; up to t = %.4g it is", r->full.why, r->full_reached);
-    else if (!ranking.count && r->remember && nh_ranking_possible()) strncat(r->full.why, "; `nhsym chart` would measure which method is the cheapest", sizeof r->full.why - strlen(r->full.why) - 1);
     return true;
 }

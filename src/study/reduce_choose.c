@@ -1,8 +1,8 @@
 /* reduce_choose: by which method a reduced motion is computed that is to agree with the full one to a wanted accuracy.
  *
- * A race: each method with error control runs, with the group's motion, at ever smaller tolerances until its places are near enough to the full motion's; no run may take longer than
- * the quickest that was.  At first none may take longer than a quarter of a second, so that a method that is no good for these equations (an explicit one on stiff ones) does
- * not hold up the others; that grows until one gets through.  Nothing is estimated: what is compared is what was asked for. */
+ * A race in counted work (base/effort.h): each method with error control runs, with the group's motion, at ever smaller tolerances until its places are near enough to the
+ * full motion's; no run may need more than twice the cheapest that was.  At first none may need more than a quarter of a second's work, so that a method that is no good for
+ * these equations (an explicit one on stiff ones) does not hold up the others; that grows until one gets through.  Nothing is estimated: the comparison is the one that is wanted. */
 #include <math.h>
 #include <stdio.h>
 
@@ -11,29 +11,30 @@
 
 enum { most_runs = 7 };       /* of one method */
 static const double aim = 0.5, loosest = 1e-5, tightest = 1e-14; /* aim: in what is wanted; tolerances */
-static const double patient = 0.25, more = 16, longest = 2000, quick = 0.01; /* seconds: the first limit; times that the next; what no limit is above; a run so short is timed twice */
+static const double patient = 2.5e8, more = 16, longest = 2e12, least_limit = 1e7; /* units of effort: the first limit; times that the next; what no limit is above; or below */
+static const double quick = 0.01; /* seconds: the time of a run so short is taken twice, to be shown */
 
 typedef struct {
     const nh_method *method;
     bool out;                 /* it fails, or did not get near enough at the smallest tolerance */
-    double seconds;           /* of the run that reached it; INFINITY */
+    double effort;            /* of the run that reached it; INFINITY */
 } runner;
 
 typedef struct {
     nh_reduction_bench *b;
     nh_reduction_stage *s;
     const nh_reduction_course *course;
-    double wanted, limit;     /* seconds that a run may take */
+    double wanted, limit;     /* units that a run may need */
     int runs;
-    nh_reconstruction *best;  /* the quickest that is near enough, or while none is the nearest */
+    nh_reconstruction *best;  /* the cheapest that is near enough, or while none is the nearest */
     nh_reconstruct_how how;   /* it was computed */
-    double distance, seconds; /* of it; seconds: INFINITY while none is near enough */
+    double distance, effort;  /* of it; effort: INFINITY while none is near enough */
 } race;
 
-static nh_reconstruction *run(race *q, const nh_method *method, double tolerance, double seconds)
+static nh_reconstruction *run(race *q, const nh_method *method, double tolerance, double effort)
 {
     nh_error ignored = {0};
-    nh_reconstruct_how how = {.method = method, .tolerance = tolerance, .steps = q->b->r->options.steps, .seconds = seconds};
+    nh_reconstruct_how how = {.method = method, .tolerance = tolerance, .steps = q->b->r->options.steps, .effort = effort};
     q->runs++;
     nh_reconstruction *c = nh_reduction_follow(q->b, q->s, q->course, true, &how, &ignored);
     nh_error_clear(&ignored);
@@ -43,26 +44,32 @@ static nh_reconstruction *run(race *q, const nh_method *method, double tolerance
 /* As far as what it is compared with goes, or as there are equations. */
 static bool goes_far_enough(const race *q, const nh_reconstruction *c) { return c->count >= q->course->reached || c->dependent; }
 
-static void keep(race *q, nh_reconstruction *c, const nh_method *method, double tolerance, double distance, double seconds)
+static void keep(race *q, nh_reconstruction *c, const nh_method *method, double tolerance, double distance, double effort)
 {
     nh_reconstruction_free(q->best);
     q->best = c;
     q->how = (nh_reconstruct_how){.method = method, .tolerance = tolerance, .steps = q->b->r->options.steps};
     q->distance = distance;
-    q->seconds = seconds;
+    q->effort = effort;
 }
 
-/* A run that is near enough: its time, and whether it is the quickest. */
+/* A run that is near enough: is it the cheapest? */
 static void arrive(race *q, runner *m, nh_reconstruction *c, double tolerance, double distance)
 {
-    m->seconds = c->seconds;
-    if (c->seconds < quick) {
-        nh_reconstruction *again = run(q, m->method, tolerance, 0);
-        if (again && goes_far_enough(q, again)) m->seconds = fmin(m->seconds, again->seconds);
-        nh_reconstruction_free(again);
-    }
-    if (m->seconds < q->seconds) keep(q, c, m->method, tolerance, distance, m->seconds);
+    m->effort = c->effort;
+    if (m->effort < q->effort) keep(q, c, m->method, tolerance, distance, m->effort);
     else nh_reconstruction_free(c);
+}
+
+/* The time of a quick motion is that of the quicker of two. */
+static double time_of(race *q)
+{
+    double seconds = q->best->seconds;
+    if (!(seconds < quick) || isinf(q->effort)) return seconds;
+    nh_reconstruction *again = run(q, q->how.method, q->how.tolerance, 0);
+    if (again && goes_far_enough(q, again)) seconds = fmin(seconds, again->seconds);
+    nh_reconstruction_free(again);
+    return seconds;
 }
 
 /* One method, at ever smaller tolerances. */
@@ -70,26 +77,26 @@ static void enter(race *q, runner *m)
 {
     double tolerance = fmin(loosest, q->wanted);
     for (int i = 0; i < most_runs && !m->out && !nh_interrupted(); i++) {
-        double limit = fmin(q->limit, fmax(2 * q->seconds, quick)); /* the second quickest is told, too */
+        double limit = fmin(q->limit, fmax(2 * q->effort, least_limit)); /* the second cheapest is named, too */
         nh_reconstruction *c = run(q, m->method, tolerance, limit);
-        bool far = c && goes_far_enough(q, c), late = c && !far && c->seconds >= limit;
+        bool far = c && goes_far_enough(q, c), late = c && !far && c->effort >= limit;
         double distance = far ? nh_reduction_farthest(q->s, q->course, c) : INFINITY;
         m->out = !far && !late;
         if (distance <= aim * q->wanted) {
             arrive(q, m, c, tolerance, distance);
             return;
         }
-        bool nearest = c && isinf(q->seconds) && (!q->best || (far && distance < q->distance));
+        bool nearest = c && isinf(q->effort) && (!q->best || (far && distance < q->distance));
         if (nearest) keep(q, c, m->method, tolerance, distance, INFINITY);
         else nh_reconstruction_free(c);
         if (!far) return;
         m->out = tolerance <= tightest;
         tolerance = fmax(tightest, tolerance * fmax(1e-5, fmin(0.3, pow(aim * q->wanted / (2 * distance), 1 / 0.9))));
     }
-    m->out |= !(m->seconds < INFINITY);
+    m->out |= !(m->effort < INFINITY);
 }
 
-/* The second quickest, and the words. */
+/* The second cheapest, and the words. */
 static void explain(race *q, size_t n, const runner *m)
 {
     nh_reduction_choice *c = &q->s->choice;
@@ -97,30 +104,30 @@ static void explain(race *q, size_t n, const runner *m)
     double next = INFINITY;
     size_t reached = 0;
     for (size_t i = 0; i < n; i++) {
-        reached += m[i].seconds < INFINITY;
-        if (m[i].method != q->how.method && m[i].seconds < next) next = m[i].seconds, c->next = m[i].method->name;
+        reached += m[i].effort < INFINITY;
+        if (m[i].method != q->how.method && m[i].effort < next) next = m[i].effort, c->next = m[i].method->name;
     }
-    c->times = isfinite(next) ? next / c->seconds : NAN;
+    c->times = isfinite(next) ? next / c->effort : NAN;
     int at = snprintf(c->why, sizeof c->why, "%s at tolerance %.1e", c->method, c->tolerance);
     char *end = c->why + at;
     size_t left = sizeof c->why - (size_t)at;
     if (!reached && c->held) snprintf(end, left, ": the nearest to %s", with);
     else if (!reached && isfinite(q->distance)) snprintf(end, left, " is %.1e from %s, and no method comes nearer", q->distance, with);
     else if (!reached) snprintf(end, left, ": no method goes as far as %s is known", with);
-    else if (c->next && c->times < 1.05) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e, and the next, %s, is as quick", reached, with, aim * q->wanted, c->next);
-    else if (c->next) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e; the next, %s, takes %.2g times as long", reached, with, aim * q->wanted, c->next, c->times);
-    else snprintf(end, left, ": the only one that agrees with %s to %.1e, or the others take more than twice as long", with, aim * q->wanted);
+    else if (c->next && c->times < 1.05) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e, and the next, %s, is as cheap", reached, with, aim * q->wanted, c->next);
+    else if (c->next) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e; the next, %s, needs %.2g times as much counted work", reached, with, aim * q->wanted, c->next, c->times);
+    else snprintf(end, left, ": the only one that agrees with %s to %.1e, or the others need more than twice the counted work", with, aim * q->wanted);
 }
 
 nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, nh_reconstruct_how *how)
 {
     nh_reduction *r = b->r;
-    race q = {.b = b, .s = s, .course = course, .wanted = r->wanted, .distance = INFINITY, .seconds = INFINITY};
+    race q = {.b = b, .s = s, .course = course, .wanted = r->wanted, .distance = INFINITY, .effort = INFINITY};
     runner *m = nh_alloc_array(nh_method_count() + 1, sizeof *m);
     size_t n = 0;
     for (size_t i = 0; i < nh_method_count(); i++)
-        if (!nh_method_at(i)->order) m[n++] = (runner){.method = nh_method_at(i), .seconds = INFINITY};
-    for (q.limit = patient; isinf(q.seconds) && q.limit < longest && !nh_late(); q.limit *= more) {
+        if (!nh_method_at(i)->order) m[n++] = (runner){.method = nh_method_at(i), .effort = INFINITY};
+    for (q.limit = patient; isinf(q.effort) && q.limit < longest && !nh_late(); q.limit *= more) {
         bool left = false;
         for (size_t i = 0; i < n && !nh_interrupted(); i++) {
             if (!m[i].out) enter(&q, &m[i]);
@@ -128,11 +135,11 @@ nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage
         }
         if (!left) break;
     }
-    if (isinf(q.seconds) && !nh_interrupted()) nh_reduction_late(r, "what slower methods reach in the motion of a stage");
+    if (isinf(q.effort) && !nh_interrupted()) nh_reduction_late(r, "what slower methods reach in the motion of a stage");
     *how = q.how;
     if (q.best) {
-        s->choice = (nh_reduction_choice){.method = q.how.method->name, .tolerance = q.how.tolerance, .step = NAN, .error = q.distance, .evaluations = q.best->evaluations, .runs = q.runs};
-        s->choice.seconds = isfinite(q.seconds) ? q.seconds : q.best->seconds;
+        s->choice = (nh_reduction_choice){.method = q.how.method->name, .tolerance = q.how.tolerance, .step = NAN, .error = q.distance, .evaluations = q.best->evaluations, .effort = q.best->effort, .runs = q.runs};
+        s->choice.seconds = time_of(&q);
         s->choice.held = q.distance < q.wanted;
         explain(&q, n, m);
     }

@@ -5,12 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/budget.h"
 #include "base/clock.h"
 
 #include "expr/diff.h"
 
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
-static const double shortest_time = 0.1, longest_comparison = 1; /* seconds: a shorter motion is compared with the whole model's, which may take so long */
+static const double small_motion = 1e8, most_whole = 1e9; /* units of effort: a motion that needs less is compared with the whole model's, which may need so much */
+static const double repeated = 0.1;                      /* seconds: shorter comparisons are timed again */
 
 nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error)
 {
@@ -30,9 +32,9 @@ nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error 
 
 static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis **own, nh_error *error)
 {
-    double begin = nh_clock();
+    double begin = nh_budget_used();
     s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
-    s->deriving = nh_clock() - begin;
+    s->deriving = 1e6 * (nh_budget_used() - begin);
     if (!s->model || (s->analysis && !nh_analysis_resolve(s->analysis, s->model, error))) return false;
     return !q->initial || ((*own = nh_simulate_initial(s->arena, q->initial, error)) && nh_analysis_resolve(*own, s->model, error));
 }
@@ -212,10 +214,10 @@ static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
     nh_error ignored;
     nh_error_clear(&ignored);
     whole.smallest = false;
-    whole.max_seconds = longest_comparison;
-    if (!s->trajectory->scene || s->motion->seconds > shortest_time || !s->motion->complete) return;
+    whole.max_effort = most_whole;
+    if (!s->trajectory->scene || s->motion->effort > small_motion || !s->motion->complete) return;
     double begin = nh_clock(), few = s->motion->seconds, all = INFINITY;
-    for (int i = 0; i < most_comparisons && nh_clock() - begin < shortest_time; i++) { /* the least times: other programs run, too */
+    for (int i = 0; i < most_comparisons && (i == 0 || nh_clock() - begin < repeated); i++) { /* the least times: other programs run, too */
         nh_trajectory *t = nh_trajectory_create(&whole, &ignored), *again = i ? nh_trajectory_create(q, &ignored) : NULL;
         bool complete = t && t->motion->complete;
         if (i == 0) s->compared = complete;
@@ -251,26 +253,11 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
     return n;
 }
 
-/* Is it worth while to derive the equations in coordinate velocities?  Only if a chart says so, and the motion is long. */
-static const nh_model *consider_other_velocities(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion)
-{
-    static const double runs = 3;
-    const nh_ways *ways = &s->ways.ways;
-    nh_way_limits limits = {.scene = motion->smallest, .spacing = INFINITY};
-    const nh_way *own = nh_way_cheapest(ways->count, ways->way, q->accuracy, &limits).way;
-    limits.other = true;
-    const nh_way *any = nh_way_cheapest(ways->count, ways->way, q->accuracy, &limits).way;
-    if (!any || any->velocities != NH_OTHER_VELOCITIES) return NULL;
-    double span = fabs(motion->times[motion->count - 1] - motion->times[0]), saved = own ? runs * span * (own->seconds - any->seconds) : INFINITY;
-    return saved > s->deriving ? nh_choice_derive(&s->ways) : NULL;
-}
-
 /* From what the method is chosen. */
-static void open_choice(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion)
+static void open_choice(nh_simulation *s, const nh_simulate_request *q, bool plain)
 {
-    s->ways = (nh_choice){.arena = s->arena, .system = s->system, .model = s->model, .seed = (uint64_t)q->options.seed, .remember = q->remember, .may_derive = q->chart == NH_CHART_AUTO, .deriving = s->deriving,
-                          .begin = motion->times[0], .end = motion->times[motion->count - 1]};
-    nh_choice_open(&s->ways, q->accuracy, motion->smallest);
+    s->ways = (nh_choice){.system = s->system, .model = s->model, .seed = (uint64_t)q->options.seed, .may_derive = q->chart == NH_CHART_AUTO, .deriving = s->deriving};
+    nh_choice_open(&s->ways, plain);
 }
 
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
@@ -286,8 +273,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     nh_ex *known;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
     s->checked = q->accuracy > 0;
-    if (s->checked) open_choice(s, q, &request);
-    if (s->checked && s->ways.ways.count) request.other = consider_other_velocities(s, q, &request);
+    if (s->checked) open_choice(s, q, request.smallest);
     if (q->ensemble) return nh_simulate_many(s, q, &request, error);
     s->trajectory = s->checked ? nh_trajectory_accurate(&request, q->accuracy, &s->ways.ways, &s->accuracy, error) : nh_trajectory_create(&request, error);
     if (!s->trajectory) return false;

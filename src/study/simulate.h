@@ -19,7 +19,6 @@ typedef struct {
     bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
     double step;                             /* output spacing; 0: a hundredth of the time */
     double accuracy;                         /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
-    bool remember;                           /* with an accuracy: what an earlier run measured on these equations is used, and what this one measures is kept */
     size_t ensemble;                         /* members; 0: one motion */
     double spread;                           /* of their initial states about the given one, relative to max(|z_i|, 1) */
     nh_options options;
@@ -46,7 +45,7 @@ typedef struct {
     bool checked, held;        /* an accuracy was asked for; it was reached */
     const char *why;           /* then: by what, or why not */
     nh_choice ways;            /* with an accuracy: from what it was chosen */
-    double deriving;           /* seconds that the model took */
+    double deriving;           /* units of effort that the model took */
     nh_accuracy accuracy;                 /* of the one motion */
     nh_ensemble_accuracy accuracy_of_all; /* of the ensemble */
 } nh_simulation;
