@@ -175,6 +175,38 @@ Test(parameters, only_the_special_one_is_fixed)
                                {"", "--set m=0.9127 --set k=1.1371"}, 2});
 }
 
+/* What the first value of an unknown is called. */
+static void expect_unknown(const cJSON *root, const char *set, const char *unknown, const char *name)
+{
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(root, "unknowns"), unknown);
+    cr_assert_geq(cJSON_GetArraySize(list), 1, "%s: no value of %s", set, unknown);
+    cr_expect_str_eq(text_of(cJSON_GetArrayItem(list, 0), "recognised"), name, "%s: %s = %s", set, unknown,
+                     text_of(cJSON_GetArrayItem(list, 0), "recognised"));
+}
+
+/* s = 5/8 at M = 1 and c = 5/4 is c/(2 M). */
+Test(parameters, several_unknowns_at_once_are_named)
+{
+    static const char *const set[] = {"", "--set M=1 --set c=1.25 --set k=2", "--set M=1.7192 --set k=2.3317 --set c=0.61"};
+    place p = place_make();
+    write_here(&p, "s.yaml", "name: s\nparameters: {M: 1, k: 4, c: 1}\ncoordinates: [x]\n"
+                             "lagrangian: M*x'^2/2 - k*x^2/2\nforces: [\"x = -c*x'\"]\n");
+    write_here(&p, "q.yaml", "name: q\nansatz:\n  - product:\n    - terms: [\"x*exp(s*t)\", \"x'*exp(s*t)\"]\n"
+                             "    - {basis: fourier, in: t, frequency: nu}\nunknowns: {s: [0.05, 1], nu: [0.5, 3]}\n");
+    for (size_t i = 0; i < 3; i++) {
+        char line[120];
+        snprintf(line, sizeof line, "--analysis q.yaml %s", set[i]);
+        cJSON *root = analyzed(&p, line);
+        const cJSON *item;
+        expect_unknown(root, set[i], "s", "c/(2*M)");
+        expect_unknown(root, set[i], "nu", "sqrt(4*M*k - c^2)/(2*M)");
+        cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "currents"))
+            cr_expect_str_eq(text_of(item, "holds"), "all parameters", "%s: %s", set[i], text_of(item, "expression"));
+        cJSON_Delete(root);
+    }
+    place_clear(&p);
+}
+
 Test(parameters, rates_of_shipped_systems_are_named)
 {
     static const char *const name[] = {"penning_trap", "foucault_pendulum", "omni_robot", "constant_speed"};

@@ -4,27 +4,30 @@
 
 #include "base/memory.h"
 
-/* The symbol of |x|, with its sign. */
-static nh_ex symbol_of(nh_dag *d, nh_num x, nh_lifted *table)
+/* The symbol of |value|, with its sign; `exact` is the same number. */
+static nh_ex symbol_of(nh_dag *d, double value, nh_ex exact, nh_lifted *table)
 {
-    double size = fabs(nh_num_value(x));
-    bool minus = nh_num_value(x) < 0;
+    double size = fabs(value);
     size_t i = 0;
     while (i < table->count && table->value[i] != size) i++;
     if (i == NH_MOST_LIFTED) {
         table->overflow = true;
-        return nh_number(d, x);
+        return exact;
     }
     if (i == table->count) {
         table->value[i] = size;
-        table->exact[i] = minus ? nh_num_mul(x, nh_num_int(-1)) : x;
+        table->exact[i] = value < 0 ? nh_neg(d, exact) : exact;
         table->symbol[i] = nh_symbol_fresh(d, "theta");
         table->count++;
     }
-    return minus ? nh_neg(d, table->symbol[i]) : table->symbol[i];
+    return value < 0 ? nh_neg(d, table->symbol[i]) : table->symbol[i];
 }
 
-static nh_ex number(nh_dag *d, nh_num x, nh_lifted *table) { return nh_num_exact(x) ? nh_number(d, x) : symbol_of(d, x, table); }
+static nh_ex number(nh_dag *d, nh_num x, nh_lifted *table)
+{
+    nh_ex e = nh_number(d, x);
+    return nh_num_exact(x) ? e : symbol_of(d, nh_num_value(x), e, table);
+}
 
 static nh_ex lift(nh_dag *d, nh_ex e, nh_lifted *table, nh_ex *image, bool *done)
 {
@@ -65,16 +68,11 @@ typedef struct {
     nh_lifted *table;
 } inside;
 
-static bool is_meant(nh_lift_kind kind, nh_num x, bool exponent)
+static nh_ex factor(const inside *s, double value, nh_ex exact, bool exponent)
 {
-    double v = nh_num_value(x), step = kind == NH_LIFT_ROUGH ? 2 : 1;
-    if (v == 0 || !isfinite(v)) return false;
-    return (kind == NH_LIFT_ALL && !exponent) || step * v != round(step * v);
-}
-
-static nh_ex factor(const inside *s, nh_num x, bool exponent)
-{
-    return is_meant(s->kind, x, exponent) ? symbol_of(s->dag, x, s->table) : nh_number(s->dag, x);
+    double step = s->kind == NH_LIFT_ROUGH ? 2 : 1;
+    bool meant = (s->kind == NH_LIFT_ALL && !exponent) || step * value != round(step * value);
+    return meant && value != 0 && isfinite(value) ? symbol_of(s->dag, value, exact, s->table) : exact;
 }
 
 /* Nothing but constants, and numbers. */
@@ -93,17 +91,33 @@ static bool is_constant(const inside *s, nh_ex e)
 
 static nh_ex lift_inside(const inside *s, nh_ex e);
 
+/* c sqrt(5) t: the number and the rest. */
+static nh_ex lift_product(const inside *s, nh_ex e)
+{
+    nh_dag *d = s->dag;
+    nh_num c = nh_constant_of(d, e);
+    nh_ex exact = nh_number(d, c), rest = nh_int(d, 1);
+    double value = nh_num_value(c);
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex base = nh_child(d, e, i), exponent = nh_exponent_of(d, e, i), power = nh_pow(d, base, exponent);
+        if (nh_kind_of(d, base) == NH_NUMBER && nh_kind_of(d, exponent) == NH_NUMBER) {
+            exact = nh_mul(d, exact, power);
+            value *= pow(nh_num_value(nh_number_of(d, base)), nh_num_value(nh_number_of(d, exponent)));
+        } else {
+            rest = nh_mul(d, rest, power);
+        }
+    }
+    return nh_mul(d, factor(s, value, exact, false), lift_inside(s, rest));
+}
+
 /* sum_i c_i t_i with symbols for the c_i. */
 static nh_ex lift_argument(const inside *s, nh_ex a)
 {
     nh_dag *d = s->dag;
     nh_kind kind = nh_kind_of(d, a);
     if (is_constant(s, a)) return a;
-    if (kind == NH_PRODUCT) {
-        nh_num c = nh_constant_of(d, a);
-        return nh_mul(d, factor(s, c, false), lift_inside(s, nh_mul(d, nh_number(d, nh_num_inv(c)), a)));
-    }
-    if (kind != NH_SUM) return nh_mul(d, factor(s, nh_num_int(1), false), lift_inside(s, a));
+    if (kind == NH_PRODUCT) return lift_product(s, a);
+    if (kind != NH_SUM) return nh_mul(d, factor(s, 1, nh_int(d, 1), false), lift_inside(s, a));
     nh_ex out = nh_number(d, nh_constant_of(d, a));
     for (size_t i = 0; i < nh_arity(d, a); i++) {
         nh_ex term = nh_mul(d, nh_number(d, nh_coefficient_of(d, a, i)), nh_child(d, a, i));
@@ -112,13 +126,17 @@ static nh_ex lift_argument(const inside *s, nh_ex a)
     return out;
 }
 
-static bool has_rates(nh_function f) { return f == NH_EXP || f == NH_SIN || f == NH_COS || f == NH_TAN || f == NH_SINH || f == NH_COSH || f == NH_TANH; }
+static bool has_rates(nh_function f)
+{
+    return f == NH_EXP || f == NH_SIN || f == NH_COS || f == NH_TAN || f == NH_SINH || f == NH_COSH || f == NH_TANH;
+}
 
 static nh_ex lift_power(const inside *s, nh_ex base, nh_ex exponent)
 {
     nh_dag *d = s->dag;
     bool plain = nh_kind_of(d, exponent) == NH_NUMBER;
-    return nh_pow(d, lift_inside(s, base), plain ? factor(s, nh_number_of(d, exponent), true) : lift_inside(s, exponent));
+    nh_ex lifted = plain ? factor(s, nh_num_value(nh_number_of(d, exponent)), exponent, true) : lift_inside(s, exponent);
+    return nh_pow(d, lift_inside(s, base), lifted);
 }
 
 static nh_ex lift_inside(const inside *s, nh_ex e)

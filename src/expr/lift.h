@@ -9,7 +9,7 @@ enum { NH_MOST_LIFTED = 4 };
 typedef struct {
     size_t count;
     double value[NH_MOST_LIFTED]; /* positive; each stands for its negative too */
-    nh_num exact[NH_MOST_LIFTED]; /* the same number */
+    nh_ex exact[NH_MOST_LIFTED];  /* the same number */
     nh_ex symbol[NH_MOST_LIFTED];
     bool overflow;                /* there were more */
 } nh_lifted;
@@ -24,7 +24,9 @@ typedef enum {
     NH_LIFT_ALL        /* all factors in arguments, 1 too: cos(t) as cos(x t) */
 } nh_lift_kind;
 
-/* e with symbols for the rational factors in arguments of exp, sin and the like, and for exponents; what depends on the `constant` symbols alone stays. */
-nh_ex nh_lift_inside(nh_dag *dag, nh_ex e, nh_lift_kind kind, size_t constants, const nh_ex *constant, nh_lifted *table);
+/* e with symbols for the numbers that are factors in arguments of exp, sin and the like (rationals and their roots), and
+ * for exponents; what depends on the `constant` symbols alone stays. */
+nh_ex nh_lift_inside(nh_dag *dag, nh_ex e, nh_lift_kind kind, size_t constants, const nh_ex *constant,
+                     nh_lifted *table);
 
 #endif

@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "expr/lift.h"
 #include "expr/relation_unknown.h"
 
 enum { kinds = 3 };
@@ -15,20 +14,23 @@ typedef struct {
     const double *coefficient;
     nh_ex *lifted, *rate, *named; /* work: n each */
     nh_ex *out;
+    nh_letters *letters;
 } problem;
 
 /* The relation with these numbers as expressions of the parameters; on success p->named are the terms. */
 static nh_fixed named_relation(problem *p, const nh_lifted *numbers)
 {
     const nh_model *o = p->o;
-    nh_ex x[NH_MOST_LIFTED];
+    nh_letters *letters = p->letters;
     nh_unknown_numbers s = {o->dag,         o->system->parameters, o->parameter,   o->parameter_value,
                             numbers->count, numbers->symbol,       numbers->value, (size_t)p->options->proof_terms};
     nh_fixed none = {0};
     for (size_t j = 0; j < p->n; j++) p->rate[j] = nh_model_gamma(o, p->lifted[j]);
-    if (!nh_relation_unknown(&s, p->n, p->rate, p->coefficient, x)) return none;
+    if (!nh_relation_unknown(&s, p->n, p->rate, p->coefficient, letters->name)) return none;
+    letters->count = numbers->count;
+    memcpy(letters->value, numbers->value, sizeof letters->value);
     for (size_t j = 0; j < p->n; j++) {
-        p->named[j] = nh_substitute(o->dag, p->lifted[j], numbers->count, numbers->symbol, x);
+        p->named[j] = nh_substitute(o->dag, p->lifted[j], numbers->count, numbers->symbol, letters->name);
         p->rate[j] = nh_model_gamma(o, p->named[j]);
     }
     return nh_fixed_relation(o, p->n, p->rate, p->coefficient, p->options, p->out);
@@ -44,7 +46,7 @@ static bool lift(problem *p, nh_lift_kind kind, size_t only, nh_lifted *numbers)
         p->lifted[j] = nh_lift_inside(d, p->term[j], kind, p->o->system->parameters, p->o->parameter, numbers);
     if (numbers->overflow || only >= numbers->count) return !numbers->overflow && numbers->count > 0;
     for (size_t i = 0; i < numbers->count; i++)
-        value[i] = i == only ? numbers->symbol[i] : nh_number(d, numbers->exact[i]);
+        value[i] = i == only ? numbers->symbol[i] : numbers->exact[i];
     for (size_t j = 0; j < p->n; j++)
         p->lifted[j] = nh_substitute(d, p->lifted[j], numbers->count, numbers->symbol, value);
     numbers->symbol[0] = numbers->symbol[only];
@@ -67,11 +69,11 @@ static nh_fixed try_kind(problem *p, nh_lift_kind kind)
 }
 
 nh_fixed nh_letters_relation(const nh_model *o, size_t n, nh_ex *term, const double *coefficient,
-                             const nh_options *options, nh_ex *out)
+                             const nh_options *options, nh_ex *out, nh_letters *letters)
 {
     static const nh_lift_kind kind[kinds] = {NH_LIFT_ROUGH, NH_LIFT_FRACTIONS, NH_LIFT_ALL};
     nh_ex *work = nh_alloc_array(4 * n + 1, sizeof *work);
-    problem p = {o, options, n, term, coefficient, work, work + n, work + 2 * n, work + 3 * n};
+    problem p = {o, options, n, term, coefficient, work, work + n, work + 2 * n, work + 3 * n, letters};
     nh_fixed found = {0};
     for (size_t i = 0; i < kinds && !found.all_parameters && o->system->parameters > 0; i++)
         found = try_kind(&p, kind[i]);

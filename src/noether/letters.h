@@ -8,11 +8,19 @@
 #ifndef NH_LETTERS_H
 #define NH_LETTERS_H
 
+#include "expr/lift.h"
 #include "noether/fixed.h"
+
+/* Numbers, positive, and what they are called. */
+typedef struct {
+    size_t count;
+    double value[NH_MOST_LIFTED];
+    nh_ex name[NH_MOST_LIFTED];
+} nh_letters;
 
 /* The relation among Gamma(term), `coefficient` at the parameters' values, with the numbers in the terms named; on
  * success they stand in term[], and the relation's coefficients in out[]. */
 nh_fixed nh_letters_relation(const nh_model *model, size_t n, nh_ex *term, const double *coefficient,
-                             const nh_options *options, nh_ex *out);
+                             const nh_options *options, nh_ex *out, nh_letters *letters);
 
 #endif

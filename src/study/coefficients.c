@@ -5,13 +5,12 @@
 
 #include "expr/normal.h"
 #include "noether/fixed.h"
-#include "noether/letters.h"
 #include "noether/recognise.h"
 #include "noether/refine.h"
 #include "noether/sharpen.h"
 
 /* The relation of the terms' rates; where it needs values of parameters, or has no exact numbers, with names for the numbers inside of terms. */
-static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out)
+static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, nh_letters *letters)
 {
     bool rounded = false;
     nh_ex *rate = nh_alloc_array(c->count + 1, sizeof *rate);
@@ -21,18 +20,20 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
     }
     nh_fixed relation = nh_fixed_relation(o, c->count, rate, c->coefficient, options, out);
     if (!relation.all_parameters && (rounded || !relation.too_large)) {
-        nh_fixed named = nh_letters_relation(o, c->count, c->term, c->coefficient, options, rate);
+        nh_fixed named = nh_letters_relation(o, c->count, c->term, c->coefficient, options, rate, letters);
         if (named.found) relation = named;
         if (named.found) memcpy(out, rate, c->count * sizeof *out);
+        else letters->count = 0;
     }
     nh_free(rate);
     return relation;
 }
 
 /* Exact: Gamma of the support's terms are linearly related over the field of the parameters, some of them at their given values where that is needed. */
-static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, nh_claim *claim)
+static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out,
+                               nh_claim *claim, nh_letters *letters)
 {
-    nh_fixed relation = relation_of(o, c, options, out);
+    nh_fixed relation = relation_of(o, c, options, out, letters);
     for (size_t j = 0; j < c->count && relation.fixed && relation.found && !relation.too_large; j++) c->term[j] = nh_fixed_values(o, relation.fixed, c->term[j]);
     *claim = (nh_claim){.free = true, .fixed = relation.fixed, .related = relation.found};
     if (relation.too_large) *claim = (nh_claim){.free = true}; /* nothing is known of other values: the proof may be shorter than the relation */
@@ -129,7 +130,7 @@ nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_opti
     nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k);
     refine(o, c, options, f); /* relations of many terms cost more */
     bool hopeless = f->refined >= 0 && f->refined < options->digits;
-    f->exact = !hopeless && exact_coefficients(o, c, options, k, claim);
+    f->exact = !hopeless && exact_coefficients(o, c, options, k, claim, &f->letters);
     if (!f->exact) {
         f->exact = true;
         for (size_t j = 0; j < c->count; j++) f->exact &= nh_recognise_number(d, c->coefficient[j], options->recognise, &k[j]);

@@ -12,6 +12,7 @@
 #include "study/coefficients.h"
 #include "study/dependence.h"
 #include "study/described.h"
+#include "study/specials.h"
 
 enum { heldout_count = 256, generic_count = 24, open_digits = 12, least_almost = 6 };
 
@@ -269,6 +270,7 @@ bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *
         return false;
     }
     nh_current_describe(b, f);
+    nh_specials_name(r, &f->letters);
     r->count++;
     return true;
 }

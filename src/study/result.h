@@ -6,6 +6,7 @@
 #include "integrals/completeness.h"
 #include "motion/drift.h"
 #include "noether/independence.h"
+#include "noether/letters.h"
 #include "noether/prove.h"
 #include "noether/rank.h"
 #include "noether/region.h"
@@ -31,6 +32,7 @@ typedef struct {
     nh_ex in_velocities;      /* in t, q, q' and parameters */
     bool has_in_velocities;
     bool exact;               /* every coefficient was recognised */
+    nh_letters letters;       /* numbers inside of its terms that got names */
     double quotient, heldout;
     nh_proof proof;
     bool asked;               /* were the coefficients refined with many digits?  */
@@ -87,7 +89,7 @@ typedef struct {
 
 typedef struct {
     double *value;
-    const nh_ex *recognised;  /* per unknown: an expression, or 0 */
+    nh_ex *recognised;        /* per unknown: an expression, or 0 */
     const nh_hit *hit;
 } nh_special;
 

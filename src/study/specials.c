@@ -94,3 +94,15 @@ bool nh_specials_find(nh_result *r, size_t *families, nh_family **family, nh_err
     nh_points_free(points);
     return r->hits != NULL;
 }
+
+void nh_specials_name(nh_result *r, const nh_letters *letters)
+{
+    static const double same = 1e-7; /* a search knows less digits of a value than the current that it leads to */
+    for (size_t k = 0; k < r->specials; k++)
+        for (size_t j = 0; j < r->hits->unknowns; j++)
+            for (size_t i = 0; i < letters->count; i++) {
+                double value = r->special[k].value[j], size = fabs(value);
+                if (!(fabs(size - letters->value[i]) <= same * size)) continue;
+                r->special[k].recognised[j] = value < 0 ? nh_neg(r->model->dag, letters->name[i]) : letters->name[i];
+            }
+}
