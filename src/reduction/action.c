@@ -7,6 +7,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "noether/recognise.h"
+#include "reduction/constants.h"
 #include "reduction/runge.h"
 #include "reduction/subspace.h"
 
@@ -77,6 +78,7 @@ static void find_constants(nh_action *g, const nh_options *options)
         if (nh_recognise_ratio(c, 1000, options->same, &x)) c = nh_num_value(x);
         g->algebra.c[i] = fabs(c) <= options->group ? 0 : -c;
     }
+    nh_constants_find(g, b, options);
     nh_free(e);
     nh_free(b);
     nh_free(E);

@@ -19,6 +19,7 @@ typedef struct {
     size_t d;
     nh_generator *generator;   /* d */
     nh_algebra algebra;        /* C */
+    nh_ex *constant;           /* d x d x d: the same as expressions of the parameters (constants.h) */
     bool closes;
     double closure;            /* largest residual of a bracket, relative */
     size_t worst[2];           /* that bracket */

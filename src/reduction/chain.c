@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "expr/normal.h"
+#include "expr/relation.h"
+#include "expr/solve.h"
 #include "expr/tape.h"
 #include "reduction/joint.h"
 #include "system/sample.h"
@@ -141,15 +144,38 @@ static void reduce(size_t rows, size_t n, double *a)
         if (fabs(a[i] - round(a[i])) < 1e-9) a[i] = round(a[i]);
 }
 
+/* A null vector's coefficients with the parameters as symbols: the relation among the columns in which it is not zero, which in echelon form is the only one.  The
+ * numbers where there is none. */
+static void with_symbols(const work *w, size_t rows, size_t n, const nh_ex *e, const double *null, nh_ex *out)
+{
+    nh_dag *d = w->dag;
+    const nh_ex *symbols;
+    const double *values;
+    nh_ex column[most_basis], found[most_basis], mark[6];
+    size_t count = 0, index[most_basis], pivot = 0;
+    nh_system_bindings(w->system, &symbols, &values);
+    for (size_t i = 0; i < rows; i++) mark[i] = nh_symbol_fresh(d, "mark");
+    for (size_t c = 0; c < n; c++) {
+        out[c] = nh_real(d, null[c]);
+        if (null[c] == 0) continue;
+        column[count] = nh_int(d, 0);
+        for (size_t i = 0; i < rows; i++) column[count] = nh_add(d, column[count], nh_mul(d, mark[i], e[i * n + c]));
+        index[count++] = c;
+    }
+    while (pivot + 1 < count && null[index[pivot]] != 1) pivot++;
+    if (nh_relation_find(d, count, column, w->system->parameters, symbols, 0, found) != NH_RELATION_UNIQUE || nh_is_zero(d, found[pivot])) return;
+    for (size_t i = 0; i < count; i++) out[index[i]] = nh_simplify(d, nh_div(d, found[i], found[pivot]));
+}
+
 /* ---- fields ---- */
 
-static nh_twist combination(nh_dag *d, size_t n, const nh_twist *basis, const double *coefficient)
+static nh_twist combination(nh_dag *d, size_t n, const nh_twist *basis, const nh_ex *coefficient)
 {
     nh_twist sum;
     for (int i = 0; i < 3; i++) {
         sum.v[i] = sum.w[i] = nh_int(d, 0);
         for (size_t k = 0; k < n; k++) {
-            nh_ex c = nh_real(d, coefficient[k]);
+            nh_ex c = coefficient[k];
             sum.v[i] = nh_add(d, sum.v[i], nh_mul(d, c, basis[k].v[i]));
             sum.w[i] = nh_add(d, sum.w[i], nh_mul(d, c, basis[k].w[i]));
         }
@@ -183,41 +209,56 @@ static void add_null_space(work *w, nh_chain_rule rule, size_t joint, size_t row
     size_t dimension = null_space(w, rows, n, e, null);
     reduce(dimension, n, null);
     for (size_t k = 0; k < dimension; k++) {
-        nh_twist a = combination(w->dag, n, basis, null + k * n);
+        nh_ex coefficient[most_basis];
+        with_symbols(w, rows, n, e, null + k * n, coefficient);
+        nh_twist a = combination(w->dag, n, basis, coefficient);
         add_field(w, rule, joint, &a);
     }
 }
 
 /* ---- the rules ---- */
 
-/* The inverse Gram matrix of the basis twists, at the parameters' values. */
-static bool dual_basis(const work *w, size_t n, const nh_twist *basis, double *inverse)
+/* |e| at the parameters' values. */
+static double size_of(void *context, nh_ex e)
 {
-    nh_dag *d = w->dag;
-    nh_ex flat[most_basis * most_basis];
-    double gram[most_basis * most_basis];
+    const nh_system *s = context;
     const nh_ex *symbols;
     const double *values;
-    for (size_t k = 0; k < n; k++)
-        for (size_t l = 0; l < n; l++) flat[k * n + l] = nh_add(d, nh_dot(d, basis[k].v, basis[l].v), nh_dot(d, basis[k].w, basis[l].w));
-    nh_system_bindings(w->system, &symbols, &values);
-    nh_tape *tape = nh_tape_create(d, 0, NULL, n * n, flat, w->system->parameters, symbols, values);
+    double value;
+    nh_system_bindings(s, &symbols, &values);
+    nh_tape *tape = nh_tape_create(s->dag, 0, NULL, 1, &e, s->parameters, symbols, values);
     nh_tape_work *scratch = nh_tape_work_create(tape);
-    nh_tape_eval(tape, scratch, NULL, gram);
+    nh_tape_eval(tape, scratch, NULL, &value);
     nh_tape_work_free(scratch);
     nh_tape_free(tape);
-    for (size_t i = 0; i < n * n; i++) inverse[i] = i % (n + 1) == 0;
-    return nh_solve(n, gram, n, inverse, NULL);
+    return isfinite(value) ? fabs(value) : 0;
+}
+
+/* The inverse Gram matrix of the basis twists, in the parameters; inverse[l * n + k]. */
+static bool dual_basis(const work *w, size_t n, const nh_twist *basis, nh_ex *inverse)
+{
+    nh_dag *d = w->dag;
+    nh_ex gram[most_basis * most_basis];
+    for (size_t k = 0; k < n; k++)
+        for (size_t l = 0; l < n; l++) gram[k * n + l] = nh_add(d, nh_dot(d, basis[k].v, basis[l].v), nh_dot(d, basis[k].w, basis[l].w));
+    nh_lu *lu = nh_lu_create(d, n, gram, size_of, (void *)w->system, NULL);
+    if (!lu) return false;
+    for (size_t l = 0; l < n; l++) {
+        for (size_t k = 0; k < n; k++) inverse[l * n + k] = nh_int(d, k == l);
+        nh_lu_solve(lu, inverse + l * n, inverse + l * n);
+    }
+    nh_lu_free(lu);
+    return true;
 }
 
 /* t less its orthogonal projection on the span of the basis: column c of e (6 x columns). */
-static void part_off(const work *w, size_t n, const nh_twist *basis, const double *inverse, const nh_twist *t, size_t columns, size_t c, nh_ex *e)
+static void part_off(const work *w, size_t n, const nh_twist *basis, const nh_ex *inverse, const nh_twist *t, size_t columns, size_t c, nh_ex *e)
 {
     nh_dag *d = w->dag;
     nh_twist off = *t;
     for (size_t k = 0; k < n; k++)
         for (size_t l = 0; l < n; l++) {
-            nh_ex part = nh_mul(d, nh_real(d, -inverse[k * n + l]), nh_add(d, nh_dot(d, basis[l].v, t->v), nh_dot(d, basis[l].w, t->w)));
+            nh_ex part = nh_mul(d, nh_neg(d, inverse[k * n + l]), nh_add(d, nh_dot(d, basis[l].v, t->v), nh_dot(d, basis[l].w, t->w)));
             for (int i = 0; i < 3; i++) {
                 off.v[i] = nh_add(d, off.v[i], nh_mul(d, part, basis[k].v[i]));
                 off.w[i] = nh_add(d, off.w[i], nh_mul(d, part, basis[k].w[i]));
@@ -230,12 +271,13 @@ static void part_off(const work *w, size_t n, const nh_twist *basis, const doubl
 }
 
 /* The combinations of n twists, known in the frame in which `pose` is that before the joint, that stay in Lie(Q_i) everywhere: echelon form; local: the twists
- * before the joint.  Returns their number; *whole: all coefficients are whole numbers. */
-static size_t staying(work *w, const nh_joint *j, const nh_pose *pose, size_t n, const nh_twist *twist, nh_twist *local, double *null, bool *whole)
+ * before the joint.  Returns their number; *whole: all coefficients are whole numbers, whatever the parameters are. */
+static size_t staying(work *w, const nh_joint *j, const nh_pose *pose, size_t n, const nh_twist *twist, nh_twist *local, nh_ex *coefficient, bool *whole)
 {
     nh_twist basis[most_basis];
     nh_ex e[6 * most_basis];
-    double inverse[most_basis * most_basis];
+    nh_ex inverse[most_basis * most_basis];
+    double null[most_basis * most_basis];
     size_t m = nh_joint_basis(w->dag, w->chain, j, basis);
     *whole = true;
     if (!dual_basis(w, m, basis, inverse)) return 0;
@@ -245,7 +287,8 @@ static size_t staying(work *w, const nh_joint *j, const nh_pose *pose, size_t n,
     }
     size_t dimension = null_space(w, 6, n, e, null);
     reduce(dimension, n, null);
-    for (size_t i = 0; i < dimension * n; i++) *whole &= null[i] == round(null[i]);
+    for (size_t k = 0; k < dimension; k++) with_symbols(w, 6, n, e, null + k * n, coefficient + k * n);
+    for (size_t i = 0; i < dimension * n; i++) *whole &= nh_kind_of(w->dag, coefficient[i]) == NH_NUMBER && nh_number_of(w->dag, coefficient[i]).q == 1;
     return dimension;
 }
 
@@ -257,21 +300,21 @@ static void space_moves(work *w, size_t joint)
     nh_dag *d = w->dag;
     nh_twist twist[most_basis], local[most_basis], U;
     nh_pose before, rest, since;
-    double null[most_basis * most_basis];
+    nh_ex coefficient[most_basis * most_basis];
     bool whole;
     size_t n = nh_joint_basis(d, w->chain, j, twist);
     nh_chain_frame(w->chain, d, j->parent, 0, &before, &U);
     before = nh_pose_product(d, &before, &j->placement);
     rest = nh_joint_at_rest(w->system, &before);
     since = nh_pose_between(d, &rest, &before);
-    size_t dimension = staying(w, j, &since, n, twist, local, null, &whole);
+    size_t dimension = staying(w, j, &since, n, twist, local, coefficient, &whole);
     if (!whole) {
         for (size_t c = 0; c < 6; c++)
             for (size_t i = 0; i < 3; i++) twist[c].v[i] = nh_int(d, c == i), twist[c].w[i] = nh_int(d, c == 3 + i);
-        dimension = staying(w, j, &before, n = 6, twist, local, null, &whole);
+        dimension = staying(w, j, &before, n = 6, twist, local, coefficient, &whole);
     }
     for (size_t k = 0; k < dimension; k++) {
-        nh_twist a = combination(d, n, local, null + n * k);
+        nh_twist a = combination(d, n, local, coefficient + n * k);
         add_field(w, NH_CHAIN_AP1, joint, &a);
     }
 }

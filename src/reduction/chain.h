@@ -9,7 +9,8 @@
  *     AP2         E_i -> g E_i:  <[a, U], F> = 0 for all positions and velocities                                  (eq. 4.27)
  *     extremity   E_i -> E_i g, nothing behind the body:  <[a, V], h V> = 0                                        (eq. 4.29, with ad)
  *
- * Each condition is linear in the coefficients of a (or c): its null space over random states.  The last two are exact where their conditions are;
+ * Each condition is linear in the coefficients of a (or c): its null space over random states, and the same relation with the parameters as symbols, whose
+ * coefficients are expressions of these.  The last two are exact where their conditions are;
  * the fields are for the caller to prove (they leave K alone; the potential and the constraints are another matter). */
 #ifndef NH_REDUCTION_CHAIN_H
 #define NH_REDUCTION_CHAIN_H

@@ -38,7 +38,7 @@ static bool connection(nh_chaplygin *c, nh_error *error)
 static void curvature(nh_chaplygin *c)
 {
     nh_dag *d = c->dag;
-    const nh_algebra *g = &c->slice->action->algebra;
+    const nh_action *g = c->slice->action;
     const nh_ex *x = c->slice->x;
     size_t n = c->n, dim = c->d;
     bool tidy = c->slice->tidy;
@@ -48,8 +48,8 @@ static void curvature(nh_chaplygin *c)
                 nh_ex e = nh_sub(d, nh_diff(d, c->A[a * n + j], x[i]), nh_diff(d, c->A[a * n + i], x[j]));
                 for (size_t b = 0; b < dim; b++)
                     for (size_t k = 0; k < dim; k++) {
-                        double constant = g->c[(b * dim + k) * dim + a];
-                        if (constant != 0) e = plus(d, e, nh_real(d, -constant), nh_mul(d, c->A[b * n + i], c->A[k * n + j]));
+                        nh_ex constant = g->constant[(b * dim + k) * dim + a];
+                        if (!nh_is_zero(d, constant)) e = plus(d, e, nh_neg(d, constant), nh_mul(d, c->A[b * n + i], c->A[k * n + j]));
                     }
                 if (tidy) e = nh_simplify(d, e);
                 c->B[(a * n + i) * n + j] = e;
@@ -101,7 +101,7 @@ static void drift(nh_chaplygin *c)
 {
     const nh_slice *s = c->slice;
     nh_dag *d = c->dag;
-    const nh_algebra *g = &s->action->algebra;
+    const nh_action *g = s->action;
     size_t n = c->n, dim = c->d, m = s->m;
     nh_ex half = nh_ratio(d, 1, 2);
     for (size_t a = 0; a < dim; a++) {
@@ -115,8 +115,8 @@ static void drift(nh_chaplygin *c)
             nh_ex e = nh_diff(d, c->A0[a], s->x[i]);
             for (size_t b = 0; b < dim; b++)
                 for (size_t k = 0; k < dim; k++) {
-                    double constant = g->c[(b * dim + k) * dim + a];
-                    if (constant != 0) e = plus(d, e, nh_real(d, -constant), nh_mul(d, c->A[b * n + i], c->A0[k]));
+                    nh_ex constant = g->constant[(b * dim + k) * dim + a];
+                    if (!nh_is_zero(d, constant)) e = plus(d, e, nh_neg(d, constant), nh_mul(d, c->A[b * n + i], c->A0[k]));
                 }
             c->B0[a * n + i] = s->tidy ? nh_simplify(d, e) : e;
         }

@@ -18,6 +18,7 @@
 #ifndef NH_CHAPLYGIN_H
 #define NH_CHAPLYGIN_H
 
+#include "noether/prove.h"
 #include "reduction/reduced.h"
 
 typedef struct {
@@ -54,8 +55,9 @@ typedef struct {
     double size;        /* of Theta: 0 means that the Liouville measure is invariant */
     double curl;        /* largest |d Theta| */
     double phi_simple;  /* largest residual of the algebraic condition */
-    bool closed, proved; /* density.h: the density is known in closed form; as an identity */
+    bool closed;        /* density.h: the density is known in closed form */
     nh_ex density;      /* exp(sigma); the factor is its (n - 1)th root */
+    nh_proof proof;     /* of it */
 } nh_chaplygin_measure;
 
 /* K (n x n) and U (n x n x n, Ups_ij = U_kij x'^k) as functions of the slice's x: those of the first stage, or of the second (second.h). */

@@ -98,25 +98,6 @@ static double fit(size_t rows, const double *a, const double *b, const double *w
     return off / (size > 0 ? size : 1);
 }
 
-/* The first one or two factors that fit with rational exponents. */
-static bool choose(const search *s, size_t rows, const double *column, const double *want, size_t *which, nh_num *power, double same)
-{
-    static const double fits = 1e-8;
-    double c[2];
-    for (size_t i = 0; i < s->factors; i++) {
-        which[0] = which[1] = i;
-        if (fit(rows, column + i * rows, NULL, want, c) < fits && nh_recognise_ratio(c[0], largest_denominator, 100 * same, &power[0])) return true;
-    }
-    for (size_t i = 0; i < s->factors; i++)
-        for (size_t j = 0; j < i; j++) {
-            which[0] = i, which[1] = j;
-            if (fit(rows, column + i * rows, column + j * rows, want, c) < fits && nh_recognise_ratio(c[0], largest_denominator, 100 * same, &power[0]) &&
-                nh_recognise_ratio(c[1], largest_denominator, 100 * same, &power[1]))
-                return true;
-        }
-    return false;
-}
-
 /* d_j log F_k and -Theta_j at the sample points: rows (place, j), column by column; rows that are not finite are left out. */
 static size_t sample(const search *s, const nh_ex *slope, double *column, double *want)
 {
@@ -138,36 +119,128 @@ static size_t sample(const search *s, const nh_ex *slope, double *column, double
     return rows;
 }
 
-bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_options *options, nh_ex *density, bool *proved)
+/* ---- which of them ---- */
+
+typedef struct {
+    size_t terms, which[2];
+    nh_num power[2];
+} candidate;
+
+/* What the search knows of the slice, and the best density so far. */
+typedef struct {
+    const search *s;
+    const nh_ex *slope, *theta;
+    const nh_options *options;
+    size_t left;           /* candidates that may be proved */
+    bool found;
+    candidate best;
+    nh_proof proof;
+} contest;
+
+/* c_1 d_j log F_1 + c_2 d_j log F_2 + Theta_j = 0 for every j? */
+static nh_proof prove(const contest *t, const candidate *c)
 {
+    const search *s = t->s;
+    nh_dag *d = s->d;
+    nh_proof all = {.proved = true, .all_parameters = true, .digits = INFINITY};
+    for (size_t j = 0; j < s->n; j++) {
+        nh_ex e[3] = {nh_neg(d, t->theta[j])};
+        for (size_t i = 0; i < c->terms; i++) e[1 + i] = nh_mul(d, nh_number(d, c->power[i]), t->slope[c->which[i] * s->n + j]);
+        all = nh_proof_both(s->s->kinetic->model, all, nh_prove_zero(s->s->kinetic->model, 1 + c->terms, e, true, t->options));
+    }
+    return all;
+}
+
+/* Of those that fit the first that holds for all parameters; else the first that is proved; else the first. */
+static void offer_candidate(contest *t, const candidate *c)
+{
+    if (!t->left) return;
+    nh_proof proof = prove(t, c);
+    t->left--;
+    if (t->found && !(proof.all_parameters && !t->proof.all_parameters) && !(proof.proved && !t->proof.proved)) return;
+    t->found = true;
+    t->best = *c;
+    t->proof = proof;
+    if (proof.proved && proof.all_parameters) t->left = 0;
+}
+
+/* One factor, or two, that fit with rational exponents. */
+static void choose(contest *t, size_t rows, const double *column, const double *want)
+{
+    static const double fits = 1e-6; /* near a pole of the coordinates no more is left; the proof decides */
+    double c[2];
+    for (size_t i = 0; i < t->s->factors && t->left; i++) {
+        candidate one = {.terms = 1, .which = {i}};
+        if (fit(rows, column + i * rows, NULL, want, c) < fits && nh_recognise_ratio(c[0], largest_denominator, fits, &one.power[0])) offer_candidate(t, &one);
+    }
+    for (size_t i = 0; i < t->s->factors; i++)
+        for (size_t j = 0; j < i && t->left; j++) {
+            candidate two = {.terms = 2, .which = {i, j}};
+            if (fit(rows, column + i * rows, column + j * rows, want, c) < fits && nh_recognise_ratio(c[0], largest_denominator, fits, &two.power[0]) &&
+                nh_recognise_ratio(c[1], largest_denominator, fits, &two.power[1]))
+                offer_candidate(t, &two);
+        }
+}
+
+/* m + m y^2 as 1 + y^2: a sum without powers of parameters that all terms have. */
+static nh_ex without_content(const search *s, nh_ex e)
+{
+    static const int power[] = {2, 1, -1, -2};
+    const nh_model *o = s->s->kinetic->model;
+    for (size_t i = 0; i < o->system->parameters; i++)
+        for (size_t j = 0; j < sizeof power / sizeof *power && nh_depends(s->d, e, o->parameter[i]); j++) {
+            nh_ex rest = nh_simplify(s->d, nh_div(s->d, e, nh_powi(s->d, o->parameter[i], power[j])));
+            if (!nh_depends(s->d, rest, o->parameter[i])) e = rest;
+        }
+    return e;
+}
+
+/* e^power without the factors that are constant, and with (b^x)^c = b^(x c): a density's constant factors and its sign are no matter. */
+static nh_ex without_constants(const search *s, nh_ex e, nh_num power)
+{
+    nh_dag *d = s->d;
+    nh_ex x = nh_number(d, power), out = nh_int(d, 1);
+    e = nh_simplify(d, e);
+    if (nh_kind_of(d, e) != NH_PRODUCT) return nh_pow(d, without_content(s, e), x);
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex base = nh_child(d, e, i), exponent = nh_exponent_of(d, e, i);
+        if (moves(s, base) || moves(s, exponent)) out = nh_mul(d, out, nh_pow(d, without_content(s, base), nh_mul(d, exponent, x)));
+    }
+    return out;
+}
+
+/* What may occur in the density: the determinant, its numerator, the metric, and what these consist of. */
+static void collect_factors(search *s, const nh_ex *K)
+{
+    nh_ex det = nh_simplify(s->d, determinant(s->d, s->n, K));
+    offer(s, det);
+    walk(s, det);
+    walk(s, nh_simplify(s->d, nh_numerator(s->d, det)));
+    for (size_t i = 0; i < s->n * s->n; i++) walk(s, K[i]);
+}
+
+bool nh_density_find(const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_options *options, nh_ex *density, nh_proof *proof)
+{
+    enum { most_proofs = 12 };
     search *s = nh_alloc(sizeof *s);
-    size_t n = slice->n, which[2], most = (most_factors + 1) * n;
+    size_t n = slice->n, most = (most_factors + 1) * n;
     nh_dag *d = slice->dag;
     *s = (search){.s = slice, .d = d, .n = n};
     nh_ex *slope = nh_alloc_array(most + n + 1, sizeof *slope), *theta = slope + most;
     double *column = nh_alloc_array(most_places * n * (most_factors + 1) + 1, sizeof *column), *want = column + most_places * n * most_factors;
-    nh_num power[2];
+    contest t = {.s = s, .slope = slope, .theta = theta, .options = options, .left = most_proofs};
     bool good = n > 0 && n <= 4 && slice->tidy && minus_theta(s, K, U, theta);
-    nh_ex det = good ? nh_simplify(d, determinant(d, n, K)) : 0;
-    if (good) offer(s, det);
-    if (good) walk(s, det);
-    if (good) walk(s, nh_simplify(d, nh_numerator(d, det)));
-    for (size_t i = 0; i < n * n && good; i++) walk(s, K[i]);
+    if (good) collect_factors(s, K);
     for (size_t i = 0; i < s->factors; i++)
         for (size_t j = 0; j < n; j++) slope[i * n + j] = nh_div(d, nh_diff(d, s->factor[i], slice->x[j]), s->factor[i]);
     if (good) memcpy(slope + s->factors * n, theta, n * sizeof *theta);
     size_t rows = good ? sample(s, slope, column, want) : 0;
-    good = rows > 2 * n && choose(s, rows, column, want, which, power, options->same);
-    size_t terms = good && which[0] != which[1] ? 2 : 1;
-    if (good) *density = nh_int(d, 1), *proved = true;
-    for (size_t t = 0; t < terms && good; t++) *density = nh_mul(d, *density, nh_pow(d, s->factor[which[t]], nh_number(d, power[t])));
-    for (size_t j = 0; j < n && good && *proved; j++) {
-        nh_ex e = nh_neg(d, theta[j]);
-        for (size_t t = 0; t < terms; t++) e = nh_add(d, e, nh_mul(d, nh_number(d, power[t]), slope[which[t] * n + j]));
-        *proved = nh_normal_is_zero(d, e, (size_t)options->proof_terms) == NH_ZERO;
-    }
+    if (rows > 2 * n) choose(&t, rows, column, want);
+    if (t.found) *density = nh_int(d, 1), *proof = t.proof;
+    for (size_t i = 0; i < t.best.terms; i++) *density = nh_mul(d, *density, without_constants(s, s->factor[t.best.which[i]], t.best.power[i]));
+    if (t.found) *density = nh_simplify(d, *density);
     nh_free(slope);
     nh_free(column);
     nh_free(s);
-    return good;
+    return t.found;
 }

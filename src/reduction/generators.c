@@ -185,11 +185,11 @@ static size_t for_all_parameters(const nh_kinetic *k, const nh_generators *found
 
 /* The generators that one library has, taken when they are more than were known, or as many and more of them hold for all parameters; *good is false with a
  * message after a breakdown. */
-static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, int level, const nh_joint_fields *joints, const nh_options *options, nh_error *error, bool *good)
+static bool one_library(nh_generators *out, const nh_kinetic *k, const nh_jets *jets, int level, size_t together, const nh_joint_fields *joints, const nh_options *options, nh_error *error, bool *good)
 {
     nh_generator_fit s = {.k = k, .options = options, .m = k->m};
     nh_generators found = {.level = level};
-    nh_library_init(&s.l, k, jets, level, most_columns);
+    nh_library_init(&s.l, k, jets, level, together, most_columns);
     if (joints->count) nh_library_put_before(&s.l, k, joints->count, joints->component);
     found.columns = s.n = s.l.count;
     nh_generator_fit_scale(&s);
@@ -211,11 +211,15 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
     nh_joint_fields joints = {0};
     bool good = true, enough = false;
     for (int level = 1; level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
-        bool more = one_library(out, k, jets, level, &joints, options, error, &good);
-        enough = complete(out, jets) || (!more && !jets);
+        bool more = false;
+        for (size_t together = 2; together <= (jets ? 3 : 2) && good && !enough; together++) {
+            more |= one_library(out, k, jets, level, together, &joints, options, error, &good);
+            enough = complete(out, jets);
+        }
+        enough |= !more && !jets;
         if (level > 1 || (enough && for_all_parameters(k, out) == out->count) || !good || !k->model->system->chain) continue;
         nh_joint_fields_init(&joints, k->model->system); /* simple fields are found without them */
-        one_library(out, k, jets, level, &joints, options, error, &good);
+        one_library(out, k, jets, level, 3, &joints, options, error, &good);
         enough = complete(out, jets);
     }
     nh_joint_fields_clear(&joints);

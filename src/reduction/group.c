@@ -219,25 +219,28 @@ static bool next_subset(size_t d, size_t count, size_t *index)
     return false;
 }
 
-/* omega(e_a) at every sample point, forms and generators of length one: f x d each, column by column. */
+/* omega(e_a) at every sample point, forms and generators of length one in units in which the metric has diagonal one, so that lengths and angles compare: f x d each,
+ * column by column. */
 static double *on_constraints(const nh_action *g)
 {
     const nh_kinetic *k = g->kinetic;
-    size_t m = k->m, f = k->f, d = g->d, total = m * d + f * m;
+    size_t m = k->m, f = k->f, d = g->d, total = m * d + f * m + m;
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
     double *z = nh_alloc_array(k->places * total + 1, sizeof *z), *out = nh_alloc_array(k->places * f * d + 1, sizeof *out);
     for (size_t a = 0; a < d; a++) memcpy(e + a * m, g->generator[a].component, m * sizeof *e);
     memcpy(e + m * d, k->omega, f * m * sizeof *e);
+    for (size_t s = 0; s < m; s++) e[m * d + f * m + s] = k->K[s * (m + 1)];
     nh_kinetic_sample(k, total, e, k->places, z);
     for (size_t p = 0; p < k->places; p++)
         for (size_t i = 0; i < f; i++)
             for (size_t a = 0; a < d; a++) {
-                const double *E = z + p * total + a * m, *omega = z + p * total + m * d + i * m;
+                const double *E = z + p * total + a * m, *omega = z + p * total + m * d + i * m, *K = z + p * total + m * d + f * m;
                 double sum = 0, length = 0, size = 0;
                 for (size_t s = 0; s < m; s++) {
+                    double unit = K[s] > 0 ? sqrt(K[s]) : 1;
                     sum += omega[s] * E[s];
-                    length = hypot(length, E[s]);
-                    size = hypot(size, omega[s]);
+                    length = hypot(length, E[s] * unit);
+                    size = hypot(size, omega[s] / unit);
                 }
                 out[p * f * d + i + a * f] = length > 0 && size > 0 ? sum / (length * size) : 0;
             }

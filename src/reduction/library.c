@@ -209,7 +209,7 @@ static void divide(nh_library *l, const nh_kinetic *k, size_t first, nh_ex by)
     }
 }
 
-void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, int level, size_t most)
+void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, int level, size_t together, size_t most)
 {
     size_t m = k->m;
     *l = (nh_library){0};
@@ -220,10 +220,10 @@ void nh_library_init(nh_library *l, const nh_kinetic *k, const nh_jets *jets, in
         size_t count = 0, first = l->count;
         for (size_t j = 0; j < m; j++) count += on[j] = depends[i + m * j];
         if (nonzero[i] && level == polynomials) monomials(l, k, on, 0, nh_int(k->dag, 1), m <= 3 ? 5 : 3, i, most);
-        else if (nonzero[i]) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);
+        else if (nonzero[i]) products(l, k, f, on, 0, nh_int(k->dag, 1), jets && count < together ? count : together, i, most);
         nh_ex by = level == covectors && nonzero[i] ? divisor(k, i) : 0;
         if (by) divide(l, k, first, by);
-        if (by) products(l, k, f, on, 0, nh_int(k->dag, 1), jets ? (count < 4 ? count : 3) : 2, i, most);
+        if (by) products(l, k, f, on, 0, nh_int(k->dag, 1), jets && count < together ? count : together, i, most);
     }
     nh_free(nonzero);
     nh_free(depends);

@@ -12,7 +12,8 @@
  *                not the fields
  *     level 7    monomials to degree five, of more than three coordinates to degree three: what polynomial changes of coordinates make of rotations
  *
- * On which coordinates it depends is known from the jets; without these, any, and at most two at a time. */
+ * On which coordinates it depends is known from the jets; without these, any, and at most two at a time.  With the jets products of two come before those of three: a
+ * smaller library is conditioned better. */
 #ifndef NH_LIBRARY_H
 #define NH_LIBRARY_H
 
@@ -28,8 +29,8 @@ typedef struct {
     const nh_ex **whole;  /* NULL, or per column: NULL, or the m components of a field that is not of this form */
 } nh_library;
 
-/* `jets` may be NULL. */
-void nh_library_init(nh_library *library, const nh_kinetic *kinetic, const nh_jets *jets, int level, size_t most);
+/* Products of at most `together` functions; `jets` may be NULL. */
+void nh_library_init(nh_library *library, const nh_kinetic *kinetic, const nh_jets *jets, int level, size_t together, size_t most);
 /* The same functions, of at most `together` coordinates at a time, for each of `components` coefficients (of sections, see momenta.h). */
 void nh_library_for(nh_library *library, const nh_kinetic *kinetic, size_t components, int level, size_t together, size_t most);
 /* Other fields (m components each, kept by the caller) as columns before the others. */

@@ -66,11 +66,11 @@ static nh_ex frame_force(const nh_slice *s, size_t j, const nh_ex *u, const nh_e
         }
         return nh_sub(d, sum, nh_diff(d, s->V, s->x[j]));
     }
-    const nh_algebra *g = &s->action->algebra;
+    const nh_action *g = s->action;
     for (size_t a = 0; a < g->d; a++)
         for (size_t k = 0; k < g->d; k++) {
-            double c = g->c[(a * g->d + (j - n)) * g->d + k];
-            if (c != 0) sum = nh_add(d, sum, nh_mul(d, nh_real(d, c), nh_mul(d, u[n + a], momentum[n + k])));
+            nh_ex c = g->constant[(a * g->d + (j - n)) * g->d + k];
+            if (!nh_is_zero(d, c)) sum = nh_add(d, sum, nh_mul(d, c, nh_mul(d, u[n + a], momentum[n + k])));
         }
     return sum;
 }

@@ -42,7 +42,6 @@ static bool connection(nh_second *s)
 static void curvature(nh_second *s)
 {
     nh_dag *d = s->slice.dag;
-    const nh_algebra *g = &s->action.algebra;
     size_t n = s->n;
     for (size_t a = 0; a < s->d; a++)
         for (size_t i = 0; i < n; i++)
@@ -50,8 +49,8 @@ static void curvature(nh_second *s)
                 nh_ex e = nh_sub(d, nh_diff(d, s->Av[a * n + j], s->slice.x[i]), nh_diff(d, s->Av[a * n + i], s->slice.x[j]));
                 for (size_t b = 0; b < s->d; b++)
                     for (size_t k = 0; k < s->d; k++) {
-                        double c = g->c[(b * s->d + k) * s->d + a];
-                        if (c != 0) e = plus(d, e, nh_real(d, -c), nh_mul(d, s->Av[b * n + i], s->Av[k * n + j]));
+                        nh_ex c = s->action.constant[(b * s->d + k) * s->d + a];
+                        if (!nh_is_zero(d, c)) e = plus(d, e, nh_neg(d, c), nh_mul(d, s->Av[b * n + i], s->Av[k * n + j]));
                     }
                 e = tidy(s, e);
                 s->Bv[(a * n + i) * n + j] = e;
@@ -139,7 +138,6 @@ static nh_ex shape_force(const nh_second *s, size_t i, const nh_ex *momentum)
 {
     const nh_reduced *o = &s->reduced;
     nh_dag *d = s->slice.dag;
-    const nh_algebra *g = &s->action.algebra;
     size_t n = s->n, dim = s->d;
     nh_ex x = s->slice.x[i], sum = nh_neg(d, nh_diff(d, s->slice.V, x)), half = nh_ratio(d, 1, 2);
     for (size_t a = 0; a < n; a++)
@@ -149,8 +147,8 @@ static nh_ex shape_force(const nh_second *s, size_t i, const nh_ex *momentum)
         for (size_t j = 0; j < n; j++) sum = plus(d, sum, s->Bv[(a * n + i) * n + j], nh_mul(d, momentum[a], o->w[j]));
         for (size_t l = 0; l < dim; l++)
             for (size_t k = 0; k < dim; k++) {
-                double c = g->c[(l * dim + k) * dim + a];
-                if (c != 0) sum = plus(d, sum, nh_mul(d, nh_real(d, c), s->Av[l * n + i]), nh_mul(d, momentum[a], o->w[n + k]));
+                nh_ex c = s->action.constant[(l * dim + k) * dim + a];
+                if (!nh_is_zero(d, c)) sum = plus(d, sum, nh_mul(d, c, s->Av[l * n + i]), nh_mul(d, momentum[a], o->w[n + k]));
             }
     }
     return sum;
@@ -176,7 +174,6 @@ static void equations(nh_second *s)
 {
     nh_reduced *o = &s->reduced;
     nh_dag *d = s->slice.dag;
-    const nh_algebra *g = &s->action.algebra;
     size_t n = s->n, dim = s->d, r = n + dim;
     nh_reduced_init(o, s->hat, n, s->slice.x, r, dim);
     names(s);
@@ -201,8 +198,8 @@ static void equations(nh_second *s)
     for (size_t b = 0; b < dim; b++)
         for (size_t a = 0; a < dim; a++)
             for (size_t k = 0; k < dim; k++) {
-                double c = g->c[(a * dim + b) * dim + k];
-                if (c != 0) o->F[n + b] = plus(d, o->F[n + b], nh_mul(d, nh_real(d, c), o->zeta[a]), momentum[k]);
+                nh_ex c = s->action.constant[(a * dim + b) * dim + k];
+                if (!nh_is_zero(d, c)) o->F[n + b] = plus(d, o->F[n + b], nh_mul(d, c, o->zeta[a]), momentum[k]);
             }
     guard(s);
     o->conservative = s->first->reduced.conservative;

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "expr/print.h"
 #include "expr/typeset.h"
+#include "reduction/section.h"
 #include "report/facts.h"
 #include "report/html_internal.h"
 #include "report/reduction.h"
@@ -51,6 +52,12 @@ static void field(nh_html_writer *w, const nh_kinetic *k, const nh_ex *component
 
 static const char *condition(const nh_condition *c) { return !c->holds ? "no" : c->all_parameters ? "proved" : c->proved ? "proved here" : "to rounding"; }
 
+/* For which parameters, where not for all. */
+static void limit(nh_html_writer *w, const nh_model *o, const nh_proof *p)
+{
+    if (!p->all_parameters) nh_html_text(w, p->proved ? nh_facts_holds(o, p, false) : " (to rounding)");
+}
+
 static void generators(nh_html_writer *w, const nh_action *g)
 {
     nh_html_table(w, "Generators", "|field|kinetic energy|potential|constraints");
@@ -59,6 +66,8 @@ static void generators(nh_html_writer *w, const nh_action *g)
         nh_text_addf(w->out, "%zu</th><td>", a + 1); /* a name, for --group */
         field(w, g->kinetic, g->generator[a].component);
         if (g->generator[a].local) nh_html_add(w, "(local: many-valued on an angle)");
+        nh_proof proof = nh_generator_proof(g->kinetic, &g->generator[a]);
+        limit(w, g->kinetic->model, &proof);
         nh_text_addf(w->out, "</td><td>%s</td><td>%s</td><td>%s</td></tr>\n", condition(&g->generator[a].metric), condition(&g->generator[a].potential), condition(&g->generator[a].constraints));
     }
     nh_html_table_end(w);
@@ -68,12 +77,25 @@ static void generators(nh_html_writer *w, const nh_action *g)
 
 static void basis(nh_html_writer *w, size_t a) { nh_text_addf(w->out, "<msub><mi>e</mi><mn>%zu</mn></msub>", a + 1); }
 
-static void bracket(nh_html_writer *w, const nh_algebra *g, size_t a, size_t b)
+static void coefficient(nh_html_writer *w, nh_ex c)
 {
+    bool sum = nh_kind_of(w->dag, c) == NH_SUM;
+    if (nh_is_number(w->dag, c, 1)) return;
+    char *text = nh_print_string(w->dag, c);
+    nh_text_add(w->out, sum ? "<mo>(</mo>" : "");
+    nh_typeset(text, NH_MATHML, w->out);
+    nh_text_add(w->out, sum ? "<mo>)</mo>" : "");
+    nh_free(text);
+}
+
+static void bracket(nh_html_writer *w, const nh_action *g, size_t a, size_t b)
+{
+    nh_dag *d = g->kinetic->dag;
     bool first = true;
     for (size_t k = 0; k < g->d; k++) {
-        double c = g->c[(a * g->d + b) * g->d + k];
-        if (c == 0) continue;
+        nh_ex c = g->constant[(a * g->d + b) * g->d + k];
+        if (nh_is_zero(d, c)) continue;
+        bool negative = nh_section_negative(d, c);
         if (first) {
             nh_text_addf(w->out, "<div class=\"formula\"><math><mo>[</mo>");
             basis(w, a);
@@ -81,8 +103,8 @@ static void bracket(nh_html_writer *w, const nh_algebra *g, size_t a, size_t b)
             basis(w, b);
             nh_html_add(w, "<mo>]</mo><mo>=</mo>");
         }
-        nh_html_add(w, c < 0 ? "<mo>\u2212</mo>" : first ? "" : "<mo>+</mo>");
-        if (fabs(c) != 1) nh_text_addf(w->out, "<mn>%.6g</mn>", fabs(c));
+        nh_html_add(w, negative ? "<mo>\u2212</mo>" : first ? "" : "<mo>+</mo>");
+        coefficient(w, negative ? nh_neg(d, c) : c);
         basis(w, k);
         first = false;
     }
@@ -91,9 +113,9 @@ static void bracket(nh_html_writer *w, const nh_algebra *g, size_t a, size_t b)
 
 static void algebra(nh_html_writer *w, const nh_group *g)
 {
-    const nh_algebra *c = &g->action.algebra;
+    const nh_action *c = &g->action;
     bool abelian = true;
-    for (size_t i = 0; i < c->d * c->d * c->d; i++) abelian &= c->c[i] == 0;
+    for (size_t i = 0; i < c->d * c->d * c->d; i++) abelian &= nh_is_zero(c->kinetic->dag, c->constant[i]);
     if (abelian) nh_html_add(w, c->d > 1 ? "<p>All brackets vanish: the group is abelian.</p>\n" : "");
     else nh_html_add(w, "<p>Brackets of the Lie algebra</p>\n");
     for (size_t a = 0; a < c->d; a++)
@@ -162,6 +184,10 @@ static void measure(nh_html_writer *w, const nh_reduction_stage *s)
         nh_html_add(w, ")");
     }
     if (s->kind != NH_STAGE_SECOND || s->shown->n <= 2) nh_html_add(w, m->factor ? m->local ? "; a conformal factor makes it Hamiltonian, locally only" : "; a conformal factor makes it Hamiltonian" : "; no conformal factor makes it Hamiltonian");
+    if (m->measure && m->closed) {
+        nh_html_formula(w, "density", m->density);
+        limit(w, s->action->kinetic->model, &m->proof);
+    }
     nh_html_add(w, "</dd>\n");
 }
 

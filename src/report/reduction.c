@@ -6,6 +6,7 @@
 
 #include "expr/normal.h"
 #include "expr/print.h"
+#include "reduction/section.h"
 #include "report/facts.h"
 #include "report/formula.h"
 
@@ -85,18 +86,30 @@ static void put_generators(const nh_reduction *r, const nh_group *g, bool verbos
     }
 }
 
-static void put_brackets(const nh_algebra *g, nh_text *out)
+/* "- 2 ", "(a + b)/a ": a coefficient in a sum. */
+static void put_coefficient(nh_dag *d, nh_ex c, bool first, nh_text *out)
 {
+    bool negative = nh_section_negative(d, c);
+    nh_ex size = negative ? nh_neg(d, c) : c;
+    nh_text_add(out, negative ? (first ? "-" : " - ") : first ? "" : " + ");
+    if (nh_is_number(d, size, 1)) return;
+    char *text = nh_print_string(d, size);
+    nh_text_addf(out, nh_kind_of(d, size) == NH_SUM ? "(%s) " : "%s ", text);
+    nh_free(text);
+}
+
+static void put_brackets(const nh_action *g, nh_text *out)
+{
+    nh_dag *d = g->kinetic->dag;
     bool any = false;
     for (size_t a = 0; a < g->d; a++)
         for (size_t b = a + 1; b < g->d; b++) {
             bool first = true;
             for (size_t k = 0; k < g->d; k++) {
-                double c = g->c[(a * g->d + b) * g->d + k];
-                if (c == 0) continue;
+                nh_ex c = g->constant[(a * g->d + b) * g->d + k];
+                if (nh_is_zero(d, c)) continue;
                 if (first) nh_text_addf(out, "%s[e%zu,e%zu] = ", any ? ", " : "  brackets of the Lie algebra: ", a + 1, b + 1);
-                nh_text_addf(out, "%s", c < 0 ? (first ? "-" : " - ") : first ? "" : " + ");
-                if (fabs(c) != 1) nh_text_addf(out, "%.6g ", fabs(c));
+                put_coefficient(d, c, first, out);
                 nh_text_addf(out, "e%zu", k + 1);
                 first = false;
                 any = true;
@@ -114,7 +127,7 @@ static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh
         nh_text_addf(out, "  %zu more up to a total derivative in the Lagrangian: --weak\n", r->weaker);
     if (r->strict) nh_text_add(out, "  of the equations of motion: the Lagrangian may change by a total derivative\n");
     put_generators(r, g, verbose, out);
-    put_brackets(&g->action.algebra, out);
+    put_brackets(&g->action, out);
     if (!g->action.d) return;
     const nh_algebra_report *p = &g->report;
     nh_text_addf(out, "  centre of dimension %zu, radical %zu, derived series", p->centre, p->radical);
@@ -201,7 +214,7 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, doub
     if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : m->local ? ", but locally only: its density is many-valued on an angle" : "");
     if (m->measure && m->closed) {
         put_expression(out, "    ", "density", r->kinetic->dag, m->density, shown);
-        if (!m->proved) nh_text_add(out, "      (to rounding)\n");
+        if (!m->proof.all_parameters) nh_text_addf(out, "      (%s)\n", m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) + 1 : "to rounding");
     }
     if (!m->measure) nh_text_addf(out, "  no invariant measure with a density on the shape space (|d Theta| = %.2g)\n", m->curl);
     if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) return; /* what the momentum adds to the form would have to be closed, too */

@@ -23,6 +23,8 @@ size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_
 
 /* "Stage 3, in one step instead of stages 1 and 2": the first and the second one build on each other, what divides the whole group is an alternative. */
 const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);
+/* " for k = 2": what the stage's group needs to be one of symmetries; "" where that is nothing. */
+const char *nh_reduction_stage_holds(const nh_reduction *reduction, const nh_reduction_stage *stage);
 bool nh_reduction_instead(const nh_reduction *reduction, size_t stage);
 /* "; globally: SO(2)^3 of dimension 3" where not all symmetries are known to be so, else "". */
 const char *nh_reduction_globally(const nh_reduction *reduction, const nh_group *group);

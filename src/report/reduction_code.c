@@ -74,13 +74,22 @@ static void put_velocities(const nh_reduced *o, nh_dag *d, nh_arena *arena, size
     put_unpacked(out, d, w, o->w, "w_", 0);
 }
 
+static void put_stage_name(const nh_reduction *r, size_t i, const char *before, nh_text *out)
+{
+    const nh_reduction_stage *s = &r->stage[i];
+    const char *holds = nh_reduction_stage_holds(r, s);
+    nh_text_addf(out, "%s%s (%s), by %s%s%s%s", before, nh_reduction_stage_title(r, i), nh_stage_kind_name(s->kind), s->group, s->local ? ", which acts locally" : "",
+                 *holds ? ", a group of symmetries" : "", holds);
+}
+
 static void put_stage(const nh_reduction *r, const nh_reduction_stage *s, size_t number, nh_text *out)
 {
     const nh_reduced *o = s->shown;
     nh_dag *d = r->kinetic->dag;
     nh_arena *arena = r->kinetic->arena;
     size_t n = o->n, w = o->r, temporaries = 0, total = n + w;
-    nh_text_addf(out, "\n/* %s (%s), by %s%s.  state_ = (", nh_reduction_stage_title(r, number - 1), nh_stage_kind_name(s->kind), s->group, s->local ? ", which acts locally" : "");
+    put_stage_name(r, number - 1, "\n/* ", out);
+    nh_text_add(out, ".  state_ = (");
     put_names(out, r, o);
     nh_text_addf(out, "): %zu values;\n * rate_: their derivatives; zeta_: the %zu components of the group's body velocity.  0, or -1 where the mass matrix is singular. */\n", total, o->d);
     nh_text_addf(out, "int stage%zu(%sconst double *state_, double *rate_, double *zeta_)\n{\n", number, o->timed ? "double t, " : "");
@@ -153,7 +162,8 @@ void nh_reduction_latex(const nh_reduction *r, nh_text *out)
     nh_escape_line(r->system->title, out);
     nh_text_addf(out, ": reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s", nh_tex_formula_macro);
     for (size_t i = 0; i < r->stages; i++) {
-        nh_text_addf(out, "\n%% %s (%s), by %s%s\n", nh_reduction_stage_title(r, i), nh_stage_kind_name(r->stage[i].kind), r->stage[i].group, r->stage[i].local ? ", which acts locally" : "");
+        put_stage_name(r, i, "\n% ", out);
+        nh_text_add(out, "\n");
         put_stage_latex(r, &r->stage[i], out);
     }
 }

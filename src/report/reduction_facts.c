@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "report/facts.h"
+
 bool nh_reduction_instead(const nh_reduction *r, size_t i)
 {
     nh_stage_kind kind = r->stage[i].kind;
@@ -15,6 +17,14 @@ const char *nh_reduction_stage_title(const nh_reduction *r, size_t i)
     if (!nh_reduction_instead(r, i)) return nh_arena_printf(arena, "Stage %zu", i + 1);
     if (i == 1) return nh_arena_printf(arena, "Stage %zu, in one step instead of stage 1", i + 1);
     return nh_arena_printf(arena, "Stage %zu, in one step instead of stages 1 %s %zu", i + 1, i == 2 ? "and" : "to", i);
+}
+
+const char *nh_reduction_stage_holds(const nh_reduction *r, const nh_reduction_stage *s)
+{
+    nh_proof all = {.proved = true, .all_parameters = true};
+    for (size_t a = 0; a < s->action->d; a++) all = nh_proof_both(r->kinetic->model, all, nh_generator_proof(r->kinetic, &s->action->generator[a]));
+    if (all.all_parameters || !r->system->parameters) return "";
+    return all.proved ? nh_facts_holds(r->kinetic->model, &all, false) : " to rounding";
 }
 
 const char *nh_reduction_no_energy(const nh_reduction *r, const nh_reduction_stage *s)

@@ -47,6 +47,29 @@ static void put_fields(nh_json *to, const nh_action *g)
     }
 }
 
+/* What is not zero of the same, with the parameters: {"of": [1, 4], "is": {"2": "(a + b)/a"}}. */
+static void put_brackets(nh_json *to, const nh_action *g)
+{
+    nh_json *list = nh_json_put_array(to, "brackets");
+    nh_dag *d = g->kinetic->dag;
+    for (size_t a = 0; a < g->d; a++)
+        for (size_t b = a + 1; b < g->d; b++) {
+            nh_json *item = NULL, *is = NULL;
+            for (size_t k = 0; k < g->d; k++) {
+                nh_ex c = g->constant[(a * g->d + b) * g->d + k];
+                if (nh_is_zero(d, c)) continue;
+                if (!item) {
+                    item = nh_json_add_object(list);
+                    nh_json *of = nh_json_put_array(item, "of");
+                    nh_json_add_number(of, (double)a + 1);
+                    nh_json_add_number(of, (double)b + 1);
+                    is = nh_json_put_object(item, "is");
+                }
+                put_expression(is, nh_arena_printf(g->kinetic->arena, "%zu", k + 1), d, c);
+            }
+        }
+}
+
 static void put_algebra(nh_json *to, const nh_algebra *g)
 {
     nh_json *outer = nh_json_put_array(to, "structure_constants");
@@ -92,6 +115,7 @@ static void put_group(nh_json *root, const char *key, const nh_reduction *r, con
     nh_json_put_bool(global, "complete", g->missing == 0);
     put_fields(to, &g->action);
     put_algebra(to, &g->action.algebra);
+    put_brackets(to, &g->action);
     put_momentum_map(to, &g->action);
     nh_json_put_number(to, "centre", (double)g->report.centre);
     nh_json_put_number(to, "radical", (double)g->report.radical);
@@ -146,7 +170,8 @@ static void put_measure(nh_json *to, const nh_reduction *r, const nh_reduction_s
     else nh_json_put_bool(m, "conformal_factor", s->measure.factor);
     nh_json_put_number(m, "curl", s->measure.curl);
     if (s->measure.closed) put_expression(m, "density", r->kinetic->dag, s->measure.density);
-    if (s->measure.closed) nh_json_put_bool(m, "density_proved", s->measure.proved);
+    if (s->measure.closed) nh_json_put_bool(m, "density_proved", s->measure.proof.proved);
+    if (s->measure.closed) nh_facts_put_holds(m, r->kinetic->model, &s->measure.proof);
 }
 
 static void put_chaplygin(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)

@@ -1,0 +1,333 @@
+/* A system's formulas with other values of its parameters: for bench_parameters, which prints a table, and test_parameters_reduce, which asserts.
+ *
+ * Parameters are symbols, so that every formula must be the same, letter for letter.  Where one parameter has a special value that value is put in its place in the
+ * formulas of both.  Reduced equations are left out: charts are chosen by conditioning at the given values. */
+#ifndef NH_TESTS_PARAMETER_SETS_H
+#define NH_TESTS_PARAMETER_SETS_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expr/normal.h"
+#include "expr/print.h"
+#include "report/facts.h"
+#include "study/analyze.h"
+#include "study/reduce.h"
+#include "system/sample.h"
+
+/* ---- formulas ---- */
+
+typedef struct {
+    char name[64];   /* "Phi2", "generator 3", "density of stage 1" */
+    char *text;
+    char limit[160]; /* for which parameters it holds, and why; "": for all */
+} formula;
+
+typedef struct {
+    size_t count, capacity;
+    formula *list;
+    bool answered;   /* nothing failed */
+} formulas;
+
+/* One parameter at a special value; name NULL: none. */
+typedef struct {
+    const char *name;
+    double value;
+} special_value;
+
+static inline void formulas_clear(formulas *f)
+{
+    for (size_t i = 0; i < f->count; i++) nh_free(f->list[i].text);
+    nh_free(f->list);
+    *f = (formulas){0};
+}
+
+static inline void put_substituted(const nh_model *o, special_value special, nh_ex e, nh_text *out)
+{
+    nh_dag *d = o->dag;
+    for (size_t i = 0; i < o->system->parameters && special.name; i++) {
+        nh_ex value = nh_number(d, nh_num_decimal(special.value));
+        if (!strcmp(o->system->parameter[i].name, special.name)) e = nh_simplify(d, nh_substitute(d, e, 1, &o->parameter[i], &value));
+    }
+    char *text = nh_print_string(d, e);
+    nh_text_addf(out, "%s%s", *nh_text_string(out) ? "; " : "", text);
+    nh_free(text);
+}
+
+/* n expressions that are one formula; `proof` NULL: an identity. */
+static inline void formulas_add(formulas *f, const nh_model *o, special_value special, const char *name, size_t n, const nh_ex *e, const nh_proof *proof, const char *why)
+{
+    nh_text text;
+    nh_text_init(&text);
+    for (size_t i = 0; i < n; i++) put_substituted(o, special, e[i], &text);
+    nh_grow(&f->list, &f->capacity, f->count + 1, sizeof *f->list);
+    formula *to = &f->list[f->count++];
+    *to = (formula){.text = nh_strdup(nh_text_string(&text))};
+    snprintf(to->name, sizeof to->name, "%s", name);
+    if (proof && !proof->all_parameters && o->system->parameters)
+        snprintf(to->limit, sizeof to->limit, "%s%s%s", nh_facts_holds(o, proof, false) + 1, *why ? ", " : "", why);
+    nh_text_clear(&text);
+}
+
+/* ---- of an analysis ---- */
+
+static inline const char *why_limited(const nh_found *f)
+{
+    if (f->series) return "a series";
+    if (f->proof.proved) return "";
+    return f->exact ? "no proof" : "numbers without a name";
+}
+
+/* Currents; dependent ones too. */
+static inline void add_analysis(formulas *f, const char *path, size_t settings, const nh_setting *setting, special_value special, const nh_options *options)
+{
+    nh_error error = {0};
+    nh_analyze_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options, .no_figures = true};
+    nh_result *r = nh_analyze(&q, &error);
+    for (size_t k = 0; r && k < r->count; k++) {
+        const nh_found *c = &r->found[k];
+        formulas_add(f, r->model, special, c->name, 1, c->has_in_velocities ? &c->in_velocities : &c->phi, &c->proof, why_limited(c));
+    }
+    f->answered &= r != NULL;
+    nh_result_free(r);
+    nh_error_clear(&error);
+}
+
+/* ---- of a reduction ---- */
+
+/* Brackets follow from generators; where a special value brings more of these in they have other numbers. */
+static inline void add_group(formulas *f, const nh_reduction *r, special_value special)
+{
+    const nh_action *g = &(r->all ? r->all : r->group)->action;
+    const nh_kinetic *k = r->kinetic;
+    char name[64];
+    for (size_t a = 0; a < g->d; a++) {
+        nh_proof proof = nh_generator_proof(k, &g->generator[a]);
+        snprintf(name, sizeof name, "generator %zu", a + 1);
+        formulas_add(f, k->model, special, name, k->m, g->generator[a].component, &proof, proof.proved ? "" : "to rounding");
+    }
+    for (size_t pair = 0; pair < g->d * g->d; pair++) {
+        snprintf(name, sizeof name, "bracket %zu, %zu", pair / g->d + 1, pair % g->d + 1);
+        if (!special.name && pair / g->d < pair % g->d) formulas_add(f, k->model, special, name, g->d, g->constant + pair * g->d, NULL, "");
+    }
+}
+
+static inline void add_momenta(formulas *f, const nh_reduction *r, special_value special)
+{
+    char name[64];
+    for (size_t i = 0; i < r->momenta.count; i++) {
+        const nh_momentum *p = &r->momenta.momentum[i];
+        snprintf(name, sizeof name, "momentum %zu", i + 1);
+        formulas_add(f, r->model, special, name, 1, &p->value, &p->proof, p->proof.proved ? "" : "to rounding");
+        snprintf(name, sizeof name, "field of momentum %zu", i + 1);
+        formulas_add(f, r->model, special, name, r->kinetic->m, p->field, NULL, "");
+    }
+}
+
+/* Generators, brackets, conserved momenta with their fields, densities, and the fields of joints. */
+static inline void add_reduction(formulas *f, const char *path, size_t settings, const nh_setting *setting, special_value special, const nh_options *options)
+{
+    nh_error error = {0};
+    nh_reduce_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options};
+    nh_reduction *r = nh_reduce(&q, &error);
+    char name[64];
+    if (r && (r->all || r->group)) add_group(f, r, special);
+    if (r) add_momenta(f, r, special);
+    for (size_t i = 0; r && i < r->stages; i++) {
+        const nh_chaplygin_measure *m = &r->stage[i].measure;
+        snprintf(name, sizeof name, "density of stage %zu", i + 1);
+        if (m->tested && m->measure && m->closed) formulas_add(f, r->model, special, name, 1, &m->density, &m->proof, m->proof.proved ? "" : "to rounding");
+    }
+    for (size_t i = 0; r && r->joints && i < r->joints->fields; i++) {
+        snprintf(name, sizeof name, "field %zu of joints", i + 1);
+        formulas_add(f, r->model, special, name, r->kinetic->m, r->joints->field[i].component, NULL, "");
+    }
+    f->answered &= r != NULL;
+    nh_reduction_free(r);
+    nh_error_clear(&error);
+}
+
+/* What kind of system it is with these values; false: none. */
+static inline bool kind_of(const char *path, size_t settings, const nh_setting *setting, char *out, size_t size)
+{
+    nh_error error = {0};
+    nh_system *s = nh_system_read(path, settings, setting, &error);
+    nh_chart *chart = s ? nh_chart_create(s, NH_CHART_AUTO, 1, &error) : NULL;
+    nh_model *o = chart ? nh_model_bare(s, chart) : NULL; /* which owns the chart */
+    nh_kinetic *k = o ? nh_kinetic_create(o, 1, &error) : NULL;
+    if (k) snprintf(out, size, "%d%d%d%d%d%d%d", k->quadratic, k->magnetic, k->metric, k->linear, k->affine, k->forced, k->reducible);
+    bool good = k != NULL;
+    nh_kinetic_free(k);
+    nh_model_free(o);
+    nh_system_free(s);
+    nh_error_clear(&error);
+    return good;
+}
+
+/* ---- values ---- */
+
+enum { PARAMETER_SETS = 3, most_parameters = 40, most_draws = 20 };
+static const char *const parameter_set_name[PARAMETER_SETS] = {"whole numbers", "decimals", "one special value"};
+
+typedef struct {
+    size_t count;
+    nh_setting setting[most_parameters];
+    special_value special;
+    char text[400];
+} parameter_set;
+
+static inline void add_setting(parameter_set *p, const char *name, double value)
+{
+    size_t n = strlen(p->text);
+    p->setting[p->count++] = (nh_setting){.name = name, .value = value};
+    snprintf(p->text + n, sizeof p->text - n, "%s%s = %.15g", n ? ", " : "", name, value);
+}
+
+/* Distinct whole numbers up to 9, or to the number of parameters, with the signs of the file's values. */
+static inline void draw_whole_numbers(const nh_system *s, uint64_t *state, parameter_set *p)
+{
+    size_t n = s->parameters, most = n > 7 ? n + 2 : 9;
+    double taken[most_parameters];
+    for (size_t i = 0; i < n; i++) {
+        size_t j;
+        do {
+            taken[i] = 2 + floor((double)(most - 1) * nh_random(state));
+            for (j = 0; j < i && taken[j] != taken[i]; j++) continue;
+        } while (j < i);
+        add_setting(p, s->parameter[i].name, s->parameter[i].value < 0 ? -taken[i] : taken[i]);
+    }
+}
+
+/* Five digits, not far from the file's values. */
+static inline void draw_decimals(const nh_system *s, uint64_t *state, parameter_set *p)
+{
+    for (size_t i = 0; i < s->parameters; i++) {
+        double value = s->parameter[i].value != 0 ? s->parameter[i].value : 1, digits;
+        value *= 0.7 + 0.7 * nh_random(state);
+        digits = pow(10, 4 - floor(log10(fabs(value))));
+        add_setting(p, s->parameter[i].name, round(value * digits) / digits);
+    }
+}
+
+/* One parameter at 1, at 0, or at another one's value. */
+static inline void draw_special(const nh_system *s, uint64_t *state, parameter_set *p)
+{
+    size_t n = s->parameters, i = (size_t)((double)n * nh_random(state)), way = (size_t)((n > 1 ? 3 : 2) * nh_random(state)), j = (i + 1 + (size_t)((double)(n - 1) * nh_random(state))) % n;
+    double value = way == 0 ? 1 : way == 1 ? 0 : s->parameter[j].value;
+    add_setting(p, s->parameter[i].name, value);
+    p->special = (special_value){s->parameter[i].name, value};
+}
+
+static inline parameter_set parameter_set_draw(const nh_system *s, size_t kind, uint64_t *state)
+{
+    parameter_set p = {0};
+    if (kind == 0) draw_whole_numbers(s, state, &p);
+    else if (kind == 1) draw_decimals(s, state, &p);
+    else draw_special(s, state, &p);
+    return p;
+}
+
+/* ---- a system ---- */
+
+typedef struct {
+    bool currents, reductions;
+    nh_options options;
+} parameters_question;
+
+static inline formulas ask(const char *path, const parameters_question *q, size_t settings, const nh_setting *setting, special_value special)
+{
+    formulas f = {.answered = true};
+    if (q->currents) add_analysis(&f, path, settings, setting, special, &q->options);
+    if (q->reductions) add_reduction(&f, path, settings, setting, special, &q->options);
+    return f;
+}
+
+typedef struct {
+    bool drawn[PARAMETER_SETS], same[PARAMETER_SETS]; /* were there admissible values? */
+    size_t formulas, limited; /* of the file; those that hold for some values only, of the file and of the first two sets */
+    char *words;              /* what differs, and what is limited, with reasons */
+} parameters_row;
+
+static inline const formula *find_formula(const formulas *f, const char *text)
+{
+    for (size_t i = 0; i < f->count; i++)
+        if (!strcmp(f->list[i].text, text)) return &f->list[i];
+    return NULL;
+}
+
+static inline bool is_named(const formulas *f, const char *name)
+{
+    for (size_t i = 0; i < f->count; i++)
+        if (!strcmp(f->list[i].name, name)) return true;
+    return false;
+}
+
+static inline void list_limited(const formulas *f, const char *where, parameters_row *o, nh_text *out)
+{
+    for (size_t i = 0; i < f->count; i++) {
+        if (!*f->list[i].limit) continue;
+        nh_text_addf(out, "%s%s %s: %s", *nh_text_string(out) ? "; " : "", where, f->list[i].name, f->list[i].limit);
+        o->limited++;
+    }
+}
+
+/* Does every formula of `was` stand in `is`, in the same place unless a special value brings others in? */
+static inline bool compare_formulas(const formulas *was, const formulas *is, const parameter_set *p, nh_text *out)
+{
+    bool same = is->answered && (p->special.name || is->count == was->count);
+    if (is->count != was->count) nh_text_addf(out, "%s%zu formulas instead of %zu for %s", *nh_text_string(out) ? "; " : "", is->count, was->count, p->text);
+    for (size_t i = 0; i < was->count; i++) {
+        bool there = p->special.name ? find_formula(is, was->list[i].text) != NULL : i < is->count && !strcmp(is->list[i].text, was->list[i].text);
+        if (!there) nh_text_addf(out, "%s%s %s for %s", *nh_text_string(out) ? "; " : "", was->list[i].name, is_named(is, was->list[i].name) ? "differs" : "is not there", p->text);
+        if (!there && getenv("NHSYM_TEST_FIGURES")) printf("%s: %s\n    %s\n    %s\n", p->text, was->list[i].name, was->list[i].text, i < is->count ? is->list[i].text : "");
+        same &= there;
+    }
+    return same;
+}
+
+/* One set of values against the file's formulas. */
+static inline void compare_set(const char *path, const nh_system *s, const parameters_question *q, const formulas *plain, size_t set, uint64_t *state, parameters_row *o, nh_text *out)
+{
+    char usual[16], kind[16] = "";
+    parameter_set p;
+    bool good = kind_of(path, 0, NULL, usual, sizeof usual);
+    size_t draws = 0;
+    do p = parameter_set_draw(s, set, state);
+    while (good && !(kind_of(path, p.count, p.setting, kind, sizeof kind) && !strcmp(kind, usual)) && ++draws < most_draws);
+    if (!good || draws == most_draws) return;
+    formulas is = ask(path, q, p.count, p.setting, p.special), was = p.special.name ? ask(path, q, 0, NULL, p.special) : (formulas){0};
+    o->drawn[set] = true;
+    o->same[set] = compare_formulas(p.special.name ? &was : plain, &is, &p, out);
+    if (!p.special.name) list_limited(&is, parameter_set_name[set], o, out);
+    formulas_clear(&is);
+    formulas_clear(&was);
+}
+
+/* `words` is for the caller to free. */
+static inline parameters_row parameters_of(const char *path, bool currents, bool reductions, uint64_t seed)
+{
+    parameters_row o = {0};
+    parameters_question q = {.currents = currents, .reductions = reductions};
+    nh_error error = {0};
+    nh_text words;
+    nh_options_default(&q.options);
+    nh_text_init(&words);
+    nh_system *s = nh_system_read(path, 0, NULL, &error);
+    if (!s) nh_text_addf(&words, "%s", error.what);
+    if (s && s->parameters && s->parameters <= most_parameters) {
+        formulas plain = ask(path, &q, 0, NULL, (special_value){0});
+        o.formulas = plain.count;
+        list_limited(&plain, "file", &o, &words);
+        for (size_t set = 0; set < PARAMETER_SETS; set++) compare_set(path, s, &q, &plain, set, &seed, &o, &words);
+        formulas_clear(&plain);
+    }
+    o.words = nh_strdup(nh_text_string(&words));
+    nh_text_clear(&words);
+    nh_system_free(s);
+    nh_error_clear(&error);
+    return o;
+}
+
+#endif
