@@ -256,3 +256,47 @@ Test(reduce_statements, momenta_beside_a_parameter_of_that_name)
     SAYS(TEXT(t), "    J = ");
     done(&t);
 }
+
+/* ---- without inertia ---- */
+
+static void refuses(const char *text, const char *words)
+{
+    char path[SCRATCH];
+    nh_error error = {0};
+    nh_reduce_request q = {.system_path = path};
+    nh_options_default(&q.options);
+    cr_assert(scratch_text(path, text));
+    nh_reduction *r = nh_reduce(&q, &error);
+    cr_expect(!r && error.code == NH_INPUT && strstr(error.what, words) && *error.hint, "%s: %d %s %s", words, error.code, error.what, error.hint);
+    nh_reduction_free(r);
+    remove(path);
+}
+
+/* Its equations do not determine the motion: that its group is trivial would not even be true. */
+Test(reduce_statements, a_singular_Lagrangian_is_refused_with_all_directions)
+{
+    refuses("coordinates: [x, y]\nlagrangian: (x' + y')^2/2 - x^2\n", "rank 1 of 2; no inertia in the direction x' : y' = 1 : -1");
+    refuses("coordinates: [x, y, z]\nlagrangian: x'^2/2 + y*z'\n", "rank 1 of 3; no inertia in the directions y' and z'");
+    refuses("coordinates: [x, y, z]\nlagrangian: (x'^2 - y'^2)/2 + z'^2/2\nconstraints:\n  - y' = x'\n", "rank 1 of 2; no inertia in the direction x'");
+    /* it turns with z: the place belongs to it */
+    refuses("coordinates: [x, y, z]\nlagrangian: (cos(z)*x' + sin(z)*y')^2/2 + z'^2/2\n", "rank 2 of 3; no inertia in the direction x' : y' = 0.256 : 1 (at x = ");
+    refuses("coordinates: [x, y]\nlagrangian: sqrt(1 + (x' + y')^2)\n", "rank 1 of 2; no inertia in the direction x' : y' = 1 : -1");
+}
+
+/* What constraints bind needs no inertia: x moves, y follows it. */
+Test(reduce_statements, inertia_on_the_constraint_submanifold_is_enough)
+{
+    told t = tell("coordinates: [x, y, z]\nlagrangian: x'^2/2 + z'^2/2\nconstraints:\n  - y' = x*x'\n");
+    cr_expect_eq(t.r->group->action.d, 5);
+    SAYS(nh_text_string(&t.text), "d/dx + x d/dy");
+    done(&t);
+}
+
+/* A Lagrangian that is not defined for all velocities of the box has the symmetries that it has. */
+Test(reduce_statements, symmetries_of_a_root_of_the_velocities)
+{
+    told t = tell("coordinates: [x, y]\nlagrangian: -sqrt(1 - x'^2 - y'^2)\n");
+    cr_expect_eq(t.r->group->action.d, 3);
+    SAYS(nh_text_string(&t.text), "Symmetry group: SE(2), dimension 3");
+    done(&t);
+}

@@ -4,11 +4,10 @@
 #include <string.h>
 
 #include "base/budget.h"
-#include "base/linalg.h"
 #include "base/progress.h"
-#include "base/text.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
+#include "geometry/regular.h"
 #include "system/embedding.h"
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }
@@ -206,107 +205,10 @@ static void matrices(nh_model *o, const slopes *slope)
     }
 }
 
-/* The largest rank of M over the probes, and at that probe the direction of w with the least inertia, its largest component 1. */
-static size_t rank_of_mass(const nh_model *o, double *direction)
-{
-    size_t n = o->n, best = 0;
-    nh_tape *tape = nh_model_tape(o, n * n, o->M);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    double *a = nh_alloc_array(2 * n * n + n + 1, sizeof *a), *vt = a + n * n, *s = vt + n * n;
-    bool first = true;
-    for (size_t p = 0; p < o->chart->probes; p++) {
-        size_t rank = 0, large = 0;
-        bool finite = true;
-        nh_tape_eval(tape, work, o->chart->probe + p * o->width, a);
-        for (size_t i = 0; i < n * n; i++) finite &= isfinite(a[i]);
-        if (!finite || !nh_svd(n, n, a, s, NULL, vt)) continue;
-        while (rank < n && s[rank] > 1e-11 * fmax(s[0], 1e-300)) rank++;
-        if (rank <= best && !first) continue;
-        first = false;
-        best = rank;
-        for (size_t i = 0; i < n; i++) {
-            direction[i] = vt[n - 1 + i * n];
-            if (fabs(direction[i]) > (1 + 1e-9) * fabs(direction[large])) large = i;
-        }
-        double unit = direction[large];
-        for (size_t i = 0; i < n; i++) direction[i] = fabs(direction[i] / unit) < 1e-9 ? 0 : direction[i] / unit;
-    }
-    nh_free(a);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return best;
-}
-
-/* "y'" or "x' : z' = 1 : -0.5" */
-static void print_direction(const nh_model *o, const double *direction, nh_text *out)
-{
-    const char *between = "";
-    size_t moving = 0;
-    for (size_t i = 0; i < o->n; i++) {
-        if (direction[i] == 0) continue;
-        nh_text_addf(out, "%s%s", between, nh_name_of(o->dag, o->chart->w[i]));
-        between = " : ";
-        moving++;
-    }
-    between = " = ";
-    for (size_t i = 0; i < o->n && moving > 1; i++) {
-        if (direction[i] == 0) continue;
-        nh_text_addf(out, "%s%.4g", between, direction[i]);
-        between = " : ";
-    }
-}
-
-static bool singular(const nh_model *o, nh_error *error)
-{
-    const nh_system *y = o->system;
-    double *direction = nh_alloc_array(o->n + 1, sizeof *direction);
-    size_t rank = rank_of_mass(o, direction);
-    nh_text which;
-    nh_text_init(&which);
-    print_direction(o, direction, &which);
-    const nh_deck_node *where = nh_deck_get(nh_deck_root(y->deck), "lagrangian");
-    if (!nh_text_string(&which)[0]) { /* it could be evaluated nowhere */
-        nh_text_clear(&which);
-        nh_free(direction);
-        nh_deck_fail(y->deck, where, 0, error, "the mass matrix of the Lagrangian is not finite at any point of the sampling domain");
-        return nh_error_hint(error, "is it divided by a parameter that is 0, or a root taken of something negative?  Or does `domain:` lie outside of where it is defined?");
-    }
-    nh_deck_fail(y->deck, where, 0, error,
-                 rank < o->n ? "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu; no inertia in the direction %.300s"
-                             : "the mass matrix of the Lagrangian has rank %zu of %zu but is singular in places of the sampling domain, in the direction %.300s",
-                 rank, o->n, nh_text_string(&which));
-    nh_text_clear(&which);
-    nh_free(direction);
-    return nh_error_hint(error, rank < o->n ? "every independent velocity needs inertia; a coordinate without any should be eliminated by a constraint"
-                                            : "keep `domain:` away from there");
-}
-
-/* In units in which its diagonal is one the mass matrix has a singular value of the size of rounding at every probe: this is known before minutes of simplification. */
-static bool surely_singular(const nh_model *o)
-{
-    static const double rounding = 1e-14; /* times n */
-    size_t n = o->n, found = 0, finite = 0;
-    nh_tape *tape = nh_model_tape(o, n * n, o->M);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    double *a = nh_alloc_array(n * n + 2 * n + 1, sizeof *a), *s = a + n * n, *unit = s + n;
-    for (size_t p = 0; p < o->chart->probes; p++) {
-        nh_tape_eval(tape, work, o->chart->probe + p * o->width, a);
-        if (!nh_all_finite(n * n, a)) continue;
-        for (size_t i = 0; i < n; i++) unit[i] = a[i * (n + 1)] != 0 ? 1 / sqrt(fabs(a[i * (n + 1)])) : 1;
-        for (size_t i = 0; i < n * n; i++) a[i] *= unit[i / n] * unit[i % n];
-        finite++;
-        found += nh_svd(n, n, a, s, NULL, NULL) && s[n - 1] <= rounding * (double)n * s[0];
-    }
-    nh_free(a);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return finite > 1 && found == finite;
-}
-
 static bool accelerations(nh_model *o, nh_error *error)
 {
     o->M_lu = nh_lu_create(o->dag, o->n, o->M, nh_chart_pivot_score, o->chart, NULL);
-    if (!o->M_lu) return singular(o, error);
+    if (!o->M_lu) return nh_model_singular(o, error);
     nh_lu_solve(o->M_lu, o->A, o->a);
     for (size_t i = 0; i < o->n; i++) o->a[i] = simple(o, o->a[i]);
     return true;
@@ -376,8 +278,7 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     slopes slope = slopes_of(o);
     momenta(o, &slope);
     mass_matrix(o);
-    if (o->n && surely_singular(o)) {
-        singular(o, error);
+    if (!nh_model_regular(o, error)) {
         nh_model_free(o);
         return NULL;
     }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/linalg.h"
 #include "expr/diff.h"
 #include "reduction/relative.h"
 
@@ -64,13 +65,20 @@ static nh_tape *row_tape(const nh_generator_fit *s, layout y)
 
 /* ---- rows ---- */
 
+/* What an entry of K compares with; a velocity without inertia, which constraints may bind, has none. */
+static double size_of(const nh_generator_fit *s, const double *K, size_t r)
+{
+    double own = fabs(K[r * s->m + r]);
+    return own > 0 ? own : 1 / (s->scale[r] * s->scale[r]);
+}
+
 static void metric_rows(const nh_generator_fit *s, layout y, const double *z, nh_relative *out)
 {
     size_t m = s->m;
     const double *K = z + y.K, *dK = z + y.dK;
     for (size_t r = 0; r < m; r++)
         for (size_t q = 0; q <= r; q++) {
-            double *row = nh_relative_condition(out), unit = 1 / sqrt(fabs(K[r * m + r] * K[q * m + q]));
+            double *row = nh_relative_condition(out), unit = 1 / sqrt(size_of(s, K, r) * size_of(s, K, q));
             for (size_t c = 0; c < s->terms; c++) {
                 size_t i = s->component[c];
                 const double *db = z + y.db + c * m;
@@ -103,14 +111,14 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
 {
     const nh_kinetic *k = s->k;
     size_t m = s->m, width = 1 + 2 * m;
-    double *in = nh_alloc_array(width, sizeof *in), sum = 0;
+    double *in = nh_alloc_array(width, sizeof *in);
     const double *v = k->speed + p * m;
     in[0] = k->time[p];
     memcpy(in + 1, k->place + p * m, m * sizeof *in);
     memcpy(in + 1 + m, v, m * sizeof *in);
     nh_tape_eval(tape, work, in, z);
-    for (size_t i = 0; i < y.total; i++) sum += z[i] - z[i];
-    if (sum == 0) {
+    bool finite = nh_all_finite(y.total, z);
+    if (finite) {
         if (plain(k)) metric_rows(s, y, z, out);
         if (plain(k)) function_row(s, y, z, z + y.dV, z + y.Lv, v, unit_of(s, z + y.dV), out); /* of its own size: V may be steep elsewhere */
         for (size_t a = 0; a < k->f; a++) function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, unit_of(s, z + y.fv + a * m), out);
@@ -122,11 +130,11 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
         for (size_t i = 1; i <= pushes && !plain(k); i++) { /* L at velocities that the constraints need not allow */
             memcpy(in + 1 + m, k->speed + (p + i) % k->places * m, m * sizeof *in);
             nh_tape_eval(tape, work, in, z);
-            function_row(s, y, z, z + y.Lq, z + y.Lv, in + 1 + m, unit_of(s, z + y.Lv), out);
+            if (nh_all_finite(y.total, z)) function_row(s, y, z, z + y.Lq, z + y.Lv, in + 1 + m, unit_of(s, z + y.Lv), out);
         }
     }
     nh_free(in);
-    return sum == 0;
+    return finite;
 }
 
 static void collect(nh_generator_fit *s, nh_relative *out)

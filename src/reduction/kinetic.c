@@ -102,18 +102,66 @@ static bool has_metric(const nh_kinetic *k)
     return good;
 }
 
-/* How far from singular a place is: sigma_min / sigma_max of K with unit diagonal; 0 where something is not finite. */
-static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const double *q, double *K)
+/* The singular values of K with unit diagonal at a place, in K; false where something is not finite. */
+static bool spectrum(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const double *q, double *K, double **values)
 {
     size_t m = k->m;
     double *s = K + m * m + k->f * m + 1, *unit = s + m;
     nh_tape_eval(tape, work, q, K);
     for (size_t i = 0; i < m * m + k->f * m + 1; i++)
-        if (!isfinite(K[i])) return 0;
-    if (!k->quadratic || !k->autonomous) return 1;
+        if (!isfinite(K[i])) return false;
+    *values = s;
+    if (!k->quadratic || !k->autonomous) return true;
     for (size_t i = 0; i < m; i++) unit[i] = K[i * (m + 1)] != 0 ? 1 / sqrt(fabs(K[i * (m + 1)])) : 1; /* indefinite ones, too */
     for (size_t i = 0; i < m * m; i++) K[i] *= unit[i % m] * unit[i / m];
-    return nh_svd(m, m, K, s, NULL, NULL) && s[0] > 0 ? s[m - 1] / s[0] : 0;
+    return nh_svd(m, m, K, s, NULL, NULL) && s[0] > 0;
+}
+
+/* The rank that K has in most places: inertia may be missing where constraints bind. */
+static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const nh_cloud *cloud, double *K)
+{
+    enum { trials = 8 };
+    static const double rounding = 1e-14; /* times m */
+    size_t most = 0;
+    double *s;
+    for (size_t p = 0; p < trials && p < cloud->count && k->quadratic && k->autonomous; p++) {
+        size_t rank = 0;
+        if (!spectrum(k, tape, work, cloud->point + p * cloud->width + 1, K, &s)) continue;
+        while (rank < k->m && s[rank] > rounding * (double)k->m * s[0]) rank++;
+        if (rank > most) most = rank;
+    }
+    return most;
+}
+
+/* How far from singular a place is: the least singular value that is not zero everywhere, relative to the largest; 0 where something is not finite. */
+static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const double *q, size_t rank, double *K)
+{
+    double *s;
+    return !spectrum(k, tape, work, q, K, &s) ? 0 : rank ? s[rank - 1] / s[0] : 1;
+}
+
+/* A Lagrangian that is not quadratic may be undefined for velocities of the box: good[i] = 0 for such states. */
+static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_cloud *cloud, double *good)
+{
+    const nh_system *y = k->model->system;
+    size_t m = k->m, width = 1 + 2 * m;
+    nh_ex *in = nh_alloc_array(width, sizeof *in);
+    double L;
+    if (!k->quadratic || !k->autonomous) {
+        in[0] = y->t;
+        memcpy(in + 1, k->q, m * sizeof *in);
+        memcpy(in + 1 + m, k->v, m * sizeof *in);
+        nh_tape *tape = nh_tape_create(k->dag, width, in, 1, &y->lagrangian, y->parameters, k->model->parameter, k->model->parameter_value);
+        nh_tape_work *work = nh_tape_work_create(tape);
+        for (size_t r = 0; r < rounds; r++)
+            for (size_t p = 0; p < cloud[r].count; p++, good++) {
+                nh_tape_eval(tape, work, cloud[r].point + p * cloud[r].width, &L);
+                if (!isfinite(L)) *good = 0;
+            }
+        nh_tape_work_free(work);
+        nh_tape_free(tape);
+    }
+    nh_free(in);
 }
 
 /* Positions and velocities from the box; the places nearest to a singularity of the coordinates are left out, the best one comes first. */
@@ -134,11 +182,13 @@ static void take_places(nh_kinetic *k, uint64_t seed)
         most += cloud[r].count;
     }
     double *K = nh_alloc_array(total + 2 * m, sizeof *K), *good = nh_alloc_array(most + 1, sizeof *good), best = 0;
+    size_t rank = usual_rank(k, tape, work, &cloud[0], K);
     k->place = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->place);
     k->speed = nh_arena_alloc(k->arena, (most + 1) * m * sizeof *k->speed);
     k->time = nh_arena_alloc(k->arena, (most + 1) * sizeof *k->time);
     for (size_t r = 0, at = 0; r < rounds; r++)
-        for (size_t p = 0; p < cloud[r].count; p++) best = fmax(best, good[at++] = condition(k, tape, work, cloud[r].point + p * cloud[r].width + 1, K));
+        for (size_t p = 0; p < cloud[r].count; p++) best = fmax(best, good[at++] = condition(k, tape, work, cloud[r].point + p * cloud[r].width + 1, rank, K));
+    leave_out_undefined(k, rounds, cloud, good);
     for (size_t r = 0, at = 0; r < rounds; r++) {
         for (size_t p = 0; p < cloud[r].count; p++, at++) {
             const double *z = cloud[r].point + p * cloud[r].width;

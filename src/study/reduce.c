@@ -9,6 +9,7 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "geometry/bordered.h"
+#include "geometry/regular.h"
 #include "study/reduce_internal.h"
 #include "study/simulate.h"
 
@@ -284,7 +285,7 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     r->system = nh_system_read(q->system_path, q->settings, q->setting, error);
     if (!r->system) return false;
     r->model = nh_model_bare(r->system, nh_chart_create(r->system, q->chart, (uint64_t)q->options.seed, error));
-    if (!r->model) return false;
+    if (!r->model || !nh_model_regular(r->model, error)) return false;
     r->kinetic = nh_kinetic_create(r->model, (uint64_t)q->options.seed, error);
     if (!r->kinetic) explain_failure(r, q, error);
     if (!r->kinetic || !q->weak) return r->kinetic != NULL;

@@ -1,0 +1,225 @@
+#include "geometry/regular.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "base/text.h"
+#include "expr/diff.h"
+
+/* The mass matrix at the probes where it is finite. */
+typedef struct {
+    size_t n, count;
+    double *M;           /* count x n x n */
+    const double **at;   /* the probes */
+} masses;
+
+static void masses_clear(masses *a)
+{
+    nh_free(a->M);
+    nh_free(a->at);
+}
+
+/* K (m x m) and R (m x n, row-major), for models that have no mass matrix yet. */
+static nh_tape *factors(const nh_model *o)
+{
+    nh_dag *d = o->dag;
+    size_t m = o->m, n = o->n;
+    nh_ex *e = nh_alloc_array(m * m + m * n + 1, sizeof *e);
+    for (size_t r = 0; r < m; r++) {
+        nh_ex p = nh_diff(d, o->system->lagrangian, o->system->coordinate[r].v);
+        for (size_t s = 0; s <= r; s++)
+            e[r * m + s] = e[s * m + r] = nh_model_compose(o, nh_diff(d, p, o->system->coordinate[s].v));
+        for (size_t i = 0; i < n; i++) e[m * m + r * n + i] = nh_model_Y(o, i, o->rho[r]);
+    }
+    nh_tape *tape = nh_model_tape(o, m * m + m * n, e);
+    nh_free(e);
+    return tape;
+}
+
+/* R^T K R of what the tape of `factors` gave. */
+static void multiply(const nh_model *o, const double *value, double *M)
+{
+    size_t m = o->m, n = o->n;
+    const double *K = value, *R = value + m * m;
+    double *KR = nh_alloc_array(m * n + 1, sizeof *KR);
+    memset(KR, 0, m * n * sizeof *KR);
+    memset(M, 0, n * n * sizeof *M);
+    for (size_t r = 0; r < m; r++)
+        for (size_t s = 0; s < m; s++)
+            for (size_t i = 0; i < n && K[r * m + s] != 0; i++) KR[r * n + i] += K[r * m + s] * R[s * n + i];
+    for (size_t i = 0; i < n; i++)
+        for (size_t r = 0; r < m; r++)
+            for (size_t j = 0; j < n && R[r * n + i] != 0; j++) M[i * n + j] += R[r * n + i] * KR[r * n + j];
+    nh_free(KR);
+}
+
+static masses masses_of(const nh_model *o)
+{
+    size_t n = o->n, total = o->M ? n * n : o->m * (o->m + n);
+    masses a = {.n = n, .M = nh_alloc_array(o->chart->probes * n * n + 1, sizeof *a.M), .at = nh_alloc_array(o->chart->probes + 1, sizeof *a.at)};
+    nh_tape *tape = o->M ? nh_model_tape(o, total, o->M) : factors(o);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double *value = nh_alloc_array(total + 1, sizeof *value);
+    for (size_t p = 0; p < o->chart->probes; p++) {
+        double *M = a.M + a.count * n * n;
+        nh_tape_eval(tape, work, o->chart->probe + p * o->width, value);
+        if (o->M) memcpy(M, value, n * n * sizeof *M);
+        else multiply(o, value, M);
+        if (nh_all_finite(n * n, M)) a.at[a.count++] = o->chart->probe + p * o->width;
+    }
+    nh_free(value);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return a;
+}
+
+/* By the first velocity in which a direction has a component. */
+static int earlier(const void *a, const void *b, void *context)
+{
+    const double *x = a, *y = b;
+    size_t n = *(size_t *)context, i = 0;
+    while (i < n && (x[i] == 0) == (y[i] == 0)) i++;
+    return i == n ? 0 : x[i] == 0 ? 1 : -1;
+}
+
+/* Vectors (rows of `null`, count x n) of the same span that are as short as can be: each has a component 1 where the others have 0, its largest. */
+static void shorten(size_t count, size_t n, double *null)
+{
+    static const double tie = 1 + 1e-9, nothing = 1e-9;
+    for (size_t k = 0; k < count; k++) {
+        double *row = null + k * n;
+        size_t large = 0;
+        for (size_t i = 0; i < n; i++)
+            if (fabs(row[i]) > tie * fabs(row[large])) large = i;
+        for (size_t i = 0, unit = large; i < n; i++)
+            if (i != unit) row[i] /= row[unit];
+        row[large] = 1;
+        for (size_t j = 0; j < count; j++) {
+            double part = null[j * n + large];
+            for (size_t i = 0; i < n && j != k; i++) null[j * n + i] -= part * row[i];
+        }
+    }
+    for (size_t i = 0; i < count * n; i++)
+        if (fabs(null[i]) < nothing) null[i] = 0;
+    qsort_r(null, count, n * sizeof *null, earlier, &n);
+}
+
+/* The rank of M at one probe, and the directions that have no inertia there (n - rank rows of n; the one with the least where the rank is n). */
+static size_t rank_at(const masses *a, size_t probe, double *null)
+{
+    static const double least = 1e-11; /* part of the largest singular value */
+    size_t n = a->n, rank = 0;
+    double *M = nh_alloc_array(2 * n * n + n + 1, sizeof *M), *vt = M + n * n, *s = vt + n * n;
+    memcpy(M, a->M + probe * n * n, n * n * sizeof *M);
+    if (!nh_svd(n, n, M, s, NULL, vt)) s[0] = 0;
+    while (rank < n && s[rank] > least * fmax(s[0], 1e-300)) rank++;
+    size_t first = rank < n ? rank : n - 1;
+    for (size_t k = first; k < n; k++)
+        for (size_t i = 0; i < n; i++) null[(k - first) * n + i] = vt[k + i * n];
+    shorten(n - first, n, null);
+    nh_free(M);
+    return rank;
+}
+
+/* "y'" or "x' : z' = 1 : -0.5" */
+static void print_direction(const nh_model *o, const double *direction, nh_text *out)
+{
+    const char *between = "";
+    size_t moving = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        if (direction[i] == 0) continue;
+        nh_text_addf(out, "%s%s", between, nh_name_of(o->dag, o->chart->w[i]));
+        between = " : ";
+        moving++;
+    }
+    between = " = ";
+    for (size_t i = 0; i < o->n && moving > 1; i++) {
+        if (direction[i] == 0) continue;
+        nh_text_addf(out, "%s%.4g", between, direction[i]);
+        between = " : ";
+    }
+}
+
+/* " of y' and of x' : z' = 1 : 2, at x = 0.3": with a place only where the directions depend on it. */
+static void print_directions(const nh_model *o, size_t count, const double *null, const double *place, nh_text *out)
+{
+    enum { most = 3 };
+    nh_text_addf(out, "no inertia in the direction%s ", count > 1 ? "s" : "");
+    for (size_t k = 0; k < count && k < most; k++) {
+        nh_text_addf(out, "%s", k == 0 ? "" : k + 1 == count ? " and " : ", ");
+        print_direction(o, null + k * o->n, out);
+    }
+    if (count > most) nh_text_addf(out, " and %zu more", count - most);
+    for (size_t s = 0; s < o->m && place; s++) nh_text_addf(out, "%s%s = %.3g", s ? ", " : " (at ", o->system->coordinate[s].name, place[1 + s]);
+    if (place) nh_text_addf(out, ")");
+}
+
+/* The probe with the largest rank; whether the same directions have no inertia at all of those with that rank. */
+static size_t typical(const masses *a, size_t *rank, double *null, bool *everywhere)
+{
+    static const double apart = 1e-6;
+    size_t n = a->n, best = 0;
+    double *other = nh_alloc_array(n * n + 1, sizeof *other);
+    *rank = rank_at(a, 0, null);
+    *everywhere = true;
+    for (size_t p = 1; p < a->count; p++) {
+        size_t here = rank_at(a, p, other), directions = here < n ? n - here : 1;
+        if (here > *rank) {
+            *rank = here;
+            *everywhere = true;
+            best = p;
+            memcpy(null, other, directions * n * sizeof *null);
+        }
+        for (size_t i = 0; here == *rank && i < directions * n; i++) *everywhere &= fabs(other[i] - null[i]) <= apart;
+    }
+    nh_free(other);
+    return best;
+}
+
+bool nh_model_singular(const nh_model *o, nh_error *error)
+{
+    const nh_deck_node *where = nh_deck_get(nh_deck_root(o->system->deck), "lagrangian");
+    masses a = masses_of(o);
+    if (a.count == 0) {
+        masses_clear(&a);
+        nh_deck_fail(o->system->deck, where, 0, error, "the mass matrix of the Lagrangian is not finite at any point of the sampling domain");
+        return nh_error_hint(error, "is it divided by a parameter that is 0, or a root taken of something negative?  Or does `domain:` lie outside of where it is defined?");
+    }
+    double *null = nh_alloc_array(o->n * o->n + 1, sizeof *null);
+    size_t rank;
+    bool everywhere;
+    size_t best = typical(&a, &rank, null, &everywhere);
+    nh_text which;
+    nh_text_init(&which);
+    print_directions(o, rank < o->n ? o->n - rank : 1, null, everywhere ? NULL : a.at[best], &which);
+    nh_deck_fail(o->system->deck, where, 0, error,
+                 rank < o->n ? "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu; %.500s"
+                             : "the mass matrix of the Lagrangian has rank %zu of %zu but is singular in places of the sampling domain; %.500s",
+                 rank, o->n, nh_text_string(&which));
+    nh_text_clear(&which);
+    nh_free(null);
+    masses_clear(&a);
+    return nh_error_hint(error, rank < o->n ? "every independent velocity needs inertia; a coordinate without any should be eliminated by a constraint"
+                                            : "keep `domain:` away from there");
+}
+
+/* In units in which its diagonal is one the mass matrix has a singular value of the size of rounding at every probe. */
+bool nh_model_regular(const nh_model *o, nh_error *error)
+{
+    static const double rounding = 1e-14; /* times n */
+    size_t n = o->n, found = 0;
+    masses a = masses_of(o);
+    double *unit = nh_alloc_array(2 * n + 1, sizeof *unit), *s = unit + n;
+    for (size_t p = 0; p < a.count; p++) {
+        double *M = a.M + p * n * n;
+        for (size_t i = 0; i < n; i++) unit[i] = M[i * (n + 1)] != 0 ? 1 / sqrt(fabs(M[i * (n + 1)])) : 1;
+        for (size_t i = 0; i < n * n; i++) M[i] *= unit[i / n] * unit[i % n];
+        found += n && nh_svd(n, n, M, s, NULL, NULL) && s[n - 1] <= rounding * (double)n * s[0];
+    }
+    bool regular = a.count < 2 || found < a.count;
+    nh_free(unit);
+    masses_clear(&a);
+    return regular || nh_model_singular(o, error);
+}
