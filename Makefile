@@ -23,7 +23,8 @@ KNOWN    = 12 14
 WARN     = -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla $(if $(filter $(KNOWN),$(firstword $(subst ., ,$(shell $(CC) -dumpversion)))),-Werror)
 SANE     = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT      = $(if $(SANITIZE),-O1 -g $(SANE),-O2 -g)
-CFLAGS   = -std=c17 $(OPT) $(WARN)
+# A product and a sum are rounded one after the other, on every machine and in every build.
+CFLAGS   = -std=c17 -ffp-contract=off $(OPT) $(WARN)
 INCLUDES = -Isrc $(patsubst -I%,-isystem %,$(MPI_INCLUDE))
 CPPFLAGS = $(INCLUDES) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -DNH_DATADIR='"$(PREFIX)/share/nhsym"' -MMD -MP
 # What other versions have in other places: SUNDIALS 7 a core of its own, whose headers want MPI's where it was built with MPI (as Debian's is); FLINT 2
@@ -37,7 +38,7 @@ LDLIBS   = $(call libraries,library)
 library  = -l$(1)
 # The program itself takes archives where there are any (ARCHIVES= for none): most of a short command was the loading of shared libraries
 # (docs/performance.md, "A whole run").  Those that remain come first, for the same reason.  Tests are many, and stay small.
-ARCHIVES = $(if $(SANITIZE),,yes)
+ARCHIVES = yes
 archive  = -l$(if $(and $(ARCHIVES),$(findstring /,$(shell $(CC) -print-file-name=lib$(1).a))),:lib$(1).a,$(1))
 libraries = -lflint $(ARB) -lgmp -lnlopt -lcjson \
             $(foreach name,sundials_cvode sundials_arkode sundials_ida sundials_nvecserial sundials_sunmatrixdense sundials_sunlinsoldense $(SUNDIALS_CORE) \

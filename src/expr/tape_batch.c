@@ -1,8 +1,11 @@
 /* tape_batch: one instruction over many points, in loops that the compiler vectorises.
  *
  * glibc's libmvec has vector versions of the elementary functions.  GCC uses them when the prototypes carry the `simd`
- * attribute, which avoids -ffast-math (that would also remove nan and inf from this file).  Each kernel is compiled
- * for several instruction sets and chosen when the program is loaded. */
+ * attribute, which avoids -ffast-math (that would also remove nan and inf from this file).
+ *
+ * Arithmetic is compiled for several instruction sets, and rounded alike by all of them.  Functions are not: libmvec's versions
+ * for vectors of two, four and eight differ in last digits.  So they are computed four at a time wherever that is possible, in
+ * every build: what a program answers must not depend on the machine that it runs on. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +18,21 @@
 #define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define CLONES
+#endif
+
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__
+#define FOURS __attribute__((target("avx2")))
+#define HAS_FOURS (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+#else
+#define FOURS
+#define HAS_FOURS false
+#endif
+
+/* The loops touch what they are given, and a check of every access would keep them from being vectorised. */
+#if defined __GNUC__ && !defined __clang__
+#define UNCHECKED __attribute__((no_sanitize("address", "undefined")))
+#else
+#define UNCHECKED
 #endif
 
 #if defined __x86_64__ && defined __GNUC__
@@ -42,13 +60,20 @@ static const double in_batch = 0.25; /* of the units of an evaluation by itself 
 /* Points are computed in whole blocks, the widest vector of doubles: no loop has a remainder. */
 enum { BLOCK = 8 };
 
-#define KERNEL(name, formula)                                                                        \
-    CLONES static void name(size_t n, double *restrict to, const double *a, const double *b)         \
+#define LOOP(formula)                                                                                \
     {                                                                                                \
         (void)b;                                                                                     \
         n &= ~(size_t)(BLOCK - 1);                                                                   \
         for (size_t i = 0; i < n; i++) to[i] = (formula);                                            \
     }
+#define ARGUMENTS size_t n, double *restrict to, const double *a, const double *b
+
+#define KERNEL(name, formula) CLONES UNCHECKED static void name(ARGUMENTS) LOOP(formula)
+
+#define FUNCTION(name, formula)                                                                      \
+    FOURS UNCHECKED static void name##_by_fours(ARGUMENTS) LOOP(formula)                             \
+    UNCHECKED static void name##_otherwise(ARGUMENTS) LOOP(formula)                                  \
+    static void name(ARGUMENTS) { (HAS_FOURS ? name##_by_fours : name##_otherwise)(n, to, a, b); }
 
 KERNEL(k_add, a[i] + b[i])
 KERNEL(k_sub, a[i] - b[i])
@@ -58,24 +83,24 @@ KERNEL(k_neg, -a[i])
 KERNEL(k_inv, 1 / a[i])
 KERNEL(k_square, a[i] * a[i])
 KERNEL(k_sqrt, sqrt(a[i]))
-KERNEL(k_pow, pow(a[i], b[i]))
-KERNEL(k_sin, sin(a[i]))
-KERNEL(k_cos, cos(a[i]))
-KERNEL(k_tan, tan(a[i]))
-KERNEL(k_asin, asin(a[i]))
-KERNEL(k_acos, acos(a[i]))
-KERNEL(k_atan, atan(a[i]))
-KERNEL(k_sinh, sinh(a[i]))
-KERNEL(k_cosh, cosh(a[i]))
-KERNEL(k_tanh, tanh(a[i]))
-KERNEL(k_asinh, asinh(a[i]))
-KERNEL(k_acosh, acosh(a[i]))
-KERNEL(k_atanh, atanh(a[i]))
-KERNEL(k_exp, exp(a[i]))
-KERNEL(k_log, log(a[i]))
+FUNCTION(k_pow, pow(a[i], b[i]))
+FUNCTION(k_sin, sin(a[i]))
+FUNCTION(k_cos, cos(a[i]))
+FUNCTION(k_tan, tan(a[i]))
+FUNCTION(k_asin, asin(a[i]))
+FUNCTION(k_acos, acos(a[i]))
+FUNCTION(k_atan, atan(a[i]))
+FUNCTION(k_sinh, sinh(a[i]))
+FUNCTION(k_cosh, cosh(a[i]))
+FUNCTION(k_tanh, tanh(a[i]))
+FUNCTION(k_asinh, asinh(a[i]))
+FUNCTION(k_acosh, acosh(a[i]))
+FUNCTION(k_atanh, atanh(a[i]))
+FUNCTION(k_exp, exp(a[i]))
+FUNCTION(k_log, log(a[i]))
 KERNEL(k_abs, fabs(a[i]))
 KERNEL(k_sign, a[i] > 0 ? 1 : a[i] < 0 ? -1 : a[i])
-KERNEL(k_atan2, atan2(a[i], b[i]))
+FUNCTION(k_atan2, atan2(a[i], b[i]))
 
 typedef void kernel(size_t n, double *restrict to, const double *a, const double *b);
 
