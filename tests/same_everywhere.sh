@@ -1,15 +1,19 @@
 #!/bin/sh
-# The same answer everywhere: what `analyze --json` says of the shipped systems, timings apart, on an idle machine, again, beside busy loops, with 1, 2 and 4
-# threads, and in the sanitized build.  Run by hand:
+# The same answer everywhere: what `analyze --json` says of the shipped systems, timings apart, on an idle machine, again, beside busy loops, with 1, 2 and 4 threads,
+# and in the sanitized build; and on other kinds of processors, for which OpenBLAS and the C library have other kernels, the same but for numbers
+# outside of formulas.  Run by hand:
 #
 #     tests/same_everywhere.sh [SYSTEM ...]          all systems when none is named
 #
+# COMMAND: what is asked (analyze; "reduce", or "analyze --no-analysis"); PASSES: some of "again threads sanitized processors busy" (all).
 # NHSYM: the program (build/nhsym); NHSYM_SANITIZED: the sanitized one (build-sanitize/nhsym, left out when it is not there); BUSY: how many loops (6).
 # The first differing lines are printed; the exit code is 1 when there are any.
 set -u
 program=${NHSYM:-build/nhsym}
 sanitized=${NHSYM_SANITIZED:-build-sanitize/nhsym}
 busy=${BUSY:-6}
+question=${COMMAND:-analyze}
+passes=${PASSES:-again threads sanitized processors busy}
 work=$(mktemp -d)
 loops=
 stop() { for loop in $loops; do kill "$loop" 2>/dev/null; done; loops=; }
@@ -18,7 +22,9 @@ trap 'exit 130' INT TERM
 [ $# -gt 0 ] || set -- $(for file in systems/*.yaml; do basename "$file" .yaml; done)
 
 # The keys that hold seconds, and how the program was called, are all that may differ.
-plain() { sed -e '/"[a-z_]*_s":/d' -e '/"seconds":/d' -e '/"command":/d'; }
+plain() { sed -e '/"[a-z_]*_s":/d' -e '/"seconds":/d' -e '/"speedup":/d' -e '/"command":/d'; }
+# Words: formulas, names, verdicts, how many there are.  Numbers that were measured have other last digits, motions other steps, warnings other drifts.
+words() { sed -E -e '/"(evaluations|warnings)":/d' -e 's/(:\t|\[|, |^\t+)-?[0-9][0-9.e+-]*/\1#/g' "$1"; }
 
 # answers NAME PROGRAM OPTIONS.. -- SYSTEM..: one file per system in $work/NAME
 answers() {
@@ -28,13 +34,24 @@ answers() {
     shift
     mkdir -p "$work/$name"
     for system; do
-        "$command" analyze "$system" --quiet --max-seconds 100000 $options --json - >"$work/raw" 2>"$work/err"
+        "$command" $question "$system" --quiet --max-seconds 100000 $options --json - >"$work/raw" 2>"$work/err"
         echo "exit code $?" | cat - "$work/err" >"$work/$name/$system"
         plain <"$work/raw" >>"$work/$name/$system"
     done
 }
 
 different=0
+compare_words() {
+    for system; do
+        words "$work/idle/$system" >"$work/one"
+        words "$work/$name/$system" >"$work/two"
+        cmp -s "$work/one" "$work/two" && continue
+        different=$((different + 1))
+        echo "$system differs: $name"
+        diff "$work/one" "$work/two" | cut -c1-160 | head -n 6
+    done
+}
+
 compare() {
     for system; do
         cmp -s "$work/idle/$system" "$work/$name/$system" && continue
@@ -44,16 +61,30 @@ compare() {
     done
 }
 
+wanted() { case " $passes " in *" $1 "*) return 0 ;; esac; return 1; }
+
 answers idle "$program" -- "$@"
-answers "a second run" "$program" -- "$@" && compare "$@"
-for threads in 1 2 4; do answers "$threads threads" "$program" --threads $threads -- "$@" && compare "$@"; done
-[ ! -x "$sanitized" ] || { answers "sanitized build" "$sanitized" -- "$@" && compare "$@"; }
-i=0
-while [ $i -lt "$busy" ]; do
-    (while :; do :; done) &
-    loops="$loops $!" i=$((i + 1))
-done
-answers "beside $busy busy loops" "$program" -- "$@" && compare "$@"
-stop
+wanted again && answers "a second run" "$program" -- "$@" && compare "$@"
+wanted threads && for threads in 1 2 4; do answers "$threads threads" "$program" --threads $threads -- "$@" && compare "$@"; done
+wanted sanitized && [ -x "$sanitized" ] && answers "sanitized build" "$sanitized" -- "$@" && compare "$@"
+if wanted processors; then
+    for core in Nehalem Sandybridge SkylakeX; do
+        OPENBLAS_CORETYPE=$core
+        GLIBC_TUNABLES=
+        [ $core = SkylakeX ] || GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-AVX2_Usable,-FMA,-FMA_Usable,-AVX512F,-AVX512F_Usable
+        export OPENBLAS_CORETYPE GLIBC_TUNABLES
+        answers "as on $core" "$program" -- "$@" && compare_words "$@"
+        unset OPENBLAS_CORETYPE GLIBC_TUNABLES
+    done
+fi
+if wanted busy; then
+    i=0
+    while [ $i -lt "$busy" ]; do
+        (while :; do :; done) &
+        loops="$loops $!" i=$((i + 1))
+    done
+    answers "beside $busy busy loops" "$program" -- "$@" && compare "$@"
+    stop
+fi
 echo "$# systems, $different differences"
 [ $different -eq 0 ]

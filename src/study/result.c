@@ -1,17 +1,34 @@
 #include "study/result.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { most_warnings = 200 };
 
+static double rounded(double x, int digits)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.*e", digits - 1, x);
+    return isfinite(x) ? strtod(text, NULL) : x;
+}
+
+/* Singular values are rates, relative to 1, with errors of a few roundings of the largest one.  What is below those is a matter of the order of additions, another one on another
+ * processor: it is given as that bound, and the others with as many digits as are known of all that stand above it by far. */
 nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
 {
+    enum { digits = 3, digits_of_gap = 2 };
+    static const double roundings = 64 * DBL_EPSILON;
+    double bound = s->rank ? rounded(roundings * fmax(1, s->spectrum[s->rank - 1]), digits_of_gap) : 0;
     nh_spectrum c = {.done = true, .verdict = s->verdict, .columns = s->columns, .rows = s->rows, .rank = s->rank, .dimension = s->dimension, .likely = s->likely,
                      .gap = s->gap, .rank_in_doubt = s->rank_in_doubt};
     c.spectrum = nh_arena_alloc(arena, (s->rank + 1) * sizeof *c.spectrum);
-    if (s->rank) memcpy(c.spectrum, s->spectrum, s->rank * sizeof *c.spectrum);
+    for (size_t i = 0; i < s->rank; i++) c.spectrum[i] = fmax(bound, rounded(s->spectrum[i], digits));
+    bool both = s->dimension > 0 && s->dimension < s->rank;
+    if (both) c.gap = rounded(s->spectrum[s->dimension] / fmax(s->spectrum[s->dimension - 1], bound), digits_of_gap);
     return c;
 }
 

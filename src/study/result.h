@@ -63,7 +63,7 @@ typedef struct {
     bool done;
     nh_verdict verdict;
     size_t columns, rows, rank, dimension, likely;
-    double *spectrum, gap;
+    double *spectrum, gap; /* with the digits that are known */
     bool rank_in_doubt;
 } nh_spectrum;
 
