@@ -84,7 +84,8 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
     request.no_figures = !cli->html && !cli->tex && !cli->json;
     nh_result *result = nh_analyze(&request, error);
     nh_cli_watch_end();
-    if (!result) return nh_cli_failed(error);
+    nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
+    if (!result) return nh_cli_failed(cli, &run, error);
     bool good = write_summary(cli, result, error) && (!cli->json || nh_cli_write_json(cli, nh_result_json(result), error)) && write_html(cli, result, error)
                 && write_tex(cli, result, error);
     good = nh_cli_written(cli, good, error);

@@ -44,5 +44,5 @@ int nh_cli_chart(nh_cli *cli, nh_error *error)
     nh_stress_free(s);
     if (c && error->code == NH_OK && nh_interrupted()) nh_fail_ended(error, "while methods were compared: this is what was measured until then");
     nh_comparison_free(c);
-    return c ? (int)error->code : nh_cli_failed(error);
+    return c ? (int)error->code : nh_cli_failed(cli, &run, error);
 }

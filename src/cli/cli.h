@@ -66,11 +66,11 @@ void nh_cli_watch_end(void);
 void nh_cli_guard_begin(double seconds);
 void nh_cli_guard_writing(void);
 
-/* Nothing came of the work: the exit code.  Where it was ended, that is the reason, whatever failed for it. */
-int nh_cli_failed(nh_error *error);
 
 /* To repeat this command. */
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);
+/* No result came of the work: the exit code.  Where it was ended that is the reason, whatever failed for it, and what is known is written. */
+int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error);
 /* Before the work: a folder that cannot be written is told now, not after minutes. */
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
 /* A text for a file, which is cleared; a JSON, which is freed, for --json.  The files take their places together, in the last of these: with `good`, or not at all. */

@@ -51,8 +51,8 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     if (!request_of(cli, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_reduction *r = nh_reduce(&request, error);
     nh_cli_watch_end();
-    if (!r) return nh_cli_failed(error);
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
+    if (!r) return nh_cli_failed(cli, &run, error);
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
     if (!to_stdout && !cli->quiet) print(cli, r);
     if (cli->json) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);

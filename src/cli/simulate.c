@@ -67,8 +67,8 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     if (!nh_cli_motion_request(cli, example, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     nh_simulation *s = nh_simulate(&request, error);
     nh_cli_watch_end();
-    if (!s) return nh_cli_failed(error);
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
+    if (!s) return nh_cli_failed(cli, &run, error);
     bool good = true;
     put_table(cli, s);
     if (cli->json) good = nh_cli_write_json(cli, s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run), error);

@@ -11,9 +11,9 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verdict_of_one **out, nh_error *err
         return nh_error_hint(error, "nhsym verify sleigh --current \"m*v\", or --field \"Z0=1; phi=phi'; x=x'\"");
     }
     const char *path = nh_cli_find(cli, "systems", cli->operand[0], error);
+    if (path) *run = nh_cli_run(cli, path, NULL);
     nh_system *system = path ? nh_system_read(path, cli->settings, cli->setting, error) : NULL;
     if (!system) return false;
-    *run = nh_cli_run(cli, path, NULL);
     if (cli->current) *out = nh_verify_current(system, cli->chart, cli->current, &cli->options, error);
     else *out = nh_verify_field(system, cli->chart, cli->field, &cli->options, error);
     return *out != NULL;
@@ -22,9 +22,9 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verdict_of_one **out, nh_error *err
 int nh_cli_verify(nh_cli *cli, nh_error *error)
 {
     nh_verdict_of_one *v = NULL;
-    nh_run run;
+    nh_run run = nh_cli_run(cli, NULL, NULL);
     nh_cli_watch_begin(cli);
-    if (!nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(error);
+    if (!nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(cli, &run, error);
     nh_cli_watch_end();
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true, conserved = v->conserved;
     if (!to_stdout && !cli->quiet) {

@@ -56,13 +56,3 @@ void nh_cli_watch_end(void)
     live = false;
     fflush(stderr);
 }
-
-int nh_cli_failed(nh_error *error)
-{
-    char doing[80];
-    if (!nh_interrupted() || error->code == NH_USAGE) return error->code;
-    nh_error_clear(error);
-    nh_progress_last(doing, sizeof doing);
-    nh_fail_ended(error, "before there was anything to report%s%s", *doing ? ": " : "", doing);
-    return error->code;
-}

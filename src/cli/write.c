@@ -2,7 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/escape.h"
+#include "base/progress.h"
 #include "cli/cli.h"
+#include "report/unfinished.h"
 
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path)
 {
@@ -34,3 +37,46 @@ bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error)
 }
 
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_end(&cli->files, good, error); }
+
+/* ---- of a run that has no result ---- */
+
+/* Words are not printed where a table or code is expected. */
+static bool write_unfinished(nh_cli *cli, const nh_unfinished *u, nh_error *error)
+{
+    nh_text text;
+    bool good = true, table = cli->to || !strcmp(cli->command, "simulate") || (cli->json && !strcmp(cli->json, "-"));
+    nh_text_init(&text);
+    nh_unfinished_text(u, &text);
+    if (!cli->quiet && !table) {
+        nh_text shown;
+        nh_text_init(&shown);
+        nh_escape_terminal(nh_text_string(&text), &shown);
+        fputs(nh_text_string(&shown), stdout);
+        nh_text_clear(&shown);
+    }
+    if (cli->folder) good = nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
+    nh_text_clear(&text);
+    if (cli->json && good) good = nh_cli_write_json(cli, nh_unfinished_json(u), error);
+    if (cli->html && good) {
+        nh_html_unfinished(u, &text);
+        good = nh_cli_write(cli, cli->html, &text, error);
+    }
+    return nh_cli_written(cli, good, error);
+}
+
+int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error)
+{
+    char doing[80], why[80];
+    if (!nh_interrupted() || error->code == NH_USAGE) return error->code;
+    nh_error_clear(error);
+    nh_progress_last(doing, sizeof doing);
+    nh_ended_words(why, sizeof why);
+    nh_system *system = run->system_path ? nh_system_read(run->system_path, cli->settings, cli->setting, error) : NULL;
+    nh_error_clear(error);
+    nh_unfinished u = {system, run, doing, why, !strcmp(cli->command, "analyze")};
+    nh_cli_guard_writing();
+    bool good = !system || write_unfinished(cli, &u, error);
+    nh_system_free(system);
+    if (good) nh_fail_ended(error, "before there was a result%s%s", *doing ? ": " : "", doing);
+    return error->code;
+}

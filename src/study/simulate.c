@@ -7,6 +7,7 @@
 
 #include "base/budget.h"
 #include "base/clock.h"
+#include "base/progress.h"
 
 #include "expr/diff.h"
 
@@ -33,6 +34,7 @@ nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error 
 static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis **own, nh_error *error)
 {
     double begin = nh_budget_used();
+    nh_progress("the equations of motion", -1);
     s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
     s->deriving = 1e6 * (nh_budget_used() - begin);
     if (!s->model || (s->analysis && !nh_analysis_resolve(s->analysis, s->model, error))) return false;

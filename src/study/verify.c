@@ -37,6 +37,7 @@ static void ask_other_branch(nh_verdict_of_one *v, nh_ex e, const nh_options *op
 
 static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const nh_options *options, nh_error *error)
 {
+    nh_progress("the equations of motion", -1);
     nh_model *model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
     if (model && nh_pace_set(system, model) != 1) {
         nh_model_free(model);

@@ -1,0 +1,20 @@
+/* unfinished: what is known of a run that was ended before it had a result: the system as it was read, and what was being done. */
+#ifndef NH_UNFINISHED_H
+#define NH_UNFINISHED_H
+
+#include "base/text.h"
+#include "report/run.h"
+
+typedef struct {
+    const nh_system *system;
+    const nh_run *run;
+    const char *doing; /* or "" */
+    const char *why;   /* "the time limit of 1 s was reached" */
+    bool search;       /* of `analyze`: it has a verdict */
+} nh_unfinished;
+
+void nh_unfinished_text(const nh_unfinished *unfinished, nh_text *out);
+char *nh_unfinished_json(const nh_unfinished *unfinished);
+void nh_html_unfinished(const nh_unfinished *unfinished, nh_text *out);
+
+#endif
