@@ -176,11 +176,20 @@ static void mass_matrix(nh_model *o)
         }
 }
 
+/* X_i(p_s), once. */
+static nh_ex along(const nh_model *o, nh_ex *known, size_t i, size_t s)
+{
+    nh_ex *e = &known[i * o->m + s];
+    return *e ? *e : (*e = nh_model_X(o, i, o->p[s]));
+}
+
 static void matrices(nh_model *o, const slopes *slope)
 {
     nh_dag *d = o->dag;
     size_t n = o->n;
-    for (size_t i = 0; i < n; i++) {
+    nh_ex *X = take(o, n * o->m);
+    memset(X, 0, n * o->m * sizeof *X);
+    for (size_t i = 0; i < n && !nh_interrupted(); i++) {
         o->A[i] = nh_int(d, 0);
         for (size_t s = 0; s < o->m; s++) {
             nh_ex R = o->R[s * n + i];
@@ -190,11 +199,11 @@ static void matrices(nh_model *o, const slopes *slope)
             o->A[i] = nh_add(d, o->A[i], nh_mul(d, R, force));
         }
         o->A[i] = simple(o, o->A[i]);
-        for (size_t j = 0; j < n; j++) {
+        for (size_t j = 0; j < n && !nh_interrupted(); j++) {
             nh_ex G = nh_int(d, 0);
             for (size_t s = 0; s < o->m; s++) {
-                if (j > i) G = nh_add(d, G, nh_mul(d, nh_model_X(o, i, o->p[s]), o->R[s * n + j]));
-                if (j > i) G = nh_sub(d, G, nh_mul(d, nh_model_X(o, j, o->p[s]), o->R[s * n + i]));
+                if (j > i) G = nh_add(d, G, nh_mul(d, along(o, X, i, s), o->R[s * n + j]));
+                if (j > i) G = nh_sub(d, G, nh_mul(d, along(o, X, j, s), o->R[s * n + i]));
             }
             o->M[i * n + j] = j < i ? o->M[j * n + i] : simple(o, o->M[i * n + j]);
             if (j <= i) continue;

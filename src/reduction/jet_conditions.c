@@ -19,18 +19,18 @@ static nh_tape *forms_tape(const nh_kinetic *k)
 {
     size_t m = k->m, f = k->f, n = 0;
     nh_ex *e = nh_alloc_array(forms_total(k), sizeof *e);
-    for (size_t s = 0; s < m; s++) e[n++] = nh_diff(k->dag, k->V, k->q[s]);
+    for (size_t s = 0; s < m; s++) e[n++] = nh_kinetic_diff(k, k->V, k->q[s]);
     for (size_t s = 0; s < m; s++)
-        for (size_t r = 0; r < m; r++) e[n++] = nh_diff(k->dag, e[s], k->q[r]);
+        for (size_t r = 0; r < m; r++) e[n++] = nh_kinetic_diff(k, e[s], k->q[r]);
     for (size_t i = 0; i < f * m; i++) e[n++] = k->omega[i];
     for (size_t s = 0; s < m; s++)
-        for (size_t i = 0; i < f * m; i++) e[n++] = nh_diff(k->dag, k->omega[i], k->q[s]);
+        for (size_t i = 0; i < f * m; i++) e[n++] = nh_kinetic_diff(k, k->omega[i], k->q[s]);
     for (size_t i = 0; i < f; i++) e[n++] = k->b[i];
     for (size_t s = 0; s < m; s++)
-        for (size_t i = 0; i < f; i++) e[n++] = nh_diff(k->dag, k->b[i], k->q[s]);
+        for (size_t i = 0; i < f; i++) e[n++] = nh_kinetic_diff(k, k->b[i], k->q[s]);
     for (size_t i = 0; i < m; i++) e[n++] = k->a[i];
     for (size_t s = 0; s < m; s++)
-        for (size_t i = 0; i < m; i++) e[n++] = nh_diff(k->dag, k->a[i], k->q[s]);
+        for (size_t i = 0; i < m; i++) e[n++] = nh_kinetic_diff(k, k->a[i], k->q[s]);
     nh_tape *tape = nh_kinetic_tape(k, n, e);
     nh_free(e);
     return tape;
@@ -45,7 +45,7 @@ static nh_tape *force_tape(const nh_kinetic *k)
     memcpy(in + m, k->v, m * sizeof *in);
     for (size_t s = 0; s < m; s++) e[n++] = k->Q[s];
     for (size_t l = 0; l < 2 * m; l++)
-        for (size_t s = 0; s < m; s++) e[n++] = nh_diff(k->dag, k->Q[s], in[l]);
+        for (size_t s = 0; s < m; s++) e[n++] = nh_kinetic_diff(k, k->Q[s], in[l]);
     const nh_model *y = k->model;
     nh_tape *tape = nh_tape_create(k->dag, 2 * m, in, n, e, y->system->parameters, y->parameter, y->parameter_value);
     nh_free(e);

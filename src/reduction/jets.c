@@ -147,6 +147,7 @@ static size_t rays_wanted(const nh_jet_conditions *s)
 static void run(nh_jet_conditions *s, nh_jets *out)
 {
     size_t m = s->m, length = s->t.size * s->columns, wanted = rays;
+    if (nh_interrupted()) return; /* then the tapes of `s` are not whole */
     double *jets = nh_alloc_array(length * (1 + most_rays), sizeof *jets), *moved = jets + length;
     out->end = nh_alloc_array(most_rays * m, sizeof *out->end);
     nh_transport_at(&s->t, out->place, s->x);

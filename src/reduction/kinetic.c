@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "base/progress.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "system/cloud.h"
@@ -282,6 +283,8 @@ nh_tape *nh_kinetic_tape(const nh_kinetic *k, size_t count, const nh_ex *out)
 {
     return nh_tape_create(k->dag, k->m, k->q, count, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value);
 }
+
+nh_ex nh_kinetic_diff(const nh_kinetic *k, nh_ex e, nh_ex x) { return nh_interrupted() ? nh_int(k->dag, 0) : nh_diff(k->dag, e, x); }
 
 static void run(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, const double *q, double *out)
 {

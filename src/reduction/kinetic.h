@@ -38,6 +38,8 @@ void nh_kinetic_free(nh_kinetic *kinetic);
 
 /* A tape of expressions in the coordinates, parameters bound. */
 nh_tape *nh_kinetic_tape(const nh_kinetic *kinetic, size_t count, const nh_ex *out);
+/* d e / d x; 0 once the run was ended (base/progress.h): of large mass matrices all derivatives are wanted, and of an ended run nothing is kept. */
+nh_ex nh_kinetic_diff(const nh_kinetic *kinetic, nh_ex e, nh_ex x);
 /* Values of expressions in the coordinates at one place. */
 void nh_kinetic_values(const nh_kinetic *kinetic, size_t count, const nh_ex *e, const double *q, double *out);
 /* At the first `places` sample points, count values each. */

@@ -17,10 +17,10 @@ static nh_tape *metric_tape(const nh_kinetic *k)
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j <= i; j++) e[n++] = k->K[i * m + j];
     for (size_t r = 0; r < m; r++)
-        for (size_t p = 0; p < h; p++) e[n++] = nh_diff(k->dag, e[p], k->q[r]);
+        for (size_t p = 0; p < h; p++) e[n++] = nh_kinetic_diff(k, e[p], k->q[r]);
     for (size_t r = 0; r < m; r++)
         for (size_t s = 0; s <= r; s++)
-            for (size_t p = 0; p < h; p++) e[n++] = nh_diff(k->dag, e[h + r * h + p], k->q[s]);
+            for (size_t p = 0; p < h; p++) e[n++] = nh_kinetic_diff(k, e[h + r * h + p], k->q[s]);
     nh_tape *tape = nh_kinetic_tape(k, n, e);
     nh_free(e);
     return tape;
