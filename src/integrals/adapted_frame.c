@@ -6,7 +6,7 @@
 
 #include "base/progress.h"
 
-enum { most_fields = 60, largest_ring = 4000 };
+enum { largest_ring = 4000, highest_order = 7 };
 
 /* ---- brackets ---- */
 
@@ -68,13 +68,13 @@ static bool add_direction(frame_list *l, const nh_residue *X, size_t weight)
 }
 
 /* The fields, their brackets with each other, with what is new among these, .. until nothing is.  At a generic point what depends on the others there
- * does so around it, and its brackets give nothing that theirs do not. */
-static void grow(frame_list *l, size_t fields, const nh_residue *X)
+ * does so around it, and its brackets give nothing that theirs do not.  False: the series are too short to see the end. */
+static bool grow(frame_list *l, size_t fields, const nh_residue *X)
 {
-    size_t block = l->all * l->r->size;
+    size_t block = l->all * l->r->size, from = 0;
     for (size_t i = 0; i < fields; i++) add_direction(l, X + i * block, 1);
     nh_residue *both = nh_alloc_array(block + 1, sizeof *both);
-    for (size_t from = 0, weight = 2; from < l->count && l->count < l->wanted && weight <= l->r->order + 1; weight++) {
+    for (size_t weight = 2; from < l->count && l->count < l->wanted && weight <= l->r->order + 1; weight++) {
         size_t to = l->count;
         for (size_t i = 0; i < fields; i++)
             for (size_t j = from; j < to; j++) {
@@ -84,6 +84,7 @@ static void grow(frame_list *l, size_t fields, const nh_residue *X)
         from = to;
     }
     nh_free(both);
+    return from == l->count || l->count == l->wanted;
 }
 
 static void frame_list_init(frame_list *l, const nh_jet_ring *r, size_t all, size_t wanted)
@@ -246,27 +247,22 @@ static bool correct(nh_adapted_frame *x, const nh_jet_ring *r)
 
 /* ---- creation ---- */
 
-nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations)
+/* Directions, weights and corrections by series up to this order: brackets of weight w are exact at the point up to order + 1, and h_j,alpha, which takes
+ * at most w_j - 2 derivatives of what enters it, is when w_j is.  `settled`: there are no more directions, or none can be seen.  False: another point. */
+static bool grow_to(nh_adapted_frame *x, size_t order, bool *settled)
 {
-    enum { highest_order = 7 };
-    nh_arena *arena = nh_arena_create();
-    nh_adapted_frame *x = nh_arena_alloc(arena, sizeof *x);
-    size_t all = equations->coordinates, fields = equations->fields;
-    *x = (nh_adapted_frame){.equations = equations, .arena = arena, .all = all};
-    x->to = nh_arena_alloc(arena, (all * all + 1) * sizeof *x->to);
-    x->from = nh_arena_alloc(arena, (all * all + 1) * sizeof *x->from);
-    x->weight = nh_arena_alloc(arena, (all + 1) * sizeof *x->weight);
-    bool free = equations->n == equations->m && fields == equations->n; /* nothing to grow */
-    nh_jet_ring *r = plain_ring(equations->point->field, all, free ? 1 : highest_order);
+    nh_jet_equations *o = x->equations;
+    size_t all = x->all, fields = o->fields;
+    nh_jet_ring *r = plain_ring(o->point->field, all, order);
     nh_residue *q = nh_alloc_array(all * r->size + 1, sizeof *q), *X = nh_alloc_array(fields * all * r->size + 1, sizeof *X), *unit = nh_alloc_array(all * r->size + 1, sizeof *unit);
     for (size_t k = 0; k < all; k++) {
         variable(r, k, q + k * r->size);
-        q[k * r->size] = equations->at[k];
+        q[k * r->size] = o->at[k];
     }
     frame_list l;
     frame_list_init(&l, r, all, all);
-    bool good = nh_jet_equations_fields(equations, r, q, X);
-    if (good) grow(&l, fields, X);
+    bool good = nh_jet_equations_fields(o, r, q, X);
+    *settled = (good && grow(&l, fields, X)) || order == highest_order || r->order < order;
     x->kept = l.count;
     x->step = l.count ? l.weight[l.count - 1] : 0;
     memcpy(x->weight, l.weight, l.count * sizeof *x->weight);
@@ -276,13 +272,27 @@ nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations)
         add_direction(&l, unit, 0);
     }
     good = good && l.count == all;
-    if (good) set_matrices(x, &l);
-    if (good && x->step > 2) good = correct(x, r);
+    if (good && *settled) set_matrices(x, &l);
+    if (good && *settled && x->step > 2) good = correct(x, r);
     frame_list_clear(&l);
     nh_free(unit);
     nh_free(X);
     nh_free(q);
     nh_jet_ring_free(r);
+    return good;
+}
+
+nh_adapted_frame *nh_adapted_frame_create(nh_jet_equations *equations)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_adapted_frame *x = nh_arena_alloc(arena, sizeof *x);
+    size_t all = equations->coordinates;
+    *x = (nh_adapted_frame){.equations = equations, .arena = arena, .all = all};
+    x->to = nh_arena_alloc(arena, (all * all + 1) * sizeof *x->to);
+    x->from = nh_arena_alloc(arena, (all * all + 1) * sizeof *x->from);
+    x->weight = nh_arena_alloc(arena, (all + 1) * sizeof *x->weight);
+    bool settled = false, good = true;
+    for (size_t order = 1; good && !settled; order = 2 * order + 1) good = grow_to(x, order, &settled);
     if (good) return x;
     nh_arena_free(arena);
     return NULL;

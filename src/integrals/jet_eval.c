@@ -10,8 +10,8 @@ struct nh_jet_eval {
     size_t nodes;
     nh_residue **value;   /* per node; NULL: not known */
     bool *varies;
-    nh_ex *changing, *stack; /* computed and varying; to be computed */
-    size_t changes, change_capacity, stack_capacity;
+    nh_ex *known, *changing, *stack; /* with a value, now or before; computed and varying; to be computed */
+    size_t knowns, known_capacity, changes, change_capacity, stack_capacity;
     bool unlucky;
 };
 
@@ -27,12 +27,24 @@ nh_jet_eval *nh_jet_eval_create(nh_jet_point *point, const nh_jet_ring *ring)
 void nh_jet_eval_free(nh_jet_eval *v)
 {
     if (!v) return;
-    for (size_t i = 0; i < v->nodes; i++) nh_free(v->value[i]);
+    for (size_t i = 0; i < v->knowns; i++) {
+        nh_free(v->value[v->known[i]]);
+        v->value[v->known[i]] = NULL;
+    }
+    nh_free(v->known);
     nh_free(v->value);
     nh_free(v->varies);
     nh_free(v->changing);
     nh_free(v->stack);
     nh_free(v);
+}
+
+/* Room for the value of a node: few of a large graph have one. */
+static nh_residue *room(nh_jet_eval *v, nh_ex e)
+{
+    nh_grow(&v->known, &v->known_capacity, v->knowns + 1, sizeof *v->known);
+    v->known[v->knowns++] = e;
+    return v->value[e] = nh_alloc_array(v->ring->size, sizeof **v->value);
 }
 
 void nh_jet_eval_set(nh_jet_eval *v, nh_ex symbol, const nh_residue *series, bool varies)
@@ -42,8 +54,7 @@ void nh_jet_eval_set(nh_jet_eval *v, nh_ex symbol, const nh_residue *series, boo
         v->value[v->changing[i]] = NULL;
     }
     if (varies) v->changes = 0;
-    if (!v->value[symbol]) v->value[symbol] = nh_alloc_array(v->ring->size, sizeof **v->value);
-    memcpy(v->value[symbol], series, v->ring->size * sizeof *series);
+    memcpy(v->value[symbol] ? v->value[symbol] : room(v, symbol), series, v->ring->size * sizeof *series);
     v->varies[symbol] = varies;
 }
 
@@ -234,7 +245,7 @@ static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
 
 static void compute(nh_jet_eval *v, nh_ex e)
 {
-    nh_residue *out = v->value[e] = nh_alloc_array(v->ring->size, sizeof *out);
+    nh_residue *out = room(v, e);
     switch (nh_kind_of(v->dag, e)) {
     case NH_NUMBER: nh_jet_constant(v->ring, number(v, nh_number_of(v->dag, e)), out); return;
     case NH_SYMBOL: v->unlucky = true; return; /* not set */
