@@ -106,28 +106,64 @@ nh_ex nh_symmetry_components(const nh_model *o, nh_ex phi, nh_ex *zeta)
     return tidy(d, nh_div(d, rest, o->Lbar));
 }
 
-/* zeta, Z^0, W and the field's components in the chart.  Of many coordinates every component has the long Z^0 as a factor: without it (take_motion_away) they are
- * short, and with it not worth the work. */
-static void solve_components(nh_model *o, nh_symmetry *z)
+/* Of many coordinates every component of Z has the long Z^0 = (Phi - pbar zeta)/Lbar as a factor of Gamma's: without it they are short, and with it not
+ * worth the work. */
+static bool is_of_many(const nh_model *o, const nh_symmetry *z) { return o->m > many_coordinates && nh_kind_of(o->dag, z->Z0) != NH_NUMBER; }
+
+/* Z - Z^0 Gamma: R zeta and, by (NX) with M a = A, M (W - Z^0 a) = -G^T zeta - X(Phi). */
+static void without_motion(nh_model *o, nh_symmetry *z)
 {
     nh_dag *d = o->dag;
-    size_t n = o->n, m = o->m;
-    z->Z0 = nh_symmetry_components(o, z->phi, z->zeta);
+    size_t n = o->n;
+    z->relative = (nh_field){nh_int(d, 0), take(o, o->m), take(o, n)};
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex e = nh_int(d, 0);
+        for (size_t i = 0; i < n; i++) e = nh_add(d, e, nh_mul(d, o->R[s * n + i], z->zeta[i]));
+        z->relative.space[s] = tidy(d, e);
+    }
+    for (size_t j = 0; j < n; j++) {
+        nh_ex b = nh_neg(d, nh_model_X(o, j, z->phi));
+        for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
+        z->relative.velocity[j] = b;
+    }
+    solve(o, z->relative.velocity, z->relative.velocity);
+    for (size_t i = 0; i < n; i++) z->relative.velocity[i] = tidy(d, z->relative.velocity[i]);
+}
+
+static void solve_directly(nh_model *o, nh_symmetry *z)
+{
+    nh_dag *d = o->dag;
+    size_t n = o->n;
     for (size_t j = 0; j < n; j++) {
         nh_ex b = nh_sub(d, nh_mul(d, o->A[j], z->Z0), nh_model_X(o, j, z->phi));
         for (size_t i = 0; i < n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * n + j], z->zeta[i]));
         z->W[j] = nh_normal_is_zero(d, b, 0) == NH_ZERO ? nh_int(d, 0) : b; /* zero for an energy; told before M^-1 lengthens it */
     }
     solve(o, z->W, z->W);
-    z->field = (nh_field){z->Z0, take(o, m), take(o, n)};
-    bool many = m > many_coordinates && nh_kind_of(d, z->Z0) != NH_NUMBER;
-    for (size_t i = 0; i < n; i++) z->field.velocity[i] = z->W[i] = many ? z->W[i] : tidy(d, z->W[i]);
-    for (size_t s = 0; s < m; s++) {
+    for (size_t i = 0; i < n; i++) z->W[i] = tidy(d, z->W[i]);
+    for (size_t s = 0; s < o->m; s++) {
         nh_ex e = nh_mul(d, o->rho[s], z->Z0);
         for (size_t i = 0; i < n; i++) e = nh_add(d, e, nh_mul(d, o->R[s * n + i], z->zeta[i]));
-        z->field.space[s] = many ? e : tidy(d, e);
+        z->field.space[s] = tidy(d, e);
     }
-    for (size_t s = 0; s < m; s++) {
+}
+
+/* zeta, Z^0, W and the field's components in the chart. */
+static void solve_components(nh_model *o, nh_symmetry *z)
+{
+    nh_dag *d = o->dag;
+    z->Z0 = nh_symmetry_components(o, z->phi, z->zeta);
+    z->field = (nh_field){z->Z0, take(o, o->m), take(o, o->n)};
+    bool many = is_of_many(o, z);
+    if (many) {
+        without_motion(o, z);
+        for (size_t i = 0; i < o->n; i++) z->W[i] = nh_add(d, z->relative.velocity[i], nh_mul(d, z->Z0, o->a[i]));
+        for (size_t s = 0; s < o->m; s++) z->field.space[s] = nh_add(d, z->relative.space[s], nh_mul(d, z->Z0, o->rho[s]));
+    } else {
+        solve_directly(o, z);
+    }
+    memcpy(z->field.velocity, z->W, o->n * sizeof *z->W);
+    for (size_t s = 0; s < o->m; s++) {
         nh_ex rate = nh_model_along(o, &z->field, o->rho[s]);
         z->coordinate_rate[s] = many ? rate : tidy(d, rate);
     }
@@ -149,48 +185,37 @@ static void take_motion_away(nh_model *o, nh_symmetry *z)
     nh_dag *d = o->dag;
     size_t length = total_complexity(o, &z->field, z->coordinate_rate);
     if (nh_kind_of(d, z->Z0) == NH_NUMBER || length <= short_enough) return;
-    z->relative = (nh_field){nh_int(d, 0), take(o, o->m), take(o, o->n)};
+    if (!z->relative.space) without_motion(o, z);
     z->relative_rate = take(o, o->m);
-    for (size_t s = 0; s < o->m; s++) {
-        nh_ex e = nh_int(d, 0);
-        for (size_t i = 0; i < o->n; i++) e = nh_add(d, e, nh_mul(d, o->R[s * o->n + i], z->zeta[i]));
-        z->relative.space[s] = tidy(d, e);
-    }
-    for (size_t j = 0; j < o->n; j++) { /* (NX) with M a = A: M (W - Z^0 a) = -G^T zeta - X(Phi) */
-        nh_ex b = nh_neg(d, nh_model_X(o, j, z->phi));
-        for (size_t i = 0; i < o->n; i++) b = nh_sub(d, b, nh_mul(d, o->G[i * o->n + j], z->zeta[i]));
-        z->relative.velocity[j] = b;
-    }
-    solve(o, z->relative.velocity, z->relative.velocity);
-    for (size_t i = 0; i < o->n; i++) z->relative.velocity[i] = tidy(d, z->relative.velocity[i]);
     for (size_t s = 0; s < o->m; s++) z->relative_rate[s] = tidy(d, nh_model_along(o, &z->relative, o->rho[s]));
     z->along_motion = nh_complexity(d, z->Z0) + total_complexity(o, &z->relative, z->relative_rate) < 3 * length / 4;
 }
 
-/* The two halves of each bracket component: what is differentiated along Gamma, and what along Z. */
-static void bracket_halves(const nh_model *o, const nh_symmetry *z, nh_ex *first, nh_ex *second)
+/* The two halves of each component of [Gamma, Z]: what is differentiated along Gamma, and what along Z. */
+static void bracket_halves(const nh_model *o, const nh_field *Z, nh_ex *first, nh_ex *second)
 {
     size_t k = 0;
-    first[k] = nh_model_gamma(o, z->Z0);
+    first[k] = nh_model_gamma(o, Z->time);
     second[k++] = nh_int(o->dag, 0);
     for (size_t s = 0; s < o->m; s++, k++) {
-        first[k] = nh_model_gamma(o, z->field.space[s]);
-        second[k] = nh_model_along(o, &z->field, o->rho[s]);
+        first[k] = nh_model_gamma(o, Z->space[s]);
+        second[k] = nh_model_along(o, Z, o->rho[s]);
     }
     for (size_t i = 0; i < o->n; i++, k++) {
-        first[k] = nh_model_gamma(o, z->W[i]);
-        second[k] = nh_model_along(o, &z->field, o->a[i]);
+        first[k] = nh_model_gamma(o, Z->velocity[i]);
+        second[k] = nh_model_along(o, Z, o->a[i]);
     }
 }
 
-/* The components are left as they come: they are evaluated, not printed.  With nu R = 0 the form needs no derivative of Z:
+/* From the halves for Z - c Gamma, with rate = Gamma(c): [Gamma, Z] = [Gamma, Z - c Gamma] + rate Gamma.  The components are left as they come: they are
+ * evaluated, not printed.  With nu R = 0 the form needs no derivative of Z:
  *     i_[Gamma,Z] phi^a = nu^a_s (Gamma(R^s_i) - X_i(rho^s)) zeta^i. */
-static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex *second)
+static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex *second, nh_ex rate)
 {
     nh_dag *d = o->dag;
-    z->bracket = (nh_field){first[0], take(o, o->m), take(o, o->n)};
-    for (size_t s = 0; s < o->m; s++) z->bracket.space[s] = nh_sub(d, first[1 + s], second[1 + s]);
-    for (size_t i = 0; i < o->n; i++) z->bracket.velocity[i] = nh_sub(d, first[1 + o->m + i], second[1 + o->m + i]);
+    z->bracket = (nh_field){nh_add(d, first[0], rate), take(o, o->m), take(o, o->n)};
+    for (size_t s = 0; s < o->m; s++) z->bracket.space[s] = nh_add(d, nh_sub(d, first[1 + s], second[1 + s]), nh_mul(d, rate, o->rho[s]));
+    for (size_t i = 0; i < o->n; i++) z->bracket.velocity[i] = nh_add(d, nh_sub(d, first[1 + o->m + i], second[1 + o->m + i]), nh_mul(d, rate, o->a[i]));
     for (size_t a = 0; a < o->k; a++) {
         nh_ex e = nh_int(d, 0);
         for (size_t s = 0; s < o->m; s++)
@@ -228,16 +253,17 @@ static int case_at(const local *l, double same)
     return across <= sqrt(same) * 1e-3 * sqrt(r2) ? 2 : 3;
 }
 
-static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const nh_ex *first, const nh_ex *second, double same)
+/* By Z, or by Z - Z^0 Gamma: the case is the same. */
+static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const nh_field *Z, const nh_ex *first, const nh_ex *second, double same)
 {
     size_t width = 1 + o->m + o->n, total = 4 * width + o->k, count = points->count;
     nh_ex *e = nh_alloc_array(total, sizeof *e);
     e[0] = nh_int(o->dag, 1);
     memcpy(e + 1, o->rho, o->m * sizeof *e);
     memcpy(e + 1 + o->m, o->a, o->n * sizeof *e);
-    e[width] = z->Z0;
-    memcpy(e + width + 1, z->field.space, o->m * sizeof *e);
-    memcpy(e + width + 1 + o->m, z->W, o->n * sizeof *e);
+    e[width] = Z->time;
+    memcpy(e + width + 1, Z->space, o->m * sizeof *e);
+    memcpy(e + width + 1 + o->m, Z->velocity, o->n * sizeof *e);
     memcpy(e + 2 * width, first, width * sizeof *e);
     memcpy(e + 3 * width, second, width * sizeof *e);
     memcpy(e + 4 * width, z->bracket_form, o->k * sizeof *e);
@@ -324,9 +350,11 @@ bool nh_symmetry_of(nh_model *o, const nh_points *points, nh_ex phi, double same
     solve_components(o, z);
     take_motion_away(o, z);
     nh_ex *first = take(o, 1 + o->m + o->n), *second = take(o, 1 + o->m + o->n);
-    bracket_halves(o, z, first, second);
-    bracket(o, z, first, second);
-    decide(o, points, z, first, second, same);
+    bool many = is_of_many(o, z);
+    const nh_field *Z = many ? &z->relative : &z->field;
+    bracket_halves(o, Z, first, second);
+    bracket(o, z, first, second, many ? nh_model_gamma(o, z->Z0) : nh_int(o->dag, 0));
+    decide(o, points, z, Z, first, second, same);
     z->projectable = is_projectable(o, points, z, same);
     z->noether_residual = nh_symmetry_residual(o, points, phi, z->Z0, z->zeta, z->W);
     return true;
