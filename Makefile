@@ -7,6 +7,7 @@
 #   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
 #   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
+#   make parameters give every system other parameter values, compare its formulas, and print the table
 #   make perturbed analyse copies of every system with a small term added, and print the table
 #   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
 #   make clean
@@ -64,7 +65,7 @@ STATES  = 50
 SEED    = 1
 SECONDS = 60
 
-.PHONY: all sleigh check tests install bench catalogue reductions random perturbed fuzz print-libraries print-includes clean packages test-packages check-packages
+.PHONY: all sleigh check tests install bench catalogue reductions random parameters perturbed fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -95,7 +96,7 @@ reductions: test-packages
 	@{ printf '# Reductions\n\nWritten by `make reductions`: every system of `systems/` that has a group to reduce by, from $(STATES) initial states of its domain, over ten units of time at the tolerance 1e-10. The last column is a ratio of times on one machine in one run.\n\nKnown: full motions that are known to 100 tolerances up to the end (the others are compared as far as they are known). Followed: reduced motions that go as far, or until the constraints become dependent. Apart: those that are further from the full motion somewhere than 100 tolerances and what that itself is known to (where more than 100 tolerances lie between them: by how much full motions with other tolerances differ; their number stands in brackets). Charts changed: how often another slice or other velocities took over ([method.md](method.md), section 9). Times faster: the time of the full motions divided by that of the reduced ones, with equal tolerances.\n\n'; \
 	   $(BUILD)/tests/bench_reductions systems $(STATES); } >$(BUILD)/reductions.md; code=$$?; mv $(BUILD)/reductions.md docs/; tail -n 1 docs/reductions.md; exit $$code
 
-random perturbed: test-packages
+random parameters perturbed: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@$(BUILD)/tests/bench_$@ $(if $(filter random,$@),$(SYSTEMS),systems) $(SEED)
 

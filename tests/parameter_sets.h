@@ -257,11 +257,11 @@ static inline const formula *find_formula(const formulas *f, const char *text)
     return NULL;
 }
 
-static inline bool is_named(const formulas *f, const char *name)
+static inline const formula *named(const formulas *f, const char *name)
 {
     for (size_t i = 0; i < f->count; i++)
-        if (!strcmp(f->list[i].name, name)) return true;
-    return false;
+        if (!strcmp(f->list[i].name, name)) return &f->list[i];
+    return NULL;
 }
 
 static inline void list_limited(const formulas *f, const char *where, parameters_row *o, nh_text *out)
@@ -273,16 +273,17 @@ static inline void list_limited(const formulas *f, const char *where, parameters
     }
 }
 
-/* Does every formula of `was` stand in `is`, in the same place unless a special value brings others in? */
+/* Does every formula of `was` stand in `is`, under its name unless a special value brings others in? */
 static inline bool compare_formulas(const formulas *was, const formulas *is, const parameter_set *p, nh_text *out)
 {
     bool same = is->answered && (p->special.name || is->count == was->count);
     if (is->count != was->count) nh_text_addf(out, "%s%zu formulas instead of %zu for %s", *nh_text_string(out) ? "; " : "", is->count, was->count, p->text);
     for (size_t i = 0; i < was->count; i++) {
-        bool there = p->special.name ? find_formula(is, was->list[i].text) != NULL : i < is->count && !strcmp(is->list[i].text, was->list[i].text);
-        if (!there) nh_text_addf(out, "%s%s %s for %s", *nh_text_string(out) ? "; " : "", was->list[i].name, is_named(is, was->list[i].name) ? "differs" : "is not there", p->text);
-        if (!there && getenv("NHSYM_TEST_FIGURES")) printf("%s: %s\n    %s\n    %s\n", p->text, was->list[i].name, was->list[i].text, i < is->count ? is->list[i].text : "");
-        same &= there;
+        const formula *f = &was->list[i], *g = named(is, f->name);
+        if (p->special.name ? find_formula(is, f->text) != NULL : g && !strcmp(g->text, f->text)) continue;
+        nh_text_addf(out, "%s%s %s for %s", *nh_text_string(out) ? "; " : "", f->name, g ? "differs" : "is not there", p->text);
+        if (getenv("NHSYM_TEST_FIGURES")) printf("%s: %s\n    %s\n    %s\n", p->text, f->name, f->text, g ? g->text : "");
+        same = false;
     }
     return same;
 }
