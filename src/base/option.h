@@ -38,8 +38,10 @@
     X(bits,             256,     64,     4096,  whole, "bits",     "working precision of ball arithmetic")                                   \
     X(digits,           50,      10,     1000,  whole, "digits",   "digits to which a residual must vanish to be certified")                 \
     X(proof_terms,      20000,   100,    1e7,   whole, "terms",    "largest polynomial that an exact proof may use")                         \
-    X(degree,           0,       0,      12,    whole, "",         "integrals polynomial in the velocities are counted up to this degree; 0: 4, or 2 for more than four coordinates") \
+    X(degree,           0,       0,      12,    whole, "",         "integrals polynomial in the velocities are counted up to this degree; 0: 6 for two coordinates, 4 up to four, 2 for more") \
     X(count_work,       2e8,     0,      1e15,  real,  "products", "of residues that counting one kind of integrals may take")               \
+    X(construct,        2e9,     0,      1e15,  real,  "products", "of residues that constructing what one count misses may take; 0: nothing is constructed") \
+    X(words,            600,     1,      20000, whole, "words",    "functions of the coordinates that the coefficients of a missing integral are made of, at most") \
     X(shown,            600,     10,     1e9,   whole, "symbols",  "longer formulas are not written out in the summary")                     \
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \
     X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \

@@ -27,11 +27,12 @@ static bool holds_generically(const nh_model *model, const nh_completeness_quest
 
 void nh_completeness_of(const nh_model *model, const nh_completeness_question *q, nh_completeness out[NH_COMPLETENESS_KINDS])
 {
-    enum { few = 4, high = 4, low = 2 };
+    enum { two = 2, few = 4, highest = 6, high = 4, low = 2 };
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) {
         nh_completeness *c = &out[kind];
         size_t coordinates = model->m + (kind == NH_COMPLETE_IN_TIME);
-        nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME, .degree = q->degree ? q->degree : coordinates <= few ? high : low, .work = q->work,
+        size_t chosen = coordinates <= two ? highest : coordinates <= few ? high : low;
+        nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME, .degree = q->degree ? q->degree : chosen, .work = q->work,
                                       .known = q->known, .current = q->current};
         *c = (nh_completeness){.counted = true, .count = nh_count_integrals(model, &question)};
         if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {

@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "expr/diff.h"
 
-enum { most_points = 200, most_parameters = 3000, largest_series = 20000, steps_beyond = 1 };
+enum { most_parameters = 3000, largest_series = 20000, steps_beyond = 1 };
 
 /* ---- the number ---- */
 
@@ -21,40 +21,75 @@ static bool has_parity(const nh_jet_equations *x, const nh_jet_ring *ring, const
     return true;
 }
 
-/* N for each order, the sum over both parities where they separate; injective_at: the larger.  False: beyond the limits. */
-static bool totals(nh_counter *c, const nh_jet_ring *ring, const nh_residue *field, const nh_residue *rate, size_t degree, size_t *total, size_t *injective_at,
-                   nh_differentials *d)
+/* The ring of an order, and in it the coordinates, the fields and the rates. */
+nh_count_series *nh_count_series_create(nh_counter *c, size_t order, bool *regular)
 {
     nh_jet_equations *x = c->equations;
-    bool split = has_parity(x, ring, rate), good = true;
-    memset(total, 0, (ring->order + 1) * sizeof *total);
+    nh_adapted_frame *f = c->frame;
+    size_t size = nh_jet_ring_size(f->kept, f->weight, order, largest_series);
+    *regular = true;
+    if (size == SIZE_MAX) return NULL;
+    nh_count_series *s = nh_alloc(sizeof *s);
+    s->ring = nh_jet_ring_create(x->point->field, f->kept, f->weight, order);
+    s->coordinate = nh_alloc_array(f->all * size + 1, sizeof *s->coordinate);
+    s->field = nh_alloc_array(x->fields * f->kept * size + 1, sizeof *s->field);
+    s->rate = nh_alloc_array(x->n * nh_jet_equations_monomials(x->n) * size + 1, sizeof *s->rate);
+    c->work += (double)s->ring->pairs[size] * x->products;
+    *regular = nh_adapted_frame_series(f, s->ring, s->coordinate, s->field) && nh_jet_equations_accelerations(x, s->ring, s->coordinate, s->rate);
+    s->split = *regular && has_parity(x, s->ring, s->rate);
+    if (*regular) return s;
+    nh_count_series_free(s);
+    return NULL;
+}
+
+void nh_count_series_free(nh_count_series *s)
+{
+    if (!s) return;
+    nh_jet_ring_free(s->ring);
+    nh_free(s->rate);
+    nh_free(s->field);
+    nh_free(s->coordinate);
+    nh_free(s);
+}
+
+nh_graded_problem nh_count_problem(const nh_counter *c, const nh_count_series *s, size_t degree, nh_parity parity)
+{
+    return (nh_graded_problem){.ring = s->ring, .n = c->equations->n, .fields = c->equations->fields, .field = s->field, .rate = s->rate, .degree = degree, .parity = parity,
+                               .most_parameters = most_parameters, .most_work = c->q->work - c->work};
+}
+
+/* N for each order, the sum over both parities where they separate; injective_at: the larger.  False: beyond the limits. */
+static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, size_t *total, size_t *injective_at, nh_differentials *d)
+{
+    size_t order = s->ring->order;
+    bool good = true;
+    memset(total, 0, (order + 1) * sizeof *total);
     *injective_at = 0;
-    for (int part = 0; part < (split ? 2 : 1) && good; part++) {
-        nh_graded_problem p = {.ring = ring, .n = x->n, .fields = x->fields, .field = field, .rate = rate, .degree = degree, .most_parameters = most_parameters,
-                               .parity = !split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES, .most_work = c->q->work - c->work};
+    for (int part = 0; part < (s->split ? 2 : 1) && good; part++) {
+        nh_graded_problem p = nh_count_problem(c, s, degree, !s->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES);
         nh_graded_count *g = nh_graded_solve(&p);
         good = g->solved;
         if (!g->injective) *injective_at = SIZE_MAX;
         else if (*injective_at < g->injective_at) *injective_at = g->injective_at;
         c->work += g->work;
-        for (size_t k = 0; k <= ring->order; k++) total[k] += g->total[k];
-        if (good) nh_count_solutions_differ(g, ring->field, d);
+        for (size_t k = 0; k <= order; k++) total[k] += g->total[k];
+        if (good) nh_count_solutions_differ(g, s->ring->field, d);
         nh_graded_count_clear(g);
     }
     return good;
 }
 
 /* Both at the same random velocities. */
-static void start_differentials(const nh_counter *c, nh_prime f, nh_differentials *all, nh_differentials *known)
+void nh_count_differentials(const nh_counter *c, nh_differentials *all, nh_differentials *known)
 {
     size_t n = c->equations->n;
     uint64_t random = 31337;
     nh_residue *w = nh_alloc_array(n + 1, sizeof *w);
-    for (size_t i = 0; i < n; i++) w[i] = nh_residue_random(f, &random);
+    for (size_t i = 0; i < n; i++) w[i] = nh_residue_random(c->equations->point->field, &random);
     *all = *known = (nh_differentials){.n = n, .kept = c->frame->kept, .w = w};
 }
 
-static void end_differentials(nh_differentials *all, nh_differentials *known)
+void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known)
 {
     nh_free(all->w);
     nh_free(all->row);
@@ -63,43 +98,37 @@ static void end_differentials(nh_differentials *all, nh_differentials *known)
 
 typedef enum { COUNTED, UNLUCKY, TOO_MUCH } outcome;
 
+static void read_totals(const nh_counter *c, const size_t *total, size_t from, nh_count_row *out)
+{
+    size_t order = out->order, same = order;
+    out->bound = total[order];
+    out->bounded = from <= order;
+    out->functions = out->bounded && out->rank == out->known_rank;
+    out->complete = out->bounded && out->bound == out->known;
+    while (same > 0 && total[same - 1] == total[order]) same--;
+    if (out->bounded && same < from) same = from;
+    out->settled = out->bounded && order - same >= c->frame->step + steps_beyond;
+}
+
 /* One degree at one order. */
 static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row *out)
 {
-    nh_jet_equations *x = c->equations;
-    nh_adapted_frame *f = c->frame;
-    size_t size = nh_jet_ring_size(f->kept, f->weight, order, largest_series);
-    if (size == SIZE_MAX) return TOO_MUCH;
-    nh_jet_ring *ring = nh_jet_ring_create(x->point->field, f->kept, f->weight, order);
-    nh_residue *coordinate = nh_alloc_array(f->all * size + 1, sizeof *coordinate), *field = nh_alloc_array(x->fields * f->kept * size + 1, sizeof *field);
-    nh_residue *rate = nh_alloc_array(x->n * nh_jet_equations_monomials(x->n) * size + 1, sizeof *rate);
+    bool regular;
+    nh_count_series *s = nh_count_series_create(c, order, &regular);
+    if (!s) return regular ? TOO_MUCH : UNLUCKY;
     size_t *total = nh_alloc_array(order + 1, sizeof *total), from;
-    outcome result = UNLUCKY;
-    c->work += (double)ring->pairs[size] * (double)nh_dag_size(x->dag);
-    if (nh_adapted_frame_series(f, ring, coordinate, field) && nh_jet_equations_accelerations(x, ring, coordinate, rate)) {
-        nh_differentials all, known;
-        start_differentials(c, ring->field, &all, &known);
-        result = totals(c, ring, field, rate, degree, total, &from, &all) ? COUNTED : TOO_MUCH;
-        if (result == COUNTED && !(nh_count_products(c, ring, coordinate, degree, out) && nh_count_known_differ(c, ring, coordinate, &known) && nh_count_known_differ(c, ring, coordinate, &all))) result = UNLUCKY;
-        out->rank = nh_count_rank(&all, ring->field);
-        out->known_rank = nh_count_rank(&known, ring->field);
-        out->functions = from <= order && out->rank == out->known_rank;
-        end_differentials(&all, &known);
-        out->degree = degree;
-        out->order = order;
-        out->bound = total[order];
-        out->complete = from <= order && out->bound == out->known;
-        out->bounded = from <= order;
-        size_t same = order;
-        while (same > 0 && total[same - 1] == total[order]) same--;
-        if (out->bounded && same < from) same = from;
-        out->settled = out->bounded && order - same >= f->step + steps_beyond;
-    }
+    nh_differentials all, known;
+    nh_count_differentials(c, &all, &known);
+    outcome result = totals(c, s, degree, total, &from, &all) ? COUNTED : TOO_MUCH;
+    if (result == COUNTED && !(nh_count_products(c, s->ring, s->coordinate, degree, out) && nh_count_known_differ(c, s->ring, s->coordinate, &known) && nh_count_known_differ(c, s->ring, s->coordinate, &all))) result = UNLUCKY;
+    out->rank = nh_count_rank(&all, s->ring->field);
+    out->known_rank = nh_count_rank(&known, s->ring->field);
+    out->degree = degree;
+    out->order = order;
+    read_totals(c, total, from, out);
+    nh_count_differentials_clear(&all, &known);
     nh_free(total);
-    nh_free(rate);
-    nh_free(field);
-    nh_free(coordinate);
-    nh_jet_ring_free(ring);
+    nh_count_series_free(s);
     return result;
 }
 
@@ -123,7 +152,7 @@ static outcome count_degree(nh_counter *c, size_t degree, nh_count_row *out)
 
 /* ---- points ---- */
 
-static bool regular_point(nh_counter *c, size_t attempt)
+bool nh_count_regular_point(nh_counter *c, size_t attempt)
 {
     nh_jet_equations *x = c->equations;
     nh_adapted_frame_free(c->frame);
@@ -135,7 +164,7 @@ static bool regular_point(nh_counter *c, size_t attempt)
 static void degrees(nh_counter *c, nh_count *out)
 {
     size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, attempt = 0;
-    while (attempt < most_points && !c->equations->obstacle && !regular_point(c, attempt)) attempt++;
+    while (attempt < NH_COUNT_POINTS && !c->equations->obstacle && !nh_count_regular_point(c, attempt)) attempt++;
     if (!c->frame || c->equations->obstacle) {
         out->obstacle = c->equations->obstacle ? c->equations->obstacle : "no regular point was found modulo a prime";
         return;
@@ -144,8 +173,8 @@ static void degrees(nh_counter *c, nh_count *out)
         outcome o = count_degree(c, out->rows + 1, &out->row[out->rows]);
         if (o == UNLUCKY && !c->equations->obstacle) {
             do attempt++;
-            while (attempt < most_points && !regular_point(c, attempt));
-            if (attempt < most_points) continue;
+            while (attempt < NH_COUNT_POINTS && !nh_count_regular_point(c, attempt));
+            if (attempt < NH_COUNT_POINTS) continue;
         }
         if (o != COUNTED) {
             out->end = c->equations->obstacle ? c->equations->obstacle : o == UNLUCKY ? "no regular point was found modulo a prime" : "work";
@@ -193,25 +222,36 @@ static void register_known(nh_counter *c)
     }
 }
 
+void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_question *question)
+{
+    *c = (nh_counter){.q = question, .equations = nh_jet_equations_create(model, question->time, question->generic)};
+    c->current = nh_alloc_array(question->known + 1, sizeof *c->current);
+    c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);
+    c->failed = nh_alloc_array(question->known + 1, sizeof *c->failed);
+    c->slope = nh_alloc_array(question->known * model->n + 1, sizeof *c->slope);
+    if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_prime_at(0))) c->equations->obstacle = "functions that may be related to each other";
+    if (!c->equations->obstacle) register_known(c);
+}
+
+void nh_counter_close(nh_counter *c)
+{
+    nh_adapted_frame_free(c->frame);
+    nh_jet_equations_free(c->equations);
+    nh_free(c->slope);
+    nh_free(c->failed);
+    nh_free(c->degree);
+    nh_free(c->current);
+}
+
 nh_count nh_count_integrals(const nh_model *model, const nh_count_question *question)
 {
     nh_count out = {.generic = question->generic};
-    nh_counter c = {.q = question, .equations = nh_jet_equations_create(model, question->time, question->generic)};
+    nh_counter c;
+    nh_counter_open(&c, model, question);
     out.time = c.equations->time;
-    c.current = nh_alloc_array(question->known + 1, sizeof *c.current);
-    c.degree = nh_alloc_array(question->known + 1, sizeof *c.degree);
-    c.failed = nh_alloc_array(question->known + 1, sizeof *c.failed);
-    c.slope = nh_alloc_array(question->known * model->n + 1, sizeof *c.slope);
-    if (!c.equations->obstacle && nh_jet_equations_related(c.equations, nh_prime_at(0))) c.equations->obstacle = "functions that may be related to each other";
-    if (!c.equations->obstacle) register_known(&c);
     if (c.equations->obstacle) out.obstacle = c.equations->obstacle;
     else degrees(&c, &out);
     out.work = c.work;
-    nh_adapted_frame_free(c.frame);
-    nh_jet_equations_free(c.equations);
-    nh_free(c.slope);
-    nh_free(c.failed);
-    nh_free(c.degree);
-    nh_free(c.current);
+    nh_counter_close(&c);
     return out;
 }

@@ -15,11 +15,36 @@ typedef struct {
     double work;
 } nh_counter;
 
+enum { NH_COUNT_POINTS = 200 }; /* so many are tried */
+
+/* The equations, and the known integrals that can be followed in them; an obstacle is in the equations. */
+void nh_counter_open(nh_counter *counter, const nh_model *model, const nh_count_question *question);
+void nh_counter_close(nh_counter *counter);
+
+/* Another point; false: a singular one. */
+bool nh_count_regular_point(nh_counter *counter, size_t attempt);
+
+/* Gamma as series at the point. */
+typedef struct {
+    nh_jet_ring *ring;
+    nh_residue *coordinate, *field, *rate; /* adapted_frame.h, jet_equations.h */
+    bool split;              /* solutions are even or odd in the velocities */
+} nh_count_series;
+
+/* NULL: too long, or the point is not `regular`. */
+nh_count_series *nh_count_series_create(nh_counter *counter, size_t order, bool *regular);
+void nh_count_series_free(nh_count_series *series);
+nh_graded_problem nh_count_problem(const nh_counter *counter, const nh_count_series *series, size_t degree, nh_parity parity);
+
 /* Differentials at one point (z = 0, w), as rows: along the coordinates, then along the velocities. */
 typedef struct {
     size_t n, kept, rows, capacity;
     nh_residue *w, *row; /* n; rows x (kept + n) */
 } nh_differentials;
+
+/* For all solutions and for the known integrals, at the same random velocities. */
+void nh_count_differentials(const nh_counter *counter, nh_differentials *all, nh_differentials *known);
+void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known);
 
 /* Find the degrees of the known integrals, and leave out those without values.  False: another point is needed. */
 bool nh_count_take_known(nh_counter *counter);

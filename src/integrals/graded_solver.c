@@ -255,7 +255,7 @@ static bool may_substitute(nh_graded_system *s, size_t rank)
     return !s->over;
 }
 
-/* All conditions in echelon form; they are substituted where few parameters survive. */
+/* All conditions in echelon form; they are substituted where few parameters survive, and always in a long series, which has few of them. */
 static void use_conditions(nh_graded_system *s)
 {
     size_t columns = s->before;
@@ -274,7 +274,7 @@ static void use_conditions(nh_graded_system *s)
     size_t rank = (size_t)nmod_mat_rref(all);
     s->work += (double)nmod_mat_nrows(all) * (double)columns * (double)rank;
     s->reached = columns;
-    if (4 * (s->N - rank) <= s->N && may_substitute(s, rank)) {
+    if ((s->p->keep || 4 * (s->N - rank) <= s->N) && may_substitute(s, rank)) {
         substitute(s, all, rank);
         s->conditions = 0;
     } else {
@@ -322,7 +322,14 @@ static void start(nh_graded_system *s)
     for (size_t a = 0; a < s->alphas && !s->over; a++) nh_graded_parameter(s, a, 0);
 }
 
-/* What is left of the conditions is used, and the first jets of the solutions are kept. */
+static void keep_series(nh_graded_system *s, nh_graded_count *out)
+{
+    size_t rows = s->alphas * s->r->size;
+    out->series = nh_arena_alloc(s->arena, rows * s->N * sizeof *out->series + 1);
+    for (size_t i = 0; i < rows; i++) memcpy(out->series + i * s->N, s->row + i * s->stride, s->N * sizeof *out->series);
+}
+
+/* What is left of the conditions is used, and the first jets of the solutions are kept, or all of them. */
 static void finish(nh_graded_system *s, nh_graded_count *out)
 {
     size_t m = s->r->variables;
@@ -345,6 +352,7 @@ static void finish(nh_graded_system *s, nh_graded_count *out)
             size_t e = k ? s->r->up[(k - 1) * s->r->size] : 0;
             if (e < s->r->size) memcpy(out->jet + (a * (1 + m) + k) * s->N, nh_graded_row(s, a, e), s->N * sizeof *out->jet);
         }
+    if (s->p->keep) keep_series(s, out);
 }
 
 nh_graded_count *nh_graded_solve(const nh_graded_problem *p)

@@ -24,6 +24,7 @@ typedef struct {
     nh_parity parity;           /* of |alpha|; it may be split where every term of Gamma changes it */
     size_t most_parameters;     /* beyond this many at a time, or this work, the system is given up */
     double most_work;           /* products of residues */
+    bool keep;                  /* all coefficients of the solutions are wanted, not only the first */
 } nh_graded_problem;
 
 typedef struct {
@@ -35,6 +36,7 @@ typedef struct {
     size_t alphas;              /* monomials in the velocities */
     const uint8_t *alpha;       /* alphas x n: their exponents */
     nh_residue *jet;            /* alphas x (1 + variables) x N(order): c_alpha(0) and its derivatives along the coordinates, of every solution */
+    nh_residue *series;         /* alphas x size x N(order), when they are kept: c_alpha */
     double work;
     nh_arena *arena;
 } nh_graded_count;

@@ -74,6 +74,20 @@ static bool affine(nh_jet_equations *x)
     return found;
 }
 
+static double nodes(const nh_jet_equations *x, size_t n, const nh_ex *e)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) count += nh_node_count(x->dag, e[i]);
+    return (double)count;
+}
+
+/* Every node is about a product, at each choice of velocities; and the accelerations are solved for. */
+static double products(const nh_jet_equations *x)
+{
+    double n = (double)x->n, monomials = (double)nh_jet_equations_monomials(x->n);
+    return (n + 2) * nodes(x, x->m, x->rho) + (monomials + n + 1) * nodes(x, x->n, x->A) + 2 * nodes(x, x->n * x->n, x->M) + n * n * (n + monomials);
+}
+
 nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool generic)
 {
     nh_arena *arena = nh_arena_create();
@@ -84,6 +98,7 @@ nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool gen
     x->rho = take(x, o->m, o->rho);
     x->M = take(x, o->n * o->n, o->M);
     x->A = take(x, o->n, o->A);
+    x->products = products(x);
     x->time = time || depends_on_time(x);
     x->coordinates = o->m + x->time;
     x->coordinate = o->chart->symbol + !x->time; /* t, q */

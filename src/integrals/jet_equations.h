@@ -20,6 +20,7 @@ typedef struct {
     size_t coordinates, n, m;
     const nh_ex *coordinate, *w;
     nh_ex *rho, *M, *A;      /* m, n x n, n: canonical, with parameters at their values unless generic */
+    double products;         /* of series, about, that they take at a point */
     size_t fields;           /* n, and one more when b is not zero or time is a coordinate */
     nh_residue *at;          /* the point, and after the coordinates the parameters, which matter when they are indeterminates, and t when it is no
                               * coordinate */

@@ -15,6 +15,7 @@
 #include "study/figures.h"
 #include "study/integrals.h"
 #include "study/ladder.h"
+#include "study/missing.h"
 #include "study/pace.h"
 #include "study/routes.h"
 #include "study/specials.h"
@@ -187,27 +188,6 @@ static void conclude(nh_result *r)
         nh_result_warn(r, "two columns of the ansatz are nearly dependent: which were kept is a matter of the option `rank`");
 }
 
-/* What is proved is compared with how much there can be. */
-static void count(nh_result *r)
-{
-    nh_ex *phi = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *phi);
-    nh_completeness_question q = {.current = phi, .general = true, .all = r->search == NH_SEARCH_COMPLETE, .degree = (size_t)r->options.degree, .work = r->options.count_work};
-    nh_progress("how many integrals there are", -1);
-    for (size_t k = 0; k < r->count; k++) {
-        if (!r->found[k].proof.proved || r->found[k].series) continue;
-        phi[q.known++] = r->found[k].phi;
-        q.general &= r->found[k].proof.all_parameters;
-    }
-    nh_completeness_of(r->model, &q, r->completeness);
-    if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
-    for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++) {
-        const nh_completeness *c = &r->completeness[i];
-        for (size_t d = 0; d < c->count.rows; d++)
-            if (c->count.row[d].known > c->count.row[d].bound)
-                nh_result_warn(r, "at degree %zu more currents were proved than the count allows: one of the two is wrong, please report this", d + 1);
-    }
-}
-
 /* ---- the motion ---- */
 
 static const nh_watch *list_tracks(nh_result *r)
@@ -301,10 +281,10 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
         r->search = !solved ? NH_SEARCH_CUT : r->independent >= r->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
     }
     watch_deadline(r);
+    if (!nh_late()) nh_missing_count(r, r->stages > 0);
     conclude(r);
     nh_integrals_of_constraints(r);
     nh_branch_compare(r);
-    if (!nh_late()) count(r);
     nh_progress("a motion to check it", -1);
     if (!nh_interrupted()) validate(r, q);
     if (!nh_interrupted() && !q->no_figures) nh_figures_compute(r, q, families, family);

@@ -9,8 +9,26 @@
 #include "base/progress.h"
 #include "expr/normal.h"
 
-enum { least_points = 256, least_tested = 60, short_factor = 14 };
+enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60, short_factor = 14 };
 static const double points_per_column = 2.5;
+
+bool nh_climb_begin(nh_climb *x, nh_result *r, nh_error *error)
+{
+    size_t points = range_points_each * r->model->m;
+    *x = (nh_climb){.r = r};
+    x->ranges = nh_points_create(r->model, points > range_points ? points : range_points, 1, (uint64_t)r->options.seed, error);
+    x->bench = x->ranges ? nh_workbench_create(r, error) : NULL;
+    if (!x->bench) nh_climb_end(x);
+    return x->bench != NULL;
+}
+
+void nh_climb_end(nh_climb *x)
+{
+    nh_workbench_free(x->bench);
+    nh_reflections_free(x->reflections);
+    nh_points_free(x->ranges);
+    *x = (nh_climb){0};
+}
 
 /* ---- which candidates are new ---- */
 

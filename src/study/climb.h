@@ -20,6 +20,10 @@ typedef struct {
     bool wide;                   /* the stage at hand has few columns for what it looks for: it may have as many as any ansatz */
 } nh_climb;
 
+/* Points for the ranges of columns, and a workbench; no words yet. */
+bool nh_climb_begin(nh_climb *climb, nh_result *result, nh_error *error);
+void nh_climb_end(nh_climb *climb);
+
 /* A stage's linear problem, solved. */
 typedef struct {
     nh_ansatz *ansatz;

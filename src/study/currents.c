@@ -208,6 +208,12 @@ static nh_found *next_found(nh_result *r)
     return &r->found[r->count];
 }
 
+void nh_currents_put(nh_workbench *b, const nh_found *found)
+{
+    *next_found(b->result) = *found;
+    b->result->count++;
+}
+
 bool nh_currents_known(const nh_workbench *b, nh_ex current)
 {
     const nh_result *r = b->result;

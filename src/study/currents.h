@@ -24,6 +24,9 @@ void nh_workbench_free(nh_workbench *bench);
  * only a certificate makes it a current, and nothing is said without. */
 bool nh_currents_add(nh_workbench *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
 
+/* Append one that was checked before. */
+void nh_currents_put(nh_workbench *bench, const nh_found *found);
+
 /* Is it a function of the currents found so far, or constant? */
 bool nh_currents_known(const nh_workbench *bench, nh_ex phi);
 

@@ -10,8 +10,6 @@
 #include "study/integrals.h"
 #include "study/stages.h"
 
-enum { range_points = 256, range_points_each = 10 };
-
 /* Currents found so far as factors: Phi times 1, t, positions and the system's functions. */
 static void known_stage(nh_climb *x)
 {
@@ -107,15 +105,8 @@ static void how_it_ended(nh_result *r)
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
     enum { pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 4 };
-    nh_climb x = {.r = r};
-    size_t points = range_points_each * r->model->m;
-    x.ranges = nh_points_create(r->model, points > range_points ? points : range_points, 1, (uint64_t)r->options.seed, error);
-    if (!x.ranges) return false;
-    x.bench = nh_workbench_create(r, error);
-    if (!x.bench) {
-        nh_points_free(x.ranges);
-        return false;
-    }
+    nh_climb x;
+    if (!nh_climb_begin(&x, r, error)) return false;
     nh_budget_begin(r->options.work);
     x.words = nh_dictionary_of(r->model);
     nh_stage stage;
@@ -134,8 +125,6 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
     how_it_ended(r);
     nh_budget_begin(INFINITY);
     nh_currents_finish(x.bench);
-    nh_workbench_free(x.bench);
-    nh_reflections_free(x.reflections);
-    nh_points_free(x.ranges);
+    nh_climb_end(&x);
     return true;
 }

@@ -1,0 +1,206 @@
+/* What occurs in the Lagrangian, the equations of motion and the determinant of the inertia: bases of powers with their exponents, angles, exponents. */
+#include "integrals/closed_letters.h"
+
+#include <math.h>
+
+#include "expr/kernel.h"
+#include "expr/normal.h"
+
+enum { most_found = 400, largest_form = 2000, largest_inertia = 4, least_down = 1 };
+
+/* ---- the list ---- */
+
+static nh_letter *letter_of(nh_letters *l, nh_letter_kind kind, nh_ex base)
+{
+    for (size_t i = 0; i < l->count; i++)
+        if (l->item[i].kind == kind && l->item[i].base == base) return &l->item[i];
+    nh_grow(&l->item, &l->capacity, l->count + 1, sizeof *l->item);
+    l->item[l->count] = (nh_letter){.kind = kind, .base = base, .root = 1, .up = 1};
+    return &l->item[l->count++];
+}
+
+/* Does it depend on coordinates, and on no velocity? */
+static bool of_position(const nh_jet_equations *x, nh_ex e)
+{
+    bool position = false, velocity = false;
+    for (size_t k = 0; k < x->coordinates; k++) position |= nh_depends(x->dag, e, x->coordinate[k]);
+    for (size_t i = 0; i < x->n; i++) velocity |= nh_depends(x->dag, e, x->w[i]);
+    return position && !velocity;
+}
+
+/* ---- sines, cosines, exponentials ---- */
+
+/* A unit of which both are multiples. */
+static nh_num common(nh_num a, nh_num b)
+{
+    int64_t q = a.q / nh_gcd(a.q, b.q) * b.q;
+    return nh_num_ratio(nh_gcd(a.p * (q / a.q), b.p * (q / b.q)), q);
+}
+
+/* The letter of an argument's direction: one that is there already is made finer. */
+static nh_letter *direction(nh_dag *d, nh_letters *l, nh_letter_kind kind, nh_ex argument, double *sign)
+{
+    nh_parts whole;
+    nh_parts_make(d, true, argument, &whole);
+    nh_letter *found = NULL;
+    *sign = 1;
+    if (whole.count == 1 && nh_num_short(whole.item[0].coefficient) && whole.item[0].coefficient.p) {
+        nh_num c = whole.item[0].coefficient;
+        *sign = c.p < 0 ? -1 : 1;
+        c.p = c.p < 0 ? -c.p : c.p;
+        nh_ex atom = whole.item[0].atom;
+        for (size_t i = 0; i < l->count && !found; i++) {
+            nh_parts other;
+            if (l->item[i].kind != kind) continue;
+            nh_parts_make(d, true, l->item[i].base, &other);
+            if (other.count == 1 && other.item[0].atom == atom) {
+                found = &l->item[i];
+                c = common(c, other.item[0].coefficient);
+            }
+            nh_free(other.item);
+        }
+        nh_ex base = nh_mul(d, nh_number(d, nh_num_ratio(c.p, c.q)), atom);
+        if (found) found->base = base;
+        else found = letter_of(l, kind, base);
+    }
+    nh_free(whole.item);
+    return found;
+}
+
+static void take_function(const nh_jet_equations *x, nh_letters *l, nh_ex e)
+{
+    nh_dag *d = x->dag;
+    nh_letter *found;
+    double sign;
+    if (!of_position(x, e)) return;
+    switch (nh_function_of(d, e)) {
+    case NH_SIN: case NH_COS: case NH_TAN:
+        found = direction(d, l, NH_LETTER_CIRCLE, nh_child(d, e, 0), &sign);
+        if (found && nh_function_of(d, e) == NH_TAN) found->down = fmax(found->down, least_down);
+        break;
+    case NH_SINH: case NH_COSH: case NH_TANH:
+        found = direction(d, l, NH_LETTER_EXPONENTIAL, nh_child(d, e, 0), &sign);
+        if (found) found->down = fmax(found->down, least_down);
+        break;
+    case NH_EXP:
+        found = direction(d, l, NH_LETTER_EXPONENTIAL, nh_child(d, e, 0), &sign);
+        if (found && sign < 0) found->down = fmax(found->down, least_down);
+        break;
+    case NH_ABS: case NH_SIGN: case NH_PI: break;
+    default: letter_of(l, NH_LETTER_POWER, e);
+    }
+}
+
+/* ---- powers ---- */
+
+/* `less`: what the lowest exponent of an integral is expected above this one. */
+static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_num exponent, double less)
+{
+    nh_dag *d = x->dag;
+    bool function = nh_kind_of(d, base) == NH_FUNCTION;
+    nh_function f = function ? nh_function_of(d, base) : NH_PI;
+    double value = nh_num_value(exponent), sign;
+    if (!of_position(x, base) || !nh_num_short(exponent)) return;
+    if (function && (f == NH_SIN || f == NH_COS) && exponent.q == 1) {
+        nh_letter *angle = direction(d, l, NH_LETTER_CIRCLE, nh_child(d, base, 0), &sign);
+        double *down = !angle ? NULL : f == NH_SIN ? &angle->down_sine : &angle->down;
+        if (down && value < 0) *down = fmax(*down, fmax(-value - less, 1));
+        return;
+    }
+    if (function && f == NH_EXP) return;
+    if (exponent.q == 1 && value > 0) return; /* whole powers are polynomials in what the base is made of */
+    nh_letter *found = letter_of(l, NH_LETTER_POWER, base);
+    found->root = found->root / nh_gcd(found->root, exponent.q) * exponent.q;
+    if (value < 0) found->down = fmax(found->down, fmax(-value - less, 1 / (double)found->root));
+    else found->up = fmax(found->up, value);
+}
+
+static void take_expression(const nh_jet_equations *x, nh_letters *l, nh_ex e, double less)
+{
+    nh_dag *d = x->dag;
+    nh_ex *found = nh_alloc_array(most_found, sizeof *found), own = nh_canonical(d, e, largest_form);
+    size_t n = nh_functions_in(d, own, found, most_found);
+    for (size_t i = 0; i < n && i < most_found; i++) take_function(x, l, found[i]);
+    n = nh_products_in(d, own, found, most_found);
+    for (size_t i = 0; i < n && i < most_found; i++)
+        for (size_t k = 0; k < nh_arity(d, found[i]); k++) {
+            nh_ex exponent = nh_exponent_of(d, found[i], k);
+            if (nh_kind_of(d, exponent) == NH_NUMBER) take_power(x, l, nh_child(d, found[i], k), nh_number_of(d, exponent), less);
+        }
+    nh_free(found);
+}
+
+/* ---- the determinant of the inertia ---- */
+
+/* Of the rows `row` .. and the columns that are not used yet. */
+static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
+{
+    if (row == o->n) return nh_int(o->dag, 1);
+    nh_ex sum = nh_int(o->dag, 0);
+    bool minus = false;
+    for (size_t j = 0; j < o->n; j++) {
+        if (used >> j & 1) continue;
+        nh_ex term = o->M[row * o->n + j];
+        if (!nh_is_zero(o->dag, term)) {
+            term = nh_mul(o->dag, term, minor_of(o, row + 1, used | (uint32_t)1 << j));
+            sum = minus ? nh_sub(o->dag, sum, term) : nh_add(o->dag, sum, term);
+        }
+        minus = !minus;
+    }
+    return sum;
+}
+
+/* Its factors with half powers. */
+static void take_determinant(const nh_jet_equations *x, nh_letters *l)
+{
+    const nh_model *o = x->model;
+    nh_dag *d = x->dag;
+    if (o->n > largest_inertia) return;
+    nh_ex e = nh_simplify_short(d, minor_of(o, 0, 0), largest_form);
+    bool product = nh_kind_of(d, e) == NH_PRODUCT;
+    for (size_t k = 0; k < (product ? nh_arity(d, e) : 1); k++) {
+        nh_ex base = product ? nh_child(d, e, k) : e;
+        if (!of_position(x, base)) continue;
+        bool sum = nh_kind_of(d, base) == NH_SUM;
+        take_power(x, l, base, sum ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
+    }
+}
+
+/* ---- the coordinates ---- */
+
+/* Where a coordinate is seen only inside of functions its powers are unlikely. */
+static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex q)
+{
+    enum { most = 64 };
+    nh_dag *d = x->dag;
+    nh_ex function[most], fresh[most];
+    bool inside = false, plain = false;
+    for (size_t k = 0; k < n; k++) {
+        size_t count = nh_functions_in(d, e[k], function, most);
+        if (count >= most) return false;
+        for (size_t i = 0; i < count; i++) {
+            inside |= nh_depends(d, function[i], q);
+            fresh[i] = nh_int(d, (int64_t)i + 2);
+        }
+        plain |= nh_depends(d, nh_substitute(d, e[k], count, function, fresh), q);
+    }
+    return inside && !plain;
+}
+
+nh_letters nh_letters_of(nh_jet_equations *x)
+{
+    const nh_model *o = x->model;
+    nh_letters l = {0};
+    size_t n = 0;
+    nh_ex *e = nh_alloc_array(o->m + o->n * o->n + o->n + 2, sizeof *e);
+    e[n++] = o->Lbar;
+    for (size_t s = 0; s < o->m; s++) e[n++] = o->rho[s];
+    for (size_t i = 0; i < o->n * o->n; i++) e[n++] = o->M[i];
+    for (size_t i = 0; i < o->n; i++) e[n++] = o->A[i];
+    for (size_t k = 0; k < x->coordinates; k++)
+        if (!only_inside(x, n, e, x->coordinate[k])) letter_of(&l, NH_LETTER_POWER, x->coordinate[k]);
+    for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1); /* forces are derivatives */
+    take_determinant(x, &l);
+    nh_free(e);
+    return l;
+}

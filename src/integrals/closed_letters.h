@@ -1,0 +1,25 @@
+/* closed_letters: which functions a system's equations are made of (closed_words.h). */
+#ifndef NH_CLOSED_LETTERS_H
+#define NH_CLOSED_LETTERS_H
+
+#include "integrals/jet_equations.h"
+
+typedef enum { NH_LETTER_POWER, NH_LETTER_CIRCLE, NH_LETTER_EXPONENTIAL } nh_letter_kind;
+
+typedef struct {
+    nh_letter_kind kind;
+    nh_ex base;           /* what is taken to a power; the argument of sin, cos, exp */
+    int64_t root;         /* exponents are multiples of 1/root */
+    double up, down;      /* how far the system goes up and down: an exponent costs its part of that, or more; 0: not at all */
+    double down_sine;     /* of the sine: `down` is of the cosine */
+} nh_letter;
+
+typedef struct {
+    size_t count, capacity;
+    nh_letter *item;
+} nh_letters;
+
+/* The caller frees letters->item. */
+nh_letters nh_letters_of(nh_jet_equations *equations);
+
+#endif

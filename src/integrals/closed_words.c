@@ -1,0 +1,235 @@
+/* Words over a system's letters, cheapest first, and their series. */
+#include "integrals/closed_words.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "integrals/closed_letters.h"
+
+static const double tiny = 1e-9;
+
+/* ---- powers of a letter ---- */
+
+static uint32_t coordinates_in(const nh_jet_equations *x, nh_ex e)
+{
+    uint32_t mask = 0;
+    for (size_t k = 0; k < x->coordinates && k < 32; k++)
+        if (nh_depends(x->dag, e, x->coordinate[k])) mask |= (uint32_t)1 << k;
+    return mask;
+}
+
+/* A power that cannot be evaluated is left out. */
+static void put_power(nh_closed_words *w, nh_closed_letter *l, nh_ex e, double price)
+{
+    nh_jet_equations *x = w->equations;
+    if (price > w->most + tiny) return;
+    nh_closed_power p = {.shown = e, .value = e, .price = price, .coordinates = coordinates_in(x, e)};
+    size_t kernels = x->point->kernels;
+    if (!nh_jet_equations_take(x, true, &p.value)) {
+        x->obstacle = x->point->obstacle = NULL;
+        x->point->kernels = kernels;
+        return;
+    }
+    nh_grow(&l->power, &l->capacity, l->powers + 1, sizeof *l->power);
+    size_t at = l->powers++;
+    for (; at > 0 && l->power[at - 1].price > price; at--) l->power[at] = l->power[at - 1];
+    l->power[at] = p;
+}
+
+/* Exponents k/root; downwards an exponent costs its part of the lowest that the system has. */
+static void put_powers(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
+{
+    nh_dag *d = w->equations->dag;
+    double root = (double)a->root, down = a->down;
+    for (int64_t k = 1; (double)k / root <= w->most; k++)
+        put_power(w, l, nh_pow(d, a->base, nh_ratio(d, k, a->root)), (double)k / root);
+    for (int64_t k = 1; a->down > 0 && (double)k / root <= w->most * down; k++)
+        put_power(w, l, nh_pow(d, a->base, nh_ratio(d, -k, a->root)), (double)k / root / down);
+}
+
+static void put_exponentials(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
+{
+    nh_dag *d = w->equations->dag;
+    for (int64_t k = 1; (double)k <= w->most; k++) {
+        put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, k), a->base)), (double)k);
+        if (a->down > 0) put_power(w, l, nh_call(d, NH_EXP, nh_mul(d, nh_int(d, -k), a->base)), (double)k);
+    }
+}
+
+/* cos^i sin^j without those that sin^2 + cos^2 = 1 makes of others: of the products of negative powers, 1/(cos sin) alone. */
+static void put_circle(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
+{
+    nh_dag *d = w->equations->dag;
+    nh_ex c = nh_call(d, NH_COS, a->base), s = nh_call(d, NH_SIN, a->base);
+    double cost_c = 1 / fmax(a->down, 1), cost_s = 1 / fmax(a->down_sine, 1);
+    int most_c = (int)(w->most / cost_c), most_s = (int)(w->most / cost_s);
+    for (int i = a->down > 0 ? -most_c : 0; i <= (int)w->most; i++)
+        for (int j = a->down_sine > 0 ? -most_s : 0; j <= 1; j++) {
+            if ((i == 0 && j == 0) || (j < 0 && i > 1) || (j < 0 && i < 0 && (i < -1 || j < -1))) continue;
+            put_power(w, l, nh_mul(d, nh_powi(d, c, i), nh_powi(d, s, j)), (i < 0 ? -i * cost_c : i) + (j < 0 ? -j * cost_s : j));
+        }
+}
+
+static void put_letter(nh_closed_words *w, const nh_letter *a)
+{
+    nh_grow(&w->letter, &w->capacity, w->letters + 1, sizeof *w->letter);
+    nh_closed_letter *l = &w->letter[w->letters];
+    *l = (nh_closed_letter){0};
+    put_power(w, l, nh_int(w->equations->dag, 1), 0);
+    if (a->kind == NH_LETTER_CIRCLE) put_circle(w, l, a);
+    else if (a->kind == NH_LETTER_EXPONENTIAL) put_exponentials(w, l, a);
+    else put_powers(w, l, a);
+    if (l->powers > 1) w->letters++;
+    else nh_free(l->power);
+}
+
+/* ---- words ---- */
+
+/* All choices whose prices do not exceed the largest, counted, and written where there is room. */
+static size_t choices(const nh_closed_words *w, size_t most, uint16_t *choice, double *price)
+{
+    size_t count = 0, *at = nh_alloc_array(w->letters + 1, sizeof *at);
+    double sum = 0;
+    for (bool more = true; more && count <= most;) {
+        if (choice) {
+            for (size_t i = 0; i < w->letters; i++) choice[count * w->letters + i] = (uint16_t)at[i];
+            price[count] = sum;
+        }
+        count++;
+        size_t i = 0;
+        for (; i < w->letters; i++) {
+            const nh_closed_letter *l = &w->letter[i];
+            double now = l->power[at[i]].price;
+            if (at[i] + 1 < l->powers && sum - now + l->power[at[i] + 1].price <= w->most + tiny) {
+                sum += l->power[++at[i]].price - now;
+                break;
+            }
+            sum -= now;
+            at[i] = 0;
+        }
+        more = i < w->letters;
+    }
+    nh_free(at);
+    return count;
+}
+
+typedef struct {
+    double price;
+    size_t factors, index;
+} rank;
+
+static int by_price(const void *a, const void *b)
+{
+    const rank *x = a, *y = b;
+    if (fabs(x->price - y->price) > tiny) return x->price < y->price ? -1 : 1;
+    if (x->factors != y->factors) return x->factors < y->factors ? -1 : 1;
+    return (x->index > y->index) - (x->index < y->index);
+}
+
+static void sort(nh_closed_words *w)
+{
+    size_t n = w->letters;
+    rank *order = nh_alloc_array(w->words + 1, sizeof *order);
+    uint16_t *choice = nh_alloc_array(w->words * n + 1, sizeof *choice);
+    double *price = nh_alloc_array(w->words + 1, sizeof *price);
+    for (size_t k = 0; k < w->words; k++) {
+        order[k] = (rank){.price = w->price[k], .index = k};
+        for (size_t i = 0; i < n; i++) order[k].factors += w->choice[k * n + i] > 0;
+    }
+    qsort(order, w->words, sizeof *order, by_price);
+    for (size_t k = 0; k < w->words; k++) {
+        memcpy(choice + k * n, w->choice + order[k].index * n, n * sizeof *choice);
+        price[k] = w->price[order[k].index];
+    }
+    nh_free(order);
+    nh_free(w->choice);
+    nh_free(w->price);
+    w->choice = choice;
+    w->price = price;
+}
+
+nh_closed_words *nh_closed_words_create(nh_jet_equations *x, double price, size_t most_words)
+{
+    nh_closed_words *w = nh_alloc(sizeof *w);
+    *w = (nh_closed_words){.equations = x, .most = price};
+    nh_letters letters = nh_letters_of(x);
+    for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
+    nh_free(letters.item);
+    w->words = choices(w, most_words, NULL, NULL);
+    if (w->words > most_words) {
+        nh_closed_words_free(w);
+        return NULL;
+    }
+    w->choice = nh_alloc_array(w->words * w->letters + 1, sizeof *w->choice);
+    w->price = nh_alloc_array(w->words + 1, sizeof *w->price);
+    choices(w, most_words, w->choice, w->price);
+    sort(w);
+    return w;
+}
+
+void nh_closed_words_free(nh_closed_words *w)
+{
+    if (!w) return;
+    for (size_t i = 0; i < w->letters; i++) nh_free(w->letter[i].power);
+    nh_free(w->letter);
+    nh_free(w->choice);
+    nh_free(w->price);
+    nh_free(w);
+}
+
+uint32_t nh_closed_word_coordinates(const nh_closed_words *w, size_t word)
+{
+    uint32_t mask = 0;
+    for (size_t i = 0; i < w->letters; i++) mask |= w->letter[i].power[w->choice[word * w->letters + i]].coordinates;
+    return mask;
+}
+
+nh_ex nh_closed_word(const nh_closed_words *w, size_t word)
+{
+    nh_dag *d = w->equations->dag;
+    nh_ex e = nh_int(d, 1);
+    for (size_t i = 0; i < w->letters; i++) e = nh_mul(d, e, w->letter[i].power[w->choice[word * w->letters + i]].shown);
+    return e;
+}
+
+/* ---- values ---- */
+
+/* Series of every power of every letter; series[i]: of letter i, one after another. */
+static bool powers(const nh_closed_words *w, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue **series)
+{
+    bool good = true;
+    for (size_t i = 0; i < w->letters && good; i++) {
+        const nh_closed_letter *l = &w->letter[i];
+        series[i] = nh_alloc_array(l->powers * ring->size, sizeof **series);
+        for (size_t k = 0; k < l->powers && good; k++) good = nh_jet_eval_all(v, 1, &l->power[k].value, series[i] + k * ring->size);
+    }
+    return good;
+}
+
+bool nh_closed_words_evaluate(const nh_closed_words *w, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out, double *work)
+{
+    nh_residue **series = nh_alloc_array(w->letters + 1, sizeof *series), *both = nh_alloc_array(ring->size, sizeof *both);
+    nh_jet_eval *v = nh_jet_equations_eval(w->equations, ring, coordinate);
+    bool good = powers(w, v, ring, series);
+    for (size_t k = 0; k < w->words && good; k++) {
+        nh_residue *word = out + k * ring->size;
+        bool first = true;
+        nh_jet_constant(ring, 1, word);
+        for (size_t i = 0; i < w->letters; i++) {
+            const nh_residue *factor = series[i] + w->choice[k * w->letters + i] * ring->size;
+            if (!w->choice[k * w->letters + i]) continue;
+            if (!first) {
+                nh_jet_mul(ring, word, factor, both);
+                *work += (double)ring->pairs[ring->size];
+            }
+            memcpy(word, first ? factor : both, ring->size * sizeof *word);
+            first = false;
+        }
+    }
+    for (size_t i = 0; i < w->letters; i++) nh_free(series[i]);
+    nh_jet_eval_free(v);
+    nh_free(both);
+    nh_free(series);
+    return good;
+}

@@ -1,0 +1,14 @@
+/* missing: what the count says there is beside the currents that were found, constructed.
+ *
+ * The integrals polynomial in the velocities are counted (integrals/count.h); where more of them may exist than are proved, their power series say of which terms
+ * they consist (integrals/construct.h), and a stage with these terms alone looks for them as any other: coefficients over the parameters, proof, field.
+ * Currents that are certified only give way to proved ones. */
+#ifndef NH_MISSING_H
+#define NH_MISSING_H
+
+#include "study/currents.h"
+
+/* Fill result->completeness; with `construct`, look for what is missing, and count again. */
+void nh_missing_count(nh_result *result, bool construct);
+
+#endif

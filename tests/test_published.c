@@ -1,0 +1,109 @@
+/* Integrals that the stages of the search miss and the count does not: published systems, analysed without an analysis file. */
+#include <criterion/criterion.h>
+
+#include "catalogue.h"
+#include "scratch.h"
+
+/* ---- published systems ---- */
+
+typedef struct {
+    const char *name, *text;
+    size_t proved;          /* independent currents, all of them proved */
+    size_t degree;          /* the analysis is complete to this degree at least */
+} published;
+
+#define PLANE "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - "
+#define QUADRANT "domain: {x: [0.5, 2], y: [0.5, 2]}\n"
+
+static const published PUBLISHED[] = {
+    /* A. P. Fordy, Physica D 52 (1991) 204 */
+    {"Kaup and Kupershmidt's Henon-Heiles system with b/x^2",
+     "parameters: {b: 0.3}\n" PLANE "(x^2 + 16*y^2)/2 - x^2*y - 16*y^3/3 - b/x^2\n" QUADRANT, 2, 6},
+    /* S. Post and P. Winternitz, J. Phys. A 44 (2011) 162001: integrals of degrees 3 and 4, and no coordinates that separate */
+    {"Post and Winternitz", "parameters: {a: 0.7}\n" PLANE "a*y*x^(-2/3)\n" QUADRANT, 3, 6},
+    /* C. R. Holt, J. Math. Phys. 23 (1982) 1037; J. Hietarinta, Phys. Rep. 147 (1987) 87: degrees 3, 4 and 6 */
+    {"Holt, 3/4", "parameters: {d: 0.3}\n" PLANE "3/4*x^(4/3) - (y^2 + d)*x^(-2/3)\n" QUADRANT, 2, 6},
+    {"Holt, 9/2", PLANE "9/2*x^(4/3) - y^2*x^(-2/3)\n" QUADRANT, 2, 6},
+    {"Holt, 12", PLANE "12*x^(4/3) - y^2*x^(-2/3)\n" QUADRANT, 2, 6},
+    /* A. Ramani, B. Dorizzi and B. Grammaticos, Phys. Rev. Lett. 49 (1982) 1539, with the terms of Hietarinta's list */
+    {"quartic, 1:6:8", "parameters: {a: 0.4, b: 0.7}\n" PLANE "x^4 - 6*x^2*y^2 - 8*y^4 - a*(x^2 + 4*y^2) - b/x^2\n" QUADRANT, 2, 6},
+    {"quartic, 1:12:16",
+     "parameters: {a: 0.4, b: 0.7, c: 0.2}\n" PLANE "x^4 - 12*x^2*y^2 - 16*y^4 - a*(x^2 + 4*y^2) - b/x^2 - c/y^2\n" QUADRANT, 2, 6},
+    /* O. I. Bogoyavlensky, Commun. Math. Phys. 51 (1976) 201: the coordinates are the simple roots */
+    {"Toda, G2", "coordinates: [x, y]\nlagrangian: x'^2 + x'*y' + y'^2/3 - exp(x) - exp(y)\n", 2, 6},
+    {"Toda, G2, periodic", "coordinates: [x, y]\nlagrangian: x'^2 + x'*y' + y'^2/3 - exp(x) - exp(y) - exp(-2*x - y)\n", 2, 6},
+    {"Toda, B2", PLANE "exp(x - y) - exp(y)\n", 2, 6},
+    {"Toda, A2", "coordinates: [x, y]\nlagrangian: 2*(x'^2 + y'^2 + x'*y')/3 - exp(x) - exp(y)\n", 2, 6},
+    /* J. Drach, C. R. Acad. Sci. 200 (1935) 22 */
+    {"Drach",
+     "parameters: {a: 0.4, b: 0.7, c: 0.9}\ncoordinates: [x, y]\n"
+     "lagrangian: x'*y' - a/(x*y) - b*x^(1/2)*y^(-5/2) - c*x^(-1/2)*y^(-3/2)\n" QUADRANT, 3, 6},
+    /* F. Calogero, J. Math. Phys. 10 (1969) 2191; M. A. Olshanetsky and A. M. Perelomov, Phys. Rep. 71 (1981) 313 */
+    {"Calogero, B2",
+     "parameters: {g: 0.4, h: 0.7}\n" PLANE "g/(x - y)^2 - g/(x + y)^2 - h/x^2 - h/y^2\ndomain: {x: [0.2, 1], y: [1.5, 2.5]}\n", 4, 6},
+    /* F. Tremblay, A. V. Turbiner and P. Winternitz, J. Phys. A 42 (2009) 242001 */
+    {"Tremblay, Turbiner and Winternitz, k = 2",
+     "parameters: {w: 0.8, a: 0.3, b: 0.5}\ncoordinates: [r, {name: th, type: angle}]\n"
+     "lagrangian: (r'^2 + r^2*th'^2 - w^2*r^2)/2 - (a/cos(2*th)^2 + b/sin(2*th)^2)/r^2\n"
+     "domain: {r: [0.5, 2], th: [0.2, 0.6]}\n", 3, 6},
+};
+enum { PUBLISHED_COUNT = sizeof PUBLISHED / sizeof *PUBLISHED };
+
+static nh_result *analysed(const char *text, double construct_work)
+{
+    char path[SCRATCH];
+    FILE *out = scratch_open(path);
+    cr_assert_not_null(out);
+    fprintf(out, "name: published\n%s", text);
+    fclose(out);
+    nh_error error = {0};
+    nh_analyze_request q = {.system_path = path};
+    nh_options_default(&q.options);
+    q.options.max_seconds = 1e6; /* the same on every machine */
+    if (construct_work >= 0) q.options.construct = construct_work;
+    nh_result *r = nh_analyze(&q, &error);
+    remove(path);
+    cr_assert_not_null(r, "%s", error.what);
+    return r;
+}
+
+static size_t independent_and_proved(const nh_result *r)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < r->count; k++) n += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.proved;
+    return n;
+}
+
+/* Every current is constant along the motion with multipliers as well, which shares no code with the search. */
+Test(published, published_systems_are_complete_and_proved)
+{
+    for (size_t i = 0; i < PUBLISHED_COUNT; i++) {
+        const published *u = &PUBLISHED[i];
+        nh_result *r = analysed(u->text, -1);
+        const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+        row o = {.rate = -INFINITY};
+        compare(r, &o);
+        cr_expect_eq(o.wrong, 0, "%s: %s", u->name, o.names);
+        cr_expect_geq(independent_and_proved(r), u->proved, "%s: %zu proved", u->name, independent_and_proved(r));
+        cr_expect(c->counted && c->degree >= u->degree && !c->missing_at, "%s: complete to degree %zu", u->name, c->degree);
+        nh_result_free(r);
+    }
+}
+
+/* Coefficients over all parameters, not for the values of the file only. */
+Test(published, what_is_constructed_is_proved_for_all_parameters)
+{
+    nh_result *r = analysed(PUBLISHED[1].text, -1);
+    for (size_t k = 0; k < r->count; k++) cr_expect(!r->found[k].proof.proved || r->found[k].proof.all_parameters, "Phi%zu", k + 1);
+    nh_result_free(r);
+}
+
+Test(published, without_work_nothing_is_constructed_and_that_is_said)
+{
+    nh_result *r = analysed(PUBLISHED[0].text, 0);
+    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    cr_expect_eq(r->independent, 1);
+    cr_expect_eq(c->missing_at, 4);
+    cr_expect_eq(c->missing, 1);
+    nh_result_free(r);
+}
