@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/normal.h"
+#include "noether/companion.h"
 #include "noether/fixed.h"
 #include "noether/recognise.h"
 #include "noether/refine.h"
@@ -24,6 +25,12 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
         if (named.found) relation = named;
         if (named.found) memcpy(out, rate, c->count * sizeof *out);
         else letters->count = 0;
+    }
+    if (relation.too_large && relation.found) {
+        memcpy(rate, out, c->count * sizeof *out);
+        nh_fixed shorter = nh_companion_relation(o, c->count, c->term, options, rate);
+        if (shorter.found) relation = shorter;
+        if (shorter.found) memcpy(out, rate, c->count * sizeof *out);
     }
     nh_free(rate);
     return relation;

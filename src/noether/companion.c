@@ -1,0 +1,116 @@
+#include "noether/companion.h"
+
+#include <string.h>
+
+#include "expr/normal.h"
+#include "expr/relation.h"
+#include "expr/solve.h"
+#include "expr/terms.h"
+
+enum { most_functions = 40, longest = 3000, widest = 120 }; /* of a field: terms; of a component before and after */
+
+/* What the field's components consist of: number z times w in component i. */
+typedef struct {
+    size_t count, component[most_functions];
+    nh_ex w[most_functions];
+    double z[most_functions];
+} functions;
+
+static bool add_function(nh_dag *d, functions *f, size_t component, nh_ex term)
+{
+    nh_kind kind = nh_kind_of(d, term);
+    if (kind == NH_SUM || f->count == most_functions) return false;
+    nh_num c = kind == NH_PRODUCT ? nh_constant_of(d, term) : kind == NH_NUMBER ? nh_number_of(d, term) : nh_num_int(1);
+    if (nh_num_is(c, 0)) return true;
+    f->component[f->count] = component;
+    f->z[f->count] = nh_num_value(c);
+    f->w[f->count++] = nh_mul(d, nh_number(d, nh_num_inv(c)), term);
+    return true;
+}
+
+/* The terms of M^-1 Y(Phi) with all parameters at their values; false where they are long. */
+static bool find_functions(const nh_model *o, nh_ex phi, functions *f)
+{
+    nh_dag *d = o->dag;
+    nh_ex *zeta = nh_alloc_array(2 * o->n + 1, sizeof *zeta), *right = zeta + o->n;
+    for (size_t j = 0; j < o->n; j++) right[j] = nh_model_Y(o, j, phi);
+    nh_lu_solve(o->M_lu, right, zeta);
+    bool good = true;
+    for (size_t i = 0; i < o->n && good; i++) {
+        nh_ex *part, e = nh_simplify_short(d, nh_fixed_values(o, NULL, zeta[i]), longest);
+        good = nh_complexity(d, e) <= widest;
+        if (!good) break;
+        size_t n = nh_terms_of(d, e, &part);
+        for (size_t k = n > 1 ? 1 : 0; k < n && good; k++) good = add_function(d, f, i, part[k]);
+        nh_free(part);
+    }
+    nh_free(zeta);
+    return good;
+}
+
+/* y_0 X_0(b) + sum_j y_j Y_j(b) and y_0 A_i w - sum_j y_j M_ij w: one identity for all equations. */
+static void identities(const nh_model *o, size_t n, const nh_ex *term, const functions *f, nh_ex *e)
+{
+    nh_dag *d = o->dag;
+    nh_ex *y = nh_alloc_array(o->n + 1, sizeof *y);
+    for (size_t j = 0; j <= o->n; j++) y[j] = nh_symbol_fresh(d, "y");
+    for (size_t k = 0; k < n; k++) {
+        e[k] = nh_mul(d, y[o->n], nh_model_X0(o, term[k]));
+        for (size_t j = 0; j < o->n; j++) e[k] = nh_add(d, e[k], nh_mul(d, y[j], nh_model_Y(o, j, term[k])));
+    }
+    for (size_t a = 0; a < f->count; a++) {
+        size_t i = f->component[a];
+        nh_ex sum = nh_mul(d, y[o->n], o->A[i]);
+        for (size_t j = 0; j < o->n; j++) sum = nh_sub(d, sum, nh_mul(d, y[j], o->M[i * o->n + j]));
+        e[n + a] = nh_mul(d, f->w[a], sum);
+    }
+    nh_free(y);
+}
+
+/* c without the factor that all have in common: the relation of -sum_k (c_k/c_p) y_k and the y_k. */
+static void without_common_factor(const nh_model *o, size_t n, nh_ex *c, const nh_options *options)
+{
+    nh_dag *d = o->dag;
+    size_t p = 0;
+    while (p < n && nh_is_zero(d, c[p])) p++;
+    if (p == n) return;
+    nh_ex *e = nh_alloc_array(2 * n + 1, sizeof *e), *out = e + n, sum = nh_int(d, 0);
+    for (size_t k = 0; k < n; k++) {
+        e[k] = nh_symbol_fresh(d, "y");
+        if (k != p) sum = nh_sub(d, sum, nh_mul(d, nh_div(d, c[k], c[p]), e[k]));
+    }
+    e[p] = n > 1 ? sum : nh_int(d, 0);
+    size_t terms = (size_t)options->proof_terms, all = o->system->parameters;
+    bool good = nh_relation_find(d, n, e, all, o->parameter, terms, out) == NH_RELATION_UNIQUE;
+    if (good) memcpy(c, out, n * sizeof *c);
+    nh_free(e);
+}
+
+nh_fixed nh_companion_relation(const nh_model *o, size_t n, const nh_ex *term, const nh_options *options,
+                               nh_ex *coefficient)
+{
+    nh_dag *d = o->dag;
+    nh_fixed found = {0};
+    functions f = {0};
+    nh_ex phi = nh_int(d, 0);
+    double *like = nh_alloc_array(n + most_functions + 1, sizeof *like);
+    nh_ex *e = nh_alloc_array(2 * (n + most_functions) + 1, sizeof *e), *c = e + n + most_functions;
+    bool good = o->n > 0;
+    for (size_t k = 0; k < n && good; k++) {
+        good = nh_kind_of(d, coefficient[k]) == NH_NUMBER;
+        if (!good) break;
+        like[k] = nh_num_value(nh_number_of(d, coefficient[k]));
+        phi = nh_add(d, phi, nh_mul(d, coefficient[k], nh_fixed_values(o, NULL, term[k])));
+    }
+    if (good && find_functions(o, phi, &f)) {
+        identities(o, n, term, &f, e);
+        memcpy(like + n, f.z, f.count * sizeof *like);
+        found = nh_fixed_relation(o, n + f.count, e, like, options, c);
+    }
+    if (found.too_large) found = (nh_fixed){0};
+    if (found.found) without_common_factor(o, n, c, options);
+    if (found.found) memcpy(coefficient, c, n * sizeof *c);
+    nh_free(e);
+    nh_free(like);
+    return found;
+}
