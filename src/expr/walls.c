@@ -88,3 +88,16 @@ void nh_walls_add(nh_walls *w, nh_dag *d, nh_ex top)
     }
     nh_free(wanted);
 }
+
+size_t nh_walls_between(nh_dag *d, size_t n, const nh_ex *e, size_t inputs, const nh_ex *in, nh_ex *wall)
+{
+    nh_walls w = {0};
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) nh_walls_add(&w, d, e[i]);
+    for (size_t i = 0; i < w.count; i++) {
+        bool varies = false;
+        for (size_t j = 0; j < inputs; j++) varies |= nh_depends(d, w.e[i], in[j]);
+        if (varies && !w.edge[i]) wall[count++] = w.e[i];
+    }
+    return count;
+}

@@ -26,4 +26,7 @@ typedef struct {
 /* Add the walls of e; more than fit are left out. */
 void nh_walls_add(nh_walls *walls, nh_dag *dag, nh_ex e);
 
+/* The walls of n expressions that something can pass when the `in` change: no ends of roots, no constants.  Into wall (room for NH_MOST_WALLS); how many. */
+size_t nh_walls_between(nh_dag *dag, size_t n, const nh_ex *e, size_t inputs, const nh_ex *in, nh_ex *wall);
+
 #endif

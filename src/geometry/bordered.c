@@ -7,6 +7,7 @@
 #include "base/saddle.h"
 #include "expr/diff.h"
 #include "expr/normal.h"
+#include "expr/walls.h"
 
 /* A formula that becomes much longer is left as it is: it is evaluated at every step. */
 nh_ex nh_constraint_without_poles(const nh_model *o, size_t a)
@@ -22,6 +23,9 @@ struct nh_bordered {
     size_t m, k;
     nh_tape *tape; /* K, h, F, g, f */
     nh_tape_work *work;
+    size_t walls;
+    nh_tape *wall; /* NULL: there are none */
+    nh_tape_work *wall_work;
     double *in, *out;
     double *terms, *saddle, *right; /* for the accelerations, and for their solution */
 };
@@ -56,6 +60,9 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     b->right = nh_alloc_array(m + k, sizeof *b->right);
     b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
     b->work = nh_tape_work_create(b->tape);
+    nh_ex wall[NH_MOST_WALLS];
+    b->walls = nh_walls_between(d, total, out, 1 + 2 * m, in, wall);
+    if (b->walls) b->wall = nh_tape_create(d, 1 + 2 * m, in, b->walls, wall, y->parameters, o->parameter, o->parameter_value), b->wall_work = nh_tape_work_create(b->wall);
     nh_free(in);
     nh_free(out);
     return b;
@@ -69,6 +76,8 @@ void nh_bordered_free(nh_bordered *b)
     if (!b) return;
     nh_tape_work_free(b->work);
     nh_tape_free(b->tape);
+    nh_tape_work_free(b->wall_work);
+    nh_tape_free(b->wall);
     nh_free(b->in);
     nh_free(b->out);
     nh_free(b->terms);
@@ -95,6 +104,15 @@ static void normalise(size_t m, size_t k, double *F)
 size_t nh_bordered_coordinates(const nh_bordered *b) { return b->m; }
 
 size_t nh_bordered_constraints(const nh_bordered *b) { return b->k; }
+
+size_t nh_bordered_walls(const nh_bordered *b) { return b->walls; }
+
+void nh_bordered_wall(nh_bordered *b, double t, const double *state, double *value)
+{
+    b->in[0] = t;
+    memcpy(b->in + 1, state, 2 * b->m * sizeof *state);
+    nh_tape_eval(b->wall, b->wall_work, b->in, value);
+}
 
 bool nh_bordered_terms(nh_bordered *b, double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f)
 {

@@ -22,6 +22,10 @@ const char *nh_bordered_words(const nh_bordered *bordered);
 size_t nh_bordered_coordinates(const nh_bordered *bordered); /* m */
 size_t nh_bordered_constraints(const nh_bordered *bordered); /* k */
 
+/* Functions of t and the state (q, v) that change their sign where these equations have a kink (expr/walls.h). */
+size_t nh_bordered_walls(const nh_bordered *bordered);
+void nh_bordered_wall(nh_bordered *bordered, double t, const double *state, double *value);
+
 /* At (t, q, v): K (m x m, column-major), h (m), F (k x m, column-major), g (k), f (k).  False when not finite. */
 bool nh_bordered_terms(nh_bordered *bordered, double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f);
 

@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "expr/diff.h"
+#include "expr/walls.h"
 
 /* ---- reduced equations ---- */
 
@@ -17,17 +18,22 @@ struct nh_dynamics {
     nh_tape *constraint; /* df^a/dv^s (k x m, row-major), of constraints without poles; NULL: no pivot to watch */
     nh_tape_work *constraint_work;
     double *slope;       /* its values, and the k x k part of the dependent velocities */
+    size_t walls;        /* of the rates (expr/walls.h) */
+    nh_tape *wall;       /* NULL: there are none */
+    nh_tape_work *wall_work;
     double patience;
 };
 
-static nh_tape *rate_tape(const nh_model *o)
+static void make_rates(nh_dynamics *d)
 {
-    nh_ex *e = nh_alloc_array(o->m + o->n, sizeof *e);
+    const nh_model *o = d->model;
+    nh_ex *e = nh_alloc_array(o->m + o->n, sizeof *e), wall[NH_MOST_WALLS];
     memcpy(e, o->rho, o->m * sizeof *e);
     memcpy(e + o->m, o->a, o->n * sizeof *e);
-    nh_tape *tape = nh_model_tape(o, o->m + o->n, e);
+    d->rate = nh_model_tape(o, o->m + o->n, e);
+    d->walls = nh_walls_between(o->dag, o->m + o->n, e, o->width, o->chart->symbol, wall);
+    if (d->walls) d->wall = nh_model_tape(o, d->walls, wall), d->wall_work = nh_tape_work_create(d->wall);
     nh_free(e);
-    return tape;
 }
 
 static nh_tape *jacobian_tape(const nh_model *o)
@@ -75,7 +81,7 @@ nh_dynamics *nh_dynamics_create(const nh_model *o)
 {
     nh_dynamics *d = nh_alloc(sizeof *d);
     *d = (nh_dynamics){.model = o, .m = o->m, .n = o->n, .size = o->m + o->n, .width = o->width};
-    d->rate = rate_tape(o);
+    make_rates(d);
     d->jacobian = jacobian_tape(o);
     d->velocity = velocity_tape(o);
     d->rate_work = nh_tape_work_create(d->rate);
@@ -96,6 +102,8 @@ void nh_dynamics_free(nh_dynamics *d)
     nh_tape_work_free(d->velocity_work);
     nh_tape_work_free(d->constraint_work);
     nh_tape_free(d->constraint);
+    nh_tape_work_free(d->wall_work);
+    nh_tape_free(d->wall);
     nh_free(d->slope);
     nh_tape_free(d->rate);
     nh_tape_free(d->jacobian);
@@ -167,9 +175,18 @@ static bool pivot_of(double t, const double *z, double *value, void *context)
     return isfinite(*value);
 }
 
+static bool walls_of(double t, const double *z, double *value, void *context)
+{
+    nh_dynamics *d = context;
+    if (!nh_dynamics_point(d, t, z, d->point)) return false;
+    nh_tape_eval(d->wall, d->wall_work, d->point, value);
+    return true;
+}
+
 nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 {
-    return (nh_flow_problem){.size = d->size, .context = d, .rate = rate_of, .jacobian = jacobian_of, .guards = d->constraint ? 1 : 0, .guard = d->constraint ? pivot_of : NULL};
+    return (nh_flow_problem){.size = d->size, .context = d, .rate = rate_of, .jacobian = jacobian_of, .guards = d->constraint ? 1 : 0, .guard = d->constraint ? pivot_of : NULL,
+                             .walls = d->walls, .wall = walls_of};
 }
 
 /* ---- initial states ---- */
@@ -357,7 +374,9 @@ static bool bordered_rate(double t, const double *z, double *rate, void *context
     return nh_bordered_accelerations(context, t, z, z + m, rate + m);
 }
 
+static bool bordered_walls(double t, const double *z, double *value, void *context) { return nh_bordered_wall(context, t, z, value), true; }
+
 nh_flow_problem nh_bordered_flow(nh_bordered *b)
 {
-    return (nh_flow_problem){.size = 2 * nh_bordered_coordinates(b), .context = b, .rate = bordered_rate};
+    return (nh_flow_problem){.size = 2 * nh_bordered_coordinates(b), .context = b, .rate = bordered_rate, .walls = nh_bordered_walls(b), .wall = bordered_walls};
 }

@@ -355,7 +355,7 @@ static bool open_plan(plan *p, const nh_trajectory_request *q, nh_ensemble *e, c
     *p = (plan){.request = q, .out = e, .initial = initial, .values = nh_model_tape(q->model, q->n, q->e), .limit = INFINITY};
     p->evaluations = nh_alloc_array((e->members + lanes - 1) / lanes, sizeof *p->evaluations);
     p->alone = nh_alloc_array(e->members, sizeof *p->alone);
-    return !e->scene->implicit && e->scene->kept && nh_tableau_rk8pd(&p->tableau);
+    return !e->scene->implicit && !e->scene->walls && e->scene->kept && /* members cross walls at different times */ nh_tableau_rk8pd(&p->tableau);
 }
 
 static void close_plan(plan *p)

@@ -10,7 +10,10 @@
 #include "base/effort.h"
 #include "base/memory.h"
 #include "motion/guards.h"
+#include "motion/kinks.h"
 #include "motion/sizes.h"
+
+static const double part_across = 1e-3; /* of the tolerance: what a step across a kink may spoil */
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -23,6 +26,8 @@ typedef struct {
     double h, before, now;     /* next step; times before and after the last one */
     double *state, *old, *work; /* now; before the last step */
     nh_guards guards;
+    nh_kinks kinks;
+    double apace;              /* the step before a wall was approached; 0: none is */
     nh_sizes sizes;
     double rtol, each; /* each: units of effort of a stage, with its sums of n numbers */
     long evaluations;
@@ -104,6 +109,7 @@ static int call_rate(double t, const double *z, double *rate, void *context)
     explicit_work *work = context;
     work->evaluations++;
     nh_effort_add(work->each);
+    nh_kinks_see(&work->kinks, t, z);
     if (!work->problem->rate(t, z, rate, work->problem->context)) return GSL_FAILURE; /* a smaller step is tried */
     for (size_t i = 0; i < work->problem->size; i++)
         if (!isfinite(rate[i])) return GSL_FAILURE;
@@ -115,14 +121,33 @@ static bool changed_after(const explicit_work *work, double t, double *z)
     return !work->options->after || work->options->after(t, z, work->options->after_context);
 }
 
+static void forget(explicit_work *work)
+{
+    gsl_odeiv2_evolve_reset(work->driver->e);
+    gsl_odeiv2_step_reset(work->driver->s);
+}
+
 /* Back to before the last step, where a guard has changed its sign over it. */
 static nh_step go_back(explicit_work *work, nh_guard_verdict verdict, double *time)
 {
     memcpy(work->state, work->old, work->problem->size * sizeof *work->state);
     *time = work->now = work->before;
-    gsl_odeiv2_evolve_reset(work->driver->e);
-    gsl_odeiv2_step_reset(work->driver->s);
+    forget(work);
     return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
+}
+
+/* Was there a wall in the last step?  True: it is taken back.  Behind a wall the steps become as long again as they were before it. */
+static bool back_from_wall(explicit_work *work, nh_motion *motion, double *time)
+{
+    nh_kink_verdict verdict = nh_kinks_judge(&work->kinks, work->problem, work->before, work->old, work->now, work->state, motion);
+    if (verdict == NH_KINK_BACK) {
+        if (work->apace == 0) work->apace = work->now - work->before;
+        go_back(work, NH_GUARD_BACK, time);
+        return true;
+    }
+    if (work->apace != 0 && isinf(work->kinks.longest)) work->h = work->apace, work->apace = 0;
+    if (verdict == NH_KINK_CROSSED) forget(work);
+    return false;
 }
 
 static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
@@ -130,7 +155,8 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
     explicit_work *work = context;
     double target = work->times[work->between ? work->count - 1 : motion->count];
     size_t size = work->problem->size;
-    if (fabs(work->h) > work->guards.longest) work->h = copysign(work->guards.longest, work->h);
+    double longest = fmin(work->guards.longest, work->kinks.longest);
+    if (fabs(work->h) > longest) work->h = copysign(longest, work->h);
     double wanted = work->h;
     work->before = *time;
     memcpy(work->old, work->state, size * sizeof *work->old);
@@ -141,6 +167,8 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
     nh_guard_verdict verdict = flag == GSL_SUCCESS ? nh_guards_judge(&work->guards, work->before, *time, work->state, motion) : NH_GUARD_KEPT;
     if (verdict != NH_GUARD_KEPT) return go_back(work, verdict, time);
     if (*time == target && fabs(work->h) < fabs(wanted)) work->h = wanted; /* it was cut to end there */
+    if (flag == GSL_SUCCESS && back_from_wall(work, motion, time)) return NH_STEP_ON;
+    if (work->kinks.held) return NH_STEP_FAILED;
     if (flag == GSL_SUCCESS && work->options->after) {
         if (!changed_after(work, *time, work->state)) {
             nh_motion_note(motion, "the state could not be projected near t = %.10g", *time);
@@ -223,9 +251,11 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
     work.work = work.old + size;
     memcpy(work.state, initial, size * sizeof *initial);
     nh_guards_begin(&work.guards, problem, options, initial, count, times);
+    nh_kinks_begin(&work.kinks, problem, initial, count, times);
     work.rtol = nh_motion_rtol(motion, options);
     work.each = stage_units[method] + stage_vectors[method] * (double)size;
     bool good = set_up(&work, method);
+    nh_kinks_coarser(&work.kinks, part_across * work.rtol * work.sizes.tau);
     if (good) {
         nh_stepper stepper = {.context = &work, .advance = explicit_advance, .state = work.between ? between_state : explicit_state, .stuck = explicit_stuck, .step_effort = step_units[method]};
         nh_motion_run(motion, count, times, options, &stepper);
@@ -238,6 +268,7 @@ nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem
     if (work.between) gsl_odeiv2_step_free(work.between);
     if (work.driver) gsl_odeiv2_driver_free(work.driver);
     nh_guards_clear(&work.guards);
+    nh_kinks_clear(&work.kinks);
     nh_sizes_clear(&work.sizes);
     nh_free(work.state);
     return motion;

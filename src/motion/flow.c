@@ -1,13 +1,10 @@
-/* flow: see flow.h.  The first half is common to all integrators (checks, output, limits), the second half is CVODE's.
+/* flow: CVODE's part of flow.h.
  *
  * CVODE is driven step by step and the output times are interpolated in each step: so the limit of steps is exact, a
  * cancellation is seen after every step, and the choice of output times does not change the motion. */
 #include "motion/flow.h"
 
-#include <float.h>
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include <cvode/cvode.h>
@@ -15,183 +12,14 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "base/clock.h"
 #include "base/effort.h"
 #include "base/linalg.h"
 #include "base/memory.h"
-#include "base/parallel.h"
-#include "base/progress.h"
+#include "motion/kinks.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"
 
-/* CVODE and IDA refuse to work below some 10 roundings; the error stops falling well before. */
-static const double smallest_rtol = 1e-14;
-static const double default_max_steps = 1e7;
-
-/* ---- common to all integrators ---- */
-
-static bool check_times(size_t count, const double *times, nh_error *error)
-{
-    if (count == 0)
-        return nh_fail(error, NH_INPUT, "", "a motion needs at least one output time");
-    if (!nh_all_finite(count, times))
-        return nh_fail(error, NH_INPUT, "", "an output time is not a finite number");
-    bool backward = times[count - 1] < times[0];
-    for (size_t i = 1; i < count; i++)
-        if (backward ? times[i] > times[i - 1] : times[i] < times[i - 1])
-            return nh_fail(error, NH_INPUT, "", "the output times must all rise or all fall, but time %zu is %.17g after %.17g",
-                           i + 1, times[i], times[i - 1]);
-    return true;
-}
-
-static bool check_values(size_t given, const double *initial, const nh_flow_options *options, nh_error *error)
-{
-    if (given == 0)
-        return nh_fail(error, NH_INPUT, "", "a motion needs at least one state");
-    if (!(options->rtol > 0 && isfinite(options->rtol)))
-        return nh_fail(error, NH_INPUT, "", "the relative tolerance must be a positive number, not %g", options->rtol);
-    for (size_t i = 0; i < given; i++) {
-        if (!isfinite(initial[i]))
-            return nh_fail(error, NH_NUMERIC, "", "the initial value of state %zu is not a finite number", i + 1);
-        if (options->scale && !(options->scale[i] > 0 && isfinite(options->scale[i])))
-            return nh_fail(error, NH_INPUT, "", "the scale of state %zu must be a positive number, not %g", i + 1,
-                           options->scale[i]);
-    }
-    return true;
-}
-
-nh_motion *nh_motion_start(size_t size, size_t given, const double *initial, size_t count, const double *times,
-                           const nh_flow_options *options, nh_error *error)
-{
-    if (!check_times(count, times, error) || !check_values(given, initial, options, error))
-        return NULL;
-    nh_motion *motion = nh_alloc(sizeof *motion);
-    motion->size = size;
-    motion->time = nh_alloc_array(count, sizeof *motion->time);
-    motion->state = nh_alloc_array(count, size * sizeof *motion->state);
-    motion->end_state = nh_alloc_array(size, sizeof *motion->end_state);
-    motion->guard_hit = -1;
-    motion->end_time = times[0];
-    memcpy(motion->end_state, initial, given * sizeof *initial);
-    for (; motion->count < count && times[motion->count] == times[0]; motion->count++) {
-        motion->time[motion->count] = times[0];
-        memcpy(motion->state + motion->count * size, initial, given * sizeof *initial);
-    }
-    motion->complete = motion->count == count;
-    return motion;
-}
-
-void nh_motion_free(nh_motion *motion)
-{
-    if (!motion)
-        return;
-    nh_free(motion->time);
-    nh_free(motion->state);
-    nh_free(motion->end_state);
-    nh_free(motion);
-}
-
-void nh_motion_note(nh_motion *motion, const char *format, ...)
-{
-    size_t used = strlen(motion->note);
-    if (used > 0 && used + 2 < sizeof motion->note)
-        used += (size_t)snprintf(motion->note + used, sizeof motion->note - used, "; ");
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(motion->note + used, sizeof motion->note - used, format, arguments);
-    va_end(arguments);
-}
-
-double nh_motion_rtol(nh_motion *motion, const nh_flow_options *options)
-{
-    if (options->rtol >= smallest_rtol)
-        return options->rtol;
-    nh_motion_note(motion, "a relative tolerance of %g is below rounding, %g was used", options->rtol, smallest_rtol);
-    return smallest_rtol;
-}
-
-/* Output at the wanted times up to `now`; false when a state there is not finite. */
-static bool store_reached(nh_motion *motion, size_t count, const double *times, double now, const nh_stepper *stepper)
-{
-    bool backward = times[count - 1] < times[0];
-    while (motion->count < count && (backward ? times[motion->count] >= now : times[motion->count] <= now)) {
-        double wanted = times[motion->count], *row = motion->state + motion->count * motion->size;
-        if (!stepper->state(wanted, row, stepper->context) || !nh_all_finite(motion->size, row)) {
-            nh_motion_note(motion, "the state is not finite at t = %.10g", wanted);
-            return false;
-        }
-        motion->time[motion->count++] = wanted;
-    }
-    return true;
-}
-
-/* How far a long motion has come. */
-static void tell(const nh_motion *motion, size_t count, const double *times)
-{
-    enum { steps_between_words = 2048 };
-    double span = times[count - 1] - times[0];
-    if (motion->steps > 0 && motion->steps % steps_between_words == 0 && span != 0 && !nh_in_turns()) nh_progress("a motion", (motion->end_time - times[0]) / span);
-}
-
-/* Whether the motion may take another step. */
-static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double begin)
-{
-    if (options->effort > 0 && nh_effort() - begin > options->effort) {
-        nh_motion_note(motion, "the limit of %.2g counted operations was reached at t = %.10g", options->effort, motion->end_time);
-        return false;
-    }
-    double limit = options->max_steps > 0 ? options->max_steps : default_max_steps;
-    if (nh_interrupted())
-        nh_motion_note(motion, "interrupted at t = %.10g", motion->end_time);
-    else if (options->cancelled && options->cancelled(options->cancel_context))
-        nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
-    else if ((double)motion->steps >= limit)
-        nh_motion_note(motion, "the limit of %g steps was reached at t = %.10g; allow more steps or a larger tolerance", limit,
-                       motion->end_time);
-    else
-        return true;
-    return false;
-}
-
-static void keep_end_state(nh_motion *motion, double *work, const nh_stepper *stepper)
-{
-    if (stepper->state(motion->end_time, work, stepper->context) && nh_all_finite(motion->size, work))
-        memcpy(motion->end_state, work, motion->size * sizeof *work);
-}
-
-void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
-                   const nh_stepper *stepper)
-{
-    double begin = nh_clock(), before = nh_effort();
-    double *work = nh_alloc_array(motion->size, sizeof *work);
-    nh_step step = NH_STEP_ON;
-    bool given = nh_turn_give(); /* steps evaluate tapes, and touch no expressions */
-    for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, before);) {
-        double time = motion->end_time;
-        tell(motion, count, times);
-        step = stepper->advance(&time, motion, stepper->context);
-        if (step == NH_STEP_FAILED)
-            break;
-        motion->steps++;
-        nh_effort_add(stepper->step_effort);
-        stuck = time == motion->end_time ? stuck + 1 : 0;
-        motion->end_time = time;
-        if (!store_reached(motion, count, times, time, stepper))
-            break;
-        if (stuck == NH_STUCK_AFTER) {
-            stepper->stuck(motion, stepper->context);
-            break;
-        }
-    }
-    if (motion->steps > 0)
-        keep_end_state(motion, work, stepper);
-    if (given)
-        nh_turn_take();
-    motion->complete = motion->count == count;
-    nh_free(work);
-    motion->seconds = nh_clock() - begin;
-    motion->effort = nh_effort() - before;
-}
+enum { most_fails = 40 }; /* of the error test in one step: at a jump it is shortened many times */
 
 /* ---- CVODE ----
  *
@@ -210,6 +38,11 @@ typedef struct {
     void *cvode;
     N_Vector state;
     nh_sizes sizes;
+    nh_kinks kinks;
+    nh_motion *across; /* a wall: what a one-step method made of the last step, behind which the next one starts anew; NULL: it goes on */
+    double *old;       /* the state before a step */
+    size_t count;
+    const double *times;
     SUNMatrix matrix;
     SUNLinearSolver solver;
     int *root;   /* per guard: +1 rising, -1 falling, 0 none */
@@ -317,9 +150,37 @@ static void count_set_ups(cvode_work *work)
     work->set_ups = now;
 }
 
+static bool cvode_state(double time, double *state, void *context)
+{
+    cvode_work *work = context;
+    if (work->across)
+        return nh_kinks_state(work->across, time, state);
+    if (CVodeGetDky(work->cvode, time, 0, work->state) != CV_SUCCESS)
+        return false;
+    memcpy(state, NV_DATA_S(work->state), work->problem->size * sizeof *state);
+    return true;
+}
+
+/* Behind a wall, of whose other side the last steps know nothing. */
+static bool start_anew(cvode_work *work)
+{
+    double t = work->across->end_time;
+    memcpy(NV_DATA_S(work->state), work->across->end_state, work->problem->size * sizeof(double));
+    nh_motion_free(work->across);
+    work->across = NULL;
+    work->set_ups = 0;
+    return CVodeReInit(work->cvode, t, work->state) == CV_SUCCESS && CVodeSetStopTime(work->cvode, work->stop) == CV_SUCCESS;
+}
+
 static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
 {
     cvode_work *work = context;
+    double before = *time;
+    if (work->across && !start_anew(work)) {
+        nh_motion_note(motion, "the integrator cannot start again at t = %.10g", before);
+        return NH_STEP_FAILED;
+    }
+    memcpy(work->old, NV_DATA_S(work->state), work->problem->size * sizeof *work->old);
     work->step = motion->steps;
     if (work->step > work->failed_step + NH_STUCK_AFTER) /* so many good steps since: no longer of interest */
         work->failed = NULL;
@@ -327,23 +188,22 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     motion->evaluations = work->evaluations;
     CVodeGetNumJacEvals(work->cvode, &motion->jacobians);
     count_set_ups(work);
-    if (flag >= 0)
+    if (flag >= 0) {
         nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
+        nh_kink_leap leap = {before, *time, work->old, &work->sizes, work->rtol, work->count, work->times};
+        work->across = nh_kinks_across(&work->kinks, work->problem, &leap, cvode_state, work, motion);
+    }
+    if (work->across) {
+        *time = work->across->end_time;
+        motion->evaluations = work->evaluations += work->across->evaluations;
+        return work->across->complete && !work->kinks.held ? *time == work->stop ? NH_STEP_LAST : NH_STEP_ON : motion->guard_hit >= 0 ? NH_STEP_LAST : NH_STEP_FAILED;
+    }
     if (flag == CV_ROOT_RETURN)
         return end_at_guard(*time, motion, work);
     if (flag >= 0)
         return flag == CV_TSTOP_RETURN ? NH_STEP_LAST : NH_STEP_ON;
     explain(flag, work, motion);
     return NH_STEP_FAILED;
-}
-
-static bool cvode_state(double time, double *state, void *context)
-{
-    cvode_work *work = context;
-    if (CVodeGetDky(work->cvode, time, 0, work->state) != CV_SUCCESS)
-        return false;
-    memcpy(state, NV_DATA_S(work->state), work->problem->size * sizeof *state);
-    return true;
 }
 
 static void cvode_stuck(nh_motion *motion, void *context)
@@ -373,6 +233,7 @@ static bool set_up(cvode_work *work, double start, const double *initial)
                 CVodeInit(work->cvode, call_rate, start, work->state) == CV_SUCCESS &&
                 CVodeSetUserData(work->cvode, work) == CV_SUCCESS &&
                 CVodeWFtolerances(work->cvode, call_weight) == CV_SUCCESS &&
+                CVodeSetMaxErrTestFails(work->cvode, most_fails) == CV_SUCCESS &&
                 CVodeSetLinearSolver(work->cvode, work->solver, work->matrix) == CV_SUCCESS &&
                 CVodeSetStopTime(work->cvode, work->stop) == CV_SUCCESS;
     if (good && problem->jacobian)
@@ -391,7 +252,10 @@ static void destroy_objects(cvode_work *work)
     N_VDestroy(work->state);
     nh_sundials_close(&work->sundials);
     nh_free(work->root);
+    nh_free(work->old);
+    nh_motion_free(work->across);
     nh_sizes_clear(&work->sizes);
+    nh_kinks_clear(&work->kinks);
 }
 
 /* The right-hand side at the start: a motion that cannot begin is an error, one that cannot go on is not. */
@@ -413,14 +277,16 @@ nh_motion *nh_flow(const nh_flow_problem *problem, const double *initial, size_t
     if (!motion || motion->complete)
         return motion;
     double n = (double)problem->size;
-    cvode_work work = {.problem = problem, .stop = times[count - 1], .each = cvode_rate + cvode_vectors * n};
+    cvode_work work = {.problem = problem, .stop = times[count - 1], .each = cvode_rate + cvode_vectors * n, .count = count, .times = times};
     bool good = check_start(problem, times[0], initial, error);
     if (!good)
         goto done;
     work.rtol = nh_motion_rtol(motion, options);
     work.root = nh_alloc_array(problem->guards, sizeof *work.root);
+    work.old = nh_alloc_array(problem->size, sizeof *work.old);
     good = nh_sizes_open(&work.sizes, problem, options, initial, count, times);
     work.evaluations = work.sizes.evaluations;
+    nh_kinks_begin(&work.kinks, problem, initial, count, times);
     good = good && create_objects(&work, options->method) && set_up(&work, times[0], initial);
     if (!good) {
         nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.sundials.message[0] ? work.sundials.message : "out of memory");

@@ -25,6 +25,9 @@ typedef struct {
     size_t guards;
     /* Guard functions; a sign change ends the motion. May be NULL when guards is 0. */
     bool (*guard)(double t, const double *z, double *value, void *context);
+    size_t walls;
+    /* Functions that change their sign where the rates have a kink or a jump: steps end there (kinks.h).  May be NULL when walls is 0. */
+    bool (*wall)(double t, const double *z, double *value, void *context);
 } nh_flow_problem;
 
 typedef struct {

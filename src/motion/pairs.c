@@ -15,6 +15,7 @@
 #include "base/linalg.h"
 #include "base/memory.h"
 #include "motion/guards.h"
+#include "motion/kinks.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"
 
@@ -53,6 +54,7 @@
 
 enum { most_fails = 100 };         /* of the error test, in one step: at the edge of its stability a pair shortens the step often, by little */
 static const double newton = 0.01; /* of the tolerance: how well the equations of a step are solved */
+static const double part_across = 1e-3, part_across_implicit = 0.1; /* of the tolerance: what a step across a kink may spoil; more than what solving leaves */
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -66,6 +68,7 @@ typedef struct {
     const double *times;
     size_t count;
     nh_guards guards;
+    nh_kinks kinks;
     double *old;       /* before the last step, where guards are watched */
     double each;       /* units of effort of a right-hand side, with what is done for it */
     long evaluations;
@@ -80,6 +83,7 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
     pairs_work *work = user;
     work->evaluations++;
     nh_effort_add(work->each);
+    if (!work->solver || work->problem->jacobian) nh_kinks_see(&work->kinks, t, NV_DATA_S(state)); /* not where derivatives are formed as differences across it */
     bool good = work->problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), work->problem->context);
     for (size_t i = 0; i < work->problem->size && good; i++) good = isfinite(NV_DATA_S(rate)[i]);
     return good ? 0 : 1; /* "recoverable": a smaller step is tried */
@@ -109,7 +113,8 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     pairs_work *work = context;
     double target = work->times[motion->count], before = *time;
     size_t bytes = work->problem->size * sizeof *work->old;
-    if (fabs(target - before) > work->guards.longest) target = before + copysign(work->guards.longest, target - before);
+    double longest = fmin(work->guards.longest, work->kinks.longest);
+    if (fabs(target - before) > longest) target = before + copysign(longest, target - before);
     memcpy(work->old, NV_DATA_S(work->state), bytes);
     int flag = set_stop_time(work->arkode, target);
     if (flag >= 0) flag = evolve(work->arkode, target, work->state, time, ARK_ONE_STEP);
@@ -117,6 +122,9 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     if (work->solver) jacobians_of(work->arkode, &motion->jacobians);
     if (flag == ARK_TSTOP_RETURN) *time = target;
     nh_guard_verdict verdict = flag >= 0 ? nh_guards_judge(&work->guards, before, *time, NV_DATA_S(work->state), motion) : NH_GUARD_KEPT;
+    nh_kink_verdict kink = flag >= 0 && verdict == NH_GUARD_KEPT ? nh_kinks_judge(&work->kinks, work->problem, before, work->old, *time, NV_DATA_S(work->state), motion) : NH_KINK_NONE;
+    if (kink == NH_KINK_BACK) verdict = NH_GUARD_BACK;
+    if (kink == NH_KINK_CROSSED) flag = reset(work->arkode, *time, work->state);
     if (verdict != NH_GUARD_KEPT) {
         memcpy(NV_DATA_S(work->state), work->old, bytes);
         *time = before;
@@ -124,6 +132,7 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
         if (flag >= 0) return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
     }
     if (flag >= 0) nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
+    if (kink == NH_KINK_END) return NH_STEP_FAILED;
     if (flag >= 0) return *time == work->times[work->count - 1] ? NH_STEP_LAST : NH_STEP_ON;
     nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", motion->end_time, work->sundials.message);
     return NH_STEP_FAILED;
@@ -180,12 +189,14 @@ nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, cons
     if (!motion || motion->complete) return motion;
     pairs_work work = {.problem = problem, .times = times, .count = count, .old = nh_alloc_array(problem->size + 1, sizeof *work.old)};
     nh_guards_begin(&work.guards, problem, options, initial, count, times);
+    nh_kinks_begin(&work.kinks, problem, initial, count, times);
     work.rtol = nh_motion_rtol(motion, options);
     bool implicit = method == NH_ESDIRK_5;
     double n = (double)problem->size;
     work.each = stage_units[implicit] + stage_vectors[implicit] * n;
     if (set_up(&work, method, initial, options)) {
         nh_stepper stepper = {.context = &work, .advance = pairs_advance, .state = pairs_state, .stuck = pairs_stuck, .step_effort = step_units[implicit] + (implicit ? flop * n * n * n : 0)};
+        nh_kinks_coarser(&work.kinks, (implicit ? part_across_implicit : part_across) * work.rtol * work.sizes.tau);
         nh_motion_run(motion, count, times, options, &stepper);
     } else {
         nh_fail(error, NH_NUMERIC, "", "the integrator cannot be set up: %s", work.sundials.message[0] ? work.sundials.message : "out of memory");
@@ -198,6 +209,7 @@ nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, cons
     if (work.state) N_VDestroy(work.state);
     nh_sundials_close(&work.sundials);
     nh_guards_clear(&work.guards);
+    nh_kinks_clear(&work.kinks);
     nh_sizes_clear(&work.sizes);
     nh_free(work.old);
     return motion;

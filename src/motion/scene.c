@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "expr/diff.h"
+#include "expr/walls.h"
 
 static const double smallest_slope = 0.03; /* of a current, relative to the start, below which its state loses digits */
 
@@ -131,6 +132,9 @@ static void make_tapes(nh_scene *s)
     for (size_t i = 0; i < n && !zero; i++) e[i] = s->network.row[s->state[i]];
     for (size_t i = 0; i < n; i++) s->smooth = s->smooth && is_smooth(o, e[i]);
     s->rate = n ? frozen_tape(s, n, e) : NULL;
+    nh_ex wall[NH_MOST_WALLS];
+    s->walls = nh_walls_between(o->dag, n, e, o->width, o->chart->symbol, wall);
+    s->wall = s->walls ? frozen_tape(s, s->walls, wall) : NULL;
     s->instructions = n ? nh_tape_length(s->rate) : 0;
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < n; i++) e[n + i + j * n] = nh_diff(o->dag, e[i], symbol_of(o, s->state[j]));
@@ -167,6 +171,7 @@ void nh_scene_free(nh_scene *s)
     if (!s) return;
     nh_tape_free(s->rate);
     nh_tape_free(s->jacobian);
+    nh_tape_free(s->wall);
     nh_tape_free(s->rate_of_all);
     nh_tape_free(s->removed);
     nh_tape_free(s->currents);
@@ -178,7 +183,7 @@ void nh_scene_free(nh_scene *s)
 
 struct nh_scene_run {
     const nh_scene *scene;
-    nh_tape_work *rate, *jacobian, *removed;
+    nh_tape_work *rate, *jacobian, *removed, *wall;
     const nh_flow_problem *whole;
     double *point; /* (t, q, w, u, c): dropped states at their initial values, implicit velocities at their last ones */
     long failed;           /* the level that does not determine its state; -1 */
@@ -194,6 +199,7 @@ nh_scene_run *nh_scene_run_create(const nh_scene *s, double t, const double *z0)
     if (s->rate) run->rate = nh_tape_work_create(s->rate);
     if (s->jacobian) run->jacobian = nh_tape_work_create(s->jacobian);
     run->removed = nh_tape_work_create(s->removed);
+    if (s->wall) run->wall = nh_tape_work_create(s->wall);
     run->point[0] = t;
     memcpy(run->point + 1, z0, s->states * sizeof *z0);
     if (!s->levels) return run;
@@ -225,6 +231,7 @@ void nh_scene_run_free(nh_scene_run *run)
     nh_tape_work_free(run->rate);
     nh_tape_work_free(run->jacobian);
     nh_tape_work_free(run->removed);
+    nh_tape_work_free(run->wall);
     nh_free(run->level);
     nh_free(run->point);
     nh_free(run);
@@ -285,10 +292,19 @@ static bool scene_guard(double t, const double *z, double *value, void *context)
     return good && (!guards || run->whole->guard(t, run->point + 1, value, run->whole->context));
 }
 
+static bool scene_walls(double t, const double *z, double *value, void *context)
+{
+    nh_scene_run *run = context;
+    if (!place(run, t, z)) return false;
+    nh_tape_eval(run->scene->wall, run->wall, run->point, value);
+    return true;
+}
+
 nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole)
 {
     run->whole = whole;
     if (run->scene->smooth) run->whole = NULL;
     size_t guards = (run->whole ? run->whole->guards : 0) + run->scene->levels;
-    return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = scene_jacobian, .guards = guards, .guard = guards ? scene_guard : NULL};
+    return (nh_flow_problem){.size = run->scene->kept, .context = run, .rate = scene_rate, .jacobian = scene_jacobian, .guards = guards, .guard = guards ? scene_guard : NULL,
+                             .walls = run->scene->walls, .wall = scene_walls};
 }

@@ -26,6 +26,8 @@ typedef struct {
     nh_network network;
     nh_tape *rate, *jacobian;       /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept */
     nh_tape *removed, *currents;    /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */
+    size_t walls;                   /* of the rates of the kept states (expr/walls.h) */
+    nh_tape *wall;                  /* over the same points as rate; NULL: there are none */
     nh_tape *rate_of_all;           /* of all states, over (t, q, w, u) */
     size_t instructions, instructions_of_all; /* of the right-hand sides */
 } nh_scene;

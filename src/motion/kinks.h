@@ -1,0 +1,65 @@
+/* kinks: steps that end where the equations of motion have a kink or a jump.
+ *
+ * Between two walls (expr/walls.h) the right-hand side is smooth, and the error control of an integrator says what it is meant to say.  Across a wall it does not: where
+ * the force is constant on both sides steps become so long that they leap over a whole excursion to the other side, and no error is seen.  So each step is looked
+ * at from within: the walls' functions are sampled along it, more densely until they are resolved, and the first change of a sign is found.
+ *
+ * A step over a wall is taken back. A one-step method goes back to the beginning of the step and approaches the wall by steps of which no stage is behind it; only one as
+ * short as the rounding of the time leads across.  A method with many steps behind it leaves that to a one-step method, and starts again behind the wall. */
+#ifndef NH_KINKS_H
+#define NH_KINKS_H
+
+#include "motion/sizes.h"
+
+/* The state at a time inside of the last step. */
+typedef bool nh_inside(double time, double *state, void *context);
+
+typedef struct {
+    size_t walls, size;
+    bool (*wall)(double t, const double *z, double *value, void *context);
+    void *context;
+    double *side;       /* of each wall, on which the motion is: +1, -1; 0: not known yet */
+    double *sample, *probe, *z; /* the walls' functions along a step, and at one more time; a state */
+    double *ends;       /* of a one-step method: states and rates at both ends of the step */
+    double longest;     /* for it: no step is to be longer now (INFINITY: it may) */
+    double least;       /* steps as short as this one may lead across a wall */
+    double from, seen;  /* where its step begins, and the first time in it at which the rates were evaluated behind a wall (INFINITY: never) */
+    double span, last;  /* of the whole motion; when the last of so many crossings was */
+    bool held;          /* the motion cannot leave a wall */
+    long crossed, samples;
+} nh_kinks;
+
+/* For a motion from z at times[0] to times[count - 1]. */
+void nh_kinks_begin(nh_kinks *kinks, const nh_flow_problem *problem, const double *z, size_t count, const double *times);
+/* Of states with `size` entries, and walls that are functions of the first of them. */
+void nh_kinks_watch(nh_kinks *kinks, size_t walls, bool (*wall)(double t, const double *z, double *value, void *context), void *context, size_t size, const double *z, const double ends[2]);
+/* What happens in so short a time is below the error that is allowed, or that is made in solving for stages: it is time enough to lead across a wall. */
+void nh_kinks_coarser(nh_kinks *kinks, double time);
+void nh_kinks_clear(nh_kinks *kinks);
+
+/* A step of a method with many steps behind it. */
+typedef struct {
+    double before, now;
+    const double *old;      /* the state before it */
+    const nh_sizes *sizes;
+    double rtol;
+    size_t count;           /* times that are wanted */
+    const double *times;
+} nh_kink_leap;
+
+/* Was there a wall in the step?  NULL: no.  Otherwise the motion from before the step to behind the wall by a one-step method, at the times that are wanted and at its end. */
+nh_motion *nh_kinks_across(nh_kinks *kinks, const nh_flow_problem *problem, const nh_kink_leap *leap, nh_inside *state, void *context, nh_motion *motion);
+
+typedef enum { NH_KINK_NONE, NH_KINK_BACK, NH_KINK_CROSSED, NH_KINK_END } nh_kink_verdict;
+
+/* The state of such a motion at one of its times. */
+bool nh_kinks_state(const nh_motion *across, double time, double *state);
+
+/* A one-step method evaluates the rates at (t, z). */
+void nh_kinks_see(nh_kinks *kinks, double t, const double *z);
+
+/* A one-step method came from `old` at `before` to `z` at `now`.  BACK: take the step back, and make none that is longer than kinks->longest.  CROSSED: go on, and forget what
+ * was before.  END: the motion cannot leave the wall, and ends (the note says so). */
+nh_kink_verdict nh_kinks_judge(nh_kinks *kinks, const nh_flow_problem *problem, double before, const double *old, double now, const double *z, nh_motion *motion);
+
+#endif
