@@ -46,7 +46,7 @@
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \
     X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \
     X(absolute,         1e-3,    0,      1e6,   real,  "",         "part of a state's largest size so far below which errors are absolute; chart: the size")       \
-    X(drift,            100,     1,      1e6,   real,  "tolerance", "a true current drifts by less than this many tolerances")               \
+    X(drift,            100,     1,      1e6,   real,  "tolerance", "a current that drifts by more tolerances must drift less at smaller ones")               \
     X(steps,            2e5,     10,     1e9,   whole, "steps",    "a motion that needs more steps than this is ended and said to be so")    \
     X(group,            1e-7,   0,      1,     real,  "",         "equations of a symmetry group, scaled to size one: what is below this vanishes") \
     X(transversal,      5e-3,   0,      1,     real,  "",         "a group is divided out by Chaplygin reduction when its orbits stay so far from the distribution") \

@@ -77,6 +77,8 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
     nh_free(steep);
 }
 
+/* The tolerance bounds the error of a step.  What the steps of a motion add up to, and what the motion makes of it, may
+ * be hundreds of tolerances.  That error falls with the tolerance, and what a current changes by itself does not. */
 static void judge(nh_validation *v, const nh_options *options)
 {
     for (size_t k = 0; k < v->currents; k++) {
@@ -85,6 +87,7 @@ static void judge(nh_validation *v, const nh_options *options)
         double floor = 1e3 * DBL_EPSILON; /* rounding of thousands of steps */
         d->small = tight <= options->drift * v->tolerance[NH_DRIFT_RUNS - 1];
         d->falls = tight <= floor || (tight < loose / 5 && loose < 1);
+        d->explained = d->small || (d->falls && tight < d->drift[NH_DRIFT_RUNS - 2] / 5);
     }
 }
 

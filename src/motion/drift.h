@@ -16,6 +16,7 @@ typedef struct {
     double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
     double until;                /* time to which it was measured: before the end where the motion leaves the current's interval */
     bool small, falls;           /* below options->drift tolerances; falls with the tolerance (or is at rounding) */
+    bool explained;              /* by the error of the motion itself: small, or it falls from the second tolerance to the third as that error does */
 } nh_drift;
 
 typedef struct {

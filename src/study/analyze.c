@@ -234,8 +234,8 @@ static void validate(nh_result *r, const nh_analyze_request *q)
     }
     for (size_t k = 0; k < r->count; k++) {
         r->found[k].drift = r->validation->current[k];
-        if (!r->found[k].drift.small)
-            nh_result_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances", r->found[k].name,
+        if (!r->found[k].drift.explained)
+            nh_result_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances, and not as the error of the motion: it hardly falls with the tolerance", r->found[k].name,
                            r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
     }
     if (r->validation->note[0]) nh_result_warn(r, "%s", r->validation->note);
