@@ -10,9 +10,7 @@ struct nh_ball_fit {
     nh_ball *ball; /* borrows */
     size_t n, leading, solutions;
     long bits;
-    nh_ex *e;         /* plain: n; series: values, slopes, s, s_slope */
-    size_t words;     /* series only */
-    arb_ptr T;        /* series only: T_k, then T_k' */
+    nh_ex *e;         /* n */
     size_t *column;   /* leading ones first, then the following ones */
     arb_ptr row;      /* n, in the order of `column` */
     arb_mat_t normal; /* A^T A, upper triangle, in that order */
@@ -46,26 +44,9 @@ nh_ball_fit *nh_ball_fit_create(nh_ball *ball, size_t n, const nh_ex *e, const b
     return f;
 }
 
-nh_ball_fit *nh_ball_fit_create_series(nh_ball *ball, const nh_ball_series *series, const bool *leading)
-{
-    size_t words = series->words, rows = series->degree + 1;
-    nh_ball_fit *f = create(ball, words * rows, leading);
-    f->words = words;
-    f->T = _arb_vec_init((slong)(2 * rows));
-    f->e = nh_alloc_array(2 * words + 2, sizeof *f->e);
-    for (size_t i = 0; i < words; i++) {
-        f->e[i] = series->value[i];
-        f->e[words + i] = series->slope[i];
-    }
-    f->e[2 * words] = series->s;
-    f->e[2 * words + 1] = series->s_slope;
-    return f;
-}
-
 void nh_ball_fit_free(nh_ball_fit *f)
 {
     if (!f) return;
-    if (f->words) _arb_vec_clear(f->T, (slong)(2 * (f->n / f->words)));
     _arb_vec_clear(f->row, (slong)f->n);
     arb_mat_clear(f->normal);
     arb_mat_clear(f->c);
@@ -74,47 +55,8 @@ void nh_ball_fit_free(nh_ball_fit *f)
     nh_free(f);
 }
 
-/* T_k and T_k' by their recurrence: T_k+1 = 2 s T_k - T_k-1,  T_k+1' = 2 T_k + 2 s T_k' - T_k-1'. */
-static void recurrence(nh_ball_fit *f, const arb_t s)
-{
-    size_t rows = f->n / f->words;
-    arb_ptr T = f->T, D = f->T + rows;
-    for (size_t k = 0; k < rows; k++) {
-        if (k < 2) {
-            k ? arb_set(T + 1, s) : arb_one(T);
-            arb_set_ui(D + k, k);
-            continue;
-        }
-        arb_mul(T + k, s, T + k - 1, f->bits);
-        arb_mul(D + k, s, D + k - 1, f->bits);
-        arb_add(D + k, D + k, T + k - 1, f->bits);
-        arb_mul_2exp_si(T + k, T + k, 1);
-        arb_mul_2exp_si(D + k, D + k, 1);
-        arb_sub(T + k, T + k, T + k - 2, f->bits);
-        arb_sub(D + k, D + k, D + k - 2, f->bits);
-    }
-}
-
-static bool evaluate_series(nh_ball_fit *f)
-{
-    size_t words = f->words, rows = f->n / words;
-    arb_ptr v = _arb_vec_init((slong)(2 * words + 2));
-    bool fine = true;
-    for (size_t i = 0; i < 2 * words + 2 && fine; i++) fine = nh_ball_eval(f->ball, f->e[i], v + i);
-    if (fine) recurrence(f, v + 2 * words);
-    for (size_t i = 0; i < words && fine; i++) arb_mul(v + i, v + i, v + 2 * words + 1, f->bits);
-    for (size_t j = 0; j < f->n && fine; j++) {
-        size_t i = f->column[j] / rows, k = f->column[j] % rows;
-        arb_mul(f->row + j, v + words + i, f->T + k, f->bits);
-        arb_addmul(f->row + j, v + i, f->T + rows + k, f->bits);
-    }
-    _arb_vec_clear(v, (slong)(2 * words + 2));
-    return fine;
-}
-
 static bool evaluate(nh_ball_fit *f)
 {
-    if (f->words) return evaluate_series(f);
     for (size_t j = 0; j < f->n; j++)
         if (!nh_ball_eval(f->ball, f->e[j], f->row + j)) return false;
     return true;

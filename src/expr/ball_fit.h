@@ -20,14 +20,6 @@ typedef struct nh_ball_fit nh_ball_fit;
 
 /* leading[j]: e_j is a leading column.  Borrows the ball; copies the rest. */
 nh_ball_fit *nh_ball_fit_create(nh_ball *ball, size_t n, const nh_ex *e, const bool *leading);
-/* The same for e_(i,k) = slope_i T_k(s) + value_i T_k'(s) s_slope, i = 0..words-1, k = 0..degree, at index i (degree + 1) + k: the rates of
- * value_i T_k(s), which would be too large as expressions. */
-typedef struct {
-    size_t words, degree;
-    const nh_ex *value, *slope; /* words each */
-    nh_ex s, s_slope;
-} nh_ball_series;
-nh_ball_fit *nh_ball_fit_create_series(nh_ball *ball, const nh_ball_series *series, const bool *leading);
 void nh_ball_fit_free(nh_ball_fit *fit);
 
 /* The point at which the ball stands, as one equation.  False (and nothing added) when an expression is not finite there. */

@@ -41,11 +41,12 @@ static double most_steps(const run *r)
 static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
 {
     const nh_system *system = r->model->system;
-    if (!r->valid || !r->valid[k].coordinate) return motion->count;
-    for (size_t s = 0; s < r->model->m; s++)
-        for (size_t i = 0; system->coordinate[s].q == r->valid[k].coordinate && i < motion->count; i++) {
-            double q = motion->state[i * motion->size + s];
-            if (q < r->valid[k].low || q > r->valid[k].high) return i;
+    if (!r->valid || !r->valid[k].variable) return motion->count;
+    bool of_time = r->valid[k].variable == system->t;
+    for (size_t s = of_time ? r->model->m - 1 : 0; s < r->model->m; s++)
+        for (size_t i = 0; (of_time || system->coordinate[s].q == r->valid[k].variable) && i < motion->count; i++) {
+            double x = of_time ? motion->time[i] : motion->state[i * motion->size + s];
+            if (x < r->valid[k].low || x > r->valid[k].high) return i;
         }
     return motion->count;
 }

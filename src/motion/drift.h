@@ -52,9 +52,9 @@ typedef struct {
     bool by_terms; /* a sum that may cancel (nh_trajectory_request) */
 } nh_watch;
 
-/* Where a current makes sense: while `coordinate` lies between low and high; coordinate 0: everywhere. */
+/* Where a current makes sense: while `variable` lies between low and high. */
 typedef struct {
-    nh_ex coordinate;
+    nh_ex variable; /* a coordinate or t; 0: it holds everywhere */
     double low, high;
 } nh_valid;
 

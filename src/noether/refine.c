@@ -7,7 +7,7 @@
 #include "expr/normal.h"
 #include "noether/exact.h"
 
-enum { spare_rows = 8, heldout_points = 4, most_tries = 4, series_spare = 24 };
+enum { spare_rows = 8, heldout_points = 4, most_tries = 4 };
 
 static const double believed = 0.75; /* of the digits to which a rate cancels: a smaller coefficient is what rounding made of zero */
 
@@ -50,11 +50,11 @@ static bool rates(const nh_model *o, size_t n, const nh_ex *term, nh_ex *rate)
     return exact;
 }
 
-static nh_refined run(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t n, double rows, const nh_options *options)
+static nh_refined run(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t n, const nh_options *options)
 {
     nh_refined out = {0};
     uint64_t state = (uint64_t)options->seed + 313;
-    bool fed = feed(o, ball, fit, (size_t)ceil(rows * (double)n) + spare_rows, &state);
+    bool fed = feed(o, ball, fit, n + spare_rows, &state);
     if (fed) out.count = nh_ball_fit_solve(fit, options->digits, true);
     out.coefficient = nh_alloc_array(n * out.count + 1, sizeof *out.coefficient);
     out.digits = nh_alloc_array(out.count + 1, sizeof *out.digits);
@@ -70,32 +70,15 @@ static nh_refined run(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t
     return out;
 }
 
-nh_refined nh_refine(const nh_model *o, size_t n, const nh_ex *term, const bool *leading, double rows, const nh_options *options)
+nh_refined nh_refine(const nh_model *o, size_t n, const nh_ex *term, const bool *leading, const nh_options *options)
 {
     nh_refined out = {0};
     nh_ex *rate = nh_alloc_array(n + 1, sizeof *rate);
     if (rates(o, n, term, rate)) {
         nh_ball *ball = ball_for(o, options);
-        out = run(o, ball, nh_ball_fit_create(ball, n, rate, leading), n, rows, options);
+        out = run(o, ball, nh_ball_fit_create(ball, n, rate, leading), n, options);
     }
     nh_free(rate);
-    return out;
-}
-
-nh_refined nh_refine_series(const nh_model *o, size_t words, const nh_ex *word, nh_ex s, size_t degree, const bool *leading, double rows,
-                            const nh_options *options)
-{
-    nh_refined out = {0};
-    nh_ex *slope = nh_alloc_array(words + 1, sizeof *slope), *value = nh_alloc_array(words + 1, sizeof *value);
-    for (size_t i = 0; i < words; i++) value[i] = nh_exact_values(o, word[i]);
-    value[words] = s;
-    nh_ball_series series = {.words = words, .degree = degree, .value = value, .slope = slope, .s = s};
-    if (rates(o, words, word, slope) && rates(o, 1, &s, &series.s_slope)) {
-        nh_ball *ball = nh_ball_create(o->dag, (long)(2 * (options->digits / log10(2) + series_spare))); /* they are many, and dear */
-        out = run(o, ball, nh_ball_fit_create_series(ball, &series, leading), words * (degree + 1), rows, options);
-    }
-    nh_free(value);
-    nh_free(slope);
     return out;
 }
 

@@ -16,12 +16,8 @@ typedef struct {
     double *digits;      /* per vector: to which its rate cancels at held-out points */
 } nh_refined;
 
-/* leading[j]: the terms whose coefficients fix a vector (the pivots of an echelon form).  `rows`: equations per unknown, 1 where the
- * combination is thought exact, more where it is a truncated series. */
-nh_refined nh_refine(const nh_model *model, size_t n, const nh_ex *term, const bool *leading, double rows, const nh_options *options);
-/* The same for the terms word[i] T_k(s), k = 0..degree, at index i (degree + 1) + k. */
-nh_refined nh_refine_series(const nh_model *model, size_t words, const nh_ex *word, nh_ex s, size_t degree, const bool *leading, double rows,
-                            const nh_options *options);
+/* leading[j]: the terms whose coefficients fix a vector (the pivots of an echelon form). */
+nh_refined nh_refine(const nh_model *model, size_t n, const nh_ex *term, const bool *leading, const nh_options *options);
 void nh_refined_clear(nh_refined *refined);
 
 #endif

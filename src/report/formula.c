@@ -140,7 +140,7 @@ char *nh_formula_text(nh_dag *d, nh_ex e, double shown)
 
 void nh_formula_series(nh_dag *d, const nh_series *s, nh_typeset_form form, nh_text *out)
 {
-    const char *q = nh_name_of(d, s->coordinate);
+    const char *q = nh_name_of(d, s->variable);
     bool page = form == NH_MATHML;
     if (page) nh_text_add(out, "<mrow>");
     for (size_t i = 0; i < s->words; i++) {

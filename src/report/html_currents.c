@@ -38,7 +38,7 @@ static void series_plot(nh_html_writer *w, const nh_found *f)
         curve[i] = (nh_curve){.name = name[i], .count = points, .x = x, .x_stride = 1, .y = y, .y_stride = 1};
     }
     snprintf(title, sizeof title, "Coefficient functions of %.100s", f->name);
-    nh_plot plot = {.title = title, .description = "The functions that multiply the velocities, over their coordinate", .x_label = nh_name_of(w->dag, s->coordinate),
+    nh_plot plot = {.title = title, .description = "The functions that multiply the velocities, over their coordinate", .x_label = nh_name_of(w->dag, s->variable),
                     .y_label = n == 1 ? name[0] : "value", .curves = n, .curve = curve};
     nh_html_figure(w, &plot, "The coefficient functions.");
     nh_free(x);
@@ -73,7 +73,7 @@ static void series(nh_html_writer *w, const nh_found *f)
     nh_html_add(w, "</math></div>\n<p>Each f is a Chebyshev series of degree ");
     nh_html_count(w, s->degree);
     nh_html_add(w, " in ");
-    nh_html_source(w, nh_name_of(w->dag, s->coordinate));
+    nh_html_source(w, nh_name_of(w->dag, s->variable));
     nh_html_add(w, "on [");
     nh_html_number(w, s->low, 4);
     nh_html_add(w, ", ");

@@ -271,7 +271,7 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
         return;
     }
     nh_json *item = nh_json_put_object(to, "series");
-    nh_json_put_text(item, "coordinate", nh_name_of(w->dag, series->coordinate));
+    nh_json_put_text(item, "coordinate", nh_name_of(w->dag, series->variable));
     nh_json_put_number(item, "low", series->low);
     nh_json_put_number(item, "high", series->high);
     nh_json_put_number(item, "degree", (double)series->degree);

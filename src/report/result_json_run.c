@@ -90,7 +90,11 @@ size_t nh_result_json_holes(const nh_result *r)
 {
     const nh_validation *v = r->validation;
     size_t holes = 0, k = r->model->k;
-    for (size_t i = 0; v && i < v->count * v->watches; i++) holes += !isfinite(v->watch[i]);
+    for (size_t j = 0; v && j < v->watches; j++) {
+        bool series = false; /* it ends with its interval */
+        for (size_t c = 0; c < r->count; c++) series |= r->found[c].series && r->tracks.track[j].value == r->found[c].phi;
+        for (size_t i = 0; i < v->count && !series; i++) holes += !isfinite(v->watch[i * v->watches + j]);
+    }
     for (size_t i = 0; v && i < v->count * k; i++) holes += !isfinite(v->multiplier[i]);
     return holes;
 }

@@ -208,7 +208,7 @@ static void bracket_lines(nh_summary_writer *w, const nh_found *f)
 static void series_lines(nh_summary_writer *w, const nh_series *s)
 {
     nh_dag *d = w->r->model->dag;
-    const char *q = nh_name_of(d, s->coordinate);
+    const char *q = nh_name_of(d, s->variable);
     nh_text_add(w->out, "        ");
     for (size_t i = 0; i < s->words; i++) {
         nh_text_addf(w->out, "%sf%zu(%s)", i ? " + " : "", i + 1, q);

@@ -211,7 +211,7 @@ static void series(nh_tex_writer *w, const nh_found *f)
 {
     enum { beside = 4 }; /* functions that a page is wide enough for */
     const nh_series *s = f->series;
-    const char *q = nh_name_of(w->r->model->dag, s->coordinate);
+    const char *q = nh_name_of(w->r->model->dag, s->variable);
     nh_tex_add(w, "\\nhformula{");
     nh_typeset(f->name, NH_LATEX, w->out);
     nh_tex_add(w, " = ");

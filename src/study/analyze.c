@@ -219,7 +219,7 @@ static void validate(nh_result *r, const nh_analyze_request *q)
     for (size_t k = 0; k < r->count; k++) {
         const nh_series *series = r->found[k].series;
         phi[k] = r->found[k].phi;
-        if (series) valid[k] = (nh_valid){series->coordinate, series->low, series->high};
+        if (series) valid[k] = (nh_valid){series->variable, series->low, series->high};
     }
     const nh_watch *watch = list_tracks(r);
     nh_choice choice = {.system = r->system, .model = r->model};

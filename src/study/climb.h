@@ -60,5 +60,9 @@ void nh_climb_linear(nh_climb *climb);
 void nh_climb_isometries(nh_climb *climb);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
 void nh_climb_series(nh_climb *climb);
+/* The same, linear ones, where the equations depend on several coordinates: what has a closed form should have been found before. */
+void nh_climb_series_in_each(nh_climb *climb);
+/* With functions of t. */
+void nh_climb_series_in_time(nh_climb *climb);
 
 #endif

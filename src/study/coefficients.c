@@ -81,7 +81,7 @@ static nh_refined refine_terms(const nh_model *o, const nh_candidate *c, const n
     bool *leading = nh_alloc_array(c->count + 1, sizeof *leading);
     leading[c->pivot] = true;
     nh_sharpen(o, c->count, c->term, c->coefficient, c->pivot, options);
-    nh_refined better = nh_refine(o, c->count, c->term, leading, 1, options);
+    nh_refined better = nh_refine(o, c->count, c->term, leading, options);
     nh_free(leading);
     return better;
 }

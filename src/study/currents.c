@@ -214,19 +214,22 @@ void nh_currents_put(nh_workbench *b, const nh_found *found)
     b->result->count++;
 }
 
-bool nh_currents_known(const nh_workbench *b, nh_ex current)
+/* Up to `doubt` of its gradient, in doubles; from there to `sure` ball arithmetic decides. */
+static bool is_known(const nh_workbench *b, nh_ex current, double doubt)
 {
     const nh_result *r = b->result;
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
     for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
     phi[r->count] = current;
-    nh_independence_test(r->model, b->generic, r->count + 1, phi, r->options.sure, r->options.doubt, kind, NULL);
+    nh_independence_test(r->model, b->generic, r->count + 1, phi, r->options.sure, doubt, kind, NULL);
     bool old = kind[r->count] != NH_INDEPENDENT;
     nh_free(kind);
     nh_free(phi);
     return old;
 }
+
+bool nh_currents_known(const nh_workbench *b, nh_ex current) { return is_known(b, current, b->result->options.doubt); }
 
 /* ---- what holds in a part of the motions only ---- */
 
@@ -281,11 +284,11 @@ bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *
     return true;
 }
 
-bool nh_currents_add_series(nh_workbench *b, nh_ex phi, const nh_series *series, double quotient, double digits)
+bool nh_currents_add_series(nh_workbench *b, nh_ex phi, const nh_series *series, double digits)
 {
     nh_result *r = b->result;
     nh_found *f = next_found(r);
-    *f = (nh_found){.phi = phi, .series = series, .quotient = quotient, .asked = true, .refined = digits};
+    *f = (nh_found){.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = true, .refined = digits};
     if (nh_currents_known(b, f->phi)) return false;
     f->heldout = heldout_residual(r->model, b->heldout, phi);
     f->proof = nh_prove_current(r->model, phi, false, &r->options);
@@ -338,7 +341,7 @@ size_t nh_currents_join(nh_workbench *b, const nh_points *fit)
     bool *leading = nh_alloc_array(n + 1, sizeof *leading);
     n = unite(b, term, leading);
     nh_refined better = {0};
-    if (b->nears > 1 && n <= most_terms) better = nh_refine(r->model, n, term, leading, 1, &r->options);
+    if (b->nears > 1 && n <= most_terms) better = nh_refine(r->model, n, term, leading, &r->options);
     for (size_t k = 0; k < better.count; k++) {
         if (better.digits[k] < r->options.digits) continue;
         nh_candidate c = joined(b, n, term, leading, better.coefficient + k * n);
@@ -367,13 +370,13 @@ static void miss_energy(nh_workbench *b)
     nh_free(text);
 }
 
-/* What only approximates a function of the currents found since is no news. */
+/* What only approximates a function of the currents found since, were it to two digits, is no news. */
 static void forget_known_almosts(nh_workbench *b)
 {
     nh_result *r = b->result;
     size_t kept = 0;
     for (size_t k = 0; k < r->almosts; k++)
-        if (!nh_currents_known(b, r->almost[k].phi)) r->almost[kept++] = r->almost[k];
+        if (!is_known(b, r->almost[k].phi, r->options.sure)) r->almost[kept++] = r->almost[k];
     r->almosts = kept;
 }
 

@@ -31,7 +31,7 @@ void nh_currents_put(nh_workbench *bench, const nh_found *found);
 bool nh_currents_known(const nh_workbench *bench, nh_ex phi);
 
 /* The same for a series, whose certificate was computed with it.  Nothing is added when it depends on the currents there are. */
-bool nh_currents_add_series(nh_workbench *bench, nh_ex phi, const nh_series *series, double quotient, double digits);
+bool nh_currents_add_series(nh_workbench *bench, nh_ex phi, const nh_series *series, double digits);
 
 /* After the last candidate of a list: is a combination of those that were only nearly conserved a current?  Returns how many were added. */
 size_t nh_currents_join(nh_workbench *bench, const nh_points *fit);

@@ -95,15 +95,18 @@ static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh
 
 /* ---- what it is ---- */
 
-/* Does the current change when an angle goes once around?  Then it is defined locally only. */
-static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi)
+/* Does the current change when an angle goes once around?  Then it is defined locally only.  A series in the angle is compared half a turn before and
+ * behind the middle of its interval: shorter than a turn it says nothing. */
+static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, const nh_series *series)
 {
     nh_dag *d = o->dag;
+    nh_ex turn = nh_mul(d, nh_int(d, 2), nh_pi(d));
     for (size_t s = 0; s < o->m; s++) {
         const nh_coordinate *c = &o->system->coordinate[s];
         if (c->type != NH_ANGLE || !nh_depends(d, phi, c->q)) continue;
-        nh_ex around = nh_add(d, c->q, nh_mul(d, nh_int(d, 2), nh_pi(d)));
-        nh_ex pair[2] = {phi, nh_substitute(d, phi, 1, &c->q, &around)};
+        bool own = series && series->variable == c->q;
+        nh_ex here = own ? nh_real(d, (series->low + series->high) / 2 - M_PI) : c->q, around = nh_add(d, here, turn);
+        nh_ex pair[2] = {nh_substitute(d, phi, 1, &c->q, &here), nh_substitute(d, phi, 1, &c->q, &around)};
         double *value = nh_alloc_array(2 * points->count, sizeof *value), worst = 0, size = 0;
         nh_points_evaluate(points, o, 2, pair, value);
         for (size_t p = 0; p < points->count; p++) {
@@ -180,7 +183,7 @@ void nh_current_describe(nh_workbench *b, nh_found *f)
     nh_error trouble;
     nh_error_clear(&trouble);
     if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
-    f->local = is_local(r->model, b->generic, f->phi);
+    f->local = is_local(r->model, b->generic, f->phi, f->series);
     find_meaning(r, b->generic, f);
     nh_current_in_velocities(b, f);
 }

@@ -104,7 +104,7 @@ static void how_it_ended(nh_result *r)
 
 bool nh_ladder_climb(nh_result *r, nh_error *error)
 {
-    enum { pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 4 };
+    enum { pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 5, time_after = 17 };
     nh_climb x;
     if (!nh_climb_begin(&x, r, error)) return false;
     nh_budget_begin(r->options.work);
@@ -121,7 +121,9 @@ bool nh_ladder_climb(nh_result *r, nh_error *error)
         if (i + 1 == known_after && !nh_climb_done(&x)) known_stage(&x);
         if (i + 1 == isometries_after && !nh_climb_done(&x)) nh_climb_isometries(&x);
         if (i + 1 == series_after && !nh_climb_done(&x)) nh_climb_series(&x);
+        if (i + 1 == time_after) nh_climb_series_in_time(&x);
     }
+    if (!nh_climb_done(&x)) nh_climb_series_in_each(&x);
     how_it_ended(r);
     nh_budget_begin(INFINITY);
     nh_currents_finish(x.bench);

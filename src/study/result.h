@@ -14,9 +14,9 @@
 #include "noether/unknowns.h"
 #include "study/tracks.h"
 
-/* Coefficient functions that have no closed form: Chebyshev series in one coordinate, good in an interval of it. */
+/* Coefficient functions that have no closed form: Chebyshev series in one variable, a coordinate or t, good in an interval of it. */
 typedef struct {
-    nh_ex coordinate;
+    nh_ex variable;
     double low, high;
     size_t degree, words;
     nh_ex *word;              /* the functions that they multiply */

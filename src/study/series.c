@@ -1,284 +1,169 @@
-/* The ladder's search for coefficient functions without closed form:
- *
- *     Phi = sum_i f_i(q) b_i,     f_i = sum_k c_ik T_k((q - middle)/half)
- *
- * with b_i velocities or their products and q one coordinate in its sampling interval, beyond which a series says nothing.  The null space is
- * that of doubles, at the lowest degree that shows one; the certificate is the same problem at a degree high enough for `digits` digits,
- * solved in ball arithmetic, where a true current's residual falls geometrically with the degree [Trefethen2013, ch. 8]. */
+/* The ladder's search for coefficient functions without closed form: noether/series.h, for the words and the variables
+ * that make sense. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/clock.h"
-#include "noether/refine.h"
+#include "expr/diff.h"
+#include "expr/print.h"
+#include "noether/series.h"
 #include "study/climb.h"
 
-enum { first_degree = 16, last_degree = 40, most_words = 12, most_unknowns = 420, most_vectors = 8 };
+enum { most_words = 32, near_points = 24 };
 
 typedef struct {
     nh_climb *x;
+    nh_ex variable;
     size_t words;
     nh_ex word[most_words];
-    nh_ex q, s;       /* the coordinate, and (q - middle)/half */
-    double low, high; /* its interval */
+    bool full; /* there were more than fit */
 } problem;
 
-/* Vectors of coefficients c[i * (degree + 1) + k]. */
-typedef struct {
-    size_t degree, count;
-    double *c;
-    size_t *pivot; /* per vector: where it is 1 and the others are 0 */
-    double quotient;
-} table;
-
-/* ---- the functions ---- */
-
-/* An interval with short rational ends that holds the sampled one with some room: acos s is singular at s = 1. */
-static void set_interval(problem *p)
+static void put(problem *p, nh_ex e)
 {
-    enum { grid = 100 };
-    static const double room = 0.04;
-    nh_dag *d = p->x->r->model->dag;
-    nh_chart_range(p->x->r->model->chart, p->q, &p->low, &p->high);
-    double width = p->high - p->low;
-    int64_t low = (int64_t)floor((p->low - room * width) * grid), high = (int64_t)ceil((p->high + room * width) * grid);
-    p->low = (double)low / grid;
-    p->high = (double)high / grid;
-    nh_ex middle = nh_ratio(d, low + high, 2 * grid), half = nh_ratio(d, high - low, 2 * grid);
-    p->s = nh_div(d, nh_sub(d, p->q, middle), half);
-}
-
-/* T_k = cos(k acos s): short on paper.  Powers of s would overflow exact numbers, their coefficients doubles' digits. */
-static void chebyshev(const problem *p, size_t degree, nh_ex *T)
-{
-    nh_dag *d = p->x->r->model->dag;
-    nh_ex angle = nh_call(d, NH_ACOS, p->s);
-    for (size_t k = 0; k <= degree; k++) T[k] = k == 0 ? nh_int(d, 1) : k == 1 ? p->s : nh_call(d, NH_COS, nh_mul(d, nh_int(d, (int64_t)k), angle));
-}
-
-static nh_ex *terms_of(const problem *p, size_t degree)
-{
-    nh_dag *d = p->x->r->model->dag;
-    nh_ex *T = nh_alloc_array(degree + 1, sizeof *T), *term = nh_alloc_array(p->words * (degree + 1), sizeof *term);
-    chebyshev(p, degree, T);
     for (size_t i = 0; i < p->words; i++)
-        for (size_t k = 0; k <= degree; k++) term[i * (degree + 1) + k] = nh_mul(d, p->word[i], T[k]);
-    nh_free(T);
-    return term;
+        if (p->word[i] == e) return;
+    if (p->words == most_words)
+        p->full = true;
+    else
+        p->word[p->words++] = e;
 }
 
-static nh_family family_of(const problem *p, size_t degree, nh_ex *T, nh_family *part)
+static void put_all(problem *p, size_t n, const nh_ex *e)
 {
-    chebyshev(p, degree, T);
-    part[0] = (nh_family){.kind = NH_TERMS, .terms = p->words, .term = p->word};
-    part[1] = (nh_family){.kind = NH_TERMS, .terms = degree + 1, .term = T};
-    return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
+    for (size_t i = 0; i < n; i++) put(p, e[i]);
 }
 
-/* ---- the null space in doubles ---- */
-
-/* The ansatz' own columns, sorted in its way, to (word, k). */
-static void collect(const problem *p, const nh_solved *s, table *t)
+static void put_squares(problem *p, size_t n, const nh_ex *e)
 {
-    size_t n = p->words * (t->degree + 1);
-    nh_ex *term = terms_of(p, t->degree);
-    t->c = nh_alloc_array(n * t->count + 1, sizeof *t->c);
-    for (size_t j = 0; j < s->ansatz->terms; j++) {
-        size_t at = 0;
-        while (at < n && term[at] != s->ansatz->term[j]) at++;
-        for (size_t v = 0; v < t->count && at < n; v++)
-            for (size_t c = 0; c < s->ansatz->columns; c++)
-                t->c[v * n + at] += s->ansatz->to_term[j + c * s->ansatz->terms] * s->nullspace->vector[c + v * s->ansatz->columns];
-    }
-    nh_free(term);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) put(p, nh_mul(p->x->r->model->dag, e[i], e[j]));
 }
 
-/* Reduced echelon form with pivots among the lowest functions, T_0 before T_1: the averages of the f_i tell the vectors apart. */
-static void reduce(const problem *p, table *t)
+/* ---- from functions to currents ---- */
+
+/* A dependent velocity stands for itself. */
+static nh_ex shown(const nh_model *o, nh_ex word)
 {
-    size_t rows = t->degree + 1, n = p->words * rows, done = 0;
-    t->pivot = nh_alloc_array(t->count + 1, sizeof *t->pivot);
-    for (size_t k = 0; k < rows && done < t->count; k++)
-        for (size_t step = 0; step < p->words && done < t->count; step++) {
-            size_t vector = 0, at = 0;
-            double best = 0;
-            for (size_t v = done; v < t->count; v++)
-                for (size_t i = 0; i < p->words; i++) {
-                    double largest = 0;
-                    for (size_t j = 0; j < n; j++) largest = fmax(largest, fabs(t->c[v * n + j]));
-                    double x = fabs(t->c[v * n + i * rows + k]) / largest;
-                    if (!(x > best)) continue;
-                    best = x;
-                    vector = v;
-                    at = i * rows + k;
-                }
-            if (best < 1e-3) break;
-            for (size_t j = 0; j < n; j++) {
-                double x = t->c[vector * n + j];
-                t->c[vector * n + j] = t->c[done * n + j];
-                t->c[done * n + j] = x;
-            }
-            double unit = t->c[done * n + at];
-            for (size_t j = 0; j < n; j++) t->c[done * n + j] /= unit;
-            for (size_t v = 0; v < t->count; v++) {
-                double f = t->c[v * n + at];
-                for (size_t j = 0; j < n && v != done; j++) t->c[v * n + j] -= f * t->c[done * n + j];
-            }
-            t->pivot[done++] = at;
-        }
-    t->count = done;
+    for (size_t s = 0; s < o->m; s++)
+        if (word == o->rho[s]) return o->system->coordinate[s].v;
+    return word;
 }
-
-static void table_clear(table *t)
-{
-    nh_free(t->c);
-    nh_free(t->pivot);
-    *t = (table){0};
-}
-
-/* Is the spectrum on its way down?  Then a higher degree is worth trying. */
-static bool converging(const nh_nullspace *s) { return s->rank > 0 && s->spectrum[0] < 1e-6; }
-
-/* Degrees until there is a null space, or no sign of one. */
-static table find(problem *p, nh_tried *note)
-{
-    table t = {0};
-    for (size_t degree = first_degree; degree <= last_degree && t.count == 0; degree += (last_degree - first_degree) / 2) {
-        nh_ex *T = nh_alloc_array(degree + 1, sizeof *T);
-        nh_family part[2], family = family_of(p, degree, T, part);
-        nh_solved s = nh_climb_solve(p->x, 1, &family);
-        bool goes_on = s.nullspace && converging(s.nullspace);
-        note->columns = s.ansatz ? s.ansatz->columns : 0;
-        note->sectors = s.sectors;
-        note->skipped = !s.ansatz;
-        note->limit = s.limit;
-        if (s.nullspace) {
-            note->dimension = s.nullspace->dimension;
-            note->gap = s.nullspace->gap;
-            t.degree = degree;
-            t.count = s.nullspace->dimension < most_vectors ? s.nullspace->dimension : most_vectors;
-            t.quotient = t.count ? s.nullspace->spectrum[t.count - 1] : 0;
-            if (t.count) collect(p, &s, &t);
-            if (t.count) nh_climb_keep_spectrum(p->x, s.nullspace, false);
-        }
-        nh_solved_clear(&s);
-        nh_free(T);
-        if (!goes_on) break;
-    }
-    if (t.count) reduce(p, &t);
-    return t;
-}
-
-/* ---- the certificate ---- */
-
-/* The degree from which on all coefficients are below 1e-12 of the largest: with geometric decay `digits` digits need digits/12 times that. */
-static double decay(const problem *p, const table *t)
-{
-    size_t rows = t->degree + 1, last = 1;
-    double largest = 0;
-    for (size_t j = 0; j < t->count * p->words * rows; j++) largest = fmax(largest, fabs(t->c[j]));
-    for (size_t j = 0; j < t->count * p->words * rows; j++)
-        if (fabs(t->c[j]) > 1e-12 * largest && j % rows > last) last = j % rows;
-    return (double)last;
-}
-
-/* The same vectors at a degree that gives as many digits as are asked for; false when none could be reached. */
-static bool certify(const problem *p, const table *t, table *fine, double **digits)
-{
-    const nh_options *options = &p->x->r->options;
-    double least = 1.1 * options->digits / 12 * decay(p, t);
-    for (double factor = 1; factor < 2; factor *= 1.3) {
-        size_t degree = (size_t)ceil(factor * least), rows = degree + 1, n = p->words * rows;
-        if (n > most_unknowns) return false;
-        bool *leading = nh_alloc_array(n + 1, sizeof *leading);
-        for (size_t v = 0; v < t->count; v++) leading[t->pivot[v] / (t->degree + 1) * rows + t->pivot[v] % (t->degree + 1)] = true;
-        nh_refined r = nh_refine_series(p->x->r->model, p->words, p->word, p->s, degree, leading, 1.15, options);
-        bool good = r.count == t->count;
-        for (size_t v = 0; v < r.count; v++) good &= r.digits[v] >= options->digits;
-        nh_free(leading);
-        if (good) {
-            *fine = (table){.degree = degree, .count = r.count, .c = r.coefficient, .quotient = t->quotient};
-            *digits = r.digits;
-            return true;
-        }
-        nh_refined_clear(&r);
-    }
-    return false;
-}
-
-/* ---- from vectors to currents ---- */
 
 /* What doubles can see of it: without the tails of the series below rounding. */
-static nh_ex expression_of(const problem *p, const double *c, size_t degree, nh_series *series)
+static nh_ex expression_of(const problem *p, const nh_series_space *space, size_t k, nh_series *series)
 {
     nh_dag *d = p->x->r->model->dag;
-    size_t rows = degree + 1;
+    size_t rows = space->degree + 1;
+    const double *c = space->coefficient + k * space->words * rows;
     double largest = 0;
     nh_ex *T = nh_alloc_array(rows, sizeof *T), phi = nh_int(d, 0);
-    chebyshev(p, degree, T);
-    for (size_t j = 0; j < p->words * rows; j++) largest = fmax(largest, fabs(c[j]));
-    for (size_t i = 0; i < p->words; i++) {
+    nh_series_polynomials(d, p->variable, space->low, space->high, space->degree, T);
+    for (size_t j = 0; j < space->words * rows; j++) largest = fmax(largest, fabs(c[j]) * space->size[j / rows]);
+    for (size_t i = 0; i < space->words; i++) {
         nh_ex f = nh_int(d, 0);
-        for (size_t k = 0; k < rows; k++) {
-            if (fabs(c[i * rows + k]) < DBL_EPSILON / 8 * largest) continue;
-            if (k > series->degree) series->degree = k;
-            f = nh_add(d, f, nh_mul(d, nh_real(d, c[i * rows + k]), T[k]));
+        for (size_t j = 0; j < rows; j++) {
+            if (fabs(c[i * rows + j]) * space->size[i] < DBL_EPSILON / 2 * largest) continue;
+            if (j > series->degree) series->degree = j;
+            f = nh_add(d, f, nh_mul(d, nh_real(d, c[i * rows + j]), T[j]));
         }
         if (nh_is_zero(d, f)) continue;
-        for (size_t k = 0; k < rows && series->coefficient; k++) series->coefficient[series->words * rows + k] = c[i * rows + k];
-        series->word[series->words++] = p->word[i];
-        phi = nh_add(d, phi, nh_mul(d, p->word[i], f));
+        memcpy(series->coefficient + series->words * rows, c + i * rows, rows * sizeof *c);
+        series->word[series->words++] = shown(p->x->r->model, space->word[i]);
+        phi = nh_add(d, phi, nh_mul(d, space->word[i], f));
     }
     nh_free(T);
     return phi;
 }
 
-static size_t keep(problem *p, const table *fine, const double *digits)
+/* "x at t = 0" */
+static const char *meaning_of(const problem *p, const nh_series_space *space, size_t k)
 {
     nh_result *r = p->x->r;
-    size_t n = p->words * (fine->degree + 1), added = 0;
-    for (size_t v = 0; v < fine->count && !nh_climb_done(p->x); v++) {
+    if (space->alone[k] == space->words) return "";
+    char *word = nh_print_string(r->model->dag, space->word[space->alone[k]]);
+    const char *text =
+        nh_arena_printf(r->arena, "%s at %s = %.6g", word, nh_name_of(r->model->dag, p->variable), space->at);
+    nh_free(word);
+    return text;
+}
+
+static size_t keep(problem *p, const nh_series_space *space)
+{
+    nh_result *r = p->x->r;
+    size_t n = space->words * (space->degree + 1), added = 0;
+    for (size_t k = 0; k < space->count && r->independent < r->local_maximum; k++) {
         nh_series *series = nh_arena_alloc(r->arena, sizeof *series);
-        *series = (nh_series){.coordinate = p->q, .low = p->low, .high = p->high, .word = nh_arena_alloc(r->arena, p->words * sizeof(nh_ex)),
-                              .coefficient = nh_arena_alloc(r->arena, n * sizeof(double)), .stride = fine->degree + 1};
-        nh_ex phi = expression_of(p, fine->c + v * n, fine->degree, series);
-        if (nh_currents_add_series(p->x->bench, phi, series, fine->quotient, digits[v])) {
-            r->independent++;
-            added++;
-        }
+        *series = (nh_series){.variable = p->variable,
+                              .low = space->low,
+                              .high = space->high,
+                              .word = nh_arena_alloc(r->arena, space->words * sizeof(nh_ex)),
+                              .coefficient = nh_arena_alloc(r->arena, n * sizeof(double)),
+                              .stride = space->degree + 1};
+        if (!nh_currents_add_series(p->x->bench, expression_of(p, space, k, series), series, space->digits[k]))
+            continue;
+        if (p->variable == r->system->t) r->found[r->count - 1].meaning = meaning_of(p, space, k);
+        r->independent++;
+        added++;
     }
     return added;
 }
 
-/* Is there anything in it that is not known?  The certificate is dear. */
-static bool fresh(const problem *p, const table *t)
+/* Is there anything in it that is not known?  Seen near the middle of the interval: to continue the functions is dear.
+ */
+static bool fresh(const problem *p, const nh_series_search *s)
 {
-    nh_arena *arena = p->x->r->arena;
-    size_t n = p->words * (t->degree + 1);
-    for (size_t v = 0; v < t->count; v++) {
-        nh_series ignored = {.word = nh_arena_alloc(arena, p->words * sizeof(nh_ex))};
-        if (!nh_currents_known(p->x->bench, expression_of(p, t->c + v * n, t->degree, &ignored))) return true;
-    }
-    return false;
+    const nh_result *r = p->x->r;
+    nh_points *points = nh_series_points(s, near_points);
+    if (!points) return true;
+    size_t known = r->count, n = known + nh_series_count(s);
+    nh_ex *phi = nh_alloc_array(n + 1, sizeof *phi);
+    nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
+    bool news = false;
+    for (size_t k = 0; k < n; k++) phi[k] = k < known ? r->found[k].phi : nh_series_near(s, k - known);
+    nh_independence_test(r->model, points, n, phi, r->options.sure, r->options.doubt, kind, NULL);
+    for (size_t k = known; k < n; k++) news |= kind[k] == NH_INDEPENDENT || kind[k] == NH_DOUBTFUL;
+    nh_free(kind);
+    nh_free(phi);
+    nh_points_free(points);
+    return news;
+}
+
+/* Without an interval of the user's a series in t goes on to the end of the motions. */
+static double end_of_time(const nh_climb *x)
+{
+    const nh_system *system = x->r->system;
+    for (size_t i = 0; i < system->intervals; i++)
+        if (system->interval[i].symbol == system->t) return -INFINITY;
+    return x->r->options.until;
 }
 
 static void search(problem *p, const char *what)
 {
     nh_result *r = p->x->r;
     char name[120];
-    double start = nh_clock(), *digits = NULL;
-    set_interval(p);
-    snprintf(name, sizeof name, "%s with coefficients that are series in %s", what, nh_name_of(r->model->dag, p->q));
+    double start = nh_clock();
+    nh_series_space space;
+    if (p->full || nh_climb_done(p->x)) return;
+    snprintf(name, sizeof name, "%s with coefficients that are series in %s", what,
+             nh_name_of(r->model->dag, p->variable));
     nh_tried *note = nh_climb_note(p->x, name);
-    table t = find(p, note), fine = {0};
-    bool news = t.count && fresh(p, &t);
-    if (news && certify(p, &t, &fine, &digits)) note->found = keep(p, &fine, digits);
-    else note->undecided = news;
+    nh_series_search *s = nh_series_open(r->model, p->variable, p->words, p->word, &r->options);
+    note->columns = nh_series_words(s);
+    note->sectors = 1;
+    note->dimension = nh_series_count(s);
+    if (note->dimension && fresh(p, s)) {
+        bool reached =
+            nh_series_extend(s, p->variable == r->system->t ? end_of_time(p->x) : -INFINITY, r->arena, &space);
+        if (reached)
+            note->found = keep(p, &space);
+        else
+            note->undecided = true;
+    }
+    nh_series_close(s);
     note->seconds = nh_clock() - start;
-    nh_free(digits);
-    table_clear(&fine);
-    table_clear(&t);
 }
 
 /* What has closed form should be found as that: the same words with harmonics of q and the system's functions. */
@@ -286,12 +171,13 @@ static void closed_forms(problem *p)
 {
     nh_climb *x = p->x;
     nh_dag *d = x->r->model->dag;
-    nh_ex *f = nh_arena_alloc(x->r->arena, (6 + x->words.atoms) * sizeof *f), *word = nh_arena_alloc(x->r->arena, (p->words + 1) * sizeof *word);
+    nh_ex *f = nh_arena_alloc(x->r->arena, (6 + x->words.atoms) * sizeof *f),
+          *word = nh_arena_alloc(x->r->arena, (p->words + 1) * sizeof *word);
     size_t n = 0;
     f[n++] = nh_int(d, 1);
-    if (!x->words.waves) f[n++] = p->q;
+    if (!x->words.waves) f[n++] = p->variable;
     for (int k = 1; k <= 2 && x->words.waves; k++) {
-        nh_ex angle = nh_mul(d, nh_int(d, k), p->q);
+        nh_ex angle = nh_mul(d, nh_int(d, k), p->variable);
         f[n++] = nh_call(d, NH_COS, angle);
         f[n++] = nh_call(d, NH_SIN, angle);
     }
@@ -304,21 +190,95 @@ static void closed_forms(problem *p)
     nh_climb_stage(x, "squares of velocities times harmonics and functions of the shape", 1, both);
 }
 
-/* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are closed under Gamma. */
+/* Velocities with functions of one coordinate, whatever the chart: one that needs other coordinates too may have been
+ * chosen. */
+static void linear_in(nh_climb *x, nh_ex q)
+{
+    const nh_model *o = x->r->model;
+    problem p = {.x = x, .variable = q};
+    put_all(&p, o->n, o->chart->w);
+    if (x->words.shapes > 1) put_all(&p, o->m, o->rho);
+    if (o->system->has_forces) put(&p, nh_int(o->dag, 1)); /* friction takes what depends on the place alone */
+    search(&p, "velocities");
+}
+
+/* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are closed
+ * under Gamma. */
 void nh_climb_series(nh_climb *x)
 {
     const nh_model *o = x->r->model;
-    nh_dag *d = o->dag;
-    if (x->words.shapes != 1 || o->n > most_words) return;
-    problem p = {.x = x, .q = x->words.shape[0]};
-    for (size_t i = 0; i < o->n; i++) p.word[p.words++] = o->chart->w[i];
-    if (o->system->has_forces && p.words < most_words) p.word[p.words++] = nh_int(d, 1); /* friction takes what depends on the place alone */
-    search(&p, "velocities");
-    if (nh_climb_done(x) || 1 + o->n * (o->n + 1) / 2 > most_words) return;
-    p.words = 0;
-    p.word[p.words++] = nh_int(d, 1);
-    for (size_t i = 0; i < o->n; i++)
-        for (size_t j = 0; j <= i; j++) p.word[p.words++] = nh_mul(d, o->chart->w[i], o->chart->w[j]);
+    if (x->words.shapes != 1 || o->chart->implicit) return;
+    linear_in(x, x->words.shape[0]);
+    problem p = {.x = x, .variable = x->words.shape[0]};
+    put(&p, nh_int(o->dag, 1));
+    put_squares(&p, o->n, o->chart->w);
+    if (p.full || nh_climb_done(x)) return;
     closed_forms(&p);
-    if (!nh_climb_done(x)) search(&p, "squares of velocities");
+    search(&p, "squares of velocities");
+}
+
+void nh_climb_series_in_each(nh_climb *x)
+{
+    enum { most_shapes = 3 };
+    if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit) return;
+    for (size_t i = 0; i < x->words.shapes; i++) linear_in(x, x->words.shape[i]);
+}
+
+/* Does the motion depend on t otherwise than through its state? */
+static bool driven(const nh_model *o)
+{
+    bool depends = false;
+    for (size_t i = 0; i < o->n; i++) depends |= nh_depends(o->dag, o->a[i], o->system->t);
+    for (size_t s = 0; s < o->m; s++) depends |= nh_depends(o->dag, o->rho[s], o->system->t);
+    return depends;
+}
+
+/* Components of vectors in polar coordinates: lengths, and the velocities in which the kinetic energy is a sum of
+ * squares, times first harmonics. */
+static void put_polar(problem *p)
+{
+    const nh_model *o = p->x->r->model;
+    const nh_dictionary *w = &p->x->words;
+    nh_dag *d = o->dag;
+    p->words = 0;
+    p->full = false;
+    nh_ex *wave = nh_arena_alloc(p->x->r->arena, (3 * o->m + 1) * sizeof *wave);
+    size_t waves = 0;
+    for (size_t s = 0; s < o->m; s++) {
+        if (o->system->coordinate[s].type != NH_ANGLE) continue;
+        wave[waves++] = nh_call(d, NH_COS, o->system->coordinate[s].q);
+        wave[waves++] = nh_call(d, NH_SIN, o->system->coordinate[s].q);
+    }
+    for (size_t i = 0; i < waves; i++) {
+        for (size_t j = 0; j < w->lengths; j++) put(p, nh_mul(d, w->length[j], wave[i]));
+        for (size_t j = 0; j < w->frames; j++) put(p, nh_mul(d, w->frame[j], wave[i]));
+    }
+}
+
+/* Functions of t: where the equations are linear, all that there is. */
+void nh_climb_series_in_time(nh_climb *x)
+{
+    const nh_model *o = x->r->model;
+    nh_ex one = nh_int(o->dag, 1);
+    if (nh_climb_done(x) || o->chart->implicit || !driven(o)) return;
+    problem p = {.x = x, .variable = o->system->t};
+    put_all(&p, x->words.positions, x->words.position);
+    put_all(&p, o->n, o->chart->w);
+    put(&p, one);
+    put_all(&p, x->words.momenta, x->words.momentum);
+    p.full &= x->words.positions + o->n >= most_words; /* momenta only as far as there is room */
+    search(&p, "positions, velocities and momenta");
+    put_polar(&p);
+    if (p.words) search(&p, "lengths and the frame of the kinetic energy times first harmonics");
+    p.words = 0;
+    p.full = false;
+    nh_ex *linear = nh_arena_alloc(x->r->arena, (x->words.positions + o->n + 1) * sizeof *linear);
+    memcpy(linear, x->words.position, x->words.positions * sizeof *linear);
+    memcpy(linear + x->words.positions, o->chart->w, o->n * sizeof *linear);
+    put_squares(&p, x->words.positions + o->n, linear);
+    put_all(&p, x->words.positions + o->n, linear);
+    put_all(&p, x->words.potentials, x->words.potential);
+    put_all(&p, x->words.atoms, x->words.atom);
+    put(&p, one);
+    search(&p, "their squares and the system's functions");
 }

@@ -1,0 +1,50 @@
+/* series: currents whose coefficients are functions of one variable s, a coordinate or t:
+ *
+ *     Phi = sum_i f_i(s) b_i,     Gamma(Phi) = sum_i ( f_i' Gamma(s) b_i + f_i Gamma(b_i) ) = 0
+ *
+ * on the whole submanifold.  The words b_i are functions of the rest (and of s).  The f_i are found with many digits
+ * [ball_ode.h] in an interval of s and given there as Chebyshev series in doubles; beyond the interval they say
+ * nothing. */
+#ifndef NH_NOETHER_SERIES_H
+#define NH_NOETHER_SERIES_H
+
+#include "base/option.h"
+#include "geometry/model.h"
+#include "noether/points.h"
+
+typedef struct nh_series_search nh_series_search;
+
+/* The space near the middle of the sampling interval of `variable`. */
+nh_series_search *nh_series_open(const nh_model *model, nh_ex variable, size_t words, const nh_ex *word,
+                                 const nh_options *options);
+void nh_series_close(nh_series_search *search);
+/* Its dimension, and the words that take part. */
+size_t nh_series_count(const nh_series_search *search);
+size_t nh_series_words(const nh_series_search *search);
+
+/* Near the middle alone: current k as a polynomial in the variable, and `count` points at which that is one to
+ * rounding.  NULL: there are none. */
+nh_ex nh_series_near(const nh_series_search *search, size_t k);
+nh_points *nh_series_points(const nh_series_search *search, size_t count);
+
+/* The same space on the sampling interval, or on as much of it as series up to the option `series_degree` bear. */
+typedef struct {
+    double low, high;
+    size_t words, count, degree;
+    nh_ex *word;
+    double *size;        /* of each word: coefficients are compared after multiplication by it */
+    double *coefficient; /* of T_j((2 s - low - high)/(high - low)) in f_i of current k: [(k * words + i) * (degree + 1)
+                            + j] */
+    double at; /* where the functions of each are as simple as they can be: there, of those that are 1 for one current
+                  and 0 for the others, ... */
+    size_t *alone;  /* ... per current: the word of which it is the value there; `words`: of none */
+    double *digits; /* per current: to which its rate cancels, with more digits in the coefficients than doubles have */
+} nh_series_space;
+
+/* As far as `beyond` where that is more.  In the arena.  False when the space could not be continued. */
+bool nh_series_extend(nh_series_search *search, double beyond, nh_arena *arena, nh_series_space *out);
+
+/* (2 s - low - high)/(high - low), and T_0..T_degree of it, as expressions. */
+void nh_series_polynomials(nh_dag *dag, nh_ex variable, double low, double high, size_t degree, nh_ex *T);
+
+#endif
