@@ -308,6 +308,29 @@ static bool conserved(nh_reduction *r)
     return true;
 }
 
+static void clear_stages(nh_reduction *r)
+{
+    for (size_t i = 0; i < 4; i++) nh_action_clear(&r->action[i]);
+    for (size_t i = 0; i < 2; i++) nh_second_clear(&r->second[i]);
+    nh_ideals_clear(&r->chain);
+    nh_frame_motion_free(r->frame);
+    r->frame = NULL;
+    for (size_t i = 0; i < r->stages; i++) nh_free(r->stage[i].group);
+    memset(r->action, 0, sizeof r->action);
+    memset(r->second, 0, sizeof r->second);
+    memset(&r->chain, 0, sizeof r->chain);
+    memset(r->stage, 0, sizeof r->stage);
+    r->stages = 0;
+}
+
+/* The stages.  Where they were interrupted there are none, and the group is kept. */
+static bool divide_by_group(nh_reduction *r, nh_error *error)
+{
+    if (nh_interrupted() || nh_reduction_stages(r, error)) return true;
+    if (nh_interrupted()) clear_stages(r);
+    return nh_interrupted();
+}
+
 nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
 {
     static const double finest = 1e-14; /* tolerance */
@@ -333,7 +356,7 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     if (good && !some && r->group->action.d) nh_reduction_warn(r, "%s: no connection and no momentum is used, the equations are divided by the group as they are", r->kinetic->obstacle);
     bool divide = good && r->group->action.d;
     if (divide) nh_progress("reduced equations, and motions of both", -1);
-    if (divide && !nh_interrupted()) good = nh_reduction_stages(r, error);
+    if (divide) good = divide_by_group(r, error);
     if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
     if (good) nh_momenta_mark(&r->momenta, r->kinetic);
     if (nh_interrupted()) {
@@ -347,21 +370,6 @@ nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
     if (good) return r;
     nh_reduction_free(r);
     return NULL;
-}
-
-static void clear_stages(nh_reduction *r)
-{
-    for (size_t i = 0; i < 4; i++) nh_action_clear(&r->action[i]);
-    for (size_t i = 0; i < 2; i++) nh_second_clear(&r->second[i]);
-    nh_ideals_clear(&r->chain);
-    nh_frame_motion_free(r->frame);
-    r->frame = NULL;
-    for (size_t i = 0; i < r->stages; i++) nh_free(r->stage[i].group);
-    memset(r->action, 0, sizeof r->action);
-    memset(r->second, 0, sizeof r->second);
-    memset(&r->chain, 0, sizeof r->chain);
-    memset(r->stage, 0, sizeof r->stage);
-    r->stages = 0;
 }
 
 bool nh_reduction_again(nh_reduction *r, size_t place, nh_error *error)

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "expr/diff.h"
 #include "expr/print.h"
+#include "expr/walls.h"
 #include "noether/series.h"
 #include "study/climb.h"
 
@@ -202,12 +203,21 @@ static void linear_in(nh_climb *x, nh_ex q)
     search(&p, "velocities");
 }
 
+/* A power series continued past a kink or a jump of the equations of motion is no current behind it. */
+static bool has_walls(const nh_model *o)
+{
+    nh_ex *e = nh_arena_alloc(o->arena, (o->m + o->n) * sizeof *e), wall[NH_MOST_WALLS];
+    memcpy(e, o->rho, o->m * sizeof *e);
+    memcpy(e + o->m, o->a, o->n * sizeof *e);
+    return nh_walls_between(o->dag, o->m + o->n, e, o->width, o->chart->symbol, wall) > 0;
+}
+
 /* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are closed
  * under Gamma. */
 void nh_climb_series(nh_climb *x)
 {
     const nh_model *o = x->r->model;
-    if (x->words.shapes != 1 || o->chart->implicit) return;
+    if (x->words.shapes != 1 || o->chart->implicit || has_walls(o)) return;
     linear_in(x, x->words.shape[0]);
     problem p = {.x = x, .variable = x->words.shape[0]};
     put(&p, nh_int(o->dag, 1));
@@ -220,7 +230,7 @@ void nh_climb_series(nh_climb *x)
 void nh_climb_series_in_each(nh_climb *x)
 {
     enum { most_shapes = 3 };
-    if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit) return;
+    if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit || has_walls(x->r->model)) return;
     for (size_t i = 0; i < x->words.shapes; i++) linear_in(x, x->words.shape[i]);
 }
 
@@ -260,7 +270,7 @@ void nh_climb_series_in_time(nh_climb *x)
 {
     const nh_model *o = x->r->model;
     nh_ex one = nh_int(o->dag, 1);
-    if (nh_climb_done(x) || o->chart->implicit || !driven(o)) return;
+    if (nh_climb_done(x) || o->chart->implicit || !driven(o) || has_walls(o)) return;
     problem p = {.x = x, .variable = o->system->t};
     put_all(&p, x->words.positions, x->words.position);
     put_all(&p, o->n, o->chart->w);
