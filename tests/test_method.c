@@ -243,7 +243,7 @@ Test(method, projection_holds_dependent_currents)
     double z0[5] = {0.3, 0, 0, 2, 0.6}, times[] = {0, 5}, drift[2];
     for (int with = 0; with < 2; with++) {
         nh_dynamics *d = nh_dynamics_create(o);
-        nh_projection *p = nh_projection_create(o, 4, current, 0, z0);
+        nh_projection *p = nh_projection_create(o, 4, current, 0, 5, z0);
         nh_flow_problem problem = nh_dynamics_problem(d);
         nh_flow_options how = {.rtol = 1e-5, .after = with ? nh_projection_apply : NULL, .after_context = p};
         nh_motion *motion = nh_explicit(NH_RKF45, &problem, z0, 2, times, &how, &error);
@@ -277,7 +277,7 @@ Test(method, projection_chooses_independent_currents)
     static const char *const says[2][4] = {{NULL, "depends on the currents before", NULL, "depends on the currents before"}, {NULL, "depends on the currents before", "initial state", NULL}};
     for (int i = 0; i < 2; i++) {
         const char *why[4];
-        cr_expect_eq(nh_projection_choose(o, 4, current, 0, start[i], why), 2);
+        cr_expect_eq(nh_projection_choose(o, 4, current, 0, 5, start[i], why), 2);
         for (int k = 0; k < 4; k++) cr_expect(says[i][k] ? why[k] && strstr(why[k], says[i][k]) : !why[k], "%d, %d: %s", i, k, why[k] ? why[k] : "chosen");
     }
     mechanics_clear(&x);

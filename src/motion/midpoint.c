@@ -7,7 +7,7 @@
 #include "base/linalg.h"
 #include "expr/diff.h"
 
-enum { most_iterations = 30, gauss_points = 5, most_substeps = 5 };
+enum { most_iterations = 30, usual_iterations = 4, gauss_points = 5, most_substeps = 5 };
 static const double step_units = 100, step_vectors = 10; /* units of effort (base/effort.h) of a step, and per number of the state */
 static const double same_equations = 1e-9; /* relative difference of the pair from the equations of motion that is rounding */
 
@@ -23,6 +23,7 @@ typedef struct {
     double substep[most_substeps];
     size_t substeps, left; /* steps to the next output time */
     double step, *z0, *z1, *zm, *residual, *matrix, *start; /* start: p and R at the beginning of the step */
+    double *large, *noise, *inverse; /* the largest |z_i| so far; what rounding makes of z_i; size x 2 size */
     const double *times;
     size_t count;
     long before; /* evaluations of earlier runs */
@@ -42,6 +43,9 @@ static midpoint_work *work_create(nh_programs *programs, nh_midpoint_rule rule)
     k->residual = k->zm + size;
     k->matrix = k->residual + 2 * size;
     k->start = nh_alloc_array(o->m + o->m * o->n + o->n * o->n + 1, sizeof *k->start);
+    k->large = nh_alloc_array(2 * size + 2 * size * size, sizeof *k->large);
+    k->noise = k->large + size;
+    k->inverse = k->noise + size;
     return k;
 }
 
@@ -49,21 +53,49 @@ static void work_free(midpoint_work *k)
 {
     nh_free(k->z0);
     nh_free(k->start);
+    nh_free(k->large);
     nh_free(k);
 }
 
 /* ---- Newton's method ---- */
 
-/* x -= matrix^-1 residual; the largest change relative to 1 + |x|, or infinity. */
-static double newton_step(size_t n, double *matrix, double *residual, double *x)
+/* Rounding of the equations A x = b moves x by epsilon |A^-1| |A| |x|, in units that the states' own units cancel from (Skeel 1979).
+ * A state that is zero but for this has no digits to be found. */
+static void measure_noise(midpoint_work *k, size_t n, const double *matrix, const double *x, double *noise)
 {
-    double worst = 0;
+    double *copy = k->inverse + n * n;
+    memcpy(copy, matrix, n * n * sizeof *copy);
+    for (size_t i = 0; i < n * n; i++) k->inverse[i] = i % (n + 1) == 0;
+    memset(noise, 0, n * sizeof *noise);
+    if (!nh_solve(n, copy, n, k->inverse, NULL)) return;
+    for (size_t j = 0; j < n; j++) {
+        double row = 0;
+        for (size_t l = 0; l < n; l++) row += fabs(matrix[j + l * n] * x[l]);
+        for (size_t i = 0; i < n; i++) noise[i] += fabs(k->inverse[i + j * n]) * row;
+    }
+}
+
+/* x -= matrix^-1 residual for the last n states, the `iteration`th time; the largest change relative to the size that the state has had so far
+ * (where that does not end soon: beside rounding), or infinity. */
+static double newton_step(midpoint_work *k, size_t n, int iteration, double *matrix, double *residual, double *x)
+{
+    double worst = 0, *large = k->large + k->size - n, *noise = k->noise + k->size - n;
+    if (iteration == 0) memset(noise, 0, n * sizeof *noise);
+    if (iteration >= usual_iterations) measure_noise(k, n, matrix, x, noise);
     if (!nh_solve(n, matrix, 1, residual, NULL)) return INFINITY;
     for (size_t i = 0; i < n; i++) {
         x[i] -= residual[i];
-        worst = fmax(worst, fabs(residual[i]) / (1 + fabs(x[i])));
+        if (!isfinite(x[i])) return INFINITY;
+        double size = fmax(fmax(large[i], fabs(x[i])), noise[i]);
+        if (residual[i] != 0) worst = fmax(worst, fabs(residual[i]) / size); /* size 0: infinite */
     }
-    return isfinite(worst) ? worst : INFINITY;
+    return isfinite(worst) ? worst : 1;
+}
+
+/* A step led to k->z0. */
+static void follow(midpoint_work *k)
+{
+    for (size_t i = 0; i < k->size; i++) k->large[i] = fmax(k->large[i], fabs(k->z0[i]));
 }
 
 /* At rounding, or small and no longer falling. */
@@ -81,7 +113,7 @@ static bool solve_midpoint(midpoint_work *k)
             k->residual[j] = 2 * (k->zm[j] - k->z0[j]) - k->h * f[j];
             for (size_t r = 0; r < size; r++) k->matrix[r + j * size] = (r == j ? 2 : 0) - k->h * f[size + r + j * size];
         }
-        double change = newton_step(size, k->matrix, k->residual, k->zm);
+        double change = newton_step(k, size, i, k->matrix, k->residual, k->zm);
         if (converged(change, last)) {
             for (size_t j = 0; j < size; j++) k->z1[j] = 2 * k->zm[j] - k->z0[j];
             return true;
@@ -109,7 +141,7 @@ static bool discrete_velocity(midpoint_work *k, const double *impulse)
                 k->matrix[a + b * n] = sum;
             }
         }
-        double change = newton_step(n, k->matrix, k->residual, k->z1 + m);
+        double change = newton_step(k, n, i, k->matrix, k->residual, k->z1 + m);
         if (converged(change, last)) return true;
         if (!isfinite(change)) return false;
         last = change;
@@ -147,7 +179,7 @@ static bool solve_lagrange_dalembert(midpoint_work *k)
     memcpy(k->start + m, e + 3 * m, m * n * sizeof *e);
     for (int i = 0; i < most_iterations; i++) {
         principle(k, evaluate(k, NH_PROGRAM_MOMENTUM, k->t + k->h / 2, k->zm));
-        double change = newton_step(k->size, k->matrix, k->residual, k->zm);
+        double change = newton_step(k, k->size, i, k->matrix, k->residual, k->zm);
         if (converged(change, last)) break;
         if (!isfinite(change) || i + 1 == most_iterations) return false;
         last = change;
@@ -211,7 +243,7 @@ static bool solve_energy(midpoint_work *k)
         mean_gradient(k, k->residual, mean);
         if (!pair_rate(k, pair, mean, rate)) return false;
         for (size_t j = 0; j < size; j++) k->residual[j] = k->z1[j] - k->z0[j] - k->h * rate[j];
-        double change = newton_step(size, k->matrix, k->residual, k->z1);
+        double change = newton_step(k, size, i, k->matrix, k->residual, k->z1);
         if (converged(change, last)) return true;
         if (!isfinite(change)) return false;
         last = change;
@@ -221,17 +253,23 @@ static bool solve_energy(midpoint_work *k)
 
 /* ---- which rule is valid ---- */
 
+/* Rates are compared beside what they are made of: |f_j| and |df_j/dz_i z_i|. */
 static bool pair_is_the_motion(nh_programs *programs)
 {
     const nh_model *o = nh_programs_model(programs);
     midpoint_work *k = work_create(programs, NH_ENERGY);
     double *rate = k->matrix + k->size * k->size;
+    size_t size = k->size;
     bool same = o->chart->probes > 0;
     for (size_t p = 0; p < o->chart->probes && same; p++) {
         const double *z = o->chart->probe + p * o->chart->width;
         const double *f = evaluate(k, NH_PROGRAM_FLOW, z[0], z + 1), *g = evaluate(k, NH_PROGRAM_GRADIENT, z[0], z + 1);
         same = pair_rate(k, evaluate(k, NH_PROGRAM_PAIR, z[0], z + 1), g, rate);
-        for (size_t j = 0; j < k->size && same; j++) same = fabs(rate[j] - f[j]) <= same_equations * (1 + fabs(f[j]));
+        for (size_t j = 0; j < size && same; j++) {
+            double terms = fabs(f[j]);
+            for (size_t i = 0; i < size; i++) terms += fabs(f[size + j + i * size] * z[1 + i]);
+            same = fabs(rate[j] - f[j]) <= same_equations * terms;
+        }
     }
     work_free(k);
     return same && nh_is_zero(o->dag, nh_diff(o->dag, o->E, o->system->t));
@@ -286,6 +324,7 @@ static nh_step midpoint_advance(double *time, nh_motion *motion, void *context)
         }
         k->t += k->substep[i] * h;
         memcpy(k->z0, k->z1, k->size * sizeof *k->z0);
+        follow(k);
     }
     k->left--;
     *time = k->t = k->left ? *time + h : target;
@@ -327,6 +366,7 @@ nh_motion *nh_midpoint(nh_programs *programs, nh_midpoint_rule rule, bool compos
     k->t = times[0];
     k->step = options->step > 0 ? options->step : fabs(times[count - 1] - times[0]) / 100;
     memcpy(k->z0, initial, size * sizeof *initial);
+    follow(k);
     nh_stepper stepper = {.context = k, .advance = midpoint_advance, .state = midpoint_state, .stuck = midpoint_stuck, .step_effort = (double)k->substeps * (step_units + step_vectors * (double)size)};
     nh_motion_run(motion, count, times, options, &stepper);
     work_free(k);

@@ -1,5 +1,6 @@
 #include "motion/programs.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -121,4 +122,14 @@ const nh_tape *nh_programs_tape(nh_programs *s, nh_program which)
 {
     if (!s->program[which].tape) compile(s, which);
     return s->program[which].tape;
+}
+
+double nh_programs_pace(const nh_model *o, const double *f)
+{
+    double most = 0;
+    for (size_t j = 0; j < o->m + o->n; j++) {
+        double reach = fmax(fabs(o->chart->low[1 + j]), fabs(o->chart->high[1 + j]));
+        if (reach > 0 && isfinite(reach)) most = fmax(most, fabs(f[j]) / reach);
+    }
+    return most;
 }

@@ -23,6 +23,8 @@ const nh_model *nh_programs_model(const nh_programs *programs);
 const double *nh_programs_at(nh_programs *programs, nh_program which, double t, const double *z);
 /* The compiled program, for who evaluates it by other arithmetic: over points (t, q, w). */
 const nh_tape *nh_programs_tape(nh_programs *programs, nh_program which);
+/* The fastest of the rates f, as a frequency: |f_j| beside the largest value that the chart allows z_j. */
+double nh_programs_pace(const nh_model *model, const double *f);
 /* So far, of all programs. */
 long nh_programs_evaluations(const nh_programs *programs);
 size_t nh_programs_compiled(const nh_programs *programs);

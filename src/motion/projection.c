@@ -5,6 +5,8 @@
 
 #include "base/linalg.h"
 #include "expr/diff.h"
+#include "motion/dynamics.h"
+#include "motion/sizes.h"
 
 enum { most_steps = 3 };
 static const double independent = 1e-6; /* relative size of a singular value below which rows depend on each other */
@@ -18,7 +20,19 @@ struct nh_projection {
     long evaluations;
 };
 
-nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh_ex *current, double t, const double *z0)
+/* A state moves as far as its size allows, whatever the units are. */
+static void measure_sizes(nh_projection *p, double t, double end, const double *z0)
+{
+    nh_dynamics *d = nh_dynamics_create(p->model);
+    nh_flow_problem problem = nh_dynamics_problem(d);
+    nh_sizes sizes;
+    bool known = nh_sizes_begin(&sizes, &problem, 1, z0, t, end);
+    for (size_t j = 0; j < p->size; j++) p->scale[j] = known ? sizes.size[j] : z0[j] != 0 ? fabs(z0[j]) : 1;
+    nh_sizes_clear(&sizes);
+    nh_dynamics_free(d);
+}
+
+nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh_ex *current, double t, double end, const double *z0)
 {
     nh_projection *p = nh_alloc(sizeof *p);
     size_t size = o->m + o->n, total = currents * (1 + size), tall = currents > size ? currents : size;
@@ -41,7 +55,7 @@ nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh
     memcpy(p->point + 1, z0, size * sizeof *z0);
     nh_tape_eval(p->tape, p->work, p->point, p->out);
     memcpy(p->wanted, p->out, currents * sizeof *p->wanted);
-    for (size_t j = 0; j < size; j++) p->scale[j] = fmax(1, fabs(z0[j]));
+    measure_sizes(p, t, end, z0);
     return p;
 }
 
@@ -68,9 +82,9 @@ static void independent_rows(nh_projection *p, const double *point, bool *left_o
     }
 }
 
-size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *current, double t, const double *z0, const char **why)
+size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *current, double t, double end, const double *z0, const char **why)
 {
-    nh_projection *p = nh_projection_create(o, currents, current, t, z0);
+    nh_projection *p = nh_projection_create(o, currents, current, t, end, z0);
     bool *anywhere = nh_alloc_array(2 * currents + 1, sizeof *anywhere), *out = anywhere + currents; /* independent at some probe; left out here */
     double *start = nh_alloc_array(o->width, sizeof *start);
     size_t chosen = 0;

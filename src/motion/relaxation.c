@@ -32,8 +32,9 @@ const char *nh_relaxation_refused(nh_programs *s)
     size_t size = o->m + o->n;
     for (size_t p = 0; p < o->chart->probes; p++) {
         const double *z = o->chart->probe + p * o->chart->width, *e = nh_programs_at(s, NH_PROGRAM_GRADIENT, z[0], z + 1), *f = nh_programs_at(s, NH_PROGRAM_RATE, z[0], z + 1);
-        double terms = 1 + fabs(e[size]); /* beside the terms of dE/dt, which are large near the end of a chart */
-        for (size_t j = 0; j < size; j++) terms += fabs(e[j] * f[j]);
+        double terms = 0, energy = fabs(e[size]); /* beside the terms of dE/dt, which are large near the end of a chart */
+        for (size_t j = 0; j < size; j++) terms += fabs(e[j] * f[j]), energy += fabs(e[j] * z[1 + j]);
+        terms += energy * nh_programs_pace(o, f);
         if (!(fabs(e[size + 1]) <= conserved * terms)) return "the energy is not conserved: to keep it would lead to another motion";
     }
     return o->chart->probes ? NULL : "there is no point at which the energy could be tested";

@@ -43,7 +43,7 @@ static nh_motion *integrate(nh_bench *c, const nh_contender *k, double tolerance
         return motion;
     }
     if (k->method->order) return nh_method_steps(k->method, f->programs, f->z0, NH_CHART_OUTPUTS, times, &how, error);
-    nh_projection *p = k->projected ? nh_projection_create(f->model, c->held_currents, c->held, times[0], f->z0) : NULL;
+    nh_projection *p = k->projected ? nh_projection_create(f->model, c->held_currents, c->held, times[0], times[NH_CHART_OUTPUTS - 1], f->z0) : NULL;
     if (p) how.after = nh_projection_apply;
     how.after_context = p;
     nh_motion *motion = nh_method_flow(k->method, &f->problem, f->z0, NH_CHART_OUTPUTS, times, &how, error);
@@ -228,7 +228,7 @@ static void choose_currents(nh_bench *c)
     size_t n = c->yard.currents;
     const char **why = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *why);
     c->held = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *c->held);
-    nh_projection_choose(c->model, n, c->yard.current, c->yard.times[0], c->formulation[0].z0, why);
+    nh_projection_choose(c->model, n, c->yard.current, c->yard.times[0], c->yard.times[NH_CHART_OUTPUTS - 1], c->formulation[0].z0, why);
     for (size_t k = 0; k < n; k++) {
         if (!why[k]) c->held[c->held_currents++] = c->yard.current[k];
         else nh_bench_refuse(c, nh_arena_printf(c->out->arena, "projection onto %s", c->yard.name[k]), why[k]);

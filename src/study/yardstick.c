@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/diff.h"
+#include "expr/terms.h"
 #include "study/chart_internal.h"
 
 static const double conserved = 1e-9; /* relative rate at the probes below which a known current is taken for conserved with these parameters */
@@ -58,19 +59,25 @@ bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y
 /* Is dPhi/dt = sum_j dPhi/dz_j z_j' zero at the probes, beside the terms of the sum?  Near the end of a chart these are large. */
 static bool is_conserved(const nh_model *o, nh_ex phi)
 {
-    size_t size = o->m + o->n, n = size + 2;
+    size_t size = o->m + o->n, n = 3 * size + 2;
     nh_ex *e = nh_alloc_array(n, sizeof *e);
     double *value = nh_alloc_array(n, sizeof *value);
     e[0] = nh_model_gamma(o, phi);
     e[1] = phi;
-    for (size_t j = 0; j < size; j++) e[2 + j] = nh_mul(o->dag, nh_diff(o->dag, phi, o->chart->symbol[1 + j]), j < o->m ? o->rho[j] : o->a[j - o->m]);
+    for (size_t j = 0; j < size; j++) {
+        nh_ex z = o->chart->symbol[1 + j], slope = nh_diff(o->dag, phi, z), rate = j < o->m ? o->rho[j] : o->a[j - o->m];
+        e[2 + j] = nh_mul(o->dag, slope, rate);
+        e[2 + size + j] = nh_mul(o->dag, slope, z);
+        e[2 + 2 * size + j] = rate;
+    }
     nh_tape *tape = nh_model_tape(o, n, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     bool good = o->chart->probes > 0;
     for (size_t p = 0; p < o->chart->probes && good; p++) {
         nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, value);
-        double terms = 1 + fabs(value[1]);
-        for (size_t j = 0; j < size; j++) terms += fabs(value[2 + j]);
+        double terms = 0, own = fabs(value[1]);
+        for (size_t j = 0; j < size; j++) terms += fabs(value[2 + j]), own += fabs(value[2 + size + j]);
+        terms += own * nh_programs_pace(o, value + 2 + 2 * size);
         good = fabs(value[0]) <= conserved * terms;
     }
     nh_tape_work_free(work);
@@ -122,16 +129,23 @@ static void compile(nh_yardstick *y, const nh_ex *e)
 /* Is b a multiple of a at the probes? */
 static bool same_current(const nh_model *o, nh_ex a, nh_ex b)
 {
-    nh_ex e[2] = {a, b};
-    double value[2], ratio = NAN;
-    nh_tape *tape = nh_model_tape(o, 2, e);
+    nh_ex *e;
+    size_t n = nh_terms_of(o->dag, b, &e);
+    e = nh_realloc_array(e, n + 1, sizeof *e);
+    e[n] = a;
+    double *value = nh_alloc_array(n + 1, sizeof *value), ratio = NAN;
+    nh_tape *tape = nh_model_tape(o, n + 1, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     bool same = true;
     for (size_t p = 0; p < o->chart->probes && same; p++) {
         nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, value);
-        if (p == 0) ratio = value[1] / value[0];
-        same = fabs(value[1] - ratio * value[0]) <= conserved * (1 + fabs(value[1]));
+        if (p == 0) ratio = value[0] / value[n];
+        double terms = 0;
+        for (size_t i = 0; i < n; i++) terms += fabs(value[i]);
+        same = fabs(value[0] - ratio * value[n]) <= conserved * terms;
     }
+    nh_free(value);
+    nh_free(e);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     return same;
