@@ -1,29 +1,47 @@
 #!/bin/sh
-# Runs every Criterion program of the given build folders and adds up what they say.
-# usage: run.sh BUILD...          the last line is "N passed, N failed"
-passed=0
-failed=0
-log=$(mktemp)
-for build in "$@"; do
-    for program in "$build"/tests/test_*; do
-        case "$program" in *.o | *.d) continue ;; esac
-        NHSYM="$build/nhsym" timeout -k 10 900 "$program" --jobs 2 >"$log" 2>&1 # many times what any takes: one that hangs is a failure
-        code=$?
-        line=$(sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -a 'Synthesis:' | tail -n 1)
-        good=$(printf '%s' "$line" | sed -n 's/.*Passing: *\([0-9]*\).*/\1/p')
-        all=$(printf '%s' "$line" | sed -n 's/.*Tested: *\([0-9]*\).*/\1/p')
-        : "${good:=0}" "${all:=0}"
-        bad=$((all - good))
-        [ "$code" != 0 ] && [ "$bad" = 0 ] && bad=1
-        [ "$all" = 0 ] && bad=1
-        grep -aq -e 'LeakSanitizer: detected' -e 'runtime error:' -e 'ERROR: AddressSanitizer' "$log" && bad=$((bad + 1)) # Criterion passes these over
-        printf '%-45s %4d passed %3d failed\n' "$program" "$good" "$bad"
+# Runs Criterion programs, one per processor at a time, and adds up what they say.  Those that took longest last time go first.
+# usage: run.sh BUILD|PROGRAM...          the last line is "N passed, N failed"
+if [ "$1" = --one ]; then # a program: its log and its line "name passed failed seconds" stay beside it
+    program=$2
+    log=$program.log
+    began=$(date +%s)
+    NHSYM="${program%/tests/*}/nhsym" timeout -k 10 1500 "$program" --jobs 1 >"$log" 2>&1 # many times what any takes: one that hangs is a failure
+    code=$?
+    line=$(sed 's/\x1b\[[0-9;]*m//g' "$log" | grep -a 'Synthesis:' | tail -n 1)
+    good=$(printf '%s' "$line" | sed -n 's/.*Passing: *\([0-9]*\).*/\1/p')
+    all=$(printf '%s' "$line" | sed -n 's/.*Tested: *\([0-9]*\).*/\1/p')
+    : "${good:=0}" "${all:=0}"
+    bad=$((all - good))
+    [ "$code" != 0 ] && [ "$bad" = 0 ] && bad=1
+    [ "$all" = 0 ] && bad=1
+    grep -aq -e 'LeakSanitizer: detected' -e 'runtime error:' -e 'ERROR: AddressSanitizer' "$log" && bad=$((bad + 1)) # Criterion passes these over
+    seconds=$(($(date +%s) - began))
+    echo "$program $good $bad $seconds" >"$program.line"
+    {
+        printf '%-45s %4d passed %3d failed %5d s\n' "$program" "$good" "$bad" "$seconds"
         grep -a '^measured: ' "$log"
         [ "$bad" = 0 ] || cat "$log"
-        passed=$((passed + good))
-        failed=$((failed + bad))
-    done
+    } >"$log.said"
+    cat "$log.said" && rm "$log.said"
+    exit 0
+fi
+programs=$(for name in "$@"; do
+    if [ -d "$name" ]; then ls "$name"/tests/test_*; else echo "$name"; fi
+done | grep -v '\.[a-z]*$')
+before=$(for program in $programs; do
+    seconds=$(cut -d' ' -f4 "$program.line" 2>/dev/null)
+    echo "${seconds:-1000} $program"
+    rm -f "$program.line"
+done | sort -rn | cut -d' ' -f2)
+echo "$before" | xargs -P "$(nproc 2>/dev/null || echo 2)" -n 1 sh "$0" --one
+passed=0
+failed=0
+for program in $programs; do
+    good=0
+    bad=1 # one that left no line
+    [ -f "$program.line" ] && read -r _ good bad _ <"$program.line"
+    passed=$((passed + good))
+    failed=$((failed + bad))
 done
-rm -f "$log"
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ] && [ "$passed" -gt 0 ]
