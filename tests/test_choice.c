@@ -184,6 +184,49 @@ Test(choice, reductions_count_too)
     cr_expect_eq(effort[0], effort[1]);
 }
 
+/* ---- units ---- */
+
+/* A disk of radius 0.8 that rolls and falls, with lengths in another unit. */
+static const char *disk_in_units(double unit, char *out, size_t size)
+{
+    snprintf(out, size,
+             "name: disk\nparameters: [{name: m, value: 1.3}, {name: A, value: %.17g}, {name: C, value: %.17g}, {name: r, value: %.17g}, {name: g, value: %.17g}]\n"
+             "coordinates: [{name: x}, {name: y}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+             "lagrangian: A*(h'^2 + p'^2*sin(h)^2)/2 + C*(p'*cos(h) + s')^2/2 - g*m*r*sin(h) + m*(h'^2*r^2*cos(h)^2 + x'^2 + y'^2)/2\n"
+             "constraints:\n  - \"-h'*r*sin(h)*sin(p) + p'*r*cos(h)*cos(p) + r*s'*cos(p) + x' = 0\"\n  - \"h'*r*sin(h)*cos(p) + p'*r*sin(p)*cos(h) + r*s'*sin(p) + y' = 0\"\n"
+             "domain: {x: [%.17g, %.17g], y: [%.17g, %.17g], h: [0.8, 1.8]}\n",
+             0.25 * unit * unit, 0.5 * unit * unit, 0.8 * unit, 0.9 * unit, -unit, unit, -unit, unit);
+    return out;
+}
+
+/* The unit of length chooses neither the velocities nor the formulation. */
+Test(choice, units_do_not_choose)
+{
+    static const double units[] = {1, 1e9, 1e-9, 1e3};
+    char text[2000], chart[200] = "";
+    double tilt = NAN;
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        mechanics x = mechanics_of_text(disk_in_units(units[i], text, sizeof text), NH_CHART_AUTO);
+        double q[5] = {0, 0, 0, 1, 0}, v[5] = {0, 0, 0.5, 0, 1}, times[2] = {0, 3};
+        bool given[5] = {false, false, true, true, true};
+        nh_state initial = {.q = q, .v = v, .given = given};
+        nh_options options;
+        nh_error error = {0};
+        nh_accuracy a;
+        nh_options_default(&options);
+        nh_ex e = formula(x.model, "h");
+        nh_trajectory_request r = {.model = x.model, .initial = &initial, .count = 2, .times = times, .options = &options, .n = 1, .e = &e};
+        nh_trajectory *t = nh_trajectory_accurate(&r, 1e-9, NULL, &a, &error);
+        must(t != NULL, &error, "the disk");
+        if (i == 0) snprintf(chart, sizeof chart, "%s", x.model->chart->name), tilt = t->value[1];
+        cr_expect_str_eq(x.model->chart->name, chart);
+        cr_expect(a.held && !strcmp(t->formulation, "reduced equations"), "%g: %s; %s", units[i], t->formulation, a.why);
+        cr_expect_float_eq(t->value[1], tilt, 2e-9, "%g: %.17g", units[i], t->value[1]);
+        nh_trajectory_free(t);
+        mechanics_clear(&x);
+    }
+}
+
 /* ---- as a user sees it ---- */
 
 /* A line of JSON that holds a time, or how the program was called. */

@@ -28,6 +28,7 @@ struct nh_bordered {
     nh_tape_work *wall_work;
     double *in, *out;
     double *terms, *saddle, *right; /* for the accelerations, and for their solution */
+    double *unit;                   /* m: of each velocity, so that those of lengths and angles compare */
 };
 
 nh_bordered *nh_bordered_create(const nh_model *o)
@@ -58,6 +59,8 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     b->terms = nh_alloc_array(total + 1, sizeof *b->terms);
     b->saddle = nh_alloc_array(nh_saddle_work(m, k), sizeof *b->saddle);
     b->right = nh_alloc_array(m + k, sizeof *b->right);
+    b->unit = nh_alloc_array(m + 1, sizeof *b->unit);
+    for (size_t s = 0; s < m; s++) b->unit[s] = nh_chart_unit(y, s);
     b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
     b->work = nh_tape_work_create(b->tape);
     nh_ex wall[NH_MOST_WALLS];
@@ -83,17 +86,17 @@ void nh_bordered_free(nh_bordered *b)
     nh_free(b->terms);
     nh_free(b->saddle);
     nh_free(b->right);
+    nh_free(b->unit);
     nh_free(b);
 }
 
-/* Every constraint divided by |df/dv|, so that the multiplier has the size of the reaction. */
-static void normalise(size_t m, size_t k, double *F)
+/* Every constraint divided by |df/dv|, in units of the velocities: the multiplier has the size of the reaction in all units of length. */
+static void normalise(size_t m, size_t k, const double *unit, double *F)
 {
     double *g = F + k * m, *f = g + k;
     for (size_t a = 0; a < k; a++) {
         double norm = 0;
-        for (size_t s = 0; s < m; s++) norm += F[a + s * k] * F[a + s * k];
-        norm = sqrt(norm);
+        for (size_t s = 0; s < m; s++) norm = hypot(norm, F[a + s * k] * unit[s]);
         if (!(norm > 0)) continue;
         for (size_t s = 0; s < m; s++) F[a + s * k] /= norm;
         g[a] /= norm;
@@ -122,7 +125,7 @@ bool nh_bordered_terms(nh_bordered *b, double t, const double *q, const double *
     memcpy(b->in + 1 + m, v, m * sizeof *v);
     nh_tape_eval(b->tape, b->work, b->in, b->out);
     double *x = b->out;
-    normalise(m, k, x + m * m + m);
+    normalise(m, k, b->unit, x + m * m + m);
     memcpy(K, x, m * m * sizeof *x);
     memcpy(h, x + m * m, m * sizeof *x);
     memcpy(F, x + m * m + m, k * m * sizeof *x);
@@ -153,19 +156,21 @@ bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *
 bool nh_bordered_project(nh_bordered *b, double t, const double *q, double *v)
 {
     enum { most_steps = 12 };
+    static const double converged = 1e-12; /* the last step, beside the velocities */
     size_t m = b->m, k = b->k;
     double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *f = g + k;
     for (int step = 0; step < most_steps && k; step++) {
-        double size = 0;
+        double size = 0, speed = 0;
         if (!nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f)) return false;
         memset(b->right, 0, (m + k) * sizeof *b->right);
         for (size_t a = 0; a < k; a++) b->right[a] = -f[a];
         if (nh_least_squares(k, m, F, 1, b->right, m + k, 1e-12) < 0) return false; /* the shortest of the solutions */
         for (size_t s = 0; s < m; s++) {
             v[s] += b->right[s];
-            size = fmax(size, fabs(b->right[s]));
+            size = fmax(size, fabs(b->right[s]) / b->unit[s]);
+            speed = fmax(speed, fabs(v[s]) / b->unit[s]);
         }
-        if (size < 1e-12) return true;
+        if (size <= converged * speed) return true;
     }
     return k == 0;
 }

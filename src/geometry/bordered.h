@@ -4,7 +4,7 @@
  *     [ F   0  ] [ mu ] = - [ g ]        h: d/dt-part of p_s without v' minus dL/dq - Q;  g: d/dt-part of f without v'
  *
  * They are regular wherever the constraints are independent, whatever the charts of independent velocities do: the chart that takes over
- * where the pivot of another vanishes.  The constraints are taken without poles and normalised to |df/dv| = 1: the multipliers are not
+ * where the pivot of another vanishes.  The constraints are taken without poles and normalised to |df/dv| = 1 (velocities in nh_chart_unit): the multipliers are not
  * those of the model, but the force mu_a df^a/dv^s is the same.
  *
  * Reference: [Chetaev equations: CechMusilova2014, eq. 10]. */

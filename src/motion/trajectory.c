@@ -9,7 +9,7 @@
 #include "base/progress.h"
 
 static const char *const usual = "CVODE Adams";
-static const double steepest = 10; /* |R| of a chart of coordinate velocities beyond which its formulas lose digits */
+static const double steepest = 10; /* |R| of a chart of coordinate velocities, without units, beyond which its formulas lose digits */
 
 /* ---- expressions along a motion ---- */
 
@@ -110,12 +110,12 @@ bool nh_may_leave_chart(const nh_model *o)
     return may;
 }
 
-static bool *steep(size_t count, size_t n, const double *R, bool *any)
+static bool *steep(size_t count, size_t n, const double *R, const double *factor, bool *any)
 {
     bool *flag = nh_alloc_array(count + 1, sizeof *flag);
     *any = false;
     for (size_t i = 0; i < count; i++) {
-        for (size_t j = 0; j < n; j++) flag[i] |= !(fabs(R[i * n + j]) < steepest);
+        for (size_t j = 0; j < n; j++) flag[i] |= !(fabs(R[i * n + j] * factor[j]) < steepest);
         *any |= flag[i];
     }
     return flag;
@@ -125,8 +125,9 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
     size_t n = o->m * o->n;
-    double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
-    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R), *flag = steep(good ? motion->count : 0, n, R, any);
+    double *R = nh_alloc_array(n * (motion->count + 1) + 1, sizeof *R), *factor = R + n * motion->count;
+    nh_chart_slopes(o->chart, factor);
+    bool good = !o->chart->quasi && o->k && nh_along(dynamics, motion, n, o->R, R), *flag = steep(good ? motion->count : 0, n, R, factor, any);
     if (!good) flag = (nh_free(flag), nh_alloc_array(motion->count + 1, sizeof *flag));
     nh_free(R);
     return flag;
@@ -138,16 +139,19 @@ static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion
     const nh_model *o = s->model;
     if (o->chart->quasi || !o->k || s->smooth) return false;
     nh_ex *e = nh_alloc_array(o->m * o->n + 1, sizeof *e);
+    double *factor = nh_alloc_array(o->m * o->n + 1, sizeof *factor);
     size_t n = 0;
+    nh_chart_slopes(o->chart, factor);
     for (size_t i = 0; i < o->m * o->n; i++) {
         bool known = true;
         for (size_t j = s->kept; j < s->states; j++) known &= !nh_depends(o->dag, o->R[i], o->chart->symbol[1 + s->state[j]]);
-        if (known) e[n++] = o->R[i];
+        if (known) factor[n] = factor[i], e[n++] = o->R[i];
     }
     double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
     bool any = false, good = values_along(o, point_of_scene, run, motion, n, e, R);
-    if (good) nh_free(steep(motion->count, n, R, &any));
+    if (good) nh_free(steep(motion->count, n, R, factor, &any));
     nh_free(R);
+    nh_free(factor);
     nh_free(e);
     return any || !good;
 }

@@ -80,7 +80,7 @@ typedef struct {
     const nh_model *o;
     nh_tape *tape;  /* rho (m), R (m x n, column-major), a (n), Lbar */
     nh_tape_work *work;
-    double *out, *dense;
+    double *out, *dense, *slope; /* slope: m x n, by which R is a number without units */
     double pace, strength; /* of velocities and accelerations: pace_of */
     double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
@@ -95,8 +95,10 @@ static guard guard_create(const nh_model *o, double pivot)
         for (size_t s = 0; s < m; s++) e[m + s + i * m] = o->R[s * n + i];
     memcpy(e + m + m * n, o->a, n * sizeof *e);
     guard g = {.o = o, .tape = nh_model_tape(o, total + 1, e), .out = nh_alloc_array(total + 1, sizeof(double)),
-               .dense = nh_alloc_array(m * n + m + n + 1, sizeof(double)), .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
+               .dense = nh_alloc_array(2 * m * n + m + n + 1, sizeof(double)), .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
     g.work = nh_tape_work_create(g.tape);
+    g.slope = g.dense + m * n + m + n;
+    nh_chart_slopes(o->chart, g.slope);
     pace_of(o, &g.pace, &g.strength);
     nh_free(e);
     return g;
@@ -147,7 +149,8 @@ static double accept(guard *g, const double *z, nh_points *p, double *steepness)
         }
         if (i == m + m * n + n) break; /* Lbar needs only to exist */
         double *largest = i < m ? &fast : i < m + m * n ? &steep : &strong;
-        *largest = fmax(*largest, fabs(g->out[i]));
+        double unit = largest == &steep ? g->slope[(i - m) % m * n + (i - m) / m] : 1;
+        *largest = fmax(*largest, fabs(g->out[i]) * unit);
     }
     *steepness = steep;
     if (fast < too_fast * g->pace && strong < too_fast * g->strength && steep < g->steepest) return 1 / (1 + strong + fast);

@@ -9,7 +9,7 @@
 #include "system/sample.h"
 
 enum { wanted_probes = 24, most_tries = 400, projection_steps = 60 };
-
+static const double small_step = 1e-14, satisfied = 1e-9; /* relative to the velocities, and to the terms of a constraint */
 
 static void cloud_tape(nh_cloud *c)
 {
@@ -55,28 +55,38 @@ static bool project(nh_cloud *c, double *z)
         memset(step, 0, big * sizeof *step);
         memcpy(step, c->out, k * sizeof *step);
         if (nh_least_squares(k, m, F, 1, step, big, 1e-12) < 0) break;
-        double size = 0;
+        good = true;
         for (size_t j = 0; j < m; j++) {
-            size = fmax(size, fabs(step[j]));
+            good = good && fabs(step[j]) <= small_step * fmax(fabs(z[1 + m + j]), c->speed[j]);
             z[1 + m + j] -= step[j];
         }
-        good = size < 1e-14;
     }
-    double worst = 0;
     nh_tape_eval(c->tape, c->work, z, c->out);
-    for (size_t a = 0; a < k; a++) worst = fmax(worst, fabs(c->out[a]));
+    good = all_finite(k * (1 + m), c->out);
+    for (size_t a = 0; a < k && good; a++) {
+        double terms = 0;
+        for (size_t j = 0; j < m; j++) terms = fmax(terms, fabs(c->out[k + a + j * k]) * fmax(fabs(z[1 + m + j]), c->speed[j]));
+        good = fabs(c->out[a]) <= satisfied * terms;
+    }
     nh_free(F);
-    return worst < 1e-9 && all_finite(k * (1 + m), c->out);
+    return good;
 }
 
 static void cloud_fill(nh_cloud *c, uint64_t seed)
 {
     double *low = nh_alloc_array(2 * c->width, sizeof *low), *high = low + c->width;
     nh_system *s = c->system;
+    c->unit = nh_alloc_array(2 * c->m + 1, sizeof *c->unit);
+    c->speed = c->unit + c->m;
     nh_embedding_range(s, s->t, &low[0], &high[0]);
     for (size_t i = 0; i < c->m; i++) {
         nh_embedding_range(s, s->coordinate[i].q, &low[1 + i], &high[1 + i]);
         nh_embedding_range(s, s->coordinate[i].v, &low[1 + c->m + i], &high[1 + c->m + i]);
+    }
+    for (size_t i = 0; i < c->m; i++) {
+        double half = (high[1 + c->m + i] - low[1 + c->m + i]) / 2;
+        c->unit[i] = nh_chart_unit(s, i);
+        c->speed[i] = half > 0 && isfinite(half) ? half : 1;
     }
     nh_sampler *sampler = nh_sampler_create(c->width, low, high, seed);
     c->point = nh_alloc_array(wanted_probes * c->width, sizeof *c->point);
@@ -99,6 +109,7 @@ void nh_cloud_clear(nh_cloud *c)
     nh_free(c->out);
     nh_free(c->point);
     nh_free(c->F);
+    nh_free(c->unit);
 }
 
 /* ---- ranks ---- */

@@ -13,6 +13,8 @@ typedef struct {
     double *out;
     double *point;      /* count x width */
     double *F;          /* count x (k m), column-major k x m */
+    double *unit;       /* m: nh_chart_unit of each coordinate */
+    double *speed;      /* m: half the width of the velocity's */
     size_t count;
 } nh_cloud;
 

@@ -15,7 +15,8 @@ enum { most_subsets = 2000 };
 
 /* ---- which velocities to eliminate ---- */
 
-/* |det F_S| / sqrt(det F F^T), in [0, 1] by Cauchy and Binet; here through singular values. */
+/* |det F_S| / sqrt(det F F^T), in [0, 1] by Cauchy and Binet; here through singular values.  Velocities are measured in their units, so that those of lengths and angles
+ * compare, whatever the unit of length. */
 static double volume(size_t rows, size_t columns, double *a)
 {
     double *s = nh_alloc_array(rows + columns, sizeof *s), product = 1;
@@ -33,9 +34,9 @@ static double subset_score(const nh_cloud *c, const size_t *subset, double *larg
     double *a = nh_alloc_array(c->k * c->m + 1, sizeof *a);
     for (size_t p = 0; p < c->count; p++) {
         const double *F = c->F + p * c->k * c->m;
-        for (size_t j = 0; j < c->k; j++) memcpy(a + j * c->k, F + subset[j] * c->k, c->k * sizeof *a);
+        for (size_t j = 0; j < c->k * c->k; j++) a[j] = F[subset[j / c->k] * c->k + j % c->k] * c->unit[subset[j / c->k]];
         double part = volume(c->k, c->k, a);
-        memcpy(a, F, c->k * c->m * sizeof *a);
+        for (size_t j = 0; j < c->k * c->m; j++) a[j] = F[j] * c->unit[j / c->k];
         double whole = fmax(volume(c->k, c->m, a), 1e-300);
         least = fmin(least, part / whole);
         *largest = fmax(*largest, part / whole);

@@ -86,6 +86,26 @@ void nh_embedding_symbols(nh_chart *c)
 
 void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high) { nh_embedding_range(c->system, symbol, low, high); }
 
+double nh_chart_unit(const nh_system *s, size_t i)
+{
+    double unit = 1;
+    for (size_t k = 0; k < s->intervals; k++)
+        if (s->interval[k].symbol == s->coordinate[i].q) unit = (s->interval[k].high - s->interval[k].low) / 2;
+    return unit > 0 && isfinite(unit) ? unit : 1;
+}
+
+void nh_chart_slopes(const nh_chart *c, double *factor)
+{
+    const nh_system *s = c->system;
+    size_t m = s->coordinates;
+    for (size_t j = 0; j < c->n; j++) {
+        size_t own = m;
+        for (size_t i = 0; i < m && !c->quasi; i++)
+            if (c->w[j] == s->coordinate[i].v) own = i;
+        for (size_t i = 0; i < m; i++) factor[i * c->n + j] = own < m ? nh_chart_unit(s, own) / nh_chart_unit(s, i) : 1;
+    }
+}
+
 void nh_chart_free(nh_chart *chart)
 {
     if (!chart) return;
