@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "mechanics.h"
+#include "motion/drift.h"
 #include "motion/method.h"
 #include "motion/projection.h"
 
@@ -124,5 +125,53 @@ Test(units, projections_know_none)
             nh_projection_free(p);
             mechanics_clear(&x);
         }
+    }
+}
+
+/* ---- what is compared ---- */
+
+/* A vertical disk with a weight off its centre: the place of the contact matters to nothing else. */
+static void write_disk(const units *u, char *out, size_t size)
+{
+    double r = u->length, I = u->mass * r * r, e = I / u->time / u->time;
+    snprintf(out, size, "name: test\ncoordinates: [{name: x}, {name: y}, {name: phi, type: angle}, {name: psi, type: angle}]\n"
+                        "lagrangian: %.17g*(x'^2 + y'^2)/2 + %.17g*psi'^2/4 + %.17g*phi'^2/8 + %.17g*cos(psi)\nconstraints: [\"x' = %.17g*cos(phi)*psi'\", \"y' = %.17g*sin(phi)*psi'\"]\n"
+                        "chart: {velocities: [w, p], map: [\"x' = %.17g*cos(phi)*p\", \"y' = %.17g*sin(phi)*p\", \"phi' = w\", \"psi' = p\"]}\n"
+                        "domain: {x: [-%.17g, %.17g], y: [-%.17g, %.17g], w: [-%.17g, %.17g], p: [-%.17g, %.17g]}\n",
+             u->mass, I, I, e, r, r, r, r, r, r, r, r, 1 / u->time, 1 / u->time, 1 / u->time, 1 / u->time);
+}
+
+/* How far the multiplier form, and the smallest model for phi' and psi, are off. */
+static void differences(const units *u, double *out)
+{
+    char text[1500];
+    write_disk(u, text, sizeof text);
+    mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
+    nh_error error = {0};
+    nh_options options;
+    nh_options_default(&options);
+    double q[4] = {0, 0, 0.3, 1.2}, v[4] = {0, 0, 0.7 / u->time, 1.3 / u->time};
+    bool given[4] = {false, false, true, true};
+    nh_state initial = {.q = q, .v = v, .given = given};
+    nh_watch watch[2] = {{"turning", x.model->rho[2], true, false}, {"height", formula(x.model, "cos(psi)*psi'"), true, false}};
+    nh_validation_request request = {.model = x.model, .currents = 1, .current = &x.model->E, .watches = 2, .watch = watch, .initial = &initial, .until = 9 * u->time, .outputs = 31, .options = &options};
+    nh_validation *r = nh_validate(&request, &error);
+    must(r != NULL, &error, "the disk");
+    cr_assert(r->complete && r->multiplier_form && r->scene, "%s", r->note);
+    memcpy(out, (double[]){r->state_difference, r->multiplier_difference, r->violation, r->scene_difference, r->current[0].drift[0]}, 5 * sizeof *out);
+    nh_validation_free(r);
+    mechanics_clear(&x);
+}
+
+Test(units, comparisons_know_none)
+{
+    static const char *const what[] = {"states", "multipliers", "constraints", "scene", "energy"};
+    double one[5], other[5];
+    differences(&(units){1, 1, 1}, one);
+    for (size_t i = 0; i < UNITS; i++) {
+        const units *u = &all_units[i];
+        differences(u, other);
+        for (int k = 0; k < 5; k++)
+            cr_expect(other[k] <= 2 * one[k] && one[k] <= 2 * other[k], "%s, units %g, %g, %g: %g, %g", what[k], u->length, u->mass, u->time, other[k], one[k]);
     }
 }

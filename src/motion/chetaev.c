@@ -48,6 +48,7 @@ typedef struct {
     double *base, *shifted;    /* (r_2, r_3), m + k each */
     double *point;             /* (q, v), 2m */
     double *scale;             /* 2m + k */
+    double *row;               /* 2m + k: by which the equations are multiplied, so that numbers without units are eliminated: a pivot is the largest of them */
     double *saddle;
     nh_sundials sundials;
     void *ida;
@@ -96,32 +97,36 @@ static void balance(const ida_work *work, const double *a, const double *mu, dou
 
 /* ---- the start: [K F^T; F 0] (v', mu) = -(h, g) ---- */
 
-static double largest(size_t count, const double *value)
-{
-    double result = 0;
-    for (size_t i = 0; i < count; i++)
-        result = fmax(result, fabs(value[i]));
-    return result;
-}
-
 static bool solve_bordered(const ida_work *work, double *a, double *mu, double *rcond)
 {
     return nh_saddle_solve(work->m, work->k, work->K, work->F, work->h, work->g, a, mu, rcond, work->saddle) && *rcond > DBL_EPSILON;
 }
 
-/* What size a multiplier has: that of the forces it balances, or of the momenta when there are none. */
-static void scale_multipliers(ida_work *work, const double *a)
+/* The nearest power of two, by which nothing is rounded; 1 where it is none. */
+static double power_of_two(double x) { return x > 0 && isfinite(x) ? exp2(round(log2(x))) : 1; }
+
+/* What size a multiplier has: the power |h_j| s_j of the forces that it balances is that of mu_a F_aj s_j, with s_j the size of v_j; so nothing depends on units.  Without
+ * forces: of those that change the momenta within the whole time. */
+static void scale_multipliers(ida_work *work, const double *a, double time)
 {
     size_t m = work->m, k = work->k;
-    double force = largest(m, work->h), momentum = 0;
-    for (size_t j = 0; j < m; j++)
+    const double *size = work->scale + m;
+    double force = 0, momentum = 0;
+    for (size_t j = 0; j < m; j++) {
+        force = fmax(force, fabs(work->h[j]) * size[j]);
         for (size_t i = 0; i < m; i++) {
-            force = fmax(force, fabs(work->K[i + j * m] * a[j]));
-            momentum = fmax(momentum, fabs(work->K[i + j * m]) * work->scale[m + j]);
+            force = fmax(force, fabs(work->K[i + j * m] * a[j]) * size[i]);
+            momentum = fmax(momentum, fabs(work->K[i + j * m]) * size[j] * size[i]);
         }
-    double size = force > 0 ? force : momentum, direction = largest(k * m, work->F);
-    for (size_t c = 0; c < k; c++)
-        work->scale[2 * m + c] = size > 0 && direction > 0 ? size / direction : 1;
+    }
+    double power = force > 0 ? force : momentum / time;
+    for (size_t j = 0; j < m; j++) work->row[j] = power_of_two(1 / size[j]), work->row[m + j] = power_of_two(size[j] / power);
+    for (size_t c = 0; c < k; c++) {
+        double direction = 0;
+        for (size_t j = 0; j < m; j++) direction = fmax(direction, fabs(work->F[c + j * k]) * size[j]);
+        work->scale[2 * m + c] = power > 0 && direction > 0 && isfinite(power / direction) ? power / direction : 1;
+        work->row[2 * m + c] = power_of_two((work->problem->holds ? 1 : momentum / power) / direction);
+    }
 }
 
 /* The whole initial state: q, v given, v' and mu computed. */
@@ -140,7 +145,7 @@ static bool make_consistent(ida_work *work, double t, const double *initial, dou
                 "bordered by the constraints has the reciprocal condition number %.2g", rcond);
         return nh_error_hint(error, "look for dependent constraints, and for coordinates without inertia that no constraint holds");
     }
-    scale_multipliers(work, rate + m);
+    scale_multipliers(work, rate + m, fabs(work->stop - t));
     return true;
 }
 
@@ -157,6 +162,8 @@ static int call_residual(sunrealtype t, N_Vector state, N_Vector rate, N_Vector 
     for (size_t i = 0; i < m; i++)
         r[i] = dy[i] - y[m + i];
     balance(work, dy + m, y + 2 * m, r + m);
+    for (size_t i = 0; i < 2 * m + work->k; i++)
+        r[i] *= work->row[i];
     return 0;
 }
 
@@ -210,6 +217,8 @@ static int call_jacobian(sunrealtype t, sunrealtype c, N_Vector state, N_Vector 
         for (size_t i = 0; i < n - m; i++)
             column[i] += (work->shifted[i] - work->base[i]) / moved;
     }
+    for (size_t i = 0; i < n * n; i++)
+        SM_DATA_D(matrix)[i] *= work->row[i % n];
     work->jacobians++;
     return 0;
 }
@@ -310,7 +319,8 @@ static void create_arrays(ida_work *work, const double *scale)
     work->base = nh_alloc_array(m + k, sizeof(double));
     work->shifted = nh_alloc_array(m + k, sizeof(double));
     work->point = nh_alloc_array(2 * m, sizeof(double));
-    work->scale = nh_alloc_array(2 * m + k, sizeof(double));
+    work->scale = nh_alloc_array(2 * (2 * m + k), sizeof(double));
+    work->row = work->scale + 2 * m + k;
     work->saddle = nh_alloc_array(nh_saddle_work(m, k), sizeof(double));
     for (size_t i = 0; i < 2 * m; i++)
         work->scale[i] = scale ? scale[i] : 1.0;
@@ -360,15 +370,23 @@ static void enter_start(nh_motion *motion, const ida_work *work)
     memcpy(motion->end_state, NV_DATA_S(work->state), size);
 }
 
-/* max |f^a| over the output points; the terms are there, or the motion would not have come so far. */
+/* The largest |f^a| over the output points, beside the largest |F_aj| s_j there, with s_j the size of v_j: what the constraint is made of.  The terms are there, or the motion
+ * would not have come so far. */
 static double violation(ida_work *work, const nh_motion *motion)
 {
-    double result = 0;
+    size_t m = work->m, k = work->k;
+    double result = 0, *size = nh_alloc_array(2 * k + 1, sizeof *size), *off = size + k;
     for (size_t i = 0; i < motion->count; i++) {
         const double *y = motion->state + i * motion->size;
-        if (terms_at(work, motion->time[i], y, y + work->m))
-            result = fmax(result, largest(work->k, work->f));
+        if (!terms_at(work, motion->time[i], y, y + m)) continue;
+        for (size_t a = 0; a < k; a++) {
+            off[a] = fmax(off[a], fabs(work->f[a]));
+            for (size_t j = 0; j < m; j++) size[a] = fmax(size[a], fabs(work->F[a + j * k]) * fmax(work->scale[m + j], fabs(y[m + j])));
+        }
     }
+    for (size_t a = 0; a < k; a++)
+        if (off[a] > 0) result = fmax(result, off[a] / size[a]);
+    nh_free(size);
     return result;
 }
 

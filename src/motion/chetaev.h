@@ -26,7 +26,7 @@ typedef struct {
 
 typedef struct {
     nh_motion *motion;   /* state: q (m), v (m), mu (k) */
-    double violation;    /* max_a,t |f^a| along the output points */
+    double violation;    /* max_a,t |f^a| along the output points, relative to |df^a/dv_s| and the size of v_s: its scale, or |v_s| where that is larger */
 } nh_chetaev_motion;
 
 /* `initial`: q then v, consistent with the constraints (the multipliers and accelerations are computed).  `options`: the method

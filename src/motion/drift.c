@@ -9,6 +9,7 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "expr/terms.h"
+#include "motion/sizes.h"
 
 typedef struct {
     const nh_model *model;
@@ -94,7 +95,40 @@ static void judge(nh_validation *v, const nh_options *options)
 
 /* ---- the multiplier form ---- */
 
-static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, const nh_chetaev_motion *full)
+/* Of q and v (2 m), and of the reactions (m).  Within tau, the time in which the rates change by about their own size, a velocity makes a
+ * coordinate at least tau |v| large, and a momentum needs a force |p|/tau to change. */
+typedef struct {
+    double *state, *force;
+} sizes_of_all;
+
+static sizes_of_all measure_sizes(run *r, const nh_motion *motion)
+{
+    const nh_model *o = r->model;
+    size_t m = o->m;
+    sizes_of_all all = {.state = nh_alloc_array(4 * m + 1, sizeof(double))};
+    double *momentum = all.state + 3 * m;
+    all.force = all.state + 2 * m;
+    nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
+    nh_sizes sizes;
+    bool known = nh_sizes_begin(&sizes, &problem, 1, r->z0, r->times[0], r->times[r->outputs - 1]);
+    double tau = known ? sizes.tau : fabs(r->times[r->outputs - 1] - r->times[0]);
+    nh_sizes_along(r->dynamics, motion, m, o->rho, all.state + m);
+    nh_sizes_along(r->dynamics, motion, m, o->reaction, all.force);
+    nh_sizes_along(r->dynamics, motion, m, o->p, momentum);
+    for (size_t s = 0; s < m; s++) {
+        double q = fmax(sizes.size[s], tau * all.state[m + s]);
+        for (size_t i = 0; i < motion->count; i++) q = fmax(q, fabs(motion->state[i * motion->size + s]));
+        all.state[s] = q > 0 ? q : 1; /* nothing is known of it */
+        all.state[m + s] = fmax(all.state[m + s], DBL_EPSILON * all.state[s] / tau);
+        if (tau > 0) all.force[s] = fmax(all.force[s], momentum[s] / tau);
+    }
+    nh_sizes_clear(&sizes);
+    return all;
+}
+
+static double beside(double difference, double size) { return difference != 0 ? fabs(difference) / size : 0; }
+
+static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, const nh_chetaev_motion *full, const sizes_of_all *sizes)
 {
     const nh_model *o = r->model;
     nh_validation *v = r->out;
@@ -109,10 +143,10 @@ static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, con
         const double *z = reduced->state + i * reduced->size, *y = full->motion->state + i * full->motion->size;
         bool forced = nh_bordered_force(bordered, full->motion->time[i], y, y + m, y + 2 * m, force);
         for (size_t s = 0; s < m; s++) {
-            double w = velocity[i * m + s], c = -reaction[i * m + s];
-            v->state_difference = fmax(v->state_difference, fabs(z[s] - y[s]) / (1 + fabs(z[s])));
-            v->state_difference = fmax(v->state_difference, fabs(w - y[m + s]) / (1 + fabs(w)));
-            if (forced && isfinite(c)) v->multiplier_difference = fmax(v->multiplier_difference, fabs(c - force[s]) / (1 + fabs(c)));
+            double c = -reaction[i * m + s];
+            v->state_difference = fmax(v->state_difference, beside(z[s] - y[s], sizes->state[s]));
+            v->state_difference = fmax(v->state_difference, beside(velocity[i * m + s] - y[m + s], sizes->state[m + s]));
+            if (forced && isfinite(c)) v->multiplier_difference = fmax(v->multiplier_difference, beside(c - force[s], sizes->force[s]));
         }
     }
     nh_free(force);
@@ -134,13 +168,14 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     first.count = 1;
     bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
     double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .max_steps = fmin(enough, most_steps(r)), .cancelled = nh_interrupted_callback};
+    sizes_of_all sizes = measure_sizes(r, reduced);
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .scale = sizes.state, .max_steps = fmin(enough, most_steps(r)), .cancelled = nh_interrupted_callback};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
         v->violation = full->violation;
         v->multiplier_evaluations = full->motion->evaluations;
-        compare(r, b, reduced, full);
+        compare(r, b, reduced, full, &sizes);
         if (!full->motion->complete && (double)full->motion->steps >= options.max_steps)
             snprintf(v->note, sizeof v->note, "the multiplier form, a second opinion, was compared to t = %.4g only: so far it comes in %.0f steps", full->motion->end_time, options.max_steps);
         else if (!full->motion->complete)
@@ -149,6 +184,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
     }
     nh_chetaev_motion_free(full);
+    nh_free(sizes.state);
     nh_free(y);
     nh_bordered_free(b);
 }
@@ -186,7 +222,7 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
 /* ---- the scene ---- */
 
 /* What the user asked to see, from the smallest model for it: the same values? */
-static void smallest_model(run *r, const nh_state *initial, const nh_ex *watched)
+static void smallest_model(run *r, const nh_state *initial, const nh_motion *motion, const nh_ex *watched)
 {
     nh_validation *v = r->out;
     size_t n = 0, *column = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *column);
@@ -209,10 +245,13 @@ static void smallest_model(run *r, const nh_state *initial, const nh_ex *watched
         nh_scene_words(t->scene, &words);
         v->scene = nh_arena_strdup(v->arena, nh_text_string(&words));
         v->scene_evaluations = t->motion->evaluations;
+        double *size = nh_alloc_array(n, sizeof *size);
+        nh_sizes_along(r->dynamics, motion, n, asked, size);
         for (size_t i = 0; i < v->count * n; i++) {
             double full = v->watch[i / n * r->watches + column[i % n]];
-            if (isfinite(full)) v->scene_difference = fmax(v->scene_difference, fabs(t->value[i] - full) / (1 + fabs(full)));
+            if (isfinite(full)) v->scene_difference = fmax(v->scene_difference, beside(t->value[i] - full, size[i % n]));
         }
+        nh_free(size);
         nh_text_clear(&words);
     }
     nh_trajectory_free(t);
@@ -241,7 +280,7 @@ static void keep(run *r, const nh_state *initial, const nh_motion *motion)
         e[i] = r->watch[i].value;
     }
     if (r->watches) nh_along(r->dynamics, motion, r->watches, e, v->watch);
-    if (r->watches && !r->everywhere && motion->complete) smallest_model(r, initial, e);
+    if (r->watches && !r->everywhere && motion->complete) smallest_model(r, initial, motion, e);
     nh_free(e);
     v->evaluations = motion->evaluations;
     v->steps = motion->steps;

@@ -33,7 +33,7 @@ typedef struct {
     bool complete;
     char note[256];
     bool multiplier_form;      /* was it integrated? */
-    double state_difference, multiplier_difference, violation; /* relative to 1 + size */
+    double state_difference, multiplier_difference, violation; /* relative to sizes along the motion */
     long multiplier_evaluations;
     double crossing;           /* first time at which another chart's pivot changes sign; NAN: never */
     const char *crossing_chart;
@@ -41,7 +41,7 @@ typedef struct {
     const char **watch_name;
     double *watch;             /* count x watches, along the tightest run */
     const char *scene;         /* the smallest model for what is watched, in words; NULL: nothing is watched, or it could not be integrated */
-    double scene_difference;   /* of the watched values, relative to 1 + size */
+    double scene_difference;   /* of the watched values, relative to their sizes along the motion */
     long scene_evaluations;
 } nh_validation;
 

@@ -3,10 +3,12 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "base/progress.h"
+#include "motion/sizes.h"
 
 static const char *const usual = "CVODE Adams";
 static const double steepest = 10; /* |R| of a chart of coordinate velocities, without units, beyond which its formulas lose digits */
@@ -84,6 +86,45 @@ bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh
     if (motion->size <= o->m + o->n) return values_along(o, point_of_all, dynamics, motion, n, e, value);
     along_everywhere(o, motion, n, e, value);
     return true;
+}
+
+/* The largest |z| along a motion, and what sizes.h says of states that are zero all along it.  Zeros of a chart that breaks down have no such size. */
+static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, double *large)
+{
+    const nh_model *o = nh_dynamics_model(dynamics);
+    size_t states = motion->size, count = motion->count;
+    nh_flow_problem problem = nh_dynamics_problem(dynamics);
+    nh_sizes sizes;
+    bool known = states == problem.size && nh_sizes_begin(&sizes, &problem, 1, motion->state, motion->time[0], motion->time[count - 1]);
+    for (size_t j = 0; j < states; j++) large[j] = known ? sizes.size[j] : 0;
+    if (states == problem.size) nh_sizes_clear(&sizes);
+    for (size_t i = 0; i < count * states; i++) large[i % states] = fmax(large[i % states], fabs(motion->state[i]));
+    for (size_t j = 0; j < o->m; j++) /* an angle that winds up is no larger for it */
+        if (o->system->coordinate[j].type == NH_ANGLE) large[j] = fmin(large[j], 1);
+}
+
+bool nh_sizes_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size)
+{
+    static const double part = 1e-6; /* of a state's size: first order, and far above rounding */
+    size_t states = motion->size, count = motion->count;
+    double *value = nh_alloc_array(2 * count * n + 1, sizeof *value), *moved = nh_alloc_array((count + 1) * states, sizeof *moved), *large = moved + count * states;
+    nh_motion beside = *motion;
+    uint64_t random = 0x9e3779b97f4a7c15u;
+    sizes_of_states(dynamics, motion, large);
+    for (size_t i = 0; i < count * states; i++) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        moved[i] = motion->state[i] + (random >> 63 ? part : -part) * large[i % states];
+    }
+    beside.state = moved;
+    memset(size, 0, n * sizeof *size);
+    bool good = nh_along(dynamics, motion, n, e, value), also = nh_along(dynamics, &beside, n, e, value + count * n);
+    for (size_t i = 0; i < count * n && good; i++) {
+        double change = also ? fabs(value[count * n + i] - value[i]) / part : 0;
+        if (isfinite(value[i])) size[i % n] = fmax(size[i % n], isfinite(change) ? fmax(fabs(value[i]), change) : fabs(value[i]));
+    }
+    nh_free(moved);
+    nh_free(value);
+    return good;
 }
 
 bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, double *states)

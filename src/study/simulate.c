@@ -209,6 +209,21 @@ static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_er
     return true;
 }
 
+/* How far what is watched is off, relative to the size that it has along the motion. */
+static double difference_from(const nh_simulation *s, const nh_trajectory_request *q, const nh_trajectory *t)
+{
+    nh_dynamics *d = nh_dynamics_create(s->model);
+    double worst = 0, *size = nh_alloc_array(q->n + 1, sizeof *size);
+    bool known = nh_sizes_along(d, t->motion, q->n, q->e, size);
+    for (size_t k = 0; known && k < q->n * t->motion->count; k++) {
+        double off = fabs(s->value[k] - t->value[k]);
+        if (off > 0 && isfinite(off)) worst = fmax(worst, off / size[k % q->n]);
+    }
+    nh_free(size);
+    nh_dynamics_free(d);
+    return worst;
+}
+
 /* What the smallest model saves, and whether it is right: the whole model beside it, while that costs little. */
 static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
 {
@@ -223,10 +238,7 @@ static void compare_with_whole(nh_simulation *s, const nh_trajectory_request *q)
         nh_trajectory *t = nh_trajectory_create(&whole, &ignored), *again = i ? nh_trajectory_create(q, &ignored) : NULL;
         bool complete = t && t->motion->complete;
         if (i == 0) s->compared = complete;
-        for (size_t k = 0; complete && i == 0 && k < s->columns.count * t->motion->count; k++) {
-            double off = fabs(s->value[k] - t->value[k]) / fmax(1, fabs(t->value[k]));
-            if (isfinite(off)) s->whole_difference = fmax(s->whole_difference, off);
-        }
+        if (complete && i == 0) s->whole_difference = difference_from(s, &whole, t);
         if (complete) all = fmin(all, t->motion->seconds), s->whole_evaluations = t->motion->evaluations;
         if (again) few = fmin(few, again->motion->seconds);
         nh_trajectory_free(again);

@@ -34,7 +34,7 @@ typedef struct {
     const char *astray;   /* the initial position violates a constraint between positions: which, and by how much; NULL */
     const char *idle;     /* parameters and bodies without influence on what is watched, in words; empty: all matter */
     bool compared;        /* the whole model was integrated too, because the motion is short */
-    double scene_seconds, whole_seconds, whole_difference; /* the least times of both, and how far what is watched is off, relative to max(1, |value|) */
+    double scene_seconds, whole_seconds, whole_difference; /* the least times of both, and how far what is watched is off, relative to its size along the motion */
     long whole_evaluations;
     nh_tracks columns;    /* with the drawing only where it was asked for, at the end */
     nh_motion *motion;    /* its states are those of the scene, where there is one */
