@@ -15,6 +15,7 @@ typedef struct {
     nh_dag *d;
     size_t N;
     const nh_ex *symbol;
+    double *unit; /* N: of each component */
     bool proved, too_large;
     size_t end; /* size of the graph at which brackets are given up */
 } space;
@@ -150,6 +151,12 @@ static size_t rank_of(size_t N, size_t count, const double *value, double *work)
     return rank;
 }
 
+/* Components of lengths and angles compare. */
+static void without_units(const space *x, size_t n, double *value)
+{
+    for (size_t i = 0; i < n; i++) value[i] /= x->unit[i % x->N];
+}
+
 /* The ranks of all stages at a point z; false where something is not finite. */
 static bool ranks_at(const space *x, const brackets *b, const nh_tape *tape, const double *z, size_t *rank)
 {
@@ -158,6 +165,7 @@ static bool ranks_at(const space *x, const brackets *b, const nh_tape *tape, con
     double *value = nh_alloc_array(2 * n + b->count + x->N + 1, sizeof *value);
     nh_tape_eval(tape, scratch, z, value);
     bool good = true;
+    without_units(x, n, value);
     for (size_t i = 0; i < n; i++) good &= isfinite(value[i]) && fabs(value[i]) < 1e100;
     for (size_t j = 0; j < b->stages && good; j++) rank[j] = rank_of(x->N, b->first[j + 1], value, value + n);
     nh_free(value);
@@ -172,6 +180,7 @@ static void prune(const space *x, brackets *b, const nh_tape *tape, const double
     nh_tape_work *scratch = nh_tape_work_create(tape);
     double *value = nh_alloc_array(2 * n + b->count + N + 1, sizeof *value);
     nh_tape_eval(tape, scratch, z, value);
+    without_units(x, n, value);
     size_t rank = rank_of(N, from, value, value + n);
     for (size_t j = from; j < b->count; j++) {
         memmove(value + kept * N, value + j * N, N * sizeof *value);
@@ -309,10 +318,12 @@ static void shift_down(size_t length, size_t *rank, size_t shift)
 
 nh_growth nh_growth_of(const nh_model *o, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field, size_t shift)
 {
-    space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true, .end = nh_dag_size(o->dag) + most_nodes};
+    space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true, .end = nh_dag_size(o->dag) + most_nodes, .unit = nh_alloc_array(N + 1, sizeof(double))};
+    for (size_t s = 0; s < N; s++) x.unit[s] = nh_symbol_unit(o->system, symbol[s]);
     nh_growth g = {.dimension = N - shift};
     generic_ranks(&x, count, field, &g);
     look_for_drops(&x, count, field, &g);
+    nh_free(x.unit);
     size_t last = g.rank[g.length - 1];
     if (last == N) g.cut = false;
     g.proved = !g.cut && (last == N || prove_involutive(&x, count, field, last));

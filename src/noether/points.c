@@ -59,20 +59,38 @@ void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n
     nh_tape_free(tape);
 }
 
-/* Nearer to a singularity than doubles can use: velocities and accelerations so much larger than those of the default box. */
+/* Nearer to a singularity than doubles can use: velocities and accelerations so much larger than those of the box. */
 static const double too_fast = 1e8, usual = 1.5;
 
-/* How much larger than by default velocities are drawn, and the accelerations with which they go, v^2 over the length of the coordinate's interval. */
-static void pace_of(const nh_model *o, double *velocity, double *acceleration)
+/* What the author of the system lets a velocity reach, in units of what it reaches by default; 0: nothing is said. */
+static double given_speed(const nh_model *o, nh_ex symbol)
+{
+    const nh_system *s = o->system;
+    double reach = 0;
+    for (size_t k = 0; k < s->intervals; k++)
+        if (s->interval[k].symbol == symbol) reach = fmax(fabs(s->interval[k].low), fabs(s->interval[k].high)) / usual;
+    return isfinite(reach) ? reach : 0;
+}
+
+/* What velocities are measured in: speed[s] for v^s, then for w_i; the returned rate for what they change by per unit of time.  Where the author says nothing of a velocity, it is
+ * that in which the coordinate crosses its interval as fast as the fastest one does its own. */
+static double speeds_of(const nh_model *o, double *speed)
 {
     const nh_chart *c = o->chart;
-    *velocity = *acceleration = 1;
-    for (size_t i = 0; i < o->n; i++) {
-        double v = (c->high[1 + o->m + i] - c->low[1 + o->m + i]) / 2 / usual, length = 1;
-        if (!c->quasi) length = fmin(1, (c->high[1 + c->free[i]] - c->low[1 + c->free[i]]) / 2);
-        *velocity = fmax(*velocity, v);
-        if (v > 1 && length > 0) *acceleration = fmax(*acceleration, v * v / length);
+    const nh_coordinate *q = o->system->coordinate;
+    double rate = 0, *own = speed + o->m;
+    for (size_t s = 0; s < o->m; s++) rate = fmax(rate, given_speed(o, q[s].v) / nh_chart_unit(o->system, s));
+    for (size_t i = 0; i < o->n && c->quasi; i++) rate = fmax(rate, given_speed(o, c->w[i]));
+    if (!(rate > 0)) rate = 1;
+    for (size_t s = 0; s < o->m; s++) {
+        double given = given_speed(o, q[s].v);
+        speed[s] = given > 0 ? given : rate * nh_chart_unit(o->system, s);
     }
+    for (size_t i = 0; i < o->n; i++) {
+        double given = given_speed(o, c->w[i]);
+        own[i] = !c->quasi ? speed[c->free[i]] : given > 0 ? given : rate;
+    }
+    return rate;
 }
 
 /* The accelerations and velocities decide what is usable: everything else is made of the same parts. */
@@ -81,7 +99,7 @@ typedef struct {
     nh_tape *tape;  /* rho (m), R (m x n, column-major), a (n), Lbar */
     nh_tape_work *work;
     double *out, *dense, *slope; /* slope: m x n, by which R is a number without units */
-    double pace, strength; /* of velocities and accelerations: pace_of */
+    double *speed, rate; /* speeds_of */
     double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
 
@@ -95,11 +113,12 @@ static guard guard_create(const nh_model *o, double pivot)
         for (size_t s = 0; s < m; s++) e[m + s + i * m] = o->R[s * n + i];
     memcpy(e + m + m * n, o->a, n * sizeof *e);
     guard g = {.o = o, .tape = nh_model_tape(o, total + 1, e), .out = nh_alloc_array(total + 1, sizeof(double)),
-               .dense = nh_alloc_array(2 * m * n + m + n + 1, sizeof(double)), .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
+               .dense = nh_alloc_array(2 * m * n + 2 * (m + n) + 1, sizeof(double)), .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
     g.work = nh_tape_work_create(g.tape);
     g.slope = g.dense + m * n + m + n;
     nh_chart_slopes(o->chart, g.slope);
-    pace_of(o, &g.pace, &g.strength);
+    g.speed = g.slope + m * n;
+    g.rate = speeds_of(o, g.speed);
     nh_free(e);
     return g;
 }
@@ -128,7 +147,7 @@ static bool project(guard *g, double *z, const double *v)
         if (nh_least_squares(m, n, R, 1, b, m, 1e-12) < 0) return false;
         for (size_t i = 0; i < n; i++) {
             z[1 + m + i] += b[i];
-            size = fmax(size, fabs(b[i]));
+            size = fmax(size, fabs(b[i]) / g->speed[m + i]);
         }
         if (size < 1e-9) break;
     }
@@ -148,12 +167,14 @@ static double accept(guard *g, const double *z, nh_points *p, double *steepness)
             return 0;
         }
         if (i == m + m * n + n) break; /* Lbar needs only to exist */
-        double *largest = i < m ? &fast : i < m + m * n ? &steep : &strong;
-        double unit = largest == &steep ? g->slope[(i - m) % m * n + (i - m) / m] : 1;
-        *largest = fmax(*largest, fabs(g->out[i]) * unit);
+        double *largest = i < m ? &fast : i < m + m * n ? &steep : &strong, size = fabs(g->out[i]);
+        if (largest == &fast) size /= g->speed[i];
+        else if (largest == &steep) size *= g->slope[(i - m) % m * n + (i - m) / m];
+        else size /= g->speed[i - m * n] * g->rate;
+        *largest = fmax(*largest, size);
     }
     *steepness = steep;
-    if (fast < too_fast * g->pace && strong < too_fast * g->strength && steep < g->steepest) return 1 / (1 + strong + fast);
+    if (fast < too_fast && strong < too_fast && steep < g->steepest) return 1 / (1 + strong + fast);
     p->degenerate++;
     return 0;
 }
@@ -176,21 +197,21 @@ static void stretched_box(const nh_model *o, bool natural, double stretch, doubl
 
 /* A point (t, q, v) near a zero of the chart's pivot: v is moved onto the constraints, v' solved from the multiplier form.  A function of
  * the chart may have poles of the pivot there, whose rates cancel to pivot^2 times what doubles hold: the weight allows for it. */
-static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v, double steepness, double steepest, double strength)
+static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v, double steepness, const guard *g)
 {
     static const double too_steep = 1e6;
     size_t m = o->m, n = o->n, width = o->width, at = p->beyond->count;
     double fast = 0, *rate = nh_alloc_array(m, sizeof *rate);
-    bool good = steepness > steepest && steepness < too_steep && nh_bordered_project(b, t, q, v) && nh_bordered_accelerations(b, t, q, v, rate);
-    for (size_t s = 0; s < m && good; s++) fast = fmax(fast, fmax(fabs(v[s]), fabs(rate[s])));
-    if (good && fast < too_fast * strength) {
+    bool good = steepness > g->steepest && steepness < too_steep && nh_bordered_project(b, t, q, v) && nh_bordered_accelerations(b, t, q, v, rate);
+    for (size_t s = 0; s < m && good; s++) fast = fmax(fast, fmax(fabs(v[s]), fabs(rate[s]) / g->rate) / g->speed[s]);
+    if (good && fast < too_fast) {
         double **to = p->beyond->column;
         to[0][at] = t;
         for (size_t s = 0; s < m; s++) to[1 + s][at] = q[s];
         for (size_t i = 0; i < n; i++) to[1 + m + i][at] = v[o->chart->free[i]];
         for (size_t s = 0; s < m; s++) to[width + s][at] = v[s];
         for (size_t i = 0; i < n; i++) to[width + m + i][at] = rate[o->chart->free[i]];
-        p->beyond->weight[p->beyond->count++] = pow(steepest / steepness, 2) / (1 + fast);
+        p->beyond->weight[p->beyond->count++] = pow(g->steepest / steepness, 2) / (1 + fast);
     }
     nh_free(rate);
 }
@@ -234,7 +255,7 @@ static void take(sampling *s, nh_points *p)
         p->weight[p->count++] = weight;
     } else if (s->cover && p->beyond->count < s->count) {
         if (!s->bordered) s->bordered = nh_bordered_create(o);
-        add_beyond(p, o, s->bordered, z[0], z + 1, s->v, steepness, s->guard.steepest, fmax(s->guard.pace, s->guard.strength));
+        add_beyond(p, o, s->bordered, z[0], z + 1, s->v, steepness, &s->guard);
     }
 }
 

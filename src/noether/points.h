@@ -11,7 +11,7 @@ typedef struct nh_points nh_points;
 struct nh_points {
     size_t count, width;      /* width = model->width */
     double **column;          /* column[j][p]: coordinate j of (t, q, w, u) at point p; rows padded to whole batches */
-    double *weight;           /* per point: 1 / (1 + max|a| + max|v|), so that equations are relative to the local speed */
+    double *weight;           /* per point: 1 / (1 + max|a| + max|v|), without units, so that equations are relative to the local speed */
     size_t tried, not_finite, not_solved, degenerate; /* rejections by reason */
     nh_points *beyond;        /* points near where the chart breaks down; width + m + n columns: (t, q, w), q', w'; NULL: none */
 };

@@ -231,20 +231,35 @@ static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex
 
 typedef struct {
     size_t width, forms;  /* 1 + m + n; k */
-    double *gamma, *z, *b, *scale, *form, *form_scale; /* at one point */
+    double *gamma, *z, *first, *second, *form, *nu; /* at one point: as they are evaluated */
+    double *b, *scale;    /* [Gamma, Z], and what its components are made of */
+    const double *unit;   /* of (t, q, w): components without units compare */
+    double pace;          /* how fast the state moves there, in those of the chart's box per unit of time */
 } local;
 
-/* r = b - b^0 Gamma against z' = Z - Z^0 Gamma: 1 when r vanishes, 2 when parallel, 3 otherwise, 0 when not finite. */
+/* What differs from the bracket only by rounding, and by a rate Z changes with, is made of these. */
+static void measure(const nh_model *o, local *l)
+{
+    l->pace = 0;
+    for (size_t j = 0; j < l->width; j++) {
+        double reach = fmax(fabs(o->chart->low[j]), fabs(o->chart->high[j]));
+        l->b[j] = l->first[j] - l->second[j];
+        l->scale[j] = fabs(l->first[j]) + fabs(l->second[j]);
+        if (j && reach > 0 && isfinite(reach)) l->pace = fmax(l->pace, fabs(l->gamma[j]) / reach);
+    }
+}
+
+/* r = b - b^0 Gamma against z' = Z - Z^0 Gamma: 1 when r vanishes, 2 when parallel, 3 otherwise, 0 when not finite.  Neither has a component along t. */
 static int case_at(const local *l, double same)
 {
     double r2 = 0, z2 = 0, rz = 0, scale = 0, zscale = 0;
-    for (size_t j = 0; j < l->width; j++) {
-        double r = l->b[j] - l->b[0] * l->gamma[j], z = l->z[j] - l->z[0] * l->gamma[j];
+    for (size_t j = 1; j < l->width; j++) {
+        double r = (l->b[j] - l->b[0] * l->gamma[j]) / l->unit[j], z = (l->z[j] - l->z[0] * l->gamma[j]) / l->unit[j];
         r2 += r * r;
         z2 += z * z;
         rz += r * z;
-        scale = fmax(scale, fmax(l->scale[j] + fabs(l->b[0] * l->gamma[j]), fabs(l->z[j]))); /* a bracket of order |Z| is not small */
-        zscale = fmax(zscale, fabs(l->z[j]) + fabs(l->z[0] * l->gamma[j]));
+        scale = fmax(scale, fmax(l->scale[j] + fabs(l->b[0] * l->gamma[j]), l->pace * fabs(l->z[j])) / l->unit[j]); /* a bracket of order |Z| is not small */
+        zscale = fmax(zscale, (fabs(l->z[j]) + fabs(l->z[0] * l->gamma[j])) / l->unit[j]);
     }
     if (!isfinite(r2 + z2 + rz + scale)) return 0;
     if (sqrt(r2) <= same * scale) return 1;
@@ -253,10 +268,22 @@ static int case_at(const local *l, double same)
     return across <= sqrt(same) * 1e-3 * sqrt(r2) ? 2 : 3;
 }
 
+/* i_[Gamma,Z] phi^a = nu^a_s [Gamma,Z]^s beside the terms of this sum. */
+static bool is_inside(const nh_model *o, const local *l, double same)
+{
+    bool inside = true;
+    for (size_t a = 0; a < l->forms; a++) {
+        double scale = 0;
+        for (size_t s = 0; s < o->m; s++) scale = fmax(scale, fabs(l->nu[a * o->m + s]) * fmax(l->scale[1 + s], l->pace * fabs(l->z[1 + s])));
+        inside &= fabs(l->form[a]) <= same * 10 * scale;
+    }
+    return inside;
+}
+
 /* By Z, or by Z - Z^0 Gamma: the case is the same. */
 static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const nh_field *Z, const nh_ex *first, const nh_ex *second, double same)
 {
-    size_t width = 1 + o->m + o->n, total = 4 * width + o->k, count = points->count;
+    size_t width = 1 + o->m + o->n, total = 4 * width + o->k + o->k * o->m, count = points->count;
     nh_ex *e = nh_alloc_array(total, sizeof *e);
     e[0] = nh_int(o->dag, 1);
     memcpy(e + 1, o->rho, o->m * sizeof *e);
@@ -267,25 +294,22 @@ static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const n
     memcpy(e + 2 * width, first, width * sizeof *e);
     memcpy(e + 3 * width, second, width * sizeof *e);
     memcpy(e + 4 * width, z->bracket_form, o->k * sizeof *e);
-    double *value = nh_alloc_array(total * count, sizeof *value), *at = nh_alloc_array(total + width, sizeof *at);
+    memcpy(e + 4 * width + o->k, o->nu, o->k * o->m * sizeof *e);
+    double *value = nh_alloc_array(total * count, sizeof *value), *at = nh_alloc_array(total + 3 * width, sizeof *at), *unit = at + total + 2 * width;
     nh_points_evaluate(points, o, total, e, value);
+    for (size_t j = 0; j < width; j++) unit[j] = nh_symbol_unit(o->system, o->chart->symbol[j]);
+    local l = {.width = width, .forms = o->k, .gamma = at, .z = at + width, .first = at + 2 * width, .second = at + 3 * width, .form = at + 4 * width, .nu = at + 4 * width + o->k,
+               .b = at + total, .scale = at + total + width, .unit = unit};
     int worst = 1;
     bool inside = true, decided = false;
     for (size_t p = 0; p < count; p++) {
         for (size_t j = 0; j < total; j++) at[j] = value[j * count + p];
-        double scale = 0, *b = at + 2 * width, *second_half = at + 3 * width, *sizes = at + total;
-        for (size_t j = 0; j < width; j++) {
-            scale = fmax(scale, fabs(at[width + j]));
-            sizes[j] = fabs(b[j]) + fabs(second_half[j]);
-            b[j] -= second_half[j];
-            scale = fmax(scale, sizes[j]);
-        }
-        local l = {width, o->k, at, at + width, b, sizes, NULL, NULL};
+        measure(o, &l);
         int kase = case_at(&l, same);
         if (kase == 0) continue;
         decided = true;
         if (kase > worst) worst = kase;
-        for (size_t a = 0; a < o->k; a++) inside &= fabs(at[4 * width + a]) <= same * 10 * fmax(scale, 1e-300);
+        inside &= is_inside(o, &l, same);
     }
     z->kase = decided ? worst : 0;
     z->bracket_in_distribution = inside;
@@ -321,23 +345,29 @@ double nh_symmetry_residual(const nh_model *o, const nh_points *points, nh_ex ph
     return worst;
 }
 
-/* Exactly, or at the points where rounded coefficients leave nothing exact. */
-static bool vanishes(const nh_model *o, const nh_points *points, nh_ex e, double same)
+/* dc/dw = e, exactly; or, where rounded coefficients leave nothing exact, beside c at the points, with w in its unit. */
+static bool vanishes(const nh_model *o, const nh_points *points, nh_ex e, nh_ex c, double unit, double same)
 {
     if (nh_is_exact(o->dag, e)) return nh_normal_is_zero(o->dag, e, 0) == NH_ZERO;
-    double *value = nh_alloc_array(points->count + 1, sizeof *value), worst = 0;
-    nh_points_evaluate(points, o, 1, &e, value);
-    for (size_t p = 0; p < points->count; p++) worst = fmax(worst, isfinite(value[p]) ? fabs(value[p]) : 0);
+    size_t count = points->count;
+    double *value = nh_alloc_array(2 * count + 1, sizeof *value), worst = 0, size = 0;
+    nh_points_evaluate(points, o, 2, (nh_ex[]){e, c}, value);
+    for (size_t p = 0; p < count; p++) {
+        worst = fmax(worst, isfinite(value[p]) ? fabs(value[p]) * unit : 0);
+        size = fmax(size, isfinite(value[count + p]) ? fabs(value[count + p]) : 0);
+    }
     nh_free(value);
-    return worst <= same;
+    return worst <= same * size;
 }
 
 static bool is_projectable(const nh_model *o, const nh_points *points, const nh_symmetry *z, double same)
 {
     for (size_t i = 0; i < o->n; i++) {
-        if (!vanishes(o, points, nh_model_Y(o, i, z->Z0), same)) return false;
-        for (size_t s = 0; s < o->m; s++)
-            if (!vanishes(o, points, nh_model_Y(o, i, z->field.space[s]), same)) return false;
+        double unit = nh_symbol_unit(o->system, o->chart->w[i]);
+        for (size_t s = 0; s <= o->m; s++) {
+            nh_ex c = s < o->m ? z->field.space[s] : z->Z0;
+            if (!vanishes(o, points, nh_model_Y(o, i, c), c, unit, same)) return false;
+        }
     }
     return true;
 }
