@@ -276,7 +276,7 @@ bool nh_action_moving(const nh_action *g, double *c)
     nh_free(b);
     nh_free(E);
     nh_free(kept);
-    return good && off <= small * (1 + size);
+    return good && off <= small * size;
 }
 
 /* ---- flows ---- */
@@ -343,20 +343,29 @@ bool nh_flows_move(nh_flows *f, const double *c, double t, double *q)
             for (size_t s = 0; s < m && c[a] != 0; s++) q[s] += t * c[a] * f->E[s + a * m];
         return true;
     }
-    return t == 0 || nh_runge(m, field_rate, f, 0, t, tolerance, largest, NULL, q);
+    return t == 0 || nh_runge_sized(m, field_rate, f, 0, t, tolerance, largest, q);
 }
 
+/* Back at the start: as far as the flow went away from it in the meantime, seen at times that are no parts of a period. */
 static bool returns(nh_flows *f, const double *c, double time, const double *start)
 {
-    static const double same = 1e-8, turn = 6.283185307179586;
+    static const double same = 1e-8, rounding = 1e-13, turn = 6.283185307179586, part[] = {0.17, 0.41, 0.77};
+    enum { parts = sizeof part / sizeof *part };
     const nh_kinetic *k = f->action->kinetic;
-    double *q = nh_alloc_array(k->m, sizeof *q);
-    memcpy(q, start, k->m * sizeof *q);
-    bool closed = nh_flows_move(f, c, time, q);
-    for (size_t s = 0; s < k->m && closed; s++) {
+    size_t m = k->m;
+    double *q = nh_alloc_array(2 * m, sizeof *q), *away = q + m, before = 0;
+    bool closed = true;
+    memcpy(q, start, m * sizeof *q);
+    for (size_t i = 0; i < parts && closed; i++) {
+        closed = nh_flows_move(f, c, (part[i] - before) * time, q);
+        before = part[i];
+        for (size_t s = 0; s < m; s++) away[s] = fmax(away[s], fabs(q[s] - start[s]));
+    }
+    closed = closed && nh_flows_move(f, c, (1 - before) * time, q);
+    for (size_t s = 0; s < m && closed; s++) {
         double way = q[s] - start[s];
         if (k->angle[s]) way -= turn * round(way / turn);
-        closed = fabs(way) < same * (1 + fabs(q[s]));
+        closed = fabs(way) <= same * (k->angle[s] ? fmax(1, away[s]) : away[s]) + rounding * fabs(start[s]);
     }
     nh_free(q);
     return closed;

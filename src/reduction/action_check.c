@@ -42,23 +42,29 @@ static bool not_closed(const nh_action *g, nh_error *error)
     return nh_error_hint(error, "add the bracket to the list, or leave one of the two out");
 }
 
-/* sum_a c[a] e_a = 0 everywhere: true with one such c, the last coefficient that is not zero made 1. */
+/* sum_a c[a] e_a = 0 everywhere: true with one such c, the last coefficient that is not zero made 1.  Components are compared in units of the coordinates' sizes, and
+ * fields in units of their own: a field that is small beside another one is not zero. */
 static bool dependent(const nh_action *g, double small, double *c)
 {
     enum { most_places = 16 };
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d, places = k->places < most_places ? k->places : most_places, rows = places * m;
-    double *all = nh_alloc_array(rows * d + m * d + d * d + 1, sizeof *all), *E = all + rows * d, *null = E + m * d, size = 0;
+    double *all = nh_alloc_array(rows * d + m * d + d * d + m + d + 1, sizeof *all), *E = all + rows * d, *null = E + m * d, *unit = null + d * d, *size = unit + m;
+    nh_kinetic_sizes(k, places, unit);
     for (size_t p = 0; p < places; p++) {
         nh_action_values(g, k->place + p * m, E);
-        for (size_t a = 0; a < d; a++) memcpy(all + a * rows + p * m, E + a * m, m * sizeof *E);
+        for (size_t i = 0; i < m * d; i++) all[i / m * rows + p * m + i % m] = E[i] / unit[i % m];
     }
-    size = nh_largest(rows * d, all);
-    size_t n = nh_kernel(rows, d, all, small * (size > 0 ? size : 1), null, NULL, NULL), last = d;
+    for (size_t a = 0; a < d; a++) {
+        size[a] = nh_largest(rows, all + a * rows);
+        if (size[a] == 0) size[a] = 1;
+        for (size_t i = 0; i < rows; i++) all[a * rows + i] /= size[a];
+    }
+    size_t n = nh_kernel(rows, d, all, small, null, NULL, NULL), last = d;
     if (n) nh_column_echelon(d, n, small, null);
     for (size_t a = 0; a < d && n; a++)
-        if (fabs(c[a] = null[a]) > small) last = a;
-    for (size_t a = 0; a < d && n; a++) c[a] = fabs(c[a]) > small ? c[a] / null[last] : 0;
+        if (fabs(null[a]) > small) last = a;
+    for (size_t a = 0; a < d && n; a++) c[a] = fabs(null[a]) > small ? null[a] / size[a] / (null[last] / size[last]) : 0;
     nh_free(all);
     return n > 0;
 }

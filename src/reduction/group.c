@@ -48,28 +48,32 @@ static void name_group(nh_group *g, const nh_options *options)
     nh_text_clear(&name);
 }
 
-/* The combinations of generators that are single-valued on all angles form an algebra: the null space of their changes after a turn. */
+/* The combinations of generators that are single-valued on all angles form an algebra: the null space of their changes after a turn, in units of the coordinates and of
+ * the generators' sizes. */
 static size_t single_valued(const nh_action *g, const nh_options *options, double *c)
 {
     enum { most_places = 8 };
     static const double turn = 6.283185307179586;
     const nh_kinetic *k = g->kinetic;
     size_t m = k->m, d = g->d, places = k->places < most_places ? k->places : most_places, rows = places * m * m;
-    double *a = nh_alloc_array(rows * d + 2 * m * d + m + 1, sizeof *a), *before = a + rows * d, *after = before + m * d, *q = after + m * d, size = 0;
+    double *a = nh_alloc_array(rows * d + 2 * m * d + 2 * m + d + 1, sizeof *a), *before = a + rows * d, *after = before + m * d, *q = after + m * d, *unit = q + m, *size = unit + m;
+    nh_kinetic_sizes(k, places, unit);
     for (size_t p = 0; p < places; p++) {
         memcpy(q, k->place + p * m, m * sizeof *q);
         nh_action_values(g, q, before);
-        size = fmax(size, nh_largest(m * d, before));
+        for (size_t i = 0; i < m * d; i++) size[i / m] = fmax(size[i / m], fabs(before[i]) / unit[i % m]);
         for (size_t s = 0; s < m; s++) {
             if (!k->angle[s]) continue;
             q[s] += turn;
             nh_action_values(g, q, after);
             q[s] -= turn;
             for (size_t e = 0; e < d; e++)
-                for (size_t i = 0; i < m; i++) a[(p * m + s) * m + i + e * rows] = (after[i + e * m] - before[i + e * m]) / (1 + fabs(before[i + e * m]));
+                for (size_t i = 0; i < m; i++) a[(p * m + s) * m + i + e * rows] = (after[i + e * m] - before[i + e * m]) / unit[i];
         }
     }
+    for (size_t i = 0; i < rows * d; i++) a[i] /= size[i / rows] > 0 ? size[i / rows] : 1;
     size_t n = nh_kernel(rows, d, a, options->group, c, NULL, NULL);
+    for (size_t i = 0; i < n * d; i++) c[i] /= size[i % d] > 0 ? size[i % d] : 1;
     nh_column_echelon(d, n, options->group, c);
     nh_free(a);
     return n;

@@ -299,6 +299,15 @@ void nh_kinetic_values(const nh_kinetic *k, size_t count, const nh_ex *e, const 
 
 void nh_kinetic_sample(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, double *out) { run(k, count, e, places, k->place, out); }
 
+void nh_kinetic_sizes(const nh_kinetic *k, size_t places, double *size)
+{
+    for (size_t s = 0; s < k->m; s++) {
+        size[s] = 0;
+        for (size_t p = 0; p < places; p++) size[s] = fmax(size[s], fabs(k->place[p * k->m + s]));
+        if (k->angle[s] || size[s] == 0) size[s] = 1;
+    }
+}
+
 bool nh_kinetic_many_valued(const nh_kinetic *k, size_t count, const nh_ex *e)
 {
     enum { most_places = 6 };

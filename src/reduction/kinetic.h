@@ -44,6 +44,8 @@ nh_ex nh_kinetic_diff(const nh_kinetic *kinetic, nh_ex e, nh_ex x);
 void nh_kinetic_values(const nh_kinetic *kinetic, size_t count, const nh_ex *e, const double *q, double *out);
 /* At the first `places` sample points, count values each. */
 void nh_kinetic_sample(const nh_kinetic *kinetic, size_t count, const nh_ex *e, size_t places, double *out);
+/* The largest modulus of each coordinate at the first `places` sample points, in which fields compare whatever the units are: 1 for an angle, and where it is zero at all of them. */
+void nh_kinetic_sizes(const nh_kinetic *kinetic, size_t places, double *size);
 /* Does one of them change its value when an angle goes once around?  It is defined on a covering of the configuration space only then. */
 bool nh_kinetic_many_valued(const nh_kinetic *kinetic, size_t count, const nh_ex *e);
 

@@ -35,15 +35,15 @@ bool nh_action_push(const nh_action *g, size_t a, double time, double *z)
     for (size_t s = 0; s < m; s++) out[m + s] = nh_diff_along(k->dag, out[s], m, k->q, k->v);
     push p = {.m = m, .tape = nh_tape_create(k->dag, 2 * m, in, 2 * m, out, k->model->system->parameters, k->model->parameter, k->model->parameter_value)};
     p.work = nh_tape_work_create(p.tape);
-    bool good = nh_runge(2 * m, push_rate, &p, 0, time, tolerance, largest, NULL, z);
+    bool good = nh_runge_sized(2 * m, push_rate, &p, 0, time, tolerance, largest, z);
     nh_tape_work_free(p.work);
     nh_tape_free(p.tape);
     nh_free(in);
     return good;
 }
 
-/* dt with y + dt^a e_a^y = y0; the size of y - y0. */
-static double newton(const nh_slice *s, const double *q, double *dt)
+/* dt with y + dt^a e_a^y = y0; the size of y - y0, relative to the largest that coordinates of the orbit have had on the way (angles: 1 + size). */
+static double newton(const nh_slice *s, const double *q, double *size, double *dt)
 {
     static const double turn = 6.283185307179586;
     size_t m = s->m, d = s->d;
@@ -52,7 +52,8 @@ static double newton(const nh_slice *s, const double *q, double *dt)
     for (size_t i = 0; i < d; i++) {
         dt[i] = s->y0[i] - q[s->along[i]];
         if (s->kinetic->angle[s->along[i]]) dt[i] -= turn * round(dt[i] / turn);
-        off = fmax(off, fabs(dt[i]) / (1 + fabs(s->y0[i])));
+        size[i] = fmax(size[i], fabs(q[s->along[i]]));
+        if (dt[i] != 0) off = fmax(off, fabs(dt[i]) / (size[i] + (s->kinetic->angle[s->along[i]] ? 1 : 0)));
         for (size_t a = 0; a < d; a++) minor[i + a * d] = E[s->along[i] + a * m];
     }
     bool good = nh_solve(d, minor, 1, dt, NULL);
@@ -60,21 +61,32 @@ static double newton(const nh_slice *s, const double *q, double *dt)
     return good ? off : INFINITY;
 }
 
+/* Of constant components: a step may be of any length. */
+static bool translation(const nh_action *g, size_t a)
+{
+    const nh_kinetic *k = g->kinetic;
+    bool constant = true;
+    for (size_t s = 0; s < k->m; s++)
+        for (size_t j = 0; j < k->m; j++) constant &= !nh_depends(k->dag, g->generator[a].component[s], k->q[j]);
+    return constant;
+}
+
 size_t nh_slice_reach(const nh_slice *s, double *q, double *v, double *moved)
 {
     enum { most = NH_REACH_MOST };
     static const double there = 1e-13, longest = 0.8;
     size_t m = s->m, d = s->d, count = 0;
-    double *z = nh_alloc_array(2 * m + d + 1, sizeof *z), *dt = z + 2 * m;
+    double *z = nh_alloc_array(2 * m + 2 * d + 1, sizeof *z), *dt = z + 2 * m, *size = dt + d;
     bool good = d > 0, arrived = false;
     memcpy(z, q, m * sizeof *z);
     memcpy(z + m, v, m * sizeof *z);
+    for (size_t i = 0; i < d; i++) size[i] = fabs(s->y0[i]);
     for (size_t round = 0; round < most && good && !arrived; round++) {
-        double off = newton(s, z, dt);
+        double off = newton(s, z, size, dt);
         arrived = off <= there;
         good = isfinite(off);
         for (size_t a = 0; a < d && good && !arrived; a++) { /* one after the other: to first order they add up */
-            double step = fmax(-longest, fmin(longest, dt[a]));
+            double step = translation(s->action, a) ? dt[a] : fmax(-longest, fmin(longest, dt[a]));
             if (step == 0) continue;
             good = count < most && nh_action_push(s->action, a, step, z);
             if (!good) break;

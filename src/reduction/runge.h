@@ -11,4 +11,7 @@ typedef bool nh_runge_rate(double t, const double *y, double *rate, void *contex
  * left: *steps is counted down (NULL: 20000). */
 bool nh_runge(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, size_t *steps, double *y);
 
+/* The same where states have units: errors relative to the size that each has at the start, or moves by; 1 where both are zero. */
+bool nh_runge_sized(size_t n, nh_runge_rate *rate, void *context, double t0, double t1, double tolerance, double largest, double *y);
+
 #endif
