@@ -34,6 +34,7 @@ typedef struct {
     nh_flow_method method;
     double rtol;
     double absolute;         /* below this part of the largest size that a state has had its error is absolute: rtol * absolute * size */
+    const double *least;     /* size entries: the least size of each state; NULL: they come from the motion alone */
     const double *scale;     /* size entries: rtol * scale[i] instead; NULL and absolute == 0: all 1 */
     double max_steps;        /* in total; 0: the default of 1e7 */
     double effort;           /* units of base/effort.h, after which it ends; 0: no limit */

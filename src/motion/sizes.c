@@ -27,7 +27,7 @@ static bool step_is_short(nh_sizes *s, double t, double tau, const double *z, co
     for (size_t i = 0; i < s->problem->size; i++) to[i] = z[i] + tau * f[i];
     if (!rate_at(s, t + tau, to, rate)) return false;
     for (size_t i = 0; i < s->problem->size; i++) {
-        double own = fmax(fabs(z[i]), fabs(tau * f[i]));
+        double own = fmax(fmax(fabs(z[i]), fabs(tau * f[i])), s->least ? s->least[i] : 0);
         if (own > 0 && !(fabs(tau * (rate[i] - f[i])) <= own)) return false;
     }
     return true;
@@ -74,14 +74,16 @@ static void fill(nh_sizes *s, double t, const double *z)
         if (!(s->size[i] > 0)) s->size[i] = nothing * least;
 }
 
-bool nh_sizes_begin(nh_sizes *s, const nh_flow_problem *problem, double part, const double *z, double begin, double end)
+/* Sizes are no less than `least` (NULL: they come from the motion alone). */
+static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part, const double *least, const double *z, double begin, double end)
 {
     size_t n = problem->size;
     allocate(s, problem);
     s->part = part;
+    s->least = least;
     s->last = begin;
     double *f = s->work, *to = s->work + n, *rate = s->work + 2 * n, tau = end - begin;
-    for (size_t i = 0; i < n; i++) s->size[i] = fabs(z[i]);
+    for (size_t i = 0; i < n; i++) s->size[i] = fmax(fabs(z[i]), least ? least[i] : 0);
     if (!rate_at(s, begin, z, f)) return false;
     bool is_short = false;
     for (int i = 0; i < most_shorter && !(is_short = step_is_short(s, begin, tau, z, f, to, rate)); i++) tau *= shorter;
@@ -99,6 +101,11 @@ bool nh_sizes_begin(nh_sizes *s, const nh_flow_problem *problem, double part, co
     }
     fill(s, begin, z);
     return true;
+}
+
+bool nh_sizes_begin(nh_sizes *s, const nh_flow_problem *problem, double part, const double *z, double begin, double end)
+{
+    return begin_sizes(s, problem, part, NULL, z, begin, end);
 }
 
 void nh_sizes_given(nh_sizes *s, const nh_flow_problem *problem, const double *scale)
@@ -134,5 +141,5 @@ double nh_sizes_absolute(const nh_sizes *s, double rtol, size_t i)
 bool nh_sizes_open(nh_sizes *s, const nh_flow_problem *problem, const nh_flow_options *options, const double *z, size_t count, const double *times)
 {
     if (options->scale || !(options->absolute > 0)) return nh_sizes_given(s, problem, options->scale), true;
-    return nh_sizes_begin(s, problem, options->absolute, z, times[0], times[count - 1]);
+    return begin_sizes(s, problem, options->absolute, options->least, z, times[0], times[count - 1]);
 }

@@ -18,6 +18,7 @@ typedef struct {
     double part;             /* nh_flow_options.absolute */
     double *size, *rounding; /* of each state, and of its rate */
     double *work;
+    const double *least;     /* nh_flow_options.least */
     double tau;              /* the time in which the right-hand side changes by about its own size at the start */
     double step;             /* the last one */
     double last;             /* time of the last state */

@@ -126,7 +126,7 @@ static double fit(const nh_model *o, nh_tape *tape, nh_tape_work *work, double *
     size_t m = o->m, n = o->n;
     double *value = nh_alloc_array(m * (1 + n) + m * n + m + n, sizeof *value), *R = value + m * (1 + n), *b = R + m * n, off = INFINITY;
     for (int i = 0; i < most; i++) {
-        double size = 1, now = 0;
+        double size = 0, now = 0;
         nh_tape_eval(tape, work, z, value);
         for (size_t s = 0; s < m; s++) {
             b[s] = v[s] - value[s];
@@ -135,7 +135,7 @@ static double fit(const nh_model *o, nh_tape *tape, nh_tape_work *work, double *
             for (size_t k = 0; k < n; k++) R[s + k * m] = value[m + s * n + k];
         }
         if (!isfinite(now) || !isfinite(nh_largest(m * n, R))) break;
-        off = now / size;
+        off = size > 0 ? now / size : now; /* at rest there is no size */
         if (off < 1e-15 || nh_least_squares(m, n, R, 1, b, m > n ? m : n, 1e-12) < 0) break;
         for (size_t k = 0; k < n; k++) z[1 + m + k] += b[k];
     }

@@ -31,7 +31,7 @@ typedef struct {
     nh_atlas *atlas;          /* NULL: one chart only */
     double *factor;           /* of finished stretches: d numbers each, the first one outermost */
     size_t count, capacity, failures; /* new charts for one and the same output */
-    double *state, *left;
+    double *state, *left, *least;
     nh_reconstruction *out;
 } course;
 
@@ -169,6 +169,27 @@ static bool may_renew(course *c, const nh_motion *motion)
     return c->failures < most_failures;
 }
 
+/* Least sizes of the states: of x and of the place those of coordinates; of the group's coordinates what moves the place by as
+ * much, s_a = min_s size_s / |e_a^s|; of momenta none. */
+static void least_sizes(const course *c, const double *place, double *least)
+{
+    const nh_group_flow *f = &c->f;
+    const nh_slice *s = f->chart->slice;
+    double *q = nh_alloc_array(f->m + 1, sizeof *q), *group = least + f->inner;
+    memset(least, 0, nh_group_flow_size(f) * sizeof *least);
+    for (size_t i = 0; i < s->n; i++) least[i] = place[s->shape[i]];
+    if (f->group && place_of(c, c->state, q)) {
+        nh_tape_eval(f->field, f->field_work, q, f->e);
+        for (size_t a = 0; a < f->d; a++) {
+            double most = 0;
+            for (size_t r = 0; r < f->m; r++) most = fmax(most, fabs(f->e[r + a * f->m]) / place[r]);
+            group[a] = most > 0 && isfinite(most) ? 1 / most : 0;
+        }
+    }
+    if (f->group && f->direct) memcpy(group + f->d, place, f->m * sizeof *place);
+    nh_free(q);
+}
+
 static bool run(course *c, size_t count, const double *times, const nh_reconstruct_how *how, nh_error *error)
 {
     enum { most_stretches = 10000 };
@@ -180,9 +201,13 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
     memcpy(c->left, times, count * sizeof *times);
     for (; !out->complete && stretches < most_stretches; stretches++) {
         double steps = how->steps - (double)out->steps;
-        nh_flow_options o = {.rtol = how->tolerance, .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1), .guarded = true};
+        nh_flow_options o = {.rtol = how->tolerance, .max_steps = fmax(c->atlas && c->failures < 5 ? fmin(steps, patience) : steps, 1), .absolute = how->absolute, .guarded = true};
         if (how->effort > 0) o.effort = fmax(how->effort - out->effort, 1);
         nh_flow_problem problem = {.size = nh_group_flow_size(f), .context = f, .rate = nh_group_flow_rate, .guards = 2 + (f->d > 0 && f->group), .guard = nh_group_flow_guard};
+        if (how->place) {
+            least_sizes(c, how->place, c->least);
+            o.least = c->least;
+        }
         size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
         if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);
         nh_motion *motion = nh_method_flow(method, &problem, c->state, n + first, c->left, &o, error);
@@ -223,7 +248,8 @@ static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool grou
     course c = {.flows = nh_flows_create(slice->action), .atlas = atlas, .out = out};
     nh_group_flow_init(&c.f, slice->action, group);
     nh_group_flow_chart(&c.f, chart);
-    c.state = nh_alloc_array(inner + c.f.d + m + 1, sizeof *c.state);
+    c.state = nh_alloc_array(2 * (inner + c.f.d + m + 1), sizeof *c.state);
+    c.least = c.state + inner + c.f.d + m + 1;
     c.left = nh_alloc_array(count + 2, sizeof *c.left);
     out->time = nh_alloc_array(count + 1, sizeof *out->time);
     out->q = group ? nh_alloc_array(count * m + 1, sizeof *out->q) : NULL;

@@ -18,6 +18,8 @@
 typedef struct {
     const nh_method *method; /* with error control; NULL: CVODE Adams */
     double tolerance, steps; /* steps: at most */
+    double absolute;         /* of nh_flow_options: sizes are those that states have along the motion; 0: sizes 1 */
+    const double *place;     /* m: the least size of each coordinate, beside which an error in it counts; NULL: from the motion */
     double effort;           /* units of base/effort.h of integration at most, a motion that needs more is not complete; 0: no limit */
 } nh_reconstruct_how;
 

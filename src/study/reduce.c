@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "geometry/bordered.h"
 #include "geometry/regular.h"
+#include "reduction/subspace.h"
 #include "study/reduce_internal.h"
 #include "study/simulate.h"
 
@@ -38,13 +39,33 @@ bool nh_reduction_late(nh_reduction *r, const char *what)
 
 /* ---- the initial state ---- */
 
+/* Metric lengths of coordinates, by which their velocities compare; all 1 where there is no metric. */
+static void metric_units(const nh_kinetic *k, const double *q, double *unit)
+{
+    size_t m = k->m;
+    double *K = nh_alloc_array(m * m + 1, sizeof *K);
+    bool metric = k->metric && k->autonomous;
+    if (metric) nh_kinetic_values(k, m * m, k->K, q, K);
+    for (size_t s = 0; s < m; s++) unit[s] = metric && K[s * (m + 1)] > 0 ? sqrt(K[s * (m + 1)]) : 1;
+    nh_free(K);
+}
+
+/* How large omega(v) + b can be for velocities of this size: |b| + |omega| |v|, lengths by the metric's diagonal (Cauchy and Schwarz). */
+static double largest_value(size_t m, const double *unit, const double *omega, double b, const double *v)
+{
+    double form = 0, speed = 0;
+    for (size_t s = 0; s < m; s++) form = hypot(form, omega[s] / unit[s]), speed = hypot(speed, unit[s] * v[s]);
+    return fabs(b) + form * speed;
+}
+
 /* Change the velocities that are not `fixed` (NULL: none is) as little as possible so that they satisfy the constraints; returns the largest
- * omega^A(v) + b^A that is left, forms of length one. */
+ * omega^A(v) + b^A that is left, relative to what it can be for velocities of this size. */
 static double satisfy(const nh_kinetic *k, const double *q, const bool *fixed, double *v)
 {
     size_t m = k->m, f = k->f, ld = m > f ? m : f;
     double *a = nh_alloc_array(f * m + ld + 1, sizeof *a), *b = a + f * m, *omega = nh_alloc_array(f * m + 1, sizeof *omega), left = 0;
-    double *offset = nh_alloc_array(f + 1, sizeof *offset);
+    double *offset = nh_alloc_array(f + m + 1, sizeof *offset), *unit = offset + f;
+    metric_units(k, q, unit);
     if (f) nh_kinetic_values(k, f * m, k->omega, q, omega);
     if (f) nh_kinetic_values(k, f, k->b, q, offset);
     for (size_t i = 0; i < f; i++) {
@@ -63,7 +84,7 @@ static double satisfy(const nh_kinetic *k, const double *q, const bool *fixed, d
     for (size_t i = 0; i < f; i++) {
         double rest = offset[i];
         for (size_t s = 0; s < m; s++) rest += omega[i * m + s] * v[s];
-        left = fmax(left, fabs(rest));
+        if (rest != 0) left = fmax(left, fabs(rest) / largest_value(m, unit, omega + i * m, offset[i], v));
     }
     nh_free(a);
     nh_free(omega);
@@ -79,7 +100,7 @@ static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *
     double left = satisfy(r->kinetic, r->initial.q, given ? given : all, r->initial.v);
     if (left <= allowed) return true;
     if (q->project) return satisfy(r->kinetic, r->initial.q, NULL, r->initial.v) <= allowed || nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
-    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g", left);
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g of their size", left);
     return nh_error_hint(error, "leave out velocities that the constraints determine, or --project them to the nearest allowed ones");
 }
 
@@ -94,11 +115,12 @@ static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *giv
     bool found = nh_bordered_project(b, 0, r->initial.q, r->initial.v);
     for (size_t s = 0; s < m; s++)
         if (!given || given[s]) off = fmax(off, fabs(v[s] - r->initial.v[s]));
+    if (nh_largest(m, v) > 0) off /= nh_largest(m, v);
     nh_bordered_free(b);
     nh_free(v);
     if (!found) return nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
     if (off <= allowed || q->project) return true;
-    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the nearest that do not are off by %.3g", off);
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the nearest that do not are off by %.3g of their size", off);
     return nh_error_hint(error, "give other values, or --project them to these");
 }
 

@@ -63,11 +63,11 @@ typedef struct {
     nh_linear_momenta linear; /* of the shown equations; third and fourth kind */
     double linear_drift;      /* of these currents along the reduced motion; negative: not followed */
     bool against_full;        /* compared with the full motion; false: a second stage whose shape moves under the first group, compared with the first */
-    double agreement;         /* largest difference of a position, relative to 1 + size */
+    double agreement;         /* largest difference of a position, relative to the size that positions have had by then (angles: 1 + size) */
     double unsure;            /* how well the full motion itself is known, measured where the agreement exceeds 100 tolerances; else 0 */
     double reached;           /* time up to which */
-    double energy_drift;      /* of the reduced motion, relative to 1 + the largest of its terms until then; negative: not followed */
-    double momentum_drift;    /* second kind: of the spatial momentum; negative: not followed */
+    double energy_drift;      /* of the reduced motion, relative to the largest of its terms until then; negative: not followed */
+    double momentum_drift;    /* second kind: of the spatial momentum, relative to the largest that one of this energy can have; negative: not followed */
     double seconds, speedup;  /* of the reduced motion; full over reduced */
     size_t restarts, charts;  /* of the group's coordinates; changes of the slice or of the velocities */
     nh_reduction_choice choice; /* with an accuracy */

@@ -6,14 +6,20 @@
 
 nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_reduction_stage *s, const nh_reduction_course *c, bool group, const nh_reconstruct_how *how, nh_error *error)
 {
-    if (c->atlas) return nh_reconstruct_over(c->atlas, c->q, c->v, group, c->outputs, b->times, how, error);
-    return nh_reconstruct(s->reduced, s->slice, c->z, c->outputs, b->times, how, error);
+    nh_reconstruct_how own = *how;
+    double *place = nh_alloc_array(s->action->kinetic->m + 1, sizeof *place);
+    own.absolute = nh_reduction_absolute(b->r);
+    if (c->reached) own.place = place, nh_reduction_first_sizes(s->action->kinetic, c->reached, c->want, c->stride, place);
+    nh_reconstruction *out = c->atlas ? nh_reconstruct_over(c->atlas, c->q, c->v, group, c->outputs, b->times, &own, error)
+                                      : nh_reconstruct(s->reduced, s->slice, c->z, c->outputs, b->times, &own, error);
+    nh_free(place);
+    return out;
 }
 
 double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_course *c, const nh_reconstruction *motion)
 {
-    double worst = 0;
-    for (size_t i = 0; i < motion->count && i < c->reached; i++) worst = fmax(worst, nh_reduction_distance(s->action->kinetic, motion->q + i * motion->m, c->want + i * c->stride));
+    double worst;
+    nh_reduction_reliable(s->action->kinetic, motion->count < c->reached ? motion->count : c->reached, motion->q, motion->m, c->want, c->stride, INFINITY, &worst);
     return worst;
 }
 
@@ -21,7 +27,10 @@ double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_cou
 static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reconstruction *c)
 {
     if (c->count > 1 && s->reduced->conservative) s->energy_drift = 0;
-    for (size_t i = 1; i < c->count && s->reduced->conservative; i++) s->energy_drift = fmax(s->energy_drift, fabs(c->energy[i] - c->energy[0]) / (1 + c->energy_size[i]));
+    for (size_t i = 1; i < c->count && s->reduced->conservative; i++) {
+        double off = fabs(c->energy[i] - c->energy[0]);
+        if (off > 0) s->energy_drift = fmax(s->energy_drift, off / c->energy_size[i]);
+    }
     if (s->linear.count && c->charts == 0) s->linear_drift = nh_linear_momenta_drift(&s->linear, c->first, c->first_chart, c->z);
     s->charts = c->charts;
     s->seconds = c->seconds;

@@ -5,38 +5,96 @@
 
 #include "study/reduce_internal.h"
 
-/* How far two places are apart: angles modulo 2 pi, relative to 1 + size, measured by the metric with unit diagonal.  Near a pole of the coordinates large
- * differences of two angles may mean nearly the same place, and only the metric tells. */
-double nh_reduction_distance(const nh_kinetic *k, const double *a, const double *b)
+/* What differences count beside: angles have one size together, and so have other coordinates, of which rotations mix the errors: the largest of them, or the
+ * largest as the metric compares them, sqrt(K_rr / K_ss) size_r, where that is smaller (a light body beside a heavy one).  Lengths that are zero but for rounding
+ * are compared with a part of the radius of gyration, sqrt(K_aa / K_ss). */
+typedef struct {
+    double angles, lengths, metric, gyration;
+} yardsticks;
+
+static yardsticks yardsticks_of(const nh_kinetic *k, const double *K, const double *size)
+{
+    yardsticks y = {.angles = 1};
+    for (size_t s = 0; s < k->m; s++) {
+        double unit = sqrt(fmax(K[s * (k->m + 1)], 0));
+        if (k->angle[s]) {
+            y.angles = fmax(y.angles, 1 + size[s]);
+            y.gyration = fmax(y.gyration, unit);
+        } else {
+            y.lengths = fmax(y.lengths, size[s]);
+            y.metric = fmax(y.metric, unit * size[s]);
+        }
+    }
+    return y;
+}
+
+static double beside(const yardsticks *y, bool angle, double unit)
+{
+    if (!(unit > 0)) return y->lengths > 0 ? y->lengths : 1; /* without inertia */
+    static const double rounding = 1e-6; /* of the radius of gyration: below it differences of 1e-13 of that radius would count */
+    double size = angle ? y->angles : fmax(fmin(y->lengths, y->metric / unit), rounding * y->gyration / unit);
+    return size > 0 ? size : 1; /* all is zero: there is no size */
+}
+
+/* The metric at a place, 1 where there is none. */
+static double *metric_at(const nh_kinetic *k, const double *q)
+{
+    size_t m = k->m;
+    double *K = nh_alloc_array(m * m + 1, sizeof *K);
+    if (k->quadratic && k->autonomous) nh_kinetic_values(k, m * m, k->K, q, K);
+    else for (size_t s = 0; s < m; s++) K[s * (m + 1)] = 1;
+    return K;
+}
+
+static void grow(const nh_kinetic *k, const double *q, double *size)
+{
+    for (size_t s = 0; s < k->m; s++) size[s] = fmax(size[s], fabs(q[s]));
+}
+
+/* How far two places are apart: angles modulo 2 pi, relative to the sizes that coordinates have had, measured by the metric with unit diagonal.  Near a pole of
+ * the coordinates large differences of two angles may mean nearly the same place, and only the metric tells. */
+static double distance(const nh_kinetic *k, const double *a, const double *b, const double *size)
 {
     static const double turn = 6.283185307179586;
     size_t m = k->m;
-    double *K = nh_alloc_array(m * m + 2 * m, sizeof *K), *off = K + m * m, *unit = off + m, size = 1, square = 0;
-    if (k->quadratic && k->autonomous) nh_kinetic_values(k, m * m, k->K, b, K);
-    else for (size_t s = 0; s < m; s++) K[s * (m + 1)] = 1;
-    for (size_t s = 0; s < m; s++)
-        if (k->angle[s]) size = fmax(size, 1 + fabs(b[s]));
+    double *K = metric_at(k, b), *off = nh_alloc_array(m + 1, sizeof *off), square = 0;
+    yardsticks y = yardsticks_of(k, K, size);
     for (size_t s = 0; s < m; s++) {
+        double unit = sqrt(fmax(K[s * (m + 1)], 0));
         off[s] = a[s] - b[s];
         if (k->angle[s]) off[s] -= turn * round(off[s] / turn);
-        off[s] /= k->angle[s] ? size : 1 + fabs(b[s]);
-        unit[s] = K[s * (m + 1)] > 0 ? 1 / sqrt(K[s * (m + 1)]) : 0;
+        off[s] = unit > 0 ? off[s] / unit / beside(&y, k->angle[s], unit) : 0;
     }
-    for (size_t i = 0; i < m * m; i++) square += K[i] * unit[i / m] * unit[i % m] * off[i / m] * off[i % m];
+    for (size_t i = 0; i < m * m; i++) square += K[i] * off[i / m] * off[i % m];
     nh_free(K);
+    nh_free(off);
     return isfinite(square) ? sqrt(fmax(square, 0)) : INFINITY;
 }
 
 size_t nh_reduction_reliable(const nh_kinetic *k, size_t count, const double *a, size_t a_stride, const double *b, size_t b_stride, double allowed, double *farthest)
 {
+    double *size = nh_alloc_array(k->m + 1, sizeof *size);
     size_t n = count;
     *farthest = 0;
     for (size_t i = 0; i < count; i++) {
-        double off = nh_reduction_distance(k, a + i * a_stride, b + i * b_stride);
+        for (size_t next = i; next < count && next <= i + 1; next++) grow(k, b + next * b_stride, size); /* a motion may start from zeros */
+        double off = distance(k, a + i * a_stride, b + i * b_stride, size);
         if (!(off <= allowed) && i < n) n = i;
         *farthest = fmax(*farthest, off);
     }
+    nh_free(size);
     return n;
+}
+
+void nh_reduction_first_sizes(const nh_kinetic *k, size_t count, const double *a, size_t stride, double *size)
+{
+    size_t m = k->m;
+    double *K = metric_at(k, a), *so_far = nh_alloc_array(m + 1, sizeof *so_far);
+    for (size_t i = 0; i < count && i < 2; i++) grow(k, a + i * stride, so_far); /* as nh_reduction_reliable */
+    yardsticks y = yardsticks_of(k, K, so_far);
+    for (size_t s = 0; s < m; s++) size[s] = beside(&y, k->angle[s], sqrt(fmax(K[s * (m + 1)], 0)));
+    nh_free(so_far);
+    nh_free(K);
 }
 
 static size_t reliable(const nh_kinetic *k, const nh_motion *a, const nh_motion *b, double allowed, double *farthest)
@@ -46,67 +104,117 @@ static size_t reliable(const nh_kinetic *k, const nh_motion *a, const nh_motion 
 
 /* ---- the full motion ---- */
 
-static nh_motion *full_with(nh_reduction_bench *b, double rtol, size_t outputs, nh_error *error)
+/* By CVODE Adams, or by another method that takes no more than so much effort (0: no limit). */
+static nh_motion *full_by(nh_reduction_bench *b, const nh_method *method, double rtol, size_t outputs, double effort, nh_error *error)
 {
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
     nh_bordered *bordered = nh_bordered_create(r->model);
     nh_flow_problem problem = nh_bordered_flow(bordered);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    nh_flow_options options = {.method = NH_ADAMS, .absolute = nh_reduction_absolute(r), .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS), .effort = effort};
     double *z = nh_alloc_array(2 * m, sizeof *z);
     memcpy(z, r->initial.q, m * sizeof *z);
     memcpy(z + m, r->initial.v, m * sizeof *z);
-    nh_motion *motion = nh_flow(&problem, z, outputs, b->times, &options, error);
+    nh_motion *motion = nh_method_flow(method, &problem, z, outputs, b->times, &options, error);
     nh_bordered_free(bordered);
     nh_free(z);
     return motion;
 }
 
+static const nh_method *multistep(void) { return nh_method_find("CVODE Adams"); }
+
+/* Two motions of different tolerances, which agree at the first `reached` outputs. */
+typedef struct {
+    const nh_method *method;
+    nh_motion *coarse, *fine;
+    double tolerance, finest;
+    size_t reached;
+    double off;
+} pair;
+
+static void judge(nh_reduction_bench *b, pair *p)
+{
+    p->reached = reliable(b->r->kinetic, p->coarse, p->fine, NH_REDUCTION_ALLOWED * b->r->options.tolerance, &p->off);
+}
+
 /* Where no method can be chosen; r->full.why holds the reason. */
-static void take_usual(nh_reduction *r, double tolerance, const nh_motion *motion, double error, bool held)
+static void take_usual(nh_reduction *r, const pair *p, bool held)
 {
     nh_reduction_choice *c = &r->full;
     char reason[sizeof c->why];
     snprintf(reason, sizeof reason, "%s", c->why);
     r->full_formulation = "all coordinates, accelerations from the bordered system";
-    *c = (nh_reduction_choice){.method = "CVODE Adams", .tolerance = tolerance, .step = NAN, .error = error, .evaluations = motion->evaluations, .seconds = motion->seconds, .times = NAN, .runs = 2, .held = held};
-    snprintf(c->why, sizeof c->why, "CVODE Adams at tolerance %.1e; none is chosen because %.400s", tolerance, reason);
+    *c = (nh_reduction_choice){.method = p->method->name, .tolerance = p->tolerance, .step = NAN, .error = p->off, .evaluations = p->coarse->evaluations, .seconds = p->coarse->seconds, .times = NAN, .runs = 2, .held = held};
+    snprintf(c->why, sizeof c->why, "%s at tolerance %.1e; none is chosen because %.400s", c->method, p->tolerance, reason);
+}
+
+/* Where a multistep method does not know the motion to its end: its errors can be large beside its tolerance, as where a disk passes the vertical and its angles turn by pi
+ * within a few steps.  A pair of order 8 may know it further. */
+static void try_pair(nh_reduction_bench *b, pair *best)
+{
+    static const double coarse = 5e-13, fine = 1e-13, most = 30; /* tolerances; times the effort of the motion in hand */
+    pair p = {.method = nh_method_find("GSL rk8pd"), .tolerance = coarse, .finest = fine};
+    nh_error ignored = {0};
+    p.coarse = full_by(b, p.method, coarse, best->fine->count, most * best->fine->effort, &ignored);
+    bool some = p.coarse && p.coarse->count > best->reached;
+    p.fine = some ? full_by(b, p.method, fine, best->fine->count, most * best->fine->effort, &ignored) : NULL;
+    if (p.fine) judge(b, &p);
+    nh_error_clear(&ignored);
+    bool further = p.fine && p.reached > best->reached;
+    pair other = further ? *best : p;
+    if (further) *best = p;
+    nh_motion_free(other.coarse);
+    nh_motion_free(other.fine);
+}
+
+/* The motion and how far it is known, into the reduction. */
+static void take(nh_reduction_bench *b, const pair *p)
+{
+    nh_reduction *r = b->r;
+    size_t m = r->kinetic->m;
+    const nh_motion *fine = p->fine;
+    r->full_seconds = p->coarse->seconds;
+    b->reached = p->reached;
+    b->method = p->method;
+    b->finest = p->finest;
+    r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
+    if (b->reached < fine->count)
+        nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", r->full_reached);
+    b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
+    for (size_t i = 0; i < fine->count; i++) memcpy(b->full + i * m, fine->state + i * fine->size, m * sizeof *b->full);
 }
 
 /* The full motion with the tolerance of the reduced ones, and again with a smaller one, as reference.  Errors add up along a motion: the tolerance with which
  * all are computed is a hundredth of the one that is asked for, or less where the full motion shows that this would not do. */
 static bool full_motion(nh_reduction_bench *b, nh_error *error)
 {
-    static const double part = 0.01, finest = 1e-14, least = 5e-14, aim = 10, allowed = NH_REDUCTION_ALLOWED; /* in tolerances */
+    static const double part = 0.01, least = 5e-14, aim = 10; /* aim: in tolerances */
     nh_reduction *r = b->r;
-    size_t m = r->kinetic->m;
     b->rtol = fmax(r->options.tolerance * part, least);
-    nh_motion *coarse = full_with(b, b->rtol, NH_REDUCTION_OUTPUTS, error);
+    pair p = {.method = multistep(), .finest = 1e-14};
+    p.coarse = full_by(b, p.method, b->rtol, NH_REDUCTION_OUTPUTS, 0, error);
+    const nh_motion *coarse = p.coarse;
     /* one that ends early, with steps that become smaller and smaller, is not brought to its end a second time */
     size_t outputs = coarse && !coarse->complete && coarse->guard_hit < 0 && coarse->count > 1 ? coarse->count : NH_REDUCTION_OUTPUTS;
     const char *ended = outputs < NH_REDUCTION_OUTPUTS ? nh_arena_printf(r->arena, "the full motion ended at t = %.4g: %s", coarse->end_time, coarse->note) : NULL;
-    nh_motion *fine = coarse ? full_with(b, finest, outputs, error) : NULL;
-    double off = 0;
-    if (fine) reliable(r->kinetic, coarse, fine, INFINITY, &off);
-    if (fine && off > aim * r->options.tolerance && b->rtol > least) {
-        b->rtol = fmax(b->rtol * aim * r->options.tolerance / off, least);
-        nh_motion_free(coarse);
-        coarse = full_with(b, b->rtol, outputs, error);
+    p.fine = coarse ? full_by(b, p.method, p.finest, outputs, 0, error) : NULL;
+    if (p.fine) reliable(r->kinetic, p.coarse, p.fine, INFINITY, &p.off);
+    if (p.fine && p.off > aim * r->options.tolerance && b->rtol > least) {
+        b->rtol = fmax(b->rtol * aim * r->options.tolerance / p.off, least);
+        nh_motion_free(p.coarse);
+        p.coarse = full_by(b, p.method, b->rtol, outputs, 0, error);
     }
-    if (coarse && fine) {
-        r->full_seconds = coarse->seconds;
-        b->reached = reliable(r->kinetic, coarse, fine, allowed * r->options.tolerance, &off);
-        r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
-        if (b->reached < fine->count)
-            nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", b->times[b->reached ? b->reached - 1 : 0]);
-        b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
-        for (size_t i = 0; i < fine->count; i++) memcpy(b->full + i * m, fine->state + i * fine->size, m * sizeof *b->full);
+    if (p.coarse && p.fine) {
+        p.tolerance = b->rtol;
+        judge(b, &p);
+        if (p.reached < p.fine->count) try_pair(b, &p);
+        take(b, &p);
         if (ended) nh_reduction_warn(r, "%s", ended);
-        else if (!fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", fine->end_time, fine->note);
+        else if (!p.fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", p.fine->end_time, p.fine->note);
     }
-    if (b->full && r->wanted > 0) take_usual(r, b->rtol, coarse, off, b->reached == NH_REDUCTION_OUTPUTS);
-    nh_motion_free(coarse);
-    nh_motion_free(fine);
+    if (b->full && r->wanted > 0) take_usual(r, &p, b->reached == NH_REDUCTION_OUTPUTS);
+    nh_motion_free(p.coarse);
+    nh_motion_free(p.fine);
     return b->full != NULL;
 }
 
@@ -115,13 +223,15 @@ bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error) { return (
 /* Errors of one size, made at other places of the motion: what remains of them at the outputs is how well a motion in all coordinates is known, whatever its sensitivity. */
 double nh_reduction_unsure(nh_reduction_bench *b)
 {
-    static const double tolerances[] = {2e-14, 5e-14};
+    static const double finest = 1e-14, coarser[] = {2, 5};
     const nh_kinetic *k = b->r->kinetic;
     if (b->unsure > 0) return b->unsure;
-    for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
+    for (size_t t = 0; t < sizeof coarser / sizeof *coarser; t++) {
         nh_error ignored = {0};
-        nh_motion *other = full_with(b, tolerances[t], b->reached, &ignored);
-        for (size_t i = 0; other && i < b->reached && i < other->count; i++) b->unsure = fmax(b->unsure, nh_reduction_distance(k, other->state + i * other->size, b->full + i * k->m));
+        nh_motion *other = full_by(b, b->method ? b->method : multistep(), coarser[t] * fmax(b->finest, finest), b->reached, 0, &ignored);
+        double off = 0;
+        if (other) nh_reduction_reliable(k, b->reached < other->count ? b->reached : other->count, other->state, other->size, b->full, k->m, INFINITY, &off);
+        b->unsure = fmax(b->unsure, off);
         nh_motion_free(other);
         nh_error_clear(&ignored);
     }

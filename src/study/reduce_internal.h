@@ -3,9 +3,15 @@
 #ifndef NH_REDUCE_INTERNAL_H
 #define NH_REDUCE_INTERNAL_H
 
+#include <float.h>
+#include <math.h>
+
 #include "study/reduce.h"
 
 enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000, NH_REDUCTION_ALLOWED = 100 }; /* the last one in tolerances */
+
+/* Of nh_flow_options, for every motion that is compared: errors are relative to the size that each state has had. */
+static inline double nh_reduction_absolute(const nh_reduction *r) { return fmax(r->options.absolute, DBL_MIN); }
 
 /* What stages are compared with. */
 typedef struct {
@@ -14,18 +20,21 @@ typedef struct {
     size_t reached;       /* outputs of the full motion */
     double *full;         /* the places, outputs x m */
     double rtol;          /* of every motion that is compared */
+    const nh_method *method; /* of the reference, where it was not chosen for an accuracy */
+    double finest;        /* its tolerance */
     double unsure;        /* see nh_reduction_unsure; 0: not measured */
 } nh_reduction_bench;
 
-/* How far two places are apart, relative to 1 + size, angles modulo 2 pi. */
-double nh_reduction_distance(const nh_kinetic *kinetic, const double *a, const double *b);
 /* The reference, and the tolerance of all motions; where an accuracy is wanted by the method that reaches it at least cost. */
 bool nh_reduction_full_motion(nh_reduction_bench *bench, nh_error *error);
 /* The same by a method that is chosen for r->wanted: its error is measured in the distance that decides, and is a quarter of that.  False: the motion does not reach its end, or its equations
  * are not to be had; r->full.why says so, and nothing else has changed. */
 bool nh_reduction_full_accurate(nh_reduction_bench *bench);
-/* The number of outputs up to which two motions (rows of m or more) are no further apart than `allowed`; the largest distance. */
+/* The number of outputs up to which two motions (rows of m or more) are no further apart than `allowed`; the largest distance: of angles modulo 2 pi, relative to
+ * 1 + the largest of their sizes, of other coordinates relative to the largest of theirs, so far along the motion. */
 size_t nh_reduction_reliable(const nh_kinetic *kinetic, size_t count, const double *a, size_t a_stride, const double *b, size_t b_stride, double allowed, double *farthest);
+/* What differences of each coordinate count beside at the first output, and so at least: of a motion of rows of m or more. */
+void nh_reduction_first_sizes(const nh_kinetic *kinetic, size_t count, const double *a, size_t stride, double *size);
 /* How far full motions with two other tolerances are from the reference at most (it is trusted no further than to 100 tolerances, and this is no larger). */
 double nh_reduction_unsure(nh_reduction_bench *bench);
 

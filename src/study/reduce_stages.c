@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/linalg.h"
 #include "base/progress.h"
 #include "reduction/density.h"
 #include "reduction/reach.h"
@@ -160,6 +161,23 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t r
     return n;
 }
 
+/* The largest |e_a^s (p_s + ahat_s)| that momenta of this energy can have (Cauchy and Schwarz): sqrt(e_a K e_a) sqrt(p K^-1 p) + |e_a^s ahat_s|.  The momentum
+ * itself may be zero but for rounding, which is no larger than a part of this. */
+static double largest_momentum(size_t n, const double *K, const double *e, const double *p, const double *magnetic)
+{
+    double *factor = nh_alloc_array(n * n + n, sizeof *factor), *v = factor + n * n, length = 0, twice = 0, of_magnetic = 0;
+    memcpy(factor, K, n * n * sizeof *factor);
+    memcpy(v, p, n * sizeof *v);
+    bool good = nh_solve(n, factor, 1, v, NULL);
+    for (size_t i = 0; i < n && good; i++) {
+        twice += p[i] * v[i];
+        of_magnetic += e[i] * magnetic[i];
+        for (size_t j = 0; j < n; j++) length += e[i] * K[i * n + j] * e[j];
+    }
+    nh_free(factor);
+    return sqrt(fmax(length, 0)) * sqrt(fmax(twice, 0)) + fabs(of_magnetic);
+}
+
 /* Drift of e_a^s (p_s + ahat_s) along the once reduced motion, and that motion's positions. */
 static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, const nh_second *t, const double *z, double *drift, size_t *reached)
 {
@@ -168,9 +186,10 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
     nh_error trouble = {0};
     nh_reduced_flow *flow = nh_reduced_flow_create(&first->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
-    nh_flow_options options = {.method = NH_ADAMS, .rtol = b->rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
+    nh_flow_options options = {.method = NH_ADAMS, .absolute = nh_reduction_absolute(r), .rtol = b->rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     nh_motion *motion = nh_flow(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
-    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d + n, sizeof *E), *start = E + n * d, *magnetic = start + 2 * d, size = 1;
+    double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d + n + n * n, sizeof *E);
+    double *start = E + n * d, *size = start + d, *magnetic = size + d, *K = magnetic + n;
     *reached = motion ? motion->count : 0;
     *drift = *reached > 1 ? 0 : -1;
     for (size_t i = 0; i < *reached; i++) {
@@ -178,11 +197,13 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
         memcpy(out + i * n, at, n * sizeof *out);
         nh_action_values(&t->action, at, E);
         nh_kinetic_values(t->hat, n, first->a, at, magnetic);
+        nh_kinetic_values(t->hat, n * n, first->K, at, K);
         for (size_t a = 0; a < d; a++) {
             double momentum = 0;
             for (size_t k = 0; k < n; k++) momentum += E[k + a * n] * (at[n + k] + magnetic[k]);
-            if (i == 0) start[a] = momentum, size = fmax(size, fabs(momentum));
-            *drift = fmax(*drift, fabs(momentum - start[a]) / size);
+            if (i == 0) start[a] = momentum;
+            size[a] = fmax(size[a], largest_momentum(n, K, E + a * n, at + n, magnetic));
+            if (momentum != start[a]) *drift = fmax(*drift, fabs(momentum - start[a]) / size[a]);
         }
     }
     nh_motion_free(motion);

@@ -1,0 +1,176 @@
+/* reduce in any units: the group, the stages and how well motions agree do not depend on what masses and times are measured in, and what is said about a given group not on lengths. */
+#include <criterion/criterion.h>
+#include <math.h>
+#include <string.h>
+
+#include "scratch.h"
+#include "study/reduce.h"
+
+/* Lengths, masses and times are multiplied by these. */
+typedef struct {
+    double length, mass, time;
+} units;
+
+typedef struct {
+    const char *name, *group; /* the group as fields */
+    void (*text)(const units *u, char *text, size_t size);
+    void (*initial)(const units *u, char *text, size_t size);
+} moving;
+
+static const units one = {1, 1, 1};
+
+/* The box of sample points: places, then velocities, of two lengths. */
+static int box(const units *u, char *text, size_t size)
+{
+    double l = u->length, v = l / u->time, w = 1 / u->time;
+    return snprintf(text, size, "domain: {x: [%.17g, %.17g], y: [%.17g, %.17g], x': [%.17g, %.17g], y': [%.17g, %.17g], h': [%.17g, %.17g]", -l, 1.3 * l, -0.9 * l, 1.1 * l, -v, v, -v, v, -w, w);
+}
+
+static void disk_text(const units *u, char *text, size_t size)
+{
+    double l = u->length, m = u->mass;
+    int n = snprintf(text, size,
+                     "name: disk\nparameters: [{name: m, value: %.17g}, {name: J, value: %.17g}, {name: K, value: %.17g}, {name: r, value: %.17g}]\n"
+                     "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: p, type: angle}]\n"
+                     "lagrangian: m/2*(x'^2 + y'^2) + J/2*h'^2 + K/2*p'^2\nconstraints: [\"x' = r*cos(p)*h'\", \"y' = r*sin(p)*h'\"]\n",
+                     1.3 * m, 0.7 * m * l * l, 0.4 * m * l * l, 0.6 * l);
+    n += box(u, text + n, size - (size_t)n);
+    snprintf(text + n, size - (size_t)n, ", p': [%.17g, %.17g]}\n", -1 / u->time, 1 / u->time);
+}
+static void disk_initial(const units *u, char *text, size_t size)
+{
+    snprintf(text, size, "x=%.17g, y=%.17g, h=0.1, p=0.4, h'=%.17g, p'=%.17g", 0.3 * u->length, -0.2 * u->length, 0.9 / u->time, 0.7 / u->time);
+}
+
+static void sleigh_text(const units *u, char *text, size_t size)
+{
+    double l = u->length, m = u->mass;
+    int n = snprintf(text, size,
+                     "name: sleigh\nparameters: [{name: m, value: %.17g}, {name: J, value: %.17g}, {name: a, value: %.17g}]\n"
+                     "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}]\n"
+                     "lagrangian: m/2*(x'^2 + y'^2) + m*a*h'*(cos(h)*y' - sin(h)*x') + (J + m*a^2)/2*h'^2\nconstraints: [\"sin(h)*x' - cos(h)*y' = 0\"]\n",
+                     1.3 * m, 0.7 * m * l * l, 0.6 * l);
+    n += box(u, text + n, size - (size_t)n);
+    snprintf(text + n, size - (size_t)n, "}\n");
+}
+static void sleigh_initial(const units *u, char *text, size_t size)
+{
+    snprintf(text, size, "x=%.17g, y=%.17g, h=0.4, x'=%.17g, h'=%.17g", 0.3 * u->length, -0.2 * u->length, 0.9 * u->length / u->time, 0.7 / u->time);
+}
+
+/* A planar body on a spring. */
+static void body_text(const units *u, char *text, size_t size)
+{
+    double l = u->length, m = u->mass;
+    int n = snprintf(text, size,
+                     "name: body\nparameters: [{name: m, value: %.17g}, {name: J, value: %.17g}, {name: k, value: %.17g}]\n"
+                     "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}]\nlagrangian: m/2*(x'^2 + y'^2) + J/2*h'^2 - k/2*(x^2 + y^2)\n",
+                     1.3 * m, 0.7 * m * l * l, 0.5 * m / u->time / u->time);
+    n += box(u, text + n, size - (size_t)n);
+    snprintf(text + n, size - (size_t)n, "}\n");
+}
+static void body_initial(const units *u, char *text, size_t size)
+{
+    snprintf(text, size, "x=%.17g, y=%.17g, h=0.4, x'=%.17g, y'=%.17g, h'=%.17g", 0.3 * u->length, -0.2 * u->length, 0.9 * u->length / u->time, 0.4 * u->length / u->time, 0.7 / u->time);
+}
+
+static const moving all[] = {
+    {"disk", "x=1; y=1; h=1; x=-y, y=x, p=1", disk_text, disk_initial},
+    {"sleigh", "x=1; y=1; x=-y, y=x, h=1", sleigh_text, sleigh_initial},
+    {"body", "x=-y, y=x; h=1", body_text, body_initial},
+};
+
+static nh_reduction *reduced(const moving *s, const units *u, bool given)
+{
+    char text[2000], initial[500], path[SCRATCH];
+    nh_error error = {0};
+    s->text(u, text, sizeof text);
+    s->initial(u, initial, sizeof initial);
+    cr_assert(scratch_text(path, text));
+    nh_reduce_request q = {.system_path = path, .initial = initial, .group = given ? s->group : NULL};
+    nh_options_default(&q.options);
+    q.options.until = 10 * u->time;
+    nh_reduction *r = nh_reduce(&q, &error);
+    remove(path);
+    cr_assert_not_null(r, "%s in units %g, %g, %g: %s", s->name, u->length, u->mass, u->time, error.what);
+    return r;
+}
+
+/* Within a factor 10 of each other; what is below `fine` may be anything. */
+static void near(const char *what, const moving *s, const units *u, double fine, double a, double b)
+{
+    static const double factor = 10;
+    double x = fmax(a, fine), y = fmax(b, fine);
+    cr_expect((a < 0) == (b < 0) && x <= factor * y && y <= factor * x, "%s in units %g, %g, %g: %s %g, not %g", s->name, u->length, u->mass, u->time, what, b, a);
+}
+
+static void same(const moving *s, const units *u, bool given)
+{
+    /* Motions are computed to 1e-12, and errors of that size depend on rounding: of a tenth of what decides it is said no more. */
+    static const double fine = 1e-11, rounding = 1e-13;
+    nh_reduction *a = reduced(s, &one, given), *b = reduced(s, u, given);
+    cr_expect_str_eq(a->group->name, b->group->name, "%s in units %g, %g, %g", s->name, u->length, u->mass, u->time);
+    cr_expect_eq(a->warnings, b->warnings, "%s in units %g, %g, %g: %s", s->name, u->length, u->mass, u->time, b->warnings ? b->warning[0] : "");
+    cr_assert_eq(a->stages, b->stages);
+    cr_expect(a->stages > 0);
+    for (size_t i = 0; i < a->stages; i++) {
+        const nh_reduction_stage *x = &a->stage[i], *y = &b->stage[i];
+        cr_expect(x->kind == y->kind && strcmp(x->group, y->group) == 0 && x->measure.measure == y->measure.measure, "%s: %s by %s", s->name, nh_stage_kind_name(y->kind), y->group);
+        cr_expect(x->complete && y->complete && !nh_stage_apart(y, &b->options), "%s, %s", s->name, y->note);
+        near("agreement", s, u, fine, x->agreement, y->agreement);
+        near("drift of the energy", s, u, fine, x->energy_drift, y->energy_drift);
+        near("drift of the momentum", s, u, rounding, x->momentum_drift, y->momentum_drift);
+    }
+    nh_reduction_free(a);
+    nh_reduction_free(b);
+}
+
+Test(reduce_scales, masses)
+{
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1, 1e-9, 1}, false), same(&all[i], &(units){1, 1e9, 1}, false);
+}
+
+Test(reduce_scales, times)
+{
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1, 1, 1e-9}, true), same(&all[i], &(units){1, 1, 1e8}, true);
+}
+
+Test(reduce_scales, masses_and_times)
+{
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1, 1e9, 1e8}, true), same(&all[i], &(units){1, 1e-9, 1e-9}, true);
+}
+
+/* A group that is given does not depend on it: no field is zero because another one is 1e9 times as large. */
+Test(reduce_scales, groups_of_any_length)
+{
+    static const double length[] = {1e-9, 1e9};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        for (size_t l = 0; l < sizeof length / sizeof *length; l++) {
+            nh_reduction *a = reduced(&all[i], &one, true), *b = reduced(&all[i], &(units){length[l], 1, 1}, true);
+            cr_expect_str_eq(a->group->name, b->group->name);
+            cr_expect_geq(b->full_reached, 10);
+            cr_expect(b->stages > 0 && !nh_stage_apart(&b->stage[0], &b->options));
+            nh_reduction_free(a);
+            nh_reduction_free(b);
+        }
+}
+
+/* Velocities that violate the constraints are off by a part of their size, whatever that is. */
+Test(reduce_scales, velocities_off_the_constraints)
+{
+    static const double size[] = {1e-12, 1, 1e12};
+    for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
+        char text[2000], initial[500], path[SCRATCH];
+        nh_error error = {0};
+        sleigh_text(&one, text, sizeof text);
+        snprintf(initial, sizeof initial, "h=0.3, x'=%.17g, y'=%.17g, h'=%.17g", size[i], size[i], 0.2 * size[i]);
+        cr_assert(scratch_text(path, text));
+        nh_reduce_request q = {.system_path = path, .initial = initial};
+        nh_options_default(&q.options);
+        q.options.until = 10 / size[i] < 1e9 ? 10 / size[i] : 1e9;
+        cr_expect_null(nh_reduce(&q, &error), "velocities of size %g are taken", size[i]);
+        cr_expect(strstr(error.what, "violate the constraints"), "%s", error.what);
+        nh_error_clear(&error);
+        remove(path);
+    }
+}
