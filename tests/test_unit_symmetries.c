@@ -1,10 +1,12 @@
-/* Units of length, mass and time change neither the kind of a constraint nor what is said of a symmetry, and no usable point. */
+/* Units of length, mass and time change neither the kind of a constraint nor what is said of a symmetry, and no usable point, and no symmetry group. */
 #include <float.h>
 #include <stdio.h>
 
 #include "geometry/distribution.h"
-#include "mechanics.h"
 #include "noether/symmetry.h"
+#include "expr/print.h"
+#include "reduced.h"
+#include "reduction/group.h"
 
 typedef struct {
     double length, mass, time;
@@ -83,7 +85,29 @@ static void describe(const mechanics *x, const char *const *current, nh_text *ou
     nh_points_free(points);
 }
 
-Test(unit_symmetries, words_know_none)
+/* The symmetry group with its fields. */
+static void describe_group(const mechanics *x, const char *const *current, nh_text *out)
+{
+    (void)current;
+    nh_error error = {0};
+    nh_options options;
+    nh_options_default(&options);
+    nh_kinetic *k = nh_kinetic_create(x->model, 1, &error);
+    must(k != NULL, &error, "the metric");
+    nh_group *g = nh_group_find(k, &options, &error);
+    must(g != NULL, &error, "the group");
+    nh_text_addf(out, "%s, %zu isometries, %zu fields without a closed form\n", g->name, g->jets->of_metric, g->missing);
+    for (size_t i = 0; i < g->action.d; i++)
+        for (size_t s = 0; s < k->m; s++) {
+            char *e = nh_print_string(k->dag, g->action.generator[i].component[s]);
+            nh_text_addf(out, "%s%s", e, s + 1 < k->m ? ", " : "\n");
+            nh_free(e);
+        }
+    nh_group_free(g);
+    nh_kinetic_free(k);
+}
+
+static void in_all_units(void (*describe_it)(const mechanics *x, const char *const *current, nh_text *out))
 {
     for (size_t c = 0; c < sizeof systems / sizeof *systems; c++) {
         char one[most_text] = "";
@@ -94,7 +118,7 @@ Test(unit_symmetries, words_know_none)
             nh_text_init(&words);
             systems[c].write(u, &file);
             mechanics x = mechanics_of_text(nh_text_string(&file), NH_CHART_AUTO);
-            describe(&x, systems[c].current, &words);
+            describe_it(&x, systems[c].current, &words);
             if (i == 0) snprintf(one, sizeof one, "%s", nh_text_string(&words));
             cr_expect_str_eq(nh_text_string(&words), one, "units %g, %g, %g:\n%s\n%s", u->length, u->mass, u->time, nh_text_string(&words), one);
             mechanics_clear(&x);
@@ -103,3 +127,6 @@ Test(unit_symmetries, words_know_none)
         }
     }
 }
+
+Test(unit_symmetries, words_know_none) { in_all_units(describe); }
+Test(unit_symmetries, groups_know_none) { in_all_units(describe_group); }

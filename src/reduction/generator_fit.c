@@ -107,6 +107,14 @@ static double unit_of(const nh_generator_fit *s, const double *e)
     return size > 0 ? 1 / size : 0;
 }
 
+/* One over the size of velocities, a power of 1024, by which no digit is lost: what constraints and L say must not become small with the unit of time. */
+static double slowness(const nh_generator_fit *s, const double *v)
+{
+    double size = 0;
+    for (size_t i = 0; i < s->m; i++) size = fmax(size, fabs(v[i]) / s->scale[i]);
+    return size > 0 && isfinite(size) ? exp2(-10 * round(log2(size) / 10)) : 1;
+}
+
 static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z, nh_relative *out)
 {
     const nh_kinetic *k = s->k;
@@ -121,7 +129,7 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
     if (finite) {
         if (plain(k)) metric_rows(s, y, z, out);
         if (plain(k)) function_row(s, y, z, z + y.dV, z + y.Lv, v, unit_of(s, z + y.dV), out); /* of its own size: V may be steep elsewhere */
-        for (size_t a = 0; a < k->f; a++) function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, unit_of(s, z + y.fv + a * m), out);
+        for (size_t a = 0; a < k->f; a++) function_row(s, y, z, z + y.fq + a * m, z + y.fv + a * m, v, slowness(s, v) * unit_of(s, z + y.fv + a * m), out);
         for (size_t c = 0; c < m; c++) {
             double *row = nh_relative_value(out);
             for (size_t j = 0; j < s->terms; j++)
@@ -130,7 +138,7 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
         for (size_t i = 1; i <= pushes && !plain(k); i++) { /* L at velocities that the constraints need not allow */
             memcpy(in + 1 + m, k->speed + (p + i) % k->places * m, m * sizeof *in);
             nh_tape_eval(tape, work, in, z);
-            if (nh_all_finite(y.total, z)) function_row(s, y, z, z + y.Lq, z + y.Lv, in + 1 + m, unit_of(s, z + y.Lv), out);
+            if (nh_all_finite(y.total, z)) function_row(s, y, z, z + y.Lq, z + y.Lv, in + 1 + m, slowness(s, in + 1 + m) * unit_of(s, z + y.Lv), out);
         }
     }
     nh_free(in);
@@ -185,7 +193,9 @@ void nh_generator_fit_scale(nh_generator_fit *s)
     double *K = nh_alloc_array(s->m * s->m, sizeof *K);
     s->scale = nh_alloc_array(s->m, sizeof *s->scale);
     nh_kinetic_values(k, s->m * s->m, k->K, k->place, K);
-    for (size_t i = 0; i < s->m; i++) s->scale[i] = K[i * (s->m + 1)] > 0 ? 1 / sqrt(K[i * (s->m + 1)]) : 1;
+    for (size_t i = 0; i < s->m; i++) s->scale[i] = K[i * (s->m + 1)];
+    double length = nh_kinetic_length(k, s->scale);
+    for (size_t i = 0; i < s->m; i++) s->scale[i] = s->scale[i] > 0 ? length / sqrt(s->scale[i]) : 1;
     nh_free(K);
 }
 

@@ -308,6 +308,14 @@ void nh_kinetic_sizes(const nh_kinetic *k, size_t places, double *size)
     }
 }
 
+double nh_kinetic_length(const nh_kinetic *k, const double *diagonal)
+{
+    double length = 0;
+    for (size_t i = 0; i < k->m; i++)
+        if (diagonal[i] > 0) length = fmax(length, nh_chart_unit(k->model->system, i) * sqrt(diagonal[i]));
+    return length > 0 && isfinite(length) ? exp2(10 * round(log2(length) / 10)) : 1;
+}
+
 bool nh_kinetic_many_valued(const nh_kinetic *k, size_t count, const nh_ex *e)
 {
     enum { most_places = 6 };

@@ -46,6 +46,9 @@ void nh_kinetic_values(const nh_kinetic *kinetic, size_t count, const nh_ex *e, 
 void nh_kinetic_sample(const nh_kinetic *kinetic, size_t count, const nh_ex *e, size_t places, double *out);
 /* The largest modulus of each coordinate at the first `places` sample points, in which fields compare whatever the units are: 1 for an angle, and where it is zero at all of them. */
 void nh_kinetic_sizes(const nh_kinetic *kinetic, size_t places, double *size);
+/* The length of the sampling box in the metric with this diagonal (m), or 1 without one: fields are compared with it, and what is found does not depend on units.  A power of 1024, by
+ * which no digit is lost: where the length is near one it is 1. */
+double nh_kinetic_length(const nh_kinetic *kinetic, const double *diagonal);
 /* Does one of them change its value when an angle goes once around?  It is defined on a covering of the configuration space only then. */
 bool nh_kinetic_many_valued(const nh_kinetic *kinetic, size_t count, const nh_ex *e);
 

@@ -145,7 +145,9 @@ static bool *dependence(const nh_kinetic *k, const nh_jets *jets, bool *nonzero)
     if (!jets)
         for (size_t i = 0; i < m * m; i++) out[i] = nonzero[i % m] = true;
     if (jets) nh_kinetic_values(k, m * m, k->K, jets->place, K);
-    for (size_t i = 0; i < m; i++) scale[i] = 1 / sqrt(K[i * (m + 1)]);
+    for (size_t i = 0; i < m; i++) scale[i] = K[i * (m + 1)];
+    double length = nh_kinetic_length(k, scale);
+    for (size_t i = 0; i < m; i++) scale[i] = length / sqrt(scale[i]);
     for (size_t p = 0; jets && p < jets->places; p++)
         for (size_t c = 0; c < jets->dimension; c++) {
             const double *jet = jets->moved + (p * jets->dimension + c) * size;

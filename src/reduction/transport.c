@@ -43,7 +43,10 @@ void nh_transport_init(nh_transport *t, const nh_kinetic *k, const double *q0)
     t->first = t->dG + cube;
     t->dfirst = t->first + cube;
     nh_tape_eval(t->tape, t->work, q0, t->raw);
-    for (size_t i = 0; i < m; i++) t->scale[i] = 1 / sqrt(t->raw[packed(i, i)]);
+    for (size_t i = 0; i < m; i++) t->scale[i] = t->raw[packed(i, i)];
+    double length = nh_kinetic_length(k, t->scale);
+    t->factor = 1 / (length * length);
+    for (size_t i = 0; i < m; i++) t->scale[i] = length / sqrt(t->scale[i]);
 }
 
 void nh_transport_clear(nh_transport *t)
@@ -90,11 +93,11 @@ static void second_derivatives(const nh_transport *t, size_t p, const double *x,
                 S[i + m * l] += row[i] * x[k] * c[k];
             }
             for (size_t i = l + 1; i < m; i++) sum += block[i * (i + 1) / 2 + l] * x[i] * c[i];
-            D[l + m * k] = sum * c[l] * c[k] * c[p];
+            D[l + m * k] = sum * c[l] * c[k] * c[p] * t->factor;
         }
     }
     for (size_t l = 0; l < m; l++)
-        for (size_t j = 0; j <= l; j++) S[l + m * j] = S[j + m * l] *= c[l] * c[j] * c[p];
+        for (size_t j = 0; j <= l; j++) S[l + m * j] = S[j + m * l] *= c[l] * c[j] * c[p] * t->factor;
 }
 
 /* G^i_j = Gamma^i_jk X^k and d_p G^i_j = K^il ( d_p(Gamma_l,jk) X^k - d_p K_ln G^n_j ). */
@@ -127,8 +130,8 @@ bool nh_transport_at(nh_transport *t, const double *q, const double *x)
     if (sum != 0) return false;
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j < m; j++) {
-            t->K[i + m * j] = t->raw[packed(i, j)] * c[i] * c[j];
-            for (size_t k = 0; k < m; k++) t->dK[i + m * (j + m * k)] = t->raw[t->h * (1 + k) + packed(i, j)] * c[i] * c[j] * c[k];
+            t->K[i + m * j] = t->raw[packed(i, j)] * c[i] * c[j] * t->factor;
+            for (size_t k = 0; k < m; k++) t->dK[i + m * (j + m * k)] = t->raw[t->h * (1 + k) + packed(i, j)] * c[i] * c[j] * c[k] * t->factor;
         }
     if (!invert(m, t->K, t->Kinv)) return false;
     christoffel(t);

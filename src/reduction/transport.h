@@ -1,6 +1,7 @@
 /* transport: 1-jets of isometries along straight lines (jets.h).
  *
- * Works in coordinates divided by the scales s_i = K_ii(q0)^(-1/2), in which the metric has size one. */
+ * Works in coordinates divided by the scales s_i = l K_ii(q0)^(-1/2), and with the metric divided by l^2, the square of the length of the sampling box: in these the metric has size one, and
+ * so has the box. */
 #ifndef NH_TRANSPORT_H
 #define NH_TRANSPORT_H
 
@@ -13,6 +14,7 @@ typedef struct {
     nh_tape *tape;         /* K, dK, ddK, packed */
     nh_tape_work *work;
     double *scale;         /* m */
+    double factor;         /* of the metric: 1/l^2 */
     double *raw, *q;
     double *K, *dK;        /* m^2; dK[i + m*(j + m*k)] = d_k K_ij; scaled */
     double *Kinv, *Gamma;  /* m^2; Gamma[i + m*(j + m*k)] */
