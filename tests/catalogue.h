@@ -7,7 +7,6 @@
 #ifndef NH_TESTS_CATALOGUE_H
 #define NH_TESTS_CATALOGUE_H
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,8 +16,9 @@
 #include "study/analyze.h"
 
 #include "multipliers.h"
+#include "sweep.h"
 
-enum { most_files = 500, points = 24, least_points = 4, bits = 400 };
+enum { points = 24, least_points = 4, bits = 400 };
 
 /* 10-logarithms: of the largest relative rate of a certified current, and of how much worse than at the program's own points a fitted one may be,
  * and of what is left where numbers too long for exact ones were rounded to doubles. */
@@ -163,21 +163,6 @@ static void compare(nh_result *r, row *o)
         note(o, "trap", r->system->trap[k].name);
     }
     nh_points_free(generic);
-}
-
-static inline int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
-
-static inline size_t list(const char *folder, char **name)
-{
-    DIR *d = opendir(folder);
-    size_t n = 0;
-    for (struct dirent *e; d && n < most_files && (e = readdir(d));) {
-        size_t length = strlen(e->d_name);
-        if (length > 5 && !strcmp(e->d_name + length - 5, ".yaml")) name[n++] = strndup(e->d_name, length - 5);
-    }
-    if (d) closedir(d);
-    if (n) qsort(name, n, sizeof *name, by_name);
-    return n;
 }
 
 /* The system in a file, analysed with an analysis file (NULL: without) and compared. */

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs Criterion programs, one per processor at a time, and adds up what they say.  Those that took longest last time go first.
+# Runs Criterion programs, one per processor at a time, and adds up what they say.  Those that took longest last time go first; before the first time, those with sweeps.
 # usage: run.sh BUILD|PROGRAM...          the last line is "N passed, N failed"
 if [ "$1" = --one ]; then # a program: its log and its line "name passed failed seconds" stay beside it
     program=$2
@@ -30,7 +30,8 @@ programs=$(for name in "$@"; do
 done | grep -v '\.[a-z]*$')
 before=$(for program in $programs; do
     seconds=$(cut -d' ' -f4 "$program.line" 2>/dev/null)
-    echo "${seconds:-1000} $program"
+    [ "$seconds" ] || seconds=$(grep -c sweep_ "tests/${program##*/}.c" 2>/dev/null)
+    echo "${seconds:-0} $program"
     rm -f "$program.line"
 done | sort -rn | cut -d' ' -f2)
 echo "$before" | xargs -P "$(nproc 2>/dev/null || echo 2)" -n 1 sh "$0" --one

@@ -5,6 +5,7 @@
 #include "expr/diff.h"
 #include "expr/normal.h"
 #include "oracle.h"
+#include "sweep.h"
 
 /* ---- values ---- */
 
@@ -149,6 +150,7 @@ Test(bodies, every_joint_alone)
 Test(bodies, random_trees)
 {
     for (uint64_t seed = 1; seed <= 12; seed++) {
+        if (!sweep_tries(seed, 2, 6)) continue;
         char *text, name[40];
         tree t = random_tree(2 + seed % 6, seed, &text);
         snprintf(name, sizeof name, "tree %d", (int)seed);
@@ -203,6 +205,7 @@ static void check_accelerations(const tree *t, const char *text, double bound, c
 Test(bodies, accelerations_of_chains)
 {
     for (size_t n = 1; n <= 10; n += 3) {
+        if (!sweep_tries(n, 1, 4)) continue;
         tree t;
         char *text = revolute_chain(&t, n, 11 + n), name[40];
         snprintf(name, sizeof name, "chain of %zu", n);
@@ -214,6 +217,7 @@ Test(bodies, accelerations_of_chains)
 Test(bodies, accelerations_of_trees)
 {
     for (uint64_t seed = 21; seed <= 24; seed++) {
+        if (!sweep_tries(seed, 2, 4)) continue;
         char *text, name[40];
         tree t = random_tree(3, seed, &text);
         snprintf(name, sizeof name, "tree %d", (int)seed);
@@ -225,6 +229,7 @@ Test(bodies, accelerations_of_trees)
 /* A graph, not a formula: the number of nodes grows like a power of n. */
 Test(bodies, chains_stay_small)
 {
+    sweep_plain_only();
     for (size_t n = 4; n <= 12; n += 4) {
         tree t;
         char *text = revolute_chain(&t, n, 5);
@@ -421,6 +426,7 @@ static const cJSON *crane_set(cJSON *all)
 /* K, the constraints, and the motion's accelerations in all coordinates, against 40 digits. */
 Test(bodies, crane_against_the_oracle)
 {
+    sweep_plain_only();
     cJSON *all = oracle_read("tests/data/crane_oracle.json");
     const cJSON *set = crane_set(all);
     mechanics x = crane("systems/crane.yaml", set, NH_CHART_QUASI);
@@ -495,6 +501,7 @@ Test(bodies, energies_written_by_hand)
 {
     static const char *const names[] = {"car_trailers_5", "two_wheel_cart", "cart_rotor", "spherical_robot", "crane"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (!sweep_tries(i + 3, 1, 5)) continue;
         char path[100];
         snprintf(path, sizeof path, "systems/%s.yaml", names[i]);
         mechanics x = mechanics_of_file(path, NH_CHART_QUASI, 0, NULL);

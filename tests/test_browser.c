@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "program.h"
+#include "sweep.h"
 #include "report/html_internal.h"
 
 static place place_with_page(const char *line)
@@ -86,6 +87,7 @@ Test(browser, script_and_style_may_stand_in_a_page)
 /* The slider at its end: the clock, the cursors of all plots and the drawing are there, too. */
 Test(browser, slider_plots_and_drawing_move_together)
 {
+    sweep_plain_only();
     place p = place_with_page("analyze sleigh --quiet --html page.html");
     write_with(&p, "page.html", "moved.html", 1, (const char *const[]){"var b=document.getElementById('when');b.value=b.max;b.dispatchEvent(new Event('input'));"});
     char *start = document_of(&p, "page.html"), *last = start ? document_of(&p, "moved.html") : NULL;
@@ -112,6 +114,7 @@ Test(browser, slider_plots_and_drawing_move_together)
 
 Test(browser, a_hostile_title_stays_text)
 {
+    sweep_plain_only();
     place p = place_make();
     write_here(&p, "h.yaml", "name: h\ntitle: \"<img src=x onerror=document.body.id='pwned'></title><script>document.body.id='pwned'</script>\"\n"
                              "coordinates:\n  - {name: x, type: length, doc: \"<svg onload=document.body.id='pwned'>\"}\nlagrangian: x'^2\n");
@@ -219,8 +222,10 @@ static const char *const wide_window = "--virtual-time-budget=9000 --window-size
 
 Test(browser, pages_are_as_they_should_be)
 {
+    sweep_plain_only();
     bool skipped = false;
     for (size_t i = 0; !skipped && i < sizeof SYSTEMS / sizeof *SYSTEMS; i++) {
+        if (!sweep_tries(i, 2, 4)) continue;
         char line[200];
         place p;
         snprintf(line, sizeof line, "analyze %s --quiet --html page.html --json page.json", SYSTEMS[i]);
@@ -243,6 +248,7 @@ Test(browser, pages_are_as_they_should_be)
 
 Test(browser, so_are_those_of_the_other_commands)
 {
+    sweep_plain_only();
     static const char *const LINES[] = {
         "verify sleigh --current m*v --quiet --html page.html",
         "simulate sleigh --initial omega=2 --until 5 --quiet --html page.html",
@@ -251,6 +257,7 @@ Test(browser, so_are_those_of_the_other_commands)
     };
     bool skipped = false;
     for (size_t i = 0; !skipped && i < sizeof LINES / sizeof *LINES; i++) {
+        if (!sweep_tries(i + 1, 2, 4)) continue;
         place p;
         cJSON *seen = page_looked_at(&p, LINES[i], i % 2 ? narrow_dark : wide_window);
         skipped = !seen;
@@ -261,14 +268,17 @@ Test(browser, so_are_those_of_the_other_commands)
     if (skipped) cr_skip_test("no chromium");
 }
 
-#ifndef __SANITIZE_ADDRESS__ /* the pages are the same, and take very much longer */
-/* A page of every shipped system, two at a time; their names as a script.  The search is ended early, unless NHSYM_TEST_SECONDS gives it more. */
+/* A page of every shipped system of the sweep, two at a time; their names as a script.  The search is ended early, unless NHSYM_TEST_SECONDS gives it more. */
 static void write_every_page(const place *p)
 {
     const char *seconds = getenv("NHSYM_TEST_SECONDS");
+    char *system[most_files], names[most_files * 60] = "";
+    size_t n = list("systems", system), length = 0;
+    for (size_t i = 0; i < n; free(system[i++]))
+        if (sweep_tries(i + 3, 8, 8)) length += (size_t)snprintf(names + length, sizeof names - length, "%.50s\n", system[i]);
+    write_here(p, "names", names);
     char *argument[] = {"sh", "-c", (char[6 * PATH_MAX]){0}, NULL};
     snprintf(argument[2], 6 * PATH_MAX,
-             "for s in systems/*.yaml; do basename $s .yaml; done >names\n"
              "xargs -P 2 -I @ sh -c \"'%.4000s' analyze @ --quiet %s%.20s %s --html page-@.html; test \\$? = 0 -o \\$? = 5\" <names || exit 1\n"
              "{ echo '<!DOCTYPE html><html><head><title>every page</title></head><body><script>var PAGES = ['; sed 's/.*/\"page-&.html\",/' names; echo '];</script><script>'; "
              "cat '%.4000s/tests/browser/sweep.js'; echo '</script></body></html>'; } >every.html", p->program, seconds ? "--max-seconds " : "--option work=",
@@ -281,6 +291,7 @@ static void write_every_page(const place *p)
 /* Of every shipped system, as wide as a phone: small, soon there, without a formula that has no box, and no wider than the window. */
 Test(browser, the_page_of_every_system, .timeout = 300)
 {
+    if (SWEEP_SANITIZED) cr_skip_test("the pages are the same, and take very much longer");
     place p = place_with_systems();
     double slowest = 0, sum = 0, largest = 0, ready = 0;
     write_every_page(&p);
@@ -312,4 +323,3 @@ Test(browser, the_page_of_every_system, .timeout = 300)
     place_clear(&p);
     if (skipped) cr_skip_test("no chromium");
 }
-#endif

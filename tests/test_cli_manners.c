@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include "program.h"
+#include "sweep.h"
 
 Test(cli_manners, help_fits_a_screen)
 {
@@ -76,6 +77,7 @@ Test(cli_manners, completions_know_every_option)
 
 Test(cli_manners, new_writes_a_system_that_works_and_never_over_another)
 {
+    sweep_plain_only();
     place p = place_make();
     finished f = run_expecting(&p, "new skate", 0);
     cr_expect_not_null(strstr(f.out, "nhsym analyze skate.yaml"));
@@ -99,6 +101,7 @@ Test(cli_manners, new_writes_a_system_that_works_and_never_over_another)
 
 Test(cli_manners, a_folder_takes_all_outputs)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     finished f = run_expecting(&p, "analyze sleigh -o out --no-color", 0);
     char *summary = read_here(&p, "out/summary.txt"), *page = read_here(&p, "out/report.html"), *json = read_here(&p, "out/result.json"), *tex = read_here(&p, "out/report.tex"),
@@ -224,6 +227,7 @@ Test(cli_manners, an_interrupted_search_for_accuracy_keeps_a_motion)
 
 Test(cli_manners, an_interrupted_comparison_says_what_was_measured)
 {
+    sweep_plain_only();
     char *out = interrupted_output("chart sleigh --budget 300s", "CVODE");
     cr_expect_not_null(strstr(out, "Chaplygin sleigh"), "%s", out);
     free(out);

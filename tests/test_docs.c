@@ -19,6 +19,8 @@
 #include "base/option.h"
 #include "base/text.h"
 
+#include "sweep.h"
+
 enum { most_path = 4096 };
 
 /* ---- files and commands ---- */
@@ -66,6 +68,7 @@ static int run(const char *command, nh_text *out)
 
 Test(docs, house_is_in_order)
 {
+    sweep_plain_only();
     char folder[most_path], command[most_path + 64];
     nh_text said;
     program_folder(folder);
@@ -240,6 +243,7 @@ static walk walk_page(const char *path)
 
 Test(docs, readme_is_true)
 {
+    sweep_plain_only();
     walk w = walk_page("README.md");
     cr_expect_geq(w.ran, 3);
     cr_expect_geq(w.shown, 20);
@@ -247,6 +251,7 @@ Test(docs, readme_is_true)
 
 Test(docs, pages_are_true)
 {
+    sweep_plain_only();
     DIR *folder = opendir("docs");
     size_t pages = 0, ran = 0;
     cr_assert(folder);

@@ -2,6 +2,7 @@
  * for which OpenBLAS and the C library have other kernels, the same formulas, counts and proofs, and the same numbers up to what is known of them.  The whole catalogue
  * goes through tests/same_everywhere.sh. */
 #include "program.h"
+#include "sweep.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -65,6 +66,7 @@ static void compare(const char *name, const char *more, const char *const *envir
 {
     place p = place_with_systems();
     for (size_t i = 0; i < question_count; i++) {
+        if (!sweep_tries(i, 2, 4)) continue;
         char where[2000] = "";
         cJSON *a = answer(&p, questions[i], "--threads 1", NULL);
         cJSON *b = answer(&p, questions[i], more, environment);
@@ -77,14 +79,19 @@ static void compare(const char *name, const char *more, const char *const *envir
 
 Test(everywhere, threads)
 {
-    compare("1 thread", "--threads 1", NULL, 0, 0);
-    compare("2 threads", "--threads 2", NULL, 0, 0);
-    compare("4 threads", "--threads 4", NULL, 0, 0);
+    for (size_t i = 0; i < 3; i++) {
+        char name[20], more[20];
+        if (!sweep_tries(i + 1, 1, 3)) continue;
+        snprintf(name, sizeof name, "%d threads", 1 << i);
+        snprintf(more, sizeof more, "--threads %d", 1 << i);
+        compare(name, more, NULL, 0, 0);
+    }
 }
 
 /* Without the instructions of newer processors; a processor or a library that does not know these names goes on as before. */
 Test(everywhere, processors)
 {
+    sweep_plain_only();
     static const char *const old[] = {"OPENBLAS_CORETYPE=Nehalem", "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-AVX2_Usable,-FMA,-FMA_Usable,-AVX512F,-AVX512F_Usable", NULL};
     static const char *const other[] = {"OPENBLAS_CORETYPE=Sandybridge", NULL};
     compare("an old processor", "--threads 1", old, 1e-5, 1e-6);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "mechanics.h"
+#include "sweep.h"
 #include "motion/dynamics.h"
 #include "motion/ensemble.h"
 #include "motion/method.h"
@@ -84,6 +85,7 @@ Test(kinks, drifts_fall_with_the_tolerance)
 {
     static const double tolerance[] = {1e-5, 1e-8, 1e-11}, allowed = 1e4;
     for (size_t i = 0; i < COUNT; i++) {
+        if (!sweep_tries(i, 2, 8)) continue;
         mechanics x = system_of(i);
         nh_ex e[3];
         size_t n = currents_of(&x, i, e);
@@ -110,6 +112,7 @@ Test(kinks, ensembles_and_scenes)
     double times[OUTPUTS];
     for (size_t i = 0; i < OUTPUTS; i++) times[i] = BEGIN + (END - BEGIN) * (double)i / (OUTPUTS - 1);
     for (size_t i = 0; i < COUNT; i++) {
+        if (!sweep_tries(i + 1, 3, 8)) continue;
         mechanics x = system_of(i);
         nh_ex e[3];
         nh_error error = {0};

@@ -1,6 +1,7 @@
 /* The time limit is an emergency brake: what a run says after it is marked as partial, and is never a refutation; nothing stays behind.  How late a run may end is
  * measured by tests/limits.sh, not here. */
 #include "program.h"
+#include "sweep.h"
 
 #include <cjson/cJSON.h>
 
@@ -107,6 +108,7 @@ Test(limits, hopeless_work_is_refused)
                  {"reduce nasty/deep_abs.yaml", "with its definitions it is nested deeper than 200 levels", 3}};
     place p = place_with_nasty();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        if (!sweep_tries(i, 1, 3)) continue;
         finished f = run_expecting(&p, cases[i].line, cases[i].code);
         cr_expect(strstr(f.err, cases[i].words), "%s: %s", cases[i].line, f.err);
         finished_clear(&f);
@@ -119,6 +121,7 @@ Test(limits, hopeless_work_is_refused)
 /* Standard output is a pipe that nobody empties, so that the program is writing when the signal comes. */
 Test(limits, a_signal_ends_the_writing_at_once)
 {
+    sweep_plain_only();
     place p = place_with_systems();
     char command[900];
     write_here(&p, "page.html", "an older page");

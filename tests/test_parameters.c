@@ -1,5 +1,6 @@
 /* Parameters stay symbols: a number in a formula is no parameter's value, and what needs a value says so. */
 #include "program.h"
+#include "sweep.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -79,6 +80,7 @@ Test(parameters, a_claim_is_verified_with_the_values_that_it_needs)
 /* The relation of the rates is the proof, where the sum of the rates is too long for one. */
 Test(parameters, momenta_of_three_bodies_hold_for_all_masses)
 {
+    sweep_plain_only();
     cJSON *root = answer("analyze three_bodies --json -");
     const cJSON *item;
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(root, "currents")) cr_expect_str_eq(text_of(item, "holds"), "all parameters", "%s", text_of(item, "expression"));
@@ -137,6 +139,7 @@ Test(parameters, frequencies_of_a_trap_are_named)
 
 Test(parameters, frequencies_in_a_turning_frame_are_named)
 {
+    sweep_plain_only();
     expect_names(&(named_case){"name: s\nparameters: {w: 2.3, W: 0.31}\ncoordinates: [x, y]\n"
                                "lagrangian: (x'^2 + y'^2)/2 + W*(x*y' - y*x') - (w^2 - W^2)/2*(x^2 + y^2)\n",
                                {"", "--set w=1.9173 --set W=0.7712", "--set w=3 --set W=1"}, 4});
@@ -201,6 +204,7 @@ static void expect_unknown(const cJSON *root, const char *set, const char *unkno
 /* s = 5/8 at M = 1 and c = 5/4 is c/(2 M). */
 Test(parameters, several_unknowns_at_once_are_named)
 {
+    sweep_plain_only();
     static const char *const set[] = {"", "--set M=1 --set c=1.25 --set k=2", "--set M=1.7192 --set k=2.3317 --set c=0.61"};
     place p = place_make();
     write_here(&p, "s.yaml", "name: s\nparameters: {M: 1, k: 4, c: 1}\ncoordinates: [x]\n"
@@ -223,6 +227,7 @@ Test(parameters, several_unknowns_at_once_are_named)
 
 Test(parameters, rates_of_shipped_systems_are_named)
 {
+    sweep_plain_only();
     static const char *const name[] = {"penning_trap", "foucault_pendulum", "omni_robot", "constant_speed"};
     for (size_t i = 0; i < 4; i++) cJSON_Delete(all_hold(name[i]));
 }
@@ -230,6 +235,7 @@ Test(parameters, rates_of_shipped_systems_are_named)
 /* Gamma is long for want of a short M^-1; the fields are short. */
 Test(parameters, coefficients_of_long_relations_have_parameters)
 {
+    sweep_plain_only();
     cJSON *ball = all_hold("chaplygin_ball"), *other = all_hold("chaplygin_ball --set A=1.2 --set B=1.6 --set r=0.5");
     const cJSON *item;
     cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(ball, "currents"))
@@ -275,6 +281,7 @@ Test(parameters, generators_have_parameters_whatever_the_values)
 
 Test(parameters, a_second_group_has_parameters)
 {
+    sweep_plain_only();
     cJSON *root = answer("reduce routh_sphere --json -");
     const cJSON *second = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(root, "stages"), 1), *field = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(second, "generators"), 0);
     cr_expect_str_eq(text_of(field, "p"), "r/l");

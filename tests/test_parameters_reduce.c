@@ -1,6 +1,7 @@
 /* Parameters stay symbols in groups, momenta, densities and reduced equations, whatever their values are; what needs a value says so. */
 #include "parameter_sets.h"
 #include "program.h"
+#include "sweep.h"
 
 #include <cjson/cJSON.h>
 
@@ -161,6 +162,7 @@ Test(parameters_reduce, equations_of_a_special_group_say_so)
 static void sample(const char *const *name, size_t n, bool currents)
 {
     for (size_t i = 0; i < n; i++) {
+        if (!sweep_tries(i, 2, 8)) continue;
         char path[200];
         snprintf(path, sizeof path, "systems/%s.yaml", name[i]);
         parameters_row o = parameters_of(path, currents, !currents, 1);

@@ -9,13 +9,15 @@ static const char *const systems[] = {"appell_hamel", "contact_oscillator", "fre
 Test(perturbed, what_nearly_is_conserved_is_told_apart)
 {
     nh_options options;
-    size_t broken = 0, survived = 0;
+    size_t tried = 0, broken = 0, survived = 0;
     nh_options_default(&options);
     options.max_seconds = 1e6; /* the size of the stages bounds the search, not time: the same on every machine */
     options.stage_columns = 40;
     options.until = 0.5;
     for (size_t i = 0; i < sizeof systems / sizeof *systems; i++)
         for (size_t k = 0; k < PERTURBATIONS; k++) {
+            if (!sweep_tries(PERTURBATIONS * i + k, 4, 15)) continue;
+            tried++;
             perturbed p = perturbed_copy("systems", systems[i], k, 20261121 + i, &options);
             cr_expect_eq(p.o.wrong, 0, "%s + 1e%d: %s", systems[i], perturbation[k], p.o.names);
             cr_expect_eq(p.o.missing, 0, "%s + 1e%d: %s", systems[i], perturbation[k], p.o.names);
@@ -25,7 +27,7 @@ Test(perturbed, what_nearly_is_conserved_is_told_apart)
             broken += p.original - p.survive;
             survived += p.survive;
         }
-    cr_expect_gt(broken, sizeof systems / sizeof *systems, "the term changed nothing");
+    cr_expect_gt(PERTURBATIONS * broken, tried, "the term changed nothing");
     cr_expect_gt(survived, (size_t)0);
 }
 

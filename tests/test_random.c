@@ -7,12 +7,7 @@
 #include "random_system.h"
 #include "scratch.h"
 
-/* The sanitizers slow everything down about tenfold. */
-#ifdef __SANITIZE_ADDRESS__
-enum { systems = 12, generated = 60 };
-#else
 enum { systems = 70, generated = 140 };
-#endif
 
 /* The search is bounded by the size of its stages, not by time, so that it finds the same on every machine. */
 static nh_options quick_options(void)
@@ -41,8 +36,10 @@ static row analysed(random_system *r, const nh_options *options)
 Test(random, nothing_false_and_what_is_plain_is_found)
 {
     nh_options options = quick_options();
-    size_t known = 0, missing = 0, found = 0;
+    size_t tried = 0, known = 0, missing = 0, found = 0;
     for (uint64_t i = 0; i < systems; i++) {
+        if (!sweep_tries(i, 7, 35)) continue;
+        tried++;
         random_system r = random_system_create(20261121 + i);
         row o = analysed(&r, &options);
         const char *note = random_system_note(&r);
@@ -57,7 +54,7 @@ Test(random, nothing_false_and_what_is_plain_is_found)
         found += o.found;
         nh_dag_free(r.dag);
     }
-    cr_expect_geq(known, (size_t)systems / 2, "only %zu built in", known);
+    cr_expect_geq(known, tried / 2, "only %zu built in", known);
     cr_expect_geq(found, known - missing);
     cr_expect_leq(3 * missing, known, "%zu of %zu built in are missing", missing, known);
 }
@@ -65,8 +62,10 @@ Test(random, nothing_false_and_what_is_plain_is_found)
 /* The generator itself: its currents are conserved by the multiplier form, to all digits, and other functions are not. */
 Test(random, what_is_built_in_is_conserved)
 {
-    size_t checked = 0, kinds[CONSTRAINT_KINDS] = {0};
+    size_t tried = 0, checked = 0, kinds[CONSTRAINT_KINDS] = {0};
     for (uint64_t i = 0; i < generated; i++) {
+        if (!sweep_tries(i, 4, 14)) continue;
+        tried++;
         nh_error error = {0};
         random_system r = random_system_create(31 + i);
         char *text = NULL;
@@ -98,6 +97,6 @@ Test(random, what_is_built_in_is_conserved)
         nh_dag_free(r.dag);
         free(text);
     }
-    cr_expect_geq(2 * checked, (size_t)generated);
-    for (size_t i = 0; i < CONSTRAINT_KINDS; i++) cr_expect_geq(kinds[i], (size_t)1, "no %s", constraint_names[i]);
+    cr_expect_geq(2 * checked, tried);
+    for (size_t i = 0; i < CONSTRAINT_KINDS && tried == generated; i++) cr_expect_geq(kinds[i], (size_t)1, "no %s", constraint_names[i]);
 }

@@ -7,6 +7,7 @@
 
 #include "report/reduction.h"
 #include "scratch.h"
+#include "sweep.h"
 
 static nh_reduction *reduce_path(const char *path, const char *group, const char *chain, const char *initial, uint64_t seed, nh_error *error)
 {
@@ -45,6 +46,7 @@ static const struct {
 Test(reduce, groups_and_motions_of_the_shipped_systems)
 {
     for (size_t i = 0; i < sizeof catalogue / sizeof *catalogue; i++) {
+        if (!sweep_tries(i, 3, 10)) continue;
         char path[100];
         nh_error error = {0};
         snprintf(path, sizeof path, "systems/%s.yaml", catalogue[i].system);
@@ -77,6 +79,7 @@ Test(reduce, groups_and_motions_of_the_shipped_systems)
 Test(reduce, crane)
 {
     for (uint64_t seed = 1; seed <= 3; seed++) {
+        if (!sweep_tries(seed - 1, 2, 3)) continue;
         nh_error error = {0};
         nh_reduction *r = reduce_path("systems/crane.yaml", NULL, NULL, NULL, seed, &error);
         must(r != NULL, &error, "crane");
@@ -102,6 +105,7 @@ Test(reduce, structure_constants_do_not_depend_on_the_seed)
 {
     double c[216];
     for (uint64_t seed = 1; seed <= 4; seed++) {
+        if (!sweep_tries(seed - 1, 3, 3)) continue;
         nh_error error = {0};
         nh_reduction *r = reduce_path("systems/crane.yaml", NULL, NULL, NULL, seed, &error);
         must(r != NULL, &error, "crane");

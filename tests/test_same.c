@@ -10,14 +10,9 @@
 #include "rewrite.h"
 #include "scratch.h"
 
-/* The sanitizers slow everything down about tenfold. */
-#ifdef __SANITIZE_ADDRESS__
-static const char *const systems[] = {"contact_oscillator", "knife_edge"};
-#else
 static const char *const systems[] = {"appell_hamel", "contact_oscillator", "euler_top", "free_particle", "heisenberg_particle", "henon_heiles_kk", "isotropic_oscillator",
                                       "kepler", "knife_edge", "lagrange_top", "lane_emden", "neumann", "nonholonomic_oscillator", "nonholonomic_particle", "perpendicular_velocities", "relativistic_particle",
                                       "sleigh", "sleigh_inertia", "spherical_pendulum", "suslov", "suslov_principal", "two_wheel_carriage", "vertical_disk"};
-#endif
 enum { SYSTEMS = sizeof systems / sizeof *systems };
 
 static nh_options patient(void)
@@ -99,10 +94,11 @@ static void expect_same(const answer *a, const char *name, const char *what, con
 
 typedef void check(const answer *, const char *, const nh_options *);
 
-static void for_all(check *one)
+static void for_all(check *one, size_t from)
 {
     nh_options options = patient();
     for (size_t i = 0; i < SYSTEMS; i++) {
+        if (!sweep_tries(i + from, 6, 22)) continue;
         answer a = answer_of(systems[i], &options);
         one(&a, systems[i], &options);
         answer_clear(&a);
@@ -120,7 +116,7 @@ static void other_seeds(const answer *a, const char *name, const nh_options *opt
     }
 }
 
-Test(same, whatever_the_seed) { for_all(other_seeds); }
+Test(same, whatever_the_seed) { for_all(other_seeds, 21); }
 
 static void other_names(const answer *a, const char *name, const nh_options *options)
 {
@@ -133,7 +129,7 @@ static void other_names(const answer *a, const char *name, const nh_options *opt
     expect_same(a, name, "renamed and in another order", options, (rewriting){.rename = true, .order = turned}, NH_CHART_AUTO);
 }
 
-Test(same, whatever_the_coordinates_are_called_and_their_order) { for_all(other_names); }
+Test(same, whatever_the_coordinates_are_called_and_their_order) { for_all(other_names, 18); }
 
 /* Centimetres and kilometres, minutes, another unit of mass. */
 static void other_units(const answer *a, const char *name, const nh_options *options)
@@ -145,7 +141,7 @@ static void other_units(const answer *a, const char *name, const nh_options *opt
     expect_same(a, name, "all units changed", options, (rewriting){.length = nh_num_int(12), .time = nh_num_ratio(7, 2), .action = nh_num_int(1000)}, NH_CHART_AUTO);
 }
 
-Test(same, whatever_the_units) { for_all(other_units); }
+Test(same, whatever_the_units) { for_all(other_units, 5); }
 
 /* Every other choice of dependent velocities that gives a chart at all, up to a few. */
 static void other_charts(const answer *a, const char *name, const nh_options *options)
@@ -181,4 +177,4 @@ static void other_charts(const answer *a, const char *name, const nh_options *op
     }
 }
 
-Test(same, whatever_the_chart) { for_all(other_charts); }
+Test(same, whatever_the_chart) { for_all(other_charts, 14); }

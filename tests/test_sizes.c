@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "expr/print.h"
 #include "scratch.h"
+#include "sweep.h"
 #include "study/analyze.h"
 
 /* The search alone: a motion would only take time. */
@@ -50,6 +51,7 @@ Test(sizes, oscillators, .timeout = 600)
 {
     static const size_t sizes[] = {4, 5, 6, 8, 12};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        if (!sweep_tries(s, 1, 8)) continue;
         nh_text text;
         coordinates(&text, sizes[s], "x");
         for (size_t i = 1; i <= sizes[s]; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
@@ -62,15 +64,19 @@ Test(sizes, oscillators, .timeout = 600)
     }
 }
 
+/* Many, and fewer in a sample. */
+static size_t many(void) { return sweep_whole() ? 40 : SWEEP_SANITIZED ? 6 : 16; }
+
 /* In blocks of two each, and what is said about each takes no more than it has to: half of what may be computed is enough for all. */
-Test(sizes, forty_oscillators, .timeout = 600)
+Test(sizes, many_oscillators, .timeout = 600)
 {
+    size_t n = many();
     nh_text text;
-    coordinates(&text, 40, "x");
-    for (size_t i = 1; i <= 40; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
+    coordinates(&text, n, "x");
+    for (size_t i = 1; i <= n; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
     nh_text_add(&text, "\n");
-    nh_result *r = search(&text, 5000);
-    cr_expect_eq(r->independent, 80, "%zu of 80", r->independent);
+    nh_result *r = search(&text, 125 * (double)n);
+    cr_expect_eq(r->independent, 2 * n, "%zu of %zu", r->independent, 2 * n);
     cr_expect_eq(r->search, NH_SEARCH_COMPLETE);
     cr_expect(meant(r, "energy"));
     nh_result_free(r);
@@ -89,6 +95,7 @@ Test(sizes, chains, .timeout = 600)
 {
     static const size_t sizes[] = {6, 8, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        if (!sweep_tries(s, 1, 8)) continue;
         nh_text text;
         chain(&text, sizes[s], false);
         nh_result *r = search(&text, 0);
@@ -98,11 +105,11 @@ Test(sizes, chains, .timeout = 600)
 }
 
 /* The total momentum, the centre of mass, the energy. */
-Test(sizes, ring_of_forty, .timeout = 600)
+Test(sizes, ring_of_many, .timeout = 600)
 {
     static const char *const wanted[] = {"m*(x1' + ", "m*(t*(x1' + "};
     nh_text text;
-    chain(&text, 40, true);
+    chain(&text, many(), true);
     nh_result *r = search(&text, 1500);
     cr_expect(meant(r, "energy"));
     for (size_t i = 0; i < 2; i++) {
@@ -122,6 +129,7 @@ Test(sizes, bodies_in_space, .timeout = 600)
 {
     static const size_t sizes[] = {5, 6, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        if (!sweep_tries(s, 1, 8)) continue;
         nh_text text;
         size_t n = sizes[s];
         coordinates(&text, n, "xyz");

@@ -1,0 +1,64 @@
+/* sweep: which part of a sweep over systems, seeds or sizes a run of the tests tries.
+ *
+ * `make check` tries a fixed sample, the same every time, and a smaller one under sanitizers, which make everything several times slower.
+ * With NHSYM_SWEEPS=all (`make check-all`) all is tried.  Tests begin at different places, so that together they see many systems. */
+#ifndef NH_TESTS_SWEEP_H
+#define NH_TESTS_SWEEP_H
+
+#include <criterion/criterion.h>
+
+#include <dirent.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef __SANITIZE_ADDRESS__
+enum { SWEEP_SANITIZED = 1 };
+#else
+enum { SWEEP_SANITIZED = 0 };
+#endif
+
+enum { most_files = 500 };
+
+static inline int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+
+/* The systems or analyses of a folder, in the order of their names, which are the caller's to free. */
+static inline size_t list(const char *folder, char **name)
+{
+    DIR *d = opendir(folder);
+    size_t n = 0;
+    for (struct dirent *e; d && n < most_files && (e = readdir(d));) {
+        size_t length = strlen(e->d_name);
+        if (length > 5 && !strcmp(e->d_name + length - 5, ".yaml")) name[n++] = strndup(e->d_name, length - 5);
+    }
+    if (d) closedir(d);
+    if (n) qsort(name, n, sizeof *name, by_name);
+    return n;
+}
+
+static inline bool sweep_whole(void)
+{
+    const char *sweeps = getenv("NHSYM_SWEEPS");
+    return sweeps && !strcmp(sweeps, "all");
+}
+
+/* Is number i of a sweep tried?  One in so many is, under sanitizers one in so many others.  i + k begins at another place. */
+static inline bool sweep_tries(size_t i, size_t one_in, size_t one_in_sanitized)
+{
+    return sweep_whole() || i % (SWEEP_SANITIZED ? one_in_sanitized : one_in) == 0;
+}
+
+/* At the beginning of a test that is one long computation: */
+static inline void sweep_whole_only(void)
+{
+    if (!sweep_whole()) cr_skip_test("long: make check-all runs it");
+}
+
+/* ... and of one whose code others run under sanitizers, with smaller systems. */
+static inline void sweep_plain_only(void)
+{
+    if (SWEEP_SANITIZED && !sweep_whole()) cr_skip_test("long under sanitizers: make check-all runs it there");
+}
+
+#endif
