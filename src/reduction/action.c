@@ -38,6 +38,35 @@ static double *stacked(const nh_kinetic *k, size_t n, const nh_ex *component)
     return out;
 }
 
+/* Fields (n of them, as stacked) in units of the coordinates' sizes, and divided by `size` each where that is not NULL; the
+ * largest value of each into most. */
+static void in_units(const nh_kinetic *k, size_t n, const double *size, double *a, double *most)
+{
+    size_t m = k->m, long_m = places_of(k) * m;
+    double *unit = nh_alloc_array(m + 1, sizeof *unit);
+    nh_kinetic_sizes(k, places_of(k), unit);
+    for (size_t j = 0; j < n; j++) {
+        for (size_t i = 0; i < long_m; i++) a[i + j * long_m] /= unit[i % m] * (size ? size[j] : 1);
+        if (most) most[j] = nh_largest(long_m, a + j * long_m);
+    }
+    nh_free(unit);
+}
+
+/* The generators E and their brackets B of size one: then the constants are numbers that do not depend on units, and one that is
+ * zero can be told.  size[a] is what e_a was divided by, size[d + pair] what bracket `pair` was. */
+static void normalise(const nh_kinetic *k, size_t d, double *E, double *B, double *size)
+{
+    double *ones = size + d;
+    size_t long_m = places_of(k) * k->m;
+    in_units(k, d, NULL, E, size);
+    for (size_t a = 0; a < d; a++) {
+        if (!(size[a] > 0 && isfinite(size[a]))) size[a] = 1;
+        for (size_t i = 0; i < long_m; i++) E[i + a * long_m] /= size[a];
+    }
+    for (size_t pair = 0; pair < d * d; pair++) ones[pair] = size[pair / d] * size[pair % d];
+    in_units(k, d * d, ones, B, NULL);
+}
+
 static void find_constants(nh_action *g, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
@@ -57,7 +86,8 @@ static void find_constants(nh_action *g, const nh_options *options)
             for (size_t s = 0; s < m; s++) b[(c * d + a) * m + s] = nh_neg(k->dag, b[(a * d + c) * m + s]);
         }
     double *E = stacked(k, d, e), *B = stacked(k, d * d, b);
-    double *rest = nh_alloc_array(long_m * d * d + 1, sizeof *rest);
+    double *rest = nh_alloc_array(long_m * d * d + d + d * d + 1, sizeof *rest), *unit = rest + long_m * d * d;
+    normalise(k, d, E, B, unit);
     bool all = isfinite(nh_coordinates(long_m, d, E, d * d, B, g->algebra.c)); /* one decomposition for all */
     for (size_t i = 0; i < d * d * d && !all; i++) g->algebra.c[i] = 0; /* some bracket is not finite */
     nh_multiply(long_m, d * d, d, E, g->algebra.c, rest);
@@ -75,8 +105,10 @@ static void find_constants(nh_action *g, const nh_options *options)
     for (size_t i = 0; i < d * d * d; i++) {
         nh_num x;
         double c = g->algebra.c[i];
+        bool zero = fabs(c) <= options->group;
+        c *= unit[d + i / d] / unit[i % d];
         if (nh_recognise_ratio(c, 1000, options->same, &x)) c = nh_num_value(x);
-        g->algebra.c[i] = fabs(c) <= options->group ? 0 : -c;
+        g->algebra.c[i] = zero ? 0 : -c;
     }
     nh_constants_find(g, b, options);
     nh_free(e);
@@ -108,33 +140,31 @@ static size_t rank_at(size_t m, size_t n, const double *a, double small, double 
     return rank;
 }
 
+static double unit_of(double K) { return K > 0 ? sqrt(K) : 1; }
+
 /* Columns in units in which the metric has diagonal one, so that lengths and angles compare. */
 static void scaled(size_t m, const double *K, size_t n, double *a)
 {
     for (size_t j = 0; j < n; j++)
-        for (size_t i = 0; i < m; i++) a[i + j * m] *= K[i * (m + 1)] > 0 ? sqrt(K[i * (m + 1)]) : 1;
+        for (size_t i = 0; i < m; i++) a[i + j * m] *= unit_of(K[i * (m + 1)]);
     unit_columns(m, n, a);
 }
 
-/* Rank of [E, D] at a place (scaled), and sigma_min / sigma_max of omega on V (unit columns) when there are as many generators as constraints. */
+/* Rank of [E, D] at a place, and sigma_min / sigma_max of omega on V (unit columns) when there are as many generators as
+ * constraints; both in units in which the metric has diagonal one. */
 static size_t with_distribution(size_t m, size_t f, size_t d, const double *K, const double *omega, const double *E, double small, double *transversality)
 {
     double *forms = nh_alloc_array(f * m + 1, sizeof *forms), *both = nh_alloc_array(m * (m + d) + 1, sizeof *both), *on = nh_alloc_array(f * d + 1, sizeof *on);
+    memcpy(both, E, m * d * sizeof *both);
+    scaled(m, K, d, both);
     for (size_t a = 0; a < f; a++) {
         double size = 0;
-        for (size_t s = 0; s < m; s++) size = hypot(size, omega[a * m + s]);
-        for (size_t s = 0; s < m; s++) forms[a + s * f] = size > 0 ? omega[a * m + s] / size : 0;
-        for (size_t c = 0; c < d; c++)
-            for (size_t s = 0; s < m; s++) on[a + c * f] += forms[a + s * f] * E[s + c * m];
+        for (size_t s = 0; s < m; s++) size = hypot(size, forms[a + s * f] = omega[a * m + s] / unit_of(K[s * (m + 1)]));
+        for (size_t s = 0; s < m; s++) forms[a + s * f] = size > 0 ? forms[a + s * f] / size : 0;
+        for (size_t c = 0; c < d; c++) /* generators of length one: a column that D nearly contains stays small */
+            for (size_t s = 0; s < m; s++) on[a + c * f] += forms[a + s * f] * both[s + c * m];
     }
-    for (size_t c = 0; c < d; c++) { /* relative to the generators: a column that D nearly contains stays small */
-        double size = 0;
-        for (size_t s = 0; s < m; s++) size = hypot(size, E[s + c * m]);
-        for (size_t a = 0; a < f && size > 0; a++) on[a + c * f] /= size;
-    }
-    memcpy(both, E, m * d * sizeof *both);
     size_t n = nh_kernel(f, m, forms, small, both + m * d, NULL, NULL);
-    scaled(m, K, d + n, both);
     size_t rank = rank_at(m, d + n, both, small, NULL);
     *transversality = 0;
     if (d == f) rank_at(f, d, on, small, transversality);

@@ -98,7 +98,7 @@ static bool mean_over_turn(const nh_slice *s, nh_tape *tape, nh_tape_work *work,
 /* The period of Theta along a turn of x^j through a place.  The means over equidistant steps converge exponentially where Theta is regular on the way, wherever
  * they start; where it has a pole, as where the orbits become tangent to D, they depend on the start: then the turn is no curve in the region in which the
  * stage is defined, and there is no period: false. */
-static bool period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, const double *place, double small, double *mean)
+static bool period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, const double *place, double small, double *mean, double *largest)
 {
     enum { fewest = 24, most = 1536 };
     size_t m = s->kinetic->m;
@@ -106,9 +106,10 @@ static bool period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t 
     bool regular = true, found = false;
     memcpy(q, place, m * sizeof *q);
     for (size_t steps = fewest; steps <= most && regular && !found; steps *= 2) {
-        double other = 0, largest = 0;
-        regular = mean_over_turn(s, tape, work, j, steps, 0.37, q, mean, &largest) && mean_over_turn(s, tape, work, j, steps, 0.11, q, &other, &largest);
-        found = regular && fabs(*mean - other) <= small * (1 + largest);
+        double other = 0;
+        *largest = 0;
+        regular = mean_over_turn(s, tape, work, j, steps, 0.37, q, mean, largest) && mean_over_turn(s, tape, work, j, steps, 0.11, q, &other, largest);
+        found = regular && fabs(*mean - other) <= small * (1 + *largest);
     }
     nh_free(q);
     return found;
@@ -129,13 +130,36 @@ static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, doubl
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t j = 0; j < n; j++)
         for (size_t p = 0; p < places && k->angle[s->shape[j]] && !many; p++) {
-            double mean;
-            many = period(s, tape, work, j, k->place + p * k->m, small, &mean) && fabs(mean) > small;
+            double mean, largest; /* per radian: a number beside 1, whatever the other shape coordinates are measured in */
+            many = period(s, tape, work, j, k->place + p * k->m, small, &mean, &largest) && fabs(mean) > small * (1 + largest);
         }
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(e);
     return many;
+}
+
+static double curl_of(const gyro *g)
+{
+    double most = 0;
+    for (size_t l = 0; l < g->n; l++)
+        for (size_t j = 0; j < l; j++) most = fmax(most, fabs(g->dTheta[l * g->n + j] - g->dTheta[j * g->n + l]));
+    return most;
+}
+
+/* In units of the sizes that shape coordinates have: T^k_ij s_i s_j / s_k, Theta_j s_j, and s_l more for a derivative along x^l. */
+static void in_units(gyro *g, const double *s)
+{
+    size_t n = g->n, cube = n * n * n;
+    for (size_t i = 0; i < cube * (1 + n); i++) {
+        double *T = i < cube ? g->T + i : g->dT + i - cube;
+        size_t at = i % cube;
+        *T *= s[at / n % n] * s[at % n] / s[at / n / n] * (i < cube ? 1 : s[i / cube - 1]);
+    }
+    for (size_t j = 0; j < n; j++) {
+        g->Theta[j] *= s[j];
+        for (size_t l = 0; l < n; l++) g->dTheta[l * n + j] *= s[l] * s[j];
+    }
 }
 
 nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U, const nh_options *options)
@@ -146,7 +170,10 @@ nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, 
     if (!n) return out;
     if (places > most_places) places = most_places;
     nh_ex *e = list(s, K, U, &total);
-    double *value = nh_alloc_array(places * total, sizeof *value), *work = nh_alloc_array(cube * (1 + n) + n + n * n, sizeof *work), tensor_size = 0, slope_size = 0;
+    double *value = nh_alloc_array(places * total, sizeof *value), *work = nh_alloc_array(cube * (1 + n) + n + n * n, sizeof *work), tensor_size = 0, slope_size = 0, size = 0, curl = 0;
+    double *all = nh_alloc_array(s->m + n + 1, sizeof *all), *unit = all + s->m;
+    nh_kinetic_sizes(s->kinetic, places, all);
+    for (size_t i = 0; i < n; i++) unit[i] = all[s->shape[i]];
     nh_kinetic_sample(s->kinetic, total, e, places, value);
     for (size_t p = 0; p < places; p++) {
         const double *v = value + p * total;
@@ -154,23 +181,25 @@ nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, 
         g.Theta = g.dT + n * cube;
         g.dTheta = g.Theta + n;
         if (!tensor(&g) || !isfinite(nh_largest(cube * n, g.dT))) continue;
-        double size = nh_largest(cube, g.T);
-        tensor_size = fmax(tensor_size, size);
-        slope_size = fmax(slope_size, nh_largest(cube * n, g.dT));
         out.size = fmax(out.size, nh_largest(n, g.Theta));
+        out.curl = fmax(out.curl, curl_of(&g));
+        in_units(&g, unit);
+        tensor_size = fmax(tensor_size, nh_largest(cube, g.T));
+        slope_size = fmax(slope_size, nh_largest(cube * n, g.dT));
+        size = fmax(size, nh_largest(n, g.Theta));
+        curl = fmax(curl, curl_of(&g));
         if (n > 1) out.phi_simple = fmax(out.phi_simple, off_simple(&g));
-        for (size_t l = 0; l < n; l++)
-            for (size_t j = 0; j < l; j++) out.curl = fmax(out.curl, fabs(g.dTheta[l * n + j] - g.dTheta[j * n + l]));
     }
     double zero = options->group * (tensor_size + slope_size);
-    if (out.size <= zero) out.size = 0;
-    out.measure = out.curl <= zero;
-    out.local = out.measure && out.size > 0 && many_valued(s, K, U, options->group * (1 + out.size));
+    if (size <= zero) out.size = 0;
+    out.measure = curl <= zero;
+    out.local = out.measure && out.size > 0 && many_valued(s, K, U, options->group);
     out.simple = out.phi_simple <= zero;
     out.factor = out.measure && out.simple;
     if (tensor_size > 0) out.phi_simple /= tensor_size;
     nh_free(e);
     nh_free(value);
     nh_free(work);
+    nh_free(all);
     return out;
 }

@@ -326,13 +326,21 @@ size_t nh_group_free_subset(const nh_group *g, const nh_options *options, size_t
     enum { most_trials = 20000 };
     const nh_kinetic *k = g->kinetic;
     size_t d = g->action.d, trials = most_trials, found = 0;
-    nh_ex *e = nh_alloc_array(k->m * d + 1, sizeof *e);
-    double *E = nh_alloc_array(k->places * k->m * d + 1, sizeof *E);
+    nh_ex *e = nh_alloc_array(k->m * d + 1, sizeof *e), *K = nh_alloc_array(k->m + 1, sizeof *K);
+    double *E = nh_alloc_array(k->places * k->m * d + 1, sizeof *E), *metric = nh_alloc_array(k->places * k->m + 1, sizeof *metric);
     for (size_t a = 0; a < d; a++) memcpy(e + a * k->m, g->action.generator[a].component, k->m * sizeof *e);
+    for (size_t s = 0; s < k->m; s++) K[s] = k->K[s * (k->m + 1)];
     nh_kinetic_sample(k, k->m * d, e, k->places, E);
+    nh_kinetic_sample(k, k->m, K, k->places, metric);
+    for (size_t i = 0; i < k->places * k->m * d; i++) { /* in units in which the metric has diagonal one */
+        double unit = metric[i / (k->m * d) * k->m + i % k->m];
+        E[i] *= unit > 0 ? sqrt(unit) : 1;
+    }
     for (size_t size = g->action.orbit; size > 0 && !found; size--)
         if (free_of_size(g, options, E, false, size, &trials, index) || free_of_size(g, options, E, true, size, &trials, index)) found = size;
     nh_free(e);
     nh_free(E);
+    nh_free(metric);
+    nh_free(K);
     return found;
 }

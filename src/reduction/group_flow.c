@@ -92,8 +92,16 @@ bool nh_group_flow_rate(double time, const double *z, double *rate, void *contex
     return f->abelian || nh_solve(d, f->M, 1, rate + f->inner, NULL);
 }
 
-/* det M does not depend on the basis of the Lie algebra, and vanishes where the coordinates of the second kind are singular (cos t_2 of a rotation).  Where it is far from zero large entries, of
- * translations above all, cost digits only. */
+/* The largest entry of M in units of the group's coordinates. */
+static double largest_entry(const nh_group_flow *f)
+{
+    double most = 0;
+    for (size_t i = 0; i < f->d * f->d; i++) most = fmax(most, fabs(f->M[i]) * f->unit[i / f->d] / f->unit[i % f->d]);
+    return most;
+}
+
+/* det M does not depend on the basis of the Lie algebra, and vanishes where the coordinates of the second kind are singular (cos t_2
+ * of a rotation).  Where it is far from zero large entries, of translations above all, cost digits only. */
 bool nh_group_flow_guard(double time, const double *z, double *value, void *context)
 {
     (void)time;
@@ -104,9 +112,26 @@ bool nh_group_flow_guard(double time, const double *z, double *value, void *cont
     value[2] = 1;
     if (f->abelian) return true;
     nh_group_flow_factors(f, z + f->inner);
-    double large = 1 - nh_largest(f->d * f->d, f->M) / most, det = fabs(nh_determinant(f->d, f->M));
+    double large = 1 - largest_entry(f) / most, det = fabs(nh_determinant(f->d, f->M));
     value[2] = fmin(fmin(det, 1 / det) - least, large);
     return isfinite(value[2]);
+}
+
+/* unit_a = 1 / max |e_a^s| / size_s over sample points. */
+static void find_units(nh_group_flow *f)
+{
+    enum { most_places = 8 };
+    const nh_kinetic *k = f->action->kinetic;
+    size_t m = f->m, places = k->places < most_places ? k->places : most_places;
+    double *size = nh_alloc_array(m + 1, sizeof *size);
+    nh_kinetic_sizes(k, places, size);
+    for (size_t p = 0; p < places; p++) {
+        nh_tape_eval(f->field, f->field_work, k->place + p * m, f->e);
+        for (size_t i = 0; i < m * f->d; i++)
+            if (isfinite(f->e[i])) f->unit[i / m] = fmax(f->unit[i / m], fabs(f->e[i]) / size[i % m]);
+    }
+    for (size_t a = 0; a < f->d; a++) f->unit[a] = f->unit[a] > 0 ? 1 / f->unit[a] : 1;
+    nh_free(size);
 }
 
 void nh_group_flow_init(nh_group_flow *f, const nh_action *action, bool group)
@@ -135,9 +160,11 @@ void nh_group_flow_init(nh_group_flow *f, const nh_action *action, bool group)
     for (size_t a = 0; a < d; a++) memcpy(e + a * m, action->generator[a].component, m * sizeof *e);
     f->field = nh_kinetic_tape(action->kinetic, m * d, e);
     f->field_work = nh_tape_work_create(f->field);
-    f->e = nh_alloc_array(m * d + d * d + d + 1, sizeof *f->e);
+    f->e = nh_alloc_array(m * d + d * d + 2 * d + 1, sizeof *f->e);
     f->before = f->e + m * d;
     f->spatial = f->before + d * d;
+    f->unit = f->spatial + d;
+    find_units(f);
     for (size_t i = 0; i < d * d; i++) f->before[i] = i % (d + 1) == 0;
     nh_free(e);
 }

@@ -21,6 +21,7 @@ typedef struct {
     bool direct;                    /* the place itself is integrated beside (x, p, t) */
     nh_tape *field;                 /* generators at a place */
     nh_tape_work *field_work;
+    double *unit;                   /* d: how far a group coordinate moves places by their size (1 for rotations) */
     double *e, *before, *spatial;   /* their values; Ad of the factors kept; g' g^-1 */
 } nh_group_flow;
 

@@ -67,10 +67,7 @@ static double relative_size(nh_tape *tape, nh_tape_work *work, const double *z, 
 /* A size for e to be compared with: the sum of the moduli of its terms, plus `unit`. */
 static nh_ex size_of(nh_dag *d, nh_ex e, nh_ex unit)
 {
-    nh_ex sum = unit;
-    if (nh_kind_of(d, e) != NH_SUM) return nh_add(d, unit, nh_call(d, NH_ABS, e));
-    for (size_t i = 0; i < nh_arity(d, e); i++) sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
-    return sum;
+    return nh_add(d, unit, nh_kinetic_terms(d, e));
 }
 
 static double largest_residual(const nh_kinetic *k, size_t n, const nh_ex *e, const nh_ex *unit)

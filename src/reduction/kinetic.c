@@ -316,13 +316,35 @@ double nh_kinetic_length(const nh_kinetic *k, const double *diagonal)
     return length > 0 && isfinite(length) ? exp2(10 * round(log2(length) / 10)) : 1;
 }
 
+nh_ex nh_kinetic_terms(nh_dag *d, nh_ex e)
+{
+    if (nh_kind_of(d, e) != NH_SUM) return nh_call(d, NH_ABS, e);
+    nh_ex sum = nh_int(d, 0);
+    for (size_t i = 0; i < nh_arity(d, e); i++)
+        sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
+    return sum;
+}
+
+/* The largest sum of the moduli of the terms of each expression at some places, into size. */
+static void terms_at(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, double *size)
+{
+    nh_ex *terms = nh_alloc_array(count + 1, sizeof *terms);
+    double *value = nh_alloc_array(places * count + 1, sizeof *value);
+    for (size_t i = 0; i < count; i++) terms[i] = nh_kinetic_terms(k->dag, e[i]);
+    nh_kinetic_sample(k, count, terms, places, value);
+    for (size_t i = 0; i < places * count; i++) size[i % count] = fmax(size[i % count], value[i]);
+    nh_free(terms);
+    nh_free(value);
+}
+
 bool nh_kinetic_many_valued(const nh_kinetic *k, size_t count, const nh_ex *e)
 {
     enum { most_places = 6 };
     static const double turn = 6.283185307179586, same = 1e-8;
     size_t places = k->places < most_places ? k->places : most_places;
-    double *q = nh_alloc_array(k->m + 2 * count + 1, sizeof *q), *before = q + k->m, *after = before + count;
+    double *q = nh_alloc_array(k->m + 3 * count + 1, sizeof *q), *before = q + k->m, *after = before + count, *size = after + count;
     bool many = false;
+    terms_at(k, count, e, places, size);
     nh_tape *tape = nh_kinetic_tape(k, count, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t p = 0; p < places && !many; p++) {
@@ -333,7 +355,7 @@ bool nh_kinetic_many_valued(const nh_kinetic *k, size_t count, const nh_ex *e)
             q[s] += turn;
             nh_tape_eval(tape, work, q, after);
             q[s] -= turn;
-            for (size_t i = 0; i < count; i++) many |= fabs(after[i] - before[i]) > same * (1 + fabs(before[i]));
+            for (size_t i = 0; i < count; i++) many |= fabs(after[i] - before[i]) > same * size[i];
         }
     }
     nh_tape_work_free(work);

@@ -39,16 +39,42 @@ static bool coefficients(const nh_reduced *o, size_t shape, size_t g, const size
     return good;
 }
 
-/* Values at shapes of the sample points; coordinates of the group do not occur. */
-static double largest_at_samples(const nh_reduced *o, size_t n, const nh_ex *e)
+/* The largest part of p' that is not N p x', beside N and a change of the momenta by their size within the size l of x, in units
+ * in which M has diagonal one:
+ *
+ *     l |rest_ajk| sqrt(M_xx / (M_aa M_jj M_kk)) / (1 + l |N_ab| sqrt(M_bb / M_aa))
+ *
+ * At shapes of the sample points; coordinates of the group do not occur. */
+static double off_linear(const nh_reduced *o, size_t shape, size_t g, const size_t *index, const nh_ex *N, const nh_ex *rest)
 {
     const nh_kinetic *k = o->kinetic;
-    size_t places = k->places < 16 ? k->places : 16;
-    double *value = nh_alloc_array(places * n + 1, sizeof *value), most;
-    nh_kinetic_sample(k, n, e, places, value);
-    most = nh_largest(places * n, value);
+    size_t places = k->places < 16 ? k->places : 16, rows = g * (g + 1) / 2 + 1, total = g * g + g * rows + g + 1, r = o->r;
+    nh_ex *e = nh_alloc_array(total, sizeof *e), *M = e + g * g + g * rows;
+    double *value = nh_alloc_array(places * total, sizeof *value), *length = nh_alloc_array(k->m + 1, sizeof *length), l = 1, of_N = 0, off = 0;
+    memcpy(e, N, g * g * sizeof *e);
+    memcpy(e + g * g, rest, g * rows * sizeof *e);
+    for (size_t a = 0; a < g; a++) M[a] = o->M[index[a] * (r + 1)];
+    M[g] = o->M[shape * (r + 1)];
+    nh_kinetic_sample(k, total, e, places, value);
+    nh_kinetic_sizes(k, places, length);
+    if (!isfinite(nh_largest(places * total, value))) off = INFINITY;
+    for (size_t s = 0; s < k->m; s++)
+        if (k->q[s] == o->x[0]) l = length[s];
+    for (size_t p = 0; p < places; p++) {
+        const double *n = value + p * total, *at = n + g * g;
+        double *unit = value + p * total + g * g + g * rows;
+        for (size_t a = 0; a <= g; a++) unit[a] = unit[a] != 0 ? sqrt(fabs(unit[a])) : 1;
+        for (size_t i = 0; i < g * g; i++) of_N = fmax(of_N, fabs(n[i]) * l * unit[i % g] / unit[i / g]);
+        for (size_t a = 0; a < g; a++) {
+            for (size_t j = 0; j < g; j++)
+                for (size_t i = 0; i <= j; i++) off = fmax(off, fabs(*at++) * l * unit[g] / (unit[a] * unit[j] * unit[i]));
+            off = fmax(off, fabs(*at++) * l / (unit[a] * unit[g])); /* of x'^2 */
+        }
+    }
+    nh_free(e);
     nh_free(value);
-    return most;
+    nh_free(length);
+    return off / (1 + of_N);
 }
 
 void nh_linear_momenta_find(nh_linear_momenta *out, const nh_reduced *o, const nh_options *options)
@@ -65,8 +91,7 @@ void nh_linear_momenta_find(nh_linear_momenta *out, const nh_reduced *o, const n
     nh_ex *rest = nh_alloc_array(rows + 1, sizeof *rest);
     out->N = nh_arena_alloc(arena, (g * g + 1) * sizeof *out->N);
     if (coefficients(o, shape, g, out->index, out->N, rest)) {
-        double size = 1 + largest_at_samples(o, g * g, out->N);
-        out->off = largest_at_samples(o, rows, rest) / size;
+        out->off = off_linear(o, shape, g, out->index, out->N, rest);
         if (out->off <= options->group) out->count = g;
     }
     nh_free(rest);

@@ -17,6 +17,7 @@ typedef struct {
     size_t r;
     double *u, *du, *momentum, *rate; /* m each: (x', zeta), its derivative, Kf u, (Kf u)' */
     double *v;              /* d */
+    double *of_momentum, *of_rate; /* m each: the sums of the moduli of their terms, beside which a residual is small or not */
 } place;
 
 static nh_ex *list(const nh_slice *s, size_t *total)
@@ -38,7 +39,7 @@ static void place_init(place *p, const nh_slice *s)
 {
     size_t m = s->m, n = s->n, d = s->d;
     *p = (place){.s = s, .m = m, .n = n, .d = d, .f = s->f};
-    p->A = nh_alloc_array(d * n * (1 + n) + d * n * n + d * d + 4 * m + d + 1, sizeof *p->A);
+    p->A = nh_alloc_array(d * n * (1 + n) + d * n * n + d * d + 6 * m + d + 1, sizeof *p->A);
     p->dA = p->A + d * n;
     p->B = p->dA + d * n * n;
     p->chi = p->B + d * n * n;
@@ -46,7 +47,9 @@ static void place_init(place *p, const nh_slice *s)
     p->du = p->u + m;
     p->momentum = p->du + m;
     p->rate = p->momentum + m;
-    p->v = p->rate + m;
+    p->of_momentum = p->rate + m;
+    p->of_rate = p->of_momentum + m;
+    p->v = p->of_rate + m;
 }
 
 static void place_values(place *p, double *z)
@@ -59,12 +62,35 @@ static void place_values(place *p, double *z)
     p->dV = p->domega + n * f * m;
 }
 
+/* a x = b for a symmetric a, in units in which its blocks have size one: a_ij scale_i scale_j, b_i scale_i, x_i / scale_i. */
+static bool solve_scaled(size_t size, const double *scale, double *a, size_t n, double *b, double *rcond)
+{
+    for (size_t i = 0; i < size * size; i++) a[i] *= scale[i % size] * scale[i / size];
+    for (size_t i = 0; i < size * n; i++) b[i] *= scale[i % size];
+    bool good = nh_solve(size, a, n, b, rcond);
+    for (size_t i = 0; i < size * n && good; i++) b[i] *= scale[i % size];
+    return good;
+}
+
+/* 1 / sqrt(K_ee) of each generator, and one over the length of each form. */
+static void units_of(const place *p, double *scale)
+{
+    size_t m = p->m, n = p->n, d = p->d;
+    for (size_t r = 0; r < d; r++) scale[r] = p->K[(n + r) * (m + 1)] > 0 ? 1 / sqrt(p->K[(n + r) * (m + 1)]) : 1;
+    for (size_t c = 0; c < p->f; c++) {
+        double length = 0;
+        for (size_t r = 0; r < d; r++) length = hypot(length, p->omega[c * m + n + r] * scale[r]);
+        scale[d + c] = length > 0 ? 1 / length : 1;
+    }
+}
+
 /* [Kf_ee om_e^T; om_e 0] (A_i; lambda) = (Kf_ei; om_x,i), and the same differentiated: the connection and its derivatives. */
 static bool connection(place *p)
 {
     size_t m = p->m, n = p->n, d = p->d, f = p->f, size = d + f;
-    double *a = nh_alloc_array(size * size + 2 * size * n + 1, sizeof *a), *sol = a + size * size, *right = sol + size * n;
+    double *a = nh_alloc_array(size * size + 2 * size * n + size + 1, sizeof *a), *sol = a + size * size, *right = sol + size * n, *scale = right + size * n;
     bool good = true;
+    units_of(p, scale);
     for (size_t l = 0; l <= n && good; l++) { /* l = 0: the solution itself */
         const double *dK = p->dK + (l ? l - 1 : 0) * m * m, *dw = p->domega + (l ? l - 1 : 0) * f * m;
         memset(a, 0, size * size * sizeof *a);
@@ -85,7 +111,7 @@ static bool connection(place *p)
             }
         }
         double rcond = 1;
-        if (n) good = nh_solve(size, a, n, right, &rcond) && rcond > 1e-13;
+        if (n) good = solve_scaled(size, scale, a, n, right, &rcond) && rcond > 1e-13;
         double *out = l ? p->dA + (l - 1) * d * n : p->A;
         if (!l) memcpy(sol, right, size * n * sizeof *sol);
         for (size_t i = 0; i < n; i++)
@@ -116,22 +142,32 @@ static bool accelerations(place *p)
     size_t m = p->m, n = p->n, d = p->d, f = p->f, size = m + f;
     double *a = nh_alloc_array(size * size + size + 1, sizeof *a), *b = a + size * size;
     for (size_t i = 0; i < m; i++) {
-        p->momentum[i] = 0;
+        p->momentum[i] = p->of_momentum[i] = p->of_rate[i] = 0;
         for (size_t j = 0; j < m; j++) {
             a[i + j * size] = p->K[i * m + j];
             p->momentum[i] += p->K[i * m + j] * p->u[j];
+            p->of_momentum[i] += fabs(p->K[i * m + j] * p->u[j]);
             for (size_t l = 0; l < n; l++) b[i] -= p->u[l] * p->dK[l * m * m + i * m + j] * p->u[j];
         }
         for (size_t c = 0; c < f; c++) a[m + c + i * size] = p->omega[c * m + i], a[i + (m + c) * size] = -p->omega[c * m + i];
     }
     for (size_t i = 0; i < n; i++) {
         b[i] -= p->dV[i];
+        p->of_rate[i] += fabs(p->dV[i]);
         for (size_t r = 0; r < m; r++)
-            for (size_t c = 0; c < m; c++) b[i] += 0.5 * p->u[r] * p->dK[i * m * m + r * m + c] * p->u[c];
+            for (size_t c = 0; c < m; c++) {
+                double term = 0.5 * p->u[r] * p->dK[i * m * m + r * m + c] * p->u[c];
+                b[i] += term;
+                p->of_rate[i] += fabs(term);
+            }
     }
     for (size_t k = 0; k < d; k++)
         for (size_t c = 0; c < d; c++)
-            for (size_t l = 0; l < d; l++) b[n + k] += g->c[(c * d + k) * d + l] * p->u[n + c] * p->momentum[n + l];
+            for (size_t l = 0; l < d; l++) {
+                double of_pair = g->c[(c * d + k) * d + l] * p->u[n + c];
+                b[n + k] += of_pair * p->momentum[n + l];
+                p->of_rate[n + k] += fabs(of_pair) * p->of_momentum[n + l];
+            }
     for (size_t c = 0; c < f; c++)
         for (size_t l = 0; l < n; l++)
             for (size_t j = 0; j < m; j++) b[m + c] -= p->u[l] * p->domega[l * f * m + c * m + j] * p->u[j];
@@ -141,7 +177,12 @@ static bool accelerations(place *p)
         p->rate[i] = 0;
         for (size_t j = 0; j < m; j++) {
             p->rate[i] += p->K[i * m + j] * b[j];
-            for (size_t l = 0; l < n; l++) p->rate[i] += p->u[l] * p->dK[l * m * m + i * m + j] * p->u[j];
+            p->of_rate[i] += fabs(p->K[i * m + j] * b[j]);
+            for (size_t l = 0; l < n; l++) {
+                double term = p->u[l] * p->dK[l * m * m + i * m + j] * p->u[j];
+                p->rate[i] += term;
+                p->of_rate[i] += fabs(term);
+            }
         }
     }
     nh_free(a);
@@ -169,48 +210,90 @@ static double pairing(size_t d, const double *a, const double *b)
     return sum;
 }
 
+static double beside(double off, double size) { return size > 0 ? fabs(off) / size : fabs(off); }
+
+/* sum_bc |c^a_bc x_b y_c| */
+static void bracket_terms(const nh_algebra *g, const double *x, const double *y, double *out)
+{
+    size_t d = g->d;
+    memset(out, 0, d * sizeof *out);
+    for (size_t i = 0; i < d * d * d; i++) out[i % d] += fabs(g->c[i] * x[i / d / d] * y[i / d % d]);
+}
+
+/* sum_a |mu_a'| |x_a| + |mu_a| |y_a|, of their terms; y >= 0. */
+static double terms_of(const place *p, const double *x, const double *y)
+{
+    double sum = 0;
+    for (size_t a = 0; a < p->d; a++) sum += p->of_rate[p->n + a] * fabs(x[a]) + p->of_momentum[p->n + a] * y[a];
+    return sum;
+}
+
+/* The largest bracket of vectors as long as x and y, by the metric: max_a sum_bc |c^a_bc| s_a / (s_b s_c) |x| |y|, s_a = sqrt(K_aa). */
+static double largest_bracket(const place *p, const nh_algebra *g, const double *unit, const double *x, const double *y)
+{
+    size_t d = p->d;
+    double most = 0, of_x = 0, of_y = 0;
+    for (size_t a = 0; a < d; a++) {
+        double sum = 0;
+        for (size_t i = a; i < d * d * d; i += d) sum += fabs(g->c[i]) * unit[a] / (unit[i / d / d] * unit[i / d % d]);
+        most = fmax(most, sum);
+        of_x = fmax(of_x, unit[a] * fabs(x[a]));
+        of_y = fmax(of_y, unit[a] * fabs(y[a]));
+    }
+    return most * of_x * of_y;
+}
+
 /* dl/dx^i at constant (x', v), and pi_i'. */
-static void horizontal_terms(const place *p, size_t i, double *slope, double *rate)
+static void horizontal_terms(const place *p, size_t i, double *slope, double *rate, double *size)
 {
     size_t m = p->m, n = p->n, d = p->d;
     const double *mu = p->momentum + n;
     *slope = -p->dV[i];
     *rate = p->rate[i];
+    *size = p->of_rate[i]; /* dV and the kinetic terms are among these */
     for (size_t r = 0; r < m; r++)
         for (size_t c = 0; c < m; c++) *slope += 0.5 * p->u[r] * p->dK[i * m * m + r * m + c] * p->u[c];
     for (size_t a = 0; a < d; a++) {
-        for (size_t j = 0; j < n; j++) *slope -= mu[a] * p->dA[i * d * n + a * n + j] * p->u[j];
+        const double *dA = p->dA + a * n;
+        for (size_t j = 0; j < n; j++) {
+            *slope -= mu[a] * dA[i * d * n + j] * p->u[j];
+            *rate -= mu[a] * p->u[j] * dA[j * d * n + i];
+            *size += p->of_momentum[n + a] * fabs(p->u[j]) * (fabs(dA[i * d * n + j]) + fabs(dA[j * d * n + i]));
+        }
         *rate -= p->rate[n + a] * p->A[a * n + i];
-        for (size_t l = 0; l < n; l++) *rate -= mu[a] * p->u[l] * p->dA[l * d * n + a * n + i];
+        *size += p->of_rate[n + a] * fabs(p->A[a * n + i]);
     }
 }
 
 typedef struct {
-    double *zeta, *bracket, *pa, *pb, *pc, *beta, *phi; /* d each */
+    double *zeta, *bracket, *pa, *pb, *pc, *beta, *phi, *terms, *unit; /* d each */
 } scratch;
 
-static void vertical(const place *p, const nh_ideals *c, const scratch *t, double size, nh_poincare *out)
+static void vertical(const place *p, const nh_ideals *c, const scratch *t, nh_poincare *out)
 {
     const nh_algebra *g = &p->s->action->algebra;
     size_t d = p->d, n = p->n;
     const double *mu = p->momentum + n, *dmu = p->rate + n;
     double *dbeta = t->phi;
+    for (size_t a = 0; a < d; a++) t->unit[a] = p->K[(n + a) * (p->m + 1)] > 0 ? sqrt(p->K[(n + a) * (p->m + 1)]) : 1;
     nh_ideals_split(c, p->u + n, t->pa); /* zeta = v - A x' */
     nh_ideals_split_covector(c, mu, t->beta);
     nh_ideals_split_covector(c, dmu, dbeta);
     for (size_t k = 0; k < p->r; k++) {
         const double *chi = p->chi + k * d;
         nh_algebra_bracket(g, p->u + n, chi, t->bracket);
-        out->one_vertical = fmax(out->one_vertical, fabs(pairing(d, dmu, chi) - pairing(d, mu, t->bracket)) / size);
+        bracket_terms(g, p->u + n, chi, t->terms);
+        double size = terms_of(p, chi, t->terms), longest = largest_bracket(p, g, t->unit, p->u + n, chi);
+        out->one_vertical = fmax(out->one_vertical, beside(pairing(d, dmu, chi) - pairing(d, mu, t->bracket), size));
         nh_ideals_split(c, chi, t->pb);
         nh_ideals_bracket(c, t->pa, t->pb, t->pc);
-        out->stages_vertical = fmax(out->stages_vertical, fabs(pairing(d, dbeta, t->pb) - pairing(d, t->beta, t->pc)) / size);
+        out->stages_vertical = fmax(out->stages_vertical, beside(pairing(d, dbeta, t->pb) - pairing(d, t->beta, t->pc), size));
         nh_ideals_join(c, t->pc, t->zeta);
-        for (size_t a = 0; a < d; a++) out->bracket = fmax(out->bracket, fabs(t->zeta[a] - t->bracket[a]) / (1 + fabs(t->bracket[a])));
+        for (size_t a = 0; a < d; a++) out->bracket = fmax(out->bracket, beside(t->unit[a] * (t->zeta[a] - t->bracket[a]), longest));
     }
 }
 
-static void horizontal(const place *p, const nh_ideals *c, const scratch *t, double size, nh_poincare *out)
+static void horizontal(const place *p, const nh_ideals *c, const scratch *t, nh_poincare *out)
 {
     const nh_algebra *g = &p->s->action->algebra;
     size_t d = p->d, n = p->n;
@@ -218,21 +301,23 @@ static void horizontal(const place *p, const nh_ideals *c, const scratch *t, dou
     nh_ideals_split_covector(c, mu, t->beta);
     nh_ideals_split(c, p->v, t->pb);
     for (size_t i = 0; i < n; i++) {
-        double slope, rate;
-        horizontal_terms(p, i, &slope, &rate);
+        double slope, rate, size;
+        horizontal_terms(p, i, &slope, &rate, &size);
         for (size_t a = 0; a < d; a++) {
             t->zeta[a] = p->A[a * n + i];
             t->phi[a] = 0; /* B_ji x'^j */
             for (size_t j = 0; j < n; j++) t->phi[a] += p->B[(a * n + j) * n + i] * p->u[j];
         }
         nh_algebra_bracket(g, t->zeta, p->v, t->bracket);
+        bracket_terms(g, t->zeta, p->v, t->terms);
+        for (size_t a = 0; a < d; a++) size += p->of_momentum[n + a] * (fabs(t->phi[a]) + t->terms[a]);
         double want = slope - pairing(d, mu, t->phi) + pairing(d, mu, t->bracket);
-        out->one_horizontal = fmax(out->one_horizontal, fabs(rate - want) / size);
+        out->one_horizontal = fmax(out->one_horizontal, beside(rate - want, size));
         nh_ideals_split(c, t->zeta, t->pa);
         nh_ideals_bracket(c, t->pa, t->pb, t->pc);
         nh_ideals_split(c, t->phi, t->pa);
         for (size_t a = 0; a < d; a++) t->pa[a] -= t->pc[a];
-        out->stages_horizontal = fmax(out->stages_horizontal, fabs(slope - rate - pairing(d, t->beta, t->pa)) / size);
+        out->stages_horizontal = fmax(out->stages_horizontal, beside(slope - rate - pairing(d, t->beta, t->pa), size));
     }
 }
 
@@ -246,7 +331,11 @@ static void euler_poincare(const place *p, const nh_ideals *c, const scratch *t,
     nh_ideals_split(c, p->u + n, t->pa);
     nh_ideals_split_covector(c, p->momentum + n, t->beta);
     nh_ideals_euler_poincare(c, t->pa, t->beta, t->pb);
-    for (size_t a = 0; a < d; a++) out->euler_poincare = fmax(out->euler_poincare, fabs(t->pb[a] - t->pc[a]) / (1 + fabs(t->pc[a])));
+    double size = 0;
+    memset(t->terms, 0, d * sizeof *t->terms);
+    for (size_t i = 0; i < d * d * d; i++) t->terms[i / d % d] += fabs(g->c[i] * p->u[n + i / d / d]) * p->of_momentum[n + i % d];
+    for (size_t a = 0; a < d; a++) size = fmax(size, t->terms[a]);
+    for (size_t a = 0; a < d; a++) out->euler_poincare = fmax(out->euler_poincare, beside(t->pb[a] - t->pc[a], size));
 }
 
 bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, const nh_options *options, nh_error *error)
@@ -255,10 +344,10 @@ bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, 
     const nh_kinetic *k = s->kinetic;
     size_t total, m = s->m, d = s->d;
     nh_ex *e = list(s, &total);
-    double *z = nh_alloc_array(total + 1, sizeof *z), *work = nh_alloc_array(7 * d + 2 * m + 1, sizeof *work), *q = work + 7 * d;
+    double *z = nh_alloc_array(total + 1, sizeof *z), *work = nh_alloc_array(9 * d + 2 * m + 1, sizeof *work), *q = work + 9 * d;
     nh_tape *tape = nh_kinetic_tape(k, total, e);
     nh_tape_work *tape_work = nh_tape_work_create(tape);
-    scratch t = {work, work + d, work + 2 * d, work + 3 * d, work + 4 * d, work + 5 * d, work + 6 * d};
+    scratch t = {work, work + d, work + 2 * d, work + 3 * d, work + 4 * d, work + 5 * d, work + 6 * d, work + 7 * d, work + 8 * d};
     place p;
     bool good = true;
     *out = (nh_poincare){0};
@@ -285,9 +374,8 @@ bool nh_poincare_check(nh_poincare *out, const nh_slice *s, const nh_ideals *c, 
         curvature(&p);
         out->dimension = p.r;
         out->curvature = fmax(out->curvature, nh_largest(d * s->n * s->n, p.B));
-        double size = 1 + nh_largest(m, p.rate) + nh_largest(m, p.momentum);
-        vertical(&p, c, &t, size, out);
-        horizontal(&p, c, &t, size, out);
+        vertical(&p, c, &t, out);
+        horizontal(&p, c, &t, out);
         euler_poincare(&p, c, &t, out);
         out->places++;
     }

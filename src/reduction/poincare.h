@@ -24,9 +24,9 @@
 typedef struct {
     size_t places;           /* compared at */
     size_t dimension;        /* of S */
-    double one_vertical, one_horizontal, stages_vertical, stages_horizontal; /* largest residuals, relative */
-    double bracket;          /* by stages against the bracket itself */
-    double euler_poincare;   /* by stages against ad* */
+    double one_vertical, one_horizontal, stages_vertical, stages_horizontal; /* largest residuals, relative to the sum of the moduli of their terms */
+    double bracket;          /* by stages against the bracket itself, relative to the longest of vectors of these lengths */
+    double euler_poincare;   /* by stages against ad*, relative to the largest sum of the moduli of its terms */
     double curvature;        /* largest |B| */
 } nh_poincare;
 

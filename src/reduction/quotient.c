@@ -48,21 +48,52 @@ static bool prolong(const nh_model *o, const nh_ex *e, nh_ex *eta)
     return good;
 }
 
-/* Where the energy does not change along Gamma, at the chart's probes. */
+/* |dE/dt| + |rho^s dE/dq^s| + |a_i dE/dw^i|, of all terms. */
+static nh_ex terms_of_rate(const nh_model *o)
+{
+    nh_dag *d = o->dag;
+    nh_ex sum = nh_kinetic_terms(d, nh_diff(d, o->E, o->system->t));
+    for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_kinetic_terms(d, nh_mul(d, o->rho[s], nh_diff(d, o->E, o->system->coordinate[s].q))));
+    for (size_t i = 0; i < o->n; i++) sum = nh_add(d, sum, nh_kinetic_terms(d, nh_mul(d, o->a[i], nh_model_Y(o, i, o->E))));
+    return sum;
+}
+
+/* One over the time in which coordinates change by their size: max_s |rho^s| / size_s at a probe, sizes over all of them, 1 for angles. */
+static double pace(const nh_model *o, const double *rho)
+{
+    const nh_chart *c = o->chart;
+    double most = 0;
+    for (size_t s = 0; s < o->m; s++) {
+        double size = 0;
+        for (size_t p = 0; p < c->probes; p++) size = fmax(size, fabs(c->probe[p * c->width + 1 + s]));
+        if (o->system->coordinate[s].type == NH_ANGLE || size == 0) size = 1;
+        most = fmax(most, fabs(rho[s]) / size);
+    }
+    return most;
+}
+
+/* Where the energy does not change along Gamma, at the chart's probes: beside the terms of its rate, which may be nothing but
+ * rounding, and its own terms in the time in which coordinates change by their size. */
 static bool conservative(const nh_model *o)
 {
     static const double small = 1e-9;
-    nh_ex e[2] = {nh_model_gamma(o, o->E), o->E};
-    nh_tape *tape = nh_model_tape(o, 2, e);
+    nh_ex *e = nh_alloc_array(o->m + 3, sizeof *e);
+    double *out = nh_alloc_array(o->m + 3, sizeof *out);
+    e[0] = nh_model_gamma(o, o->E);
+    e[1] = terms_of_rate(o);
+    e[2] = nh_kinetic_terms(o->dag, o->E);
+    memcpy(e + 3, o->rho, o->m * sizeof *e);
+    nh_tape *tape = nh_model_tape(o, o->m + 3, e);
     nh_tape_work *work = nh_tape_work_create(tape);
-    double out[2];
     bool good = true;
     for (size_t p = 0; p < o->chart->probes; p++) {
         nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, out);
-        good = good && isfinite(out[0]) && fabs(out[0]) <= small * (1 + fabs(out[1]));
+        good = good && isfinite(out[0]) && fabs(out[0]) <= small * (out[1] + pace(o, out + 3) * out[2]);
     }
     nh_tape_work_free(work);
     nh_tape_free(tape);
+    nh_free(e);
+    nh_free(out);
     return good;
 }
 
