@@ -140,7 +140,7 @@ $(BUILD)/tests/nhsym-shared: $(CLI) $(BUILD)/libnhsym.a
 $(BUILD)/src/cli/archives.o: CPPFLAGS += $(if $(WITHOUT_MPI),-DNH_WITHOUT_MPI)
 
 # The loops over batches of points; see the head of the file for why no -ffast-math.
-$(BUILD)/src/expr/tape_batch.o: CFLAGS += -O3 -fno-math-errno -fno-trapping-math
+$(BUILD)/src/evaluate/tape_batch.o: CFLAGS += -O3 -fno-math-errno -fno-trapping-math
 
 $(BUILD)/src/motion/ensemble.o: CFLAGS += -O3
 

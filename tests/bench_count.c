@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 #include "integrals/count.h"
-#include "study/analysis.h"
+#include "problem/analysis_file.h"
 
 static void count_file(const char *path, size_t degree, bool time, bool generic)
 {

@@ -15,8 +15,8 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "geometry/model.h"
-#include "noether/nullspace.h"
-#include "noether/rows.h"
+#include "integrals/nullspace.h"
+#include "integrals/rows.h"
 
 static double uniform(unsigned long long *state)
 {

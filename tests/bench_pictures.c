@@ -4,8 +4,8 @@
  */
 #include "base/output.h"
 #include "catalogue.h"
-#include "report/portrait.h"
-#include "study/analyze.h"
+#include "document/thumbnail.h"
+#include "commands/analyze.h"
 
 static bool draw(const char *folder, const char *name, const char *into)
 {

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "motion/midpoint.h"
-#include "report/chart.h"
-#include "study/stress.h"
+#include "document/benchmark.h"
+#include "commands/robustness.h"
 
 enum { most_files = 500 };
 

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "expr/dag.h"
-#include "expr/parse.h"
-#include "expr/tape.h"
+#include "graph/dag.h"
+#include "graph/parse.h"
+#include "evaluate/tape.h"
 
 enum { inputs = 5, outputs = 5, points = NH_BATCH, repetitions = 31, evaluations = 51200 };
 

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "noether/independence.h"
-#include "study/analyze.h"
+#include "integrals/independence.h"
+#include "commands/analyze.h"
 
 #include "multipliers.h"
 #include "sweep.h"

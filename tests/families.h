@@ -3,7 +3,7 @@
 #define NH_TESTS_FAMILIES_H
 
 #include "mechanics.h"
-#include "noether/echelon.h"
+#include "integrals/echelon.h"
 
 #define PHI2 "m*v*sin(phi/k) + m*a*k*omega*cos(phi/k)"
 #define PHI2B "m*v*cos(phi/k) - m*a*k*omega*sin(phi/k)"

@@ -9,8 +9,8 @@
 
 #include "base/text.h"
 #include "geometry/model.h"
-#include "noether/points.h"
-#include "study/analysis.h"
+#include "integrals/points.h"
+#include "problem/analysis_file.h"
 
 typedef struct {
     nh_system *system;

@@ -14,11 +14,11 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/arb.h"
-#include "expr/diff.h"
-#include "expr/num_long.h"
-#include "expr/normal.h"
-#include "noether/points.h"
+#include "exact/arb.h"
+#include "graph/diff.h"
+#include "graph/num_long.h"
+#include "exact/normal.h"
+#include "integrals/points.h"
 
 /* ---- expressions in ball arithmetic ---- */
 

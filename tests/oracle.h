@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "mechanics.h"
-#include "noether/symmetry.h"
+#include "integrals/symmetry.h"
 
 static inline cJSON *oracle_read(const char *path)
 {

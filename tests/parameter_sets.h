@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "report/facts.h"
-#include "study/analyze.h"
-#include "study/reduce.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "document/facts.h"
+#include "commands/analyze.h"
+#include "commands/reduce.h"
 #include "system/sample.h"
 
 /* ---- formulas ---- */

@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "expr/dag.h"
-#include "expr/parse.h"
+#include "graph/dag.h"
+#include "graph/parse.h"
 
 enum { SYMBOLS = 4 };
 

@@ -12,9 +12,9 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 
 typedef enum { FREE, HOLONOMIC, LINEAR, AFFINE, RHEONOMIC, NONLINEAR, HOMOGENEOUS, CONSTRAINT_KINDS } constraint_kind;
 

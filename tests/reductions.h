@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/reduce.h"
+#include "commands/reduce.h"
 
 typedef struct {
     nh_stage_kind kind;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/print.h"
+#include "graph/print.h"
 #include "system/system.h"
 
 enum { rewrite_most = 40 };

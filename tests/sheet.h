@@ -7,7 +7,7 @@
 
 #include "mechanics.h"
 
-#include "expr/diff.h"
+#include "graph/diff.h"
 
 typedef struct {
     const nh_model *model;

@@ -5,7 +5,7 @@
 #include "accuracy_cases.h"
 #include "mechanics.h"
 #include "sweep.h"
-#include "study/simulate.h"
+#include "commands/simulate.h"
 
 enum { COUNT = 6 };
 

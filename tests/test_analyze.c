@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "expr/normal.h"
-#include "study/analyze.h"
+#include "exact/normal.h"
+#include "commands/analyze.h"
 
 /* ---- running ---- */
 

@@ -3,11 +3,11 @@
 
 #include <stdio.h>
 
-#include "noether/independence.h"
-#include "noether/prove.h"
-#include "noether/rank.h"
-#include "noether/recognise.h"
-#include "noether/unknowns.h"
+#include "integrals/independence.h"
+#include "integrals/prove.h"
+#include "integrals/gradient_rank.h"
+#include "integrals/recognise.h"
+#include "integrals/unknowns.h"
 #include "system/sample.h"
 
 /* ---- echelon ---- */

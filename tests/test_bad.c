@@ -15,7 +15,7 @@
 #include "base/memory.h"
 #include "geometry/model.h"
 #include "scratch.h"
-#include "study/analysis.h"
+#include "problem/analysis_file.h"
 
 enum { least_systems = 250, least_analyses = 70, most_cases = 1000, most_table = 1 << 20 };
 

@@ -2,7 +2,7 @@
 #include <criterion/criterion.h>
 #include <math.h>
 
-#include "expr/ball_fit.h"
+#include "exact/ball_fit.h"
 
 static nh_dag *dag;
 static nh_ball *ball;

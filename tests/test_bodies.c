@@ -2,8 +2,8 @@
  * recursion by hand, wheels against their geometry, the crane against independent values of 40 digits. */
 #include "base/linalg.h"
 #include "chain.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 #include "oracle.h"
 #include "sweep.h"
 

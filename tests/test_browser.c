@@ -5,7 +5,7 @@
 
 #include "program.h"
 #include "sweep.h"
-#include "report/html_internal.h"
+#include "document/html_internal.h"
 
 static place place_with_page(const char *line)
 {

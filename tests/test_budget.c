@@ -5,7 +5,7 @@
 
 #include "base/budget.h"
 #include "base/parallel.h"
-#include "study/analyze.h"
+#include "commands/analyze.h"
 
 #include "sweep.h"
 

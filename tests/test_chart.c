@@ -5,8 +5,8 @@
 
 #include "mechanics.h"
 #include "sweep.h"
-#include "report/chart.h"
-#include "study/chart_internal.h"
+#include "document/benchmark.h"
+#include "commands/benchmark_internal.h"
 
 static nh_comparison *compare(const char *path, const char *initial, double until, double budget)
 {

@@ -4,7 +4,7 @@
 #include "motion/accuracy.h"
 #include "program.h"
 #include "sweep.h"
-#include "study/reduce.h"
+#include "commands/reduce.h"
 
 /* ---- what is chosen ---- */
 

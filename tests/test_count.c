@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 #include "integrals/completeness.h"
-#include "study/analysis.h"
+#include "problem/analysis_file.h"
 #include "names.h"
 
 /* ---- series ---- */

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "expr/dag.h"
-#include "expr/diff.h"
-#include "expr/print.h"
+#include "graph/dag.h"
+#include "graph/diff.h"
+#include "graph/print.h"
 #include "random_expression.h"
 
 /* ---- numbers ---- */

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/deck.h"
+#include "system/deck.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "scratch.h"

@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "expr/dag.h"
-#include "expr/diff.h"
-#include "expr/print.h"
+#include "graph/dag.h"
+#include "graph/diff.h"
+#include "graph/print.h"
 #include "random_expression.h"
 
 /* ---- a complex evaluator ---- */

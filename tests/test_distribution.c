@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "geometry/distribution.h"
-#include "study/analyze.h"
+#include "commands/analyze.h"
 
 enum { most_coordinates = 6 };
 

@@ -5,10 +5,10 @@
 #include <stdio.h>
 
 #include "catalogue.h"
-#include "expr/tape.h"
-#include "report/portrait.h"
-#include "study/analyze.h"
-#include "study/drawing.h"
+#include "evaluate/tape.h"
+#include "document/thumbnail.h"
+#include "commands/analyze.h"
+#include "problem/drawing.h"
 
 static nh_system *parse(const char *text)
 {

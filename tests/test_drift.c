@@ -2,7 +2,7 @@
 #include <criterion/criterion.h>
 
 #include "mechanics.h"
-#include "motion/drift.h"
+#include "motion/validation.h"
 
 enum { CURRENTS = 3 };
 

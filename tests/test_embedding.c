@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 #include "names.h"
 #include "system/sample.h"
 

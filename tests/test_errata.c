@@ -3,9 +3,9 @@
 #include <criterion/criterion.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "study/verify.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "commands/verify.h"
 
 #define S "(x'/(a*cos(phi)))"                       /* v/a */
 #define R "sqrt(" S "^2 + k^2*phi'^2)"

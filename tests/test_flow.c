@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "motion/flow.h"
+#include "motion/cvode.h"
 
 /* ---- systems ---- */
 

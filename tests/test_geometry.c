@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 #include "geometry/distribution.h"
 
 static const double TIGHT = 1e-12; /* relative to the sum of the magnitudes of the terms */

@@ -1,7 +1,7 @@
 /* Text from files stays text in every language that it is written into; files are read once in a run. */
 #include <criterion/criterion.h>
 
-#include "base/deck.h"
+#include "system/deck.h"
 #include "base/escape.h"
 #include "base/files.h"
 #include "program.h"

@@ -3,11 +3,11 @@
 #include <ctype.h>
 #include <math.h>
 
-#include "expr/typeset.h"
+#include "document/typeset.h"
 #include "numbers.h"
 #include "program.h"
 #include "sweep.h"
-#include "report/formula.h"
+#include "document/formula.h"
 
 /* ---- a reader of XML, as strict as a parser: tags match, attributes are quoted and distinct from text, entities are known ---- */
 

@@ -1,7 +1,7 @@
 /* Closed forms of the symmetries of chains: what the jets count is given by the displacements of the joints. */
 #include "reduced.h"
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 #include "reduction/chain.h"
 #include "reduction/group.h"
 #include "reduction/joint_fields.h"

@@ -2,7 +2,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "expr/machine.h"
+#include "evaluate/machine.h"
 #include "mechanics.h"
 #include "motion/trajectory.h"
 #include "random_expression.h"

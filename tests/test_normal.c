@@ -7,10 +7,10 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
-#include "expr/ball.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "exact/ball.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 #include "typed.h"
 
 static nh_zero_verdict verdict_of(const char *text)

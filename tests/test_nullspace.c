@@ -7,7 +7,7 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
-#include "noether/nullspace.h"
+#include "integrals/nullspace.h"
 #include "samples.h"
 
 static const nh_nullspace_options OPTIONS = {1e-9, 100, 1e5, 1e3, 1e6, 1e-7, 1e-11};

@@ -4,7 +4,7 @@
  * single numbers.  NHSYM_TEST_FIGURES=1 prints the worst of each kind. */
 #include "oracle.h"
 
-#include "motion/drift.h"
+#include "motion/validation.h"
 
 static const double TIGHT = 1e-12;
 

@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/dag.h"
-#include "expr/parse.h"
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "graph/dag.h"
+#include "graph/parse.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 #include "random_expression.h"
 
 /* ---- text that reads well ---- */

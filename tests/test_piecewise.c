@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include "catalogue.h"
-#include "noether/region.h"
+#include "integrals/region.h"
 #include "scratch.h"
-#include "study/verify.h"
+#include "commands/verify.h"
 #include "system/sample.h"
 
 typedef struct {

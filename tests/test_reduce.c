@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "report/reduction.h"
+#include "document/reduction.h"
 #include "scratch.h"
 #include "sweep.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "scratch.h"
-#include "study/reduce.h"
+#include "commands/reduce.h"
 
 /* Lengths, masses and times are multiplied by these. */
 typedef struct {

@@ -1,8 +1,8 @@
 /* What `reduce` says of a system: text, page and JSON agree with each other and with what was computed. */
 #include "oracle.h"
 
-#include "report/html.h"
-#include "report/reduction.h"
+#include "document/html.h"
+#include "document/reduction.h"
 #include "scratch.h"
 
 typedef struct {

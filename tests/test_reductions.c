@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include "base/progress.h"
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 #include "reduction/reach.h"
 #include "reduction/subspace.h"
-#include "report/reduction.h"
+#include "document/reduction.h"
 #include "reductions.h"
 #include "scratch.h"
 #include "sweep.h"

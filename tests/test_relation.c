@@ -8,12 +8,12 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "expr/relation.h"
-#include "expr/relation_unknown.h"
-#include "expr/tape.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "exact/relation.h"
+#include "exact/relation_unknown.h"
+#include "evaluate/tape.h"
 #include "typed.h"
 
 enum { most = 24 };

@@ -6,7 +6,7 @@
 #include "mechanics.h"
 #include "sweep.h"
 #include "motion/trajectory.h"
-#include "study/simulate.h"
+#include "commands/simulate.h"
 
 static const char *const planar =
     "name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\n"

@@ -7,9 +7,9 @@
 
 #include <math.h>
 
-#include "expr/ball_ode.h"
-#include "expr/print.h"
-#include "study/analyze.h"
+#include "exact/ball_ode.h"
+#include "graph/print.h"
+#include "commands/analyze.h"
 
 /* ---- asking ---- */
 

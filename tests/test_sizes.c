@@ -5,10 +5,10 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "expr/print.h"
+#include "graph/print.h"
 #include "scratch.h"
 #include "sweep.h"
-#include "study/analyze.h"
+#include "commands/analyze.h"
 
 /* The search alone: a motion would only take time. */
 static nh_result *search(nh_text *text, double work)

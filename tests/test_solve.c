@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "expr/dag.h"
-#include "expr/solve.h"
+#include "graph/dag.h"
+#include "exact/solve.h"
 #include "random_expression.h"
 
 enum { largest = 5 };

@@ -6,8 +6,8 @@
 
 #include "mechanics.h"
 #include "sweep.h"
-#include "report/chart.h"
-#include "report/html.h"
+#include "document/benchmark.h"
+#include "document/html.h"
 
 static nh_stress *map_within(const char *path, const char *over, double steps, double budget)
 {

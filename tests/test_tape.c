@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/dag.h"
-#include "expr/diff.h"
-#include "expr/tape.h"
-#include "expr/tape_complex.h"
+#include "graph/dag.h"
+#include "graph/diff.h"
+#include "evaluate/tape.h"
+#include "evaluate/tape_complex.h"
 #include "random_expression.h"
 
 /* Units in the last place between a and b; equal infinities and two nans are 0 apart. */

@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "expr/print.h"
-#include "expr/typeset.h"
+#include "graph/print.h"
+#include "document/typeset.h"
 #include "numbers.h"
 #include "program.h"
 #include "random_expression.h"

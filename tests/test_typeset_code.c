@@ -5,8 +5,8 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "expr/tape.h"
-#include "expr/typeset_code.h"
+#include "evaluate/tape.h"
+#include "document/typeset_code.h"
 #include "scratch.h"
 #include "typed.h"
 

@@ -3,8 +3,8 @@
 #include <stdio.h>
 
 #include "geometry/distribution.h"
-#include "noether/symmetry.h"
-#include "expr/print.h"
+#include "integrals/symmetry.h"
+#include "graph/print.h"
 #include "reduced.h"
 #include "reduction/group.h"
 

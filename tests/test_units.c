@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "mechanics.h"
-#include "motion/drift.h"
+#include "motion/validation.h"
 #include "motion/method.h"
 #include "motion/projection.h"
 

@@ -5,15 +5,15 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "report/motion.h"
-#include "report/verdict.h"
+#include "document/simulation.h"
+#include "document/verification.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "study/simulate.h"
-#include "study/verify.h"
+#include "commands/simulate.h"
+#include "commands/verify.h"
 
 static const char SLEIGH[] = "systems/sleigh.yaml";
 

@@ -4,7 +4,7 @@
 
 #include <criterion/criterion.h>
 
-#include "expr/parse.h"
+#include "graph/parse.h"
 
 static inline bool any_symbol(void *dag, const char *name, nh_ex *out, nh_parse_fault *fault)
 {

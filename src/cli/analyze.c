@@ -2,10 +2,10 @@
 
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "report/html.h"
-#include "report/result_json.h"
-#include "report/summary.h"
-#include "report/tex.h"
+#include "document/html.h"
+#include "document/analysis_json.h"
+#include "document/summary.h"
+#include "document/tex.h"
 
 /* A system by name brings the analysis of that name with it; a file is taken alone. */
 static const char *analysis_of(nh_cli *cli, const char *system)

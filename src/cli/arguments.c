@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
-#include "cli/words.h"
+#include "cli/cli_table.h"
 
 enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
 

@@ -2,8 +2,8 @@
 
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "report/chart.h"
-#include "report/html.h"
+#include "document/benchmark.h"
+#include "document/html.h"
 
 static bool write_all(nh_cli *cli, const nh_run *run, const nh_comparison *c, const nh_stress *s, nh_error *error)
 {

@@ -8,9 +8,9 @@
 #include "base/option.h"
 #include "base/output.h"
 #include "base/text.h"
-#include "report/run.h"
-#include "study/analyze.h"
-#include "study/simulate.h"
+#include "document/provenance.h"
+#include "commands/analyze.h"
+#include "commands/simulate.h"
 
 typedef enum { NH_PROGRESS_AUTO, NH_PROGRESS_ALWAYS, NH_PROGRESS_NEVER } nh_cli_progress;
 

@@ -1,7 +1,7 @@
-/* words: which option belongs to which command. */
+/* cli_table: which option belongs to which command. */
 #include <string.h>
 
-#include "cli/words.h"
+#include "cli/cli_table.h"
 
 bool nh_word_among(const char *words, const char *word)
 {

@@ -1,6 +1,6 @@
-/* words: every command and option in one table each; help, manual page and completions print from them, and the command line is read by them. */
-#ifndef NH_WORDS_H
-#define NH_WORDS_H
+/* cli_table: every command and option in one table each; help, manual page and completions print from them, and the command line is read by them. */
+#ifndef NH_CLI_TABLE_H
+#define NH_CLI_TABLE_H
 
 #include <stdbool.h>
 

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/deck.h"
+#include "system/deck.h"
 #include "cli/cli.h"
 
 enum { most_places = 64 };

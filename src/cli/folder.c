@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
-#include "report/html.h"
+#include "document/html.h"
 
 static const char *figure_name(nh_cli *cli, size_t number) { return nh_arena_printf(cli->arena, "figure%zu.svg", number); }
 

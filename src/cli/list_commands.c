@@ -1,11 +1,11 @@
-/* small: the commands that need no computation. */
+/* list_commands: the commands that need no computation. */
 #include <string.h>
 
-#include "base/deck.h"
+#include "system/deck.h"
 #include "base/escape.h"
 #include "base/files.h"
 #include "cli/cli.h"
-#include "report/glossary.h"
+#include "document/wording.h"
 
 int nh_cli_version(nh_cli *cli, nh_error *error)
 {

@@ -6,9 +6,9 @@
 #include "base/files.h"
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "cli/words.h"
-#include "expr/machine.h"
-#include "expr/normal.h"
+#include "cli/cli_table.h"
+#include "evaluate/machine.h"
+#include "exact/normal.h"
 
 static const struct {
     const char *name;

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
-#include "expr/parse.h"
+#include "graph/parse.h"
 
 /* %s: the name, twice. */
 static const char pattern[] =

@@ -1,4 +1,4 @@
-/* watch: progress on stderr. */
+/* progress_line: progress on stderr. */
 #include <math.h>
 #include <string.h>
 #include <unistd.h>

@@ -2,8 +2,8 @@
 
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "report/html.h"
-#include "report/reduction.h"
+#include "document/html.h"
+#include "document/reduction.h"
 
 static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
 {

@@ -2,8 +2,8 @@
 
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "report/html.h"
-#include "report/motion.h"
+#include "document/html.h"
+#include "document/simulation.h"
 
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *q, nh_error *error)
 {

@@ -1,8 +1,8 @@
 #include <string.h>
 
 #include "cli/cli.h"
-#include "report/html.h"
-#include "report/verdict.h"
+#include "document/html.h"
+#include "document/verification.h"
 
 static bool ask(nh_cli *cli, nh_run *run, nh_verdict_of_one **out, nh_error *error)
 {

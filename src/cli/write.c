@@ -5,7 +5,7 @@
 #include "base/escape.h"
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "report/unfinished.h"
+#include "document/unfinished.h"
 
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path)
 {

@@ -1,4 +1,4 @@
-#include "study/analyze.h"
+#include "commands/analyze.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,17 +8,17 @@
 #include "base/linalg.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "study/branch.h"
-#include "study/coefficients.h"
-#include "study/currents.h"
-#include "study/defaults.h"
-#include "study/figures.h"
-#include "study/integrals.h"
-#include "study/ladder.h"
-#include "study/missing.h"
-#include "study/pace.h"
-#include "study/routes.h"
-#include "study/specials.h"
+#include "search/branch.h"
+#include "search/coefficients.h"
+#include "search/currents.h"
+#include "search/defaults.h"
+#include "commands/figures.h"
+#include "search/constraint_integrals.h"
+#include "search/staged_search.h"
+#include "search/missing.h"
+#include "problem/time_scale.h"
+#include "search/routes.h"
+#include "search/specials.h"
 
 enum { least_samples = 256, samples_per_column = 4, motion_outputs = 401 };
 

@@ -4,8 +4,8 @@
 #ifndef NH_ANALYZE_H
 #define NH_ANALYZE_H
 
-#include "study/choice.h"
-#include "study/result.h"
+#include "commands/choice.h"
+#include "search/analysis.h"
 
 typedef struct {
     const char *command;         /* as it was typed, to be told in reports; may be NULL */

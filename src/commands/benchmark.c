@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "base/progress.h"
-#include "study/chart_internal.h"
+#include "commands/benchmark_internal.h"
 
 enum { levels = NH_CHART_LEVELS, most_repeats = 7, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};

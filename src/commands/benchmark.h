@@ -1,4 +1,4 @@
-/* chart: speed against accuracy.  One motion of one system by every integrator in every formulation, at several tolerances or steps, measured
+/* benchmark: speed against accuracy.  One motion of one system by every integrator in every formulation, at several tolerances or steps, measured
  * now on this machine: error against a reference, drift of every known current, time, evaluations.
  *
  * The reference is a Runge-Kutta motion of order 8 at the smallest tolerance; a second method at a tight tolerance says how far it can be
@@ -6,7 +6,7 @@
 #ifndef NH_STUDY_CHART_H
 #define NH_STUDY_CHART_H
 
-#include "study/simulate.h"
+#include "commands/simulate.h"
 
 typedef enum { NH_RIGHT, NH_WARNED, NH_CAUGHT, NH_FAILED, NH_TIMEOUT, NH_WRONG } nh_measured_status;
 

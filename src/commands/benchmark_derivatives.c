@@ -1,4 +1,4 @@
-/* chart_derivatives: the Jacobian of the reduced equations, exact from the graph, by a complex step or by differences of the right-hand side: what each
+/* benchmark_derivatives: the Jacobian of the reduced equations, exact from the graph, by a complex step or by differences of the right-hand side: what each
  * costs, and how far it is off.  At the chart's probes; exact derivatives are the reference. */
 #include <float.h>
 #include <math.h>
@@ -6,8 +6,8 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "expr/tape_complex.h"
-#include "study/chart_internal.h"
+#include "evaluate/tape_complex.h"
+#include "commands/benchmark_internal.h"
 
 enum { exact_derivatives, complex_step, forward, central_differences, extrapolated, kinds };
 static const char *const names[kinds] = {"exact, from the graph", "complex step", "forward differences", "central differences", "central differences, extrapolated"};

@@ -1,4 +1,4 @@
-/* chart_fit: the discrete problem.  The null space of the sampled equations for the polynomials of degree 1, 2, 3, ... in the chart's velocities, in the
+/* benchmark_fit: the discrete problem.  The null space of the sampled equations for the polynomials of degree 1, 2, 3, ... in the chart's velocities, in the
  * sines and cosines of the angles and in the other coordinates on which the equations of motion depend, over
  *
  *     samples x columns x basis (monomials, Chebyshev) x route (current, symmetry) x solver (generalized, plain SVD):
@@ -9,11 +9,11 @@
 
 #include "base/clock.h"
 #include "base/progress.h"
-#include "noether/echelon.h"
-#include "noether/rows.h"
-#include "study/chart_fit.h"
-#include "study/chart_internal.h"
-#include "study/spans.h"
+#include "integrals/echelon.h"
+#include "integrals/rows.h"
+#include "commands/benchmark_fit.h"
+#include "commands/benchmark_internal.h"
+#include "search/spans.h"
 
 enum { most_levels = 6, densities = 3, ways = 8, heldout_points = 400, most_field_columns = 400, most_repeats = 3 };
 static const double density[densities] = {1.5, 4, 10}; /* sample points per column */

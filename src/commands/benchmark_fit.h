@@ -1,4 +1,4 @@
-/* chart_fit: which functions the polynomials of the discrete problem are made of. */
+/* benchmark_fit: which functions the polynomials of the discrete problem are made of. */
 #ifndef NH_STUDY_CHART_FIT_H
 #define NH_STUDY_CHART_FIT_H
 

@@ -1,12 +1,12 @@
-/* chart_internal: formulations of one motion, and how a computed motion is judged. */
+/* benchmark_internal: formulations of one motion, and how a computed motion is judged. */
 #ifndef NH_STUDY_CHART_INTERNAL_H
 #define NH_STUDY_CHART_INTERNAL_H
 
 #include "motion/method.h"
 #include "motion/projection.h"
 #include "reduction/reduced.h"
-#include "study/chart.h"
-#include "study/reduce.h"
+#include "commands/benchmark.h"
+#include "commands/reduce.h"
 
 enum { NH_CHART_OUTPUTS = 9, NH_CHART_LEVELS = 5, NH_CHART_FORMULATIONS = 3, NH_CHART_REDUCED = 4, NH_CHART_CANDIDATES = 64 };
 

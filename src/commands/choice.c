@@ -1,4 +1,4 @@
-#include "study/choice.h"
+#include "commands/choice.h"
 
 /* The model in coordinate velocities, derived when that was not done before. */
 static const nh_model *derive(void *context, double effort)

@@ -1,10 +1,10 @@
-#include "study/figures.h"
+#include "commands/figures.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/progress.h"
-#include "study/simulate.h"
+#include "commands/simulate.h"
 
 enum { outputs = 601, scan_points = 128, scan_values = 401 };
 

@@ -3,7 +3,7 @@
 #ifndef NH_STUDY_FIGURES_H
 #define NH_STUDY_FIGURES_H
 
-#include "study/analyze.h"
+#include "commands/analyze.h"
 
 /* Fills result->figure.  A curve that cannot be computed is left out with a warning.  The families are those of the ansatz with the unknowns' values in place;
  * 0 where the program chose it. */

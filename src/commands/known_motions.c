@@ -1,12 +1,12 @@
-/* closed: the closed forms that a system file knows of its motions (known: motions:), as references of the chart.
+/* known_motions: the closed forms that a system file knows of its motions (known: motions:), as references of the chart.
  *
  * A closed form is a claim: it is used only where two methods that agree with each other agree with it, too; where they do not agree with each other, a complete
  * one takes the place of the second. */
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "study/chart_internal.h"
+#include "graph/diff.h"
+#include "commands/benchmark_internal.h"
 
 static const double least_off = 1e-11; /* rounding of a closed form and of the motion that it is compared with */
 static const double fits = 1e-9;       /* a condition on the initial state holds when left and right differ by less */

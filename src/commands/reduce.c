@@ -1,4 +1,4 @@
-#include "study/reduce.h"
+#include "commands/reduce.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -11,8 +11,8 @@
 #include "geometry/bordered.h"
 #include "geometry/regular.h"
 #include "reduction/subspace.h"
-#include "study/reduce_internal.h"
-#include "study/simulate.h"
+#include "commands/reduce_internal.h"
+#include "commands/simulate.h"
 
 const char *nh_stage_kind_name(nh_stage_kind kind)
 {

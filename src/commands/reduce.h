@@ -13,7 +13,7 @@
 #include "reduction/quotient.h"
 #include "reduction/reconstruct.h"
 #include "reduction/second.h"
-#include "reduction/weak.h"
+#include "reduction/quasi_symmetry.h"
 
 typedef struct {
     const char *system_path;

@@ -9,7 +9,7 @@
 
 #include "base/progress.h"
 #include "motion/accuracy.h"
-#include "study/reduce_internal.h"
+#include "commands/reduce_internal.h"
 
 enum { most_attempts = 4 };
 static const double share = 0.25, finer = 0.03, tightest = 1e-14; /* of what is wanted: the full motion's; tolerance of the check */

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "base/progress.h"
-#include "study/reduce_internal.h"
+#include "commands/reduce_internal.h"
 
 enum { most_runs = 7 };       /* of one method */
 static const double aim = 0.5, loosest = 1e-5, tightest = 1e-14; /* aim: in what is wanted; tolerances */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "study/reduce_internal.h"
+#include "commands/reduce_internal.h"
 
 nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_reduction_stage *s, const nh_reduction_course *c, bool group, const nh_reconstruct_how *how, nh_error *error)
 {

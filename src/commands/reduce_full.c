@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/reduce_internal.h"
+#include "commands/reduce_internal.h"
 
 /* What differences count beside: angles have one size together, and so have other coordinates, of which rotations mix the errors: the largest of them, or the
  * largest as the metric compares them, sqrt(K_rr / K_ss) size_r, where that is smaller (a light body beside a heavy one).  Lengths that are zero but for rounding

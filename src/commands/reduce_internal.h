@@ -6,7 +6,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "study/reduce.h"
+#include "commands/reduce.h"
 
 enum { NH_REDUCTION_OUTPUTS = 81, NH_REDUCTION_STEPS = 100000, NH_REDUCTION_ALLOWED = 100 }; /* the last one in tolerances */
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/reduce_internal.h"
+#include "commands/reduce_internal.h"
 
 /* On the branch of a quadratic constraint that the initial state lies on. */
 bool nh_reduction_whole_model(nh_reduction *r, nh_error *error)

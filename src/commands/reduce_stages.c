@@ -8,7 +8,7 @@
 #include "reduction/density.h"
 #include "reduction/reach.h"
 #include "reduction/subspace.h"
-#include "study/reduce_internal.h"
+#include "commands/reduce_internal.h"
 
 /* ---- a stage ---- */
 

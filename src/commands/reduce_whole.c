@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/reduce_internal.h"
+#include "commands/reduce_internal.h"
 
 /* "3; 1, 2" as blocks; numbers are those of the generators of the action, from 1. */
 static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order, nh_error *error)

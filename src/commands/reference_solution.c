@@ -1,11 +1,11 @@
-/* yardstick: what a computed motion is compared with. */
+/* reference_solution: what a computed motion is compared with. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/terms.h"
-#include "study/chart_internal.h"
+#include "graph/diff.h"
+#include "graph/terms.h"
+#include "commands/benchmark_internal.h"
 
 static const double conserved = 1e-9; /* relative rate at the probes below which a known current is taken for conserved with these parameters */
 

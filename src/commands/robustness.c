@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "base/progress.h"
-#include "study/stress_internal.h"
+#include "commands/robustness_internal.h"
 
 enum { most_values = 12, most_parameters = 12 };
 static const char *const methods[] = {"GSL rk8pd", "GSL rkf45", "ARKODE Dormand-Prince", "CVODE Adams", "CVODE BDF"};

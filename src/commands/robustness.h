@@ -1,4 +1,4 @@
-/* stress: what the integrators do where methods fail.  Maps over one thing that is made worse, with one cell per value and method:
+/* robustness: what the integrators do where methods fail.  Maps over one thing that is made worse, with one cell per value and method:
  *
  *     right     within the accuracy, and no guard complains
  *     warned    within it, but a guard complains
@@ -13,10 +13,10 @@
  * what badly scaled units do; every parameter, made small and large (masses and lengths that vanish, stiffness); every angle of the initial state, turned once
  * around, in the chart of coordinate velocities; those that the system file names (`stress`); and the discrete problem where it is hardly determined
  * (stress_fit.c).  A motion that needs more than options.stress_steps is out of time: a count, so that a map is the same on a busy machine. */
-#ifndef NH_STRESS_H
-#define NH_STRESS_H
+#ifndef NH_ROBUSTNESS_H
+#define NH_ROBUSTNESS_H
 
-#include "study/chart.h"
+#include "commands/benchmark.h"
 
 typedef struct {
     double at, second_at; /* on the axes; the second 0 where there is none */

@@ -1,9 +1,9 @@
-/* stress_axes: a map over one or two things that the user names. */
+/* robustness_axes: a map over one or two things that the user names. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/stress_internal.h"
+#include "commands/robustness_internal.h"
 
 enum { most_axes = 2, values_of_one = 10, values_of_two = 6, most_values = 100 };
 static const double decades = 100; /* a range from x to 100 x or more is divided by ratios */

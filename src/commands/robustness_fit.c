@@ -1,4 +1,4 @@
-/* stress_fit: the discrete problem where it is hardly determined.  Samples that crowd in a corner of the domain, samples with noise, a column that nearly depends on
+/* robustness_fit: the discrete problem where it is hardly determined.  Samples that crowd in a corner of the domain, samples with noise, a column that nearly depends on
  * others, and two frequencies that nearly coincide; by both routes and by both solvers.
  *
  * The truth is the dimension by the generalized solver from many points of the whole domain, with the column far from the others and the frequencies far apart.
@@ -9,11 +9,11 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "noether/echelon.h"
-#include "noether/rows.h"
-#include "study/chart_fit.h"
-#include "study/spans.h"
-#include "study/stress_internal.h"
+#include "integrals/echelon.h"
+#include "integrals/rows.h"
+#include "commands/benchmark_fit.h"
+#include "search/spans.h"
+#include "commands/robustness_internal.h"
 
 enum { levels = 6, most_ways = 4, most_field_columns = 400, truth_density = 10, density = 4, most_degree = 4 };
 static const double radius[levels] = {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5}, noise[levels] = {0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3}, apart[levels] = {0.1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15};

@@ -1,9 +1,9 @@
-/* stress_internal: one value of a map, for the maps of stress.c and those that a user names (stress_axes.c). */
+/* robustness_internal: one value of a map, for the maps of stress.c and those that a user names (stress_axes.c). */
 #ifndef NH_STUDY_STRESS_INTERNAL_H
 #define NH_STUDY_STRESS_INTERNAL_H
 
-#include "study/chart_internal.h"
-#include "study/stress.h"
+#include "commands/benchmark_internal.h"
+#include "commands/robustness.h"
 
 enum { NH_STRESS_METHODS = 5 }; /* of a map of motions */
 

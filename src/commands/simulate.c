@@ -1,4 +1,4 @@
-#include "study/simulate_internal.h"
+#include "commands/simulate_internal.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -9,7 +9,7 @@
 #include "base/clock.h"
 #include "base/progress.h"
 
-#include "expr/diff.h"
+#include "graph/diff.h"
 
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
 static const double small_motion = 1e8, most_whole = 1e9; /* units of effort: a motion that needs less is compared with the whole model's, which may need so much */

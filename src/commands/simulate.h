@@ -2,10 +2,10 @@
 #ifndef NH_SIMULATE_H
 #define NH_SIMULATE_H
 
-#include "motion/drift.h"
+#include "motion/validation.h"
 #include "motion/ensemble_accuracy.h"
-#include "study/choice.h"
-#include "study/tracks.h"
+#include "commands/choice.h"
+#include "problem/observables.h"
 
 typedef struct {
     const char *system_path, *analysis_path; /* analysis may be NULL: its initial state, time and watched quantities are used */

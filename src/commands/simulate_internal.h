@@ -2,7 +2,7 @@
 #ifndef NH_SIMULATE_INTERNAL_H
 #define NH_SIMULATE_INTERNAL_H
 
-#include "study/simulate.h"
+#include "commands/simulate.h"
 
 /* What `write` says of a scene, in the simulation's memory. */
 const char *nh_simulate_words(nh_simulation *s, const nh_scene *scene, void (*write)(const nh_scene *scene, nh_text *out));

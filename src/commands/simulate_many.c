@@ -1,5 +1,5 @@
 /* simulate_many: ensembles of motions. */
-#include "study/simulate_internal.h"
+#include "commands/simulate_internal.h"
 
 #include "base/parallel.h"
 

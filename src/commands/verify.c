@@ -1,15 +1,15 @@
-#include "study/verify.h"
+#include "commands/verify.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/progress.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "noether/independence.h"
-#include "study/branch.h"
-#include "study/pace.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "integrals/independence.h"
+#include "search/branch.h"
+#include "problem/time_scale.h"
 
 enum { test_points = 256, generic_points = 24 };
 

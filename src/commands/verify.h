@@ -5,7 +5,7 @@
 #ifndef NH_VERIFY_H
 #define NH_VERIFY_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 typedef struct {
     nh_arena *arena;
@@ -15,7 +15,7 @@ typedef struct {
     nh_ex *form;              /* of a field: i_Z phi^a, one for each constraint; else NULL */
     bool outside;             /* of a field: they do not vanish, Z is not in the canonical distribution */
     bool conserved;           /* or: is a constraint symmetry */
-    const char *region;       /* a current is conserved in a part of the motions only: where (noether/region.h); then `conserved` is false */
+    const char *region;       /* a current is conserved in a part of the motions only: where (integrals/region.h); then `conserved` is false */
     bool trivial;             /* the current is constant */
     const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
     bool on_both;             /* a current, as it was asked for, is conserved on the other branch too */

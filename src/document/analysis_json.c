@@ -1,16 +1,16 @@
-#include "report/result_json.h"
+#include "document/analysis_json.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/json.h"
-#include "expr/print.h"
-#include "expr/typeset.h"
-#include "report/facts.h"
-#include "report/formula.h"
-#include "report/result_json_internal.h"
-#include "report/run.h"
+#include "graph/print.h"
+#include "document/typeset.h"
+#include "document/facts.h"
+#include "document/formula.h"
+#include "document/analysis_json_internal.h"
+#include "document/provenance.h"
 
 typedef struct {
     const nh_result *r;

@@ -1,8 +1,8 @@
-/* result_json: an analysis as JSON, schema version 1 (docs/formats.md). */
-#ifndef NH_RESULT_JSON_H
-#define NH_RESULT_JSON_H
+/* analysis_json: an analysis as JSON, schema version 1 (docs/formats.md). */
+#ifndef NH_ANALYSIS_JSON_H
+#define NH_ANALYSIS_JSON_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* A heap string (nh_free), ending in a newline. */
 char *nh_result_json(const nh_result *result);

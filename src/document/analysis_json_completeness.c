@@ -1,7 +1,7 @@
 /* The count of the integrals as JSON: "completeness", for the coordinates alone or, of a system that depends on time, with it; "in_time" inside of the former. */
 #include <stdio.h>
 
-#include "report/result_json_internal.h"
+#include "document/analysis_json_internal.h"
 
 static void put_new(nh_json *to, const nh_completeness *c)
 {

@@ -1,9 +1,9 @@
 /* What the files of the JSON of a result share. */
-#ifndef NH_RESULT_JSON_INTERNAL_H
-#define NH_RESULT_JSON_INTERNAL_H
+#ifndef NH_ANALYSIS_JSON_INTERNAL_H
+#define NH_ANALYSIS_JSON_INTERNAL_H
 
 #include "base/json.h"
-#include "report/result_json.h"
+#include "document/analysis_json.h"
 
 void nh_result_json_validation(const nh_result *result, nh_json *to); /* the motion, and what stayed constant on it */
 void nh_result_json_figures(const nh_result *result, nh_json *to);    /* those that were asked for */

@@ -1,8 +1,8 @@
 #include <math.h>
 
-#include "report/course.h"
-#include "report/motion.h"
-#include "report/result_json_internal.h"
+#include "document/time_series.h"
+#include "document/simulation.h"
+#include "document/analysis_json_internal.h"
 
 /* ---- the motion ---- */
 

@@ -1,5 +1,5 @@
-#include "report/chart.h"
-#include "report/chart_internal.h"
+#include "document/benchmark.h"
+#include "document/benchmark_internal.h"
 
 #include <math.h>
 #include <stdio.h>

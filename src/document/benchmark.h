@@ -1,10 +1,10 @@
-/* chart: a comparison of methods as text, JSON and a drawing. */
+/* benchmark: a comparison of methods as text, JSON and a drawing. */
 #ifndef NH_REPORT_CHART_H
 #define NH_REPORT_CHART_H
 
 #include "base/text.h"
-#include "report/run.h"
-#include "study/stress.h"
+#include "document/provenance.h"
+#include "commands/robustness.h"
 
 void nh_comparison_text(const nh_comparison *comparison, bool verbose, nh_text *out);
 /* A heap string (nh_free); `stress` and `run` may be NULL. */

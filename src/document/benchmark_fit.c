@@ -1,9 +1,9 @@
-/* chart_fit: the discrete problem as text and JSON. */
+/* benchmark_fit: the discrete problem as text and JSON. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "report/chart_internal.h"
+#include "document/benchmark_internal.h"
 
 static void time_text(double seconds, char out[24])
 {

@@ -1,10 +1,10 @@
-/* chart_internal: parts of the report of a chart. */
+/* benchmark_internal: parts of the report of a chart. */
 #ifndef NH_REPORT_CHART_INTERNAL_H
 #define NH_REPORT_CHART_INTERNAL_H
 
 #include "base/json.h"
 #include "base/text.h"
-#include "study/chart.h"
+#include "commands/benchmark.h"
 
 /* What has to be said of the reference, at most so many sentences. */
 enum { NH_COMPARISON_WARNINGS = 2 };

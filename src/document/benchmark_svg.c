@@ -1,4 +1,4 @@
-/* chart_svg: the comparison as a drawing, logarithmic on both axes: error to the left is better, time below is better.  One panel for the motions, one for
+/* benchmark_svg: the comparison as a drawing, logarithmic on both axes: error to the left is better, time below is better.  One panel for the motions, one for
  * the discrete problem; beside each its series by group, and under the points the front of the best (in the second
  * one for each number of functions). */
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "base/escape.h"
 #include "base/memory.h"
-#include "report/chart.h"
+#include "document/benchmark.h"
 
 enum { wide = 1060, left = 70, right = 390, top = 56, bottom = 56, least_height = 300, line_height = 16, shades = 20, dashes = 6, most_letters = 52 };
 static const char *const colour[shades] = {"#1b6ca8", "#d1495b", "#2e933c", "#8e5ea2", "#c77c02", "#00798c", "#7a4419", "#e05780", "#4f5d75", "#6a994e",

@@ -1,4 +1,4 @@
-#include "report/facts.h"
+#include "document/facts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "noether/fixed.h"
+#include "integrals/fixed.h"
 
 bool nh_facts_number(double value, int digits, nh_shown_number *out)
 {

@@ -4,7 +4,7 @@
 
 #include "base/json.h"
 #include "base/text.h"
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* A number for people: all its digits; then the shown ones, as [minus] mantissa [times 10^power], without a mantissa where that is 1.  False: not finite. */
 typedef struct {

@@ -1,11 +1,11 @@
-#include "report/formula.h"
+#include "document/formula.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 
 nh_ex nh_formula_shortened(const nh_analysis *a, nh_dag *d, nh_ex e)
 {

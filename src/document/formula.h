@@ -2,8 +2,8 @@
 #ifndef NH_FORMULA_H
 #define NH_FORMULA_H
 
-#include "expr/typeset.h"
-#include "study/result.h"
+#include "document/typeset.h"
+#include "search/analysis.h"
 
 /* e with the user's own abbreviations, from the analysis file (or NULL), instead of what they stand for. */
 nh_ex nh_formula_shortened(const nh_analysis *analysis, nh_dag *dag, nh_ex e);

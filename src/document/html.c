@@ -1,10 +1,10 @@
-#include "report/html.h"
+#include "document/html.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "report/facts.h"
-#include "report/html_internal.h"
+#include "document/facts.h"
+#include "document/html_internal.h"
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
 

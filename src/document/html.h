@@ -6,13 +6,13 @@
 #define NH_HTML_H
 
 #include "base/text.h"
-#include "report/run.h"
-#include "report/svg.h"
-#include "study/reduce.h"
-#include "study/result.h"
-#include "study/simulate.h"
-#include "study/stress.h"
-#include "study/verify.h"
+#include "document/provenance.h"
+#include "document/svg.h"
+#include "commands/reduce.h"
+#include "search/analysis.h"
+#include "commands/simulate.h"
+#include "commands/robustness.h"
+#include "commands/verify.h"
 
 void nh_html(const nh_result *result, nh_text *out);
 void nh_html_simulation(const nh_simulation *simulation, const nh_run *run, nh_text *out);

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "report/chart.h"
-#include "report/chart_internal.h"
-#include "report/html_internal.h"
+#include "document/benchmark.h"
+#include "document/benchmark_internal.h"
+#include "document/html_internal.h"
 
 enum { most_lines = 35 }; /* colours times dashes */
 

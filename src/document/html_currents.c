@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/print.h"
-#include "report/facts.h"
-#include "report/formula.h"
-#include "report/html_internal.h"
+#include "graph/print.h"
+#include "document/facts.h"
+#include "document/formula.h"
+#include "document/html_internal.h"
 
 /* ---- the formula ---- */
 

@@ -2,9 +2,9 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "expr/print.h"
-#include "report/facts.h"
-#include "report/html_internal.h"
+#include "graph/print.h"
+#include "document/facts.h"
+#include "document/html_internal.h"
 
 /* Spectra of both routes over the index, with null values on the floor. */
 static void spectrum_plot(nh_html_writer *w)

@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "report/html_internal.h"
+#include "document/html_internal.h"
 
 static nh_curve curve_of(const nh_figure_curve *c)
 {

@@ -3,12 +3,12 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "expr/typeset.h"
-#include "report/facts.h"
-#include "report/formula.h"
-#include "report/html_internal.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "document/typeset.h"
+#include "document/facts.h"
+#include "document/formula.h"
+#include "document/html_internal.h"
 
 enum { widest = 30 }; /* symbols of a piece: about what a phone holds; what is wider there scrolls by itself */
 

@@ -2,9 +2,9 @@
 #ifndef NH_HTML_INTERNAL_H
 #define NH_HTML_INTERNAL_H
 
-#include "report/course.h"
-#include "report/html.h"
-#include "report/svg.h"
+#include "document/time_series.h"
+#include "document/html.h"
+#include "document/svg.h"
 
 /* A page while it is written. */
 typedef struct {

@@ -1,5 +1,5 @@
 /* The style sheet and the script of the pages.  Neither contains < or &, so that a page is well-formed XML too. */
-#include "report/html_internal.h"
+#include "document/html_internal.h"
 
 const char *const nh_html_style =
     ":root{color-scheme:light dark;--ink:#1b1b1b;--paper:#fff;--soft:#5a5a5a;--line:#d5d5d5;--card:#f7f8fa;--link:#005a9c;--good:#00694d;--bad:#9a3c00}\n"

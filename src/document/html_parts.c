@@ -6,9 +6,9 @@
 #include "base/escape.h"
 #include "base/memory.h"
 #include "base/versions.h"
-#include "report/facts.h"
-#include "report/glossary.h"
-#include "report/html_internal.h"
+#include "document/facts.h"
+#include "document/wording.h"
+#include "document/html_internal.h"
 
 enum { FIGURE_ID = 40 };
 

@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/print.h"
-#include "expr/typeset.h"
+#include "graph/print.h"
+#include "document/typeset.h"
 #include "reduction/section.h"
-#include "report/facts.h"
-#include "report/html_internal.h"
-#include "report/reduction.h"
+#include "document/facts.h"
+#include "document/html_internal.h"
+#include "document/reduction.h"
 
 /* "SE(2) x SO(2)^3" with a cross and a raised number. */
 static void name_of_group(nh_html_writer *w, const char *name)

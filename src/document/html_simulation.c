@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "expr/typeset.h"
-#include "report/html_internal.h"
+#include "document/typeset.h"
+#include "document/html_internal.h"
 
 static void answer(nh_html_writer *w, const nh_simulation *s)
 {

@@ -1,10 +1,10 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "report/facts.h"
-#include "report/html_internal.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "document/facts.h"
+#include "document/html_internal.h"
 
 /* ---- as it was written ---- */
 

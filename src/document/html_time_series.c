@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "report/html_internal.h"
+#include "document/html_internal.h"
 
 enum { most_curves = 7, most_frames = 401 };
 

@@ -3,9 +3,9 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "report/facts.h"
-#include "report/html_internal.h"
-#include "report/verdict.h"
+#include "document/facts.h"
+#include "document/html_internal.h"
+#include "document/verification.h"
 
 static void certificate(nh_html_writer *w, const nh_verdict_of_one *v)
 {

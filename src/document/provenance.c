@@ -1,4 +1,4 @@
-#include "report/run.h"
+#include "document/provenance.h"
 
 #include "base/versions.h"
 

@@ -1,6 +1,6 @@
-/* run: what it takes to repeat a run: command, files, seed, versions, machine. */
-#ifndef NH_RUN_H
-#define NH_RUN_H
+/* provenance: what it takes to repeat a run: command, files, seed, versions, machine. */
+#ifndef NH_PROVENANCE_H
+#define NH_PROVENANCE_H
 
 #include "base/json.h"
 #include "base/option.h"

@@ -1,14 +1,14 @@
-#include "report/reduction.h"
+#include "document/reduction.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 #include "reduction/section.h"
-#include "report/facts.h"
-#include "report/formula.h"
+#include "document/facts.h"
+#include "document/formula.h"
 
 /* Simplified unless it is so large that nobody would read it. */
 static nh_ex shortened(const nh_reduction *r, nh_ex e)

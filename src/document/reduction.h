@@ -3,8 +3,8 @@
 #define NH_REPORT_REDUCTION_H
 
 #include "base/text.h"
-#include "report/run.h"
-#include "study/reduce.h"
+#include "document/provenance.h"
+#include "commands/reduce.h"
 
 void nh_reduction_text(const nh_reduction *reduction, bool verbose, nh_text *out);
 /* The document as a heap string (nh_free); `run` may be NULL. */

@@ -3,11 +3,11 @@
 
 #include "base/escape.h"
 #include "base/memory.h"
-#include "expr/print.h"
-#include "expr/typeset.h"
-#include "expr/typeset_code.h"
-#include "report/reduction.h"
-#include "report/tex_internal.h"
+#include "graph/print.h"
+#include "document/typeset.h"
+#include "document/typeset_code.h"
+#include "document/reduction.h"
+#include "document/tex_internal.h"
 
 static const char c_head[] =
     "#include <math.h>\n"

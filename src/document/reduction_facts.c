@@ -1,9 +1,9 @@
 /* reduction_facts: what text, page, LaTeX and C say alike of a reduction. */
-#include "report/reduction.h"
+#include "document/reduction.h"
 
 #include <string.h>
 
-#include "report/facts.h"
+#include "document/facts.h"
 
 bool nh_reduction_instead(const nh_reduction *r, size_t i)
 {

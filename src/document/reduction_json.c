@@ -1,11 +1,11 @@
 #include <string.h>
 
 #include "base/json.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "report/facts.h"
-#include "report/reduction.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "document/facts.h"
+#include "document/reduction.h"
 
 static void put_expression(nh_json *to, const char *key, nh_dag *d, nh_ex e)
 {

@@ -1,11 +1,11 @@
-#include "report/motion.h"
+#include "document/simulation.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/escape.h"
 #include "base/memory.h"
-#include "report/course.h"
+#include "document/time_series.h"
 
 static void put(nh_text *out, double x)
 {

@@ -1,11 +1,11 @@
-/* motion: a simulation as CSV and as JSON (schema version 1, docs/formats.md). */
+/* simulation: a simulation as CSV and as JSON (schema version 1, docs/formats.md). */
 #ifndef NH_MOTION_REPORT_H
 #define NH_MOTION_REPORT_H
 
 #include "base/json.h"
 #include "base/text.h"
-#include "report/run.h"
-#include "study/simulate.h"
+#include "document/provenance.h"
+#include "commands/simulate.h"
 
 void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head line, then a row per output time */
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */

@@ -1,13 +1,13 @@
-#include "report/summary_internal.h"
+#include "document/summary_internal.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "report/facts.h"
-#include "report/formula.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "document/facts.h"
+#include "document/formula.h"
 
 enum { line_width = 100 };
 

@@ -3,7 +3,7 @@
 #define NH_SUMMARY_H
 
 #include "base/text.h"
-#include "study/result.h"
+#include "search/analysis.h"
 
 typedef struct {
     bool colour, verbose;

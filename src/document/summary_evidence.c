@@ -1,7 +1,7 @@
 #include <math.h>
 
-#include "expr/print.h"
-#include "report/summary_internal.h"
+#include "graph/print.h"
+#include "document/summary_internal.h"
 
 /* ---- evidence ---- */
 

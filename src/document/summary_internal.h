@@ -2,7 +2,7 @@
 #ifndef NH_SUMMARY_INTERNAL_H
 #define NH_SUMMARY_INTERNAL_H
 
-#include "report/summary.h"
+#include "document/summary.h"
 
 typedef struct {
     const nh_result *r;

@@ -1,11 +1,11 @@
-#include "report/svg.h"
+#include "document/svg.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/escape.h"
-#include "expr/typeset.h"
+#include "document/typeset.h"
 
 enum { width = 640, height = 300, left = 74, right = 22, top = 12, bottom = 46, legend_row = 18, colours = 7, most_ticks = 6, most_points = 801 };
 

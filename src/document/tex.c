@@ -3,13 +3,13 @@
 #include <string.h>
 
 #include "base/versions.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "expr/typeset.h"
-#include "report/facts.h"
-#include "report/formula.h"
-#include "report/html.h"
-#include "report/tex_internal.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "document/typeset.h"
+#include "document/facts.h"
+#include "document/formula.h"
+#include "document/html.h"
+#include "document/tex_internal.h"
 
 /* ---- before and after the body ---- */
 

@@ -6,7 +6,7 @@
 #define NH_TEX_H
 
 #include "base/text.h"
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* fragment: without the lines before and after the body, to be read into another document by \input; its head says what that must load. */
 void nh_tex(const nh_result *result, bool fragment, nh_text *out);

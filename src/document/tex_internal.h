@@ -2,8 +2,8 @@
 #ifndef NH_TEX_INTERNAL_H
 #define NH_TEX_INTERNAL_H
 
-#include "report/svg.h"
-#include "report/tex.h"
+#include "document/svg.h"
+#include "document/tex.h"
 
 typedef struct {
     const nh_result *r;

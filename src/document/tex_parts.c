@@ -3,12 +3,12 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "expr/typeset.h"
-#include "report/facts.h"
-#include "report/formula.h"
-#include "report/tex_internal.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "document/typeset.h"
+#include "document/facts.h"
+#include "document/formula.h"
+#include "document/tex_internal.h"
 
 void nh_tex_add(nh_tex_writer *w, const char *markup) { nh_text_add(w->out, markup); }
 

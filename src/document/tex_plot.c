@@ -1,7 +1,7 @@
 /* Plots for pgfplots: the data stand in the document, and TeX draws them. */
 #include <math.h>
 
-#include "report/tex_internal.h"
+#include "document/tex_internal.h"
 
 enum { most_points = 201, most_of_path = 601, marks = 16 };
 

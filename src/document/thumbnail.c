@@ -1,11 +1,11 @@
-#include "report/portrait.h"
+#include "document/thumbnail.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/escape.h"
 #include "base/memory.h"
-#include "report/svg.h"
+#include "document/svg.h"
 
 enum { wide = 240, high = 150, margin = 14, most_points = 120, colours = 6 };
 

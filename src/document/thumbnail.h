@@ -1,9 +1,9 @@
-/* portrait: a motion as one small picture: tracks, and the system at the end of them. */
-#ifndef NH_PORTRAIT_H
-#define NH_PORTRAIT_H
+/* thumbnail: a motion as one small picture: tracks, and the system at the end of them. */
+#ifndef NH_THUMBNAIL_H
+#define NH_THUMBNAIL_H
 
 #include "base/text.h"
-#include "report/course.h"
+#include "document/time_series.h"
 
 /* A stand-alone SVG document of a few kilobytes, without axes, both on one scale; `title` is its text alternative.  False when nothing is drawn. */
 bool nh_portrait(const nh_course *course, const char *title, nh_text *out);

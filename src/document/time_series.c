@@ -1,4 +1,4 @@
-#include "report/course.h"
+#include "document/time_series.h"
 
 #include <stdio.h>
 

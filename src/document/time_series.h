@@ -1,10 +1,10 @@
-/* course: one motion as reports show it, whether an analysis or a simulation computed it: lines of numbers over common times, and a drawing. */
-#ifndef NH_COURSE_H
-#define NH_COURSE_H
+/* time_series: one motion as reports show it, whether an analysis or a simulation computed it: lines of numbers over common times, and a drawing. */
+#ifndef NH_TIME_SERIES_H
+#define NH_TIME_SERIES_H
 
 #include "base/json.h"
-#include "study/result.h"
-#include "study/simulate.h"
+#include "search/analysis.h"
+#include "commands/simulate.h"
 
 typedef struct {
     const char *name;

@@ -1,7 +1,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "expr/typeset_internal.h"
+#include "document/typeset_internal.h"
 
 static const nh_typeset_script scripts[] = {
     [NH_MATHML] = {{"<mrow>", "</mrow>"}, {"<mrow>", "</mrow>"}, {"<mfrac>", "", "</mfrac>"}, {"<msqrt>", "</msqrt>"}, {"<msup>", "", "</msup>"}, {"<msub>", "", "</msub>"},

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/typeset_code.h"
+#include "document/typeset_code.h"
 
 typedef struct {
     nh_dag *dag;

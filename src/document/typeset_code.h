@@ -3,7 +3,7 @@
 #define NH_TYPESET_CODE_H
 
 #include "base/text.h"
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 /* A name of the expression language as a C identifier: x' becomes x_dot, keywords get an underscore. */
 void nh_typeset_c_name(const char *name, nh_text *out);

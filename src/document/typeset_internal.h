@@ -3,7 +3,7 @@
 #define NH_TYPESET_INTERNAL_H
 
 #include "base/memory.h"
-#include "expr/typeset.h"
+#include "document/typeset.h"
 
 typedef enum { NH_SEEN_NUMBER, NH_SEEN_NAME, NH_SEEN_CALL, NH_SEEN_MINUS, NH_SEEN_SUM, NH_SEEN_PRODUCT, NH_SEEN_FRACTION, NH_SEEN_POWER, NH_SEEN_EQUATION } nh_seen_kind;
 

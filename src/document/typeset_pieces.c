@@ -2,7 +2,7 @@
  * stretch, a wide numerator stands beside its fraction, a wide denominator after a slash, a wide root becomes a power. */
 #include <string.h>
 
-#include "expr/typeset_internal.h"
+#include "document/typeset_internal.h"
 
 typedef struct {
     double widest;        /* width of a piece, in letters */

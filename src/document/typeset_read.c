@@ -1,7 +1,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "expr/typeset_internal.h"
+#include "document/typeset_internal.h"
 
 enum { deepest = 300 };
 

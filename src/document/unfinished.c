@@ -1,10 +1,10 @@
-#include "report/unfinished.h"
+#include "document/unfinished.h"
 
 #include <math.h>
 
 #include "base/json.h"
 #include "base/versions.h"
-#include "report/html_internal.h"
+#include "document/html_internal.h"
 
 static const char *plural(size_t count) { return count == 1 ? "" : "s"; }
 

@@ -3,7 +3,7 @@
 #define NH_UNFINISHED_H
 
 #include "base/text.h"
-#include "report/run.h"
+#include "document/provenance.h"
 
 typedef struct {
     const nh_system *system;

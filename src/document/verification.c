@@ -1,12 +1,12 @@
-#include "report/verdict.h"
+#include "document/verification.h"
 
 #include <math.h>
 #include <stdio.h>
 
 #include "base/json.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "report/facts.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "document/facts.h"
 
 const nh_chart *nh_verdict_chart(const nh_verdict_of_one *v)
 {

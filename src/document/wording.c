@@ -1,4 +1,4 @@
-#include "report/glossary.h"
+#include "document/wording.h"
 
 static const nh_glossary_entry entries[] = {
     {"current", "A function Phi of time, coordinates and velocities that stays constant along every motion: Gamma(Phi) = 0."},

@@ -1,6 +1,6 @@
-/* glossary: what the words of the reports mean, for `nhsym explain` and the pages. */
-#ifndef NH_GLOSSARY_H
-#define NH_GLOSSARY_H
+/* wording: what the words of the reports mean, for `nhsym explain` and the pages. */
+#ifndef NH_WORDING_H
+#define NH_WORDING_H
 
 #include <stddef.h>
 

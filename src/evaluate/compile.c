@@ -1,4 +1,4 @@
-#include "base/compile.h"
+#include "evaluate/compile.h"
 
 #include <dirent.h>
 #include <dlfcn.h>

@@ -1,4 +1,4 @@
-#include "expr/machine.h"
+#include "evaluate/machine.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/compile.h"
+#include "evaluate/compile.h"
 #include "base/memory.h"
-#include "expr/tape_internal.h"
+#include "evaluate/tape_internal.h"
 
 enum { most_machines = 64, most_instructions = 20000 };
 static const char *const entry_point = "nh_code";

@@ -1,7 +1,7 @@
 /* machine: a tape as machine code.
  *
  * The instructions of a tape become C, one assignment each and in the same order, and the system's compiler makes a function of them
- * (base/compile.h), without any option that would change a value: what it returns equals what nh_tape_eval returns, bit by bit, as far as
+ * (evaluate/compile.h), without any option that would change a value: what it returns equals what nh_tape_eval returns, bit by bit, as far as
  * the library's sincos equals its sin and its cos, as in glibc.  So the change from one to the other in the middle of a motion cannot be seen
  * in the result.
  *
@@ -10,7 +10,7 @@
 #define NH_MACHINE_H
 
 #include "base/text.h"
-#include "expr/tape.h"
+#include "evaluate/tape.h"
 
 typedef struct nh_machine nh_machine;
 typedef void nh_machine_code(const double *in, double *out);

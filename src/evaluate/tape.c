@@ -1,4 +1,4 @@
-#include "expr/tape.h"
+#include "evaluate/tape.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #include "base/effort.h"
 #include "base/memory.h"
-#include "expr/tape_internal.h"
+#include "evaluate/tape_internal.h"
 
 static const double call = 8, each_value = 0.3; /* units of an evaluation beside its instructions: at all, and per input and output */
 

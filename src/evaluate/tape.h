@@ -6,7 +6,7 @@
 #ifndef NH_TAPE_H
 #define NH_TAPE_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 enum { NH_BATCH = 256 }; /* points per batch: below 64 slow, 128 to 512 flat (docs/performance.md) */
 

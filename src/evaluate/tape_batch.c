@@ -12,7 +12,7 @@
 
 #include "base/effort.h"
 #include "base/memory.h"
-#include "expr/tape_internal.h"
+#include "evaluate/tape_internal.h"
 
 #if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_ADDRESS__
 #define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))

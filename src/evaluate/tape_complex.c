@@ -1,10 +1,10 @@
-#include "expr/tape_complex.h"
+#include "evaluate/tape_complex.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/tape_internal.h"
+#include "evaluate/tape_internal.h"
 
 /* Written out: the operators of C check every product for infinities. */
 static double complex times(double complex a, double complex b)

@@ -13,7 +13,7 @@
 #endif
 #undef I /* the inertia has this name elsewhere */
 
-#include "expr/tape.h"
+#include "evaluate/tape.h"
 
 /* Work memory for nh_tape_eval_complex, with the tape's constants in place (nh_free). */
 double complex *nh_tape_complex_create(const nh_tape *tape);

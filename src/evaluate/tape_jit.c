@@ -1,8 +1,8 @@
-/* tape_hasten: when is a tape worth compiling?  Counted, not timed: the same evaluation of every run starts the compiler.  From when the code is used depends on
+/* tape_jit: when is a tape worth compiling?  Counted, not timed: the same evaluation of every run starts the compiler.  From when the code is used depends on
  * when the compiler is ready; it computes the same bits. */
 
 #include "base/memory.h"
-#include "expr/tape_internal.h"
+#include "evaluate/tape_internal.h"
 
 enum { first_look = 500 };
 static const double price = 5e7, price_each = 2e5; /* units that compiling costs: at all, and per instruction (docs/performance.md) */

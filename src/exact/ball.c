@@ -1,12 +1,12 @@
-#include "expr/ball.h"
+#include "exact/ball.h"
 
 #include <math.h>
 
 #include "base/budget.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "expr/ball_internal.h"
-#include "expr/num_long.h"
+#include "exact/ball_internal.h"
+#include "graph/num_long.h"
 
 enum { deepest = 3000 }; /* nesting that the stack surely bears */
 

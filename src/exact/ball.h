@@ -5,7 +5,7 @@
 #ifndef NH_BALL_H
 #define NH_BALL_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 typedef struct nh_ball nh_ball; /* values of some symbols, at some precision, and a memo of every node evaluated */
 

@@ -1,10 +1,10 @@
-#include "expr/ball_fit.h"
+#include "exact/ball_fit.h"
 
 #include <math.h>
 
 #include "base/budget.h"
 #include "base/memory.h"
-#include "expr/ball_internal.h"
+#include "exact/ball_internal.h"
 
 struct nh_ball_fit {
     nh_ball *ball; /* borrows */

@@ -14,7 +14,7 @@
 #ifndef NH_BALL_FIT_H
 #define NH_BALL_FIT_H
 
-#include "expr/ball.h"
+#include "exact/ball.h"
 
 typedef struct nh_ball_fit nh_ball_fit;
 

@@ -2,8 +2,8 @@
 #ifndef NH_BALL_INTERNAL_H
 #define NH_BALL_INTERNAL_H
 
-#include "expr/arb.h"
-#include "expr/ball.h"
+#include "exact/arb.h"
+#include "exact/ball.h"
 
 /* The value of e; false when it is not finite or a symbol has no value. */
 bool nh_ball_eval(nh_ball *ball, nh_ex e, arb_t out);

@@ -1,5 +1,5 @@
 /* ball_ode: the equations at one s, and power series about it. */
-#include "expr/ball_ode_internal.h"
+#include "exact/ball_ode_internal.h"
 
 #include <math.h>
 

@@ -12,7 +12,7 @@
 #ifndef NH_BALL_ODE_H
 #define NH_BALL_ODE_H
 
-#include "expr/ball.h"
+#include "exact/ball.h"
 
 typedef struct nh_ball_ode nh_ball_ode;
 

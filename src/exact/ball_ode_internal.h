@@ -2,8 +2,8 @@
 #ifndef NH_BALL_ODE_INTERNAL_H
 #define NH_BALL_ODE_INTERNAL_H
 
-#include "expr/ball_internal.h"
-#include "expr/ball_ode.h"
+#include "exact/ball_internal.h"
+#include "exact/ball_ode.h"
 
 enum { NH_ODE_TERMS = 112, NH_ODE_PIECES = 96, NH_ODE_SPARE = 4 };
 

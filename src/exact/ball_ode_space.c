@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
-#include "expr/ball_ode_internal.h"
+#include "exact/ball_ode_internal.h"
 
 enum { checked_nodes = 9, side_pieces = 40 };
 

@@ -1,9 +1,9 @@
-#include "expr/ball_rank.h"
+#include "exact/ball_rank.h"
 
 #include <math.h>
 
 #include "base/memory.h"
-#include "expr/ball_internal.h"
+#include "exact/ball_internal.h"
 
 /* The entry of a row that is farthest from zero for certain; `width` where none is. */
 static size_t pivot_of(size_t width, arb_srcptr row)

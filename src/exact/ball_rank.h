@@ -3,7 +3,7 @@
 #ifndef NH_BALL_RANK_H
 #define NH_BALL_RANK_H
 
-#include "expr/ball.h"
+#include "exact/ball.h"
 
 /* Rows of `width` expressions, each multiplied by scale[column]; what is left of the last row, relative to its
  * largest entry, as log10 of a lower and an upper bound: a finite lower one proves that the rank grows.  False where

@@ -1,8 +1,8 @@
-#include "expr/common_zero.h"
+#include "exact/common_zero.h"
 
 #include <math.h>
 
-#include "expr/normal_flint.h"
+#include "exact/normal_quotient_internal.h"
 
 enum { most_terms = 400, most_degree = 60, most_bits = 400, most_list = 16, most_square = 1000 };
 static const double vanishing = 1e-8,

@@ -9,7 +9,7 @@
 #ifndef NH_COMMON_ZERO_H
 #define NH_COMMON_ZERO_H
 
-#include "expr/normal_quotient.h"
+#include "exact/normal_quotient.h"
 
 typedef struct {
     nh_field *field;

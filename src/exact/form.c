@@ -1,10 +1,10 @@
-#include "expr/form.h"
+#include "exact/form.h"
 
 #include <math.h>
 
-#include "expr/dag_internal.h"
-#include "expr/emit.h"
-#include "expr/normal.h"
+#include "graph/dag_internal.h"
+#include "exact/print_quotient.h"
+#include "exact/normal.h"
 
 enum {
     deepest = 300,        /* nodes above each other that are rewritten: what the stack surely bears */

@@ -6,8 +6,8 @@
 #ifndef NH_FORM_H
 #define NH_FORM_H
 
-#include "expr/kernel.h"
-#include "expr/normal_quotient.h"
+#include "exact/kernel.h"
+#include "exact/normal_quotient.h"
 
 /* What all normal forms of one question share. */
 typedef struct {

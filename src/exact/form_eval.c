@@ -1,5 +1,5 @@
 /* Expressions with canonical arguments, evaluated in the field of their kernels. */
-#include "expr/form.h"
+#include "exact/form.h"
 
 typedef const nh_quotient *quotient;
 

@@ -1,5 +1,5 @@
 /* Expressions as truncated power series modulo a prime: every node of the graph once, operands first. */
-#include "integrals/jet_eval.h"
+#include "exact/jet_eval.h"
 
 #include <string.h>
 

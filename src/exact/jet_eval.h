@@ -4,8 +4,8 @@
 #ifndef NH_JET_EVAL_H
 #define NH_JET_EVAL_H
 
-#include "integrals/jet_point.h"
-#include "integrals/jet_ring.h"
+#include "exact/jet_point.h"
+#include "exact/jet_ring.h"
 
 typedef struct nh_jet_eval nh_jet_eval;
 

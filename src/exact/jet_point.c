@@ -1,11 +1,11 @@
 /* Residues for the functions in expressions, chosen such that the relations between them hold. */
-#include "integrals/jet_point.h"
+#include "exact/jet_point.h"
 
 #include <gmp.h>
 
 #include "base/memory.h"
-#include "expr/kernel.h"
-#include "expr/num_long.h"
+#include "exact/kernel.h"
+#include "graph/num_long.h"
 
 static const uint64_t most_order = (uint64_t)1 << 40; /* of the common denominator of the multiples of one atom */
 

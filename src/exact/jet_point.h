@@ -15,8 +15,8 @@
 #ifndef NH_JET_POINT_H
 #define NH_JET_POINT_H
 
-#include "expr/dag.h"
-#include "integrals/residue.h"
+#include "graph/dag.h"
+#include "exact/residue.h"
 
 typedef enum { NH_JET_CIRCLE, NH_JET_EXPONENTIAL, NH_JET_ROOT, NH_JET_FREE } nh_jet_kernel_kind;
 

@@ -1,5 +1,5 @@
 /* Truncated power series modulo a prime: products by lists of pairs grouped by their sum, everything else by recurrences of the Euler field. */
-#include "integrals/jet_ring.h"
+#include "exact/jet_ring.h"
 
 #include <stdlib.h>
 #include <string.h>

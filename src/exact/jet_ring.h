@@ -10,7 +10,7 @@
 #define NH_JET_RING_H
 
 #include "base/memory.h"
-#include "integrals/residue.h"
+#include "exact/residue.h"
 
 typedef struct {
     nh_prime field;

@@ -1,10 +1,10 @@
-#include "expr/kernel.h"
+#include "exact/kernel.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "expr/dag_internal.h"
+#include "graph/dag_internal.h"
 
 enum {
     most_angle = 12,     /* sin(12 a) is written as a polynomial in sin(a), cos(a), sin(13 a) is not */

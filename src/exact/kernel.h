@@ -10,7 +10,7 @@
 #ifndef NH_KERNEL_H
 #define NH_KERNEL_H
 
-#include "expr/index.h"
+#include "graph/index.h"
 
 typedef enum {
     NH_KERNEL_PLAIN, NH_KERNEL_SIN, NH_KERNEL_COS, NH_KERNEL_SINH, NH_KERNEL_COSH, NH_KERNEL_EXP, NH_KERNEL_POWER,

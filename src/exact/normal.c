@@ -1,7 +1,7 @@
-#include "expr/normal.h"
+#include "exact/normal.h"
 
-#include "expr/dag_internal.h"
-#include "expr/form.h"
+#include "graph/dag_internal.h"
+#include "exact/form.h"
 
 enum { default_terms = 20000 };
 

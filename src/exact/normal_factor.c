@@ -1,7 +1,7 @@
 /* Quotients taken to pieces for display. */
 #include <string.h>
 
-#include "expr/normal_flint.h"
+#include "exact/normal_quotient_internal.h"
 
 /* Factoring is for display: beyond these sizes the expanded form has to do. */
 enum { factor_terms = 60, factor_degree = 24 };

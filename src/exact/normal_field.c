@@ -1,11 +1,11 @@
-#include "expr/normal_quotient.h"
+#include "exact/normal_quotient.h"
 
 #include <math.h>
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "expr/normal.h"
-#include "expr/normal_flint.h"
+#include "exact/normal.h"
+#include "exact/normal_quotient_internal.h"
 
 /* Products are refused when they need more than this many term products per admitted term; a whole computation may
  * do `patience` times that. */

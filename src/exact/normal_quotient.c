@@ -1,10 +1,10 @@
-#include "expr/normal_quotient.h"
+#include "exact/normal_quotient.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "expr/normal_flint.h"
-#include "expr/num_long.h"
+#include "exact/normal_quotient_internal.h"
+#include "graph/num_long.h"
 
 enum { conjugate_pairs = 500 };
 

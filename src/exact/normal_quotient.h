@@ -9,7 +9,7 @@
 #define NH_NORMAL_QUOTIENT_H
 
 #include "base/memory.h"
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 typedef struct nh_field nh_field;
 typedef struct nh_quotient nh_quotient;

@@ -1,14 +1,14 @@
-/* normal_flint: what normal_field.c (polynomials within limits, modulo relations), normal_quotient.c (arithmetic) and normal_factor.c share; the
+/* normal_quotient_internal: what normal_field.c (polynomials within limits, modulo relations), normal_quotient.c (arithmetic) and normal_factor.c share; the
  * only place that includes FLINT's polynomials. */
-#ifndef NH_NORMAL_FLINT_H
-#define NH_NORMAL_FLINT_H
+#ifndef NH_NORMAL_QUOTIENT_INTERNAL_H
+#define NH_NORMAL_QUOTIENT_INTERNAL_H
 
 #include <flint/flint.h>
 #include <flint/fmpz.h>
 #include <flint/fmpz_mpoly.h>
 #include <flint/fmpz_mpoly_factor.h>
 
-#include "expr/normal_quotient.h"
+#include "exact/normal_quotient.h"
 
 struct nh_quotient {
     fmpz_mpoly_t num, den;

@@ -1,7 +1,7 @@
 /* numerator: an expression without its poles. */
-#include "expr/emit.h"
-#include "expr/form.h"
-#include "expr/normal.h"
+#include "exact/print_quotient.h"
+#include "exact/form.h"
+#include "exact/normal.h"
 
 enum { most_terms = 2000 };
 

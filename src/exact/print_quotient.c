@@ -1,8 +1,8 @@
-#include "expr/emit.h"
+#include "exact/print_quotient.h"
 
 #include <string.h>
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 /* ---- monomials ---- */
 

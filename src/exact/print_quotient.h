@@ -1,9 +1,9 @@
-/* emit: expressions from quotients in pieces (normal_quotient.h). */
-#ifndef NH_EMIT_H
-#define NH_EMIT_H
+/* print_quotient: expressions from quotients in pieces (normal_quotient.h). */
+#ifndef NH_PRINT_QUOTIENT_H
+#define NH_PRINT_QUOTIENT_H
 
-#include "expr/kernel.h"
-#include "expr/normal_quotient.h"
+#include "exact/kernel.h"
+#include "exact/normal_quotient.h"
 
 /* constant * monomial * prod factor^power; sin/cos in the monomial becomes tan, which is always shorter.  With `collect`
  * the factors are written as x*(a + b) + c instead of a*x + b*x + c; that needs the kernels' lengths. */

@@ -1,9 +1,9 @@
-#include "expr/relation.h"
+#include "exact/relation.h"
 
-#include "expr/emit.h"
-#include "expr/form.h"
-#include "expr/normal.h"
-#include "expr/relation_internal.h"
+#include "exact/print_quotient.h"
+#include "exact/form.h"
+#include "exact/normal.h"
+#include "exact/relation_internal.h"
 
 enum { default_terms = 20000, most_kernels = 300 };
 

@@ -7,7 +7,7 @@
 #ifndef NH_RELATION_H
 #define NH_RELATION_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 typedef enum {
     NH_RELATION_UNIQUE,    /* up to a factor; coefficient[] holds it: polynomials of the parameters without common factor */

@@ -3,8 +3,8 @@
 #ifndef NH_RELATION_INTERNAL_H
 #define NH_RELATION_INTERNAL_H
 
-#include "expr/form.h"
-#include "expr/relation_solve.h"
+#include "exact/form.h"
+#include "exact/relation_solve.h"
 
 typedef struct {
     nh_dag *dag;

@@ -1,10 +1,10 @@
-#include "expr/relation_rows.h"
+#include "exact/relation_rows.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/budget.h"
-#include "expr/normal_flint.h"
+#include "exact/normal_quotient_internal.h"
 
 #include <flint/nmod.h>
 #include <flint/nmod_poly.h>

@@ -2,7 +2,7 @@
 #ifndef NH_RELATION_ROWS_H
 #define NH_RELATION_ROWS_H
 
-#include "expr/relation_solve.h"
+#include "exact/relation_solve.h"
 
 /* A term of N_column. */
 typedef struct {

@@ -1,9 +1,9 @@
-#include "expr/relation_solve.h"
+#include "exact/relation_solve.h"
 
 #include <string.h>
 
-#include "expr/normal_flint.h"
-#include "expr/relation_rows.h"
+#include "exact/normal_quotient_internal.h"
+#include "exact/relation_rows.h"
 
 enum { points = 2 };
 static const double gcd_pairs = 1e6;

@@ -7,8 +7,8 @@
 #ifndef NH_RELATION_SOLVE_H
 #define NH_RELATION_SOLVE_H
 
-#include "expr/normal_quotient.h"
-#include "expr/relation.h"
+#include "exact/normal_quotient.h"
+#include "exact/relation.h"
 
 /* What the unknowns belong to. */
 typedef struct {

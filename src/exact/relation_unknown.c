@@ -1,13 +1,13 @@
-#include "expr/relation_unknown.h"
+#include "exact/relation_unknown.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/common_zero.h"
-#include "expr/normal_flint.h"
-#include "expr/relation_internal.h"
-#include "expr/relation_rows.h"
-#include "expr/tape.h"
+#include "exact/common_zero.h"
+#include "exact/normal_quotient_internal.h"
+#include "exact/relation_internal.h"
+#include "exact/relation_rows.h"
+#include "evaluate/tape.h"
 
 enum { most_columns = 40, most_equations = 8 };
 static const double independent = 1e-5, related = 1e-6; /* what is left of a row; of the relation at the point */

@@ -9,7 +9,7 @@
 #ifndef NH_RELATION_UNKNOWN_H
 #define NH_RELATION_UNKNOWN_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 enum { NH_MOST_UNKNOWN = 3 };
 

@@ -1,5 +1,5 @@
 /* Arithmetic modulo a prime of 31 bits; powers, inverses and the search for primes are FLINT's. */
-#include "integrals/residue.h"
+#include "exact/residue.h"
 
 #include <flint/nmod.h>
 #include <flint/ulong_extras.h>

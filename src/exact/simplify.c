@@ -1,9 +1,9 @@
 /* nh_simplify: several forms of one expression compete, the shortest wins. */
 #include "base/progress.h"
-#include "expr/dag_internal.h"
-#include "expr/emit.h"
-#include "expr/form.h"
-#include "expr/normal.h"
+#include "graph/dag_internal.h"
+#include "exact/print_quotient.h"
+#include "exact/form.h"
+#include "exact/normal.h"
 
 enum {
     most_terms = 1000,    /* of intermediate polynomials */

@@ -1,10 +1,10 @@
-#include "expr/solve.h"
+#include "exact/solve.h"
 
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/progress.h"
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 struct nh_lu {
     nh_dag *dag;

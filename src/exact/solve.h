@@ -5,7 +5,7 @@
 #ifndef NH_SOLVE_H
 #define NH_SOLVE_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 /* How safe it is to divide by e: 0 means it vanishes (somewhere, or identically). */
 typedef double nh_pivot_score(void *context, nh_ex e);

@@ -1,7 +1,7 @@
-#include "expr/walls.h"
+#include "exact/walls.h"
 
 #include "base/memory.h"
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 enum { most_nested = 6 };
 

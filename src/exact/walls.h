@@ -13,7 +13,7 @@
 #ifndef NH_WALLS_H
 #define NH_WALLS_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 enum { NH_MOST_WALLS = 24 };
 

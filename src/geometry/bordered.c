@@ -5,9 +5,9 @@
 
 #include "base/linalg.h"
 #include "base/saddle.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/walls.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "exact/walls.h"
 
 /* A formula that becomes much longer is left as it is: it is evaluated at every step. */
 nh_ex nh_constraint_without_poles(const nh_model *o, size_t a)

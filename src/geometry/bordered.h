@@ -22,7 +22,7 @@ const char *nh_bordered_words(const nh_bordered *bordered);
 size_t nh_bordered_coordinates(const nh_bordered *bordered); /* m */
 size_t nh_bordered_constraints(const nh_bordered *bordered); /* k */
 
-/* Functions of t and the state (q, v) that change their sign where these equations have a kink (expr/walls.h). */
+/* Functions of t and the state (q, v) that change their sign where these equations have a kink (exact/walls.h). */
 size_t nh_bordered_walls(const nh_bordered *bordered);
 void nh_bordered_wall(nh_bordered *bordered, double t, const double *state, double *value);
 

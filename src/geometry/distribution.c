@@ -1,7 +1,7 @@
 #include "geometry/distribution.h"
 
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 #include "system/embedding.h"
 
 const char *nh_constraint_type_name(nh_constraint_type type)

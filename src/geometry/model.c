@@ -5,8 +5,8 @@
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 #include "geometry/regular.h"
 #include "system/embedding.h"
 

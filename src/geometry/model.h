@@ -16,7 +16,7 @@
 #ifndef NH_MODEL_H
 #define NH_MODEL_H
 
-#include "expr/solve.h"
+#include "exact/solve.h"
 #include "system/embedding.h"
 
 typedef struct {

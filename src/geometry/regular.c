@@ -6,7 +6,7 @@
 
 #include "base/linalg.h"
 #include "base/text.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 
 /* The mass matrix at the probes where it is finite. */
 typedef struct {

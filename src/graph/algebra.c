@@ -2,8 +2,8 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "expr/bag.h"
-#include "expr/dag_internal.h"
+#include "graph/term_list.h"
+#include "graph/dag_internal.h"
 
 void nh_bag_push(nh_bag *b, nh_bag_item x)
 {

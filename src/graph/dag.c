@@ -1,4 +1,4 @@
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #include "base/budget.h"
 #include "base/memory.h"
-#include "expr/dag_internal.h"
+#include "graph/dag_internal.h"
 
 nh_dag *nh_dag_create(void)
 {

@@ -3,7 +3,7 @@
 #define NH_DAG_INTERNAL_H
 
 #include "base/memory.h"
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 typedef struct {
     uint8_t kind, op; /* op: the function */

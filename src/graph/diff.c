@@ -1,9 +1,9 @@
-#include "expr/diff.h"
+#include "graph/diff.h"
 
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/dag_internal.h"
+#include "graph/dag_internal.h"
 
 /* ---- the memo: open addressing on (e, x) ---- */
 

@@ -5,7 +5,7 @@
 #ifndef NH_DIFF_H
 #define NH_DIFF_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 /* d e / d x for a symbol x. */
 nh_ex nh_diff(nh_dag *dag, nh_ex e, nh_ex x);

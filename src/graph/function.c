@@ -1,8 +1,8 @@
 /* function: calls of functions in canonical form: values at numbers, signs of odd and even functions. */
 #include <math.h>
 
-#include "expr/dag.h"
-#include "expr/dag_internal.h"
+#include "graph/dag.h"
+#include "graph/dag_internal.h"
 
 /* of(0) or of(1) where these are whole numbers; -1 where there is no such rule. */
 static const struct {

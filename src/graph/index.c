@@ -1,4 +1,4 @@
-#include "expr/index.h"
+#include "graph/index.h"
 
 #include "base/memory.h"
 

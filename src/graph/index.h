@@ -2,7 +2,7 @@
 #ifndef NH_INDEX_H
 #define NH_INDEX_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 typedef struct {
     uint64_t *slot; /* (key + 1) << 32 | value; 0 when free */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "expr/num_long.h"
+#include "graph/num_long.h"
 
 /* Exact arithmetic in 128 bit; what does not fit into 64 goes on in GMP. */
 typedef __int128 wide;

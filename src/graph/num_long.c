@@ -1,4 +1,4 @@
-#include "expr/num_long.h"
+#include "graph/num_long.h"
 
 #include <float.h>
 #include <math.h>

@@ -9,7 +9,7 @@
 #include <gmp.h>
 
 #include "base/text.h"
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 /* The number as a nh_num: short where it fits, a double past the limits.  Thread-safe. */
 nh_num nh_num_of_mpq(const mpq_t value);

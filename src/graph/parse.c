@@ -1,4 +1,4 @@
-#include "expr/parse.h"
+#include "graph/parse.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/normal.h"
-#include "expr/num_long.h"
+#include "exact/normal.h"
+#include "graph/num_long.h"
 
 enum { max_depth = 200, max_name = 63, max_power = 18 /* of ten, that is exact */, max_typed_power = 310, max_digits = 80 };
 static const int64_t typed_digits = 1000000000000000;

@@ -9,7 +9,7 @@
 #ifndef NH_PARSE_H
 #define NH_PARSE_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 typedef struct {
     size_t offset; /* byte in the text where the trouble is */

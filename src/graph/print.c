@@ -1,4 +1,4 @@
-#include "expr/print.h"
+#include "graph/print.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/normal.h"
-#include "expr/num_long.h"
+#include "exact/normal.h"
+#include "graph/num_long.h"
 
 /* Binding strength of what surrounds an expression. */
 enum { in_sum = 0, in_product = 1, in_power = 2 };

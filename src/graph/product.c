@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "expr/bag.h"
+#include "graph/term_list.h"
 
 nh_ex nh_product_without_number(nh_dag *dag, nh_ex e)
 {

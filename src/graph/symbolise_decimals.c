@@ -1,4 +1,4 @@
-#include "expr/lift.h"
+#include "graph/symbolise_decimals.h"
 
 #include <math.h>
 

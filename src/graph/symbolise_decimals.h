@@ -1,8 +1,8 @@
-/* lift: numbers in an expression as symbols, so that they can be varied. */
-#ifndef NH_LIFT_H
-#define NH_LIFT_H
+/* symbolise_decimals: numbers in an expression as symbols, so that they can be varied. */
+#ifndef NH_SYMBOLISE_DECIMALS_H
+#define NH_SYMBOLISE_DECIMALS_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 enum { NH_MOST_LIFTED = 4 };
 

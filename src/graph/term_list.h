@@ -1,8 +1,8 @@
-/* bag: the terms of a sum or the factors of a product while they are put in order, shared by algebra.c and product.c. */
-#ifndef NH_BAG_H
-#define NH_BAG_H
+/* term_list: the terms of a sum or the factors of a product while they are put in order, shared by algebra.c and product.c. */
+#ifndef NH_TERM_LIST_H
+#define NH_TERM_LIST_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 typedef struct {
     nh_ex e;       /* term of a sum, base of a product */

@@ -1,4 +1,4 @@
-#include "expr/terms.h"
+#include "graph/terms.h"
 
 #include "base/memory.h"
 

@@ -2,7 +2,7 @@
 #ifndef NH_TERMS_H
 #define NH_TERMS_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 /* The expression itself, then its terms: those of a sum, also under a common factor.  Their number; the caller frees *out. */
 size_t nh_terms_of(nh_dag *dag, nh_ex e, nh_ex **out);

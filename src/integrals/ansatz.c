@@ -1,10 +1,10 @@
-#include "noether/ansatz.h"
+#include "integrals/ansatz.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 /* One family while it is built: columns, terms and the map between them. */
 typedef struct {

@@ -10,7 +10,7 @@
 #ifndef NH_ANSATZ_H
 #define NH_ANSATZ_H
 
-#include "noether/points.h"
+#include "integrals/points.h"
 
 typedef enum { NH_POLYNOMIAL, NH_FOURIER, NH_CHEBYSHEV, NH_TERMS, NH_FAMILY_PRODUCT } nh_family_kind;
 

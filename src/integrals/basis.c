@@ -1,4 +1,4 @@
-#include "noether/basis.h"
+#include "integrals/basis.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include "expr/kernel.h"
-#include "expr/normal.h"
+#include "exact/kernel.h"
+#include "exact/normal.h"
 
 enum { most_found = 400, largest_form = 2000, largest_inertia = 4, least_down = 1 };
 

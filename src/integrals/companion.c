@@ -1,11 +1,11 @@
-#include "noether/companion.h"
+#include "integrals/companion.h"
 
 #include <string.h>
 
-#include "expr/normal.h"
-#include "expr/relation.h"
-#include "expr/solve.h"
-#include "expr/terms.h"
+#include "exact/normal.h"
+#include "exact/relation.h"
+#include "exact/solve.h"
+#include "graph/terms.h"
 
 enum { most_functions = 40, longest = 3000, widest = 120 }; /* of a field: terms; of a component before and after */
 

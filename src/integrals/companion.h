@@ -8,7 +8,7 @@
 #ifndef NH_COMPANION_H
 #define NH_COMPANION_H
 
-#include "noether/fixed.h"
+#include "integrals/fixed.h"
 
 /* The relation of n terms, which is known at the given values: `coefficient` there, numbers; on success those for all
  * values, or for as many as possible. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 
 enum { most_parameters = 3000, largest_series = 20000, steps_beyond = 1 };
 

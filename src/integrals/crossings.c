@@ -1,10 +1,10 @@
-#include "noether/crossings.h"
+#include "integrals/crossings.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "noether/exact.h"
+#include "graph/diff.h"
+#include "integrals/exact_points.h"
 #include "system/sample.h"
 
 enum { lines = 16, wanted = 6, steps_out = 31, grid = 2 * steps_out + 1, halvings = 80, bits = 192 };

@@ -1,4 +1,4 @@
-/* crossings: points at which motions cross a wall (expr/walls.h), with points on both sides of it.
+/* crossings: points at which motions cross a wall (exact/walls.h), with points on both sides of it.
  *
  * Lines through the sampling box, and far beyond it, are followed until a wall's function g changes its sign, or
  * touches zero like (x - y)^2.  A motion crosses there when it goes through with a speed that stays: Gamma(g)/|grad
@@ -10,8 +10,8 @@
 #define NH_CROSSINGS_H
 
 #include "base/option.h"
-#include "expr/ball.h"
-#include "expr/walls.h"
+#include "exact/ball.h"
+#include "exact/walls.h"
 #include "geometry/model.h"
 
 enum { NH_CROSSING_DEPTHS = 3 };

@@ -1,10 +1,10 @@
-#include "noether/dictionary.h"
+#include "integrals/dictionary.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 
 enum { least_entries = 24, entries_each = 3, seen_each = 512, least_seen = 4096, longest = 60 };
 

@@ -1,11 +1,11 @@
-#include "noether/echelon.h"
+#include "integrals/echelon.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 nh_nullspace_options nh_nullspace_options_from(const nh_options *o)
 {

@@ -7,7 +7,7 @@
 #define NH_ECHELON_H
 
 #include "base/option.h"
-#include "noether/rows.h"
+#include "integrals/rows.h"
 
 typedef struct {
     size_t count;        /* terms with a coefficient, simplest first */

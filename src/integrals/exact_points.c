@@ -1,4 +1,4 @@
-#include "noether/exact.h"
+#include "integrals/exact_points.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
-/* exact: points of the constraint submanifold with many digits, for ball arithmetic. */
-#ifndef NH_EXACT_H
-#define NH_EXACT_H
+/* exact_points: points of the constraint submanifold with many digits, for ball arithmetic. */
+#ifndef NH_EXACT_POINTS_H
+#define NH_EXACT_POINTS_H
 
-#include "expr/ball.h"
+#include "exact/ball.h"
 #include "geometry/model.h"
 
 /* e with the parameters at their given values, decimals being the ratios that they are written as. */

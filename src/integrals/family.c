@@ -1,7 +1,7 @@
 /* family: unknowns inside ansatz families (declared in unknowns.h). */
 #include <string.h>
 
-#include "noether/unknowns.h"
+#include "integrals/unknowns.h"
 
 bool nh_family_contains(const nh_model *model, const nh_family *f, nh_ex unknown)
 {

@@ -1,10 +1,10 @@
-#include "noether/fixed.h"
+#include "integrals/fixed.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/text.h"
-#include "expr/relation.h"
+#include "exact/relation.h"
 
 static const double same = 1e-6;
 

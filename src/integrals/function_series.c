@@ -1,12 +1,12 @@
-#include "noether/series.h"
+#include "integrals/function_series.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/progress.h"
-#include "expr/ball_ode.h"
-#include "noether/exact.h"
+#include "exact/ball_ode.h"
+#include "integrals/exact_points.h"
 
 enum { near_terms = 8, first_degree = 16, heldout = 4, heldout_tries = 60, heldout_from = 100000 };
 static const double near_part = 1e-3, /* of the first interval: its Taylor polynomials are exact to rounding there */

@@ -1,4 +1,4 @@
-/* series: currents whose coefficients are functions of one variable s, a coordinate or t:
+/* function_series: currents whose coefficients are functions of one variable s, a coordinate or t:
  *
  *     Phi = sum_i f_i(s) b_i,     Gamma(Phi) = sum_i ( f_i' Gamma(s) b_i + f_i Gamma(b_i) ) = 0
  *
@@ -10,7 +10,7 @@
 
 #include "base/option.h"
 #include "geometry/model.h"
-#include "noether/points.h"
+#include "integrals/points.h"
 
 typedef struct nh_series_search nh_series_search;
 

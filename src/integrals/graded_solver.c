@@ -1,7 +1,7 @@
 /* The linear system Gamma(Phi) = 0 weight by weight, with sparse elimination of the symbol, component by component, and FLINT's echelon form for the
  * conditions on the parameters. */
 #include "base/progress.h"
-#include "integrals/graded_internal.h"
+#include "integrals/graded_solver_internal.h"
 
 #include <flint/nmod_mat.h>
 #include <math.h>

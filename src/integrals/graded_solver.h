@@ -11,7 +11,7 @@
 #ifndef NH_GRADED_SOLVER_H
 #define NH_GRADED_SOLVER_H
 
-#include "integrals/jet_ring.h"
+#include "exact/jet_ring.h"
 
 typedef enum { NH_ALL_DEGREES, NH_EVEN_DEGREES, NH_ODD_DEGREES } nh_parity;
 

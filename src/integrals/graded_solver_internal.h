@@ -1,6 +1,6 @@
 /* For the files of the graded solver. */
-#ifndef NH_GRADED_INTERNAL_H
-#define NH_GRADED_INTERNAL_H
+#ifndef NH_GRADED_SOLVER_INTERNAL_H
+#define NH_GRADED_SOLVER_INTERNAL_H
 
 #include "integrals/graded_solver.h"
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "integrals/graded_internal.h"
+#include "integrals/graded_solver_internal.h"
 
 /* A condition on the parameters, unless it is empty. */
 static void add_condition(nh_graded_system *s, const nh_residue *known)

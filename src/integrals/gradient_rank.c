@@ -1,11 +1,11 @@
-#include "noether/rank.h"
+#include "integrals/gradient_rank.h"
 
 #include <math.h>
 
-#include "expr/ball_rank.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "noether/exact.h"
+#include "exact/ball_rank.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "integrals/exact_points.h"
 
 enum { bits = 320, wanted = 3, most_tries = 12, digits_of_nothing = 30, own_seed = 909 };
 

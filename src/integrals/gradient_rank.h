@@ -1,12 +1,12 @@
-/* rank: does a current's gradient lie in the span of others' gradients?  Decided in ball arithmetic at random exact
+/* gradient_rank: does a current's gradient lie in the span of others' gradients?  Decided in ball arithmetic at random exact
  * points of the constraint submanifold.
  *
  * Where what is left of it excludes zero at one point, it is independent, and that is a proof for the given
  * parameters: no relation between functions is assumed.  Where it contains zero at every point, within many digits,
  * it depends on the others as far as these digits go.  Numbers in a current that were fitted (they are no rationals)
  * are wrong in their last digits, and what is left has to be larger than these. */
-#ifndef NH_RANK_H
-#define NH_RANK_H
+#ifndef NH_GRADIENT_RANK_H
+#define NH_GRADIENT_RANK_H
 
 #include "base/option.h"
 #include "geometry/model.h"

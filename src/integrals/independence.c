@@ -1,12 +1,12 @@
-#include "noether/independence.h"
+#include "integrals/independence.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "noether/rank.h"
+#include "graph/diff.h"
+#include "integrals/gradient_rank.h"
 
 enum { levels = 4 };
 

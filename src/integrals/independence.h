@@ -6,7 +6,7 @@
 #ifndef NH_INDEPENDENCE_H
 #define NH_INDEPENDENCE_H
 
-#include "noether/points.h"
+#include "integrals/points.h"
 
 typedef enum { NH_INDEPENDENT, NH_DEPENDENT, NH_CONSTANT, NH_DOUBTFUL } nh_independence;
 

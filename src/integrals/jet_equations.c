@@ -4,8 +4,8 @@
 #include <flint/nmod_mat.h>
 #include <string.h>
 
-#include "expr/normal.h"
-#include "noether/exact.h"
+#include "exact/normal.h"
+#include "integrals/exact_points.h"
 
 enum { largest_form = 2000 };
 

@@ -8,7 +8,7 @@
 #define NH_JET_EQUATIONS_H
 
 #include "geometry/model.h"
-#include "integrals/jet_eval.h"
+#include "exact/jet_eval.h"
 
 typedef struct {
     const nh_model *model;

@@ -1,8 +1,8 @@
-#include "noether/letters.h"
+#include "integrals/letters.h"
 
 #include <string.h>
 
-#include "expr/relation_unknown.h"
+#include "exact/relation_unknown.h"
 
 enum { kinds = 3 };
 

@@ -8,8 +8,8 @@
 #ifndef NH_LETTERS_H
 #define NH_LETTERS_H
 
-#include "expr/lift.h"
-#include "noether/fixed.h"
+#include "graph/symbolise_decimals.h"
+#include "integrals/fixed.h"
 
 /* Numbers, positive, and what they are called. */
 typedef struct {

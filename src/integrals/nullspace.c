@@ -1,5 +1,5 @@
 /* nullspace: see the header. */
-#include "noether/nullspace.h"
+#include "integrals/nullspace.h"
 
 #include <float.h>
 #include <math.h>

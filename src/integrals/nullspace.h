@@ -19,7 +19,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "noether/basis.h"
+#include "integrals/basis.h"
 
 typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED } nh_verdict;
 

@@ -11,7 +11,7 @@
  *     R               basis.r (after equilibration and pivoting)
  *     K, rest         work.k, work.rest
  *     V               work.v, an orthonormal basis as columns */
-#include "noether/pencil.h"
+#include "integrals/pencil.h"
 
 #include <float.h>
 #include <math.h>

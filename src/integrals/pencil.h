@@ -11,7 +11,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "noether/nullspace.h"
+#include "integrals/nullspace.h"
 
 typedef struct {
     size_t dimension;   /* of V */

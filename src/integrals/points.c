@@ -1,4 +1,4 @@
-#include "noether/points.h"
+#include "integrals/points.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,12 +1,12 @@
-#include "noether/prove.h"
+#include "integrals/prove.h"
 
 #include <math.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "noether/exact.h"
-#include "noether/fixed.h"
-#include "noether/symmetry.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "integrals/exact_points.h"
+#include "integrals/fixed.h"
+#include "integrals/symmetry.h"
 
 enum { wanted_points = 4, most_tries = 40, double_digits = 8 };
 

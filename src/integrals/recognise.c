@@ -1,4 +1,4 @@
-#include "noether/recognise.h"
+#include "integrals/recognise.h"
 
 #include <math.h>
 

@@ -1,11 +1,11 @@
-#include "noether/refine.h"
+#include "integrals/refine.h"
 
 #include <math.h>
 
 #include "base/progress.h"
-#include "expr/ball_fit.h"
-#include "expr/normal.h"
-#include "noether/exact.h"
+#include "exact/ball_fit.h"
+#include "exact/normal.h"
+#include "integrals/exact_points.h"
 
 enum { spare_rows = 8, heldout_points = 4, most_tries = 4 };
 

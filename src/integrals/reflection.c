@@ -1,9 +1,9 @@
-#include "noether/reflection.h"
+#include "integrals/reflection.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 enum { most_bits = 14, trial_points = 5 };
 

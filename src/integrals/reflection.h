@@ -7,7 +7,7 @@
 #ifndef NH_REFLECTION_H
 #define NH_REFLECTION_H
 
-#include "noether/points.h"
+#include "integrals/points.h"
 
 typedef struct {
     signed char *sign; /* per coordinate of a point (t, q, w, u) */

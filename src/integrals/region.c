@@ -1,12 +1,12 @@
-#include "noether/region.h"
+#include "integrals/region.h"
 
 #include <math.h>
 
 #include "base/text.h"
-#include "expr/diff.h"
-#include "expr/print.h"
-#include "noether/exact.h"
-#include "noether/prove.h"
+#include "graph/diff.h"
+#include "graph/print.h"
+#include "integrals/exact_points.h"
+#include "integrals/prove.h"
 
 enum { seed_offset = 505 };
 

@@ -8,7 +8,7 @@
 #ifndef NH_REGION_H
 #define NH_REGION_H
 
-#include "noether/crossings.h"
+#include "integrals/crossings.h"
 
 typedef enum { NH_REGION_ABOVE, NH_REGION_BELOW, NH_REGION_APART, NH_REGION_PARTS } nh_region_kind;
 

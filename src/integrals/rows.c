@@ -1,12 +1,12 @@
-#include "noether/rows.h"
+#include "integrals/rows.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 
 /* The derivative of log(R - s), with a difference that cancels, is often a quotient in which nothing cancels: worth the simplification,
  * which otherwise would cost more than the whole search. */

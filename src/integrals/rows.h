@@ -13,8 +13,8 @@
 #ifndef NH_ROWS_H
 #define NH_ROWS_H
 
-#include "noether/ansatz.h"
-#include "noether/nullspace.h"
+#include "integrals/ansatz.h"
+#include "integrals/nullspace.h"
 
 /* The current route, prepared: one tape for the factors and their rates, and scratch for a batch.  `unknown` are symbols of the ansatz
  * whose values are given at each run.  Borrows model and ansatz. */

@@ -1,4 +1,4 @@
-#include "noether/sectors.h"
+#include "integrals/sectors.h"
 
 #include <float.h>
 #include <math.h>

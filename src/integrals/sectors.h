@@ -6,9 +6,9 @@
 #ifndef NH_SECTORS_H
 #define NH_SECTORS_H
 
-#include "noether/nullspace.h"
-#include "noether/reflection.h"
-#include "noether/rows.h"
+#include "integrals/nullspace.h"
+#include "integrals/reflection.h"
+#include "integrals/rows.h"
 
 typedef struct {
     size_t count, largest; /* sectors; columns in the largest */

@@ -1,13 +1,13 @@
-#include "noether/sharpen.h"
+#include "integrals/sharpen.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/ball_fit.h"
-#include "expr/diff.h"
-#include "expr/lift.h"
-#include "expr/normal.h"
-#include "noether/exact.h"
+#include "exact/ball_fit.h"
+#include "graph/diff.h"
+#include "graph/symbolise_decimals.h"
+#include "exact/normal.h"
+#include "integrals/exact_points.h"
 
 enum { most_steps = 16, spare_rows = 8, most_tries = 4 };
 static const double first_step = 1e-6, spare_digits = 20; /* of what doubles gave; beyond those that are asked for */

@@ -1,10 +1,10 @@
-#include "noether/symmetry.h"
+#include "integrals/symmetry.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 
 enum { large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
 

@@ -12,7 +12,7 @@
 #ifndef NH_SYMMETRY_H
 #define NH_SYMMETRY_H
 
-#include "noether/points.h"
+#include "integrals/points.h"
 
 typedef struct {
     nh_ex phi, Z0;

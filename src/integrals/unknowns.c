@@ -1,4 +1,4 @@
-#include "noether/unknowns.h"
+#include "integrals/unknowns.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "noether/pencil.h"
+#include "integrals/pencil.h"
 #include "system/sample.h"
 
 enum { most_basins = 12, most_polished = 8, generic_probes = 3, search_rows = 40 };

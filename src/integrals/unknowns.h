@@ -7,7 +7,7 @@
 #ifndef NH_UNKNOWNS_H
 #define NH_UNKNOWNS_H
 
-#include "noether/echelon.h"
+#include "integrals/echelon.h"
 
 typedef struct {
     nh_ex symbol;

@@ -17,7 +17,7 @@
 #ifndef NH_ACCURACY_H
 #define NH_ACCURACY_H
 
-#include "motion/survey.h"
+#include "motion/pilot_runs.h"
 
 /* Where the method comes from: the race of two methods; who asked; what was measured for this motion; the race, because the motion is too short to measure
  * anything. */

@@ -1,7 +1,7 @@
 /* accuracy_measure: how far two runs of a motion are apart, and how the second is begun beside the first (accuracy.h). */
 #include <math.h>
 
-#include "expr/terms.h"
+#include "graph/terms.h"
 #include "motion/accuracy.h"
 #include "motion/vanishing.h"
 

@@ -1,4 +1,4 @@
-#include "motion/pairs.h"
+#include "motion/arkode.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "base/effort.h"
 #include "base/linalg.h"
 #include "base/memory.h"
-#include "motion/guards.h"
+#include "motion/safeguards.h"
 #include "motion/kinks.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"

@@ -1,10 +1,10 @@
-/* pairs: motions of z' = f(t, z) by ARKODE's Runge-Kutta pairs: explicit ones, and one with a diagonally implicit, L-stable, stiffly accurate method for stiff
+/* arkode: motions of z' = f(t, z) by ARKODE's Runge-Kutta pairs: explicit ones, and one with a diagonally implicit, L-stable, stiffly accurate method for stiff
  * equations.  Steps end at the output times: the interpolation of the pairs has a lower order than their steps.  Guards are not watched.
  *                                                                                                                 [Hindmarsh2005] */
-#ifndef NH_PAIRS_H
-#define NH_PAIRS_H
+#ifndef NH_ARKODE_H
+#define NH_ARKODE_H
 
-#include "motion/flow.h"
+#include "motion/cvode.h"
 
 typedef enum { NH_DORMAND_PRINCE_5, NH_VERNER_6, NH_FEHLBERG_8, NH_ESDIRK_5 } nh_pairs_method;
 

@@ -13,7 +13,7 @@
 #ifndef NH_CHETAEV_H
 #define NH_CHETAEV_H
 
-#include "motion/flow.h"
+#include "motion/cvode.h"
 
 typedef struct {
     size_t coordinates; /* m */

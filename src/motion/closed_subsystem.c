@@ -1,11 +1,11 @@
-#include "motion/scene.h"
+#include "motion/closed_subsystem.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/walls.h"
+#include "graph/diff.h"
+#include "exact/walls.h"
 
 static const double smallest_slope = 0.03; /* of a current, relative to the start, below which its state loses digits */
 

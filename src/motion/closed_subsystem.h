@@ -1,4 +1,4 @@
-/* scene: the smallest closed part of a model that what is watched needs.
+/* closed_subsystem: the smallest closed part of a model that what is watched needs.
  *
  * The states are z = (q, w), z' = f(t, z) = (rho, a).  The states that feed a watched quantity, directly or through others (network.h), are a
  * closed system: the rest of the model cannot change what is watched.  Conserved currents may determine some of them, which then need no
@@ -6,12 +6,12 @@
  * in layers.  What is left is the core.
  *
  * A scene is constant after creation; its problem brings its own work memory. */
-#ifndef NH_SCENE_H
-#define NH_SCENE_H
+#ifndef NH_CLOSED_SUBSYSTEM_H
+#define NH_CLOSED_SUBSYSTEM_H
 
 #include "base/text.h"
 #include "motion/dynamics.h"
-#include "motion/network.h"
+#include "motion/dependency_graph.h"
 
 typedef struct {
     const nh_model *model;
@@ -26,7 +26,7 @@ typedef struct {
     nh_network network;
     nh_tape *rate, *jacobian;       /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept */
     nh_tape *removed, *currents;    /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */
-    size_t walls;                   /* of the rates of the kept states (expr/walls.h) */
+    size_t walls;                   /* of the rates of the kept states (exact/walls.h) */
     nh_tape *wall;                  /* over the same points as rate; NULL: there are none */
     nh_tape *rate_of_all;           /* of all states, over (t, q, w, u) */
     size_t instructions, instructions_of_all; /* of the right-hand sides */

@@ -1,4 +1,4 @@
-/* scene_idle: what has no influence on a scene: parameters, and bodies.
+/* closed_subsystem_idle: what has no influence on a scene: parameters, and bodies.
  *
  * The Lagrangian of a body b may be given a weight 1 + eps.  M and A are linear in the Lagrangian, so that M a = A gives
  *
@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "motion/scene.h"
+#include "graph/diff.h"
+#include "motion/closed_subsystem.h"
 
 static const double nothing = 1e-9; /* relative size of an influence that is rounding */
 

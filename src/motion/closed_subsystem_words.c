@@ -1,5 +1,5 @@
-/* scene_words: what a scene keeps. */
-#include "motion/scene.h"
+/* closed_subsystem_words: what a scene keeps. */
+#include "motion/closed_subsystem.h"
 
 const char *nh_scene_state_name(const nh_scene *s, size_t i) { return nh_name_of(s->model->dag, s->model->chart->symbol[1 + i]); }
 

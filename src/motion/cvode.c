@@ -1,8 +1,8 @@
-/* flow: CVODE's part of flow.h.
+/* cvode: CVODE's part of flow.h.
  *
  * CVODE is driven step by step and the output times are interpolated in each step: so the limit of steps is exact, a
  * cancellation is seen after every step, and the choice of output times does not change the motion. */
-#include "motion/flow.h"
+#include "motion/cvode.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,12 +1,12 @@
-/* flow: motions of z' = f(t, z) by CVODE, with dense output, events and an honest account of what happened.
+/* cvode: motions of z' = f(t, z) by CVODE, with dense output, events and an honest account of what happened.
  *
  * The right-hand side comes as a callback, so that this module knows nothing of mechanics.  Tolerances: relative rtol and
  * absolute atol_i, a part of the largest size that the state has had (sizes.h), or rtol * scale_i.  Roots of guard functions are events: a chart's pivot that changes
  * sign stops the integration there (integrators step over chart singularities without any failure flag).
  *
  * Reference: [Hindmarsh2005]. */
-#ifndef NH_FLOW_H
-#define NH_FLOW_H
+#ifndef NH_CVODE_H
+#define NH_CVODE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,11 +1,11 @@
-#include "motion/network.h"
+#include "motion/dependency_graph.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/ball.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "exact/ball.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 
 static const double seems_zero = 1e-11; /* relative size below which a derivative may be identically zero */
 static const double ball_digits = 40;   /* to which it must vanish when its normal form is too large */

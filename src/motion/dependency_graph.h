@@ -1,12 +1,12 @@
-/* network: which state of a model feeds which, and what a known current makes superfluous.
+/* dependency_graph: which state of a model feeds which, and what a known current makes superfluous.
  *
  * State j feeds a function e of the chart when de/dz_j is not identically zero.  A derivative that vanishes at all probes of the chart counts as zero
  * when its normal form is zero, or when balls of 40 digits around its values at the probes contain zero (sums that cancel in M^-1 A).
  *
  * A current Phi = A(z) z_j + B(t, z) that is conserved determines the state z_j = (c - B)/A, c = Phi at the start, wherever A keeps its sign: this
  * state, a velocity for the most part, needs no equation.  What fed others through Phi alone then feeds nothing, and may be dropped. */
-#ifndef NH_NETWORK_H
-#define NH_NETWORK_H
+#ifndef NH_DEPENDENCY_GRAPH_H
+#define NH_DEPENDENCY_GRAPH_H
 
 #include "geometry/model.h"
 

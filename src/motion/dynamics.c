@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/walls.h"
+#include "graph/diff.h"
+#include "exact/walls.h"
 
 /* ---- reduced equations ---- */
 
@@ -18,7 +18,7 @@ struct nh_dynamics {
     nh_tape *constraint; /* df^a/dv^s (k x m, row-major), of constraints without poles; NULL: no pivot to watch */
     nh_tape_work *constraint_work;
     double *slope;       /* its values, and the k x k part of the dependent velocities */
-    size_t walls;        /* of the rates (expr/walls.h) */
+    size_t walls;        /* of the rates (exact/walls.h) */
     nh_tape *wall;       /* NULL: there are none */
     nh_tape_work *wall_work;
     double patience;

@@ -1,4 +1,4 @@
-#include "motion/explicit.h"
+#include "motion/gsl_odeiv.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include "base/effort.h"
 #include "base/memory.h"
-#include "motion/guards.h"
+#include "motion/safeguards.h"
 #include "motion/kinks.h"
 #include "motion/sizes.h"
 

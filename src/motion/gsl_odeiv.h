@@ -1,12 +1,12 @@
-/* explicit: motions of z' = f(t, z) by GSL's steppers: Runge-Kutta pairs of order 8 (Prince-Dormand) and 5 (Fehlberg), and Adams's method
+/* gsl_odeiv: motions of z' = f(t, z) by GSL's steppers: Runge-Kutta pairs of order 8 (Prince-Dormand) and 5 (Fehlberg), and Adams's method
  * with fixed-point iteration in Nordsieck form.  No Jacobian is needed; guards are not watched.
  *
  * Between steps the one-step methods are read by a shorter step of the same method, so that output times do not change the motion; Adams's
  * method steps to every output time.                                                                                [Galassi2009] */
-#ifndef NH_EXPLICIT_H
-#define NH_EXPLICIT_H
+#ifndef NH_GSL_ODEIV_H
+#define NH_GSL_ODEIV_H
 
-#include "motion/flow.h"
+#include "motion/cvode.h"
 
 typedef enum { NH_RK8PD, NH_RKF45, NH_MSADAMS } nh_explicit_method;
 

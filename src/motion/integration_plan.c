@@ -1,4 +1,4 @@
-#include "motion/way.h"
+#include "motion/integration_plan.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
-/* way: how a motion can be computed, as it was measured on a piece of it: a method, in some equations, and what a run of it cost and gave. */
-#ifndef NH_WAY_H
-#define NH_WAY_H
+/* integration_plan: how a motion can be computed, as it was measured on a piece of it: a method, in some equations, and what a run of it cost and gave. */
+#ifndef NH_INTEGRATION_PLAN_H
+#define NH_INTEGRATION_PLAN_H
 
 #include "motion/trajectory.h"
 

@@ -7,7 +7,7 @@
 #include "base/linalg.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "motion/explicit.h"
+#include "motion/gsl_odeiv.h"
 
 enum { points = 9, most_depth = 40, most_samples = 4096, many = 20, most_halvings = 200 };
 static const double resolved_to = 0.1;    /* of the range of a wall's function in a step: how well its samples foretell each other */

@@ -2,9 +2,9 @@
 #ifndef NH_METHOD_H
 #define NH_METHOD_H
 
-#include "motion/explicit.h"
+#include "motion/gsl_odeiv.h"
 #include "motion/midpoint.h"
-#include "motion/pairs.h"
+#include "motion/arkode.h"
 #include "motion/relaxation.h"
 
 typedef enum { NH_METHOD_CVODE, NH_METHOD_EXPLICIT, NH_METHOD_PAIRS, NH_METHOD_MIDPOINT, NH_METHOD_RELAXATION } nh_method_family;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 
 enum { most_iterations = 30, usual_iterations = 4, gauss_points = 5, most_substeps = 5 };
 static const double step_units = 100, step_vectors = 10; /* units of effort (base/effort.h) of a step, and per number of the state */

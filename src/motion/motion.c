@@ -1,5 +1,5 @@
-/* flow_common: what all integrators share of flow.h: checks, output, limits. */
-#include "motion/flow.h"
+/* motion: what all integrators share of flow.h: checks, output, limits. */
+#include "motion/cvode.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-#include "motion/survey.h"
+#include "motion/pilot_runs.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,13 +1,13 @@
-/* survey: a small chart of one motion, made on a piece of it while the motion itself waits.
+/* pilot_runs: a small chart of one motion, made on a piece of it while the motion itself waits.
  *
  * The piece begins where the caller says, and is so long that the best way known so far takes a small part of the budget for it, all in counted work (base/effort.h).  A run of that way at a
  * tolerance a hundred times tighter is the reference.  Every other way runs a few times, at the tolerance (or step) at which its error is expected to
  * be eps at the end of the whole motion, and no longer than a few times the best so far: what loses is told early.  Errors are taken to grow in proportion to
  * time, as those of regular motions do; they only rank, and what is chosen is checked as ever (accuracy.h). */
-#ifndef NH_SURVEY_H
-#define NH_SURVEY_H
+#ifndef NH_PILOT_RUNS_H
+#define NH_PILOT_RUNS_H
 
-#include "motion/way.h"
+#include "motion/integration_plan.h"
 
 enum { NH_SURVEY_WAYS = 32 };
 

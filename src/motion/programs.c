@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 
 typedef struct {
     nh_tape *tape;

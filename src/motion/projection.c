@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "motion/dynamics.h"
 #include "motion/sizes.h"
 

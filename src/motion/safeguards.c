@@ -1,4 +1,4 @@
-#include "motion/guards.h"
+#include "motion/safeguards.h"
 
 #include <math.h>
 

@@ -1,11 +1,11 @@
-/* guards: guard functions watched along a one-step method, which has no root finding of its own.
+/* safeguards: guard functions watched along a one-step method, which has no root finding of its own.
  *
  * A step over which a guard changes its sign is taken back, and the way to the change is halved until it is short: every state then comes from steps
  * whose errors are controlled, none is interpolated, and the motion ends on the near side of the change. */
-#ifndef NH_GUARDS_H
-#define NH_GUARDS_H
+#ifndef NH_SAFEGUARDS_H
+#define NH_SAFEGUARDS_H
 
-#include "motion/flow.h"
+#include "motion/cvode.h"
 
 typedef enum { NH_GUARD_KEPT, NH_GUARD_BACK, NH_GUARD_END } nh_guard_verdict;
 

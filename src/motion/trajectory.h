@@ -4,7 +4,7 @@
 
 #include "base/option.h"
 #include "motion/method.h"
-#include "motion/scene.h"
+#include "motion/closed_subsystem.h"
 
 /* The equations of a motion. */
 typedef enum {

@@ -1,4 +1,4 @@
-#include "motion/drift.h"
+#include "motion/validation.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "base/budget.h"
 #include "base/linalg.h"
 #include "base/progress.h"
-#include "expr/terms.h"
+#include "graph/terms.h"
 #include "motion/sizes.h"
 
 typedef struct {

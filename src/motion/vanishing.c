@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/terms.h"
+#include "graph/terms.h"
 
 enum { most_probes = 4, disturbed_times = 4 };
 static const double disturbance = 4;   /* roundings of each state */

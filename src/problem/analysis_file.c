@@ -1,11 +1,11 @@
-#include "study/analysis_internal.h"
+#include "problem/analysis_file_internal.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/text.h"
-#include "expr/parse.h"
+#include "graph/parse.h"
 
 /* ---- before the system ---- */
 

@@ -1,9 +1,9 @@
-/* analysis: a question as text (docs/formats.md): which ansatz, which unknowns, which motion. */
-#ifndef NH_ANALYSIS_H
-#define NH_ANALYSIS_H
+/* analysis_file: a question as text (docs/formats.md): which ansatz, which unknowns, which motion. */
+#ifndef NH_ANALYSIS_FILE_H
+#define NH_ANALYSIS_FILE_H
 
 #include "motion/dynamics.h"
-#include "noether/unknowns.h"
+#include "integrals/unknowns.h"
 
 typedef enum { NH_ROUTE_BOTH, NH_ROUTE_SYMMETRY, NH_ROUTE_CURRENT } nh_route;
 

@@ -1,7 +1,7 @@
-/* analysis_ansatz: the families of an analysis file. */
+/* analysis_file_ansatz: the families of an analysis file. */
 #include <string.h>
 
-#include "study/analysis_internal.h"
+#include "problem/analysis_file_internal.h"
 
 static bool read_in(nh_analysis_reader *r, const nh_deck_node *item, nh_family *f)
 {

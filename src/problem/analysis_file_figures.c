@@ -1,7 +1,7 @@
 /* figures: what to draw of which motions (docs/formats.md). */
 #include <string.h>
 
-#include "study/analysis_internal.h"
+#include "problem/analysis_file_internal.h"
 
 typedef nh_analysis_reader reader;
 

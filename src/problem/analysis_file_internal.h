@@ -1,8 +1,8 @@
-/* analysis_internal: shared by analysis.c and analysis_ansatz.c. */
-#ifndef NH_ANALYSIS_INTERNAL_H
-#define NH_ANALYSIS_INTERNAL_H
+/* analysis_file_internal: shared by analysis.c and analysis_ansatz.c. */
+#ifndef NH_ANALYSIS_FILE_INTERNAL_H
+#define NH_ANALYSIS_FILE_INTERNAL_H
 
-#include "study/analysis.h"
+#include "problem/analysis_file.h"
 
 typedef struct {
     nh_analysis *a;

@@ -1,4 +1,4 @@
-#include "study/drawing.h"
+#include "problem/drawing.h"
 
 #include <ctype.h>
 #include <string.h>

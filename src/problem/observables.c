@@ -1,8 +1,8 @@
-#include "study/tracks.h"
+#include "problem/observables.h"
 
 #include <string.h>
 
-#include "study/drawing.h"
+#include "problem/drawing.h"
 
 nh_tracks nh_tracks_create(nh_arena *arena, const nh_model *model) { return (nh_tracks){.arena = arena, .model = model}; }
 

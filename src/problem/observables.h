@@ -1,8 +1,8 @@
-/* tracks: what is followed along a motion, for reports: states, energy, currents, multipliers, watched quantities, and the drawing. */
-#ifndef NH_TRACKS_H
-#define NH_TRACKS_H
+/* observables: what is followed along a motion, for reports: states, energy, currents, multipliers, watched quantities, and the drawing. */
+#ifndef NH_OBSERVABLES_H
+#define NH_OBSERVABLES_H
 
-#include "study/analysis.h"
+#include "problem/analysis_file.h"
 
 typedef enum { NH_TRACK_STATE, NH_TRACK_CURRENT, NH_TRACK_MULTIPLIER, NH_TRACK_ENERGY, NH_TRACK_WATCH, NH_TRACK_SHAPE } nh_track_kind;
 

@@ -1,4 +1,4 @@
-#include "study/pace.h"
+#include "problem/time_scale.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* pace: a sampling box for systems that are much faster than the units they are written in (an electron in SI units).
+/* time_scale: a sampling box for systems that are much faster than the units they are written in (an electron in SI units).
  *
  * By default velocities are drawn from [-1.5, 1.5] and t from [0, 1].  Where the forces at rest turn the motion around in much less than that, all that
  * samples would see are the forces.  With L_s the half width of a coordinate's interval and
@@ -6,8 +6,8 @@
  *     Omega = max_i sqrt(median |a^i| / L_i)      at rest, over the probes of the chart,
  *
  * velocities are then drawn from 1.5 L_s Omega [-1, 1] and t from [0, 1/Omega]. */
-#ifndef NH_PACE_H
-#define NH_PACE_H
+#ifndef NH_TIME_SCALE_H
+#define NH_TIME_SCALE_H
 
 #include "geometry/model.h"
 

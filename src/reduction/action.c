@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "noether/recognise.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "integrals/recognise.h"
 #include "reduction/constants.h"
 #include "reduction/runge.h"
 #include "reduction/subspace.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "reduction/reach.h"
 #include "reduction/subspace.h"
 

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/normal.h"
-#include "expr/relation.h"
-#include "expr/solve.h"
-#include "expr/tape.h"
+#include "exact/normal.h"
+#include "exact/relation.h"
+#include "exact/solve.h"
+#include "evaluate/tape.h"
 #include "reduction/joint.h"
 #include "system/sample.h"
 

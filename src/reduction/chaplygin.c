@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "exact/solve.h"
 
 static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
 {

@@ -18,7 +18,7 @@
 #ifndef NH_CHAPLYGIN_H
 #define NH_CHAPLYGIN_H
 
-#include "noether/prove.h"
+#include "integrals/prove.h"
 #include "reduction/reduced.h"
 
 typedef struct {

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "reduction/chaplygin.h"
 #include "reduction/subspace.h"
 

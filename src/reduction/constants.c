@@ -1,8 +1,8 @@
 #include "reduction/constants.h"
 
-#include "expr/normal.h"
-#include "noether/fixed.h"
-#include "noether/recognise.h"
+#include "exact/normal.h"
+#include "integrals/fixed.h"
+#include "integrals/recognise.h"
 #include "reduction/section.h"
 
 typedef struct {

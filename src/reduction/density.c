@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
-#include "noether/recognise.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "exact/solve.h"
+#include "integrals/recognise.h"
 
 enum { most_factors = 40, most_seen = 3000, most_places = 16, largest_denominator = 12 };
 

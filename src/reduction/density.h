@@ -5,7 +5,7 @@
 #ifndef NH_DENSITY_H
 #define NH_DENSITY_H
 
-#include "noether/prove.h"
+#include "integrals/prove.h"
 #include "reduction/chaplygin.h"
 
 /* The density exp(sigma), but for a constant factor, as a function of the slice's x; K (n x n), U (n x n x n) as for nh_chaplygin_measure_of, of a slice whose

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "reduction/relative.h"
 
 enum { pushes = 6 }; /* velocities per place where L itself must be invariant */

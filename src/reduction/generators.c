@@ -5,9 +5,9 @@
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "expr/normal.h"
-#include "noether/fixed.h"
-#include "noether/recognise.h"
+#include "exact/normal.h"
+#include "integrals/fixed.h"
+#include "integrals/recognise.h"
 #include "reduction/generator_fit.h"
 #include "reduction/joint_fields.h"
 #include "reduction/relative.h"

@@ -1,4 +1,4 @@
-#include "reduction/bystages.h"
+#include "reduction/ideal_chain.h"
 
 #include <math.h>
 #include <string.h>

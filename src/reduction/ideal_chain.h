@@ -1,4 +1,4 @@
-/* bystages: a Lie algebra along a chain of ideals g = n_0 > n_1 > ... [CendraDiaz2018, sec. 2 and 3].
+/* ideal_chain: a Lie algebra along a chain of ideals g = n_0 > n_1 > ... [CendraDiaz2018, sec. 2 and 3].
  *
  * Block j holds basis vectors that complete n_(j+1) to n_j.  With an inner product g0 on g, the horizontal lift H_j : n_j/n_(j+1) -> n_j takes a class to
  * its representative orthogonal to n_(j+1); (H_0 H_1 ...) splits g: a vector in parts is xi = sum_j H_j xi_j.  With
@@ -11,8 +11,8 @@
  *
  * and the Euler-Poincare equations are beta_i'(xi_i) = sum_l <beta_l, [eta, xi_i]_l>: the full pairing.  (The paper's eq. 20 drops terms of it that do
  * not vanish.) */
-#ifndef NH_BYSTAGES_H
-#define NH_BYSTAGES_H
+#ifndef NH_IDEAL_CHAIN_H
+#define NH_IDEAL_CHAIN_H
 
 #include "base/error.h"
 #include "reduction/algebra.h"

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 
 nh_ex nh_field_along(const nh_kinetic *k, const nh_ex *xi, nh_ex e) { return nh_diff_along(k->dag, e, k->m, k->q, xi); }
 

@@ -11,7 +11,7 @@
 #define NH_INVARIANCE_H
 
 #include "base/text.h"
-#include "noether/prove.h"
+#include "integrals/prove.h"
 #include "reduction/kinetic.h"
 
 typedef struct {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "reduction/subspace.h"
 
 double *nh_jet_conditions_row(nh_jet_conditions *s, nh_condition_kind kind)

@@ -3,9 +3,9 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
-#include "expr/tape.h"
+#include "exact/normal.h"
+#include "exact/solve.h"
+#include "evaluate/tape.h"
 #include "system/sample.h"
 
 struct nh_joint_rates {

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/normal.h"
+#include "exact/normal.h"
 #include "reduction/joint.h"
 
 enum { most_fields = 200 };

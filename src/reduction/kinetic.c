@@ -5,9 +5,9 @@
 
 #include "base/linalg.h"
 #include "base/progress.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "system/cloud.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "system/constraint_samples.h"
 
 static bool depends_on_any(const nh_dag *d, nh_ex e, size_t n, const nh_ex *symbol)
 {

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 
 enum { most_factors = 24, covectors = 6 /* the level of fields with simple covectors */, polynomials = 7 };
 

@@ -1,9 +1,9 @@
 /* master: the equations of a symmetric system on a slice, for any group and any constraints (reduced.h). */
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "exact/solve.h"
 #include "reduction/reduced.h"
 
 /* rho (m x r) and c (m): u = rho w + c, the dependent components by omf_dep u_dep = -omf_ind w - bf. */

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
 #include "reduction/library.h"
 #include "reduction/relative.h"
 #include "reduction/section.h"

@@ -15,7 +15,7 @@
 #ifndef NH_MOMENTA_H
 #define NH_MOMENTA_H
 
-#include "noether/prove.h"
+#include "integrals/prove.h"
 #include "reduction/action.h"
 
 typedef struct {

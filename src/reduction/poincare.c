@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "reduction/subspace.h"
 
 /* Everything at one place.  K (m x m), dK (n of them), omega (f x m, row-major), domega; dV (n).  A (d x n), dA (n of them: dA[l] = d_l A). */

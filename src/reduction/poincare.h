@@ -18,7 +18,7 @@
 #ifndef NH_POINCARE_H
 #define NH_POINCARE_H
 
-#include "reduction/bystages.h"
+#include "reduction/ideal_chain.h"
 #include "reduction/slice.h"
 
 typedef struct {

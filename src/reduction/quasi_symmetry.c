@@ -1,11 +1,11 @@
-#include "reduction/weak.h"
+#include "reduction/quasi_symmetry.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "noether/prove.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "integrals/prove.h"
 #include "reduction/subspace.h"
 
 static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)

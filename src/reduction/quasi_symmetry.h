@@ -1,4 +1,4 @@
-/* weak: symmetries of the equations of motion that change L by a total derivative, d phi/dt.
+/* quasi_symmetry: symmetries of the equations of motion that change L by a total derivative, d phi/dt.
  *
  * For L = 1/2 v K v + a v - V these are the fields that leave K, the constraints, the forces, dV and da alone; the same as the symmetries of the system
  *
@@ -9,8 +9,8 @@
  *     J = xi . (K v + a) - phi_0 + t xi(V),      d phi_0 = L_xi a,      xi(V) constant                  [Noether], [docs/method.md, sec. 9]
  *
  * is conserved. */
-#ifndef NH_WEAK_H
-#define NH_WEAK_H
+#ifndef NH_QUASI_SYMMETRY_H
+#define NH_QUASI_SYMMETRY_H
 
 #include "reduction/momenta.h"
 

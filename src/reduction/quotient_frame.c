@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "geometry/bordered.h"
 #include "reduction/quotient.h"
 

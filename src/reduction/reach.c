@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "reduction/runge.h"
 
 typedef struct {

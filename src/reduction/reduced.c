@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/terms.h"
+#include "graph/terms.h"
 #include "reduction/subspace.h"
 
 void nh_reduced_init(nh_reduced *o, const nh_kinetic *k, size_t n, const nh_ex *x, size_t r, size_t d)

@@ -5,8 +5,8 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
-#include "noether/basis.h"
-#include "noether/echelon.h"
+#include "integrals/basis.h"
+#include "integrals/echelon.h"
 #include "reduction/subspace.h"
 
 static double *next_row(double **block, size_t *count, size_t *capacity, size_t n)

@@ -2,7 +2,7 @@
  *
  *     A x = 0    with    |B x| = 1,        rows of A: conditions at places; rows of B: values there; columns: fields, one function each
  *
- * so that a combination of columns that nearly cancels is no null vector.  B's independent columns come from noether/basis.h. */
+ * so that a combination of columns that nearly cancels is no null vector.  B's independent columns come from integrals/basis.h. */
 #ifndef NH_RELATIVE_H
 #define NH_RELATIVE_H
 

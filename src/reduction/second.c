@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "exact/solve.h"
 #include "reduction/section.h"
 #include "reduction/subspace.h"
 

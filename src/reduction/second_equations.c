@@ -1,7 +1,7 @@
 /* second_equations: the equations of a second stage on a slice of the shape space (second.h). */
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "exact/solve.h"
 #include "reduction/second.h"
 #include "reduction/subspace.h"
 

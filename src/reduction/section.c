@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "expr/normal.h"
-#include "noether/fixed.h"
-#include "noether/recognise.h"
+#include "exact/normal.h"
+#include "integrals/fixed.h"
+#include "integrals/recognise.h"
 
 nh_ex nh_section_marked(nh_dag *d, size_t n, const nh_ex *mark, const nh_ex *e)
 {

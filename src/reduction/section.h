@@ -7,7 +7,7 @@
 #ifndef NH_SECTION_H
 #define NH_SECTION_H
 
-#include "noether/prove.h"
+#include "integrals/prove.h"
 #include "reduction/kinetic.h"
 
 /* sum_i mark[i] e[i] */

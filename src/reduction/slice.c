@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/normal.h"
+#include "exact/normal.h"
 #include "reduction/subspace.h"
 
 enum { trial_places = 10, most_subsets = 4000 };

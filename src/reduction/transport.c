@@ -5,7 +5,7 @@
 
 #include "base/linalg.h"
 #include "base/progress.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "reduction/runge.h"
 
 static size_t packed(size_t i, size_t j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }

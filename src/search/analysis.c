@@ -1,4 +1,4 @@
-#include "study/result.h"
+#include "search/analysis.h"
 
 #include <float.h>
 #include <math.h>

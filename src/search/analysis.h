@@ -1,18 +1,18 @@
-/* result: what an analysis found.  Reports are views of it; nothing is computed after it is complete. */
-#ifndef NH_RESULT_H
-#define NH_RESULT_H
+/* analysis: what an analysis found.  Reports are views of it; nothing is computed after it is complete. */
+#ifndef NH_ANALYSIS_H
+#define NH_ANALYSIS_H
 
 #include "geometry/distribution.h"
 #include "integrals/completeness.h"
-#include "motion/drift.h"
-#include "noether/independence.h"
-#include "noether/letters.h"
-#include "noether/prove.h"
-#include "noether/rank.h"
-#include "noether/region.h"
-#include "noether/symmetry.h"
-#include "noether/unknowns.h"
-#include "study/tracks.h"
+#include "motion/validation.h"
+#include "integrals/independence.h"
+#include "integrals/letters.h"
+#include "integrals/prove.h"
+#include "integrals/gradient_rank.h"
+#include "integrals/region.h"
+#include "integrals/symmetry.h"
+#include "integrals/unknowns.h"
+#include "problem/observables.h"
 
 /* Coefficient functions that have no closed form: Chebyshev series in one variable, a coordinate or t, good in an interval of it. */
 typedef struct {
@@ -122,7 +122,7 @@ typedef struct {
     const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where everything was computed, and "z' > 0"; NULL: there are no branches */
     bool equations_on_both;     /* as printed, the equations hold on the other branch too */
     nh_options options;
-    double pace;                /* Omega of study/pace.h where the system was found fast (or long), else 0 */
+    double pace;                /* Omega of problem/time_scale.h where the system was found fast (or long), else 0 */
     nh_route route;
     const char *ansatz_note;  /* what was tried, in words */
     size_t samples, beyond, rejected; /* beyond: where the chart's pivot is near zero, from the multiplier form */
@@ -137,7 +137,7 @@ typedef struct {
     size_t count, capacity, independent, local_maximum;
     size_t open;              /* null vectors that could be true but got no certificate */
     nh_found *found;
-    size_t pieces;            /* currents of a part of the motions only (noether/region.h): not counted; at most NH_MOST_PIECES */
+    size_t pieces;            /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
     nh_found *piece;
     size_t almosts;           /* nearly conserved, found by the way: at most NH_MOST_ALMOST */
     nh_almost *almost;

@@ -1,6 +1,6 @@
-#include "study/branch.h"
+#include "search/branch.h"
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 nh_model *nh_branch_other(const nh_model *o, const nh_options *options)
 {

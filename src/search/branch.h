@@ -5,7 +5,7 @@
 #ifndef NH_BRANCH_H
 #define NH_BRANCH_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* The model on the other branch of o's chart; NULL where it has none, or cannot be made. */
 nh_model *nh_branch_other(const nh_model *o, const nh_options *options);

@@ -1,14 +1,14 @@
-#include "study/coefficients.h"
+#include "search/coefficients.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/normal.h"
-#include "noether/companion.h"
-#include "noether/fixed.h"
-#include "noether/recognise.h"
-#include "noether/refine.h"
-#include "noether/sharpen.h"
+#include "exact/normal.h"
+#include "integrals/companion.h"
+#include "integrals/fixed.h"
+#include "integrals/recognise.h"
+#include "integrals/refine.h"
+#include "integrals/sharpen.h"
 
 /* The relation of the terms' rates; where it needs values of parameters, or has no exact numbers, with names for the numbers inside of terms. */
 static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out, nh_letters *letters)

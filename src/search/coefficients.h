@@ -5,7 +5,7 @@
 #ifndef NH_COEFFICIENTS_H
 #define NH_COEFFICIENTS_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* The current as an expression; found->exact says whether its coefficients are, ->refined how far they cancel, the claim what is known of it. */
 nh_ex nh_coefficients_assemble(const nh_model *model, nh_candidate *candidate, const nh_options *options, nh_found *found, nh_claim *claim);

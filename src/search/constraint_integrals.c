@@ -1,4 +1,4 @@
-#include "study/integrals.h"
+#include "search/constraint_integrals.h"
 
 enum { generic_count = 24, own_seed = 505 };
 

@@ -1,12 +1,12 @@
-/* integrals: which currents are functions that the constraints alone hold constant.
+/* constraint_integrals: which currents are functions that the constraints alone hold constant.
  *
  * A current Phi(t, q) satisfies X_0(Phi) = 0 for all velocities, hence X_i(Phi) = 0: it belongs to the constraints, whatever the Lagrangian is, and is a
  * hidden holonomic constraint Phi = const.  How many there are is known from the growth vector (geometry/distribution.h); they are looked for
  * in an ansatz of their own, which contains no velocities, and among all currents.  [docs/method.md, sec. 2] */
-#ifndef NH_INTEGRALS_H
-#define NH_INTEGRALS_H
+#ifndef NH_CONSTRAINT_INTEGRALS_H
+#define NH_CONSTRAINT_INTEGRALS_H
 
-#include "study/climb.h"
+#include "search/stage_solver.h"
 
 /* The first stages of a climb, where functions are known to exist: polynomials, waves of the angles and the system's own functions, times positions. */
 void nh_integrals_find(nh_climb *climb);

@@ -1,18 +1,18 @@
-#include "study/currents.h"
+#include "search/currents.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "noether/refine.h"
-#include "study/coefficients.h"
-#include "study/dependence.h"
-#include "study/described.h"
-#include "study/specials.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "integrals/refine.h"
+#include "search/coefficients.h"
+#include "search/dependence.h"
+#include "search/described.h"
+#include "search/specials.h"
 
 enum { heldout_count = 256, generic_count = 24, open_digits = 12, least_almost = 6 };
 

@@ -2,7 +2,7 @@
 #ifndef NH_CURRENTS_H
 #define NH_CURRENTS_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* What all currents of one result are checked with. */
 typedef struct {

@@ -1,4 +1,4 @@
-#include "study/defaults.h"
+#include "search/defaults.h"
 
 
 bool nh_defaults_initial(nh_result *r, nh_state *state, nh_error *error)

@@ -2,7 +2,7 @@
 #ifndef NH_DEFAULTS_H
 #define NH_DEFAULTS_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* A generic initial state on the constraint submanifold. */
 bool nh_defaults_initial(nh_result *result, nh_state *state, nh_error *error);

@@ -1,12 +1,12 @@
-#include "study/dependence.h"
+#include "search/dependence.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/normal.h"
-#include "expr/print.h"
-#include "expr/relation.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+#include "exact/relation.h"
 
 enum { most_currents = 6, point_factor = 3 };
 

@@ -2,7 +2,7 @@
 #ifndef NH_DEPENDENCE_H
 #define NH_DEPENDENCE_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* For every dependent current look for a polynomial relation of degree two with the independent ones before it; sets `relation`. */
 void nh_dependence_relations(nh_result *result);

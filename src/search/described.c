@@ -1,10 +1,10 @@
-#include "study/described.h"
+#include "search/described.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "expr/normal.h"
-#include "noether/fixed.h"
+#include "exact/normal.h"
+#include "integrals/fixed.h"
 
 /* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
 

@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "expr/normal.h"
+#include "exact/normal.h"
 #include "reduction/generators.h"
-#include "study/climb.h"
-#include "study/stages_internal.h"
+#include "search/stage_solver.h"
+#include "search/stages_internal.h"
 
 enum { most_momenta = 10, most_functions = 60, most_coordinates = 6 };
 

@@ -10,11 +10,11 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "noether/recognise.h"
-#include "study/climb.h"
-#include "study/naming.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "integrals/recognise.h"
+#include "search/stage_solver.h"
+#include "search/naming.h"
 
 enum { longest = 2000 }; /* symbols of an equation of motion */
 static const double defective = 1e-5, /* of the largest rate: a rate below it is zero, whose double eigenvalue is split by the root of rounding */

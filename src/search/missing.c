@@ -1,4 +1,4 @@
-#include "study/missing.h"
+#include "search/missing.h"
 
 #include <math.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "integrals/construct.h"
-#include "study/climb.h"
+#include "search/stage_solver.h"
 
 /* ---- the count ---- */
 

@@ -6,7 +6,7 @@
 #ifndef NH_MISSING_H
 #define NH_MISSING_H
 
-#include "study/currents.h"
+#include "search/currents.h"
 
 /* Fill result->completeness; with `construct`, look for what is missing, and count again. */
 void nh_missing_count(nh_result *result, bool construct);

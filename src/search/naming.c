@@ -1,7 +1,7 @@
-#include "study/naming.h"
+#include "search/naming.h"
 
-#include "expr/index.h"
-#include "noether/recognise.h"
+#include "graph/index.h"
+#include "integrals/recognise.h"
 #include "system/sample.h"
 
 enum { most_symbols = 12, extra_sets = 4 };

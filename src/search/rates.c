@@ -2,13 +2,13 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "expr/diff.h"
-#include "expr/print.h"
-#include "noether/pencil.h"
-#include "noether/recognise.h"
-#include "study/climb.h"
-#include "study/naming.h"
-#include "study/stages.h"
+#include "graph/diff.h"
+#include "graph/print.h"
+#include "integrals/pencil.h"
+#include "integrals/recognise.h"
+#include "search/stage_solver.h"
+#include "search/naming.h"
+#include "search/stages.h"
 
 enum { most_values = 24, most_rates = 4 };
 static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as two that differ by the root of rounding */

@@ -1,10 +1,10 @@
-#include "study/routes.h"
+#include "search/routes.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/parallel.h"
-#include "study/spans.h"
+#include "search/spans.h"
 
 /* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this it is left out, and said. */
 enum { most_columns = 400 };

@@ -2,7 +2,7 @@
 #ifndef NH_ROUTES_H
 #define NH_ROUTES_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* Fit (Z^0, zeta) in the span of the fields of the ansatz' currents, and compare the spaces of currents found:
  * result->symmetry, routes_agree, routes_angle (the sine of the largest angle between them over the sample points). */

@@ -1,4 +1,4 @@
-/* The ladder's search for coefficient functions without closed form: noether/series.h, for the words and the variables
+/* The ladder's search for coefficient functions without closed form: integrals/function_series.h, for the words and the variables
  * that make sense. */
 #include <float.h>
 #include <math.h>
@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "expr/diff.h"
-#include "expr/print.h"
-#include "expr/walls.h"
-#include "noether/series.h"
-#include "study/climb.h"
+#include "graph/diff.h"
+#include "graph/print.h"
+#include "exact/walls.h"
+#include "integrals/function_series.h"
+#include "search/stage_solver.h"
 
 enum { most_words = 32, near_points = 24 };
 

@@ -1,4 +1,4 @@
-#include "study/spans.h"
+#include "search/spans.h"
 
 #include <math.h>
 #include <string.h>

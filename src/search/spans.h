@@ -2,7 +2,7 @@
 #ifndef NH_SPANS_H
 #define NH_SPANS_H
 
-#include "noether/points.h"
+#include "integrals/points.h"
 
 /* Values of `n` combinations (vector: terms x n) of expressions at the points, each centred and of norm 1; points x n (nh_free). */
 double *nh_span_values(const nh_model *model, const nh_points *points, size_t terms, const nh_ex *e, size_t n, const double *vector);

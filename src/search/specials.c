@@ -1,10 +1,10 @@
-#include "study/specials.h"
+#include "search/specials.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "noether/recognise.h"
-#include "study/naming.h"
+#include "integrals/recognise.h"
+#include "search/naming.h"
 
 enum { search_points = 128, most_values = 12 };
 

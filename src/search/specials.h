@@ -2,7 +2,7 @@
 #ifndef NH_SPECIALS_H
 #define NH_SPECIALS_H
 
-#include "study/result.h"
+#include "search/analysis.h"
 
 /* Find them, and replace every family with an unknown by one copy for each value (none when there is none). */
 bool nh_specials_find(nh_result *result, size_t *families, nh_family **family, nh_error *error);

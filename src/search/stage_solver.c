@@ -1,4 +1,4 @@
-#include "study/climb.h"
+#include "search/stage_solver.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60, short_factor = 14 };
 static const double points_per_column = 2.5;

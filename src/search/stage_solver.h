@@ -1,10 +1,10 @@
-/* climb: what every stage of the ladder is made of: solve a linear problem, see what in it is new, keep that. */
-#ifndef NH_CLIMB_H
-#define NH_CLIMB_H
+/* stage_solver: what every stage of the ladder is made of: solve a linear problem, see what in it is new, keep that. */
+#ifndef NH_STAGE_SOLVER_H
+#define NH_STAGE_SOLVER_H
 
-#include "noether/dictionary.h"
-#include "noether/sectors.h"
-#include "study/currents.h"
+#include "integrals/dictionary.h"
+#include "integrals/sectors.h"
+#include "search/currents.h"
 
 enum { NH_MOST_FACTORS = 10 };
 

@@ -1,14 +1,14 @@
-#include "study/ladder.h"
+#include "search/staged_search.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/budget.h"
 #include "base/progress.h"
-#include "noether/prove.h"
-#include "study/climb.h"
-#include "study/integrals.h"
-#include "study/stages.h"
+#include "integrals/prove.h"
+#include "search/stage_solver.h"
+#include "search/constraint_integrals.h"
+#include "search/stages.h"
 
 /* Currents found so far as factors: Phi times 1, t, positions and the system's functions. */
 static void known_stage(nh_climb *x)

@@ -1,12 +1,12 @@
-/* ladder: an ansatz that grows in stages, for systems without an analysis file.
+/* staged_search: an ansatz that grows in stages, for systems without an analysis file.
  *
  * Each stage is a list of families made of the system's own dictionary; its null space is searched for currents that do not
  * depend on those found before.  The ladder ends when as many independent currents are known as can exist locally, when the stages
  * are used up, or when the budget is. */
-#ifndef NH_LADDER_H
-#define NH_LADDER_H
+#ifndef NH_STAGED_SEARCH_H
+#define NH_STAGED_SEARCH_H
 
-#include "study/currents.h"
+#include "search/currents.h"
 
 /* Fill result->found, result->stage, result->current (the spectrum of the last stage that found something, else of the largest). */
 bool nh_ladder_climb(nh_result *result, nh_error *error);

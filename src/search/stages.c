@@ -1,7 +1,7 @@
 #include <string.h>
 
-#include "expr/diff.h"
-#include "study/stages_internal.h"
+#include "graph/diff.h"
+#include "search/stages_internal.h"
 
 void nh_list_put(nh_list *l, nh_ex e)
 {

@@ -2,8 +2,8 @@
 #ifndef NH_STAGES_H
 #define NH_STAGES_H
 
-#include "noether/ansatz.h"
-#include "noether/dictionary.h"
+#include "integrals/ansatz.h"
+#include "integrals/dictionary.h"
 
 typedef struct {
     const char *name;

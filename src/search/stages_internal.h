@@ -2,7 +2,7 @@
 #ifndef NH_STAGES_INTERNAL_H
 #define NH_STAGES_INTERNAL_H
 
-#include "study/stages.h"
+#include "search/stages.h"
 
 enum { NH_MOST_LIST = 1600, NH_MOST_FAMILIES = 24 };
 

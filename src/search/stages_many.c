@@ -1,5 +1,5 @@
 /* Stages of few columns for systems of many coordinates, where everything of degree one or two times everything else is too much: centres of mass and angular momenta. */
-#include "study/stages_internal.h"
+#include "search/stages_internal.h"
 
 /* Momenta times 1 and t, positions, t. */
 void nh_stage_centres(nh_shelf *s)

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "study/stages_internal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "search/stages_internal.h"
 
 /* What separation of variables gives (Euler's two centres, Liouville's systems): squares of velocities with coefficients of higher degree in
  * the positions, the energy and the system's functions with lower ones. */

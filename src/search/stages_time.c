@@ -1,6 +1,6 @@
 /* stages_time: what the stages add where the Lagrangian, a force or a constraint depends on time. */
-#include "expr/diff.h"
-#include "study/stages_internal.h"
+#include "graph/diff.h"
+#include "search/stages_internal.h"
 
 enum { most_powers = 6, longest_walk = 1000 };
 

@@ -1,7 +1,7 @@
 /* Stages for integrals of degree four in the velocities that are homogeneous with weights, as Kovalevskaya's. */
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "study/stages_internal.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "search/stages_internal.h"
 
 /* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the energy (Kovalevskaya's
  * integral, Toda's, Calogero's). */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "expr/diff.h"
+#include "graph/diff.h"
 
 /* ---- one screw ---- */
 

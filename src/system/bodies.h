@@ -15,7 +15,7 @@
 #ifndef NH_BODIES_H
 #define NH_BODIES_H
 
-#include "base/deck.h"
+#include "system/deck.h"
 #include "base/memory.h"
 #include "system/screw.h"
 

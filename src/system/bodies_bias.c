@@ -6,7 +6,7 @@
  * linear in the number of bodies, where derivatives of the metric are quadratic. */
 #include <string.h>
 
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "system/bodies.h"
 
 typedef struct {

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "expr/parse.h"
-#include "system/bodies_internal.h"
+#include "graph/parse.h"
+#include "system/bodies_tree.h"
 
 typedef nh_system_reader reader;
 

@@ -1,6 +1,6 @@
-/* bodies_internal: shared by bodies_read.c (the tree), bodies_values.c (its numbers and expressions) and system_read.c. */
-#ifndef NH_BODIES_INTERNAL_H
-#define NH_BODIES_INTERNAL_H
+/* bodies_tree: shared by bodies_read.c (the tree), bodies_values.c (its numbers and expressions) and system_read.c. */
+#ifndef NH_BODIES_TREE_H
+#define NH_BODIES_TREE_H
 
 #include "system/bodies.h"
 #include "system/system_internal.h"

@@ -1,9 +1,9 @@
 /* bodies_values: the numbers and expressions of `bodies:`, `joints:`, `wheels:` and `gravity:`. */
 #include <string.h>
 
-#include "expr/diff.h"
-#include "expr/tape.h"
-#include "system/bodies_internal.h"
+#include "graph/diff.h"
+#include "evaluate/tape.h"
+#include "system/bodies_tree.h"
 
 typedef nh_system_reader reader;
 

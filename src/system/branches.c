@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/print.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 #include "system/embedding_internal.h"
 
 /* ---- roots on a chart ---- */

@@ -1,10 +1,10 @@
-#include "system/cloud.h"
+#include "system/constraint_samples.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "system/embedding_internal.h"
 #include "system/sample.h"
 

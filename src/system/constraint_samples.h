@@ -1,8 +1,8 @@
-/* cloud: points (t, q, q') that satisfy the constraints, and the rank of the constraints over them. */
-#ifndef NH_CLOUD_H
-#define NH_CLOUD_H
+/* constraint_samples: points (t, q, q') that satisfy the constraints, and the rank of the constraints over them. */
+#ifndef NH_CONSTRAINT_SAMPLES_H
+#define NH_CONSTRAINT_SAMPLES_H
 
-#include "expr/tape.h"
+#include "evaluate/tape.h"
 #include "system/system.h"
 
 typedef struct {

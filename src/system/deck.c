@@ -1,5 +1,5 @@
 /* deck: access to the tree, with messages.  See deck.h; deck_read.c builds the tree. */
-#include "base/deck.h"
+#include "system/deck.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/deck_source.h"
+#include "system/deck_internal.h"
 #include "base/text.h"
 
 const nh_deck_node *nh_deck_root(const nh_deck *deck)

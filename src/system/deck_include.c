@@ -1,7 +1,7 @@
 /* deck_include: one file that builds on another. */
 #include <string.h>
 
-#include "base/deck_source.h"
+#include "system/deck_internal.h"
 #include "base/files.h"
 
 enum { deepest = 16 };

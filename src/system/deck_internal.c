@@ -1,5 +1,5 @@
-/* deck_source: see deck_source.h. */
-#include "base/deck_source.h"
+/* deck_internal: see deck_source.h. */
+#include "system/deck_internal.h"
 
 #include <stdarg.h>
 #include <stdint.h>

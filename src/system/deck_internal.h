@@ -1,8 +1,8 @@
-/* deck_source: the source text of a deck and the places in it.  Private to deck*.c. */
-#ifndef NH_DECK_SOURCE_H
-#define NH_DECK_SOURCE_H
+/* deck_internal: the source text of a deck and the places in it.  Private to deck*.c. */
+#ifndef NH_DECK_INTERNAL_H
+#define NH_DECK_INTERNAL_H
 
-#include "base/deck.h"
+#include "system/deck.h"
 #include "base/memory.h"
 
 struct nh_deck {

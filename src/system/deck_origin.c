@@ -10,7 +10,7 @@
  *                           space or nothing
  *
  * A wrong turn could only misplace a caret: every loop is bounded by the end of the scalar. */
-#include "base/deck_source.h"
+#include "system/deck_internal.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,8 +4,8 @@
 #include <string.h>
 #include <yaml.h>
 
-#include "base/deck_source.h"
-#include "base/deck_yaml.h"
+#include "system/deck_internal.h"
+#include "system/deck_yaml.h"
 #include "base/escape.h"
 #include "base/files.h"
 

@@ -2,7 +2,7 @@
  *
  * Most of these messages are met by someone who wrote an expression that YAML takes for something else, so most
  * hints say where quotes help. */
-#include "base/deck_yaml.h"
+#include "system/deck_yaml.h"
 
 #include <string.h>
 

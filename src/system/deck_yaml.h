@@ -2,7 +2,7 @@
 #ifndef NH_DECK_YAML_H
 #define NH_DECK_YAML_H
 
-#include "base/deck_source.h"
+#include "system/deck_internal.h"
 
 #define NH_DECK_QUOTE_HINT "put the expression in double quotes"
 

@@ -5,10 +5,10 @@
 
 #include "base/linalg.h"
 #include "base/text.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/solve.h"
-#include "system/cloud.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "exact/solve.h"
+#include "system/constraint_samples.h"
 #include "system/embedding_internal.h"
 
 enum { most_subsets = 2000 };

@@ -8,7 +8,7 @@
 #ifndef NH_EMBEDDING_H
 #define NH_EMBEDDING_H
 
-#include "expr/tape.h"
+#include "evaluate/tape.h"
 #include "system/system.h"
 
 typedef enum { NH_CHART_AUTO, NH_CHART_QUASI, NH_CHART_COORDINATES } nh_chart_choice;

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/tape.h"
+#include "graph/diff.h"
+#include "evaluate/tape.h"
 #include "system/embedding_internal.h"
 #include "system/sample.h"
 

@@ -1,7 +1,7 @@
 /* motions: closed forms of a system's motions, as its file knows them (known: motions:). */
 #include <string.h>
 
-#include "expr/diff.h"
+#include "graph/diff.h"
 #include "system/system_internal.h"
 
 /* start: [p = phi, s = sqrt(v^2 + p^2)], each in the initial state and those before it.  In the motion their names are symbols of their own. */

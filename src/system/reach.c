@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "expr/tape.h"
-#include "expr/walls.h"
+#include "evaluate/tape.h"
+#include "exact/walls.h"
 #include "system/embedding_internal.h"
 
 /* How far out of the interval a wall is looked for, in half widths, and in how many steps. */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "expr/normal.h"
+#include "exact/normal.h"
 
 enum { short_enough = 150 }; /* what is simplified: a product of two rotation matrices is, the product of five is not */
 

@@ -8,7 +8,7 @@
 #ifndef NH_SCREW_H
 #define NH_SCREW_H
 
-#include "expr/dag.h"
+#include "graph/dag.h"
 
 typedef struct {
     nh_ex R[9], p[3]; /* rotation, row-major: R[3*i + j]; origin */

@@ -2,8 +2,8 @@
 #ifndef NH_SHAPE_H
 #define NH_SHAPE_H
 
-#include "base/deck.h"
-#include "expr/dag.h"
+#include "system/deck.h"
+#include "graph/dag.h"
 
 enum { NH_SHAPE_NUMBERS = 4 };
 

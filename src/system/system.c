@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "expr/diff.h"
-#include "expr/parse.h"
-#include "expr/print.h"
+#include "graph/diff.h"
+#include "graph/parse.h"
+#include "graph/print.h"
 #include "system/system_internal.h"
 
 /* ---- names ---- */

@@ -2,9 +2,9 @@
 #ifndef NH_SYSTEM_H
 #define NH_SYSTEM_H
 
-#include "base/deck.h"
+#include "system/deck.h"
 #include "base/memory.h"
-#include "expr/dag.h"
+#include "graph/dag.h"
 #include "system/bodies.h"
 #include "system/shape.h"
 

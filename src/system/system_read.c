@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "expr/diff.h"
-#include "expr/parse.h"
+#include "graph/diff.h"
+#include "graph/parse.h"
 #include "system/reach.h"
 #include "system/system_internal.h"
 #include "system/units.h"

@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/linalg.h"
-#include "expr/diff.h"
-#include "expr/print.h"
-#include "expr/tape.h"
-#include "system/bodies_internal.h"
+#include "graph/diff.h"
+#include "graph/print.h"
+#include "evaluate/tape.h"
+#include "system/bodies_tree.h"
 #include "system/sample.h"
 
 enum { sample_points = 6 };

@@ -7,12 +7,12 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/ball.h"
-#include "expr/diff.h"
-#include "expr/normal.h"
-#include "expr/parse.h"
-#include "expr/print.h"
-#include "expr/tape.h"
+#include "exact/ball.h"
+#include "graph/diff.h"
+#include "exact/normal.h"
+#include "graph/parse.h"
+#include "graph/print.h"
+#include "evaluate/tape.h"
 
 enum { longest = 2000, largest = 20000 };
 
