@@ -24,7 +24,7 @@ static void count_file(const char *path, size_t degree, bool time, bool generic)
     }
     nh_ex *known = calloc(y->currents + 1, sizeof *known);
     size_t n = 0;
-    for (size_t k = 0; k < y->currents; k++) n += nh_analysis_to_chart(o, y->current[k].value, &known[n], &error);
+    for (size_t k = 0; k < y->currents; k++) n += nh_analysis_file_to_chart(o, y->current[k].value, &known[n], &error);
     nh_count_question q = {.time = time, .generic = generic, .degree = degree, .work = 3e9, .known = n, .current = known};
     double start = nh_clock_of_thread();
     nh_count c = nh_count_integrals(o, &q);

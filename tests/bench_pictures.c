@@ -17,15 +17,15 @@ static bool draw(const char *folder, const char *name, const char *into)
     nh_analyze_request q = {.system_path = path};
     nh_options_default(&q.options);
     q.options.max_seconds = 0.05; /* the motion is wanted, not the currents */
-    nh_result *r = nh_analyze(&q, &error);
-    nh_course *c = r ? nh_course_of_result(r) : NULL;
+    nh_analysis *r = nh_analysis_create(&q, &error);
+    nh_time_series *c = r ? nh_time_series_of_analysis(r) : NULL;
     nh_text text;
     nh_text_init(&text);
-    bool good = c && nh_portrait(c, r->system->title, &text) && nh_output_write(to, nh_text_string(&text), text.length, &error);
+    bool good = c && nh_thumbnail(c, r->system->title, &text) && nh_output_write(to, nh_text_string(&text), text.length, &error);
     if (!good) fprintf(stderr, "%s: no picture: %s\n", name, error.what);
     nh_text_clear(&text);
-    nh_course_free(c);
-    nh_result_free(r);
+    nh_time_series_free(c);
+    nh_analysis_free(r);
     return good;
 }
 

@@ -17,32 +17,32 @@ static double seconds = 120;
 static bool verbose;
 static size_t wrong;
 
-static void put_row(const char *command, const char *over, const nh_stress *s, const nh_stress_map *only)
+static void put_row(const char *command, const char *over, const nh_robustness *s, const nh_robustness_map *only)
 {
-    size_t count[NH_WRONG + 1] = {0};
+    size_t count[NH_UNDETECTED + 1] = {0};
     for (size_t i = 0; i < s->maps; i++)
         for (size_t j = 0; j < s->map[i].cells; j++)
             if (!only || only == &s->map[i]) count[s->map[i].cell[j].status]++;
     printf("| %s | %s |", command, over);
-    for (int k = 0; k <= NH_WRONG; k++) printf(" %zu |", count[k]);
+    for (int k = 0; k <= NH_UNDETECTED; k++) printf(" %zu |", count[k]);
     puts("");
     fflush(stdout);
-    wrong += count[NH_WRONG];
-    if (!verbose && !count[NH_WRONG]) return;
+    wrong += count[NH_UNDETECTED];
+    if (!verbose && !count[NH_UNDETECTED]) return;
     nh_text text;
     nh_text_init(&text);
-    nh_stress_text(s, true, &text);
+    nh_robustness_text(s, true, &text);
     fputs(nh_text_string(&text), stderr);
     nh_text_clear(&text);
 }
 
-static nh_stress *stress_of(const char *path, const char *over, double budget)
+static nh_robustness *stress_of(const char *path, const char *over, double budget)
 {
     nh_error error;
     nh_error_clear(&error);
     nh_simulate_request q = {.system_path = path};
     nh_options_default(&q.options);
-    nh_stress *s = nh_stress_create(&q, over, budget, &error);
+    nh_robustness *s = nh_robustness_create(&q, over, budget, &error);
     if (s) return s;
     fprintf(stderr, "%s: %s\n", path, error.what);
     exit(1);
@@ -63,10 +63,10 @@ static void run_named(const char *path)
     char name[100], command[400];
     name_of(path, name);
     for (size_t i = 0; system && i < system->stresses; i++) {
-        nh_stress *s = stress_of(path, system->stress[i].name, seconds);
+        nh_robustness *s = stress_of(path, system->stress[i].name, seconds);
         snprintf(command, sizeof command, "`nhsym chart %s --over \"%s\"`", name, system->stress[i].name);
         put_row(command, system->stress[i].over, s, NULL);
-        nh_stress_free(s);
+        nh_robustness_free(s);
     }
     nh_system_free(system);
 }
@@ -96,7 +96,7 @@ static void run_fits(const char *path)
 {
     static const char *const names[] = {"clustered samples", "noisy samples", "ansatz at the edge of dependence", "frequencies that nearly coincide"};
     char name[100], command[400];
-    nh_stress *s = stress_of(path, "samples", seconds);
+    nh_robustness *s = stress_of(path, "samples", seconds);
     name_of(path, name);
     for (size_t i = 0; i < s->maps; i++)
         for (size_t k = 0; k < sizeof names / sizeof *names; k++)
@@ -104,7 +104,7 @@ static void run_fits(const char *path)
                 snprintf(command, sizeof command, "`nhsym chart %s --over samples`: %s", name, names[k]);
                 put_row(command, s->map[i].axis, s, &s->map[i]);
             }
-    nh_stress_free(s);
+    nh_robustness_free(s);
 }
 
 /* ---- the nonreversible test ---- */

@@ -37,7 +37,7 @@ typedef struct {
 } row;
 
 /* Is e a function of the currents found?  Its gradient is in the span of theirs at generic points. */
-static bool depends(const nh_result *r, const nh_points *generic, nh_ex e)
+static bool depends(const nh_analysis *r, const nh_points *generic, nh_ex e)
 {
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
@@ -57,7 +57,7 @@ static void note(row *o, const char *what, const char *name)
 }
 
 /* The rate by the multiplier form; `upper` is not a number where Phi could not be written in the coordinates' velocities or evaluated. */
-static multiplier_rate rate_of(const multiplier_motion *motion, const nh_found *f)
+static multiplier_rate rate_of(const multiplier_motion *motion, const nh_current *f)
 {
     multiplier_rate rate = {.upper = NAN, .lower = NAN};
     if (f->has_in_velocities) rate = multiplier_rate_of(motion, f->in_velocities);
@@ -66,10 +66,10 @@ static multiplier_rate rate_of(const multiplier_motion *motion, const nh_found *
 }
 
 /* A certified current must be constant to `rate_bound`, another one to the digits that are reported. */
-static void judge(nh_result *r, const multiplier_motion *motion, row *o)
+static void judge(nh_analysis *r, const multiplier_motion *motion, row *o)
 {
     for (size_t k = 0; k < r->count; k++) {
-        const nh_found *f = &r->found[k];
+        const nh_current *f = &r->found[k];
         double digits = fmin(f->proof.digits, f->printed_digits); /* coefficients refined to many digits are written with those of doubles */
         bool certified = f->proof.proved || digits >= r->options.digits;
         multiplier_rate rate = rate_of(motion, f);
@@ -92,13 +92,13 @@ static void check_file(const nh_system *y, const multiplier_motion *motion, row 
         bool trap = k >= y->currents, readable = true;
         const nh_named *e = trap ? &y->trap[k - y->currents] : &y->current[k];
         for (size_t i = 0; i < y->quasi; i++) readable &= !nh_depends(y->dag, e->value, y->quasi_velocity[i]);
-        multiplier_rate rate = rate_of(motion, &(nh_found){.has_in_velocities = readable, .in_velocities = e->value});
+        multiplier_rate rate = rate_of(motion, &(nh_current){.has_in_velocities = readable, .in_velocities = e->value});
         if (trap ? rate.lower < trap_bound : rate.upper > known_bound) o->untrue++, note(o, trap ? "conserved after all" : "not true", e->name);
     }
 }
 
 /* What is called almost conserved is slow, and the slowest come first: the root mean square of its rate over that of its variation, at points of this test. */
-static void judge_almosts(const nh_result *r, const nh_points *generic, row *o)
+static void judge_almosts(const nh_analysis *r, const nh_points *generic, row *o)
 {
     static const double other_points = 3;
     double last = 0, unit = r->pace > 0 ? r->pace : 1;
@@ -119,7 +119,7 @@ static void judge_almosts(const nh_result *r, const nh_points *generic, row *o)
 }
 
 /* "4, generic", "4; with t 2, generic", "-" */
-static void complete_to(const nh_result *r, char *out, size_t size)
+static void complete_to(const nh_analysis *r, char *out, size_t size)
 {
     size_t n = 0;
     out[0] = 0;
@@ -132,7 +132,7 @@ static void complete_to(const nh_result *r, char *out, size_t size)
     }
 }
 
-static void compare(nh_result *r, row *o)
+static void compare(nh_analysis *r, row *o)
 {
     nh_error error;
     nh_error_clear(&error);
@@ -149,7 +149,7 @@ static void compare(nh_result *r, row *o)
     multiplier_motion_free(motion);
     for (size_t k = 0; k < r->system->currents; k++) {
         nh_ex e;
-        if (nh_analysis_to_chart(r->model, r->system->current[k].value, &e, &error) && depends(r, generic, e)) continue;
+        if (nh_analysis_file_to_chart(r->model, r->system->current[k].value, &e, &error) && depends(r, generic, e)) continue;
         o->missing++;
         note(o, "missing", r->system->current[k].name);
         if (!r->system->current[k].out_of_reach) continue;
@@ -158,7 +158,7 @@ static void compare(nh_result *r, row *o)
     }
     for (size_t k = 0; k < r->system->not_conserved; k++) {
         nh_ex e;
-        if (!nh_analysis_to_chart(r->model, r->system->trap[k].value, &e, &error) || !depends(r, generic, e)) continue;
+        if (!nh_analysis_file_to_chart(r->model, r->system->trap[k].value, &e, &error) || !depends(r, generic, e)) continue;
         o->wrong++;
         note(o, "trap", r->system->trap[k].name);
     }
@@ -172,13 +172,13 @@ static inline row compare_with(const char *path, const char *analysis, const nh_
     nh_error error;
     nh_error_clear(&error);
     nh_analyze_request q = {.system_path = path, .analysis_path = analysis, .options = *options, .seed_given = true};
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     if (r) compare(r, &o);
     else {
         o.missing = 1;
         note(&o, "error:", error.what);
     }
-    nh_result_free(r);
+    nh_analysis_free(r);
     return o;
 }
 

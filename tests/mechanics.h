@@ -58,7 +58,7 @@ static inline nh_ex formula(const nh_model *model, const char *text)
     nh_ex e = 0, out = 0;
     nh_named energy = {.name = "E", .value = model->E};
     must(nh_system_expression_text(model->system, "test", text, 1, &energy, &e, &error), &error, text);
-    must(nh_analysis_to_chart(model, e, &out, &error), &error, text);
+    must(nh_analysis_file_to_chart(model, e, &out, &error), &error, text);
     return out;
 }
 

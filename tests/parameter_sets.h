@@ -73,7 +73,7 @@ static inline void formulas_add(formulas *f, const nh_model *o, special_value sp
 
 /* ---- of an analysis ---- */
 
-static inline const char *why_limited(const nh_found *f)
+static inline const char *why_limited(const nh_current *f)
 {
     if (f->series) return "a series";
     if (f->proof.proved) return "";
@@ -85,13 +85,13 @@ static inline void add_analysis(formulas *f, const char *path, size_t settings, 
 {
     nh_error error = {0};
     nh_analyze_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options, .no_figures = true};
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     for (size_t k = 0; r && k < r->count; k++) {
-        const nh_found *c = &r->found[k];
+        const nh_current *c = &r->found[k];
         formulas_add(f, r->model, special, c->name, 1, c->has_in_velocities ? &c->in_velocities : &c->phi, &c->proof, why_limited(c));
     }
     f->answered &= r != NULL;
-    nh_result_free(r);
+    nh_analysis_free(r);
     nh_error_clear(&error);
 }
 
@@ -131,7 +131,7 @@ static inline void add_reduction(formulas *f, const char *path, size_t settings,
 {
     nh_error error = {0};
     nh_reduce_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options};
-    nh_reduction *r = nh_reduce(&q, &error);
+    nh_reduction *r = nh_reduction_create(&q, &error);
     char name[64];
     if (r && (r->all || r->group)) add_group(f, r, special);
     if (r) add_momenta(f, r, special);

@@ -34,10 +34,10 @@ static nh_ex generic_term(const nh_system *y, int exponent, uint64_t seed)
     return nh_mul(d, nh_pow(d, nh_int(d, 10), nh_int(d, exponent)), nh_add(d, wave, turn));
 }
 
-static bool is_certified(const nh_result *r, const nh_found *f) { return f->proof.proved || f->proof.digits >= r->options.digits; }
+static bool is_certified(const nh_analysis *r, const nh_current *f) { return f->proof.proved || f->proof.digits >= r->options.digits; }
 
 /* Those of the independent currents that the multiplier form of the changed system conserves too; out: at most r->count. */
-static size_t survivors(const nh_result *r, nh_ex term, nh_ex *out)
+static size_t survivors(const nh_analysis *r, nh_ex term, nh_ex *out)
 {
     nh_error error = {0};
     size_t n = 0;
@@ -47,7 +47,7 @@ static size_t survivors(const nh_result *r, nh_ex term, nh_ex *out)
     multiplier_motion *motion = multiplier_motion_create(r->model, at, bits);
     r->system->lagrangian = before;
     for (size_t k = 0; k < r->count; k++) {
-        const nh_found *f = &r->found[k];
+        const nh_current *f = &r->found[k];
         if (f->independence != NH_INDEPENDENT || !is_certified(r, f)) continue;
         multiplier_rate rate = rate_of(motion, f);
         if (rate.upper < rate_bound) out[n++] = f->in_velocities;
@@ -66,12 +66,12 @@ static perturbed perturbed_copy(const char *folder, const char *name, size_t whi
     options.steps = 2000; /* the motions are not what is judged here */
     snprintf(from, sizeof from, "%s/%s.yaml", folder, name);
     nh_analyze_request q = {.system_path = from, .options = options};
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     FILE *out = r ? scratch_open(path) : NULL;
     if (!out) {
         p.o.wrong = 1;
         note(&p.o, "error:", error.what);
-        nh_result_free(r);
+        nh_analysis_free(r);
         return p;
     }
     nh_ex *known = nh_alloc_array(r->count + 1, sizeof *known), term = generic_term(r->system, perturbation[which], seed);
@@ -82,7 +82,7 @@ static perturbed perturbed_copy(const char *folder, const char *name, size_t whi
     p.o = compare_path(path, &options);
     remove(path);
     nh_free(known);
-    nh_result_free(r);
+    nh_analysis_free(r);
     return p;
 }
 

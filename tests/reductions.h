@@ -32,7 +32,7 @@ static inline reductions_row reductions_of(const char *path, size_t states, nh_e
     reductions_row all = {0};
     nh_reduce_request q = {.system_path = path};
     nh_options_default(&q.options);
-    nh_reduction *r = nh_reduce(&q, error);
+    nh_reduction *r = nh_reduction_create(&q, error);
     all.open = r && r->stages > 0 && r->group->action.d > 0;
     for (size_t i = 0; all.open && i < states && i < r->kinetic->places; i++) {
         if (!nh_reduction_again(r, i, error)) break;

@@ -132,7 +132,7 @@ Test(accuracy, beyond_rounding_is_refused)
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true, .accuracy = 1e-17};
     nh_options_default(&q.options);
-    nh_simulation *s = nh_simulate(&q, &error);
+    nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, "sleigh");
     cr_expect(s->checked && !s->accuracy.held && strstr(s->accuracy.why, "not reached"), "%s", s->accuracy.why);
     nh_simulation_free(s);
@@ -147,10 +147,10 @@ Test(accuracy, the_checked_motion_is_as_accurate)
     nh_options options;
     nh_error error = {0};
     nh_options_default(&options);
-    nh_way adams = {nh_method_find("CVODE Adams"), NH_OWN_VELOCITIES, 1e-9, NAN, 1e-9, 1e3};
+    nh_integration_plan adams = {nh_method_find("CVODE Adams"), NH_OWN_VELOCITIES, 1e-9, NAN, 1e-9, 1e3};
     nh_ex e = x.model->E;
     nh_validation_request request = {.model = x.model, .currents = 1, .current = &e, .initial = &initial, .until = 30, .outputs = 61, .options = &options};
-    nh_ways measured = {.count = 1, .way = &adams, .plain = true};
+    nh_integration_plans measured = {.count = 1, .way = &adams, .plain = true};
     for (double eps = 1e-4; eps > 1e-11; eps /= 100) {
         request.accuracy = eps;
         request.ways = eps < 1e-7 ? &measured : NULL; /* then CVODE is said to be the cheapest */
@@ -180,9 +180,9 @@ Test(accuracy, what_was_measured_is_not_the_last_word)
     nh_options_default(&options);
     for (int i = 0; i < COUNT; i++) times[i] = 6.0 * i / (COUNT - 1);
     nh_trajectory_request request = {.model = x.model, .initial = &initial, .count = COUNT, .times = times, .options = &options, .n = 1, .e = &e};
-    nh_way hopeful = {nh_method_find("midpoint"), NH_OWN_VELOCITIES, NAN, 0.1, 1e-13, 1};
+    nh_integration_plan hopeful = {nh_method_find("midpoint"), NH_OWN_VELOCITIES, NAN, 0.1, 1e-13, 1};
     nh_accuracy a;
-    nh_trajectory *t = nh_trajectory_accurate(&request, 1e-12, &(nh_ways){.count = 1, .way = &hopeful}, &a, &error);
+    nh_trajectory *t = nh_trajectory_accurate(&request, 1e-12, &(nh_integration_plans){.count = 1, .way = &hopeful}, &a, &error);
     cr_assert(t && a.held, "%s", a.why);
     cr_expect_str_eq(t->method, "GSL rk8pd");
     cr_expect(strstr(a.why, "midpoint, did not reach it"), "%s", a.why);
@@ -203,7 +203,7 @@ static nh_trajectory *surveyed(const nh_model *o, const nh_state *initial, doubl
     options.steps = 1e8;
     for (int i = 0; i < COUNT; i++) times[i] = initial->t + until * i / (COUNT - 1);
     nh_trajectory_request q = {.model = o, .initial = initial, .count = COUNT, .times = times, .options = &options, .n = n, .e = e};
-    return nh_trajectory_accurate(&q, eps, &(nh_ways){.survey = true}, a, &error);
+    return nh_trajectory_accurate(&q, eps, &(nh_integration_plans){.survey = true}, a, &error);
 }
 
 /* Many thousands of periods of a driven oscillator, x = 2 sin(t): others are measured, the result is right whatever is chosen.  A tenth of one period: nothing is measured. */
@@ -276,7 +276,7 @@ Test(accuracy, every_member_of_an_ensemble_is_as_accurate)
 enum { STIFF_MEMBERS = 8 };
 
 /* From around one state, all states of each member in `value`; how it was done in *a. */
-static nh_ensemble *stiff_ensemble(const char *text, const double start[4], double until, size_t threads, const nh_ways *ways, nh_ensemble_accuracy *a)
+static nh_ensemble *stiff_ensemble(const char *text, const double start[4], double until, size_t threads, const nh_integration_plans *ways, nh_ensemble_accuracy *a)
 {
     mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
     double initial[STIFF_MEMBERS * 4], times[COUNT];
@@ -299,15 +299,15 @@ Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone)
     sweep_plain_only();
     static const char *const stiff = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2\nforces: [\"x = 1000*(1 - x^2)*x'\"]\n";
     const double start[4] = {2, 0.5, 0, 0};
-    nh_ways survey = {.survey = true};
+    nh_integration_plans survey = {.survey = true};
     nh_ensemble_accuracy a;
     nh_ensemble *e = stiff_ensemble(stiff, start, 100, 1, &survey, &a);
     cr_expect(a.held && a.all_alone && a.alone == STIFF_MEMBERS && e->alone == STIFF_MEMBERS && e->incomplete == 0, "%s", a.why);
     cr_expect(a.way.method && (a.way.method == nh_method_find("CVODE BDF") || a.way.method == nh_method_find("ARKODE ESDIRK")) && strstr(a.why, "each alone by") && strstr(a.why, "in batches they would need"), "%s", a.why);
     cr_expect_lt(e->evaluations, 5000 * 1000, "%ld", e->evaluations); /* in batches more than a million steps of 13 */
     nh_ensemble_free(e);
-    nh_way bdf = {nh_method_find("CVODE BDF"), NH_OWN_VELOCITIES, 1e-8, NAN, 1e-7, 1e6};
-    nh_ways given = {.count = 1, .way = &bdf}, *const ways[] = {&given, &survey};
+    nh_integration_plan bdf = {nh_method_find("CVODE BDF"), NH_OWN_VELOCITIES, 1e-8, NAN, 1e-7, 1e6};
+    nh_integration_plans given = {.count = 1, .way = &bdf}, *const ways[] = {&given, &survey};
     for (int i = 0; i < 2; i++) {
         nh_ensemble *one = stiff_ensemble(stiff, start, 100, 1, ways[i], &a), *two = stiff_ensemble(stiff, start, 100, 2, ways[i], &a);
         cr_expect(a.all_alone && (i || a.choice == NH_CHOICE_GIVEN), "%s", a.why);
@@ -322,7 +322,7 @@ Test(accuracy, members_of_another_stay_in_batches)
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/henon_heiles.yaml", .initial = "x=0.1, y'=0.2", .until_given = true, .accuracy = 1e-6, .ensemble = 300, .spread = 0.05};
     nh_options_default(&q.options);
-    nh_simulation *s = nh_simulate(&q, &error);
+    nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, "henon_heiles");
     const nh_ensemble_accuracy *a = &s->accuracy_of_all;
     cr_expect(a->held && !a->all_alone && a->ratio > 1 && strstr(a->why, "in batches at") && strstr(a->why, "each alone (GSL rk8pd) would need"), "%s", a->why);
@@ -334,7 +334,7 @@ Test(accuracy, an_ensemble_says_when_it_is_not)
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true, .accuracy = 1e-17, .ensemble = 5, .spread = 0.1};
     nh_options_default(&q.options);
-    nh_simulation *s = nh_simulate(&q, &error);
+    nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, "sleigh");
     cr_expect(s->checked && !s->accuracy_of_all.held && s->accuracy_of_all.unsure == 5 && strstr(s->accuracy_of_all.why, "by 5 of 5 members"), "%s", s->accuracy_of_all.why);
     nh_simulation_free(s);

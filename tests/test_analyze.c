@@ -1,4 +1,4 @@
-/* nh_analyze from files to currents: the paper's sleigh for every k, in both charts, what must not be found, and what must not matter. */
+/* nh_analysis_create from files to currents: the paper's sleigh for every k, in both charts, what must not be found, and what must not matter. */
 #include "mechanics.h"
 #include "sweep.h"
 
@@ -59,7 +59,7 @@ typedef struct {
     double until;
 } question;
 
-static nh_result *ask(question q)
+static nh_analysis *ask(question q)
 {
     nh_setting setting[3] = {{.name = "m"}, {.name = "a"}, {.name = "k"}};
     nh_error error = {0};
@@ -71,7 +71,7 @@ static nh_result *ask(question q)
     if (q.seed) request.options.seed = (double)q.seed;
     request.until_given = q.until > 0;
     if (q.until > 0) request.options.until = q.until;
-    nh_result *r = nh_analyze(&request, &error);
+    nh_analysis *r = nh_analysis_create(&request, &error);
     must(r != NULL, &error, q.system);
     return r;
 }
@@ -79,10 +79,10 @@ static nh_result *ask(question q)
 /* ---- looking at a result ---- */
 
 /* The current that is a multiple of an expected one; its distance must be rounding. */
-static nh_found *find(nh_result *r, const char *expected)
+static nh_current *find(nh_analysis *r, const char *expected)
 {
     nh_points *points = points_of(r->model, 100, 77);
-    nh_found *best = NULL;
+    nh_current *best = NULL;
     double nearest = 1e-10;
     for (size_t i = 0; i < r->count; i++) {
         double off = off_multiple(r->model, points, r->found[i].phi, formula(r->model, expected));
@@ -94,7 +94,7 @@ static nh_found *find(nh_result *r, const char *expected)
     return best;
 }
 
-static bool warned(const nh_result *r, const char *text)
+static bool warned(const nh_analysis *r, const char *text)
 {
     for (size_t i = 0; i < r->warnings; i++)
         if (strstr(r->warning[i], text)) return true;
@@ -102,13 +102,13 @@ static bool warned(const nh_result *r, const char *text)
 }
 
 /* Nothing that is reported may be false: Gamma(Phi) vanishes to the digits of doubles where it was not proved. */
-static void nothing_false(nh_result *r)
+static void nothing_false(nh_analysis *r)
 {
     const nh_model *o = r->model;
     nh_points *points = points_of(o, 60, 88);
     double z[20];
     for (size_t i = 0; i < r->count; i++) {
-        const nh_found *f = &r->found[i];
+        const nh_current *f = &r->found[i];
         nh_ex rate = nh_model_gamma(o, f->phi);
         cr_expect(f->proof.proved || f->proof.digits >= 50, "%s of %s is neither proved nor certified", f->name, r->system->name);
         double worst = 0, size = 0;
@@ -139,10 +139,10 @@ static const expected PAPER[] = {
     {"Phi3", "m*a^2*k^2/2*log((" ROOT " + " V "/a)/(" ROOT " - " V "/a)) - m*a^2*t*" ROOT, true, false, 3},
 };
 
-static void check_found(nh_result *r, const expected *e)
+static void check_found(nh_analysis *r, const expected *e)
 {
     double k = r->model->parameter_value[2];
-    nh_found *f = find(r, e->formula);
+    nh_current *f = find(r, e->formula);
     cr_assert_not_null(f, "k = %g in %s: %s was not found", k, r->model->chart->name, e->name);
     cr_expect(f->proof.proved && f->exact, "k = %g: %s was not proved", k, e->name);
     cr_expect(f->proof.all_parameters || k == 1, "k = %g: %s was not proved for all parameters", k, e->name);
@@ -157,7 +157,7 @@ static void check_found(nh_result *r, const expected *e)
 }
 
 /* Which of Phi2 and Phi2b is called dependent is a matter of their order; one of them is, with its relation. */
-static void check_sleigh(nh_result *r)
+static void check_sleigh(nh_analysis *r)
 {
     double k = r->model->parameter_value[2];
     size_t dependent = 0;
@@ -165,7 +165,7 @@ static void check_sleigh(nh_result *r)
     cr_expect_eq(r->verdict, NH_FOUND, "k = %g: verdict %d", k, (int)r->verdict);
     cr_expect(r->count == 4 && r->independent == 3 && r->local_maximum == 5, "k = %g: %zu found, %zu independent", k, r->count, r->independent);
     for (size_t i = 0; i < r->count; i++) {
-        const nh_found *f = &r->found[i];
+        const nh_current *f = &r->found[i];
         cr_expect(f->independence == NH_INDEPENDENT || f->independence == NH_DEPENDENT);
         if (f->independence != NH_DEPENDENT) continue;
         dependent++;
@@ -181,9 +181,9 @@ static void check_sleigh(nh_result *r)
 }
 
 /* The relation holds: c0 + c1 Phi1 + ... is evaluated as text by hand, for Phi2^2 + Phi2b^2 = 2 m E. */
-static void check_relation(nh_result *r)
+static void check_relation(nh_analysis *r)
 {
-    nh_found *a = find(r, PAPER[1].formula), *b = find(r, PAPER[2].formula), *e = find(r, "-E");
+    nh_current *a = find(r, PAPER[1].formula), *b = find(r, PAPER[2].formula), *e = find(r, "-E");
     nh_points *points = points_of(r->model, 40, 79);
     nh_ex three[] = {nh_powi(r->model->dag, a->phi, 2), nh_powi(r->model->dag, b->phi, 2), e->phi};
     nh_dag *d = r->model->dag;
@@ -196,14 +196,14 @@ Test(analyze, the_sleigh_in_quasi_velocities)
 {
     for (size_t i = 0; i < SET_COUNT; i++) {
         if (!sweep_tries(i + 1, 1, 3)) continue;
-        nh_result *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_QUASI, 0, 5});
+        nh_analysis *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_QUASI, 0, 5});
         check_sleigh(r);
         if (SETS[i][2] != 1) check_relation(r);
         cr_expect(r->validation && r->validation->complete && r->validation->multiplier_form);
         cr_expect_lt(r->validation->state_difference, 1e-6);
         cr_expect_lt(r->validation->multiplier_difference, 1e-6);
         cr_expect_eq(!isnan(r->validation->crossing), SETS[i][2] > 1, "k = %g: the heading passes pi/2 for k > 1", SETS[i][2]);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
@@ -211,9 +211,9 @@ Test(analyze, the_sleigh_in_coordinate_velocities)
 {
     for (size_t i = 0; i < SET_COUNT; i++) {
         if (!sweep_tries(i, 1, 3)) continue;
-        nh_result *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_COORDINATES, 0, 0.3});
+        nh_analysis *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_COORDINATES, 0, 0.3});
         check_sleigh(r);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
@@ -222,10 +222,10 @@ Test(analyze, the_frequency_is_recognised)
 {
     for (size_t i = 1; i < SET_COUNT; i++) {
         if (!sweep_tries(i + 2, 1, 3)) continue;
-        nh_result *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_AUTO, 0, 1});
+        nh_analysis *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_AUTO, 0, 1});
         cr_assert(r->specials == 1 && r->special[0].recognised[0], "k = %g", SETS[i][2]);
         cr_expect_eq(r->special[0].recognised[0], formula(r->model, "1/k"), "k = %g", SETS[i][2]);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
@@ -238,7 +238,7 @@ Test(analyze, the_sleigh_without_inertia_about_its_centre)
                        "      - {basis: fourier, in: phi, harmonics: 1}\n"
                        "validate: {initial: {phi: 0.3, x: 0.1, y: -0.2, omega: 1.4, v: 0.7}, time: [0, 6]}\n"
                        "scene: {watch: [\"xC = x + a*cos(phi)\", \"yC = y + a*sin(phi)\"]}\n";
-    nh_result *r = ask((question){SLEIGH, file("analysis.yaml", text), SETS[0], NH_CHART_AUTO, 0, 0});
+    nh_analysis *r = ask((question){SLEIGH, file("analysis.yaml", text), SETS[0], NH_CHART_AUTO, 0, 0});
     cr_assert_eq(r->verdict, NH_FOUND);
     cr_expect(find(r, "m*(x' - a*phi'*sin(phi))") && find(r, "m*(y' + a*phi'*cos(phi))"), "the momentum of the centre of mass");
     cr_expect(r->count == 2 && r->independent == 2);
@@ -255,7 +255,7 @@ Test(analyze, the_sleigh_without_inertia_about_its_centre)
         }
     cr_expect(worst < 1e-8, "the centre of mass leaves its line by %.1e", worst);
     cr_expect(force < 1e-12, "the multiplier is %.1e", force);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* ---- what must not be found ---- */
@@ -291,10 +291,10 @@ Test(analyze, friction)
 {
     sweep_plain_only();
     const char *system = sleigh_with("forces:\n  - phi = -0.01*phi'\n", "");
-    nh_result *r = ask((question){.system = system, .analysis = ansatz("  - terms: [omega^2, v^2, omega*v]\n")});
+    nh_analysis *r = ask((question){.system = system, .analysis = ansatz("  - terms: [omega^2, v^2, omega*v]\n")});
     cr_expect(r->verdict == NH_NONE && r->count == 0, "verdict %d, %zu found", (int)r->verdict, r->count);
     cr_expect(warned(r, "energy is not conserved") && warned(r, "-omega^2/100"), "nothing was said about the energy");
-    nh_result_free(r);
+    nh_analysis_free(r);
     r = ask((question){.system = system, .analysis = QUESTION});
     cr_expect_null(find(r, "E"));
     cr_expect_null(find(r, PAPER[1].formula));
@@ -304,12 +304,12 @@ Test(analyze, friction)
     cr_expect_not_null(find(r, "E + v/(100*a)"), "d/dt v = a omega^2 makes up for the friction");
     cr_expect(warned(r, "energy is not conserved"));
     nothing_false(r);
-    nh_result_free(r);
+    nh_analysis_free(r);
     r = ask((question){.system = system}); /* the program's own search */
     cr_expect_null(find(r, "E"));
     cr_expect(warned(r, "energy is not conserved"));
     nothing_false(r);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* Nothing is said against the energy where it is conserved but not in the ansatz. */
@@ -318,24 +318,24 @@ Test(analyze, an_ansatz_without_a_true_integral_says_none)
     static const char *const items[] = {"  - {basis: polynomial, in: [x, y, phi], degree: 3}\n", "  - terms: [omega, v, omega*v, omega^2]\n",
                                         "  - product:\n      - terms: [omega, v]\n      - {basis: fourier, in: phi, harmonics: 4}\n"};
     for (size_t i = 0; i < 3; i++) {
-        nh_result *r = ask((question){.system = SLEIGH, .analysis = ansatz(items[i])});
+        nh_analysis *r = ask((question){.system = SLEIGH, .analysis = ansatz(items[i])});
         cr_expect(r->verdict == NH_NONE && r->count == 0 && r->independent == 0, "ansatz %zu: %zu found", i, r->count);
         cr_expect(r->current.done && r->current.rank > 0 && r->current.spectrum[0] > 1e-6, "ansatz %zu: smallest value %.1e", i, r->current.spectrum[0]);
         for (size_t j = 1; j < r->current.rank; j++) cr_expect(r->current.spectrum[j] >= r->current.spectrum[j - 1]);
         cr_expect(r->symmetry.done && r->symmetry.dimension == 0);
         cr_expect_not(warned(r, "energy"));
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
 Test(analyze, an_unknown_frequency_that_does_not_exist)
 {
     const char *system = sleigh_with("", " + 0.3*cos(x)");
-    nh_result *r = ask((question){.system = system, .analysis = QUESTION, .until = 1});
+    nh_analysis *r = ask((question){.system = system, .analysis = QUESTION, .until = 1});
     cr_expect(r->specials == 0 && r->hits->count == 0);
     cr_expect_eq(r->verdict, NH_NONE); /* E contains cos x, which is not in the ansatz */
     cr_expect(r->count == 0 && r->current.spectrum[0] > 1e-5, "%zu found, smallest value %.1e", r->count, r->current.spectrum[0]);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* A thousandth of something: nothing of the unperturbed system survives but what is true. */
@@ -345,49 +345,49 @@ Test(analyze, perturbed_systems)
     for (size_t i = 0; i < 5; i++) {
         if (!sweep_tries(i, 2, 5)) continue;
         const char *system = sleigh_with("", more[i]);
-        nh_result *r = ask((question){.system = system, .analysis = QUESTION, .until = 1}), *own = ask((question){.system = system, .until = 1});
+        nh_analysis *r = ask((question){.system = system, .analysis = QUESTION, .until = 1}), *own = ask((question){.system = system, .until = 1});
         cr_expect_null(find(r, PAPER[1].formula), "%s", more[i]);
         cr_expect_null(find(r, PAPER[2].formula), "%s", more[i]);
         cr_expect_null(find(r, PAPER[3].formula), "%s", more[i]);
         nothing_false(r);
         nothing_false(own);
         cr_expect_not_null(find(own, "E"), "%s: the energy", more[i]);
-        nh_result_free(own);
-        nh_result_free(r);
+        nh_analysis_free(own);
+        nh_analysis_free(r);
     }
 }
 
 /* Almost integrable: the frequency is off by 1e-7, so that the null value is small but not null. */
 Test(analyze, nearly_is_not_conserved)
 {
-    nh_result *r = ask((question){.system = SLEIGH, .analysis = ansatz("  - product:\n      - terms: [omega, v]\n"
+    nh_analysis *r = ask((question){.system = SLEIGH, .analysis = ansatz("  - product:\n      - terms: [omega, v]\n"
                                                                       "      - {basis: fourier, in: phi, frequency: 0.5000001}\n")});
     cr_expect(r->verdict == NH_NONE && r->count == 0, "verdict %d with %zu found", (int)r->verdict, r->count);
     cr_expect(r->current.spectrum[0] > 1e-9 && r->current.spectrum[0] < 1e-6, "%.1e", r->current.spectrum[0]);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* The ladder's own words may be undefined somewhere (here the root of 3 - 8 x^2 + ...): they go, the energy stays. */
 Test(analyze, words_that_are_not_finite_do_not_hide_the_energy)
 {
-    nh_result *r = ask((question){.system = file("system.yaml", "name: box\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}]\n"
+    nh_analysis *r = ask((question){.system = file("system.yaml", "name: box\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}]\n"
                                                                "lagrangian: x'^2*(29*y^4 + 25)/200 - 2.12*x^2 + y'^2*(29*x^2 + 18)/100 + p'^2 + y^2*p'\n"
                                                                "constraints: [\"p' = 79*x^2*y'/50 - 4*x'*sin(p)/5\"]\n"), .until = 1});
     cr_expect_not_null(find(r, "E"), "%zu found", r->count);
     nothing_false(r);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* A number too long for an exact rational: rounding at the 16th digit is no refutation, and no certificate. */
 Test(analyze, inexact_constants_refute_nothing)
 {
-    nh_result *r = ask((question){.system = file("system.yaml", "name: tiny\ncoordinates: [x, y]\n"
+    nh_analysis *r = ask((question){.system = file("system.yaml", "name: tiny\ncoordinates: [x, y]\n"
                                                                "lagrangian: x'^2/2 + 1.3*y'^2*(1 + x^2) + x'*y'/3 - 1.1234567890123e-9*(7.7e10*x^3*y + 3.3e10*y^4/7)/1.7e1 - 1.6726e-27*1e27*y\n"), .until = 1});
     cr_assert_geq(r->count, 1);
     cr_expect_not_null(find(r, "E"), "%zu found", r->count);
     cr_expect_not(warned(r, "is not conserved"));
     cr_expect(r->found[0].proof.proved || r->verdict == NH_UNDECIDED);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* ---- what must not matter ---- */
@@ -405,7 +405,7 @@ static double spectra(const nh_spectrum *a, const nh_spectrum *b)
     return worst;
 }
 
-static nh_result *plain(const char *system, const char *items, uint64_t seed, nh_chart_choice chart)
+static nh_analysis *plain(const char *system, const char *items, uint64_t seed, nh_chart_choice chart)
 {
     return ask((question){.system = system, .analysis = ansatz(items), .seed = seed, .until = 0.3, .chart = chart});
 }
@@ -413,38 +413,38 @@ static nh_result *plain(const char *system, const char *items, uint64_t seed, nh
 /* The same rows in another order: the same spectrum.  The seed moves the points: the same dimensions, the same kind of spectrum. */
 Test(analyze, order_of_the_ansatz_and_seed)
 {
-    nh_result *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
+    nh_analysis *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
     const char *orders[] = {TERMS TRUE_WAVES WAVES POLYNOMIAL, WAVES TERMS POLYNOMIAL TRUE_WAVES};
     for (size_t i = 0; i < 2; i++) {
-        nh_result *b = plain(SLEIGH, orders[i], 1, NH_CHART_AUTO);
+        nh_analysis *b = plain(SLEIGH, orders[i], 1, NH_CHART_AUTO);
         cr_expect_eq(a->count, b->count);
         cr_expect_lt(spectra(&a->current, &b->current), 1e-8, "order %zu: %.1e", i, spectra(&a->current, &b->current));
         cr_expect_lt(spectra(&a->symmetry, &b->symmetry), 1e-8, "order %zu: %.1e", i, spectra(&a->symmetry, &b->symmetry));
-        nh_result_free(b);
+        nh_analysis_free(b);
     }
     cr_expect_eq(a->current.dimension, 3);
     for (uint64_t seed = 2; seed < 8; seed++) {
         if (!sweep_tries(seed, 2, 6)) continue;
-        nh_result *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, seed, NH_CHART_AUTO);
+        nh_analysis *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, seed, NH_CHART_AUTO);
         cr_expect(b->verdict == NH_FOUND && b->count == a->count && b->independent == a->independent);
         cr_expect_lt(spectra(&a->current, &b->current), 0.5, "seed %d: %.1e", (int)seed, spectra(&a->current, &b->current));
         for (size_t i = 0; i < 3; i++) cr_expect_not_null(find(b, PAPER[i].formula), "seed %d: %s", (int)seed, PAPER[i].name);
-        nh_result_free(b);
+        nh_analysis_free(b);
     }
-    nh_result_free(a);
+    nh_analysis_free(a);
 }
 
 /* The same seed gives the same result to the last digit. */
 Test(analyze, repeatable)
 {
     sweep_plain_only();
-    nh_result *a = ask((question){SLEIGH, QUESTION, SETS[4], NH_CHART_AUTO, 3, 1}), *b = ask((question){SLEIGH, QUESTION, SETS[4], NH_CHART_AUTO, 3, 1});
+    nh_analysis *a = ask((question){SLEIGH, QUESTION, SETS[4], NH_CHART_AUTO, 3, 1}), *b = ask((question){SLEIGH, QUESTION, SETS[4], NH_CHART_AUTO, 3, 1});
     cr_assert_eq(a->current.rank, b->current.rank);
     cr_expect_arr_eq(a->current.spectrum, b->current.spectrum, a->current.rank * sizeof(double));
     cr_expect_arr_eq(a->special[0].value, b->special[0].value, sizeof(double));
     for (size_t i = 0; i < a->count; i++) cr_expect_eq(a->found[i].drift.drift[2], b->found[i].drift.drift[2]);
-    nh_result_free(a);
-    nh_result_free(b);
+    nh_analysis_free(a);
+    nh_analysis_free(b);
 }
 
 /* Millimetres for metres: a and the velocity's box times 1000; grams for kilograms. */
@@ -466,38 +466,38 @@ static const char *in_other_units(double length, double mass)
 Test(analyze, units)
 {
     sweep_plain_only();
-    nh_result *a = plain(in_other_units(1, 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
-    nh_result *grams = plain(in_other_units(1, 1000), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
+    nh_analysis *a = plain(in_other_units(1, 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
+    nh_analysis *grams = plain(in_other_units(1, 1000), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
     cr_expect_eq(a->count, 3);
     cr_expect_lt(spectra(&a->current, &grams->current), 1e-8, "%.1e", spectra(&a->current, &grams->current));
     cr_expect_lt(spectra(&a->symmetry, &grams->symmetry), 1e-8, "%.1e", spectra(&a->symmetry, &grams->symmetry));
     const double lengths[] = {1000, 1e-3};
     for (size_t i = 0; i < 2; i++) {
-        nh_result *b = plain(in_other_units(lengths[i], 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
+        nh_analysis *b = plain(in_other_units(lengths[i], 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
         cr_expect(b->verdict == NH_FOUND && b->count == 3 && b->independent == 2, "lengths x %g: %zu found", lengths[i], b->count);
         cr_expect(b->current.dimension == a->current.dimension && b->current.rank == a->current.rank, "lengths x %g", lengths[i]);
         cr_expect(b->symmetry.dimension == a->symmetry.dimension && b->symmetry.rank == a->symmetry.rank, "lengths x %g", lengths[i]);
         cr_expect(b->routes_agree, "lengths x %g: %.1e", lengths[i], b->routes_angle);
         for (size_t j = 0; j < 3; j++) cr_expect_not_null(find(b, PAPER[j].formula), "lengths x %g: %s", lengths[i], PAPER[j].name);
-        nh_result_free(b);
+        nh_analysis_free(b);
     }
-    nh_result_free(a);
-    nh_result_free(grams);
+    nh_analysis_free(a);
+    nh_analysis_free(grams);
 }
 
 /* The same question in both charts: the same functions, so the same dimensions and ranks. */
 Test(analyze, charts)
 {
-    nh_result *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_QUASI);
-    nh_result *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_COORDINATES);
+    nh_analysis *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_QUASI);
+    nh_analysis *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_COORDINATES);
     cr_expect(a->model->chart->quasi && !b->model->chart->quasi);
     cr_expect(a->count == b->count && a->independent == b->independent && b->verdict == NH_FOUND);
     cr_expect(a->current.dimension == b->current.dimension && a->current.rank == b->current.rank, "%zu of %zu, %zu of %zu", a->current.dimension,
               a->current.rank, b->current.dimension, b->current.rank);
     cr_expect_eq(a->symmetry.dimension, b->symmetry.dimension);
     for (size_t j = 0; j < 3; j++) cr_expect(find(a, PAPER[j].formula) && find(b, PAPER[j].formula), "%s", PAPER[j].name);
-    nh_result_free(a);
-    nh_result_free(b);
+    nh_analysis_free(a);
+    nh_analysis_free(b);
 }
 
 /* ---- other systems, from files of the test's own ---- */
@@ -508,7 +508,7 @@ Test(analyze, chebyshev)
     const char *system = file("system.yaml", "name: weight\ncoordinates: [{name: q, type: angle}, {name: y, type: length}]\n"
                                              "lagrangian: (q'^2 + exp(cos(q))*y'^2)/2\ndomain: {q: [-1, 1]}\n");
     const char *items = "  - product:\n      - terms: [\"y'\"]\n      - {basis: chebyshev, in: q, degree: 24}\n";
-    nh_result *r = ask((question){.system = system, .analysis = ansatz(items)});
+    nh_analysis *r = ask((question){.system = system, .analysis = ansatz(items)});
     cr_assert(r->current.dimension == 1 && r->count == 0 && r->almosts == 1, "%zu null values, %zu found, %zu almost", r->current.dimension, r->count, r->almosts);
     cr_expect_eq(r->verdict, NH_UNDECIDED, "fitted coefficients are no certificate");
     cr_expect(r->almost[0].digits >= 10 && r->almost[0].rate < 1e-9, "%g digits, rate %.1e", r->almost[0].digits, r->almost[0].rate);
@@ -516,18 +516,18 @@ Test(analyze, chebyshev)
     double off = off_multiple(r->model, points, r->almost[0].phi, formula(r->model, "exp(cos(q))*y'"));
     cr_expect_lt(off, 1e-10, "off by %.1e", off);
     nh_points_free(points);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 Test(analyze, a_nonlinear_constraint)
 {
-    nh_result *r = ask((question){.system = file("system.yaml", SPACE_EXPLICIT), .analysis = ansatz("  - terms: [\"x'/y'\", \"x'\", \"y'\", \"x\", \"t\"]\n")});
+    nh_analysis *r = ask((question){.system = file("system.yaml", SPACE_EXPLICIT), .analysis = ansatz("  - terms: [\"x'/y'\", \"x'\", \"y'\", \"x\", \"t\"]\n")});
     cr_assert_eq(r->count, 1, "%zu found", r->count);
     cr_expect_not_null(find(r, "x'/y'"));
     cr_expect(r->found[0].symmetry.kase == 2 && r->found[0].symmetry.bracket_in_distribution, "case %d", r->found[0].symmetry.kase);
     cr_expect(warned(r, "energy is not conserved"));
     nothing_false(r);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* A disturbance of 1e-9 breaks the rotation: no double sees it, the refined coefficients do. */
@@ -536,7 +536,7 @@ Test(analyze, symmetries_relative_to_the_motion)
 {
     static const char text[] = "name: pair\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                                "parameters: [{name: m, value: 1.3}, {name: n, value: 0.7}]\nlagrangian: m*x'^2/2 + n*y'^2/2 - (x - y)^4/4 - (x - y)^2\n";
-    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    nh_analysis *r = ask((question){.system = file("system.yaml", text)});
     const nh_model *o = r->model;
     nh_points *at = nh_points_create(o, 20, 1, 3, NULL);
     size_t seen = 0;
@@ -557,21 +557,21 @@ Test(analyze, symmetries_relative_to_the_motion)
     }
     cr_expect_eq(seen, 1);
     nh_points_free(at);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 Test(analyze, almost_conserved_is_told_apart)
 {
-    nh_result *r = ask((question){.system = file("system.yaml", PARTICLE("rounded", "") "lagrangian: (x'^2 + y'^2 - x^2 - y^2)/2 + 1e-9*x^2*y\n"),
+    nh_analysis *r = ask((question){.system = file("system.yaml", PARTICLE("rounded", "") "lagrangian: (x'^2 + y'^2 - x^2 - y^2)/2 + 1e-9*x^2*y\n"),
                                   .analysis = ansatz("  - {basis: polynomial, in: [x, y, x', y'], degree: 4}\n")});
     cr_expect(r->verdict == NH_FOUND && r->independent == 1, "%zu independent", r->independent);
     cr_expect_not_null(find(r, "x'^2 + y'^2 + x^2 + y^2 - 2e-9*x^2*y"));
     cr_assert_gt(r->almosts, 0);
     for (size_t k = 0; k < r->almosts; k++) {
-        const nh_almost *a = &r->almost[k];
+        const nh_near_current *a = &r->almost[k];
         cr_expect(a->digits > 6 && a->digits < 25 && a->rate > 0 && a->rate < 1e-8, "%g digits, rate %.1e", a->digits, a->rate);
     }
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* Definitions that use each other many times over: the potential would be longer than any memory when written out, and is a small graph. */
@@ -583,10 +583,10 @@ Test(analyze, definitions_upon_definitions, .timeout = 120)
     size_t n = (size_t)sprintf(text, "name: deep\nparameters: [{name: m, value: 1.5}]\ncoordinates: [{name: x, type: length}]\ndefinitions:\n  - d0 = x/m\n");
     for (int i = 0; i < levels; i++) n += (size_t)sprintf(text + n, "  - d%d = (d%d + 1)*(d%d + 2)/(3 + d%d^2)\n", i + 1, i, i, i);
     sprintf(text + n, "lagrangian: m*x'^2/2 - d%d\n", levels);
-    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    nh_analysis *r = ask((question){.system = file("system.yaml", text)});
     cr_expect_eq(r->model->n, 1u);
     nothing_false(r);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* What a current is called, it is: sign, factor and all. */
@@ -599,10 +599,10 @@ Test(analyze, meanings_are_true, .timeout = 120)
         tried++;
         char path[100];
         snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);
-        nh_result *r = ask((question){.system = path});
+        nh_analysis *r = ask((question){.system = path});
         nh_dag *d = r->model->dag;
         for (size_t k = 0; k < r->count; k++) {
-            const nh_found *f = &r->found[k];
+            const nh_current *f = &r->found[k];
             const char *momentum = strstr(f->meaning, "momentum of ");
             bool minus = !strncmp(f->meaning, "minus the ", 10), multiple = !strncmp(f->meaning, "a multiple of the ", 18);
             nh_ex e = r->model->E;
@@ -614,7 +614,7 @@ Test(analyze, meanings_are_true, .timeout = 120)
             energies += f->energy;
             momenta += momentum != NULL;
         }
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
     cr_expect(energies == tried && momenta + 1 > tried, "%zu energies, %zu momenta", energies, momenta);
 }
@@ -624,11 +624,11 @@ Test(analyze, meanings_are_true, .timeout = 120)
 Test(analyze, series_of_the_rolling_disk, .timeout = 120)
 {
     sweep_plain_only();
-    nh_result *r = ask((question){.system = "systems/rolling_disk.yaml"});
+    nh_analysis *r = ask((question){.system = "systems/rolling_disk.yaml"});
     size_t series = 0;
     cr_expect(r->verdict == NH_FOUND && r->independent == 3, "%zu independent", r->independent);
     for (size_t k = 0; k < r->count; k++) {
-        const nh_found *f = &r->found[k];
+        const nh_current *f = &r->found[k];
         if (!f->series) continue;
         series++;
         cr_expect(f->proof.digits >= 50 && f->printed_digits >= 13 && f->printed_digits < 20, "%g refined, %g printed", f->proof.digits, f->printed_digits);
@@ -641,7 +641,7 @@ Test(analyze, series_of_the_rolling_disk, .timeout = 120)
             }
     }
     cr_expect_eq(series, 2);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* Kovalevskaya's top in Euler angles: energy, momentum, and an integral of the fourth degree; with other moments of inertia it is not there. */
@@ -655,10 +655,10 @@ Test(analyze, kovalevskaya, .timeout = 120)
     char text[600];
     for (int special = 0; special < 2; special++) {
         snprintf(text, sizeof text, form, special ? "1.8" : "1.7");
-        nh_result *r = ask((question){.system = file("system.yaml", text)});
+        nh_analysis *r = ask((question){.system = file("system.yaml", text)});
         cr_expect(r->verdict == NH_FOUND && r->independent == 2 + (size_t)special, "%zu independent", r->independent);
         nothing_false(r);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
@@ -679,11 +679,11 @@ Test(analyze, polar_coordinates, .timeout = 120)
         {"name: monopole\n" SPHERICAL "lagrangian: (r'^2 + r^2*th'^2 + r^2*sin(th)^2*ph'^2)/2 + 0.6*cos(th)*ph' + 1.2/r - 0.18/r^2\n", 5, "r^2*sin(th)^2*ph' + 0.6*cos(th)"},
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
-        nh_result *r = ask((question){.system = file("system.yaml", list[i].text)});
+        nh_analysis *r = ask((question){.system = file("system.yaml", list[i].text)});
         cr_expect(r->verdict == NH_FOUND && r->independent == list[i].independent, "%s: %zu independent", r->system->name, r->independent);
         if (list[i].one) cr_expect_not_null(find(r, list[i].one), "%s", r->system->name);
         nothing_false(r);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
@@ -692,13 +692,13 @@ Test(analyze, unknown_exponents)
 {
     const char *text = "name: power\nparameters: [{name: c, value: 0.7}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                        "lagrangian: (x'^2 + y'^2)/2\nforces: [\"x = -c*x'*y'/y\"]\ndomain: {y: [0.5, 2]}\n";
-    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    nh_analysis *r = ask((question){.system = file("system.yaml", text)});
     cr_expect(r->verdict == NH_FOUND && r->independent == 4, "%zu independent", r->independent);
-    const nh_found *f = find(r, "y^c*x'");
+    const nh_current *f = find(r, "y^c*x'");
     cr_assert_not_null(f);
     cr_expect(f->proof.all_parameters, "for all c");
     nothing_false(r);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* A free top whose angle of precession is given as a length, in thousandths: the pencil has seven digits of the rate 1/1000. */
@@ -709,9 +709,9 @@ Test(analyze, a_rate_with_few_digits, .timeout = 120)
                        "coordinates: [{name: p, type: length}, {name: h, type: angle}, {name: s, type: angle}]\n"
                        "definitions: [\"P = p'/1000\"]\ndomain: {p: [-800, 800], h: [0.5, 2.1], s: [-0.8, 0.8]}\n"
                        "lagrangian: A*(h'*cos(s) + P*sin(h)*sin(s))^2/2 + B*(-h'*sin(s) + P*sin(h)*cos(s))^2/2 + C*(P*cos(h) + s')^2/2\n";
-    nh_result *r = ask((question){.system = file("system.yaml", text)});
+    nh_analysis *r = ask((question){.system = file("system.yaml", text)});
     cr_expect(r->verdict == NH_FOUND && r->independent == 4, "%zu independent", r->independent);
     for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
     nothing_false(r);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }

@@ -105,16 +105,16 @@ static void judge_system(const char *path, nh_error *error)
 
 static void judge_analysis(const char *path, nh_error *error)
 {
-    nh_analysis *analysis = nh_analysis_read(path, error);
+    nh_analysis_file *analysis = nh_analysis_file_read(path, error);
     if (!analysis) return;
     char system_path[300];
     snprintf(system_path, sizeof system_path, "systems/%s.yaml", analysis->system ? analysis->system : "sleigh");
     nh_system *system = nh_system_read(system_path, analysis->settings, analysis->setting, error);
     nh_model *model = model_of(system, analysis->chart, error);
-    if (model) nh_analysis_resolve(analysis, model, error);
+    if (model) nh_analysis_file_resolve(analysis, model, error);
     nh_model_free(model);
     nh_system_free(system);
-    nh_analysis_free(analysis);
+    nh_analysis_file_free(analysis);
 }
 
 /* Each "FOLDER/" of the text away: where the file lies is not part of the message. */
@@ -222,7 +222,7 @@ Test(bad, files_that_cannot_be_read)
     cr_expect_str_eq(message, "tests/bad/there_is_none.yaml: this file cannot be opened: No such file or directory");
     cr_expect_eq(error.code, NH_INPUT);
     nh_error_clear(&error);
-    cr_assert_null(nh_analysis_read("tests/bad", &error));
+    cr_assert_null(nh_analysis_file_read("tests/bad", &error));
     nh_error_format(&error, message, sizeof message);
     cr_expect_str_eq(message, "tests/bad: this is a directory, not a file");
     cr_expect_eq(error.code, NH_INPUT);

@@ -43,7 +43,7 @@ Test(budget, ends)
     nh_budget_begin(INFINITY);
 }
 
-static nh_result *search(const char *system, double work, double seconds, double threads, double stage_columns)
+static nh_analysis *search(const char *system, double work, double seconds, double threads, double stage_columns)
 {
     nh_error error;
     nh_error_clear(&error);
@@ -53,17 +53,17 @@ static nh_result *search(const char *system, double work, double seconds, double
     q.options.max_seconds = seconds;
     q.options.threads = threads;
     q.options.stage_columns = stage_columns;
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s: %s", system, error.what);
     return r;
 }
 
 /* All that was tried and found. */
-static bool same(const nh_result *a, const nh_result *b)
+static bool same(const nh_analysis *a, const nh_analysis *b)
 {
     bool equal = a->stages == b->stages && a->count == b->count && a->search == b->search && a->verdict == b->verdict && a->partial == b->partial;
     for (size_t i = 0; i < a->stages && equal; i++) {
-        const nh_tried *s = &a->stage[i], *t = &b->stage[i];
+        const nh_stage_record *s = &a->stage[i], *t = &b->stage[i];
         equal = !strcmp(s->name, t->name) && s->columns == t->columns && s->dimension == t->dimension && s->found == t->found && s->skipped == t->skipped && s->limit.value == t->limit.value;
     }
     return equal;
@@ -74,26 +74,26 @@ Test(budget, ends_a_search_at_the_same_place_with_any_threads)
     size_t i = 0;
     for (double work = 20; work < 1000; work *= 4) {
         if (!sweep_tries(i++, 1, 3)) continue;
-        nh_result *a = search("systems/car_with_trailer.yaml", work, 1e6, 1, 330), *b = search("systems/car_with_trailer.yaml", work, 1e6, 3, 330);
+        nh_analysis *a = search("systems/car_with_trailer.yaml", work, 1e6, 1, 330), *b = search("systems/car_with_trailer.yaml", work, 1e6, 3, 330);
         cr_expect(same(a, b), "%g", work);
         cr_expect(a->partial && a->search == NH_SEARCH_CUT && a->verdict != NH_NONE, "%g", work);
-        nh_result_free(a);
-        nh_result_free(b);
+        nh_analysis_free(a);
+        nh_analysis_free(b);
     }
 }
 
 Test(budget, finds_nothing_is_not_none)
 {
-    nh_result *late = search("systems/crane.yaml", 1e4, 0.01, 1, 330), *poor = search("systems/crane.yaml", 1, 1e6, 1, 330);
+    nh_analysis *late = search("systems/crane.yaml", 1e4, 0.01, 1, 330), *poor = search("systems/crane.yaml", 1, 1e6, 1, 330);
     for (int i = 0; i < 2; i++) {
-        const nh_result *r = i ? poor : late;
+        const nh_analysis *r = i ? poor : late;
         cr_expect_eq(r->search, NH_SEARCH_CUT);
         cr_expect_neq(r->verdict, NH_NONE);
         cr_expect(r->partial);
         cr_expect_gt(r->warnings, 0);
     }
-    nh_result_free(late);
-    nh_result_free(poor);
+    nh_analysis_free(late);
+    nh_analysis_free(poor);
 }
 
 /* The option that a stage names brings it in. */
@@ -101,7 +101,7 @@ Test(budget, names_what_brings_a_stage_in)
 {
     double needed = 0;
     const char *name = NULL;
-    nh_result *r = search("systems/double_pendulum.yaml", 1e4, 1e6, 1, 12), *wider = NULL;
+    nh_analysis *r = search("systems/double_pendulum.yaml", 1e4, 1e6, 1, 12), *wider = NULL;
     for (size_t i = 0; i < r->stages && !name; i++)
         if (r->stage[i].skipped && !strcmp(r->stage[i].limit.option, "stage_columns")) name = r->stage[i].name, needed = r->stage[i].limit.value;
     cr_assert_not_null(name);
@@ -110,14 +110,14 @@ Test(budget, names_what_brings_a_stage_in)
     cr_expect_gt(needed, 12);
     wider = search("systems/double_pendulum.yaml", 1e4, 1e6, 1, needed);
     for (size_t i = 0; i < wider->stages; i++) cr_expect(strcmp(wider->stage[i].name, name) || !wider->stage[i].skipped);
-    nh_result_free(r);
-    nh_result_free(wider);
+    nh_analysis_free(r);
+    nh_analysis_free(wider);
 }
 
 Test(budget, complete_is_not_exhausted)
 {
-    nh_result *all = search("systems/free_particle.yaml", 1e4, 1e6, 1, 330);
+    nh_analysis *all = search("systems/free_particle.yaml", 1e4, 1e6, 1, 330);
     cr_expect_eq(all->search, all->independent == all->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED);
     cr_expect_eq(all->independent, all->local_maximum);
-    nh_result_free(all);
+    nh_analysis_free(all);
 }

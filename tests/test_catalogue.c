@@ -62,14 +62,14 @@ Test(catalogue, the_energy_belongs_to_time)
     nh_analyze_request q = {.system_path = "systems/rattleback.yaml"};
     nh_options_default(&q.options);
     q.options.max_seconds = patience;
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s", error.what);
-    const nh_found *f = r->found;
+    const nh_current *f = r->found;
     cr_assert(r->count > 0 && !strcmp(f->meaning, "minus the energy") && f->has_symmetry);
     cr_expect(nh_is_number(r->model->dag, f->symmetry.Z0, 1));
     for (size_t s = 0; s < r->model->m; s++) cr_expect(nh_is_zero(r->model->dag, f->symmetry.field.space[s]), "along %s", r->system->coordinate[s].name);
     for (size_t i = 0; i < r->model->n; i++) cr_expect(nh_is_zero(r->model->dag, f->symmetry.W[i]), "along velocity %zu", i);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* The check itself: a coordinate and one of the known false currents are caught by it. */
@@ -79,17 +79,17 @@ Test(catalogue, the_multiplier_form_catches_what_is_not_conserved)
     nh_error_clear(&error);
     nh_analyze_request q = {.system_path = "systems/rolling_disk.yaml"};
     nh_options_default(&q.options);
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s", error.what);
     nh_points *at = nh_points_create(r->model, points, 1, 4711, &error);
     cr_assert_not_null(at, "%s", error.what);
-    nh_found x = {.has_in_velocities = true, .in_velocities = r->system->coordinate[0].q}, trap = {.has_in_velocities = true};
+    nh_current x = {.has_in_velocities = true, .in_velocities = r->system->coordinate[0].q}, trap = {.has_in_velocities = true};
     multiplier_motion *motion = multiplier_motion_create(r->model, at, bits);
     cr_expect_gt(rate_of(motion, &x).lower, -3);
     cr_assert_gt(r->system->not_conserved, 0);
     trap.in_velocities = r->system->trap[0].value;
     cr_expect_gt(rate_of(motion, &trap).lower, -3);
-    cr_expect(isnan(rate_of(motion, &(nh_found){0}).upper));
+    cr_expect(isnan(rate_of(motion, &(nh_current){0}).upper));
     /* What is false from the 25th digit on is false. */
     nh_dag *d = r->model->dag;
     trap.in_velocities = nh_add(d, r->found[0].in_velocities, nh_mul(d, nh_pow(d, nh_int(d, 10), nh_int(d, -25)), x.in_velocities));
@@ -102,5 +102,5 @@ Test(catalogue, the_multiplier_form_catches_what_is_not_conserved)
     cr_expect_eq(o.untrue, 2, "%s", o.names);
     multiplier_motion_free(motion);
     nh_points_free(at);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }

@@ -8,35 +8,35 @@
 
 /* ---- what is chosen ---- */
 
-static nh_way run_of(const char *method, nh_velocities velocities, double setting, double error, double effort)
+static nh_integration_plan run_of(const char *method, nh_velocities velocities, double setting, double error, double effort)
 {
     const nh_method *m = nh_method_find(method);
     cr_assert_not_null(m, "%s", method);
-    return (nh_way){m, velocities, m->order ? NAN : setting, m->order ? setting : NAN, error, effort};
+    return (nh_integration_plan){m, velocities, m->order ? NAN : setting, m->order ? setting : NAN, error, effort};
 }
 
 Test(choice, the_cheapest_counts_with_its_confirmation)
 {
-    nh_way w[] = {run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-8, 1e-9, 3),         run_of("CVODE Adams", NH_OWN_VELOCITIES, 1e-8, 1e-9, 2),
+    nh_integration_plan w[] = {run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-8, 1e-9, 3),         run_of("CVODE Adams", NH_OWN_VELOCITIES, 1e-8, 1e-9, 2),
                   run_of("GSL rk8pd", NH_ALL_COORDINATES, 1e-8, 1e-9, 2.5),      run_of("relaxation, order 8", NH_OWN_VELOCITIES, 0.1, 1e-9, 1),
                   run_of("GSL rkf45", NH_OTHER_VELOCITIES, 1e-8, 1e-9, 1.2),     run_of("GSL rkf45", NH_OWN_VELOCITIES, 1e-4, 1e-5, 0.1)};
     size_t n = sizeof w / sizeof *w;
-    nh_way_limits all = {.other = true, .spacing = 1}, plain = {.spacing = 1}, scene = {.scene = true, .other = true, .spacing = 1}, dense = {.spacing = 0.01};
-    nh_way_choice c = nh_way_cheapest(n, w, 1e-8, &all);
+    nh_integration_plan_limits all = {.other = true, .spacing = 1}, plain = {.spacing = 1}, scene = {.scene = true, .other = true, .spacing = 1}, dense = {.spacing = 0.01};
+    nh_integration_plan_choice c = nh_integration_plan_cheapest(n, w, 1e-8, &all);
     cr_expect(c.way == &w[4] && fabs(c.next - (2 * 1 + 2) / 2.4) < 1e-12, "%g", c.next); /* the relaxed steps with CVODE Adams to confirm them */
-    c = nh_way_cheapest(n, w, 1e-8, &plain);
+    c = nh_integration_plan_cheapest(n, w, 1e-8, &plain);
     cr_expect(c.way == &w[3] && c.second == w[1].method);
-    c = nh_way_cheapest(n, w, 1e-8, &dense); /* steps end at the outputs: shorter ones than that were not measured */
+    c = nh_integration_plan_cheapest(n, w, 1e-8, &dense); /* steps end at the outputs: shorter ones than that were not measured */
     cr_expect(c.way == &w[2] && c.second == w[1].method, "%s", c.way->method->name);
-    c = nh_way_cheapest(n, w, 1e-8, &scene);
+    c = nh_integration_plan_cheapest(n, w, 1e-8, &scene);
     cr_expect(c.way == &w[0]); /* 6 against 4 + 3 */
-    cr_expect(nh_way_cheapest(n, w, 1e-3, &scene).way == &w[5]);
-    cr_expect(nh_way_cheapest(n, w, 1e-10, &all).way == NULL);
-    cr_expect_float_eq(nh_way_setting(&w[3], 1e-9 / 256), 0.05, 1e-12);
-    cr_expect_float_eq(nh_way_setting(&w[0], 1e-9), 1e-8, 1e-20);
+    cr_expect(nh_integration_plan_cheapest(n, w, 1e-3, &scene).way == &w[5]);
+    cr_expect(nh_integration_plan_cheapest(n, w, 1e-10, &all).way == NULL);
+    cr_expect_float_eq(nh_integration_plan_setting(&w[3], 1e-9 / 256), 0.05, 1e-12);
+    cr_expect_float_eq(nh_integration_plan_setting(&w[0], 1e-9), 1e-8, 1e-20);
 }
 
-static nh_trajectory *accurate(const mechanics *x, const nh_model *other, const nh_state *initial, size_t count, double until, double eps, size_t ways, const nh_way *way, nh_accuracy *a)
+static nh_trajectory *accurate(const mechanics *x, const nh_model *other, const nh_state *initial, size_t count, double until, double eps, size_t ways, const nh_integration_plan *way, nh_accuracy *a)
 {
     nh_options options;
     nh_error error = {0};
@@ -45,7 +45,7 @@ static nh_trajectory *accurate(const mechanics *x, const nh_model *other, const 
     for (size_t i = 0; i < count; i++) times[i] = initial->t + until * (double)i / (double)(count - 1);
     nh_ex e[2] = {formula(x->model, "phi"), formula(x->model, "omega")};
     nh_trajectory_request q = {.model = x->model, .other = other, .initial = initial, .count = count, .times = times, .options = &options, .n = 2, .e = e};
-    nh_ways from = {.count = ways, .way = way};
+    nh_integration_plans from = {.count = ways, .way = way};
     nh_trajectory *t = nh_trajectory_accurate(&q, eps, &from, a, &error);
     nh_free(times);
     return t;
@@ -73,7 +73,7 @@ Test(choice, every_way_meets_the_closed_form)
     double q[3] = {0}, v[3] = {2, 0, 0}, until = 1.2; /* before cos(phi) = 0, where the coordinate velocities end */
     nh_state initial = {.q = q, .v = v};
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
-        nh_way w = run_of(ways[i].method, ways[i].velocities, ways[i].setting, ways[i].error, 1e4);
+        nh_integration_plan w = run_of(ways[i].method, ways[i].velocities, ways[i].setting, ways[i].error, 1e4);
         nh_accuracy a;
         double eps = 1e-8;
         nh_trajectory *t = accurate(&x, other, &initial, ways[i].count, w.velocities == NH_OTHER_VELOCITIES ? 0.6 : until, eps, 1, &w, &a);
@@ -99,7 +99,7 @@ Test(choice, what_does_not_do_is_replaced)
     nh_model *other = nh_model_create(x.system, nh_chart_create(x.system, NH_CHART_COORDINATES, 1, &error), &error);
     double q[3] = {0}, v[3] = {2, 0, 0};
     nh_state initial = {.q = q, .v = v};
-    nh_way through = run_of("GSL rk8pd", NH_OTHER_VELOCITIES, 1e-9, 1e-9, 1e4), loose = run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-4, 1e-3, 1e4);
+    nh_integration_plan through = run_of("GSL rk8pd", NH_OTHER_VELOCITIES, 1e-9, 1e-9, 1e4), loose = run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-4, 1e-3, 1e4);
     nh_accuracy a;
     nh_trajectory *t = accurate(&x, other, &initial, 5, 6, 1e-8, 1, &through, &a);
     cr_assert(t && a.held, "%s", a.why);
@@ -118,20 +118,20 @@ Test(choice, what_does_not_do_is_replaced)
 /* Another way has to save three tenths beside what remains of the best so far; where that is done with its first run it goes on without being measured again. */
 Test(choice, a_survey_changes_only_what_pays)
 {
-    nh_survey v = {.count = 3, .way = {run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-8, 1e-9, 3), run_of("ARKODE Verner", NH_OWN_VELOCITIES, 1e-8, 1e-9, 2.7), run_of("GSL rkf45", NH_OWN_VELOCITIES, 1e-8, 1e-7, 0.1)}};
+    nh_pilot_runs v = {.count = 3, .way = {run_of("GSL rk8pd", NH_OWN_VELOCITIES, 1e-8, 1e-9, 3), run_of("ARKODE Verner", NH_OWN_VELOCITIES, 1e-8, 1e-9, 2.7), run_of("GSL rkf45", NH_OWN_VELOCITIES, 1e-8, 1e-7, 0.1)}};
     const nh_method *best = v.way[0].method;
-    nh_way_limits limits = {.spacing = 1};
-    nh_way_choice c = nh_survey_choose(&v, best, 1e-8, &limits, false);
+    nh_integration_plan_limits limits = {.spacing = 1};
+    nh_integration_plan_choice c = nh_pilot_runs_choose(&v, best, 1e-8, &limits, false);
     cr_expect(c.way == &v.way[0] && c.next == 1, "%g", c.next);
-    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, true).way == NULL);
+    cr_expect(nh_pilot_runs_choose(&v, best, 1e-8, &limits, true).way == NULL);
     v.way[1].effort = 2;
-    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, false).way == &v.way[1]);
-    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, true).way == NULL); /* two runs of 2 against one of 3 */
+    cr_expect(nh_pilot_runs_choose(&v, best, 1e-8, &limits, false).way == &v.way[1]);
+    cr_expect(nh_pilot_runs_choose(&v, best, 1e-8, &limits, true).way == NULL); /* two runs of 2 against one of 3 */
     v.way[1].effort = 1;
-    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, true).way == &v.way[1]);
-    cr_expect(nh_survey_choose(&v, best, 1e-12, &limits, true).way == NULL);
+    cr_expect(nh_pilot_runs_choose(&v, best, 1e-8, &limits, true).way == &v.way[1]);
+    cr_expect(nh_pilot_runs_choose(&v, best, 1e-12, &limits, true).way == NULL);
     v.way[0].error = 1e-7; /* the best so far was not measured below eps: whatever was */
-    cr_expect(nh_survey_choose(&v, best, 1e-8, &limits, true).way == &v.way[1]);
+    cr_expect(nh_pilot_runs_choose(&v, best, 1e-8, &limits, true).way == &v.way[1]);
 }
 
 /* ---- counted work ---- */
@@ -173,7 +173,7 @@ Test(choice, reductions_count_too)
         nh_error error = {0};
         nh_reduce_request q = {.system_path = "systems/sleigh.yaml", .accuracy = 1e-6};
         nh_options_default(&q.options);
-        nh_reduction *r = nh_reduce(&q, &error);
+        nh_reduction *r = nh_reduction_create(&q, &error);
         must(r != NULL, &error, "sleigh");
         cr_expect(r->full.held && r->full.effort > 1000, "%s", r->full.why);
         effort[i] = r->full.effort;

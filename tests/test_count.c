@@ -237,7 +237,7 @@ static problem problem_of(const char *text)
     must(p.model != NULL, &error, "the model");
     p.known = nh_alloc_array(p.system->currents + 1, sizeof *p.known);
     for (size_t k = 0; k < p.system->currents; k++)
-        must(nh_analysis_to_chart(p.model, p.system->current[k].value, &p.known[p.count++], &error), &error, "a current");
+        must(nh_analysis_file_to_chart(p.model, p.system->current[k].value, &p.known[p.count++], &error), &error, "a current");
     return p;
 }
 

@@ -182,7 +182,7 @@ Test(distribution, a_chart_has_no_part_in_it)
 
 /* ---- the functions ---- */
 
-static nh_result *analysed(const char *text, nh_error *error)
+static nh_analysis *analysed(const char *text, nh_error *error)
 {
     FILE *file = fopen("build/hidden_test.yaml", "w");
     cr_assert_not_null(file);
@@ -191,7 +191,7 @@ static nh_result *analysed(const char *text, nh_error *error)
     nh_analyze_request q = {.system_path = "build/hidden_test.yaml"};
     nh_options_default(&q.options);
     q.options.max_seconds = 60;
-    return nh_analyze(&q, error);
+    return nh_analysis_create(&q, error);
 }
 
 #define THREE "coordinates: [x, y, z]\nlagrangian: x'^2/2 + y'^2 + z'^2/2 - x*y\ndomain: {x: [0.2, 1.3], y: [0.2, 1.1], z: [0.3, 1.2]}\n"
@@ -219,12 +219,12 @@ Test(distribution, the_functions_that_constraints_conserve)
         if (!sweep_tries(i, 2, 8)) continue;
         nh_error error;
         nh_error_clear(&error);
-        nh_result *r = analysed(FUNCTIONS[i].text, &error);
+        nh_analysis *r = analysed(FUNCTIONS[i].text, &error);
         must(r != NULL, &error, FUNCTIONS[i].text);
         cr_expect_eq(r->constraint.hidden, FUNCTIONS[i].hidden, "%s: %zu hidden", FUNCTIONS[i].text, r->constraint.hidden);
         cr_assert_eq(r->integrals, FUNCTIONS[i].found, "%s: %zu functions", FUNCTIONS[i].text, r->integrals);
         for (size_t j = 0; j < r->integrals; j++) {
-            const nh_found *f = &r->found[r->integral[j]];
+            const nh_current *f = &r->found[r->integral[j]];
             nh_ex pair[2] = {formula(r->model, FUNCTIONS[i].function), f->phi};
             nh_independence kind[2];
             nh_points *points = nh_points_create(r->model, 24, 1, 99, &error);
@@ -234,6 +234,6 @@ Test(distribution, the_functions_that_constraints_conserve)
             cr_expect_str_eq(f->meaning, "integral of the constraints");
             nh_points_free(points);
         }
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }

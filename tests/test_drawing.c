@@ -132,13 +132,13 @@ Test(drawing, a_portrait)
     nh_analyze_request q = {.system_path = "systems/snakeboard.yaml"};
     nh_options_default(&q.options);
     q.options.max_seconds = 0.05;
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s", error.what);
-    nh_course *c = nh_course_of_result(r);
+    nh_time_series *c = nh_time_series_of_analysis(r);
     cr_assert_not_null(c);
     nh_text text;
     nh_text_init(&text);
-    cr_expect(nh_portrait(c, "a < b", &text));
+    cr_expect(nh_thumbnail(c, "a < b", &text));
     const char *svg = nh_text_string(&text);
     cr_expect_not_null(strstr(svg, "<title>a &lt; b</title>"));
     cr_expect_null(strstr(svg, "nan"));
@@ -148,6 +148,6 @@ Test(drawing, a_portrait)
     for (const char *l = svg; (l = strstr(l, "<line ")); l++) lines++;
     cr_expect_eq(lines, 4u, "two rods and two wheels, not %zu", lines);
     nh_text_clear(&text);
-    nh_course_free(c);
-    nh_result_free(r);
+    nh_time_series_free(c);
+    nh_analysis_free(r);
 }

@@ -8,7 +8,7 @@
 #include "scratch.h"
 
 /* Is a current that is not certified conserved to the digits that are reported? */
-static bool holds(const multiplier_motion *motion, const nh_found *f)
+static bool holds(const multiplier_motion *motion, const nh_current *f)
 {
     multiplier_rate rate = rate_of(motion, f);
     return !(rate.upper > fmax(digits_slack - fmin(f->proof.digits, f->printed_digits), rounding));
@@ -24,7 +24,7 @@ static row judged(const char *path, const char *analysis, const char *name, doub
     nh_analyze_request q = {.system_path = path, .analysis_path = analysis, .settings = name != NULL, .setting = &setting};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s = %.17g: %s", name, value, error.what);
     for (size_t j = 0; j < r->model->width; j++) {
         r->model->chart->low[j] = fmin(r->model->chart->low[j], -1.1);
@@ -34,7 +34,7 @@ static row judged(const char *path, const char *analysis, const char *name, doub
     cr_assert_not_null(generic, "%s", error.what);
     multiplier_motion *motion = multiplier_motion_create(r->model, generic, bits);
     for (size_t k = 0; k < r->count; k++) {
-        const nh_found *f = &r->found[k];
+        const nh_current *f = &r->found[k];
         bool certified = f->proof.proved || fmin(f->proof.digits, f->printed_digits) >= r->options.digits;
         if (certified ? rate_of(motion, f).upper > rounding : !holds(motion, f) && r->verdict != NH_UNDECIDED && f->drift.small) o.wrong++, note(&o, "false", f->name);
         o.uncertain += !certified;
@@ -42,7 +42,7 @@ static row judged(const char *path, const char *analysis, const char *name, doub
     o.found = r->independent;
     multiplier_motion_free(motion);
     nh_points_free(generic);
-    nh_result_free(r);
+    nh_analysis_free(r);
     return o;
 }
 

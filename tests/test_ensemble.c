@@ -88,7 +88,7 @@ static size_t compare(const char *path, nh_chart_choice choice, size_t members, 
         nh_dynamics *d = nh_dynamics_create(o);
         nh_flow_problem problem = nh_dynamics_problem(d);
         nh_flow_options how = {.rtol = 1e-12};
-        nh_motion *motion = nh_explicit(NH_RK8PD, &problem, initial + k * size, COUNT, times, &how, &error);
+        nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, &problem, initial + k * size, COUNT, times, &how, &error);
         if (all->alone == 0 && motion && motion->complete) {
             double *value = nh_alloc_array(COUNT * n, sizeof *value);
             nh_along(d, motion, n, e, value);

@@ -47,7 +47,7 @@ static const claim claims[] = {
     {"sec. 3.3: \"f Gamma is one only if dLbar annihilates the distribution\": but Gamma/Lbar always is", GAMMA("1/" LBAR), true, true, 0},
 };
 
-static nh_verdict_of_one *verdict_of(const char *text, bool field, double k)
+static nh_verification *verdict_of(const char *text, bool field, double k)
 {
     nh_error error = {0};
     nh_options options;
@@ -56,7 +56,7 @@ static nh_verdict_of_one *verdict_of(const char *text, bool field, double k)
     nh_options_default(&options);
     nh_system *y = nh_system_read("systems/sleigh.yaml", 3, setting, &error);
     cr_assert_not_null(y, "%s", error.what);
-    nh_verdict_of_one *v = (field ? nh_verify_field : nh_verify_current)(y, NH_CHART_COORDINATES, text, &options, &error);
+    nh_verification *v = (field ? nh_verification_of_field : nh_verification_of_current)(y, NH_CHART_COORDINATES, text, &options, &error);
     cr_assert_not_null(v, "%s: %s", text, error.what);
     return v;
 }
@@ -65,16 +65,16 @@ Test(errata, what_is_printed_and_what_is_meant)
 {
     for (size_t i = 0; i < sizeof claims / sizeof *claims; i++) {
         const claim *c = &claims[i];
-        nh_verdict_of_one *v = verdict_of(c->text, c->field, c->k);
+        nh_verification *v = verdict_of(c->text, c->field, c->k);
         cr_expect_eq(v->conserved, c->holds, "%s: the program says %s", c->where, v->conserved ? "yes" : "no");
         if (c->holds) cr_expect(v->proof.proved && (c->k || v->proof.all_parameters), "%s: not proved", c->where);
         else cr_expect(v->has_counterexample && v->residual > 1e-6, "%s: no counterexample", c->where);
-        nh_verdict_free(v);
+        nh_verification_free(v);
     }
 }
 
 /* An expression in the coordinate chart of a verdict. */
-static nh_ex formula(const nh_verdict_of_one *v, const char *text)
+static nh_ex formula(const nh_verification *v, const char *text)
 {
     nh_error error = {0};
     nh_ex e;
@@ -82,7 +82,7 @@ static nh_ex formula(const nh_verdict_of_one *v, const char *text)
     return nh_model_compose(v->model, e);
 }
 
-static bool equal(const nh_verdict_of_one *v, nh_ex a, nh_ex b) { return nh_normal_is_zero(v->model->dag, nh_sub(v->model->dag, a, b), 0) == NH_ZERO; }
+static bool equal(const nh_verification *v, nh_ex a, nh_ex b) { return nh_normal_is_zero(v->model->dag, nh_sub(v->model->dag, a, b), 0) == NH_ZERO; }
 
 /* The brackets [Gamma, Z] after (43): that of Z_3 has the opposite sign; Z_1 is case 1 and stays in the canonical distribution, the others are case 3. */
 Test(errata, brackets)
@@ -93,21 +93,21 @@ Test(errata, brackets)
         {PHI3, "a/(phi'*cos(phi))*" R, 3},
     };
     for (size_t i = 0; i < 3; i++) {
-        nh_verdict_of_one *v = verdict_of(list[i].current, false, 0);
+        nh_verification *v = verdict_of(list[i].current, false, 0);
         cr_assert(v->has_symmetry);
         nh_ex found = v->symmetry.bracket_form[0], printed = formula(v, list[i].bracket);
         cr_expect(equal(v, found, printed), "bracket of Z_%zu", i + 1);
         if (i == 2) cr_expect_not(equal(v, found, nh_neg(v->model->dag, printed)), "the sign as printed");
         cr_expect_eq(v->symmetry.kase, list[i].kase, "Z_%zu is case %d", i + 1, v->symmetry.kase);
         cr_expect_eq(v->symmetry.bracket_in_distribution, i == 0);
-        nh_verdict_free(v);
+        nh_verification_free(v);
     }
 }
 
 /* (40) for the field of Phi_1 Phi_2, whose Z^0 depends on phi: x'^2/(a^2 cos phi) must be x'^2/(a^2 cos^2 phi). */
 Test(errata, equation_40)
 {
-    nh_verdict_of_one *v = verdict_of("(" PHI1 ")*(" PHI2 ")", false, 0);
+    nh_verification *v = verdict_of("(" PHI1 ")*(" PHI2 ")", false, 0);
     cr_assert(v->conserved && v->has_symmetry);
     nh_model *o = v->model;
     nh_dag *d = o->dag;
@@ -121,13 +121,13 @@ Test(errata, equation_40)
     nh_ex meant = nh_mul(d, formula(v, "(x'^2/(a^2*cos(phi)^2) + k^2*phi'^2)/2"), nh_diff(d, Z0, phi));
     cr_expect_not(equal(v, rest, printed));
     cr_expect(equal(v, rest, meant));
-    nh_verdict_free(v);
+    nh_verification_free(v);
 }
 
 /* (32): -(m/cos^2 phi) x'' - m sin phi phi' x'/cos^3 phi + m a phi'^2/cos phi = 0 along the motion, and phi'' of the second equation. */
 Test(errata, equations_of_motion)
 {
-    nh_verdict_of_one *v = verdict_of(PHI1, false, 0);
+    nh_verification *v = verdict_of(PHI1, false, 0);
     nh_model *o = v->model;
     nh_dag *d = o->dag;
     nh_ex x = nh_add(d, nh_mul(d, formula(v, "-m/cos(phi)^2"), o->a[1]), formula(v, "-m*sin(phi)*phi'*x'/cos(phi)^3 + m*a*phi'^2/cos(phi)"));
@@ -135,5 +135,5 @@ Test(errata, equations_of_motion)
     cr_expect(equal(v, x, nh_int(d, 0)));
     cr_expect_not(equal(v, printed, nh_int(d, 0)), "the first form as printed, with phi'' for x'' and without its last term");
     cr_expect(equal(v, o->a[0], formula(v, "-phi'*x'/(a*k^2*cos(phi))")));
-    nh_verdict_free(v);
+    nh_verification_free(v);
 }

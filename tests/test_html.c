@@ -155,7 +155,7 @@ static char *both(const place *p, const char *command, const char *const *also, 
 /* Summary, page and LaTeX ask this: coefficients that were recognised need no word about how they were computed. */
 Test(html, a_current_without_proof_says_why)
 {
-    nh_found f = {.exact = true, .asked = true, .refined = 60, .proof = {.digits = 60}};
+    nh_current f = {.exact = true, .asked = true, .refined = 60, .proof = {.digits = 60}};
     cr_expect_str_eq(nh_formula_doubt(&f), " (not proved)");
     f.exact = false;
     cr_expect_str_eq(nh_formula_doubt(&f), " with its coefficients refined");

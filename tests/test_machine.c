@@ -126,7 +126,7 @@ static void expect_interpreter(const char *why)
     cr_expect(nh_tape_words(work) && strstr(nh_tape_words(work), why), "%s", nh_tape_words(work));
     nh_tape_eval(tape, work, in, out);
     cr_expect(out[0] == sin(0.3));
-    nh_tape_hasten(work, 1e-9);
+    nh_tape_jit(work, 1e-9);
     for (int i = 0; i < 5000; i++) nh_tape_eval(tape, work, in, out);
     cr_expect(out[0] == sin(0.3));
     nh_tape_work_free(work);

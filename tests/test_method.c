@@ -246,7 +246,7 @@ Test(method, projection_holds_dependent_currents)
         nh_projection *p = nh_projection_create(o, 4, current, 0, 5, z0);
         nh_flow_problem problem = nh_dynamics_problem(d);
         nh_flow_options how = {.rtol = 1e-5, .after = with ? nh_projection_apply : NULL, .after_context = p};
-        nh_motion *motion = nh_explicit(NH_RKF45, &problem, z0, 2, times, &how, &error);
+        nh_motion *motion = nh_gsl_odeiv(NH_RKF45, &problem, z0, 2, times, &how, &error);
         cr_assert(motion && motion->complete);
         drift[with] = energy_drift(o, motion);
         if (with) {

@@ -67,7 +67,7 @@ static const piecewise PIECEWISE[] = {
 };
 enum { COUNT = sizeof PIECEWISE / sizeof *PIECEWISE };
 
-static nh_result *analysed(const char *text)
+static nh_analysis *analysed(const char *text)
 {
     char path[SCRATCH];
     nh_error error = {0};
@@ -78,7 +78,7 @@ static nh_result *analysed(const char *text)
     nh_analyze_request q = {.system_path = path, .seed_given = true};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     remove(path);
     cr_assert_not_null(r, "%s", error.what);
     return r;
@@ -133,7 +133,7 @@ Test(piecewise, currents_are_continuous_along_motions)
 {
     for (size_t i = 0; i < COUNT; i++) {
         const piecewise *p = &PIECEWISE[i];
-        nh_result *r = analysed(p->text);
+        nh_analysis *r = analysed(p->text);
         row o = {.rate = -INFINITY};
         compare(r, &o);
         cr_expect_eq(o.missing + o.wrong, 0, "%s: %s", p->name, o.names);
@@ -150,7 +150,7 @@ Test(piecewise, currents_are_continuous_along_motions)
             cr_expect(change > 0.02, "%s: the piece %s, %s, changes by %.1e only", p->name, r->piece[k].name, r->piece[k].region, change);
         }
         cr_expect(listed, "%s: nothing holds %s", p->name, p->region);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
@@ -174,7 +174,7 @@ Test(piecewise, smooth_and_rational_currents_hold_everywhere)
         nh_terrain terrain = nh_terrain_of(model, &options, arena);
         for (size_t k = 0; k < 3; k++) {
             nh_ex e = 0, phi = 0;
-            cr_assert(nh_system_expression_text(system, "test", current[i][k], 0, NULL, &e, &error) && nh_analysis_to_chart(model, e, &phi, &error), "%s", error.what);
+            cr_assert(nh_system_expression_text(system, "test", current[i][k], 0, NULL, &e, &error) && nh_analysis_file_to_chart(model, e, &phi, &error), "%s", error.what);
             nh_region region = nh_region_of(model, &terrain, phi, 20, &options, arena);
             cr_expect_eq(region.count, 0, "%s: %s", current[i][k], nh_region_text(model->dag, &region, arena));
         }
@@ -201,11 +201,11 @@ Test(piecewise, a_single_current_is_told_its_region)
         nh_options options;
         nh_options_default(&options);
         snprintf(text, sizeof text, "name: asked\ncoordinates: [{name: x, type: length}]\nlagrangian: %s\n", asked[i].lagrangian);
-        nh_verdict_of_one *v = nh_verify_current(nh_system_parse("asked.yaml", text, 0, NULL, &error), NH_CHART_AUTO, asked[i].current, &options, &error);
+        nh_verification *v = nh_verification_of_current(nh_system_parse("asked.yaml", text, 0, NULL, &error), NH_CHART_AUTO, asked[i].current, &options, &error);
         cr_assert_not_null(v, "%s: %s", asked[i].current, error.what);
         cr_expect_eq(v->conserved, asked[i].region == NULL, "%s", asked[i].current);
         if (asked[i].region) cr_expect_str_eq(v->region, asked[i].region);
         else cr_expect_null(v->region, "%s: %s", asked[i].current, v->region);
-        nh_verdict_free(v);
+        nh_verification_free(v);
     }
 }

@@ -49,7 +49,7 @@ static const published PUBLISHED[] = {
 };
 enum { PUBLISHED_COUNT = sizeof PUBLISHED / sizeof *PUBLISHED };
 
-static nh_result *analysed(const char *text, double construct_work)
+static nh_analysis *analysed(const char *text, double construct_work)
 {
     char path[SCRATCH];
     FILE *out = scratch_open(path);
@@ -61,13 +61,13 @@ static nh_result *analysed(const char *text, double construct_work)
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     if (construct_work >= 0) q.options.construct = construct_work;
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     remove(path);
     cr_assert_not_null(r, "%s", error.what);
     return r;
 }
 
-static size_t independent_and_proved(const nh_result *r)
+static size_t independent_and_proved(const nh_analysis *r)
 {
     size_t n = 0;
     for (size_t k = 0; k < r->count; k++) n += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.proved;
@@ -80,31 +80,31 @@ Test(published, published_systems_are_complete_and_proved)
     for (size_t i = 0; i < PUBLISHED_COUNT; i++) {
         if (!sweep_tries(i, 2, 6)) continue;
         const published *u = &PUBLISHED[i];
-        nh_result *r = analysed(u->text, -1);
+        nh_analysis *r = analysed(u->text, -1);
         const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
         row o = {.rate = -INFINITY};
         compare(r, &o);
         cr_expect_eq(o.wrong, 0, "%s: %s", u->name, o.names);
         cr_expect_geq(independent_and_proved(r), u->proved, "%s: %zu proved", u->name, independent_and_proved(r));
         cr_expect(c->counted && c->degree >= u->degree && !c->missing_at, "%s: complete to degree %zu", u->name, c->degree);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
 /* Coefficients over all parameters, not for the values of the file only. */
 Test(published, what_is_constructed_is_proved_for_all_parameters)
 {
-    nh_result *r = analysed(PUBLISHED[1].text, -1);
+    nh_analysis *r = analysed(PUBLISHED[1].text, -1);
     for (size_t k = 0; k < r->count; k++) cr_expect(!r->found[k].proof.proved || r->found[k].proof.all_parameters, "Phi%zu", k + 1);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 Test(published, without_work_nothing_is_constructed_and_that_is_said)
 {
-    nh_result *r = analysed(PUBLISHED[0].text, 0);
+    nh_analysis *r = analysed(PUBLISHED[0].text, 0);
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
     cr_expect_eq(r->independent, 1);
     cr_expect_eq(c->missing_at, 4);
     cr_expect_eq(c->missing, 1);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }

@@ -14,7 +14,7 @@ static nh_reduction *reduce_path(const char *path, const char *group, const char
     nh_reduce_request q = {.system_path = path, .group = group, .chain = chain, .initial = initial};
     nh_options_default(&q.options);
     q.options.seed = (double)seed;
-    return nh_reduce(&q, error);
+    return nh_reduction_create(&q, error);
 }
 
 /* A system written to a file of its own. */
@@ -224,7 +224,7 @@ Test(reduce, velocities_off_the_constraints)
     nh_reduce_request q = {.system_path = "systems/sleigh_inertia.yaml", .initial = "h=0.3, x'=1, y'=1, h'=0.2", .project = true};
     nh_options_default(&q.options);
     nh_error_clear(&error);
-    nh_reduction *r = nh_reduce(&q, &error);
+    nh_reduction *r = nh_reduction_create(&q, &error);
     must(r != NULL, &error, "projected");
     cr_expect_float_eq(r->initial.v[0] * sin(0.3) - r->initial.v[1] * cos(0.3), 0, 1e-12);
     nh_reduction_free(r);

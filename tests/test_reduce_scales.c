@@ -90,7 +90,7 @@ static nh_reduction *reduced(const moving *s, const units *u, bool given)
     nh_reduce_request q = {.system_path = path, .initial = initial, .group = given ? s->group : NULL};
     nh_options_default(&q.options);
     q.options.until = 10 * u->time;
-    nh_reduction *r = nh_reduce(&q, &error);
+    nh_reduction *r = nh_reduction_create(&q, &error);
     remove(path);
     cr_assert_not_null(r, "%s in units %g, %g, %g: %s", s->name, u->length, u->mass, u->time, error.what);
     return r;
@@ -164,7 +164,7 @@ Test(reduce_scales, velocities_off_the_constraints)
         nh_reduce_request q = {.system_path = path, .initial = initial};
         nh_options_default(&q.options);
         q.options.until = 10 / size[i] < 1e9 ? 10 / size[i] : 1e9;
-        cr_expect_null(nh_reduce(&q, &error), "velocities of size %g are taken", size[i]);
+        cr_expect_null(nh_reduction_create(&q, &error), "velocities of size %g are taken", size[i]);
         cr_expect(strstr(error.what, "violate the constraints"), "%s", error.what);
         nh_error_clear(&error);
         remove(path);

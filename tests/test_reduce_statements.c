@@ -27,7 +27,7 @@ static told tell_file(const char *path, size_t settings, const nh_setting *setti
     nh_error error = {0};
     nh_reduce_request q = {.system_path = path, .settings = settings, .setting = setting};
     nh_options_default(&q.options);
-    t.r = nh_reduce(&q, &error);
+    t.r = nh_reduction_create(&q, &error);
     must(t.r != NULL, &error, path);
     nh_text html;
     nh_text_init(&t.text), nh_text_init(&t.page), nh_text_init(&html);
@@ -197,7 +197,7 @@ Test(reduce_statements, stages_that_are_local)
     nh_error error = {0};
     nh_reduce_request q = {.system_path = path};
     nh_options_default(&q.options);
-    nh_reduction *r = nh_reduce(&q, &error);
+    nh_reduction *r = nh_reduction_create(&q, &error);
     remove(path);
     must(r != NULL, &error, "coiled");
     size_t local = 0;
@@ -266,7 +266,7 @@ static void refuses(const char *text, const char *words)
     nh_reduce_request q = {.system_path = path};
     nh_options_default(&q.options);
     cr_assert(scratch_text(path, text));
-    nh_reduction *r = nh_reduce(&q, &error);
+    nh_reduction *r = nh_reduction_create(&q, &error);
     cr_expect(!r && error.code == NH_INPUT && strstr(error.what, words) && *error.hint, "%s: %d %s %s", words, error.code, error.what, error.hint);
     nh_reduction_free(r);
     remove(path);

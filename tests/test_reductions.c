@@ -18,7 +18,7 @@ static nh_reduction *reduce_file(const char *path, const char *initial, nh_error
 {
     nh_reduce_request q = {.system_path = path, .initial = initial};
     nh_options_default(&q.options);
-    return nh_reduce(&q, error);
+    return nh_reduction_create(&q, error);
 }
 
 static nh_reduction *reduce_text(const char *text, nh_error *error)
@@ -110,7 +110,7 @@ Test(reductions, drift_of_a_small_difference)
     nh_options_default(&q.options);
     q.options.until = 27;
     cr_assert(scratch_text(path, text));
-    nh_reduction *r = nh_reduce(&q, &error);
+    nh_reduction *r = nh_reduction_create(&q, &error);
     remove(path);
     must(r != NULL, &error, "saddle");
     followed(r, "saddle");
@@ -316,7 +316,7 @@ static nh_reduction *reduce_weak(const char *path, nh_error *error)
 {
     nh_reduce_request q = {.system_path = path, .weak = true};
     nh_options_default(&q.options);
-    return nh_reduce(&q, error);
+    return nh_reduction_create(&q, error);
 }
 
 static bool conserved(const nh_reduction *r, const char *text)

@@ -28,21 +28,21 @@ static nh_options patient(void)
 
 /* What a person reads off. */
 typedef struct {
-    nh_result *r;
+    nh_analysis *r;
     nh_ex *current; /* independent ones, in t, q, q' */
     size_t count, certified;
 } answer;
 
-static nh_result *analysis_of(const char *path, const nh_options *options, nh_chart_choice chart)
+static nh_analysis *analysis_of(const char *path, const nh_options *options, nh_chart_choice chart)
 {
     nh_error error = {0};
     nh_analyze_request q = {.system_path = path, .options = *options, .seed_given = true, .chart = chart};
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s: %s", path, error.what);
     return r;
 }
 
-static size_t certified(const nh_result *r)
+static size_t certified(const nh_analysis *r)
 {
     size_t n = 0;
     for (size_t k = 0; k < r->count; k++) n += r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits;
@@ -66,7 +66,7 @@ static answer answer_of(const char *name, const nh_options *options)
 static void answer_clear(answer *a)
 {
     nh_free(a->current);
-    nh_result_free(a->r);
+    nh_analysis_free(a->r);
 }
 
 /* The changed system gives the same verdict and the same currents; `what` was changed. */
@@ -79,7 +79,7 @@ static void expect_same(const answer *a, const char *name, const char *what, con
     how.current = a->current;
     rewrite_system(a->r->system, &how, out);
     fclose(out);
-    nh_result *r = analysis_of(path, options, chart);
+    nh_analysis *r = analysis_of(path, options, chart);
     row o = {.rate = -INFINITY};
     compare(r, &o);
     cr_expect_eq(r->verdict, a->r->verdict, "%s, %s: verdict %d, was %d", name, what, (int)r->verdict, (int)a->r->verdict);
@@ -88,7 +88,7 @@ static void expect_same(const answer *a, const char *name, const char *what, con
     cr_expect_eq(o.missing, 0, "%s, %s: %s", name, what, o.names);
     cr_expect_eq(o.wrong, 0, "%s, %s: %s", name, what, o.names);
     cr_expect_eq(r->count - certified(r), a->r->count - a->certified, "%s, %s: %zu of %zu certified, were %zu of %zu", name, what, certified(r), r->count, a->certified, a->r->count);
-    nh_result_free(r);
+    nh_analysis_free(r);
     remove(path);
 }
 

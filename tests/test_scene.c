@@ -40,22 +40,22 @@ static void start_at_probe(const nh_model *o, size_t p, nh_state *out)
     values_at(o, o->m, o->rho, point, out->v);
 }
 
-static nh_scene *scene_of(const nh_model *o, const char *text)
+static nh_closed_subsystem *scene_of(const nh_model *o, const char *text)
 {
     nh_ex e = formula(o, text);
-    return nh_scene_create(o, 1, &e, 0, NULL);
+    return nh_closed_subsystem_create(o, 1, &e, 0, NULL);
 }
 
 static void expect_scene(const nh_model *o, const char *watched, size_t core, size_t quadratures)
 {
-    nh_scene *s = scene_of(o, watched);
+    nh_closed_subsystem *s = scene_of(o, watched);
     nh_text words;
     nh_text_init(&words);
-    nh_scene_words(s, &words);
+    nh_closed_subsystem_words(s, &words);
     cr_expect(s->core == core && s->quadratures == quadratures && s->kept == core + quadratures, "%s: %s", watched, nh_text_string(&words));
     cr_expect_leq(s->instructions, s->instructions_of_all);
     nh_text_clear(&words);
-    nh_scene_free(s);
+    nh_closed_subsystem_free(s);
 }
 
 Test(scene, what_feeds_what)
@@ -85,7 +85,7 @@ Test(scene, what_cancels_is_not_read)
     mechanics_clear(&x);
 }
 
-static const nh_scene *scene_along(nh_trajectory **t, const nh_model *o, const double *at, const char *watched, const char *known)
+static const nh_closed_subsystem *scene_along(nh_trajectory **t, const nh_model *o, const double *at, const char *watched, const char *known)
 {
     nh_state initial = {.q = (double *)at, .v = (double *)at + o->m};
     nh_ex e = formula(o, watched), current = known ? formula(o, known) : 0;
@@ -102,7 +102,7 @@ Test(scene, the_crane_and_its_car)
     double f = 1, s = 0.3, turn = f * sin(0.4) / 2.6;
     at[8] = f * cos(0.4), at[10] = turn, at[11] = s, at[12] = 0.2, at[13] = (f - 0.8 * (s + turn)) / 0.35, at[14] = (f + 0.8 * (s + turn)) / 0.35, at[15] = 0.1;
     nh_trajectory *t;
-    const nh_scene *c = scene_along(&t, x.model, at, "x", NULL);
+    const nh_closed_subsystem *c = scene_along(&t, x.model, at, "x", NULL);
     cr_expect(c->core == 3 && c->quadratures == 2 && !c->levels && c->instructions < c->instructions_of_all * 2 / 3, "%zu, %zu, %zu", c->core, c->quadratures, c->levels);
     nh_trajectory_free(t);
     c = scene_along(&t, x.model, at, "x", "theta' + psi1'");
@@ -120,7 +120,7 @@ Test(scene, cyclic_momenta)
     mechanics x = mechanics_of_file("systems/spherical_pendulum.yaml", NH_CHART_AUTO, 0, NULL);
     const double at[4] = {0.7, 0, 0.1, 0.9};
     nh_trajectory *t, *all;
-    const nh_scene *s = scene_along(&t, x.model, at, x.system->coordinate[0].name, NULL);
+    const nh_closed_subsystem *s = scene_along(&t, x.model, at, x.system->coordinate[0].name, NULL);
     cr_expect(s->kept == 2 && s->levels == 1, "%zu, %zu", s->kept, s->levels);
     nh_state initial = {.q = (double *)at, .v = (double *)at + 2};
     nh_ex e = x.system->coordinate[0].q;
@@ -145,7 +145,7 @@ Test(scene, places_and_useless_currents)
     nh_ex current[8], e = formula(x.model, "x1");
     nh_error error = {0};
     size_t n = 0;
-    for (size_t k = 0; k < x.system->currents; k++) n += nh_analysis_to_chart(x.model, x.system->current[k].value, &current[n], &error);
+    for (size_t k = 0; k < x.system->currents; k++) n += nh_analysis_file_to_chart(x.model, x.system->current[k].value, &current[n], &error);
     double at[12] = {1, 0, -1, 0, 0, 1.3, 0.1, 0, 0, 0.4, 0, 0};
     nh_state initial = {.q = at, .v = at + 6};
     nh_trajectory *few = motion_of(x.model, &initial, 1, &e, true, n, current), *all = motion_of(x.model, &initial, 1, &e, false, 0, NULL);
@@ -184,10 +184,10 @@ Test(scene, a_current_that_ceases_to_determine)
 Test(scene, quadratures_are_in_order)
 {
     mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_AUTO, 0, NULL);
-    nh_scene *s = scene_of(x.model, "x + y");
+    nh_closed_subsystem *s = scene_of(x.model, "x + y");
     cr_assert_eq(s->kept, 5);
-    cr_expect_str_eq(nh_scene_state_name(s, s->state[2]), "phi", "%s", nh_scene_state_name(s, s->state[2]));
-    nh_scene_free(s);
+    cr_expect_str_eq(nh_closed_subsystem_state_name(s, s->state[2]), "phi", "%s", nh_closed_subsystem_state_name(s, s->state[2]));
+    nh_closed_subsystem_free(s);
     mechanics_clear(&x);
 }
 
@@ -223,13 +223,13 @@ static void expect_idle(const char *inertia, const char *at, const char *watched
     char text[800];
     snprintf(text, sizeof text, rotor, inertia, at);
     mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
-    nh_scene *s = scene_of(x.model, watched);
+    nh_closed_subsystem *s = scene_of(x.model, watched);
     nh_text idle;
     nh_text_init(&idle);
-    nh_scene_idle_words(s, &idle);
+    nh_closed_subsystem_idle_words(s, &idle);
     cr_expect_str_eq(nh_text_string(&idle), words, "%s, %s, %s: %s", inertia, at, watched, nh_text_string(&idle));
     nh_text_clear(&idle);
-    nh_scene_free(s);
+    nh_closed_subsystem_free(s);
     mechanics_clear(&x);
 }
 
@@ -247,7 +247,7 @@ static nh_simulation *simulate_watching(const char *path, const char *initial, c
     nh_error error = {0};
     nh_simulate_request q = {.system_path = path, .initial = initial, .watch = watch, .step = 5, .accuracy = accuracy};
     nh_options_default(&q.options);
-    nh_simulation *s = nh_simulate(&q, &error);
+    nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, path);
     return s;
 }
@@ -276,7 +276,7 @@ Test(scene, a_start_where_the_chart_ends)
         nh_error error = {0};
         nh_simulate_request q = {.system_path = all[i].path, .initial = all[i].initial, .watch = "y", .step = 5, .chart = NH_CHART_COORDINATES};
         nh_options_default(&q.options);
-        nh_simulation *s = nh_simulate(&q, &error);
+        nh_simulation *s = nh_simulation_create(&q, &error);
         must(s != NULL, &error, all[i].path);
         cr_expect(s->motion->complete && fabs(s->value[s->motion->count - 1] - 10) < 1e-7, "%.12g", s->value[s->motion->count - 1]);
         nh_simulation_free(s);
@@ -295,14 +295,14 @@ Test(scene, the_chart_that_keeps_fewest_states)
     nh_simulate_request q = {.system_path = path, .initial = "x=1, x'=0.5", .watch = "x", .until_given = true};
     nh_options_default(&q.options);
     q.options.until = 2;
-    nh_simulation *s = nh_simulate(&q, &error);
+    nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, path);
     cr_expect(s->trajectory->scene && s->trajectory->scene->kept == 2, "%s", s->scene);
     size_t last = s->motion->count - 1;
     cr_expect_float_eq(s->value[last * s->columns.count], cos(2.0) + 0.5 * sin(2.0), 1e-8);
     nh_simulation_free(s);
     q = (nh_simulate_request){.system_path = "systems/sleigh.yaml", .initial = "omega=2", .watch = "omega", .until_given = true, .options = q.options};
-    s = nh_simulate(&q, &error);
+    s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, "sleigh");
     cr_expect(s->trajectory->scene->kept == 2 && s->model->chart->quasi, "%s", s->scene);
     nh_simulation_free(s);
@@ -344,7 +344,7 @@ static void compare_on(const char *path, nh_chart_choice choice)
     nh_error ignored = {0};
     size_t known = 0;
     nh_ex *current = nh_alloc_array(x.system->currents + 1, sizeof *current);
-    for (size_t k = 0; k < x.system->currents; k++) known += nh_analysis_to_chart(o, x.system->current[k].value, &current[known], &ignored);
+    for (size_t k = 0; k < x.system->currents; k++) known += nh_analysis_file_to_chart(o, x.system->current[k].value, &current[known], &ignored);
     double *at = nh_alloc_array(2 * o->m, sizeof *at);
     nh_state initial = {.q = at, .v = at + o->m};
     for (size_t trial = 0; trial < 3 && trial < o->chart->probes; trial++) {

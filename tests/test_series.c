@@ -13,21 +13,21 @@
 
 /* ---- asking ---- */
 
-static nh_result *ask(const char *text)
+static nh_analysis *ask(const char *text)
 {
     char path[SCRATCH];
     cr_assert(scratch_text(path, text));
     nh_error error = {0};
     nh_analyze_request request = {.system_path = path};
     nh_options_default(&request.options);
-    nh_result *r = nh_analyze(&request, &error);
+    nh_analysis *r = nh_analysis_create(&request, &error);
     remove(path);
     cr_assert_not_null(r, "%s", error.what);
     return r;
 }
 
 /* f of word i at x, by Clenshaw's recurrence; 0 for a word that does not occur. */
-static double f_of(const nh_result *r, const nh_series *s, const char *word, double x)
+static double f_of(const nh_analysis *r, const nh_series *s, const char *word, double x)
 {
     double u = (2 * x - s->low - s->high) / (s->high - s->low), b = 0, c = 0;
     for (size_t i = 0; i < s->words; i++) {
@@ -43,7 +43,7 @@ static double f_of(const nh_result *r, const nh_series *s, const char *word, dou
     return b;
 }
 
-static size_t count_series(const nh_result *r)
+static size_t count_series(const nh_analysis *r)
 {
     size_t n = 0;
     for (size_t k = 0; k < r->count; k++) n += r->found[k].series != NULL;
@@ -51,10 +51,10 @@ static size_t count_series(const nh_result *r)
 }
 
 /* Every series is certified, new, and constant along the motion; how many there are. */
-static size_t check_series(const nh_result *r, const char *name)
+static size_t check_series(const nh_analysis *r, const char *name)
 {
     for (size_t k = 0; k < r->count; k++) {
-        const nh_found *f = &r->found[k];
+        const nh_current *f = &r->found[k];
         if (!f->series) continue;
         cr_expect(f->proof.digits >= 50 && f->printed_digits >= 9 && f->heldout < 1e-8,
                   "%s: %g refined, %g printed, %.1e", name, f->proof.digits, f->printed_digits, f->heldout);
@@ -81,7 +81,7 @@ static const char *const disk[3] = {"a*sin(h)", "a*cos(h)", "a"},
                          *const ellipsoid[3] = {"sqrt(a^2*sin(h)^2 + c^2*cos(h)^2)", "(a^2 - c^2)*sin(h)*cos(h)/H",
                                                 "a^2*sin(h)/H"};
 
-static nh_result *roll(const char *const shape[3], double low, double high)
+static nh_analysis *roll(const char *const shape[3], double low, double high)
 {
     char text[3000];
     snprintf(text, sizeof text, body, shape[0], shape[1], shape[2], low, high);
@@ -93,7 +93,7 @@ static nh_result *roll(const char *const shape[3], double low, double high)
  * almost conserved. */
 static void two_on(const char *name, const char *const shape[3], double low, double high)
 {
-    nh_result *r = roll(shape, low, high);
+    nh_analysis *r = roll(shape, low, high);
     cr_expect(r->verdict == NH_FOUND && r->independent == 3, "%s on [%g, %g]: %zu independent", name, low, high,
               r->independent);
     cr_expect_eq(check_series(r, name), 2, "%s on [%g, %g]", name, low, high);
@@ -103,7 +103,7 @@ static void two_on(const char *name, const char *const shape[3], double low, dou
         cr_expect(!s || (s->low <= low && s->high >= high), "%s: [%g, %g] of [%g, %g]", name, s->low, s->high, low,
                   high);
     }
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 Test(series, disk_on_a_short_interval, .timeout = 120) { two_on("disk", disk, 1.0, 2.1); }
@@ -142,13 +142,13 @@ Test(series, ellipsoid_on_a_wide_interval, .timeout = 120)
 Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120)
 {
     sweep_plain_only();
-    nh_result *r = roll(disk, 0.0005, 3.141);
+    nh_analysis *r = roll(disk, 0.0005, 3.141);
     cr_expect(r->independent == 3 && check_series(r, "disk") == 2, "%zu independent", r->independent);
     for (size_t k = 0; k < r->count; k++) {
         const nh_series *s = r->found[k].series;
         cr_expect(!s || (s->low > 0 && s->low < 0.3 && s->high > 2.8 && s->high < M_PI), "[%g, %g]", s->low, s->high);
     }
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* The same functions whatever the interval: near the middle of one the other's currents are combinations of its own, so
@@ -159,7 +159,7 @@ Test(series, the_interval_does_not_matter, .timeout = 120)
     static const double at[3] = {1.1, 1.5, 1.9}, ends[2][2] = {{1.0, 2.1}, {0.3, 2.8}};
     double determinant[2][3];
     for (int i = 0; i < 2; i++) {
-        nh_result *r = roll(disk, ends[i][0], ends[i][1]);
+        nh_analysis *r = roll(disk, ends[i][0], ends[i][1]);
         const nh_series *s[2] = {0};
         for (size_t k = 0, n = 0; k < r->count && n < 2; k++)
             if (r->found[k].series) s[n++] = r->found[k].series;
@@ -167,7 +167,7 @@ Test(series, the_interval_does_not_matter, .timeout = 120)
         for (int j = 0; j < 3; j++)
             determinant[i][j] = f_of(r, s[0], "p'", at[j]) * f_of(r, s[1], "s'", at[j]) -
                                 f_of(r, s[0], "s'", at[j]) * f_of(r, s[1], "p'", at[j]);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
     for (int j = 1; j < 3; j++) {
         double a = determinant[0][j] / determinant[0][0], b = determinant[1][j] / determinant[1][0];
@@ -197,7 +197,7 @@ static void airy_functions(double t, double y[2], double slope[2])
 Test(series, airy_functions, .timeout = 120)
 {
     static const char *const meaning[2] = {"x at t = 0", "x' at t = 0"};
-    nh_result *r = ask(airy);
+    nh_analysis *r = ask(airy);
     size_t seen = 0;
     cr_expect(r->independent == 2 && r->search == NH_SEARCH_COMPLETE && check_series(r, "airy") == 2);
     for (size_t k = 0; k < r->count; k++)
@@ -214,7 +214,7 @@ Test(series, airy_functions, .timeout = 120)
             }
         }
     cr_expect_eq(seen, 2);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* Linear equations of N coordinates have 2 N integrals that are linear in positions and velocities; where some are
@@ -267,7 +267,7 @@ static void all_of(size_t i)
 {
     char text[2000];
     snprintf(text, sizeof text, "name: driven\n%s", driven[i].text);
-    nh_result *r = ask(text);
+    nh_analysis *r = ask(text);
     cr_expect(r->verdict == NH_FOUND && r->independent == driven[i].all, "%s: %zu of %zu", driven[i].name,
               r->independent, driven[i].all);
     cr_expect_gt(check_series(r, driven[i].name), 0u, "%s: no series", driven[i].name);
@@ -275,7 +275,7 @@ static void all_of(size_t i)
         const nh_series *s = r->found[k].series;
         cr_expect(!s || s->variable == r->system->t, "%s", driven[i].name);
     }
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 Test(series, one_linear_equation, .timeout = 200)
@@ -293,10 +293,10 @@ Test(series, more_than_one, .timeout = 200)
 /* What is nearly linear has no integral, although doubles cannot tell it from one that has. */
 Test(series, a_small_term_is_seen, .timeout = 120)
 {
-    nh_result *r =
+    nh_analysis *r =
         ask("name: near\ncoordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - t*x^2/2 - 1e-12*x^4/4\n");
     cr_expect_eq(count_series(r), 0);
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* The variable and the interval stand in every output. */

@@ -11,7 +11,7 @@
 #include "commands/analyze.h"
 
 /* The search alone: a motion would only take time. */
-static nh_result *search(nh_text *text, double work)
+static nh_analysis *search(nh_text *text, double work)
 {
     char path[SCRATCH];
     nh_error error;
@@ -23,7 +23,7 @@ static nh_result *search(nh_text *text, double work)
     q.options.max_seconds = 1e6;
     q.options.steps = 10;
     if (work > 0) q.options.work = work;
-    nh_result *r = nh_analyze(&q, &error);
+    nh_analysis *r = nh_analysis_create(&q, &error);
     unlink(path);
     cr_assert_not_null(r, "%s %s", error.where, error.what);
     for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits, "%zu coordinates, %s", r->model->m, r->found[k].name);
@@ -39,7 +39,7 @@ static void coordinates(nh_text *text, size_t n, const char *names)
     nh_text_add(text, "]\nlagrangian: ");
 }
 
-static bool meant(const nh_result *r, const char *words)
+static bool meant(const nh_analysis *r, const char *words)
 {
     bool any = false;
     for (size_t k = 0; k < r->count; k++) any |= strstr(r->found[k].meaning, words) != NULL;
@@ -56,11 +56,11 @@ Test(sizes, oscillators, .timeout = 600)
         coordinates(&text, sizes[s], "x");
         for (size_t i = 1; i <= sizes[s]; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
         nh_text_add(&text, "\n");
-        nh_result *r = search(&text, 0);
+        nh_analysis *r = search(&text, 0);
         cr_expect_eq(r->independent, 2 * sizes[s], "%zu of %zu", r->independent, 2 * sizes[s]);
         cr_expect_eq(r->verdict, NH_FOUND);
         cr_expect_eq(r->search, NH_SEARCH_COMPLETE);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
@@ -75,11 +75,11 @@ Test(sizes, many_oscillators, .timeout = 600)
     coordinates(&text, n, "x");
     for (size_t i = 1; i <= n; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
     nh_text_add(&text, "\n");
-    nh_result *r = search(&text, 125 * (double)n);
+    nh_analysis *r = search(&text, 125 * (double)n);
     cr_expect_eq(r->independent, 2 * n, "%zu of %zu", r->independent, 2 * n);
     cr_expect_eq(r->search, NH_SEARCH_COMPLETE);
     cr_expect(meant(r, "energy"));
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 static void chain(nh_text *text, size_t n, bool closed)
@@ -98,9 +98,9 @@ Test(sizes, chains, .timeout = 600)
         if (!sweep_tries(s, 1, 8)) continue;
         nh_text text;
         chain(&text, sizes[s], false);
-        nh_result *r = search(&text, 0);
+        nh_analysis *r = search(&text, 0);
         cr_expect_eq(r->independent, 2 * sizes[s], "%zu of %zu", r->independent, 2 * sizes[s]);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }
 
@@ -110,7 +110,7 @@ Test(sizes, ring_of_many, .timeout = 600)
     static const char *const wanted[] = {"m*(x1' + ", "m*(t*(x1' + "};
     nh_text text;
     chain(&text, many(), true);
-    nh_result *r = search(&text, 1500);
+    nh_analysis *r = search(&text, 1500);
     cr_expect(meant(r, "energy"));
     for (size_t i = 0; i < 2; i++) {
         bool any = false;
@@ -121,7 +121,7 @@ Test(sizes, ring_of_many, .timeout = 600)
         }
         cr_expect(any, "%s", wanted[i]);
     }
-    nh_result_free(r);
+    nh_analysis_free(r);
 }
 
 /* Energy, momentum, angular momentum and centre of mass. */
@@ -141,9 +141,9 @@ Test(sizes, bodies_in_space, .timeout = 600)
             double a = 2.4 * (double)i, radius = 2 * sqrt((double)i / 2), at[3] = {radius * cos(a), radius * sin(a), 0.3 * (double)(i % 5)};
             for (size_t c = 0; c < 3; c++) nh_text_addf(&text, "  %c%zu: [%.2f, %.2f]\n", "xyz"[c], i, at[c], at[c] + 0.5);
         }
-        nh_result *r = search(&text, 0);
+        nh_analysis *r = search(&text, 0);
         cr_expect_eq(r->independent, 10, "%zu bodies: %zu", n, r->independent);
         cr_expect_eq(r->verdict, NH_FOUND);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }

@@ -153,7 +153,7 @@ static void differences(const units *u, double *out)
     double q[4] = {0, 0, 0.3, 1.2}, v[4] = {0, 0, 0.7 / u->time, 1.3 / u->time};
     bool given[4] = {false, false, true, true};
     nh_state initial = {.q = q, .v = v, .given = given};
-    nh_watch watch[2] = {{"turning", x.model->rho[2], true, false}, {"height", formula(x.model, "cos(psi)*psi'"), true, false}};
+    nh_observable watch[2] = {{"turning", x.model->rho[2], true, false}, {"height", formula(x.model, "cos(psi)*psi'"), true, false}};
     nh_validation_request request = {.model = x.model, .currents = 1, .current = &x.model->E, .watches = 2, .watch = watch, .initial = &initial, .until = 9 * u->time, .outputs = 31, .options = &options};
     nh_validation *r = nh_validate(&request, &error);
     must(r != NULL, &error, "the disk");

@@ -365,7 +365,7 @@ Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
         nh_analyze_request q = {.system_path = path, .seed_given = true};
         nh_options_default(&q.options);
         q.options.max_seconds = 1e6; /* the same on every machine */
-        nh_result *r = nh_analyze(&q, &error);
+        nh_analysis *r = nh_analysis_create(&q, &error);
         remove(path);
         cr_expect_not_null(r, "%s: %s", u->name, error.what);
         if (!r) continue;
@@ -374,6 +374,6 @@ Test(unseen, what_is_known_is_found_certified_and_no_more_is_claimed)
         cr_expect_eq(o.missing + o.wrong + o.untrue, 0, "%s: %s", u->name, o.names);
         cr_expect_eq(r->verdict, NH_FOUND, "%s", u->name);
         cr_expect_eq(r->independent, u->independent, "%s: %zu independent", u->name, r->independent);
-        nh_result_free(r);
+        nh_analysis_free(r);
     }
 }

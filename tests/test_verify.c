@@ -33,22 +33,22 @@ static nh_system *sleigh(size_t n, const nh_setting *setting)
     return s;
 }
 
-static nh_verdict_of_one *current(const char *text, nh_chart_choice chart)
+static nh_verification *current(const char *text, nh_chart_choice chart)
 {
     nh_error error;
     nh_error_clear(&error);
     nh_options o = defaults();
-    nh_verdict_of_one *v = nh_verify_current(sleigh(0, NULL), chart, text, &o, &error);
+    nh_verification *v = nh_verification_of_current(sleigh(0, NULL), chart, text, &o, &error);
     cr_assert_not_null(v, "%s: %s", text, error.what);
     return v;
 }
 
-static nh_verdict_of_one *field(const char *text, nh_chart_choice chart)
+static nh_verification *field(const char *text, nh_chart_choice chart)
 {
     nh_error error;
     nh_error_clear(&error);
     nh_options o = defaults();
-    nh_verdict_of_one *v = nh_verify_field(sleigh(0, NULL), chart, text, &o, &error);
+    nh_verification *v = nh_verification_of_field(sleigh(0, NULL), chart, text, &o, &error);
     cr_assert_not_null(v, "%s: %s", text, error.what);
     return v;
 }
@@ -62,43 +62,43 @@ Test(verify, true_currents_are_proved_for_all_parameters_in_both_charts)
     static const char *const list[] = {"-m/2*(x'^2/cos(phi)^2 + a^2*k^2*phi'^2)", PHI2, PHI2B};
     for (size_t i = 0; i < 3; i++)
         for (int chart = NH_CHART_QUASI; chart <= NH_CHART_COORDINATES; chart++) {
-            nh_verdict_of_one *v = current(list[i], (nh_chart_choice)chart);
+            nh_verification *v = current(list[i], (nh_chart_choice)chart);
             cr_expect(v->conserved && v->proof.all_parameters, "%s", list[i]);
             cr_expect(v->has_symmetry && v->symmetry.kase == (i == 0 ? 1 : 3), "%s: case %d", list[i], v->symmetry.kase);
             cr_expect_not(v->has_counterexample);
-            nh_verdict_free(v);
+            nh_verification_free(v);
         }
 }
 
 /* The counterexample is checked by hand: Gamma(m v) = m a omega^2 in quasi-velocities. */
 Test(verify, a_false_current_is_refuted_with_a_point)
 {
-    nh_verdict_of_one *v = current("m*v", NH_CHART_QUASI);
+    nh_verification *v = current("m*v", NH_CHART_QUASI);
     cr_assert(!v->conserved && v->has_counterexample);
     double omega = v->counterexample[4], expected = 2.0 * 1.0 * omega * omega;
     cr_expect_float_eq(v->rate, expected, 1e-12 * fabs(expected));
     cr_expect_gt(v->residual, 0.1);
-    char *json = nh_verdict_json(v, NULL);
+    char *json = nh_verification_json(v, NULL);
     cr_expect_not_null(strstr(json, "\"conserved\":\tfalse"), "%s", json);
     cr_expect_not_null(strstr(json, "\"rate\":"), "%s", json);
     nh_free(json);
-    nh_verdict_free(v);
+    nh_verification_free(v);
 }
 
 Test(verify, almost_is_not_conserved)
 {
-    nh_verdict_of_one *v = current("v*sin(phi*0.500001) + 2*omega*cos(phi*0.500001)", NH_CHART_QUASI);
+    nh_verification *v = current("v*sin(phi*0.500001) + 2*omega*cos(phi*0.500001)", NH_CHART_QUASI);
     cr_expect_not(v->conserved);
     cr_expect_lt(v->residual, 1e-4);
     cr_expect_gt(v->residual, 1e-9);
-    nh_verdict_free(v);
+    nh_verification_free(v);
 }
 
 Test(verify, a_constant_is_called_trivial)
 {
-    nh_verdict_of_one *v = current("sin(phi)^2 + cos(phi)^2", NH_CHART_QUASI);
+    nh_verification *v = current("sin(phi)^2 + cos(phi)^2", NH_CHART_QUASI);
     cr_expect(v->trivial && v->conserved);
-    nh_verdict_free(v);
+    nh_verification_free(v);
 }
 
 /* ---- fields ---- */
@@ -117,28 +117,28 @@ Test(verify, the_third_field_as_printed_is_refuted_and_corrected_is_proved)
 {
     static const char printed[] = PLACES "; phi'=" PHI_RATE " + " D "*phi'/(a*k^2*cos(phi)); x'=" X_RATE " + " B "*(a*phi'*cos(phi) - x'*tan(phi))";
     static const char corrected[] = PLACES "; phi'=" PHI_RATE " - " D "*phi'/(a*k^2*cos(phi)); x'=" X_RATE " - " B "*(a*phi'*cos(phi) - x'*tan(phi))";
-    nh_verdict_of_one *v = field(printed, NH_CHART_COORDINATES);
+    nh_verification *v = field(printed, NH_CHART_COORDINATES);
     cr_expect(!v->conserved && v->has_counterexample);
     cr_expect_not_null(strstr(v->equation, "(NX)"), "%s", v->equation);
-    nh_verdict_free(v);
+    nh_verification_free(v);
     v = field(corrected, NH_CHART_COORDINATES);
     cr_expect(v->conserved && v->proof.all_parameters);
-    nh_verdict_free(v);
+    nh_verification_free(v);
 }
 
 Test(verify, fields_outside_the_distribution_or_without_symmetry_are_refuted)
 {
-    nh_verdict_of_one *v = field("y=1", NH_CHART_QUASI);
+    nh_verification *v = field("y=1", NH_CHART_QUASI);
     cr_expect_not(v->conserved);
     cr_expect_not_null(strstr(v->equation, "canonical distribution"), "%s", v->equation);
-    nh_verdict_free(v);
+    nh_verification_free(v);
     v = field("phi=1", NH_CHART_QUASI);
     cr_expect_not(v->conserved);
     cr_expect_str_eq(v->equation, "(N0)");
-    nh_verdict_free(v);
+    nh_verification_free(v);
     v = field("Z0=1", NH_CHART_QUASI);
     cr_expect(v->conserved && v->symmetry.kase == 1);
-    nh_verdict_free(v);
+    nh_verification_free(v);
 }
 
 Test(verify, wrong_questions_are_explained)
@@ -152,7 +152,7 @@ Test(verify, wrong_questions_are_explained)
         nh_error error;
         nh_error_clear(&error);
         nh_options o = defaults();
-        cr_expect_null(nh_verify_field(sleigh(0, NULL), NH_CHART_QUASI, list[i].field, &o, &error));
+        cr_expect_null(nh_verification_of_field(sleigh(0, NULL), NH_CHART_QUASI, list[i].field, &o, &error));
         cr_expect_eq(error.code, NH_USAGE);
         cr_expect_str_eq(error.what, list[i].what);
     }
@@ -165,7 +165,7 @@ static nh_simulation *motion(const char *initial, double until, double step, nh_
     nh_error_clear(error);
     nh_simulate_request q = {.system_path = SLEIGH, .initial = initial, .until_given = true, .tolerance_given = true, .chart = chart, .step = step, .options = defaults()};
     q.options.until = until;
-    return nh_simulate(&q, error);
+    return nh_simulation_create(&q, error);
 }
 
 static double last(const nh_simulation *s, const char *name)
@@ -213,7 +213,7 @@ Test(simulate, a_motion_leaves_its_chart_and_its_branch)
         nh_simulate_request q = {.system_path = path, .initial = starts[k], .until_given = true, .tolerance_given = true, .step = 0.25, .options = defaults()};
         q.options.until = 4;
         q.options.tolerance = 1e-11;
-        nh_simulation *s = nh_simulate(&q, &error);
+        nh_simulation *s = nh_simulation_create(&q, &error);
         cr_assert_not_null(s, "%s: %s", starts[k], error.what);
         cr_assert(s->motion->complete && s->motion->count == 17, "ended at %g", s->motion->end_time);
         const double *first = s->value + 3;
@@ -257,10 +257,10 @@ Test(verify, rounded_numbers, .timeout = 60)
         nh_error error = {0};
         nh_options options = defaults();
         nh_system *system = nh_system_read(SLEIGH, 0, NULL, &error);
-        nh_verdict_of_one *v = system ? nh_verify_current(system, NH_CHART_AUTO, list[i].current, &options, &error) : NULL;
+        nh_verification *v = system ? nh_verification_of_current(system, NH_CHART_AUTO, list[i].current, &options, &error) : NULL;
         cr_assert_not_null(v, "%s", error.what);
         cr_expect_eq(v->conserved, list[i].conserved, "%s: %g digits", list[i].current, v->proof.digits);
-        nh_verdict_free(v);
+        nh_verification_free(v);
     }
 }
 
@@ -269,7 +269,7 @@ Test(simulate, watch_reads_a_list)
     nh_error error = {0};
     nh_simulate_request q = {.system_path = SLEIGH, .initial = "omega=2", .until_given = true, .tolerance_given = true, .step = 1, .options = defaults(), .watch = "phi, T = m/2*v^2, atan2(v, omega)"};
     q.options.until = 3;
-    nh_simulation *s = nh_simulate(&q, &error);
+    nh_simulation *s = nh_simulation_create(&q, &error);
     cr_assert(s && s->columns.count == 3 && s->scene, "%s", error.what);
     cr_expect(!strcmp(s->columns.track[1].name, "T") && !strcmp(s->columns.track[2].name, "atan2(v, omega)"), "%s, %s", s->columns.track[1].name, s->columns.track[2].name);
     cr_expect_eq(s->motion->size, 1); /* phi: the two currents that the file knows determine omega and v */
@@ -282,13 +282,13 @@ Test(simulate, watch_reads_a_list)
     for (int i = 0; i < 3; i++) {
         nh_error_clear(&error);
         q.watch = wrong[i].watch;
-        cr_expect_null(nh_simulate(&q, &error));
+        cr_expect_null(nh_simulation_create(&q, &error));
         cr_expect(strstr(error.what, wrong[i].says), "%s", error.what);
     }
     nh_error_clear(&error);
     q.watch = NULL;
     q.scene = true;
-    cr_expect_null(nh_simulate(&q, &error));
+    cr_expect_null(nh_simulation_create(&q, &error));
     cr_expect(strstr(error.what, "--scene needs an analysis file"), "%s", error.what);
 }
 
@@ -307,7 +307,7 @@ Test(simulate, symmetries_of_the_file_make_scenes_smaller)
     static const size_t states[2] = {3, 4}; /* x does not stay positive for long */
     for (int i = 0; i < 2; i++) {
         q.options.until = end[i];
-        nh_simulation *s = nh_simulate(&q, &error);
+        nh_simulation *s = nh_simulation_create(&q, &error);
         cr_assert(s && s->scene, "%s", error.what);
         cr_expect_eq(s->motion->size, states[i], "%s", s->scene);
         cr_expect(s->compared && s->whole_difference < 1e-6 && s->whole_seconds > 0, "%g", s->whole_difference);

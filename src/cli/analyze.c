@@ -26,12 +26,12 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
                               .until_given = cli->until_given};
     if (cli->analysis && !(q->analysis_path = nh_cli_find(cli, "analyses", cli->analysis, error))) return false;
     const char *name = cli->operands ? cli->operand[0] : NULL;
-    nh_analysis *peek = NULL;
+    nh_analysis_file *peek = NULL;
     if (!name && q->analysis_path) { /* the analysis says which system it asks about */
-        peek = nh_analysis_read(q->analysis_path, error);
+        peek = nh_analysis_file_read(q->analysis_path, error);
         if (!peek) return false;
         if (peek->system) name = nh_arena_strdup(cli->arena, peek->system);
-        nh_analysis_free(peek);
+        nh_analysis_file_free(peek);
     }
     if (!name) {
         nh_fail(error, NH_USAGE, "", "analyze what?");
@@ -44,7 +44,7 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
 
 /* ---- what is written ---- */
 
-static bool write_html(nh_cli *cli, const nh_result *result, nh_error *error)
+static bool write_html(nh_cli *cli, const nh_analysis *result, nh_error *error)
 {
     if (!cli->html) return true;
     nh_text text;
@@ -54,7 +54,7 @@ static bool write_html(nh_cli *cli, const nh_result *result, nh_error *error)
     return nh_cli_write(cli, cli->html, &text, error) && good;
 }
 
-static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
+static bool write_tex(nh_cli *cli, const nh_analysis *result, nh_error *error)
 {
     if (!cli->tex) return true;
     nh_text text;
@@ -63,7 +63,7 @@ static bool write_tex(nh_cli *cli, const nh_result *result, nh_error *error)
     return nh_cli_write(cli, cli->tex, &text, error);
 }
 
-static bool write_summary(nh_cli *cli, const nh_result *result, nh_error *error)
+static bool write_summary(nh_cli *cli, const nh_analysis *result, nh_error *error)
 {
     nh_text text;
     nh_text_init(&text);
@@ -79,20 +79,20 @@ static bool write_summary(nh_cli *cli, const nh_result *result, nh_error *error)
 int nh_cli_analyze(nh_cli *cli, nh_error *error)
 {
     nh_analyze_request request;
-    nh_cli_watch_begin(cli);
+    nh_cli_progress_begin(cli);
     if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     request.no_figures = !cli->html && !cli->tex && !cli->json;
-    nh_result *result = nh_analyze(&request, error);
-    nh_cli_watch_end();
+    nh_analysis *result = nh_analysis_create(&request, error);
+    nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (!result) return nh_cli_failed(cli, &run, error);
-    bool good = write_summary(cli, result, error) && (!cli->json || nh_cli_write_json(cli, nh_result_json(result), error)) && write_html(cli, result, error)
+    bool good = write_summary(cli, result, error) && (!cli->json || nh_cli_write_json(cli, nh_analysis_json(result), error)) && write_html(cli, result, error)
                 && write_tex(cli, result, error);
     good = nh_cli_written(cli, good, error);
     bool partial = result->partial;
     const nh_validation *v = result->validation;
     if (good && cli->accuracy > 0 && !partial && !(v && v->accuracy.held)) nh_fail(error, NH_NUMERIC, "", "%s", v ? v->accuracy.why : "no motion was computed, and so none with the accuracy that was asked for");
-    nh_result_free(result);
+    nh_analysis_free(result);
     if (!good) return error->code;
     return nh_interrupted() ? (int)nh_ended_code() : partial ? NH_LIMIT : (int)error->code;
 }

@@ -5,44 +5,44 @@
 #include "document/benchmark.h"
 #include "document/html.h"
 
-static bool write_all(nh_cli *cli, const nh_run *run, const nh_comparison *c, const nh_stress *s, nh_error *error)
+static bool write_all(nh_cli *cli, const nh_run *run, const nh_benchmark *c, const nh_robustness *s, nh_error *error)
 {
     bool good = true;
     nh_text text;
     nh_text_init(&text);
     if (!(cli->json && !strcmp(cli->json, "-")) && !cli->quiet) {
-        nh_comparison_text(c, cli->verbose, &text);
-        if (s) nh_stress_text(s, cli->verbose, &text);
+        nh_benchmark_text(c, cli->verbose, &text);
+        if (s) nh_robustness_text(s, cli->verbose, &text);
         fputs(nh_text_string(&text), stdout);
     }
     nh_text_clear(&text);
     if (cli->svg) {
-        nh_comparison_svg(c, &text);
+        nh_benchmark_svg(c, &text);
         good = nh_cli_write(cli, cli->svg, &text, error);
     }
     if (cli->html && good) {
-        nh_html_comparison(c, s, run, &text);
+        nh_html_benchmark(c, s, run, &text);
         good = nh_cli_write(cli, cli->html, &text, error);
     }
-    if (cli->json && good) good = nh_cli_write_json(cli, nh_comparison_json(c, s, run), error);
+    if (cli->json && good) good = nh_cli_write_json(cli, nh_benchmark_json(c, s, run), error);
     return nh_cli_written(cli, good, error);
 }
 
 int nh_cli_chart(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
-    nh_cli_watch_begin(cli);
+    nh_cli_progress_begin(cli);
     if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
     const double longest = 300;
     double budget = cli->budget > 0 ? cli->budget : 5, of_stress = cli->budget > 0 ? budget / 2 : longest;
-    nh_comparison *c = nh_compare(&request, cli->stress && cli->budget > 0 ? budget / 2 : budget, error);
-    nh_stress *s = c && cli->stress && !nh_interrupted() ? nh_stress_create(&request, cli->over, of_stress, error) : NULL;
-    nh_cli_watch_end();
+    nh_benchmark *c = nh_benchmark_run(&request, cli->stress && cli->budget > 0 ? budget / 2 : budget, error);
+    nh_robustness *s = c && cli->stress && !nh_interrupted() ? nh_robustness_create(&request, cli->over, of_stress, error) : NULL;
+    nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);
-    nh_stress_free(s);
+    nh_robustness_free(s);
     if (c && error->code == NH_OK && nh_interrupted()) nh_fail_ended(error, "while methods were compared: this is what was measured until then");
-    nh_comparison_free(c);
+    nh_benchmark_free(c);
     return c ? (int)error->code : nh_cli_failed(cli, &run, error);
 }

@@ -60,8 +60,8 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
 
 /* Before the work: what is being done is shown on stderr, as --progress says; --max-seconds, SIGINT and SIGTERM end the work with what there is.  After it, before
  * anything is written: signals end the process at once. */
-void nh_cli_watch_begin(const nh_cli *cli);
-void nh_cli_watch_end(void);
+void nh_cli_progress_begin(const nh_cli *cli);
+void nh_cli_progress_end(void);
 /* Of these two: signals and the limit (none when it is not finite). */
 void nh_cli_guard_begin(double seconds);
 void nh_cli_guard_writing(void);

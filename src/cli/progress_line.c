@@ -38,7 +38,7 @@ static void show(void *context, const char *doing, double part)
     fflush(stderr);
 }
 
-void nh_cli_watch_begin(const nh_cli *cli)
+void nh_cli_progress_begin(const nh_cli *cli)
 {
     nh_cli_guard_begin(cli->limited ? cli->options.max_seconds : INFINITY);
     bool terminal = isatty(STDERR_FILENO);
@@ -48,7 +48,7 @@ void nh_cli_watch_begin(const nh_cli *cli)
     nh_progress_set(show, NULL);
 }
 
-void nh_cli_watch_end(void)
+void nh_cli_progress_end(void)
 {
     nh_cli_guard_writing();
     nh_progress_set(NULL, NULL);

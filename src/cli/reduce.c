@@ -47,10 +47,10 @@ static void complain(const nh_reduction *r, double accuracy, nh_error *error)
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     nh_reduce_request request;
-    nh_cli_watch_begin(cli);
+    nh_cli_progress_begin(cli);
     if (!request_of(cli, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
-    nh_reduction *r = nh_reduce(&request, error);
-    nh_cli_watch_end();
+    nh_reduction *r = nh_reduction_create(&request, error);
+    nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!r) return nh_cli_failed(cli, &run, error);
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;

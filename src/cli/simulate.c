@@ -63,10 +63,10 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
-    nh_cli_watch_begin(cli);
+    nh_cli_progress_begin(cli);
     if (!nh_cli_motion_request(cli, example, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
-    nh_simulation *s = nh_simulate(&request, error);
-    nh_cli_watch_end();
+    nh_simulation *s = nh_simulation_create(&request, error);
+    nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (!s) return nh_cli_failed(cli, &run, error);
     bool good = true;

@@ -4,7 +4,7 @@
 #include "document/html.h"
 #include "document/verification.h"
 
-static bool ask(nh_cli *cli, nh_run *run, nh_verdict_of_one **out, nh_error *error)
+static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error)
 {
     if (cli->operands != 1 || !cli->current == !cli->field) {
         nh_fail(error, NH_USAGE, "", "verify needs one system and either --current or --field");
@@ -14,34 +14,34 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verdict_of_one **out, nh_error *err
     if (path) *run = nh_cli_run(cli, path, NULL);
     nh_system *system = path ? nh_system_read(path, cli->settings, cli->setting, error) : NULL;
     if (!system) return false;
-    if (cli->current) *out = nh_verify_current(system, cli->chart, cli->current, &cli->options, error);
-    else *out = nh_verify_field(system, cli->chart, cli->field, &cli->options, error);
+    if (cli->current) *out = nh_verification_of_current(system, cli->chart, cli->current, &cli->options, error);
+    else *out = nh_verification_of_field(system, cli->chart, cli->field, &cli->options, error);
     return *out != NULL;
 }
 
 int nh_cli_verify(nh_cli *cli, nh_error *error)
 {
-    nh_verdict_of_one *v = NULL;
+    nh_verification *v = NULL;
     nh_run run = nh_cli_run(cli, NULL, NULL);
-    nh_cli_watch_begin(cli);
+    nh_cli_progress_begin(cli);
     if (!nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(cli, &run, error);
-    nh_cli_watch_end();
+    nh_cli_progress_end();
     bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true, conserved = v->conserved;
     if (!to_stdout && !cli->quiet) {
         nh_text text;
         nh_text_init(&text);
-        nh_verdict_text(v, cli->field != NULL, cli->options.shown, &text);
+        nh_verification_text(v, cli->field != NULL, cli->options.shown, &text);
         fputs(nh_text_string(&text), stdout);
         nh_text_clear(&text);
     }
-    if (cli->json) good = nh_cli_write_json(cli, nh_verdict_json(v, &run), error);
+    if (cli->json) good = nh_cli_write_json(cli, nh_verification_json(v, &run), error);
     if (cli->html && good) {
         nh_text page;
         nh_text_init(&page);
-        nh_html_verdict(v, cli->field != NULL, &run, &page);
+        nh_html_verification(v, cli->field != NULL, &run, &page);
         good = nh_cli_write(cli, cli->html, &page, error);
     }
     good = nh_cli_written(cli, good, error);
-    nh_verdict_free(v);
+    nh_verification_free(v);
     return !good ? (int)error->code : conserved ? NH_OK : NH_REFUTED;
 }

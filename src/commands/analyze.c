@@ -31,9 +31,9 @@ static double lap(double *last)
 
 /* ---- reading ---- */
 
-static void merge_options(nh_result *r, const nh_analyze_request *q)
+static void merge_options(nh_analysis *r, const nh_analyze_request *q)
 {
-    const nh_analysis *a = r->analysis;
+    const nh_analysis_file *a = r->analysis;
     r->options = q->options;
     if (r->pace > 0 && !q->until_given) r->options.until /= r->pace;
     if (!a) return;
@@ -43,9 +43,9 @@ static void merge_options(nh_result *r, const nh_analyze_request *q)
     if (a->has_until && !q->until_given) r->options.until = a->until;
 }
 
-static bool read_files(nh_result *r, const nh_analyze_request *q, nh_error *error)
+static bool read_files(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
 {
-    if (q->analysis_path && !(r->analysis = nh_analysis_read(q->analysis_path, error))) return false;
+    if (q->analysis_path && !(r->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
     size_t own = r->analysis ? r->analysis->settings : 0;
     nh_setting *setting = nh_arena_alloc(r->arena, (own + q->settings + 1) * sizeof *setting);
     if (own) memcpy(setting, r->analysis->setting, own * sizeof *setting);
@@ -55,45 +55,45 @@ static bool read_files(nh_result *r, const nh_analyze_request *q, nh_error *erro
 }
 
 /* An initial state on the other branch of a quadratic constraint chooses that. */
-static bool turn_to_initial(nh_result *r, nh_chart_choice choice, const nh_analyze_request *q, nh_error *error)
+static bool turn_to_initial(nh_analysis *r, nh_chart_choice choice, const nh_analyze_request *q, nh_error *error)
 {
-    if (!r->analysis || !nh_analysis_resolve(r->analysis, r->model, error)) return !r->analysis;
+    if (!r->analysis || !nh_analysis_file_resolve(r->analysis, r->model, error)) return !r->analysis;
     if (!r->analysis->has_initial || !nh_dynamics_other_branch(r->model, &r->analysis->initial)) return true;
     r->system->branch = -r->model->chart->branch;
     nh_model_free(r->model);
-    nh_analysis_free(r->analysis);
+    nh_analysis_file_free(r->analysis);
     r->model = NULL;
-    r->analysis = nh_analysis_read(q->analysis_path, error);
+    r->analysis = nh_analysis_file_read(q->analysis_path, error);
     if (r->analysis) r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
-    return r->model && nh_analysis_resolve(r->analysis, r->model, error);
+    return r->model && nh_analysis_file_resolve(r->analysis, r->model, error);
 }
 
 /* A system that is much faster than its units is sampled, and followed, at its own pace. */
-static bool set_pace(nh_result *r, nh_chart_choice choice, nh_error *error)
+static bool set_pace(nh_analysis *r, nh_chart_choice choice, nh_error *error)
 {
-    double Omega = nh_pace_set(r->system, r->model);
+    double Omega = nh_time_scale_set(r->system, r->model);
     if (Omega == 1) return true;
     nh_model_free(r->model);
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
     r->pace = Omega;
-    nh_result_warn(r, "the forces act within %.1e units of time: where `domain:` says nothing, t is sampled up to there, and velocities in proportion", 1 / Omega);
+    nh_analysis_warn(r, "the forces act within %.1e units of time: where `domain:` says nothing, t is sampled up to there, and velocities in proportion", 1 / Omega);
     return r->model != NULL;
 }
 
-static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *error)
+static bool make_models(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
 {
     nh_chart_choice choice = q->chart != NH_CHART_AUTO || !r->analysis ? q->chart : r->analysis->chart;
     uint64_t seed = (uint64_t)r->options.seed;
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, seed, error), error);
     if (!r->model || !set_pace(r, choice, error) || !turn_to_initial(r, choice, q, error)) return false;
     if (r->model->chart->replaced)
-        nh_result_warn(r, "the dependent velocities of the system file are hardly determined by the others anywhere on the sampling domain (pivots below %g): the chart is %s instead",
+        nh_analysis_warn(r, "the dependent velocities of the system file are hardly determined by the others anywhere on the sampling domain (pivots below %g): the chart is %s instead",
                        nh_chart_least_pivot, r->model->chart->name);
     nh_error ignored;
     nh_error_clear(&ignored);
     if (r->model->chart->quasi && r->system->constraints)
         r->other = nh_model_create(r->system, nh_chart_create(r->system, NH_CHART_COORDINATES, seed, &ignored), &ignored);
-    if (ignored.code != NH_OK) nh_result_warn(r, "the chart of coordinate velocities: %s", ignored.what);
+    if (ignored.code != NH_OK) nh_analysis_warn(r, "the chart of coordinate velocities: %s", ignored.what);
     r->local_maximum = 2 * r->model->m - r->model->k;
     r->constraint = nh_distribution_of(r->model);
     return true;
@@ -101,7 +101,7 @@ static bool make_models(nh_result *r, const nh_analyze_request *q, nh_error *err
 
 /* ---- the linear problem ---- */
 
-static nh_points *fit_points(nh_result *r, size_t columns, nh_error *error)
+static nh_points *fit_points(nh_analysis *r, size_t columns, nh_error *error)
 {
     size_t count = (size_t)r->options.samples;
     if (count == 0) count = samples_per_column * columns;
@@ -110,7 +110,7 @@ static nh_points *fit_points(nh_result *r, size_t columns, nh_error *error)
     return nh_points_cover(r->model, count, (uint64_t)r->options.seed, error);
 }
 
-static nh_nullspace *current_route(nh_result *r, const nh_ansatz *a, const nh_points *points, nh_error *error)
+static nh_nullspace *current_route(nh_analysis *r, const nh_ansatz *a, const nh_points *points, nh_error *error)
 {
     nh_equations *equations = nh_equations_create(a->columns, nh_threads(r->options.threads));
     nh_rows *rows = nh_rows_create(r->model, a, 0, NULL);
@@ -124,7 +124,7 @@ static nh_nullspace *current_route(nh_result *r, const nh_ansatz *a, const nh_po
 }
 
 /* The null vectors; then, where the spectrum is in doubt, those that are only likely, of which a certificate decides. */
-static void collect(nh_result *r, nh_workbench *bench, const nh_ansatz *a, const nh_points *points, const nh_nullspace *s)
+static void collect(nh_analysis *r, nh_current_checker *bench, const nh_ansatz *a, const nh_points *points, const nh_nullspace *s)
 {
     bool sure = s->likely == s->dimension;
     nh_candidates *list = nh_echelon(r->model, points, a, s, sure ? s->dimension : s->likely, &r->options);
@@ -133,7 +133,7 @@ static void collect(nh_result *r, nh_workbench *bench, const nh_ansatz *a, const
     nh_candidates_free(list);
 }
 
-static bool linear_problem(nh_result *r, size_t families, const nh_family *family, double *clock, nh_error *error)
+static bool linear_problem(nh_analysis *r, size_t families, const nh_family *family, double *clock, nh_error *error)
 {
     nh_points *ranges = nh_points_create(r->model, least_samples, 1, (uint64_t)r->options.seed, error);
     if (!ranges) return false;
@@ -150,11 +150,11 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
         r->rejected = points->tried - nh_points_equations(points);
         if (r->route != NH_ROUTE_CURRENT) nh_routes_compare(r, a, points, s);
         r->timing.nullspace = lap(clock);
-        nh_workbench *bench = nh_workbench_create(r, error);
+        nh_current_checker *bench = nh_current_checker_create(r, error);
         good = bench != NULL;
         if (good) collect(r, bench, a, points, s);
         if (good) nh_currents_finish(bench);
-        nh_workbench_free(bench);
+        nh_current_checker_free(bench);
         r->timing.currents = lap(clock);
     }
     nh_nullspace_free(s);
@@ -164,54 +164,54 @@ static bool linear_problem(nh_result *r, size_t families, const nh_family *famil
 }
 
 /* What is behind the deadline may be missing anywhere. */
-static void watch_deadline(nh_result *r)
+static void watch_deadline(nh_analysis *r)
 {
     bool late = nh_late() && r->search != NH_SEARCH_COMPLETE;
     if (late) r->search = NH_SEARCH_CUT;
     if (late && !nh_interrupted()) {
         r->partial = true;
-        nh_result_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
+        nh_analysis_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
     }
     nh_deadline_set(INFINITY);
 }
 
 /* FOUND needs a certificate for every current; NONE needs a spectrum without a gap at rounding. */
-static void conclude(nh_result *r)
+static void conclude(nh_analysis *r)
 {
-    bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_result_left_out(r)), open = r->open > 0 || kept_out, failed = r->count == 0 && r->current.dimension > 0;
+    bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(r)), open = r->open > 0 || kept_out, failed = r->count == 0 && r->current.dimension > 0;
     r->verdict = r->count == 0 ? (open || failed || r->pieces ? NH_UNDECIDED : NH_NONE) : NH_FOUND;
     if (r->count == 0 && kept_out)
-        nh_result_warn(r, "what a limit left out may hold currents%s", nh_result_left_out(r) ? ": the list of stages names the options that bring it in" : "");
+        nh_analysis_warn(r, "what a limit left out may hold currents%s", nh_analysis_left_out(r) ? ": the list of stages names the options that bring it in" : "");
     if (r->count == 0 && r->open)
-        nh_result_warn(r, "some null vectors could be true but got no certificate: another ansatz, or more samples (--samples), would decide");
+        nh_analysis_warn(r, "some null vectors could be true but got no certificate: another ansatz, or more samples (--samples), would decide");
     if (r->stages == 0 && r->current.rank_in_doubt)
-        nh_result_warn(r, "two columns of the ansatz are nearly dependent: which were kept is a matter of the option `rank`");
+        nh_analysis_warn(r, "two columns of the ansatz are nearly dependent: which were kept is a matter of the option `rank`");
 }
 
 /* ---- the motion ---- */
 
-static const nh_watch *list_tracks(nh_result *r)
+static const nh_observable *list_tracks(nh_analysis *r)
 {
-    nh_tracks *t = &r->tracks;
-    *t = nh_tracks_create(r->arena, r->model);
-    nh_tracks_add_states(t);
-    nh_tracks_add(t, "E", NH_TRACK_ENERGY, r->model->E);
-    for (size_t k = 0; k < r->count; k++) nh_tracks_add(t, r->found[k].name, NH_TRACK_CURRENT, r->found[k].phi);
-    nh_tracks_add_drawing(t, r->analysis);
-    nh_tracks_add_watches(t, r->analysis);
-    nh_watch *watch = nh_arena_alloc(r->arena, (t->count + 1) * sizeof *watch);
-    for (size_t i = 0; i < t->count; i++) watch[i] = (nh_watch){t->track[i].name, t->track[i].value, t->track[i].kind == NH_TRACK_WATCH, t->track[i].kind == NH_TRACK_CURRENT || t->track[i].kind == NH_TRACK_ENERGY};
+    nh_observables *t = &r->tracks;
+    *t = nh_observables_create(r->arena, r->model);
+    nh_observables_add_states(t);
+    nh_observables_add(t, "E", NH_TRACK_ENERGY, r->model->E);
+    for (size_t k = 0; k < r->count; k++) nh_observables_add(t, r->found[k].name, NH_TRACK_CURRENT, r->found[k].phi);
+    nh_observables_add_drawing(t, r->analysis);
+    nh_observables_add_watches(t, r->analysis);
+    nh_observable *watch = nh_arena_alloc(r->arena, (t->count + 1) * sizeof *watch);
+    for (size_t i = 0; i < t->count; i++) watch[i] = (nh_observable){t->track[i].name, t->track[i].value, t->track[i].kind == NH_TRACK_WATCH, t->track[i].kind == NH_TRACK_CURRENT || t->track[i].kind == NH_TRACK_ENERGY};
     return watch;
 }
 
-static void validate(nh_result *r, const nh_analyze_request *q)
+static void validate(nh_analysis *r, const nh_analyze_request *q)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
     nh_state initial = r->analysis ? r->analysis->initial : (nh_state){0};
     if (!r->analysis || !r->analysis->has_initial)
         if (!nh_defaults_initial(r, &initial, &trouble)) {
-            nh_result_warn(r, "no motion was computed: %s", trouble.what);
+            nh_analysis_warn(r, "no motion was computed: %s", trouble.what);
             return;
         }
     nh_ex *phi = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *phi);
@@ -221,7 +221,7 @@ static void validate(nh_result *r, const nh_analyze_request *q)
         phi[k] = r->found[k].phi;
         if (series) valid[k] = (nh_valid){series->variable, series->low, series->high};
     }
-    const nh_watch *watch = list_tracks(r);
+    const nh_observable *watch = list_tracks(r);
     nh_choice choice = {.system = r->system, .model = r->model};
     nh_choice_open(&choice, true);
     nh_validation_request request = {.model = r->model, .other = r->other, .currents = r->count, .current = phi, .valid = valid, .watches = r->tracks.count, .watch = watch, .initial = &initial,
@@ -229,22 +229,22 @@ static void validate(nh_result *r, const nh_analyze_request *q)
     r->validation = nh_validate(&request, &trouble);
     nh_choice_close(&choice);
     if (!r->validation) {
-        nh_result_warn(r, "no motion was computed: %s", trouble.what);
+        nh_analysis_warn(r, "no motion was computed: %s", trouble.what);
         return;
     }
     for (size_t k = 0; k < r->count; k++) {
         r->found[k].drift = r->validation->current[k];
         if (!r->found[k].drift.explained)
-            nh_result_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances, and not as the error of the motion: it hardly falls with the tolerance", r->found[k].name,
+            nh_analysis_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances, and not as the error of the motion: it hardly falls with the tolerance", r->found[k].name,
                            r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
     }
-    if (r->validation->note[0]) nh_result_warn(r, "%s", r->validation->note);
-    if (r->validation->checked && !r->validation->accuracy.held) nh_result_warn(r, "%s", r->validation->accuracy.why);
+    if (r->validation->note[0]) nh_analysis_warn(r, "%s", r->validation->note);
+    if (r->validation->checked && !r->validation->accuracy.held) nh_analysis_warn(r, "%s", r->validation->accuracy.why);
 }
 
 /* ---- the pipeline ---- */
 
-static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
+static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
 {
     double start = nh_clock(), clock = start;
     r->options = q->options;
@@ -268,7 +268,7 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
     nh_family *family = r->analysis ? r->analysis->family : NULL;
     if (families == 0) {
         r->ansatz_note = "chosen: a ladder of stages made of the system's own functions";
-        if (!nh_ladder_climb(r, error)) return false;
+        if (!nh_staged_search_run(r, error)) return false;
         r->timing.nullspace = lap(&clock);
     } else {
         r->ansatz_note = "as given in the analysis file";
@@ -292,23 +292,23 @@ static bool run(nh_result *r, const nh_analyze_request *q, nh_error *error)
         r->partial = true;
         char words[80];
         nh_ended_words(words, sizeof words);
-        nh_result_warn(r, "%s: this is what was found until then%s%s", words, r->validation ? "" : ", and no motion was computed", nh_limit_reached() ? "; --max-seconds raises it" : "");
+        nh_analysis_warn(r, "%s: this is what was found until then%s%s", words, r->validation ? "" : ", and no motion was computed", nh_limit_reached() ? "; --max-seconds raises it" : "");
     }
     r->timing.validation = lap(&clock);
     r->timing.total = nh_clock() - start;
     return true;
 }
 
-nh_result *nh_analyze(const nh_analyze_request *request, nh_error *error)
+nh_analysis *nh_analysis_create(const nh_analyze_request *request, nh_error *error)
 {
     nh_linalg_threads(1);
     nh_arena *arena = nh_arena_create();
-    nh_result *r = nh_arena_alloc(arena, sizeof *r);
+    nh_analysis *r = nh_arena_alloc(arena, sizeof *r);
     r->arena = arena;
     bool good = run(r, request, error);
     nh_deadline_set(INFINITY);
     nh_budget_begin(INFINITY);
     if (good) return r;
-    nh_result_free(r);
+    nh_analysis_free(r);
     return NULL;
 }

@@ -21,6 +21,6 @@ typedef struct {
 } nh_analyze_request;
 
 /* NULL when nothing can be said; otherwise a result, perhaps partial, with warnings. */
-nh_result *nh_analyze(const nh_analyze_request *request, nh_error *error);
+nh_analysis *nh_analysis_create(const nh_analyze_request *request, nh_error *error);
 
 #endif

@@ -6,29 +6,29 @@
 #include "base/progress.h"
 #include "commands/benchmark_internal.h"
 
-enum { levels = NH_CHART_LEVELS, most_repeats = 7, most_halvings = 8 };
+enum { levels = NH_BENCHMARK_LEVELS, most_repeats = 7, most_halvings = 8 };
 static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 static const double step_ratio = 4; /* of fixed steps, from level to level */
 static const double enough_seconds = 3e-3;             /* repetitions stop after this time */
 static const double least_part = 1.0 / 64;             /* of a time of which no eighth was reached, that is tried next */
 static const double share_of_fits = 0.25;              /* of the budget, for the discrete problem, beside it */
 
-const char *nh_measured_status_name(nh_measured_status status)
+const char *nh_run_record_status_name(nh_run_record_status status)
 {
     static const char *const names[] = {"right", "warned", "caught", "failed", "timeout", "wrong"};
     return names[status];
 }
 
-static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_bench *)context)->deadline; }
+static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_benchmark_work *)context)->deadline; }
 
 /* ---- one motion ---- */
 
 /* A count is the same on a busy machine. */
-static double most_steps(const nh_bench *c) { return c->once ? c->options.stress_steps : 1e8; }
+static double most_steps(const nh_benchmark_work *c) { return c->once ? c->options.stress_steps : 1e8; }
 
-static bool out_of_time(nh_bench *c, const nh_motion *motion) { return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)); }
+static bool out_of_time(nh_benchmark_work *c, const nh_motion *motion) { return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)); }
 
-static nh_motion *integrate(nh_bench *c, const nh_contender *k, double tolerance, double step, nh_error *error)
+static nh_motion *integrate(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double step, nh_error *error)
 {
     nh_formulation *f = &c->formulation[k->formulation];
     nh_flow_options how = {.rtol = tolerance, .step = step, .scale = f->scale, .max_steps = most_steps(c), .cancelled = late, .cancel_context = c};
@@ -36,17 +36,17 @@ static nh_motion *integrate(nh_bench *c, const nh_contender *k, double tolerance
     if (!k->method) {
         nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
         problem.holds = k->index == 2;
-        nh_chetaev_motion *full = nh_chetaev(&problem, f->z0, NH_CHART_OUTPUTS, times, &how, error);
+        nh_chetaev_motion *full = nh_chetaev(&problem, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
         nh_motion *motion = full ? full->motion : NULL;
         if (full) full->motion = NULL;
         nh_chetaev_motion_free(full);
         return motion;
     }
-    if (k->method->order) return nh_method_steps(k->method, f->programs, f->z0, NH_CHART_OUTPUTS, times, &how, error);
-    nh_projection *p = k->projected ? nh_projection_create(f->model, c->held_currents, c->held, times[0], times[NH_CHART_OUTPUTS - 1], f->z0) : NULL;
+    if (k->method->order) return nh_method_steps(k->method, f->programs, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
+    nh_projection *p = k->projected ? nh_projection_create(f->model, c->held_currents, c->held, times[0], times[NH_BENCHMARK_OUTPUTS - 1], f->z0) : NULL;
     if (p) how.after = nh_projection_apply;
     how.after_context = p;
-    nh_motion *motion = nh_method_flow(k->method, &f->problem, f->z0, NH_CHART_OUTPUTS, times, &how, error);
+    nh_motion *motion = nh_method_flow(k->method, &f->problem, f->z0, NH_BENCHMARK_OUTPUTS, times, &how, error);
     if (motion && p) motion->evaluations += nh_projection_evaluations(p);
     nh_projection_free(p);
     return motion;
@@ -60,19 +60,19 @@ static bool breaks_down(nh_formulation *f, const nh_motion *motion)
     return any || f->breaks;
 }
 
-static nh_measured_status status_of(const nh_options *o, const nh_measured *m, bool complete, bool cancelled, bool guarded)
+static nh_run_record_status status_of(const nh_options *o, const nh_run_record *m, bool complete, bool cancelled, bool guarded)
 {
-    if (!complete) return guarded ? NH_CAUGHT : cancelled ? NH_TIMEOUT : NH_FAILED;
+    if (!complete) return guarded ? NH_DETECTED : cancelled ? NH_TIMEOUT : NH_FAILED;
     bool wrong = isnan(m->tolerance) ? !(m->error <= o->chart_fixed) : !(m->error <= fmax(o->chart_wrong, o->chart_far * m->tolerance));
-    if (guarded) return wrong ? NH_CAUGHT : NH_WARNED;
-    return wrong ? NH_WRONG : NH_RIGHT;
+    if (guarded) return wrong ? NH_DETECTED : NH_FLAGGED;
+    return wrong ? NH_UNDETECTED : NH_ACCURATE;
 }
 
-static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_measured *m)
+static void judge(nh_benchmark_work *c, const nh_candidate_run *k, nh_motion *motion, nh_run_record *m)
 {
     nh_formulation *f = &c->formulation[k->formulation];
     size_t n = c->yard.currents;
-    double *states = nh_alloc_array(NH_CHART_OUTPUTS * 2 * c->model->m, sizeof *states);
+    double *states = nh_alloc_array(NH_BENCHMARK_OUTPUTS * 2 * c->model->m, sizeof *states);
     m->drift = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *m->drift);
     m->evaluations = motion->evaluations;
     bool good = f->reduced || nh_formulation_states(f, motion, states);
@@ -80,8 +80,8 @@ static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_meas
         m->error = nh_reduced_error(f, motion);
         for (size_t i = 0; i < n; i++) m->drift[i] = c->yard.current[i] == c->model->E ? (m->worst_drift = nh_reduced_drift(f, motion)) : NAN;
     } else if (motion->complete && good) {
-        m->error = nh_yardstick_error(&c->yard, motion->count, states);
-        nh_yardstick_drifts(&c->yard, motion->count, states, m->drift);
+        m->error = nh_reference_solution_error(&c->yard, motion->count, states);
+        nh_reference_solution_drifts(&c->yard, motion->count, states, m->drift);
         m->worst_drift = n ? 0 : NAN;
         for (size_t i = 0; i < n; i++) m->worst_drift = fmax(m->worst_drift, m->drift[i]);
     }
@@ -92,14 +92,14 @@ static void judge(nh_bench *c, const nh_contender *k, nh_motion *motion, nh_meas
 }
 
 /* The least time of some repetitions; everything else from the first. */
-void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double step, nh_measured *m)
+void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double tolerance, double step, nh_run_record *m)
 {
     nh_error error;
     nh_error_clear(&error);
     double begin = nh_clock(), left = c->begun + c->budget - begin;
     c->deadline = begin + fmax(left / 4, 0.01);
     nh_progress(k->method ? k->method->name : k->index == 2 ? "IDA, index 2" : "IDA, index 1", (nh_clock() - c->begun) / c->budget);
-    *m = (nh_measured){.method = !k->method ? k->index == 2 ? "IDA, index 2" : "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
+    *m = (nh_run_record){.method = !k->method ? k->index == 2 ? "IDA, index 2" : "IDA, index 1" : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name) : k->method->name,
                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers", .tolerance = tolerance,
                        .step = step, .reduced = c->formulation[k->formulation].reduced != NULL, .error = NAN, .worst_drift = NAN, .seconds = INFINITY, .note = "", .status = NH_FAILED};
     for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT && nh_clock() - begin < enough_seconds)); i++) {
@@ -118,9 +118,9 @@ void nh_bench_measure(nh_bench *c, nh_contender *k, double tolerance, double ste
 
 /* ---- the reference ---- */
 
-static bool states_of(nh_bench *c, size_t formulation, const char *method, double tolerance, double *states)
+static bool states_of(nh_benchmark_work *c, size_t formulation, const char *method, double tolerance, double *states)
 {
-    nh_contender k = {.method = nh_method_find(method), .formulation = formulation};
+    nh_candidate_run k = {.method = nh_method_find(method), .formulation = formulation};
     nh_error ignored;
     nh_error_clear(&ignored);
     c->deadline = nh_clock() + c->budget / 4;
@@ -139,27 +139,27 @@ typedef struct {
 } pair;
 
 /* These states become the reference, if what says how far they can be trusted says that it is further. */
-static void prefer(nh_bench *c, double agreement, const double *states, const char *reference, const char *second)
+static void prefer(nh_benchmark_work *c, double agreement, const double *states, const char *reference, const char *second)
 {
     if (!(agreement < c->out->agreement)) return;
-    memcpy(c->yard.state, states, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *states);
+    memcpy(c->yard.state, states, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *states);
     c->out->agreement = agreement;
     c->out->reference = reference;
     c->out->second = second;
 }
 
-static double agreement_of(nh_bench *c, double *states, const double *other)
+static double agreement_of(nh_benchmark_work *c, double *states, const double *other)
 {
     double *before = c->yard.state;
     c->yard.state = states;
-    nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
-    double agreement = nh_yardstick_error(&c->yard, NH_CHART_OUTPUTS, other);
+    nh_reference_solution_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
+    double agreement = nh_reference_solution_error(&c->yard, NH_BENCHMARK_OUTPUTS, other);
     c->yard.state = before;
     return agreement;
 }
 
 /* In one formulation; taken when they agree better than what there is.  `states` and `other` are work space.  False: the first had no time. */
-static bool try_pair(nh_bench *c, const pair *p, size_t f, double *states, double *other)
+static bool try_pair(nh_benchmark_work *c, const pair *p, size_t f, double *states, double *other)
 {
     nh_arena *arena = c->out->arena;
     size_t ignored;
@@ -179,10 +179,10 @@ static bool try_pair(nh_bench *c, const pair *p, size_t f, double *states, doubl
 }
 
 /* In the chart; in all coordinates where the chart breaks down or the two methods disagree; by implicit methods where the motion is too stiff for the explicit one. */
-bool nh_bench_reference(nh_bench *c, nh_error *error)
+bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
 {
     static const pair pairs[] = {{"GSL rk8pd", "CVODE Adams", 1e-14, 1e-13}, {"ARKODE ESDIRK", "CVODE BDF", 1e-13, 1e-13}};
-    size_t size = NH_CHART_OUTPUTS * 2 * c->model->m;
+    size_t size = NH_BENCHMARK_OUTPUTS * 2 * c->model->m;
     double *states = nh_alloc_array(size, sizeof *states), *other = nh_alloc_array(size, sizeof *other);
     c->out->agreement = INFINITY;
     for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
@@ -193,8 +193,8 @@ bool nh_bench_reference(nh_bench *c, nh_error *error)
     nh_free(states);
     nh_free(other);
     if (isfinite(c->out->agreement)) {
-        nh_closed_use(c);
-        nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
+        nh_known_motions_use(c);
+        nh_reference_solution_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
         return true;
     }
     nh_fail(error, NH_NUMERIC, "", "no reference could be computed: the motion does not reach t = %g by two methods", c->out->end);
@@ -203,16 +203,16 @@ bool nh_bench_reference(nh_bench *c, nh_error *error)
 
 /* ---- all methods in all formulations ---- */
 
-static void add(nh_bench *c, const nh_method *method, size_t formulation, bool projected)
+static void add(nh_benchmark_work *c, const nh_method *method, size_t formulation, bool projected)
 {
-    if (c->candidates < NH_CHART_CANDIDATES) c->candidate[c->candidates++] = (nh_contender){.method = method, .formulation = formulation, .projected = projected};
+    if (c->candidates < NH_BENCHMARK_CANDIDATES) c->candidate[c->candidates++] = (nh_candidate_run){.method = method, .formulation = formulation, .projected = projected};
 }
 
-void nh_bench_add(nh_bench *c, const nh_method *method, size_t formulation) { add(c, method, formulation, false); }
+void nh_benchmark_work_add(nh_benchmark_work *c, const nh_method *method, size_t formulation) { add(c, method, formulation, false); }
 
-void nh_bench_refuse(nh_bench *c, const char *method, const char *why)
+void nh_benchmark_work_refuse(nh_benchmark_work *c, const char *method, const char *why)
 {
-    nh_comparison *out = c->out;
+    nh_benchmark *out = c->out;
     if (out->refused == c->refusals) { /* there is no room for more */
         const char **more = nh_arena_alloc(out->arena, (2 * c->refusals + 8) * sizeof *more);
         if (out->refused) memcpy(more, out->refusal, out->refused * sizeof *more);
@@ -223,29 +223,29 @@ void nh_bench_refuse(nh_bench *c, const char *method, const char *why)
 }
 
 /* The currents that a projection holds; the others with the reason. */
-static void choose_currents(nh_bench *c)
+static void choose_currents(nh_benchmark_work *c)
 {
     size_t n = c->yard.currents;
     const char **why = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *why);
     c->held = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *c->held);
-    nh_projection_choose(c->model, n, c->yard.current, c->yard.times[0], c->yard.times[NH_CHART_OUTPUTS - 1], c->formulation[0].z0, why);
+    nh_projection_choose(c->model, n, c->yard.current, c->yard.times[0], c->yard.times[NH_BENCHMARK_OUTPUTS - 1], c->formulation[0].z0, why);
     for (size_t k = 0; k < n; k++) {
         if (!why[k]) c->held[c->held_currents++] = c->yard.current[k];
-        else nh_bench_refuse(c, nh_arena_printf(c->out->arena, "projection onto %s", c->yard.name[k]), why[k]);
+        else nh_benchmark_work_refuse(c, nh_arena_printf(c->out->arena, "projection onto %s", c->yard.name[k]), why[k]);
     }
 }
 
-static void list_candidates(nh_bench *c)
+static void list_candidates(nh_benchmark_work *c)
 {
     static const char *const elsewhere[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF", "Lagrange-d'Alembert, order 4", "relaxation, order 8"}; /* in the other formulations */
     for (size_t i = 0; i < nh_method_count(); i++) {
         const nh_method *m = nh_method_at(i);
         const char *why = nh_method_refused(m, c->formulation[0].programs);
-        if (why) nh_bench_refuse(c, m->name, why);
+        if (why) nh_benchmark_work_refuse(c, m->name, why);
         else add(c, m, 0, false);
     }
-    if (!c->yard.currents) nh_bench_refuse(c, "projection", "the energy is not conserved, and the file knows no current; `known:` may hold one that `nhsym analyze` finds");
-    else if (c->model->chart->implicit) nh_bench_refuse(c, "projection", "the constraints are solved by Newton's method inside the equations of motion");
+    if (!c->yard.currents) nh_benchmark_work_refuse(c, "projection", "the energy is not conserved, and the file knows no current; `known:` may hold one that `nhsym analyze` finds");
+    else if (c->model->chart->implicit) nh_benchmark_work_refuse(c, "projection", "the constraints are solved by Newton's method inside the equations of motion");
     else {
         choose_currents(c);
         if (c->held_currents) add(c, nh_method_find("GSL rk8pd"), 0, true);
@@ -262,13 +262,13 @@ static void list_candidates(nh_bench *c)
 }
 
 /* Level by level, so that a short budget still gives every method its loose runs. */
-static void measure_all(nh_bench *c)
+static void measure_all(nh_benchmark_work *c)
 {
     double span = fabs(c->out->end - c->out->begin);
     c->grid = nh_arena_alloc(c->out->arena, c->candidates * levels * sizeof *c->grid);
     for (size_t level = 0; level < levels; level++)
         for (size_t i = 0; i < c->candidates; i++) {
-            nh_contender *k = &c->candidate[i];
+            nh_candidate_run *k = &c->candidate[i];
             bool fixed = k->method && k->method->order;
             double left = c->begun + c->budget - nh_clock();
             if (k->given_up) continue;
@@ -277,28 +277,28 @@ static void measure_all(nh_bench *c)
                 continue;
             }
             double step = fixed ? span / (c->options.chart_steps * pow(step_ratio, (double)level)) : NAN;
-            nh_bench_measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
+            nh_benchmark_work_measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
         }
 }
 
-static void collect(nh_bench *c)
+static void collect(nh_benchmark_work *c)
 {
-    nh_comparison *out = c->out;
+    nh_benchmark *out = c->out;
     out->item = nh_arena_alloc(out->arena, (c->candidates * levels + 1) * sizeof *out->item);
     for (size_t i = 0; i < c->candidates * levels; i++)
         if (c->grid[i].method) out->item[out->count++] = c->grid[i];
     for (size_t i = 0; i < out->count; i++) {
-        nh_measured *m = &out->item[i];
-        m->front = m->status == NH_RIGHT && !m->reduced; /* what a guard complains about is no advice */
+        nh_run_record *m = &out->item[i];
+        m->front = m->status == NH_ACCURATE && !m->reduced; /* what a guard complains about is no advice */
         for (size_t j = 0; j < out->count && m->front; j++) {
-            const nh_measured *o = &out->item[j];
+            const nh_run_record *o = &out->item[j];
             double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement); /* smaller ones cannot be told apart */
-            if (o->status == NH_RIGHT && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
+            if (o->status == NH_ACCURATE && !o->reduced && o->seconds <= m->seconds && other <= mine && (o->seconds < m->seconds || other < mine)) m->front = false;
         }
     }
 }
 
-static bool open_formulations(nh_bench *c, nh_error *error)
+static bool open_formulations(nh_benchmark_work *c, nh_error *error)
 {
     const nh_simulation *s = c->out->question;
     nh_error ignored;
@@ -314,11 +314,11 @@ static bool open_formulations(nh_bench *c, nh_error *error)
 }
 
 /* One motion with the guard in each chart. */
-static void watch_charts(nh_bench *c)
+static void watch_charts(nh_benchmark_work *c)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_contender k = {.method = nh_method_find("CVODE Adams")};
+    nh_candidate_run k = {.method = nh_method_find("CVODE Adams")};
     for (k.formulation = 0; k.formulation < c->formulations; k.formulation++) {
         nh_formulation *f = &c->formulation[k.formulation];
         if (!f->problem.guards) continue;
@@ -329,11 +329,11 @@ static void watch_charts(nh_bench *c)
     }
 }
 
-static bool open_bench(nh_bench *c, const nh_simulate_request *request, size_t coordinate, double turn, bool once, double budget, nh_error *error)
+static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request, size_t coordinate, double turn, bool once, double budget, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
-    nh_comparison *out = nh_arena_alloc(arena, sizeof *out);
-    *c = (nh_bench){.out = out, .budget = budget, .begun = nh_clock(), .absolute = request->options.absolute, .options = request->options, .project = request->project, .once = once};
+    nh_benchmark *out = nh_arena_alloc(arena, sizeof *out);
+    *c = (nh_benchmark_work){.out = out, .budget = budget, .begun = nh_clock(), .absolute = request->options.absolute, .options = request->options, .project = request->project, .once = once};
     out->arena = arena;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
@@ -342,60 +342,60 @@ static bool open_bench(nh_bench *c, const nh_simulate_request *request, size_t c
     c->initial.q[coordinate] += turn;
     if (turn != 0) c->project = true;
     c->yard.model = c->model;
-    c->yard.state = nh_arena_alloc(arena, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *c->yard.state);
+    c->yard.state = nh_arena_alloc(arena, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *c->yard.state);
     out->begin = c->initial.t;
-    for (size_t i = 0; i < NH_CHART_OUTPUTS; i++)
-        c->yard.times[i] = i + 1 == NH_CHART_OUTPUTS ? out->end : out->begin + (out->end - out->begin) * (double)i / (NH_CHART_OUTPUTS - 1);
+    for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++)
+        c->yard.times[i] = i + 1 == NH_BENCHMARK_OUTPUTS ? out->end : out->begin + (out->end - out->begin) * (double)i / (NH_BENCHMARK_OUTPUTS - 1);
     if (!(fabs(out->end - out->begin) > 0)) return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
     size_t known = c->model->system->currents;
     const char **astray = nh_arena_alloc(arena, (known + 1) * sizeof *astray);
-    for (size_t i = nh_yardstick_currents(&c->yard, arena, astray); i-- > 0;) nh_bench_refuse(c, nh_arena_printf(arena, "the known current \"%s\"", astray[i]), "it is not conserved with these parameters");
+    for (size_t i = nh_reference_solution_currents(&c->yard, arena, astray); i-- > 0;) nh_benchmark_work_refuse(c, nh_arena_printf(arena, "the known current \"%s\"", astray[i]), "it is not conserved with these parameters");
     out->currents = c->yard.currents;
     out->current = c->yard.name;
     if (!open_formulations(c, error)) return false;
-    nh_closed_open(c);
+    nh_known_motions_open(c);
     watch_charts(c);
     return true;
 }
 
-bool nh_bench_open(nh_bench *c, const nh_simulate_request *request, double budget, nh_error *error) { return open_bench(c, request, 0, 0, false, budget, error); }
+bool nh_benchmark_work_open(nh_benchmark_work *c, const nh_simulate_request *request, double budget, nh_error *error) { return open_bench(c, request, 0, 0, false, budget, error); }
 
-bool nh_bench_open_once(nh_bench *c, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error)
+bool nh_benchmark_work_open_once(nh_benchmark_work *c, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error)
 {
     return open_bench(c, request, coordinate, turn, true, budget, error);
 }
 
-void nh_bench_no_reference(nh_bench *c)
+void nh_benchmark_work_no_reference(nh_benchmark_work *c)
 {
     size_t m2 = 2 * c->model->m;
     const nh_formulation *all = &c->formulation[c->formulations - 1];
-    for (size_t i = 0; i < NH_CHART_OUTPUTS; i++) memcpy(c->yard.state + i * m2, all->z0, m2 * sizeof(double));
-    nh_yardstick_scales(&c->yard, c->out->arena, c->absolute);
+    for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++) memcpy(c->yard.state + i * m2, all->z0, m2 * sizeof(double));
+    nh_reference_solution_scales(&c->yard, c->out->arena, c->absolute);
 }
 
-void nh_bench_close(nh_bench *c)
+void nh_benchmark_work_close(nh_benchmark_work *c)
 {
     for (size_t f = 0; f < c->formulations; f++) nh_formulation_close(&c->formulation[f]);
-    nh_yardstick_close(&c->yard);
+    nh_reference_solution_close(&c->yard);
     nh_reduction_free(c->reduction);
     nh_model_free(c->other);
 }
 
-static void end_bench(nh_bench *c)
+static void end_bench(nh_benchmark_work *c)
 {
-    nh_bench_close(c);
-    nh_comparison_free(c->out);
+    nh_benchmark_work_close(c);
+    nh_benchmark_free(c->out);
 }
 
 /* A final time that nobody chose may lie behind a singularity, or be a million periods: it is halved, or divided by more where not even a part was reached, until there is a motion. */
-static bool open_somewhere(nh_bench *c, const nh_simulate_request *request, double budget, nh_error *error)
+static bool open_somewhere(nh_benchmark_work *c, const nh_simulate_request *request, double budget, nh_error *error)
 {
     nh_simulate_request q = *request;
     for (int i = 0; i < most_halvings; i++) {
         nh_error_clear(error);
-        if (!nh_bench_open(c, &q, budget, error)) break;
+        if (!nh_benchmark_work_open(c, &q, budget, error)) break;
         bool chosen = request->until_given || (c->out->question->analysis && c->out->question->analysis->has_until), last = chosen || i + 1 == most_halvings;
-        bool there = nh_bench_reference(c, error);
+        bool there = nh_benchmark_work_reference(c, error);
         c->out->doubtful = there && !(c->out->agreement < c->options.chart_trusted);
         if (there && (last || !c->out->doubtful)) {
             c->out->shortened = i > 0;
@@ -403,30 +403,30 @@ static bool open_somewhere(nh_bench *c, const nh_simulate_request *request, doub
         }
         if (last) break;
         q.until_given = true;
-        q.options.until = c->out->begin + (c->out->end - c->out->begin) * (c->reached > 1 ? fmin(0.5, (double)(c->reached - 1) / (NH_CHART_OUTPUTS - 1)) : least_part);
+        q.options.until = c->out->begin + (c->out->end - c->out->begin) * (c->reached > 1 ? fmin(0.5, (double)(c->reached - 1) / (NH_BENCHMARK_OUTPUTS - 1)) : least_part);
         end_bench(c);
     }
     end_bench(c);
     return false;
 }
 
-nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_error *error)
+nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget, nh_error *error)
 {
-    nh_bench c;
+    nh_benchmark_work c;
     if (!open_somewhere(&c, request, budget, error)) return NULL;
     list_candidates(&c);
-    nh_chart_reduced(&c, request);
+    nh_benchmark_reduced(&c, request);
     c.begun = nh_clock(); /* the budget is for measuring: what came before is needed in any case */
     measure_all(&c);
     collect(&c);
-    nh_chart_derivatives(&c.formulation[0], c.out);
-    nh_chart_fit(&c, budget * share_of_fits);
+    nh_benchmark_derivatives(&c.formulation[0], c.out);
+    nh_benchmark_fit(&c, budget * share_of_fits);
     c.out->partial |= nh_interrupted();
-    nh_bench_close(&c);
+    nh_benchmark_work_close(&c);
     return c.out;
 }
 
-void nh_comparison_free(nh_comparison *c)
+void nh_benchmark_free(nh_benchmark *c)
 {
     if (!c) return;
     nh_simulation_free(c->question);

@@ -8,7 +8,7 @@
 
 #include "commands/simulate.h"
 
-typedef enum { NH_RIGHT, NH_WARNED, NH_CAUGHT, NH_FAILED, NH_TIMEOUT, NH_WRONG } nh_measured_status;
+typedef enum { NH_ACCURATE, NH_FLAGGED, NH_DETECTED, NH_FAILED, NH_TIMEOUT, NH_UNDETECTED } nh_run_record_status;
 
 typedef struct {
     const char *method, *formulation;
@@ -17,11 +17,11 @@ typedef struct {
     double *drift;               /* per current */
     double seconds;              /* the least of some repetitions, without preparations */
     long evaluations;
-    nh_measured_status status;
+    nh_run_record_status status;
     bool reduced;                /* of reduced equations, which compute less: errors are of their own states, and it does not count below */
     bool front;                  /* nothing measured is both faster and more accurate */
     const char *note;            /* why it failed, or empty */
-} nh_measured;
+} nh_run_record;
 
 /* The Jacobian of the reduced equations at the chart's probes. */
 typedef struct {
@@ -51,7 +51,7 @@ typedef struct {
     size_t currents;
     const char **current;        /* names */
     size_t count, capacity;
-    nh_measured *item;           /* by method and formulation, loosest first */
+    nh_run_record *item;           /* by method and formulation, loosest first */
     size_t derivatives;
     nh_derivative *derivative;
     size_t fits;
@@ -62,12 +62,12 @@ typedef struct {
     bool partial;                /* the budget ended it */
     bool doubtful;               /* they do not agree well enough for it to be a reference (options.chart_trusted): errors then say little, and nothing is right */
     bool shortened;              /* the motion did not reach the time that was meant, and nobody had chosen that */
-} nh_comparison;
+} nh_benchmark;
 
 /* `budget`: seconds for the measurements.  NULL with a message when no motion can be computed at all. */
-nh_comparison *nh_compare(const nh_simulate_request *request, double budget, nh_error *error);
-void nh_comparison_free(nh_comparison *comparison);
+nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget, nh_error *error);
+void nh_benchmark_free(nh_benchmark *comparison);
 
-const char *nh_measured_status_name(nh_measured_status status);
+const char *nh_run_record_status_name(nh_run_record_status status);
 
 #endif

@@ -112,7 +112,7 @@ static void measure(differences *d, const nh_chart *c, int kind, double *J, doub
     if (!done) out->seconds = out->error = NAN;
 }
 
-void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out)
+void nh_benchmark_derivatives(const nh_formulation *f, nh_benchmark *out)
 {
     size_t n = f->size;
     if (!f->model || !f->problem.jacobian) return;

@@ -21,7 +21,7 @@ static const double in_span = 1e-10;                   /* distance of a known cu
 static const double enough_seconds = 0.02;
 
 typedef struct {
-    nh_bench *c;
+    nh_benchmark_work *c;
     nh_model *model;
     nh_options options;
     nh_points *ranges, *heldout;
@@ -49,7 +49,7 @@ static void columns_of(const nh_ansatz *a, nh_ex *out)
 /* Which of the known currents are combinations of the columns. */
 static void find_known(fit *f)
 {
-    const nh_yardstick *y = &f->c->yard;
+    const nh_reference_solution *y = &f->c->yard;
     size_t n = f->cheb->columns, rows = f->heldout->count;
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
     double *one = nh_alloc_array(n * n + 1, sizeof *one), unit = 1;
@@ -152,7 +152,7 @@ static bool past(const fit *f) { return nh_interrupted() || nh_clock() >= f->dea
 
 static void measure_level(fit *f)
 {
-    nh_comparison *out = f->c->out;
+    nh_benchmark *out = f->c->out;
     size_t n = f->cheb->columns;
     bool known[2] = {false, false};
     for (size_t d = densities; d-- > 0;) {
@@ -172,7 +172,7 @@ static void measure_level(fit *f)
     out->fits_partial |= past(f);
 }
 
-static void mark_front(nh_comparison *out)
+static void mark_front(nh_benchmark *out)
 {
     for (size_t i = 0; i < out->fits; i++) {
         nh_fitted *m = &out->fit[i];
@@ -232,9 +232,9 @@ static bool measure_degree(fit *f, size_t letters, const nh_ex *letter, size_t d
     return good;
 }
 
-void nh_chart_fit(nh_bench *c, double seconds)
+void nh_benchmark_fit(nh_benchmark_work *c, double seconds)
 {
-    nh_comparison *out = c->out;
+    nh_benchmark *out = c->out;
     nh_error ignored;
     nh_error_clear(&ignored);
     fit f = {.c = c, .model = out->question->model, .options = c->options, .deadline = nh_clock() + seconds};

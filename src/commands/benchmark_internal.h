@@ -8,7 +8,7 @@
 #include "commands/benchmark.h"
 #include "commands/reduce.h"
 
-enum { NH_CHART_OUTPUTS = 9, NH_CHART_LEVELS = 5, NH_CHART_FORMULATIONS = 3, NH_CHART_REDUCED = 4, NH_CHART_CANDIDATES = 64 };
+enum { NH_BENCHMARK_OUTPUTS = 9, NH_BENCHMARK_LEVELS = 5, NH_BENCHMARK_FORMULATIONS = 3, NH_CHART_REDUCED = 4, NH_BENCHMARK_CANDIDATES = 64 };
 
 typedef struct {
     const char *name;
@@ -27,13 +27,13 @@ typedef struct {
 /* What every run is compared with: (q, v) at the output times, scales, and the currents as functions of (t, q, v). */
 typedef struct {
     const nh_model *model;
-    double times[NH_CHART_OUTPUTS], *state, *scale; /* outputs x 2m; 2m */
+    double times[NH_BENCHMARK_OUTPUTS], *state, *scale; /* outputs x 2m; 2m */
     size_t currents;
     const char **name;
     nh_ex *current;          /* in the model's chart */
     nh_tape *tape;           /* currents, then d current_k / d y_j, over (t, q, v) */
     double *current_scale, *current_start;
-} nh_yardstick;
+} nh_reference_solution;
 
 /* In a model's chart.  False when the initial state is refused. */
 bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *initial, bool project, double absolute, nh_arena *arena, nh_error *error);
@@ -45,16 +45,16 @@ void nh_formulation_close(nh_formulation *f);
 bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y);
 
 /* Known currents of the system file that are conserved, and the energy if it is.  The names of those that are not, as many as it returns (room for all known ones). */
-size_t nh_yardstick_currents(nh_yardstick *y, nh_arena *arena, const char **astray);
+size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena, const char **astray);
 /* After the reference states are there. */
-void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least);
-void nh_yardstick_close(nh_yardstick *y);
+void nh_reference_solution_scales(nh_reference_solution *y, nh_arena *arena, double least);
+void nh_reference_solution_close(nh_reference_solution *y);
 /* Largest error over the first `count` outputs, and the drifts (currents values). */
-double nh_yardstick_error(const nh_yardstick *y, size_t count, const double *states);
-void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *states, double *drift);
+double nh_reference_solution_error(const nh_reference_solution *y, size_t count, const double *states);
+void nh_reference_solution_drifts(const nh_reference_solution *y, size_t count, const double *states, double *drift);
 
 /* Exact derivatives and differences, in a chart. */
-void nh_chart_derivatives(const nh_formulation *f, nh_comparison *out);
+void nh_benchmark_derivatives(const nh_formulation *f, nh_benchmark *out);
 
 /* Of a motion in reduced equations: the largest error in (x, p), and the drift of the energy. */
 double nh_reduced_error(const nh_formulation *f, const nh_motion *motion);
@@ -65,7 +65,7 @@ typedef struct {
     const nh_known_motion *motion;
     bool whole;    /* of all coordinates */
     double *state; /* outputs x 2m, as a yardstick's; only coordinates that it gives, and their velocities */
-} nh_closed;
+} nh_known_motions;
 
 /* ---- one motion, ready to be computed by any method ---- */
 
@@ -76,57 +76,57 @@ typedef struct {
     bool projected;
     double last;             /* seconds of its last run with all repetitions */
     bool given_up;
-} nh_contender;
+} nh_candidate_run;
 
 /* `out` is owned until it is handed over. */
 typedef struct {
-    nh_comparison *out;
+    nh_benchmark *out;
     const nh_model *model;
     nh_model *other;
     nh_state initial;
-    nh_yardstick yard;
+    nh_reference_solution yard;
     size_t formulations, candidates, refusals; /* refusals: room for so many */
-    nh_formulation formulation[NH_CHART_FORMULATIONS + NH_CHART_REDUCED]; /* the reduced ones last */
+    nh_formulation formulation[NH_BENCHMARK_FORMULATIONS + NH_CHART_REDUCED]; /* the reduced ones last */
     nh_reduction *reduction;
     size_t closeds;
-    nh_closed *closed;      /* those that hold for this initial state, if they are true */
+    nh_known_motions *closed;      /* those that hold for this initial state, if they are true */
     size_t held_currents;   /* those that a projection holds */
     nh_ex *held;
-    nh_contender candidate[NH_CHART_CANDIDATES];
-    nh_measured *grid; /* candidates x levels; method NULL: not run */
+    nh_candidate_run candidate[NH_BENCHMARK_CANDIDATES];
+    nh_run_record *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
     nh_options options;
     bool project, once; /* once: no repetitions, the time does not matter; steps are limited instead */
     size_t reached;     /* outputs of the reference's longest run */
     bool hurried;       /* the reference ran out of time */
-} nh_bench;
+} nh_benchmark_work;
 
 /* System, formulations and charts of a request; close it also on failure (and free `out`). */
-bool nh_bench_open(nh_bench *bench, const nh_simulate_request *request, double budget, nh_error *error);
+bool nh_benchmark_work_open(nh_benchmark_work *bench, const nh_simulate_request *request, double budget, nh_error *error);
 /* The same without repetitions, with at most options.stress_steps steps per motion, one coordinate of the initial state moved, and velocities that the constraints allow
  * there. */
-bool nh_bench_open_once(nh_bench *bench, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error);
-void nh_bench_close(nh_bench *bench);
+bool nh_benchmark_work_open_once(nh_benchmark_work *bench, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error);
+void nh_benchmark_work_close(nh_benchmark_work *bench);
 /* The reference: in the chart; in all coordinates where the chart breaks down or the two methods disagree. */
-bool nh_bench_reference(nh_bench *bench, nh_error *error);
+bool nh_benchmark_work_reference(nh_benchmark_work *bench, nh_error *error);
 /* Where there is none: errors are then infinite, drifts those from the initial state. */
-void nh_bench_no_reference(nh_bench *bench);
+void nh_benchmark_work_no_reference(nh_benchmark_work *bench);
 /* Another candidate; a method that is not used, with the reason. */
-void nh_bench_add(nh_bench *bench, const nh_method *method, size_t formulation);
-void nh_bench_refuse(nh_bench *bench, const char *method, const char *why);
+void nh_benchmark_work_add(nh_benchmark_work *bench, const nh_method *method, size_t formulation);
+void nh_benchmark_work_refuse(nh_benchmark_work *bench, const char *method, const char *why);
 /* One run, with repetitions for its time unless bench->once. */
-void nh_bench_measure(nh_bench *bench, nh_contender *candidate, double tolerance, double step, nh_measured *measured);
+void nh_benchmark_work_measure(nh_benchmark_work *bench, nh_candidate_run *candidate, double tolerance, double step, nh_run_record *measured);
 /* The discrete problem, in about so many seconds. */
-void nh_chart_fit(nh_bench *bench, double seconds);
+void nh_benchmark_fit(nh_benchmark_work *bench, double seconds);
 
 /* The closed forms of the system file that hold for the initial state. */
-void nh_closed_open(nh_bench *bench);
+void nh_known_motions_open(nh_benchmark_work *bench);
 /* How far one is off these states, relative to their scales, and where (an index into them). */
-double nh_closed_off(nh_bench *bench, const nh_closed *closed, double *states, size_t *worst);
+double nh_closed_off(nh_benchmark_work *bench, const nh_known_motions *closed, double *states, size_t *worst);
 /* As the reference, where the one that is there agrees; the others are refused. */
-void nh_closed_use(nh_bench *bench);
+void nh_known_motions_use(nh_benchmark_work *bench);
 
 /* The stages of the system's reduction as further formulations, where there is time for it. */
-void nh_chart_reduced(nh_bench *bench, const nh_simulate_request *request);
+void nh_benchmark_reduced(nh_benchmark_work *bench, const nh_simulate_request *request);
 
 #endif

@@ -15,7 +15,7 @@ static const double same_motion = 1e-6;
 static const char *const methods[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF"};
 
 /* "q1=..., q1'=..., " of the chart's initial state. */
-static const char *initial_words(const nh_bench *c)
+static const char *initial_words(const nh_benchmark_work *c)
 {
     const nh_system *s = c->model->system;
     const double *y = c->formulation[c->formulations - 1].z0; /* (q, v) */
@@ -28,9 +28,9 @@ static const char *initial_words(const nh_bench *c)
     return kept;
 }
 
-static nh_reduction *reduce(const nh_bench *c, const nh_simulate_request *q, nh_error *error)
+static nh_reduction *reduce(const nh_benchmark_work *c, const nh_simulate_request *q, nh_error *error)
 {
-    const nh_analysis *a = c->out->question->analysis;
+    const nh_analysis_file *a = c->out->question->analysis;
     size_t count = a ? a->settings : 0;
     nh_setting *setting = nh_arena_alloc(c->out->arena, (count + q->settings + 1) * sizeof *setting);
     if (count) memcpy(setting, a->setting, count * sizeof *setting);
@@ -38,19 +38,19 @@ static nh_reduction *reduce(const nh_bench *c, const nh_simulate_request *q, nh_
     nh_reduce_request r = {.system_path = q->system_path, .settings = count + q->settings, .setting = setting, .chart = q->chart, .initial = initial_words(c), .project = true, .options = q->options};
     r.options.until = c->out->end - c->out->begin;
     nh_deadline_set(c->budget);
-    nh_reduction *out = nh_reduce(&r, error);
+    nh_reduction *out = nh_reduction_create(&r, error);
     nh_deadline_set(INFINITY);
     return out;
 }
 
 /* Two methods in (x, p); why they are no reference, or NULL. */
-static const char *own_reference(nh_bench *c, nh_formulation *f)
+static const char *own_reference(nh_benchmark_work *c, nh_formulation *f)
 {
     static const struct {
         const char *method;
         double tolerance;
     } two[2] = {{"GSL rk8pd", 1e-14}, {"CVODE Adams", 1e-13}};
-    size_t size = NH_CHART_OUTPUTS * f->size;
+    size_t size = NH_BENCHMARK_OUTPUTS * f->size;
     f->reference = nh_arena_alloc(c->out->arena, (size + f->size + 1) * sizeof *f->reference);
     f->reference_scale = f->reference + size;
     f->agreement = INFINITY;
@@ -58,7 +58,7 @@ static const char *own_reference(nh_bench *c, nh_formulation *f)
         nh_error ignored;
         nh_error_clear(&ignored);
         nh_flow_options how = {.rtol = two[i].tolerance, .scale = f->scale, .max_steps = 1e6, .effort = 1e9 * c->budget / 4};
-        nh_motion *motion = nh_method_flow(nh_method_find(two[i].method), &f->problem, f->z0, NH_CHART_OUTPUTS, c->yard.times, &how, &ignored);
+        nh_motion *motion = nh_method_flow(nh_method_find(two[i].method), &f->problem, f->z0, NH_BENCHMARK_OUTPUTS, c->yard.times, &how, &ignored);
         bool good = motion && motion->complete;
         const char *why = good ? NULL : nh_arena_printf(c->out->arena, "its motion does not reach the end in one chart of the reduced equations: %s", motion ? motion->note : ignored.what);
         if (good && i == 0) {
@@ -97,7 +97,7 @@ double nh_reduced_drift(nh_formulation *f, const nh_motion *motion)
 }
 
 /* "reduced by SE(2), 2 states", "reduced again by R, 3 states".  Why it cannot be used, or NULL. */
-static const char *open_stage(nh_bench *c, const nh_reduction_stage *s)
+static const char *open_stage(nh_benchmark_work *c, const nh_reduction_stage *s)
 {
     nh_formulation *f = &c->formulation[c->formulations];
     *f = (nh_formulation){.reduced = nh_reduced_flow_create(s->reduced)};
@@ -111,7 +111,7 @@ static const char *open_stage(nh_bench *c, const nh_reduction_stage *s)
     return f->size > 0 ? own_reference(c, f) : "no state is left";
 }
 
-void nh_chart_reduced(nh_bench *c, const nh_simulate_request *q)
+void nh_benchmark_reduced(nh_benchmark_work *c, const nh_simulate_request *q)
 {
     nh_error error;
     nh_error_clear(&error);
@@ -119,17 +119,17 @@ void nh_chart_reduced(nh_bench *c, const nh_simulate_request *q)
     c->reduction = reduce(c, q, &error);
     const nh_reduction *r = c->reduction;
     if (!r || !r->stages) {
-        nh_bench_refuse(c, "reduced equations", !r ? error.what : r->warnings ? r->warning[0] : "no symmetry was found that can be divided out");
+        nh_benchmark_work_refuse(c, "reduced equations", !r ? error.what : r->warnings ? r->warning[0] : "no symmetry was found that can be divided out");
         return;
     }
-    for (size_t i = 0; i < r->stages && c->formulations < NH_CHART_FORMULATIONS + NH_CHART_REDUCED; i++) {
+    for (size_t i = 0; i < r->stages && c->formulations < NH_BENCHMARK_FORMULATIONS + NH_CHART_REDUCED; i++) {
         const nh_reduction_stage *s = &r->stage[i];
         const char *name = nh_arena_printf(c->out->arena, "reduced by %s", s->group), *why;
-        if (!s->start || !s->compared) nh_bench_refuse(c, name, s->note[0] ? s->note : "its motion could not be compared with the full one");
-        else if (!(s->agreement < same_motion)) nh_bench_refuse(c, name, nh_arena_printf(c->out->arena, "its motion differs from the full one by %.0e", s->agreement));
-        else if (!s->reduced->conservative) nh_bench_refuse(c, name, "with forces, or a constraint that does work, its energy says nothing about its error");
-        else if ((why = open_stage(c, s))) nh_bench_refuse(c, name, why);
+        if (!s->start || !s->compared) nh_benchmark_work_refuse(c, name, s->note[0] ? s->note : "its motion could not be compared with the full one");
+        else if (!(s->agreement < same_motion)) nh_benchmark_work_refuse(c, name, nh_arena_printf(c->out->arena, "its motion differs from the full one by %.0e", s->agreement));
+        else if (!s->reduced->conservative) nh_benchmark_work_refuse(c, name, "with forces, or a constraint that does work, its energy says nothing about its error");
+        else if ((why = open_stage(c, s))) nh_benchmark_work_refuse(c, name, why);
         else
-            for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) nh_bench_add(c, nh_method_find(methods[k]), c->formulations - 1);
+            for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) nh_benchmark_work_add(c, nh_method_find(methods[k]), c->formulations - 1);
     }
 }

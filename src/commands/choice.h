@@ -11,7 +11,7 @@ typedef struct {
     bool may_derive;  /* the model in coordinate velocities, too: the chart was not chosen by the user */
     double deriving;  /* units of effort that the model took */
     nh_model *other;    /* that was derived; or NULL */
-    nh_ways ways;       /* to be given to nh_trajectory_accurate while this stays where it is */
+    nh_integration_plans ways;       /* to be given to nh_trajectory_accurate while this stays where it is */
 } nh_choice;
 
 /* `plain`: only the model's own velocities and methods with error control can be used.  The fields up to `deriving` are filled in.  nh_choice_close. */

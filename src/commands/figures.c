@@ -11,7 +11,7 @@ enum { outputs = 601, scan_points = 128, scan_values = 401 };
 /* ---- one motion ---- */
 
 /* A motion with one parameter changed, read anew: initial values and expressions may depend on it. */
-static bool open_motion(nh_simulation *s, const nh_result *r, const nh_analyze_request *q, const nh_figure_request *f, double value, nh_state *initial, double *until, nh_error *error)
+static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q, const nh_figure_request *f, double value, nh_state *initial, double *until, nh_error *error)
 {
     nh_setting *setting = nh_arena_alloc(s->arena, (q->settings + 1) * sizeof *setting);
     size_t settings = q->settings;
@@ -24,7 +24,7 @@ static bool open_motion(nh_simulation *s, const nh_result *r, const nh_analyze_r
 }
 
 /* From the initial time to `end`, which may lie before it: quantity k at value[i * n + k], i counted from the initial time. */
-static nh_trajectory *integrate(nh_simulation *s, const nh_result *r, const nh_analyze_request *q, const nh_figure_request *f, const nh_state *initial, double end, size_t count, double *times, nh_error *error)
+static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q, const nh_figure_request *f, const nh_state *initial, double end, size_t count, double *times, nh_error *error)
 {
     nh_options options = r->options;
     nh_ex *e = nh_arena_alloc(s->arena, (f->quantities + 1) * sizeof *e);
@@ -57,7 +57,7 @@ static void join(course *c, const nh_trajectory *part, size_t n, bool back)
     }
 }
 
-static bool follow(nh_result *r, const nh_analyze_request *q, size_t which, double value, course *out, nh_error *error)
+static bool follow(nh_analysis *r, const nh_analyze_request *q, size_t which, double value, course *out, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_simulation *s = nh_arena_alloc(arena, sizeof *s);
@@ -85,7 +85,7 @@ static bool follow(nh_result *r, const nh_analyze_request *q, size_t which, doub
 
 /* ---- a figure ---- */
 
-static const char *name_of(nh_result *r, const nh_figure_request *f, size_t k, double value)
+static const char *name_of(nh_analysis *r, const nh_figure_request *f, size_t k, double value)
 {
     char number[40];
     nh_text_number(value, number, sizeof number);
@@ -94,14 +94,14 @@ static const char *name_of(nh_result *r, const nh_figure_request *f, size_t k, d
     return nh_arena_printf(r->arena, "%s, %s = %s", f->quantity[k].name, f->vary, number);
 }
 
-static double *column(nh_result *r, const course *c, size_t n, size_t k)
+static double *column(nh_analysis *r, const course *c, size_t n, size_t k)
 {
     double *out = nh_arena_alloc(r->arena, (c->count + 1) * sizeof *out);
     for (size_t i = 0; i < c->count; i++) out[i] = c->value[i * n + k];
     return out;
 }
 
-static void add_motion(nh_result *r, nh_figure *figure, const course *c, double value)
+static void add_motion(nh_analysis *r, nh_figure *figure, const course *c, double value)
 {
     const nh_figure_request *f = figure->request;
     size_t n = f->quantities;
@@ -112,7 +112,7 @@ static void add_motion(nh_result *r, nh_figure *figure, const course *c, double 
     for (size_t k = 0; k < n; k++) figure->curve[figure->curves++] = (nh_figure_curve){name_of(r, f, k, value), k, value, c->count, c->time, column(r, c, n, k), NULL};
 }
 
-static void motions(nh_result *r, const nh_analyze_request *q, size_t which, nh_figure *figure)
+static void motions(nh_analysis *r, const nh_analyze_request *q, size_t which, nh_figure *figure)
 {
     const nh_figure_request *f = figure->request;
     size_t count = f->values ? f->values : 1;
@@ -123,13 +123,13 @@ static void motions(nh_result *r, const nh_analyze_request *q, size_t which, nh_
         course c;
         double value = f->values ? f->value[i] : NAN;
         if (follow(r, q, which, value, &c, &trouble)) add_motion(r, figure, &c, value);
-        else nh_result_warn(r, "figure `%s`: a curve is missing: %s", f->title, trouble.what);
+        else nh_analysis_warn(r, "figure `%s`: a curve is missing: %s", f->title, trouble.what);
     }
 }
 
-static void scan(nh_result *r, nh_figure *figure)
+static void scan(nh_analysis *r, nh_figure *figure)
 {
-    const nh_analysis *a = r->analysis;
+    const nh_analysis_file *a = r->analysis;
     const nh_unknown *u = &a->unknown[figure->request->unknown];
     nh_error trouble;
     nh_error_clear(&trouble);
@@ -139,7 +139,7 @@ static void scan(nh_result *r, nh_figure *figure)
     bool good = points && r->hits && nh_unknowns_scan(r->model, points, a->families, a->family, u, &r->options, r->hits->generic, scan_values, x, y, &trouble);
     nh_points_free(points);
     if (!good) {
-        nh_result_warn(r, "figure `%s`: %s", figure->request->title, trouble.code != NH_OK ? trouble.what : "the unknown was not searched");
+        nh_analysis_warn(r, "figure `%s`: %s", figure->request->title, trouble.code != NH_OK ? trouble.what : "the unknown was not searched");
         return;
     }
     figure->curve = nh_arena_alloc(r->arena, 2 * sizeof *figure->curve);
@@ -147,7 +147,7 @@ static void scan(nh_result *r, nh_figure *figure)
 }
 
 /* The two sides of the gap for one number of samples; NAN where there is no such value. */
-static bool gap_at(const nh_result *r, const nh_ansatz *a, size_t count, double out[2], nh_error *error)
+static bool gap_at(const nh_analysis *r, const nh_ansatz *a, size_t count, double out[2], nh_error *error)
 {
     nh_points *points = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed, error);
     if (!points) return false;
@@ -166,7 +166,7 @@ static bool gap_at(const nh_result *r, const nh_ansatz *a, size_t count, double 
     return good;
 }
 
-static void samples(nh_result *r, size_t families, const nh_family *family, nh_figure *figure)
+static void samples(nh_analysis *r, size_t families, const nh_family *family, nh_figure *figure)
 {
     const nh_figure_request *f = figure->request;
     nh_error trouble;
@@ -184,14 +184,14 @@ static void samples(nh_result *r, size_t families, const nh_family *family, nh_f
         y[1][n++] = gap[1];
     }
     nh_ansatz_free(a);
-    if (!n) nh_result_warn(r, "figure `%s`: %s", f->title, trouble.code != NH_OK ? trouble.what : "it needs an ansatz in the analysis file");
+    if (!n) nh_analysis_warn(r, "figure `%s`: %s", f->title, trouble.code != NH_OK ? trouble.what : "it needs an ansatz in the analysis file");
     figure->curve = nh_arena_alloc(r->arena, 2 * sizeof *figure->curve);
     for (int j = 0; j < 2 && n; j++) figure->curve[figure->curves++] = (nh_figure_curve){j ? "smallest value above the gap" : "largest null value", 0, NAN, n, x, y[j], NULL};
 }
 
-void nh_figures_compute(nh_result *r, const nh_analyze_request *q, size_t families, const nh_family *family)
+void nh_figures_compute(nh_analysis *r, const nh_analyze_request *q, size_t families, const nh_family *family)
 {
-    const nh_analysis *a = r->analysis;
+    const nh_analysis_file *a = r->analysis;
     if (!a || !a->figures) return;
     nh_progress("the figures that are asked for", -1);
     r->figure = nh_arena_alloc(r->arena, a->figures * sizeof *r->figure);

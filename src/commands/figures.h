@@ -7,6 +7,6 @@
 
 /* Fills result->figure.  A curve that cannot be computed is left out with a warning.  The families are those of the ansatz with the unknowns' values in place;
  * 0 where the program chose it. */
-void nh_figures_compute(nh_result *result, const nh_analyze_request *request, size_t families, const nh_family *family);
+void nh_figures_compute(nh_analysis *result, const nh_analyze_request *request, size_t families, const nh_family *family);
 
 #endif

@@ -14,7 +14,7 @@ static const double fits = 1e-9;       /* a condition on the initial state holds
 /* ---- what it says ---- */
 
 /* The numbers that the initial state gives, then the conditions: false where they cannot be had or a condition fails. */
-static bool at_the_start(const nh_bench *c, const nh_known_motion *k, double *value)
+static bool at_the_start(const nh_benchmark_work *c, const nh_known_motion *k, double *value)
 {
     const nh_model *o = c->model;
     size_t n = k->starts + k->conditions;
@@ -23,7 +23,7 @@ static bool at_the_start(const nh_bench *c, const nh_known_motion *k, double *va
     nh_error ignored;
     nh_error_clear(&ignored);
     bool good = nh_dynamics_point(c->formulation[0].dynamics, c->yard.times[0], c->formulation[0].z0, point);
-    for (size_t i = 0; i < n && good; i++) good = nh_analysis_to_chart(o, i < k->starts ? k->start[i].value : k->condition[i - k->starts], &e[i], &ignored);
+    for (size_t i = 0; i < n && good; i++) good = nh_analysis_file_to_chart(o, i < k->starts ? k->start[i].value : k->condition[i - k->starts], &e[i], &ignored);
     if (good) {
         nh_tape *tape = nh_model_tape(o, n, e);
         nh_tape_work *work = nh_tape_work_create(tape);
@@ -38,7 +38,7 @@ static bool at_the_start(const nh_bench *c, const nh_known_motion *k, double *va
 }
 
 /* Its coordinates and, as their derivatives by t, velocities at the output times, into rows of 2m. */
-static bool along(const nh_bench *c, const nh_known_motion *k, const double *start, double *state)
+static bool along(const nh_benchmark_work *c, const nh_known_motion *k, const double *start, double *state)
 {
     const nh_model *o = c->model;
     const nh_system *s = o->system;
@@ -53,7 +53,7 @@ static bool along(const nh_bench *c, const nh_known_motion *k, const double *sta
         if (k->given[j]) out[n++] = k->value[j], out[n++] = nh_diff(o->dag, k->value[j], s->t);
     nh_tape *tape = nh_tape_create(o->dag, inputs, in, n, out, s->parameters, o->parameter, o->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
-    for (size_t i = 0; i < NH_CHART_OUTPUTS; i++) {
+    for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++) {
         x[0] = c->yard.times[i];
         nh_tape_eval(tape, work, x, value);
         for (size_t j = 0, l = 0; j < m; j++) {
@@ -72,7 +72,7 @@ static bool along(const nh_bench *c, const nh_known_motion *k, const double *sta
     return good;
 }
 
-void nh_closed_open(nh_bench *c)
+void nh_known_motions_open(nh_benchmark_work *c)
 {
     nh_arena *arena = c->out->arena;
     nh_known_motion *known;
@@ -81,30 +81,30 @@ void nh_closed_open(nh_bench *c)
     nh_error_clear(&error);
     bool good = nh_system_motions(c->model->system, &count, &known, &error);
     c->closed = nh_arena_alloc(arena, (count + 1) * sizeof *c->closed);
-    if (!good) nh_bench_refuse(c, "closed forms", error.what);
+    if (!good) nh_benchmark_work_refuse(c, "closed forms", error.what);
     for (size_t i = 0; i < count && good; i++) {
         const nh_known_motion *k = &known[i];
-        nh_closed *f = &c->closed[c->closeds];
+        nh_known_motions *f = &c->closed[c->closeds];
         double *start = nh_alloc_array(k->starts + k->conditions + 1, sizeof *start);
-        *f = (nh_closed){.motion = k, .state = nh_arena_alloc(arena, NH_CHART_OUTPUTS * 2 * c->model->m * sizeof *f->state), .whole = k->values == c->model->m};
+        *f = (nh_known_motions){.motion = k, .state = nh_arena_alloc(arena, NH_BENCHMARK_OUTPUTS * 2 * c->model->m * sizeof *f->state), .whole = k->values == c->model->m};
         bool fitting = at_the_start(c, k, start);
         if (fitting && along(c, k, start, f->state)) c->closeds++;
-        else if (fitting) nh_bench_refuse(c, nh_arena_printf(arena, "closed form \"%s\"", k->name), "it has no value on the way");
+        else if (fitting) nh_benchmark_work_refuse(c, nh_arena_printf(arena, "closed form \"%s\"", k->name), "it has no value on the way");
         nh_free(start);
     }
 }
 
 /* ---- whether it is so ---- */
 
-double nh_closed_off(nh_bench *c, const nh_closed *f, double *states, size_t *worst)
+double nh_closed_off(nh_benchmark_work *c, const nh_known_motions *f, double *states, size_t *worst)
 {
     size_t m = c->model->m;
     double *kept = c->yard.state, most = 0;
     c->yard.state = states;
-    nh_yardstick_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
+    nh_reference_solution_scales(&c->yard, c->out->arena, c->formulation[0].scale[0]);
     c->yard.state = kept;
     *worst = 0;
-    for (size_t i = 0; i < NH_CHART_OUTPUTS * 2 * m; i++) {
+    for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS * 2 * m; i++) {
         double off = f->motion->given[i % m] ? fabs(f->state[i] - states[i]) / c->yard.scale[i % (2 * m)] : 0;
         if (!(off <= most)) most = isfinite(off) ? off : INFINITY, *worst = i;
     }
@@ -112,7 +112,7 @@ double nh_closed_off(nh_bench *c, const nh_closed *f, double *states, size_t *wo
 }
 
 /* "phi and y" */
-static const char *names_of(const nh_bench *c, const nh_closed *f)
+static const char *names_of(const nh_benchmark_work *c, const nh_known_motions *f)
 {
     const nh_system *s = c->model->system;
     const char *text = "";
@@ -125,28 +125,28 @@ static const char *names_of(const nh_bench *c, const nh_closed *f)
     return text;
 }
 
-static void refuse(nh_bench *c, const nh_closed *f, double off, size_t worst, const char *methods)
+static void refuse(nh_benchmark_work *c, const nh_known_motions *f, double off, size_t worst, const char *methods)
 {
     const nh_system *s = c->model->system;
     size_t m = c->model->m, j = worst % (2 * m);
     const char *name = j < m ? s->coordinate[j].name : nh_name_of(c->model->dag, s->coordinate[j - m].v);
-    nh_bench_refuse(c, nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name),
+    nh_benchmark_work_refuse(c, nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name),
                     nh_arena_printf(c->out->arena, "it is not this motion: %s is off by %.0e at t = %g, where %s agree to %.0e", name, off, c->yard.times[worst / (2 * m)], methods, c->out->agreement));
 }
 
-void nh_closed_use(nh_bench *c)
+void nh_known_motions_use(nh_benchmark_work *c)
 {
     size_t m = c->model->m;
     const char *methods = nh_arena_printf(c->out->arena, "%s and %s", c->out->reference, c->out->second);
     for (size_t k = 0; k < c->closeds; k++) {
-        const nh_closed *f = &c->closed[k];
+        const nh_known_motions *f = &c->closed[k];
         size_t worst;
         double off = nh_closed_off(c, f, c->yard.state, &worst);
         if (!(off <= fmax(fmin(c->options.chart_closed * c->out->agreement, c->options.chart_trusted), least_off))) {
             refuse(c, f, off, worst, methods);
             continue;
         }
-        for (size_t i = 0; i < NH_CHART_OUTPUTS * 2 * m; i++)
+        for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS * 2 * m; i++)
             if (f->motion->given[i % m]) c->yard.state[i] = f->state[i];
         if (f->whole) {
             c->out->second = c->out->reference;

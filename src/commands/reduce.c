@@ -131,15 +131,15 @@ static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *
     memcpy(r->initial.q, r->kinetic->place, m * sizeof(double));
     memcpy(r->initial.v, r->kinetic->speed, m * sizeof(double));
     if (!q->initial) return true;
-    nh_analysis *own = nh_simulate_initial(r->arena, q->initial, error);
-    bool good = own && nh_analysis_resolve(own, r->model, error);
+    nh_analysis_file *own = nh_simulate_initial(r->arena, q->initial, error);
+    bool good = own && nh_analysis_file_resolve(own, r->model, error);
     if (good) {
         memcpy(r->initial.q, own->initial.q, m * sizeof(double));
         memcpy(r->initial.v, own->initial.v, m * sizeof(double));
         if (r->kinetic->affine && r->kinetic->autonomous) good = velocities(r, q, own->initial.given, error);
         else if (r->kinetic->f) good = project(r, q, own->initial.given, error);
     }
-    nh_analysis_free(own);
+    nh_analysis_file_free(own);
     return good;
 }
 
@@ -247,7 +247,7 @@ static void count_weaker(nh_reduction *r)
     bool flat = !k->magnetic;
     for (size_t s = 0; s < k->m && flat; s++) flat = !nh_depends(k->dag, k->V, k->q[s]);
     if (!r->all->jets || r->strict || flat || nh_interrupted()) return;
-    nh_jets *j = nh_jets_find(nh_weak_kinetic(k), &r->options, &trouble);
+    nh_jets *j = nh_jets_find(nh_quasi_symmetry_kinetic(k), &r->options, &trouble);
     if (j && j->dimension > r->all->jets->dimension) r->weaker = j->dimension - r->all->jets->dimension;
     nh_jets_free(j);
     nh_error_clear(&trouble);
@@ -316,7 +316,7 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
         return nh_error_hint(error, "leave --weak out");
     }
     r->strict = r->kinetic;
-    r->kinetic = nh_weak_kinetic(r->strict);
+    r->kinetic = nh_quasi_symmetry_kinetic(r->strict);
     return true;
 }
 
@@ -324,7 +324,7 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
 static bool conserved(nh_reduction *r)
 {
     nh_error trouble = {0};
-    if (r->strict) nh_weak_momenta(&r->momenta, r->strict, &r->group->action, &r->options);
+    if (r->strict) nh_quasi_symmetry_momenta(&r->momenta, r->strict, &r->group->action, &r->options);
     else if (!nh_reduction_quotient_momenta(r, &trouble)) nh_reduction_warn(r, "no momenta were looked for: %s", trouble.what);
     nh_error_clear(&trouble);
     return true;
@@ -353,7 +353,7 @@ static bool divide_by_group(nh_reduction *r, nh_error *error)
     return nh_interrupted();
 }
 
-nh_reduction *nh_reduce(const nh_reduce_request *q, nh_error *error)
+nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
 {
     static const double finest = 1e-14; /* tolerance */
     nh_arena *arena = nh_arena_create();

@@ -116,7 +116,7 @@ typedef struct {
 } nh_reduction;
 
 /* NULL with a message on bad input (a file, fields that are no symmetries or do not close, a singular place). */
-nh_reduction *nh_reduce(const nh_reduce_request *request, nh_error *error);
+nh_reduction *nh_reduction_create(const nh_reduce_request *request, nh_error *error);
 void nh_reduction_free(nh_reduction *reduction);
 /* The stages once more from another initial state, the sample point `place` of r->kinetic, with all that is compared (what is shown is not made again). */
 bool nh_reduction_again(nh_reduction *reduction, size_t place, nh_error *error);

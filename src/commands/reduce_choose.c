@@ -23,7 +23,7 @@ typedef struct {
 typedef struct {
     nh_reduction_bench *b;
     nh_reduction_stage *s;
-    const nh_reduction_course *course;
+    const nh_reduction_time_series *course;
     double wanted, limit;     /* units that a run may need */
     int runs;
     nh_reconstruction *best;  /* the cheapest that is near enough, or while none is the nearest */
@@ -119,7 +119,7 @@ static void explain(race *q, size_t n, const runner *m)
     else snprintf(end, left, ": the only one that agrees with %s to %.1e, or the others need more than twice the counted work", with, aim * q->wanted);
 }
 
-nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, nh_reconstruct_how *how)
+nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, nh_reconstruct_how *how)
 {
     nh_reduction *r = b->r;
     race q = {.b = b, .s = s, .course = course, .wanted = r->wanted, .distance = INFINITY, .effort = INFINITY};

@@ -4,7 +4,7 @@
 
 #include "commands/reduce_internal.h"
 
-nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_reduction_stage *s, const nh_reduction_course *c, bool group, const nh_reconstruct_how *how, nh_error *error)
+nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_reduction_stage *s, const nh_reduction_time_series *c, bool group, const nh_reconstruct_how *how, nh_error *error)
 {
     nh_reconstruct_how own = *how;
     double *place = nh_alloc_array(s->action->kinetic->m + 1, sizeof *place);
@@ -16,7 +16,7 @@ nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *b, const nh_red
     return out;
 }
 
-double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_course *c, const nh_reconstruction *motion)
+double nh_reduction_farthest(const nh_reduction_stage *s, const nh_reduction_time_series *c, const nh_reconstruction *motion)
 {
     double worst;
     nh_reduction_reliable(s->action->kinetic, motion->count < c->reached ? motion->count : c->reached, motion->q, motion->m, c->want, c->stride, INFINITY, &worst);
@@ -38,7 +38,7 @@ static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_
 }
 
 /* How far it goes and how near it comes. */
-static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, const nh_reconstruction *c)
+static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, const nh_reconstruction *c)
 {
     size_t n = c->count < course->reached ? c->count : course->reached;
     s->complete = c->complete && course->outputs == NH_REDUCTION_OUTPUTS;
@@ -52,7 +52,7 @@ static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const
 }
 
 /* The reduced motion alone. */
-static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, const nh_reconstruct_how *how)
+static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, const nh_reconstruct_how *how)
 {
     nh_error trouble = {0};
     nh_reconstruction *c = nh_reduction_follow(b, s, course, false, how, &trouble);
@@ -62,7 +62,7 @@ static void reduced_alone(nh_reduction_bench *b, nh_reduction_stage *s, const nh
 }
 
 /* With the group's motion; false when it cannot be started. */
-static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course, const nh_reconstruct_how *how, bool first)
+static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, const nh_reconstruct_how *how, bool first)
 {
     nh_error trouble = {0};
     nh_reconstruction *c = nh_reduction_follow(b, s, course, true, how, &trouble);
@@ -77,7 +77,7 @@ static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, cons
 
 /* Where the two are apart the reduced motion is computed again with a smaller tolerance: it may be the more sensitive one.  The errors of a multistep method can be
  * large beside its tolerance all the same, as where a disk passes the vertical and its angles turn by pi within a few steps; so at last by a pair of order 8. */
-static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course)
+static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course)
 {
     static const double apart = 50, finer = 0.02, least = 2e-14, least_of_pair = 3e-13; /* apart in tolerances */
     const nh_reduction *r = b->r;
@@ -94,7 +94,7 @@ static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduct
 }
 
 /* By the method that is chosen for the wanted accuracy. */
-static void chosen(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course)
+static void chosen(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course)
 {
     nh_reduction *r = b->r;
     nh_reconstruct_how how;
@@ -113,7 +113,7 @@ static void chosen(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduct
     if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s: %s", s->group, s->choice.why);
 }
 
-void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_course *course)
+void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course)
 {
     nh_reduction *r = b->r;
     if (nh_reduction_late(r, "the motion of a stage")) return;

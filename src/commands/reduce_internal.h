@@ -49,16 +49,16 @@ typedef struct {
     size_t outputs;
     const double *want;    /* positions, `stride` apart, at the first `reached` outputs */
     size_t stride, reached;
-} nh_reduction_course;
+} nh_reduction_time_series;
 
 /* One motion, with the group's or without. */
-nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *bench, const nh_reduction_stage *stage, const nh_reduction_course *course, bool group, const nh_reconstruct_how *how, nh_error *error);
+nh_reconstruction *nh_reduction_follow(const nh_reduction_bench *bench, const nh_reduction_stage *stage, const nh_reduction_time_series *course, bool group, const nh_reconstruct_how *how, nh_error *error);
 /* The largest distance of a motion with the group's from the one that it is to meet, as far as both go. */
-double nh_reduction_farthest(const nh_reduction_stage *stage, const nh_reduction_course *course, const nh_reconstruction *motion);
+double nh_reduction_farthest(const nh_reduction_stage *stage, const nh_reduction_time_series *course, const nh_reconstruction *motion);
 /* The cheapest motion that agrees with the full one to r->wanted, or where none does the nearest; and how it is computed.  NULL: none could be started. */
-nh_reconstruction *nh_reduction_choose(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_course *course, nh_reconstruct_how *how);
+nh_reconstruction *nh_reduction_choose(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_time_series *course, nh_reconstruct_how *how);
 /* Integrate, reconstruct, compare; all that the stage says of it. */
-void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_course *course);
+void nh_reduction_compare(nh_reduction_bench *bench, nh_reduction_stage *stage, const nh_reduction_time_series *course);
 
 /* A subset of the generators that acts freely, as large as possible; the whole group when that does. */
 bool nh_reduction_free_subgroup(nh_reduction *reduction, nh_action *out);

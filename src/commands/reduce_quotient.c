@@ -57,7 +57,7 @@ bool nh_reduction_quotient(nh_reduction_bench *b, const nh_action *action, nh_er
     s->shown = pretty;
     s->shown_slice = used;
     s->start = z;
-    nh_reduction_compare(b, s, &(nh_reduction_course){.z = z, .outputs = b->reached, .want = b->full, .stride = r->kinetic->m, .reached = b->reached});
+    nh_reduction_compare(b, s, &(nh_reduction_time_series){.z = z, .outputs = b->reached, .want = b->full, .stride = r->kinetic->m, .reached = b->reached});
     return true;
 }
 

@@ -133,7 +133,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
         nh_atlas_add(atlas, pretty->slice, &pretty->reduced, independent, NULL);
         nh_atlas_prefer(atlas);
     }
-    nh_reduction_compare(b, s, &(nh_reduction_course){.atlas = atlas, .q = r->initial.q, .v = r->initial.v, .outputs = NH_REDUCTION_OUTPUTS, .want = b->full, .stride = m, .reached = b->reached});
+    nh_reduction_compare(b, s, &(nh_reduction_time_series){.atlas = atlas, .q = r->initial.q, .v = r->initial.v, .outputs = NH_REDUCTION_OUTPUTS, .want = b->full, .stride = m, .reached = b->reached});
     nh_atlas_free(atlas);
     return true;
 }
@@ -272,7 +272,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         nh_action both = both_groups(s1->action, d, field, &r->options);
         nh_atlas *atlas = nh_atlas_create_second(t, both.closes ? &both : NULL);
         nh_atlas_add(atlas, &t->slice, &t->reduced, NULL, t);
-        nh_reduction_compare(b, s, &(nh_reduction_course){.atlas = atlas, .q = x, .v = u, .outputs = NH_REDUCTION_OUTPUTS, .want = full ? full : want, .stride = n, .reached = full ? b->reached : reached});
+        nh_reduction_compare(b, s, &(nh_reduction_time_series){.atlas = atlas, .q = x, .v = u, .outputs = NH_REDUCTION_OUTPUTS, .want = full ? full : want, .stride = n, .reached = full ? b->reached : reached});
         nh_atlas_free(atlas);
         nh_action_clear(&both);
     }

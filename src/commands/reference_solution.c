@@ -107,7 +107,7 @@ static bool to_coordinates(const nh_model *o, size_t n, const nh_ex *e, nh_ex *o
     return good;
 }
 
-static void compile(nh_yardstick *y, const nh_ex *e)
+static void compile(nh_reference_solution *y, const nh_ex *e)
 {
     const nh_model *o = y->model;
     size_t m = o->m, n = y->currents;
@@ -151,7 +151,7 @@ static bool same_current(const nh_model *o, nh_ex a, nh_ex b)
     return same;
 }
 
-size_t nh_yardstick_currents(nh_yardstick *y, nh_arena *arena, const char **astray)
+size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena, const char **astray)
 {
     size_t others = 0;
     const nh_model *o = y->model;
@@ -163,7 +163,7 @@ size_t nh_yardstick_currents(nh_yardstick *y, nh_arena *arena, const char **astr
     nh_ex *e = nh_alloc_array(s->currents + 1, sizeof *e);
     for (size_t k = 0; k <= s->currents; k++) {
         nh_ex phi = o->E;
-        if (k && !nh_analysis_to_chart(o, s->current[k - 1].value, &phi, &ignored)) continue;
+        if (k && !nh_analysis_file_to_chart(o, s->current[k - 1].value, &phi, &ignored)) continue;
         if (k && y->currents && y->current[0] == o->E && same_current(o, o->E, phi)) continue;
         if (!is_conserved(o, phi)) {
             if (k) astray[others++] = s->current[k - 1].name;
@@ -186,7 +186,7 @@ static double size_of(const nh_model *o, size_t j, double y, double least)
 }
 
 /* The size of a current is that of what it is made of: |Phi| and |dPhi/dy_j y_j|, y_j not below its least size. */
-void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
+void nh_reference_solution_scales(nh_reference_solution *y, nh_arena *arena, double least)
 {
     size_t m2 = 2 * y->model->m, n = y->currents;
     double *in = nh_alloc_array(1 + m2, sizeof *in), *out = nh_alloc_array(n * (1 + m2) + 1, sizeof *out);
@@ -195,7 +195,7 @@ void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
     y->current_scale = nh_arena_alloc(arena, (n + 1) * sizeof *y->current_scale);
     y->current_start = nh_arena_alloc(arena, (n + 1) * sizeof *y->current_start);
     for (size_t j = 0; j < m2; j++) y->scale[j] = least;
-    for (size_t i = 0; i < NH_CHART_OUTPUTS; i++) {
+    for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++) {
         const double *at = y->state + i * m2;
         in[0] = y->times[i];
         memcpy(in + 1, at, m2 * sizeof *in);
@@ -214,9 +214,9 @@ void nh_yardstick_scales(nh_yardstick *y, nh_arena *arena, double least)
     nh_free(out);
 }
 
-void nh_yardstick_close(nh_yardstick *y) { nh_tape_free(y->tape); }
+void nh_reference_solution_close(nh_reference_solution *y) { nh_tape_free(y->tape); }
 
-double nh_yardstick_error(const nh_yardstick *y, size_t count, const double *states)
+double nh_reference_solution_error(const nh_reference_solution *y, size_t count, const double *states)
 {
     size_t m2 = 2 * y->model->m;
     double worst = 0;
@@ -227,7 +227,7 @@ double nh_yardstick_error(const nh_yardstick *y, size_t count, const double *sta
     return worst;
 }
 
-void nh_yardstick_drifts(const nh_yardstick *y, size_t count, const double *states, double *drift)
+void nh_reference_solution_drifts(const nh_reference_solution *y, size_t count, const double *states, double *drift)
 {
     size_t m2 = 2 * y->model->m, n = y->currents;
     double *in = nh_alloc_array(1 + m2, sizeof *in), *out = nh_alloc_array(n * (1 + m2) + 1, sizeof *out);

@@ -8,28 +8,28 @@
 
 enum { most_values = 12, most_parameters = 12 };
 static const char *const methods[] = {"GSL rk8pd", "GSL rkf45", "ARKODE Dormand-Prince", "CVODE Adams", "CVODE BDF"};
-enum { method_count = NH_STRESS_METHODS };
+enum { method_count = NH_ROBUSTNESS_METHODS };
 static const char *const stepping[] = {"midpoint", "Lagrange-d'Alembert", "Lagrange-d'Alembert, order 4", "energy-preserving", "relaxation, order 4"};
 _Static_assert(sizeof methods / sizeof *methods == method_count && sizeof stepping / sizeof *stepping == method_count, "as many of both");
 enum { longer_times = 4, longer_by_steps = 3 }; /* the first of these: */
 static const double longer[longer_times] = {1, 10, 100, 1000}, absolute[] = {1e-9, 1e-6, 1e-3, 1, 1e3, 1e6}, parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
 static const double least_cell = 0.02; /* seconds that a value has at least */
 
-bool nh_stress_late(const nh_stress_work *w) { return nh_interrupted() || nh_clock() > w->begun + w->budget; }
+bool nh_robustness_late(const nh_robustness_work *w) { return nh_interrupted() || nh_clock() > w->begun + w->budget; }
 
 /* ---- one cell ---- */
 
-static double drift_of(const nh_measured *m) { return isnan(m->worst_drift) ? 0 : m->worst_drift; }
+static double drift_of(const nh_run_record *m) { return isnan(m->worst_drift) ? 0 : m->worst_drift; }
 
 /* Which guard complains about a run that ended? NULL: none. */
-static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measured *m, double step, const nh_options *o)
+static const char *guard_of(nh_benchmark_work *b, const nh_candidate_run *k, const nh_run_record *m, double step, const nh_options *o)
 {
     nh_arena *arena = b->out->arena;
-    nh_measured tight;
-    nh_contender again = *k;
-    if (m->status == NH_WARNED || m->status == NH_CAUGHT) return "the pivot of the chart";
+    nh_run_record tight;
+    nh_candidate_run again = *k;
+    if (m->status == NH_FLAGGED || m->status == NH_DETECTED) return "the pivot of the chart";
     if (drift_of(m) > o->stress_error) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
-    nh_bench_measure(b, &again, step > 0 ? NAN : o->stress_tolerance / 10, step > 0 ? step / 2 : NAN, &tight);
+    nh_benchmark_work_measure(b, &again, step > 0 ? NAN : o->stress_tolerance / 10, step > 0 ? step / 2 : NAN, &tight);
     if (tight.status == NH_TIMEOUT) b->hurried = true; /* it says nothing */
     if (tight.status == NH_TIMEOUT) return NULL;
     if (tight.status == NH_FAILED) return step > 0 ? "half the step does not reach the end" : "a tighter tolerance does not reach the end";
@@ -38,7 +38,7 @@ static const char *guard_of(nh_bench *b, const nh_contender *k, const nh_measure
     return NULL;
 }
 
-static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool reference, double step, const nh_options *o, nh_stress_cell *cell)
+static void decide(nh_benchmark_work *b, const nh_candidate_run *k, nh_run_record *m, bool reference, double step, const nh_options *o, nh_robustness_cell *cell)
 {
     bool ended = m->status != NH_FAILED && m->status != NH_TIMEOUT;
     const char *guard = ended && (reference || !b->hurried) ? guard_of(b, k, m, step, o) : NULL;
@@ -51,34 +51,34 @@ static void decide(nh_bench *b, const nh_contender *k, nh_measured *m, bool refe
         cell->status = NH_TIMEOUT;
         cell->note = "there was no time for a reference, or for a tighter run";
     } else if (!reference) {
-        cell->status = guard ? NH_CAUGHT : NH_WARNED;
+        cell->status = guard ? NH_DETECTED : NH_FLAGGED;
         if (!guard) cell->note = "no two methods agree on this motion";
-    } else cell->status = good ? guard ? NH_WARNED : NH_RIGHT : guard ? NH_CAUGHT : NH_WRONG;
+    } else cell->status = good ? guard ? NH_FLAGGED : NH_ACCURATE : guard ? NH_DETECTED : NH_UNDETECTED;
 }
 
-static void try_method(nh_bench *b, const char *name, bool in_coordinates, bool reference, double step, const nh_options *o, nh_stress_cell *cell)
+static void try_method(nh_benchmark_work *b, const char *name, bool in_coordinates, bool reference, double step, const nh_options *o, nh_robustness_cell *cell)
 {
-    nh_contender k = {.method = nh_method_find(name), .formulation = in_coordinates && b->formulations == NH_CHART_FORMULATIONS ? 1 : 0};
-    nh_measured m;
+    nh_candidate_run k = {.method = nh_method_find(name), .formulation = in_coordinates && b->formulations == NH_BENCHMARK_FORMULATIONS ? 1 : 0};
+    nh_run_record m;
     const char *refused = nh_method_refused(k.method, b->formulation[k.formulation].programs);
     if (refused) {
         cell->note = refused;
         return;
     }
     b->hurried &= !reference; /* what one method had no time for does not concern the next */
-    nh_bench_measure(b, &k, step > 0 ? NAN : o->stress_tolerance, step > 0 ? step : NAN, &m);
+    nh_benchmark_work_measure(b, &k, step > 0 ? NAN : o->stress_tolerance, step > 0 ? step : NAN, &m);
     decide(b, &k, &m, reference, step, o, cell);
 }
 
-void nh_stress_try(nh_stress_work *w, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_stress_cell *cell)
+void nh_robustness_try(nh_robustness_work *w, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_robustness_cell *cell)
 {
     nh_error error;
     nh_error_clear(&error);
     double left = w->begun + w->budget - nh_clock(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
-    nh_bench b;
-    bool opened = nh_bench_open_once(&b, request, coordinate, turn, budget, &error);
-    bool reference = opened && nh_bench_reference(&b, &error) && b.out->agreement <= request->options.stress_error; /* else the two say nothing about what is right */
-    if (opened && !reference) nh_bench_no_reference(&b);
+    nh_benchmark_work b;
+    bool opened = nh_benchmark_work_open_once(&b, request, coordinate, turn, budget, &error);
+    bool reference = opened && nh_benchmark_work_reference(&b, &error) && b.out->agreement <= request->options.stress_error; /* else the two say nothing about what is right */
+    if (opened && !reference) nh_benchmark_work_no_reference(&b);
     for (size_t i = 0; i < method_count; i++) {
         cell[i].method = w->step > 0 ? stepping[i] : methods[i];
         cell[i].error = cell[i].drift = NAN;
@@ -88,57 +88,57 @@ void nh_stress_try(nh_stress_work *w, const nh_simulate_request *request, double
         cell[i].note = nh_arena_strdup(w->out->arena, cell[i].note);
     }
     if (w->values_left) w->values_left--;
-    nh_bench_close(&b);
-    nh_comparison_free(b.out);
+    nh_benchmark_work_close(&b);
+    nh_benchmark_free(b.out);
 }
 
 /* ---- maps ---- */
 
-nh_stress_map *nh_stress_add_map(nh_stress_work *w, const char *name, const char *axis, size_t values, size_t methods_here)
+nh_robustness_map *nh_robustness_add_map(nh_robustness_work *w, const char *name, const char *axis, size_t values, size_t methods_here)
 {
     nh_arena *arena = w->out->arena;
-    nh_stress_map *map = &w->out->map[w->out->maps++];
-    *map = (nh_stress_map){.name = nh_arena_strdup(arena, name), .axis = nh_arena_strdup(arena, axis), .methods = methods_here, .cells = values * methods_here};
+    nh_robustness_map *map = &w->out->map[w->out->maps++];
+    *map = (nh_robustness_map){.name = nh_arena_strdup(arena, name), .axis = nh_arena_strdup(arena, axis), .methods = methods_here, .cells = values * methods_here};
     map->cell = nh_arena_alloc(arena, map->cells * sizeof *map->cell);
     return map;
 }
 
-static void set_at(nh_stress_map *map, size_t value, double at)
+static void set_at(nh_robustness_map *map, size_t value, double at)
 {
     for (size_t i = 0; i < map->methods; i++) map->cell[value * map->methods + i].at = at;
 }
 
 /* `step` above 0: by methods with this fixed step, which shows the ones that gain energy [ModinVerdier2020]. */
-static void map_time(nh_stress_work *w, const char *name, size_t count, double step, double begin, double end)
+static void map_time(nh_robustness_work *w, const char *name, size_t count, double step, double begin, double end)
 {
-    nh_stress_map *map = nh_stress_add_map(w, name, "end of the motion", count, method_count);
+    nh_robustness_map *map = nh_robustness_add_map(w, name, "end of the motion", count, method_count);
     w->step = step;
     for (size_t v = 0; v < count; v++) {
         nh_simulate_request q = *w->request;
         q.until_given = true;
         q.options.until = begin + (end - begin) * longer[v];
         set_at(map, v, q.options.until);
-        nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
+        nh_robustness_try(w, &q, 0, 0, false, map->cell + v * method_count);
     }
     w->step = 0;
 }
 
-static void map_absolute(nh_stress_work *w)
+static void map_absolute(nh_robustness_work *w)
 {
     enum { count = sizeof absolute / sizeof *absolute };
-    nh_stress_map *map = nh_stress_add_map(w, "badly scaled", "size below which errors are absolute", count, method_count);
+    nh_robustness_map *map = nh_robustness_add_map(w, "badly scaled", "size below which errors are absolute", count, method_count);
     for (size_t v = 0; v < count; v++) {
         nh_simulate_request q = *w->request;
         q.options.absolute = absolute[v];
         set_at(map, v, absolute[v]);
-        nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
+        nh_robustness_try(w, &q, 0, 0, false, map->cell + v * method_count);
     }
 }
 
-static void map_parameter(nh_stress_work *w, const char *name, double value)
+static void map_parameter(nh_robustness_work *w, const char *name, double value)
 {
     enum { count = sizeof parameter / sizeof *parameter };
-    nh_stress_map *map = nh_stress_add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count, method_count);
+    nh_robustness_map *map = nh_robustness_add_map(w, nh_arena_printf(w->out->arena, "parameter %s", name), name, count, method_count);
     nh_setting *setting = nh_arena_alloc(w->out->arena, (w->request->settings + 1) * sizeof *setting);
     if (w->request->settings) memcpy(setting, w->request->setting, w->request->settings * sizeof *setting);
     for (size_t v = 0; v < count; v++) {
@@ -147,17 +147,17 @@ static void map_parameter(nh_stress_work *w, const char *name, double value)
         q.setting = setting;
         q.settings++;
         set_at(map, v, value * parameter[v]);
-        nh_stress_try(w, &q, 0, 0, false, map->cell + v * method_count);
+        nh_robustness_try(w, &q, 0, 0, false, map->cell + v * method_count);
     }
 }
 
-static void map_angle(nh_stress_work *w, const char *name, size_t coordinate)
+static void map_angle(nh_robustness_work *w, const char *name, size_t coordinate)
 {
-    nh_stress_map *map = nh_stress_add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name), name, most_values, method_count);
+    nh_robustness_map *map = nh_robustness_add_map(w, nh_arena_printf(w->out->arena, "%s turned, chart of coordinate velocities", name), name, most_values, method_count);
     for (size_t v = 0; v < most_values; v++) {
         double turn = 2 * acos(-1) * (double)v / most_values;
         set_at(map, v, turn);
-        nh_stress_try(w, w->request, turn, coordinate, true, map->cell + v * method_count);
+        nh_robustness_try(w, w->request, turn, coordinate, true, map->cell + v * method_count);
     }
 }
 
@@ -168,16 +168,16 @@ static size_t angles_of(const nh_system *s, bool charts)
     return n;
 }
 
-static bool all_maps(nh_stress_work *w, const nh_bench *plain, nh_error *error)
+static bool all_maps(nh_robustness_work *w, const nh_benchmark_work *plain, nh_error *error)
 {
     const nh_system *s = plain->out->question->system;
-    bool charts = plain->formulations == NH_CHART_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
+    bool charts = plain->formulations == NH_BENCHMARK_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
     size_t parameters = s->parameters < most_parameters ? s->parameters : most_parameters, angles = angles_of(s, charts);
-    w->out->map = nh_arena_alloc(w->out->arena, (3 + s->stresses + parameters + angles + NH_STRESS_FITS) * sizeof *w->out->map);
+    w->out->map = nh_arena_alloc(w->out->arena, (3 + s->stresses + parameters + angles + NH_ROBUSTNESS_FITS) * sizeof *w->out->map);
     w->values_left = longer_times + sizeof absolute / sizeof *absolute + parameters * (sizeof parameter / sizeof *parameter) + angles * most_values + longer_by_steps;
-    nh_stress_fits(w, plain);
+    nh_robustness_fits(w, plain);
     for (size_t i = 0; i < s->stresses; i++)
-        if (!nh_stress_named(w, plain, &s->stress[i], error)) return false;
+        if (!nh_robustness_named(w, plain, &s->stress[i], error)) return false;
     map_absolute(w);
     for (size_t i = 0; i < s->coordinates && angles; i++)
         if (s->coordinate[i].type == NH_ANGLE) map_angle(w, s->coordinate[i].name, i);
@@ -189,36 +189,36 @@ static bool all_maps(nh_stress_work *w, const nh_bench *plain, nh_error *error)
 }
 
 /* "samples": those of the discrete problem; a map that the system file names; or the ranges themselves. */
-static bool one_map(nh_stress_work *w, const nh_bench *plain, const char *over, nh_error *error)
+static bool one_map(nh_robustness_work *w, const nh_benchmark_work *plain, const char *over, nh_error *error)
 {
     const nh_system *s = plain->out->question->system;
-    w->out->map = nh_arena_alloc(w->out->arena, NH_STRESS_FITS * sizeof *w->out->map);
-    if (!strcmp(over, "samples")) return nh_stress_fits(w, plain), true;
+    w->out->map = nh_arena_alloc(w->out->arena, NH_ROBUSTNESS_FITS * sizeof *w->out->map);
+    if (!strcmp(over, "samples")) return nh_robustness_fits(w, plain), true;
     for (size_t i = 0; i < s->stresses; i++)
-        if (!strcmp(over, s->stress[i].name)) return nh_stress_named(w, plain, &s->stress[i], error);
-    if (!s->stresses || strchr(over, '=')) return nh_stress_axes(w, plain, w->request, NULL, over, error);
+        if (!strcmp(over, s->stress[i].name)) return nh_robustness_named(w, plain, &s->stress[i], error);
+    if (!s->stresses || strchr(over, '=')) return nh_robustness_axes(w, plain, w->request, NULL, over, error);
     nh_fail(error, NH_USAGE, "", "--over `%s` is neither a range nor a stress of this system", over);
     return nh_error_hint(error, "--over \"NAME=LOW:HIGH\", or one of its stresses, such as --over \"%s\"", s->stress[0].name);
 }
 
-nh_stress *nh_stress_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error)
+nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
-    nh_stress *out = nh_arena_alloc(arena, sizeof *out);
-    *out = (nh_stress){.arena = arena, .tolerance = request->options.stress_tolerance, .accuracy = request->options.stress_error};
-    nh_stress_work w = {.out = out, .request = request, .begun = nh_clock(), .budget = budget};
-    nh_bench plain;
-    bool good = nh_bench_open_once(&plain, request, 0, 0, budget, error) && (over ? one_map(&w, &plain, over, error) : all_maps(&w, &plain, error));
-    nh_bench_close(&plain);
-    nh_comparison_free(plain.out);
+    nh_robustness *out = nh_arena_alloc(arena, sizeof *out);
+    *out = (nh_robustness){.arena = arena, .tolerance = request->options.stress_tolerance, .accuracy = request->options.stress_error};
+    nh_robustness_work w = {.out = out, .request = request, .begun = nh_clock(), .budget = budget};
+    nh_benchmark_work plain;
+    bool good = nh_benchmark_work_open_once(&plain, request, 0, 0, budget, error) && (over ? one_map(&w, &plain, over, error) : all_maps(&w, &plain, error));
+    nh_benchmark_work_close(&plain);
+    nh_benchmark_free(plain.out);
     for (size_t i = 0; i < out->maps; i++)
         for (size_t j = 0; j < out->map[i].cells; j++) out->count[out->map[i].cell[j].status]++;
     if (good) return out;
-    nh_stress_free(out);
+    nh_robustness_free(out);
     return NULL;
 }
 
-void nh_stress_free(nh_stress *stress)
+void nh_robustness_free(nh_robustness *stress)
 {
     if (stress) nh_arena_free(stress->arena);
 }

@@ -21,31 +21,31 @@
 typedef struct {
     double at, second_at; /* on the axes; the second 0 where there is none */
     const char *method;
-    nh_measured_status status;
+    nh_run_record_status status;
     double error, drift; /* NAN where there is no reference or no result (of the discrete problem: rate of what was found, and distance of known currents from it, at other points); largest
                             drift of a known current, NAN where none is known */
     const char *note;  /* which guard, or why it failed */
-} nh_stress_cell;
+} nh_robustness_cell;
 
 typedef struct {
     const char *name, *axis, *second_axis; /* second_axis: NULL when there is one only */
     size_t methods, cells; /* cells: value by value, `methods` each */
-    nh_stress_cell *cell;
-} nh_stress_map;
+    nh_robustness_cell *cell;
+} nh_robustness_map;
 
 typedef struct {
     nh_arena *arena;
     double tolerance, accuracy; /* of every run; what counts as right */
     size_t maps;
-    nh_stress_map *map;
-    size_t count[NH_WRONG + 1]; /* cells per status */
-} nh_stress;
+    nh_robustness_map *map;
+    size_t count[NH_UNDETECTED + 1]; /* cells per status */
+} nh_robustness;
 
 /* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these parameters, numbers of the initial state or
  * options instead of all others; or the name of a stress of the system file; or "samples", the maps of the discrete problem; NULL: all.  `budget`: seconds for all,
  * HUGE_VAL: only steps are counted.  NULL with a message when the system itself cannot be read.  The tolerance of
  * every run and the error that counts as right are request->options.stress_tolerance and stress_error. */
-nh_stress *nh_stress_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error);
-void nh_stress_free(nh_stress *stress);
+nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error);
+void nh_robustness_free(nh_robustness *stress);
 
 #endif

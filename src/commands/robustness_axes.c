@@ -44,7 +44,7 @@ static bool read_axis(nh_arena *arena, const char *text, axis *a, nh_error *erro
 }
 
 /* A parameter, part of the initial state, or an option. */
-static bool know(const nh_bench *plain, const nh_simulate_request *request, axis *a, nh_error *error)
+static bool know(const nh_benchmark_work *plain, const nh_simulate_request *request, axis *a, nh_error *error)
 {
     const nh_model *o = plain->model;
     const nh_system *s = o->system;
@@ -66,7 +66,7 @@ static bool know(const nh_bench *plain, const nh_simulate_request *request, axis
 }
 
 /* Up to two; 0 with a message when something is wrong. */
-static size_t read_axes(nh_arena *arena, const nh_bench *plain, const nh_simulate_request *request, const char *over, axis *a, nh_error *error)
+static size_t read_axes(nh_arena *arena, const nh_benchmark_work *plain, const nh_simulate_request *request, const char *over, axis *a, nh_error *error)
 {
     size_t n = 0;
     char *text = nh_arena_strdup(arena, over), *rest = text;
@@ -119,33 +119,33 @@ static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_req
     return true;
 }
 
-bool nh_stress_axes(nh_stress_work *w, const nh_bench *plain, const nh_simulate_request *request, const char *name, const char *over, nh_error *error)
+bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_simulate_request *request, const char *name, const char *over, nh_error *error)
 {
     nh_arena *arena = w->out->arena;
     axis a[most_axes];
     size_t n = read_axes(arena, plain, request, over, a, error), second = n == most_axes ? a[1].count : 1;
     if (!n) return false;
     if (!name) name = n == 1 ? a[0].name : nh_arena_printf(arena, "%s and %s", a[0].name, a[1].name);
-    nh_stress_map *map = nh_stress_add_map(w, name, a[0].name, a[0].count * second, NH_STRESS_METHODS);
+    nh_robustness_map *map = nh_robustness_add_map(w, name, a[0].name, a[0].count * second, NH_ROBUSTNESS_METHODS);
     w->values_left += map->cells / map->methods;
     map->second_axis = n == 1 ? NULL : a[1].name;
     nh_setting *setting = nh_arena_alloc(arena, (request->settings + most_axes) * sizeof *setting);
     if (request->settings) memcpy(setting, request->setting, request->settings * sizeof *setting);
     for (size_t i = 0, cells = a[0].count * second; i < cells; i++) {
         nh_simulate_request q = *request;
-        nh_stress_cell *cell = map->cell + i * map->methods;
+        nh_robustness_cell *cell = map->cell + i * map->methods;
         double x = value_at(&a[0], i / second), y = n == 1 ? 0 : value_at(&a[1], i % second);
         q.setting = setting;
         if (!change(arena, &a[0], x, &q, setting, error) || (n > 1 && !change(arena, &a[1], y, &q, setting, error))) return false;
         for (size_t k = 0; k < map->methods; k++) cell[k].at = x, cell[k].second_at = y;
-        nh_stress_try(w, &q, 0, 0, false, cell);
+        nh_robustness_try(w, &q, 0, 0, false, cell);
     }
     return true;
 }
 
 /* ---- by name ---- */
 
-bool nh_stress_named(nh_stress_work *w, const nh_bench *plain, const nh_named_stress *s, nh_error *error)
+bool nh_robustness_named(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_named_stress *s, nh_error *error)
 {
     nh_simulate_request q = *w->request;
     nh_setting *setting = nh_arena_alloc(w->out->arena, (q.settings + s->settings + 1) * sizeof *setting);
@@ -158,7 +158,7 @@ bool nh_stress_named(nh_stress_work *w, const nh_bench *plain, const nh_named_st
     for (size_t i = 0; i < s->options; i++)
         if (!nh_options_set(&q.options, s->option[i].name, nh_arena_printf(w->out->arena, "%.17g", s->option[i].value), error)) return false;
     w->step = s->step;
-    bool good = nh_stress_axes(w, plain, &q, s->name, s->over, error);
+    bool good = nh_robustness_axes(w, plain, &q, s->name, s->over, error);
     w->step = 0;
     return good;
 }

@@ -23,8 +23,8 @@ static const double in_span = 1e-10, constant = 1e-9;
 static const char *const way_name[most_ways] = {"current, generalized", "current, plain SVD", "symmetry, generalized", "symmetry, plain SVD"};
 
 typedef struct {
-    nh_stress_work *w;
-    const nh_bench *plain;
+    nh_robustness_work *w;
+    const nh_benchmark_work *plain;
     nh_model *model;
     nh_nullspace_options limits;
     nh_points *points, *many, *heldout; /* of the whole domain */
@@ -195,7 +195,7 @@ static truth truth_of(fit *f, size_t n, const nh_ex *e, int way)
     return t;
 }
 
-static void fill(fit *f, const truth *t, const nh_points *points, size_t n, const nh_ex *e, int way, double size, nh_stress_cell *cell)
+static void fill(fit *f, const truth *t, const nh_points *points, size_t n, const nh_ex *e, int way, double size, nh_robustness_cell *cell)
 {
     solved s;
     bool good = solve(f, points, n, e, way, size, &s);
@@ -205,20 +205,20 @@ static void fill(fit *f, const truth *t, const nh_points *points, size_t n, cons
     if (good && t->known) {
         const char *guard = guard_of(f, &s, t->rank, &cell->error);
         bool right = s.space->dimension == t->dimension;
-        cell->status = right ? guard ? NH_WARNED : NH_RIGHT : guard ? NH_CAUGHT : NH_WRONG;
+        cell->status = right ? guard ? NH_FLAGGED : NH_ACCURATE : guard ? NH_DETECTED : NH_UNDETECTED;
         cell->note = nh_arena_printf(f->w->out->arena, "%zu found, %zu are there%s%s", s.space->dimension, t->dimension, guard ? ": " : "", guard ? guard : "");
     }
     solved_clear(&s);
 }
 
-static nh_stress_map *open_map(fit *f, const char *name, const char *axis, const double *at, int ways)
+static nh_robustness_map *open_map(fit *f, const char *name, const char *axis, const double *at, int ways)
 {
-    nh_stress_map *map = nh_stress_add_map(f->w, name, axis, levels, (size_t)ways);
-    for (size_t i = 0; i < map->cells; i++) map->cell[i] = (nh_stress_cell){.at = at[i / (size_t)ways], .method = way_name[i % (size_t)ways], .error = NAN, .drift = NAN, .status = NH_TIMEOUT, .note = "there was no time for it"};
+    nh_robustness_map *map = nh_robustness_add_map(f->w, name, axis, levels, (size_t)ways);
+    for (size_t i = 0; i < map->cells; i++) map->cell[i] = (nh_robustness_cell){.at = at[i / (size_t)ways], .method = way_name[i % (size_t)ways], .error = NAN, .drift = NAN, .status = NH_TIMEOUT, .note = "there was no time for it"};
     return map;
 }
 
-static bool late(const fit *f) { return nh_stress_late(f->w); }
+static bool late(const fit *f) { return nh_robustness_late(f->w); }
 
 /* The cloud shrunk to this part about one of its points; equations hold there as everywhere. */
 static nh_points *crowded(const fit *f, double part)
@@ -235,7 +235,7 @@ static nh_points *crowded(const fit *f, double part)
 
 static void map_crowded(fit *f)
 {
-    nh_stress_map *map = open_map(f, "clustered samples", "part of the domain", radius, most_ways);
+    nh_robustness_map *map = open_map(f, "clustered samples", "part of the domain", radius, most_ways);
     for (int way = 0; way < most_ways; way++) {
         truth t = truth_of(f, f->columns, f->e, way);
         for (size_t i = 0; i < levels && !late(f); i++) {
@@ -249,7 +249,7 @@ static void map_crowded(fit *f)
 static void map_noisy(fit *f)
 {
     enum { ways = 2 };
-    nh_stress_map *map = open_map(f, "noisy samples", "noise, relative", noise, ways);
+    nh_robustness_map *map = open_map(f, "noisy samples", "noise, relative", noise, ways);
     for (int way = 0; way < ways; way++) {
         truth t = truth_of(f, f->columns, f->e, way);
         for (size_t i = 0; i < levels && !late(f); i++) fill(f, &t, f->points, f->columns, f->e, way, noise[i], &map->cell[i * ways + (size_t)way]);
@@ -285,7 +285,7 @@ static void map_apart(fit *f, const char *name, const char *axis, size_t (*ansat
 {
     nh_ex *e = nh_alloc_array(f->columns + 5 * f->model->n + 2, sizeof *e);
     size_t n = ansatz(f, far_apart, e);
-    nh_stress_map *map = n ? open_map(f, name, axis, apart, most_ways) : NULL;
+    nh_robustness_map *map = n ? open_map(f, name, axis, apart, most_ways) : NULL;
     for (int way = 0; way < most_ways && map; way++) {
         n = ansatz(f, far_apart, e);
         truth t = truth_of(f, n, e, way);
@@ -316,7 +316,7 @@ static bool choose_polynomials(fit *f, nh_error *error)
     return false;
 }
 
-void nh_stress_fits(nh_stress_work *w, const nh_bench *plain)
+void nh_robustness_fits(nh_robustness_work *w, const nh_benchmark_work *plain)
 {
     const nh_options *o = &w->request->options;
     uint64_t seed = (uint64_t)o->seed;

@@ -5,28 +5,28 @@
 #include "commands/benchmark_internal.h"
 #include "commands/robustness.h"
 
-enum { NH_STRESS_METHODS = 5 }; /* of a map of motions */
+enum { NH_ROBUSTNESS_METHODS = 5 }; /* of a map of motions */
 
 typedef struct {
-    nh_stress *out;
+    nh_robustness *out;
     const nh_simulate_request *request;
     double begun, budget;
     size_t values_left; /* that share what is left of the budget */
     double step;        /* methods with this fixed step instead of those with error control; 0: the latter */
-} nh_stress_work;
+} nh_robustness_work;
 
 /* All methods on one motion, in the first formulation or in coordinate velocities; `turn` is added to one coordinate of the initial state. */
-void nh_stress_try(nh_stress_work *work, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_stress_cell *cell);
+void nh_robustness_try(nh_robustness_work *work, const nh_simulate_request *request, double turn, size_t coordinate, bool in_coordinates, nh_robustness_cell *cell);
 /* out->map must have room. */
-nh_stress_map *nh_stress_add_map(nh_stress_work *work, const char *name, const char *axis, size_t values, size_t methods);
+nh_robustness_map *nh_robustness_add_map(nh_robustness_work *work, const char *name, const char *axis, size_t values, size_t methods);
 /* The map of NAME=LOW:HIGH or two of them; name NULL: it is called what it goes over. */
-bool nh_stress_axes(nh_stress_work *work, const nh_bench *plain, const nh_simulate_request *request, const char *name, const char *over, nh_error *error);
+bool nh_robustness_axes(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_simulate_request *request, const char *name, const char *over, nh_error *error);
 /* A map that the system file names. */
-bool nh_stress_named(nh_stress_work *work, const nh_bench *plain, const nh_named_stress *stress, nh_error *error);
+bool nh_robustness_named(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_named_stress *stress, nh_error *error);
 /* Is the time of all maps over? */
-bool nh_stress_late(const nh_stress_work *work);
+bool nh_robustness_late(const nh_robustness_work *work);
 /* The maps of the discrete problem: clustered and noisy samples, an ansatz at the edge of dependence, frequencies that nearly coincide. */
-void nh_stress_fits(nh_stress_work *work, const nh_bench *plain);
-enum { NH_STRESS_FITS = 4 };
+void nh_robustness_fits(nh_robustness_work *work, const nh_benchmark_work *plain);
+enum { NH_ROBUSTNESS_FITS = 4 };
 
 #endif

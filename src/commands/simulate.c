@@ -15,7 +15,7 @@ enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
 static const double small_motion = 1e8, most_whole = 1e9; /* units of effort: a motion that needs less is compared with the whole model's, which may need so much */
 static const double repeated = 0.1;                      /* seconds: shorter comparisons are timed again */
 
-nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error)
+nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error)
 {
     size_t length = strlen(initial);
     char *text = nh_arena_alloc(arena, 2 * length + 64), *to = text + sprintf(text, "validate:\n  initial: {");
@@ -28,17 +28,17 @@ nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error 
         }
     }
     strcpy(to, "}\n");
-    return nh_analysis_text("--initial", text, error);
+    return nh_analysis_file_text("--initial", text, error);
 }
 
-static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis **own, nh_error *error)
+static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
 {
     double begin = nh_budget_used();
     nh_progress("the equations of motion", -1);
     s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
     s->deriving = 1e6 * (nh_budget_used() - begin);
-    if (!s->model || (s->analysis && !nh_analysis_resolve(s->analysis, s->model, error))) return false;
-    return !q->initial || ((*own = nh_simulate_initial(s->arena, q->initial, error)) && nh_analysis_resolve(*own, s->model, error));
+    if (!s->model || (s->analysis && !nh_analysis_file_resolve(s->analysis, s->model, error))) return false;
+    return !q->initial || ((*own = nh_simulate_initial(s->arena, q->initial, error)) && nh_analysis_file_resolve(*own, s->model, error));
 }
 
 /* The initial state chooses the branch of a quadratic constraint, and, where those of the chart do not follow from the constraints there, the dependent velocities. */
@@ -55,14 +55,14 @@ static bool needs_other_chart(nh_simulation *s, const nh_state *at)
     return true;
 }
 
-static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_analysis **own, nh_error *error)
+static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
 {
     nh_model_free(s->model);
-    nh_analysis_free(*own);
-    nh_analysis_free(s->analysis);
+    nh_analysis_file_free(*own);
+    nh_analysis_file_free(s->analysis);
     s->model = NULL;
     s->analysis = *own = NULL;
-    if (q->analysis_path && !(s->analysis = nh_analysis_read(q->analysis_path, error))) return false;
+    if (q->analysis_path && !(s->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
     return resolve(s, q, own, error);
 }
 
@@ -93,22 +93,22 @@ static bool no_initial(const nh_simulation *s, nh_error *error)
 
 bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_choose, nh_state *initial, double *until, nh_error *error)
 {
-    nh_analysis *own = NULL;
-    if (q->analysis_path && !(s->analysis = nh_analysis_read(q->analysis_path, error))) return false;
+    nh_analysis_file *own = NULL;
+    if (q->analysis_path && !(s->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
     size_t count = s->analysis ? s->analysis->settings : 0;
     nh_setting *setting = nh_arena_alloc(s->arena, (count + q->settings + 1) * sizeof *setting);
     if (count) memcpy(setting, s->analysis->setting, count * sizeof *setting);
     if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
     if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
-    if (!may_choose && !q->initial && !(s->analysis && nh_analysis_starts(s->analysis))) return no_initial(s, error); /* before minutes of work */
+    if (!may_choose && !q->initial && !(s->analysis && nh_analysis_file_starts(s->analysis))) return no_initial(s, error); /* before minutes of work */
     bool good = resolve(s, q, &own, error);
-    const nh_analysis *first = own ? own : s->analysis;
+    const nh_analysis_file *first = own ? own : s->analysis;
     if (good && first && first->has_initial && needs_other_chart(s, &first->initial)) good = resolve_again(s, q, &own, error);
     if (!good) {
-        nh_analysis_free(own);
+        nh_analysis_file_free(own);
         return false;
     }
-    const nh_analysis *from = own ? own : s->analysis;
+    const nh_analysis_file *from = own ? own : s->analysis;
     bool given = from && from->has_initial;
     if (given) {
         *initial = from->initial;
@@ -123,7 +123,7 @@ bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_c
     }
     *until = !q->until_given && s->analysis && s->analysis->has_until ? s->analysis->until : q->options.until;
     s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance : q->options.tolerance;
-    nh_analysis_free(own);
+    nh_analysis_file_free(own);
     return given || (may_choose && choose_initial(s, initial)) || no_initial(s, error);
 }
 
@@ -154,8 +154,8 @@ static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
         nh_ex e;
         const char *name = nh_arena_strndup(s->arena, text, (size_t)(to - text)), *right = equal ? equal + 1 : text;
         if (!nh_system_expression_text(s->system, "--watch", nh_arena_strndup(s->arena, right, (size_t)(end - right)), extras, extra, &e, error)) return false;
-        if (!nh_analysis_to_chart(o, e, &e, error)) return false;
-        nh_tracks_add(&s->columns, name, NH_TRACK_WATCH, e);
+        if (!nh_analysis_file_to_chart(o, e, &e, error)) return false;
+        nh_observables_add(&s->columns, name, NH_TRACK_WATCH, e);
     }
     if (s->columns.count) return true;
     nh_fail(error, NH_USAGE, "", "--watch names no quantity");
@@ -164,7 +164,7 @@ static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
 
 static bool read_scene(nh_simulation *s, nh_error *error)
 {
-    nh_tracks_add_watches(&s->columns, s->analysis);
+    nh_observables_add_watches(&s->columns, s->analysis);
     if (s->columns.count) return true;
     nh_fail(error, NH_USAGE, "", "--scene needs an analysis file that says what is watched");
     return nh_error_hint(error, "--watch \"%s\" names it here", s->system->coordinate[0].name);
@@ -173,18 +173,18 @@ static bool read_scene(nh_simulation *s, nh_error *error)
 static void list_columns(nh_simulation *s, bool draw)
 {
     const nh_model *o = s->model;
-    nh_tracks *t = &s->columns;
+    nh_observables *t = &s->columns;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_tracks_add_states(t);
+    nh_observables_add_states(t);
     for (size_t k = 0; k < s->system->currents; k++) {
         nh_ex e;
-        if (nh_analysis_to_chart(o, s->system->current[k].value, &e, &ignored)) nh_tracks_add(t, s->system->current[k].name, NH_TRACK_CURRENT, e);
+        if (nh_analysis_file_to_chart(o, s->system->current[k].value, &e, &ignored)) nh_observables_add(t, s->system->current[k].name, NH_TRACK_CURRENT, e);
     }
-    for (size_t a = 0; a < o->k; a++) nh_tracks_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
-    nh_tracks_add(t, "E", NH_TRACK_ENERGY, o->E);
-    nh_tracks_add_watches(t, s->analysis);
-    if (draw) nh_tracks_add_drawing(t, s->analysis);
+    for (size_t a = 0; a < o->k; a++) nh_observables_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
+    nh_observables_add(t, "E", NH_TRACK_ENERGY, o->E);
+    nh_observables_add_watches(t, s->analysis);
+    if (draw) nh_observables_add_drawing(t, s->analysis);
 }
 
 static double *output_times(nh_simulation *s, const nh_simulate_request *q, double begin, double end, size_t *count, nh_error *error)
@@ -202,7 +202,7 @@ static double *output_times(nh_simulation *s, const nh_simulate_request *q, doub
 
 static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_error *error)
 {
-    s->columns = nh_tracks_create(s->arena, s->model);
+    s->columns = nh_observables_create(s->arena, s->model);
     if (q->watch) return read_watch(s, q->watch, error);
     if (q->scene) return read_scene(s, error);
     list_columns(s, q->draw && !q->ensemble);
@@ -262,7 +262,7 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
     }
     for (size_t k = 0; k < s->system->currents; k++) {
         nh_error_clear(&ignored);
-        n += nh_analysis_to_chart(s->model, s->system->current[k].value, &(*out)[n], &ignored);
+        n += nh_analysis_file_to_chart(s->model, s->system->current[k].value, &(*out)[n], &ignored);
     }
     return n;
 }
@@ -299,8 +299,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     if (!s->trajectory->scene && request.smallest) /* it was tried */
         s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller part reaches the end", s->motion->size, strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
     if (!s->trajectory->scene) return true;
-    s->scene = nh_simulate_words(s, s->trajectory->scene, nh_scene_words);
-    s->idle = nh_simulate_words(s, s->trajectory->scene, nh_scene_idle_words);
+    s->scene = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_words);
+    s->idle = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_idle_words);
     if (!s->checked) compare_with_whole(s, &request);
     return true;
 }
@@ -376,13 +376,13 @@ static size_t states_kept(const nh_simulate_request *q, bool *quasi)
         for (size_t k = 0; k < s->columns.count; k++) e[k] = s->columns.track[k].value;
         size_t count = known_currents(s, &known), n = 0;
         nh_ex *current = nh_arena_alloc(arena, (count + s->model->m + 1) * sizeof *current);
-        n = nh_network_cyclic(s->model, current);
+        n = nh_dependency_graph_cyclic(s->model, current);
         for (size_t k = 0; k < count; k++)
-            if (nh_network_conserved(s->model, known[k])) current[n++] = known[k];
-        nh_scene *scene = nh_scene_create(s->model, s->columns.count, e, n, current);
+            if (nh_dependency_graph_conserved(s->model, known[k])) current[n++] = known[k];
+        nh_closed_subsystem *scene = nh_closed_subsystem_create(s->model, s->columns.count, e, n, current);
         kept = scene->kept;
         *quasi = s->model->chart->quasi;
-        nh_scene_free(scene);
+        nh_closed_subsystem_free(scene);
     }
     nh_simulation_free(s);
     return kept;
@@ -398,7 +398,7 @@ static bool coordinates_keep_fewer(const nh_simulate_request *q)
     return quasi && states_kept(&other, &ignored) < kept;
 }
 
-nh_simulation *nh_simulate(const nh_simulate_request *q, nh_error *error)
+nh_simulation *nh_simulation_create(const nh_simulate_request *q, nh_error *error)
 {
     if ((q->watch || q->scene) && q->chart == NH_CHART_AUTO && !q->ensemble && coordinates_keep_fewer(q)) {
         nh_simulate_request other = *q;
@@ -419,7 +419,7 @@ void nh_simulation_free(nh_simulation *s)
     nh_ensemble_free(s->ensemble);
     nh_choice_close(&s->ways);
     nh_model_free(s->model);
-    nh_analysis_free(s->analysis);
+    nh_analysis_file_free(s->analysis);
     nh_system_free(s->system);
     nh_arena_free(s->arena);
 }

@@ -27,7 +27,7 @@ typedef struct {
 typedef struct {
     nh_arena *arena;
     nh_system *system;
-    nh_analysis *analysis;
+    nh_analysis_file *analysis;
     nh_model *model;
     const char *method, *formulation;
     const char *scene;    /* the smallest model in words; NULL: all states were integrated */
@@ -36,7 +36,7 @@ typedef struct {
     bool compared;        /* the whole model was integrated too, because the motion is short */
     double scene_seconds, whole_seconds, whole_difference; /* the least times of both, and how far what is watched is off, relative to its size along the motion */
     long whole_evaluations;
-    nh_tracks columns;    /* with the drawing only where it was asked for, at the end */
+    nh_observables columns;    /* with the drawing only where it was asked for, at the end */
     nh_motion *motion;    /* its states are those of the scene, where there is one */
     double *value;        /* motion->count x columns.count, row by row */
     nh_trajectory *trajectory; /* owns the last two */
@@ -50,9 +50,9 @@ typedef struct {
     nh_ensemble_accuracy accuracy_of_all; /* of the ensemble */
 } nh_simulation;
 
-nh_simulation *nh_simulate(const nh_simulate_request *request, nh_error *error);
+nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error *error);
 /* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model). */
-nh_analysis *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error);
+nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error);
 
 /* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the initial state
  * (a generic one where none is given and `may_choose`) and the final time.  Also on failure: nh_simulation_free. */

@@ -5,7 +5,7 @@
 #include "commands/simulate.h"
 
 /* What `write` says of a scene, in the simulation's memory. */
-const char *nh_simulate_words(nh_simulation *s, const nh_scene *scene, void (*write)(const nh_scene *scene, nh_text *out));
+const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene, void (*write)(const nh_closed_subsystem *scene, nh_text *out));
 
 /* An ensemble instead of the one motion that `motion` asks for. */
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *request, const nh_trajectory_request *motion, nh_error *error);

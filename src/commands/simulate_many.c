@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 
-const char *nh_simulate_words(nh_simulation *s, const nh_scene *scene, void (*write)(const nh_scene *scene, nh_text *out))
+const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene, void (*write)(const nh_closed_subsystem *scene, nh_text *out))
 {
     nh_text words;
     nh_text_init(&words);
@@ -32,6 +32,6 @@ bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_t
     const nh_ensemble_accuracy *a = s->checked && s->accuracy_of_all.all_alone ? &s->accuracy_of_all : NULL;
     if (a) s->method = nh_arena_printf(s->arena, "%s, each alone", a->way.method->name);
     if (a && a->way.velocities == NH_ALL_COORDINATES) s->formulation = "all coordinates, accelerations from the bordered system";
-    if (!a || motion->smallest) s->scene = nh_simulate_words(s, s->ensemble->scene, nh_scene_words);
+    if (!a || motion->smallest) s->scene = nh_simulate_words(s, s->ensemble->scene, nh_closed_subsystem_words);
     return true;
 }

@@ -13,7 +13,7 @@
 
 enum { test_points = 256, generic_points = 24 };
 
-static void name_branches(nh_verdict_of_one *v)
+static void name_branches(nh_verification *v)
 {
     const nh_chart *c = v->model->chart;
     if (!c->branch) return;
@@ -25,21 +25,21 @@ static void name_branches(nh_verdict_of_one *v)
 }
 
 /* Is the expression, as the user wrote it, conserved on the other branch? */
-static void ask_other_branch(nh_verdict_of_one *v, nh_ex e, const nh_options *options)
+static void ask_other_branch(nh_verification *v, nh_ex e, const nh_options *options)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_model *other = v->conserved ? nh_branch_other(v->model, options) : NULL;
     nh_ex phi;
-    if (other && nh_analysis_to_chart(other, e, &phi, &ignored)) v->on_both = nh_branch_conserves(other, phi, &v->proof, options);
+    if (other && nh_analysis_file_to_chart(other, e, &phi, &ignored)) v->on_both = nh_branch_conserves(other, phi, &v->proof, options);
     nh_model_free(other);
 }
 
-static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const nh_options *options, nh_error *error)
+static nh_verification *start(nh_system *system, nh_chart_choice chart, const nh_options *options, nh_error *error)
 {
     nh_progress("the equations of motion", -1);
     nh_model *model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
-    if (model && nh_pace_set(system, model) != 1) {
+    if (model && nh_time_scale_set(system, model) != 1) {
         nh_model_free(model);
         model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
     }
@@ -48,22 +48,22 @@ static nh_verdict_of_one *start(nh_system *system, nh_chart_choice chart, const 
         return NULL;
     }
     nh_arena *arena = nh_arena_create();
-    nh_verdict_of_one *v = nh_arena_alloc(arena, sizeof *v);
-    *v = (nh_verdict_of_one){.arena = arena, .system = system, .model = model};
+    nh_verification *v = nh_arena_alloc(arena, sizeof *v);
+    *v = (nh_verification){.arena = arena, .system = system, .model = model};
     name_branches(v);
     return v;
 }
 
 /* The verdict; of an ended run neither "yes" nor "no" is known. */
-static nh_verdict_of_one *complete(nh_verdict_of_one *v, bool good, nh_error *error)
+static nh_verification *complete(nh_verification *v, bool good, nh_error *error)
 {
     if (good && nh_interrupted()) good = nh_fail_ended(error, "before this was decided");
     if (good) return v;
-    nh_verdict_free(v);
+    nh_verification_free(v);
     return NULL;
 }
 
-void nh_verdict_free(nh_verdict_of_one *v)
+void nh_verification_free(nh_verification *v)
 {
     if (!v) return;
     nh_model_free(v->model);
@@ -74,7 +74,7 @@ void nh_verdict_free(nh_verdict_of_one *v)
 /* ---- the worst point of an expression that should vanish ---- */
 
 /* |e| / max(sum of |terms|, floor): where it is largest the point is kept. */
-static bool worst_point(nh_verdict_of_one *v, const nh_points *points, size_t n, const nh_ex *term, double *residual)
+static bool worst_point(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term, double *residual)
 {
     size_t count = points->count, worst = count;
     double *value = nh_alloc_array(n * count + 1, sizeof *value), most = 0, rate = 0;
@@ -120,7 +120,7 @@ static bool is_constant(const nh_model *o, const nh_points *generic, nh_ex phi, 
 }
 
 /* The symmetry of what is conserved, and whether that is trivial. */
-static bool describe(nh_verdict_of_one *v, const nh_options *options, nh_error *error)
+static bool describe(nh_verification *v, const nh_options *options, nh_error *error)
 {
     nh_points *generic = nh_points_create(v->model, generic_points, 1, (uint64_t)options->seed + 8, error);
     if (!generic) return false;
@@ -133,7 +133,7 @@ static bool describe(nh_verdict_of_one *v, const nh_options *options, nh_error *
 }
 
 /* Conserved wherever it is smooth: all along the motions, too? */
-static void delimit(nh_verdict_of_one *v, const nh_options *options)
+static void delimit(nh_verification *v, const nh_options *options)
 {
     nh_terrain terrain = nh_terrain_of(v->model, options, v->arena);
     nh_region region = nh_region_of(v->model, &terrain, v->current, v->proof.proved ? 0 : v->proof.digits / 2, options, v->arena);
@@ -141,7 +141,7 @@ static void delimit(nh_verdict_of_one *v, const nh_options *options)
     v->conserved = !v->region;
 }
 
-static bool examine(nh_verdict_of_one *v, const nh_options *options, nh_error *error)
+static bool examine(nh_verification *v, const nh_options *options, nh_error *error)
 {
     nh_points *points = nh_points_create(v->model, test_points, 1.2, (uint64_t)options->seed + 7, error);
     if (!points) return false;
@@ -157,12 +157,12 @@ static bool examine(nh_verdict_of_one *v, const nh_options *options, nh_error *e
     return !v->conserved || describe(v, options, error);
 }
 
-nh_verdict_of_one *nh_verify_current(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
+nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
 {
-    nh_verdict_of_one *v = start(system, chart, options, error);
+    nh_verification *v = start(system, chart, options, error);
     nh_ex e;
     if (!v) return NULL;
-    bool good = nh_system_expression_text(system, "--current", text, 0, NULL, &e, error) && nh_analysis_to_chart(v->model, e, &v->current, error);
+    bool good = nh_system_expression_text(system, "--current", text, 0, NULL, &e, error) && nh_analysis_file_to_chart(v->model, e, &v->current, error);
     if (good) {
         v->current = nh_simplify(v->model->dag, v->current);
         good = examine(v, options, error);
@@ -180,7 +180,7 @@ typedef struct {
 } given;
 
 /* One "name=expression" between semicolons. */
-static bool component(nh_verdict_of_one *v, const char *text, size_t length, given *g, nh_error *error)
+static bool component(nh_verification *v, const char *text, size_t length, given *g, nh_error *error)
 {
     char *part = nh_arena_strndup(v->arena, text, length), *equal = strchr(part, '=');
     while (*part == ' ') part++;
@@ -201,11 +201,11 @@ static bool component(nh_verdict_of_one *v, const char *text, size_t length, giv
         nh_fail(error, NH_USAGE, "--field", "`%s` is neither Z0 nor a coordinate nor a velocity of the chart", name);
         return nh_error_hint(error, "components along time (Z0) and the coordinates determine the field; those not named are 0");
     }
-    return nh_system_expression_text(v->system, "--field", equal + 1, 0, NULL, &e, error) && nh_analysis_to_chart(v->model, e, to, error);
+    return nh_system_expression_text(v->system, "--field", equal + 1, 0, NULL, &e, error) && nh_analysis_file_to_chart(v->model, e, to, error);
 }
 
 /* zeta with Z^s = zeta^i R^s_i + rho^s Z^0, from n rows of R: those of the free coordinates, or least squares for quasi-velocities. */
-static bool solve_zeta(nh_verdict_of_one *v, nh_ex time, const nh_ex *space, nh_ex *zeta, nh_error *error)
+static bool solve_zeta(nh_verification *v, nh_ex time, const nh_ex *space, nh_ex *zeta, nh_error *error)
 {
     const nh_model *o = v->model;
     nh_dag *d = o->dag;
@@ -235,7 +235,7 @@ static bool solve_zeta(nh_verdict_of_one *v, nh_ex time, const nh_ex *space, nh_
 }
 
 /* i_Z phi^a = nu^a_s (Z^s - rho^s Z^0), which vanish iff Z lies in the canonical distribution. */
-static void outside(nh_verdict_of_one *v, const given *g)
+static void outside(nh_verification *v, const given *g)
 {
     const nh_model *o = v->model;
     nh_dag *d = o->dag;
@@ -250,7 +250,7 @@ static void outside(nh_verdict_of_one *v, const given *g)
 
 /* The terms of the k-th condition: Z in the canonical distribution (as many as constraints), (N0), (NY) (n); (NX) (n) only determines W and is checked
  * only when the user gave W. */
-static size_t condition(nh_verdict_of_one *v, const given *g, size_t k, nh_ex *term)
+static size_t condition(nh_verification *v, const given *g, size_t k, nh_ex *term)
 {
     const nh_model *o = v->model;
     nh_dag *d = o->dag;
@@ -283,7 +283,7 @@ static size_t condition(nh_verdict_of_one *v, const given *g, size_t k, nh_ex *t
     return n;
 }
 
-static bool check_field(nh_verdict_of_one *v, const given *g, const nh_options *options, nh_error *error)
+static bool check_field(nh_verification *v, const given *g, const nh_options *options, nh_error *error)
 {
     const nh_model *o = v->model;
     nh_points *points = nh_points_create(o, test_points, 1.2, (uint64_t)options->seed + 7, error);
@@ -307,9 +307,9 @@ static bool check_field(nh_verdict_of_one *v, const given *g, const nh_options *
     return true;
 }
 
-nh_verdict_of_one *nh_verify_field(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
+nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
 {
-    nh_verdict_of_one *v = start(system, chart, options, error);
+    nh_verification *v = start(system, chart, options, error);
     if (!v) return NULL;
     nh_model *o = v->model;
     given g = {.time = nh_int(o->dag, 0), .space = nh_arena_alloc(v->arena, (o->m + 1) * sizeof(nh_ex)),

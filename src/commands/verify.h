@@ -27,12 +27,12 @@ typedef struct {
     double *counterexample;   /* model->width values (t, q, w, u) */
     double rate;              /* Gamma(Phi), or the violated equation, there */
     const char *equation;     /* which equation of a field fails: "(N0)", "(NY) for phi'", ... */
-} nh_verdict_of_one;
+} nh_verification;
 
 /* NULL when the question cannot be asked (bad input). */
-nh_verdict_of_one *nh_verify_current(nh_system *system, nh_chart_choice chart, const char *current, const nh_options *options, nh_error *error);
+nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *current, const nh_options *options, nh_error *error);
 /* "Z0=..; phi=..; x=..": components along t and the coordinates, those not named are 0. */
-nh_verdict_of_one *nh_verify_field(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
-void nh_verdict_free(nh_verdict_of_one *verdict); /* with the system */
+nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
+void nh_verification_free(nh_verification *verdict); /* with the system */
 
 #endif

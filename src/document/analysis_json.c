@@ -13,7 +13,7 @@
 #include "document/provenance.h"
 
 typedef struct {
-    const nh_result *r;
+    const nh_analysis *r;
     nh_dag *dag;
     size_t *left_out; /* formulas that are too long */
 } writer;
@@ -54,12 +54,12 @@ static void put_ranks(nh_json *to, const char *key, size_t n, const size_t *rank
 /* Functions of (t, q) that the constraints alone keep constant. */
 static void put_integrals(const writer *w, nh_json *to)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_json *item = nh_json_put_object(to, "hidden_holonomic");
     nh_json_put_number(item, "count", (double)r->constraint.hidden);
     nh_json *functions = nh_json_put_array(item, "functions");
     for (size_t i = 0; i < r->integrals; i++) {
-        const nh_found *f = &r->found[r->integral[i]];
+        const nh_current *f = &r->found[r->integral[i]];
         nh_json *line = nh_json_add_object(functions);
         nh_json_put_text(line, "current", f->name);
         put_expression(w, line, "expression", f->phi);
@@ -70,7 +70,7 @@ static void put_integrals(const writer *w, nh_json *to)
 
 static void put_branch(const writer *w, nh_json *to)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_json *item = r->branch ? nh_json_put_object(to, "branch") : NULL;
     if (!item) {
         nh_json_put_null(to, "branch");
@@ -109,7 +109,7 @@ static void put_constraint(const writer *w, nh_json *to)
 
 static void put_system(const writer *w, nh_json *to)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_json_put_number(to, "schema", 1);
     nh_json_put_text(to, "version", NH_VERSION);
     nh_json_put_text(to, "system", r->system->name);
@@ -147,7 +147,7 @@ static nh_json *add_chart(const writer *w, nh_json *charts, const nh_model *o)
 
 static void put_equations(const writer *w, nh_json *to)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_json_put_text(to, "chart", r->model->chart->name);
     nh_json *charts = nh_json_put_array(to, "charts"), *own = add_chart(w, charts, r->model);
     nh_json_put_copy(to, "reduced_equations", nh_json_get(own, "reduced_equations"));
@@ -181,7 +181,7 @@ static void put_spectrum(nh_json *to, const char *key, const nh_spectrum *s)
 
 static void put_unknowns(const writer *w, nh_json *to)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_json *item = nh_json_put_object(to, "unknowns");
     for (size_t j = 0; r->hits && j < r->hits->unknowns; j++) {
         nh_json *values = nh_json_put_array(item, nh_name_of(w->dag, r->analysis->unknown[j].symbol));
@@ -201,7 +201,7 @@ static void put_unknowns(const writer *w, nh_json *to)
 
 static void put_search(const writer *w, nh_json *to)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_json_put_text(to, "verdict", verdict_name(r->verdict));
     nh_json_put_text(to, "search", nh_search_word(r->search));
     nh_json_put_text(to, "ansatz", r->ansatz_note);
@@ -220,15 +220,15 @@ static void put_search(const writer *w, nh_json *to)
     nh_json_put_number(samples, "rejected", (double)r->rejected);
     nh_json_put_number(samples, "seed", r->options.seed);
     put_unknowns(w, to);
-    nh_result_json_completeness(r, to);
-    nh_result_json_stages(r, to);
+    nh_analysis_json_completeness(r, to);
+    nh_analysis_json_stages(r, to);
 }
 
 /* ---- currents ---- */
 
-static void put_field(const writer *w, nh_json *to, const nh_found *f)
+static void put_field(const writer *w, nh_json *to, const nh_current *f)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     const nh_model *o = r->model, *basis = r->other ? r->other : r->model;
     const nh_symmetry *z = &f->symmetry;
     nh_json *item = nh_json_put_object(to, "symmetry");
@@ -253,7 +253,7 @@ static void put_field(const writer *w, nh_json *to, const nh_found *f)
     put_expressions(w, item, "i_bracket_phi", o->k, z->bracket_form);
 }
 
-static void put_drift(const writer *w, nh_json *to, const nh_found *f)
+static void put_drift(const writer *w, nh_json *to, const nh_current *f)
 {
     if (!w->r->validation) {
         nh_json_put_null(to, "drift");
@@ -300,7 +300,7 @@ static void put_latex(const writer *w, nh_json *to, nh_ex e)
     nh_free(text);
 }
 
-static void put_current(const writer *w, nh_json *currents, const nh_found *f)
+static void put_current(const writer *w, nh_json *currents, const nh_current *f)
 {
     nh_json *item = nh_json_add_object(currents);
     nh_json_put_text(item, "name", f->name);
@@ -341,7 +341,7 @@ static void put_pieces(const writer *w, nh_json *root)
 {
     nh_json *list = nh_json_put_array(root, "currents_in_regions");
     for (size_t k = 0; k < w->r->pieces; k++) {
-        const nh_found *f = &w->r->piece[k];
+        const nh_current *f = &w->r->piece[k];
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "name", f->name);
         nh_json_put_text(item, "region", f->region);
@@ -361,7 +361,7 @@ static void put_almost(const writer *w, nh_json *root)
 {
     nh_json *list = nh_json_put_array(root, "almost_conserved");
     for (size_t k = 0; k < w->r->almosts; k++) {
-        const nh_almost *a = &w->r->almost[k];
+        const nh_near_current *a = &w->r->almost[k];
         nh_json *item = nh_json_add_object(list);
         put_expression(w, item, "expression", a->phi);
         put_expression(w, item, "in_velocities", a->in_velocities);
@@ -384,7 +384,7 @@ static void put_timing(const nh_timing *t, nh_json *to)
     nh_json_put_number(item, "validation_s", t->validation);
 }
 
-char *nh_result_json(const nh_result *r)
+char *nh_analysis_json(const nh_analysis *r)
 {
     size_t left_out = 0;
     writer w = {r, r->model->dag, &left_out};
@@ -398,8 +398,8 @@ char *nh_result_json(const nh_result *r)
     put_almost(&w, root);
     nh_json_put_number(root, "independent_currents", (double)r->independent);
     nh_json_put_number(root, "local_maximum", (double)r->local_maximum);
-    nh_result_json_validation(r, root);
-    nh_result_json_figures(r, root);
+    nh_analysis_json_validation(r, root);
+    nh_analysis_json_figures(r, root);
     nh_json_put_bool(root, "partial", r->partial);
     nh_run_json(&(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total}, r->system, root);
     put_timing(&r->timing, root);
@@ -408,7 +408,7 @@ char *nh_result_json(const nh_result *r)
     char note[200];
     snprintf(note, sizeof note, "%zu formula%s longer than %.0f symbols and null here (option `written`)", left_out, left_out == 1 ? " is" : "s are", r->options.written);
     if (left_out) nh_json_add_text(warnings, note);
-    size_t holes = nh_result_json_holes(r);
+    size_t holes = nh_analysis_json_holes(r);
     snprintf(note, sizeof note, "%zu values along the motion are not finite, as at a pole of the chart, and null here", holes);
     if (holes) nh_json_add_text(warnings, note);
     return nh_json_finish(root);

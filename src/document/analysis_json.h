@@ -5,6 +5,6 @@
 #include "search/analysis.h"
 
 /* A heap string (nh_free), ending in a newline. */
-char *nh_result_json(const nh_result *result);
+char *nh_analysis_json(const nh_analysis *result);
 
 #endif

@@ -61,7 +61,7 @@ static nh_json *put_count(nh_json *to, const char *key, const nh_completeness *c
     return item;
 }
 
-void nh_result_json_completeness(const nh_result *r, nh_json *to)
+void nh_analysis_json_completeness(const nh_analysis *r, nh_json *to)
 {
     const nh_completeness *c = r->completeness;
     bool timely = !c[NH_COMPLETE_IN_COORDINATES].counted;

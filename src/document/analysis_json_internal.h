@@ -5,11 +5,11 @@
 #include "base/json.h"
 #include "document/analysis_json.h"
 
-void nh_result_json_validation(const nh_result *result, nh_json *to); /* the motion, and what stayed constant on it */
-void nh_result_json_figures(const nh_result *result, nh_json *to);    /* those that were asked for */
+void nh_analysis_json_validation(const nh_analysis *result, nh_json *to); /* the motion, and what stayed constant on it */
+void nh_analysis_json_figures(const nh_analysis *result, nh_json *to);    /* those that were asked for */
 /* How many values along the motion have no value. */
-size_t nh_result_json_holes(const nh_result *result);
-void nh_result_json_completeness(const nh_result *result, nh_json *to); /* how many integrals there are */
-void nh_result_json_stages(const nh_result *result, nh_json *to);     /* what was tried */
+size_t nh_analysis_json_holes(const nh_analysis *result);
+void nh_analysis_json_completeness(const nh_analysis *result, nh_json *to); /* how many integrals there are */
+void nh_analysis_json_stages(const nh_analysis *result, nh_json *to);     /* what was tried */
 
 #endif

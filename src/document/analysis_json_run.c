@@ -6,23 +6,23 @@
 
 /* ---- the motion ---- */
 
-static void put_motion(const nh_result *r, nh_json *to)
+static void put_motion(const nh_analysis *r, nh_json *to)
 {
     const nh_validation *v = r->validation;
     nh_json *motion = nh_json_put_object(to, "motion");
-    nh_course *c = nh_course_of_result(r);
+    nh_time_series *c = nh_time_series_of_analysis(r);
     nh_json_put_numbers(motion, "time", v->count, v->time, 1);
-    nh_course_json(c, motion, "states", NH_TRACK_STATE);
-    nh_course_json(c, motion, "energies", NH_TRACK_ENERGY);
-    nh_course_json(c, motion, "currents", NH_TRACK_CURRENT);
-    nh_course_json(c, motion, "multipliers", NH_TRACK_MULTIPLIER);
-    nh_course_json_drawing(c, motion);
-    nh_json *watch = nh_course_json(c, to, "watch", NH_TRACK_WATCH);
+    nh_time_series_json(c, motion, "states", NH_TRACK_STATE);
+    nh_time_series_json(c, motion, "energies", NH_TRACK_ENERGY);
+    nh_time_series_json(c, motion, "currents", NH_TRACK_CURRENT);
+    nh_time_series_json(c, motion, "multipliers", NH_TRACK_MULTIPLIER);
+    nh_time_series_json_drawing(c, motion);
+    nh_json *watch = nh_time_series_json(c, to, "watch", NH_TRACK_WATCH);
     if (r->analysis && r->analysis->watches) nh_json_put_numbers(watch, "t", v->count, v->time, 1);
-    nh_course_free(c);
+    nh_time_series_free(c);
 }
 
-void nh_result_json_validation(const nh_result *r, nh_json *to)
+void nh_analysis_json_validation(const nh_analysis *r, nh_json *to)
 {
     const nh_validation *v = r->validation;
     if (!v) {
@@ -63,7 +63,7 @@ void nh_result_json_validation(const nh_result *r, nh_json *to)
     }
 }
 
-void nh_result_json_figures(const nh_result *r, nh_json *to)
+void nh_analysis_json_figures(const nh_analysis *r, nh_json *to)
 {
     static const char *const kinds[] = {"path", "plot", "scan", "samples"};
     nh_json *list = nh_json_put_array(to, "figures");
@@ -86,7 +86,7 @@ void nh_result_json_figures(const nh_result *r, nh_json *to)
     }
 }
 
-size_t nh_result_json_holes(const nh_result *r)
+size_t nh_analysis_json_holes(const nh_analysis *r)
 {
     const nh_validation *v = r->validation;
     size_t holes = 0, k = r->model->k;
@@ -101,11 +101,11 @@ size_t nh_result_json_holes(const nh_result *r)
 
 /* ---- what was tried ---- */
 
-void nh_result_json_stages(const nh_result *r, nh_json *to)
+void nh_analysis_json_stages(const nh_analysis *r, nh_json *to)
 {
     nh_json *list = nh_json_put_array(to, "stages");
     for (size_t i = 0; i < r->stages; i++) {
-        const nh_tried *s = &r->stage[i];
+        const nh_stage_record *s = &r->stage[i];
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "name", s->name);
         nh_json_put_bool(item, "too_large", s->skipped);

@@ -11,7 +11,7 @@
 enum { goals = 4 };
 static const double goal[goals] = {1e-3, 1e-6, 1e-9, 1e-12};
 
-static bool same_line(const nh_measured *a, const nh_measured *b) { return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation); }
+static bool same_line(const nh_run_record *a, const nh_run_record *b) { return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation); }
 
 static void time_text(double seconds, char out[16])
 {
@@ -19,7 +19,7 @@ static void time_text(double seconds, char out[16])
     snprintf(out, 16, us < 9.95 ? "%.1f" : "%.0f", us);
 }
 
-size_t nh_comparison_warnings(const nh_comparison *c, const char *out[NH_COMPARISON_WARNINGS])
+size_t nh_benchmark_warnings(const nh_benchmark *c, const char *out[NH_BENCHMARK_WARNINGS])
 {
     size_t n = 0;
     if (c->shortened) out[n++] = "the time was shortened until two methods reached its end and agreed";
@@ -29,21 +29,21 @@ size_t nh_comparison_warnings(const nh_comparison *c, const char *out[NH_COMPARI
 
 /* ---- text ---- */
 
-const nh_measured *nh_comparison_fastest(const nh_comparison *c, size_t from, size_t to, double below, bool reduced)
+const nh_run_record *nh_benchmark_fastest(const nh_benchmark *c, size_t from, size_t to, double below, bool reduced)
 {
-    const nh_measured *best = NULL;
+    const nh_run_record *best = NULL;
     for (size_t i = from; i < to; i++) {
-        const nh_measured *m = &c->item[i];
-        if (m->status <= (reduced ? NH_WARNED : NH_RIGHT) && (reduced || !m->reduced) && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
+        const nh_run_record *m = &c->item[i];
+        if (m->status <= (reduced ? NH_FLAGGED : NH_ACCURATE) && (reduced || !m->reduced) && m->error <= below && (!best || m->seconds < best->seconds)) best = m;
     }
     return best;
 }
 
-static void put_line(const nh_comparison *c, size_t from, size_t to, nh_text *out)
+static void put_line(const nh_benchmark *c, size_t from, size_t to, nh_text *out)
 {
     nh_text_addf(out, "    %-30s", c->item[from].method);
     for (int g = 0; g < goals; g++) {
-        const nh_measured *m = nh_comparison_fastest(c, from, to, goal[g], true);
+        const nh_run_record *m = nh_benchmark_fastest(c, from, to, goal[g], true);
         char us[16], cell[48];
         if (m) {
             time_text(m->seconds, us);
@@ -51,14 +51,14 @@ static void put_line(const nh_comparison *c, size_t from, size_t to, nh_text *ou
         }
         nh_text_addf(out, "%18s", m ? cell : "-");
     }
-    const nh_measured *last = NULL;
+    const nh_run_record *last = NULL;
     for (size_t i = from; i < to; i++)
-        if (c->item[i].status >= NH_WARNED && !(last && last->status == NH_WRONG)) last = &c->item[i];
-    if (last) nh_text_addf(out, "   %s", nh_measured_status_name(last->status));
+        if (c->item[i].status >= NH_FLAGGED && !(last && last->status == NH_UNDETECTED)) last = &c->item[i];
+    if (last) nh_text_addf(out, "   %s", nh_run_record_status_name(last->status));
     nh_text_add(out, "\n");
 }
 
-static void put_lines(const nh_comparison *c, nh_text *out)
+static void put_lines(const nh_benchmark *c, nh_text *out)
 {
     const char *formulation = "";
     for (size_t i = 0, next; i < c->count; i = next) {
@@ -68,14 +68,14 @@ static void put_lines(const nh_comparison *c, nh_text *out)
     }
 }
 
-static void put_run(const nh_comparison *c, const nh_measured *m, nh_text *out)
+static void put_run(const nh_benchmark *c, const nh_run_record *m, nh_text *out)
 {
     char us[16];
     time_text(m->seconds, us);
     nh_text_addf(out, "  %-30s %-36s ", m->method, m->formulation);
     if (isnan(m->step)) nh_text_addf(out, "tolerance %-8.0e", m->tolerance);
     else nh_text_addf(out, "step %-13.3g", m->step);
-    nh_text_addf(out, " %-8s", nh_measured_status_name(m->status));
+    nh_text_addf(out, " %-8s", nh_run_record_status_name(m->status));
     if (isfinite(m->error)) nh_text_addf(out, " error %-9.1e", m->error);
     for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++)
         if (!isnan(m->drift[k])) nh_text_addf(out, " %s %.0e", c->current[k], m->drift[k]);
@@ -84,10 +84,10 @@ static void put_run(const nh_comparison *c, const nh_measured *m, nh_text *out)
     nh_text_add(out, "\n");
 }
 
-static void put_front(const nh_comparison *c, nh_text *out)
+static void put_front(const nh_benchmark *c, nh_text *out)
 {
     for (int g = 0; g < goals; g++) {
-        const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g], false);
+        const nh_run_record *m = nh_benchmark_fastest(c, 0, c->count, goal[g], false);
         if (!m) continue;
         char us[16];
         time_text(m->seconds, us);
@@ -100,12 +100,12 @@ static void put_front(const nh_comparison *c, nh_text *out)
     }
 }
 
-void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
+void nh_benchmark_text(const nh_benchmark *c, bool verbose, nh_text *out)
 {
     nh_text_addf(out, "%s: a motion from t = %g to %g\n", c->question->system->title ? c->question->system->title : c->question->system->name, c->begin, c->end);
-    const char *warning[NH_COMPARISON_WARNINGS];
+    const char *warning[NH_BENCHMARK_WARNINGS];
     nh_text_addf(out, "Reference: %s; %s agrees to %.0e\n", c->reference, c->second, c->agreement);
-    for (size_t i = 0, n = nh_comparison_warnings(c, warning); i < n; i++) nh_text_addf(out, "warning: %s\n", warning[i]);
+    for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++) nh_text_addf(out, "warning: %s\n", warning[i]);
     nh_text_add(out, "\nMicroseconds (evaluations) to an error below");
     nh_text_addf(out, "\n%34s", "");
     for (int g = 0; g < goals; g++) nh_text_addf(out, "%18.0e", goal[g]);
@@ -137,41 +137,41 @@ void nh_comparison_text(const nh_comparison *c, bool verbose, nh_text *out)
 
 /* ---- stress ---- */
 
-static void put_at(const nh_stress_map *map, const nh_stress_cell *cell, char *out, size_t size)
+static void put_at(const nh_robustness_map *map, const nh_robustness_cell *cell, char *out, size_t size)
 {
     if (map->second_axis) snprintf(out, size, "%.4g, %.4g", cell->at, cell->second_at);
     else snprintf(out, size, "%.6g", cell->at);
 }
 
-void nh_stress_text(const nh_stress *s, bool verbose, nh_text *out)
+void nh_robustness_text(const nh_robustness *s, bool verbose, nh_text *out)
 {
     nh_text_addf(out, "\nStress at tolerance %.0e: right is an error below %.0e\n", s->tolerance, s->accuracy);
     for (size_t i = 0; i < s->maps; i++) {
-        const nh_stress_map *map = &s->map[i];
+        const nh_robustness_map *map = &s->map[i];
         nh_text_addf(out, "\n  %s\n  %14s", map->name, "");
         for (size_t j = 0; j < map->methods; j++) nh_text_addf(out, "%23s", map->cell[j].method);
         for (size_t j = 0; j < map->cells; j++) {
             char at[40];
             put_at(map, &map->cell[j], at, sizeof at);
             if (j % map->methods == 0) nh_text_addf(out, "\n  %14s", at);
-            nh_text_addf(out, "%23s", nh_measured_status_name(map->cell[j].status));
+            nh_text_addf(out, "%23s", nh_run_record_status_name(map->cell[j].status));
         }
         nh_text_add(out, "\n");
         for (size_t j = 0; j < map->cells && verbose; j++) {
             char at[40];
             put_at(map, &map->cell[j], at, sizeof at);
             if (map->cell[j].note && map->cell[j].note[0])
-                nh_text_addf(out, "    %s, %s: %s: %s\n", at, map->cell[j].method, nh_measured_status_name(map->cell[j].status), map->cell[j].note);
+                nh_text_addf(out, "    %s, %s: %s: %s\n", at, map->cell[j].method, nh_run_record_status_name(map->cell[j].status), map->cell[j].note);
         }
     }
     nh_text_add(out, "\n  in all:");
-    for (int k = 0; k <= NH_WRONG; k++) nh_text_addf(out, "%s %zu %s", k ? "," : "", s->count[k], nh_measured_status_name((nh_measured_status)k));
+    for (int k = 0; k <= NH_UNDETECTED; k++) nh_text_addf(out, "%s %zu %s", k ? "," : "", s->count[k], nh_run_record_status_name((nh_run_record_status)k));
     nh_text_add(out, "\n");
 }
 
 /* ---- JSON ---- */
 
-static void put_item(const nh_comparison *c, const nh_measured *m, nh_json *list)
+static void put_item(const nh_benchmark *c, const nh_run_record *m, nh_json *list)
 {
     nh_json *item = nh_json_add_object(list);
     nh_json_put_text(item, "method", m->method);
@@ -185,13 +185,13 @@ static void put_item(const nh_comparison *c, const nh_measured *m, nh_json *list
         if (!isnan(m->drift[k])) nh_json_put_number(drifts, c->current[k], m->drift[k]);
     nh_json_put_number(item, "seconds", m->seconds);
     nh_json_put_number(item, "evaluations", (double)m->evaluations);
-    nh_json_put_text(item, "status", nh_measured_status_name(m->status));
+    nh_json_put_text(item, "status", nh_run_record_status_name(m->status));
     nh_json_put_bool(item, "reduced", m->reduced);
     nh_json_put_bool(item, "front", m->front);
     nh_json_put_text(item, "note", m->note ? m->note : "");
 }
 
-static void put_map(const nh_stress_map *map, nh_json *list)
+static void put_map(const nh_robustness_map *map, nh_json *list)
 {
     nh_json *item = nh_json_add_object(list);
     nh_json_put_text(item, "name", map->name);
@@ -203,14 +203,14 @@ static void put_map(const nh_stress_map *map, nh_json *list)
         nh_json *cell = nh_json_add_object(cells);
         nh_json_put_numbers(cell, "at", map->second_axis ? 2 : 1, (double[]){map->cell[i].at, map->cell[i].second_at}, 1);
         nh_json_put_text(cell, "method", map->cell[i].method);
-        nh_json_put_text(cell, "status", nh_measured_status_name(map->cell[i].status));
+        nh_json_put_text(cell, "status", nh_run_record_status_name(map->cell[i].status));
         nh_json_put_number(cell, "error", map->cell[i].error);
         nh_json_put_number(cell, "drift", map->cell[i].drift);
         nh_json_put_text(cell, "note", map->cell[i].note ? map->cell[i].note : "");
     }
 }
 
-char *nh_comparison_json(const nh_comparison *c, const nh_stress *s, const nh_run *run)
+char *nh_benchmark_json(const nh_benchmark *c, const nh_robustness *s, const nh_run *run)
 {
     nh_json *root = nh_json_object();
     nh_json_put_number(root, "schema", 1);
@@ -239,8 +239,8 @@ char *nh_comparison_json(const nh_comparison *c, const nh_stress *s, const nh_ru
     nh_json *stress = nh_json_put_array(root, "stress");
     for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], stress);
     nh_json *warnings = nh_json_put_array(root, "warnings");
-    const char *warning[NH_COMPARISON_WARNINGS];
-    for (size_t i = 0, n = nh_comparison_warnings(c, warning); i < n; i++) nh_json_add_text(warnings, warning[i]);
+    const char *warning[NH_BENCHMARK_WARNINGS];
+    for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++) nh_json_add_text(warnings, warning[i]);
     if (run) nh_run_json(run, c->question->system, root);
     return nh_json_finish(root);
 }

@@ -6,14 +6,14 @@
 #include "document/provenance.h"
 #include "commands/robustness.h"
 
-void nh_comparison_text(const nh_comparison *comparison, bool verbose, nh_text *out);
+void nh_benchmark_text(const nh_benchmark *comparison, bool verbose, nh_text *out);
 /* A heap string (nh_free); `stress` and `run` may be NULL. */
-char *nh_comparison_json(const nh_comparison *comparison, const nh_stress *stress, const nh_run *run);
+char *nh_benchmark_json(const nh_benchmark *comparison, const nh_robustness *stress, const nh_run *run);
 /* The fastest of the runs from..to-1 whose error is below the goal, or NULL; `reduced`: runs in the equations of a reduction
  * count too, and those that a guard complains about. */
-const nh_measured *nh_comparison_fastest(const nh_comparison *comparison, size_t from, size_t to, double below, bool reduced);
-void nh_stress_text(const nh_stress *stress, bool verbose, nh_text *out);
+const nh_run_record *nh_benchmark_fastest(const nh_benchmark *comparison, size_t from, size_t to, double below, bool reduced);
+void nh_robustness_text(const nh_robustness *stress, bool verbose, nh_text *out);
 /* Time against error of every run, one line per method and formulation, with the front of the best: an SVG file on its own. */
-void nh_comparison_svg(const nh_comparison *comparison, nh_text *out);
+void nh_benchmark_svg(const nh_benchmark *comparison, nh_text *out);
 
 #endif

@@ -29,7 +29,7 @@ static void put(const nh_fitted *m, nh_text *out)
                  nh_fitted_word(m), m->front ? " *" : "");
 }
 
-void nh_fits_text(const nh_comparison *c, bool verbose, nh_text *out)
+void nh_fits_text(const nh_benchmark *c, bool verbose, nh_text *out)
 {
     if (!c->fits) return;
     nh_text_add(out, "\nThe discrete problem: polynomials in velocities, sines, cosines and coordinates; error of the known currents, milliseconds\n");
@@ -47,7 +47,7 @@ void nh_fits_text(const nh_comparison *c, bool verbose, nh_text *out)
     if (c->fits_partial) nh_text_add(out, "  there was no time for more functions; --budget allows more\n");
 }
 
-void nh_fits_json(const nh_comparison *c, nh_json *root)
+void nh_fits_json(const nh_benchmark *c, nh_json *root)
 {
     nh_json *list = nh_json_put_array(root, "discrete");
     for (size_t i = 0; i < c->fits; i++) {

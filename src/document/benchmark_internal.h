@@ -7,12 +7,12 @@
 #include "commands/benchmark.h"
 
 /* What has to be said of the reference, at most so many sentences. */
-enum { NH_COMPARISON_WARNINGS = 2 };
-size_t nh_comparison_warnings(const nh_comparison *comparison, const char *out[NH_COMPARISON_WARNINGS]);
+enum { NH_BENCHMARK_WARNINGS = 2 };
+size_t nh_benchmark_warnings(const nh_benchmark *comparison, const char *out[NH_BENCHMARK_WARNINGS]);
 
 /* The discrete problem. */
-void nh_fits_text(const nh_comparison *comparison, bool verbose, nh_text *out);
-void nh_fits_json(const nh_comparison *comparison, nh_json *root);
+void nh_fits_text(const nh_benchmark *comparison, bool verbose, nh_text *out);
+void nh_fits_json(const nh_benchmark *comparison, nh_json *root);
 const char *nh_fitted_word(const nh_fitted *fitted); /* "right", "too few", ... */
 
 #endif

@@ -183,26 +183,26 @@ static void put_panel(panel *d)
 /* ---- what is drawn ---- */
 
 /* Runs of one method in one formulation; an error below the reference's own is drawn at it. */
-static void motions(panel *d, const nh_comparison *c)
+static void motions(panel *d, const nh_benchmark *c)
 {
     d->series = nh_arena_alloc(d->arena, (c->count + 1) * sizeof *d->series);
     for (size_t i = 0; i < c->count; i++) {
-        const nh_measured *m = &c->item[i];
+        const nh_run_record *m = &c->item[i];
         series *s = &d->series[d->count ? d->count - 1 : 0];
         if (!d->count || strcmp(s->name, m->method) || strcmp(s->group, m->formulation)) {
             s = &d->series[d->count++];
             *s = (series){m->method, m->formulation, 0, nh_arena_alloc(d->arena, (c->count + 1) * sizeof *s->mark)};
         }
-        bool good = m->status <= NH_WARNED && isfinite(m->error);
+        bool good = m->status <= NH_FLAGGED && isfinite(m->error);
         char note[400];
         snprintf(note, sizeof note, "%s, %s %.3g: error %.1e, %.3g s, %ld evaluations", m->method, isnan(m->step) ? "tolerance" : "step", isnan(m->step) ? m->tolerance : m->step,
                  m->error, m->seconds, m->evaluations);
-        s->mark[s->count++] = (mark){good ? fmax(fmax(m->error, c->agreement), 1e-16) : NAN, m->seconds, m->front, m->status == NH_WARNED, nh_arena_strdup(d->arena, note)};
+        s->mark[s->count++] = (mark){good ? fmax(fmax(m->error, c->agreement), 1e-16) : NAN, m->seconds, m->front, m->status == NH_FLAGGED, nh_arena_strdup(d->arena, note)};
     }
 }
 
 /* Per number of functions the ways to solve for them. */
-static void fits(panel *d, const nh_comparison *c)
+static void fits(panel *d, const nh_benchmark *c)
 {
     d->series = nh_arena_alloc(d->arena, (c->fits + 1) * sizeof *d->series);
     for (size_t i = 0; i < c->fits; i++) {
@@ -222,7 +222,7 @@ static void fits(panel *d, const nh_comparison *c)
     }
 }
 
-void nh_comparison_svg(const nh_comparison *c, nh_text *out)
+void nh_benchmark_svg(const nh_benchmark *c, nh_text *out)
 {
     nh_arena *arena = nh_arena_create();
     const nh_system *system = c->question->system;

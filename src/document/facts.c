@@ -47,7 +47,7 @@ static void ranks(nh_text *out, const char *before, size_t n, const size_t *rank
     for (size_t i = 0; i < n; i++) nh_text_addf(out, "%s%zu", i ? "," : before, rank[i]);
 }
 
-void nh_facts_constraint(const nh_result *r, nh_text *out)
+void nh_facts_constraint(const nh_analysis *r, nh_text *out)
 {
     static const char *const spaces[] = {"growth vector ", "growth vector with time ", "growth vector on the submanifold "};
     const nh_distribution *d = &r->constraint;
@@ -145,7 +145,7 @@ void nh_facts_add_holds(nh_json *list, const nh_model *o, const nh_proof *p)
 
 /* ---- branches ---- */
 
-void nh_facts_branch(const nh_result *r, nh_text *out)
+void nh_facts_branch(const nh_analysis *r, nh_text *out)
 {
     if (!r->branch) return;
     nh_text_addf(out, "computed on the branch %s; ", r->branch);
@@ -153,7 +153,7 @@ void nh_facts_branch(const nh_result *r, nh_text *out)
     else nh_text_add(out, "the equations hold on this branch only");
 }
 
-const char *nh_facts_on_branches(const nh_result *r, const nh_found *f)
+const char *nh_facts_on_branches(const nh_analysis *r, const nh_current *f)
 {
     if (!r->model->chart->branch) return "";
     return f->on_both ? ", on both branches" : nh_arena_printf(r->arena, ", on the branch %s only", r->branch);
@@ -161,15 +161,15 @@ const char *nh_facts_on_branches(const nh_result *r, const nh_found *f)
 
 /* ---- the answer ---- */
 
-const char *nh_facts_nothing(const nh_result *r)
+const char *nh_facts_nothing(const nh_analysis *r)
 {
     if (r->verdict == NH_NONE) return "No current in this ansatz";
-    return r->search == NH_SEARCH_CUT || nh_result_left_out(r) ? "Undecided: no current so far" : "Undecided: nothing found got a certificate";
+    return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far" : "Undecided: nothing found got a certificate";
 }
 
-const char *nh_facts_search(const nh_result *r)
+const char *nh_facts_search(const nh_analysis *r)
 {
-    size_t left_out = nh_result_left_out(r);
+    size_t left_out = nh_analysis_left_out(r);
     bool counted = false; /* what else there can be is said by the count */
     for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++) counted |= r->completeness[i].counted && !r->completeness[i].count.obstacle;
     if (r->search == NH_SEARCH_COMPLETE) return "The search is complete. There cannot be more currents: together they determine every orbit locally.";
@@ -180,7 +180,7 @@ const char *nh_facts_search(const nh_result *r)
     return counted ? "The search is exhausted: all that there was to try was tried." : "The search is exhausted: all that there was to try was tried, and there may be other currents.";
 }
 
-void nh_facts_completeness(const nh_result *r, nh_text *out)
+void nh_facts_completeness(const nh_analysis *r, nh_text *out)
 {
     size_t uncertain = 0;
     for (size_t k = 0; k < r->count; k++) uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);

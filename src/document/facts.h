@@ -21,7 +21,7 @@ const char *nh_facts_list(const char *text, char *words, size_t size);
 bool nh_facts_next(const char **list, char *name, size_t size);
 
 /* "homogeneous nonlinear constraint, time-dependent (nonholonomic; growth vector 2,3)" */
-void nh_facts_constraint(const nh_result *result, nh_text *out);
+void nh_facts_constraint(const nh_analysis *result, nh_text *out);
 
 /* What kind of symmetry Z is: its case, whether [Gamma,Z] lies in the canonical distribution, whether Z is projectable.  `between`: what stands between the
  * case and the rest. */
@@ -29,19 +29,19 @@ typedef enum { NH_FACTS_TEXT, NH_FACTS_PAGE, NH_FACTS_TEX } nh_facts_form;
 void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const char *between, nh_text *out);
 
 /* Whether the currents found are all that are polynomial in the velocities, in sentences; "" when this was not counted. */
-void nh_facts_completeness(const nh_result *result, nh_text *out);
+void nh_facts_completeness(const nh_analysis *result, nh_text *out);
 
 /* How the drift of a current behaves when the tolerance of the integration falls. */
 const char *nh_facts_drift(const nh_drift *drift);
 
 /* Of a constraint with two branches (else ""): which was computed, and whether the equations hold on the other one; and of a current on which it holds. */
-void nh_facts_branch(const nh_result *result, nh_text *out);
-const char *nh_facts_on_branches(const nh_result *result, const nh_found *found);
+void nh_facts_branch(const nh_analysis *result, nh_text *out);
+const char *nh_facts_on_branches(const nh_analysis *result, const nh_current *found);
 
 /* What is said where no current was found. */
-const char *nh_facts_nothing(const nh_result *result);
+const char *nh_facts_nothing(const nh_analysis *result);
 /* How the search ended: whole sentences. */
-const char *nh_facts_search(const nh_result *result);
+const char *nh_facts_search(const nh_analysis *result);
 
 /* One linear problem in numbers, the first of them counts; NAN for what there is not. */
 enum { NH_SPECTRUM_COUNTS = 4, NH_SPECTRUM_NUMBERS = 7 };

@@ -7,7 +7,7 @@
 #include "exact/normal.h"
 #include "graph/print.h"
 
-nh_ex nh_formula_shortened(const nh_analysis *a, nh_dag *d, nh_ex e)
+nh_ex nh_formula_shortened(const nh_analysis_file *a, nh_dag *d, nh_ex e)
 {
     for (size_t i = a ? a->definitions : 0; i-- > 0;) {
         nh_kind kind = nh_kind_of(d, a->definition[i].value);
@@ -20,9 +20,9 @@ nh_ex nh_formula_shortened(const nh_analysis *a, nh_dag *d, nh_ex e)
     return e;
 }
 
-nh_ex nh_formula_shown(const nh_result *r, nh_ex e) { return nh_chart_shown(r->other && r->other->chart->roots ? r->other->chart : r->model->chart, e); }
+nh_ex nh_formula_shown(const nh_analysis *r, nh_ex e) { return nh_chart_shown(r->other && r->other->chart->roots ? r->other->chart : r->model->chart, e); }
 
-nh_ex nh_formula_abbreviate(const nh_result *r, nh_ex e) { return nh_formula_shortened(r->analysis, r->model->dag, nh_formula_shown(r, e)); }
+nh_ex nh_formula_abbreviate(const nh_analysis *r, nh_ex e) { return nh_formula_shortened(r->analysis, r->model->dag, nh_formula_shown(r, e)); }
 
 /* ---- names for what is repeated ---- */
 
@@ -109,7 +109,7 @@ static void add_term(const nh_model *o, nh_field_term *list, size_t *n, nh_ex e,
     if (!nh_is_zero(o->dag, e)) list[(*n)++] = (nh_field_term){e, along};
 }
 
-size_t nh_formula_field(const nh_result *r, const nh_symmetry *z, nh_field_term **out)
+size_t nh_formula_field(const nh_analysis *r, const nh_symmetry *z, nh_field_term **out)
 {
     const nh_model *o = r->model, *basis = r->other ? r->other : o;
     const nh_field *f = z->along_motion ? &z->relative : &z->field;
@@ -157,7 +157,7 @@ void nh_formula_series(nh_dag *d, const nh_series *s, nh_typeset_form form, nh_t
     if (page) nh_text_add(out, "</mrow>");
 }
 
-const char *nh_formula_doubt(const nh_found *f)
+const char *nh_formula_doubt(const nh_current *f)
 {
     if (f->exact) return " (not proved)";
     return f->asked && f->refined >= f->proof.digits ? " with its coefficients refined" : " (coefficients fitted in double precision)";

@@ -6,10 +6,10 @@
 #include "search/analysis.h"
 
 /* e with the user's own abbreviations, from the analysis file (or NULL), instead of what they stand for. */
-nh_ex nh_formula_shortened(const nh_analysis *analysis, nh_dag *dag, nh_ex e);
+nh_ex nh_formula_shortened(const nh_analysis_file *analysis, nh_dag *dag, nh_ex e);
 /* e without roots that are dependent velocities; and with the abbreviations besides. */
-nh_ex nh_formula_shown(const nh_result *result, nh_ex e);
-nh_ex nh_formula_abbreviate(const nh_result *result, nh_ex e);
+nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e);
+nh_ex nh_formula_abbreviate(const nh_analysis *result, nh_ex e);
 
 /* Long formulas with names for what occurs in them more than once: the n formulas are changed, part[i] = {name, value} in an order in which each uses only
  * names that come later.  Names are new to the graph: a letter, _ and a number.  Returns their number, at most NH_FORMULA_PARTS; 0 when all are short. */
@@ -27,7 +27,7 @@ typedef struct {
     nh_ex coefficient;
     const char *along; /* t, a coordinate or a velocity; NULL: Gamma */
 } nh_field_term;
-size_t nh_formula_field(const nh_result *result, const nh_symmetry *z, nh_field_term **out);
+size_t nh_formula_field(const nh_analysis *result, const nh_symmetry *z, nh_field_term **out);
 
 /* A formula as text; when it is longer than `shown` symbols, how long it is and which option shows it. */
 char *nh_formula_text(nh_dag *dag, nh_ex e, double shown);
@@ -36,6 +36,6 @@ char *nh_formula_text(nh_dag *dag, nh_ex e, double shown);
 void nh_formula_series(nh_dag *dag, const nh_series *series, nh_typeset_form form, nh_text *out);
 
 /* Why a current is not said to be proved: what stands behind "conserved to N digits", with its blank. */
-const char *nh_formula_doubt(const nh_found *found);
+const char *nh_formula_doubt(const nh_current *found);
 
 #endif

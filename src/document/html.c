@@ -11,7 +11,7 @@ static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
 /* "one is minus the energy, one the momentum of x" */
 static void meanings(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     size_t told = 0;
     for (size_t k = 0; k < r->count; k++) {
         if (!r->found[k].meaning[0] || r->found[k].independence != NH_INDEPENDENT) continue;
@@ -38,7 +38,7 @@ static void completeness(nh_html_writer *w)
 
 static void answer(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     static const char *const class[] = {"found", "none", "undecided"};
     nh_text_addf(w->out, "<p class=\"answer %s\">", class[r->verdict]);
     if (r->count) {
@@ -64,7 +64,7 @@ static void warnings(nh_html_writer *w)
 
 static void links(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_text sections;
     nh_text_init(&sections);
     nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|search|%s|words|Words|repeat|Repeat it", r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "",
@@ -73,13 +73,13 @@ static void links(nh_html_writer *w)
     nh_text_clear(&sections);
 }
 
-static nh_html_writer writer_of(const nh_result *r, nh_text *out)
+static nh_html_writer writer_of(const nh_analysis *r, nh_text *out)
 {
     const nh_chart *chart = r->other && r->other->chart->roots ? r->other->chart : r->model->chart;
     return (nh_html_writer){.out = out, .system = r->system, .analysis = r->analysis, .dag = r->model->dag, .chart = chart, .shown = r->options.shown, .written = r->options.written, .r = r};
 }
 
-void nh_html(const nh_result *r, nh_text *out)
+void nh_html(const nh_analysis *r, nh_text *out)
 {
     nh_html_writer w = writer_of(r, out);
     nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
@@ -88,7 +88,7 @@ void nh_html(const nh_result *r, nh_text *out)
     links(&w);
     warnings(&w);
     nh_html_currents(&w);
-    nh_html_motion(&w);
+    nh_html_simulation_motion(&w);
     nh_html_figures(&w);
     nh_html_system(&w);
     nh_html_evidence(&w);
@@ -97,14 +97,14 @@ void nh_html(const nh_result *r, nh_text *out)
     nh_html_end(&w);
 }
 
-void nh_html_plots(const nh_result *r, nh_html_section section, nh_figure_sink *sink, void *context)
+void nh_html_plots(const nh_analysis *r, nh_html_section section, nh_figure_sink *sink, void *context)
 {
     nh_text rest; /* of the section */
     nh_text_init(&rest);
     nh_html_writer w = writer_of(r, &rest);
     w.sink = sink;
     w.context = context;
-    if (section == NH_SECTION_MOTION) nh_html_motion(&w);
+    if (section == NH_SECTION_MOTION) nh_html_simulation_motion(&w);
     if (section == NH_SECTION_FIGURES) nh_html_figures(&w);
     if (section == NH_SECTION_SEARCH) nh_html_evidence(&w);
     nh_text_clear(&rest);

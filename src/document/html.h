@@ -14,10 +14,10 @@
 #include "commands/robustness.h"
 #include "commands/verify.h"
 
-void nh_html(const nh_result *result, nh_text *out);
+void nh_html(const nh_analysis *result, nh_text *out);
 void nh_html_simulation(const nh_simulation *simulation, const nh_run *run, nh_text *out);
-void nh_html_verdict(const nh_verdict_of_one *verdict, bool field, const nh_run *run, nh_text *out); /* field: the question was about one */
-void nh_html_comparison(const nh_comparison *comparison, const nh_stress *stress, const nh_run *run, nh_text *out); /* stress may be NULL */
+void nh_html_verification(const nh_verification *verdict, bool field, const nh_run *run, nh_text *out); /* field: the question was about one */
+void nh_html_benchmark(const nh_benchmark *comparison, const nh_robustness *stress, const nh_run *run, nh_text *out); /* stress may be NULL */
 void nh_html_reduction(const nh_reduction *reduction, const nh_run *run, nh_text *out);
 
 /* The figures of a page one by one, each a stand-alone SVG document: where the next begins, NULL after the last.  Moves *at on. */
@@ -28,6 +28,6 @@ bool nh_html_is_figure(const char *text, size_t number);
 /* The plots of one section of a page, for a report of another form.  They last for the call. */
 typedef enum { NH_SECTION_MOTION, NH_SECTION_FIGURES, NH_SECTION_SEARCH } nh_html_section;
 typedef void nh_figure_sink(void *context, const nh_plot *plot, const char *caption);
-void nh_html_plots(const nh_result *result, nh_html_section section, nh_figure_sink *sink, void *context);
+void nh_html_plots(const nh_analysis *result, nh_html_section section, nh_figure_sink *sink, void *context);
 
 #endif

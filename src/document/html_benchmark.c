@@ -10,30 +10,30 @@
 
 enum { most_lines = 35 }; /* colours times dashes */
 
-static bool same_line(const nh_measured *a, const nh_measured *b) { return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation); }
+static bool same_line(const nh_run_record *a, const nh_run_record *b) { return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation); }
 
-static bool shown(const nh_measured *m) { return m->status <= NH_WARNED && isfinite(m->error) && m->seconds > 0; }
+static bool shown(const nh_run_record *m) { return m->status <= NH_FLAGGED && isfinite(m->error) && m->seconds > 0; }
 
 /* ---- the answer ---- */
 
-static void step_or_tolerance(nh_html_writer *w, const nh_measured *m)
+static void step_or_tolerance(nh_html_writer *w, const nh_run_record *m)
 {
     nh_html_add(w, isnan(m->step) ? "tolerance " : "step ");
     nh_html_number(w, isnan(m->step) ? m->tolerance : m->step, 3);
 }
 
 /* What a run was told, and what came of it, as cells of its row. */
-static void set_to(nh_html_writer *w, const nh_measured *m)
+static void set_to(nh_html_writer *w, const nh_run_record *m)
 {
     nh_html_tagged(w, "td", m->method);
     nh_html_add(w, "<td>");
-    nh_html_chart(w, m->formulation);
+    nh_html_benchmark_page(w, m->formulation);
     nh_html_add(w, "</td><td>");
     step_or_tolerance(w, m);
     nh_html_add(w, "</td>");
 }
 
-static void measured(nh_html_writer *w, const nh_measured *m)
+static void measured(nh_html_writer *w, const nh_run_record *m)
 {
     nh_html_cell(w, m->error, 2);
     nh_html_cell(w, m->worst_drift, 2);
@@ -41,7 +41,7 @@ static void measured(nh_html_writer *w, const nh_measured *m)
     nh_html_cell(w, (double)m->evaluations, 10);
 }
 
-static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
+static void best_line(nh_html_writer *w, const nh_run_record *m, const char *goal)
 {
     nh_text_addf(w->out, "<tr><th scope=\"row\">%s</th>", goal);
     set_to(w, m);
@@ -49,32 +49,32 @@ static void best_line(nh_html_writer *w, const nh_measured *m, const char *goal)
     nh_html_add(w, "</tr>\n");
 }
 
-static void answer(nh_html_writer *w, const nh_comparison *c)
+static void answer(nh_html_writer *w, const nh_benchmark *c)
 {
-    const nh_measured *best = nh_comparison_fastest(c, 0, c->count, 1e-6, false);
+    const nh_run_record *best = nh_benchmark_fastest(c, 0, c->count, 1e-6, false);
     nh_html_add(w, best ? "<p class=\"answer found\">Fastest below an error of a millionth: " : "<p class=\"answer undecided\">No method came below an error of a millionth");
     if (best) {
         nh_html_text(w, best->method);
         nh_html_add(w, " in ");
-        nh_html_chart(w, best->formulation);
+        nh_html_benchmark_page(w, best->formulation);
     }
     nh_html_add(w, ".</p>\n<p>One motion, t = ");
     nh_html_number(w, c->begin, 6);
     nh_html_add(w, " to ");
     nh_html_number(w, c->end, 6);
     nh_html_add(w, ", by every integrator in every formulation, measured on this machine. Reference: ");
-    nh_html_chart(w, c->reference);
+    nh_html_benchmark_page(w, c->reference);
     nh_html_add(w, "; ");
-    nh_html_chart(w, c->second);
+    nh_html_benchmark_page(w, c->second);
     nh_html_add(w, " agrees to ");
     nh_html_number(w, c->agreement, 1);
     nh_html_add(w, ", so that smaller errors mean nothing.</p>\n");
-    const char *warning[NH_COMPARISON_WARNINGS];
-    for (size_t i = 0, n = nh_comparison_warnings(c, warning); i < n; i++) nh_html_warning(w, warning[i]);
+    const char *warning[NH_BENCHMARK_WARNINGS];
+    for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++) nh_html_warning(w, warning[i]);
     if (c->partial) nh_html_warning(w, "the budget ended before every method had all its runs; --budget allows more");
 }
 
-static void fastest(nh_html_writer *w, const nh_comparison *c)
+static void fastest(nh_html_writer *w, const nh_benchmark *c)
 {
     static const struct {
         double below;
@@ -82,7 +82,7 @@ static void fastest(nh_html_writer *w, const nh_comparison *c)
     } goal[] = {{1e-3, "10<sup>\u22123</sup>"}, {1e-6, "10<sup>\u22126</sup>"}, {1e-9, "10<sup>\u22129</sup>"}, {1e-12, "10<sup>\u221212</sup>"}};
     nh_html_table(w, "The fastest below an error of ...", "error below|method|formulation|set to|error|drift|seconds|evaluations");
     for (size_t g = 0; g < sizeof goal / sizeof *goal; g++) {
-        const nh_measured *m = nh_comparison_fastest(c, 0, c->count, goal[g].below, false);
+        const nh_run_record *m = nh_benchmark_fastest(c, 0, c->count, goal[g].below, false);
         if (m) best_line(w, m, goal[g].text);
     }
     nh_html_table_end(w);
@@ -106,7 +106,7 @@ static void flush(nh_html_writer *w, const char *formulation, size_t n, const nh
 }
 
 /* One plot per formulation, one line per method. */
-static void plots(nh_html_writer *w, const nh_comparison *c)
+static void plots(nh_html_writer *w, const nh_benchmark *c)
 {
     double *x = nh_alloc_array(2 * c->count + 1, sizeof *x), *y = x + c->count;
     nh_curve curve[most_lines];
@@ -114,7 +114,7 @@ static void plots(nh_html_writer *w, const nh_comparison *c)
     for (size_t i = 0, next; i < c->count; i = next) {
         size_t points = 0;
         for (next = i; next < c->count && same_line(&c->item[i], &c->item[next]); next++) {
-            const nh_measured *m = &c->item[next];
+            const nh_run_record *m = &c->item[next];
             if (!shown(m)) continue;
             x[i + points] = fmax(m->error, fmax(c->agreement, 1e-16));
             y[i + points++] = m->seconds;
@@ -128,15 +128,15 @@ static void plots(nh_html_writer *w, const nh_comparison *c)
     nh_free(x);
 }
 
-static void all_runs(nh_html_writer *w, const nh_comparison *c)
+static void all_runs(nh_html_writer *w, const nh_benchmark *c)
 {
     nh_html_add(w, "<details><summary>All runs</summary>\n");
     nh_html_table(w, "All runs", "method|formulation|set to|status|error|drift|seconds|evaluations|note");
     for (size_t i = 0; i < c->count; i++) {
-        const nh_measured *m = &c->item[i];
+        const nh_run_record *m = &c->item[i];
         nh_html_add(w, "<tr>");
         set_to(w, m);
-        nh_text_addf(w->out, "<td class=\"%s\">%s</td>", nh_measured_status_name(m->status), nh_measured_status_name(m->status));
+        nh_text_addf(w->out, "<td class=\"%s\">%s</td>", nh_run_record_status_name(m->status), nh_run_record_status_name(m->status));
         measured(w, m);
         nh_html_tagged(w, "td", m->note ? m->note : "");
         nh_html_add(w, "</tr>\n");
@@ -145,7 +145,7 @@ static void all_runs(nh_html_writer *w, const nh_comparison *c)
     nh_html_add(w, "</details>\n");
 }
 
-static void derivatives(nh_html_writer *w, const nh_comparison *c)
+static void derivatives(nh_html_writer *w, const nh_benchmark *c)
 {
     if (!c->derivatives) return;
     nh_html_table(w, "One Jacobian of the reduced equations", "by|seconds|evaluations|off by");
@@ -167,7 +167,7 @@ static void derivatives(nh_html_writer *w, const nh_comparison *c)
 static bool same_way(const nh_fitted *a, const nh_fitted *b) { return !strcmp(a->basis, b->basis) && !strcmp(a->route, b->route) && !strcmp(a->solver, b->solver); }
 
 /* One plot per size of the ansatz; one line per way to solve it, over the samples. */
-static void fit_plot(nh_html_writer *w, const nh_comparison *c, size_t first, size_t last)
+static void fit_plot(nh_html_writer *w, const nh_benchmark *c, size_t first, size_t last)
 {
     enum { most = 12 };
     size_t n = 0, room = last - first;
@@ -210,7 +210,7 @@ static void fit_row(nh_html_writer *w, const nh_fitted *m)
     nh_html_add(w, "</tr>\n");
 }
 
-static void discrete(nh_html_writer *w, const nh_comparison *c)
+static void discrete(nh_html_writer *w, const nh_benchmark *c)
 {
     if (!c->fits) return;
     nh_html_add(w, "<section id=\"discrete\"><h2>The discrete problem</h2>\n<p>The linear problem by which <code>analyze</code> finds currents, of polynomials in velocities, sines, cosines and coordinates, "
@@ -229,15 +229,15 @@ static void discrete(nh_html_writer *w, const nh_comparison *c)
 /* ---- stability maps ---- */
 
 /* A cell with what its guard says, or why it failed, where the pointer rests on it. */
-static void stability_cell(nh_html_writer *w, const nh_stress_cell *cell)
+static void stability_cell(nh_html_writer *w, const nh_robustness_cell *cell)
 {
-    nh_text_addf(w->out, "<td class=\"%s\"", nh_measured_status_name(cell->status));
+    nh_text_addf(w->out, "<td class=\"%s\"", nh_run_record_status_name(cell->status));
     if (cell->note && cell->note[0]) {
         nh_html_add(w, " title=\"");
         nh_html_text(w, cell->note);
         nh_html_add(w, "\"");
     }
-    nh_text_addf(w->out, ">%s</td>", nh_measured_status_name(cell->status));
+    nh_text_addf(w->out, ">%s</td>", nh_run_record_status_name(cell->status));
 }
 
 static void head_cell(nh_html_writer *w, const char *text)
@@ -255,7 +255,7 @@ static void row_head(nh_html_writer *w, double at)
 }
 
 /* Over one thing: its values downwards, methods across. */
-static void line_map(nh_html_writer *w, const nh_stress_map *map)
+static void line_map(nh_html_writer *w, const nh_robustness_map *map)
 {
     nh_html_table(w, map->name, NULL);
     nh_html_add(w, "<tr>");
@@ -273,11 +273,11 @@ static void line_map(nh_html_writer *w, const nh_stress_map *map)
 }
 
 /* Over two: the first downwards, the second across, a table per method. */
-static void plane_map(nh_html_writer *w, const nh_stress_map *map, size_t method)
+static void plane_map(nh_html_writer *w, const nh_robustness_map *map, size_t method)
 {
     char caption[300], corner[200];
     size_t values = map->cells / map->methods, across = 1;
-    const nh_stress_cell *cell = map->cell + method;
+    const nh_robustness_cell *cell = map->cell + method;
     while (across < values && map->cell[across * map->methods].at == map->cell[0].at) across++;
     snprintf(caption, sizeof caption, "%.200s: %.80s", map->name, cell->method);
     snprintf(corner, sizeof corner, "%.90s \u2193  %.90s \u2192", map->axis, map->second_axis);
@@ -300,13 +300,13 @@ static void plane_map(nh_html_writer *w, const nh_stress_map *map, size_t method
     nh_html_table_end(w);
 }
 
-static void stability_map(nh_html_writer *w, const nh_stress_map *map)
+static void stability_map(nh_html_writer *w, const nh_robustness_map *map)
 {
     if (!map->second_axis) line_map(w, map);
     for (size_t j = 0; map->second_axis && j < map->methods; j++) plane_map(w, map, j);
 }
 
-static void stress(nh_html_writer *w, const nh_stress *s)
+static void stress(nh_html_writer *w, const nh_robustness *s)
 {
     if (!s) return;
     nh_html_add(w, "<section id=\"stress\"><h2>Where methods fail</h2>\n<p>Right and warned: within the accuracy, the second with a complaint of a guard. Caught: not within it, and a guard says so. "
@@ -315,7 +315,7 @@ static void stress(nh_html_writer *w, const nh_stress *s)
     nh_html_add(w, "</section>\n");
 }
 
-void nh_html_comparison(const nh_comparison *c, const nh_stress *s, const nh_run *run, nh_text *out)
+void nh_html_benchmark(const nh_benchmark *c, const nh_robustness *s, const nh_run *run, nh_text *out)
 {
     const nh_simulation *q = c->question;
     nh_html_writer w = {.out = out, .system = q->system, .analysis = q->analysis, .dag = q->model->dag, .shown = run->shown, .written = INFINITY};

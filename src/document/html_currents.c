@@ -22,7 +22,7 @@ static double chebyshev(const double *c, size_t degree, double s)
     return c[0] + s * b1 - b2;
 }
 
-static void series_plot(nh_html_writer *w, const nh_found *f)
+static void series_plot(nh_html_writer *w, const nh_current *f)
 {
     enum { points = 101, most = 7 };
     const nh_series *s = f->series;
@@ -44,7 +44,7 @@ static void series_plot(nh_html_writer *w, const nh_found *f)
     nh_free(x);
 }
 
-static void series_table(nh_html_writer *w, const nh_found *f)
+static void series_table(nh_html_writer *w, const nh_current *f)
 {
     const nh_series *s = f->series;
     nh_text heads;
@@ -63,7 +63,7 @@ static void series_table(nh_html_writer *w, const nh_found *f)
     nh_html_add(w, "</details>\n");
 }
 
-static void series(nh_html_writer *w, const nh_found *f)
+static void series(nh_html_writer *w, const nh_current *f)
 {
     const nh_series *s = f->series;
     nh_html_add(w, "<div class=\"formula main\">");
@@ -83,7 +83,7 @@ static void series(nh_html_writer *w, const nh_found *f)
     series_table(w, f);
 }
 
-static void as_text(nh_html_writer *w, const nh_found *f)
+static void as_text(nh_html_writer *w, const nh_current *f)
 {
     nh_dag *d = w->dag;
     nh_ex own = nh_formula_shown(w->r, f->phi);
@@ -100,7 +100,7 @@ static void as_text(nh_html_writer *w, const nh_found *f)
 
 /* ---- what is known of it ---- */
 
-static void certificate(nh_html_writer *w, const nh_found *f)
+static void certificate(nh_html_writer *w, const nh_current *f)
 {
     nh_html_add(w, "<dt>Certified</dt><dd>");
     if (f->proof.proved) nh_html_add(w, "proved");
@@ -117,7 +117,7 @@ static void certificate(nh_html_writer *w, const nh_found *f)
     nh_html_add(w, " at points not used to find it</dd>\n");
 }
 
-static void drift_line(nh_html_writer *w, const nh_found *f)
+static void drift_line(nh_html_writer *w, const nh_current *f)
 {
     const nh_validation *v = w->r->validation;
     if (!v) return;
@@ -128,7 +128,7 @@ static void drift_line(nh_html_writer *w, const nh_found *f)
     nh_text_addf(w->out, "; %s</dd>\n", nh_facts_drift(&f->drift));
 }
 
-static void standing(nh_html_writer *w, const nh_found *f)
+static void standing(nh_html_writer *w, const nh_current *f)
 {
     nh_html_add(w, "<p class=\"tags\">");
     if (f->meaning[0]) {
@@ -167,9 +167,9 @@ void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const 
     nh_free(text);
 }
 
-static void symmetry(nh_html_writer *w, const nh_found *f)
+static void symmetry(nh_html_writer *w, const nh_current *f)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     const nh_model *o = r->model;
     nh_html_add(w, "<details><summary>Its symmetry Z</summary>\n");
     nh_field_term *term;
@@ -194,9 +194,9 @@ static void symmetry(nh_html_writer *w, const nh_found *f)
 }
 
 /* |Phi - Phi(0)| over the size of its terms. */
-static void drift_plot(nh_html_writer *w, const nh_found *f)
+static void drift_plot(nh_html_writer *w, const nh_current *f)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     const nh_validation *v = r->validation;
     size_t j = 0;
     if (!v || v->count < 2 || !(f->drift.scale > 0)) return;
@@ -217,7 +217,7 @@ static void drift_plot(nh_html_writer *w, const nh_found *f)
     nh_free(y);
 }
 
-static void card(nh_html_writer *w, const nh_found *f)
+static void card(nh_html_writer *w, const nh_current *f)
 {
     w->names = 0;
     nh_html_add(w, "<article class=\"card\">\n<h3>");
@@ -245,7 +245,7 @@ static void card(nh_html_writer *w, const nh_found *f)
 
 static void abbreviations(nh_html_writer *w)
 {
-    const nh_analysis *a = w->r->analysis;
+    const nh_analysis_file *a = w->r->analysis;
     if (!a || !a->definitions || !w->r->count) return;
     nh_html_add(w, "<p>where</p>\n");
     for (size_t i = 0; i < a->definitions; i++) {
@@ -259,11 +259,11 @@ static void abbreviations(nh_html_writer *w)
 
 static void pieces(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     if (!r->pieces) return;
     nh_html_add(w, "<h3>In a part of the motions only</h3>\n<p>These stay constant while a motion stays in the region that is given. They are not counted.</p>\n");
     for (size_t k = 0; k < r->pieces; k++) {
-        const nh_found *f = &r->piece[k];
+        const nh_current *f = &r->piece[k];
         nh_html_add(w, "<article class=\"card\">\n<h4>");
         nh_html_source(w, f->name);
         nh_html_add(w, "</h4>\n");
@@ -280,7 +280,7 @@ static void pieces(nh_html_writer *w)
 
 static void almost(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     if (!r->almosts) return;
     nh_html_add(w, "<h3>Almost conserved, not currents</h3>\n<p>In double precision these look constant. With more digits they are not, or nothing certifies that they are. Slowest first; they are not counted.</p>\n");
     for (size_t k = 0; k < r->almosts; k++) {
@@ -296,7 +296,7 @@ static void almost(nh_html_writer *w)
 
 void nh_html_currents(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_html_add(w, "<section id=\"currents\"><h2>Currents</h2>\n<p>A current is a function of time, coordinates and velocities that stays constant along every motion.</p>\n");
     if (!r->count) nh_html_add(w, "<p>None was found. What was tried is listed below.</p>\n");
     for (size_t k = 0; k < r->count; k++) card(w, &r->found[k]);

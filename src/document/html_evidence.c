@@ -9,7 +9,7 @@
 /* Spectra of both routes over the index, with null values on the floor. */
 static void spectrum_plot(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     const nh_spectrum *s[] = {&r->current, &r->symmetry};
     static const char *const names[] = {"current route", "symmetry route"};
     nh_curve curve[2];
@@ -53,7 +53,7 @@ static void spectra(nh_html_writer *w)
 
 static void unknowns(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     for (size_t k = 0; r->hits && k < r->specials; k++)
         for (size_t j = 0; j < r->hits->unknowns; j++) {
             nh_html_add(w, "<p>Unknown ");
@@ -74,11 +74,11 @@ static void unknowns(nh_html_writer *w)
 
 static void stages(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     if (!r->stages) return;
     nh_html_table(w, "What was tried", "stage|columns|null values|new currents");
     for (size_t i = 0; i < r->stages; i++) {
-        const nh_tried *s = &r->stage[i];
+        const nh_stage_record *s = &r->stage[i];
         nh_html_add(w, "<tr><th scope=\"row\">");
         nh_html_text(w, s->name);
         nh_html_add(w, "</th>");
@@ -100,7 +100,7 @@ static void stages(nh_html_writer *w)
 
 void nh_html_evidence(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_html_add(w, r->count ? "<section id=\"search\"><h2>How it was found</h2>\n<p>Ansatz " : "<section id=\"search\"><h2>What was tried</h2>\n<p>The ansatz was ");
     nh_html_text(w, r->ansatz_note);
     nh_html_add(w, ". ");

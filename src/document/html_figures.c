@@ -37,7 +37,7 @@ static void over_time(nh_html_writer *w, const nh_figure *f)
 /* With the values that were found as points. */
 static void scan(nh_html_writer *w, const nh_figure *f)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     size_t n = r->hits ? r->hits->count : 0, u = f->request->unknown;
     double *found = nh_alloc_array(2 * n + 1, sizeof *found);
     for (size_t k = 0; k < n; k++) found[k] = r->hits->hit[k].value[u], found[n + k] = r->hits->hit[k].quotient;
@@ -60,7 +60,7 @@ static void samples(nh_html_writer *w, const nh_figure *f)
 
 void nh_html_figures(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     if (!r->figures) return;
     nh_html_add(w, "<section id=\"figures\"><h2>Figures</h2>\n<p>As the analysis file asks for them.</p>\n");
     for (size_t i = 0; i < r->figures; i++) {

@@ -51,7 +51,7 @@ void nh_html_name(nh_html_writer *w, const char *name)
     nh_text_clear(&formula);
 }
 
-void nh_html_chart(nh_html_writer *w, const char *name)
+void nh_html_benchmark_page(nh_html_writer *w, const char *name)
 {
     char words[200], one[200];
     const char *list = nh_facts_list(name, words, sizeof words);

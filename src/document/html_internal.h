@@ -10,12 +10,12 @@
 typedef struct {
     nh_text *out;
     const nh_system *system;
-    const nh_analysis *analysis; /* its abbreviations are used in formulas; or NULL */
+    const nh_analysis_file *analysis; /* its abbreviations are used in formulas; or NULL */
     nh_dag *dag;                 /* of the formulas */
     const nh_chart *chart;       /* whose roots are shown as velocities; or NULL */
     double shown;                /* option `shown`: longer formulas are left to the JSON */
     double written;              /* option `written` */
-    const nh_result *r;          /* of `analyze`, else NULL */
+    const nh_analysis *r;          /* of `analyze`, else NULL */
     size_t figures;
     size_t names;                /* of repeated parts in this card or chart, so far: no two are alike */
     nh_figure_sink *sink; /* NULL: figures go onto the page */
@@ -37,7 +37,7 @@ void nh_html_source(nh_html_writer *w, const char *text);
 /* The same for a name within the text. */
 void nh_html_name(nh_html_writer *w, const char *name);
 /* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
-void nh_html_chart(nh_html_writer *w, const char *name);
+void nh_html_benchmark_page(nh_html_writer *w, const char *name);
 /* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, `Z|x'`: Z with the index x', or
  * MathML that begins with <. */
 void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e);
@@ -67,8 +67,8 @@ void nh_html_system(nh_html_writer *w);
 void nh_html_currents(nh_html_writer *w);
 void nh_html_figures(nh_html_writer *w);
 void nh_html_evidence(nh_html_writer *w);
-void nh_html_motion(nh_html_writer *w);
-void nh_html_course(nh_html_writer *w, const nh_course *course);  /* the slider with the drawing, and every line over time */
+void nh_html_simulation_motion(nh_html_writer *w);
+void nh_html_time_series(nh_html_writer *w, const nh_time_series *course);  /* the slider with the drawing, and every line over time */
 /* The components of a field along n coordinates and velocities that do not vanish, as Z with an index. */
 void nh_html_field(nh_html_writer *w, size_t n, const char *const *along, const nh_ex *e);
 void nh_html_meaning(nh_html_writer *w, const char *meaning); /* "momentum of phi", with the letter */

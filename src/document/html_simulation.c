@@ -26,7 +26,7 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     nh_html_add(w, "<p>");
     nh_html_text(w, s->method);
     nh_html_add(w, " in ");
-    nh_html_chart(w, s->formulation);
+    nh_html_benchmark_page(w, s->formulation);
     if (!isnan(s->tolerance)) { /* a fixed step is told below */
         nh_html_add(w, ", tolerance ");
         nh_html_number(w, s->tolerance, 2);
@@ -87,8 +87,8 @@ void nh_html_simulation(const nh_simulation *s, const nh_run *run, nh_text *out)
     nh_html_links(&w, "motion|Motion|system|System|repeat|Repeat it");
     if (note[0]) nh_html_warning(&w, note);
     nh_html_add(&w, "<section id=\"motion\"><h2>Motion</h2>\n");
-    nh_course *c = s->ensemble ? NULL : nh_course_of_simulation(s);
-    if (c) nh_html_course(&w, c);
+    nh_time_series *c = s->ensemble ? NULL : nh_time_series_of_simulation(s);
+    if (c) nh_html_time_series(&w, c);
     else fans(&w, s);
     stats(&w, s);
     nh_html_add(&w, "</section>\n<section id=\"system\"><h2>The system</h2>\n");
@@ -98,5 +98,5 @@ void nh_html_simulation(const nh_simulation *s, const nh_run *run, nh_text *out)
     nh_html_add(&w, "</section>\n");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
-    nh_course_free(c);
+    nh_time_series_free(c);
 }

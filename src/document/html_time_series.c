@@ -9,7 +9,7 @@ enum { most_curves = 7, most_frames = 401 };
 
 /* ---- plots over time ---- */
 
-static void flush(nh_html_writer *w, const nh_course *c, const char *what, const char *axis, const char *caption, size_t n, nh_curve *curve)
+static void flush(nh_html_writer *w, const nh_time_series *c, const char *what, const char *axis, const char *caption, size_t n, nh_curve *curve)
 {
     char title[200], alone[160];
     if (n == 0) return;
@@ -19,13 +19,13 @@ static void flush(nh_html_writer *w, const nh_course *c, const char *what, const
     nh_html_figure(w, &plot, caption);
 }
 
-static nh_curve curve_of(const nh_course *c, const nh_line *line)
+static nh_curve curve_of(const nh_time_series *c, const nh_line *line)
 {
     return (nh_curve){.name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = line->value, .y_stride = line->stride};
 }
 
 /* Lines of one kind in plots of at most so many curves.  `skip` of the kind are left out at the front, `take` are shown. */
-static void lines(nh_html_writer *w, const nh_course *c, nh_track_kind kind, size_t skip, size_t take, const char *what, const char *axis, const char *caption)
+static void lines(nh_html_writer *w, const nh_time_series *c, nh_track_kind kind, size_t skip, size_t take, const char *what, const char *axis, const char *caption)
 {
     nh_curve curve[most_curves];
     char letter[most_curves][24];
@@ -56,7 +56,7 @@ static const char *axis_of(const nh_system *s, nh_coordinate_type type, const ch
 }
 
 /* Angles and lengths have different units: each gets its own plot. */
-static void positions(nh_html_writer *w, const nh_course *c)
+static void positions(nh_html_writer *w, const nh_time_series *c)
 {
     static const struct {
         nh_coordinate_type type;
@@ -80,7 +80,7 @@ static void positions(nh_html_writer *w, const nh_course *c)
 }
 
 /* |Phi - Phi(0)| of what should be constant. */
-static void constancy(nh_html_writer *w, const nh_course *c)
+static void constancy(nh_html_writer *w, const nh_time_series *c)
 {
     nh_curve curve[most_curves];
     double *y = nh_alloc_array(most_curves * c->count + 1, sizeof *y);
@@ -98,7 +98,7 @@ static void constancy(nh_html_writer *w, const nh_course *c)
     nh_free(y);
 }
 
-static void velocities(nh_html_writer *w, const nh_course *c)
+static void velocities(nh_html_writer *w, const nh_time_series *c)
 {
     size_t m = c->model->m;
     if (c->model->chart->quasi) lines(w, c, NH_TRACK_STATE, 2 * m, c->lines, "Quasi-velocities", "quasi-velocity", "Quasi-velocities over time.");
@@ -108,7 +108,7 @@ static void velocities(nh_html_writer *w, const nh_course *c)
 /* ---- the drawing ---- */
 
 /* Its own name; else its kind, with a number when there are several of it. */
-static void shape_name(const nh_course *c, size_t i, char *out, size_t size)
+static void shape_name(const nh_time_series *c, size_t i, char *out, size_t size)
 {
     size_t before = 0, all = 0;
     for (size_t k = 0; k < c->shapes; k++) {
@@ -120,18 +120,18 @@ static void shape_name(const nh_course *c, size_t i, char *out, size_t size)
     else snprintf(out, size, all > 1 ? "%s %zu" : "%s", nh_shape_name(c->shape[i].kind), before);
 }
 
-static void path_plot(nh_html_writer *w, const nh_course *c)
+static void path_plot(nh_html_writer *w, const nh_time_series *c)
 {
     nh_curve curve[most_curves];
     char name[most_curves][60];
     size_t n = 0;
     for (size_t i = 0; i < c->shapes && n < most_curves; i++) {
         if (c->shape[i].kind == NH_SHAPE_SEGMENT) continue;
-        const nh_line *x = nh_course_shape(c, i, 0), *y = nh_course_shape(c, i, 1);
+        const nh_line *x = nh_time_series_shape(c, i, 0), *y = nh_time_series_shape(c, i, 1);
         shape_name(c, i, name[n], sizeof name[n]);
         curve[n] = (nh_curve){.name = name[n], .count = c->count, .x = x->value, .x_stride = x->stride, .y = y->value, .y_stride = y->stride};
         bool heads = c->shape[i].kind == NH_SHAPE_ARROW || c->shape[i].kind == NH_SHAPE_WHEEL;
-        if (heads) curve[n].heading = nh_course_shape(c, i, 2)->value;
+        if (heads) curve[n].heading = nh_time_series_shape(c, i, 2)->value;
         n++;
     }
     if (!n) return;
@@ -162,7 +162,7 @@ static void frames(nh_html_writer *w, const char *before, size_t count, const do
 }
 
 /* The numbers for the script; there is no text of the user in it. */
-static void data(nh_html_writer *w, const nh_course *c)
+static void data(nh_html_writer *w, const nh_time_series *c)
 {
     size_t step = (c->count + most_frames - 2) / most_frames;
     if (step == 0) step = 1;
@@ -172,7 +172,7 @@ static void data(nh_html_writer *w, const nh_course *c)
     for (size_t i = 0; i < c->shapes; i++) {
         nh_text_addf(w->out, "%s{\"kind\":\"%s\",\"v\":[", i ? "," : "", nh_shape_name(c->shape[i].kind));
         for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++) {
-            const nh_line *line = nh_course_shape(c, i, j);
+            const nh_line *line = nh_time_series_shape(c, i, j);
             frames(w, j ? "," : "", c->count, line->value, line->stride, step);
         }
         nh_html_add(w, "]}");
@@ -180,7 +180,7 @@ static void data(nh_html_writer *w, const nh_course *c)
     nh_html_add(w, "]}</script>\n");
 }
 
-static void player(nh_html_writer *w, const nh_course *c)
+static void player(nh_html_writer *w, const nh_time_series *c)
 {
     nh_html_add(w, "<div id=\"player\" hidden=\"hidden\">\n");
     if (c->shapes) {
@@ -194,7 +194,7 @@ static void player(nh_html_writer *w, const nh_course *c)
     data(w, c);
 }
 
-void nh_html_course(nh_html_writer *w, const nh_course *c)
+void nh_html_time_series(nh_html_writer *w, const nh_time_series *c)
 {
     bool states = c->lines && c->line[0].kind == NH_TRACK_STATE;
     player(w, c);
@@ -239,7 +239,7 @@ static void second_opinion(nh_html_writer *w)
     const nh_validation *v = w->r->validation;
     if (v->crossing_chart && !isnan(v->crossing)) {
         nh_html_add(w, "<p>The chart of ");
-        nh_html_chart(w, v->crossing_chart);
+        nh_html_benchmark_page(w, v->crossing_chart);
         nh_html_add(w, " breaks down at t = ");
         nh_html_number(w, v->crossing, 4);
         nh_html_add(w, "; the one used here is regular there.</p>\n");
@@ -257,14 +257,14 @@ static void second_opinion(nh_html_writer *w)
     nh_html_add(w, ".</p>\n");
 }
 
-void nh_html_motion(nh_html_writer *w)
+void nh_html_simulation_motion(nh_html_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     const nh_validation *v = r->validation;
     if (!v || v->count < 2) return;
-    nh_course *c = nh_course_of_result(r);
+    nh_time_series *c = nh_time_series_of_analysis(r);
     nh_text_addf(w->out, "<section id=\"motion\"><h2>A motion</h2>\n<p>%s in ", v->method);
-    nh_html_chart(w, v->chart);
+    nh_html_benchmark_page(w, v->chart);
     nh_html_add(w, ", t = ");
     nh_html_number(w, v->begin, 4);
     nh_html_add(w, " to ");
@@ -274,8 +274,8 @@ void nh_html_motion(nh_html_writer *w)
         nh_html_text(w, v->accuracy.why);
     }
     nh_html_add(w, ".</p>\n");
-    nh_html_course(w, c);
-    nh_course_free(c);
+    nh_html_time_series(w, c);
+    nh_time_series_free(c);
     drifts(w);
     second_opinion(w);
     nh_html_add(w, "</section>\n");

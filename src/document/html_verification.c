@@ -7,7 +7,7 @@
 #include "document/html_internal.h"
 #include "document/verification.h"
 
-static void certificate(nh_html_writer *w, const nh_verdict_of_one *v)
+static void certificate(nh_html_writer *w, const nh_verification *v)
 {
     if (v->proof.proved) {
         nh_html_add(w, ", proved");
@@ -19,13 +19,13 @@ static void certificate(nh_html_writer *w, const nh_verdict_of_one *v)
     }
 }
 
-static void answer(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
+static void answer(nh_html_writer *w, const nh_verification *v, bool field)
 {
     nh_text_addf(w->out, "<p class=\"answer %s\">", v->conserved ? "found" : "undecided");
     if (v->conserved) {
         nh_html_add(w, field ? "Yes: this is a constraint symmetry" : "Yes: this is conserved");
         certificate(w, v);
-        nh_html_text(w, nh_verdict_branches(v));
+        nh_html_text(w, nh_verification_branches(v));
     } else if (v->region) {
         nh_html_add(w, "No: this is conserved in a part of the motions only: ");
         nh_html_text(w, v->region);
@@ -35,7 +35,7 @@ static void answer(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
     nh_html_add(w, v->conserved && v->trivial ? "; but it is trivial: the current is constant.</p>\n" : ".</p>\n");
 }
 
-static void counterexample(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
+static void counterexample(nh_html_writer *w, const nh_verification *v, bool field)
 {
     if (!v->has_counterexample) return;
     nh_html_add(w, "<section id=\"counterexample\"><h2>Where it fails</h2>\n<p>");
@@ -56,7 +56,7 @@ static void counterexample(nh_html_writer *w, const nh_verdict_of_one *v, bool f
     nh_html_add(w, "</section>\n");
 }
 
-static void symmetry(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
+static void symmetry(nh_html_writer *w, const nh_verification *v, bool field)
 {
     if (!v->has_symmetry || v->trivial) return;
     nh_text_addf(w->out, "<section id=\"symmetry\"><h2>%s</h2>\n", field ? "The field, with its Chetaev components" : "The symmetry it comes from");
@@ -75,7 +75,7 @@ static void symmetry(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
 }
 
 /* What a field has outside of the canonical distribution; it has no current then. */
-static void outside(nh_html_writer *w, const nh_verdict_of_one *v)
+static void outside(nh_html_writer *w, const nh_verification *v)
 {
     nh_html_add(w, "<p>Z is not in the canonical distribution:</p>\n");
     for (size_t a = 0; a < v->model->k; a++) {
@@ -85,7 +85,7 @@ static void outside(nh_html_writer *w, const nh_verdict_of_one *v)
     }
 }
 
-static void question(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
+static void question(nh_html_writer *w, const nh_verification *v, bool field)
 {
     if (v->outside) nh_html_add(w, "<section id=\"question\"><h2>The field</h2>\n");
     else if (field) nh_html_add(w, "<section id=\"question\"><h2>The current of the field</h2>\n");
@@ -99,9 +99,9 @@ static void question(nh_html_writer *w, const nh_verdict_of_one *v, bool field)
                          : ", its largest rate at random states, relative to the terms of the rate</dd></dl>\n</article></section>\n");
 }
 
-void nh_html_verdict(const nh_verdict_of_one *v, bool field, const nh_run *run, nh_text *out)
+void nh_html_verification(const nh_verification *v, bool field, const nh_run *run, nh_text *out)
 {
-    nh_html_writer w = {.out = out, .system = v->system, .dag = v->model->dag, .chart = nh_verdict_chart(v), .shown = run->shown, .written = INFINITY};
+    nh_html_writer w = {.out = out, .system = v->system, .dag = v->model->dag, .chart = nh_verification_chart(v), .shown = run->shown, .written = INFINITY};
     bool shown = v->has_symmetry && !v->trivial;
     nh_html_begin(&w, field ? "is it a symmetry?" : "is it conserved?");
     answer(&w, v, field);

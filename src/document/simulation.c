@@ -15,7 +15,7 @@ static void put(nh_text *out, double x)
 }
 
 /* A second column of one name (a known current that is called E, as the energy is) also says what it is. */
-static void put_name(const nh_tracks *t, size_t which, nh_text *out)
+static void put_name(const nh_observables *t, size_t which, nh_text *out)
 {
     static const char *const kinds[] = {"state", "current", "multiplier", "energy", "watched", "shape"};
     bool taken = false;
@@ -156,10 +156,10 @@ char *nh_motion_json(const nh_simulation *s, const nh_run *run)
     nh_json_put_bool(root, "complete", s->motion->complete);
     nh_accuracy_json(s->checked ? &s->accuracy : NULL, root);
     nh_json_put_numbers(root, "time", s->motion->count, s->motion->time, 1);
-    nh_course *c = nh_course_of_simulation(s);
-    for (int kind = NH_TRACK_STATE; kind <= NH_TRACK_WATCH; kind++) nh_course_json(c, root, groups[kind], (nh_track_kind)kind);
-    if (c->shapes) nh_course_json_drawing(c, root);
-    nh_course_free(c);
+    nh_time_series *c = nh_time_series_of_simulation(s);
+    for (int kind = NH_TRACK_STATE; kind <= NH_TRACK_WATCH; kind++) nh_time_series_json(c, root, groups[kind], (nh_track_kind)kind);
+    if (c->shapes) nh_time_series_json_drawing(c, root);
+    nh_time_series_free(c);
     nh_json *stats = nh_json_put_object(root, "stats");
     nh_json_put_number(stats, "evaluations", (double)s->motion->evaluations);
     nh_json_put_number(stats, "steps", (double)s->motion->steps);

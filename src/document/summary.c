@@ -23,7 +23,7 @@ static void faint(nh_summary_writer *w, bool on)
 
 static void abbreviations(nh_summary_writer *w)
 {
-    const nh_analysis *a = w->r->analysis;
+    const nh_analysis_file *a = w->r->analysis;
     for (size_t i = 0; a && i < a->definitions; i++) nh_text_addf(w->out, "  %s %s = %s\n", i ? "     " : "where", a->definition[i].name, a->definition[i].text);
 }
 
@@ -67,13 +67,13 @@ static void formula(nh_summary_writer *w, int indent, const char *label, nh_ex e
 /* Which functions the constraints alone keep constant. */
 static void integrals_line(nh_summary_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     size_t hidden = r->constraint.hidden, left = hidden - r->integrals;
     if (hidden == 0) return;
     bool all = r->constraint.holonomic;
     nh_text_addf(w->out, "%zu %s%s: ", hidden, all ? "integral" : "hidden holonomic constraint", hidden == 1 ? "" : "s");
     for (size_t i = 0; i < r->integrals; i++) {
-        const nh_found *f = &r->found[r->integral[i]];
+        const nh_current *f = &r->found[r->integral[i]];
         char *text = nh_print_string(r->model->dag, f->phi);
         bool brief = strlen(text) <= line_width / 2;
         nh_text_addf(w->out, "%s%s%s%s = const%s", i ? ", " : "", f->name, brief ? " = " : "", brief ? text : "", f->local ? " (local)" : "");
@@ -85,7 +85,7 @@ static void integrals_line(nh_summary_writer *w)
 
 static void system_lines(nh_summary_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     const nh_system *s = r->system;
     nh_text_addf(w->out, "%s%s%s", w->style.colour ? "\033[1m" : "", s->title, w->style.colour ? "\033[0m" : "");
     for (size_t i = 0; i < s->parameters; i++) nh_text_addf(w->out, "%s%s = %.10g", i ? ", " : "   with ", s->parameter[i].name, s->parameter[i].value);
@@ -115,7 +115,7 @@ static void equations_of(nh_summary_writer *w, const nh_model *o)
 
 static void equations(nh_summary_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_text title;
     nh_text_init(&title);
     nh_text_addf(&title, "Reduced equations in %s", r->model->chart->name);
@@ -169,7 +169,7 @@ static void component(nh_summary_writer *w, const nh_field_term *term, bool firs
     nh_text_clear(&text);
 }
 
-static void field_lines(nh_summary_writer *w, const nh_found *f)
+static void field_lines(nh_summary_writer *w, const nh_current *f)
 {
     nh_field_term *term;
     size_t n = nh_formula_field(w->r, &f->symmetry, &term);
@@ -177,7 +177,7 @@ static void field_lines(nh_summary_writer *w, const nh_found *f)
     if (n == 0) nh_text_add(w->out, "        Z = 0\n");
 }
 
-static void certificate(nh_summary_writer *w, const nh_found *f)
+static void certificate(nh_summary_writer *w, const nh_current *f)
 {
     nh_text_add(w->out, "        ");
     const char *holds = nh_facts_holds(w->r->model, &f->proof, true);
@@ -189,9 +189,9 @@ static void certificate(nh_summary_writer *w, const nh_found *f)
     nh_text_add(w->out, "\n");
 }
 
-static void bracket_lines(nh_summary_writer *w, const nh_found *f)
+static void bracket_lines(nh_summary_writer *w, const nh_current *f)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_text_add(w->out, "        ");
     nh_facts_symmetry(&f->symmetry, NH_FACTS_TEXT, ";\n        ", w->out);
     nh_text_add(w->out, "\n");
@@ -219,7 +219,7 @@ static void series_lines(nh_summary_writer *w, const nh_series *s)
     nh_text_addf(w->out, "\n        f: Chebyshev series of degree %zu in %s on [%g, %g] without closed form (coefficients in the JSON)\n", s->degree, q, s->low, s->high);
 }
 
-static void current(nh_summary_writer *w, const nh_found *f)
+static void current(nh_summary_writer *w, const nh_current *f)
 {
     nh_text_addf(w->out, "\n  %s%s%s", w->style.colour ? "\033[32m" : "", f->name, w->style.colour ? "\033[0m" : "");
     if (f->meaning[0]) nh_text_addf(w->out, "  (%s)", f->meaning);
@@ -242,9 +242,9 @@ static void current(nh_summary_writer *w, const nh_found *f)
 static void almost(nh_summary_writer *w)
 {
     enum { longest = 40, most = 2 };
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     for (size_t k = 0; k < r->almosts && k < most; k++) {
-        const nh_almost *a = &r->almost[k];
+        const nh_near_current *a = &r->almost[k];
         bool brief = nh_complexity(r->model->dag, a->phi) <= longest;
         nh_text_addf(w->out, "\n  almost conserved, not a current: its rate cancels to %.0f digits; it changes by %.0e of its own variation per unit of time%s\n",
                      a->digits, a->rate, brief ? "" : " (expression in the JSON)");
@@ -280,7 +280,7 @@ static void completeness(nh_summary_writer *w)
 
 static void answer(nh_summary_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     static const char *const verdicts[] = {"FOUND", "NONE", "UNDECIDED"};
     nh_text title;
     nh_text_init(&title);
@@ -297,7 +297,7 @@ static void answer(nh_summary_writer *w)
     abbreviations(w);
 }
 
-void nh_summary(const nh_result *r, nh_summary_style style, nh_text *out)
+void nh_summary(const nh_analysis *r, nh_summary_style style, nh_text *out)
 {
     nh_summary_writer w = {r, style, out};
     system_lines(&w);

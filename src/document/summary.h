@@ -9,6 +9,6 @@ typedef struct {
     bool colour, verbose;
 } nh_summary_style;
 
-void nh_summary(const nh_result *result, nh_summary_style style, nh_text *out);
+void nh_summary(const nh_analysis *result, nh_summary_style style, nh_text *out);
 
 #endif

@@ -71,7 +71,7 @@ static void spectrum_values(nh_summary_writer *w, const nh_spectrum *s)
 
 static void unknowns(nh_summary_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     if (!r->hits) return;
     nh_text_add(w->out, "  unknown         ");
     for (size_t j = 0; j < r->hits->unknowns; j++) {
@@ -95,9 +95,9 @@ static void unknowns(nh_summary_writer *w)
 
 static void stages(nh_summary_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     for (size_t i = 0; i < r->stages; i++) {
-        const nh_tried *s = &r->stage[i];
+        const nh_stage_record *s = &r->stage[i];
         if (s->skipped) nh_text_addf(w->out, "    %-80s too large: %s\n", s->name, nh_limit_words(r->arena, &s->limit));
         else {
             nh_text_addf(w->out, "    %-80s %4zu columns", s->name, s->columns);
@@ -109,7 +109,7 @@ static void stages(nh_summary_writer *w)
 
 void nh_summary_evidence(nh_summary_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_summary_heading(w, "How it was found");
     nh_text_addf(w->out, "  ansatz          %s\n  samples         %zu points", r->ansatz_note, r->samples);
     if (r->beyond) nh_text_addf(w->out, " and %zu where the chart breaks down", r->beyond);

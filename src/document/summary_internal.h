@@ -5,7 +5,7 @@
 #include "document/summary.h"
 
 typedef struct {
-    const nh_result *r;
+    const nh_analysis *r;
     nh_summary_style style;
     nh_text *out;
 } nh_summary_writer;

@@ -35,7 +35,7 @@ static void head(nh_tex_writer *w, bool fragment)
 
 static void answer(nh_tex_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     if (r->count) {
         nh_tex_count(w, r->independent);
         nh_text_addf(w->out, " independent current%s of at most ", r->independent == 1 ? "" : "s");
@@ -119,7 +119,7 @@ static void constraint_words(nh_tex_writer *w)
 
 static void system_section(nh_tex_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     const nh_system *s = r->system;
     nh_tex_add(w, "\\section{The system}\n");
     if (s->source && s->source[0]) nh_tex_words(w, s->source), nh_tex_add(w, ".\n\n");
@@ -135,7 +135,7 @@ static void system_section(nh_tex_writer *w)
 /* ---- currents ---- */
 
 /* Z = Z_Gamma Gamma + Z_x d/dx + ..., its components, and by how much the bracket leaves the canonical distribution: what text and page have. */
-static void field(nh_tex_writer *w, const nh_found *f)
+static void field(nh_tex_writer *w, const nh_current *f)
 {
     nh_field_term *term;
     size_t n = nh_formula_field(w->r, &f->symmetry, &term);
@@ -163,7 +163,7 @@ static void field(nh_tex_writer *w, const nh_found *f)
     }
 }
 
-static void certificate(nh_tex_writer *w, const nh_found *f)
+static void certificate(nh_tex_writer *w, const nh_current *f)
 {
     const nh_validation *v = w->r->validation;
     if (f->proof.proved) nh_tex_add(w, "Proved");
@@ -207,7 +207,7 @@ static void coefficient_table(nh_tex_writer *w, const nh_series *s, size_t from,
     nh_tex_add(w, "\\end{longtable}}\n");
 }
 
-static void series(nh_tex_writer *w, const nh_found *f)
+static void series(nh_tex_writer *w, const nh_current *f)
 {
     enum { beside = 4 }; /* functions that a page is wide enough for */
     const nh_series *s = f->series;
@@ -229,7 +229,7 @@ static void series(nh_tex_writer *w, const nh_found *f)
     for (size_t i = 0; i < s->words; i += beside) coefficient_table(w, s, i, i + beside < s->words ? i + beside : s->words);
 }
 
-static void current(nh_tex_writer *w, const nh_found *f)
+static void current(nh_tex_writer *w, const nh_current *f)
 {
     nh_tex_add(w, "\\subsection*{");
     nh_tex_name(w, f->name);
@@ -248,7 +248,7 @@ static void current(nh_tex_writer *w, const nh_found *f)
     if (!f->series) field(w, f);
 }
 
-static void piece(nh_tex_writer *w, const nh_found *f)
+static void piece(nh_tex_writer *w, const nh_current *f)
 {
     nh_tex_add(w, "\\subsection*{");
     nh_tex_name(w, f->name);
@@ -260,7 +260,7 @@ static void piece(nh_tex_writer *w, const nh_found *f)
 
 static void almost(nh_tex_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     if (r->almosts) nh_tex_add(w, "\\subsection*{Almost conserved, not currents}\n");
     for (size_t k = 0; k < r->almosts; k++) {
         nh_tex_formula(w, "", r->almost[k].phi);
@@ -274,7 +274,7 @@ static void almost(nh_tex_writer *w)
 
 static void currents_section(nh_tex_writer *w)
 {
-    const nh_analysis *a = w->r->analysis;
+    const nh_analysis_file *a = w->r->analysis;
     nh_tex_add(w, "\\section{Currents}\n");
     for (size_t k = 0; k < w->r->count; k++) current(w, &w->r->found[k]);
     for (size_t k = 0; k < w->r->pieces; k++) piece(w, &w->r->piece[k]);
@@ -349,11 +349,11 @@ static void routes(nh_tex_writer *w)
 
 static void stages(nh_tex_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     if (!r->stages) return;
     nh_tex_add(w, "What was tried\n\\begin{longtable}{lrrr}\nstage & columns & null values & new currents \\\\\\hline\\endhead\n");
     for (size_t i = 0; i < r->stages; i++) {
-        const nh_tried *s = &r->stage[i];
+        const nh_stage_record *s = &r->stage[i];
         nh_tex_add(w, "\\parbox[t]{0.42\\linewidth}{\\raggedright ");
         nh_tex_words(w, s->name);
         nh_tex_add(w, "\\strut} & ");
@@ -375,7 +375,7 @@ static void stages(nh_tex_writer *w)
 
 static void search_section(nh_tex_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_tex_add(w, "\\section{How it was found}\nAnsatz: ");
     nh_tex_words(w, r->ansatz_note);
     nh_tex_add(w, ". ");
@@ -390,7 +390,7 @@ static void search_section(nh_tex_writer *w)
 
 static void repeat_section(nh_tex_writer *w)
 {
-    const nh_result *r = w->r;
+    const nh_analysis *r = w->r;
     nh_tex_add(w, "\\section{To repeat it}\n\\begin{raggedright}\n");
     if (r->command) nh_tex_code(w, r->command), nh_tex_add(w, "\n\n");
     nh_tex_add(w, "nhsym " NH_VERSION ", seed ");
@@ -409,7 +409,7 @@ static void repeat_section(nh_tex_writer *w)
     nh_tex_add(w, ".\n\n\\end{raggedright}\n");
 }
 
-void nh_tex(const nh_result *r, bool fragment, nh_text *out)
+void nh_tex(const nh_analysis *r, bool fragment, nh_text *out)
 {
     nh_tex_writer w = {r, out};
     head(&w, fragment);

@@ -9,6 +9,6 @@
 #include "search/analysis.h"
 
 /* fragment: without the lines before and after the body, to be read into another document by \input; its head says what that must load. */
-void nh_tex(const nh_result *result, bool fragment, nh_text *out);
+void nh_tex(const nh_analysis *result, bool fragment, nh_text *out);
 
 #endif

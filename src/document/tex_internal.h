@@ -6,7 +6,7 @@
 #include "document/tex.h"
 
 typedef struct {
-    const nh_result *r;
+    const nh_analysis *r;
     nh_text *out;
 } nh_tex_writer;
 

@@ -12,7 +12,7 @@ enum { wide = 240, high = 150, margin = 14, most_points = 120, colours = 6 };
 static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 
 typedef struct {
-    const nh_course *course;
+    const nh_time_series *course;
     nh_text *out;
     size_t count;       /* times that are shown */
     double x, y, scale; /* the middle, and pixels per unit */
@@ -20,7 +20,7 @@ typedef struct {
 
 static double value(const portrait *p, size_t shape, size_t number, size_t i)
 {
-    const nh_line *line = nh_course_shape(p->course, shape, number);
+    const nh_line *line = nh_time_series_shape(p->course, shape, number);
     return line->value[i * line->stride];
 }
 
@@ -40,7 +40,7 @@ static int ascending(const void *a, const void *b) { return (*(const double *)a 
 static size_t until_far(const portrait *p)
 {
     enum { far = 12 };
-    const nh_course *c = p->course;
+    const nh_time_series *c = p->course;
     double *away = nh_alloc_array(2 * c->count + 1, sizeof *away), *sorted = away + c->count;
     for (size_t s = 0; s < c->shapes; s++)
         for (size_t i = 0; i < c->count; i++) away[i] = fmax(away[i], hypot(value(p, s, 0, i) - value(p, s, 0, 0), value(p, s, 1, i) - value(p, s, 1, 0)));
@@ -55,7 +55,7 @@ static size_t until_far(const portrait *p)
 /* Everything at these times must find room; a disc with its rim. */
 static bool fit(portrait *p)
 {
-    const nh_course *c = p->course;
+    const nh_time_series *c = p->course;
     double low[2] = {INFINITY, INFINITY}, top[2] = {-INFINITY, -INFINITY};
     for (size_t s = 0; s < c->shapes; s++)
         for (size_t i = 0; i < p->count; i++) {
@@ -111,7 +111,7 @@ static void body(const portrait *p, size_t s)
                      colour[s % colours]);
 }
 
-bool nh_portrait(const nh_course *c, const char *title, nh_text *out)
+bool nh_thumbnail(const nh_time_series *c, const char *title, nh_text *out)
 {
     portrait p = {.course = c, .out = out};
     p.count = until_far(&p);

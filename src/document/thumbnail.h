@@ -6,6 +6,6 @@
 #include "document/time_series.h"
 
 /* A stand-alone SVG document of a few kilobytes, without axes, both on one scale; `title` is its text alternative.  False when nothing is drawn. */
-bool nh_portrait(const nh_course *course, const char *title, nh_text *out);
+bool nh_thumbnail(const nh_time_series *course, const char *title, nh_text *out);
 
 #endif

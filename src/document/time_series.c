@@ -7,21 +7,21 @@
 enum { longest_name = 24 };
 
 /* With room for the multipliers and their names. */
-static nh_course *make(const nh_model *model, const nh_tracks *t, size_t count, const double *time, const double *value, size_t stride)
+static nh_time_series *make(const nh_model *model, const nh_observables *t, size_t count, const double *time, const double *value, size_t stride)
 {
-    nh_course *c = nh_alloc(sizeof *c);
-    *c = (nh_course){.model = model, .count = count, .time = time, .shapes = t->shapes, .shape = t->shape, .drawing = t->drawing};
+    nh_time_series *c = nh_alloc(sizeof *c);
+    *c = (nh_time_series){.model = model, .count = count, .time = time, .shapes = t->shapes, .shape = t->shape, .drawing = t->drawing};
     c->line = nh_alloc_array(t->count + model->k + 1, sizeof *c->line + longest_name);
     for (size_t j = 0; j < t->count; j++) c->line[c->lines++] = (nh_line){t->track[j].name, t->track[j].kind, value + j, stride};
     return c;
 }
 
-nh_course *nh_course_of_result(const nh_result *r)
+nh_time_series *nh_time_series_of_analysis(const nh_analysis *r)
 {
     const nh_validation *v = r->validation;
     size_t k = r->model->k;
     if (!v || !v->count) return NULL;
-    nh_course *c = make(r->model, &r->tracks, v->count, v->time, v->watch, v->watches);
+    nh_time_series *c = make(r->model, &r->tracks, v->count, v->time, v->watch, v->watches);
     char *name = (char *)(c->line + r->tracks.count + k + 1);
     for (size_t a = 0; a < k; a++, name += longest_name) {
         snprintf(name, longest_name, "c%zu", a + 1);
@@ -30,20 +30,20 @@ nh_course *nh_course_of_result(const nh_result *r)
     return c;
 }
 
-nh_course *nh_course_of_simulation(const nh_simulation *s)
+nh_time_series *nh_time_series_of_simulation(const nh_simulation *s)
 {
     if (!s->motion) return NULL;
     return make(s->model, &s->columns, s->motion->count, s->motion->time, s->value, s->columns.count);
 }
 
-void nh_course_free(nh_course *c)
+void nh_time_series_free(nh_time_series *c)
 {
     if (!c) return;
     nh_free(c->line);
     nh_free(c);
 }
 
-const nh_line *nh_course_shape(const nh_course *c, size_t i, size_t j)
+const nh_line *nh_time_series_shape(const nh_time_series *c, size_t i, size_t j)
 {
     size_t before = j;
     for (size_t k = 0; k < i; k++) before += nh_shape_numbers(c->shape[k].kind);
@@ -51,7 +51,7 @@ const nh_line *nh_course_shape(const nh_course *c, size_t i, size_t j)
         if (line->kind == NH_TRACK_SHAPE && before-- == 0) return line;
 }
 
-nh_json *nh_course_json(const nh_course *c, nh_json *to, const char *key, nh_track_kind kind)
+nh_json *nh_time_series_json(const nh_time_series *c, nh_json *to, const char *key, nh_track_kind kind)
 {
     nh_json *group = nh_json_put_object(to, key);
     for (size_t j = 0; j < c->lines; j++)
@@ -59,7 +59,7 @@ nh_json *nh_course_json(const nh_course *c, nh_json *to, const char *key, nh_tra
     return group;
 }
 
-void nh_course_json_drawing(const nh_course *c, nh_json *to)
+void nh_time_series_json_drawing(const nh_time_series *c, nh_json *to)
 {
     static const char *const keys[] = {"a", "b", "c", "d"};
     nh_json *list = nh_json_put_array(to, "drawing");
@@ -68,7 +68,7 @@ void nh_course_json_drawing(const nh_course *c, nh_json *to)
         nh_json_put_text(shape, "kind", nh_shape_name(c->shape[i].kind));
         if (c->shape[i].name) nh_json_put_text(shape, "name", c->shape[i].name);
         for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++) {
-            const nh_line *line = nh_course_shape(c, i, j);
+            const nh_line *line = nh_time_series_shape(c, i, j);
             nh_json_put_numbers(shape, keys[j], c->count, line->value, line->stride);
         }
     }

@@ -22,18 +22,18 @@ typedef struct {
     size_t shapes;
     const nh_shape *shape; /* its numbers are the lines of that kind, in order */
     const char *drawing;   /* whose drawing, in words */
-} nh_course;
+} nh_time_series;
 
 /* NULL when there is no motion.  The numbers stay with the result or simulation. */
-nh_course *nh_course_of_result(const nh_result *result);
-nh_course *nh_course_of_simulation(const nh_simulation *simulation);
-void nh_course_free(nh_course *course);
+nh_time_series *nh_time_series_of_analysis(const nh_analysis *result);
+nh_time_series *nh_time_series_of_simulation(const nh_simulation *simulation);
+void nh_time_series_free(nh_time_series *course);
 
 /* Number j of shape i. */
-const nh_line *nh_course_shape(const nh_course *course, size_t i, size_t j);
+const nh_line *nh_time_series_shape(const nh_time_series *course, size_t i, size_t j);
 
 /* The lines of one kind as {name: [numbers]}; the drawing as [{kind, a, b, ...}]. */
-nh_json *nh_course_json(const nh_course *course, nh_json *to, const char *key, nh_track_kind kind);
-void nh_course_json_drawing(const nh_course *course, nh_json *to);
+nh_json *nh_time_series_json(const nh_time_series *course, nh_json *to, const char *key, nh_track_kind kind);
+void nh_time_series_json_drawing(const nh_time_series *course, nh_json *to);
 
 #endif

@@ -28,18 +28,18 @@ static const struct {
 
 typedef nh_typeset_writer writer;
 
-static void put(const writer *w, const nh_seen *e);
+static void put(const writer *w, const nh_formula_node *e);
 
 static void add(const writer *w, const char *text) { nh_text_add(w->out, text); }
 
-static void grouped(const writer *w, const nh_seen *e)
+static void grouped(const writer *w, const nh_formula_node *e)
 {
     add(w, w->s->group[0]);
     put(w, e);
     add(w, w->s->group[1]);
 }
 
-static void parenthesised(const writer *w, const nh_seen *e)
+static void parenthesised(const writer *w, const nh_formula_node *e)
 {
     add(w, w->s->group[0]);
     add(w, w->s->open);
@@ -110,7 +110,7 @@ static void name(const writer *w, const char *text, const char *const accent[2])
     add(w, w->s->below[2]);
 }
 
-static void dotted(const writer *w, const nh_seen *e)
+static void dotted(const writer *w, const nh_formula_node *e)
 {
     if (!strcmp(e->text, "pi") && !e->primes) add(w, w->s->pi);
     else name(w, e->text, e->primes == 0 ? NULL : e->primes == 2 ? w->s->ddot : w->s->dot);
@@ -170,24 +170,24 @@ void nh_typeset_function(const writer *w, const char *text)
     else nh_text_addf(w->out, command ? "\\%s" : "\\operatorname{%s}", shown);
 }
 
-static void arguments(const writer *w, const nh_seen *e)
+static void arguments(const writer *w, const nh_formula_node *e)
 {
     add(w, w->s->apply);
-    bool bare = e->child && !e->child->next && e->child->kind == NH_SEEN_NAME;
+    bool bare = e->child && !e->child->next && e->child->kind == NH_FORMULA_NODE_NAME;
     if (bare) add(w, w->form == NH_LATEX ? " " : "<mspace width=\"0.17em\"/>");
     if (bare) {
         put(w, e->child);
         return;
     }
     add(w, w->s->open);
-    for (const nh_seen *c = e->child; c; c = c->next) {
+    for (const nh_formula_node *c = e->child; c; c = c->next) {
         put(w, c);
         if (c->next) add(w, w->s->comma);
     }
     add(w, w->s->close);
 }
 
-static void call(const writer *w, const nh_seen *e)
+static void call(const writer *w, const nh_formula_node *e)
 {
     const char *const *around = !strcmp(e->text, "sqrt") ? w->s->root : !strcmp(e->text, "abs") ? w->s->bar : NULL;
     if (around && e->child && !e->child->next) {
@@ -201,11 +201,11 @@ static void call(const writer *w, const nh_seen *e)
 }
 
 /* sin(x)^2 carries its power on the function. */
-static void power(const writer *w, const nh_seen *e)
+static void power(const writer *w, const nh_formula_node *e)
 {
-    const nh_seen *base = e->child, *exponent = base->next;
-    bool on_function = base->kind == NH_SEEN_CALL && exponent->kind == NH_SEEN_NUMBER && strcmp(base->text, "sqrt") && strcmp(base->text, "abs");
-    bool plain = base->kind == NH_SEEN_NAME || base->kind == NH_SEEN_NUMBER || (base->kind == NH_SEEN_CALL && !strcmp(base->text, "abs"));
+    const nh_formula_node *base = e->child, *exponent = base->next;
+    bool on_function = base->kind == NH_FORMULA_NODE_CALL && exponent->kind == NH_FORMULA_NODE_NUMBER && strcmp(base->text, "sqrt") && strcmp(base->text, "abs");
+    bool plain = base->kind == NH_FORMULA_NODE_NAME || base->kind == NH_FORMULA_NODE_NUMBER || (base->kind == NH_FORMULA_NODE_CALL && !strcmp(base->text, "abs"));
     add(w, w->s->power[0]);
     if (on_function) {
         add(w, w->s->base[0]);
@@ -226,67 +226,67 @@ static void power(const writer *w, const nh_seen *e)
 
 /* ---- sums and products ---- */
 
-static void factor(const writer *w, const nh_seen *e)
+static void factor(const writer *w, const nh_formula_node *e)
 {
-    if (e->kind == NH_SEEN_SUM || e->kind == NH_SEEN_MINUS) parenthesised(w, e);
+    if (e->kind == NH_FORMULA_NODE_SUM || e->kind == NH_FORMULA_NODE_MINUS) parenthesised(w, e);
     else put(w, e);
 }
 
-static bool starts_with_number(const nh_seen *e)
+static bool starts_with_number(const nh_formula_node *e)
 {
-    while (e->kind == NH_SEEN_POWER || e->kind == NH_SEEN_PRODUCT) e = e->child;
-    return e->kind == NH_SEEN_NUMBER;
+    while (e->kind == NH_FORMULA_NODE_POWER || e->kind == NH_FORMULA_NODE_PRODUCT) e = e->child;
+    return e->kind == NH_FORMULA_NODE_NUMBER;
 }
 
-static bool starts_with_name_of_function(const nh_seen *e)
+static bool starts_with_name_of_function(const nh_formula_node *e)
 {
-    if (e->kind == NH_SEEN_POWER) e = e->child;
-    return e->kind == NH_SEEN_CALL && strcmp(e->text, "sqrt") && strcmp(e->text, "abs");
+    if (e->kind == NH_FORMULA_NODE_POWER) e = e->child;
+    return e->kind == NH_FORMULA_NODE_CALL && strcmp(e->text, "sqrt") && strcmp(e->text, "abs");
 }
 
-void nh_typeset_times(const writer *w, const nh_seen *factor)
+void nh_typeset_times(const writer *w, const nh_formula_node *factor)
 {
     add(w, starts_with_number(factor) ? w->s->dot_times : w->s->times);
     if (w->form == NH_MATHML && starts_with_name_of_function(factor)) add(w, "<mspace width=\"0.17em\"/>");
 }
 
-static void product(const writer *w, const nh_seen *e)
+static void product(const writer *w, const nh_formula_node *e)
 {
-    for (const nh_seen *c = e->child; c; c = c->next) {
+    for (const nh_formula_node *c = e->child; c; c = c->next) {
         if (c != e->child) nh_typeset_times(w, c);
         factor(w, c);
     }
 }
 
-static void term(const writer *w, const nh_seen *e, bool first)
+static void term(const writer *w, const nh_formula_node *e, bool first)
 {
     if (e->minus) add(w, w->s->minus);
     else if (!first) add(w, w->s->plus);
     factor(w, e);
 }
 
-static void put(const writer *w, const nh_seen *e)
+static void put(const writer *w, const nh_formula_node *e)
 {
     switch (e->kind) {
-    case NH_SEEN_NUMBER: number(w, e->text); break;
-    case NH_SEEN_NAME: dotted(w, e); break;
-    case NH_SEEN_CALL: call(w, e); break;
-    case NH_SEEN_POWER: power(w, e); break;
-    case NH_SEEN_PRODUCT: product(w, e); break;
-    case NH_SEEN_MINUS:
+    case NH_FORMULA_NODE_NUMBER: number(w, e->text); break;
+    case NH_FORMULA_NODE_NAME: dotted(w, e); break;
+    case NH_FORMULA_NODE_CALL: call(w, e); break;
+    case NH_FORMULA_NODE_POWER: power(w, e); break;
+    case NH_FORMULA_NODE_PRODUCT: product(w, e); break;
+    case NH_FORMULA_NODE_MINUS:
         add(w, w->s->minus);
         factor(w, e->child);
         break;
-    case NH_SEEN_SUM:
-        for (const nh_seen *c = e->child; c; c = c->next) term(w, c, c == e->child);
+    case NH_FORMULA_NODE_SUM:
+        for (const nh_formula_node *c = e->child; c; c = c->next) term(w, c, c == e->child);
         break;
-    case NH_SEEN_FRACTION:
+    case NH_FORMULA_NODE_FRACTION:
         add(w, w->s->fraction[0]);
         grouped(w, e->child);
         grouped(w, e->child->next);
         add(w, w->s->fraction[2]);
         break;
-    case NH_SEEN_EQUATION:
+    case NH_FORMULA_NODE_EQUATION:
         put(w, e->child);
         add(w, w->s->equal);
         put(w, e->child->next);
@@ -294,14 +294,14 @@ static void put(const writer *w, const nh_seen *e)
     }
 }
 
-void nh_typeset_put(const writer *w, const nh_seen *e) { put(w, e); }
+void nh_typeset_put(const writer *w, const nh_formula_node *e) { put(w, e); }
 
 const nh_typeset_script *nh_typeset_script_of(nh_typeset_form form) { return &scripts[form]; }
 
 bool nh_typeset(const char *text, nh_typeset_form form, nh_text *out)
 {
     nh_arena *arena = nh_arena_create();
-    const nh_seen *e = nh_typeset_read(arena, text);
+    const nh_formula_node *e = nh_typeset_read(arena, text);
     if (e) put(&(writer){form, &scripts[form], out}, e);
     nh_arena_free(arena);
     return e != NULL;

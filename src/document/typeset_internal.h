@@ -5,17 +5,17 @@
 #include "base/memory.h"
 #include "document/typeset.h"
 
-typedef enum { NH_SEEN_NUMBER, NH_SEEN_NAME, NH_SEEN_CALL, NH_SEEN_MINUS, NH_SEEN_SUM, NH_SEEN_PRODUCT, NH_SEEN_FRACTION, NH_SEEN_POWER, NH_SEEN_EQUATION } nh_seen_kind;
+typedef enum { NH_FORMULA_NODE_NUMBER, NH_FORMULA_NODE_NAME, NH_FORMULA_NODE_CALL, NH_FORMULA_NODE_MINUS, NH_FORMULA_NODE_SUM, NH_FORMULA_NODE_PRODUCT, NH_FORMULA_NODE_FRACTION, NH_FORMULA_NODE_POWER, NH_FORMULA_NODE_EQUATION } nh_formula_node_kind;
 
 /* A formula as it stands on paper. */
-typedef struct nh_seen nh_seen;
-struct nh_seen {
-    nh_seen_kind kind;
+typedef struct nh_formula_node nh_formula_node;
+struct nh_formula_node {
+    nh_formula_node_kind kind;
     const char *text;   /* of a number, a name (without primes) or a function */
     size_t primes;
     bool minus;         /* as a term of a sum: it is subtracted */
-    nh_seen *child;     /* first of its parts */
-    nh_seen *next;      /* its neighbour */
+    nh_formula_node *child;     /* first of its parts */
+    nh_formula_node *next;      /* its neighbour */
 };
 
 /* How one form writes what formulas are made of: around a group, around what carries an index, a power or an accent, and so on. */
@@ -35,14 +35,14 @@ typedef struct {
 } nh_typeset_writer;
 
 /* In one piece. */
-void nh_typeset_put(const nh_typeset_writer *w, const nh_seen *e);
+void nh_typeset_put(const nh_typeset_writer *w, const nh_formula_node *e);
 /* The name of a function, without its argument. */
 void nh_typeset_function(const nh_typeset_writer *w, const char *name);
 /* What stands between two factors; `factor` is the second. */
-void nh_typeset_times(const nh_typeset_writer *w, const nh_seen *factor);
+void nh_typeset_times(const nh_typeset_writer *w, const nh_formula_node *factor);
 
 /* NULL when the text is not of the language. */
-nh_seen *nh_typeset_read(nh_arena *arena, const char *text);
+nh_formula_node *nh_typeset_read(nh_arena *arena, const char *text);
 /* Do the first `length` characters spell a Greek letter? */
 bool nh_typeset_is_greek(const char *text, size_t length);
 

@@ -13,13 +13,13 @@ typedef struct {
     size_t count;
 } flow;
 
-static void open_up(flow *f, const nh_seen *e, int depth);
+static void open_up(flow *f, const nh_formula_node *e, int depth);
 
 static void add(flow *f, const char *text) { nh_text_add(&f->text, text); }
 
 /* ---- widths ---- */
 
-static double width(const nh_seen *e);
+static double width(const nh_formula_node *e);
 
 static double width_of_name(const char *text)
 {
@@ -27,34 +27,34 @@ static double width_of_name(const char *text)
     return (nh_typeset_is_greek(text, base) ? 1.2 : (double)base) + 0.6 * (double)(length - base);
 }
 
-static double widths(const nh_seen *first, double between)
+static double widths(const nh_formula_node *first, double between)
 {
     double sum = 0;
-    for (const nh_seen *c = first; c; c = c->next) sum += width(c) + (c == first ? 0 : between);
+    for (const nh_formula_node *c = first; c; c = c->next) sum += width(c) + (c == first ? 0 : between);
     return sum;
 }
 
 /* In letters, about. */
-static double width(const nh_seen *e)
+static double width(const nh_formula_node *e)
 {
     double above, below;
     switch (e->kind) {
-    case NH_SEEN_NUMBER: return 0.9 * (double)strlen(e->text);
-    case NH_SEEN_NAME: return width_of_name(e->text);
-    case NH_SEEN_CALL: return (strcmp(e->text, "sqrt") ? 0.8 * (double)strlen(e->text) + 1.5 : 1) + widths(e->child, 1);
-    case NH_SEEN_MINUS: return 2 + width(e->child);
-    case NH_SEEN_SUM: return widths(e->child, 2.5) + 2;
-    case NH_SEEN_PRODUCT: return widths(e->child, 0.4);
-    case NH_SEEN_POWER: return width(e->child) + 0.7 * width(e->child->next);
-    case NH_SEEN_EQUATION: return widths(e->child, 3);
-    case NH_SEEN_FRACTION: break;
+    case NH_FORMULA_NODE_NUMBER: return 0.9 * (double)strlen(e->text);
+    case NH_FORMULA_NODE_NAME: return width_of_name(e->text);
+    case NH_FORMULA_NODE_CALL: return (strcmp(e->text, "sqrt") ? 0.8 * (double)strlen(e->text) + 1.5 : 1) + widths(e->child, 1);
+    case NH_FORMULA_NODE_MINUS: return 2 + width(e->child);
+    case NH_FORMULA_NODE_SUM: return widths(e->child, 2.5) + 2;
+    case NH_FORMULA_NODE_PRODUCT: return widths(e->child, 0.4);
+    case NH_FORMULA_NODE_POWER: return width(e->child) + 0.7 * width(e->child->next);
+    case NH_FORMULA_NODE_EQUATION: return widths(e->child, 3);
+    case NH_FORMULA_NODE_FRACTION: break;
     }
     above = width(e->child);
     below = width(e->child->next);
     return 0.5 + (above > below ? above : below);
 }
 
-static bool wide(const flow *f, const nh_seen *e) { return width(e) > f->widest; }
+static bool wide(const flow *f, const nh_formula_node *e) { return width(e) > f->widest; }
 
 /* ---- breaks ---- */
 
@@ -70,7 +70,7 @@ static void may_break(flow *f, int penalty)
 static int of_sum(int depth) { return depth < 8 ? 60 * depth : 480; }
 static int of_product(int depth) { return 300 + of_sum(depth); }
 
-static void bracketed(flow *f, const nh_seen *e, int depth)
+static void bracketed(flow *f, const nh_formula_node *e, int depth)
 {
     add(f, f->w.s->wide_open);
     open_up(f, e, depth + 1);
@@ -78,9 +78,9 @@ static void bracketed(flow *f, const nh_seen *e, int depth)
 }
 
 /* Beside other factors or a sign; a slash beside others would be misread. */
-static void factor(flow *f, const nh_seen *e, bool alone, int depth)
+static void factor(flow *f, const nh_formula_node *e, bool alone, int depth)
 {
-    bool sum = e->kind == NH_SEEN_SUM || e->kind == NH_SEEN_MINUS, slash = e->kind == NH_SEEN_FRACTION && wide(f, e->child->next) && !alone;
+    bool sum = e->kind == NH_FORMULA_NODE_SUM || e->kind == NH_FORMULA_NODE_MINUS, slash = e->kind == NH_FORMULA_NODE_FRACTION && wide(f, e->child->next) && !alone;
     if (sum && !wide(f, e)) {
         add(f, f->w.s->group[0]);
         add(f, f->w.s->open);
@@ -94,9 +94,9 @@ static void factor(flow *f, const nh_seen *e, bool alone, int depth)
     }
 }
 
-static void sum(flow *f, const nh_seen *e, int depth)
+static void sum(flow *f, const nh_formula_node *e, int depth)
 {
-    for (const nh_seen *c = e->child; c; c = c->next) {
+    for (const nh_formula_node *c = e->child; c; c = c->next) {
         if (c != e->child) may_break(f, of_sum(depth));
         if (c->minus) add(f, c == e->child ? f->w.s->minus : f->w.s->next_minus);
         else if (c != e->child) add(f, f->w.s->next_plus);
@@ -105,17 +105,17 @@ static void sum(flow *f, const nh_seen *e, int depth)
 }
 
 /* Does the factor stand beside the fraction?  Those that are wide do; where none is, those that are not short. */
-static bool apart(const flow *f, const nh_seen *first, const nh_seen *c)
+static bool apart(const flow *f, const nh_formula_node *first, const nh_formula_node *c)
 {
     bool any = false;
-    for (const nh_seen *other = first; other; other = other->next) any = any || wide(f, other);
+    for (const nh_formula_node *other = first; other; other = other->next) any = any || wide(f, other);
     return width(c) > (any ? 1 : 0.25) * f->widest;
 }
 
 /* The factors that stand beside the fraction, or the others. */
-static void factors(flow *f, const nh_seen *first, bool beside, bool all, bool begun, int depth)
+static void factors(flow *f, const nh_formula_node *first, bool beside, bool all, bool begun, int depth)
 {
-    for (const nh_seen *c = first; c; c = c->next) {
+    for (const nh_formula_node *c = first; c; c = c->next) {
         if (!all && apart(f, first, c) != beside) continue;
         if (begun) nh_typeset_times(&f->w, c);
         if (begun && beside) may_break(f, of_product(depth));
@@ -125,13 +125,13 @@ static void factors(flow *f, const nh_seen *first, bool beside, bool all, bool b
 }
 
 /* (f/d) (wide factors of the numerator) */
-static void beside(flow *f, const nh_seen *above, const nh_seen *below, int depth)
+static void beside(flow *f, const nh_formula_node *above, const nh_formula_node *below, int depth)
 {
-    nh_seen alone = *above;
+    nh_formula_node alone = *above;
     alone.next = NULL;
-    const nh_seen *first = above->kind == NH_SEEN_PRODUCT ? above->child : &alone;
+    const nh_formula_node *first = above->kind == NH_FORMULA_NODE_PRODUCT ? above->child : &alone;
     double left = 0;
-    for (const nh_seen *c = first; c; c = c->next) left += apart(f, first, c) ? 0 : 0.4 + width(c);
+    for (const nh_formula_node *c = first; c; c = c->next) left += apart(f, first, c) ? 0 : 0.4 + width(c);
     bool split = left > 0 && left <= f->widest;
     add(f, f->w.s->fraction[0]);
     add(f, f->w.s->group[0]);
@@ -145,9 +145,9 @@ static void beside(flow *f, const nh_seen *above, const nh_seen *below, int dept
     factors(f, first, true, !split, true, depth);
 }
 
-static void fraction(flow *f, const nh_seen *e, int depth)
+static void fraction(flow *f, const nh_formula_node *e, int depth)
 {
-    const nh_seen *above = e->child, *below = above->next;
+    const nh_formula_node *above = e->child, *below = above->next;
     if (!wide(f, below)) {
         beside(f, above, below, depth);
         return;
@@ -158,14 +158,14 @@ static void fraction(flow *f, const nh_seen *e, int depth)
     bracketed(f, below, depth);
 }
 
-static void call(flow *f, const nh_seen *e, int depth)
+static void call(flow *f, const nh_formula_node *e, int depth)
 {
     const nh_typeset_script *s = f->w.s;
     bool root = !strcmp(e->text, "sqrt"), bar = !strcmp(e->text, "abs");
     if (!root && !bar) nh_typeset_function(&f->w, e->text);
     if (!root && !bar) add(f, s->apply);
     add(f, bar ? s->wide_bar : s->wide_open);
-    for (const nh_seen *c = e->child; c; c = c->next) {
+    for (const nh_formula_node *c = e->child; c; c = c->next) {
         open_up(f, c, depth + 1);
         if (c->next) add(f, s->comma);
         if (c->next) may_break(f, of_sum(depth + 1));
@@ -175,7 +175,7 @@ static void call(flow *f, const nh_seen *e, int depth)
     if (root) nh_text_addf(&f->text, "%s%s%s1%s%s%s2%s%s%s", s->power[1], s->group[0], s->number[0], s->number[1], s->slash, s->number[0], s->number[1], s->group[1], s->power[2]);
 }
 
-static void power(flow *f, const nh_seen *e, int depth)
+static void power(flow *f, const nh_formula_node *e, int depth)
 {
     const nh_typeset_script *s = f->w.s;
     add(f, s->wide_open);
@@ -189,27 +189,27 @@ static void power(flow *f, const nh_seen *e, int depth)
     add(f, s->power[2]);
 }
 
-static void open_up(flow *f, const nh_seen *e, int depth)
+static void open_up(flow *f, const nh_formula_node *e, int depth)
 {
-    if (e->kind == NH_SEEN_EQUATION) {
+    if (e->kind == NH_FORMULA_NODE_EQUATION) {
         open_up(f, e->child, depth);
         may_break(f, 0);
         add(f, f->w.s->equal);
         open_up(f, e->child->next, depth);
-    } else if (e->kind == NH_SEEN_SUM) {
+    } else if (e->kind == NH_FORMULA_NODE_SUM) {
         sum(f, e, depth);
     } else if (!wide(f, e)) {
         nh_typeset_put(&f->w, e);
-    } else if (e->kind == NH_SEEN_MINUS) {
+    } else if (e->kind == NH_FORMULA_NODE_MINUS) {
         add(f, f->w.s->minus);
         factor(f, e->child, true, depth);
-    } else if (e->kind == NH_SEEN_PRODUCT) {
+    } else if (e->kind == NH_FORMULA_NODE_PRODUCT) {
         factors(f, e->child, true, true, false, depth);
-    } else if (e->kind == NH_SEEN_FRACTION) {
+    } else if (e->kind == NH_FORMULA_NODE_FRACTION) {
         fraction(f, e, depth);
-    } else if (e->kind == NH_SEEN_CALL) {
+    } else if (e->kind == NH_FORMULA_NODE_CALL) {
         call(f, e, depth);
-    } else if (e->kind == NH_SEEN_POWER) {
+    } else if (e->kind == NH_FORMULA_NODE_POWER) {
         power(f, e, depth);
     } else {
         nh_typeset_put(&f->w, e);
@@ -219,7 +219,7 @@ static void open_up(flow *f, const nh_seen *e, int depth)
 size_t nh_typeset_pieces(const char *text, nh_typeset_form form, double widest, nh_typeset_piece *piece, void *context)
 {
     nh_arena *arena = nh_arena_create();
-    const nh_seen *e = nh_typeset_read(arena, text);
+    const nh_formula_node *e = nh_typeset_read(arena, text);
     flow f = {.widest = widest, .piece = piece, .context = context};
     f.w = (nh_typeset_writer){form, nh_typeset_script_of(form), &f.text};
     nh_text_init(&f.text);
@@ -233,7 +233,7 @@ size_t nh_typeset_pieces(const char *text, nh_typeset_form form, double widest, 
 double nh_typeset_width(const char *text)
 {
     nh_arena *arena = nh_arena_create();
-    const nh_seen *e = nh_typeset_read(arena, text);
+    const nh_formula_node *e = nh_typeset_read(arena, text);
     double all = e ? width(e) : 0;
     nh_arena_free(arena);
     return all;

@@ -11,12 +11,12 @@ typedef struct {
     int depth;
 } reader;
 
-static nh_seen *sum(reader *r);
-static nh_seen *unary(reader *r);
+static nh_formula_node *sum(reader *r);
+static nh_formula_node *unary(reader *r);
 
-static nh_seen *make(reader *r, nh_seen_kind kind, nh_seen *child)
+static nh_formula_node *make(reader *r, nh_formula_node_kind kind, nh_formula_node *child)
 {
-    nh_seen *s = nh_arena_alloc(r->arena, sizeof *s);
+    nh_formula_node *s = nh_arena_alloc(r->arena, sizeof *s);
     s->kind = kind;
     s->child = child;
     return s;
@@ -35,7 +35,7 @@ static bool take(reader *r, char c)
     return true;
 }
 
-static nh_seen *number(reader *r)
+static nh_formula_node *number(reader *r)
 {
     const char *begin = r->at;
     while (isdigit((unsigned char)*r->at) || *r->at == '.') r->at++;
@@ -46,14 +46,14 @@ static nh_seen *number(reader *r)
             while (isdigit((unsigned char)*r->at)) r->at++;
         }
     }
-    nh_seen *s = make(r, NH_SEEN_NUMBER, NULL);
+    nh_formula_node *s = make(r, NH_FORMULA_NODE_NUMBER, NULL);
     s->text = nh_arena_strndup(r->arena, begin, (size_t)(r->at - begin));
     return s;
 }
 
-static bool arguments(reader *r, nh_seen *call)
+static bool arguments(reader *r, nh_formula_node *call)
 {
-    nh_seen **last = &call->child;
+    nh_formula_node **last = &call->child;
     if (take(r, ')')) return true;
     do {
         *last = sum(r);
@@ -63,45 +63,45 @@ static bool arguments(reader *r, nh_seen *call)
     return take(r, ')');
 }
 
-static nh_seen *name(reader *r)
+static nh_formula_node *name(reader *r)
 {
     const char *begin = r->at;
     while (isalnum((unsigned char)*r->at) || *r->at == '_') r->at++;
-    nh_seen *s = make(r, NH_SEEN_NAME, NULL);
+    nh_formula_node *s = make(r, NH_FORMULA_NODE_NAME, NULL);
     s->text = nh_arena_strndup(r->arena, begin, (size_t)(r->at - begin));
     for (; *r->at == '\''; r->at++) s->primes++;
     if (s->primes || !take(r, '(')) return s;
-    s->kind = NH_SEEN_CALL;
+    s->kind = NH_FORMULA_NODE_CALL;
     return arguments(r, s) ? s : NULL;
 }
 
-static nh_seen *atom(reader *r)
+static nh_formula_node *atom(reader *r)
 {
     skip(r);
     if (isdigit((unsigned char)*r->at) || (*r->at == '.' && isdigit((unsigned char)r->at[1]))) return number(r);
     if (isalpha((unsigned char)*r->at) || *r->at == '_') return name(r);
     if (!take(r, '(')) return NULL;
-    nh_seen *s = sum(r);
+    nh_formula_node *s = sum(r);
     return s && take(r, ')') ? s : NULL;
 }
 
-static nh_seen *power(reader *r)
+static nh_formula_node *power(reader *r)
 {
-    nh_seen *base = atom(r);
+    nh_formula_node *base = atom(r);
     if (!base || !take(r, '^')) return base;
-    nh_seen *exponent = unary(r);
+    nh_formula_node *exponent = unary(r);
     if (!exponent) return NULL;
     base->next = exponent;
-    return make(r, NH_SEEN_POWER, base);
+    return make(r, NH_FORMULA_NODE_POWER, base);
 }
 
-static nh_seen *unary(reader *r)
+static nh_formula_node *unary(reader *r)
 {
     if (++r->depth > deepest) return NULL;
-    nh_seen *s;
+    nh_formula_node *s;
     if (take(r, '-')) {
-        nh_seen *inner = unary(r);
-        s = inner ? make(r, NH_SEEN_MINUS, inner) : NULL;
+        nh_formula_node *inner = unary(r);
+        s = inner ? make(r, NH_FORMULA_NODE_MINUS, inner) : NULL;
     } else {
         take(r, '+');
         s = power(r);
@@ -110,71 +110,71 @@ static nh_seen *unary(reader *r)
     return s;
 }
 
-static nh_seen *times(reader *r, nh_seen *left, nh_seen *right)
+static nh_formula_node *times(reader *r, nh_formula_node *left, nh_formula_node *right)
 {
-    if (left->kind != NH_SEEN_PRODUCT) left = make(r, NH_SEEN_PRODUCT, left);
-    nh_seen *last = left->child;
+    if (left->kind != NH_FORMULA_NODE_PRODUCT) left = make(r, NH_FORMULA_NODE_PRODUCT, left);
+    nh_formula_node *last = left->child;
     while (last->next) last = last->next;
     last->next = right;
     return left;
 }
 
 /* a/b/c is one fraction. */
-static nh_seen *over(reader *r, nh_seen *left, nh_seen *right)
+static nh_formula_node *over(reader *r, nh_formula_node *left, nh_formula_node *right)
 {
-    if (left->kind == NH_SEEN_FRACTION) {
+    if (left->kind == NH_FORMULA_NODE_FRACTION) {
         left->child->next = times(r, left->child->next, right);
         return left;
     }
     left->next = right;
-    return make(r, NH_SEEN_FRACTION, left);
+    return make(r, NH_FORMULA_NODE_FRACTION, left);
 }
 
 /* A parenthesis that holds a product or a fraction stays one factor. */
-static nh_seen *factor(reader *r)
+static nh_formula_node *factor(reader *r)
 {
-    nh_seen *s = unary(r);
-    bool wrapped = s && (s->kind == NH_SEEN_PRODUCT || s->kind == NH_SEEN_FRACTION);
-    return wrapped ? make(r, NH_SEEN_PRODUCT, s) : s;
+    nh_formula_node *s = unary(r);
+    bool wrapped = s && (s->kind == NH_FORMULA_NODE_PRODUCT || s->kind == NH_FORMULA_NODE_FRACTION);
+    return wrapped ? make(r, NH_FORMULA_NODE_PRODUCT, s) : s;
 }
 
-static nh_seen *term(reader *r)
+static nh_formula_node *term(reader *r)
 {
-    nh_seen *left = factor(r);
+    nh_formula_node *left = factor(r);
     while (left) {
         bool star = take(r, '*'), slash = !star && take(r, '/');
         if (!star && !slash) return left;
-        nh_seen *right = slash ? unary(r) : factor(r);
+        nh_formula_node *right = slash ? unary(r) : factor(r);
         if (!right) return NULL;
         left = star ? times(r, left, right) : over(r, left, right);
     }
     return NULL;
 }
 
-static nh_seen *sum(reader *r)
+static nh_formula_node *sum(reader *r)
 {
     if (++r->depth > deepest) return NULL;
-    nh_seen *first = NULL, **last = &first;
+    nh_formula_node *first = NULL, **last = &first;
     for (size_t count = 0;; count++) {
         bool minus = take(r, '-');
         if (!minus && !take(r, '+') && count) break;
-        nh_seen *s = term(r);
+        nh_formula_node *s = term(r);
         if (!s) return NULL;
         s->minus = minus;
         *last = s;
         last = &s->next;
     }
     r->depth--;
-    return first->next || first->minus ? make(r, NH_SEEN_SUM, first) : first;
+    return first->next || first->minus ? make(r, NH_FORMULA_NODE_SUM, first) : first;
 }
 
-nh_seen *nh_typeset_read(nh_arena *arena, const char *text)
+nh_formula_node *nh_typeset_read(nh_arena *arena, const char *text)
 {
     reader r = {.arena = arena, .at = text};
-    nh_seen *left = sum(&r);
+    nh_formula_node *left = sum(&r);
     if (left && take(&r, '=')) {
         left->next = sum(&r);
-        left = left->next ? make(&r, NH_SEEN_EQUATION, left) : NULL;
+        left = left->next ? make(&r, NH_FORMULA_NODE_EQUATION, left) : NULL;
     }
     skip(&r);
     return left && !*r.at ? left : NULL;

@@ -8,19 +8,19 @@
 #include "graph/print.h"
 #include "document/facts.h"
 
-const nh_chart *nh_verdict_chart(const nh_verdict_of_one *v)
+const nh_chart *nh_verification_chart(const nh_verification *v)
 {
     bool here_only = v->branch && v->conserved && !v->on_both && !v->form;
     return here_only ? NULL : v->model->chart;
 }
 
-static nh_ex as_shown(const nh_verdict_of_one *v, nh_ex e)
+static nh_ex as_shown(const nh_verification *v, nh_ex e)
 {
-    const nh_chart *chart = nh_verdict_chart(v);
+    const nh_chart *chart = nh_verification_chart(v);
     return chart ? nh_chart_shown(chart, e) : e;
 }
 
-const char *nh_verdict_branches(const nh_verdict_of_one *v)
+const char *nh_verification_branches(const nh_verification *v)
 {
     if (!v->branch) return "";
     if (v->on_both) return ", on both branches";
@@ -28,7 +28,7 @@ const char *nh_verdict_branches(const nh_verdict_of_one *v)
 }
 
 /* Longer than `shown` symbols: only how long. */
-static void put(const nh_verdict_of_one *v, nh_text *out, const char *label, nh_ex e, double shown)
+static void put(const nh_verification *v, nh_text *out, const char *label, nh_ex e, double shown)
 {
     nh_dag *dag = v->model->dag;
     e = as_shown(v, e);
@@ -38,7 +38,7 @@ static void put(const nh_verdict_of_one *v, nh_text *out, const char *label, nh_
     nh_free(text);
 }
 
-static void put_point(const nh_verdict_of_one *v, nh_text *out)
+static void put_point(const nh_verification *v, nh_text *out)
 {
     char number[40];
     const nh_chart *c = v->model->chart;
@@ -48,7 +48,7 @@ static void put_point(const nh_verdict_of_one *v, nh_text *out)
     }
 }
 
-static void put_field(const nh_verdict_of_one *v, double shown, nh_text *out)
+static void put_field(const nh_verification *v, double shown, nh_text *out)
 {
     const nh_symmetry *z = &v->symmetry;
     nh_text_add(out, "  its symmetry has the components\n");
@@ -67,7 +67,7 @@ static void put_field(const nh_verdict_of_one *v, double shown, nh_text *out)
 }
 
 /* By how much a field leaves the canonical distribution: its current is defined for fields in it only. */
-static void put_outside(const nh_verdict_of_one *v, double shown, nh_text *out)
+static void put_outside(const nh_verification *v, double shown, nh_text *out)
 {
     nh_text_add(out, "Z is not in the canonical distribution:\n");
     for (size_t a = 0; a < v->model->k; a++) {
@@ -78,7 +78,7 @@ static void put_outside(const nh_verdict_of_one *v, double shown, nh_text *out)
     }
 }
 
-void nh_verdict_text(const nh_verdict_of_one *v, bool field, double shown, nh_text *out)
+void nh_verification_text(const nh_verification *v, bool field, double shown, nh_text *out)
 {
     if (field && v->outside) put_outside(v, shown, out);
     else if (field) put(v, out, "the field's current is  ", v->current, shown);
@@ -96,19 +96,19 @@ void nh_verdict_text(const nh_verdict_of_one *v, bool field, double shown, nh_te
     nh_text_add(out, field ? "YES: this is a constraint symmetry" : "YES: this is conserved");
     if (v->proof.proved) nh_text_addf(out, ", proved%s", nh_facts_holds(v->model, &v->proof, false));
     else nh_text_addf(out, ", to %.0f digits%s", v->proof.digits, v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
-    nh_text_add(out, nh_verdict_branches(v));
+    nh_text_add(out, nh_verification_branches(v));
     nh_text_addf(out, "%s\n", v->trivial ? "; but it is trivial: the current is constant" : "");
     if (v->has_symmetry && !v->trivial) put_field(v, shown, out);
 }
 
-static void put_expression(const nh_verdict_of_one *v, nh_json *to, const char *key, nh_ex e)
+static void put_expression(const nh_verification *v, nh_json *to, const char *key, nh_ex e)
 {
     char *text = nh_print_string(v->model->dag, as_shown(v, e));
     nh_json_put_text(to, key, text);
     nh_free(text);
 }
 
-static void put_symmetry(const nh_verdict_of_one *v, nh_json *to)
+static void put_symmetry(const nh_verification *v, nh_json *to)
 {
     nh_dag *d = v->model->dag;
     nh_json *item = nh_json_put_object(to, "symmetry"), *components;
@@ -124,7 +124,7 @@ static void put_symmetry(const nh_verdict_of_one *v, nh_json *to)
 }
 
 /* Of a field: does it lie in the canonical distribution, and what it has outside of it. */
-static void put_forms(const nh_verdict_of_one *v, nh_json *to)
+static void put_forms(const nh_verification *v, nh_json *to)
 {
     if (!v->form) {
         nh_json_put_null(to, "in_distribution");
@@ -140,7 +140,7 @@ static void put_forms(const nh_verdict_of_one *v, nh_json *to)
     }
 }
 
-char *nh_verdict_json(const nh_verdict_of_one *v, const nh_run *run)
+char *nh_verification_json(const nh_verification *v, const nh_run *run)
 {
     nh_dag *d = v->model->dag;
     nh_json *root = nh_json_object();

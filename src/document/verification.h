@@ -6,13 +6,13 @@
 #include "document/provenance.h"
 #include "commands/verify.h"
 
-void nh_verdict_text(const nh_verdict_of_one *verdict, bool field, double shown, nh_text *out);
+void nh_verification_text(const nh_verification *verdict, bool field, double shown, nh_text *out);
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
-char *nh_verdict_json(const nh_verdict_of_one *verdict, const nh_run *run);
+char *nh_verification_json(const nh_verification *verdict, const nh_run *run);
 
 /* Whose roots are shown as the velocities that they are; NULL where the answer holds on one branch only, and would not with the velocity. */
-const nh_chart *nh_verdict_chart(const nh_verdict_of_one *verdict);
+const nh_chart *nh_verification_chart(const nh_verification *verdict);
 /* On which branches of a quadratic constraint the answer holds: ", on both branches"; "" without any. */
-const char *nh_verdict_branches(const nh_verdict_of_one *verdict);
+const char *nh_verification_branches(const nh_verification *verdict);
 
 #endif

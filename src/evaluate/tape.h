@@ -32,7 +32,7 @@ void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, dou
 /* Let long work at single points pass to machine code (machine.h): when the interpreter has spent `patience` times what compiling will cost,
  * the compiler is started beside it, and its code is used from when it is ready.  Whatever is to come, this costs at most about 1 + 1/patience
  * times the better choice. The results do not change.  Where nothing can be compiled the interpreter goes on.  patience <= 0: never. */
-void nh_tape_hasten(nh_tape_work *work, double patience);
+void nh_tape_jit(nh_tape_work *work, double patience);
 /* At once, and wait for it; false: it stays with the interpreter. */
 bool nh_tape_compile(const nh_tape *tape, nh_tape_work *work);
 /* "compiled by cc in 0.07 s", or why not; NULL when nothing was tried. */

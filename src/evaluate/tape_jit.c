@@ -23,7 +23,7 @@ static uint64_t evaluations_in(const nh_tape *tape, double units)
     return n < 1 ? 1 : n > 1e18 ? 1000000000000000000u : (uint64_t)n;
 }
 
-void nh_tape_hasten(nh_tape_work *work, double patience)
+void nh_tape_jit(nh_tape_work *work, double patience)
 {
     work->patience = patience;
     work->left = patience > 0 && !work->code ? first_look : 0;

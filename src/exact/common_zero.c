@@ -10,7 +10,7 @@ static const double vanishing = 1e-8,
 
 typedef struct {
     const nh_zero_point *at;
-    nh_field *field;
+    nh_quotient_field *field;
     const fmpz_mpoly_ctx_struct *ctx;
     fmpz_mpoly_struct item[most_list];
     size_t count;
@@ -86,7 +86,7 @@ static bool has_unknown(const list *l, const fmpz_mpoly_struct *p)
 /* The roots of other things that p has are eliminated: r^m = a/b. */
 static bool without_roots(const list *l, fmpz_mpoly_struct *p)
 {
-    nh_field *f = l->field;
+    nh_quotient_field *f = l->field;
     fmpz_mpoly_t power;
     bool good = true;
     fmpz_mpoly_init(power, l->ctx);
@@ -330,7 +330,7 @@ static bool solve(const list *l, const fmpz_mpoly_struct *p, size_t generator, n
                    : mixed_root(l, &c[2 * step], &c[step], &c[0], pow(x, (double)step), out);
     }
     for (size_t i = 0; i < 5; i++) fmpz_mpoly_clear(&c[i], l->ctx);
-    return good && nh_field_state_of(l->field) == NH_FIELD_FINE;
+    return good && nh_quotient_field_state_of(l->field) == NH_FIELD_FINE;
 }
 
 bool nh_common_zero(const nh_zero_point *point, size_t equations, const nh_quotient *const *equation, size_t k,

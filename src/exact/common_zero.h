@@ -12,7 +12,7 @@
 #include "exact/normal_quotient.h"
 
 typedef struct {
-    nh_field *field;
+    nh_quotient_field *field;
     const double *value; /* of every generator at the point */
     size_t unknowns;
     const size_t *unknown; /* generators */

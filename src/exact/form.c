@@ -62,7 +62,7 @@ static bool make_argument(nh_forms *s, nh_ex e, nh_form *form)
     bool fine = nh_form_make(s, e, true, form) == NH_FIELD_FINE;
     s->max_terms = max_terms;
     if (fine) form->value = nh_quotient_rationalise(form->field, form->value);
-    return fine && nh_field_state_of(form->field) == NH_FIELD_FINE;
+    return fine && nh_quotient_field_state_of(form->field) == NH_FIELD_FINE;
 }
 
 /* Inexact numbers that the source has not are a sign of overflow. */
@@ -84,7 +84,7 @@ static nh_ex canonical_parts(nh_forms *s, nh_ex e, nh_num *content)
         bool minus = nh_num_value(pieces.constant) < 0, zero = nh_num_is(pieces.constant, 0);
         nh_num size = minus ? nh_num_mul(pieces.constant, nh_num_int(-1)) : pieces.constant;
         pieces.constant = nh_num_int(zero ? 0 : minus ? -1 : 1);
-        nh_ex candidate = nh_emit_terms(&form.kernels, &pieces);
+        nh_ex candidate = nh_print_quotient_terms(&form.kernels, &pieces);
         if (nh_num_short(size) && is_sound(s->dag, candidate, e)) {
             rest = candidate;
             *content = zero ? nh_num_int(1) : size;
@@ -107,7 +107,7 @@ static nh_ex emit_mixed(nh_form *form)
     for (int i = 0; i < 2 && fits; i++) {
         nh_pieces pieces;
         fits = nh_pieces_make(form->field, arena, side[i], false, &pieces);
-        if (fits) sum = nh_add(dag, sum, nh_emit_terms(&form->kernels, &pieces));
+        if (fits) sum = nh_add(dag, sum, nh_print_quotient_terms(&form->kernels, &pieces));
     }
     nh_arena_free(arena);
     return fits ? sum : nh_real(dag, NAN); /* inexact: the caller takes the overflow as such */
@@ -289,15 +289,15 @@ static void relate(nh_form *f)
         size_t i = f->kernels.order[n];
         const nh_kernel *k = &f->kernels.item[i];
         const nh_power_rule *rule = k->kind == NH_KERNEL_PLAIN ? nh_dag_power_rule(f->kernels.dag, k->atom) : NULL;
-        if (rule) nh_field_relate(f->field, i, rule->order, nh_form_eval(f, rule->value)), nh_field_repeat(f->field);
+        if (rule) nh_quotient_field_relate(f->field, i, rule->order, nh_form_eval(f, rule->value)), nh_quotient_field_repeat(f->field);
         if (k->kind == NH_KERNEL_SIN || k->kind == NH_KERNEL_SINH)
-            nh_field_relate_pair(f->field, i, k->partner, k->kind == NH_KERNEL_SINH);
-        if (k->kind == NH_KERNEL_ROOT) nh_field_relate(f->field, i, (unsigned)k->unit.q, nh_form_eval(f, k->atom));
-        if (k->kind == NH_KERNEL_ABS) nh_field_relate(f->field, i, 2, nh_quotient_pow(f->field, nh_form_eval(f, k->atom), 2));
+            nh_quotient_field_relate_pair(f->field, i, k->partner, k->kind == NH_KERNEL_SINH);
+        if (k->kind == NH_KERNEL_ROOT) nh_quotient_field_relate(f->field, i, (unsigned)k->unit.q, nh_form_eval(f, k->atom));
+        if (k->kind == NH_KERNEL_ABS) nh_quotient_field_relate(f->field, i, 2, nh_quotient_pow(f->field, nh_form_eval(f, k->atom), 2));
     }
 }
 
-nh_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form)
+nh_quotient_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form)
 {
     *form = (nh_form){0};
     e = rewrite(forms, e);
@@ -308,16 +308,16 @@ nh_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form
     if (k->too_deep) return NH_FIELD_TOO_LARGE;
     nh_kernels_settle(k);
     if (k->count > most_kernels) return NH_FIELD_TOO_LARGE;
-    form->field = nh_field_create(k->count, forms->max_terms);
+    form->field = nh_quotient_field_create(k->count, forms->max_terms);
     relate(form);
     form->value = nh_form_eval(form, e);
-    return nh_field_state_of(form->field);
+    return nh_quotient_field_state_of(form->field);
 }
 
 void nh_form_clear(nh_form *form)
 {
     nh_kernels_clear(&form->kernels);
-    nh_field_free(form->field);
+    nh_quotient_field_free(form->field);
     nh_index_clear(&form->known);
     nh_free(form->of);
 }

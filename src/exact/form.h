@@ -20,7 +20,7 @@ typedef struct {
 
 typedef struct {
     nh_kernels kernels;
-    nh_field *field;
+    nh_quotient_field *field;
     const nh_quotient *value;
     nh_index known;          /* node -> index into `of` */
     const nh_quotient **of;
@@ -32,7 +32,7 @@ void nh_forms_clear(nh_forms *forms);
 
 /* The form of e; inexact numbers are kernels of their own when `opaque`.  The state says whether there is a value; clear
  * the form in any case. */
-nh_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form);
+nh_quotient_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form);
 void nh_form_clear(nh_form *form);
 
 /* e with canonical arguments, radicands and exponents: the first step, for those who put many expressions into one field. */

@@ -110,7 +110,7 @@ typedef struct {
 } rotation;
 
 /* The rotation by a + b. */
-static rotation turn(nh_field *field, rotation a, rotation b)
+static rotation turn(nh_quotient_field *field, rotation a, rotation b)
 {
     quotient cc = nh_quotient_mul(field, a.cosine, b.cosine), ss = nh_quotient_mul(field, a.sine, b.sine);
     quotient sc = nh_quotient_mul(field, a.sine, b.cosine), cs = nh_quotient_mul(field, a.cosine, b.sine);
@@ -118,7 +118,7 @@ static rotation turn(nh_field *field, rotation a, rotation b)
     return (rotation){nh_quotient_add(field, cc, ss), nh_quotient_add(field, sc, cs)};
 }
 
-static rotation quarter(nh_field *field, int64_t turns)
+static rotation quarter(nh_quotient_field *field, int64_t turns)
 {
     static const int sine[4] = {0, 1, 0, -1};
     return (rotation){nh_quotient_number(field, nh_num_int(sine[(turns + 1) & 3])),

@@ -11,7 +11,7 @@ nh_zero_verdict nh_normal_is_zero(nh_dag *dag, nh_ex e, size_t max_terms)
     nh_forms forms;
     nh_form form;
     nh_forms_init(&forms, dag, false, max_terms ? max_terms : default_terms);
-    nh_field_state state = nh_form_make(&forms, e, false, &form);
+    nh_quotient_field_state state = nh_form_make(&forms, e, false, &form);
     nh_zero_verdict verdict = state == NH_FIELD_TOO_LARGE ? NH_TOO_LARGE : NH_NONZERO;
     if (state == NH_FIELD_FINE && nh_quotient_is_zero(form.field, form.value)) verdict = NH_ZERO;
     nh_form_clear(&form);

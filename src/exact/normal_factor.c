@@ -7,7 +7,7 @@
 enum { factor_terms = 60, factor_degree = 24 };
 
 typedef struct {
-    nh_field *field;
+    nh_quotient_field *field;
     nh_arena *arena;
     nh_pieces *out;
     size_t capacity;
@@ -108,7 +108,7 @@ static void add_factor(breaker *b, const fmpz_mpoly_t a, int64_t power)
     out->factor[out->factors++] = f;
 }
 
-static bool cheap_to_factor(const nh_field *f, const fmpz_mpoly_t a)
+static bool cheap_to_factor(const nh_quotient_field *f, const fmpz_mpoly_t a)
 {
     if (a->length > factor_terms) return false;
     for (slong g = 0; g < f->generators; g++)
@@ -171,7 +171,7 @@ static void set_constant(breaker *b)
     if (b->fits) b->out->constant = nh_num_mul(num, nh_num_inv(den));
 }
 
-bool nh_pieces_make(nh_field *field, nh_arena *arena, const nh_quotient *q, bool factored, nh_pieces *out)
+bool nh_pieces_make(nh_quotient_field *field, nh_arena *arena, const nh_quotient *q, bool factored, nh_pieces *out)
 {
     *out = (nh_pieces){.generators = (size_t)field->generators, .constant = nh_num_int(0)};
     out->exponent = nh_arena_alloc(arena, out->generators * sizeof *out->exponent);

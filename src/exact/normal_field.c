@@ -16,9 +16,9 @@ static const double hurried = 0.02;
 static const double gcd_pairs = 2e4;
 static const slong gcd_degree = 60;
 
-nh_field *nh_field_create(size_t generators, size_t max_terms)
+nh_quotient_field *nh_quotient_field_create(size_t generators, size_t max_terms)
 {
-    nh_field *f = nh_alloc(sizeof *f);
+    nh_quotient_field *f = nh_alloc(sizeof *f);
     f->generators = generators ? (slong)generators : 1;
     fmpz_mpoly_ctx_init(f->ctx, f->generators, ORD_LEX);
     f->exponent = nh_alloc_array((size_t)f->generators, sizeof *f->exponent);
@@ -27,7 +27,7 @@ nh_field *nh_field_create(size_t generators, size_t max_terms)
     return f;
 }
 
-void nh_field_free(nh_field *field)
+void nh_quotient_field_free(nh_quotient_field *field)
 {
     if (!field) return;
     for (nh_quotient *q = field->all, *next; q; q = next) {
@@ -46,16 +46,16 @@ void nh_field_free(nh_field *field)
     nh_free(field);
 }
 
-nh_field_state nh_field_state_of(const nh_field *field) { return field->state; }
+nh_quotient_field_state nh_quotient_field_state_of(const nh_quotient_field *field) { return field->state; }
 
-void nh_field_break(nh_field *field, nh_field_state why)
+void nh_quotient_field_break(nh_quotient_field *field, nh_quotient_field_state why)
 {
     if (field->state == NH_FIELD_FINE) field->state = why;
 }
 
-nh_quotient *nh_quotient_fresh(nh_field *f)
+nh_quotient *nh_quotient_fresh(nh_quotient_field *f)
 {
-    if (nh_interrupted()) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if (nh_interrupted()) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
     nh_quotient *q = nh_alloc(sizeof *q);
     fmpz_mpoly_init(q->num, f->ctx);
     fmpz_mpoly_init(q->den, f->ctx);
@@ -68,39 +68,39 @@ nh_quotient *nh_quotient_fresh(nh_field *f)
 
 static double words(const fmpz_mpoly_t a) { return 1 + fabs((double)fmpz_mpoly_max_bits(a)) / 64; }
 
-bool nh_field_spend(nh_field *f, double work)
+bool nh_quotient_field_spend(nh_quotient_field *f, double work)
 {
     f->work += work;
-    if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late())) || nh_interrupted()) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if (f->work > f->max_work || (f->work > hurried * f->max_work && (nh_budget_spent() || nh_late())) || nh_interrupted()) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
     if (f->state == NH_FIELD_FINE) nh_work_add(NH_WORK_TERM, work); /* what is refused is not done */
     return f->state == NH_FIELD_FINE;
 }
 
-void nh_field_check_size(nh_field *f, const fmpz_mpoly_t a)
+void nh_quotient_field_check_size(nh_quotient_field *f, const fmpz_mpoly_t a)
 {
     bool too_large = (double)a->length > f->max_terms;
     if (a->bits > 32 && a->length) { /* exponents are read as machine words */
         too_large |= !fmpz_mpoly_total_degree_fits_si(a, f->ctx);
         too_large |= !too_large && fmpz_mpoly_total_degree_si(a, f->ctx) > highest_degree;
     }
-    if (too_large) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if (too_large) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
 }
 
-void nh_field_times(nh_field *f, fmpz_mpoly_t out, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
+void nh_quotient_field_times(nh_quotient_field *f, fmpz_mpoly_t out, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
 {
     double pairs = (double)a->length * (double)b->length;
-    if (pairs > slack * f->max_terms) nh_field_break(f, NH_FIELD_TOO_LARGE);
-    if (!nh_field_spend(f, pairs * words(a) * words(b))) return;
+    if (pairs > slack * f->max_terms) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
+    if (!nh_quotient_field_spend(f, pairs * words(a) * words(b))) return;
     fmpz_mpoly_mul(out, a, b, f->ctx);
-    nh_field_check_size(f, out);
+    nh_quotient_field_check_size(f, out);
 }
 
-static void times_power(nh_field *f, fmpz_mpoly_t p, const fmpz_mpoly_t base, ulong n)
+static void times_power(nh_quotient_field *f, fmpz_mpoly_t p, const fmpz_mpoly_t base, ulong n)
 {
-    for (ulong i = 0; i < n && f->state == NH_FIELD_FINE; i++) nh_field_times(f, p, p, base);
+    for (ulong i = 0; i < n && f->state == NH_FIELD_FINE; i++) nh_quotient_field_times(f, p, p, base);
 }
 
-bool nh_field_cheap_gcd(const nh_field *f, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
+bool nh_quotient_field_cheap_gcd(const nh_quotient_field *f, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
 {
     if (a->length == 1 || b->length == 1) return true;
     if ((double)a->length * (double)b->length > gcd_pairs) return false;
@@ -109,13 +109,13 @@ bool nh_field_cheap_gcd(const nh_field *f, const fmpz_mpoly_t a, const fmpz_mpol
     return true;
 }
 
-static bool is_one(const nh_field *f, const fmpz_mpoly_t a) { return fmpz_mpoly_is_one(a, f->ctx); }
+static bool is_one(const nh_quotient_field *f, const fmpz_mpoly_t a) { return fmpz_mpoly_is_one(a, f->ctx); }
 
 /* ---- relations ---- */
 
 /* p = sum_j P_j g^(order j) with deg_g P_j < order: part[j] = P_j.  Subtracting the same exponent from every term of a
  * part keeps their order. */
-static void split_by_power(nh_field *f, const nh_relation *r, const fmpz_mpoly_t p, fmpz_mpoly_struct *part)
+static void split_by_power(nh_quotient_field *f, const nh_relation *r, const fmpz_mpoly_t p, fmpz_mpoly_struct *part)
 {
     fmpz_t c;
     fmpz_init(c);
@@ -131,18 +131,18 @@ static void split_by_power(nh_field *f, const nh_relation *r, const fmpz_mpoly_t
 
 /* p with g^order replaced by num/den, times den^J to stay a polynomial; returns J.  Where the value has lower powers of g every step of Horner's rule is reduced again:
  * its degree falls each time. */
-static ulong reduce(nh_field *f, const nh_relation *r, fmpz_mpoly_t p)
+static ulong reduce(nh_quotient_field *f, const nh_relation *r, fmpz_mpoly_t p)
 {
     slong degree = fmpz_mpoly_degree_si(p, r->generator, f->ctx);
     if (degree < (slong)r->order) return 0;
     ulong top = (ulong)degree / r->order, scaled = 0;
-    if (!nh_field_spend(f, (double)top)) return 0;
+    if (!nh_quotient_field_spend(f, (double)top)) return 0;
     fmpz_mpoly_struct *part = nh_alloc_array(top + 1, sizeof *part);
     for (ulong j = 0; j <= top; j++) fmpz_mpoly_init(part + j, f->ctx);
     split_by_power(f, r, p, part);
     fmpz_mpoly_swap(p, part + top, f->ctx);
     for (ulong j = top; j-- > 0 && f->state == NH_FIELD_FINE;) { /* Horner in num/den */
-        nh_field_times(f, p, p, r->num);
+        nh_quotient_field_times(f, p, p, r->num);
         scaled++;
         if (!r->integral) times_power(f, part + j, r->den, scaled);
         fmpz_mpoly_add(p, p, part + j, f->ctx);
@@ -154,7 +154,7 @@ static ulong reduce(nh_field *f, const nh_relation *r, fmpz_mpoly_t p)
 }
 
 /* 1/r = r^(order-1) / r^order, so that equal quotients of roots look equal. */
-static void lift_root(nh_field *f, const nh_relation *r, nh_quotient *q)
+static void lift_root(nh_quotient_field *f, const nh_relation *r, nh_quotient *q)
 {
     if (fmpz_mpoly_degree_si(q->den, r->generator, f->ctx) < 1) return;
     ulong least = r->order;
@@ -171,7 +171,7 @@ static void lift_root(nh_field *f, const nh_relation *r, nh_quotient *q)
     fmpz_mpoly_clear(g, f->ctx);
 }
 
-static void apply(nh_field *f, const nh_relation *r, nh_quotient *q)
+static void apply(nh_quotient_field *f, const nh_relation *r, nh_quotient *q)
 {
     ulong above = reduce(f, r, q->num), below = reduce(f, r, q->den);
     if (!r->pair && !r->mixed) {
@@ -184,17 +184,17 @@ static void apply(nh_field *f, const nh_relation *r, nh_quotient *q)
     else times_power(f, q->den, r->den, above - below);
 }
 
-void nh_quotient_cancel(nh_field *f, nh_quotient *q)
+void nh_quotient_cancel(nh_quotient_field *f, nh_quotient *q)
 {
     if (is_one(f, q->den)) return;
     if (fmpz_mpoly_is_zero(q->num, f->ctx)) {
         fmpz_mpoly_one(q->den, f->ctx);
         return;
     }
-    if (nh_field_cheap_gcd(f, q->num, q->den)) {
+    if (nh_quotient_field_cheap_gcd(f, q->num, q->den)) {
         fmpz_mpoly_t g;
         fmpz_mpoly_init(g, f->ctx);
-        if (nh_field_spend(f, (double)(q->num->length + q->den->length)) && fmpz_mpoly_gcd(g, q->num, q->den, f->ctx) && !is_one(f, g)) {
+        if (nh_quotient_field_spend(f, (double)(q->num->length + q->den->length)) && fmpz_mpoly_gcd(g, q->num, q->den, f->ctx) && !is_one(f, g)) {
             fmpz_mpoly_divexact(q->num, q->num, g, f->ctx);
             fmpz_mpoly_divexact(q->den, q->den, g, f->ctx);
         }
@@ -206,19 +206,19 @@ void nh_quotient_cancel(nh_field *f, nh_quotient *q)
 }
 
 /* Later relations first: their values contain earlier generators only. */
-const nh_quotient *nh_quotient_normalise(nh_field *f, nh_quotient *q)
+const nh_quotient *nh_quotient_normalise(nh_quotient_field *f, nh_quotient *q)
 {
     for (int round = 0; round <= f->repeat; round++)
         for (size_t i = f->relations; i-- > 0 && f->state == NH_FIELD_FINE;) apply(f, &f->relation[i], q);
     if (f->state != NH_FIELD_FINE) return q;
-    if (fmpz_mpoly_is_zero(q->den, f->ctx)) nh_field_break(f, NH_FIELD_UNDEFINED);
+    if (fmpz_mpoly_is_zero(q->den, f->ctx)) nh_quotient_field_break(f, NH_FIELD_UNDEFINED);
     else nh_quotient_cancel(f, q);
-    nh_field_check_size(f, q->num);
-    nh_field_check_size(f, q->den);
+    nh_quotient_field_check_size(f, q->num);
+    nh_quotient_field_check_size(f, q->den);
     return q;
 }
 
-static nh_relation *add_relation(nh_field *f)
+static nh_relation *add_relation(nh_quotient_field *f)
 {
     nh_grow(&f->relation, &f->capacity, f->relations + 1, sizeof *f->relation);
     nh_relation *r = &f->relation[f->relations++];
@@ -228,7 +228,7 @@ static nh_relation *add_relation(nh_field *f)
     return r;
 }
 
-void nh_field_relate(nh_field *field, size_t generator, unsigned order, const nh_quotient *value)
+void nh_quotient_field_relate(nh_quotient_field *field, size_t generator, unsigned order, const nh_quotient *value)
 {
     if (field->state != NH_FIELD_FINE) return;
     nh_relation *r = add_relation(field);
@@ -240,10 +240,10 @@ void nh_field_relate(nh_field *field, size_t generator, unsigned order, const nh
     r->mixed = nh_quotient_has(field, value, generator);
 }
 
-void nh_field_repeat(nh_field *field) { field->repeat = true; }
+void nh_quotient_field_repeat(nh_quotient_field *field) { field->repeat = true; }
 
 /* s^2 = 1 - c^2, s^2 = c^2 - 1, c^2 = 1 - s^2, c^2 = 1 + s^2 */
-static void set_pair(nh_field *f, nh_relation *r, bool eliminate_cosine)
+static void set_pair(nh_quotient_field *f, nh_relation *r, bool eliminate_cosine)
 {
     r->generator = eliminate_cosine ? r->cosine : r->sine;
     fmpz_mpoly_gen(r->num, eliminate_cosine ? r->sine : r->cosine, f->ctx);
@@ -253,7 +253,7 @@ static void set_pair(nh_field *f, nh_relation *r, bool eliminate_cosine)
     else fmpz_mpoly_add_ui(r->num, r->num, 1, f->ctx);
 }
 
-void nh_field_relate_pair(nh_field *field, size_t s, size_t c, bool hyperbolic)
+void nh_quotient_field_relate_pair(nh_quotient_field *field, size_t s, size_t c, bool hyperbolic)
 {
     nh_relation *r = add_relation(field);
     r->pair = r->integral = true;
@@ -265,14 +265,14 @@ void nh_field_relate_pair(nh_field *field, size_t s, size_t c, bool hyperbolic)
     set_pair(field, r, false);
 }
 
-size_t nh_field_pairs(const nh_field *field)
+size_t nh_quotient_field_pairs(const nh_quotient_field *field)
 {
     size_t count = 0;
     for (size_t i = 0; i < field->relations; i++) count += field->relation[i].pair;
     return count;
 }
 
-void nh_field_flip_pair(nh_field *field, size_t pair)
+void nh_quotient_field_flip_pair(nh_quotient_field *field, size_t pair)
 {
     for (size_t i = 0; i < field->relations; i++) {
         nh_relation *r = &field->relation[i];

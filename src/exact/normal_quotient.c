@@ -9,7 +9,7 @@
 enum { conjugate_pairs = 500 };
 
 /* A double as the dyadic rational that it is. */
-static void set_double(nh_field *f, nh_quotient *q, double value)
+static void set_double(nh_quotient_field *f, nh_quotient *q, double value)
 {
     int exponent;
     double mantissa = ldexp(frexp(value, &exponent), 53);
@@ -24,7 +24,7 @@ static void set_double(nh_field *f, nh_quotient *q, double value)
     fmpz_clear(power);
 }
 
-static void set_long(nh_field *f, nh_quotient *q, nh_num value)
+static void set_long(nh_quotient_field *f, nh_quotient *q, nh_num value)
 {
     mpq_t v;
     fmpz_t z;
@@ -39,7 +39,7 @@ static void set_long(nh_field *f, nh_quotient *q, nh_num value)
     mpq_clear(v);
 }
 
-const nh_quotient *nh_quotient_number(nh_field *field, nh_num value)
+const nh_quotient *nh_quotient_number(nh_quotient_field *field, nh_num value)
 {
     nh_quotient *q = nh_quotient_fresh(field);
     if (nh_num_short(value)) {
@@ -54,39 +54,39 @@ const nh_quotient *nh_quotient_number(nh_field *field, nh_num value)
     return q;
 }
 
-const nh_quotient *nh_quotient_power_of(nh_field *field, size_t generator, int64_t power)
+const nh_quotient *nh_quotient_power_of(nh_quotient_field *field, size_t generator, int64_t power)
 {
     nh_quotient *q = nh_quotient_fresh(field);
     fmpz_mpoly_struct *side = power < 0 ? q->den : q->num;
     ulong n = power < 0 ? -(ulong)power : (ulong)power;
     fmpz_mpoly_one(q->num, field->ctx);
     fmpz_mpoly_gen(side, (slong)generator, field->ctx);
-    if (n != 1 && !fmpz_mpoly_pow_ui(side, side, n, field->ctx)) nh_field_break(field, NH_FIELD_TOO_LARGE);
+    if (n != 1 && !fmpz_mpoly_pow_ui(side, side, n, field->ctx)) nh_quotient_field_break(field, NH_FIELD_TOO_LARGE);
     return field->relations ? nh_quotient_normalise(field, q) : q;
 }
 
-const nh_quotient *nh_quotient_add(nh_field *field, const nh_quotient *a, const nh_quotient *b)
+const nh_quotient *nh_quotient_add(nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b)
 {
     nh_quotient *q = nh_quotient_fresh(field);
-    if (!nh_field_spend(field, (double)(a->num->length + b->num->length))) return q;
+    if (!nh_quotient_field_spend(field, (double)(a->num->length + b->num->length))) return q;
     if (fmpz_mpoly_equal(a->den, b->den, field->ctx)) {
         fmpz_mpoly_add(q->num, a->num, b->num, field->ctx);
         fmpz_mpoly_set(q->den, a->den, field->ctx);
         nh_quotient_cancel(field, q); /* sums of reduced numerators are reduced */
-        nh_field_check_size(field, q->num);
+        nh_quotient_field_check_size(field, q->num);
         return q;
     }
     fmpz_mpoly_t g, left, right;
     fmpz_mpoly_init(g, field->ctx);
     fmpz_mpoly_init(left, field->ctx);
     fmpz_mpoly_init(right, field->ctx);
-    bool cheap = nh_field_cheap_gcd(field, a->den, b->den);
+    bool cheap = nh_quotient_field_cheap_gcd(field, a->den, b->den);
     if (!cheap || !fmpz_mpoly_gcd(g, a->den, b->den, field->ctx)) fmpz_mpoly_one(g, field->ctx);
     fmpz_mpoly_divexact(left, b->den, g, field->ctx);
     fmpz_mpoly_divexact(right, a->den, g, field->ctx);
-    nh_field_times(field, q->den, a->den, left);
-    nh_field_times(field, left, left, a->num);
-    nh_field_times(field, right, right, b->num);
+    nh_quotient_field_times(field, q->den, a->den, left);
+    nh_quotient_field_times(field, left, left, a->num);
+    nh_quotient_field_times(field, right, right, b->num);
     fmpz_mpoly_add(q->num, left, right, field->ctx);
     fmpz_mpoly_clear(g, field->ctx);
     fmpz_mpoly_clear(left, field->ctx);
@@ -94,15 +94,15 @@ const nh_quotient *nh_quotient_add(nh_field *field, const nh_quotient *a, const 
     return nh_quotient_normalise(field, q);
 }
 
-const nh_quotient *nh_quotient_mul(nh_field *field, const nh_quotient *a, const nh_quotient *b)
+const nh_quotient *nh_quotient_mul(nh_quotient_field *field, const nh_quotient *a, const nh_quotient *b)
 {
     nh_quotient *q = nh_quotient_fresh(field);
-    nh_field_times(field, q->num, a->num, b->num);
-    nh_field_times(field, q->den, a->den, b->den);
+    nh_quotient_field_times(field, q->num, a->num, b->num);
+    nh_quotient_field_times(field, q->den, a->den, b->den);
     return nh_quotient_normalise(field, q);
 }
 
-const nh_quotient *nh_quotient_inv(nh_field *field, const nh_quotient *a)
+const nh_quotient *nh_quotient_inv(nh_quotient_field *field, const nh_quotient *a)
 {
     nh_quotient *q = nh_quotient_fresh(field);
     fmpz_mpoly_set(q->num, a->den, field->ctx);
@@ -110,7 +110,7 @@ const nh_quotient *nh_quotient_inv(nh_field *field, const nh_quotient *a)
     return nh_quotient_normalise(field, q);
 }
 
-const nh_quotient *nh_quotient_pow(nh_field *field, const nh_quotient *a, int64_t n)
+const nh_quotient *nh_quotient_pow(nh_quotient_field *field, const nh_quotient *a, int64_t n)
 {
     if (n < 0) return nh_quotient_pow(field, nh_quotient_inv(field, a), -n);
     if (n == 1) return a;
@@ -122,13 +122,13 @@ const nh_quotient *nh_quotient_pow(nh_field *field, const nh_quotient *a, int64_
     return result;
 }
 
-const nh_quotient *nh_quotient_scale(nh_field *field, const nh_quotient *a, nh_num c)
+const nh_quotient *nh_quotient_scale(nh_quotient_field *field, const nh_quotient *a, nh_num c)
 {
     if (nh_num_is(c, 1)) return a;
     return nh_quotient_mul(field, a, nh_quotient_number(field, c));
 }
 
-const nh_quotient *nh_quotient_again(nh_field *field, const nh_quotient *a)
+const nh_quotient *nh_quotient_again(nh_quotient_field *field, const nh_quotient *a)
 {
     nh_quotient *q = nh_quotient_fresh(field);
     fmpz_mpoly_set(q->num, a->num, field->ctx);
@@ -136,9 +136,9 @@ const nh_quotient *nh_quotient_again(nh_field *field, const nh_quotient *a)
     return nh_quotient_normalise(field, q);
 }
 
-bool nh_quotient_is_zero(const nh_field *field, const nh_quotient *a) { return fmpz_mpoly_is_zero(a->num, field->ctx); }
+bool nh_quotient_is_zero(const nh_quotient_field *field, const nh_quotient *a) { return fmpz_mpoly_is_zero(a->num, field->ctx); }
 
-bool nh_quotient_has(const nh_field *field, const nh_quotient *a, size_t generator)
+bool nh_quotient_has(const nh_quotient_field *field, const nh_quotient *a, size_t generator)
 {
     slong g = (slong)generator;
     return fmpz_mpoly_degree_si(a->num, g, field->ctx) > 0 || fmpz_mpoly_degree_si(a->den, g, field->ctx) > 0;
@@ -147,7 +147,7 @@ bool nh_quotient_has(const nh_field *field, const nh_quotient *a, size_t generat
 size_t nh_quotient_terms(const nh_quotient *a) { return (size_t)(a->num->length + a->den->length); }
 
 /* (A + B r)^-1 = (A - B r)/(A^2 - B^2 r^2), with r from the last relation to the first. */
-const nh_quotient *nh_quotient_rationalise(nh_field *field, const nh_quotient *a)
+const nh_quotient *nh_quotient_rationalise(nh_quotient_field *field, const nh_quotient *a)
 {
     for (size_t i = field->relations; i-- > 0 && field->state == NH_FIELD_FINE;) {
         slong g = field->relation[i].generator;
@@ -161,15 +161,15 @@ const nh_quotient *nh_quotient_rationalise(nh_field *field, const nh_quotient *a
         fmpz_mpoly_mul(conjugate, conjugate, q->num, field->ctx);
         fmpz_mpoly_scalar_mul_si(conjugate, conjugate, -2, field->ctx);
         fmpz_mpoly_add(conjugate, conjugate, a->den, field->ctx);
-        nh_field_times(field, q->num, a->num, conjugate);
-        nh_field_times(field, q->den, a->den, conjugate);
+        nh_quotient_field_times(field, q->num, a->num, conjugate);
+        nh_quotient_field_times(field, q->den, a->den, conjugate);
         fmpz_mpoly_clear(conjugate, field->ctx);
         a = nh_quotient_normalise(field, q);
     }
     return a;
 }
 
-void nh_quotient_divide(nh_field *field, const nh_quotient *a, const nh_quotient **whole, const nh_quotient **rest)
+void nh_quotient_divide(nh_quotient_field *field, const nh_quotient *a, const nh_quotient **whole, const nh_quotient **rest)
 {
     nh_quotient *w = nh_quotient_fresh(field), *r = nh_quotient_fresh(field);
     fmpz_t scale; /* scale num = Q den + R */

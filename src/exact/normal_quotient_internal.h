@@ -26,7 +26,7 @@ typedef struct {
     slong sine, cosine;
 } nh_relation;
 
-struct nh_field {
+struct nh_quotient_field {
     fmpz_mpoly_ctx_t ctx;
     slong generators;
     nh_relation *relation;
@@ -35,21 +35,21 @@ struct nh_field {
     ulong *exponent; /* scratch, one per generator */
     double max_terms, work, max_work;
     bool repeat; /* the relations once more, after the last: values may need later ones */
-    nh_field_state state;
+    nh_quotient_field_state state;
 };
 
 /* The quotient 0/1, to be filled. */
-nh_quotient *nh_quotient_fresh(nh_field *field);
+nh_quotient *nh_quotient_fresh(nh_quotient_field *field);
 /* Reduced by the relations, and cancelled. */
-const nh_quotient *nh_quotient_normalise(nh_field *field, nh_quotient *q);
+const nh_quotient *nh_quotient_normalise(nh_quotient_field *field, nh_quotient *q);
 /* Without the gcd where that is cheap, and with a positive denominator; enough where the relations change nothing. */
-void nh_quotient_cancel(nh_field *field, nh_quotient *q);
+void nh_quotient_cancel(nh_quotient_field *field, nh_quotient *q);
 
 /* Work is about to be done, or a polynomial came out: when it is too much the field breaks. */
-bool nh_field_spend(nh_field *field, double work);
-void nh_field_check_size(nh_field *field, const fmpz_mpoly_t a);
+bool nh_quotient_field_spend(nh_quotient_field *field, double work);
+void nh_quotient_field_check_size(nh_quotient_field *field, const fmpz_mpoly_t a);
 /* out = a b, unless that is too much. */
-void nh_field_times(nh_field *field, fmpz_mpoly_t out, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
-bool nh_field_cheap_gcd(const nh_field *field, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
+void nh_quotient_field_times(nh_quotient_field *field, fmpz_mpoly_t out, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
+bool nh_quotient_field_cheap_gcd(const nh_quotient_field *field, const fmpz_mpoly_t a, const fmpz_mpoly_t b);
 
 #endif

@@ -23,11 +23,11 @@ nh_ex nh_numerator(nh_dag *dag, nh_ex e)
     nh_pieces pieces;
     nh_arena *arena = nh_arena_create();
     nh_forms_init(&forms, dag, false, most_terms);
-    nh_field_state state = nh_form_make(&forms, e, true, &form);
+    nh_quotient_field_state state = nh_form_make(&forms, e, true, &form);
     nh_ex result = e;
     if (state == NH_FIELD_FINE && nh_pieces_make(form.field, arena, form.value, false, &pieces)) {
         keep_numerator(&pieces);
-        nh_ex top = nh_emit_product(&form.kernels, &pieces, false);
+        nh_ex top = nh_print_quotient_product(&form.kernels, &pieces, false);
         if (nh_is_short(dag, top)) result = top;
     }
     nh_form_clear(&form);

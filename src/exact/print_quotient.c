@@ -127,7 +127,7 @@ static nh_ex collected(const nh_kernels *k, const nh_factor *f, size_t width)
 
 /* ---- the whole ---- */
 
-nh_ex nh_emit_product(const nh_kernels *kernels, const nh_pieces *pieces, bool collect)
+nh_ex nh_print_quotient_product(const nh_kernels *kernels, const nh_pieces *pieces, bool collect)
 {
     nh_dag *dag = kernels->dag;
     size_t width = pieces->generators;
@@ -146,7 +146,7 @@ nh_ex nh_emit_product(const nh_kernels *kernels, const nh_pieces *pieces, bool c
     return e;
 }
 
-nh_ex nh_emit_terms(const nh_kernels *kernels, const nh_pieces *pieces)
+nh_ex nh_print_quotient_terms(const nh_kernels *kernels, const nh_pieces *pieces)
 {
     nh_dag *dag = kernels->dag;
     size_t width = pieces->generators;

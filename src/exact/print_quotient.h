@@ -7,9 +7,9 @@
 
 /* constant * monomial * prod factor^power; sin/cos in the monomial becomes tan, which is always shorter.  With `collect`
  * the factors are written as x*(a + b) + c instead of a*x + b*x + c; that needs the kernels' lengths. */
-nh_ex nh_emit_product(const nh_kernels *kernels, const nh_pieces *pieces, bool collect);
+nh_ex nh_print_quotient_product(const nh_kernels *kernels, const nh_pieces *pieces, bool collect);
 
 /* The numerator's terms, each over the denominator: for pieces that are not factored. */
-nh_ex nh_emit_terms(const nh_kernels *kernels, const nh_pieces *pieces);
+nh_ex nh_print_quotient_terms(const nh_kernels *kernels, const nh_pieces *pieces);
 
 #endif

@@ -46,7 +46,7 @@ static size_t add_root(question *q, nh_ex radicand, const nh_quotient *value, nh
     nh_grow(&k->item, &k->capacity, k->count, sizeof *k->item);
     k->item[kernel] = (nh_kernel){.kind = NH_KERNEL_ROOT, .atom = radicand, .unit = unit};
     q->constant[kernel] = true;
-    nh_field_relate(q->form.field, kernel, (unsigned)unit.q, value);
+    nh_quotient_field_relate(q->form.field, kernel, (unsigned)unit.q, value);
     return kernel;
 }
 
@@ -57,7 +57,7 @@ static const nh_quotient *root_of(question *q, const nh_quotient *value, nh_num 
     nh_pieces pieces;
     nh_arena *arena = nh_arena_create();
     bool fits = nh_pieces_make(q->form.field, arena, value, false, &pieces);
-    nh_ex radicand = fits ? nh_emit_terms(k, &pieces) : 0;
+    nh_ex radicand = fits ? nh_print_quotient_terms(k, &pieces) : 0;
     nh_arena_free(arena);
     if (!fits) return NULL;
     for (size_t i = 0; i < k->count; i++)
@@ -69,9 +69,9 @@ static const nh_quotient *root_of(question *q, const nh_quotient *value, nh_num 
 /* (A/B)^(1/n) as such or as 1/(B/A)^(1/n), whichever has no denominator; NULL when A/B is not constant. */
 static const nh_quotient *constant_root(question *q, const nh_quotient *a, const nh_quotient *b, nh_num unit)
 {
-    nh_field *field = q->form.field;
+    nh_quotient_field *field = q->form.field;
     const nh_quotient *ratio = nh_quotient_mul(field, a, nh_quotient_inv(field, b));
-    if (nh_field_state_of(field) != NH_FIELD_FINE || !constant_quotient(q, ratio)) return NULL;
+    if (nh_quotient_field_state_of(field) != NH_FIELD_FINE || !constant_quotient(q, ratio)) return NULL;
     const nh_quotient *inverse = nh_quotient_inv(field, ratio);
     bool upside_down = nh_relation_is_polynomial(field, inverse) && !nh_relation_is_polynomial(field, ratio);
     const nh_quotient *root = root_of(q, upside_down ? inverse : ratio, unit);
@@ -89,7 +89,7 @@ static bool relate_to_earlier(question *q, size_t root, const nh_quotient *radic
         if (other.unit.q != unit.q) continue;
         const nh_quotient *factor = constant_root(q, radicand, nh_form_eval(f, other.atom), unit);
         if (!factor) continue;
-        nh_field_relate(f->field, root, 1, nh_quotient_mul(f->field, factor, nh_quotient_power_of(f->field, earlier[i], 1)));
+        nh_quotient_field_relate(f->field, root, 1, nh_quotient_mul(f->field, factor, nh_quotient_power_of(f->field, earlier[i], 1)));
         return true;
     }
     return false;
@@ -100,12 +100,12 @@ static bool relate_kernel(question *q, size_t kernel, const size_t *earlier, siz
 {
     nh_form *f = &q->form;
     nh_kernel k = f->kernels.item[kernel]; /* a copy: roots may be added */
-    if (k.kind == NH_KERNEL_SIN) nh_field_relate_pair(f->field, kernel, k.partner, false);
-    if (k.kind == NH_KERNEL_ABS) nh_field_relate(f->field, kernel, 2, nh_quotient_pow(f->field, nh_form_eval(f, k.atom), 2));
+    if (k.kind == NH_KERNEL_SIN) nh_quotient_field_relate_pair(f->field, kernel, k.partner, false);
+    if (k.kind == NH_KERNEL_ABS) nh_quotient_field_relate(f->field, kernel, 2, nh_quotient_pow(f->field, nh_form_eval(f, k.atom), 2));
     if (k.kind != NH_KERNEL_ROOT) return false;
     const nh_quotient *radicand = nh_form_eval(f, k.atom);
     if (!q->constant[kernel] && relate_to_earlier(q, kernel, radicand, earlier, count)) return false;
-    nh_field_relate(f->field, kernel, (unsigned)k.unit.q, radicand);
+    nh_quotient_field_relate(f->field, kernel, (unsigned)k.unit.q, radicand);
     return !q->constant[kernel];
 }
 
@@ -134,7 +134,7 @@ static bool collect_kernels(question *q)
     nh_kernels_settle(k);
     if (k->count > most_kernels) return false;
     size_t count = k->count, roots = sort_out(q), *earlier = nh_alloc_array(roots + 1, sizeof *earlier);
-    q->form.field = nh_field_create(count + (roots ? roots - 1 : 0), q->forms.max_terms);
+    q->form.field = nh_quotient_field_create(count + (roots ? roots - 1 : 0), q->forms.max_terms);
     roots = 0;
     for (int pass = 0; pass < 2; pass++) /* constants first: the others may turn out to be multiples of their roots */
         for (size_t i = 0; i < count; i++) {
@@ -142,7 +142,7 @@ static bool collect_kernels(question *q)
             if (q->constant[kernel] == (pass == 0) && relate_kernel(q, kernel, earlier, roots)) earlier[roots++] = kernel;
         }
     nh_free(earlier);
-    return nh_field_state_of(q->form.field) == NH_FIELD_FINE;
+    return nh_quotient_field_state_of(q->form.field) == NH_FIELD_FINE;
 }
 
 /* ---- coefficients as expressions ---- */
@@ -163,9 +163,9 @@ static bool emit(question *q, const nh_quotient *value, nh_ex *out)
     const nh_kernels *k = &q->form.kernels;
     bool fits = nh_pieces_make(q->form.field, arena, value, false, &whole) && nh_pieces_make(q->form.field, arena, value, true, &factored);
     if (fits) {
-        candidate[0] = nh_emit_product(k, &factored, false);
-        candidate[1] = nh_emit_product(k, &whole, true);
-        candidate[2] = nh_emit_terms(k, &whole);
+        candidate[0] = nh_print_quotient_product(k, &factored, false);
+        candidate[1] = nh_print_quotient_product(k, &whole, true);
+        candidate[2] = nh_print_quotient_terms(k, &whole);
         *out = shortest(q->dag, 3, candidate);
     }
     nh_arena_free(arena);
@@ -195,10 +195,10 @@ static bool rewrite_all(question *q, const nh_ex *e)
 
 static bool evaluate_all(question *q)
 {
-    nh_field *field = q->form.field;
+    nh_quotient_field *field = q->form.field;
     for (size_t j = 0; j < q->n; j++) {
         q->value[j] = nh_form_eval(&q->form, q->e[j]);
-        if (nh_field_state_of(field) != NH_FIELD_FINE) return false;
+        if (nh_quotient_field_state_of(field) != NH_FIELD_FINE) return false;
     }
     return nh_relation_clear_denominators(field, q->n, q->value);
 }

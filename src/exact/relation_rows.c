@@ -19,7 +19,7 @@ enum { most_attempts = 20000 };
 
 static void read_terms(nh_relation_rows *r, size_t column)
 {
-    nh_field *f = r->system->field;
+    nh_quotient_field *f = r->system->field;
     const fmpz_mpoly_struct *p = r->system->value[column]->num;
     for (slong i = 0; i < p->length; i++) {
         uint32_t *monomial = r->exponent + r->terms * r->width;
@@ -72,7 +72,7 @@ void nh_relation_rows_clear(nh_relation_rows *rows)
 /* The terms are in the order of the polynomial, and remain so without the variables that they share. */
 const nh_quotient *nh_relation_rows_entry(const nh_relation_rows *rows, size_t row, size_t column)
 {
-    nh_field *f = rows->system->field;
+    nh_quotient_field *f = rows->system->field;
     nh_quotient *q = NULL;
     fmpz_t c;
     fmpz_init(c);
@@ -95,7 +95,7 @@ const nh_quotient *nh_relation_rows_entry(const nh_relation_rows *rows, size_t r
 
 static ulong term_residue(nh_relation_rows *r, nmod_t mod, const fmpz_mpoly_struct *p, slong i)
 {
-    nh_field *f = r->system->field;
+    nh_quotient_field *f = r->system->field;
     fmpz_t c;
     fmpz_init(c);
     fmpz_mpoly_get_term_exp_ui(f->exponent, p, i, f->ctx);
@@ -138,7 +138,7 @@ static bool modular_root(ulong a, ulong order, nmod_t mod, ulong *x)
 /* Relations hold earlier generators only. */
 static bool satisfy(nh_relation_rows *r, nmod_t mod)
 {
-    const nh_field *f = r->system->field;
+    const nh_quotient_field *f = r->system->field;
     for (size_t i = 0; i < f->relations; i++) {
         const nh_relation *x = &f->relation[i];
         if (!r->system->constant[x->generator]) continue;

@@ -11,32 +11,32 @@ static const double gcd_pairs = 1e6;
 /* ---- polynomials as quotients ---- */
 
 /* A new quotient that is still ours to change. */
-static nh_quotient *polynomial(nh_field *f, const fmpz_mpoly_t p)
+static nh_quotient *polynomial(nh_quotient_field *f, const fmpz_mpoly_t p)
 {
     nh_quotient *q = (nh_quotient *)nh_quotient_number(f, nh_num_int(0));
     fmpz_mpoly_set(q->num, p, f->ctx);
     return q;
 }
 
-bool nh_relation_is_polynomial(const nh_field *field, const nh_quotient *q) { return fmpz_mpoly_is_fmpz(q->den, field->ctx); }
+bool nh_relation_is_polynomial(const nh_quotient_field *field, const nh_quotient *q) { return fmpz_mpoly_is_fmpz(q->den, field->ctx); }
 
-static bool fine(const nh_field *f) { return nh_field_state_of(f) == NH_FIELD_FINE; }
+static bool fine(const nh_quotient_field *f) { return nh_quotient_field_state_of(f) == NH_FIELD_FINE; }
 
-static void check(nh_field *f, const fmpz_mpoly_t p)
+static void check(nh_quotient_field *f, const fmpz_mpoly_t p)
 {
-    if ((double)p->length > f->max_terms) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if ((double)p->length > f->max_terms) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
 }
 
 /* g = gcd(a, b), or 1 where that is long: what is not cancelled is still right. */
-static void gcd(nh_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
+static void gcd(nh_quotient_field *f, fmpz_mpoly_t g, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
 {
     double pairs = (double)a->length * (double)b->length;
-    if ((f->work += pairs) > f->max_work) nh_field_break(f, NH_FIELD_TOO_LARGE);
+    if ((f->work += pairs) > f->max_work) nh_quotient_field_break(f, NH_FIELD_TOO_LARGE);
     if (pairs > gcd_pairs || !fine(f) || !fmpz_mpoly_gcd(g, a, b, f->ctx)) fmpz_mpoly_one(g, f->ctx);
 }
 
 /* l = lcm of the denominators; returns whether it is 1. */
-static bool common_denominator(nh_field *f, size_t n, const nh_quotient *const *q, fmpz_mpoly_t l)
+static bool common_denominator(nh_quotient_field *f, size_t n, const nh_quotient *const *q, fmpz_mpoly_t l)
 {
     fmpz_mpoly_t g;
     fmpz_mpoly_init(g, f->ctx);
@@ -53,7 +53,7 @@ static bool common_denominator(nh_field *f, size_t n, const nh_quotient *const *
 }
 
 /* Reducing a product by r^2 = a/b brings denominators back, but only in what came before r. */
-bool nh_relation_clear_denominators(nh_field *field, size_t n, const nh_quotient **q)
+bool nh_relation_clear_denominators(nh_quotient_field *field, size_t n, const nh_quotient **q)
 {
     fmpz_mpoly_t l, factor;
     bool done = false;
@@ -68,12 +68,12 @@ bool nh_relation_clear_denominators(nh_field *field, size_t n, const nh_quotient
     }
     fmpz_mpoly_clear(l, field->ctx);
     fmpz_mpoly_clear(factor, field->ctx);
-    if (!done) nh_field_break(field, NH_FIELD_TOO_LARGE);
+    if (!done) nh_quotient_field_break(field, NH_FIELD_TOO_LARGE);
     return done && fine(field);
 }
 
 /* q without the polynomial factor that all have in common; q has no denominators. */
-static void take_common_factor(nh_field *f, size_t n, const nh_quotient **q)
+static void take_common_factor(nh_quotient_field *f, size_t n, const nh_quotient **q)
 {
     fmpz_mpoly_t g;
     fmpz_mpoly_init(g, f->ctx);
@@ -89,7 +89,7 @@ static void take_common_factor(nh_field *f, size_t n, const nh_quotient **q)
 }
 
 /* q times what makes it polynomials without common factor. */
-static bool make_primitive(nh_field *f, size_t n, const nh_quotient **q)
+static bool make_primitive(nh_quotient_field *f, size_t n, const nh_quotient **q)
 {
     if (!nh_relation_clear_denominators(f, n, q)) return false;
     take_common_factor(f, n, q);
@@ -100,7 +100,7 @@ static bool make_primitive(nh_field *f, size_t n, const nh_quotient **q)
 
 /* `rows` equations, as far as they are not used up, in n unknowns; NULL is zero. */
 typedef struct {
-    nh_field *field;
+    nh_quotient_field *field;
     size_t n, rows;
     const nh_quotient **entry;
     size_t *pivot; /* of each row that is used up, in the order of use: the first `used` */
@@ -157,7 +157,7 @@ static size_t select_column(matrix *m)
 }
 
 /* The same for a sparse vector. */
-static bool make_sparse_primitive(nh_field *f, size_t n, const nh_quotient **a)
+static bool make_sparse_primitive(nh_quotient_field *f, size_t n, const nh_quotient **a)
 {
     const nh_quotient **dense = nh_alloc_array(n, sizeof *dense);
     size_t count = 0, k = 0;
@@ -171,7 +171,7 @@ static bool make_sparse_primitive(nh_field *f, size_t n, const nh_quotient **a)
 }
 
 /* a b + c d, where NULL is zero */
-static const nh_quotient *combine(nh_field *f, const nh_quotient *a, const nh_quotient *b, const nh_quotient *c, const nh_quotient *d)
+static const nh_quotient *combine(nh_quotient_field *f, const nh_quotient *a, const nh_quotient *b, const nh_quotient *c, const nh_quotient *d)
 {
     const nh_quotient *sum = a && b ? nh_quotient_mul(f, a, b) : NULL;
     if (c && d) {
@@ -182,7 +182,7 @@ static const nh_quotient *combine(nh_field *f, const nh_quotient *a, const nh_qu
 }
 
 /* u = b/g, v = -a/g with g = gcd(a, b): a u + b v = 0 */
-static void balance(nh_field *f, const nh_quotient *a, const nh_quotient *b, const nh_quotient **u, const nh_quotient **v)
+static void balance(nh_quotient_field *f, const nh_quotient *a, const nh_quotient *b, const nh_quotient **u, const nh_quotient **v)
 {
     nh_quotient *left = polynomial(f, b->num), *right = polynomial(f, a->num);
     fmpz_mpoly_t g;
@@ -200,7 +200,7 @@ static void balance(nh_field *f, const nh_quotient *a, const nh_quotient *b, con
  * once, so that its entries never get longer than minors of the matrix. */
 static bool eliminate_next(matrix *m)
 {
-    nh_field *f = m->field;
+    nh_quotient_field *f = m->field;
     select_row(m);
     size_t p = select_column(m);
     if (p == m->n) return false;
@@ -219,7 +219,7 @@ static bool eliminate_next(matrix *m)
 /* row_p c_p = -sum_j row_j c_j from the last row to the first; the column that is no pivot begins with c = 1. */
 static bool substitute_back(matrix *m, const nh_quotient **c)
 {
-    nh_field *f = m->field;
+    nh_quotient_field *f = m->field;
     bool *pivots = nh_alloc_array(m->n, sizeof *pivots);
     for (size_t i = 0; i < m->rows; i++) pivots[m->pivot[i]] = true;
     for (size_t j = 0; j < m->n; j++) c[j] = pivots[j] ? NULL : nh_quotient_number(f, nh_num_int(1));
@@ -242,7 +242,7 @@ static bool substitute_back(matrix *m, const nh_quotient **c)
 
 /* ---- the vector for people ---- */
 
-static double length_of(const nh_field *f, size_t n, const nh_quotient *const *q)
+static double length_of(const nh_quotient_field *f, size_t n, const nh_quotient *const *q)
 {
     double length = 0;
     for (size_t j = 0; j < n; j++)
@@ -250,7 +250,7 @@ static double length_of(const nh_field *f, size_t n, const nh_quotient *const *q
     return length;
 }
 
-static bool has_relations(const nh_field *f, size_t n, const nh_quotient *const *q)
+static bool has_relations(const nh_quotient_field *f, size_t n, const nh_quotient *const *q)
 {
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < f->relations; i++)
@@ -259,7 +259,7 @@ static bool has_relations(const nh_field *f, size_t n, const nh_quotient *const 
 }
 
 /* (r, r^2) is (1, r): with roots a common factor may hide, and dividing by one after the other finds it. */
-static bool polish(nh_field *f, size_t n, const nh_quotient **c)
+static bool polish(nh_quotient_field *f, size_t n, const nh_quotient **c)
 {
     const nh_quotient **raw = nh_alloc_array(n, sizeof *raw), **trial = nh_alloc_array(n, sizeof *trial);
     memcpy(raw, c, n * sizeof *c);
@@ -306,7 +306,7 @@ bool nh_relation_solve_rows(nh_relation_rows *rows, const size_t *chosen, const 
 /* sum_j c_j N_j = 0 */
 static bool verify(const nh_relation_system *s, const nh_quotient *const *c)
 {
-    nh_field *f = s->field;
+    nh_quotient_field *f = s->field;
     const nh_quotient *sum = nh_quotient_number(f, nh_num_int(0));
     for (size_t j = 0; j < s->n && fine(f); j++)
         if (c[j]) sum = nh_quotient_add(f, sum, nh_quotient_mul(f, c[j], s->value[j]));

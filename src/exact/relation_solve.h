@@ -12,7 +12,7 @@
 
 /* What the unknowns belong to. */
 typedef struct {
-    nh_field *field;
+    nh_quotient_field *field;
     const bool *constant; /* generator -> is it a coefficient?  What a constant is related to must be constant */
     size_t n;
     const nh_quotient **value; /* N_j, without denominators */
@@ -27,9 +27,9 @@ bool nh_relation_solve_rows(struct nh_relation_rows *rows, const size_t *chosen,
 
 /* q[j] times a common factor such that there are no denominators, also none that come from relations.  False, with the
  * field broken, when that is too large. */
-bool nh_relation_clear_denominators(nh_field *field, size_t n, const nh_quotient **q);
+bool nh_relation_clear_denominators(nh_quotient_field *field, size_t n, const nh_quotient **q);
 
 /* Is there nothing but a number below the fraction bar? */
-bool nh_relation_is_polynomial(const nh_field *field, const nh_quotient *q);
+bool nh_relation_is_polynomial(const nh_quotient_field *field, const nh_quotient *q);
 
 #endif

@@ -52,7 +52,7 @@ static void values_of_kernels(problem *p)
 
 static double term_value(const problem *p, const nh_relation_term *t)
 {
-    nh_field *f = p->system.field;
+    nh_quotient_field *f = p->system.field;
     const fmpz_mpoly_struct *poly = p->system.value[t->column]->num;
     fmpz_t c;
     fmpz_init(c);
@@ -127,7 +127,7 @@ static bool is_chosen(const problem *p, const size_t *chosen, size_t row)
 /* R_i = sum_j a_ij c_j of the rows that are not chosen. */
 static size_t equations(problem *p, const size_t *chosen, const nh_quotient **c, const nh_quotient **out)
 {
-    nh_field *f = p->system.field;
+    nh_quotient_field *f = p->system.field;
     size_t count = 0;
     for (size_t i = 0; i < p->rows.rows && count < most_equations; i++) {
         if (is_chosen(p, chosen, i)) continue;
@@ -136,7 +136,7 @@ static size_t equations(problem *p, const size_t *chosen, const nh_quotient **c,
             const nh_quotient *a = nh_relation_rows_entry(&p->rows, i, j);
             if (a && c[j]) sum = nh_quotient_add(f, sum, nh_quotient_mul(f, a, c[j]));
         }
-        if (nh_field_state_of(f) != NH_FIELD_FINE) return 0;
+        if (nh_quotient_field_state_of(f) != NH_FIELD_FINE) return 0;
         if (!nh_quotient_is_zero(f, sum)) out[count++] = sum;
     }
     return count;

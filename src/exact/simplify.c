@@ -53,9 +53,9 @@ static size_t most_terms_of(const nh_pieces *p)
 
 static void offer_products(contest *c, const nh_form *form, const nh_pieces *pieces)
 {
-    offer(c, nh_emit_product(&form->kernels, pieces, false));
+    offer(c, nh_print_quotient_product(&form->kernels, pieces, false));
     /* two terms have nothing in common: it is in the monomial already */
-    if (most_terms_of(pieces) > 2) offer(c, nh_emit_product(&form->kernels, pieces, true));
+    if (most_terms_of(pieces) > 2) offer(c, nh_print_quotient_product(&form->kernels, pieces, true));
 }
 
 /* All ways to write one quotient.  Of n terms nothing shorter than n comes unless they have factors. */
@@ -73,7 +73,7 @@ static void offer_quotient(contest *c, const nh_form *form, const nh_quotient *q
     }
     if (fits && terms <= c->length) {
         if (!irreducible) offer_products(c, form, &whole);
-        offer(c, nh_emit_terms(&form->kernels, &whole));
+        offer(c, nh_print_quotient_terms(&form->kernels, &whole));
     }
     nh_arena_free(arena);
 }
@@ -84,16 +84,16 @@ static void offer_form(contest *c, nh_form *form)
     const nh_quotient *q = form->value;
     offer_quotient(c, form, q);
     const nh_quotient *rational = nh_quotient_rationalise(form->field, q);
-    if (rational != q && nh_field_state_of(form->field) == NH_FIELD_FINE) offer_quotient(c, form, rational);
-    size_t pairs = nh_quotient_terms(q) <= flip_terms ? nh_field_pairs(form->field) : 0;
+    if (rational != q && nh_quotient_field_state_of(form->field) == NH_FIELD_FINE) offer_quotient(c, form, rational);
+    size_t pairs = nh_quotient_terms(q) <= flip_terms ? nh_quotient_field_pairs(form->field) : 0;
     for (size_t i = 0; i < pairs && i < most_flips && !nh_is_zero(c->dag, c->best); i++) {
         size_t before = c->length;
-        nh_field_flip_pair(form->field, i);
+        nh_quotient_field_flip_pair(form->field, i);
         const nh_quotient *flipped = nh_quotient_again(form->field, q);
-        if (nh_field_state_of(form->field) != NH_FIELD_FINE) return;
+        if (nh_quotient_field_state_of(form->field) != NH_FIELD_FINE) return;
         offer_quotient(c, form, flipped);
         if (c->length < before) q = flipped;
-        else nh_field_flip_pair(form->field, i);
+        else nh_quotient_field_flip_pair(form->field, i);
     }
 }
 

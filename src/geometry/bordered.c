@@ -71,7 +71,7 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     return b;
 }
 
-void nh_bordered_hasten(nh_bordered *b, double patience) { nh_tape_hasten(b->work, patience); }
+void nh_bordered_jit(nh_bordered *b, double patience) { nh_tape_jit(b->work, patience); }
 const char *nh_bordered_words(const nh_bordered *b) { return nh_tape_words(b->work); }
 
 void nh_bordered_free(nh_bordered *b)

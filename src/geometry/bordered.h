@@ -16,8 +16,8 @@
 typedef struct nh_bordered nh_bordered;
 nh_bordered *nh_bordered_create(const nh_model *model);
 void nh_bordered_free(nh_bordered *bordered);
-/* Long motions pass to machine code (nh_tape_hasten); the words say whether they have, NULL: nothing was tried. */
-void nh_bordered_hasten(nh_bordered *bordered, double patience);
+/* Long motions pass to machine code (nh_tape_jit); the words say whether they have, NULL: nothing was tried. */
+void nh_bordered_jit(nh_bordered *bordered, double patience);
 const char *nh_bordered_words(const nh_bordered *bordered);
 size_t nh_bordered_coordinates(const nh_bordered *bordered); /* m */
 size_t nh_bordered_constraints(const nh_bordered *bordered); /* k */

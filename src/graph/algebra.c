@@ -5,19 +5,19 @@
 #include "graph/term_list.h"
 #include "graph/dag_internal.h"
 
-void nh_bag_push(nh_bag *b, nh_bag_item x)
+void nh_term_list_push(nh_term_list *b, nh_term_list_item x)
 {
     nh_grow(&b->list, &b->capacity, b->count + 1, sizeof *b->list);
     b->list[b->count++] = x;
 }
 
-int nh_bag_order(const void *a, const void *b)
+int nh_term_list_order(const void *a, const void *b)
 {
-    nh_ex x = ((const nh_bag_item *)a)->e, y = ((const nh_bag_item *)b)->e;
+    nh_ex x = ((const nh_term_list_item *)a)->e, y = ((const nh_term_list_item *)b)->e;
     return x < y ? -1 : x > y;
 }
 
-nh_ex nh_bag_intern(nh_dag *dag, nh_kind kind, const nh_bag *b)
+nh_ex nh_term_list_intern(nh_dag *dag, nh_kind kind, const nh_term_list *b)
 {
     size_t n = 1 + 2 * b->count;
     uint32_t small[33], *arg = n <= 33 ? small : nh_alloc_array(n, sizeof *arg);
@@ -31,7 +31,7 @@ nh_ex nh_bag_intern(nh_dag *dag, nh_kind kind, const nh_bag *b)
     return e;
 }
 
-static void gather_terms(nh_dag *dag, nh_bag *b, nh_ex e, nh_num scale)
+static void gather_terms(nh_dag *dag, nh_term_list *b, nh_ex e, nh_num scale)
 {
     nh_kind kind = nh_kind_of(dag, e);
     if (kind == NH_NUMBER) {
@@ -39,20 +39,20 @@ static void gather_terms(nh_dag *dag, nh_bag *b, nh_ex e, nh_num scale)
     } else if (kind == NH_SUM) {
         b->c = nh_num_add(b->c, nh_num_mul(scale, nh_constant_of(dag, e)));
         for (size_t i = 0; i < nh_arity(dag, e); i++)
-            nh_bag_push(b, (nh_bag_item){.e = nh_child(dag, e, i), .c = nh_num_mul(scale, nh_coefficient_of(dag, e, i))});
+            nh_term_list_push(b, (nh_term_list_item){.e = nh_child(dag, e, i), .c = nh_num_mul(scale, nh_coefficient_of(dag, e, i))});
     } else if (kind == NH_PRODUCT) {
         nh_num c = nh_num_mul(scale, nh_constant_of(dag, e));
         nh_ex rest = nh_product_without_number(dag, e);
         if (nh_kind_of(dag, rest) == NH_SUM) gather_terms(dag, b, rest, c);
-        else nh_bag_push(b, (nh_bag_item){.e = rest, .c = c});
+        else nh_term_list_push(b, (nh_term_list_item){.e = rest, .c = c});
     } else {
-        nh_bag_push(b, (nh_bag_item){.e = e, .c = scale});
+        nh_term_list_push(b, (nh_term_list_item){.e = e, .c = scale});
     }
 }
 
 /* The number by which the sum is divided to have content 1 and a positive first coefficient; where a coefficient is
  * or would become inexact, only the sign. */
-static nh_num content_of(const nh_bag *b)
+static nh_num content_of(const nh_term_list *b)
 {
     nh_num sign = nh_num_int(nh_num_value(b->list[0].c) < 0 ? -1 : 1);
     int64_t p = 0, q = 1;
@@ -76,12 +76,12 @@ static nh_ex times_number(nh_dag *dag, nh_num c, nh_ex e)
     return nh_mul(dag, nh_number(dag, c), e);
 }
 
-static nh_ex build_sum(nh_dag *dag, nh_bag *b)
+static nh_ex build_sum(nh_dag *dag, nh_term_list *b)
 {
-    if (b->count) qsort(b->list, b->count, sizeof *b->list, nh_bag_order);
+    if (b->count) qsort(b->list, b->count, sizeof *b->list, nh_term_list_order);
     size_t n = 0;
     for (size_t i = 0; i < b->count;) {
-        nh_bag_item x = b->list[i++];
+        nh_term_list_item x = b->list[i++];
         while (i < b->count && b->list[i].e == x.e) x.c = nh_num_add(x.c, b->list[i++].c);
         if (!nh_num_is(x.c, 0)) b->list[n++] = x;
     }
@@ -93,18 +93,18 @@ static nh_ex build_sum(nh_dag *dag, nh_bag *b)
         b->c = nh_num_mul(b->c, inverse);
         for (size_t i = 0; i < n; i++) b->list[i].c = nh_num_mul(b->list[i].c, inverse);
     }
-    nh_ex sum = nh_bag_intern(dag, NH_SUM, b);
+    nh_ex sum = nh_term_list_intern(dag, NH_SUM, b);
     if (nh_num_is(content, 1)) return sum;
-    nh_bag product = {.c = content};
-    nh_bag_push(&product, (nh_bag_item){.e = sum, .x = nh_int(dag, 1)});
-    nh_ex e = nh_bag_intern(dag, NH_PRODUCT, &product);
+    nh_term_list product = {.c = content};
+    nh_term_list_push(&product, (nh_term_list_item){.e = sum, .x = nh_int(dag, 1)});
+    nh_ex e = nh_term_list_intern(dag, NH_PRODUCT, &product);
     nh_free(product.list);
     return e;
 }
 
 nh_ex nh_linear(nh_dag *dag, size_t n, const nh_num *coefficient, const nh_ex *term)
 {
-    nh_bag b = {.c = nh_num_int(0)};
+    nh_term_list b = {.c = nh_num_int(0)};
     for (size_t i = 0; i < n; i++)
         if (!nh_num_is(coefficient[i], 0)) gather_terms(dag, &b, term[i], coefficient[i]);
     nh_ex e = build_sum(dag, &b);

@@ -16,10 +16,10 @@ nh_ex nh_product_without_number(nh_dag *dag, nh_ex e)
 {
     if (nh_arity(dag, e) == 1 && nh_is_number(dag, nh_exponent_of(dag, e, 0), 1)) return nh_child(dag, e, 0);
     if (nh_num_is(nh_constant_of(dag, e), 1)) return e;
-    nh_bag b = {.c = nh_num_int(1)};
+    nh_term_list b = {.c = nh_num_int(1)};
     for (size_t i = 0; i < nh_arity(dag, e); i++)
-        nh_bag_push(&b, (nh_bag_item){.e = nh_child(dag, e, i), .x = nh_exponent_of(dag, e, i)});
-    nh_ex result = nh_bag_intern(dag, NH_PRODUCT, &b);
+        nh_term_list_push(&b, (nh_term_list_item){.e = nh_child(dag, e, i), .x = nh_exponent_of(dag, e, i)});
+    nh_ex result = nh_term_list_intern(dag, NH_PRODUCT, &b);
     nh_free(b.list);
     return result;
 }
@@ -34,7 +34,7 @@ static bool is_abs(const nh_dag *dag, nh_ex e)
     return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_ABS;
 }
 
-static void gather_factors(nh_dag *dag, nh_bag *b, nh_ex e)
+static void gather_factors(nh_dag *dag, nh_term_list *b, nh_ex e)
 {
     nh_kind kind = nh_kind_of(dag, e);
     if (kind == NH_NUMBER) {
@@ -42,18 +42,18 @@ static void gather_factors(nh_dag *dag, nh_bag *b, nh_ex e)
     } else if (kind == NH_PRODUCT) {
         b->c = nh_num_mul(b->c, nh_constant_of(dag, e));
         for (size_t i = 0; i < nh_arity(dag, e); i++)
-            nh_bag_push(b, (nh_bag_item){.e = nh_child(dag, e, i), .x = nh_exponent_of(dag, e, i)});
+            nh_term_list_push(b, (nh_term_list_item){.e = nh_child(dag, e, i), .x = nh_exponent_of(dag, e, i)});
     } else {
-        nh_bag_push(b, (nh_bag_item){.e = e, .x = nh_int(dag, 1)});
+        nh_term_list_push(b, (nh_term_list_item){.e = e, .x = nh_int(dag, 1)});
     }
 }
 
-static void merge_factors(nh_dag *dag, nh_bag *b)
+static void merge_factors(nh_dag *dag, nh_term_list *b)
 {
-    if (b->count) qsort(b->list, b->count, sizeof *b->list, nh_bag_order);
+    if (b->count) qsort(b->list, b->count, sizeof *b->list, nh_term_list_order);
     size_t n = 0;
     for (size_t i = 0; i < b->count;) {
-        nh_bag_item x = b->list[i++];
+        nh_term_list_item x = b->list[i++];
         for (; i < b->count && b->list[i].e == x.e; i++) x.x = nh_add(dag, x.x, b->list[i].x);
         if (!nh_is_zero(dag, x.x)) b->list[n++] = x;
     }
@@ -90,7 +90,7 @@ static int64_t prime_in(int64_t n, int64_t *times)
 static int64_t floor_of(nh_num x) { return x.p / x.q - (x.p % x.q < 0); }
 
 /* n^x, as whole powers and roots of primes. */
-static void push_roots(nh_dag *dag, nh_bag *b, int64_t n, nh_num x)
+static void push_roots(nh_dag *dag, nh_term_list *b, int64_t n, nh_num x)
 {
     while (n > 1) {
         int64_t times, prime = prime_in(n, &times);
@@ -98,12 +98,12 @@ static void push_roots(nh_dag *dag, nh_bag *b, int64_t n, nh_num x)
         nh_num y = nh_num_mul(x, nh_num_int(times)), whole = nh_num_short(y) ? nh_num_int(floor_of(y)) : nh_num_int(0);
         b->c = nh_num_mul(b->c, nh_num_pow(nh_num_int(prime), whole.p));
         nh_num part = nh_num_add(y, nh_num_int(-whole.p));
-        if (!nh_num_is(part, 0)) nh_bag_push(b, (nh_bag_item){.e = nh_int(dag, prime), .x = nh_number(dag, part)});
+        if (!nh_num_is(part, 0)) nh_term_list_push(b, (nh_term_list_item){.e = nh_int(dag, prime), .x = nh_number(dag, part)});
     }
 }
 
 /* A power of numbers into the coefficient and roots of primes; false if it must stay as it is. */
-static bool split_number(nh_dag *dag, nh_bag *b, nh_bag_item power)
+static bool split_number(nh_dag *dag, nh_term_list *b, nh_term_list_item power)
 {
     if (nh_kind_of(dag, power.e) != NH_NUMBER || nh_kind_of(dag, power.x) != NH_NUMBER) return false;
     nh_num n = nh_number_of(dag, power.e), x = nh_number_of(dag, power.x);
@@ -156,11 +156,11 @@ static int64_t steps_in(const nh_dag *dag, nh_ex x, int64_t s)
 }
 
 /* Whole steps of the exponents go to the atoms; true when that changed something. */
-static bool expand_factors(nh_dag *dag, nh_bag *b)
+static bool expand_factors(nh_dag *dag, nh_term_list *b)
 {
     bool changed = false;
     for (size_t i = 0, n = b->count; i < n; i++) {
-        nh_bag_item x = b->list[i];
+        nh_term_list_item x = b->list[i];
         if (split_number(dag, b, x)) {
             b->list[i].x = nh_int(dag, 0);
             changed = true;
@@ -175,7 +175,7 @@ static bool expand_factors(nh_dag *dag, nh_bag *b)
     return changed;
 }
 
-static nh_bag_item *find_factor(const nh_bag *b, nh_ex base)
+static nh_term_list_item *find_factor(const nh_term_list *b, nh_ex base)
 {
     for (size_t i = 0; i < b->count; i++)
         if (b->list[i].e == base) return &b->list[i];
@@ -183,10 +183,10 @@ static nh_bag_item *find_factor(const nh_bag *b, nh_ex base)
 }
 
 /* Are all factors of the relation r divided out at least once? */
-static bool all_below(const nh_dag *dag, const nh_bag *b, const nh_bag *r)
+static bool all_below(const nh_dag *dag, const nh_term_list *b, const nh_term_list *r)
 {
     for (size_t i = 0; i < r->count; i++) {
-        const nh_bag_item *f = find_factor(b, r->list[i].e);
+        const nh_term_list_item *f = find_factor(b, r->list[i].e);
         if (!f || nh_kind_of(dag, f->x) != NH_NUMBER || nh_kind_of(dag, r->list[i].x) != NH_NUMBER) return false;
         double ratio = nh_num_value(nh_number_of(dag, f->x)) / nh_num_value(nh_number_of(dag, r->list[i].x));
         if (!(ratio <= -1)) return false;
@@ -195,20 +195,20 @@ static bool all_below(const nh_dag *dag, const nh_bag *b, const nh_bag *r)
 }
 
 /* 1/sqrt(x y) rather than sqrt(x y)/(x y), 1/|x| rather than |x|/x^2. */
-static void take_back(nh_dag *dag, nh_bag *b)
+static void take_back(nh_dag *dag, nh_term_list *b)
 {
     bool changed = false;
     for (size_t i = 0; i < b->count; i++) {
         nh_ex base = b->list[i].e;
         int64_t step = step_of(dag, base);
         if (step == 0 || nh_kind_of(dag, base) == NH_NUMBER) continue;
-        nh_bag r = {.c = nh_num_int(1)};
+        nh_term_list r = {.c = nh_num_int(1)};
         gather_factors(dag, &r, relation_of(dag, base));
         if (all_below(dag, b, &r)) {
             b->c = nh_num_mul(b->c, r.c);
             b->list[i].x = nh_add(dag, b->list[i].x, nh_int(dag, -step));
             for (size_t j = 0; j < r.count; j++) {
-                nh_bag_item *f = find_factor(b, r.list[j].e);
+                nh_term_list_item *f = find_factor(b, r.list[j].e);
                 f->x = nh_add(dag, f->x, r.list[j].x);
             }
             changed = true;
@@ -218,7 +218,7 @@ static void take_back(nh_dag *dag, nh_bag *b)
     if (changed) merge_factors(dag, b);
 }
 
-static nh_ex build_product(nh_dag *dag, nh_bag *b)
+static nh_ex build_product(nh_dag *dag, nh_term_list *b)
 {
     do merge_factors(dag, b);
     while (expand_factors(dag, b));
@@ -226,12 +226,12 @@ static nh_ex build_product(nh_dag *dag, nh_bag *b)
     take_back(dag, b);
     if (b->count == 0) return nh_number(dag, b->c);
     if (b->count == 1 && nh_num_is(b->c, 1) && nh_is_number(dag, b->list[0].x, 1)) return b->list[0].e;
-    return nh_bag_intern(dag, NH_PRODUCT, b);
+    return nh_term_list_intern(dag, NH_PRODUCT, b);
 }
 
 nh_ex nh_product(nh_dag *dag, size_t n, const nh_ex *factor)
 {
-    nh_bag b = {.c = nh_num_int(1)};
+    nh_term_list b = {.c = nh_num_int(1)};
     for (size_t i = 0; i < n; i++) gather_factors(dag, &b, factor[i]);
     nh_ex e = build_product(dag, &b);
     nh_free(b.list);
@@ -250,19 +250,19 @@ nh_ex nh_div(nh_dag *dag, nh_ex a, nh_ex b) { return nh_mul(dag, a, nh_powi(dag,
 /* ---- powers ---- */
 
 /* (c prod b^x)^n: for a whole n factor by factor; for others only |c| comes out. */
-static void push_power(nh_dag *dag, nh_bag *b, nh_ex base, nh_ex n)
+static void push_power(nh_dag *dag, nh_term_list *b, nh_ex base, nh_ex n)
 {
     nh_num c = nh_constant_of(dag, base);
     if (is_integer(dag, n)) {
         b->c = nh_num_pow(c, nh_number_of(dag, n).p);
         for (size_t i = 0; i < nh_arity(dag, base); i++)
-            nh_bag_push(b, (nh_bag_item){.e = nh_child(dag, base, i), .x = nh_mul(dag, nh_exponent_of(dag, base, i), n)});
+            nh_term_list_push(b, (nh_term_list_item){.e = nh_child(dag, base, i), .x = nh_mul(dag, nh_exponent_of(dag, base, i), n)});
         return;
     }
     bool minus = nh_num_value(c) < 0;
     nh_ex size = nh_number(dag, minus ? nh_num_mul(c, nh_num_int(-1)) : c), rest = nh_product_without_number(dag, base);
-    if (!nh_is_number(dag, size, 1)) nh_bag_push(b, (nh_bag_item){.e = size, .x = n});
-    nh_bag_push(b, (nh_bag_item){.e = minus ? nh_neg(dag, rest) : rest, .x = n});
+    if (!nh_is_number(dag, size, 1)) nh_term_list_push(b, (nh_term_list_item){.e = size, .x = n});
+    nh_term_list_push(b, (nh_term_list_item){.e = minus ? nh_neg(dag, rest) : rest, .x = n});
 }
 
 nh_ex nh_pow(nh_dag *dag, nh_ex base, nh_ex exponent)
@@ -271,9 +271,9 @@ nh_ex nh_pow(nh_dag *dag, nh_ex base, nh_ex exponent)
     if (nh_is_number(dag, exponent, 1)) return base;
     bool numeric = nh_kind_of(dag, exponent) == NH_NUMBER;
     if (nh_is_zero(dag, base) && numeric) return nh_num_value(nh_number_of(dag, exponent)) > 0 ? base : nh_real(dag, NAN);
-    nh_bag b = {.c = nh_num_int(1)};
+    nh_term_list b = {.c = nh_num_int(1)};
     if (nh_kind_of(dag, base) == NH_PRODUCT) push_power(dag, &b, base, exponent);
-    else nh_bag_push(&b, (nh_bag_item){.e = base, .x = exponent});
+    else nh_term_list_push(&b, (nh_term_list_item){.e = base, .x = exponent});
     nh_ex e = build_product(dag, &b);
     nh_free(b.list);
     return e;

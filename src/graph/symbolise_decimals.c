@@ -48,7 +48,7 @@ static nh_ex lift(nh_dag *d, nh_ex e, nh_lifted *table, nh_ex *image, bool *done
     return image[e] = out;
 }
 
-nh_ex nh_lift(nh_dag *d, nh_ex e, nh_lifted *table)
+nh_ex nh_symbolise_decimals(nh_dag *d, nh_ex e, nh_lifted *table)
 {
     nh_ex *image = nh_alloc_array((size_t)e + 1, sizeof *image);
     bool *done = nh_alloc_array((size_t)e + 1, sizeof *done);
@@ -62,7 +62,7 @@ nh_ex nh_lift(nh_dag *d, nh_ex e, nh_lifted *table)
 
 typedef struct {
     nh_dag *dag;
-    nh_lift_kind kind;
+    nh_symbolise_decimals_kind kind;
     size_t constants;
     const nh_ex *constant;
     nh_lifted *table;
@@ -70,8 +70,8 @@ typedef struct {
 
 static nh_ex factor(const inside *s, double value, nh_ex exact, bool exponent)
 {
-    double step = s->kind == NH_LIFT_ROUGH ? 2 : 1;
-    bool meant = (s->kind == NH_LIFT_ALL && !exponent) || step * value != round(step * value);
+    double step = s->kind == NH_SYMBOLISE_DECIMALS_ROUGH ? 2 : 1;
+    bool meant = (s->kind == NH_SYMBOLISE_DECIMALS_ALL && !exponent) || step * value != round(step * value);
     return meant && value != 0 && isfinite(value) ? symbol_of(s->dag, value, exact, s->table) : exact;
 }
 
@@ -159,7 +159,7 @@ static nh_ex lift_inside(const inside *s, nh_ex e)
     return out;
 }
 
-nh_ex nh_lift_inside(nh_dag *d, nh_ex e, nh_lift_kind kind, size_t constants, const nh_ex *constant, nh_lifted *table)
+nh_ex nh_symbolise_decimals_inside(nh_dag *d, nh_ex e, nh_symbolise_decimals_kind kind, size_t constants, const nh_ex *constant, nh_lifted *table)
 {
     inside s = {.dag = d, .kind = kind, .constants = constants, .constant = constant, .table = table};
     return lift_inside(&s, e);

@@ -15,18 +15,18 @@ typedef struct {
 } nh_lifted;
 
 /* e with every inexact number (constant, coefficient, exponent) replaced by its symbol in the table, which grows. */
-nh_ex nh_lift(nh_dag *dag, nh_ex e, nh_lifted *table);
+nh_ex nh_symbolise_decimals(nh_dag *dag, nh_ex e, nh_lifted *table);
 
 /* Which numbers inside of functions and exponents are meant. */
 typedef enum {
-    NH_LIFT_ROUGH,     /* neither whole nor half: 0.7 in cos(0.7 t), not in x^(1/2) */
-    NH_LIFT_FRACTIONS, /* all that are not whole */
-    NH_LIFT_ALL        /* all factors in arguments, 1 too: cos(t) as cos(x t) */
-} nh_lift_kind;
+    NH_SYMBOLISE_DECIMALS_ROUGH,     /* neither whole nor half: 0.7 in cos(0.7 t), not in x^(1/2) */
+    NH_SYMBOLISE_DECIMALS_FRACTIONS, /* all that are not whole */
+    NH_SYMBOLISE_DECIMALS_ALL        /* all factors in arguments, 1 too: cos(t) as cos(x t) */
+} nh_symbolise_decimals_kind;
 
 /* e with symbols for the numbers that are factors in arguments of exp, sin and the like (rationals and their roots), and
  * for exponents; what depends on the `constant` symbols alone stays. */
-nh_ex nh_lift_inside(nh_dag *dag, nh_ex e, nh_lift_kind kind, size_t constants, const nh_ex *constant,
+nh_ex nh_symbolise_decimals_inside(nh_dag *dag, nh_ex e, nh_symbolise_decimals_kind kind, size_t constants, const nh_ex *constant,
                      nh_lifted *table);
 
 #endif

@@ -8,20 +8,20 @@ typedef struct {
     nh_ex e;       /* term of a sum, base of a product */
     nh_num c;      /* coefficient (sums) */
     nh_ex x;       /* exponent (products) */
-} nh_bag_item;
+} nh_term_list_item;
 
 /* The caller frees list. */
 typedef struct {
     nh_num c; /* constant of a sum, coefficient of a product */
-    nh_bag_item *list;
+    nh_term_list_item *list;
     size_t count, capacity;
-} nh_bag;
+} nh_term_list;
 
-void nh_bag_push(nh_bag *bag, nh_bag_item item);
+void nh_term_list_push(nh_term_list *bag, nh_term_list_item item);
 /* For qsort: equal expressions side by side. */
-int nh_bag_order(const void *a, const void *b);
+int nh_term_list_order(const void *a, const void *b);
 /* The node: NH_SUM or NH_PRODUCT; the items are in order, each expression once. */
-nh_ex nh_bag_intern(nh_dag *dag, nh_kind kind, const nh_bag *bag);
+nh_ex nh_term_list_intern(nh_dag *dag, nh_kind kind, const nh_term_list *bag);
 
 /* The product without its coefficient. */
 nh_ex nh_product_without_number(nh_dag *dag, nh_ex product);

@@ -20,11 +20,11 @@ static uint32_t coordinates_in(const nh_jet_equations *x, nh_ex e)
 }
 
 /* A power that cannot be evaluated is left out. */
-static void put_power(nh_closed_words *w, nh_closed_letter *l, nh_ex e, double price)
+static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_ex e, double price)
 {
     nh_jet_equations *x = w->equations;
     if (price > w->most + tiny) return;
-    nh_closed_power p = {.shown = e, .value = e, .price = price, .coordinates = coordinates_in(x, e)};
+    nh_known_motions_power p = {.shown = e, .value = e, .price = price, .coordinates = coordinates_in(x, e)};
     size_t kernels = x->point->kernels;
     if (!nh_jet_equations_take(x, true, &p.value)) {
         x->obstacle = x->point->obstacle = NULL;
@@ -38,7 +38,7 @@ static void put_power(nh_closed_words *w, nh_closed_letter *l, nh_ex e, double p
 }
 
 /* Exponents k/root; downwards an exponent costs its part of the lowest that the system has. */
-static void put_powers(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
+static void put_powers(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
     double root = (double)a->root, down = a->down;
@@ -48,7 +48,7 @@ static void put_powers(nh_closed_words *w, nh_closed_letter *l, const nh_letter 
         put_power(w, l, nh_pow(d, a->base, nh_ratio(d, -k, a->root)), (double)k / root / down);
 }
 
-static void put_exponentials(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
+static void put_exponentials(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
     for (int64_t k = 1; (double)k <= w->most; k++) {
@@ -58,7 +58,7 @@ static void put_exponentials(nh_closed_words *w, nh_closed_letter *l, const nh_l
 }
 
 /* cos^i sin^j without those that sin^2 + cos^2 = 1 makes of others: of the products of negative powers, 1/(cos sin) alone. */
-static void put_circle(nh_closed_words *w, nh_closed_letter *l, const nh_letter *a)
+static void put_circle(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
     nh_ex c = nh_call(d, NH_COS, a->base), s = nh_call(d, NH_SIN, a->base);
@@ -71,11 +71,11 @@ static void put_circle(nh_closed_words *w, nh_closed_letter *l, const nh_letter 
         }
 }
 
-static void put_letter(nh_closed_words *w, const nh_letter *a)
+static void put_letter(nh_known_motions_words *w, const nh_letter *a)
 {
     nh_grow(&w->letter, &w->capacity, w->letters + 1, sizeof *w->letter);
-    nh_closed_letter *l = &w->letter[w->letters];
-    *l = (nh_closed_letter){0};
+    nh_known_motions_letter *l = &w->letter[w->letters];
+    *l = (nh_known_motions_letter){0};
     put_power(w, l, nh_int(w->equations->dag, 1), 0);
     if (a->kind == NH_LETTER_CIRCLE) put_circle(w, l, a);
     else if (a->kind == NH_LETTER_EXPONENTIAL) put_exponentials(w, l, a);
@@ -87,7 +87,7 @@ static void put_letter(nh_closed_words *w, const nh_letter *a)
 /* ---- words ---- */
 
 /* All choices whose prices do not exceed the largest, counted, and written where there is room. */
-static size_t choices(const nh_closed_words *w, size_t most, uint16_t *choice, double *price)
+static size_t choices(const nh_known_motions_words *w, size_t most, uint16_t *choice, double *price)
 {
     size_t count = 0, *at = nh_alloc_array(w->letters + 1, sizeof *at);
     double sum = 0;
@@ -99,7 +99,7 @@ static size_t choices(const nh_closed_words *w, size_t most, uint16_t *choice, d
         count++;
         size_t i = 0;
         for (; i < w->letters; i++) {
-            const nh_closed_letter *l = &w->letter[i];
+            const nh_known_motions_letter *l = &w->letter[i];
             double now = l->power[at[i]].price;
             if (at[i] + 1 < l->powers && sum - now + l->power[at[i] + 1].price <= w->most + tiny) {
                 sum += l->power[++at[i]].price - now;
@@ -127,7 +127,7 @@ static int by_price(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
-static void sort(nh_closed_words *w)
+static void sort(nh_known_motions_words *w)
 {
     size_t n = w->letters;
     rank *order = nh_alloc_array(w->words + 1, sizeof *order);
@@ -149,16 +149,16 @@ static void sort(nh_closed_words *w)
     w->price = price;
 }
 
-nh_closed_words *nh_closed_words_create(nh_jet_equations *x, double price, size_t most_words)
+nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, double price, size_t most_words)
 {
-    nh_closed_words *w = nh_alloc(sizeof *w);
-    *w = (nh_closed_words){.equations = x, .most = price};
+    nh_known_motions_words *w = nh_alloc(sizeof *w);
+    *w = (nh_known_motions_words){.equations = x, .most = price};
     nh_letters letters = nh_letters_of(x);
     for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
     nh_free(letters.item);
     w->words = choices(w, most_words, NULL, NULL);
     if (w->words > most_words) {
-        nh_closed_words_free(w);
+        nh_known_motions_words_free(w);
         return NULL;
     }
     w->choice = nh_alloc_array(w->words * w->letters + 1, sizeof *w->choice);
@@ -168,7 +168,7 @@ nh_closed_words *nh_closed_words_create(nh_jet_equations *x, double price, size_
     return w;
 }
 
-void nh_closed_words_free(nh_closed_words *w)
+void nh_known_motions_words_free(nh_known_motions_words *w)
 {
     if (!w) return;
     for (size_t i = 0; i < w->letters; i++) nh_free(w->letter[i].power);
@@ -178,14 +178,14 @@ void nh_closed_words_free(nh_closed_words *w)
     nh_free(w);
 }
 
-uint32_t nh_closed_word_coordinates(const nh_closed_words *w, size_t word)
+uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *w, size_t word)
 {
     uint32_t mask = 0;
     for (size_t i = 0; i < w->letters; i++) mask |= w->letter[i].power[w->choice[word * w->letters + i]].coordinates;
     return mask;
 }
 
-nh_ex nh_closed_word(const nh_closed_words *w, size_t word)
+nh_ex nh_known_motions_word(const nh_known_motions_words *w, size_t word)
 {
     nh_dag *d = w->equations->dag;
     nh_ex e = nh_int(d, 1);
@@ -196,18 +196,18 @@ nh_ex nh_closed_word(const nh_closed_words *w, size_t word)
 /* ---- values ---- */
 
 /* Series of every power of every letter; series[i]: of letter i, one after another. */
-static bool powers(const nh_closed_words *w, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue **series)
+static bool powers(const nh_known_motions_words *w, nh_jet_eval *v, const nh_jet_ring *ring, nh_residue **series)
 {
     bool good = true;
     for (size_t i = 0; i < w->letters && good; i++) {
-        const nh_closed_letter *l = &w->letter[i];
+        const nh_known_motions_letter *l = &w->letter[i];
         series[i] = nh_alloc_array(l->powers * ring->size, sizeof **series);
         for (size_t k = 0; k < l->powers && good; k++) good = nh_jet_eval_all(v, 1, &l->power[k].value, series[i] + k * ring->size);
     }
     return good;
 }
 
-bool nh_closed_words_evaluate(const nh_closed_words *w, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out, double *work)
+bool nh_known_motions_words_evaluate(const nh_known_motions_words *w, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out, double *work)
 {
     nh_residue **series = nh_alloc_array(w->letters + 1, sizeof *series), *both = nh_alloc_array(ring->size, sizeof *both);
     nh_jet_eval *v = nh_jet_equations_eval(w->equations, ring, coordinate);

@@ -20,32 +20,32 @@ typedef struct {
     nh_ex shown, value;   /* with parameters as symbols; as it is evaluated */
     double price;
     uint32_t coordinates; /* on which it depends: a bit each */
-} nh_closed_power;
+} nh_known_motions_power;
 
 typedef struct {
     size_t powers, capacity;
-    nh_closed_power *power; /* cheapest first; the first is 1 */
-} nh_closed_letter;
+    nh_known_motions_power *power; /* cheapest first; the first is 1 */
+} nh_known_motions_letter;
 
 typedef struct {
     nh_jet_equations *equations;
     double most;          /* the largest price */
     size_t letters, capacity;
-    nh_closed_letter *letter;
+    nh_known_motions_letter *letter;
     size_t words;
     uint16_t *choice;     /* words x letters: which power of each */
     double *price;        /* per word */
-} nh_closed_words;
+} nh_known_motions_words;
 
 /* Words up to a price.  All letters are registered for evaluation: choose a point afterwards.  NULL: there would be more words than `most_words`. */
-nh_closed_words *nh_closed_words_create(nh_jet_equations *equations, double price, size_t most_words);
-void nh_closed_words_free(nh_closed_words *words);
+nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words);
+void nh_known_motions_words_free(nh_known_motions_words *words);
 
 /* The coordinates that a word depends on, and the word with parameters as symbols. */
-uint32_t nh_closed_word_coordinates(const nh_closed_words *words, size_t word);
-nh_ex nh_closed_word(const nh_closed_words *words, size_t word);
+uint32_t nh_known_motions_word_coordinates(const nh_known_motions_words *words, size_t word);
+nh_ex nh_known_motions_word(const nh_known_motions_words *words, size_t word);
 
 /* Series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */
-bool nh_closed_words_evaluate(const nh_closed_words *words, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out, double *work);
+bool nh_known_motions_words_evaluate(const nh_known_motions_words *words, const nh_jet_ring *ring, const nh_residue *coordinate, nh_residue *out, double *work);
 
 #endif

@@ -13,7 +13,7 @@ enum { spare = 24, spare_few = 2, beyond_degree = 4, most_order = 120, most_poin
 /* One attempt: a point, the words and the solutions as series there. */
 typedef struct {
     nh_counter *counter;
-    nh_closed_words *words;
+    nh_known_motions_words *words;
     nh_count_series *series;
     nh_residue *word;        /* words x size */
     nh_prime field;
@@ -92,7 +92,7 @@ static bool are_scarce(const attempt *a, size_t order, size_t words, const size_
         size_t variables = 0, among = 0, room;
         for (size_t k = 0; k < m; k++)
             if (set >> k & 1) own[variables++] = weight[k];
-        for (size_t k = 0; k < words; k++) among += !(nh_closed_word_coordinates(a->words, word ? word[k] : k) & ~set);
+        for (size_t k = 0; k < words; k++) among += !(nh_known_motions_word_coordinates(a->words, word ? word[k] : k) & ~set);
         room = nh_jet_ring_size(variables, variables == m ? f->weight : own, order, most_coefficients);
         good = among + (variables < m ? spare_few : spare) <= room;
     }
@@ -211,7 +211,7 @@ static void add_constructed(nh_construction *out, const attempt *a, const nh_gra
     *c = (nh_constructed){.term = nh_arena_alloc(out->arena, terms * sizeof *c->term)};
     for (size_t j = 0; j < terms; j++) {
         if (!nmod_mat_entry(r->row, i, j)) continue;
-        nh_ex e = nh_closed_word(a->words, a->chosen[r->order[j] % a->kept]);
+        nh_ex e = nh_known_motions_word(a->words, a->chosen[r->order[j] % a->kept]);
         for (size_t l = 0; l < x->n; l++) e = nh_mul(x->dag, e, nh_powi(x->dag, x->w[l], g->alpha[r->order[j] / a->kept * x->n + l]));
         c->term[c->terms++] = e;
     }
@@ -325,7 +325,7 @@ static outcome attempt_at(nh_construction *out, attempt *a, size_t degree)
     double least = (double)a->words->words * ((double)a->series->ring->pairs[a->size] + (double)a->words->words * (double)a->size / 2);
     if (c->work + least > c->q->work) return TOO_MUCH;
     a->word = nh_alloc_array(a->words->words * a->size, sizeof *a->word);
-    if (!nh_closed_words_evaluate(a->words, a->series->ring, a->series->coordinate, a->word, &c->work)) return UNLUCKY;
+    if (!nh_known_motions_words_evaluate(a->words, a->series->ring, a->series->coordinate, a->word, &c->work)) return UNLUCKY;
     choose_words(a);
     if (!are_scarce(a, out->order, a->kept, a->chosen)) return TOO_MUCH;
     reduce_words(a);
@@ -354,7 +354,7 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     nh_counter c;
     *out = (nh_construction){.arena = arena};
     nh_counter_open(&c, model, &q);
-    nh_closed_words *words = c.equations->obstacle ? NULL : nh_closed_words_create(c.equations, question->price, question->most_words);
+    nh_known_motions_words *words = c.equations->obstacle ? NULL : nh_known_motions_words_create(c.equations, question->price, question->most_words);
     outcome o = words ? UNLUCKY : TOO_MUCH;
     for (size_t point = 0; point < most_points && o == UNLUCKY && !c.equations->obstacle && !nh_late(); point++) {
         attempt a = {.counter = &c, .words = words};
@@ -365,7 +365,7 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     out->words = words ? words->words : 0;
     out->limited = o != DONE;
     out->work = c.work;
-    nh_closed_words_free(words);
+    nh_known_motions_words_free(words);
     nh_counter_close(&c);
     return out;
 }

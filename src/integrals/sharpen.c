@@ -75,7 +75,7 @@ static double step(problem *p)
 static bool prepare(problem *p, const nh_ex *term)
 {
     bool exact = true;
-    for (size_t j = 0; j < p->n; j++) p->term[j] = nh_lift(p->o->dag, term[j], &p->theta);
+    for (size_t j = 0; j < p->n; j++) p->term[j] = nh_symbolise_decimals(p->o->dag, term[j], &p->theta);
     if (p->theta.count == 0 || p->theta.overflow) return false;
     for (size_t j = 0; j < p->n && exact; j++) {
         p->rate[j] = nh_exact_values(p->o, nh_model_gamma(p->o, p->term[j]));

@@ -20,11 +20,11 @@ static const double more_steps = 0.8;     /* (n1/n2)^order at most, from one num
 
 typedef struct {
     const nh_trajectory_request *request;
-    const nh_ways *ways;
+    const nh_integration_plans *ways;
     double eps;
     nh_accuracy *out;
-    const nh_way *way;     /* the one that was given, or measured and chosen; NULL: none was, or it did not do here */
-    nh_survey survey;
+    const nh_integration_plan *way;     /* the one that was given, or measured and chosen; NULL: none was, or it did not do here */
+    nh_pilot_runs survey;
     nh_trajectory_request own; /* with the model that a survey had derived */
     double first;          /* units of the whole motion by the winner of the race */
     nh_programs *programs; /* for methods with a fixed step */
@@ -48,7 +48,7 @@ static double spacing_of(const nh_trajectory_request *q)
 static bool fixed(const search *s) { return s->way && s->way->method->order; }
 
 /* Of a method with fixed steps, which end at the outputs: how many there are from one to the next. */
-static double steps_at(const search *s, double tolerance) { return fmax(1, ceil(spacing_of(s->request) / nh_way_setting(s->way, tolerance) * (1 - 1e-9))); }
+static double steps_at(const search *s, double tolerance) { return fmax(1, ceil(spacing_of(s->request) / nh_integration_plan_setting(s->way, tolerance) * (1 - 1e-9))); }
 
 /* By how much the errors of a run fall: the ratio of the tolerances, or that of the steps to the order of the method. */
 static double ratio_of(const search *s, double coarse, double fine)
@@ -145,7 +145,7 @@ static const nh_method *other_of(const nh_method *method)
 }
 
 /* The first run of a way; NULL when it does not reach the end with so much effort. */
-static nh_trajectory *take_way(search *s, const nh_way_choice *choice, double effort, double *tolerance)
+static nh_trajectory *take_way(search *s, const nh_integration_plan_choice *choice, double effort, double *tolerance)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -154,10 +154,10 @@ static nh_trajectory *take_way(search *s, const nh_way_choice *choice, double ef
     s->method[1] = choice->second ? choice->second : other_of(s->method[0]);
     if (fixed(s) && !s->programs) s->programs = nh_programs_create(s->request->model);
     if (fixed(s) && nh_method_refused(s->method[0], s->programs)) return NULL;
-    double setting = fixed(s) ? s->eps : between(nh_way_setting(s->way, s->eps), 10 * tightest, loosest);
+    double setting = fixed(s) ? s->eps : between(nh_integration_plan_setting(s->way, s->eps), 10 * tightest, loosest);
     nh_trajectory *t = run(s, s->method[0], setting, true, effort, &ignored);
     if (complete(t) || (t && nh_interrupted())) {
-        s->doubtful = nh_way_doubtful(s->method[0]);
+        s->doubtful = nh_integration_plan_doubtful(s->method[0]);
         s->out->measured = true;
         s->out->other = choice->other ? choice->other->method : NULL;
         s->out->next = choice->next;
@@ -168,13 +168,13 @@ static nh_trajectory *take_way(search *s, const nh_way_choice *choice, double ef
     return NULL;
 }
 
-static nh_way_limits limits_of(const search *s) { return (nh_way_limits){.scene = s->request->smallest, .other = s->request->other != NULL, .spacing = spacing_of(s->request)}; }
+static nh_integration_plan_limits limits_of(const search *s) { return (nh_integration_plan_limits){.scene = s->request->smallest, .other = s->request->other != NULL, .spacing = spacing_of(s->request)}; }
 
 /* What was given; NULL when nothing was, or it does not reach the end with about the work that it needed then. */
 static nh_trajectory *take_given(search *s, double *tolerance)
 {
-    nh_way_limits limits = limits_of(s);
-    nh_way_choice choice = nh_way_cheapest(s->ways->count, s->ways->way, s->eps, &limits);
+    nh_integration_plan_limits limits = limits_of(s);
+    nh_integration_plan_choice choice = nh_integration_plan_cheapest(s->ways->count, s->ways->way, s->eps, &limits);
     if (!choice.way) return NULL;
     s->out->choice = NH_CHOICE_GIVEN;
     return take_way(s, &choice, fmax(quick, patience * choice.way->effort * span_of(s->request)), tolerance);
@@ -222,17 +222,17 @@ static nh_trajectory *take_surveyed(search *s, const nh_trajectory *t, double *t
     if (s->first * (1 + s->ways->more) < worthwhile || s->first < shortest) return s->out->choice = NH_CHOICE_SHORT, NULL;
     double *work = nh_alloc_array(2 * s->request->model->m + 1, sizeof *work);
     nh_state at = state_on_the_way(s, t, work);
-    nh_survey_terms terms = {.eps = s->eps, .best = s->method[0], .effort = s->first, .budget = survey_share * s->first * between(s->ways->more, 1, most_times), .plain = s->ways->plain, .floor = s->floor};
+    nh_pilot_runs_terms terms = {.eps = s->eps, .best = s->method[0], .effort = s->first, .budget = survey_share * s->first * between(s->ways->more, 1, most_times), .plain = s->ways->plain, .floor = s->floor};
     const nh_model *other = s->ways->derive && !s->ways->plain && !s->request->smallest ? s->ways->derive(s->ways->context, terms.budget) : NULL;
     if (other) s->own.other = other;
-    nh_survey_make(s->request, &at, &terms, &s->survey);
+    nh_pilot_runs_make(s->request, &at, &terms, &s->survey);
     nh_free(work);
     s->out->choice = NH_CHOICE_SURVEY;
     s->out->evaluations += s->survey.evaluations;
     s->out->effort += s->survey.effort;
     s->out->seconds += s->survey.seconds;
-    nh_way_limits limits = limits_of(s);
-    nh_way_choice choice = nh_survey_choose(&s->survey, s->method[0], s->eps, &limits, complete(t) && !(s->ways->more > 0));
+    nh_integration_plan_limits limits = limits_of(s);
+    nh_integration_plan_choice choice = nh_pilot_runs_choose(&s->survey, s->method[0], s->eps, &limits, complete(t) && !(s->ways->more > 0));
     if (!choice.way || nh_interrupted()) return NULL;
     const nh_method *winner[2] = {s->method[0], s->method[1]};
     nh_trajectory *found = take_way(s, &choice, fmax(quick, fmin(2 * s->first, patience * choice.way->effort * span_of(s->request))), tolerance);
@@ -331,7 +331,7 @@ static void confirm(search *s, const nh_trajectory *t)
     }
 }
 
-static const char *where(const nh_way *w) { return w->velocities == NH_OWN_VELOCITIES ? "" : w->velocities == NH_ALL_COORDINATES ? " in all coordinates" : " in other velocities"; }
+static const char *where(const nh_integration_plan *w) { return w->velocities == NH_OWN_VELOCITIES ? "" : w->velocities == NH_ALL_COORDINATES ? " in all coordinates" : " in other velocities"; }
 
 /* "GSL rk8pd at tolerance 1.0e-09", "relaxation, order 8 with steps of 0.01" */
 static void put_setting(const search *s, const nh_trajectory *t, char *out, size_t size)
@@ -381,18 +381,18 @@ static void explain(search *s, const nh_trajectory *t)
 }
 
 /* How the motion was computed, so that others like it can be. */
-static nh_way way_of(const search *s, const nh_trajectory *t)
+static nh_integration_plan way_of(const search *s, const nh_trajectory *t)
 {
     const nh_accuracy *a = s->out;
-    nh_way w = {.method = s->method[0], .velocities = s->way ? s->way->velocities : NH_OWN_VELOCITIES, .tolerance = a->tolerance, .step = NAN, .error = a->estimate};
+    nh_integration_plan w = {.method = s->method[0], .velocities = s->way ? s->way->velocities : NH_OWN_VELOCITIES, .tolerance = a->tolerance, .step = NAN, .error = a->estimate};
     if (w.method->order) w.step = a->step, w.tolerance = NAN;
     w.effort = fmax(t->motion->effort, 1) / span_of(s->request);
     return w;
 }
 
-static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error)
+static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error)
 {
-    static const nh_ways none = {.count = 0};
+    static const nh_integration_plans none = {.count = 0};
     *accuracy = (nh_accuracy){.wanted = eps, .estimate = INFINITY, .difference = INFINITY, .step = NAN, .next = NAN};
     search s = {.ways = ways ? ways : &none, .own = *request, .eps = eps, .out = accuracy};
     s.request = &s.own;
@@ -415,7 +415,7 @@ static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, 
 }
 
 /* What was given or measured tells of another motion, or of a piece of this one: where it does not do here, without it. */
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error)
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error)
 {
     nh_trajectory *t = attempt(request, eps, ways, accuracy, error);
     if (!t || accuracy->held || !accuracy->measured || nh_interrupted()) return t;

@@ -26,14 +26,14 @@ typedef enum { NH_CHOICE_RACE, NH_CHOICE_GIVEN, NH_CHOICE_SURVEY, NH_CHOICE_SHOR
 /* What may be chosen from. */
 typedef struct {
     size_t count;                       /* ways that a motion like this one was computed by */
-    const nh_way *way;
+    const nh_integration_plan *way;
     bool survey;                        /* others may be measured where none of these does */
     double more;                        /* motions like this one are to be computed as this one was: measuring pays so much more */
     bool plain;                         /* only the model's own velocities and methods with error control, in a survey */
     void *context;
     /* The model in other velocities, where deriving it costs no more than so many units of effort; else NULL.  May be NULL. */
     const nh_model *(*derive)(void *context, double effort);
-} nh_ways;
+} nh_integration_plans;
 
 typedef struct {
     bool held;
@@ -50,7 +50,7 @@ typedef struct {
     long evaluations;                   /* of all runs, those of a survey included */
     double effort;                      /* units of base/effort.h of all runs, */
     double seconds;                     /* and their time, which decides nothing */
-    nh_way way;                         /* how the motion that is returned was computed, with what it cost and its estimated error */
+    nh_integration_plan way;                         /* how the motion that is returned was computed, with what it cost and its estimated error */
     char why[512];                      /* the choice, or what failed, in words */
 } nh_accuracy;
 
@@ -82,6 +82,6 @@ void nh_accuracy_disturb(size_t n, const double *from, double *to);
 
 /* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be 0.  `ways` NULL: the
  * race decides. */
-nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_ways *ways, nh_accuracy *accuracy, nh_error *error);
+nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, double eps, const nh_integration_plans *ways, nh_accuracy *accuracy, nh_error *error);
 
 #endif

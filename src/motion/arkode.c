@@ -165,7 +165,7 @@ static bool set_up_implicit(pairs_work *work)
            solve_by(work->arkode, work->solver, work->matrix) == ARK_SUCCESS && (!work->problem->jacobian || set_jacobian(work->arkode, call_jacobian) == ARK_SUCCESS) && jacobian_of_every(work->arkode, 1) == ARK_SUCCESS;
 }
 
-static bool set_up(pairs_work *work, nh_pairs_method method, const double *initial, const nh_flow_options *options)
+static bool set_up(pairs_work *work, nh_arkode_method method, const double *initial, const nh_flow_options *options)
 {
     static const ARKODE_ERKTableID tables[] = {ARKODE_DORMAND_PRINCE_7_4_5, ARKODE_VERNER_8_5_6, ARKODE_FEHLBERG_13_7_8};
     bool implicit = method == NH_ESDIRK_5;
@@ -182,7 +182,7 @@ static bool set_up(pairs_work *work, nh_pairs_method method, const double *initi
            set_most_fails(work->arkode, most_fails) == ARK_SUCCESS && tolerances(work->arkode, call_weight) == ARK_SUCCESS;
 }
 
-nh_motion *nh_pairs(nh_pairs_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
+nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
                     const nh_flow_options *options, nh_error *error)
 {
     nh_motion *motion = nh_motion_start(problem->size, problem->size, initial, count, times, options, error);

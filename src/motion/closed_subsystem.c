@@ -16,7 +16,7 @@ static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 
 /* ---- core, quadratures, rest ---- */
 
 /* Peel off, layer by layer, what no remaining state reads; the layer that goes last can be integrated first. */
-static void sort_states(nh_scene *s, const nh_network *w)
+static void sort_states(nh_closed_subsystem *s, const nh_dependency_graph *w)
 {
     bool *left = nh_alloc_array(w->states, sizeof *left), *layer = nh_alloc_array(w->states, sizeof *layer);
     memcpy(left, w->kept, w->states * sizeof *left);
@@ -51,7 +51,7 @@ static void sort_states(nh_scene *s, const nh_network *w)
 }
 
 /* The kept rows with zero for what is dropped, which makes most of them short.  False where that is no regular value. */
-static bool rows_at_zero(const nh_scene *s, nh_ex *e)
+static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
 {
     const nh_model *o = s->model;
     size_t n = s->kept, from = n + s->levels, count = s->states - from, width = o->width + s->levels;
@@ -62,7 +62,7 @@ static bool rows_at_zero(const nh_scene *s, nh_ex *e)
         e[n + i] = s->network.row[s->state[i]];
     }
     double *value = nh_alloc_array(2 * n + 1, sizeof *value), *point = nh_alloc_array(width + 1, sizeof *point);
-    nh_tape *tape = nh_network_tape(&s->network, 2 * n, e, 0, NULL, NULL);
+    nh_tape *tape = nh_dependency_graph_tape(&s->network, 2 * n, e, 0, NULL, NULL);
     nh_tape_work *work = nh_tape_work_create(tape);
     bool good = !s->implicit && o->chart->probes > 0;
     for (size_t p = 0; p < o->chart->probes && good; p++) {
@@ -82,7 +82,7 @@ static bool rows_at_zero(const nh_scene *s, nh_ex *e)
 }
 
 /* Dropped states feed nothing: any regular values will do for them, and what is then constant need not be computed. */
-static nh_tape *frozen_tape(const nh_scene *s, size_t n, const nh_ex *e)
+static nh_tape *frozen_tape(const nh_closed_subsystem *s, size_t n, const nh_ex *e)
 {
     const nh_model *o = s->model;
     size_t from = s->kept + s->levels, count = o->chart->probes ? s->states - from : 0;
@@ -92,7 +92,7 @@ static nh_tape *frozen_tape(const nh_scene *s, size_t n, const nh_ex *e)
         symbol[i] = symbol_of(o, s->state[from + i]);
         value[i] = o->chart->probe[1 + s->state[from + i]];
     }
-    nh_tape *tape = nh_network_tape(&s->network, n, e, s->implicit ? 0 : count, symbol, value);
+    nh_tape *tape = nh_dependency_graph_tape(&s->network, n, e, s->implicit ? 0 : count, symbol, value);
     nh_free(value);
     nh_free(symbol);
     return tape;
@@ -119,7 +119,7 @@ static bool is_smooth(const nh_model *o, nh_ex e)
     return good;
 }
 
-static void make_tapes(nh_scene *s)
+static void make_tapes(nh_closed_subsystem *s)
 {
     const nh_model *o = s->model;
     size_t n = s->kept, levels = s->levels;
@@ -143,19 +143,19 @@ static void make_tapes(nh_scene *s)
         e[k] = s->network.level[k].value;
         e[levels + k] = s->network.level[k].slope;
     }
-    s->removed = nh_network_tape(&s->network, 2 * levels, e, 0, NULL, NULL);
+    s->removed = nh_dependency_graph_tape(&s->network, 2 * levels, e, 0, NULL, NULL);
     for (size_t k = 0; k < levels; k++) e[k] = s->network.level[k].current;
     s->currents = nh_model_tape(o, levels, e);
     nh_free(e);
 }
 
-nh_scene *nh_scene_create(const nh_model *o, size_t n, const nh_ex *watched, size_t currents, const nh_ex *current)
+nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *o, size_t n, const nh_ex *watched, size_t currents, const nh_ex *current)
 {
     nh_arena *arena = nh_arena_create();
-    nh_scene *s = nh_arena_alloc(arena, sizeof *s);
-    *s = (nh_scene){.model = o, .arena = arena, .states = o->m + o->n};
+    nh_closed_subsystem *s = nh_arena_alloc(arena, sizeof *s);
+    *s = (nh_closed_subsystem){.model = o, .arena = arena, .states = o->m + o->n};
     s->state = nh_arena_alloc(arena, (s->states + 1) * sizeof *s->state);
-    nh_network_init(&s->network, o, n, watched, currents, current);
+    nh_dependency_graph_init(&s->network, o, n, watched, currents, current);
     s->implicit = s->network.implicit;
     s->kept = s->network.count;
     s->levels = s->network.levels;
@@ -166,7 +166,7 @@ nh_scene *nh_scene_create(const nh_model *o, size_t n, const nh_ex *watched, siz
     return s;
 }
 
-void nh_scene_free(nh_scene *s)
+void nh_closed_subsystem_free(nh_closed_subsystem *s)
 {
     if (!s) return;
     nh_tape_free(s->rate);
@@ -175,14 +175,14 @@ void nh_scene_free(nh_scene *s)
     nh_tape_free(s->rate_of_all);
     nh_tape_free(s->removed);
     nh_tape_free(s->currents);
-    nh_network_clear(&s->network);
+    nh_dependency_graph_clear(&s->network);
     nh_arena_free(s->arena);
 }
 
 /* ---- its equations ---- */
 
-struct nh_scene_run {
-    const nh_scene *scene;
+struct nh_closed_subsystem_run {
+    const nh_closed_subsystem *scene;
     nh_tape_work *rate, *jacobian, *removed, *wall;
     const nh_flow_problem *whole;
     double *point; /* (t, q, w, u, c): dropped states at their initial values, implicit velocities at their last ones */
@@ -190,11 +190,11 @@ struct nh_scene_run {
     double *level, *slope; /* states that currents determine, and the slopes after them; the slopes at the start */
 };
 
-nh_scene_run *nh_scene_run_create(const nh_scene *s, double t, const double *z0)
+nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsystem *s, double t, const double *z0)
 {
     size_t width = s->model->width;
-    nh_scene_run *run = nh_alloc(sizeof *run);
-    *run = (nh_scene_run){.scene = s, .failed = -1, .point = nh_alloc_array(width + s->levels + 1, sizeof *run->point), .level = nh_alloc_array(3 * s->levels + 1, sizeof *run->level)};
+    nh_closed_subsystem_run *run = nh_alloc(sizeof *run);
+    *run = (nh_closed_subsystem_run){.scene = s, .failed = -1, .point = nh_alloc_array(width + s->levels + 1, sizeof *run->point), .level = nh_alloc_array(3 * s->levels + 1, sizeof *run->level)};
     run->slope = run->level + 2 * s->levels;
     if (s->rate) run->rate = nh_tape_work_create(s->rate);
     if (s->jacobian) run->jacobian = nh_tape_work_create(s->jacobian);
@@ -215,17 +215,17 @@ nh_scene_run *nh_scene_run_create(const nh_scene *s, double t, const double *z0)
     return run;
 }
 
-void nh_scene_run_hasten(nh_scene_run *run, double patience)
+void nh_closed_subsystem_run_jit(nh_closed_subsystem_run *run, double patience)
 {
-    if (run->rate) nh_tape_hasten(run->rate, patience);
-    if (run->jacobian) nh_tape_hasten(run->jacobian, patience);
+    if (run->rate) nh_tape_jit(run->rate, patience);
+    if (run->jacobian) nh_tape_jit(run->jacobian, patience);
 }
 
-const char *nh_scene_run_words(const nh_scene_run *run) { return run->rate ? nh_tape_words(run->rate) : NULL; }
+const char *nh_closed_subsystem_run_words(const nh_closed_subsystem_run *run) { return run->rate ? nh_tape_words(run->rate) : NULL; }
 
-long nh_scene_run_failed(const nh_scene_run *run) { return run->failed; }
+long nh_closed_subsystem_run_failed(const nh_closed_subsystem_run *run) { return run->failed; }
 
-void nh_scene_run_free(nh_scene_run *run)
+void nh_closed_subsystem_run_free(nh_closed_subsystem_run *run)
 {
     if (!run) return;
     nh_tape_work_free(run->rate);
@@ -237,18 +237,18 @@ void nh_scene_run_free(nh_scene_run *run)
     nh_free(run);
 }
 
-static bool place(nh_scene_run *run, double t, const double *z)
+static bool place(nh_closed_subsystem_run *run, double t, const double *z)
 {
-    const nh_scene *s = run->scene;
+    const nh_closed_subsystem *s = run->scene;
     run->point[0] = t;
     for (size_t i = 0; i < s->kept; i++) run->point[1 + s->state[i]] = z[i];
     return !s->implicit || nh_chart_complete(s->model->chart, run->point);
 }
 
 /* The states that currents determine, into the point; false when one is not determined there. */
-static bool place_removed(nh_scene_run *run)
+static bool place_removed(nh_closed_subsystem_run *run)
 {
-    const nh_scene *s = run->scene;
+    const nh_closed_subsystem *s = run->scene;
     if (!s->levels) return true;
     nh_tape_eval(s->removed, run->removed, run->point, run->level);
     for (size_t k = 0; k < s->levels; k++) {
@@ -258,7 +258,7 @@ static bool place_removed(nh_scene_run *run)
     return true;
 }
 
-bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point)
+bool nh_closed_subsystem_point(nh_closed_subsystem_run *run, double t, const double *z, double *point)
 {
     bool good = place(run, t, z) && place_removed(run);
     memcpy(point, run->point, run->scene->model->width * sizeof *point);
@@ -267,7 +267,7 @@ bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point)
 
 static bool scene_rate(double t, const double *z, double *rate, void *context)
 {
-    nh_scene_run *run = context;
+    nh_closed_subsystem_run *run = context;
     if (!place(run, t, z)) return false;
     nh_tape_eval(run->scene->rate, run->rate, run->point, rate);
     return nh_all_finite(run->scene->kept, rate);
@@ -275,7 +275,7 @@ static bool scene_rate(double t, const double *z, double *rate, void *context)
 
 static bool scene_jacobian(double t, const double *z, double *jacobian, void *context)
 {
-    nh_scene_run *run = context;
+    nh_closed_subsystem_run *run = context;
     if (!place(run, t, z)) return false;
     nh_tape_eval(run->scene->jacobian, run->jacobian, run->point, jacobian);
     return nh_all_finite(run->scene->kept * run->scene->kept, jacobian);
@@ -283,8 +283,8 @@ static bool scene_jacobian(double t, const double *z, double *jacobian, void *co
 
 static bool scene_guard(double t, const double *z, double *value, void *context)
 {
-    nh_scene_run *run = context;
-    const nh_scene *s = run->scene;
+    nh_closed_subsystem_run *run = context;
+    const nh_closed_subsystem *s = run->scene;
     size_t guards = run->whole ? run->whole->guards : 0;
     bool good = place(run, t, z);
     if (good && s->levels) place_removed(run);
@@ -294,13 +294,13 @@ static bool scene_guard(double t, const double *z, double *value, void *context)
 
 static bool scene_walls(double t, const double *z, double *value, void *context)
 {
-    nh_scene_run *run = context;
+    nh_closed_subsystem_run *run = context;
     if (!place(run, t, z)) return false;
     nh_tape_eval(run->scene->wall, run->wall, run->point, value);
     return true;
 }
 
-nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole)
+nh_flow_problem nh_closed_subsystem_problem(nh_closed_subsystem_run *run, const nh_flow_problem *whole)
 {
     run->whole = whole;
     if (run->scene->smooth) run->whole = NULL;

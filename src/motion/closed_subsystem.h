@@ -23,40 +23,40 @@ typedef struct {
                                        integrated, then those that currents determine, then those dropped */
     bool implicit;                  /* implicit velocities are needed */
     bool smooth;                    /* equations and what is watched are analytic for all kept states: the end of a chart is none for them */
-    nh_network network;
+    nh_dependency_graph network;
     nh_tape *rate, *jacobian;       /* of the kept states, over points (t, q, w, u, c); NULL when nothing is kept */
     nh_tape *removed, *currents;    /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */
     size_t walls;                   /* of the rates of the kept states (exact/walls.h) */
     nh_tape *wall;                  /* over the same points as rate; NULL: there are none */
     nh_tape *rate_of_all;           /* of all states, over (t, q, w, u) */
     size_t instructions, instructions_of_all; /* of the right-hand sides */
-} nh_scene;
+} nh_closed_subsystem;
 
 /* n watched expressions of the chart, and conserved currents that may be used (there may be none).  Never fails: the whole model is a scene of itself. */
-nh_scene *nh_scene_create(const nh_model *model, size_t n, const nh_ex *watched, size_t currents, const nh_ex *current);
-void nh_scene_free(nh_scene *scene);
+nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *model, size_t n, const nh_ex *watched, size_t currents, const nh_ex *current);
+void nh_closed_subsystem_free(nh_closed_subsystem *scene);
 
 /* The equations of the kept states.  z0: m + n values at time t; those of the dropped states stay what they are, currents have the values that they
  * have there.  Free what comes back last. */
-typedef struct nh_scene_run nh_scene_run;
-nh_scene_run *nh_scene_run_create(const nh_scene *scene, double t, const double *z0);
-void nh_scene_run_free(nh_scene_run *run);
-/* As nh_dynamics_hasten. */
-void nh_scene_run_hasten(nh_scene_run *run, double patience);
-const char *nh_scene_run_words(const nh_scene_run *run);
+typedef struct nh_closed_subsystem_run nh_closed_subsystem_run;
+nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsystem *scene, double t, const double *z0);
+void nh_closed_subsystem_run_free(nh_closed_subsystem_run *run);
+/* As nh_dynamics_jit. */
+void nh_closed_subsystem_run_jit(nh_closed_subsystem_run *run, double patience);
+const char *nh_closed_subsystem_run_words(const nh_closed_subsystem_run *run);
 /* The level whose current does not determine its state: at the start or at the last point that was asked for; -1: none. */
-long nh_scene_run_failed(const nh_scene_run *run);
+long nh_closed_subsystem_run_failed(const nh_closed_subsystem_run *run);
 /* `whole`: the problem of the whole model, whose guards are watched unless the scene is smooth; it must live as long as the run.  May be NULL. */
-nh_flow_problem nh_scene_problem(nh_scene_run *run, const nh_flow_problem *whole);
+nh_flow_problem nh_closed_subsystem_problem(nh_closed_subsystem_run *run, const nh_flow_problem *whole);
 /* The point (t, q, w, u) that belongs to the kept states z; width entries.  False when the implicit velocities cannot be found, or a current no longer
  * determines its state. */
-bool nh_scene_point(nh_scene_run *run, double t, const double *z, double *point);
+bool nh_closed_subsystem_point(nh_closed_subsystem_run *run, double t, const double *z, double *point);
 
 /* "2 of 5 states integrated (omega, v), phi and x by quadrature, y dropped; 5 of 8 instructions" */
-void nh_scene_words(const nh_scene *scene, nh_text *out);
+void nh_closed_subsystem_words(const nh_closed_subsystem *scene, nh_text *out);
 /* "the parameters jz3 and l2 have no influence, nor the body column"; empty when all matter. */
-void nh_scene_idle_words(const nh_scene *scene, nh_text *out);
+void nh_closed_subsystem_idle_words(const nh_closed_subsystem *scene, nh_text *out);
 /* The name of state i of (q, w). */
-const char *nh_scene_state_name(const nh_scene *scene, size_t i);
+const char *nh_closed_subsystem_state_name(const nh_closed_subsystem *scene, size_t i);
 
 #endif

@@ -39,7 +39,7 @@ static nh_ex lagrangian_of(const nh_model *o, const nh_chain *chain, size_t body
 }
 
 /* M (n x n), a (n), A_b - M_b a (n), dL_b/dw of what is dropped (n; 0 for the rest). */
-static void influence_of(const nh_scene *s, nh_ex L, nh_ex *out)
+static void influence_of(const nh_closed_subsystem *s, nh_ex L, nh_ex *out)
 {
     const nh_model *o = s->model;
     nh_dag *d = o->dag;
@@ -63,7 +63,7 @@ static void influence_of(const nh_scene *s, nh_ex L, nh_ex *out)
     nh_free(p);
 }
 
-static bool vanishes_for_kept(const nh_scene *s, size_t n, double *value)
+static bool vanishes_for_kept(const nh_closed_subsystem *s, size_t n, double *value)
 {
     const double *a = value + n * n;
     double *x = value + n * n + n, most = 0;
@@ -75,7 +75,7 @@ static bool vanishes_for_kept(const nh_scene *s, size_t n, double *value)
 }
 
 /* With currents: are those states a closed system without them, too?  Then their rates are the same at places that differ in what is dropped only. */
-static bool closed_without_currents(const nh_scene *s, const nh_tape *tape, nh_tape_work *work, const double *point, const double *other, const double *value)
+static bool closed_without_currents(const nh_closed_subsystem *s, const nh_tape *tape, nh_tape_work *work, const double *point, const double *other, const double *value)
 {
     size_t n = s->model->n, width = s->model->width, count = n * n + 3 * n;
     double *mixed = nh_alloc_array(width + count, sizeof *mixed), *there = mixed + width;
@@ -92,7 +92,7 @@ static bool closed_without_currents(const nh_scene *s, const nh_tape *tape, nh_t
 }
 
 /* A body whose weight changes nothing at the chart's probes, and that moves with something dropped (else what is watched may be its energy). */
-static bool body_has_no_influence(const nh_scene *s, size_t body)
+static bool body_has_no_influence(const nh_closed_subsystem *s, size_t body)
 {
     const nh_model *o = s->model;
     size_t n = o->n, count = n * n + 3 * n;
@@ -118,7 +118,7 @@ static bool body_has_no_influence(const nh_scene *s, size_t body)
 }
 
 /* By the parameters of its mass and inertia, where it has some; else by what its weight changes. */
-static bool body_is_idle(const nh_scene *s, size_t body, const bool *idle)
+static bool body_is_idle(const nh_closed_subsystem *s, size_t body, const bool *idle)
 {
     const nh_model *o = s->model;
     const nh_body *b = &o->system->chain->body[body];
@@ -132,7 +132,7 @@ static bool body_is_idle(const nh_scene *s, size_t body, const bool *idle)
     return any ? good : body_has_no_influence(s, body);
 }
 
-void nh_scene_idle_words(const nh_scene *s, nh_text *out)
+void nh_closed_subsystem_idle_words(const nh_closed_subsystem *s, nh_text *out)
 {
     const nh_model *o = s->model;
     const nh_chain *chain = o->system->chain;
@@ -140,7 +140,7 @@ void nh_scene_idle_words(const nh_scene *s, nh_text *out)
     bool *idle = nh_alloc_array(n + 1, sizeof *idle);
     const char **name = nh_alloc_array(total + 1, sizeof *name);
     for (size_t i = 0; i < n; i++)
-        if ((idle[i] = nh_network_ignores(&s->network, o->parameter[i]))) name[names++] = nh_name_of(o->dag, o->parameter[i]);
+        if ((idle[i] = nh_dependency_graph_ignores(&s->network, o->parameter[i]))) name[names++] = nh_name_of(o->dag, o->parameter[i]);
     if (names) {
         nh_text_add(out, names == 1 ? "the parameter " : "the parameters ");
         list_names(names, name, out);

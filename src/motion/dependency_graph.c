@@ -14,7 +14,7 @@ enum { ball_bits = 256, ball_points = 4, most_terms = 4000, cost_of_state = 10 }
 
 static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
 
-nh_tape *nh_network_tape(const nh_network *w, size_t n, const nh_ex *e, size_t fixed, const nh_ex *symbol, const double *value)
+nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *w, size_t n, const nh_ex *e, size_t fixed, const nh_ex *symbol, const double *value)
 {
     const nh_model *o = w->model;
     size_t given = o->system->parameters;
@@ -32,14 +32,14 @@ nh_tape *nh_network_tape(const nh_network *w, size_t n, const nh_ex *e, size_t f
 }
 
 /* n expressions at all probes, constants as they are there: out[p * n + i]. */
-static double *at_probes(const nh_network *w, size_t n, const nh_ex *e)
+static double *at_probes(const nh_dependency_graph *w, size_t n, const nh_ex *e)
 {
     const nh_model *o = w->model;
     size_t probes = o->chart->probes, width = o->width;
     nh_ex *phi = nh_alloc_array(w->levels + 1, sizeof *phi);
     double *point = nh_alloc_array(width + w->levels + 1, sizeof *point), *out = nh_alloc_array(n * probes + 1, sizeof *out);
     for (size_t k = 0; k < w->levels; k++) phi[k] = w->level[k].current;
-    nh_tape *constants = nh_model_tape(o, w->levels, phi), *tape = nh_network_tape(w, n, e, 0, NULL, NULL);
+    nh_tape *constants = nh_model_tape(o, w->levels, phi), *tape = nh_dependency_graph_tape(w, n, e, 0, NULL, NULL);
     nh_tape_work *a = nh_tape_work_create(constants), *b = nh_tape_work_create(tape);
     for (size_t p = 0; p < probes; p++) {
         memcpy(point, o->chart->probe + p * width, width * sizeof *point);
@@ -58,7 +58,7 @@ static double *at_probes(const nh_network *w, size_t n, const nh_ex *e)
 /* ---- is it zero? ---- */
 
 /* |d| below 10^-40 at the first probes, rigorously.  Constants of currents may have any value. */
-static bool vanishes_in_balls(const nh_network *w, nh_ex d)
+static bool vanishes_in_balls(const nh_dependency_graph *w, nh_ex d)
 {
     const nh_model *o = w->model;
     if (o->chart->implicit) return false; /* the probes' implicit velocities have a double's digits */
@@ -76,14 +76,14 @@ static bool vanishes_in_balls(const nh_network *w, nh_ex d)
     return zero;
 }
 
-static bool is_zero(const nh_network *w, nh_ex d)
+static bool is_zero(const nh_dependency_graph *w, nh_ex d)
 {
     return nh_is_zero(w->model->dag, d) || nh_normal_is_zero(w->model->dag, d, most_terms) == NH_ZERO || vanishes_in_balls(w, d);
 }
 
 /* ---- who feeds whom ---- */
 
-static bool removed(const nh_network *w, size_t j)
+static bool removed(const nh_dependency_graph *w, size_t j)
 {
     for (size_t k = 0; k < w->levels; k++)
         if (w->level[k].state == j) return true;
@@ -91,7 +91,7 @@ static bool removed(const nh_network *w, size_t j)
 }
 
 /* The rows listed: their feeds, through the implicit velocities too (derivatives follow their rules).  All derivatives in one tape. */
-static void feed_rows(nh_network *w, size_t rows, const size_t *row, bool proved)
+static void feed_rows(nh_dependency_graph *w, size_t rows, const size_t *row, bool proved)
 {
     const nh_model *o = w->model;
     size_t n = w->states, count = 0, probes = o->chart->probes;
@@ -129,7 +129,7 @@ static bool reads_implicit(const nh_model *o, nh_ex e)
 }
 
 /* Implicit velocities are found together, so whatever their equations read is needed. */
-static void keep_implicit(nh_network *w)
+static void keep_implicit(nh_dependency_graph *w)
 {
     const nh_model *o = w->model;
     bool needed = false;
@@ -140,7 +140,7 @@ static void keep_implicit(nh_network *w)
 }
 
 /* From what is watched downwards: rows whose feeds are not known yet, until there are none. */
-static void close_network(nh_network *w, bool proved)
+static void close_network(nh_dependency_graph *w, bool proved)
 {
     size_t n = w->states, total = n + w->watches, *row = nh_alloc_array(total + 1, sizeof *row), rows = 0;
     bool *done = nh_alloc_array(total + 1, sizeof *done);
@@ -163,13 +163,13 @@ static void close_network(nh_network *w, bool proved)
     nh_free(row);
 }
 
-static void estimate_cost(nh_network *w)
+static void estimate_cost(nh_dependency_graph *w)
 {
     nh_ex *e = nh_alloc_array(w->count + 1, sizeof *e);
     size_t n = 0;
     for (size_t j = 0; j < w->states; j++)
         if (w->kept[j]) e[n++] = w->row[j];
-    nh_tape *tape = nh_network_tape(w, n, e, 0, NULL, NULL);
+    nh_tape *tape = nh_dependency_graph_tape(w, n, e, 0, NULL, NULL);
     w->cost = nh_tape_length(tape) + cost_of_state * n;
     nh_tape_free(tape);
     nh_free(e);
@@ -177,7 +177,7 @@ static void estimate_cost(nh_network *w)
 
 /* ---- states that currents determine ---- */
 
-static void copy_network(nh_network *to, const nh_network *from)
+static void copy_network(nh_dependency_graph *to, const nh_dependency_graph *from)
 {
     size_t n = from->states, total = n + from->watches;
     *to = *from;
@@ -191,7 +191,7 @@ static void copy_network(nh_network *to, const nh_network *from)
     memcpy(to->kept, from->kept, n * sizeof *to->kept);
 }
 
-void nh_network_clear(nh_network *w)
+void nh_dependency_graph_clear(nh_dependency_graph *w)
 {
     nh_free(w->row);
     nh_free(w->level);
@@ -200,7 +200,7 @@ void nh_network_clear(nh_network *w)
 }
 
 /* A at the probes: of one sign, never small. */
-static bool determines(const nh_network *w, nh_ex slope, nh_ex curvature)
+static bool determines(const nh_dependency_graph *w, nh_ex slope, nh_ex curvature)
 {
     const nh_model *o = w->model;
     nh_ex e[2] = {slope, curvature};
@@ -217,7 +217,7 @@ static bool determines(const nh_network *w, nh_ex slope, nh_ex curvature)
 }
 
 /* Remove state j by this current; false when it does not determine it, or not at every time. */
-static bool remove_state(nh_network *w, nh_ex current, size_t j)
+static bool remove_state(nh_dependency_graph *w, nh_ex current, size_t j)
 {
     const nh_model *o = w->model;
     nh_dag *d = o->dag;
@@ -240,14 +240,14 @@ static bool remove_state(nh_network *w, nh_ex current, size_t j)
 }
 
 /* The best single removal, by values at the probes alone; false when none leaves fewer states. */
-static bool improve(nh_network *w, size_t n, const nh_ex *current)
+static bool improve(nh_dependency_graph *w, size_t n, const nh_ex *current)
 {
-    nh_network best = {0};
+    nh_dependency_graph best = {0};
     for (size_t c = 0; c < n; c++) {
         bool used = false;
         for (size_t k = 0; k < w->levels; k++) used |= w->level[k].current == current[c];
         for (size_t j = 0; j < w->states && !used; j++) {
-            nh_network trial;
+            nh_dependency_graph trial;
             if (!w->kept[j]) continue;
             copy_network(&trial, w);
             bool better = remove_state(&trial, current[c], j);
@@ -255,19 +255,19 @@ static bool improve(nh_network *w, size_t n, const nh_ex *current)
             better = better && trial.count < w->count && (!best.row || trial.count <= best.count);
             if (better) estimate_cost(&trial);
             better = better && trial.cost < w->cost && (!best.row || trial.count < best.count || trial.cost < best.cost);
-            if (better) nh_network_clear(&best), best = trial;
-            else nh_network_clear(&trial);
+            if (better) nh_dependency_graph_clear(&best), best = trial;
+            else nh_dependency_graph_clear(&trial);
         }
     }
     if (!best.row) return false;
-    nh_network_clear(w);
+    nh_dependency_graph_clear(w);
     *w = best;
     return true;
 }
 
-void nh_network_init(nh_network *w, const nh_model *o, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current)
+void nh_dependency_graph_init(nh_dependency_graph *w, const nh_model *o, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current)
 {
-    nh_network plain = {.model = o, .states = o->m + o->n, .watches = watches}, small;
+    nh_dependency_graph plain = {.model = o, .states = o->m + o->n, .watches = watches}, small;
     size_t total = plain.states + watches;
     plain.row = nh_alloc_array(total + 1, sizeof *plain.row);
     plain.level = nh_alloc_array(plain.states + 1, sizeof *plain.level);
@@ -283,10 +283,10 @@ void nh_network_init(nh_network *w, const nh_model *o, size_t watches, const nh_
     if (small.levels) close_network(&small, true);
     bool better = small.count < plain.count;
     *w = better ? small : plain;
-    nh_network_clear(better ? &plain : &small);
+    nh_dependency_graph_clear(better ? &plain : &small);
 }
 
-bool nh_network_ignores(const nh_network *w, nh_ex symbol)
+bool nh_dependency_graph_ignores(const nh_dependency_graph *w, nh_ex symbol)
 {
     nh_dag *d = w->model->dag;
     size_t probes = w->model->chart->probes;
@@ -306,9 +306,9 @@ bool nh_network_ignores(const nh_network *w, nh_ex symbol)
     return true;
 }
 
-bool nh_network_conserved(const nh_model *o, nh_ex current)
+bool nh_dependency_graph_conserved(const nh_model *o, nh_ex current)
 {
-    nh_network w = {.model = o};
+    nh_dependency_graph w = {.model = o};
     nh_ex e[2] = {nh_model_gamma(o, current), current};
     double *value = at_probes(&w, 2, e);
     bool good = o->chart->probes > 0;
@@ -317,7 +317,7 @@ bool nh_network_conserved(const nh_model *o, nh_ex current)
     return good && is_zero(&w, e[0]);
 }
 
-size_t nh_network_cyclic(const nh_model *o, nh_ex *out)
+size_t nh_dependency_graph_cyclic(const nh_model *o, nh_ex *out)
 {
     const nh_system *s = o->system;
     size_t n = 0;

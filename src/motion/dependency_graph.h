@@ -26,24 +26,24 @@ typedef struct {
     bool implicit;  /* implicit velocities are needed */
     size_t count;   /* of those kept */
     size_t cost;    /* instructions of their equations, and ten for each state that an integrator carries along */
-} nh_network;
+} nh_dependency_graph;
 
 /* The closed system of what is watched.  n currents of the chart, conserved: each may remove one state if fewer states are left then, and it costs
  * less. */
-void nh_network_init(nh_network *network, const nh_model *model, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current);
-void nh_network_clear(nh_network *network);
+void nh_dependency_graph_init(nh_dependency_graph *network, const nh_model *model, size_t watches, const nh_ex *watched, size_t n, const nh_ex *current);
+void nh_dependency_graph_clear(nh_dependency_graph *network);
 
 /* Is nothing that is watched, no equation of a kept state and no current that is used a function of this symbol? */
-bool nh_network_ignores(const nh_network *network, nh_ex symbol);
+bool nh_dependency_graph_ignores(const nh_dependency_graph *network, nh_ex symbol);
 
 /* Does Gamma(Phi) vanish identically, by the same test? */
-bool nh_network_conserved(const nh_model *model, nh_ex current);
+bool nh_dependency_graph_conserved(const nh_model *model, nh_ex current);
 
 /* Momenta dL/dv^s of coordinates that do not occur in the Lagrangian, whose velocities occur in no constraint, and without force: expressions of the
  * chart into `out` (m entries); returns their number. */
-size_t nh_network_cyclic(const nh_model *model, nh_ex *out);
+size_t nh_dependency_graph_cyclic(const nh_model *model, nh_ex *out);
 
 /* Points (t, q, w, u, c): the inputs of tapes over rows. */
-nh_tape *nh_network_tape(const nh_network *network, size_t n, const nh_ex *e, size_t fixed, const nh_ex *symbol, const double *value);
+nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *network, size_t n, const nh_ex *e, size_t fixed, const nh_ex *symbol, const double *value);
 
 #endif

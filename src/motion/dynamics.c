@@ -114,12 +114,12 @@ void nh_dynamics_free(nh_dynamics *d)
     nh_free(d);
 }
 
-void nh_dynamics_hasten(nh_dynamics *d, double patience)
+void nh_dynamics_jit(nh_dynamics *d, double patience)
 {
     d->patience = patience;
-    nh_tape_hasten(d->rate_work, patience);
-    nh_tape_hasten(d->jacobian_work, patience);
-    if (d->constraint_work) nh_tape_hasten(d->constraint_work, patience);
+    nh_tape_jit(d->rate_work, patience);
+    nh_tape_jit(d->jacobian_work, patience);
+    if (d->constraint_work) nh_tape_jit(d->constraint_work, patience);
 }
 
 double nh_dynamics_patience(const nh_dynamics *d) { return d->patience; }

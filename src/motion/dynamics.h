@@ -17,8 +17,8 @@ typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
 nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
-/* Long motions pass to machine code (nh_tape_hasten).  The words say whether they have; NULL: nothing was tried. */
-void nh_dynamics_hasten(nh_dynamics *dynamics, double patience);
+/* Long motions pass to machine code (nh_tape_jit).  The words say whether they have; NULL: nothing was tried. */
+void nh_dynamics_jit(nh_dynamics *dynamics, double patience);
 double nh_dynamics_patience(const nh_dynamics *dynamics);
 const char *nh_dynamics_words(const nh_dynamics *dynamics);
 /* Instructions of one evaluation of the reduced equations. */

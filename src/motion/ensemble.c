@@ -53,7 +53,7 @@ typedef struct {
 
 static void rates(batch *b, double t, const double *z, double *k)
 {
-    const nh_scene *s = b->p->out->scene;
+    const nh_closed_subsystem *s = b->p->out->scene;
     for (size_t l = 0; l < lanes; l++) b->fixed[l] = t;
     for (size_t i = 0; i < b->kept; i++) b->in[1 + s->state[i]] = z + i * lanes;
     for (size_t i = 0; i < b->kept; i++) b->out[i] = k + i * lanes;
@@ -120,7 +120,7 @@ static bool leave_out_the_undefined(batch *b)
 /* A chart of coordinate velocities ends where its pivot changes sign. */
 static void watch_pivots(batch *b)
 {
-    const nh_scene *s = b->p->out->scene;
+    const nh_closed_subsystem *s = b->p->out->scene;
     if (!b->dynamics) return;
     nh_flow_problem problem = nh_dynamics_problem(b->dynamics);
     for (size_t l = 0; l < b->members; l++) {
@@ -136,7 +136,7 @@ static void watch_pivots(batch *b)
 static void store(batch *b, size_t output)
 {
     nh_ensemble *e = b->p->out;
-    const nh_scene *s = e->scene;
+    const nh_closed_subsystem *s = e->scene;
     double *to[64], *buffer = nh_alloc_array(e->n * lanes + 1, sizeof *buffer);
     double **rows = e->n > 64 ? nh_alloc_array(e->n, sizeof *rows) : to;
     for (size_t k = 0; k < e->n; k++) rows[k] = buffer + k * lanes;
@@ -195,7 +195,7 @@ static bool go_to(batch *b, double target, long *steps)
 
 static void open_batch(batch *b, const plan *p, size_t index)
 {
-    const nh_scene *s = p->out->scene;
+    const nh_closed_subsystem *s = p->out->scene;
     const nh_model *o = p->request->model;
     size_t count = s->kept * lanes;
     *b = (batch){.p = p, .first = index * lanes, .kept = s->kept, .width = o->width, .t = p->request->times[0]};
@@ -369,7 +369,7 @@ nh_ensemble *nh_ensemble_empty(const nh_trajectory_request *q, size_t members, n
 {
     if (members == 0 || q->count == 0) return nh_fail(error, NH_USAGE, "", "an ensemble needs at least one member and one output time"), NULL;
     nh_ensemble *e = nh_alloc(sizeof *e);
-    *e = (nh_ensemble){.members = members, .count = q->count, .n = q->n, .scene = nh_scene_create(q->model, q->n, q->e, 0, NULL)};
+    *e = (nh_ensemble){.members = members, .count = q->count, .n = q->n, .scene = nh_closed_subsystem_create(q->model, q->n, q->e, 0, NULL)};
     e->time = nh_alloc_array(q->count, sizeof *e->time);
     memcpy(e->time, q->times, q->count * sizeof *e->time);
     e->value = nh_alloc_array(members * q->count, (q->n ? q->n : 1) * sizeof *e->value);
@@ -424,7 +424,7 @@ nh_ensemble *nh_ensemble_try(const nh_trajectory_request *q, size_t members, con
 void nh_ensemble_free(nh_ensemble *e)
 {
     if (!e) return;
-    nh_scene_free(e->scene);
+    nh_closed_subsystem_free(e->scene);
     nh_free(e->time);
     nh_free(e->value);
     nh_free(e);

@@ -16,7 +16,7 @@ typedef struct {
     size_t members, count, n;
     double *time;            /* count */
     double *value;           /* value[(member * count + i) * n + k]: expression k at output i; NAN where a member did not come so far */
-    nh_scene *scene;         /* what was integrated; owned */
+    nh_closed_subsystem *scene;         /* what was integrated; owned */
     size_t alone, incomplete; /* members that were computed alone; that did not reach the end */
     long evaluations;        /* of the right-hand side, per member and stage */
     double seconds;          /* of the integration, without preparations */

@@ -36,8 +36,8 @@ typedef struct {
     nh_ensemble_accuracy *out;
     double *floor;          /* per member and value: the least scales (accuracy.h) */
     double *off, *estimate; /* per member: the difference of the last two runs, and what it says of the tighter one */
-    nh_way usual;           /* that of the first */
-    nh_ways ways;           /* for members alone: that of the first one, or what was given */
+    nh_integration_plan usual;           /* that of the first */
+    nh_integration_plans ways;           /* for members alone: that of the first one, or what was given */
     loner *one;             /* per member */
     size_t *alone;          /* those that are to be computed alone */
     nh_ensemble *e;
@@ -161,7 +161,7 @@ static void share_terms(search *s, const nh_trajectory_request *q, const nh_traj
 /* ---- members alone ---- */
 
 /* By the method and at the tolerance that it needs, into its place; how it was computed into *a.  What a batch found stays where this does not come to the end. */
-static void compute_alone(search *s, size_t member, const nh_ways *ways, nh_accuracy *a)
+static void compute_alone(search *s, size_t member, const nh_integration_plans *ways, nh_accuracy *a)
 {
     const nh_model *o = s->request->model;
     nh_ensemble *e = s->e;
@@ -220,11 +220,11 @@ static void go_alone(search *s, size_t n)
 /* ---- together or alone? ---- */
 
 /* Units of effort that a member needs alone, by the way that the first was found to need; INFINITY where that one is not as accurate as is wanted. */
-static double cost_alone(search *s, const nh_ways *ways)
+static double cost_alone(search *s, const nh_integration_plans *ways)
 {
     nh_accuracy a = {.held = false};
     nh_ensemble_accuracy *out = s->out;
-    nh_ways all = *ways;
+    nh_integration_plans all = *ways;
     all.more = (double)(s->members - 1);
     compute_alone(s, 0, &all, &a);
     if (!a.held || nh_interrupted()) return INFINITY;
@@ -232,7 +232,7 @@ static double cost_alone(search *s, const nh_ways *ways)
     out->choice = a.choice;
     s->usual = a.way;
     s->usual.effort = slower * a.way.effort;
-    s->ways = (nh_ways){.count = 1, .way = &s->usual};
+    s->ways = (nh_integration_plans){.count = 1, .way = &s->usual};
     if (a.way.velocities == NH_OTHER_VELOCITIES && !s->own.other) s->own.other = ways->derive(ways->context, INFINITY);
     double begin = nh_effort();
     size_t n = s->members - 1 < samples ? s->members - 1 : samples;
@@ -313,15 +313,15 @@ static nh_ensemble *go_each(search *s)
     return s->e;
 }
 
-nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, const nh_ways *ways,
+nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, const nh_integration_plans *ways,
                                   nh_ensemble_accuracy *accuracy, nh_error *error)
 {
-    static const nh_ways none = {.count = 0};
+    static const nh_integration_plans none = {.count = 0};
     if (!ways) ways = &none;
     *accuracy = (nh_ensemble_accuracy){.wanted = eps};
     search s = {.own = *request, .members = members, .threads = threads, .size = request->model->m + request->model->n, .initial = initial, .eps = eps, .out = accuracy};
     s.request = &s.own;
-    s.ways = (nh_ways){.count = ways->count, .way = ways->way};
+    s.ways = (nh_integration_plans){.count = ways->count, .way = ways->way};
     s.e = nh_ensemble_empty(request, members, error);
     if (!s.e) return NULL;
     s.off = nh_alloc_array(2 * members + 1, sizeof *s.off);

@@ -15,7 +15,7 @@ typedef struct {
     bool held;                  /* by all members */
     double wanted, estimate, tolerance; /* the largest estimate of the members that were accepted, at the tolerance of the batches */
     bool all_alone;             /* then by `way`, and the tolerance is that of the first member */
-    nh_way way;                 /* of the first member alone; its method is NULL where that did not do */
+    nh_integration_plan way;                 /* of the first member alone; its method is NULL where that did not do */
     nh_accuracy_choice choice;  /* where that comes from */
     double ratio;               /* counted work of all members alone to that in batches; 0: not known */
     size_t alone, unsure;       /* members that were computed alone for it; that did not reach it all the same */
@@ -26,7 +26,7 @@ typedef struct {
 } nh_ensemble_accuracy;
 
 /* As nh_ensemble_create, and nh_trajectory_accurate for `ways`. */
-nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, const nh_ways *ways,
+nh_ensemble *nh_ensemble_accurate(const nh_trajectory_request *request, size_t members, const double *initial, size_t threads, double eps, const nh_integration_plans *ways,
                                   nh_ensemble_accuracy *accuracy, nh_error *error);
 
 #endif

@@ -225,7 +225,7 @@ static double first_step(explicit_work *work, double span)
     return span < 0 ? -h : h;
 }
 
-static bool set_up(explicit_work *work, nh_explicit_method method)
+static bool set_up(explicit_work *work, nh_gsl_odeiv_method method)
 {
     static const gsl_odeiv2_step_type *const *const types[] = {&gsl_odeiv2_step_rk8pd, &gsl_odeiv2_step_rkf45, &gsl_odeiv2_step_msadams};
     size_t size = work->problem->size;
@@ -238,7 +238,7 @@ static bool set_up(explicit_work *work, nh_explicit_method method)
     return work->driver != NULL;
 }
 
-nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
+nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
                        const nh_flow_options *options, nh_error *error)
 {
     size_t size = problem->size;

@@ -8,10 +8,10 @@
 
 #include "motion/cvode.h"
 
-typedef enum { NH_RK8PD, NH_RKF45, NH_MSADAMS } nh_explicit_method;
+typedef enum { NH_RK8PD, NH_RKF45, NH_MSADAMS } nh_gsl_odeiv_method;
 
 /* As nh_flow. */
-nh_motion *nh_explicit(nh_explicit_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
+nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
                        const nh_flow_options *options, nh_error *error);
 
 #endif

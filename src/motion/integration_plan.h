@@ -10,32 +10,32 @@ typedef struct {
     double tolerance, step; /* of the run that was measured; one of them is NAN */
     double error;           /* that it had; not below what the reference could tell */
     double effort;          /* units of base/effort.h per unit of time of the motion */
-} nh_way;
+} nh_integration_plan;
 
 /* A multistep or an implicit method can damp what grows: another one is to confirm it. */
-bool nh_way_doubtful(const nh_method *method);
+bool nh_integration_plan_doubtful(const nh_method *method);
 
 /* What can be used with a request. */
 typedef struct {
     bool scene;     /* only the equations of the model itself, by methods with error control */
     bool other;     /* other velocities, too */
     double spacing; /* of the outputs, at which fixed steps end: longer ones are of no use */
-} nh_way_limits;
+} nh_integration_plan_limits;
 
 typedef struct {
-    const nh_way *way;       /* NULL: none was measured below eps */
+    const nh_integration_plan *way;       /* NULL: none was measured below eps */
     const nh_method *second; /* that confirms it where it is doubtful: the cheapest other one with error control; NULL: none was measured */
-    const nh_way *other;     /* the cheapest by another method or in other equations; NULL: none was measured below eps */
+    const nh_integration_plan *other;     /* the cheapest by another method or in other equations; NULL: none was measured below eps */
     double next;             /* how many times as much that one costs; NAN: there is none */
-} nh_way_choice;
+} nh_integration_plan_choice;
 
 /* What a run with an accuracy costs, per unit of time: two runs, and the confirmation where it is doubtful. */
-double nh_way_cost(size_t n, const nh_way *way, double eps, const nh_way *of);
+double nh_integration_plan_cost(size_t n, const nh_integration_plan *way, double eps, const nh_integration_plan *of);
 
 /* The cheapest run whose error was below eps, counted with its confirmation. */
-nh_way_choice nh_way_cheapest(size_t n, const nh_way *way, double eps, const nh_way_limits *limits);
+nh_integration_plan_choice nh_integration_plan_cheapest(size_t n, const nh_integration_plan *way, double eps, const nh_integration_plan_limits *limits);
 
 /* The tolerance or step at which the error is expected to be `error`, from the run that was measured. */
-double nh_way_setting(const nh_way *way, double error);
+double nh_integration_plan_setting(const nh_integration_plan *way, double error);
 
 #endif

@@ -266,7 +266,7 @@ static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p
     for (size_t i = 0; i < k->size; i++) scale[i] = nh_sizes_absolute(l->sizes, l->rtol, i) / l->rtol;
     nh_flow_options options = {.rtol = l->rtol, .scale = scale, .guarded = true, .cancelled = nh_interrupted_callback};
     size_t count = times_of(l, end, times);
-    nh_motion *motion = nh_explicit(NH_RK8PD, p, l->old, count, times, &options, &ignored); /* stages that are solved for would be too inexact to come near a wall */
+    nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored); /* stages that are solved for would be too inexact to come near a wall */
     nh_free(scale);
     nh_free(times);
     return motion;

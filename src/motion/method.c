@@ -3,15 +3,15 @@
 #include <string.h>
 
 static const nh_method methods[] = {
-    {"GSL rk8pd", "explicit Runge-Kutta pair of order 8", NH_METHOD_EXPLICIT, NH_RK8PD, false, 0},
-    {"GSL rkf45", "explicit Runge-Kutta pair of order 5", NH_METHOD_EXPLICIT, NH_RKF45, false, 0},
-    {"GSL msadams", "Adams's method, fixed-point iteration", NH_METHOD_EXPLICIT, NH_MSADAMS, false, 0},
+    {"GSL rk8pd", "explicit Runge-Kutta pair of order 8", NH_METHOD_GSL_ODEIV, NH_RK8PD, false, 0},
+    {"GSL rkf45", "explicit Runge-Kutta pair of order 5", NH_METHOD_GSL_ODEIV, NH_RKF45, false, 0},
+    {"GSL msadams", "Adams's method, fixed-point iteration", NH_METHOD_GSL_ODEIV, NH_MSADAMS, false, 0},
     {"CVODE Adams", "Adams's method, Newton's iteration", NH_METHOD_CVODE, NH_ADAMS, false, 0},
     {"CVODE BDF", "backward differentiation, for stiff equations", NH_METHOD_CVODE, NH_BDF, false, 0},
-    {"ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_PAIRS, NH_DORMAND_PRINCE_5, false, 0},
-    {"ARKODE Verner", "explicit Runge-Kutta pair of order 6", NH_METHOD_PAIRS, NH_VERNER_6, false, 0},
-    {"ARKODE Fehlberg", "explicit Runge-Kutta pair of order 8", NH_METHOD_PAIRS, NH_FEHLBERG_8, false, 0},
-    {"ARKODE ESDIRK", "diagonally implicit Runge-Kutta pair of order 5, for stiff equations", NH_METHOD_PAIRS, NH_ESDIRK_5, false, 0},
+    {"ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_ARKODE, NH_DORMAND_PRINCE_5, false, 0},
+    {"ARKODE Verner", "explicit Runge-Kutta pair of order 6", NH_METHOD_ARKODE, NH_VERNER_6, false, 0},
+    {"ARKODE Fehlberg", "explicit Runge-Kutta pair of order 8", NH_METHOD_ARKODE, NH_FEHLBERG_8, false, 0},
+    {"ARKODE ESDIRK", "diagonally implicit Runge-Kutta pair of order 5, for stiff equations", NH_METHOD_ARKODE, NH_ESDIRK_5, false, 0},
     {"midpoint", "implicit midpoint rule, order 2", NH_METHOD_MIDPOINT, NH_MIDPOINT, false, 2},
     {"midpoint, order 4", "five implicit midpoint steps composed", NH_METHOD_MIDPOINT, NH_MIDPOINT, true, 4},
     {"Lagrange-d'Alembert", "discrete Lagrange-d'Alembert principle, order 2", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, false, 2},
@@ -37,8 +37,8 @@ nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *proble
 {
     nh_flow_options own = *options;
     switch (method->family) {
-    case NH_METHOD_EXPLICIT: return nh_explicit((nh_explicit_method)method->kind, problem, initial, count, times, options, error);
-    case NH_METHOD_PAIRS: return nh_pairs((nh_pairs_method)method->kind, problem, initial, count, times, options, error);
+    case NH_METHOD_GSL_ODEIV: return nh_gsl_odeiv((nh_gsl_odeiv_method)method->kind, problem, initial, count, times, options, error);
+    case NH_METHOD_ARKODE: return nh_arkode((nh_arkode_method)method->kind, problem, initial, count, times, options, error);
     default:
         own.method = (nh_flow_method)method->kind;
         return nh_flow(problem, initial, count, times, &own, error);

@@ -7,7 +7,7 @@
 #include "motion/arkode.h"
 #include "motion/relaxation.h"
 
-typedef enum { NH_METHOD_CVODE, NH_METHOD_EXPLICIT, NH_METHOD_PAIRS, NH_METHOD_MIDPOINT, NH_METHOD_RELAXATION } nh_method_family;
+typedef enum { NH_METHOD_CVODE, NH_METHOD_GSL_ODEIV, NH_METHOD_ARKODE, NH_METHOD_MIDPOINT, NH_METHOD_RELAXATION } nh_method_family;
 
 typedef struct {
     const char *name, *about;

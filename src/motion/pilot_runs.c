@@ -32,8 +32,8 @@ static const candidate candidates[] = {{"GSL rk8pd", NH_OWN_VELOCITIES},       {
 
 typedef struct {
     const nh_trajectory_request *request;
-    const nh_survey_terms *terms;
-    nh_survey *out;
+    const nh_pilot_runs_terms *terms;
+    nh_pilot_runs *out;
     nh_trajectory_request piece;
     nh_options options;
     nh_programs *programs;
@@ -73,11 +73,11 @@ static double error_of(const survey *s, const nh_trajectory *t)
 /* One method in some velocities, at the setting that its first run asks for. */
 static void try_way(survey *s, const nh_method *method, nh_velocities velocities)
 {
-    nh_way w = {.method = method, .velocities = velocities, .tolerance = NAN, .step = NAN};
+    nh_integration_plan w = {.method = method, .velocities = velocities, .tolerance = NAN, .step = NAN};
     double setting = method->order ? s->length / (double)(s->steps + 1) : fmin(s->aim, nh_accuracy_loosest);
     double spacing = s->length / (double)(s->piece.count - 1);
     s->out->tried++;
-    for (int i = 0; i < most_runs && s->out->count < NH_SURVEY_WAYS; i++) {
+    for (int i = 0; i < most_runs && s->out->count < NH_PILOT_RUNS_WAYS; i++) {
         if (method->order) setting = spacing / ceil(spacing / setting * (1 - 1e-9)); /* steps end at the outputs */
         nh_trajectory *t = run(s, method, velocities, setting, fmax(patience * s->best, least_effort));
         if (!t) return;
@@ -90,7 +90,7 @@ static void try_way(survey *s, const nh_method *method, nh_velocities velocities
         if (w.error < 1) s->out->way[s->out->count++] = w;
         if (error < s->aim) s->best = fmin(s->best, effort);
         if (error < s->aim && error > s->aim / close) return;
-        double next = nh_way_setting(&w, s->terms->eps / safety);
+        double next = nh_integration_plan_setting(&w, s->terms->eps / safety);
         setting = method->order ? fmin(next, spacing) : fmax(nh_accuracy_tightest, fmin(next, nh_accuracy_loosest));
     }
 }
@@ -149,12 +149,12 @@ static void try_all(survey *s)
     nh_programs_free(s->programs);
 }
 
-void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, const nh_survey_terms *terms, nh_survey *out)
+void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *from, const nh_pilot_runs_terms *terms, nh_pilot_runs *out)
 {
     survey s = {.request = request, .terms = terms, .out = out, .begun = nh_effort()};
     double begun = nh_clock();
     double *times = NULL;
-    *out = (nh_survey){.count = 0};
+    *out = (nh_pilot_runs){.count = 0};
     if (open_piece(&s, from, &times)) try_all(&s);
     nh_free(times);
     out->effort = nh_effort() - s.begun;
@@ -164,22 +164,22 @@ void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, 
 /* ---- what it says ---- */
 
 /* The cheapest run of a method in the model's own velocities, or NULL. */
-static const nh_way *way_of(const nh_survey *s, const nh_method *method, double eps)
+static const nh_integration_plan *way_of(const nh_pilot_runs *s, const nh_method *method, double eps)
 {
-    const nh_way *best = NULL;
+    const nh_integration_plan *best = NULL;
     for (size_t i = 0; i < s->count; i++) {
-        const nh_way *w = &s->way[i];
+        const nh_integration_plan *w = &s->way[i];
         if (w->method == method && w->velocities == NH_OWN_VELOCITIES && w->error < eps && (!best || w->effort < best->effort)) best = w;
     }
     return best;
 }
 
-nh_way_choice nh_survey_choose(const nh_survey *s, const nh_method *best, double eps, const nh_way_limits *limits, bool done)
+nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *s, const nh_method *best, double eps, const nh_integration_plan_limits *limits, bool done)
 {
-    const nh_way *own = way_of(s, best, eps);
-    nh_way_choice choice = nh_way_cheapest(s->count, s->way, eps, limits);
+    const nh_integration_plan *own = way_of(s, best, eps);
+    nh_integration_plan_choice choice = nh_integration_plan_cheapest(s->count, s->way, eps, limits);
     if (!choice.way || !own) return choice;
-    double cost = nh_way_cost(s->count, s->way, eps, choice.way), whole = nh_way_cost(s->count, s->way, eps, own);
+    double cost = nh_integration_plan_cost(s->count, s->way, eps, choice.way), whole = nh_integration_plan_cost(s->count, s->way, eps, own);
     if (cost < gain * (whole - (done ? own->effort : 0))) return choice;
     if (choice.way->method != best) choice.next = fmax(1, cost / whole); /* so little is no difference */
     choice.way = done ? NULL : own;

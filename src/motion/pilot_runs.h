@@ -9,7 +9,7 @@
 
 #include "motion/integration_plan.h"
 
-enum { NH_SURVEY_WAYS = 32 };
+enum { NH_PILOT_RUNS_WAYS = 32 };
 
 typedef struct {
     double eps;
@@ -18,22 +18,22 @@ typedef struct {
     double budget;         /* units, all that is needed included */
     bool plain;            /* only the model's own velocities and methods with error control */
     const double *floor;   /* least scales of what is wanted (nh_accuracy_difference) */
-} nh_survey_terms;
+} nh_pilot_runs_terms;
 
 typedef struct {
     size_t count;             /* ways that were measured, below eps or not; 0: there was no reference */
-    nh_way way[NH_SURVEY_WAYS];
+    nh_integration_plan way[NH_PILOT_RUNS_WAYS];
     size_t tried;             /* methods in velocities */
     double part;              /* of the motion */
     long evaluations;
     double effort, seconds;   /* all that it took */
-} nh_survey;
+} nh_pilot_runs;
 
 /* `from`: a state of the motion between its ends, or the initial one. */
-void nh_survey_make(const nh_trajectory_request *request, const nh_state *from, const nh_survey_terms *terms, nh_survey *out);
+void nh_pilot_runs_make(const nh_trajectory_request *request, const nh_state *from, const nh_pilot_runs_terms *terms, nh_pilot_runs *out);
 
 /* The cheapest below eps, if it saves work beside the best that was known, which has done one of its runs when `done`: then NULL where nothing does, else that one
  * itself. */
-nh_way_choice nh_survey_choose(const nh_survey *survey, const nh_method *best, double eps, const nh_way_limits *limits, bool done);
+nh_integration_plan_choice nh_pilot_runs_choose(const nh_pilot_runs *survey, const nh_method *best, double eps, const nh_integration_plan_limits *limits, bool done);
 
 #endif

@@ -18,7 +18,7 @@ static const double steepest = 10; /* |R| of a chart of coordinate velocities, w
 typedef bool to_point(void *context, double t, const double *z, double *point);
 
 static bool point_of_all(void *context, double t, const double *z, double *point) { return nh_dynamics_point(context, t, z, point); }
-static bool point_of_scene(void *context, double t, const double *z, double *point) { return nh_scene_point(context, t, z, point); }
+static bool point_of_scene(void *context, double t, const double *z, double *point) { return nh_closed_subsystem_point(context, t, z, point); }
 
 static bool values_along(const nh_model *model, to_point *place, void *context, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
 {
@@ -175,7 +175,7 @@ bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
 }
 
 /* The entries of R that kept states alone decide; the others do not enter their equations. */
-static bool scene_is_steep(const nh_scene *s, nh_scene_run *run, const nh_motion *motion)
+static bool scene_is_steep(const nh_closed_subsystem *s, nh_closed_subsystem_run *run, const nh_motion *motion)
 {
     const nh_model *o = s->model;
     if (o->chart->quasi || !o->k || s->smooth) return false;
@@ -208,7 +208,7 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, 
     const nh_model *o = nh_dynamics_model(dynamics);
     size_t m = o->m;
     nh_bordered *b = nh_bordered_create(o);
-    nh_bordered_hasten(b, nh_dynamics_patience(dynamics));
+    nh_bordered_jit(b, nh_dynamics_patience(dynamics));
     nh_flow_problem problem = nh_bordered_flow(b);
     nh_flow_options options = *given;
     double *y = nh_alloc_array(2 * m, sizeof *y), *scale = given->scale ? nh_alloc_array(2 * m, sizeof *scale) : NULL;
@@ -264,31 +264,31 @@ static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
 /* The scene's states from the start of all.  *failed: the current (its number) that did not determine its state all the way, or -1. */
 static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *failed, nh_error *error)
 {
-    nh_scene *s = j->out->scene = nh_scene_create(j->q->model, j->q->n, j->q->e, currents, current);
-    nh_scene_run *run = nh_scene_run_create(s, j->q->times[0], j->z0);
-    nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_scene_problem(run, &whole);
+    nh_closed_subsystem *s = j->out->scene = nh_closed_subsystem_create(j->q->model, j->q->n, j->q->e, currents, current);
+    nh_closed_subsystem_run *run = nh_closed_subsystem_run_create(s, j->q->times[0], j->z0);
+    nh_flow_problem whole = nh_dynamics_problem(j->dynamics), problem = nh_closed_subsystem_problem(run, &whole);
     double *small = nh_alloc_array(s->kept + 1, sizeof *small);
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
-    nh_scene_run_hasten(run, j->q->options->compile);
-    bool starts = s->kept && nh_scene_run_failed(run) < 0 && (s->smooth || !j->leave);
+    nh_closed_subsystem_run_jit(run, j->q->options->compile);
+    bool starts = s->kept && nh_closed_subsystem_run_failed(run) < 0 && (s->smooth || !j->leave);
     nh_motion *motion = starts ? nh_method_flow(j->method, &problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
     bool good = motion && !(nh_may_leave_chart(j->q->model) && ((!s->smooth && !motion->complete) || scene_is_steep(s, run, motion)));
     if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
     if (good && s->levels) good = motion->complete;
     *failed = -1;
     if (!good && s->levels) {
-        long level = nh_scene_run_failed(run);
+        long level = nh_closed_subsystem_run_failed(run);
         if (level < 0) level = (long)s->levels - 1;
         for (size_t k = 0; k < currents; k++)
             if (current[k] == s->network.level[level].current) *failed = (long)k;
     }
     j->out->motion = motion;
-    say_machine(nh_scene_run_words(run), j->out->machine);
+    say_machine(nh_closed_subsystem_run_words(run), j->out->machine);
     nh_free(small);
-    nh_scene_run_free(run);
+    nh_closed_subsystem_run_free(run);
     if (good) return true;
     nh_motion_free(motion);
-    nh_scene_free(s);
+    nh_closed_subsystem_free(s);
     j->out->motion = NULL;
     j->out->scene = NULL;
     return false;
@@ -299,9 +299,9 @@ static bool in_scene(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
     nh_ex *current = nh_alloc_array(q->currents + q->model->m + 1, sizeof *current);
-    size_t n = nh_network_cyclic(q->model, current);
+    size_t n = nh_dependency_graph_cyclic(q->model, current);
     for (size_t k = 0; k < q->currents; k++)
-        if (nh_network_conserved(q->model, q->current[k])) current[n++] = q->current[k];
+        if (nh_dependency_graph_conserved(q->model, q->current[k])) current[n++] = q->current[k];
     bool good = false;
     for (long failed = 0; failed >= 0 && !good;) {
         good = in_scene_of(j, n, current, &failed, error);
@@ -342,7 +342,7 @@ static bool in_other_velocities(job *j, nh_error *error)
     nh_dynamics *other = nh_dynamics_create(q->other);
     nh_flow_problem problem = nh_dynamics_problem(other);
     double *z0 = nh_alloc_array(q->other->m + q->other->n + 1, sizeof *z0);
-    nh_dynamics_hasten(other, q->options->compile);
+    nh_dynamics_jit(other, q->options->compile);
     bool starts = nh_dynamics_start(other, q->initial, q->project, z0, error) && !meets_pivot(j, other, z0);
     nh_motion *motion = starts ? nh_method_flow(j->method, &problem, z0, q->count, q->times, &j->how, error) : NULL;
     bool steep = false;
@@ -388,7 +388,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     nh_trajectory *out = nh_alloc(sizeof *out);
     *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
     job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
-    nh_dynamics_hasten(j.dynamics, q->options->compile);
+    nh_dynamics_jit(j.dynamics, q->options->compile);
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .absolute = fmax(q->options->absolute, DBL_MIN), .max_steps = q->options->steps, .effort = q->max_effort};
     j.how.step = q->step;
     j.how.cancelled = late;
@@ -412,7 +412,7 @@ void nh_trajectory_free(nh_trajectory *trajectory)
 {
     if (!trajectory) return;
     nh_motion_free(trajectory->motion);
-    nh_scene_free(trajectory->scene);
+    nh_closed_subsystem_free(trajectory->scene);
     nh_free(trajectory->value);
     nh_free(trajectory);
 }

@@ -39,7 +39,7 @@ typedef struct {
     nh_motion *motion;        /* in (q, w), in (q, v), or in the kept states of the scene */
     const char *method, *formulation;
     double *value;            /* count x n, row by row: value[i * n + k] */
-    nh_scene *scene;          /* NULL: all states were integrated */
+    nh_closed_subsystem *scene;          /* NULL: all states were integrated */
     char machine[320];        /* how the equations were evaluated, in words */
 } nh_trajectory;
 

@@ -19,7 +19,7 @@ typedef struct {
     size_t outputs;
     double *times, *z0;
     size_t watches;
-    const nh_watch *watch;
+    const nh_observable *watch;
     const nh_valid *valid;
     const nh_method *method;
     bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
@@ -242,7 +242,7 @@ static void smallest_model(run *r, const nh_state *initial, const nh_motion *mot
     if (t && t->scene && t->motion->complete) {
         nh_text words;
         nh_text_init(&words);
-        nh_scene_words(t->scene, &words);
+        nh_closed_subsystem_words(t->scene, &words);
         v->scene = nh_arena_strdup(v->arena, nh_text_string(&words));
         v->scene_evaluations = t->motion->evaluations;
         double *size = nh_alloc_array(n, sizeof *size);

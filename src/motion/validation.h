@@ -50,7 +50,7 @@ typedef struct {
     nh_ex value;
     bool asked; /* by the user: what the scene is made for */
     bool by_terms; /* a sum that may cancel (nh_trajectory_request) */
-} nh_watch;
+} nh_observable;
 
 /* Where a current makes sense: while `variable` lies between low and high. */
 typedef struct {
@@ -64,14 +64,14 @@ typedef struct {
     const nh_ex *current;
     const nh_valid *valid;         /* `currents` intervals, or NULL */
     size_t watches;
-    const nh_watch *watch;
+    const nh_observable *watch;
     const nh_state *initial;
     double until;
     size_t outputs;
     const nh_options *options;
     double accuracy;               /* of the states and of what is watched, along the tightest run: its method and tolerance are chosen for it (accuracy.h).
                                       0: CVODE Adams at the tolerance of the options */
-    const nh_ways *ways;           /* with an accuracy: from what may be chosen; only plain ones, in their own velocities and with error control */
+    const nh_integration_plans *ways;           /* with an accuracy: from what may be chosen; only plain ones, in their own velocities and with error control */
 } nh_validation_request;
 
 nh_validation *nh_validate(const nh_validation_request *request, nh_error *error);

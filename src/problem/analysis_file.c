@@ -14,7 +14,7 @@ static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
-bool nh_analysis_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error)
+bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error)
 {
     if (!node) return true;
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, what, error)) return false;
@@ -33,7 +33,7 @@ static bool text_of(const nh_deck *deck, const nh_deck_node *map, const char *ke
     return !node || nh_deck_is(deck, node, NH_DECK_SCALAR, key, error);
 }
 
-static bool read_settings(nh_analysis *a, const nh_deck_node *map, nh_error *error)
+static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error *error)
 {
     if (!map) return true;
     if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "set", error)) return false;
@@ -46,7 +46,7 @@ static bool read_settings(nh_analysis *a, const nh_deck_node *map, nh_error *err
     return true;
 }
 
-static bool read_head(nh_analysis *a, nh_error *error)
+static bool read_head(nh_analysis_file *a, nh_error *error)
 {
     static const char *const routes[] = {"both", "symmetry", "current"}, *const charts[] = {"auto", "quasi", "coordinates"};
     const nh_deck_node *root = nh_deck_root(a->deck), *node;
@@ -56,10 +56,10 @@ static bool read_head(nh_analysis *a, nh_error *error)
     const char *remark; /* title and doc are for the reader of the file */
     if (!text_of(a->deck, root, "name", "analysis", &a->name, error) || !text_of(a->deck, root, "system", NULL, &a->system, error)) return false;
     if (!text_of(a->deck, root, "title", "", &remark, error) || !text_of(a->deck, root, "doc", "", &remark, error)) return false;
-    if (!nh_analysis_choice(a->deck, nh_deck_get(root, "route"), "route", routes, &index, error)) return false;
+    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "route"), "route", routes, &index, error)) return false;
     a->route = (nh_route)index;
     index = 0;
-    if (!nh_analysis_choice(a->deck, nh_deck_get(root, "chart"), "chart", charts, &index, error)) return false;
+    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "chart"), "chart", charts, &index, error)) return false;
     a->chart = (nh_chart_choice)index;
     long whole;
     if ((node = nh_deck_get(root, "samples"))) {
@@ -75,26 +75,26 @@ static bool read_head(nh_analysis *a, nh_error *error)
     return read_settings(a, nh_deck_get(root, "set"), error);
 }
 
-static nh_analysis *read_deck(nh_deck *deck, nh_error *error)
+static nh_analysis_file *read_deck(nh_deck *deck, nh_error *error)
 {
     if (!deck) return NULL;
     nh_arena *arena = nh_arena_create();
-    nh_analysis *a = nh_arena_alloc(arena, sizeof *a);
+    nh_analysis_file *a = nh_arena_alloc(arena, sizeof *a);
     a->arena = arena;
     a->deck = deck;
     if (read_head(a, error)) return a;
-    nh_analysis_free(a);
+    nh_analysis_file_free(a);
     return NULL;
 }
 
-nh_analysis *nh_analysis_read(const char *path, nh_error *error) { return read_deck(nh_deck_read(path, error), error); }
+nh_analysis_file *nh_analysis_file_read(const char *path, nh_error *error) { return read_deck(nh_deck_read(path, error), error); }
 
-nh_analysis *nh_analysis_text(const char *name, const char *text, nh_error *error)
+nh_analysis_file *nh_analysis_file_text(const char *name, const char *text, nh_error *error)
 {
     return read_deck(nh_deck_parse(name, text, strlen(text), error), error);
 }
 
-void nh_analysis_free(nh_analysis *analysis)
+void nh_analysis_file_free(nh_analysis_file *analysis)
 {
     if (!analysis) return;
     nh_deck_free(analysis->deck);
@@ -103,7 +103,7 @@ void nh_analysis_free(nh_analysis *analysis)
 
 /* ---- expressions of the chart ---- */
 
-bool nh_analysis_to_chart(const nh_model *o, nh_ex e, nh_ex *out, nh_error *error)
+bool nh_analysis_file_to_chart(const nh_model *o, nh_ex e, nh_ex *out, nh_error *error)
 {
     nh_system *s = o->system;
     bool quasi_used = false;
@@ -124,19 +124,19 @@ bool nh_analysis_to_chart(const nh_model *o, nh_ex e, nh_ex *out, nh_error *erro
 
 /* ---- after the system: a reader with the names of the analysis ---- */
 
-typedef nh_analysis_reader reader;
+typedef nh_analysis_file_reader reader;
 
-void *nh_analysis_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->a->arena, (count + 1) * size); }
+void *nh_analysis_file_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->a->arena, (count + 1) * size); }
 
-/* nh_analysis_to_chart, complaining about the node. */
+/* nh_analysis_file_to_chart, complaining about the node. */
 static bool to_chart(reader *r, const nh_deck_node *node, nh_ex e, nh_ex *out)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
-    return nh_analysis_to_chart(r->model, e, out, &trouble) || nh_deck_fail(r->a->deck, node, 0, r->error, "%s", trouble.what);
+    return nh_analysis_file_to_chart(r->model, e, out, &trouble) || nh_deck_fail(r->a->deck, node, 0, r->error, "%s", trouble.what);
 }
 
-bool nh_analysis_parse(reader *r, const nh_deck_node *node, nh_ex *out)
+bool nh_analysis_file_parse(reader *r, const nh_deck_node *node, nh_ex *out)
 {
     if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "an expression", r->error)) return false;
     nh_ex e;
@@ -171,7 +171,7 @@ static bool read_unknowns(reader *r)
     const nh_deck_node *map = nh_deck_get(r->root, "unknowns");
     if (!map) return true;
     if (!nh_deck_is(r->a->deck, map, NH_DECK_MAP, "unknowns {nu: [low, high]}", r->error)) return false;
-    r->a->unknown = nh_analysis_take(r, map->count, sizeof *r->a->unknown);
+    r->a->unknown = nh_analysis_file_take(r, map->count, sizeof *r->a->unknown);
     for (size_t i = 0; i < map->count; i++) {
         double range[2];
         const char *name = map->key[i]->text;
@@ -205,7 +205,7 @@ static bool read_assignments(reader *r, const nh_deck_node *list, const char *wh
 {
     if (!list) return true;
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, what, r->error)) return false;
-    *out = nh_analysis_take(r, list->count, sizeof **out);
+    *out = nh_analysis_file_take(r, list->count, sizeof **out);
     for (size_t i = 0; i < list->count; i++) {
         if (!read_assignment(r, list->item[i], visible, &(*out)[i])) return false;
         for (size_t j = 0; j < i; j++)
@@ -216,7 +216,7 @@ static bool read_assignments(reader *r, const nh_deck_node *list, const char *wh
     return true;
 }
 
-bool nh_analysis_watches(reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count) { return read_assignments(r, list, what, false, out, count); }
+bool nh_analysis_file_watches(reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count) { return read_assignments(r, list, what, false, out, count); }
 
 /* ---- the motion ---- */
 
@@ -268,7 +268,7 @@ static void velocities_of(const nh_system *s, const double *quasi, nh_state *sta
 static bool unknown_state(reader *r, const nh_deck_node *key)
 {
     const nh_system *s = r->model->system;
-    const char **names = nh_analysis_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
+    const char **names = nh_analysis_file_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
     size_t n = nh_system_state_names(s, names);
     nh_deck_fail(r->a->deck, key, 0, r->error, "`%s` is not a coordinate or velocity of %s", key->text, s->name);
     const char *near = nh_text_nearest(key->text, names, n);
@@ -279,9 +279,9 @@ static bool read_initial(reader *r, const nh_deck_node *map)
 {
     const nh_system *s = r->model->system;
     nh_state *state = &r->a->initial;
-    double *quasi = nh_analysis_take(r, s->quasi, sizeof *quasi);
+    double *quasi = nh_analysis_file_take(r, s->quasi, sizeof *quasi);
     bool any_quasi = false, any_velocity = false;
-    state->given = nh_analysis_take(r, s->coordinates, sizeof *state->given);
+    state->given = nh_analysis_file_take(r, s->coordinates, sizeof *state->given);
     for (size_t i = 0; i < map->count; i++) {
         const char *name = map->key[i]->text;
         double value;
@@ -309,7 +309,7 @@ static bool read_initial(reader *r, const nh_deck_node *map)
     return true;
 }
 
-bool nh_analysis_starts(const nh_analysis *a)
+bool nh_analysis_file_starts(const nh_analysis_file *a)
 {
     const nh_deck_node *map = nh_deck_get(nh_deck_root(a->deck), "validate");
     return map && (map->kind != NH_DECK_MAP || nh_deck_get(map, "initial"));
@@ -319,9 +319,9 @@ static bool read_validate(reader *r)
 {
     static const char *const keys[] = {"initial", "time", "tolerance"};
     const nh_deck_node *map = nh_deck_get(r->root, "validate"), *node;
-    nh_analysis *a = r->a;
+    nh_analysis_file *a = r->a;
     size_t m = r->model->m;
-    a->initial = (nh_state){0, nh_analysis_take(r, m, sizeof(double)), nh_analysis_take(r, m, sizeof(double)), NULL};
+    a->initial = (nh_state){0, nh_analysis_file_take(r, m, sizeof(double)), nh_analysis_file_take(r, m, sizeof(double)), NULL};
     if (!map) return true;
     if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "validate", r->error) || !nh_deck_only(a->deck, map, keys, 3, r->error)) return false;
     if ((node = nh_deck_get(map, "time"))) {
@@ -341,15 +341,15 @@ static bool read_validate(reader *r)
     return nh_deck_is(a->deck, node, NH_DECK_MAP, "initial {x: 0, ...}", r->error) && read_initial(r, node);
 }
 
-static bool shape_expression(void *context, const nh_deck_node *node, nh_ex *out) { return nh_analysis_parse(context, node, out); }
+static bool shape_expression(void *context, const nh_deck_node *node, nh_ex *out) { return nh_analysis_file_parse(context, node, out); }
 
 static bool read_drawing(reader *r, const nh_deck_node *list)
 {
-    nh_analysis *a = r->a;
+    nh_analysis_file *a = r->a;
     a->shapes = 0;
     if (!list) return true;
     if (!nh_deck_is(a->deck, list, NH_DECK_LIST, "draw", r->error)) return false;
-    a->shape = nh_analysis_take(r, list->count, sizeof *a->shape);
+    a->shape = nh_analysis_file_take(r, list->count, sizeof *a->shape);
     for (size_t i = 0; i < list->count; i++)
         if (!nh_shape_read(a->deck, list->item[i], shape_expression, r, &a->shape[i], r->error)) return false;
     a->shapes = list->count;
@@ -365,15 +365,15 @@ static bool read_scene(reader *r)
     return read_assignments(r, nh_deck_get(map, "watch"), "watch", false, &r->a->watch, &r->a->watches) && read_drawing(r, nh_deck_get(map, "draw"));
 }
 
-bool nh_analysis_resolve(nh_analysis *a, const nh_model *model, nh_error *error)
+bool nh_analysis_file_resolve(nh_analysis_file *a, const nh_model *model, nh_error *error)
 {
     const nh_deck_node *root = nh_deck_root(a->deck), *definitions = nh_deck_get(root, "definitions"), *unknowns = nh_deck_get(root, "unknowns");
     reader r = {.a = a, .model = model, .root = root, .error = error};
     nh_ex taken;
-    r.extra = nh_analysis_take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0), sizeof *r.extra);
+    r.extra = nh_analysis_file_take(&r, 2 + (definitions ? definitions->count : 0) + (unknowns ? unknowns->count : 0), sizeof *r.extra);
     if (!nh_symbol_find(model->dag, "E", &taken)) r.extra[r.extras++] = (nh_named){.name = "E", .value = model->E};
     if (!nh_symbol_find(model->dag, "Lbar", &taken)) r.extra[r.extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     r.own = r.extras;
-    return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && nh_analysis_read_ansatz(&r)
-           && read_validate(&r) && read_scene(&r) && nh_analysis_read_figures(&r);
+    return read_unknowns(&r) && read_assignments(&r, definitions, "definitions", true, &a->definition, &a->definitions) && nh_analysis_file_read_ansatz(&r)
+           && read_validate(&r) && read_scene(&r) && nh_analysis_file_read_figures(&r);
 }

@@ -33,7 +33,7 @@ typedef struct {
     nh_route route;
     bool has_seed, has_samples, has_tolerance;
     double seed, samples, tolerance;
-    /* the rest, after nh_analysis_resolve */
+    /* the rest, after nh_analysis_file_resolve */
     size_t families, unknowns, watches, definitions;
     nh_family *family;
     nh_unknown *unknown;
@@ -45,20 +45,20 @@ typedef struct {
     bool has_initial, has_until;
     nh_state initial;
     double until;
-} nh_analysis;
+} nh_analysis_file;
 
-nh_analysis *nh_analysis_read(const char *path, nh_error *error);
+nh_analysis_file *nh_analysis_file_read(const char *path, nh_error *error);
 /* The same from a text, called `name` in messages. */
-nh_analysis *nh_analysis_text(const char *name, const char *text, nh_error *error);
-void nh_analysis_free(nh_analysis *analysis);
+nh_analysis_file *nh_analysis_file_text(const char *name, const char *text, nh_error *error);
+void nh_analysis_file_free(nh_analysis_file *analysis);
 
 /* Read ansatz, unknowns, initial state and scene in the names of the model's system; expressions are brought to its chart. */
-bool nh_analysis_resolve(nh_analysis *analysis, const nh_model *model, nh_error *error);
+bool nh_analysis_file_resolve(nh_analysis_file *analysis, const nh_model *model, nh_error *error);
 
 /* Does it name an initial state?  Known before there is a model. */
-bool nh_analysis_starts(const nh_analysis *analysis);
+bool nh_analysis_file_starts(const nh_analysis_file *analysis);
 
 /* Any expression of the system (coordinate velocities, quasi-velocities) as a function of the model's chart. */
-bool nh_analysis_to_chart(const nh_model *model, nh_ex e, nh_ex *out, nh_error *error);
+bool nh_analysis_file_to_chart(const nh_model *model, nh_ex e, nh_ex *out, nh_error *error);
 
 #endif

@@ -3,21 +3,21 @@
 
 #include "problem/analysis_file_internal.h"
 
-static bool read_in(nh_analysis_reader *r, const nh_deck_node *item, nh_family *f)
+static bool read_in(nh_analysis_file_reader *r, const nh_deck_node *item, nh_family *f)
 {
     const nh_deck_node *in = nh_deck_get(item, "in");
     if (!in) return nh_deck_fail(r->a->deck, item, 0, r->error, "this family has no `in`: functions of what?");
     size_t n = in->kind == NH_DECK_LIST ? in->count : 1;
     if (n == 0) return nh_deck_fail(r->a->deck, in, 0, r->error, "this `in` is empty: functions of what?");
-    nh_ex *list = nh_analysis_take(r, n, sizeof *list);
+    nh_ex *list = nh_analysis_file_take(r, n, sizeof *list);
     for (size_t i = 0; i < n; i++)
-        if (!nh_analysis_parse(r, in->kind == NH_DECK_LIST ? in->item[i] : in, &list[i])) return false;
+        if (!nh_analysis_file_parse(r, in->kind == NH_DECK_LIST ? in->item[i] : in, &list[i])) return false;
     f->in = list;
     f->in_count = n;
     return true;
 }
 
-static bool read_size(nh_analysis_reader *r, const nh_deck_node *item, const char *key, long fallback, size_t *out)
+static bool read_size(nh_analysis_file_reader *r, const nh_deck_node *item, const char *key, long fallback, size_t *out)
 {
     const nh_deck_node *node = nh_deck_get(item, key);
     long value = fallback;
@@ -27,7 +27,7 @@ static bool read_size(nh_analysis_reader *r, const nh_deck_node *item, const cha
     return true;
 }
 
-static bool read_fourier(nh_analysis_reader *r, const nh_deck_node *item, nh_family *f)
+static bool read_fourier(nh_analysis_file_reader *r, const nh_deck_node *item, nh_family *f)
 {
     const nh_deck_node *frequency = nh_deck_get(item, "frequency"), *constant = nh_deck_get(item, "constant");
     f->kind = NH_FOURIER;
@@ -37,30 +37,30 @@ static bool read_fourier(nh_analysis_reader *r, const nh_deck_node *item, nh_fam
     if (constant) f->constant = !strcmp(constant->text, "true");
     if (constant && !f->constant && strcmp(constant->text, "false"))
         return nh_deck_fail(r->a->deck, constant, 0, r->error, "`constant` must be true or false, found `%s`", constant->text);
-    if (frequency && !nh_analysis_parse(r, frequency, &f->frequency)) return false;
+    if (frequency && !nh_analysis_file_parse(r, frequency, &f->frequency)) return false;
     return read_in(r, item, f) && read_size(r, item, "harmonics", 1, &f->degree);
 }
 
-static bool read_terms(nh_analysis_reader *r, const nh_deck_node *item, nh_family *f)
+static bool read_terms(nh_analysis_file_reader *r, const nh_deck_node *item, nh_family *f)
 {
     const nh_deck_node *list = nh_deck_get(item, "terms");
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "terms", r->error)) return false;
     if (list->count == 0) return nh_deck_fail(r->a->deck, list, 0, r->error, "this list of terms is empty");
-    nh_ex *term = nh_analysis_take(r, list->count, sizeof *term);
+    nh_ex *term = nh_analysis_file_take(r, list->count, sizeof *term);
     for (size_t i = 0; i < list->count; i++)
-        if (!nh_analysis_parse(r, list->item[i], &term[i])) return false;
+        if (!nh_analysis_file_parse(r, list->item[i], &term[i])) return false;
     *f = (nh_family){.kind = NH_TERMS, .terms = list->count, .term = term};
     return true;
 }
 
-static bool read_family(nh_analysis_reader *r, const nh_deck_node *item, int depth, nh_family *f);
+static bool read_family(nh_analysis_file_reader *r, const nh_deck_node *item, int depth, nh_family *f);
 
-static bool read_product(nh_analysis_reader *r, const nh_deck_node *item, int depth, nh_family *f)
+static bool read_product(nh_analysis_file_reader *r, const nh_deck_node *item, int depth, nh_family *f)
 {
     const nh_deck_node *list = nh_deck_get(item, "product");
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "product", r->error)) return false;
     if (list->count == 0) return nh_deck_fail(r->a->deck, list, 0, r->error, "this product is empty");
-    nh_family *part = nh_analysis_take(r, list->count, sizeof *part);
+    nh_family *part = nh_analysis_file_take(r, list->count, sizeof *part);
     for (size_t i = 0; i < list->count; i++)
         if (!read_family(r, list->item[i], depth + 1, &part[i])) return false;
     *f = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = list->count, .part = part};
@@ -68,7 +68,7 @@ static bool read_product(nh_analysis_reader *r, const nh_deck_node *item, int de
 }
 
 /* Has the family only keys that mean something for its kind? */
-static bool fits(nh_analysis_reader *r, const nh_deck_node *item, const char *kind, const char *keys)
+static bool fits(nh_analysis_file_reader *r, const nh_deck_node *item, const char *kind, const char *keys)
 {
     for (size_t i = 0; i < item->count; i++) {
         const char *key = item->key[i]->text, *found = strstr(keys, key);
@@ -80,7 +80,7 @@ static bool fits(nh_analysis_reader *r, const nh_deck_node *item, const char *ki
     return true;
 }
 
-static bool read_family(nh_analysis_reader *r, const nh_deck_node *item, int depth, nh_family *f)
+static bool read_family(nh_analysis_file_reader *r, const nh_deck_node *item, int depth, nh_family *f)
 {
     static const char *const keys[] = {"basis", "in", "degree", "harmonics", "frequency", "constant", "terms", "product"};
     static const char *const bases[] = {"polynomial", "fourier", "chebyshev"};
@@ -91,7 +91,7 @@ static bool read_family(nh_analysis_reader *r, const nh_deck_node *item, int dep
     if (nh_deck_get(item, "product")) return fits(r, item, "a product", "product") && read_product(r, item, depth, f);
     if (nh_deck_get(item, "terms")) return fits(r, item, "a list of terms", "terms") && read_terms(r, item, f);
     if (!nh_deck_get(item, "basis")) return nh_deck_fail(deck, item, 0, r->error, "a family needs `basis`, `terms` or `product`");
-    if (!nh_analysis_choice(deck, nh_deck_get(item, "basis"), "basis", bases, &basis, r->error)) return false;
+    if (!nh_analysis_file_choice(deck, nh_deck_get(item, "basis"), "basis", bases, &basis, r->error)) return false;
     *f = (nh_family){.kind = basis == 0 ? NH_POLYNOMIAL : NH_CHEBYSHEV};
     if (basis == 1) return fits(r, item, "a fourier family", "basis, in, harmonics, frequency, constant") && read_fourier(r, item, f);
     if (!fits(r, item, basis ? "a chebyshev family" : "a polynomial family", "basis, in, degree")) return false;
@@ -100,12 +100,12 @@ static bool read_family(nh_analysis_reader *r, const nh_deck_node *item, int dep
     return true;
 }
 
-bool nh_analysis_read_ansatz(nh_analysis_reader *r)
+bool nh_analysis_file_read_ansatz(nh_analysis_file_reader *r)
 {
     const nh_deck_node *list = nh_deck_get(r->root, "ansatz");
     if (!list) return true;
     if (!nh_deck_is(r->a->deck, list, NH_DECK_LIST, "ansatz", r->error)) return false;
-    r->a->family = nh_analysis_take(r, list->count, sizeof *r->a->family);
+    r->a->family = nh_analysis_file_take(r, list->count, sizeof *r->a->family);
     for (size_t i = 0; i < list->count; i++)
         if (!read_family(r, list->item[i], 0, &r->a->family[i])) return false;
     r->a->families = list->count;

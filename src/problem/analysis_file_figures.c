@@ -3,7 +3,7 @@
 
 #include "problem/analysis_file_internal.h"
 
-typedef nh_analysis_reader reader;
+typedef nh_analysis_file_reader reader;
 
 /* path: [x, y] or [x, y, heading] */
 static bool read_path(reader *r, const nh_deck_node *list, nh_figure_request *f)
@@ -12,9 +12,9 @@ static bool read_path(reader *r, const nh_deck_node *list, nh_figure_request *f)
     const nh_deck *deck = r->a->deck;
     if (!nh_deck_is(deck, list, NH_DECK_LIST, "a path [x, y] or [x, y, heading]", r->error)) return false;
     if (list->count != 2 && list->count != 3) return nh_deck_fail(deck, list, 0, r->error, "a path is given by 2 or 3 expressions, found %zu", list->count);
-    f->quantity = nh_analysis_take(r, list->count, sizeof *f->quantity);
+    f->quantity = nh_analysis_file_take(r, list->count, sizeof *f->quantity);
     for (size_t i = 0; i < list->count; i++) {
-        if (!nh_analysis_parse(r, list->item[i], &f->quantity[i].value)) return false;
+        if (!nh_analysis_file_parse(r, list->item[i], &f->quantity[i].value)) return false;
         f->quantity[i].name = i < 2 ? list->item[i]->text : names[i];
     }
     f->quantities = list->count;
@@ -23,7 +23,7 @@ static bool read_path(reader *r, const nh_deck_node *list, nh_figure_request *f)
 
 static bool read_scan(reader *r, const nh_deck_node *node, nh_figure_request *f)
 {
-    const nh_analysis *a = r->a;
+    const nh_analysis_file *a = r->a;
     if (!nh_deck_is(a->deck, node, NH_DECK_SCALAR, "the name of an unknown", r->error)) return false;
     for (f->unknown = 0; f->unknown < a->unknowns; f->unknown++)
         if (!strcmp(node->text, nh_name_of(r->model->dag, a->unknown[f->unknown].symbol))) break;
@@ -39,7 +39,7 @@ static bool read_samples(reader *r, const nh_deck_node *list, nh_figure_request 
 {
     const nh_deck *deck = r->a->deck;
     if (!nh_deck_is(deck, list, NH_DECK_LIST, "a list of numbers of samples", r->error)) return false;
-    f->value = nh_analysis_take(r, list->count, sizeof *f->value);
+    f->value = nh_analysis_file_take(r, list->count, sizeof *f->value);
     for (size_t i = 0; i < list->count; i++) {
         if (!nh_deck_number(deck, list->item[i], "a number of samples", &f->value[i], r->error)) return false;
         if (!(f->value[i] >= 2 && f->value[i] <= 1e6 && f->value[i] == (double)(size_t)f->value[i]))
@@ -66,7 +66,7 @@ static bool read_vary(reader *r, const nh_deck_node *map, nh_figure_request *f)
     }
     const nh_deck_node *list = map->item[0];
     if (!nh_deck_is(deck, list, NH_DECK_LIST, "a list of values", r->error)) return false;
-    f->value = nh_analysis_take(r, list->count, sizeof *f->value);
+    f->value = nh_analysis_file_take(r, list->count, sizeof *f->value);
     for (size_t i = 0; i < list->count; i++)
         if (!nh_deck_number(deck, list->item[i], "the value of a parameter", &f->value[i], r->error)) return false;
     f->values = list->count;
@@ -89,7 +89,7 @@ static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *
     f->kind = path ? NH_FIGURE_PATH : plot ? NH_FIGURE_PLOT : scan ? NH_FIGURE_SCAN : NH_FIGURE_SAMPLES;
     f->title = title ? title->text : path ? "Path" : plot ? "Over time" : scan ? "Scan" : "Singular values, by the number of samples";
     if (path && !read_path(r, path, f)) return false;
-    if (plot && !nh_analysis_watches(r, plot, "plot", &f->quantity, &f->quantities)) return false;
+    if (plot && !nh_analysis_file_watches(r, plot, "plot", &f->quantity, &f->quantities)) return false;
     if (scan && !read_scan(r, scan, f)) return false;
     if (samples && !read_samples(r, samples, f)) return false;
     double range[2] = {0, 0};
@@ -102,14 +102,14 @@ static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *
     return read_vary(r, vary, f);
 }
 
-bool nh_analysis_read_figures(reader *r)
+bool nh_analysis_file_read_figures(reader *r)
 {
-    nh_analysis *a = r->a;
+    nh_analysis_file *a = r->a;
     const nh_deck_node *list = nh_deck_get(r->root, "figures");
     a->figures = 0;
     if (!list) return true;
     if (!nh_deck_is(a->deck, list, NH_DECK_LIST, "figures", r->error)) return false;
-    a->figure = nh_analysis_take(r, list->count, sizeof *a->figure);
+    a->figure = nh_analysis_file_take(r, list->count, sizeof *a->figure);
     for (size_t i = 0; i < list->count; i++)
         if (!read_figure(r, list->item[i], &a->figure[i])) return false;
     a->figures = list->count;

@@ -5,25 +5,25 @@
 #include "problem/analysis_file.h"
 
 typedef struct {
-    nh_analysis *a;
+    nh_analysis_file *a;
     const nh_model *model;
     const nh_deck_node *root;
     nh_named *extra; /* E, Lbar, unknowns, definitions */
     size_t extras, own; /* the first `own` are E and Lbar */
     nh_error *error;
-} nh_analysis_reader;
+} nh_analysis_file_reader;
 
 /* `count` + 1 zeroed elements that live as long as the analysis. */
-void *nh_analysis_take(nh_analysis_reader *r, size_t count, size_t size);
+void *nh_analysis_file_take(nh_analysis_file_reader *r, size_t count, size_t size);
 /* An expression in the names of the analysis, brought to the model's chart. */
-bool nh_analysis_parse(nh_analysis_reader *r, const nh_deck_node *node, nh_ex *out);
+bool nh_analysis_file_parse(nh_analysis_file_reader *r, const nh_deck_node *node, nh_ex *out);
 /* One of `names`; an absent node leaves *out alone. */
-bool nh_analysis_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error);
+bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, const char *what, const char *const *names, size_t *out, nh_error *error);
 /* A list of "name = expression". */
-bool nh_analysis_watches(nh_analysis_reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count);
+bool nh_analysis_file_watches(nh_analysis_file_reader *r, const nh_deck_node *list, const char *what, nh_named **out, size_t *count);
 /* figures: what to draw of which motions. */
-bool nh_analysis_read_figures(nh_analysis_reader *r);
+bool nh_analysis_file_read_figures(nh_analysis_file_reader *r);
 /* ansatz: the list of families. */
-bool nh_analysis_read_ansatz(nh_analysis_reader *r);
+bool nh_analysis_file_read_ansatz(nh_analysis_file_reader *r);
 
 #endif

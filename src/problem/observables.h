@@ -21,16 +21,16 @@ typedef struct {
     size_t shapes;
     const nh_shape *shape;  /* what is drawn; its numbers are the tracks of that kind, in order */
     const char *drawing;    /* whose drawing it is, in words: "as the analysis file asks"; NULL: nothing is drawn */
-} nh_tracks;
+} nh_observables;
 
 /* An empty list that lives in the arena. */
-nh_tracks nh_tracks_create(nh_arena *arena, const nh_model *model);
-void nh_tracks_add(nh_tracks *tracks, const char *name, nh_track_kind kind, nh_ex value);
+nh_observables nh_observables_create(nh_arena *arena, const nh_model *model);
+void nh_observables_add(nh_observables *tracks, const char *name, nh_track_kind kind, nh_ex value);
 /* Coordinates, then their velocities, then quasi-velocities, where the chart has them. */
-void nh_tracks_add_states(nh_tracks *tracks);
+void nh_observables_add_states(nh_observables *tracks);
 /* What the analysis file watches (NULL: none). */
-void nh_tracks_add_watches(nh_tracks *tracks, const nh_analysis *analysis);
+void nh_observables_add_watches(nh_observables *tracks, const nh_analysis_file *analysis);
 /* The drawing: of the analysis file, else of the system's, else that of drawing.h. */
-void nh_tracks_add_drawing(nh_tracks *tracks, const nh_analysis *analysis);
+void nh_observables_add_drawing(nh_observables *tracks, const nh_analysis_file *analysis);
 
 #endif

@@ -56,7 +56,7 @@ static void add(nh_system *s, nh_ex symbol, double low, double high)
     s->interval[s->intervals++] = (nh_interval){symbol, low, high};
 }
 
-double nh_pace_set(nh_system *s, const nh_model *o)
+double nh_time_scale_set(nh_system *s, const nh_model *o)
 {
     double Omega = omega(o), longest = 1;
     for (size_t i = 0; i < o->m; i++) longest = fmax(longest, half_width(o, i));

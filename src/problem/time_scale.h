@@ -13,6 +13,6 @@
 
 /* Adds intervals to the system for t and velocities that have none; returns Omega, or 1 when nothing had to be done.  What was made of the system
  * before has the old box. */
-double nh_pace_set(nh_system *system, const nh_model *model);
+double nh_time_scale_set(nh_system *system, const nh_model *model);
 
 #endif

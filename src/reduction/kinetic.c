@@ -119,7 +119,7 @@ static bool spectrum(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, con
 }
 
 /* The rank that K has in most places: inertia may be missing where constraints bind. */
-static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const nh_cloud *cloud, double *K)
+static size_t usual_rank(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, const nh_constraint_samples *cloud, double *K)
 {
     enum { trials = 8 };
     static const double rounding = 1e-14; /* times m */
@@ -142,7 +142,7 @@ static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, 
 }
 
 /* A Lagrangian that is not quadratic may be undefined for velocities of the box: good[i] = 0 for such states. */
-static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_cloud *cloud, double *good)
+static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_constraint_samples *cloud, double *good)
 {
     const nh_system *y = k->model->system;
     size_t m = k->m, width = 1 + 2 * m;
@@ -171,7 +171,7 @@ static void take_places(nh_kinetic *k, uint64_t seed)
     enum { rounds = 4 };
     static const double usable = 1e-3; /* part of the best condition */
     size_t m = k->m, most = 0, total = m * m + k->f * m + 1;
-    nh_cloud cloud[rounds];
+    nh_constraint_samples cloud[rounds];
     nh_ex *e = nh_alloc_array(total, sizeof *e);
     memcpy(e, k->K, m * m * sizeof *e);
     memcpy(e + m * m, k->omega, k->f * m * sizeof *e);
@@ -179,7 +179,7 @@ static void take_places(nh_kinetic *k, uint64_t seed)
     nh_tape *tape = nh_kinetic_tape(k, total, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (int r = 0; r < rounds; r++) {
-        nh_cloud_init(&cloud[r], k->model->system, k->f, seed + 1000 * (uint64_t)r);
+        nh_constraint_samples_init(&cloud[r], k->model->system, k->f, seed + 1000 * (uint64_t)r);
         most += cloud[r].count;
     }
     double *K = nh_alloc_array(total + 2 * m, sizeof *K), *good = nh_alloc_array(most + 1, sizeof *good), best = 0;
@@ -206,7 +206,7 @@ static void take_places(nh_kinetic *k, uint64_t seed)
                 k->speed[s] = k->speed[n * m + s], k->speed[n * m + s] = v;
             }
         }
-        nh_cloud_clear(&cloud[r]);
+        nh_constraint_samples_clear(&cloud[r]);
     }
     nh_tape_work_free(work);
     nh_tape_free(tape);

@@ -13,7 +13,7 @@ static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
     return nh_is_zero(d, a) || nh_is_zero(d, b) ? sum : nh_add(d, sum, nh_mul(d, a, b));
 }
 
-nh_kinetic *nh_weak_kinetic(const nh_kinetic *k)
+nh_kinetic *nh_quasi_symmetry_kinetic(const nh_kinetic *k)
 {
     nh_dag *d = k->dag;
     nh_kinetic *w = nh_arena_alloc(k->arena, sizeof *w);
@@ -107,7 +107,7 @@ static bool fill(nh_momentum *p, const nh_kinetic *k, const nh_action *g, const 
     return good;
 }
 
-void nh_weak_momenta(nh_momenta *out, const nh_kinetic *k, const nh_action *g, const nh_options *options)
+void nh_quasi_symmetry_momenta(nh_momenta *out, const nh_kinetic *k, const nh_action *g, const nh_options *options)
 {
     double *c = nh_alloc_array(g->d * g->d + 1, sizeof *c);
     size_t n = g->d ? nh_action_horizontal(g, options, c) : 0;

@@ -15,9 +15,9 @@
 #include "reduction/momenta.h"
 
 /* The same system with its potential and magnetic terms as forces; lives as long as `kinetic`, and is not freed by itself.  For kinetic->general only. */
-nh_kinetic *nh_weak_kinetic(const nh_kinetic *kinetic);
+nh_kinetic *nh_quasi_symmetry_kinetic(const nh_kinetic *kinetic);
 /* Conserved quantities of constant combinations of the generators of a group of the weak kinetic; `kinetic` is the true one.  Of phi_0 only those are found that are
  * polynomials of degree two at most. */
-void nh_weak_momenta(nh_momenta *out, const nh_kinetic *kinetic, const nh_action *action, const nh_options *options);
+void nh_quasi_symmetry_momenta(nh_momenta *out, const nh_kinetic *kinetic, const nh_action *action, const nh_options *options);
 
 #endif

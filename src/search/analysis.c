@@ -40,14 +40,14 @@ const char *nh_search_word(nh_search search)
 
 const char *nh_limit_words(nh_arena *arena, const nh_limit *limit) { return nh_arena_printf(arena, "--option %s=%.0f", limit->option, limit->value); }
 
-size_t nh_result_left_out(const nh_result *r)
+size_t nh_analysis_left_out(const nh_analysis *r)
 {
     size_t count = 0;
     for (size_t i = 0; i < r->stages; i++) count += r->stage[i].skipped;
     return count;
 }
 
-void nh_result_warn(nh_result *r, const char *format, ...)
+void nh_analysis_warn(nh_analysis *r, const char *format, ...)
 {
     char text[1000];
     va_list list;
@@ -59,14 +59,14 @@ void nh_result_warn(nh_result *r, const char *format, ...)
     r->warning[r->warnings++] = nh_arena_strdup(r->arena, text);
 }
 
-void nh_result_free(nh_result *r)
+void nh_analysis_free(nh_analysis *r)
 {
     if (!r) return;
     nh_validation_free(r->validation);
     nh_hits_free(r->hits);
     nh_model_free(r->other);
     nh_model_free(r->model);
-    nh_analysis_free(r->analysis);
+    nh_analysis_file_free(r->analysis);
     nh_system_free(r->system);
     nh_arena_free(r->arena);
 }

@@ -49,14 +49,14 @@ typedef struct {
     const nh_series *series;  /* NULL for a closed form */
     nh_symmetry symmetry;
     nh_drift drift;
-} nh_found;
+} nh_current;
 
 /* A combination that looks conserved in doubles and is not. */
 typedef struct {
     nh_ex phi, in_velocities; /* in the chart; in t, q, q' and parameters */
     double digits;            /* to which its rate cancels at best, with coefficients of any accuracy */
     double rate;              /* root mean square of its rate over that of its variation, per unit of time */
-} nh_almost;
+} nh_near_current;
 
 /* One linear problem and its answer. */
 typedef struct {
@@ -85,7 +85,7 @@ typedef struct {
     double gap, seconds;
     bool skipped, undecided;          /* skipped: too large; undecided: likely null vectors without a certificate */
     nh_limit limit;                   /* of a stage that was skipped */
-} nh_tried;
+} nh_stage_record;
 
 typedef struct {
     double *value;
@@ -116,7 +116,7 @@ typedef struct {
     nh_arena *arena;
     const char *command, *system_path, *analysis_path; /* to repeat it; command and analysis_path may be NULL */
     nh_system *system;
-    nh_analysis *analysis;    /* NULL: chosen by the program */
+    nh_analysis_file *analysis;    /* NULL: chosen by the program */
     nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
     nh_distribution constraint; /* the kind of constraint */
     const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where everything was computed, and "z' > 0"; NULL: there are no branches */
@@ -127,7 +127,7 @@ typedef struct {
     const char *ansatz_note;  /* what was tried, in words */
     size_t samples, beyond, rejected; /* beyond: where the chart's pivot is near zero, from the multiplier form */
     size_t stages, stage_capacity;
-    nh_tried *stage;          /* the ladder's; empty with an analysis file */
+    nh_stage_record *stage;          /* the ladder's; empty with an analysis file */
     nh_spectrum current, symmetry;
     bool routes_compared, routes_agree;
     double routes_angle;
@@ -136,17 +136,17 @@ typedef struct {
     nh_special *special;
     size_t count, capacity, independent, local_maximum;
     size_t open;              /* null vectors that could be true but got no certificate */
-    nh_found *found;
+    nh_current *found;
     size_t pieces;            /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
-    nh_found *piece;
+    nh_current *piece;
     size_t almosts;           /* nearly conserved, found by the way: at most NH_MOST_ALMOST */
-    nh_almost *almost;
+    nh_near_current *almost;
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
     size_t *integral;         /* found[integral[i]] */
     nh_completeness completeness[NH_COMPLETENESS_KINDS];
     nh_verdict verdict;
     nh_search search;         /* NONE is impossible where it was cut */
-    nh_tracks tracks;         /* validation->watch holds their values, row by row */
+    nh_observables tracks;         /* validation->watch holds their values, row by row */
     size_t figures;
     nh_figure *figure;        /* those that the analysis asks for */
     nh_validation *validation; /* NULL when no motion could be computed */
@@ -154,19 +154,19 @@ typedef struct {
     const char **warning;
     bool partial;             /* work or time ended the search, or the user did */
     nh_timing timing;
-} nh_result;
+} nh_analysis;
 
 /* "complete", "exhausted", "cut". */
 const char *nh_search_word(nh_search search);
 /* "--option stage_columns=412": what would bring a stage in that was too large.  In the arena. */
 const char *nh_limit_words(nh_arena *arena, const nh_limit *limit);
 /* How many stages were too large. */
-size_t nh_result_left_out(const nh_result *result);
+size_t nh_analysis_left_out(const nh_analysis *result);
 
 /* A null space's numbers, copied into an arena. */
 nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *nullspace);
 
-void nh_result_warn(nh_result *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void nh_result_free(nh_result *result); /* with system, analysis and models */
+void nh_analysis_warn(nh_analysis *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void nh_analysis_free(nh_analysis *result); /* with system, analysis and models */
 
 #endif

@@ -56,7 +56,7 @@ static bool field_agrees(const nh_model *o, const nh_model *other, const nh_poin
     return good;
 }
 
-static bool on_both(const nh_result *r, const nh_model *other, const nh_points *points, const nh_found *f)
+static bool on_both(const nh_analysis *r, const nh_model *other, const nh_points *points, const nh_current *f)
 {
     const nh_model *o = r->model;
     nh_ex phi = nh_chart_composed(o->chart, nh_chart_shown(o->chart, f->phi), other->chart);
@@ -64,7 +64,7 @@ static bool on_both(const nh_result *r, const nh_model *other, const nh_points *
     return !f->has_symmetry || (points && field_agrees(o, other, points, &f->symmetry, phi, r->options.heldout));
 }
 
-void nh_branch_compare(nh_result *r)
+void nh_branch_compare(nh_analysis *r)
 {
     enum { generic_points = 24 };
     const nh_model *o = r->model->chart->branch ? r->model : r->other && r->other->chart->branch ? r->other : NULL;

@@ -14,6 +14,6 @@ nh_model *nh_branch_other(const nh_model *o, const nh_options *options);
 bool nh_branch_conserves(const nh_model *other, nh_ex phi, const nh_proof *here, const nh_options *options);
 
 /* The branches' names, and for equations and currents whether they hold on both. */
-void nh_branch_compare(nh_result *result);
+void nh_branch_compare(nh_analysis *result);
 
 #endif

@@ -100,7 +100,7 @@ static void drop_zeros(nh_candidate *c)
     c->pivot = pivot;
 }
 
-static void refine(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f)
+static void refine(const nh_model *o, nh_candidate *c, const nh_options *options, nh_current *f)
 {
     nh_refined better = refine_terms(o, c, options);
     if (better.count == 0 && drop_constant_terms(o, c, options)) {
@@ -124,14 +124,14 @@ static nh_ex combination(nh_dag *d, const nh_candidate *c, const nh_ex *k)
     return phi;
 }
 
-bool nh_coefficients_certain(const nh_found *f, const nh_options *options) { return f->proof.proved || f->proof.digits >= options->digits; }
+bool nh_coefficients_certain(const nh_current *f, const nh_options *options) { return f->proof.proved || f->proof.digits >= options->digits; }
 
-bool nh_coefficients_refuted(const nh_found *f, const nh_options *options)
+bool nh_coefficients_refuted(const nh_current *f, const nh_options *options)
 {
     return f->asked && f->refined >= 0 && f->refined < options->digits && !nh_coefficients_certain(f, options);
 }
 
-nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_options *options, nh_found *f, nh_claim *claim)
+nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_options *options, nh_current *f, nh_claim *claim)
 {
     nh_dag *d = o->dag;
     nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k);
@@ -148,7 +148,7 @@ nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_opti
     return phi;
 }
 
-void nh_coefficients_certify(const nh_options *options, nh_found *f)
+void nh_coefficients_certify(const nh_options *options, nh_current *f)
 {
     f->printed_digits = f->proof.digits;
     if (nh_coefficients_certain(f, options)) return;

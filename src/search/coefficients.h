@@ -8,15 +8,15 @@
 #include "search/analysis.h"
 
 /* The current as an expression; found->exact says whether its coefficients are, ->refined how far they cancel, the claim what is known of it. */
-nh_ex nh_coefficients_assemble(const nh_model *model, nh_candidate *candidate, const nh_options *options, nh_found *found, nh_claim *claim);
+nh_ex nh_coefficients_assemble(const nh_model *model, nh_candidate *candidate, const nh_options *options, nh_current *found, nh_claim *claim);
 
 /* After the proof: where that left the question open the refined digits are the certificate. */
-void nh_coefficients_certify(const nh_options *options, nh_found *found);
+void nh_coefficients_certify(const nh_options *options, nh_current *found);
 
 /* Proved, or certified to as many digits as are asked for. */
-bool nh_coefficients_certain(const nh_found *found, const nh_options *options);
+bool nh_coefficients_certain(const nh_current *found, const nh_options *options);
 
 /* Decided the other way: the refined combination does not cancel, and nothing in it is inexact. */
-bool nh_coefficients_refuted(const nh_found *found, const nh_options *options);
+bool nh_coefficients_refuted(const nh_current *found, const nh_options *options);
 
 #endif

@@ -10,7 +10,7 @@ static bool only_events(const nh_model *o, nh_ex e)
 }
 
 /* Functions in the order: the given constraints between positions, then the currents of (t, q); current[i]: which current, or r->count. */
-static size_t gather(const nh_result *r, nh_ex *phi, size_t *current)
+static size_t gather(const nh_analysis *r, nh_ex *phi, size_t *current)
 {
     const nh_system *y = r->system;
     size_t n = 0;
@@ -21,7 +21,7 @@ static size_t gather(const nh_result *r, nh_ex *phi, size_t *current)
     return n;
 }
 
-void nh_integrals_of_constraints(nh_result *r)
+void nh_integrals_of_constraints(nh_analysis *r)
 {
     size_t most = r->count + r->system->constraints + 1;
     nh_ex *phi = nh_alloc_array(most, sizeof *phi);
@@ -34,7 +34,7 @@ void nh_integrals_of_constraints(nh_result *r)
     if (points) nh_independence_test(r->model, points, n, phi, r->options.sure, r->options.doubt, kind, NULL);
     for (size_t i = 0; i < n && points; i++) {
         if (current[i] == r->count) continue;
-        nh_found *f = &r->found[current[i]];
+        nh_current *f = &r->found[current[i]];
         bool fresh = kind[i] == NH_INDEPENDENT && r->integrals < r->constraint.hidden;
         if (fresh) r->integral[r->integrals++] = current[i];
         if (!f->meaning[0]) f->meaning = fresh ? "integral of the constraints" : r->constraint.positions ? "the constraints between positions" : "";
@@ -62,7 +62,7 @@ static void letter(const nh_model *o, alphabet *a, nh_ex e)
     a->function[a->functions++] = e;
 }
 
-static void letters(const nh_climb *x, alphabet *a)
+static void letters(const nh_stage_solver *x, alphabet *a)
 {
     const nh_model *o = x->r->model;
     nh_dictionary w = x->words;
@@ -90,17 +90,17 @@ static size_t families_of(const alphabet *a, size_t stage, nh_family *part, nh_f
     return n;
 }
 
-void nh_integrals_find(nh_climb *x)
+void nh_integrals_find(nh_stage_solver *x)
 {
     static const char *const names[own_stages] = {"functions of time and positions: quadratic, and the system's own", "the same, cubic, and times positions",
                                                   "the same of degree four, and squares of the system's own"};
     size_t before = x->r->independent;
     alphabet *a = nh_alloc(sizeof *a);
     letters(x, a);
-    for (size_t i = 0; i < own_stages && x->r->independent < before + x->r->constraint.integrals && !nh_climb_done(x); i++) {
+    for (size_t i = 0; i < own_stages && x->r->independent < before + x->r->constraint.integrals && !nh_stage_solver_done(x); i++) {
         nh_family part[3], family[2];
         size_t families = families_of(a, i, part, family);
-        nh_climb_stage(x, names[i], families, family);
+        nh_stage_solver_stage(x, names[i], families, family);
     }
     nh_free(a);
 }

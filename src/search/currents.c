@@ -45,9 +45,9 @@ static double heldout_residual(const nh_model *o, const nh_points *points, nh_ex
 }
 
 /* What decides whether it is a current at all. */
-static void decide(nh_workbench *b, nh_candidate *c, nh_found *f)
+static void decide(nh_current_checker *b, nh_candidate *c, nh_current *f)
 {
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     f->quotient = c->quotient;
     nh_claim claim = {0};
     f->phi = nh_coefficients_assemble(r->model, c, &r->options, f, &claim);
@@ -58,11 +58,11 @@ static void decide(nh_workbench *b, nh_candidate *c, nh_found *f)
 }
 
 /* Simple ones first, so that the complicated ones are called dependent. */
-static void sort(nh_result *r)
+static void sort(nh_analysis *r)
 {
     nh_dag *d = r->model->dag;
     for (size_t i = 1; i < r->count; i++) {
-        nh_found f = r->found[i];
+        nh_current f = r->found[i];
         size_t own = nh_complexity(d, f.phi), j = i;
         bool energy = f.energy;
         for (; j > 0; j--) {
@@ -74,7 +74,7 @@ static void sort(nh_result *r)
 }
 
 /* What doubles propose, with many digits at exact points: they have the last word. */
-static void decide_ranks(nh_result *r, const nh_ex *phi, nh_independence *kind)
+static void decide_ranks(nh_analysis *r, const nh_ex *phi, nh_independence *kind)
 {
     nh_ex *list = nh_alloc_array(r->count + 1, sizeof *list);
     size_t n = 0;
@@ -92,7 +92,7 @@ static void decide_ranks(nh_result *r, const nh_ex *phi, nh_independence *kind)
     nh_free(list);
 }
 
-static void independence(nh_result *r, const nh_points *generic)
+static void independence(nh_analysis *r, const nh_points *generic)
 {
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
@@ -129,9 +129,9 @@ static double relative_rate(const nh_model *o, const nh_points *points, nh_ex ph
 }
 
 /* No current, or none for certain, although doubles could not tell: worth a word when it is slow, as what it is.  The slowest come first. */
-static void note_almost(nh_workbench *b, const nh_found *f, double digits)
+static void note_almost(nh_current_checker *b, const nh_current *f, double digits)
 {
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     double rate = relative_rate(r->model, b->generic, f->phi), unit = r->pace > 0 ? r->pace : 1;
     if (!(rate <= r->options.slow * unit) || digits < least_almost) return;
     if (!r->almost) r->almost = nh_arena_alloc(r->arena, NH_MOST_ALMOST * sizeof *r->almost);
@@ -140,16 +140,16 @@ static void note_almost(nh_workbench *b, const nh_found *f, double digits)
     if (at == NH_MOST_ALMOST) return;
     if (r->almosts < NH_MOST_ALMOST) r->almosts++;
     for (size_t k = r->almosts - 1; k > at; k--) r->almost[k] = r->almost[k - 1];
-    nh_found copy = *f;
+    nh_current copy = *f;
     nh_current_in_velocities(b, &copy);
-    r->almost[at] = (nh_almost){f->phi, copy.in_velocities, digits, rate};
+    r->almost[at] = (nh_near_current){f->phi, copy.in_velocities, digits, rate};
 }
 
 /* A candidate that fails on held-out points, is refuted exactly or does not cancel with many digits is no current: it is left out, with a word
  * about it.  Nor is what has no certificate, although nothing speaks against it: it remains an open question. */
-static bool keeps(nh_workbench *b, const nh_found *f, bool certain)
+static bool keeps(nh_current_checker *b, const nh_current *f, bool certain)
 {
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     if (nh_coefficients_certain(f, &r->options)) return true;
     if (nh_coefficients_refuted(f, &r->options)) {
         note_almost(b, f, f->refined);
@@ -164,29 +164,29 @@ static bool keeps(nh_workbench *b, const nh_found *f, bool certain)
         note_almost(b, f, f->proof.digits);
         return false;
     }
-    nh_result_warn(r, "a combination that fits the samples to %.1e is not conserved (held-out residual %.1e, its rate cancels to %.0f digits): left out",
+    nh_analysis_warn(r, "a combination that fits the samples to %.1e is not conserved (held-out residual %.1e, its rate cancels to %.0f digits): left out",
                    f->quotient, f->heldout, f->proof.digits);
     return false;
 }
 
-nh_workbench *nh_workbench_create(nh_result *r, nh_error *error)
+nh_current_checker *nh_current_checker_create(nh_analysis *r, nh_error *error)
 {
     uint64_t seed = (uint64_t)r->options.seed;
-    nh_workbench *b = nh_alloc(sizeof *b);
+    nh_current_checker *b = nh_alloc(sizeof *b);
     b->result = r;
     b->heldout = nh_points_create(r->model, heldout_count, 1.7, seed + 101, error);
     b->generic = b->heldout ? nh_points_create(r->model, generic_count, 1, seed + 202, error) : NULL;
     b->inverse = nh_alloc_array(r->model->n + 1, sizeof *b->inverse);
     if (!b->generic) {
-        nh_workbench_free(b);
+        nh_current_checker_free(b);
         return NULL;
     }
     b->invertible = nh_chart_inverse(r->model->chart, b->inverse);
-    if (!b->invertible) nh_result_warn(r, "currents could not be written in coordinate velocities: the chart is not affine in its quasi-velocities");
+    if (!b->invertible) nh_analysis_warn(r, "currents could not be written in coordinate velocities: the chart is not affine in its quasi-velocities");
     return b;
 }
 
-void nh_workbench_free(nh_workbench *b)
+void nh_current_checker_free(nh_current_checker *b)
 {
     if (!b) return;
     nh_points_free(b->generic);
@@ -195,11 +195,11 @@ void nh_workbench_free(nh_workbench *b)
     nh_free(b);
 }
 
-static nh_found *next_found(nh_result *r)
+static nh_current *next_found(nh_analysis *r)
 {
     if (r->count == r->capacity) { /* the arena keeps the old list: there are few */
         size_t capacity = 2 * r->capacity + 16;
-        nh_found *list = nh_arena_alloc(r->arena, capacity * sizeof *list);
+        nh_current *list = nh_arena_alloc(r->arena, capacity * sizeof *list);
         if (r->count) memcpy(list, r->found, r->count * sizeof *list);
         r->found = list;
         r->capacity = capacity;
@@ -208,16 +208,16 @@ static nh_found *next_found(nh_result *r)
     return &r->found[r->count];
 }
 
-void nh_currents_put(nh_workbench *b, const nh_found *found)
+void nh_currents_put(nh_current_checker *b, const nh_current *found)
 {
     *next_found(b->result) = *found;
     b->result->count++;
 }
 
 /* Up to `doubt` of its gradient, in doubles; from there to `sure` ball arithmetic decides. */
-static bool is_known(const nh_workbench *b, nh_ex current, double doubt)
+static bool is_known(const nh_current_checker *b, nh_ex current, double doubt)
 {
-    const nh_result *r = b->result;
+    const nh_analysis *r = b->result;
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
     for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
@@ -229,14 +229,14 @@ static bool is_known(const nh_workbench *b, nh_ex current, double doubt)
     return old;
 }
 
-bool nh_currents_known(const nh_workbench *b, nh_ex current) { return is_known(b, current, b->result->options.doubt); }
+bool nh_currents_known(const nh_current_checker *b, nh_ex current) { return is_known(b, current, b->result->options.doubt); }
 
 /* ---- what holds in a part of the motions only ---- */
 
 /* Where the current holds; NULL: everywhere.  What cancels to fewer digits as printed need not do better anywhere. */
-static const char *region_of(nh_workbench *b, const nh_found *f)
+static const char *region_of(nh_current_checker *b, const nh_current *f)
 {
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     nh_model *o = r->model;
     if (!b->surveyed) b->terrain = nh_terrain_of(o, &r->options, r->arena);
     b->surveyed = true;
@@ -246,9 +246,9 @@ static const char *region_of(nh_workbench *b, const nh_found *f)
 }
 
 /* A function of the currents and of the pieces so far is no news. */
-static void keep_piece(nh_workbench *b, const nh_found *f)
+static void keep_piece(nh_current_checker *b, const nh_current *f)
 {
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     size_t n = r->count + r->pieces;
     if (r->pieces == NH_MOST_PIECES) return;
     nh_ex *phi = nh_alloc_array(n + 1, sizeof *phi);
@@ -259,16 +259,16 @@ static void keep_piece(nh_workbench *b, const nh_found *f)
     if (!r->piece) r->piece = nh_arena_alloc(r->arena, NH_MOST_PIECES * sizeof *r->piece);
     if (kind[n] == NH_INDEPENDENT) {
         r->piece[r->pieces] = *f;
-        nh_current_describe(b, &r->piece[r->pieces++]);
+        nh_described_fill(b, &r->piece[r->pieces++]);
     }
     nh_free(kind);
     nh_free(phi);
 }
 
-bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *fit, bool certain)
+bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_points *fit, bool certain)
 {
-    nh_result *r = b->result;
-    nh_found *f = next_found(r);
+    nh_analysis *r = b->result;
+    nh_current *f = next_found(r);
     nh_echelon_refine(r->model, fit, candidate, &r->options);
     decide(b, candidate, f);
     if (nh_coefficients_refuted(f, &r->options) && f->refined >= least_almost && b->nears < NH_MOST_ALMOST) b->near[b->nears++] = candidate;
@@ -278,28 +278,28 @@ bool nh_currents_add(nh_workbench *b, nh_candidate *candidate, const nh_points *
         keep_piece(b, f);
         return false;
     }
-    nh_current_describe(b, f);
+    nh_described_fill(b, f);
     nh_specials_name(r, &f->letters);
     r->count++;
     return true;
 }
 
-bool nh_currents_add_series(nh_workbench *b, nh_ex phi, const nh_series *series, double digits)
+bool nh_currents_add_series(nh_current_checker *b, nh_ex phi, const nh_series *series, double digits)
 {
-    nh_result *r = b->result;
-    nh_found *f = next_found(r);
-    *f = (nh_found){.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = true, .refined = digits};
+    nh_analysis *r = b->result;
+    nh_current *f = next_found(r);
+    *f = (nh_current){.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = true, .refined = digits};
     if (nh_currents_known(b, f->phi)) return false;
     f->heldout = heldout_residual(r->model, b->heldout, phi);
     f->proof = nh_prove_current(r->model, phi, false, &r->options);
     nh_coefficients_certify(&r->options, f);
     if (!keeps(b, f, true)) return false;
-    nh_current_describe(b, f);
+    nh_described_fill(b, f);
     r->count++;
     return true;
 }
 
-static size_t unite(nh_workbench *b, nh_ex *term, bool *leading)
+static size_t unite(nh_current_checker *b, nh_ex *term, bool *leading)
 {
     size_t n = 0;
     for (size_t k = 0; k < b->nears; k++)
@@ -313,7 +313,7 @@ static size_t unite(nh_workbench *b, nh_ex *term, bool *leading)
 }
 
 /* One of the leading terms that the vector has is its pivot. */
-static nh_candidate joined(const nh_workbench *b, size_t n, const nh_ex *term, const bool *leading, const double *coefficient)
+static nh_candidate joined(const nh_current_checker *b, size_t n, const nh_ex *term, const bool *leading, const double *coefficient)
 {
     nh_arena *arena = b->result->arena;
     nh_candidate c = {.all = n, .accepted = b->near[0]->accepted};
@@ -331,10 +331,10 @@ static nh_candidate joined(const nh_workbench *b, size_t n, const nh_ex *term, c
     return c;
 }
 
-size_t nh_currents_join(nh_workbench *b, const nh_points *fit)
+size_t nh_currents_join(nh_current_checker *b, const nh_points *fit)
 {
     enum { most_terms = 160 };
-    const nh_result *r = b->result;
+    const nh_analysis *r = b->result;
     size_t n = 0, added = 0;
     for (size_t k = 0; k < b->nears; k++) n += b->near[k]->count;
     nh_ex *term = nh_alloc_array(n + 1, sizeof *term);
@@ -355,10 +355,10 @@ size_t nh_currents_join(nh_workbench *b, const nh_points *fit)
 }
 
 /* Everybody expects the energy: where it is not conserved this is said, with its rate when that is short. */
-static void miss_energy(nh_workbench *b)
+static void miss_energy(nh_current_checker *b)
 {
     enum { longest = 40 };
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     const nh_model *o = r->model;
     for (size_t k = 0; k < r->count; k++)
         if (r->found[k].energy) return;
@@ -366,14 +366,14 @@ static void miss_energy(nh_workbench *b)
     nh_ex rate = nh_model_gamma(o, o->E);
     if (nh_complexity(o->dag, rate) < 10 * longest) rate = nh_simplify(o->dag, rate);
     char *text = nh_complexity(o->dag, rate) <= longest ? nh_print_string(o->dag, rate) : NULL;
-    nh_result_warn(r, "the energy is not conserved%s%s", text ? ": it changes at the rate " : "", text ? text : "");
+    nh_analysis_warn(r, "the energy is not conserved%s%s", text ? ": it changes at the rate " : "", text ? text : "");
     nh_free(text);
 }
 
 /* What only approximates a function of the currents found since, were it to two digits, is no news. */
-static void forget_known_almosts(nh_workbench *b)
+static void forget_known_almosts(nh_current_checker *b)
 {
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     size_t kept = 0;
     for (size_t k = 0; k < r->almosts; k++)
         if (!is_known(b, r->almost[k].phi, r->options.sure)) r->almost[kept++] = r->almost[k];
@@ -381,9 +381,9 @@ static void forget_known_almosts(nh_workbench *b)
 }
 
 /* Nor is a piece that is a function of currents found since. */
-static void name_pieces(nh_workbench *b)
+static void name_pieces(nh_current_checker *b)
 {
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     size_t kept = 0;
     for (size_t k = 0; k < r->pieces; k++) {
         if (nh_currents_known(b, r->piece[k].phi)) continue;
@@ -394,7 +394,7 @@ static void name_pieces(nh_workbench *b)
     r->pieces = kept;
 }
 
-void nh_currents_finish(nh_workbench *b)
+void nh_currents_finish(nh_current_checker *b)
 {
     name_pieces(b);
     forget_known_almosts(b);

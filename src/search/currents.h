@@ -6,7 +6,7 @@
 
 /* What all currents of one result are checked with. */
 typedef struct {
-    nh_result *result;
+    nh_analysis *result;
     nh_points *heldout, *generic; /* points that no fit has seen */
     nh_terrain terrain;           /* where motions cross walls; of the first current on */
     bool surveyed;
@@ -14,29 +14,29 @@ typedef struct {
     bool invertible;
     size_t nears;                 /* candidates of the present list that are nearly conserved, and only nearly */
     nh_candidate *near[NH_MOST_ALMOST];
-} nh_workbench;
+} nh_current_checker;
 
-nh_workbench *nh_workbench_create(nh_result *result, nh_error *error);
-void nh_workbench_free(nh_workbench *bench);
+nh_current_checker *nh_current_checker_create(nh_analysis *result, nh_error *error);
+void nh_current_checker_free(nh_current_checker *bench);
 
 /* Refine a candidate, recognise its coefficients, normalise, prove, hold out and classify it; append it to result->found unless it turns
  * out not to be conserved (then a warning says so).  `fit`: the points of its null space; `certain`: the null space was; otherwise
  * only a certificate makes it a current, and nothing is said without. */
-bool nh_currents_add(nh_workbench *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
+bool nh_currents_add(nh_current_checker *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
 
 /* Append one that was checked before. */
-void nh_currents_put(nh_workbench *bench, const nh_found *found);
+void nh_currents_put(nh_current_checker *bench, const nh_current *found);
 
 /* Is it a function of the currents found so far, or constant? */
-bool nh_currents_known(const nh_workbench *bench, nh_ex phi);
+bool nh_currents_known(const nh_current_checker *bench, nh_ex phi);
 
 /* The same for a series, whose certificate was computed with it.  Nothing is added when it depends on the currents there are. */
-bool nh_currents_add_series(nh_workbench *bench, nh_ex phi, const nh_series *series, double digits);
+bool nh_currents_add_series(nh_current_checker *bench, nh_ex phi, const nh_series *series, double digits);
 
 /* After the last candidate of a list: is a combination of those that were only nearly conserved a current?  Returns how many were added. */
-size_t nh_currents_join(nh_workbench *bench, const nh_points *fit);
+size_t nh_currents_join(nh_current_checker *bench, const nh_points *fit);
 
 /* Order, name and relate what was found. */
-void nh_currents_finish(nh_workbench *bench);
+void nh_currents_finish(nh_current_checker *bench);
 
 #endif

@@ -1,7 +1,7 @@
 #include "search/defaults.h"
 
 
-bool nh_defaults_initial(nh_result *r, nh_state *state, nh_error *error)
+bool nh_defaults_initial(nh_analysis *r, nh_state *state, nh_error *error)
 {
     const nh_model *o = r->model;
     nh_points *p = nh_points_create(o, 1, 0.7, (uint64_t)r->options.seed + 909, error);

@@ -5,6 +5,6 @@
 #include "search/analysis.h"
 
 /* A generic initial state on the constraint submanifold. */
-bool nh_defaults_initial(nh_result *result, nh_state *state, nh_error *error);
+bool nh_defaults_initial(nh_analysis *result, nh_state *state, nh_error *error);
 
 #endif

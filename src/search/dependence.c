@@ -23,7 +23,7 @@ static void add(nh_dag *d, monomials *m, nh_ex pa, nh_ex pb, nh_ex va, nh_ex vb)
     m->value[m->count++] = nh_mul(d, va, vb);
 }
 
-static monomials build(nh_result *r, size_t n, const nh_ex *symbol, const nh_ex *phi)
+static monomials build(nh_analysis *r, size_t n, const nh_ex *symbol, const nh_ex *phi)
 {
     nh_dag *d = r->model->dag;
     size_t most = (n + 1) * (n + 2) / 2;
@@ -70,7 +70,7 @@ static bool numeric_relation(const nh_points *points, const nh_model *o, const m
 }
 
 /* "Phi4^2 = ..." with exact coefficients, or NULL. */
-static const char *exact_relation(nh_result *r, const monomials *m, const bool *used, nh_ex own)
+static const char *exact_relation(nh_analysis *r, const monomials *m, const bool *used, nh_ex own)
 {
     nh_model *o = r->model;
     nh_dag *d = o->dag;
@@ -99,11 +99,11 @@ static const char *exact_relation(nh_result *r, const monomials *m, const bool *
     return text;
 }
 
-static void relate(nh_result *r, nh_found *f, const nh_points *points)
+static void relate(nh_analysis *r, nh_current *f, const nh_points *points)
 {
     nh_ex symbol[most_currents + 1], phi[most_currents + 1];
     size_t n = 0;
-    for (nh_found *g = r->found; g < f && n < most_currents; g++) {
+    for (nh_current *g = r->found; g < f && n < most_currents; g++) {
         if (g->independence != NH_INDEPENDENT) continue;
         symbol[n] = nh_symbol_fresh(r->model->dag, g->name);
         phi[n++] = g->phi;
@@ -118,7 +118,7 @@ static void relate(nh_result *r, nh_found *f, const nh_points *points)
     nh_free(m.value);
 }
 
-void nh_dependence_relations(nh_result *r)
+void nh_dependence_relations(nh_analysis *r)
 {
     size_t monomial_count = (most_currents + 2) * (most_currents + 3) / 2;
     nh_points *points = NULL;

@@ -5,6 +5,6 @@
 #include "search/analysis.h"
 
 /* For every dependent current look for a polynomial relation of degree two with the independent ones before it; sets `relation`. */
-void nh_dependence_relations(nh_result *result);
+void nh_dependence_relations(nh_analysis *result);
 
 #endif

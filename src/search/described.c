@@ -52,7 +52,7 @@ static void put_values(nh_model *o, const bool *fixed, size_t n, nh_ex *e)
     for (size_t i = 0; i < n && e; i++) e[i] = nh_simplify_short(o->dag, nh_fixed_values(o, fixed, e[i]), 0);
 }
 
-static void normalise(nh_model *o, nh_found *f)
+static void normalise(nh_model *o, nh_current *f)
 {
     nh_dag *d = o->dag;
     nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta), Z0 = nh_symmetry_components(o, f->phi, zeta);
@@ -84,7 +84,7 @@ static void put_values_in_symmetry(nh_model *o, const bool *fixed, nh_symmetry *
     put_values(o, fixed, o->k, z->bracket_form);
 }
 
-static bool with_symmetry(nh_result *r, const nh_points *points, nh_found *f, nh_error *error)
+static bool with_symmetry(nh_analysis *r, const nh_points *points, nh_current *f, nh_error *error)
 {
     nh_model *o = r->model;
     if (!f->series) normalise(o, f);
@@ -142,7 +142,7 @@ static bool looks_proportional(size_t points, const double *phi, const double *e
     return high - low <= same * fmax(fabs(low), fabs(high));
 }
 
-static void find_meaning(nh_result *r, const nh_points *points, nh_found *f)
+static void find_meaning(nh_analysis *r, const nh_points *points, nh_current *f)
 {
     nh_model *o = r->model;
     size_t n = 2 + o->m, count = points->count, found = 0;
@@ -163,7 +163,7 @@ static void find_meaning(nh_result *r, const nh_points *points, nh_found *f)
     else f->meaning = nh_arena_printf(r->arena, "%smomentum of %s", part, o->system->coordinate[found - 2].name);
 }
 
-void nh_current_in_velocities(const nh_workbench *b, nh_found *f)
+void nh_current_in_velocities(const nh_current_checker *b, nh_current *f)
 {
     nh_model *o = b->result->model;
     bool invertible = b->invertible;
@@ -177,12 +177,12 @@ void nh_current_in_velocities(const nh_workbench *b, nh_found *f)
     nh_free(v);
 }
 
-void nh_current_describe(nh_workbench *b, nh_found *f)
+void nh_described_fill(nh_current_checker *b, nh_current *f)
 {
-    nh_result *r = b->result;
+    nh_analysis *r = b->result;
     nh_error trouble;
     nh_error_clear(&trouble);
-    if (!with_symmetry(r, b->generic, f, &trouble)) nh_result_warn(r, "no symmetry could be computed: %s", trouble.what);
+    if (!with_symmetry(r, b->generic, f, &trouble)) nh_analysis_warn(r, "no symmetry could be computed: %s", trouble.what);
     f->local = is_local(r->model, b->generic, f->phi, f->series);
     find_meaning(r, b->generic, f);
     nh_current_in_velocities(b, f);

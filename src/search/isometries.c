@@ -58,9 +58,9 @@ static nh_ex magnetic(const nh_kinetic *k, const nh_ex *a, const nh_generator *g
 
 /* The momenta of the isometries, and those of the magnetic parts that are no numbers; 0 where the metric has none or is constant (its isometries are
  * among the polynomials). */
-static size_t momenta(const nh_climb *x, nh_ex *P, list *also)
+static size_t momenta(const nh_stage_solver *x, nh_ex *P, list *also)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     const nh_model *o = r->model;
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -92,7 +92,7 @@ static size_t momenta(const nh_climb *x, nh_ex *P, list *also)
 }
 
 /* 1, cos, sin to the given harmonic of every angle by itself. */
-static list harmonics(const nh_climb *x, int most)
+static list harmonics(const nh_stage_solver *x, int most)
 {
     const nh_model *o = x->r->model;
     nh_dag *d = o->dag;
@@ -108,7 +108,7 @@ static list harmonics(const nh_climb *x, int most)
 }
 
 /* What a potential may contribute: the system's functions, lengths, harmonics, and products of the functions with harmonics. */
-static nh_family functions_family(const nh_climb *x, int most_harmonic, nh_family *part)
+static nh_family functions_family(const nh_stage_solver *x, int most_harmonic, nh_family *part)
 {
     nh_arena *arena = x->r->arena;
     list *w = nh_arena_alloc(arena, sizeof *w), *f = nh_arena_alloc(arena, sizeof *f);
@@ -124,30 +124,30 @@ static nh_family functions_family(const nh_climb *x, int most_harmonic, nh_famil
 
 /* Cartesian coordinates are products of functions of one coordinate in those in which the metric separates: with them the momenta of translations are what
  * an oscillator turns, whatever its coordinates, and alone what friction takes; of a free motion they are what grows like t. */
-static void cartesian(nh_climb *x, size_t n, const nh_ex *P)
+static void cartesian(nh_stage_solver *x, size_t n, const nh_ex *P)
 {
     enum { few = 3 };
-    nh_result *r = x->r;
-    nh_shelf shelf = {r->arena, r->model, &x->words, NULL, 0};
-    nh_list all = {0}, functions = nh_list_one_coordinate(&shelf), plain = {0};
+    nh_analysis *r = x->r;
+    nh_family_list shelf = {r->arena, r->model, &x->words, NULL, 0};
+    nh_expr_set all = {0}, functions = nh_expr_set_one_coordinate(&shelf), plain = {0};
     for (size_t s = 0; s < r->model->m; s++)
-        if (r->system->coordinate[s].type != NH_ANGLE) nh_list_put(&plain, r->system->coordinate[s].q);
-    nh_list squares = nh_list_squares(&shelf, &plain);
-    nh_list_put_all(&all, n, P);
+        if (r->system->coordinate[s].type != NH_ANGLE) nh_expr_set_put(&plain, r->system->coordinate[s].q);
+    nh_expr_set squares = nh_expr_set_squares(&shelf, &plain);
+    nh_expr_set_put_all(&all, n, P);
     for (size_t i = 0; i < functions.n; i++)
-        if (nh_kind_of(r->model->dag, functions.e[i]) != NH_NUMBER) nh_list_put(&all, functions.e[i]);
-    nh_list_put_all(&all, plain.n, plain.e);
-    if (plain.n <= few) nh_list_put_all(&all, squares.n, squares.e);
-    nh_family base = nh_shelf_terms(&shelf, &all), grown;
-    nh_climb_rates_in(x, &base);
-    for (size_t i = 0; i < n; i++) nh_list_put(&all, nh_mul(r->model->dag, r->model->system->t, P[i]));
-    grown = nh_shelf_terms(&shelf, &all);
-    if (!nh_climb_done(x)) nh_climb_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
+        if (nh_kind_of(r->model->dag, functions.e[i]) != NH_NUMBER) nh_expr_set_put(&all, functions.e[i]);
+    nh_expr_set_put_all(&all, plain.n, plain.e);
+    if (plain.n <= few) nh_expr_set_put_all(&all, squares.n, squares.e);
+    nh_family base = nh_family_list_terms(&shelf, &all), grown;
+    nh_rates_search_in(x, &base);
+    for (size_t i = 0; i < n; i++) nh_expr_set_put(&all, nh_mul(r->model->dag, r->model->system->t, P[i]));
+    grown = nh_family_list_terms(&shelf, &all);
+    if (!nh_stage_solver_done(x)) nh_stage_solver_stage(x, "these momenta times 1 and t, and products of functions of one coordinate", 1, &grown);
 }
 
-void nh_climb_isometries(nh_climb *x)
+void nh_isometries_search(nh_stage_solver *x)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     const nh_model *o = r->model;
     if (o->m > most_coordinates) return;
     nh_progress("isometries of the kinetic energy", -1);
@@ -161,12 +161,12 @@ void nh_climb_isometries(nh_climb *x)
     all[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = P};
     all[1] = functions_family(x, 1, part);
     all[2] = (nh_family){.kind = NH_TERMS, .terms = also->n, .term = also->e};
-    nh_climb_stage(x, "momenta of the isometries of the kinetic energy, and functions", 3, all);
-    if (!nh_climb_done(x)) cartesian(x, n, P);
-    if (nh_climb_done(x)) return;
+    nh_stage_solver_stage(x, "momenta of the isometries of the kinetic energy, and functions", 3, all);
+    if (!nh_stage_solver_done(x)) cartesian(x, n, P);
+    if (nh_stage_solver_done(x)) return;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++) PP[squares++] = nh_mul(o->dag, P[i], P[j]);
     all[0] = (nh_family){.kind = NH_TERMS, .terms = squares, .term = PP};
     all[1] = functions_family(x, 2, part + 2);
-    nh_climb_stage(x, "their products, and functions", 2, all);
+    nh_stage_solver_stage(x, "their products, and functions", 2, all);
 }

@@ -21,7 +21,7 @@ static const double defective = 1e-5, /* of the largest rate: a rate below it is
                     equal = 1e-6;     /* relatively: one rate, likewise */
 
 typedef struct {
-    nh_climb *x;
+    nh_stage_solver *x;
     size_t size;       /* of z */
     nh_ex *z, *entry;  /* entry[i + j size]: A; 0 (the number) where there is none */
     size_t *block;     /* per variable: the first of its block */
@@ -116,7 +116,7 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
 
 static nh_ex named(linear *l, double value, bool turns)
 {
-    const nh_result *r = l->x->r;
+    const nh_analysis *r = l->x->r;
     nh_dag *d = r->model->dag;
     if (value == 0) return nh_int(d, 0);
     l->turns = turns;
@@ -170,7 +170,7 @@ static size_t waves_of_two(const linear *l, bool turns, nh_ex *out)
 /* Its variables and 1, times these functions of t, and these alone. */
 static void stage(linear *l, const char *name, size_t functions, const nh_ex *function)
 {
-    nh_result *r = l->x->r;
+    nh_analysis *r = l->x->r;
     nh_ex *term = nh_arena_alloc(r->arena, (l->count + 1) * sizeof *term), *copy = nh_arena_alloc(r->arena, (functions + 1) * sizeof *copy);
     nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
     for (size_t i = 0; i < l->count; i++) term[i] = l->z[l->of[i]];
@@ -179,7 +179,7 @@ static void stage(linear *l, const char *name, size_t functions, const nh_ex *fu
     part[0] = (nh_family){.kind = NH_TERMS, .terms = l->count + 1, .term = term};
     part[1] = (nh_family){.kind = NH_TERMS, .terms = functions, .term = copy};
     all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-    if (!nh_climb_done(l->x)) nh_climb_stage(l->x, name, 1, all);
+    if (!nh_stage_solver_done(l->x)) nh_stage_solver_stage(l->x, name, 1, all);
 }
 
 static void polynomials(linear *l)
@@ -203,7 +203,7 @@ static void solve_block(linear *l)
         if (fabs(im[k]) <= equal * fabs(re[k])) im[k] = 0;
         bool old = im[k] < 0 || hypot(re[k], im[k]) <= defective * largest || (formulas && done);
         for (size_t j = 0; j < k && !old; j++) old = im[j] >= 0 && hypot(re[j] - re[k], im[j] - im[k]) <= equal * largest;
-        if (old || nh_climb_done(l->x)) continue;
+        if (old || nh_stage_solver_done(l->x)) continue;
         nh_ex wave[2];
         size_t count = formulas && !null ? waves_of_two(l, im[k] != 0, wave)
                                          : waves(l->x->r->model->dag, l->x->r->system->t, named(l, re[k], false), named(l, im[k], true), wave);
@@ -213,14 +213,14 @@ static void solve_block(linear *l)
     nh_free(re);
 }
 
-void nh_climb_linear(nh_climb *x)
+void nh_linear_motion_search(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     size_t size = o->m + o->n;
     linear l = {.x = x, .size = size, .z = nh_alloc_array(size + 1, sizeof *l.z), .entry = nh_alloc_array(size * size + 1, sizeof *l.entry), .block = nh_alloc_array(size + 1, sizeof *l.block),
                 .of = nh_alloc_array(size + 1, sizeof *l.of)};
     bool is = read_matrix(&l);
-    for (size_t first = 0; first < size && is && !nh_climb_done(x); first++) {
+    for (size_t first = 0; first < size && is && !nh_stage_solver_done(x); first++) {
         l.count = 0;
         for (size_t i = 0; i < size; i++)
             if (root(&l, i) == first) l.of[l.count++] = i;

@@ -11,7 +11,7 @@
 /* ---- the count ---- */
 
 /* What is proved, in closed form. */
-static size_t proved(const nh_result *r, nh_ex *phi, bool *general)
+static size_t proved(const nh_analysis *r, nh_ex *phi, bool *general)
 {
     size_t n = 0;
     *general = true;
@@ -24,7 +24,7 @@ static size_t proved(const nh_result *r, nh_ex *phi, bool *general)
 }
 
 /* What is proved is compared with how much there can be. */
-static void count(nh_result *r)
+static void count(nh_analysis *r)
 {
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .degree = (size_t)r->options.degree, .work = r->options.count_work};
@@ -36,32 +36,32 @@ static void count(nh_result *r)
 }
 
 /* More proved currents than the bound allows. */
-static void check(nh_result *r)
+static void check(nh_analysis *r)
 {
     for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++) {
         const nh_completeness *c = &r->completeness[i];
         for (size_t d = 0; d < c->count.rows; d++)
             if (c->count.row[d].known > c->count.row[d].bound)
-                nh_result_warn(r, "at degree %zu more currents were proved than the count allows: one of the two is wrong, please report this", d + 1);
+                nh_analysis_warn(r, "at degree %zu more currents were proved than the count allows: one of the two is wrong, please report this", d + 1);
     }
 }
 
 /* ---- the construction ---- */
 
 typedef struct {
-    nh_climb climb;
+    nh_stage_solver climb;
     double work;            /* that is left for this count */
     size_t aside;           /* currents that are certified only */
-    nh_found *set_aside;
+    nh_current *set_aside;
 } search;
 
 static void set_aside(search *s)
 {
-    nh_result *r = s->climb.r;
+    nh_analysis *r = s->climb.r;
     size_t kept = 0;
     s->set_aside = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *s->set_aside);
     for (size_t k = 0; k < r->count; k++) {
-        const nh_found *f = &r->found[k];
+        const nh_current *f = &r->found[k];
         if (f->proof.proved || f->series) {
             r->found[kept++] = *f;
             continue;
@@ -75,9 +75,9 @@ static void set_aside(search *s)
 /* Those that do not depend on what was proved in the meantime. */
 static void take_back(search *s)
 {
-    nh_result *r = s->climb.r;
+    nh_analysis *r = s->climb.r;
     for (size_t k = 0; k < s->aside; k++) {
-        nh_found *f = &s->set_aside[k];
+        nh_current *f = &s->set_aside[k];
         if (f->independence == NH_INDEPENDENT && nh_currents_known(s->climb.bench, f->phi)) continue;
         r->independent += f->independence == NH_INDEPENDENT;
         nh_currents_put(s->climb.bench, f);
@@ -87,21 +87,21 @@ static void take_back(search *s)
 /* Is the list of its terms that of a current? */
 static bool lift(search *s, size_t degree, const nh_constructed *c)
 {
-    nh_result *r = s->climb.r;
+    nh_analysis *r = s->climb.r;
     nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
     nh_ex *term = nh_arena_alloc(r->arena, c->terms * sizeof *term);
     size_t before = r->count;
     memcpy(term, c->term, c->terms * sizeof *term);
     *all = (nh_family){.kind = NH_TERMS, .terms = c->terms, .term = term};
     s->climb.wide = true;
-    nh_climb_stage(&s->climb, nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree), 1, all);
+    nh_stage_solver_stage(&s->climb, nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree), 1, all);
     return r->count > before;
 }
 
 /* Words of one price. */
 static bool construct_at(search *s, const nh_completeness *c, double price, bool *more)
 {
-    nh_result *r = s->climb.r;
+    nh_analysis *r = s->climb.r;
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     bool general, found = false;
     nh_construct_question q = {.time = c->count.time, .degree = c->missing_at, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
@@ -109,7 +109,7 @@ static bool construct_at(search *s, const nh_completeness *c, double price, bool
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
     *more = !x->limited && x->recognised < x->dimension;
-    for (size_t k = 0; k < x->count && !nh_climb_done(&s->climb); k++) found |= lift(s, c->missing_at, &x->item[k]);
+    for (size_t k = 0; k < x->count && !nh_stage_solver_done(&s->climb); k++) found |= lift(s, c->missing_at, &x->item[k]);
     nh_construction_free(x);
     nh_free(phi);
     return found;
@@ -121,27 +121,27 @@ static bool construct(search *s, const nh_completeness *c)
     double dearest = c->count.time ? 6 : 16; /* in t alone most are no words but waves */
     bool found = false, more = c->counted && c->missing_at && c->missing;
     s->work = s->climb.r->options.construct;
-    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !nh_climb_done(&s->climb); price += price < 4 ? 1 : 2) found = construct_at(s, c, price, &more);
+    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !nh_stage_solver_done(&s->climb); price += price < 4 ? 1 : 2) found = construct_at(s, c, price, &more);
     return found;
 }
 
-static bool is_missing(const nh_result *r)
+static bool is_missing(const nh_analysis *r)
 {
     bool some = false;
     for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++) some |= r->completeness[i].missing_at && r->completeness[i].missing;
     return some;
 }
 
-static void look(nh_result *r)
+static void look(nh_analysis *r)
 {
     search s = {0};
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!nh_climb_begin(&s.climb, r, &ignored)) return;
+    if (!nh_stage_solver_begin(&s.climb, r, &ignored)) return;
     nh_progress("integrals that the count misses", -1);
     nh_budget_begin(r->options.work);
     set_aside(&s);
-    for (bool found = true; found && is_missing(r) && !nh_climb_done(&s.climb);) {
+    for (bool found = true; found && is_missing(r) && !nh_stage_solver_done(&s.climb);) {
         found = false;
         for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++) found = construct(&s, &r->completeness[i]);
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
@@ -150,11 +150,11 @@ static void look(nh_result *r)
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.climb.bench);
-    nh_climb_end(&s.climb);
+    nh_stage_solver_end(&s.climb);
     if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
 }
 
-void nh_missing_count(nh_result *r, bool construct)
+void nh_missing_count(nh_analysis *r, bool construct)
 {
     count(r);
     if (construct && r->options.construct > 0 && is_missing(r) && !nh_late()) look(r);

@@ -9,6 +9,6 @@
 #include "search/currents.h"
 
 /* Fill result->completeness; with `construct`, look for what is missing, and count again. */
-void nh_missing_count(nh_result *result, bool construct);
+void nh_missing_count(nh_analysis *result, bool construct);
 
 #endif

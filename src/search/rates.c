@@ -16,7 +16,7 @@ static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as tw
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
 
 typedef struct {
-    nh_climb *x;
+    nh_stage_solver *x;
     const nh_ansatz *base;
     nh_ex q; /* t or a coordinate */
     nh_ex base_of_power; /* Q, when q = log Q: exp(-lambda log Q) = Q^-lambda; 0: none */
@@ -96,7 +96,7 @@ static nh_ex number_of(const rate_context *c, double value)
 /* As an expression of the parameters. */
 static nh_ex named(rate_context *c, double value)
 {
-    const nh_result *r = c->x->r;
+    const nh_analysis *r = c->x->r;
     double exact = r->options.recognise;
     nh_ex e = nh_name_value(r->model, value, follow, c, exact, (uint64_t)r->options.seed);
     if (!e) e = nh_name_value(r->model, value, follow, c, few_digits * exact, (uint64_t)r->options.seed);
@@ -160,7 +160,7 @@ static size_t promises(waves *w, size_t k, int how)
 {
     nh_family family[2];
     w->how[k] = how;
-    return nh_climb_news(w->context.x, wave_families(w, family), family);
+    return nh_stage_solver_news(w->context.x, wave_families(w, family), family);
 }
 
 /* Whether the value and what it looks like are the same to rounding. */
@@ -195,7 +195,7 @@ static void choose_forms(waves *w)
 }
 
 /* Is the function g of t a wave of frequency nu, g'' = -nu^2 g? */
-static bool is_wave(const nh_climb *x, nh_ex g, double nu)
+static bool is_wave(const nh_stage_solver *x, nh_ex g, double nu)
 {
     const nh_model *o = x->r->model;
     const nh_points *p = x->ranges;
@@ -211,7 +211,7 @@ static bool is_wave(const nh_climb *x, nh_ex g, double nu)
 }
 
 /* The frequencies with which a system is driven are waves of the base itself: nothing is conserved with them, and they are nearly dependent on the others. */
-static size_t without_driven(const nh_climb *x, nh_ex q, size_t n, double *re, double *im)
+static size_t without_driven(const nh_stage_solver *x, nh_ex q, size_t n, double *re, double *im)
 {
     const nh_model *o = x->r->model;
     size_t kept = 0;
@@ -229,8 +229,8 @@ static size_t without_driven(const nh_climb *x, nh_ex q, size_t n, double *re, d
 /* Many waves on a short interval are nearly dependent: what they hide together each may still show alone. */
 static void one_by_one(waves *w, const char *text)
 {
-    nh_climb *x = w->context.x;
-    for (size_t k = 0; k < w->count && !nh_climb_done(x); k++) {
+    nh_stage_solver *x = w->context.x;
+    for (size_t k = 0; k < w->count && !nh_stage_solver_done(x); k++) {
         waves one = *w;
         nh_family family[2];
         one.count = 1;
@@ -238,14 +238,14 @@ static void one_by_one(waves *w, const char *text)
         one.im[0] = w->im[k];
         one.how[0] = w->how[k];
         wave_families(&one, family); /* the eigenvectors need the first of them only */
-        if (nh_climb_promising(x, 1, family)) nh_climb_stage(x, text, 1, family);
+        if (nh_stage_solver_promising(x, 1, family)) nh_stage_solver_stage(x, text, 1, family);
     }
 }
 
 /* Returns whether something new was found; `which` of the bases it is. */
-static bool pencil_of(nh_climb *x, nh_ex q, nh_ex power, const char *name, const nh_family *base, size_t which)
+static bool pencil_of(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name, const nh_family *base, size_t which)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t before = r->independent;
@@ -260,32 +260,32 @@ static bool pencil_of(nh_climb *x, nh_ex q, nh_ex power, const char *name, const
     if (w.count) {
         char text[120];
         snprintf(text, sizeof text, power ? "powers of %.60s with exponents found by the pencil" : "exponentials and waves in %.60s with rates found by the pencil", name);
-        nh_climb_stage(x, text, wave_families(&w, family), family);
+        nh_stage_solver_stage(x, text, wave_families(&w, family), family);
         if (w.count > 1) one_by_one(&w, text);
     }
     nh_ansatz_free(a);
     return r->independent > before;
 }
 
-static bool pencil_stage(nh_climb *x, nh_ex q, nh_ex power, const char *name, size_t which)
+static bool pencil_stage(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name, size_t which)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     size_t index = q == r->model->system->t && which == NH_PENCIL_PLAIN - 1 ? NH_PENCIL_TIME : which; /* elsewhere 1 and q are a pair that rounding splits */
     nh_family base = nh_stage_pencil_base(r->arena, r->model, &x->words, index);
     return pencil_of(x, q, power, name, &base, which);
 }
 
-void nh_climb_rates_in(nh_climb *x, const nh_family *base) { pencil_of(x, x->r->model->system->t, 0, "t", base, NH_PENCIL_BASES); }
+void nh_rates_search_in(nh_stage_solver *x, const nh_family *base) { pencil_of(x, x->r->model->system->t, 0, "t", base, NH_PENCIL_BASES); }
 
 /* The equations of motion do not depend on it (time included: whether they do is seen soon enough). */
-static bool is_cyclic(const nh_climb *x, nh_ex q)
+static bool is_cyclic(const nh_stage_solver *x, nh_ex q)
 {
     for (size_t i = 0; i < x->words.shapes; i++)
         if (x->words.shape[i] == q) return false;
     return true;
 }
 
-static bool positive_everywhere(const nh_climb *x, nh_ex e)
+static bool positive_everywhere(const nh_stage_solver *x, nh_ex e)
 {
     const nh_points *p = x->ranges;
     double *value = nh_alloc_array(p->count + 1, sizeof *value);
@@ -297,13 +297,13 @@ static bool positive_everywhere(const nh_climb *x, nh_ex e)
 }
 
 /* Gamma f = nu (Gamma(Q)/Q) f: then Q^-nu f is an integral.  Q: positive lengths and functions of the system, one of Q and 1/Q. */
-static void powers(nh_climb *x)
+static void powers(nh_stage_solver *x)
 {
     enum { most = 6 };
     nh_dag *d = x->r->model->dag;
     nh_ex tried[most];
     size_t n = 0;
-    for (size_t i = 0; i < x->words.lengths + x->words.atoms && n < most && !nh_climb_done(x); i++) {
+    for (size_t i = 0; i < x->words.lengths + x->words.atoms && n < most && !nh_stage_solver_done(x); i++) {
         nh_ex Q = i < x->words.lengths ? x->words.length[i] : x->words.atom[i - x->words.lengths];
         bool old = nh_function_of(d, Q) == NH_EXP;
         for (size_t j = 0; j < n && !old; j++) old = Q == tried[j] || nh_mul(d, Q, tried[j]) == nh_int(d, 1);
@@ -317,11 +317,11 @@ static void powers(nh_climb *x)
 }
 
 /* exp(-nu V) f with V the potential: what a thermostat that keeps the speed gives (f falls as the forces do work). */
-static void potential_rate(nh_climb *x)
+static void potential_rate(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero), *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
-    if (o->k == 0 || nh_climb_done(x)) return;
+    if (o->k == 0 || nh_stage_solver_done(x)) return;
     for (size_t s = 0; s < o->m; s++) {
         v[s] = o->system->coordinate[s].v;
         zero[s] = nh_int(o->dag, 0);
@@ -331,22 +331,22 @@ static void potential_rate(nh_climb *x)
 }
 
 /* The smallest plain base that gives something new is enough for a coordinate: larger ones only obscure what it found. */
-void nh_climb_rates(nh_climb *x)
+void nh_rates_search(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     for (size_t i = 0; i <= o->m; i++) {
         nh_ex q = i == 0 ? o->system->t : o->system->coordinate[i - 1].q;
         const char *name = nh_name_of(o->dag, q);
         bool found = false;
-        for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_climb_done(x) && !found; base++) found = pencil_stage(x, q, 0, name, base);
-        if (i == 0 && !found && nh_depends(o->dag, o->Lbar, q) && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_GROWING);
-        if (o->system->has_forces && !nh_climb_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_SQUARES);
-        for (size_t base = NH_PENCIL_QUADRATIC; base <= NH_PENCIL_CUBIC && i == 0 && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
-        if (i > 0 && o->system->coordinate[i - 1].type == NH_ANGLE && x->words.waves > 1 && !found && !nh_climb_done(x)) {
+        for (size_t base = 0; base < NH_PENCIL_PLAIN && !nh_stage_solver_done(x) && !found; base++) found = pencil_stage(x, q, 0, name, base);
+        if (i == 0 && !found && nh_depends(o->dag, o->Lbar, q) && !nh_stage_solver_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_GROWING);
+        if (o->system->has_forces && !nh_stage_solver_done(x)) pencil_stage(x, q, 0, name, NH_PENCIL_SQUARES);
+        for (size_t base = NH_PENCIL_QUADRATIC; base <= NH_PENCIL_CUBIC && i == 0 && !nh_stage_solver_done(x); base++) pencil_stage(x, q, 0, name, base);
+        if (i > 0 && o->system->coordinate[i - 1].type == NH_ANGLE && x->words.waves > 1 && !found && !nh_stage_solver_done(x)) {
             nh_family around = nh_stage_pencil_around(x->r->arena, o, &x->words, q);
             pencil_of(x, q, 0, name, &around, NH_PENCIL_BASES);
         }
-        for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_climb_done(x); base++) pencil_stage(x, q, 0, name, base);
+        for (size_t base = NH_PENCIL_PLAIN; base < NH_PENCIL_BASES && is_cyclic(x, q) && !nh_stage_solver_done(x); base++) pencil_stage(x, q, 0, name, base);
     }
     powers(x);
     potential_rate(x);

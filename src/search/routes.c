@@ -9,7 +9,7 @@
 /* The symmetry route has about n + 1 times as many columns, each an expression of its own: beyond this it is left out, and said. */
 enum { most_columns = 400 };
 
-static nh_nullspace *solve(nh_result *r, size_t n, const nh_field_column *column, const nh_points *points, nh_error *error)
+static nh_nullspace *solve(nh_analysis *r, size_t n, const nh_field_column *column, const nh_points *points, nh_error *error)
 {
     nh_equations *equations = nh_equations_create(n, nh_threads(r->options.threads));
     nh_rows_symmetry(r->model, n, column, points, equations);
@@ -19,7 +19,7 @@ static nh_nullspace *solve(nh_result *r, size_t n, const nh_field_column *column
     return s;
 }
 
-static void compare(nh_result *r, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current, const nh_nullspace *symmetry,
+static void compare(nh_analysis *r, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current, const nh_nullspace *symmetry,
                     const nh_field_column *column)
 {
     nh_ex *phi = nh_alloc_array(a->columns + 1, sizeof *phi), *field = nh_alloc_array(symmetry->columns + 1, sizeof *field);
@@ -38,7 +38,7 @@ static void compare(nh_result *r, const nh_ansatz *a, const nh_points *points, c
     nh_free(phi);
 }
 
-void nh_routes_compare(nh_result *r, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current)
+void nh_routes_compare(nh_analysis *r, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
@@ -48,17 +48,17 @@ void nh_routes_compare(nh_result *r, const nh_ansatz *a, const nh_points *points
     size_t n = a->columns * (r->model->n + 1) <= most_columns ? nh_rows_field_columns(r->model, a->columns, b, &column) : 0;
     nh_free(b);
     if (n == 0) {
-        nh_result_warn(r, "the symmetry route was left out: the ansatz is too large for it; the fields were computed from the currents");
+        nh_analysis_warn(r, "the symmetry route was left out: the ansatz is too large for it; the fields were computed from the currents");
         return;
     }
     nh_nullspace *s = solve(r, n, column, points, &trouble);
     if (!s) {
-        nh_result_warn(r, "the symmetry route failed: %s", trouble.what);
+        nh_analysis_warn(r, "the symmetry route failed: %s", trouble.what);
         return;
     }
     r->symmetry = nh_spectrum_of(r->arena, s);
     compare(r, a, points, current, s, column);
     nh_nullspace_free(s);
     if (!r->routes_agree)
-        nh_result_warn(r, "the two routes disagree: dimensions %zu and %zu, angle %.1e", r->current.dimension, r->symmetry.dimension, r->routes_angle);
+        nh_analysis_warn(r, "the two routes disagree: dimensions %zu and %zu, angle %.1e", r->current.dimension, r->symmetry.dimension, r->routes_angle);
 }

@@ -15,7 +15,7 @@
 enum { most_words = 32, near_points = 24 };
 
 typedef struct {
-    nh_climb *x;
+    nh_stage_solver *x;
     nh_ex variable;
     size_t words;
     nh_ex word[most_words];
@@ -82,7 +82,7 @@ static nh_ex expression_of(const problem *p, const nh_series_space *space, size_
 /* "x at t = 0" */
 static const char *meaning_of(const problem *p, const nh_series_space *space, size_t k)
 {
-    nh_result *r = p->x->r;
+    nh_analysis *r = p->x->r;
     if (space->alone[k] == space->words) return "";
     char *word = nh_print_string(r->model->dag, space->word[space->alone[k]]);
     const char *text =
@@ -93,7 +93,7 @@ static const char *meaning_of(const problem *p, const nh_series_space *space, si
 
 static size_t keep(problem *p, const nh_series_space *space)
 {
-    nh_result *r = p->x->r;
+    nh_analysis *r = p->x->r;
     size_t n = space->words * (space->degree + 1), added = 0;
     for (size_t k = 0; k < space->count && r->independent < r->local_maximum; k++) {
         nh_series *series = nh_arena_alloc(r->arena, sizeof *series);
@@ -116,7 +116,7 @@ static size_t keep(problem *p, const nh_series_space *space)
  */
 static bool fresh(const problem *p, const nh_series_search *s)
 {
-    const nh_result *r = p->x->r;
+    const nh_analysis *r = p->x->r;
     nh_points *points = nh_series_points(s, near_points);
     if (!points) return true;
     size_t known = r->count, n = known + nh_series_count(s);
@@ -133,7 +133,7 @@ static bool fresh(const problem *p, const nh_series_search *s)
 }
 
 /* Without an interval of the user's a series in t goes on to the end of the motions. */
-static double end_of_time(const nh_climb *x)
+static double end_of_time(const nh_stage_solver *x)
 {
     const nh_system *system = x->r->system;
     for (size_t i = 0; i < system->intervals; i++)
@@ -143,14 +143,14 @@ static double end_of_time(const nh_climb *x)
 
 static void search(problem *p, const char *what)
 {
-    nh_result *r = p->x->r;
+    nh_analysis *r = p->x->r;
     char name[120];
     double start = nh_clock();
     nh_series_space space;
-    if (p->full || nh_climb_done(p->x)) return;
+    if (p->full || nh_stage_solver_done(p->x)) return;
     snprintf(name, sizeof name, "%s with coefficients that are series in %s", what,
              nh_name_of(r->model->dag, p->variable));
-    nh_tried *note = nh_climb_note(p->x, name);
+    nh_stage_record *note = nh_stage_solver_note(p->x, name);
     nh_series_search *s = nh_series_open(r->model, p->variable, p->words, p->word, &r->options);
     note->columns = nh_series_words(s);
     note->sectors = 1;
@@ -170,7 +170,7 @@ static void search(problem *p, const char *what)
 /* What has closed form should be found as that: the same words with harmonics of q and the system's functions. */
 static void closed_forms(problem *p)
 {
-    nh_climb *x = p->x;
+    nh_stage_solver *x = p->x;
     nh_dag *d = x->r->model->dag;
     nh_ex *f = nh_arena_alloc(x->r->arena, (6 + x->words.atoms) * sizeof *f),
           *word = nh_arena_alloc(x->r->arena, (p->words + 1) * sizeof *word);
@@ -188,12 +188,12 @@ static void closed_forms(problem *p)
     part[0] = (nh_family){.kind = NH_TERMS, .terms = p->words, .term = word};
     part[1] = (nh_family){.kind = NH_TERMS, .terms = n, .term = f};
     both[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-    nh_climb_stage(x, "squares of velocities times harmonics and functions of the shape", 1, both);
+    nh_stage_solver_stage(x, "squares of velocities times harmonics and functions of the shape", 1, both);
 }
 
 /* Velocities with functions of one coordinate, whatever the chart: one that needs other coordinates too may have been
  * chosen. */
-static void linear_in(nh_climb *x, nh_ex q)
+static void linear_in(nh_stage_solver *x, nh_ex q)
 {
     const nh_model *o = x->r->model;
     problem p = {.x = x, .variable = q};
@@ -214,7 +214,7 @@ static bool has_walls(const nh_model *o)
 
 /* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are closed
  * under Gamma. */
-void nh_climb_series(nh_climb *x)
+void nh_series_stages(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     if (x->words.shapes != 1 || o->chart->implicit || has_walls(o)) return;
@@ -222,12 +222,12 @@ void nh_climb_series(nh_climb *x)
     problem p = {.x = x, .variable = x->words.shape[0]};
     put(&p, nh_int(o->dag, 1));
     put_squares(&p, o->n, o->chart->w);
-    if (p.full || nh_climb_done(x)) return;
+    if (p.full || nh_stage_solver_done(x)) return;
     closed_forms(&p);
     search(&p, "squares of velocities");
 }
 
-void nh_climb_series_in_each(nh_climb *x)
+void nh_stage_solver_series_in_each(nh_stage_solver *x)
 {
     enum { most_shapes = 3 };
     if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit || has_walls(x->r->model)) return;
@@ -266,11 +266,11 @@ static void put_polar(problem *p)
 }
 
 /* Functions of t: where the equations are linear, all that there is. */
-void nh_climb_series_in_time(nh_climb *x)
+void nh_stage_solver_series_in_time(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     nh_ex one = nh_int(o->dag, 1);
-    if (nh_climb_done(x) || o->chart->implicit || !driven(o) || has_walls(o)) return;
+    if (nh_stage_solver_done(x) || o->chart->implicit || !driven(o) || has_walls(o)) return;
     problem p = {.x = x, .variable = o->system->t};
     put_all(&p, x->words.positions, x->words.position);
     put_all(&p, o->n, o->chart->w);

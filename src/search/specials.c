@@ -10,7 +10,7 @@ enum { search_points = 128, most_values = 12 };
 
 /* The pencil at other parameter values. */
 typedef struct {
-    const nh_result *r;
+    const nh_analysis *r;
     const nh_points *points;
     size_t families;
     const nh_family *family;
@@ -31,14 +31,14 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
     return count > 0;
 }
 
-static nh_ex recognise(const nh_result *r, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *u,
+static nh_ex recognise(const nh_analysis *r, const nh_points *points, size_t families, const nh_family *family, const nh_unknown *u,
                        const nh_hits *hits, size_t which)
 {
     pencil_context c = {r, points, families, family, {u->symbol, 0, HUGE_VAL}};
     return nh_name_value(r->model, hits->hit[which].value[0], follow, &c, r->options.recognise, (uint64_t)r->options.seed);
 }
 
-static void name_values(nh_result *r, const nh_points *points, size_t families, const nh_family *family)
+static void name_values(nh_analysis *r, const nh_points *points, size_t families, const nh_family *family)
 {
     const nh_hits *h = r->hits;
     r->special = nh_arena_alloc(r->arena, (h->count + 1) * sizeof *r->special);
@@ -54,9 +54,9 @@ static void name_values(nh_result *r, const nh_points *points, size_t families, 
 }
 
 /* Families without unknowns stay; the others are repeated with each value. */
-static void expand(nh_result *r, size_t *families, nh_family **family)
+static void expand(nh_analysis *r, size_t *families, nh_family **family)
 {
-    const nh_analysis *a = r->analysis;
+    const nh_analysis_file *a = r->analysis;
     nh_dag *d = r->model->dag;
     nh_family *out = nh_arena_alloc(r->arena, (*families * (1 + r->specials) + 1) * sizeof *out);
     nh_ex *from = nh_arena_alloc(r->arena, (a->unknowns + 1) * sizeof *from), *to = nh_arena_alloc(r->arena, (a->unknowns + 1) * sizeof *to);
@@ -76,10 +76,10 @@ static void expand(nh_result *r, size_t *families, nh_family **family)
     *family = out;
 }
 
-bool nh_specials_find(nh_result *r, size_t *families, nh_family **family, nh_error *error)
+bool nh_specials_find(nh_analysis *r, size_t *families, nh_family **family, nh_error *error)
 {
     if (!r->analysis || r->analysis->unknowns == 0) return true;
-    const nh_analysis *a = r->analysis;
+    const nh_analysis_file *a = r->analysis;
     nh_points *points = nh_points_create(r->model, search_points, 1, (uint64_t)r->options.seed + 404, error);
     if (!points) return false;
     r->hits = nh_unknowns_find(r->model, points, *families, *family, a->unknowns, a->unknown, &r->options, error);
@@ -88,14 +88,14 @@ bool nh_specials_find(nh_result *r, size_t *families, nh_family **family, nh_err
         expand(r, families, family);
         for (size_t k = 0; k < r->specials; k++)
             if (r->hits->pencil_applied && !(r->special[k].hit->by_pencil && r->special[k].hit->by_search))
-                nh_result_warn(r, "the value %.12g of an unknown was found by the %s only", r->special[k].value[0],
+                nh_analysis_warn(r, "the value %.12g of an unknown was found by the %s only", r->special[k].value[0],
                                r->special[k].hit->by_pencil ? "eigenvalue pencil" : "global search");
     }
     nh_points_free(points);
     return r->hits != NULL;
 }
 
-void nh_specials_name(nh_result *r, const nh_letters *letters)
+void nh_specials_name(nh_analysis *r, const nh_letters *letters)
 {
     static const double same = 1e-7; /* a search knows less digits of a value than the current that it leads to */
     for (size_t k = 0; k < r->specials; k++)

@@ -12,22 +12,22 @@
 enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60, short_factor = 14 };
 static const double points_per_column = 2.5;
 
-bool nh_climb_begin(nh_climb *x, nh_result *r, nh_error *error)
+bool nh_stage_solver_begin(nh_stage_solver *x, nh_analysis *r, nh_error *error)
 {
     size_t points = range_points_each * r->model->m;
-    *x = (nh_climb){.r = r};
+    *x = (nh_stage_solver){.r = r};
     x->ranges = nh_points_create(r->model, points > range_points ? points : range_points, 1, (uint64_t)r->options.seed, error);
-    x->bench = x->ranges ? nh_workbench_create(r, error) : NULL;
-    if (!x->bench) nh_climb_end(x);
+    x->bench = x->ranges ? nh_current_checker_create(r, error) : NULL;
+    if (!x->bench) nh_stage_solver_end(x);
     return x->bench != NULL;
 }
 
-void nh_climb_end(nh_climb *x)
+void nh_stage_solver_end(nh_stage_solver *x)
 {
-    nh_workbench_free(x->bench);
+    nh_current_checker_free(x->bench);
     nh_reflections_free(x->reflections);
     nh_points_free(x->ranges);
-    *x = (nh_climb){0};
+    *x = (nh_stage_solver){0};
 }
 
 /* ---- which candidates are new ---- */
@@ -39,7 +39,7 @@ static nh_ex rough(const nh_model *o, const nh_candidate *c)
     return e;
 }
 
-static void keep_factor(nh_climb *x, nh_ex phi)
+static void keep_factor(nh_stage_solver *x, nh_ex phi)
 {
     if (x->factors == NH_MOST_FACTORS || nh_complexity(x->r->model->dag, phi) > short_factor) return;
     for (size_t i = 0; i < x->factors; i++)
@@ -48,9 +48,9 @@ static void keep_factor(nh_climb *x, nh_ex phi)
 }
 
 /* Gradients against those of the known currents; candidates come simplest first.  kind[k] of candidate k; returns how many are new. */
-static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
+static size_t compare(nh_stage_solver *x, nh_candidates *list, nh_independence *kind)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     size_t known = r->count, most = least_tested > r->local_maximum ? least_tested : r->local_maximum, n = list->count < most ? list->count : most, fresh = 0;
     nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
     nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
@@ -67,21 +67,21 @@ static size_t compare(nh_climb *x, nh_candidates *list, nh_independence *kind)
     return fresh;
 }
 
-bool nh_climb_done(const nh_climb *x)
+bool nh_stage_solver_done(const nh_stage_solver *x)
 {
     return x->r->independent >= x->r->local_maximum || nh_budget_spent() || nh_late();
 }
 
 /* Certificates of vectors that are only likely are dear and mostly refused: the limit of work ends them too, and leaves the question open. */
-static size_t add_new(nh_climb *x, nh_candidates *list, const nh_points *fit, bool certain)
+static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_points *fit, bool certain)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     size_t before = r->independent;
     nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
     compare(x, list, kind);
     for (size_t k = 0; k < list->count && r->independent < r->local_maximum; k++) {
         nh_candidate *c = &list->candidate[k];
-        if (!certain && nh_climb_done(x)) {
+        if (!certain && nh_stage_solver_done(x)) {
             r->open += kind[k] == NH_INDEPENDENT;
             continue;
         }
@@ -99,30 +99,30 @@ static size_t add_new(nh_climb *x, nh_candidates *list, const nh_points *fit, bo
 
 /* ---- one stage ---- */
 
-nh_tried *nh_climb_note(nh_climb *x, const char *name)
+nh_stage_record *nh_stage_solver_note(nh_stage_solver *x, const char *name)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     if (r->stages == r->stage_capacity) { /* no note is being written while the next one is made */
-        nh_tried *old = r->stage;
+        nh_stage_record *old = r->stage;
         r->stage_capacity = 2 * r->stage_capacity + 64;
         r->stage = nh_arena_alloc(r->arena, r->stage_capacity * sizeof *r->stage);
         if (r->stages) memcpy(r->stage, old, r->stages * sizeof *old);
     }
-    r->stage[r->stages] = (nh_tried){.name = nh_arena_strdup(r->arena, name)};
+    r->stage[r->stages] = (nh_stage_record){.name = nh_arena_strdup(r->arena, name)};
     return &r->stage[r->stages++];
 }
 
-void nh_climb_keep_spectrum(nh_climb *x, const nh_nullspace *s, bool found)
+void nh_stage_solver_keep_spectrum(nh_stage_solver *x, const nh_nullspace *s, bool found)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     bool alone = r->current.columns < 3 && s->columns >= 3; /* the energy for itself: one value shows no gap */
     bool better = !r->current.done || found || alone || (r->count == 0 && s->columns > r->current.columns);
     if (better) r->current = nh_spectrum_of(r->arena, s);
 }
 
-static nh_sectors split(nh_climb *x, nh_ansatz *a)
+static nh_sectors split(nh_stage_solver *x, nh_ansatz *a)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     bool large = a->columns > (size_t)r->options.split_columns;
     nh_reflections none = {0};
     if (large && !x->reflections) x->reflections = nh_reflections_find(r->model, x->ranges);
@@ -142,7 +142,7 @@ static double dense_work(const nh_sectors *sectors, size_t points)
 }
 
 /* A stage is solved whole or not at all. */
-static nh_limit limit_of(const nh_climb *x, const nh_sectors *sectors, size_t points)
+static nh_limit limit_of(const nh_stage_solver *x, const nh_sectors *sectors, size_t points)
 {
     static const double room = 1.2;
     const nh_options *options = &x->r->options;
@@ -153,9 +153,9 @@ static nh_limit limit_of(const nh_climb *x, const nh_sectors *sectors, size_t po
 }
 
 /* Columns are limited by the largest part, and by what can be held at all. */
-nh_solved nh_climb_solve(nh_climb *x, size_t families, const nh_family *family)
+nh_solved nh_stage_solver_solve(nh_stage_solver *x, size_t families, const nh_family *family)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_solved s = {.ansatz = nh_ansatz_create(r->model, x->ranges, families, family, (size_t)r->options.columns, &ignored)};
@@ -186,9 +186,9 @@ void nh_solved_clear(nh_solved *s)
     nh_ansatz_free(s->ansatz);
 }
 
-size_t nh_climb_news(nh_climb *x, size_t families, const nh_family *family)
+size_t nh_stage_solver_news(nh_stage_solver *x, size_t families, const nh_family *family)
 {
-    nh_solved s = nh_climb_solve(x, families, family);
+    nh_solved s = nh_stage_solver_solve(x, families, family);
     size_t fresh = 0;
     if (s.nullspace && s.nullspace->likely) {
         nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &x->r->options);
@@ -201,10 +201,10 @@ size_t nh_climb_news(nh_climb *x, size_t families, const nh_family *family)
     return fresh;
 }
 
-bool nh_climb_promising(nh_climb *x, size_t families, const nh_family *family) { return nh_climb_news(x, families, family) > 0; }
+bool nh_stage_solver_promising(nh_stage_solver *x, size_t families, const nh_family *family) { return nh_stage_solver_news(x, families, family) > 0; }
 
 /* The first `count` null vectors, turned into what is new in them. */
-static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certain)
+static size_t harvest(nh_stage_solver *x, const nh_solved *s, size_t count, bool certain)
 {
     nh_candidates *list = nh_echelon(x->r->model, s->fit, s->ansatz, s->nullspace, count, &x->r->options);
     size_t found = add_new(x, list, s->fit, certain);
@@ -212,14 +212,14 @@ static size_t harvest(nh_climb *x, const nh_solved *s, size_t count, bool certai
     return found;
 }
 
-void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_family *family)
+void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families, const nh_family *family)
 {
     nh_progress(name, nh_budget_part());
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     if (families == 0) return;
     double start = nh_clock();
-    nh_tried *note = nh_climb_note(x, name);
-    nh_solved s = nh_climb_solve(x, families, family);
+    nh_stage_record *note = nh_stage_solver_note(x, name);
+    nh_solved s = nh_stage_solver_solve(x, families, family);
     note->skipped = !s.ansatz;
     note->limit = s.limit;
     note->columns = s.ansatz ? s.ansatz->columns : 0;
@@ -233,7 +233,7 @@ void nh_climb_stage(nh_climb *x, const char *name, size_t families, const nh_fam
         r->rejected += s.fit->tried - nh_points_equations(s.fit);
         note->found = harvest(x, &s, s.nullspace->dimension, true);
         if (s.nullspace->likely > s.nullspace->dimension) note->found += harvest(x, &s, s.nullspace->likely, false);
-        nh_climb_keep_spectrum(x, s.nullspace, note->found > 0);
+        nh_stage_solver_keep_spectrum(x, s.nullspace, note->found > 0);
     }
     note->seconds = nh_clock() - start;
     nh_solved_clear(&s);

@@ -10,19 +10,19 @@ enum { NH_MOST_FACTORS = 10 };
 
 /* The ladder's state. */
 typedef struct {
-    nh_result *r;
-    nh_workbench *bench;
+    nh_analysis *r;
+    nh_current_checker *bench;
     nh_dictionary words;
     nh_points *ranges;
     nh_reflections *reflections; /* found when a stage is large */
     size_t factors;              /* simple currents, dependent ones too: factors of later stages */
     nh_ex factor[NH_MOST_FACTORS];
     bool wide;                   /* the stage at hand has few columns for what it looks for: it may have as many as any ansatz */
-} nh_climb;
+} nh_stage_solver;
 
 /* Points for the ranges of columns, and a workbench; no words yet. */
-bool nh_climb_begin(nh_climb *climb, nh_result *result, nh_error *error);
-void nh_climb_end(nh_climb *climb);
+bool nh_stage_solver_begin(nh_stage_solver *climb, nh_analysis *result, nh_error *error);
+void nh_stage_solver_end(nh_stage_solver *climb);
 
 /* A stage's linear problem, solved. */
 typedef struct {
@@ -34,35 +34,35 @@ typedef struct {
 } nh_solved;
 
 /* Nothing more to find, or no work or time left. */
-bool nh_climb_done(const nh_climb *climb);
+bool nh_stage_solver_done(const nh_stage_solver *climb);
 
 /* Columns are limited by the largest part, and by what can be held at all. */
-nh_solved nh_climb_solve(nh_climb *climb, size_t families, const nh_family *family);
+nh_solved nh_stage_solver_solve(nh_stage_solver *climb, size_t families, const nh_family *family);
 void nh_solved_clear(nh_solved *solved);
 
 /* An entry in the list of what was tried. */
-nh_tried *nh_climb_note(nh_climb *climb, const char *name);
+nh_stage_record *nh_stage_solver_note(nh_stage_solver *climb, const char *name);
 /* The spectrum that is reported: of the last stage that found something, else of the largest. */
-void nh_climb_keep_spectrum(nh_climb *climb, const nh_nullspace *nullspace, bool found);
+void nh_stage_solver_keep_spectrum(nh_stage_solver *climb, const nh_nullspace *nullspace, bool found);
 /* How much new a stage seems to give; whether any. */
-size_t nh_climb_news(nh_climb *climb, size_t families, const nh_family *family);
-bool nh_climb_promising(nh_climb *climb, size_t families, const nh_family *family);
+size_t nh_stage_solver_news(nh_stage_solver *climb, size_t families, const nh_family *family);
+bool nh_stage_solver_promising(nh_stage_solver *climb, size_t families, const nh_family *family);
 /* Solve it, keep what is new, and note it. */
-void nh_climb_stage(nh_climb *climb, const char *name, size_t families, const nh_family *family);
+void nh_stage_solver_stage(nh_stage_solver *climb, const char *name, size_t families, const nh_family *family);
 
 /* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
-void nh_climb_rates(nh_climb *climb);
+void nh_rates_search(nh_stage_solver *climb);
 /* The same in t alone, for this family. */
-void nh_climb_rates_in(nh_climb *climb, const nh_family *base);
+void nh_rates_search_in(nh_stage_solver *climb, const nh_family *base);
 /* Systems, or blocks of coordinates, whose equations of motion are linear with constant coefficients. */
-void nh_climb_linear(nh_climb *climb);
+void nh_linear_motion_search(nh_stage_solver *climb);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
-void nh_climb_isometries(nh_climb *climb);
+void nh_isometries_search(nh_stage_solver *climb);
 /* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
-void nh_climb_series(nh_climb *climb);
+void nh_series_stages(nh_stage_solver *climb);
 /* The same, linear ones, where the equations depend on several coordinates: what has a closed form should have been found before. */
-void nh_climb_series_in_each(nh_climb *climb);
+void nh_stage_solver_series_in_each(nh_stage_solver *climb);
 /* With functions of t. */
-void nh_climb_series_in_time(nh_climb *climb);
+void nh_stage_solver_series_in_time(nh_stage_solver *climb);
 
 #endif

@@ -11,9 +11,9 @@
 #include "search/stages.h"
 
 /* Currents found so far as factors: Phi times 1, t, positions and the system's functions. */
-static void known_stage(nh_climb *x)
+static void known_stage(nh_stage_solver *x)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     nh_ex *f = nh_arena_alloc(r->arena, (2 + x->words.positions + x->words.atoms + x->words.potentials) * sizeof *f);
     size_t m = 0;
     f[m++] = nh_int(r->model->dag, 1);
@@ -26,13 +26,13 @@ static void known_stage(nh_climb *x)
     part[0] = (nh_family){.kind = NH_TERMS, .terms = x->factors, .term = x->factor};
     part[1] = (nh_family){.kind = NH_TERMS, .terms = m, .term = f};
     both[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-    nh_climb_stage(x, "currents found so far times t, positions and the system's functions", 1, both);
+    nh_stage_solver_stage(x, "currents found so far times t, positions and the system's functions", 1, both);
 }
 
 /* Where determinants of the constraints are small on parts of the domain, doubles lose all digits of the rates: in ball arithmetic they cancel, or they do not. */
-static void certify(nh_climb *x, nh_ex e, const char *name)
+static void certify(nh_stage_solver *x, nh_ex e, const char *name)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     nh_ex *term = nh_arena_alloc(r->arena, sizeof *term);
     double *one = nh_arena_alloc(r->arena, sizeof *one);
     *term = e;
@@ -41,7 +41,7 @@ static void certify(nh_climb *x, nh_ex e, const char *name)
     *c = (nh_candidate){.count = 1, .term = term, .coefficient = one, .refitted = true, .all = 1, .all_term = term, .all_coefficient = one, .all_size = one};
     if (nh_kind_of(r->model->dag, *term) == NH_NUMBER || nh_currents_known(x->bench, *term)) return;
     if (nh_prove_digits(r->model, *term, &r->options) < r->options.digits) return;
-    nh_tried *note = nh_climb_note(x, name);
+    nh_stage_record *note = nh_stage_solver_note(x, name);
     note->columns = note->sectors = 1;
     note->found = nh_currents_add(x->bench, c, x->ranges, false);
     note->dimension = note->found;
@@ -49,49 +49,49 @@ static void certify(nh_climb *x, nh_ex e, const char *name)
 }
 
 /* The energy and each momentum alone: nothing nearly dependent beside them can take their place. */
-static void single_stages(nh_climb *x)
+static void single_stages(nh_stage_solver *x)
 {
-    nh_result *r = x->r;
-    for (size_t i = 0; i <= x->words.momenta && !nh_climb_done(x); i++) {
+    nh_analysis *r = x->r;
+    for (size_t i = 0; i <= x->words.momenta && !nh_stage_solver_done(x); i++) {
         nh_ex *e = nh_arena_alloc(r->arena, sizeof *e);
         nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
         *e = i == 0 ? r->model->E : x->words.momentum[i - 1];
         *all = (nh_family){.kind = NH_TERMS, .terms = 1, .term = e};
-        if (nh_climb_promising(x, 1, all)) nh_climb_stage(x, i == 0 ? "energy" : "a momentum", 1, all);
+        if (nh_stage_solver_promising(x, 1, all)) nh_stage_solver_stage(x, i == 0 ? "energy" : "a momentum", 1, all);
         else certify(x, *e, i == 0 ? "energy, in ball arithmetic" : "a momentum, in ball arithmetic");
     }
 }
 
 /* Each of the system's functions alone: many at once are nearly dependent on a small interval. */
-static void function_stages(nh_climb *x)
+static void function_stages(nh_stage_solver *x)
 {
-    nh_result *r = x->r;
+    nh_analysis *r = x->r;
     size_t n = x->words.velocities + x->words.forms;
     nh_ex *linear = nh_arena_alloc(r->arena, (n + 1) * sizeof *linear);
     memcpy(linear, x->words.velocity, x->words.velocities * sizeof *linear);
     memcpy(linear + x->words.velocities, x->words.form, x->words.forms * sizeof *linear);
-    for (size_t i = 0; i < x->words.atoms && !nh_climb_done(x); i++) {
+    for (size_t i = 0; i < x->words.atoms && !nh_stage_solver_done(x); i++) {
         nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
         part[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = linear};
         part[1] = (nh_family){.kind = NH_TERMS, .terms = 1, .term = &x->words.atom[i]};
         all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-        if (nh_climb_promising(x, 1, all)) nh_climb_stage(x, "velocities and forms times one function", 1, all);
+        if (nh_stage_solver_promising(x, 1, all)) nh_stage_solver_stage(x, "velocities and forms times one function", 1, all);
     }
 }
 
 /* What classical systems of many bodies have, before stages that are too large for them. */
-static void stages_of_many(nh_climb *x)
+static void stages_of_many(nh_stage_solver *x)
 {
     enum { few_coordinates = 6 };
     nh_stage stage;
     x->wide = true;
-    for (size_t i = 0; x->r->model->m > few_coordinates && !nh_climb_done(x) && nh_stage_of_many(x->r->arena, x->r->model, &x->words, i, &stage); i++)
-        nh_climb_stage(x, stage.name, stage.families, stage.family);
+    for (size_t i = 0; x->r->model->m > few_coordinates && !nh_stage_solver_done(x) && nh_stage_of_many(x->r->arena, x->r->model, &x->words, i, &stage); i++)
+        nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
     x->wide = false;
 }
 
 /* Work ends it at the same place everywhere, time does not; a stage that was too large is left out and ends nothing. */
-static void how_it_ended(nh_result *r)
+static void how_it_ended(nh_analysis *r)
 {
     bool spent = nh_budget_spent();
     for (size_t i = 0; i < r->stages; i++) spent |= r->stage[i].limit.option && !strcmp(r->stage[i].limit.option, "work");
@@ -99,34 +99,34 @@ static void how_it_ended(nh_result *r)
     else r->search = spent || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
     if (r->search != NH_SEARCH_CUT || !spent) return;
     r->partial = true;
-    nh_result_warn(r, "the limit of %g million units of work ended the search; --option work=%g raises it", r->options.work, 10 * r->options.work);
+    nh_analysis_warn(r, "the limit of %g million units of work ended the search; --option work=%g raises it", r->options.work, 10 * r->options.work);
 }
 
-bool nh_ladder_climb(nh_result *r, nh_error *error)
+bool nh_staged_search_run(nh_analysis *r, nh_error *error)
 {
     enum { pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 5, time_after = 17 };
-    nh_climb x;
-    if (!nh_climb_begin(&x, r, error)) return false;
+    nh_stage_solver x;
+    if (!nh_stage_solver_begin(&x, r, error)) return false;
     nh_budget_begin(r->options.work);
     x.words = nh_dictionary_of(r->model);
     nh_stage stage;
     nh_integrals_find(&x);
     single_stages(&x);
-    for (size_t i = 0; !nh_climb_done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
-        nh_climb_stage(&x, stage.name, stage.families, stage.family);
+    for (size_t i = 0; !nh_stage_solver_done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
+        nh_stage_solver_stage(&x, stage.name, stage.families, stage.family);
         if (i + 1 == pencils_after) stages_of_many(&x);
-        if (i + 1 == pencils_after && !nh_climb_done(&x)) nh_climb_linear(&x);
-        if (i + 1 == pencils_after && !nh_climb_done(&x)) nh_climb_rates(&x);
+        if (i + 1 == pencils_after && !nh_stage_solver_done(&x)) nh_linear_motion_search(&x);
+        if (i + 1 == pencils_after && !nh_stage_solver_done(&x)) nh_rates_search(&x);
         if (i + 1 == known_after) function_stages(&x);
-        if (i + 1 == known_after && !nh_climb_done(&x)) known_stage(&x);
-        if (i + 1 == isometries_after && !nh_climb_done(&x)) nh_climb_isometries(&x);
-        if (i + 1 == series_after && !nh_climb_done(&x)) nh_climb_series(&x);
-        if (i + 1 == time_after) nh_climb_series_in_time(&x);
+        if (i + 1 == known_after && !nh_stage_solver_done(&x)) known_stage(&x);
+        if (i + 1 == isometries_after && !nh_stage_solver_done(&x)) nh_isometries_search(&x);
+        if (i + 1 == series_after && !nh_stage_solver_done(&x)) nh_series_stages(&x);
+        if (i + 1 == time_after) nh_stage_solver_series_in_time(&x);
     }
-    if (!nh_climb_done(&x)) nh_climb_series_in_each(&x);
+    if (!nh_stage_solver_done(&x)) nh_stage_solver_series_in_each(&x);
     how_it_ended(r);
     nh_budget_begin(INFINITY);
     nh_currents_finish(x.bench);
-    nh_climb_end(&x);
+    nh_stage_solver_end(&x);
     return true;
 }

@@ -9,6 +9,6 @@
 #include "search/currents.h"
 
 /* Fill result->found, result->stage, result->current (the spectrum of the last stage that found something, else of the largest). */
-bool nh_ladder_climb(nh_result *result, nh_error *error);
+bool nh_staged_search_run(nh_analysis *result, nh_error *error);
 
 #endif

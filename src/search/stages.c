@@ -3,43 +3,43 @@
 #include "graph/diff.h"
 #include "search/stages_internal.h"
 
-void nh_list_put(nh_list *l, nh_ex e)
+void nh_expr_set_put(nh_expr_set *l, nh_ex e)
 {
     for (size_t i = 0; i < l->n; i++)
         if (l->e[i] == e) return;
-    if (l->n < NH_MOST_LIST) l->e[l->n++] = e;
+    if (l->n < NH_MOST_EXPRS) l->e[l->n++] = e;
 }
 
-void nh_list_put_all(nh_list *l, size_t n, const nh_ex *e)
+void nh_expr_set_put_all(nh_expr_set *l, size_t n, const nh_ex *e)
 {
-    for (size_t i = 0; i < n; i++) nh_list_put(l, e[i]);
+    for (size_t i = 0; i < n; i++) nh_expr_set_put(l, e[i]);
 }
 
-nh_family nh_shelf_terms(nh_shelf *s, const nh_list *l)
+nh_family nh_family_list_terms(nh_family_list *s, const nh_expr_set *l)
 {
     nh_ex *copy = nh_arena_alloc(s->arena, (l->n + 1) * sizeof *copy);
     memcpy(copy, l->e, l->n * sizeof *copy);
     return (nh_family){.kind = NH_TERMS, .terms = l->n, .term = copy};
 }
 
-nh_family nh_shelf_product(nh_shelf *s, size_t n, const nh_family *part)
+nh_family nh_family_list_product(nh_family_list *s, size_t n, const nh_family *part)
 {
     nh_family *copy = nh_arena_alloc(s->arena, n * sizeof *copy);
     memcpy(copy, part, n * sizeof *copy);
     return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = n, .part = copy};
 }
 
-void nh_shelf_add(nh_shelf *s, nh_family f)
+void nh_family_list_add(nh_family_list *s, nh_family f)
 {
     if (s->count < NH_MOST_FAMILIES && (f.kind != NH_TERMS || f.terms)) s->family[s->count++] = f;
 }
 
-void nh_shelf_product_of_lists(nh_shelf *s, const nh_list *a, const nh_list *b)
+void nh_family_list_product_of_sets(nh_family_list *s, const nh_expr_set *a, const nh_expr_set *b)
 {
-    if (a->n && b->n) nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_terms(s, a), nh_shelf_terms(s, b)}));
+    if (a->n && b->n) nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, a), nh_family_list_terms(s, b)}));
 }
 
-nh_family nh_shelf_polynomial(nh_shelf *s, const nh_list *l, size_t degree)
+nh_family nh_family_list_polynomial(nh_family_list *s, const nh_expr_set *l, size_t degree)
 {
     nh_ex *copy = nh_arena_alloc(s->arena, (l->n + 1) * sizeof *copy);
     memcpy(copy, l->e, l->n * sizeof *copy);
@@ -49,177 +49,177 @@ nh_family nh_shelf_polynomial(nh_shelf *s, const nh_list *l, size_t degree)
 /* ---- the lists that stages are made of ---- */
 
 /* Everything of degree one or two in the velocities that the system itself shows. */
-static nh_list words(const nh_shelf *s)
+static nh_expr_set words(const nh_family_list *s)
 {
-    nh_list l = {0};
-    nh_list_put(&l, s->o->E);
-    nh_list_put_all(&l, s->w->momenta, s->w->momentum);
-    nh_list_put_all(&l, s->w->velocities, s->w->velocity);
-    nh_list_put_all(&l, s->w->frames, s->w->frame);
-    nh_list_put_all(&l, s->w->forms, s->w->form);
+    nh_expr_set l = {0};
+    nh_expr_set_put(&l, s->o->E);
+    nh_expr_set_put_all(&l, s->w->momenta, s->w->momentum);
+    nh_expr_set_put_all(&l, s->w->velocities, s->w->velocity);
+    nh_expr_set_put_all(&l, s->w->frames, s->w->frame);
+    nh_expr_set_put_all(&l, s->w->forms, s->w->form);
     return l;
 }
 
-static nh_list linear_words(const nh_shelf *s)
+static nh_expr_set linear_words(const nh_family_list *s)
 {
-    nh_list l = {0};
-    nh_list_put_all(&l, s->w->velocities, s->w->velocity);
-    nh_list_put_all(&l, s->w->frames, s->w->frame);
-    nh_list_put_all(&l, s->w->forms, s->w->form);
+    nh_expr_set l = {0};
+    nh_expr_set_put_all(&l, s->w->velocities, s->w->velocity);
+    nh_expr_set_put_all(&l, s->w->frames, s->w->frame);
+    nh_expr_set_put_all(&l, s->w->forms, s->w->form);
     return l;
 }
 
-nh_list nh_list_positions(const nh_shelf *s, bool one, bool time)
+nh_expr_set nh_expr_set_positions(const nh_family_list *s, bool one, bool time)
 {
-    nh_list l = {0};
-    if (one) nh_list_put(&l, nh_int(s->o->dag, 1));
-    nh_list_put_all(&l, s->w->positions, s->w->position);
-    if (time) nh_list_put(&l, s->o->system->t);
+    nh_expr_set l = {0};
+    if (one) nh_expr_set_put(&l, nh_int(s->o->dag, 1));
+    nh_expr_set_put_all(&l, s->w->positions, s->w->position);
+    if (time) nh_expr_set_put(&l, s->o->system->t);
     return l;
 }
 
-nh_list nh_list_functions(const nh_shelf *s, bool one)
+nh_expr_set nh_expr_set_functions(const nh_family_list *s, bool one)
 {
-    nh_list l = {0};
-    if (one) nh_list_put(&l, nh_int(s->o->dag, 1));
-    nh_list_put_all(&l, s->w->atoms, s->w->atom);
-    nh_list_put_all(&l, s->w->potentials, s->w->potential);
+    nh_expr_set l = {0};
+    if (one) nh_expr_set_put(&l, nh_int(s->o->dag, 1));
+    nh_expr_set_put_all(&l, s->w->atoms, s->w->atom);
+    nh_expr_set_put_all(&l, s->w->potentials, s->w->potential);
     return l;
 }
 
 /* prod over the angles of {1, cos, sin}, to the given harmonic. */
-static nh_list waves(const nh_shelf *s, size_t harmonic)
+static nh_expr_set waves(const nh_family_list *s, size_t harmonic)
 {
     nh_dag *d = s->o->dag;
-    nh_list l = {0};
-    nh_list_put(&l, nh_int(d, 1));
+    nh_expr_set l = {0};
+    nh_expr_set_put(&l, nh_int(d, 1));
     for (size_t i = 0; i < s->w->waves; i++) {
         size_t n = l.n;
         for (size_t k = 1; k <= harmonic; k++) {
             nh_ex angle = nh_mul(d, nh_int(d, (int64_t)k), s->w->wave[i]), c = nh_call(d, NH_COS, angle), q = nh_call(d, NH_SIN, angle);
             for (size_t j = 0; j < n; j++) {
-                nh_list_put(&l, nh_mul(d, l.e[j], c));
-                nh_list_put(&l, nh_mul(d, l.e[j], q));
+                nh_expr_set_put(&l, nh_mul(d, l.e[j], c));
+                nh_expr_set_put(&l, nh_mul(d, l.e[j], q));
             }
         }
     }
     return l;
 }
 
-nh_list nh_list_squares(const nh_shelf *s, const nh_list *a)
+nh_expr_set nh_expr_set_squares(const nh_family_list *s, const nh_expr_set *a)
 {
-    nh_list l = {0};
+    nh_expr_set l = {0};
     for (size_t i = 0; i < a->n; i++)
-        for (size_t j = 0; j <= i; j++) nh_list_put(&l, nh_mul(s->o->dag, a->e[i], a->e[j]));
+        for (size_t j = 0; j <= i; j++) nh_expr_set_put(&l, nh_mul(s->o->dag, a->e[i], a->e[j]));
     return l;
 }
 
 /* ---- the stages ---- */
 
 /* Products of components along the frame of the kinetic energy with lengths and harmonics: in polar coordinates the components of vectors. */
-nh_list nh_list_lengths(const nh_shelf *s, bool squares_too, bool time)
+nh_expr_set nh_expr_set_lengths(const nh_family_list *s, bool squares_too, bool time)
 {
     nh_dag *d = s->o->dag;
-    nh_list l = {0};
-    nh_list_put(&l, nh_int(d, 1));
-    for (size_t i = 0; i < s->w->lengths; i++) nh_list_put(&l, s->w->length[i]);
+    nh_expr_set l = {0};
+    nh_expr_set_put(&l, nh_int(d, 1));
+    for (size_t i = 0; i < s->w->lengths; i++) nh_expr_set_put(&l, s->w->length[i]);
     for (size_t i = 0; i < s->w->lengths && squares_too; i++)
-        for (size_t j = 0; j <= i; j++) nh_list_put(&l, nh_mul(d, s->w->length[i], s->w->length[j]));
-    if (time) nh_list_put(&l, s->o->system->t);
+        for (size_t j = 0; j <= i; j++) nh_expr_set_put(&l, nh_mul(d, s->w->length[i], s->w->length[j]));
+    if (time) nh_expr_set_put(&l, s->o->system->t);
     return l;
 }
 
-static nh_list times(const nh_shelf *s, const nh_list *a, const nh_list *b)
+static nh_expr_set times(const nh_family_list *s, const nh_expr_set *a, const nh_expr_set *b)
 {
-    nh_list l = {0};
+    nh_expr_set l = {0};
     for (size_t i = 0; i < a->n; i++)
-        for (size_t j = 0; j < b->n; j++) nh_list_put(&l, nh_mul(s->o->dag, a->e[i], b->e[j]));
+        for (size_t j = 0; j < b->n; j++) nh_expr_set_put(&l, nh_mul(s->o->dag, a->e[i], b->e[j]));
     return l;
 }
 
-static nh_list frame_products(const nh_shelf *s, bool squares_too)
+static nh_expr_set frame_products(const nh_family_list *s, bool squares_too)
 {
-    nh_list f = {0}, w = waves(s, 1), some = nh_list_lengths(s, false, !squares_too), all = nh_list_lengths(s, true, false), g = nh_list_functions(s, false);
-    nh_list_put_all(&f, s->w->frames, s->w->frame);
-    nh_list out = times(s, &f, &some), sq = nh_list_squares(s, &f), more = times(s, &sq, &all);
-    if (squares_too) nh_list_put_all(&out, more.n, more.e);
-    nh_list_put_all(&out, all.n, all.e);
-    if (squares_too) nh_list_put_all(&out, g.n, g.e);
+    nh_expr_set f = {0}, w = waves(s, 1), some = nh_expr_set_lengths(s, false, !squares_too), all = nh_expr_set_lengths(s, true, false), g = nh_expr_set_functions(s, false);
+    nh_expr_set_put_all(&f, s->w->frames, s->w->frame);
+    nh_expr_set out = times(s, &f, &some), sq = nh_expr_set_squares(s, &f), more = times(s, &sq, &all);
+    if (squares_too) nh_expr_set_put_all(&out, more.n, more.e);
+    nh_expr_set_put_all(&out, all.n, all.e);
+    if (squares_too) nh_expr_set_put_all(&out, g.n, g.e);
     return times(s, &out, &w);
 }
 
-static void stage_frame(nh_shelf *s)
+static void stage_frame(nh_family_list *s)
 {
     if (s->w->frames < s->o->n) return;
-    nh_list l = frame_products(s, true);
-    nh_shelf_add(s, nh_shelf_terms(s, &l));
+    nh_expr_set l = frame_products(s, true);
+    nh_family_list_add(s, nh_family_list_terms(s, &l));
 }
 
-static void stage_words(nh_shelf *s)
+static void stage_words(nh_family_list *s)
 {
-    nh_list l = words(s), q = nh_list_positions(s, false, true), f = nh_list_functions(s, false);
-    nh_list_put_all(&l, q.n, q.e);
-    nh_list_put_all(&l, f.n, f.e);
-    nh_shelf_add(s, nh_shelf_terms(s, &l));
+    nh_expr_set l = words(s), q = nh_expr_set_positions(s, false, true), f = nh_expr_set_functions(s, false);
+    nh_expr_set_put_all(&l, q.n, q.e);
+    nh_expr_set_put_all(&l, f.n, f.e);
+    nh_family_list_add(s, nh_family_list_terms(s, &l));
 }
 
-static void stage_words_positions(nh_shelf *s)
+static void stage_words_positions(nh_family_list *s)
 {
-    nh_list l = words(s), q = nh_list_positions(s, true, true), f = nh_list_functions(s, false);
-    nh_shelf_product_of_lists(s, &l, &q);
-    nh_list tq = nh_list_positions(s, false, true);
-    bool timely = nh_shelf_timely(s);
-    nh_shelf_add(s, nh_shelf_polynomial(s, &tq, timely ? 2 : 1));
-    nh_shelf_add(s, nh_shelf_terms(s, &f));
-    if (timely) nh_shelf_drive(s);
+    nh_expr_set l = words(s), q = nh_expr_set_positions(s, true, true), f = nh_expr_set_functions(s, false);
+    nh_family_list_product_of_sets(s, &l, &q);
+    nh_expr_set tq = nh_expr_set_positions(s, false, true);
+    bool timely = nh_family_list_timely(s);
+    nh_family_list_add(s, nh_family_list_polynomial(s, &tq, timely ? 2 : 1));
+    nh_family_list_add(s, nh_family_list_terms(s, &f));
+    if (timely) nh_family_list_drive(s);
 }
 
-static void stage_linear_waves(nh_shelf *s)
+static void stage_linear_waves(nh_family_list *s)
 {
-    nh_list l = linear_words(s), w = waves(s, 1);
-    if (s->w->waves) nh_shelf_product_of_lists(s, &l, &w);
+    nh_expr_set l = linear_words(s), w = waves(s, 1);
+    if (s->w->waves) nh_family_list_product_of_sets(s, &l, &w);
 }
 
-static void stage_functions(nh_shelf *s)
+static void stage_functions(nh_family_list *s)
 {
-    nh_list l = words(s), q = nh_list_positions(s, true, false), f = nh_list_functions(s, true);
+    nh_expr_set l = words(s), q = nh_expr_set_positions(s, true, false), f = nh_expr_set_functions(s, true);
     if (f.n < 2) return;
-    nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &l), nh_shelf_terms(s, &q), nh_shelf_terms(s, &f)}));
-    nh_shelf_product_of_lists(s, &q, &f);
+    nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &l), nh_family_list_terms(s, &q), nh_family_list_terms(s, &f)}));
+    nh_family_list_product_of_sets(s, &q, &f);
 }
 
-static void stage_linear_functions(nh_shelf *s)
+static void stage_linear_functions(nh_family_list *s)
 {
-    nh_list l = linear_words(s), f = nh_list_functions(s, true);
-    if (f.n > 1) nh_shelf_product_of_lists(s, &l, &f);
+    nh_expr_set l = linear_words(s), f = nh_expr_set_functions(s, true);
+    if (f.n > 1) nh_family_list_product_of_sets(s, &l, &f);
 }
 
 /* Total degree in positions and velocities, with the atoms; only where the angles do not matter. */
-static void stage_total(nh_shelf *s, size_t degree, bool with_functions)
+static void stage_total(nh_family_list *s, size_t degree, bool with_functions)
 {
-    nh_list v = {0}, f = nh_list_functions(s, true);
-    for (size_t i = 0; i < s->w->positions; i++) nh_list_put(&v, s->w->position[i]);
-    nh_list_put_all(&v, s->w->velocities, s->w->velocity);
-    if (with_functions && f.n > 1) nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_polynomial(s, &v, degree), nh_shelf_terms(s, &f)}));
-    else nh_shelf_add(s, nh_shelf_polynomial(s, &v, degree));
+    nh_expr_set v = {0}, f = nh_expr_set_functions(s, true);
+    for (size_t i = 0; i < s->w->positions; i++) nh_expr_set_put(&v, s->w->position[i]);
+    nh_expr_set_put_all(&v, s->w->velocities, s->w->velocity);
+    if (with_functions && f.n > 1) nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_polynomial(s, &v, degree), nh_family_list_terms(s, &f)}));
+    else nh_family_list_add(s, nh_family_list_polynomial(s, &v, degree));
 }
 
-static void stage_degree_2(nh_shelf *s) { stage_total(s, 2, true); }
-static void stage_degree_3(nh_shelf *s) { stage_total(s, 3, false); }
-static void stage_degree_4(nh_shelf *s) { stage_total(s, 4, false); }
-static void stage_degree_6(nh_shelf *s) { stage_total(s, 6, false); }
+static void stage_degree_2(nh_family_list *s) { stage_total(s, 2, true); }
+static void stage_degree_3(nh_family_list *s) { stage_total(s, 3, false); }
+static void stage_degree_4(nh_family_list *s) { stage_total(s, 4, false); }
+static void stage_degree_6(nh_family_list *s) { stage_total(s, 6, false); }
 
-static void stage_quadratic_waves(nh_shelf *s)
+static void stage_quadratic_waves(nh_family_list *s)
 {
-    nh_list l = linear_words(s), q = nh_list_squares(s, &l), w = waves(s, 1), f = nh_list_functions(s, false);
+    nh_expr_set l = linear_words(s), q = nh_expr_set_squares(s, &l), w = waves(s, 1), f = nh_expr_set_functions(s, false);
     if (!s->w->waves) return;
-    nh_shelf_product_of_lists(s, &q, &w);
-    nh_shelf_add(s, nh_shelf_terms(s, &w));
-    nh_shelf_add(s, nh_shelf_terms(s, &f));
+    nh_family_list_product_of_sets(s, &q, &w);
+    nh_family_list_add(s, nh_family_list_terms(s, &w));
+    nh_family_list_add(s, nh_family_list_terms(s, &f));
 }
 
 /* L has terms of degree one in the velocities: a magnetic field. */
-static bool is_magnetic(const nh_shelf *s)
+static bool is_magnetic(const nh_family_list *s)
 {
     const nh_model *o = s->o;
     nh_ex *zero = nh_arena_alloc(s->arena, (o->n + 1) * sizeof *zero);
@@ -230,37 +230,37 @@ static bool is_magnetic(const nh_shelf *s)
 }
 
 /* Quadratic in the velocities, linear in positions, atoms of weight two: Runge-Lenz vectors; in the field of a monopole also linear in the velocities. */
-static void stage_weights(nh_shelf *s)
+static void stage_weights(nh_family_list *s)
 {
-    nh_list l = linear_words(s), v = {0}, q = nh_list_squares(s, &l), x = nh_list_positions(s, true, false), f = nh_list_functions(s, false);
-    nh_shelf_product_of_lists(s, &q, &x);
-    nh_shelf_product_of_lists(s, &f, &x);
-    nh_list_put_all(&v, s->o->n, s->o->chart->w);
-    if (f.n && is_magnetic(s)) nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &v), nh_shelf_terms(s, &x), nh_shelf_terms(s, &f)}));
+    nh_expr_set l = linear_words(s), v = {0}, q = nh_expr_set_squares(s, &l), x = nh_expr_set_positions(s, true, false), f = nh_expr_set_functions(s, false);
+    nh_family_list_product_of_sets(s, &q, &x);
+    nh_family_list_product_of_sets(s, &f, &x);
+    nh_expr_set_put_all(&v, s->o->n, s->o->chart->w);
+    if (f.n && is_magnetic(s)) nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_terms(s, &x), nh_family_list_terms(s, &f)}));
 }
 
 /* Rational: P / v with P linear. */
-static void stage_ratios(nh_shelf *s)
+static void stage_ratios(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
-    nh_list l = linear_words(s), q = nh_list_positions(s, true, false), v = {0};
-    for (size_t i = 0; i < s->w->velocities; i++) nh_list_put(&v, nh_powi(d, s->w->velocity[i], -1));
-    for (size_t i = 0; i < s->w->atoms; i++) nh_list_put(&v, s->w->atom[i]);
-    nh_list qt = nh_list_positions(s, true, true);
-    nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &l), nh_shelf_terms(s, &q), nh_shelf_terms(s, &v)}));
-    nh_shelf_product_of_lists(s, &v, &qt);
-    nh_shelf_add(s, nh_shelf_terms(s, &qt));
+    nh_expr_set l = linear_words(s), q = nh_expr_set_positions(s, true, false), v = {0};
+    for (size_t i = 0; i < s->w->velocities; i++) nh_expr_set_put(&v, nh_powi(d, s->w->velocity[i], -1));
+    for (size_t i = 0; i < s->w->atoms; i++) nh_expr_set_put(&v, s->w->atom[i]);
+    nh_expr_set qt = nh_expr_set_positions(s, true, true);
+    nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &l), nh_family_list_terms(s, &q), nh_family_list_terms(s, &v)}));
+    nh_family_list_product_of_sets(s, &v, &qt);
+    nh_family_list_add(s, nh_family_list_terms(s, &qt));
 }
 
-static void stage_linear_waves_2(nh_shelf *s)
+static void stage_linear_waves_2(nh_family_list *s)
 {
-    nh_list l = linear_words(s), w = waves(s, 2);
-    if (s->w->waves) nh_shelf_product_of_lists(s, &l, &w);
+    nh_expr_set l = linear_words(s), w = waves(s, 2);
+    if (s->w->waves) nh_family_list_product_of_sets(s, &l, &w);
 }
 
 typedef struct {
     const char *name;
-    void (*build)(nh_shelf *);
+    void (*build)(nh_family_list *);
 } recipe;
 
 static const recipe of_many[] = {
@@ -298,7 +298,7 @@ static const recipe stages[] = {
 
 static nh_stage cook(const recipe *r, nh_arena *arena, const nh_model *o, const nh_dictionary *w)
 {
-    nh_shelf s = {arena, o, w, nh_arena_alloc(arena, NH_MOST_FAMILIES * sizeof(nh_family)), 0};
+    nh_family_list s = {arena, o, w, nh_arena_alloc(arena, NH_MOST_FAMILIES * sizeof(nh_family)), 0};
     r->build(&s);
     return (nh_stage){r->name, s.count, s.family};
 }
@@ -318,79 +318,79 @@ bool nh_stage_of_many(nh_arena *arena, const nh_model *o, const nh_dictionary *w
 }
 
 /* Masses and springs that grow like t bring t times the words.  Elsewhere t f is a second vector of the eigenvalue of f, which rounding splits. */
-static void put_growing(const nh_shelf *s, nh_list *l)
+static void put_growing(const nh_family_list *s, nh_expr_set *l)
 {
-    nh_list words = {0};
+    nh_expr_set words = {0};
     nh_ex t = s->o->system->t;
-    nh_list_put_all(&words, s->o->n, s->o->chart->w);
-    nh_list_put_all(&words, s->w->positions, s->w->position);
-    for (size_t i = 0; i < words.n; i++) nh_list_put(l, nh_mul(s->o->dag, t, words.e[i]));
+    nh_expr_set_put_all(&words, s->o->n, s->o->chart->w);
+    nh_expr_set_put_all(&words, s->w->positions, s->w->position);
+    for (size_t i = 0; i < words.n; i++) nh_expr_set_put(l, nh_mul(s->o->dag, t, words.e[i]));
 }
 
 /* Squares or cubes of velocities and lengths, and the system's functions, for cubes times lengths.  Lists that are too long are left empty. */
-static nh_family power_base(nh_shelf *s, size_t degree)
+static nh_family power_base(nh_family_list *s, size_t degree)
 {
     enum { most_variables = 7 };
-    nh_list u = {0}, l = {0}, q = nh_list_lengths(s, false, false), f = nh_list_functions(s, false);
-    nh_list_put_all(&u, s->o->n, s->o->chart->w);
-    nh_list_put_all(&u, s->w->lengths, s->w->length);
-    if (u.n > most_variables || s->w->lengths == 0 || (degree > 2 && (s->w->waves || f.n == 0))) return nh_shelf_terms(s, &l);
-    l = nh_list_squares(s, &u);
+    nh_expr_set u = {0}, l = {0}, q = nh_expr_set_lengths(s, false, false), f = nh_expr_set_functions(s, false);
+    nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
+    nh_expr_set_put_all(&u, s->w->lengths, s->w->length);
+    if (u.n > most_variables || s->w->lengths == 0 || (degree > 2 && (s->w->waves || f.n == 0))) return nh_family_list_terms(s, &l);
+    l = nh_expr_set_squares(s, &u);
     for (size_t k = 2; k < degree; k++) l = times(s, &l, &u);
-    nh_list g = degree > 2 ? times(s, &f, &q) : f;
-    nh_list_put_all(&l, g.n, g.e);
-    return nh_shelf_terms(s, &l);
+    nh_expr_set g = degree > 2 ? times(s, &f, &q) : f;
+    nh_expr_set_put_all(&l, g.n, g.e);
+    return nh_family_list_terms(s, &l);
 }
 
 nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_dictionary *w, nh_ex angle)
 {
     nh_dag *d = o->dag;
-    nh_shelf s = {arena, o, w, NULL, 0};
-    nh_list l = linear_words(&s), wave = {0};
-    nh_list_put(&wave, nh_int(d, 1));
-    nh_list_put(&wave, nh_call(d, NH_COS, angle));
-    nh_list_put(&wave, nh_call(d, NH_SIN, angle));
-    nh_list both = times(&s, &l, &wave);
-    return nh_shelf_terms(&s, &both);
+    nh_family_list s = {arena, o, w, NULL, 0};
+    nh_expr_set l = linear_words(&s), wave = {0};
+    nh_expr_set_put(&wave, nh_int(d, 1));
+    nh_expr_set_put(&wave, nh_call(d, NH_COS, angle));
+    nh_expr_set_put(&wave, nh_call(d, NH_SIN, angle));
+    nh_expr_set both = times(&s, &l, &wave);
+    return nh_family_list_terms(&s, &both);
 }
 
 nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t base)
 {
     enum { most_with_waves = 110 };
-    nh_shelf s = {arena, o, w, NULL, 0};
+    nh_family_list s = {arena, o, w, NULL, 0};
     bool growing = base == NH_PENCIL_GROWING, timely = growing || base == NH_PENCIL_TIME;
     if (timely) base = 2;
     if (base == NH_PENCIL_QUADRATIC || base == NH_PENCIL_CUBIC) return power_base(&s, base == NH_PENCIL_CUBIC ? 3 : 2);
     if (base == NH_PENCIL_SQUARES) {
-        nh_list u = {0}, f = nh_list_functions(&s, true);
-        nh_list_put_all(&u, o->n, o->chart->w);
-        nh_list uu = nh_list_squares(&s, &u);
-        nh_list_put_all(&uu, f.n, f.e);
-        return nh_shelf_terms(&s, &uu);
+        nh_expr_set u = {0}, f = nh_expr_set_functions(&s, true);
+        nh_expr_set_put_all(&u, o->n, o->chart->w);
+        nh_expr_set uu = nh_expr_set_squares(&s, &u);
+        nh_expr_set_put_all(&uu, f.n, f.e);
+        return nh_family_list_terms(&s, &uu);
     }
     if (base == NH_PENCIL_PRODUCTS) {
-        nh_list u = {0}, x = nh_list_positions(&s, true, false);
-        nh_list_put_all(&u, w->velocities, w->velocity);
-        nh_list l = times(&s, &u, &x);
-        return nh_shelf_terms(&s, &l);
+        nh_expr_set u = {0}, x = nh_expr_set_positions(&s, true, false);
+        nh_expr_set_put_all(&u, w->velocities, w->velocity);
+        nh_expr_set l = times(&s, &u, &x);
+        return nh_family_list_terms(&s, &l);
     }
     if (base >= NH_PENCIL_PLAIN) {
-        nh_list l = {0};
+        nh_expr_set l = {0};
         if (w->frames == o->n) l = frame_products(&s, base > NH_PENCIL_PLAIN);
-        return nh_shelf_terms(&s, &l);
+        return nh_family_list_terms(&s, &l);
     }
-    nh_list l = {0}, v = waves(&s, 1), q = nh_list_positions(&s, false, false), f = nh_list_functions(&s, false);
-    nh_list_put_all(&l, w->velocities, w->velocity);
-    if (base == 2) nh_list_put_all(&l, w->frames, w->frame);
-    if (base == 2) nh_list_put_all(&l, w->forms, w->form);
+    nh_expr_set l = {0}, v = waves(&s, 1), q = nh_expr_set_positions(&s, false, false), f = nh_expr_set_functions(&s, false);
+    nh_expr_set_put_all(&l, w->velocities, w->velocity);
+    if (base == 2) nh_expr_set_put_all(&l, w->frames, w->frame);
+    if (base == 2) nh_expr_set_put_all(&l, w->forms, w->form);
     size_t words_count = l.n;
     for (size_t i = 0; i < words_count && base > 0 && words_count * v.n <= most_with_waves; i++)
-        for (size_t j = 0; j < v.n; j++) nh_list_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
-    if (timely) nh_list_put_time(&s, &l);
+        for (size_t j = 0; j < v.n; j++) nh_expr_set_put(&l, nh_mul(o->dag, l.e[i], v.e[j]));
+    if (timely) nh_expr_set_put_time(&s, &l);
     if (growing) put_growing(&s, &l);
-    if (base < 2) return nh_shelf_terms(&s, &l);
-    nh_list_put_all(&l, q.n, q.e);
-    nh_list_put_all(&l, f.n, f.e);
-    nh_list_put_all(&l, w->momenta, w->momentum);
-    return nh_shelf_terms(&s, &l);
+    if (base < 2) return nh_family_list_terms(&s, &l);
+    nh_expr_set_put_all(&l, q.n, q.e);
+    nh_expr_set_put_all(&l, f.n, f.e);
+    nh_expr_set_put_all(&l, w->momenta, w->momentum);
+    return nh_family_list_terms(&s, &l);
 }

@@ -8,23 +8,23 @@
 
 /* What separation of variables gives (Euler's two centres, Liouville's systems): squares of velocities with coefficients of higher degree in
  * the positions, the energy and the system's functions with lower ones. */
-void nh_stage_separation(nh_shelf *s)
+void nh_stage_separation(nh_family_list *s)
 {
-    nh_list l = {0}, e = {0}, q = nh_list_positions(s, false, false), f = nh_list_functions(s, false);
+    nh_expr_set l = {0}, e = {0}, q = nh_expr_set_positions(s, false, false), f = nh_expr_set_functions(s, false);
     bool few = s->w->positions <= 2;
     if (s->w->positions > 3 || s->w->waves) return;
-    nh_list_put_all(&l, s->o->n, s->o->chart->w);
-    nh_list v = nh_list_squares(s, &l);
-    nh_list_put(&e, s->o->E);
-    nh_list_put_all(&e, f.n, f.e);
-    nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_terms(s, &v), nh_shelf_polynomial(s, &q, few ? 4 : 2)}));
-    nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_terms(s, &e), nh_shelf_polynomial(s, &q, 2)}));
-    nh_shelf_add(s, nh_shelf_polynomial(s, &q, 4));
+    nh_expr_set_put_all(&l, s->o->n, s->o->chart->w);
+    nh_expr_set v = nh_expr_set_squares(s, &l);
+    nh_expr_set_put(&e, s->o->E);
+    nh_expr_set_put_all(&e, f.n, f.e);
+    nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_polynomial(s, &q, few ? 4 : 2)}));
+    nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, &e), nh_family_list_polynomial(s, &q, 2)}));
+    nh_family_list_add(s, nh_family_list_polynomial(s, &q, 4));
 }
 
 /* ---- functions of one coordinate ---- */
 
-static bool of_one(const nh_shelf *s, nh_ex e, nh_ex q)
+static bool of_one(const nh_family_list *s, nh_ex e, nh_ex q)
 {
     for (size_t i = 0; i < s->w->positions; i++)
         if (nh_depends(s->o->dag, e, s->w->position[i]) != (s->w->position[i] == q)) return false;
@@ -39,7 +39,7 @@ static bool is_one_of(size_t n, const nh_ex *list, nh_ex e)
 }
 
 /* f is finite on the sampling interval of q, ends included. */
-static bool tame(const nh_shelf *s, nh_ex f, nh_ex q)
+static bool tame(const nh_family_list *s, nh_ex f, nh_ex q)
 {
     enum { places = 33 };
     static const double most = 100;
@@ -59,74 +59,74 @@ static bool tame(const nh_shelf *s, nh_ex f, nh_ex q)
     return good;
 }
 
-static void put_tame(const nh_shelf *s, nh_list *l, nh_ex f, nh_ex q)
+static void put_tame(const nh_family_list *s, nh_expr_set *l, nh_ex f, nh_ex q)
 {
-    if (tame(s, f, q)) nh_list_put(l, f);
+    if (tame(s, f, q)) nh_expr_set_put(l, f);
 }
 
 /* What coefficients of squares may be: q, q^2; sin 2q, cos 2q, 1/sin^2 q, 1/cos^2 q; the system's functions. */
-static void put_coefficients(const nh_shelf *s, nh_ex q, nh_list *l)
+static void put_coefficients(const nh_family_list *s, nh_ex q, nh_expr_set *l)
 {
     nh_dag *d = s->o->dag;
     if (is_one_of(s->w->waves, s->w->wave, q)) {
         nh_ex twice = nh_mul(d, nh_int(d, 2), q);
-        nh_list_put(l, nh_call(d, NH_COS, twice));
-        nh_list_put(l, nh_call(d, NH_SIN, twice));
+        nh_expr_set_put(l, nh_call(d, NH_COS, twice));
+        nh_expr_set_put(l, nh_call(d, NH_SIN, twice));
         put_tame(s, l, nh_powi(d, nh_call(d, NH_SIN, q), -2), q);
         put_tame(s, l, nh_powi(d, nh_call(d, NH_COS, q), -2), q);
     } else {
-        nh_list_put(l, q);
-        nh_list_put(l, nh_powi(d, q, 2));
+        nh_expr_set_put(l, q);
+        nh_expr_set_put(l, nh_powi(d, q, 2));
     }
     for (size_t i = 0; i < s->w->atoms; i++)
         if (of_one(s, s->w->atom[i], q)) put_tame(s, l, s->w->atom[i], q);
 }
 
-static nh_list coefficients(const nh_shelf *s)
+static nh_expr_set coefficients(const nh_family_list *s)
 {
-    nh_list c = {0};
-    nh_list_put(&c, nh_int(s->o->dag, 1));
+    nh_expr_set c = {0};
+    nh_expr_set_put(&c, nh_int(s->o->dag, 1));
     for (size_t i = 0; i < s->w->lengths; i++) put_coefficients(s, s->w->length[i], &c);
     for (size_t i = 0; i < s->w->waves; i++) put_coefficients(s, s->w->wave[i], &c);
     return c;
 }
 
 /* What separation of variables gives in orthogonal coordinates: alone, because among all products of momenta these few are nearly dependent. */
-void nh_stage_separated(nh_shelf *s)
+void nh_stage_separated(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
-    nh_list pp = {0}, c = {0};
+    nh_expr_set pp = {0}, c = {0};
     if (s->o->k || s->w->frames == 0) return;
     for (size_t i = 0; i < s->o->m; i++)
         for (size_t j = 0; j < i; j++)
             if (!nh_is_zero(d, s->o->M[i * s->o->n + j])) return;
     c = coefficients(s);
-    for (size_t i = 0; i < s->o->m; i++) nh_list_put(&pp, nh_powi(d, s->o->p[i], 2));
-    nh_list_put(&pp, s->o->E);
-    nh_shelf_product_of_lists(s, &pp, &c);
-    nh_shelf_add(s, nh_shelf_terms(s, &c));
+    for (size_t i = 0; i < s->o->m; i++) nh_expr_set_put(&pp, nh_powi(d, s->o->p[i], 2));
+    nh_expr_set_put(&pp, s->o->E);
+    nh_family_list_product_of_sets(s, &pp, &c);
+    nh_family_list_add(s, nh_family_list_terms(s, &c));
 }
 
-void nh_stage_momenta(nh_shelf *s)
+void nh_stage_momenta(nh_family_list *s)
 {
-    nh_list p = {0}, c = {0}, e = {0}, none = nh_list_functions(s, false);
+    nh_expr_set p = {0}, c = {0}, e = {0}, none = nh_expr_set_functions(s, false);
     if (s->o->k || s->w->frames == 0) return; /* constant metrics: polynomials */
     c = coefficients(s);
-    nh_list_put_all(&p, s->o->m, s->o->p);
-    nh_list_put(&e, s->o->E);
-    nh_list pp = nh_list_squares(s, &p);
-    nh_list_put_all(&pp, 1, e.e);
-    nh_shelf_product_of_lists(s, &pp, &c);
-    nh_shelf_product_of_lists(s, &none, &c);
+    nh_expr_set_put_all(&p, s->o->m, s->o->p);
+    nh_expr_set_put(&e, s->o->E);
+    nh_expr_set pp = nh_expr_set_squares(s, &p);
+    nh_expr_set_put_all(&pp, 1, e.e);
+    nh_family_list_product_of_sets(s, &pp, &c);
+    nh_family_list_product_of_sets(s, &none, &c);
 }
 
 /* sin q, cos q; else q and the system's functions with their derivatives (cosh, sinh). */
-static void put_factors(const nh_shelf *s, nh_ex q, nh_list *l)
+static void put_factors(const nh_family_list *s, nh_ex q, nh_expr_set *l)
 {
     nh_dag *d = s->o->dag;
     if (is_one_of(s->w->waves, s->w->wave, q)) {
-        nh_list_put(l, nh_call(d, NH_COS, q));
-        nh_list_put(l, nh_call(d, NH_SIN, q));
+        nh_expr_set_put(l, nh_call(d, NH_COS, q));
+        nh_expr_set_put(l, nh_call(d, NH_SIN, q));
         return;
     }
     for (size_t i = 0; i < s->w->atoms; i++) {
@@ -136,67 +136,67 @@ static void put_factors(const nh_shelf *s, nh_ex q, nh_list *l)
     }
 }
 
-nh_list nh_list_one_coordinate(const nh_shelf *s)
+nh_expr_set nh_expr_set_one_coordinate(const nh_family_list *s)
 {
     enum { most_each = 7 };
     nh_dag *d = s->o->dag;
-    nh_list all = {0};
-    nh_list_put(&all, nh_int(d, 1));
+    nh_expr_set all = {0};
+    nh_expr_set_put(&all, nh_int(d, 1));
     for (size_t i = 0; i < s->w->positions; i++) {
-        nh_list own = {0};
+        nh_expr_set own = {0};
         put_factors(s, s->w->position[i], &own);
         size_t n = all.n;
         for (size_t j = 0; j < own.n && j < most_each; j++)
-            for (size_t k = 0; k < n; k++) nh_list_put(&all, nh_mul(d, all.e[k], own.e[j]));
+            for (size_t k = 0; k < n; k++) nh_expr_set_put(&all, nh_mul(d, all.e[k], own.e[j]));
     }
     return all;
 }
 
-void nh_stage_one_coordinate(nh_shelf *s)
+void nh_stage_one_coordinate(nh_family_list *s)
 {
-    nh_list w = {0};
+    nh_expr_set w = {0};
     if (s->w->positions > 3) return;
-    nh_list all = nh_list_one_coordinate(s);
-    nh_list_put_all(&w, s->o->n, s->o->chart->w);
-    if (all.n > 3) nh_shelf_product_of_lists(s, &w, &all);
+    nh_expr_set all = nh_expr_set_one_coordinate(s);
+    nh_expr_set_put_all(&w, s->o->n, s->o->chart->w);
+    if (all.n > 3) nh_family_list_product_of_sets(s, &w, &all);
 }
 
 /* Parabolic coordinates are r cos^2(q/2), r sin^2(q/2): what separates in them is quadratic in the frame times lengths and half angles. */
-void nh_stage_half_angles(nh_shelf *s)
+void nh_stage_half_angles(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
-    nh_list half = {0}, f = {0}, l = nh_list_lengths(s, false, false), ll = nh_list_lengths(s, true, false);
+    nh_expr_set half = {0}, f = {0}, l = nh_expr_set_lengths(s, false, false), ll = nh_expr_set_lengths(s, true, false);
     if (s->w->waves != 1 || s->w->frames != s->o->n || s->o->k) return;
     for (int k = 1; k <= 3; k += 2) {
         nh_ex angle = nh_mul(d, nh_ratio(d, k, 2), s->w->wave[0]);
-        nh_list_put(&half, nh_call(d, NH_COS, angle));
-        nh_list_put(&half, nh_call(d, NH_SIN, angle));
+        nh_expr_set_put(&half, nh_call(d, NH_COS, angle));
+        nh_expr_set_put(&half, nh_call(d, NH_SIN, angle));
     }
-    nh_list_put_all(&f, s->w->frames, s->w->frame);
-    nh_list ff = nh_list_squares(s, &f);
-    nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &ff), nh_shelf_terms(s, &l), nh_shelf_terms(s, &half)}));
-    nh_shelf_product_of_lists(s, &ll, &half);
+    nh_expr_set_put_all(&f, s->w->frames, s->w->frame);
+    nh_expr_set ff = nh_expr_set_squares(s, &f);
+    nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &ff), nh_family_list_terms(s, &l), nh_family_list_terms(s, &half)}));
+    nh_family_list_product_of_sets(s, &ll, &half);
 }
 
 /* Functions count as two velocities, as in the energy. */
-void nh_stage_cubic(nh_shelf *s)
+void nh_stage_cubic(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
-    nh_list v = {0}, cubes = {0}, q = nh_list_positions(s, false, false), f = nh_list_functions(s, false);
+    nh_expr_set v = {0}, cubes = {0}, q = nh_expr_set_positions(s, false, false), f = nh_expr_set_functions(s, false);
     bool few = s->w->positions <= 2;
     if (s->w->positions > 3 || s->w->waves || s->o->n < 2 || f.n == 0) return;
-    nh_list_put_all(&v, s->o->n, s->o->chart->w);
-    nh_list vv = nh_list_squares(s, &v);
+    nh_expr_set_put_all(&v, s->o->n, s->o->chart->w);
+    nh_expr_set vv = nh_expr_set_squares(s, &v);
     for (size_t i = 0; i < vv.n; i++)
-        for (size_t j = 0; j < v.n; j++) nh_list_put(&cubes, nh_mul(d, vv.e[i], v.e[j]));
-    nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_terms(s, &cubes), nh_shelf_polynomial(s, &q, 1)}));
-    nh_shelf_add(s, nh_shelf_product(s, 3, (nh_family[]){nh_shelf_terms(s, &v), nh_shelf_terms(s, &f), nh_shelf_polynomial(s, &q, few ? 2 : 1)}));
+        for (size_t j = 0; j < v.n; j++) nh_expr_set_put(&cubes, nh_mul(d, vv.e[i], v.e[j]));
+    nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_terms(s, &cubes), nh_family_list_polynomial(s, &q, 1)}));
+    nh_family_list_add(s, nh_family_list_product(s, 3, (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_terms(s, &f), nh_family_list_polynomial(s, &q, few ? 2 : 1)}));
 }
 
 /* ---- polynomial potentials ---- */
 
 /* The degree of the potential, as a polynomial in the coordinates; 0 when it is none, or of a degree above six. */
-static size_t degree_of_potential(const nh_shelf *s)
+static size_t degree_of_potential(const nh_family_list *s)
 {
     enum { highest = 6, longest = 200 };
     const nh_model *o = s->o;
@@ -230,7 +230,7 @@ static void monomials(nh_dag *d, size_t n, const nh_ex *e, size_t degree, nh_ex 
 
 /* With weight d for velocities and 2 for positions the energy of a potential of degree d has weight 2d; integrals of degree four in the velocities
  * have 4d.  Lower weights are needed where the potential has lower terms. */
-void nh_stage_homogeneous(nh_shelf *s)
+void nh_stage_homogeneous(nh_family_list *s)
 {
     enum { highest = 4, most = 900 };
     const nh_model *o = s->o;
@@ -243,6 +243,6 @@ void nh_stage_homogeneous(nh_shelf *s)
             monomials(o->dag, o->n, o->chart->w, of_v, nh_int(o->dag, 1), part, &n, most);
             for (size_t i = 0; i < n; i++) monomials(o->dag, s->w->positions, s->w->position, of_q, part[i], term, &count, most);
         }
-    if (count < most) nh_shelf_add(s, (nh_family){.kind = NH_TERMS, .terms = count, .term = term});
+    if (count < most) nh_family_list_add(s, (nh_family){.kind = NH_TERMS, .terms = count, .term = term});
 }
 

@@ -4,21 +4,21 @@
 
 enum { most_powers = 6, longest_walk = 1000 };
 
-void nh_list_put_time(const nh_shelf *s, nh_list *l)
+void nh_expr_set_put_time(const nh_family_list *s, nh_expr_set *l)
 {
     nh_dag *d = s->o->dag;
-    nh_list f = nh_list_functions(s, true);
+    nh_expr_set f = nh_expr_set_functions(s, true);
     for (size_t i = 0; i < f.n; i++) {
         bool timely = true;
         for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
         if (!timely) continue;
-        nh_list_put(l, f.e[i]);
+        nh_expr_set_put(l, f.e[i]);
         nh_ex slope = nh_diff(d, f.e[i], s->o->system->t);
-        if (nh_kind_of(d, slope) != NH_NUMBER) nh_list_put(l, slope);
+        if (nh_kind_of(d, slope) != NH_NUMBER) nh_expr_set_put(l, slope);
     }
 }
 
-bool nh_shelf_timely(const nh_shelf *s)
+bool nh_family_list_timely(const nh_family_list *s)
 {
     const nh_model *o = s->o;
     nh_ex t = o->system->t;
@@ -61,59 +61,59 @@ static long powers_of_time(const nh_model *o)
 }
 
 /* What a force that depends on t alone adds to momenta and centres of mass: powers of t, and functions of t by themselves and times t. */
-void nh_shelf_drive(nh_shelf *s)
+void nh_family_list_drive(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
     nh_ex t = s->o->system->t;
-    nh_list f = {0}, powers = {0}, some = {0};
-    nh_list_put_time(s, &f);
-    for (long k = 1, most = powers_of_time(s->o); k <= most; k++) nh_list_put(&powers, nh_powi(d, t, k));
-    nh_list_put(&some, nh_int(d, 1));
-    nh_list_put(&some, t);
-    nh_shelf_add(s, nh_shelf_terms(s, &powers));
-    nh_shelf_product_of_lists(s, &f, &some);
+    nh_expr_set f = {0}, powers = {0}, some = {0};
+    nh_expr_set_put_time(s, &f);
+    for (long k = 1, most = powers_of_time(s->o); k <= most; k++) nh_expr_set_put(&powers, nh_powi(d, t, k));
+    nh_expr_set_put(&some, nh_int(d, 1));
+    nh_expr_set_put(&some, t);
+    nh_family_list_add(s, nh_family_list_terms(s, &powers));
+    nh_family_list_product_of_sets(s, &f, &some);
 }
 
 /* The least that a momentum, and a centre of mass, along which nothing acts but time can need: many functions of t are nearly dependent where t has a short interval. */
-void nh_stage_drive(nh_shelf *s)
+void nh_stage_drive(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
     nh_ex t = s->o->system->t;
-    nh_list p = {0}, g = {0}, q = nh_list_positions(s, false, false), f = nh_list_functions(s, false), powers = {0};
-    if (!nh_shelf_timely(s)) return;
-    nh_list_put_all(&p, s->w->momenta, s->w->momentum);
-    nh_list_put(&g, nh_int(d, 1));
-    nh_list_put(&g, t);
+    nh_expr_set p = {0}, g = {0}, q = nh_expr_set_positions(s, false, false), f = nh_expr_set_functions(s, false), powers = {0};
+    if (!nh_family_list_timely(s)) return;
+    nh_expr_set_put_all(&p, s->w->momenta, s->w->momentum);
+    nh_expr_set_put(&g, nh_int(d, 1));
+    nh_expr_set_put(&g, t);
     for (size_t i = 0; i < f.n; i++)
-        if (nh_function_of(d, f.e[i]) == NH_LOG && nh_depends(d, f.e[i], t)) nh_list_put(&g, f.e[i]);
-    for (long k = 1, most = powers_of_time(s->o); k <= most; k++) nh_list_put(&powers, nh_powi(d, t, k));
-    nh_shelf_product_of_lists(s, &p, &g);
-    nh_shelf_add(s, nh_shelf_terms(s, &q));
-    nh_shelf_add(s, nh_shelf_terms(s, &powers));
+        if (nh_function_of(d, f.e[i]) == NH_LOG && nh_depends(d, f.e[i], t)) nh_expr_set_put(&g, f.e[i]);
+    for (long k = 1, most = powers_of_time(s->o); k <= most; k++) nh_expr_set_put(&powers, nh_powi(d, t, k));
+    nh_family_list_product_of_sets(s, &p, &g);
+    nh_family_list_add(s, nh_family_list_terms(s, &q));
+    nh_family_list_add(s, nh_family_list_terms(s, &powers));
 }
 
 /* Squares of positions and velocities with coefficients that depend on time: Ermakov and Lewis. */
-void nh_stage_time(nh_shelf *s)
+void nh_stage_time(nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
-    nh_list l = {0}, f = nh_list_functions(s, true), g = {0};
+    nh_expr_set l = {0}, f = nh_expr_set_functions(s, true), g = {0};
     nh_ex t = s->o->system->t;
-    if (!nh_shelf_timely(s) || s->w->positions > 3) return;
-    nh_list_put_all(&l, s->w->positions, s->w->position);
-    nh_list_put_all(&l, s->o->n, s->o->chart->w);
-    nh_list v = nh_list_squares(s, &l);
-    nh_list_put(&g, nh_int(d, 1));
-    nh_list_put(&g, t);
-    nh_list_put(&g, nh_powi(d, t, 2));
+    if (!nh_family_list_timely(s) || s->w->positions > 3) return;
+    nh_expr_set_put_all(&l, s->w->positions, s->w->position);
+    nh_expr_set_put_all(&l, s->o->n, s->o->chart->w);
+    nh_expr_set v = nh_expr_set_squares(s, &l);
+    nh_expr_set_put(&g, nh_int(d, 1));
+    nh_expr_set_put(&g, t);
+    nh_expr_set_put(&g, nh_powi(d, t, 2));
     for (size_t i = 0; i < f.n; i++) {
         bool timely = nh_depends(d, f.e[i], t);
         for (size_t j = 0; j < s->w->positions; j++) timely &= !nh_depends(d, f.e[i], s->w->position[j]);
-        if (timely) nh_list_put(&g, f.e[i]);
+        if (timely) nh_expr_set_put(&g, f.e[i]);
     }
-    nh_shelf_product_of_lists(s, &v, &g);
-    nh_shelf_product_of_lists(s, &l, &g);
-    nh_list p = {0}, powers = {0};
-    nh_list_put_all(&p, s->w->potentials, s->w->potential);
-    for (int k = 0; k <= 4; k++) nh_list_put(&powers, nh_powi(d, t, k));
-    nh_shelf_product_of_lists(s, &p, &powers);
+    nh_family_list_product_of_sets(s, &v, &g);
+    nh_family_list_product_of_sets(s, &l, &g);
+    nh_expr_set p = {0}, powers = {0};
+    nh_expr_set_put_all(&p, s->w->potentials, s->w->potential);
+    for (int k = 0; k <= 4; k++) nh_expr_set_put(&powers, nh_powi(d, t, k));
+    nh_family_list_product_of_sets(s, &p, &powers);
 }

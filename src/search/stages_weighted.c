@@ -5,31 +5,31 @@
 
 /* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the energy (Kovalevskaya's
  * integral, Toda's, Calogero's). */
-static void weighted(nh_shelf *s, const nh_list *u, const nh_list *f)
+static void weighted(nh_family_list *s, const nh_expr_set *u, const nh_expr_set *f)
 {
-    nh_list ff = nh_list_squares(s, f);
-    nh_shelf_add(s, nh_shelf_polynomial(s, u, 4));
-    if (f->n) nh_shelf_add(s, nh_shelf_product(s, 2, (nh_family[]){nh_shelf_polynomial(s, u, 2), nh_shelf_terms(s, f)}));
-    nh_shelf_add(s, nh_shelf_terms(s, &ff));
+    nh_expr_set ff = nh_expr_set_squares(s, f);
+    nh_family_list_add(s, nh_family_list_polynomial(s, u, 4));
+    if (f->n) nh_family_list_add(s, nh_family_list_product(s, 2, (nh_family[]){nh_family_list_polynomial(s, u, 2), nh_family_list_terms(s, f)}));
+    nh_family_list_add(s, nh_family_list_terms(s, &ff));
 }
 
 /* e, without its number as a factor. */
-static void put_up_to_number(const nh_shelf *s, nh_list *l, nh_ex e)
+static void put_up_to_number(const nh_family_list *s, nh_expr_set *l, nh_ex e)
 {
     nh_dag *d = s->o->dag;
     if (nh_kind_of(d, e) == NH_PRODUCT) e = nh_div(d, e, nh_number(d, nh_constant_of(d, e)));
-    if (nh_kind_of(d, e) != NH_NUMBER) nh_list_put(l, e);
+    if (nh_kind_of(d, e) != NH_NUMBER) nh_expr_set_put(l, e);
 }
 
 /* Terms of the potential and, where these stay few, their derivatives by the angles again, or along quasi-velocities: a rotor adds the component of
  * gravity along it. */
-static nh_list weight_two(const nh_shelf *s)
+static nh_expr_set weight_two(const nh_family_list *s)
 {
     enum { most = 10, few = 7, longest = 30 };
     const nh_model *o = s->o;
-    nh_list f = {0};
-    nh_list_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
-    nh_list more = f, along = {0};
+    nh_expr_set f = {0};
+    nh_expr_set_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
+    nh_expr_set more = f, along = {0};
     for (size_t i = 0; i < f.n; i++)
         for (size_t j = 0; j < s->w->waves; j++) put_up_to_number(s, &more, nh_diff(o->dag, f.e[i], s->w->wave[j]));
     for (size_t i = 0; i < s->w->potentials && o->chart->quasi; i++)
@@ -37,23 +37,23 @@ static nh_list weight_two(const nh_shelf *s)
             nh_ex slope = nh_simplify_short(o->dag, nh_model_X(o, j, s->w->potential[i]), 0);
             if (nh_complexity(o->dag, slope) <= longest) put_up_to_number(s, &along, slope);
         }
-    if (along.n <= few) nh_list_put_all(&f, along.n, along.e);
+    if (along.n <= few) nh_expr_set_put_all(&f, along.n, along.e);
     return more.n <= few && !o->chart->quasi ? more : f;
 }
 
-void nh_stage_weight_4(nh_shelf *s)
+void nh_stage_weight_4(nh_family_list *s)
 {
-    nh_list u = {0}, f = weight_two(s);
-    if (s->w->frames == s->o->n) nh_list_put_all(&u, s->w->frames, s->w->frame);
-    else nh_list_put_all(&u, s->o->n, s->o->chart->w);
+    nh_expr_set u = {0}, f = weight_two(s);
+    if (s->w->frames == s->o->n) nh_expr_set_put_all(&u, s->w->frames, s->w->frame);
+    else nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
     weighted(s, &u, &f);
 }
 
 /* The same in the forms that the system itself shows, where they are as many as the velocities. */
-void nh_stage_forms_4(nh_shelf *s)
+void nh_stage_forms_4(nh_family_list *s)
 {
-    nh_list u = {0}, f = weight_two(s);
+    nh_expr_set u = {0}, f = weight_two(s);
     if (s->w->forms != s->o->n) return;
-    nh_list_put_all(&u, s->w->forms, s->w->form);
+    nh_expr_set_put_all(&u, s->w->forms, s->w->form);
     weighted(s, &u, &f);
 }

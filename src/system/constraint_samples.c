@@ -11,7 +11,7 @@
 enum { wanted_probes = 24, most_tries = 400, projection_steps = 60 };
 static const double small_step = 1e-14, satisfied = 1e-9; /* relative to the velocities, and to the terms of a constraint */
 
-static void cloud_tape(nh_cloud *c)
+static void cloud_tape(nh_constraint_samples *c)
 {
     nh_system *s = c->system;
     nh_dag *d = s->dag;
@@ -43,7 +43,7 @@ static bool all_finite(size_t n, const double *x)
 }
 
 /* Move v onto the constraints by the shortest Gauss-Newton steps. */
-static bool project(nh_cloud *c, double *z)
+static bool project(nh_constraint_samples *c, double *z)
 {
     size_t k = c->k, m = c->m, big = m > k ? m : k;
     double *F = nh_alloc_array(k * m + big + 1, sizeof *F), *step = F + k * m;
@@ -72,7 +72,7 @@ static bool project(nh_cloud *c, double *z)
     return good;
 }
 
-static void cloud_fill(nh_cloud *c, uint64_t seed)
+static void cloud_fill(nh_constraint_samples *c, uint64_t seed)
 {
     double *low = nh_alloc_array(2 * c->width, sizeof *low), *high = low + c->width;
     nh_system *s = c->system;
@@ -102,7 +102,7 @@ static void cloud_fill(nh_cloud *c, uint64_t seed)
     nh_free(low);
 }
 
-void nh_cloud_clear(nh_cloud *c)
+void nh_constraint_samples_clear(nh_constraint_samples *c)
 {
     nh_tape_work_free(c->work);
     nh_tape_free(c->tape);
@@ -115,7 +115,7 @@ void nh_cloud_clear(nh_cloud *c)
 /* ---- ranks ---- */
 
 /* Largest rank of df/dv over the points, and the constraint that adds nothing to those before it. */
-static size_t rank_of(const nh_cloud *c, size_t *redundant)
+static size_t rank_of(const nh_constraint_samples *c, size_t *redundant)
 {
     size_t best = 0;
     *redundant = c->k;
@@ -138,23 +138,23 @@ static size_t rank_of(const nh_cloud *c, size_t *redundant)
     return best;
 }
 
-void nh_cloud_init(nh_cloud *c, nh_system *system, size_t constraints, uint64_t seed)
+void nh_constraint_samples_init(nh_constraint_samples *c, nh_system *system, size_t constraints, uint64_t seed)
 {
-    *c = (nh_cloud){.system = system, .m = system->coordinates, .k = constraints, .width = 1 + 2 * system->coordinates};
+    *c = (nh_constraint_samples){.system = system, .m = system->coordinates, .k = constraints, .width = 1 + 2 * system->coordinates};
     cloud_tape(c);
     cloud_fill(c, seed);
 }
 
 /* Point at the first constraint that cannot hold together with those before it. */
-static bool contradiction(const nh_cloud *c, uint64_t seed, nh_error *error)
+static bool contradiction(const nh_constraint_samples *c, uint64_t seed, nh_error *error)
 {
     const nh_system *s = c->system;
     size_t a = 0;
     for (; a < c->k; a++) {
-        nh_cloud part;
-        nh_cloud_init(&part, c->system, a + 1, seed);
+        nh_constraint_samples part;
+        nh_constraint_samples_init(&part, c->system, a + 1, seed);
         size_t points = part.count;
-        nh_cloud_clear(&part);
+        nh_constraint_samples_clear(&part);
         if (points == 0) break;
     }
     const nh_deck_node *node = s->constraint[a < c->k ? a : 0].node;
@@ -166,7 +166,7 @@ static bool contradiction(const nh_cloud *c, uint64_t seed, nh_error *error)
     return nh_error_hint(error, "correct one of them; or does `domain:` keep away from where they hold?");
 }
 
-bool nh_cloud_check_rank(const nh_cloud *c, uint64_t seed, nh_error *error)
+bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t seed, nh_error *error)
 {
     const nh_system *s = c->system;
     if (c->count == 0) return contradiction(c, seed, error);

@@ -16,13 +16,13 @@ typedef struct {
     double *unit;       /* m: nh_chart_unit of each coordinate */
     double *speed;      /* m: half the width of the velocity's */
     size_t count;
-} nh_cloud;
+} nh_constraint_samples;
 
 /* Points for the first `constraints` of the system. */
-void nh_cloud_init(nh_cloud *c, nh_system *system, size_t constraints, uint64_t seed);
-void nh_cloud_clear(nh_cloud *c);
+void nh_constraint_samples_init(nh_constraint_samples *c, nh_system *system, size_t constraints, uint64_t seed);
+void nh_constraint_samples_clear(nh_constraint_samples *c);
 
 /* Refuse constraints that say nothing new, contradict each other or leave no freedom; the message names the constraint and the rank. */
-bool nh_cloud_check_rank(const nh_cloud *c, uint64_t seed, nh_error *error);
+bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t seed, nh_error *error);
 
 #endif

@@ -27,7 +27,7 @@ static double volume(size_t rows, size_t columns, double *a)
 }
 
 /* The least over the probes; *largest gets the largest. */
-static double subset_score(const nh_cloud *c, const size_t *subset, double *largest)
+static double subset_score(const nh_constraint_samples *c, const size_t *subset, double *largest)
 {
     double least = INFINITY;
     *largest = 0;
@@ -57,7 +57,7 @@ static bool next_subset(size_t k, size_t m, size_t *subset)
 }
 
 /* Constraints written as  x' = ...  with the left sides not occurring on the right tell what the user had in mind. */
-static bool written_explicitly(const nh_cloud *c, size_t *out)
+static bool written_explicitly(const nh_constraint_samples *c, size_t *out)
 {
     const nh_system *s = c->system;
     for (size_t a = 0; a < c->k; a++) {
@@ -74,7 +74,7 @@ static bool written_explicitly(const nh_cloud *c, size_t *out)
     return true;
 }
 
-static double best_dependent(const nh_cloud *c, size_t *out)
+static double best_dependent(const nh_constraint_samples *c, size_t *out)
 {
     size_t *subset = nh_alloc_array(c->k + 1, sizeof *subset), tried = 0;
     double best = -1, largest;
@@ -91,7 +91,7 @@ static double best_dependent(const nh_cloud *c, size_t *out)
 }
 
 /* What the user named or wrote, unless that breaks down all over the sampling domain: then another chart takes over. */
-static double choose_dependent(const nh_cloud *c, size_t *out, bool *replaced)
+static double choose_dependent(const nh_constraint_samples *c, size_t *out, bool *replaced)
 {
     static const double undetermined = 1e-12;
     const nh_system *s = c->system;
@@ -113,7 +113,7 @@ static bool is_dependent(const size_t *dependent, size_t k, size_t i)
     return false;
 }
 
-static void copy_probes(nh_chart *chart, const nh_cloud *c)
+static void copy_probes(nh_chart *chart, const nh_constraint_samples *c)
 {
     const nh_coordinate *coordinate = c->system->coordinate;
     for (size_t p = 0; p < c->count; p++) {
@@ -129,7 +129,7 @@ static void copy_probes(nh_chart *chart, const nh_cloud *c)
 }
 
 /* Linear in the dependent velocities: v_dep = -G^-1 f(v_dep = 0), G = df/dv_dep. */
-static bool solve_linear(nh_chart *chart, const nh_cloud *c, const nh_ex *G, const nh_ex *f)
+static bool solve_linear(nh_chart *chart, const nh_constraint_samples *c, const nh_ex *G, const nh_ex *f)
 {
     const nh_system *s = c->system;
     nh_dag *d = s->dag;
@@ -185,7 +185,7 @@ static void relate_implicit(nh_chart *chart, size_t k, const nh_ex *f)
 }
 
 /* Nonlinear: k dependent velocities stay, as implicit symbols with du/dz = -G^-1 df/dz. */
-static bool keep_implicit(nh_chart *chart, const nh_cloud *c, size_t k, const nh_ex *G, const nh_ex *f)
+static bool keep_implicit(nh_chart *chart, const nh_constraint_samples *c, size_t k, const nh_ex *G, const nh_ex *f)
 {
     const nh_system *s = c->system;
     nh_dag *d = s->dag;
@@ -216,7 +216,7 @@ static bool keep_implicit(nh_chart *chart, const nh_cloud *c, size_t k, const nh
 }
 
 /* The branch that most points of the domain lie on, counting those in the user's range for u: the sign of 2 a u + b. */
-static int branch_of(const nh_cloud *c, size_t which, nh_ex linear)
+static int branch_of(const nh_constraint_samples *c, size_t which, nh_ex linear)
 {
     const nh_system *s = c->system;
     const nh_ex *symbols;
@@ -244,7 +244,7 @@ static int branch_of(const nh_cloud *c, size_t which, nh_ex linear)
 }
 
 /* f = a u^2 + b u + c with u the velocity `which`: u = (-b + s sqrt(b^2 - 4 a c)) / (2 a), so that everything that follows is explicit. */
-static bool quadratic_root(const nh_cloud *cloud, size_t which, nh_ex f, nh_quadratic *q)
+static bool quadratic_root(const nh_constraint_samples *cloud, size_t which, nh_ex f, nh_quadratic *q)
 {
     const nh_system *s = cloud->system;
     nh_dag *d = s->dag;
@@ -269,7 +269,7 @@ typedef struct {
     size_t *dependent;      /* k */
 } triangle;
 
-static bool contains_only_parameters(const nh_cloud *c, nh_ex e)
+static bool contains_only_parameters(const nh_constraint_samples *c, nh_ex e)
 {
     const nh_system *s = c->system;
     bool only = !nh_depends(s->dag, e, s->t);
@@ -278,7 +278,7 @@ static bool contains_only_parameters(const nh_cloud *c, nh_ex e)
 }
 
 /* u' with f_a = slope u' + rest, the slope a number or a parameter, goes out of all others: it depends on the rest. */
-static bool solve_one(const nh_cloud *c, triangle *t)
+static bool solve_one(const nh_constraint_samples *c, triangle *t)
 {
     const nh_system *s = c->system;
     nh_dag *d = s->dag;
@@ -310,7 +310,7 @@ static const char *chart_name(const nh_chart *chart, char *buffer, size_t size)
 }
 
 /* df/dv_dep of what is left, by rows; are all its entries free of those velocities? */
-static bool slopes(const nh_cloud *c, const triangle *t, nh_ex *G)
+static bool slopes(const nh_constraint_samples *c, const triangle *t, nh_ex *G)
 {
     const nh_system *s = c->system;
     bool linear = true;
@@ -323,7 +323,7 @@ static bool slopes(const nh_cloud *c, const triangle *t, nh_ex *G)
 }
 
 /* The independent velocities are known. */
-static nh_chart *chart_of(const nh_cloud *c, const triangle *t, size_t implicit, double pivot)
+static nh_chart *chart_of(const nh_constraint_samples *c, const triangle *t, size_t implicit, double pivot)
 {
     nh_system *s = c->system;
     nh_chart *chart = nh_embedding_new(s, "", c->m - c->k, implicit);
@@ -359,7 +359,7 @@ static void put_solved(nh_chart *chart, const triangle *t)
 }
 
 /* Linear constraints all at once; of others the linear ones first.  What is left is a root when it is one and quadratic, and stays implicit otherwise. */
-static nh_chart *solved(const nh_cloud *c, triangle *t, nh_ex *G, double pivot)
+static nh_chart *solved(const nh_constraint_samples *c, triangle *t, nh_ex *G, double pivot)
 {
     nh_dag *d = c->system->dag;
     nh_quadratic root;
@@ -384,7 +384,7 @@ static nh_chart *solved(const nh_cloud *c, triangle *t, nh_ex *G, double pivot)
     return NULL;
 }
 
-static nh_chart *build(const nh_cloud *c, const size_t *dependent, double pivot, nh_error *error)
+static nh_chart *build(const nh_constraint_samples *c, const size_t *dependent, double pivot, nh_error *error)
 {
     nh_system *s = c->system;
     size_t k = c->k;
@@ -403,22 +403,22 @@ static nh_chart *build(const nh_cloud *c, const size_t *dependent, double pivot,
 
 bool nh_embedding_ranks(nh_system *system, uint64_t seed, nh_error *error)
 {
-    nh_cloud c;
+    nh_constraint_samples c;
     if (system->constraints == 0) return true;
-    nh_cloud_init(&c, system, system->constraints, seed);
-    bool good = c.count == 0 || nh_cloud_check_rank(&c, seed, error); /* no point found says nothing: the user's chart has points */
-    nh_cloud_clear(&c);
+    nh_constraint_samples_init(&c, system, system->constraints, seed);
+    bool good = c.count == 0 || nh_constraint_samples_check_rank(&c, seed, error); /* no point found says nothing: the user's chart has points */
+    nh_constraint_samples_clear(&c);
     return good;
 }
 
 nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *error)
 {
-    nh_cloud c;
-    nh_cloud_init(&c, system, system->constraints, seed);
+    nh_constraint_samples c;
+    nh_constraint_samples_init(&c, system, system->constraints, seed);
     nh_chart *chart = NULL;
     size_t *dependent = nh_alloc_array(c.k + 1, sizeof *dependent);
     bool replaced = false;
-    if (c.k == 0 || nh_cloud_check_rank(&c, seed, error)) {
+    if (c.k == 0 || nh_constraint_samples_check_rank(&c, seed, error)) {
         double pivot = c.k ? choose_dependent(&c, dependent, &replaced) : 1;
         if (pivot < 1e-12) {
             nh_deck_fail(system->deck, system->constraint[0].node, 0, error, "the constraints do not determine the velocities named under `dependent:`");
@@ -429,6 +429,6 @@ nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *e
         }
     }
     nh_free(dependent);
-    nh_cloud_clear(&c);
+    nh_constraint_samples_clear(&c);
     return chart;
 }
