@@ -1,13 +1,10 @@
 #include "base/budget.h"
 
 #include <math.h>
-#include <stdatomic.h>
-#include <stdint.h>
 
-static const double most = 1e15; /* of one addition: 2^64 is never reached */
+#include "base/context_internal.h"
 
-static atomic_uint_fast64_t used;  /* whole units: their sum does not depend on the order in which threads add them */
-static double limit = INFINITY;    /* units; set between computations, read by all of their threads */
+static const double most_at_once = 1e15; /* of one addition: 2^64 is never reached */
 
 static const double units[] = {
 #define X(name, units, doc) units,
@@ -17,22 +14,29 @@ static const double units[] = {
 
 void nh_budget_begin(double millions)
 {
-    atomic_store(&used, 0);
-    limit = isfinite(millions) ? 1e6 * millions : INFINITY;
+    nh_context *c = nh_context_here();
+    atomic_store(&c->used, 0);
+    c->most = isfinite(millions) ? 1e6 * millions : INFINITY;
 }
 
 void nh_work_add(nh_work kind, double count)
 {
-    double add = fmin(units[kind] * count, most);
-    if (add >= 1) atomic_fetch_add_explicit(&used, (uint_fast64_t)add, memory_order_relaxed);
+    double add = fmin(units[kind] * count, most_at_once);
+    if (add >= 1) atomic_fetch_add_explicit(&nh_context_here()->used, (uint_fast64_t)add, memory_order_relaxed);
 }
 
 double nh_work_millions(nh_work kind, double count) { return units[kind] * count / 1e6; }
 
-bool nh_budget_allows(nh_work kind, double count) { return (double)atomic_load(&used) + units[kind] * count <= limit; }
+static double used(void) { return (double)atomic_load(&nh_context_here()->used); }
 
-bool nh_budget_spent(void) { return (double)atomic_load(&used) > limit; }
+bool nh_budget_allows(nh_work kind, double count) { return used() + units[kind] * count <= nh_context_here()->most; }
 
-double nh_budget_part(void) { return isfinite(limit) && limit > 0 ? (double)atomic_load(&used) / limit : 0; }
+bool nh_budget_spent(void) { return used() > nh_context_here()->most; }
 
-double nh_budget_used(void) { return (double)atomic_load(&used) / 1e6; }
+double nh_budget_part(void)
+{
+    double most = nh_context_here()->most;
+    return isfinite(most) && most > 0 ? used() / most : 0;
+}
+
+double nh_budget_used(void) { return used() / 1e6; }

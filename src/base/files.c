@@ -1,35 +1,32 @@
 #include "base/files.h"
 
 #include <errno.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/context_internal.h"
 #include "base/memory.h"
 
-typedef struct known_file {
-    struct known_file *next;
+struct nh_known_file {
+    nh_known_file *next;
     char *path, *text;
     size_t length;
-} known_file;
+};
 
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static bool on;
-static known_file *first;
-
-void nh_files_begin(void) { on = true; }
+void nh_files_begin(void) { nh_context_here()->files_kept = true; }
 
 void nh_files_end(void)
 {
-    while (first) {
-        known_file *f = first;
-        first = f->next;
+    nh_context *c = nh_context_here();
+    while (c->file) {
+        nh_known_file *f = c->file;
+        c->file = f->next;
         nh_free(f->path);
         nh_free(f->text);
         nh_free(f);
     }
-    on = false;
+    c->files_kept = false;
 }
 
 /* The whole stream, or one byte more than is allowed. */
@@ -74,22 +71,32 @@ static char *copy_of(const char *bytes, size_t length)
     return out;
 }
 
-static void keep(const char *path, const char *text, size_t length)
+static void keep(nh_context *c, const char *path, const char *text, size_t length)
 {
-    known_file *f = nh_alloc(sizeof *f);
-    *f = (known_file){.next = first, .path = copy_of(path, strlen(path)), .text = copy_of(text, length), .length = length};
-    first = f;
+    nh_known_file *f = nh_alloc(sizeof *f);
+    *f = (nh_known_file){.next = c->file, .path = copy_of(path, strlen(path)), .text = copy_of(text, length), .length = length};
+    c->file = f;
+}
+
+void nh_files_add(const char *path, const char *text, size_t length)
+{
+    nh_context *c = nh_context_here();
+    c->files_kept = true;
+    pthread_mutex_lock(&c->files_lock);
+    keep(c, path, text, length);
+    pthread_mutex_unlock(&c->files_lock);
 }
 
 char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *error)
 {
-    if (!on) return from_file(path, limit, length, error);
-    pthread_mutex_lock(&lock); /* also while a file is read: two that want it at once get one text */
-    const known_file *f = first;
+    nh_context *c = nh_context_here();
+    if (!c->files_kept) return from_file(path, limit, length, error);
+    pthread_mutex_lock(&c->files_lock); /* also while a file is read: two that want it at once get one text */
+    const nh_known_file *f = c->file;
     while (f && strcmp(f->path, path)) f = f->next;
     char *text = f ? copy_of(f->text, f->length) : from_file(path, limit, length, error);
     if (f) *length = f->length;
-    else if (text) keep(path, text, *length);
-    pthread_mutex_unlock(&lock);
+    else if (text) keep(c, path, text, *length);
+    pthread_mutex_unlock(&c->files_lock);
     return text;
 }

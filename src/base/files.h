@@ -11,6 +11,9 @@
 void nh_files_begin(void);
 void nh_files_end(void);
 
+/* A text under the name of a file, whether or not there is such a file. */
+void nh_files_add(const char *path, const char *text, size_t length);
+
 /* The bytes of a file, at most limit + 1 of them; nh_free.  NULL with a message. */
 char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *error);
 

@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 #include <time.h>
 
+#include "base/context_internal.h"
 #include "base/memory.h"
 #include "base/progress.h"
 
@@ -15,18 +16,20 @@ typedef struct {
     atomic_size_t next;
     void (*job)(size_t, void *);
     void *context;
+    nh_context *here;
 } queue;
 
 static void *work(void *argument)
 {
     queue *q = argument;
+    nh_context_enter(q->here);
     for (size_t i; (i = atomic_fetch_add(&q->next, 1)) < q->jobs;) q->job(i, q->context);
     return NULL;
 }
 
 void nh_parallel(size_t jobs, size_t threads, void (*job)(size_t index, void *context), void *context)
 {
-    queue q = {.jobs = jobs, .job = job, .context = context};
+    queue q = {.jobs = jobs, .job = job, .context = context, .here = nh_context_here()};
     pthread_t helper[most_threads];
     size_t wanted = threads < jobs ? threads : jobs, started = 0;
     if (wanted > most_threads) wanted = most_threads;
@@ -96,11 +99,13 @@ struct nh_aside {
     bool started;
     void (*job)(void *);
     void *context;
+    nh_context *here;
 };
 
 static void *do_aside(void *argument)
 {
     nh_aside *a = argument;
+    nh_context_enter(a->here);
     a->job(a->context);
     return NULL;
 }
@@ -108,7 +113,7 @@ static void *do_aside(void *argument)
 nh_aside *nh_aside_begin(void (*job)(void *), void *context)
 {
     nh_aside *a = nh_alloc(sizeof *a);
-    *a = (nh_aside){.job = job, .context = context};
+    *a = (nh_aside){.job = job, .context = context, .here = nh_context_here()};
     a->started = pthread_create(&a->thread, NULL, do_aside, a) == 0;
     if (!a->started) job(context);
     return a;
@@ -129,11 +134,10 @@ typedef struct {
     pthread_mutex_t lock;
     pthread_cond_t ended;
     bool done, left;
+    nh_context *here;
 } errand;
 
-static atomic_size_t left_alone;
-
-size_t nh_jobs_left(void) { return atomic_load(&left_alone); }
+size_t nh_jobs_left(void) { return atomic_load(&nh_context_here()->left_alone); }
 
 static void errand_free(errand *e)
 {
@@ -145,6 +149,7 @@ static void errand_free(errand *e)
 static void *go(void *argument)
 {
     errand *e = argument;
+    nh_context_enter(e->here);
     e->job(e->context);
     pthread_mutex_lock(&e->lock);
     e->done = true;
@@ -154,7 +159,7 @@ static void *go(void *argument)
     if (!left) return NULL;
     e->release(e->context);
     errand_free(e);
-    atomic_fetch_sub(&left_alone, 1);
+    atomic_fetch_sub(&nh_context_here()->left_alone, 1);
     return NULL;
 }
 
@@ -171,7 +176,7 @@ static void look_every(struct timespec *until)
 bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *context)
 {
     errand *e = nh_alloc(sizeof *e);
-    *e = (errand){.job = job, .release = release, .context = context, .lock = PTHREAD_MUTEX_INITIALIZER, .ended = PTHREAD_COND_INITIALIZER};
+    *e = (errand){.job = job, .release = release, .context = context, .here = nh_context_here(), .lock = PTHREAD_MUTEX_INITIALIZER, .ended = PTHREAD_COND_INITIALIZER};
     pthread_t thread;
     if (pthread_create(&thread, NULL, go, e)) { /* then it cannot be left */
         errand_free(e);
@@ -186,7 +191,7 @@ bool nh_interruptible(void (*job)(void *), void (*release)(void *), void *contex
     }
     bool done = e->done;
     e->left = !done;
-    if (e->left) atomic_fetch_add(&left_alone, 1);
+    if (e->left) atomic_fetch_add(&e->here->left_alone, 1);
     pthread_mutex_unlock(&e->lock);
     if (!done) return pthread_detach(thread), false;
     pthread_join(thread, NULL);

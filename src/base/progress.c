@@ -1,76 +1,83 @@
 #include "base/progress.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 
 #include "base/clock.h"
+#include "base/context_internal.h"
 
-enum { longest_saying = 80 };
-
-static nh_progress_handler *handler;
-static void *handler_context;
-static pthread_mutex_t saying_lock = PTHREAD_MUTEX_INITIALIZER;
-static char saying[longest_saying];
-static volatile sig_atomic_t interrupted, reached;
-static double limit = INFINITY, limit_seconds = INFINITY, deadline = INFINITY; /* by the monotonic clock; set between computations, read by all of their threads */
-
-void nh_progress_set(nh_progress_handler *new_handler, void *context)
+void nh_progress_set(nh_progress_handler *handler, void *context)
 {
-    handler = new_handler;
-    handler_context = context;
+    nh_context *c = nh_context_here();
+    c->handler = handler;
+    c->handler_context = context;
 }
 
 void nh_progress(const char *doing, double part)
 {
-    pthread_mutex_lock(&saying_lock);
-    snprintf(saying, sizeof saying, "%s", doing);
-    pthread_mutex_unlock(&saying_lock);
-    if (handler) handler(handler_context, doing, part > 1 ? 1 : part);
+    nh_context *c = nh_context_here();
+    pthread_mutex_lock(&c->saying_lock);
+    snprintf(c->saying, sizeof c->saying, "%s", doing);
+    pthread_mutex_unlock(&c->saying_lock);
+    if (c->handler) c->handler(c->handler_context, doing, part > 1 ? 1 : part);
 }
 
 void nh_progress_last(char *out, size_t size)
 {
-    pthread_mutex_lock(&saying_lock);
-    snprintf(out, size, "%s", saying);
-    pthread_mutex_unlock(&saying_lock);
+    nh_context *c = nh_context_here();
+    pthread_mutex_lock(&c->saying_lock);
+    snprintf(out, size, "%s", c->saying);
+    pthread_mutex_unlock(&c->saying_lock);
 }
 
 void nh_limit_set(double seconds)
 {
-    limit_seconds = seconds;
-    limit = isfinite(seconds) ? nh_clock() + seconds : INFINITY;
-    reached = 0;
+    nh_context *c = nh_context_here();
+    c->limit_seconds = seconds;
+    c->limit = isfinite(seconds) ? nh_clock() + seconds : INFINITY;
+    atomic_store(&c->reached, false);
 }
 
 void nh_deadline_set(double seconds)
 {
     static const double part = 0.6; /* the rest is for certificates, a motion and what is written */
+    nh_context *c = nh_context_here();
     double now = nh_clock();
-    deadline = isfinite(seconds) ? fmin(now + seconds, now + part * fmax(0, limit - now)) : INFINITY;
+    c->deadline = isfinite(seconds) ? fmin(now + seconds, now + part * fmax(0, c->limit - now)) : INFINITY;
 }
 
-void nh_interrupt(void) { interrupted = 1; }
+void nh_interrupt(void) { nh_interrupt_context(nh_context_here()); }
+
+void nh_interrupt_context(nh_context *c) { atomic_store(&c->interrupted, true); }
 
 bool nh_interrupted(void)
 {
-    if (interrupted || reached) return true;
-    if (isfinite(limit) && nh_clock() > limit) reached = 1;
-    return reached;
+    nh_context *c = nh_context_here();
+    if (atomic_load(&c->interrupted) || atomic_load(&c->reached)) return true;
+    if (isfinite(c->limit) && nh_clock() > c->limit) atomic_store(&c->reached, true);
+    return atomic_load(&c->reached);
 }
 
-bool nh_late(void) { return nh_interrupted() || (isfinite(deadline) && nh_clock() > deadline); }
+bool nh_late(void)
+{
+    double deadline = nh_context_here()->deadline;
+    return nh_interrupted() || (isfinite(deadline) && nh_clock() > deadline);
+}
 
-bool nh_limit_reached(void) { return reached && !interrupted; }
+bool nh_limit_reached(void)
+{
+    nh_context *c = nh_context_here();
+    return atomic_load(&c->reached) && !atomic_load(&c->interrupted);
+}
 
-nh_code nh_ended_code(void) { return interrupted ? NH_INTERRUPTED : NH_LIMIT; }
+nh_code nh_ended_code(void) { return atomic_load(&nh_context_here()->interrupted) ? NH_INTERRUPTED : NH_LIMIT; }
 
 void nh_ended_words(char *out, size_t size)
 {
-    if (interrupted) snprintf(out, size, "interrupted");
-    else snprintf(out, size, "the time limit of %g s was reached", limit_seconds);
+    nh_context *c = nh_context_here();
+    if (atomic_load(&c->interrupted)) snprintf(out, size, "interrupted");
+    else snprintf(out, size, "the time limit of %g s was reached", c->limit_seconds);
 }
 
 bool nh_fail_ended(nh_error *error, const char *format, ...)

@@ -1,4 +1,4 @@
-/* progress: what a long computation tells its caller, and how it is ended: by a signal, or by the time limit of the run.  One per process, as memory's handler is.
+/* progress: what a long computation tells its caller, and how it is ended: by a signal, or by the time limit of the run. One per context (base/context.h).
  *
  * Both ends are one thing to whoever computes: nh_interrupted() is true from then on for ever, and the computation returns soon, with what it has.  What it says
  * then is partial: nothing that was computed afterwards is a proof or a refutation.  The limit is an emergency brake.  How much is computed in a run that it does
@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/context.h"
 #include "base/error.h"
 
 /* part: of the time or work that it may take, in [0, 1]; below 0: not known. */
@@ -22,6 +23,8 @@ void nh_progress_last(char *out, size_t size);
 
 /* Ask the computation to end soon, with what it has; safe in a signal handler. */
 void nh_interrupt(void);
+/* The same for the computation of another thread. */
+void nh_interrupt_context(nh_context *context);
 /* The time limit of the run: `seconds` from now, as the user feels them (not of the processor); none when they are not finite. */
 void nh_limit_set(double seconds);
 /* Ended, by either. */

@@ -1,0 +1,46 @@
+/* context: see context.h. */
+#include <math.h>
+
+#include "base/context_internal.h"
+#include "base/files.h"
+#include "base/memory.h"
+
+static nh_context of_process = {
+    .most = INFINITY,
+    .saying_lock = PTHREAD_MUTEX_INITIALIZER,
+    .limit = INFINITY,
+    .limit_seconds = INFINITY,
+    .deadline = INFINITY,
+    .files_lock = PTHREAD_MUTEX_INITIALIZER,
+};
+
+static _Thread_local nh_context *entered; /* NULL: that of the process */
+
+nh_context *nh_context_create(void)
+{
+    nh_context *c = nh_alloc(sizeof *c);
+    c->most = c->limit = c->limit_seconds = c->deadline = INFINITY;
+    pthread_mutex_init(&c->saying_lock, NULL);
+    pthread_mutex_init(&c->files_lock, NULL);
+    return c;
+}
+
+void nh_context_free(nh_context *c)
+{
+    if (!c || atomic_load(&c->left_alone)) return;
+    nh_context *before = nh_context_enter(c);
+    nh_files_end();
+    nh_context_enter(before);
+    pthread_mutex_destroy(&c->saying_lock);
+    pthread_mutex_destroy(&c->files_lock);
+    nh_free(c);
+}
+
+nh_context *nh_context_here(void) { return entered ? entered : &of_process; }
+
+nh_context *nh_context_enter(nh_context *context)
+{
+    nh_context *before = nh_context_here();
+    entered = context == &of_process ? NULL : context;
+    return before;
+}

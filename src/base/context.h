@@ -1,0 +1,20 @@
+/* context: what one computation has for itself: how much work it has counted, when it must end, who wants to know how far it is, and the files that it
+ * has read.
+ *
+ * Every thread works for one context: for that of the process, unless it entered another; the threads that base/parallel.h starts work for the context of
+ * the thread that started them.  So two threads with a context each do not disturb one another. */
+#ifndef NH_CONTEXT_H
+#define NH_CONTEXT_H
+
+typedef struct nh_context nh_context;
+
+nh_context *nh_context_create(void);
+/* Its files are forgotten.  Not while a thread works for it; one with a job that was left alone (base/parallel.h) stays until the process ends. */
+void nh_context_free(nh_context *context);
+
+/* The one that this thread works for. */
+nh_context *nh_context_here(void);
+/* From now on this thread works for that one; NULL: for that of the process.  Returns the one before. */
+nh_context *nh_context_enter(nh_context *context);
+
+#endif

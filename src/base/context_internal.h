@@ -1,0 +1,36 @@
+/* context_internal: what budget, progress, files and parallel keep in a context. */
+#ifndef NH_CONTEXT_INTERNAL_H
+#define NH_CONTEXT_INTERNAL_H
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/context.h"
+#include "base/progress.h"
+
+enum { nh_context_longest_saying = 80 };
+
+typedef struct nh_known_file nh_known_file;
+
+struct nh_context {
+    /* base/budget.c */
+    atomic_uint_fast64_t used; /* whole units: their sum does not depend on the order in which threads add them */
+    double               most; /* units; set between computations, read by all of their threads */
+    /* base/progress.c */
+    nh_progress_handler *handler;
+    void                *handler_context;
+    pthread_mutex_t      saying_lock;
+    char                 saying[nh_context_longest_saying];
+    atomic_bool          interrupted, reached;
+    double               limit, limit_seconds, deadline; /* by the monotonic clock; set between computations, read by all of their threads */
+    /* base/files.c */
+    pthread_mutex_t files_lock;
+    bool            files_kept;
+    nh_known_file  *file;
+    /* base/parallel.c */
+    atomic_size_t left_alone; /* jobs */
+};
+
+#endif
