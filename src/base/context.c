@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "base/context_internal.h"
-#include "base/files.h"
 #include "base/memory.h"
 
 static nh_context of_process = {
@@ -28,12 +27,21 @@ nh_context *nh_context_create(void)
 void nh_context_free(nh_context *c)
 {
     if (!c || atomic_load(&c->left_alone)) return;
-    nh_context *before = nh_context_enter(c);
-    nh_files_end();
-    nh_context_enter(before);
+    nh_known_files_free(c->file);
     pthread_mutex_destroy(&c->saying_lock);
     pthread_mutex_destroy(&c->files_lock);
     nh_free(c);
+}
+
+void nh_known_files_free(nh_known_file *first)
+{
+    while (first) {
+        nh_known_file *f = first;
+        first = f->next;
+        nh_free(f->path);
+        nh_free(f->text);
+        nh_free(f);
+    }
 }
 
 nh_context *nh_context_here(void) { return entered ? entered : &of_process; }

@@ -6,11 +6,7 @@
 #ifndef NH_CONTEXT_H
 #define NH_CONTEXT_H
 
-typedef struct nh_context nh_context;
-
-nh_context *nh_context_create(void);
-/* Its files are forgotten.  Not while a thread works for it; one with a job that was left alone (base/parallel.h) stays until the process ends. */
-void nh_context_free(nh_context *context);
+#include "nhsym.h"
 
 /* The one that this thread works for. */
 nh_context *nh_context_here(void);

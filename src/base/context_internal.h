@@ -12,7 +12,13 @@
 
 enum { nh_context_longest_saying = 80 };
 
-typedef struct nh_known_file nh_known_file;
+typedef struct nh_known_file {
+    struct nh_known_file *next;
+    char *path, *text;
+    size_t length;
+} nh_known_file;
+
+void nh_known_files_free(nh_known_file *first);
 
 struct nh_context {
     /* base/budget.c */

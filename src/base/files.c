@@ -8,26 +8,25 @@
 #include "base/context_internal.h"
 #include "base/memory.h"
 
-struct nh_known_file {
-    nh_known_file *next;
-    char *path, *text;
-    size_t length;
-};
-
 void nh_files_begin(void) { nh_context_here()->files_kept = true; }
 
 void nh_files_end(void)
 {
     nh_context *c = nh_context_here();
-    while (c->file) {
-        nh_known_file *f = c->file;
-        c->file = f->next;
-        nh_free(f->path);
-        nh_free(f->text);
-        nh_free(f);
-    }
+    nh_known_files_free(c->file);
+    c->file = NULL;
     c->files_kept = false;
 }
+
+void nh_files_swap(nh_file_store *store)
+{
+    nh_context *c = nh_context_here();
+    nh_known_file *mine = c->file;
+    c->file = *store;
+    *store = mine;
+}
+
+void nh_files_free(nh_file_store store) { nh_known_files_free(store); }
 
 /* The whole stream, or one byte more than is allowed. */
 static char *slurp(FILE *file, size_t limit, size_t *length)

@@ -11,6 +11,11 @@
 void nh_files_begin(void);
 void nh_files_end(void);
 
+/* The files of several runs in turn: those that are kept in this context change places with a store's, which begins as NULL. */
+typedef struct nh_known_file *nh_file_store;
+void nh_files_swap(nh_file_store *store);
+void nh_files_free(nh_file_store store);
+
 /* A text under the name of a file, whether or not there is such a file. */
 void nh_files_add(const char *path, const char *text, size_t length);
 

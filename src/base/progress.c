@@ -51,6 +51,13 @@ void nh_interrupt(void) { nh_interrupt_context(nh_context_here()); }
 
 void nh_interrupt_context(nh_context *c) { atomic_store(&c->interrupted, true); }
 
+void nh_interrupt_clear(void)
+{
+    nh_context *c = nh_context_here();
+    atomic_store(&c->interrupted, false);
+    atomic_store(&c->reached, false);
+}
+
 bool nh_interrupted(void)
 {
     nh_context *c = nh_context_here();

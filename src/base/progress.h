@@ -25,6 +25,8 @@ void nh_progress_last(char *out, size_t size);
 void nh_interrupt(void);
 /* The same for the computation of another thread. */
 void nh_interrupt_context(nh_context *context);
+/* What comes from here on was not interrupted. */
+void nh_interrupt_clear(void);
 /* The time limit of the run: `seconds` from now, as the user feels them (not of the processor); none when they are not finite. */
 void nh_limit_set(double seconds);
 /* Ended, by either. */

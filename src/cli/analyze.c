@@ -11,7 +11,7 @@
 static const char *analysis_of(nh_cli *cli, const char *system)
 {
     if (cli->no_analysis || strchr(system, '/') || strstr(system, ".yaml")) return NULL;
-    return nh_cli_look(cli, "analyses", system);
+    return nh_places_look(cli->arena, "analyses", system);
 }
 
 static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
@@ -24,7 +24,7 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
     *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options, .accuracy = cli->accuracy,
                               .seed_given = cli->seed_given, .samples_given = cli->samples_given, .tolerance_given = cli->tolerance_given,
                               .until_given = cli->until_given};
-    if (cli->analysis && !(q->analysis_path = nh_cli_find(cli, "analyses", cli->analysis, error))) return false;
+    if (cli->analysis && !(q->analysis_path = nh_places_find(cli->arena, "analyses", cli->analysis, error))) return false;
     const char *name = cli->operands ? cli->operand[0] : NULL;
     nh_analysis_file *peek = NULL;
     if (!name && q->analysis_path) { /* the analysis says which system it asks about */
@@ -37,7 +37,7 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "analyze what?");
         return nh_error_hint(error, "nhsym analyze sleigh, or nhsym analyze mine.yaml");
     }
-    q->system_path = nh_cli_find(cli, "systems", name, error);
+    q->system_path = nh_places_find(cli->arena, "systems", name, error);
     if (q->system_path && !q->analysis_path) q->analysis_path = analysis_of(cli, name);
     return q->system_path != NULL;
 }

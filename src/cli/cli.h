@@ -11,6 +11,7 @@
 #include "document/provenance.h"
 #include "commands/analyze.h"
 #include "commands/simulate.h"
+#include "problem/places.h"
 
 typedef enum { NH_PROGRESS_AUTO, NH_PROGRESS_ALWAYS, NH_PROGRESS_NEVER } nh_cli_progress;
 
@@ -83,14 +84,5 @@ bool nh_cli_use_folder(nh_cli *cli, nh_error *error);
 const char *nh_cli_in_folder(nh_cli *cli, const char *name);
 /* The figures of a page as files of their own; those of an older run that this one does not have go when the files take their places. */
 bool nh_cli_write_figures(nh_cli *cli, const char *page, nh_error *error);
-
-/* The file of a system or analysis: a path, or a name looked up in ./systems, NHSYM_PATH and the installed data.
- * `kind` is "systems" or "analyses".  NULL with a suggestion. */
-const char *nh_cli_find(nh_cli *cli, const char *kind, const char *name, nh_error *error);
-/* The same without complaint. */
-const char *nh_cli_look(nh_cli *cli, const char *kind, const char *name);
-
-/* All names of that kind, sorted, each once. */
-size_t nh_cli_names(nh_cli *cli, const char *kind, const char ***names);
 
 #endif

@@ -18,9 +18,9 @@ int nh_cli_version(nh_cli *cli, nh_error *error)
 int nh_cli_list(nh_cli *cli, nh_error *error)
 {
     const char **names;
-    size_t count = nh_cli_names(cli, "systems", &names);
+    size_t count = nh_places_names(cli->arena, "systems", &names);
     for (size_t i = 0; i < count; i++) {
-        const char *path = nh_cli_look(cli, "systems", names[i]);
+        const char *path = nh_places_look(cli->arena, "systems", names[i]);
         nh_error trouble;
         nh_error_clear(&trouble);
         nh_system *s = path ? nh_system_read(path, 0, NULL, &trouble) : NULL;
@@ -40,7 +40,7 @@ int nh_cli_show(nh_cli *cli, nh_error *error)
         nh_error_hint(error, "nhsym show sleigh");
         return NH_USAGE;
     }
-    const char *path = nh_cli_find(cli, "systems", cli->operand[0], error);
+    const char *path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
     if (!path) return error->code;
     size_t length;
     char *text = nh_files_read(path, NH_DECK_SIZE_LIMIT, &length, error);

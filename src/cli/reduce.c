@@ -16,7 +16,7 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "reduce does not write `%s`", cli->to);
         return nh_error_hint(error, "--to takes c or latex");
     }
-    q->system_path = nh_cli_find(cli, "systems", cli->operand[0], error);
+    q->system_path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
     return q->system_path != NULL;
 }
 

@@ -76,7 +76,7 @@ typedef struct {
     char note[256];
 } nh_reduction_stage;
 
-typedef struct {
+struct nh_reduction {
     nh_arena *arena;
     nh_system *system;
     nh_model *model;          /* bare */
@@ -113,11 +113,10 @@ typedef struct {
     size_t warnings;
     const char *warning[16];
     double seconds;
-} nh_reduction;
+};
 
 /* NULL with a message on bad input (a file, fields that are no symmetries or do not close, a singular place). */
 nh_reduction *nh_reduction_create(const nh_reduce_request *request, nh_error *error);
-void nh_reduction_free(nh_reduction *reduction);
 /* The stages once more from another initial state, the sample point `place` of r->kinetic, with all that is compared (what is shown is not made again). */
 bool nh_reduction_again(nh_reduction *reduction, size_t place, nh_error *error);
 

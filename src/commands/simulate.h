@@ -24,7 +24,7 @@ typedef struct {
     nh_options options;
 } nh_simulate_request;
 
-typedef struct {
+struct nh_simulation {
     nh_arena *arena;
     nh_system *system;
     nh_analysis_file *analysis;
@@ -48,7 +48,7 @@ typedef struct {
     double deriving;           /* units of effort that the model took */
     nh_accuracy accuracy;                 /* of the one motion */
     nh_ensemble_accuracy accuracy_of_all; /* of the ensemble */
-} nh_simulation;
+};
 
 nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error *error);
 /* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model). */
@@ -57,6 +57,5 @@ nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *initial, nh_e
 /* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the initial state
  * (a generic one where none is given and `may_choose`) and the final time.  Also on failure: nh_simulation_free. */
 bool nh_simulate_read(nh_simulation *simulation, const nh_simulate_request *request, bool may_choose, nh_state *initial, double *until, nh_error *error);
-void nh_simulation_free(nh_simulation *simulation);
 
 #endif

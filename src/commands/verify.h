@@ -7,7 +7,7 @@
 
 #include "search/analysis.h"
 
-typedef struct {
+struct nh_verification {
     nh_arena *arena;
     nh_system *system;
     nh_model *model;
@@ -27,12 +27,11 @@ typedef struct {
     double *counterexample;   /* model->width values (t, q, w, u) */
     double rate;              /* Gamma(Phi), or the violated equation, there */
     const char *equation;     /* which equation of a field fails: "(N0)", "(NY) for phi'", ... */
-} nh_verification;
+};
 
 /* NULL when the question cannot be asked (bad input). */
 nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *current, const nh_options *options, nh_error *error);
 /* "Z0=..; phi=..; x=..": components along t and the coordinates, those not named are 0. */
 nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
-void nh_verification_free(nh_verification *verdict); /* with the system */
 
 #endif

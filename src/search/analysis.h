@@ -112,7 +112,7 @@ typedef struct {
     nh_figure_curve *curve;
 } nh_figure;
 
-typedef struct {
+struct nh_analysis {
     nh_arena *arena;
     const char *command, *system_path, *analysis_path; /* to repeat it; command and analysis_path may be NULL */
     nh_system *system;
@@ -154,7 +154,7 @@ typedef struct {
     const char **warning;
     bool partial;             /* work or time ended the search, or the user did */
     nh_timing timing;
-} nh_analysis;
+};
 
 /* "complete", "exhausted", "cut". */
 const char *nh_search_word(nh_search search);
@@ -167,6 +167,5 @@ size_t nh_analysis_left_out(const nh_analysis *result);
 nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *nullspace);
 
 void nh_analysis_warn(nh_analysis *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void nh_analysis_free(nh_analysis *result); /* with system, analysis and models */
 
 #endif

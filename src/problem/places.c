@@ -1,16 +1,19 @@
-/* find: where systems and analyses live. */
+/* places: see places.h. */
+#include "problem/places.h"
+
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/memory.h"
+#include "base/text.h"
 #include "system/deck.h"
-#include "cli/cli.h"
 
 enum { most_places = 64 };
 
 /* PREFIX of an installed program, wherever it was moved to: PREFIX/bin/nhsym runs. */
-static const char *prefix_of_program(nh_cli *cli)
+static const char *prefix_of_program(nh_arena *arena)
 {
     char path[4096];
     ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
@@ -20,7 +23,7 @@ static const char *prefix_of_program(nh_cli *cli)
         if (!slash) return NULL;
         *slash = 0;
     }
-    return nh_arena_strdup(cli->arena, path);
+    return nh_arena_strdup(arena, path);
 }
 
 /* In a folder of both kinds: a file of the other? One that cannot be read is what it is asked for, and its mistakes are told. */
@@ -42,37 +45,37 @@ typedef struct {
 } place;
 
 /* Folders to search, in order: here, each entry of NHSYM_PATH (its systems/ or analyses/, and itself), the installed data. */
-static size_t places(nh_cli *cli, const char *kind, place *out)
+static size_t places(nh_arena *arena, const char *kind, place *out)
 {
     size_t n = 0;
-    out[n++].folder = nh_arena_strdup(cli->arena, kind);
+    out[n++].folder = nh_arena_strdup(arena, kind);
     const char *path = getenv("NHSYM_PATH");
     while (path && *path && n + 5 < most_places) {
         size_t length = strcspn(path, ":");
         if (length) {
-            out[n++].folder = nh_arena_printf(cli->arena, "%.*s/%s", (int)length, path, kind);
-            out[n++] = (place){.folder = nh_arena_strndup(cli->arena, path, length), .mixed = true};
+            out[n++].folder = nh_arena_printf(arena, "%.*s/%s", (int)length, path, kind);
+            out[n++] = (place){.folder = nh_arena_strndup(arena, path, length), .mixed = true};
         }
         path += length + (path[length] == ':');
     }
-    const char *prefix = prefix_of_program(cli);
-    if (prefix) out[n++].folder = nh_arena_printf(cli->arena, "%s/share/nhsym/%s", prefix, kind);
-    if (prefix) out[n++].folder = nh_arena_printf(cli->arena, "%s/%s", prefix, kind); /* built, and not installed: beside the folder of the build */
-    out[n++].folder = nh_arena_printf(cli->arena, "%s/%s", NH_DATADIR, kind);
+    const char *prefix = prefix_of_program(arena);
+    if (prefix) out[n++].folder = nh_arena_printf(arena, "%s/share/nhsym/%s", prefix, kind);
+    if (prefix) out[n++].folder = nh_arena_printf(arena, "%s/%s", prefix, kind); /* built, and not installed: beside the folder of the build */
+    out[n++].folder = nh_arena_printf(arena, "%s/%s", NH_DATADIR, kind);
     return n;
 }
 
-const char *nh_cli_look(nh_cli *cli, const char *kind, const char *name)
+const char *nh_places_look(nh_arena *arena, const char *kind, const char *name)
 {
     place where[most_places] = {{NULL, false}};
     if (strchr(name, '/') || (strlen(name) > 5 && !strcmp(name + strlen(name) - 5, ".yaml"))) return access(name, F_OK) ? NULL : name;
-    size_t n = places(cli, kind, where);
+    size_t n = places(arena, kind, where);
     for (size_t i = 0; i < n; i++) {
-        const char *file = nh_arena_printf(cli->arena, "%s/%s.yaml", where[i].folder, name);
+        const char *file = nh_arena_printf(arena, "%s/%s.yaml", where[i].folder, name);
         if (!access(file, F_OK) && (!where[i].mixed || is_of_kind(file, kind))) return file;
     }
     for (size_t i = 0; i < n; i++) { /* those that are there for chart --stress, and not listed */
-        const char *file = nh_arena_printf(cli->arena, "%s/stress/%s.yaml", where[i].folder, name);
+        const char *file = nh_arena_printf(arena, "%s/stress/%s.yaml", where[i].folder, name);
         if (!access(file, F_OK)) return file;
     }
     return NULL;
@@ -80,24 +83,24 @@ const char *nh_cli_look(nh_cli *cli, const char *kind, const char *name)
 
 static int by_name(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
 
-size_t nh_cli_names(nh_cli *cli, const char *kind, const char ***names)
+size_t nh_places_names(nh_arena *arena, const char *kind, const char ***names)
 {
     place where[most_places] = {{NULL, false}};
     const char **list = NULL;
-    size_t places_count = places(cli, kind, where), count = 0, capacity = 0, kept = 0;
+    size_t places_count = places(arena, kind, where), count = 0, capacity = 0, kept = 0;
     for (size_t i = 0; i < places_count; i++) {
         DIR *directory = opendir(where[i].folder);
         for (struct dirent *entry; directory && (entry = readdir(directory));) {
             size_t length = strlen(entry->d_name);
             if (length < 6 || strcmp(entry->d_name + length - 5, ".yaml")) continue;
-            if (where[i].mixed && !is_of_kind(nh_arena_printf(cli->arena, "%s/%s", where[i].folder, entry->d_name), kind)) continue;
+            if (where[i].mixed && !is_of_kind(nh_arena_printf(arena, "%s/%s", where[i].folder, entry->d_name), kind)) continue;
             nh_grow(&list, &capacity, count + 1, sizeof *list);
-            list[count++] = nh_arena_strndup(cli->arena, entry->d_name, length - 5);
+            list[count++] = nh_arena_strndup(arena, entry->d_name, length - 5);
         }
         if (directory) closedir(directory);
     }
     if (count) qsort(list, count, sizeof *list, by_name);
-    const char **out = nh_arena_alloc(cli->arena, (count + 1) * sizeof *out);
+    const char **out = nh_arena_alloc(arena, (count + 1) * sizeof *out);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || strcmp(list[i], list[i - 1])) out[kept++] = list[i];
     nh_free(list);
@@ -105,9 +108,9 @@ size_t nh_cli_names(nh_cli *cli, const char *kind, const char ***names)
     return kept;
 }
 
-const char *nh_cli_find(nh_cli *cli, const char *kind, const char *name, nh_error *error)
+const char *nh_places_find(nh_arena *arena, const char *kind, const char *name, nh_error *error)
 {
-    const char *found = nh_cli_look(cli, kind, name);
+    const char *found = nh_places_look(arena, kind, name);
     if (found) return found;
     if (strchr(name, '/') || strstr(name, ".yaml")) {
         nh_fail(error, NH_INPUT, name, "there is no such file");
@@ -115,9 +118,9 @@ const char *nh_cli_find(nh_cli *cli, const char *kind, const char *name, nh_erro
         return NULL;
     }
     const char **names;
-    size_t count = nh_cli_names(cli, kind, &names);
+    size_t count = nh_places_names(arena, kind, &names);
     nh_fail(error, NH_INPUT, "", "there is no %s `%s` in ./%s, in NHSYM_PATH or among the installed ones", strcmp(kind, "systems") ? "analysis" : "system", name, kind);
-    const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(cli->arena, "%s.yaml", name);
+    const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(arena, "%s.yaml", name);
     if (!access(file, F_OK)) nh_error_hint(error, "there is a file %s here: write its whole name", file);
     else if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "give the path of a file, or see `nhsym list`");

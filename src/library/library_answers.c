@@ -1,0 +1,153 @@
+/* library_answers: the commands of the public interface, and what they found as documents. */
+#include <math.h>
+#include <string.h>
+
+#include "base/progress.h"
+#include "commands/analyze.h"
+#include "commands/reduce.h"
+#include "commands/simulate.h"
+#include "commands/verify.h"
+#include "document/analysis_json.h"
+#include "document/html.h"
+#include "document/reduction.h"
+#include "document/simulation.h"
+#include "document/summary.h"
+#include "document/tex.h"
+#include "document/verification.h"
+#include "library/library_internal.h"
+
+/* ---- commands ---- */
+
+nh_analysis *nh_analyze(nh_problem *p, nh_error *error)
+{
+    nh_analyze_request request = {.system_path = p->system_path, .analysis_path = p->analysis_path, .settings = p->settings, .setting = p->setting, .chart = p->chart,
+                                  .options = p->options, .accuracy = p->question.accuracy, .seed_given = p->seed_given, .samples_given = p->samples_given,
+                                  .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0};
+    nh_error_clear(error);
+    nh_problem_enter(p);
+    nh_analysis *a = nh_analysis_create(&request, error);
+    nh_problem_leave(p);
+    return a;
+}
+
+nh_simulation *nh_simulate(nh_problem *p, nh_error *error)
+{
+    nh_simulate_request request = {.system_path = p->system_path, .analysis_path = p->analysis_path, .settings = p->settings, .setting = p->setting, .chart = p->chart,
+                                   .initial = p->question.initial, .watch = p->question.watch, .step = p->question.step, .accuracy = p->question.accuracy,
+                                   .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0, .options = p->options};
+    nh_error_clear(error);
+    nh_problem_enter(p);
+    nh_simulation *s = nh_simulation_create(&request, error);
+    nh_problem_leave(p);
+    return s;
+}
+
+nh_reduction *nh_reduce(nh_problem *p, nh_error *error)
+{
+    nh_reduce_request request = {.system_path = p->system_path, .settings = p->settings, .setting = p->setting, .chart = p->chart, .initial = p->question.initial,
+                                 .accuracy = p->question.accuracy, .options = p->options};
+    nh_error_clear(error);
+    nh_problem_enter(p);
+    nh_reduction *r = nh_reduction_create(&request, error);
+    nh_problem_leave(p);
+    return r;
+}
+
+static nh_verification *verify(nh_problem *p, const char *current, const char *field, nh_error *error)
+{
+    nh_error_clear(error);
+    nh_problem_enter(p);
+    nh_system *system = nh_system_read(p->system_path, p->settings, p->setting, error); /* the verification's own */
+    nh_verification *v = !system ? NULL : current ? nh_verification_of_current(system, p->chart, current, &p->options, error)
+                                                  : nh_verification_of_field(system, p->chart, field, &p->options, error);
+    nh_problem_leave(p);
+    return v;
+}
+
+nh_verification *nh_verify_current(nh_problem *p, const char *current, nh_error *error) { return verify(p, current, NULL, error); }
+
+nh_verification *nh_verify_field(nh_problem *p, const char *field, nh_error *error) { return verify(p, NULL, field, error); }
+
+bool nh_verification_holds(const nh_verification *v) { return v->conserved; }
+
+bool nh_verification_proved(const nh_verification *v) { return v->proof.proved; }
+
+/* ---- documents ---- */
+
+static const double shown = 600; /* symbols of the longest formula on a page, as by default */
+
+static char *taken(nh_text *text)
+{
+    char *out = nh_strdup(nh_text_string(text));
+    nh_text_clear(text);
+    return out;
+}
+
+static char *no_document(const char *what, nh_error *error)
+{
+    nh_fail(error, NH_USAGE, "", "%s is not written as LaTeX", what);
+    nh_error_hint(error, "text, JSON and HTML are there");
+    return NULL;
+}
+
+char *nh_analysis_document(const nh_analysis *a, nh_format format, nh_error *error)
+{
+    nh_text text;
+    nh_text_init(&text);
+    (void)error;
+    switch (format) {
+    case NH_FORMAT_JSON: return nh_analysis_json(a);
+    case NH_FORMAT_HTML: nh_html(a, &text); break;
+    case NH_FORMAT_LATEX: nh_tex(a, false, &text); break;
+    case NH_FORMAT_TEXT: nh_summary(a, (nh_summary_style){false, true}, &text); break;
+    }
+    return taken(&text);
+}
+
+static nh_run run_of(double seed) { return (nh_run){.seed = seed, .shown = shown, .seconds = NAN}; }
+
+char *nh_simulation_document(const nh_simulation *s, nh_format format, nh_error *error)
+{
+    nh_run  run = run_of(1);
+    nh_text text;
+    nh_text_init(&text);
+    switch (format) {
+    case NH_FORMAT_JSON: return nh_motion_json(s, &run);
+    case NH_FORMAT_HTML: nh_html_simulation(s, &run, &text); break;
+    case NH_FORMAT_TEXT: nh_motion_csv(s, &text); break;
+    case NH_FORMAT_LATEX: return no_document("a simulation", error);
+    }
+    return taken(&text);
+}
+
+char *nh_reduction_document(const nh_reduction *r, nh_format format, nh_error *error)
+{
+    nh_run  run = run_of(r->options.seed);
+    nh_text text;
+    nh_text_init(&text);
+    (void)error;
+    switch (format) {
+    case NH_FORMAT_JSON: return nh_reduction_json(r, &run);
+    case NH_FORMAT_HTML: nh_html_reduction(r, &run, &text); break;
+    case NH_FORMAT_LATEX: nh_reduction_latex(r, &text); break;
+    case NH_FORMAT_TEXT: nh_reduction_text(r, true, &text); break;
+    }
+    return taken(&text);
+}
+
+char *nh_verification_document(const nh_verification *v, nh_format format, nh_error *error)
+{
+    nh_run  run = run_of(1);
+    nh_text text;
+    nh_text_init(&text);
+    bool field = v->form != NULL;
+    switch (format) {
+    case NH_FORMAT_JSON: return nh_verification_json(v, &run);
+    case NH_FORMAT_HTML: nh_html_verification(v, field, &run, &text); break;
+    case NH_FORMAT_TEXT: nh_verification_text(v, field, shown, &text); break;
+    case NH_FORMAT_LATEX: return no_document("a verification", error);
+    }
+    return taken(&text);
+}
+
+void nh_string_free(char *string) { nh_free(string); }

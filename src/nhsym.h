@@ -1,0 +1,169 @@
+/* nhsym: symmetries and conservation laws of mechanical systems with constraints.
+ *
+ *     nh_context *context = nh_context_create();
+ *     nh_error error = {0};
+ *     nh_problem *problem = nh_problem_open(context, &(nh_question){.system = "sleigh"}, &error);
+ *     nh_analysis *analysis = problem ? nh_analyze(problem, &error) : NULL;
+ *     for (size_t i = 0; analysis && i < nh_analysis_currents(analysis); i++) {
+ *         char *formula = nh_current_formula(analysis, i, NH_SYNTAX_PLAIN);
+ *         puts(formula);
+ *         nh_string_free(formula);
+ *     }
+ *
+ * A fallible function takes an nh_error last, returns NULL or false when it fails, and says why; nothing prints or ends the process.  A result belongs to
+ * whoever asked for it, is complete when it is returned, and lives on without its problem and context.  Threads with a context each do not disturb one another; what is
+ * made with one context is used by one thread at a time.  Angles are in radians, other quantities in the units of the system file. */
+#ifndef NHSYM_H
+#define NHSYM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#if defined(__GNUC__)
+#define NH_API __attribute__((visibility("default")))
+#else
+#define NH_API
+#endif
+
+/* ---- errors ---- */
+
+/* The values are the exit codes of the command line. */
+typedef enum {
+    NH_OK = 0,
+    NH_REFUTED = 1,  /* the question was answered "no" */
+    NH_USAGE = 2,    /* the question is not one: an option, a name */
+    NH_INPUT = 3,    /* a file is wrong */
+    NH_NUMERIC = 4,  /* a numerical failure; the message gives the reason */
+    NH_LIMIT = 5,    /* time, memory or iterations ran out */
+    NH_INTERRUPTED = 130
+} nh_code;
+
+typedef struct {
+    nh_code code;
+    char where[256];    /* "file:line:column", or empty */
+    char what[768];     /* what is wrong and what was expected */
+    char hint[512];     /* what to do next, or empty */
+    char excerpt[1024]; /* the source line and a caret below it, or empty */
+} nh_error;
+
+NH_API void nh_error_clear(nh_error *error);
+/* The whole message, several lines without a final newline, into `out` (always terminated). */
+NH_API void nh_error_format(const nh_error *error, char *out, size_t size);
+
+NH_API const char *nh_version_text(void); /* "0.1.0" */
+
+/* ---- a context: what one thread works in ---- */
+
+typedef struct nh_context nh_context;
+
+NH_API nh_context *nh_context_create(void);
+NH_API void nh_context_free(nh_context *context);
+/* What is being done, and which part of it, in [0, 1], is done; below 0: not known.  Called from the thread that computes; NULL: never. */
+NH_API void nh_context_on_progress(nh_context *context, void (*tell)(void *data, const char *doing, double part), void *data);
+/* The computation returns soon, with what it has; from any thread or signal handler.  Later computations in this context begin anew. */
+NH_API void nh_context_interrupt(nh_context *context);
+
+/* ---- a question about a system ---- */
+
+/* Members that are NULL, 0 or false are not given. */
+typedef struct {
+    const char *system;        /* a name ("sleigh") or the path of a system file, */
+    const char *system_text;   /* or the text of one; then `system` is what messages call it */
+    const char *analysis;      /* likewise an analysis file; NULL: that of the system's name, where there is one */
+    const char *analysis_text;
+    bool        no_analysis;   /* take none */
+    const char *set;           /* parameters: "m=2, k=1/3" */
+    const char *velocities;    /* "auto", "quasi" or "coordinates" */
+    const char *initial;       /* "phi=0, omega=2" */
+    double      until;         /* the end of motions; 0: that of the files, or 10 */
+    double      step;          /* between outputs of a simulation; 0: a hundredth of the time */
+    double      accuracy;      /* the largest error of motions that is allowed; 0: the option `tolerance`, unchecked */
+    const char *watch;         /* a simulation of these alone: "y, T = m/2*v^2" */
+    const char *options;       /* of docs/options.md: "seed=3, samples=500" */
+} nh_question;
+
+typedef struct nh_problem nh_problem;
+
+/* Reads the files.  The context must outlive the problem. */
+NH_API nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh_error *error);
+NH_API void nh_problem_free(nh_problem *problem);
+NH_API const char *nh_problem_name(const nh_problem *problem);
+NH_API size_t nh_problem_coordinates(const nh_problem *problem);
+NH_API const char *nh_problem_coordinate(const nh_problem *problem, size_t index);
+NH_API size_t nh_problem_parameters(const nh_problem *problem);
+NH_API const char *nh_problem_parameter(const nh_problem *problem, size_t index, double *value); /* value may be NULL */
+
+/* ---- answers ---- */
+
+typedef struct nh_analysis     nh_analysis;     /* currents and symmetries */
+typedef struct nh_simulation   nh_simulation;   /* one motion */
+typedef struct nh_reduction    nh_reduction;    /* the symmetry group and the equations divided by it */
+typedef struct nh_verification nh_verification; /* of one current or field */
+
+NH_API nh_analysis     *nh_analyze(nh_problem *problem, nh_error *error);
+NH_API nh_simulation   *nh_simulate(nh_problem *problem, nh_error *error);
+NH_API nh_reduction    *nh_reduce(nh_problem *problem, nh_error *error);
+NH_API nh_verification *nh_verify_current(nh_problem *problem, const char *current, nh_error *error); /* "m*v" */
+NH_API nh_verification *nh_verify_field(nh_problem *problem, const char *field, nh_error *error);     /* "Z0=1; phi=phi'; x=x'" */
+
+NH_API void nh_analysis_free(nh_analysis *analysis);
+NH_API void nh_simulation_free(nh_simulation *simulation);
+NH_API void nh_reduction_free(nh_reduction *reduction);
+NH_API void nh_verification_free(nh_verification *verification);
+
+/* As the command line writes them.  LaTeX: of an analysis a document, of a reduction its equations; simulations and verifications have none (NULL, NH_USAGE).  The text
+ * of a simulation is its table.  To be given to nh_string_free. */
+typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX } nh_format;
+
+NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);
+NH_API char *nh_simulation_document(const nh_simulation *simulation, nh_format format, nh_error *error);
+NH_API char *nh_reduction_document(const nh_reduction *reduction, nh_format format, nh_error *error);
+NH_API char *nh_verification_document(const nh_verification *verification, nh_format format, nh_error *error);
+NH_API void  nh_string_free(char *string);
+
+/* ---- an analysis ---- */
+
+NH_API const char *nh_analysis_verdict(const nh_analysis *analysis); /* "FOUND", "NONE" or "UNDECIDED" */
+NH_API const char *nh_analysis_search(const nh_analysis *analysis);  /* "complete", "exhausted" or "cut" */
+NH_API size_t nh_analysis_currents(const nh_analysis *analysis);
+NH_API size_t nh_analysis_independent(const nh_analysis *analysis);  /* functionally independent ones among them */
+NH_API size_t nh_analysis_most(const nh_analysis *analysis);         /* locally there are as many: 2m - k, with t one more */
+
+typedef struct {
+    const char *name;    /* "Phi1" */
+    const char *meaning; /* "energy", "minus the momentum of x", or "" */
+    bool   proved;       /* exactly, for the given parameters at least */
+    bool   for_all;      /* proved for all parameter values */
+    bool   independent;  /* of those before it */
+    double digits;       /* to which its rate was seen to vanish in ball arithmetic */
+    double drift;        /* along the test motion, relative; NAN: none was computed */
+} nh_current_facts;
+
+NH_API nh_current_facts nh_current_describe(const nh_analysis *analysis, size_t index); /* strings live as long as the analysis */
+
+typedef enum { NH_SYNTAX_PLAIN, NH_SYNTAX_LATEX, NH_SYNTAX_MATHML } nh_syntax;
+
+/* In t, coordinates, velocities and parameters, in the velocities of the system file.  NULL: too long to be written.  To be given to nh_string_free. */
+NH_API char *nh_current_formula(const nh_analysis *analysis, size_t index, nh_syntax syntax);
+/* At a time, positions and velocities (one of each per coordinate, in their order).  NAN where it is not defined. */
+NH_API double nh_current_value(const nh_analysis *analysis, size_t index, double t, const double *q, const double *v);
+
+/* ---- a simulation: a table with time in column 0 ---- */
+
+NH_API size_t nh_simulation_rows(const nh_simulation *simulation);
+NH_API size_t nh_simulation_columns(const nh_simulation *simulation);
+NH_API const char *nh_simulation_column(const nh_simulation *simulation, size_t column);
+NH_API double nh_simulation_value(const nh_simulation *simulation, size_t row, size_t column);
+
+/* ---- a verification ---- */
+
+NH_API bool nh_verification_holds(const nh_verification *verification);
+NH_API bool nh_verification_proved(const nh_verification *verification);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,258 @@
+/* library: the public interface (nhsym.h), and nothing else. */
+#include <criterion/criterion.h>
+
+#include <math.h>
+#include <nhsym.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scratch.h"
+
+/* A harmonic oscillator: energy and phase. */
+static const char oscillator[] = "name: spring\n"
+                                 "parameters:\n  - {name: m, value: 2}\n  - {name: k, value: 8}\n"
+                                 "coordinates: [x]\n"
+                                 "lagrangian: m*x'^2/2 - k*x^2/2\n";
+
+typedef struct {
+    nh_context *context;
+    nh_problem *problem;
+    nh_error    error;
+} opened;
+
+static opened open_one(nh_question question)
+{
+    opened o = {.context = nh_context_create()};
+    o.problem = nh_problem_open(o.context, &question, &o.error);
+    return o;
+}
+
+static void close_one(opened *o)
+{
+    nh_problem_free(o->problem);
+    nh_context_free(o->context);
+}
+
+Test(library, a_text_in_memory_is_analysed)
+{
+    opened o = open_one((nh_question){.system_text = oscillator, .set = "k = 18"});
+    cr_assert_not_null(o.problem, "%s", o.error.what);
+    cr_expect_str_eq(nh_problem_name(o.problem), "spring");
+    cr_expect_eq(nh_problem_coordinates(o.problem), 1u);
+    cr_expect_str_eq(nh_problem_coordinate(o.problem, 0), "x");
+    cr_expect_null(nh_problem_coordinate(o.problem, 1));
+    double k = 0;
+    cr_expect_str_eq(nh_problem_parameter(o.problem, 1, &k), "k");
+    cr_expect_eq(k, 18.0);
+    nh_analysis *a = nh_analyze(o.problem, &o.error);
+    close_one(&o); /* the result lives on */
+    cr_assert_not_null(a, "%s", o.error.what);
+    cr_expect_str_eq(nh_analysis_verdict(a), "FOUND");
+    cr_expect_str_eq(nh_analysis_search(a), "complete");
+    cr_expect_eq(nh_analysis_independent(a), 2u);
+    cr_expect_eq(nh_analysis_most(a), 2u);
+    bool energy = false;
+    for (size_t i = 0; i < nh_analysis_currents(a); i++) {
+        nh_current_facts f = nh_current_describe(a, i);
+        energy |= strstr(f.meaning, "energy") != NULL;
+        cr_expect(f.proved);
+        cr_expect_lt(f.drift, 1e-6);
+    }
+    cr_expect(energy);
+    nh_analysis_free(a);
+}
+
+/* x = cos 3t is a motion of the oscillator with k/m = 9: what is conserved keeps its value. */
+Test(library, currents_have_values)
+{
+    opened o = open_one((nh_question){.system_text = oscillator, .set = "k=18"});
+    nh_analysis *a = nh_analyze(o.problem, &o.error);
+    cr_assert_not_null(a, "%s", o.error.what);
+    for (size_t i = 0; i < nh_analysis_currents(a); i++) {
+        double t = 0.7, q0 = 1, v0 = 0, q = cos(3 * t), v = -3 * sin(3 * t);
+        double first = nh_current_value(a, i, 0, &q0, &v0), later = nh_current_value(a, i, t, &q, &v);
+        cr_expect_float_eq(first, later, 1e-12 * (1 + fabs(first)));
+    }
+    cr_expect(isnan(nh_current_value(a, nh_analysis_currents(a), 0, (double[]){0}, (double[]){0})));
+    char *plain = nh_current_formula(a, 0, NH_SYNTAX_PLAIN), *latex = nh_current_formula(a, 0, NH_SYNTAX_LATEX), *mathml = nh_current_formula(a, 0, NH_SYNTAX_MATHML);
+    cr_expect_not_null(strstr(plain, "x'"));
+    cr_expect_not_null(strstr(latex, "\\dot"));
+    cr_expect_not_null(strstr(mathml, "<m"));
+    nh_string_free(plain);
+    nh_string_free(latex);
+    nh_string_free(mathml);
+    nh_analysis_free(a);
+    close_one(&o);
+}
+
+Test(library, a_motion_agrees_with_its_closed_form)
+{
+    opened o = open_one((nh_question){.system_text = oscillator, .set = "k=18", .initial = "x=1, x'=0", .until = 2, .step = 0.5, .accuracy = 1e-9});
+    nh_simulation *s = nh_simulate(o.problem, &o.error);
+    cr_assert_not_null(s, "%s", o.error.what);
+    cr_assert_eq(nh_simulation_rows(s), 5u);
+    cr_expect_str_eq(nh_simulation_column(s, 0), "t");
+    cr_expect_str_eq(nh_simulation_column(s, 1), "x");
+    for (size_t i = 0; i < nh_simulation_rows(s); i++) cr_expect_float_eq(nh_simulation_value(s, i, 1), cos(3 * nh_simulation_value(s, i, 0)), 1e-8);
+    cr_expect(isnan(nh_simulation_value(s, 5, 1)));
+    nh_simulation_free(s);
+    close_one(&o);
+}
+
+Test(library, a_current_and_a_field_are_verified)
+{
+    opened o = open_one((nh_question){.system_text = oscillator});
+    nh_verification *yes = nh_verify_current(o.problem, "m*x'^2/2 + k*x^2/2", &o.error), *no = nh_verify_current(o.problem, "x'", &o.error);
+    nh_verification *field = nh_verify_field(o.problem, "Z0=1", &o.error);
+    cr_assert(yes && no && field, "%s", o.error.what);
+    cr_expect(nh_verification_holds(yes) && nh_verification_proved(yes));
+    cr_expect(!nh_verification_holds(no));
+    cr_expect(nh_verification_holds(field));
+    cr_expect_null(nh_verification_document(yes, NH_FORMAT_LATEX, &o.error));
+    cr_expect_eq(o.error.code, NH_USAGE);
+    nh_verification_free(yes);
+    nh_verification_free(no);
+    nh_verification_free(field);
+    close_one(&o);
+}
+
+Test(library, errors_have_place_cause_and_cure)
+{
+    opened o = open_one((nh_question){.system = "mine", .system_text = "name: a\ncoordinates: [x]\nlagrangian: x'^2/2 - kk*x\n"});
+    cr_assert_null(o.problem);
+    cr_expect_eq(o.error.code, NH_INPUT);
+    cr_expect_str_eq(o.error.where, "mine:3:22", "%s", o.error.where);
+    cr_expect_not_null(strstr(o.error.what, "kk"));
+    close_one(&o);
+    o = open_one((nh_question){.system = "sleighs"});
+    cr_assert_null(o.problem);
+    cr_expect_not_null(strstr(o.error.hint, "sleigh"), "%s", o.error.hint);
+    close_one(&o);
+    const nh_question wrong[] = {{.system = "sleigh", .options = "seeed=3"}, {.system = "sleigh", .set = "m"}, {.system = "sleigh", .velocities = "fast"}, {.set = "m=2"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        o = open_one(wrong[i]);
+        cr_expect_null(o.problem);
+        cr_expect_eq(o.error.code, NH_USAGE, "%s", o.error.what);
+        close_one(&o);
+    }
+}
+
+/* ---- threads ---- */
+
+/* The JSON of an analysis, seconds cut out. */
+static char *timeless(char *json)
+{
+    char *out = json;
+    for (char *in = json; *in;) {
+        static const char key[] = "seconds\":";
+        if (!strncmp(in, key, sizeof key - 1)) in += sizeof key - 1 + strcspn(in + sizeof key - 1, ",}\n");
+        else *out++ = *in++;
+    }
+    *out = 0;
+    char *timing = strstr(json, "\"timing\"");
+    if (timing) memmove(timing, timing + strcspn(timing, "}"), strlen(timing + strcspn(timing, "}")) + 1);
+    return json;
+}
+
+static void *analyse(void *question)
+{
+    opened o = open_one(*(nh_question *)question);
+    nh_analysis *a = o.problem ? nh_analyze(o.problem, &o.error) : NULL;
+    char *json = a ? timeless(nh_analysis_document(a, NH_FORMAT_JSON, &o.error)) : NULL;
+    nh_analysis_free(a);
+    close_one(&o);
+    return json;
+}
+
+Test(library, two_contexts_work_at_once)
+{
+    nh_question question[] = {{.system = "sleigh"}, {.system_text = oscillator}, {.system = "kepler", .options = "threads=2"}};
+    enum { count = sizeof question / sizeof *question };
+    pthread_t thread[count];
+    char     *alone[count];
+    for (size_t i = 0; i < count; i++) alone[i] = analyse(&question[i]);
+    for (size_t i = 0; i < count; i++) cr_assert_eq(pthread_create(&thread[i], NULL, analyse, &question[i]), 0);
+    for (size_t i = 0; i < count; i++) {
+        void *beside;
+        cr_assert_eq(pthread_join(thread[i], &beside), 0);
+        cr_assert(alone[i] && beside);
+        cr_expect_str_eq(alone[i], beside, "%s", question[i].system ? question[i].system : "text");
+        nh_string_free(alone[i]);
+        nh_string_free(beside);
+    }
+}
+
+static void interrupt_at_once(void *data, const char *doing, double part)
+{
+    (void)doing;
+    (void)part;
+    nh_context_interrupt(data);
+}
+
+Test(library, an_interruption_ends_one_computation)
+{
+    opened o = open_one((nh_question){.system_text = oscillator});
+    nh_context_on_progress(o.context, interrupt_at_once, o.context);
+    nh_analysis *a = nh_analyze(o.problem, &o.error);
+    cr_expect(!a || strcmp(nh_analysis_search(a), "complete"), "it was ended, and says that it is complete");
+    nh_analysis_free(a);
+    nh_context_on_progress(o.context, NULL, NULL);
+    a = nh_analyze(o.problem, &o.error);
+    cr_assert_not_null(a, "%s", o.error.what);
+    cr_expect_str_eq(nh_analysis_search(a), "complete");
+    nh_analysis_free(a);
+    close_one(&o);
+}
+
+/* ---- documents and the example ---- */
+
+Test(library, every_document_can_be_had)
+{
+    opened o = open_one((nh_question){.system = "sleigh", .until = 1});
+    nh_analysis *a = nh_analyze(o.problem, &o.error);
+    nh_reduction *r = nh_reduce(o.problem, &o.error);
+    nh_simulation *s = nh_simulate(o.problem, &o.error);
+    cr_assert(a && r && s, "%s", o.error.what);
+    static const nh_format formats[] = {NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX};
+    static const char *const begin[] = {"", "{", "<!DOCTYPE", ""};
+    for (int f = 0; f < 4; f++) {
+        char *text[] = {nh_analysis_document(a, formats[f], &o.error), nh_reduction_document(r, formats[f], &o.error), formats[f] == NH_FORMAT_LATEX ? NULL : nh_simulation_document(s, formats[f], &o.error)};
+        for (int i = 0; i < 3; i++) {
+            if (!text[i]) continue;
+            cr_expect_gt(strlen(text[i]), 100u);
+            cr_expect_eq(strncmp(text[i], begin[f], strlen(begin[f])), 0, "%.20s", text[i]);
+            nh_string_free(text[i]);
+        }
+    }
+    nh_analysis_free(a);
+    nh_reduction_free(r);
+    nh_simulation_free(s);
+    close_one(&o);
+}
+
+Test(library, the_example_compiles_and_prints_the_currents)
+{
+    char command[1000], line[2000], path[SCRATCH];
+    bool momentum = false, energy = false;
+    const char *build = getenv("NHSYM");
+    FILE *example = fopen("docs/example.c", "r");
+    size_t lines = 0;
+    cr_assert_not_null(example);
+    while (fgets(line, sizeof line, example)) lines++;
+    fclose(example);
+    cr_expect_leq(lines, 45u);
+    scratch_name(path);
+    cr_assert_not_null(mkdtemp(path));
+    bool sane = build && strstr(build, "sanitize");
+    snprintf(command, sizeof command, "${CC:-cc} -std=c17 -Wall -Wextra -Werror %s -Isrc docs/example.c build%s/libnhsym.a $(make -s --no-print-directory print-libraries) -o %s/example && %s/example; rm -r %s",
+             sane ? "-fsanitize=address,undefined" : "", sane ? "-sanitize" : "", path, path, path);
+    FILE *pipe = popen(command, "r");
+    while (pipe && fgets(line, sizeof line, pipe)) {
+        momentum |= strstr(line, "sin(phi/k)") != NULL;
+        energy |= strstr(line, "(proved, ") != NULL;
+    }
+    cr_assert_eq(pclose(pipe), 0);
+    cr_expect(momentum && energy);
+}
