@@ -8,6 +8,9 @@
 
 #include "nhsym.h"
 
+/* part: of the time or work that it may take, in [0, 1]; below 0: not known. */
+typedef void nh_progress_handler(void *context, const char *doing, double part);
+
 /* The one that this thread works for. */
 nh_context *nh_context_here(void);
 /* From now on this thread works for that one; NULL: for that of the process.  Returns the one before. */

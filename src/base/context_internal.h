@@ -8,7 +8,6 @@
 #include <stdint.h>
 
 #include "base/context.h"
-#include "base/progress.h"
 
 enum { nh_context_longest_saying = 80 };
 

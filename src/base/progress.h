@@ -12,9 +12,6 @@
 #include "base/context.h"
 #include "base/error.h"
 
-/* part: of the time or work that it may take, in [0, 1]; below 0: not known. */
-typedef void nh_progress_handler(void *context, const char *doing, double part);
-
 /* NULL: nobody wants to know.  Called from the thread that computes. */
 void nh_progress_set(nh_progress_handler *handler, void *context);
 void nh_progress(const char *doing, double part);

@@ -4,21 +4,7 @@
 #ifndef NH_ANALYZE_H
 #define NH_ANALYZE_H
 
-#include "commands/choice.h"
-#include "search/analysis.h"
-
-typedef struct {
-    const char *command;         /* as it was typed, to be told in reports; may be NULL */
-    const char *system_path;     /* a file */
-    const char *analysis_path;   /* or NULL: the program chooses */
-    size_t settings;             /* --set, after the analysis' own */
-    const nh_setting *setting;
-    nh_chart_choice chart;       /* NH_CHART_AUTO: the analysis' choice */
-    nh_options options;
-    double accuracy;             /* of the motions; 0: that of options.tolerance, unchecked */
-    bool no_figures;             /* those that the analysis asks for stay uncomputed: nobody will look at them */
-    bool seed_given, samples_given, tolerance_given, until_given; /* these options outrank the analysis file's values */
-} nh_analyze_request;
+#include "commands/analyze_request.h"
 
 /* NULL when nothing can be said; otherwise a result, perhaps partial, with warnings. */
 nh_analysis *nh_analysis_create(const nh_analyze_request *request, nh_error *error);

@@ -1,9 +1,9 @@
 /* figures: the curves of the figures that an analysis asks for: paths and quantities along motions, repeated over the values of a parameter, the smallest
  * singular value over an unknown, the gap over the number of samples. */
-#ifndef NH_STUDY_FIGURES_H
-#define NH_STUDY_FIGURES_H
+#ifndef NH_FIGURES_H
+#define NH_FIGURES_H
 
-#include "commands/analyze.h"
+#include "commands/analyze_request.h"
 
 /* Fills result->figure.  A curve that cannot be computed is left out with a warning.  The families are those of the ansatz with the unknowns' values in place;
  * 0 where the program chose it. */

@@ -2,8 +2,11 @@
 #ifndef NH_TAPE_INTERNAL_H
 #define NH_TAPE_INTERNAL_H
 
-#include "evaluate/machine.h"
 #include "evaluate/tape.h"
+
+/* Of machine.h. */
+typedef struct nh_machine nh_machine;
+typedef void nh_machine_code(const double *in, double *out);
 
 typedef enum {
     NH_OP_ADD, NH_OP_SUB, NH_OP_MUL, NH_OP_DIV, NH_OP_NEG, NH_OP_INV, NH_OP_SQUARE, NH_OP_SQRT, NH_OP_POW,

@@ -2,6 +2,7 @@
  * when the compiler is ready; it computes the same bits. */
 
 #include "base/memory.h"
+#include "evaluate/machine.h"
 #include "evaluate/tape_internal.h"
 
 enum { first_look = 500 };

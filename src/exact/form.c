@@ -4,7 +4,7 @@
 
 #include "graph/dag_internal.h"
 #include "exact/print_quotient.h"
-#include "exact/normal.h"
+#include "graph/measure.h"
 
 enum {
     deepest = 300,        /* nodes above each other that are rewritten: what the stack surely bears */

@@ -10,6 +10,7 @@
 #define NH_NORMAL_H
 
 #include "graph/dag.h"
+#include "graph/measure.h"
 
 typedef enum { NH_ZERO, NH_NONZERO, NH_TOO_LARGE } nh_zero_verdict;
 
@@ -36,17 +37,6 @@ nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms);
  * symbol itself; its other symbols satisfy nothing, or something that was said before.  A zero normal form is then a proof wherever this relation holds:
  * on all branches of a constraint that is a polynomial in the symbol.  Say it before the symbol is used. */
 void nh_relate(nh_dag *dag, nh_ex symbol, unsigned order, nh_ex value);
-
-/* Is every number in e a rational?  Is it one of 64 bits, which can be printed as such?  Where an expression has longer ones while its source
- * has none, it is no simpler form. */
-bool nh_is_exact(const nh_dag *dag, nh_ex e);
-bool nh_is_short(const nh_dag *dag, nh_ex e);
-
-/* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
-size_t nh_complexity(const nh_dag *dag, nh_ex e);
-
-/* How many functions, and powers of sums, stand inside of each other at most; whatever was named by a definition counts. */
-size_t nh_nesting(const nh_dag *dag, nh_ex e);
 
 /* Give back what FLINT and Arb keep for their next use; call it last. */
 void nh_normal_cleanup(void);

@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-#include "exact/normal.h"
+#include "base/memory.h"
+#include "graph/measure.h"
 
 /* ---- monomials ---- */
 
@@ -169,32 +170,3 @@ nh_ex nh_print_quotient_terms(const nh_kernels *kernels, const nh_pieces *pieces
     nh_free(exponent);
     return sum;
 }
-
-/* Some number in e is not good. */
-static bool has_bad_number(const nh_dag *dag, nh_ex e, bool (*good)(nh_num), nh_index *seen)
-{
-    uint32_t known;
-    nh_kind kind = nh_kind_of(dag, e);
-    if (kind == NH_NUMBER) return !good(nh_number_of(dag, e));
-    if (kind == NH_SYMBOL || nh_index_get(seen, e, &known)) return false;
-    nh_index_put(seen, e, 0);
-    bool found = kind != NH_FUNCTION && !good(nh_constant_of(dag, e));
-    for (size_t i = 0; i < nh_arity(dag, e) && !found; i++) {
-        found = has_bad_number(dag, nh_child(dag, e, i), good, seen);
-        if (kind == NH_SUM) found = found || !good(nh_coefficient_of(dag, e, i));
-        if (kind == NH_PRODUCT) found = found || has_bad_number(dag, nh_exponent_of(dag, e, i), good, seen);
-    }
-    return found;
-}
-
-static bool all_numbers(const nh_dag *dag, nh_ex e, bool (*good)(nh_num))
-{
-    nh_index seen = {0};
-    bool found = has_bad_number(dag, e, good, &seen);
-    nh_index_clear(&seen);
-    return !found;
-}
-
-bool nh_is_exact(const nh_dag *dag, nh_ex e) { return all_numbers(dag, e, nh_num_exact); }
-
-bool nh_is_short(const nh_dag *dag, nh_ex e) { return all_numbers(dag, e, nh_num_short); }

@@ -7,14 +7,7 @@
 #ifndef NH_RELATION_H
 #define NH_RELATION_H
 
-#include "graph/dag.h"
-
-typedef enum {
-    NH_RELATION_UNIQUE,    /* up to a factor; coefficient[] holds it: polynomials of the parameters without common factor */
-    NH_RELATION_NONE,
-    NH_RELATION_SEVERAL,   /* a space of dimension two or more */
-    NH_RELATION_TOO_LARGE  /* beyond max_terms, or an inexact constant occurs */
-} nh_relation_verdict;
+#include "exact/relation_solve.h"
 
 /* `parameter`: the symbols that count as constants (may be none: then the coefficients are rational numbers). */
 nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter, size_t max_terms,

@@ -2,7 +2,15 @@
 #ifndef NH_RELATION_ROWS_H
 #define NH_RELATION_ROWS_H
 
-#include "exact/relation_solve.h"
+#include "exact/normal_quotient.h"
+
+/* What the unknowns belong to. */
+typedef struct {
+    nh_quotient_field *field;
+    const bool *constant; /* generator -> is it a coefficient?  What a constant is related to must be constant */
+    size_t n;
+    const nh_quotient **value; /* N_j, without denominators */
+} nh_relation_system;
 
 /* A term of N_column. */
 typedef struct {

@@ -7,16 +7,14 @@
 #ifndef NH_RELATION_SOLVE_H
 #define NH_RELATION_SOLVE_H
 
-#include "exact/normal_quotient.h"
-#include "exact/relation.h"
+#include "exact/relation_rows.h"
 
-/* What the unknowns belong to. */
-typedef struct {
-    nh_quotient_field *field;
-    const bool *constant; /* generator -> is it a coefficient?  What a constant is related to must be constant */
-    size_t n;
-    const nh_quotient **value; /* N_j, without denominators */
-} nh_relation_system;
+typedef enum {
+    NH_RELATION_UNIQUE,    /* up to a factor; coefficient[] holds it: polynomials of the parameters without common factor */
+    NH_RELATION_NONE,
+    NH_RELATION_SEVERAL,   /* a space of dimension two or more */
+    NH_RELATION_TOO_LARGE  /* beyond max_terms, or an inexact constant occurs */
+} nh_relation_verdict;
 
 /* The verdict; when unique, c[j] gets quotients without denominators and without common factor. */
 nh_relation_verdict nh_relation_solve(const nh_relation_system *system, const nh_quotient **c);

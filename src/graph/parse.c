@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "exact/normal.h"
+#include "graph/measure.h"
 #include "graph/num_long.h"
 
 enum { max_depth = 200, max_name = 63, max_power = 18 /* of ten, that is exact */, max_typed_power = 310, max_digits = 80 };

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "exact/normal.h"
+#include "graph/measure.h"
 #include "graph/num_long.h"
 
 /* Binding strength of what surrounds an expression. */

@@ -1,100 +1,14 @@
 /* cvode: motions of z' = f(t, z) by CVODE, with dense output, events and an honest account of what happened.
  *
- * The right-hand side comes as a callback, so that this module knows nothing of mechanics.  Tolerances: relative rtol and
- * absolute atol_i, a part of the largest size that the state has had (sizes.h), or rtol * scale_i.  Roots of guard functions are events: a chart's pivot that changes
- * sign stops the integration there (integrators step over chart singularities without any failure flag).
- *
  * Reference: [Hindmarsh2005]. */
 #ifndef NH_CVODE_H
 #define NH_CVODE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
-#include "base/error.h"
-
-typedef enum { NH_ADAMS, NH_BDF } nh_flow_method;
-
-typedef struct {
-    size_t size;
-    void *context;
-    /* z' into rate; false when it cannot be computed there (not finite). */
-    bool (*rate)(double t, const double *z, double *rate, void *context);
-    /* d rate_i / d z_j into jacobian[i + j*size]; may be NULL. */
-    bool (*jacobian)(double t, const double *z, double *jacobian, void *context);
-    size_t guards;
-    /* Guard functions; a sign change ends the motion. May be NULL when guards is 0. */
-    bool (*guard)(double t, const double *z, double *value, void *context);
-    size_t walls;
-    /* Functions that change their sign where the rates have a kink or a jump: steps end there (kinks.h).  May be NULL when walls is 0. */
-    bool (*wall)(double t, const double *z, double *value, void *context);
-} nh_flow_problem;
-
-typedef struct {
-    nh_flow_method method;
-    double rtol;
-    double absolute;         /* below this part of the largest size that a state has had its error is absolute: rtol * absolute * size */
-    const double *least;     /* size entries: the least size of each state; NULL: they come from the motion alone */
-    const double *scale;     /* size entries: rtol * scale[i] instead; NULL and absolute == 0: all 1 */
-    double max_steps;        /* in total; 0: the default of 1e7 */
-    double effort;           /* units of base/effort.h, after which it ends; 0: no limit */
-    bool (*cancelled)(void *context); /* polled; may be NULL */
-    void *cancel_context;
-    double step;             /* of methods with a fixed step */
-    /* Called after every step of a one-step method with the new state, which it may change (a projection); false: it could not. */
-    bool (*after)(double t, double *z, void *context);
-    void *after_context;
-    bool guarded;            /* guards end the motions of one-step methods, too (guards.h); those of CVODE they always do */
-} nh_flow_options;
-
-typedef struct {
-    size_t count;     /* output points reached (the first is the initial state) */
-    size_t size;
-    double *time;     /* count */
-    double *state;    /* count x size, row by row: state[i*size + j] */
-    bool complete;    /* all wanted times were reached */
-    long guard_hit;   /* index of the guard that ended it, or -1 */
-    double end_time;  /* where it ended */
-    double *end_state; /* size: the state there; at a guard it is past the last output, and the next chart starts from it */
-    long evaluations, steps, jacobians;
-    double effort;    /* units of base/effort.h that it took */
-    double seconds;   /* of wall-clock time, to be shown */
-    char note[256];   /* why it ended early, in words */
-} nh_motion;
+#include "motion/motion.h"
 
 /* Integrate from (times[0], initial) and report at times[0..count-1] (monotonic).  A motion that ends early is returned with
  * complete == false and a note; NULL only when nothing could be started (error says why). */
 nh_motion *nh_flow(const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
                    const nh_flow_options *options, nh_error *error);
-void nh_motion_free(nh_motion *motion);
-
-/* ---- what every integrator of this folder shares: flow (CVODE) and chetaev (IDA) ---- */
-
-typedef enum { NH_STEP_ON, NH_STEP_LAST, NH_STEP_FAILED } nh_step;
-
-typedef struct {
-    void *context;
-    /* One step onward; *time is where it led to.  LAST: the final time or a guard is reached.  A failure writes its note. */
-    nh_step (*advance)(double *time, nh_motion *motion, void *context);
-    /* The state at a time inside the last step; false when there is none. */
-    bool (*state)(double time, double *state, void *context);
-    double step_effort;   /* units of one step, beside the right-hand sides and what is counted elsewhere */
-    /* The last NH_STUCK_AFTER steps did not move the time: write the note. */
-    void (*stuck)(nh_motion *motion, void *context);
-} nh_stepper;
-
-enum { NH_STUCK_AFTER = 100 };
-
-/* A motion that holds its initial state, of which `given` values are known; NULL when the times, these values or the options
- * (with `given` scales) make no sense. */
-nh_motion *nh_motion_start(size_t size, size_t given, const double *initial, size_t count, const double *times,
-                           const nh_flow_options *options, nh_error *error);
-/* Step until all times are reached, or something ends the motion early. */
-void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
-                   const nh_stepper *stepper);
-/* rtol, but not below what double precision allows (the note tells). */
-double nh_motion_rtol(nh_motion *motion, const nh_flow_options *options);
-/* Add a sentence to the note. */
-void nh_motion_note(nh_motion *motion, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

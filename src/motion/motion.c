@@ -1,5 +1,5 @@
-/* motion: what all integrators share of flow.h: checks, output, limits. */
-#include "motion/cvode.h"
+/* motion: what all integrators share: checks, output, limits. */
+#include "motion/motion.h"
 
 #include <math.h>
 #include <stdarg.h>

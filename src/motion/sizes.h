@@ -11,7 +11,7 @@
 #ifndef NH_SIZES_H
 #define NH_SIZES_H
 
-#include "motion/cvode.h"
+#include "motion/motion.h"
 
 typedef struct {
     const nh_flow_problem *problem;

@@ -2,19 +2,7 @@
 #ifndef NH_CURRENTS_H
 #define NH_CURRENTS_H
 
-#include "search/analysis.h"
-
-/* What all currents of one result are checked with. */
-typedef struct {
-    nh_analysis *result;
-    nh_points *heldout, *generic; /* points that no fit has seen */
-    nh_terrain terrain;           /* where motions cross walls; of the first current on */
-    bool surveyed;
-    nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
-    bool invertible;
-    size_t nears;                 /* candidates of the present list that are nearly conserved, and only nearly */
-    nh_candidate *near[NH_MOST_ALMOST];
-} nh_current_checker;
+#include "search/current_checker.h"
 
 nh_current_checker *nh_current_checker_create(nh_analysis *result, nh_error *error);
 void nh_current_checker_free(nh_current_checker *bench);

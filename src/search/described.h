@@ -2,7 +2,7 @@
 #ifndef NH_DESCRIBED_H
 #define NH_DESCRIBED_H
 
-#include "search/currents.h"
+#include "search/current_checker.h"
 
 /* Normalise a current, so that the simplest component of its symmetry has the coefficient one; fill in the symmetry, whether it is local (many-valued
  * on an angle), what it means and its form in velocities.  A symmetry that cannot be computed is a warning of the result. */

@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "graph/diff.h"
+#include "system/domain.h"
 #include "system/embedding_internal.h"
 #include "system/sample.h"
 
@@ -78,10 +79,10 @@ static void cloud_fill(nh_constraint_samples *c, uint64_t seed)
     nh_system *s = c->system;
     c->unit = nh_alloc_array(2 * c->m + 1, sizeof *c->unit);
     c->speed = c->unit + c->m;
-    nh_embedding_range(s, s->t, &low[0], &high[0]);
+    nh_domain_range(s, s->t, &low[0], &high[0]);
     for (size_t i = 0; i < c->m; i++) {
-        nh_embedding_range(s, s->coordinate[i].q, &low[1 + i], &high[1 + i]);
-        nh_embedding_range(s, s->coordinate[i].v, &low[1 + c->m + i], &high[1 + c->m + i]);
+        nh_domain_range(s, s->coordinate[i].q, &low[1 + i], &high[1 + i]);
+        nh_domain_range(s, s->coordinate[i].v, &low[1 + c->m + i], &high[1 + c->m + i]);
     }
     for (size_t i = 0; i < c->m; i++) {
         double half = (high[1 + c->m + i] - low[1 + c->m + i]) / 2;

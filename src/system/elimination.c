@@ -8,6 +8,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "system/domain.h"
 #include "system/constraint_samples.h"
 #include "system/embedding_internal.h"
 
@@ -228,7 +229,7 @@ static int branch_of(const nh_constraint_samples *c, size_t which, nh_ex linear)
     in[0] = s->t;
     for (size_t i = 0; i < c->m; i++) in[1 + i] = s->coordinate[i].q, in[1 + c->m + i] = s->coordinate[i].v;
     nh_system_bindings(s, &symbols, &values);
-    nh_embedding_range(s, s->coordinate[which].v, &low, &high);
+    nh_domain_range(s, s->coordinate[which].v, &low, &high);
     nh_tape *tape = nh_tape_create(s->dag, c->width, in, 1, &linear, s->parameters, symbols, values);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t p = 0; p < c->count; p++) {

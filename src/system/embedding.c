@@ -9,6 +9,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "system/domain.h"
 #include "system/embedding_internal.h"
 #include "system/levels.h"
 #include "system/sample.h"
@@ -18,37 +19,6 @@ const double nh_chart_least_pivot = 0.02;
 enum { probe_count = 24, newton_steps = 40 };
 
 /* ---- the sampling box ---- */
-
-static void default_range(const nh_system *s, nh_ex symbol, double *low, double *high)
-{
-    *low = -1.5; /* velocities */
-    *high = 1.5;
-    if (symbol == s->t) {
-        *low = 0;
-        *high = 1;
-    }
-    for (size_t i = 0; i < s->coordinates; i++) {
-        if (s->coordinate[i].q != symbol) continue;
-        double half = s->coordinate[i].type == NH_ANGLE ? 3.14159265358979323846 : 1;
-        *low = -half;
-        *high = half;
-    }
-    for (size_t i = 0; i < s->reaches; i++) {
-        if (s->reach[i].symbol != symbol) continue;
-        *low = fmin(*low, s->reach[i].low);
-        *high = fmax(*high, s->reach[i].high);
-    }
-}
-
-void nh_embedding_range(const nh_system *s, nh_ex symbol, double *low, double *high)
-{
-    default_range(s, symbol, low, high);
-    for (size_t i = 0; i < s->intervals; i++) {
-        if (s->interval[i].symbol != symbol) continue;
-        *low = s->interval[i].low;
-        *high = s->interval[i].high;
-    }
-}
 
 /* ---- the parts that both kinds of chart share ---- */
 
@@ -81,10 +51,10 @@ void nh_embedding_symbols(nh_chart *c)
     for (size_t i = 0; i < s->coordinates; i++) c->symbol[k++] = s->coordinate[i].q;
     for (size_t i = 0; i < c->n; i++) c->symbol[k++] = c->w[i];
     for (size_t i = 0; i < c->implicit; i++) c->symbol[k++] = c->u[i];
-    for (size_t i = 0; i < c->width; i++) nh_embedding_range(s, c->symbol[i], &c->low[i], &c->high[i]);
+    for (size_t i = 0; i < c->width; i++) nh_domain_range(s, c->symbol[i], &c->low[i], &c->high[i]);
 }
 
-void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high) { nh_embedding_range(c->system, symbol, low, high); }
+void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high) { nh_domain_range(c->system, symbol, low, high); }
 
 double nh_symbol_unit(const nh_system *s, nh_ex symbol)
 {

@@ -12,7 +12,6 @@ typedef struct {
 void nh_branches_quadratic(nh_chart *chart, size_t coordinate, const nh_quadratic *quadratic); /* that velocity is this root */
 void nh_branches_note(nh_chart *chart);  /* and other dependent velocities are roots, as they were written */
 
-void nh_embedding_range(const nh_system *system, nh_ex symbol, double *low, double *high);
 nh_chart *nh_embedding_new(nh_system *system, const char *name, size_t n, size_t implicit);
 void nh_embedding_symbols(nh_chart *chart);          /* symbol, low, high from w and u */
 double nh_embedding_score(void *chart, nh_ex e);     /* nh_pivot_score over the probes */

@@ -6,7 +6,7 @@
 #include "base/linalg.h"
 #include "graph/diff.h"
 #include "evaluate/tape.h"
-#include "system/embedding_internal.h"
+#include "system/domain.h"
 #include "system/sample.h"
 
 enum { starts = 240, newton_steps = 80, enough_starts = 20, deepest = 60 };
@@ -200,7 +200,7 @@ static bool has_point(nh_system *s, size_t k, const nh_ex *level, uint64_t seed)
         double scale = pow(farthest, (double)i / starts);
         for (size_t j = 0; j < x.width; j++) {
             double low, high;
-            nh_embedding_range(s, j ? s->coordinate[j - 1].q : s->t, &low, &high);
+            nh_domain_range(s, j ? s->coordinate[j - 1].q : s->t, &low, &high);
             z[j] = (low + high) / 2 + (j ? scale : 1) * (high - low) * (nh_random(&seed) - 0.5);
         }
         int end = descend(&x, z);

@@ -4,6 +4,7 @@
 
 #include "evaluate/tape.h"
 #include "exact/walls.h"
+#include "system/domain.h"
 #include "system/embedding_internal.h"
 
 /* How far out of the interval a wall is looked for, in half widths, and in how many steps. */
@@ -67,7 +68,7 @@ static void reach(nh_system *s, nh_ex wall, nh_ex symbol)
         value[i] = s->parameter[i].value;
     }
     nh_tape *tape = nh_tape_create(s->dag, 1, &symbol, 1, &wall, s->parameters, parameter, value);
-    nh_embedding_range(s, symbol, &low, &high);
+    nh_domain_range(s, symbol, &low, &high);
     roots_around(tape, low, high, &below, &above);
     nh_tape_free(tape);
     double half = (high - low) / 2, margin = half / 2;

@@ -1,0 +1,150 @@
+/* measure: see measure.h.  Each node is looked at once. */
+#include "graph/measure.h"
+
+#include "base/memory.h"
+#include "graph/index.h"
+
+/* ---- how long it looks ---- */
+
+static const size_t endless = SIZE_MAX / 4; /* a shared graph can be exponentially long on paper */
+
+static size_t plus(size_t a, size_t b) { return a + b < endless ? a + b : endless; }
+
+static size_t length_of(const nh_dag *dag, nh_ex e, nh_index *known);
+
+static size_t number_length(nh_num c) { return (c.q > 1 ? 3 : 1) + (nh_num_value(c) < 0); }
+
+/* A number in front of something: what it adds, with its operators. */
+static size_t coefficient_length(nh_num c)
+{
+    if (!nh_num_short(c)) return 2;
+    return (c.p != 1 && c.p != -1 ? 2 : 0) + (c.q != 1 ? 2 : 0);
+}
+
+static size_t in_parentheses(const nh_dag *dag, nh_ex e, nh_index *known)
+{
+    return plus(length_of(dag, e, known), nh_kind_of(dag, e) == NH_SUM);
+}
+
+static size_t sum_length(const nh_dag *dag, nh_ex e, nh_index *known)
+{
+    size_t n = nh_arity(dag, e), length = n - 1;
+    nh_num constant = nh_constant_of(dag, e);
+    if (!nh_num_is(constant, 0)) length += constant.q > 1 ? 4 : 2;
+    for (size_t i = 0; i < n; i++) {
+        length = plus(length, coefficient_length(nh_coefficient_of(dag, e, i)));
+        length = plus(length, length_of(dag, nh_child(dag, e, i), known));
+    }
+    return length;
+}
+
+/* b^x with the sign of x left to the fraction bar */
+static size_t factor_length(const nh_dag *dag, nh_ex base, nh_ex exponent, nh_index *known)
+{
+    if (nh_kind_of(dag, exponent) != NH_NUMBER)
+        return plus(plus(in_parentheses(dag, base, known), 1), in_parentheses(dag, exponent, known));
+    nh_num x = nh_number_of(dag, exponent);
+    if (x.q == 1 && (x.p == 1 || x.p == -1)) return in_parentheses(dag, base, known);
+    if (x.q == 2 && (x.p == 1 || x.p == -1)) return plus(1, length_of(dag, base, known));
+    return plus(in_parentheses(dag, base, known), x.q > 1 ? 4 : 2);
+}
+
+static size_t product_length(const nh_dag *dag, nh_ex e, nh_index *known)
+{
+    size_t above = 0, below = 0, length = 0;
+    nh_num c = nh_constant_of(dag, e);
+    if (!nh_num_short(c) || (c.p != 1 && c.p != -1)) above++;
+    if (c.q > 1) below++;
+    length = above + below + (nh_num_value(c) < 0);
+    for (size_t i = 0; i < nh_arity(dag, e); i++) {
+        nh_ex x = nh_exponent_of(dag, e, i);
+        bool under = nh_kind_of(dag, x) == NH_NUMBER && nh_num_value(nh_number_of(dag, x)) < 0;
+        if (under) below++;
+        else above++;
+        length = plus(length, factor_length(dag, nh_child(dag, e, i), x, known));
+    }
+    if (!above) length = plus(length, above = 1); /* 1/... */
+    return plus(length, above + below - 1 + (below > 1)); /* operators; a denominator in parentheses */
+}
+
+static size_t length_of(const nh_dag *dag, nh_ex e, nh_index *known)
+{
+    uint32_t found;
+    size_t length = 1;
+    nh_kind kind = nh_kind_of(dag, e);
+    if (kind == NH_SYMBOL) return 1;
+    if (kind == NH_NUMBER) return number_length(nh_number_of(dag, e));
+    if (nh_index_get(known, e, &found)) return found == UINT32_MAX ? endless : found;
+    if (kind == NH_SUM) length = sum_length(dag, e, known);
+    else if (kind == NH_PRODUCT) length = product_length(dag, e, known);
+    else
+        for (size_t i = 0; i < nh_arity(dag, e); i++) length = plus(length, length_of(dag, nh_child(dag, e, i), known));
+    nh_index_put(known, e, length < UINT32_MAX ? (uint32_t)length : UINT32_MAX);
+    return length;
+}
+
+size_t nh_complexity(const nh_dag *dag, nh_ex e)
+{
+    nh_index known = {0};
+    size_t length = length_of(dag, e, &known);
+    nh_index_clear(&known);
+    return length;
+}
+
+/* ---- how deep it is ---- */
+
+static size_t nesting(const nh_dag *dag, nh_ex e, nh_index *known)
+{
+    uint32_t found;
+    size_t most = 0, n = nh_arity(dag, e);
+    nh_kind kind = nh_kind_of(dag, e);
+    if (kind == NH_NUMBER || kind == NH_SYMBOL) return 0;
+    if (nh_index_get(known, e, &found)) return found;
+    for (size_t i = 0; i < n; i++) {
+        nh_ex child = nh_child(dag, e, i), exponent = kind == NH_PRODUCT ? nh_exponent_of(dag, e, i) : 0;
+        size_t here = nesting(dag, child, known) + (kind == NH_FUNCTION || (kind == NH_PRODUCT && nh_kind_of(dag, child) == NH_SUM));
+        if (here > most) most = here;
+        if (kind == NH_PRODUCT && (here = nesting(dag, exponent, known) + (nh_kind_of(dag, exponent) != NH_NUMBER)) > most) most = here;
+    }
+    nh_index_put(known, e, (uint32_t)most);
+    return most;
+}
+
+size_t nh_nesting(const nh_dag *dag, nh_ex e)
+{
+    nh_index known = {0};
+    size_t most = nesting(dag, e, &known);
+    nh_index_clear(&known);
+    return most;
+}
+
+/* ---- its numbers ---- */
+
+/* Some number in e is not good. */
+static bool has_bad_number(const nh_dag *dag, nh_ex e, bool (*good)(nh_num), nh_index *seen)
+{
+    uint32_t known;
+    nh_kind kind = nh_kind_of(dag, e);
+    if (kind == NH_NUMBER) return !good(nh_number_of(dag, e));
+    if (kind == NH_SYMBOL || nh_index_get(seen, e, &known)) return false;
+    nh_index_put(seen, e, 0);
+    bool found = kind != NH_FUNCTION && !good(nh_constant_of(dag, e));
+    for (size_t i = 0; i < nh_arity(dag, e) && !found; i++) {
+        found = has_bad_number(dag, nh_child(dag, e, i), good, seen);
+        if (kind == NH_SUM) found = found || !good(nh_coefficient_of(dag, e, i));
+        if (kind == NH_PRODUCT) found = found || has_bad_number(dag, nh_exponent_of(dag, e, i), good, seen);
+    }
+    return found;
+}
+
+static bool all_numbers(const nh_dag *dag, nh_ex e, bool (*good)(nh_num))
+{
+    nh_index seen = {0};
+    bool found = has_bad_number(dag, e, good, &seen);
+    nh_index_clear(&seen);
+    return !found;
+}
+
+bool nh_is_exact(const nh_dag *dag, nh_ex e) { return all_numbers(dag, e, nh_num_exact); }
+
+bool nh_is_short(const nh_dag *dag, nh_ex e) { return all_numbers(dag, e, nh_num_short); }

@@ -1,0 +1,18 @@
+/* current_checker: what all currents of one analysis are checked with. */
+#ifndef NH_CURRENT_CHECKER_H
+#define NH_CURRENT_CHECKER_H
+
+#include "search/analysis.h"
+
+typedef struct {
+    nh_analysis *result;
+    nh_points *heldout, *generic; /* points that no fit has seen */
+    nh_terrain terrain;           /* where motions cross walls; of the first current on */
+    bool surveyed;
+    nh_ex *inverse;               /* the chart's velocities in coordinate velocities */
+    bool invertible;
+    size_t nears;                 /* candidates of the present list that are nearly conserved, and only nearly */
+    nh_candidate *near[NH_MOST_ALMOST];
+} nh_current_checker;
+
+#endif
