@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "motion/cvode.h"
 #include "motion/ensemble.h"
 
 enum { members = 10000, repetitions = 3, outputs = 2 };
@@ -36,7 +37,7 @@ static double one_by_one(const nh_trajectory_request *q, size_t size, const doub
     nh_flow_options how = {.method = NH_ADAMS, .max_steps = 1e9, .rtol = q->options->tolerance, .scale = scale};
     for (size_t k = 0; k < members; k++) {
         const double *z = initial + k * size;
-        nh_motion *motion = end ? nh_gsl_odeiv(NH_RK8PD, &problem, z, q->count, q->times, &how, &error) : nh_flow(&problem, z, q->count, q->times, &how, &error);
+        nh_motion *motion = end ? nh_gsl_odeiv(NH_RK8PD, &problem, z, q->count, q->times, &how, &error) : nh_cvode(&problem, z, q->count, q->times, &how, &error);
         seconds += motion->seconds;
         if (end) memcpy(end + k * size, motion->state + (motion->count - 1) * size, size * sizeof *end);
         nh_motion_free(motion);

@@ -18,6 +18,14 @@ awk '
         else if (level[part[1]] > level[path[2]]) print FILENAME ": includes " quoted[2] " of a higher layer"
     }' src/*/*.c src/*/*.h >>"$offences"
 
+# ---- modules include each other in one direction: no circle, also inside of a folder (NAME.h, NAME.c and NAME_internal.h are one module) ----
+circles=$(for file in src/*/*.c src/*/*.h; do
+    module=${file#src/}
+    module=${module%.[ch]}
+    sed -n 's/^[ \t]*#[ \t]*include[ \t]*"\(.*\)\.h".*/\1/p' "$file" | while read -r other; do echo "${module%_internal} ${other%_internal}"; done
+done | awk '$1 != $2' | tsort 2>&1 >/dev/null | sed -n 's/^tsort: \(.*\/.*\)/\1/p' | tr '\n' ' ')
+[ -z "$circles" ] || echo "modules that include each other in a circle: $circles" >>"$offences"
+
 # ---- a third-party header stands where docs/architecture.md says, and nowhere else ----
 standard=" assert.h complex.h ctype.h errno.h float.h inttypes.h limits.h math.h setjmp.h stdarg.h stdatomic.h stdbool.h stddef.h stdint.h stdio.h stdlib.h string.h time.h"
 standard="$standard dirent.h fcntl.h getopt.h pthread.h signal.h strings.h sys/resource.h sys/stat.h sys/time.h sys/types.h sys/wait.h unistd.h "

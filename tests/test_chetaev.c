@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "motion/cvode.h"
 #include "motion/chetaev.h"
 
 static void grid(size_t count, double from, double to, double *times)
@@ -95,7 +96,7 @@ static nh_motion *pendulum_reference(const double *times)
     nh_flow_problem problem = {.size = 2, .rate = pendulum_angle, .context = &ratio};
     nh_flow_options options = {.rtol = 1e-13};
     nh_error error = {0};
-    nh_motion *motion = nh_flow(&problem, start, PENDULUM_TIMES, times, &options, &error);
+    nh_motion *motion = nh_cvode(&problem, start, PENDULUM_TIMES, times, &options, &error);
     cr_assert(motion && motion->complete);
     return motion;
 }
@@ -259,7 +260,7 @@ Test(chetaev, sleigh_on_a_slope_against_the_reduced_equations)
         nh_flow_problem reduced = {.size = 3, .rate = sleigh_reduced, .context = &d};
         nh_flow_options options = {.rtol = 1e-13};
         nh_error error = {0};
-        nh_motion *exact = nh_flow(&reduced, reduced_start, SLEIGH_TIMES, times, &options, &error);
+        nh_motion *exact = nh_cvode(&reduced, reduced_start, SLEIGH_TIMES, times, &options, &error);
         nh_chetaev_problem problem = {.coordinates = 3, .constraints = 1, .context = &d, .terms = sleigh};
         nh_chetaev_motion *result = run(&problem, start, SLEIGH_TIMES, times, 1e-10);
         cr_assert(exact && exact->complete && result->motion->complete, "%s", result->motion->note);

@@ -118,7 +118,7 @@ static nh_motion *run(const nh_flow_problem *problem, const double *initial, siz
                       const nh_flow_options *options)
 {
     nh_error error = {0};
-    nh_motion *motion = nh_flow(problem, initial, count, times, options, &error);
+    nh_motion *motion = nh_cvode(problem, initial, count, times, options, &error);
     cr_assert(motion && error.code == NH_OK, "%s", error.what);
     return motion;
 }
@@ -426,7 +426,7 @@ static void assert_refused(const nh_flow_problem *problem, const double *initial
                            const nh_flow_options *options, nh_code code, const char *words)
 {
     nh_error error = {0};
-    cr_assert_null(nh_flow(problem, initial, count, times, options, &error));
+    cr_assert_null(nh_cvode(problem, initial, count, times, options, &error));
     cr_expect_eq(error.code, code);
     cr_expect_not_null(strstr(error.what, words), "\"%s\" lacks \"%s\"", error.what, words);
 }

@@ -4,6 +4,7 @@
  * single numbers.  NHSYM_TEST_FIGURES=1 prints the worst of each kind. */
 #include "oracle.h"
 
+#include "motion/cvode.h"
 #include "motion/validation.h"
 
 static const double TIGHT = 1e-12;
@@ -186,7 +187,7 @@ static void flow(const nh_model *o, const nh_state *initial, double end, double 
     must(nh_dynamics_start(d, initial, false, z, &error), &error, "the initial state");
     nh_flow_problem problem = nh_dynamics_problem(d);
     nh_flow_options options = {.method = NH_ADAMS, .rtol = 1e-10, .scale = scale};
-    nh_motion *m = nh_flow(&problem, z, 2, times, &options, &error);
+    nh_motion *m = nh_cvode(&problem, z, 2, times, &options, &error);
     must(m != NULL && m->complete, &error, "the motion");
     memcpy(state, m->state + m->size, m->size * sizeof *state);
     nh_motion_free(m);

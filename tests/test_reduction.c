@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "motion/cvode.h"
 #include "motion/dynamics.h"
 #include "reduction/chaplygin.h"
 #include "reduction/group.h"
@@ -34,7 +35,7 @@ static double *full_motion(const reducible *x, const double *q, const double *v,
     double *z = nh_alloc_array(2 * m, sizeof *z), *out = nh_alloc_array(count * m, sizeof *out);
     memcpy(z, q, m * sizeof *z);
     memcpy(z + m, v, m * sizeof *z);
-    nh_motion *motion = nh_flow(&problem, z, count, times, &options, &error);
+    nh_motion *motion = nh_cvode(&problem, z, count, times, &options, &error);
     must(motion && motion->complete, &error, "the full motion");
     for (size_t i = 0; i < count; i++) memcpy(out + i * m, motion->state + i * 2 * m, m * sizeof *out);
     nh_motion_free(motion);
@@ -450,7 +451,7 @@ static void twice_against_once(const char *name, nh_system *system, const size_t
     nh_reduced_flow *flow = nh_reduced_flow_create(&s.c.reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
     nh_flow_options options = {.method = NH_ADAMS, .rtol = s.options.tolerance};
-    nh_motion *once = nh_flow(&problem, z, count, times, &options, &error);
+    nh_motion *once = nh_cvode(&problem, z, count, times, &options, &error);
     must(once && once->complete, &error, name);
     double off = 0, drift = 0, momentum[20], start[20], curvature[500], most = 0;
     for (size_t i = 0; i < count; i++) {

@@ -9,7 +9,7 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "geometry/bordered.h"
-#include "geometry/regular.h"
+#include "geometry/model.h"
 #include "reduction/subspace.h"
 #include "commands/reduce_internal.h"
 #include "commands/simulate.h"

@@ -7,7 +7,6 @@
 #include "base/progress.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
-#include "geometry/regular.h"
 #include "system/embedding.h"
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }

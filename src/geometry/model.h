@@ -66,4 +66,11 @@ nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
 /* The energy of the system as an expression of the chart, and an expression of coordinate velocities brought to the chart. */
 nh_ex nh_model_compose(const nh_model *model, nh_ex e);
 
+/* ---- has every independent velocity inertia? (model_regular.c) ---- */
+
+/* Of a model, bare or not: false, with the directions that have no inertia, where M is singular at every probe. */
+bool nh_model_regular(const nh_model *model, nh_error *error);
+/* Says so; returns false. */
+bool nh_model_singular(const nh_model *model, nh_error *error);
+
 #endif

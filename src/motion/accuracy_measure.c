@@ -1,8 +1,8 @@
-/* accuracy_measure: how far two runs of a motion are apart, and how the second is begun beside the first (accuracy.h). */
+#include "motion/accuracy_measure.h"
+
 #include <math.h>
 
 #include "graph/terms.h"
-#include "motion/accuracy.h"
 #include "motion/vanishing.h"
 
 void nh_accuracy_disturb(size_t n, const double *from, double *to)

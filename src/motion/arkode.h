@@ -4,7 +4,7 @@
 #ifndef NH_ARKODE_H
 #define NH_ARKODE_H
 
-#include "motion/cvode.h"
+#include "motion/motion.h"
 
 typedef enum { NH_DORMAND_PRINCE_5, NH_VERNER_6, NH_FEHLBERG_8, NH_ESDIRK_5 } nh_arkode_method;
 

@@ -13,7 +13,7 @@
 #ifndef NH_CHETAEV_H
 #define NH_CHETAEV_H
 
-#include "motion/cvode.h"
+#include "motion/motion.h"
 
 typedef struct {
     size_t coordinates; /* m */

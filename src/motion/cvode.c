@@ -15,7 +15,7 @@
 #include "base/effort.h"
 #include "base/linalg.h"
 #include "base/memory.h"
-#include "motion/kinks.h"
+#include "motion/kink_crossing.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"
 
@@ -154,7 +154,7 @@ static bool cvode_state(double time, double *state, void *context)
 {
     cvode_work *work = context;
     if (work->across)
-        return nh_kinks_state(work->across, time, state);
+        return nh_kink_crossing_state(work->across, time, state);
     if (CVodeGetDky(work->cvode, time, 0, work->state) != CV_SUCCESS)
         return false;
     memcpy(state, NV_DATA_S(work->state), work->problem->size * sizeof *state);
@@ -190,8 +190,8 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     count_set_ups(work);
     if (flag >= 0) {
         nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
-        nh_kink_leap leap = {before, *time, work->old, &work->sizes, work->rtol, work->count, work->times};
-        work->across = nh_kinks_across(&work->kinks, work->problem, &leap, cvode_state, work, motion);
+        nh_kink_crossing leap = {before, *time, work->old, &work->sizes, work->rtol, work->count, work->times};
+        work->across = nh_kink_crossing_make(&work->kinks, work->problem, &leap, cvode_state, work, motion);
     }
     if (work->across) {
         *time = work->across->end_time;
@@ -270,7 +270,7 @@ static bool check_start(const nh_flow_problem *problem, double t, const double *
     return nh_error_hint(error, "check the initial values, or use coordinates that are regular there");
 }
 
-nh_motion *nh_flow(const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
+nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
                    const nh_flow_options *options, nh_error *error)
 {
     nh_motion *motion = nh_motion_start(problem->size, problem->size, initial, count, times, options, error);

@@ -6,7 +6,7 @@
 #ifndef NH_GSL_ODEIV_H
 #define NH_GSL_ODEIV_H
 
-#include "motion/cvode.h"
+#include "motion/motion.h"
 
 typedef enum { NH_RK8PD, NH_RKF45, NH_MSADAMS } nh_gsl_odeiv_method;
 

@@ -7,14 +7,12 @@
 #include "base/linalg.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "motion/gsl_odeiv.h"
 
 enum { points = 9, most_depth = 40, most_samples = 4096, many = 20, most_halvings = 200 };
 static const double resolved_to = 0.1;    /* of the range of a wall's function in a step: how well its samples foretell each other */
 static const double rounding = 1e-12;     /* of its size */
 static const double roundings = 16;       /* of the time, in `least` */
 static const double nearer = 1e-3;        /* of the way to a wall is left by a step towards it */
-static const double few = 64;             /* in `least`: at least so far behind a wall, and as far as it was to it, a one-step method goes */
 static const double no_time = 1e-6;       /* of the whole motion: so many crossings in less would be more than there can be steps */
 
 static void take_sides(nh_kinks *k, double t, const double *z)
@@ -150,7 +148,7 @@ static double scan(look *l, double begin, double end, int depth)
 }
 
 /* From now on the motion is behind the wall, at the state in k->z. */
-static void go_over(nh_kinks *k, double t, nh_motion *motion)
+void nh_kinks_go_over(nh_kinks *k, double t, nh_motion *motion)
 {
     k->crossed++;
     take_sides(k, t, k->z);
@@ -172,7 +170,7 @@ static bool ends_on_wall(nh_kinks *k, double t, look *l)
     return on;
 }
 
-static double first_within(nh_kinks *k, double before, double now, nh_inside *state, void *context)
+double nh_kinks_first(nh_kinks *k, double before, double now, nh_inside *state, void *context)
 {
     look l = {k, state, context};
     k->samples = 0;
@@ -221,7 +219,7 @@ nh_kink_verdict nh_kinks_judge(nh_kinks *k, const nh_flow_problem *p, double bef
     memcpy(k->ends + n, z, n * sizeof *z);
     bool good = p->rate(before, old, k->ends + 2 * n, p->context) && p->rate(now, z, k->ends + 3 * n, p->context);
     segment s = {k, before, now};
-    double at = good ? first_within(k, before, now, between, &s) : NAN, way = fabs(now - before);
+    double at = good ? nh_kinks_first(k, before, now, between, &s) : NAN, way = fabs(now - before);
     if (!good) { /* exactly on a wall, where there may be no rates: fall short of it, or go a little further */
         k->longest = way > 2 * k->least ? way / 2 : 1.5 * way;
         k->seen = INFINITY;
@@ -240,57 +238,6 @@ nh_kink_verdict nh_kinks_judge(nh_kinks *k, const nh_flow_problem *p, double bef
         return NH_KINK_BACK;
     }
     memcpy(k->z, z, n * sizeof *z);
-    go_over(k, now, motion);
+    nh_kinks_go_over(k, now, motion);
     return k->held ? NH_KINK_END : NH_KINK_CROSSED;
-}
-
-/* ---- methods with many steps behind them ---- */
-
-/* Its beginning, the wanted times in it, its end. */
-static size_t times_of(const nh_kink_leap *l, double end, double *times)
-{
-    size_t n = 0;
-    bool backward = end < l->before;
-    times[n++] = l->before;
-    for (size_t i = 0; i < l->count; i++)
-        if (backward ? l->times[i] < l->before && l->times[i] > end : l->times[i] > l->before && l->times[i] < end) times[n++] = l->times[i];
-    times[n++] = end;
-    return n;
-}
-
-static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p, const nh_kink_leap *l, double end)
-{
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    double *times = nh_alloc_array(l->count + 2, sizeof *times), *scale = nh_alloc_array(k->size, sizeof *scale);
-    for (size_t i = 0; i < k->size; i++) scale[i] = nh_sizes_absolute(l->sizes, l->rtol, i) / l->rtol;
-    nh_flow_options options = {.rtol = l->rtol, .scale = scale, .guarded = true, .cancelled = nh_interrupted_callback};
-    size_t count = times_of(l, end, times);
-    nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored); /* stages that are solved for would be too inexact to come near a wall */
-    nh_free(scale);
-    nh_free(times);
-    return motion;
-}
-
-nh_motion *nh_kinks_across(nh_kinks *k, const nh_flow_problem *p, const nh_kink_leap *l, nh_inside *state, void *context, nh_motion *motion)
-{
-    if (!k->walls || l->now == l->before) return NULL;
-    double at = first_within(k, l->before, l->now, state, context), last = l->times[l->count - 1];
-    if (isnan(at)) return NULL;
-    double end = at + copysign(fmax(fabs(at - l->before), few * k->least), l->now - l->before);
-    if (fabs(end - l->before) > fabs(last - l->before)) end = last;
-    nh_motion *across = by_one_step_method(k, p, l, end);
-    if (!across) return NULL;
-    if (!across->complete || across->note[0]) nh_motion_note(motion, "%s", across->note);
-    motion->guard_hit = across->guard_hit;
-    memcpy(k->z, across->end_state, k->size * sizeof *k->z);
-    go_over(k, across->end_time, motion);
-    return across;
-}
-
-bool nh_kinks_state(const nh_motion *across, double time, double *state)
-{
-    for (size_t i = 0; i < across->count; i++)
-        if (across->time[i] == time) return memcpy(state, across->state + i * across->size, across->size * sizeof *state), true;
-    return false;
 }

@@ -37,23 +37,7 @@ void nh_kinks_watch(nh_kinks *kinks, size_t walls, bool (*wall)(double t, const 
 void nh_kinks_coarser(nh_kinks *kinks, double time);
 void nh_kinks_clear(nh_kinks *kinks);
 
-/* A step of a method with many steps behind it. */
-typedef struct {
-    double before, now;
-    const double *old;      /* the state before it */
-    const nh_sizes *sizes;
-    double rtol;
-    size_t count;           /* times that are wanted */
-    const double *times;
-} nh_kink_leap;
-
-/* Was there a wall in the step?  NULL: no.  Otherwise the motion from before the step to behind the wall by a one-step method, at the times that are wanted and at its end. */
-nh_motion *nh_kinks_across(nh_kinks *kinks, const nh_flow_problem *problem, const nh_kink_leap *leap, nh_inside *state, void *context, nh_motion *motion);
-
 typedef enum { NH_KINK_NONE, NH_KINK_BACK, NH_KINK_CROSSED, NH_KINK_END } nh_kink_verdict;
-
-/* The state of such a motion at one of its times. */
-bool nh_kinks_state(const nh_motion *across, double time, double *state);
 
 /* A one-step method evaluates the rates at (t, z). */
 void nh_kinks_see(nh_kinks *kinks, double t, const double *z);
@@ -61,5 +45,10 @@ void nh_kinks_see(nh_kinks *kinks, double t, const double *z);
 /* A one-step method came from `old` at `before` to `z` at `now`.  BACK: take the step back, and make none that is longer than kinks->longest.  CROSSED: go on, and forget what
  * was before.  END: the motion cannot leave the wall, and ends (the note says so). */
 nh_kink_verdict nh_kinks_judge(nh_kinks *kinks, const nh_flow_problem *problem, double before, const double *old, double now, const double *z, nh_motion *motion);
+
+/* The first time in a step at which a wall is crossed (NAN: none); `state` gives the states inside of it. */
+double nh_kinks_first(nh_kinks *kinks, double before, double now, nh_inside *state, void *context);
+/* From now on the motion is behind the wall, at the state in kinks->z. */
+void nh_kinks_go_over(nh_kinks *kinks, double t, nh_motion *motion);
 
 #endif

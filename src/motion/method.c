@@ -1,3 +1,4 @@
+#include "motion/cvode.h"
 #include "motion/method.h"
 
 #include <string.h>
@@ -41,7 +42,7 @@ nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *proble
     case NH_METHOD_ARKODE: return nh_arkode((nh_arkode_method)method->kind, problem, initial, count, times, options, error);
     default:
         own.method = (nh_flow_method)method->kind;
-        return nh_flow(problem, initial, count, times, &own, error);
+        return nh_cvode(problem, initial, count, times, &own, error);
     }
 }
 

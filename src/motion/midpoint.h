@@ -17,7 +17,7 @@
 #ifndef NH_MIDPOINT_H
 #define NH_MIDPOINT_H
 
-#include "motion/cvode.h"
+#include "motion/motion.h"
 #include "motion/programs.h"
 
 typedef enum { NH_MIDPOINT, NH_LAGRANGE_DALEMBERT, NH_ENERGY } nh_midpoint_rule;

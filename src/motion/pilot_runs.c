@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "base/effort.h"
 #include "base/progress.h"
-#include "motion/accuracy.h"
+#include "motion/accuracy_measure.h"
 
 enum { least_outputs = 9, most_outputs = 1000, most_runs = 3 };
 static const double share = 1.0 / 16, most_part = 0.25; /* of the budget, that the best known way takes for the piece; of the motion */

@@ -7,7 +7,7 @@
 #ifndef NH_RELAXATION_H
 #define NH_RELAXATION_H
 
-#include "motion/cvode.h"
+#include "motion/motion.h"
 #include "motion/programs.h"
 
 typedef enum { NH_RELAXATION_4, NH_RELAXATION_8 } nh_relaxation_rule; /* the classical method, and the pair of order 8 of tableau.h */

@@ -5,7 +5,7 @@
 #ifndef NH_SAFEGUARDS_H
 #define NH_SAFEGUARDS_H
 
-#include "motion/cvode.h"
+#include "motion/motion.h"
 
 typedef enum { NH_GUARD_KEPT, NH_GUARD_BACK, NH_GUARD_END } nh_guard_verdict;
 

@@ -1,3 +1,4 @@
+#include "motion/cvode.h"
 #include "motion/trajectory.h"
 
 #include <float.h>
@@ -249,7 +250,7 @@ bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double
     if (method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(nh_dynamics_model(dynamics))) return false;
     how.method = NH_ADAMS;
     how.rtol = fmax(how.rtol, loose);
-    nh_motion *motion = nh_flow(&problem, z0, 2, times, &how, &ignored);
+    nh_motion *motion = nh_cvode(&problem, z0, 2, times, &how, &ignored);
     bool met = motion && motion->guard_hit >= 0;
     nh_motion_free(motion);
     return met;

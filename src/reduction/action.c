@@ -110,7 +110,8 @@ static void find_constants(nh_action *g, const nh_options *options)
         if (nh_recognise_ratio(c, 1000, options->same, &x)) c = nh_num_value(x);
         g->algebra.c[i] = zero ? 0 : -c;
     }
-    nh_constants_find(g, b, options);
+    g->constant = nh_arena_alloc(k->arena, (d * d * d + 1) * sizeof *g->constant);
+    nh_constants_find(k, d, g->generator, g->algebra.c, b, options, g->constant);
     nh_free(e);
     nh_free(b);
     nh_free(E);

@@ -7,9 +7,9 @@
 #ifndef NH_CONSTANTS_H
 #define NH_CONSTANTS_H
 
-#include "reduction/action.h"
+#include "reduction/invariance.h"
 
-/* action->constant; `bracket`: d x d x m components of [e_a, e_b]. */
-void nh_constants_find(nh_action *action, const nh_ex *bracket, const nh_options *options);
+/* constant: d x d x d, from the numbers c; bracket: d x d x m components of [e_a, e_b]. */
+void nh_constants_find(const nh_kinetic *kinetic, size_t d, const nh_generator *generator, const double *c, const nh_ex *bracket, const nh_options *options, nh_ex *constant);
 
 #endif

@@ -7,7 +7,7 @@
 #ifndef NH_REDUCED_H
 #define NH_REDUCED_H
 
-#include "motion/cvode.h"
+#include "motion/motion.h"
 #include "reduction/slice.h"
 
 /* Functions of x in a matrix (rows x columns, row-major) whose chosen columns, as many as rows, must stay independent. */

@@ -1,4 +1,11 @@
-#include "geometry/regular.h"
+/* model_regular: has every independent velocity inertia?
+ *
+ * The equations of motion determine the accelerations only where the mass matrix on the constraint submanifold is regular:
+ *
+ *     M = R^T K R,   K_rs = d^2 L / dv^r dv^s,   R = d rho / dw          [docs/method.md, sec. 2]
+ *
+ * It is evaluated at the probes of the chart, so that a singular Lagrangian is refused before anything is simplified. */
+#include "geometry/model.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,0 +1,59 @@
+#include "motion/kink_crossing.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/progress.h"
+#include "motion/gsl_odeiv.h"
+
+static const double few = 64; /* in `least`: at least so far behind a wall, and as far as it was to it, a one-step method goes */
+
+/* Its beginning, the wanted times in it, its end. */
+static size_t times_of(const nh_kink_crossing *l, double end, double *times)
+{
+    size_t n = 0;
+    bool backward = end < l->before;
+    times[n++] = l->before;
+    for (size_t i = 0; i < l->count; i++)
+        if (backward ? l->times[i] < l->before && l->times[i] > end : l->times[i] > l->before && l->times[i] < end) times[n++] = l->times[i];
+    times[n++] = end;
+    return n;
+}
+
+static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p, const nh_kink_crossing *l, double end)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    double *times = nh_alloc_array(l->count + 2, sizeof *times), *scale = nh_alloc_array(k->size, sizeof *scale);
+    for (size_t i = 0; i < k->size; i++) scale[i] = nh_sizes_absolute(l->sizes, l->rtol, i) / l->rtol;
+    nh_flow_options options = {.rtol = l->rtol, .scale = scale, .guarded = true, .cancelled = nh_interrupted_callback};
+    size_t count = times_of(l, end, times);
+    nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored); /* stages that are solved for would be too inexact to come near a wall */
+    nh_free(scale);
+    nh_free(times);
+    return motion;
+}
+
+nh_motion *nh_kink_crossing_make(nh_kinks *k, const nh_flow_problem *p, const nh_kink_crossing *l, nh_inside *state, void *context, nh_motion *motion)
+{
+    if (!k->walls || l->now == l->before) return NULL;
+    double at = nh_kinks_first(k, l->before, l->now, state, context), last = l->times[l->count - 1];
+    if (isnan(at)) return NULL;
+    double end = at + copysign(fmax(fabs(at - l->before), few * k->least), l->now - l->before);
+    if (fabs(end - l->before) > fabs(last - l->before)) end = last;
+    nh_motion *across = by_one_step_method(k, p, l, end);
+    if (!across) return NULL;
+    if (!across->complete || across->note[0]) nh_motion_note(motion, "%s", across->note);
+    motion->guard_hit = across->guard_hit;
+    memcpy(k->z, across->end_state, k->size * sizeof *k->z);
+    nh_kinks_go_over(k, across->end_time, motion);
+    return across;
+}
+
+bool nh_kink_crossing_state(const nh_motion *across, double time, double *state)
+{
+    for (size_t i = 0; i < across->count; i++)
+        if (across->time[i] == time) return memcpy(state, across->state + i * across->size, across->size * sizeof *state), true;
+    return false;
+}

@@ -1,0 +1,23 @@
+/* kink_crossing: how a method with many steps behind it comes over a kink (kinks.h): from before the step to behind the wall by a one-step method. */
+#ifndef NH_KINK_CROSSING_H
+#define NH_KINK_CROSSING_H
+
+#include "motion/kinks.h"
+
+/* A step of a method with many steps behind it. */
+typedef struct {
+    double before, now;
+    const double *old;      /* the state before it */
+    const nh_sizes *sizes;
+    double rtol;
+    size_t count;           /* times that are wanted */
+    const double *times;
+} nh_kink_crossing;
+
+/* Was there a wall in the step?  NULL: no.  Otherwise the motion from before the step to behind the wall by a one-step method, at the times that are wanted and at its end. */
+nh_motion *nh_kink_crossing_make(nh_kinks *kinks, const nh_flow_problem *problem, const nh_kink_crossing *leap, nh_inside *state, void *context, nh_motion *motion);
+
+/* The state of such a motion at one of its times. */
+bool nh_kink_crossing_state(const nh_motion *across, double time, double *state);
+
+#endif
