@@ -4,18 +4,20 @@
 
 #include "base/memory.h"
 
-/* The symbol of |value|, with its sign; `exact` is the same number. */
-static nh_ex symbol_of(nh_dag *d, double value, nh_ex exact, nh_lifted *table)
+/* The symbol of |value|, with its sign; `exact` is the same number.  The exponent 1/2 of a root and a rate 1/2 have nothing
+ * to do with each other. */
+static nh_ex symbol_of(nh_dag *d, double value, nh_ex exact, bool exponent, nh_lifted *table)
 {
     double size = fabs(value);
     size_t i = 0;
-    while (i < table->count && table->value[i] != size) i++;
+    while (i < table->count && (table->value[i] != size || table->exponent[i] != exponent)) i++;
     if (i == NH_MOST_LIFTED) {
         table->overflow = true;
         return exact;
     }
     if (i == table->count) {
         table->value[i] = size;
+        table->exponent[i] = exponent;
         table->exact[i] = value < 0 ? nh_neg(d, exact) : exact;
         table->symbol[i] = nh_symbol_fresh(d, "theta");
         table->count++;
@@ -26,7 +28,7 @@ static nh_ex symbol_of(nh_dag *d, double value, nh_ex exact, nh_lifted *table)
 static nh_ex number(nh_dag *d, nh_num x, nh_lifted *table)
 {
     nh_ex e = nh_number(d, x);
-    return nh_num_exact(x) ? e : symbol_of(d, nh_num_value(x), e, table);
+    return nh_num_exact(x) ? e : symbol_of(d, nh_num_value(x), e, false, table);
 }
 
 static nh_ex lift(nh_dag *d, nh_ex e, nh_lifted *table, nh_ex *image, bool *done)
@@ -72,7 +74,7 @@ static nh_ex factor(const inside *s, double value, nh_ex exact, bool exponent)
 {
     double step = s->kind == NH_SYMBOLISE_DECIMALS_ROUGH ? 2 : 1;
     bool meant = (s->kind == NH_SYMBOLISE_DECIMALS_ALL && !exponent) || step * value != round(step * value);
-    return meant && value != 0 && isfinite(value) ? symbol_of(s->dag, value, exact, s->table) : exact;
+    return meant && value != 0 && isfinite(value) ? symbol_of(s->dag, value, exact, exponent, s->table) : exact;
 }
 
 /* Nothing but constants, and numbers. */

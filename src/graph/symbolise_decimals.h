@@ -9,6 +9,7 @@ enum { NH_MOST_LIFTED = 4 };
 typedef struct {
     size_t count;
     double value[NH_MOST_LIFTED]; /* positive; each stands for its negative too */
+    bool exponent[NH_MOST_LIFTED]; /* of a power; else a factor or a constant */
     nh_ex exact[NH_MOST_LIFTED];  /* the same number */
     nh_ex symbol[NH_MOST_LIFTED];
     bool overflow;                /* there were more */
