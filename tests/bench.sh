@@ -178,7 +178,7 @@ accuracy_time=$(from accuracy '/^\| all/ { print $13 + 0 }')
 accuracy_cases=$(from accuracy '/^\| all/ { n += $3 } END { print n }')
 accuracy_wrong=$(from accuracy '/^\| all/ { n += $5 } END { print n + 0 }')
 
-say "## Stress" "" "\`build/tests/bench_stress\`" "" \
+say "## Robustness" "" "\`build/tests/bench_stress\`" "" \
     "Cells of the shipped maps ([motions.md](motions.md), section 4), five methods on every value of motions, up to four ways on those of the discrete problem. Below: the energy of a motion that nothing turns round in time" \
     "(a pendulum that rotates drives the direction of a velocity), and of one that is (it librates), by methods of fixed steps [ModinVerdier2020]." ""
 table stress
@@ -205,7 +205,7 @@ aim "10 000 sleighs at once at least 10 times as fast as one by one by CVODE" "$
 aim "--accuracy: of $accuracy_cases motions none accepted and wrong" "$accuracy_wrong" "" "at most" 0
 aim "and its median counted work below 4 times that of the cheapest run that suffices" "$accuracy_work" "" "at most" 4
 aim "and its median time likewise below 5 times" "$accuracy_time" "" "at most" 5
-aim "silently wrong cells in the maps of stress: none" "$silent" "" "at most" 0
+aim "undetected cells in the robustness maps: none" "$silent" "" "at most" 0
 aim "a batch of 256 points at most 1.0 times as long as scalar C by hand, per point" "$batch" "" "at most" 1
 aim "a chain of ten bodies from text to its equations below 1 s" "$ten" " s" "at most" 1
 aim "many motions at once at least 2 times as fast as one by one" "$many" "" "at least" 2

@@ -62,10 +62,10 @@ static void run_named(const char *path)
     nh_system *system = nh_system_read(path, 0, NULL, &error);
     char name[100], command[400];
     name_of(path, name);
-    for (size_t i = 0; system && i < system->stresses; i++) {
-        nh_robustness *s = stress_of(path, system->stress[i].name, seconds);
-        snprintf(command, sizeof command, "`nhsym chart %s --over \"%s\"`", name, system->stress[i].name);
-        put_row(command, system->stress[i].over, s, NULL);
+    for (size_t i = 0; system && i < system->robustness_maps; i++) {
+        nh_robustness *s = stress_of(path, system->robustness_map[i].name, seconds);
+        snprintf(command, sizeof command, "`nhsym benchmark %s --over \"%s\"`", name, system->robustness_map[i].name);
+        put_row(command, system->robustness_map[i].over, s, NULL);
         nh_robustness_free(s);
     }
     nh_system_free(system);
@@ -101,7 +101,7 @@ static void run_fits(const char *path)
     for (size_t i = 0; i < s->maps; i++)
         for (size_t k = 0; k < sizeof names / sizeof *names; k++)
             if (!strcmp(s->map[i].name, names[k])) {
-                snprintf(command, sizeof command, "`nhsym chart %s --over samples`: %s", name, names[k]);
+                snprintf(command, sizeof command, "`nhsym benchmark %s --over samples`: %s", name, names[k]);
                 put_row(command, s->map[i].axis, s, &s->map[i]);
             }
     nh_robustness_free(s);
@@ -166,7 +166,7 @@ int main(int argc, char **argv)
     verbose = argc > 1 && !strcmp(argv[1], "-v");
     if (argc > 1 + verbose) seconds = atof(argv[1 + verbose]);
     static const char *const fits[] = {"systems/sleigh.yaml", "systems/spherical_pendulum.yaml", "systems/henon_heiles.yaml", "systems/nonholonomic_oscillator.yaml", "systems/ball_on_turntable.yaml"};
-    printf("| stress | over | right | warned | caught | failed | out of time | silently wrong |\n|---|---|---|---|---|---|---|---|\n");
+    printf("| map | over | accurate | flagged | detected | failed | timeout | undetected |\n|---|---|---|---|---|---|---|---|\n");
     run_folder("systems");
     run_folder("systems/stress");
     for (size_t i = 0; i < sizeof fits / sizeof *fits; i++) run_fits(fits[i]);

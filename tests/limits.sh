@@ -27,7 +27,7 @@ for system in "$@"; do
     one verify "$system" --current "$first'^2"
     one simulate "$system" --initial "$first'=0.1" --project --until 1000 --accuracy 1e-9
     one simulate "$system" --initial "$first'=0.1" --project --until 100 --ensemble 200
-    one chart "$system" --budget 100
+    one benchmark "$system" --budget 100
     one reduce "$system" --html "$work/page.html"
 done | tee "$work/all" | awk -v limit="$limit" '
     { runs[$1]++; ended[$1] += $3 == 5; cut[$1] += $5 > 0; if ($4 > worst[$1]) { worst[$1] = $4; where[$1] = $2 } }

@@ -132,8 +132,8 @@ static const char AFFINE[] = PARTICLE("affine", AND_Z)
     "parameters: [{name: m, value: 1.3}, {name: W, value: 0.8}, {name: g, value: 0.9}]\n"
     "lagrangian: m/2*(x'^2 + y'^2 + z'^2) - m*g*z - x^2*y\n"
     "constraints: [\"z' = y*x' + W*x\"]\n"
-    "chart:\n"
-    "  velocities: [u, s]\n"
+    "velocities:\n"
+    "  names: [u, s]\n"
     "  map:\n"
     "    - x' = u + y*s\n"
     "    - y' = s - x*u\n"
@@ -165,7 +165,7 @@ static const char TURNTABLE[] =
     "lagrangian: m/2*(x'^2 + y'^2) - m*g*y\n" \
     "dependent: [y]\n" \
     "domain: {x': [0.4, 2.8], y': [0.4, 2.8], b: [0.2, 1.4]}\n"
-#define DIRECTION "chart: {velocities: [b], map: [\"x' = v0*cos(b)\", \"y' = v0*sin(b)\"]}\n"
+#define DIRECTION "velocities: {names: [b], map: [\"x' = v0*cos(b)\", \"y' = v0*sin(b)\"]}\n"
 static const char PROJECTILE_EXPLICIT[] = PROJECTILE "constraints: [\"y' = sqrt(v0^2 - x'^2)\"]\n" DIRECTION;
 static const char PROJECTILE_QUADRATIC[] = PROJECTILE "constraints: [\"x'^2 + y'^2 = v0^2\"]\n" DIRECTION;
 static const char PROJECTILE_IMPLICIT[] = PROJECTILE "constraints: [\"sqrt(x'^2 + y'^2) = v0\"]\n" DIRECTION;

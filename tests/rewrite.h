@@ -138,7 +138,7 @@ static void write_chart(const rewriter *w, FILE *out)
     size_t n = w->how->dependents ? w->how->dependents : w->how->no_dependents ? 0 : y->dependents;
     for (size_t i = 0; i < n; i++) fprintf(out, "%s%s%s", i ? ", " : "dependent: [", w->name[dependent[i]], i + 1 == n ? "]\n" : "");
     if (y->quasi == 0 || w->how->no_chart) return;
-    fputs("chart:\n  velocities: [", out);
+    fputs("velocities:\n  names: [", out);
     for (size_t i = 0; i < y->quasi; i++) fprintf(out, "%s%s", i ? ", " : "", w->name[y->coordinates + i]);
     fputs("]\n  map:\n", out);
     for (size_t s = 0; s < y->coordinates; s++) {

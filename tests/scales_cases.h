@@ -92,7 +92,7 @@ static inline void sleigh_text(const scales_of *s, char *out, size_t size)
     double m = 2 * s->mass, a = s->length;
     snprintf(out, size, "name: test\ncoordinates: [{name: phi, type: angle}, {name: x}, {name: y}]\n"
              "lagrangian: %.17g/2*((x' - %.17g*phi'*sin(phi))^2 + (y' + %.17g*phi'*cos(phi))^2) + %.17g/2*phi'^2\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
-             "chart: {velocities: [omega, v], map: [\"phi' = omega\", \"x' = v*cos(phi)\", \"y' = v*sin(phi)\"]}\n", m, a, a, m * a * a * 3);
+             "velocities: {names: [omega, v], map: [\"phi' = omega\", \"x' = v*cos(phi)\", \"y' = v*sin(phi)\"]}\n", m, a, a, m * a * a * 3);
 }
 static inline void sleigh_truth(const scales_of *s, double t, double *value)
 {
@@ -113,7 +113,7 @@ static inline void disk_text(const scales_of *s, char *out, size_t size)
     double m = s->mass, R = s->length;
     snprintf(out, size, "name: test\ncoordinates: [{name: x}, {name: y}, {name: phi, type: angle}, {name: psi, type: angle}]\n"
              "lagrangian: %.17g/2*(x'^2 + y'^2) + %.17g/2*psi'^2 + %.17g/2*phi'^2\nconstraints: [\"x' = %.17g*cos(phi)*psi'\", \"y' = %.17g*sin(phi)*psi'\"]\n"
-             "chart: {velocities: [w, p], map: [\"x' = %.17g*cos(phi)*p\", \"y' = %.17g*sin(phi)*p\", \"phi' = w\", \"psi' = p\"]}\n", m, m * R * R / 2, m * R * R / 4, R, R, R, R);
+             "velocities: {names: [w, p], map: [\"x' = %.17g*cos(phi)*p\", \"y' = %.17g*sin(phi)*p\", \"phi' = w\", \"psi' = p\"]}\n", m, m * R * R / 2, m * R * R / 4, R, R, R, R);
 }
 static inline void disk_truth(const scales_of *s, double t, double *value)
 {

@@ -457,7 +457,7 @@ static const char *in_other_units(double length, double mass)
              "coordinates:\n  - {name: phi, type: angle}\n  - {name: x, type: length}\n  - {name: y, type: length}\n"
              "lagrangian: m/2*((x' - a*phi'*sin(phi))^2 + (y' + a*phi'*cos(phi))^2) + m*a^2*(k^2 - 1)/2*phi'^2\n"
              "constraints: [\"y' = x'*tan(phi)\"]\ndependent: [y]\n"
-             "chart: {velocities: [omega, v], map: [phi' = omega, x' = v*cos(phi), y' = v*sin(phi)]}\n"
+             "velocities: {names: [omega, v], map: [phi' = omega, x' = v*cos(phi), y' = v*sin(phi)]}\n"
              "domain: {phi: [-1.2, 1.2], omega: [-2, 2], v: [%.17g, %.17g], x: [%.17g, %.17g], y: [%.17g, %.17g]}\n",
              2 * mass, length, -2 * length, 2 * length, -length, length, -length, length);
     return file("system.yaml", text);

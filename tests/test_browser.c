@@ -252,7 +252,7 @@ Test(browser, so_are_those_of_the_other_commands)
     static const char *const LINES[] = {
         "verify sleigh --current m*v --quiet --html page.html",
         "simulate sleigh --initial omega=2 --until 5 --quiet --html page.html",
-        "chart sleigh --budget 500ms --quiet --html page.html",
+        "benchmark sleigh --budget 500ms --quiet --html page.html",
         "reduce vertical_disk --quiet --html page.html",
     };
     bool skipped = false;

@@ -14,7 +14,7 @@ static nh_benchmark *compare(const char *path, const char *initial, double until
     nh_simulate_request q = {.system_path = path, .initial = initial, .until_given = true};
     nh_options_default(&q.options);
     q.options.until = until;
-    q.options.chart_columns = 40; /* of the discrete problem */
+    q.options.benchmark_columns = 40; /* of the discrete problem */
     nh_benchmark *c = nh_benchmark_run(&q, budget, &error);
     must(c != NULL, &error, path);
     return c;
@@ -295,8 +295,8 @@ Test(chart, thresholds_are_options)
     nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
     nh_options_default(&q.options);
     q.options.until = 5;
-    q.options.chart_wrong = 1e-9;
-    q.options.chart_far = 1;
+    q.options.benchmark_error = 1e-9;
+    q.options.benchmark_far = 1;
     nh_benchmark *c = nh_benchmark_run(&q, 2, &error);
     must(c != NULL, &error, "sleigh");
     size_t wrong = 0;

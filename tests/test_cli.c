@@ -57,14 +57,14 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --seed many", "nhsym: the option `seed` needs a number, found `many`\n"},
         {"analyze sleigh --option sed=3", "nhsym: there is no option `sed`\nhint: did you mean `seed`?\n"},
         {"analyze sleigh --option seed", "nhsym: --option needs NAME=VALUE, found `seed`\n"},
-        {"analyze sleigh --chart quasy", "nhsym: there is no chart `quasy`\nhint: --chart takes auto, quasi or coordinates\n"},
+        {"analyze sleigh --velocities quasy", "nhsym: there are no velocities `quasy`\nhint: --velocities takes auto, quasi or coordinates\n"},
         {"show", "nhsym: show which system?\nhint: nhsym show sleigh\n"},
         {"analyze sleigh --htm page.html", "nhsym: there is no option `--htm`\nhint: names are written in full: `--html`\n"},
         {"analyze sleigh --qui", "nhsym: there is no option `--qui`\nhint: names are written in full: `--quiet`\n"},
         {"analyze sleigh --html=page.html --verb", "nhsym: there is no option `--verb`\nhint: names are written in full: `--verbose`\n"},
-        {"analyze sleigh --budget 2s", "nhsym: `nhsym analyze` does not take --budget\nhint: `nhsym help analyze` lists what it takes; this is for: chart\n"},
-        {"reduce sleigh --analysis sleigh", "nhsym: `nhsym reduce` does not take --analysis\nhint: `nhsym help reduce` lists what it takes; this is for: analyze simulate chart\n"},
-        {"--html page.html list", "nhsym: `nhsym list` does not take --html\nhint: `nhsym help list` lists what it takes; this is for: analyze verify simulate chart reduce\n"},
+        {"analyze sleigh --budget 2s", "nhsym: `nhsym analyze` does not take --budget\nhint: `nhsym help analyze` lists what it takes; this is for: benchmark\n"},
+        {"reduce sleigh --analysis sleigh", "nhsym: `nhsym reduce` does not take --analysis\nhint: `nhsym help reduce` lists what it takes; this is for: analyze simulate benchmark\n"},
+        {"--html page.html list", "nhsym: `nhsym list` does not take --html\nhint: `nhsym help list` lists what it takes; this is for: analyze verify simulate benchmark reduce\n"},
         {"simulate sleigh -o folder", "nhsym: `nhsym simulate` does not take --output\nhint: `nhsym help simulate` lists what it takes; this is for: analyze\n"},
         {"analyze sleigh --fragment", "nhsym: --fragment says how the LaTeX is written, and none is asked for\nhint: --tex body.tex --fragment\n"},
         {"explain frobnicate", "nhsym: nothing is known about `frobnicate`\nhint: `nhsym explain` lists the topics\n"},
@@ -72,6 +72,56 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
     };
     place p = place_make();
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) check(&p, list[i].line, 2, "", list[i].err);
+    place_clear(&p);
+}
+
+/* The line by the old names prints what the line by the names of today prints. */
+static void check_old(const place *p, const char *old, const char *now)
+{
+    finished was = run_with_path(p, old), is = run_with_path(p, now);
+    cr_expect_eq(was.code, is.code, "nhsym %s: %d, nhsym %s: %d", old, was.code, now, is.code);
+    cr_expect(is.out[0] || is.err[0], "nhsym %s says nothing", now);
+    cr_expect_str_eq(was.out, is.out);
+    cr_expect_str_eq(was.err, is.err);
+    finished_clear(&was);
+    finished_clear(&is);
+}
+
+Test(cli, old_names_are_still_understood)
+{
+    static const struct { const char *old, *now; } list[] = {
+        {"help chart", "help benchmark"},
+        {"chart --help", "benchmark --help"},
+        {"chart", "benchmark"},
+        {"chart sleigh --svg no/such/place.svg", "benchmark sleigh --svg no/such/place.svg"},
+        {"chart sleigh --stress --budget 2 s", "benchmark sleigh --robustness --budget 2 s"},
+        {"reduce sleigh --stress", "reduce sleigh --robustness"},
+        {"analyze sleigh --chart quasy", "analyze sleigh --velocities quasy"},
+        {"verify sleigh --current x' --chart=coordinates", "verify sleigh --current x' --velocities=coordinates"},
+        {"benchmark sleigh --option stress_error=2", "benchmark sleigh --option robustness_error=2"},
+        {"benchmark sleigh --option chart_wrong=1e9", "benchmark sleigh --option benchmark_error=1e9"},
+        {"benchmark sleigh --option chart_steps=0.5", "benchmark sleigh --option benchmark_steps=0.5"},
+    };
+    place p = place_make();
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) check_old(&p, list[i].old, list[i].now);
+    check(&p, "charrt sleigh", 2, "", "nhsym: there is no command `charrt`\nhint: did you mean `nhsym benchmark`?\n");
+    check(&p, "help charrt", 2, "", "nhsym: there is no command `charrt`\nhint: did you mean `nhsym help benchmark`?\n");
+    check(&p, "benchmark sleigh --stres", 2, "", "nhsym: there is no option `--stres`\nhint: names are written in full: `--robustness`\n");
+    check(&p, "benchmark sleigh --charts auto", 2, "", "nhsym: there is no option `--charts`\nhint: did you mean `--velocities`?\n");
+    place_clear(&p);
+}
+
+Test(cli, old_names_are_shown_nowhere)
+{
+    static const char *const lines[] = {"help", "help man", "help bash", "help zsh", "help fish", "help analyze", "help simulate", "help benchmark", "explain options"};
+    static const char *const words[] = {"--chart", " chart", "(chart", "--stress", "stress_", "chart_", "-l chart", "-l stress", "\\-chart"};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        finished f = run_with_path(&p, lines[i]);
+        cr_expect_eq(f.code, 0);
+        for (size_t j = 0; j < sizeof words / sizeof *words; j++) cr_expect_null(strstr(f.out, words[j]), "nhsym %s prints `%s`:\n%s", lines[i], words[j], f.out);
+        finished_clear(&f);
+    }
     place_clear(&p);
 }
 
@@ -184,7 +234,7 @@ Test(cli, explain_knows_its_own_topics)
     }
     cr_expect_gt(topics, 10);
     finished options = run_expecting(&p, "explain options", 0);
-    check_contains(options.out, "seed          1 ");
+    check_contains(options.out, "seed                 1 ");
     finished_clear(&options);
     finished_clear(&all);
     place_clear(&p);

@@ -239,7 +239,7 @@ static char *without_timing(cJSON *root)
 Test(cli_json, the_same_inputs_give_the_same_output, .timeout = 300)
 {
     static const char *const lines[] = {"analyze sleigh --json -", "analyze sleigh --json - --seed 77 --samples 300", "analyze mine.yaml --json -",
-                                        "analyze sleigh --chart coordinates --json -"};
+                                        "analyze sleigh --velocities coordinates --json -"};
     place p = place_with_project();
     write_here(&p, "mine.yaml", DAMPED);
     for (size_t i = 0; i < COUNT(lines); i++) {

@@ -39,7 +39,7 @@ Test(cli_manners, help_fits_a_screen)
 Test(cli_manners, completions_know_every_option)
 {
     place p = place_make();
-    static const char *const commands[] = {"analyze", "verify", "simulate", "chart", "reduce"}, *const shells[] = {"bash", "zsh", "fish", "man"};
+    static const char *const commands[] = {"analyze", "verify", "simulate", "benchmark", "reduce"}, *const shells[] = {"bash", "zsh", "fish", "man"};
     for (size_t s = 0; s < 4; s++) {
         char line[60];
         snprintf(line, sizeof line, "help %s", shells[s]);
@@ -228,7 +228,7 @@ Test(cli_manners, an_interrupted_search_for_accuracy_keeps_a_motion)
 Test(cli_manners, an_interrupted_comparison_says_what_was_measured)
 {
     sweep_plain_only();
-    char *out = interrupted_output("chart sleigh --budget 300s", "CVODE");
+    char *out = interrupted_output("benchmark sleigh --budget 300s", "CVODE");
     cr_expect_not_null(strstr(out, "Chaplygin sleigh"), "%s", out);
     free(out);
 }

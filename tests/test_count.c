@@ -345,7 +345,7 @@ Test(count, nonholonomic_systems)
 Test(count, numbers_do_not_depend_on_velocities_or_coordinates)
 {
     const char *const BODY = "name: sl\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}]\n"
-                             "chart: {velocities: [om, v], map: [\"h' = om\", \"x' = v*cos(h)\", \"y' = v*sin(h)\"]}\nconstraints: [\"x'*sin(h) - y'*cos(h) = 0\"]\n"
+                             "velocities: {names: [om, v], map: [\"h' = om\", \"x' = v*cos(h)\", \"y' = v*sin(h)\"]}\nconstraints: [\"x'*sin(h) - y'*cos(h) = 0\"]\n"
                              "lagrangian: 7/10*h'^2/2 + 13/10*((x' - 4/10*h'*sin(h))^2 + (y' + 4/10*h'*cos(h))^2)/2\n";
     EXPECT(BODY, 3, 6, 10);
     EXPECT("name: k\ncoordinates: [{name: r, type: length}, {name: h, type: angle}]\ndomain: {r: [0.5, 2]}\nlagrangian: (r'^2 + r^2*h'^2)/2 + 1/r\n", 2, 6, 10, 19);

@@ -158,7 +158,7 @@ Test(distribution, where_growth_drops)
 
 static const char POLAR[] =
     "name: polar\ncoordinates: [x, y, z]\nlagrangian: x'^2 + y'^2 + z'^2\nconstraints: [\"z' = y*x' - x*y'%s\"]\n"
-    "chart:\n  velocities: [u, b]\n  map:\n    - x' = u*cos(b)%s\n    - y' = u*sin(b)\n    - z' = y*u*cos(b) - x*u*sin(b)%s%s\n"
+    "velocities:\n  names: [u, b]\n  map:\n    - x' = u*cos(b)%s\n    - y' = u*sin(b)\n    - z' = y*u*cos(b) - x*u*sin(b)%s%s\n"
     "domain: {u: [0.4, 1.5], b: [0.1, 1.3]}\n";
 
 Test(distribution, a_chart_has_no_part_in_it)

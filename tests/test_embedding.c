@@ -355,7 +355,7 @@ Test(embedding, the_pivot_measures_the_choice)
 
 static const char RHEONOMIC_CHART[] =
     SPACE "constraints: [\"z' = y*x' + 0.8*t\"]\n"
-          "chart: {velocities: [u, s], map: [\"x' = (2 + x)*u + y*s + t\", \"y' = s - x*u\", \"z' = y*((2 + x)*u + y*s + t) + 0.8*t\"]}\n"
+          "velocities: {names: [u, s], map: [\"x' = (2 + x)*u + y*s + t\", \"y' = s - x*u\", \"z' = y*((2 + x)*u + y*s + t) + 0.8*t\"]}\n"
           "domain: {u: [-3, -2], t: [5, 6]}\n";
 
 Test(embedding, the_map_is_rho)
@@ -393,7 +393,7 @@ Test(embedding, inverse_of_a_coordinate_chart_and_of_a_nonlinear_map)
     embedded own = embed(RHEONOMIC_CHART, NH_CHART_COORDINATES);
     cr_assert(nh_chart_inverse(own.chart, w));
     for (size_t i = 0; i < 2; i++) cr_expect_eq(w[i], own.chart->w[i]);
-    embedded bent = embed("coordinates: [x]\nlagrangian: x'^2\nchart: {velocities: [u], map: [\"x' = sinh(u)\"]}\n", NH_CHART_AUTO);
+    embedded bent = embed("coordinates: [x]\nlagrangian: x'^2\nvelocities: {names: [u], map: [\"x' = sinh(u)\"]}\n", NH_CHART_AUTO);
     cr_expect_not(nh_chart_inverse(bent.chart, w), "sinh is not inverted by linear algebra");
     embed_clear(&own);
     embed_clear(&bent);
@@ -406,7 +406,7 @@ Test(embedding, a_chart_that_is_not_there)
     nh_system *s = system_of("name: plain\n" SPACE);
     cr_assert_null(nh_chart_create(s, NH_CHART_QUASI, 1, &error));
     nh_error_format(&error, text, sizeof text);
-    cr_expect_str_eq(text, "plain defines no quasi-velocities\nhint: add a `chart:` to the system file");
+    cr_expect_str_eq(text, "plain defines no quasi-velocities\nhint: add `velocities:` to the system file");
     cr_expect_eq(error.code, NH_USAGE);
     nh_system_free(s);
 }

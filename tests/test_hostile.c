@@ -70,8 +70,8 @@ Test(hostile, pages_and_plots)
     check_page(&p, "verify hostile.yaml --quiet --current x' --html page.html", "page.html");
     check_page(&p, "simulate hostile.yaml --quiet --initial x'=1 --until 1 --html page.html", "page.html");
     check_page(&p, "reduce hostile.yaml --quiet --html page.html", "page.html");
-    check_page(&p, "chart hostile.yaml --quiet --initial x'=1 --budget 1s --html page.html --svg plot.svg", "page.html");
-    check_page(&p, "chart hostile.yaml --quiet --initial x'=1 --budget 1s --svg plot.svg", "plot.svg");
+    check_page(&p, "benchmark hostile.yaml --quiet --initial x'=1 --budget 1s --html page.html --svg plot.svg", "page.html");
+    check_page(&p, "benchmark hostile.yaml --quiet --initial x'=1 --budget 1s --svg plot.svg", "plot.svg");
     place_clear(&p);
 }
 

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "problem/analysis_file.h"
 #include "system/system.h"
 
 static char folder[] = "/tmp/nhsym-include-XXXXXX";
@@ -108,6 +109,30 @@ Test(include, parameters_may_be_a_map_in_any_of_the_files)
     cr_assert_null(get("bad.yaml", &error));
     cr_expect(strstr(error.where, "bad.yaml:2:34"), "%s", error.where);
     cr_expect_str_eq(error.hint, "did you mean `unit`?");
+}
+
+/* A file of an earlier version, and one of today that builds on it. */
+Test(include, old_names_of_keys_are_those_of_today)
+{
+    nh_error error;
+    put("two.yaml", "name: two\ncoordinates: [x, y]\nlagrangian: x'^2 + y'^2\nchart: {velocities: [u], map: [\"x' = u\"]}\n"
+                    "stress: [{name: long, over: \"until=1:10\", chart: quasi}]\n");
+    put("three.yaml", "include: two.yaml\nvelocities: {names: [w], map: [\"y' = w\"]}\nrobustness: [{name: longer, over: \"until=1:100\", velocities: coordinates}]\n");
+    nh_system *s = get("three.yaml", &error);
+    cr_assert_not_null(s, "%s %s", error.where, error.what);
+    cr_assert_eq(s->quasi, 2);
+    cr_expect(s->quasi_map[0] == s->quasi_velocity[0] && s->quasi_map[1] == s->quasi_velocity[1]);
+    cr_assert_eq(s->robustness_maps, 2);
+    cr_expect_str_eq(s->robustness_map[0].velocities, "quasi");
+    cr_expect_str_eq(s->robustness_map[1].velocities, "coordinates");
+    nh_system_free(s);
+    put("three.yaml", "system: two\nchart: coordinates\n");
+    char path[200];
+    snprintf(path, sizeof path, "%s/three.yaml", folder);
+    nh_analysis_file *a = nh_analysis_file_read(path, &error);
+    cr_assert_not_null(a, "%s", error.what);
+    cr_expect_eq(a->chart, NH_CHART_COORDINATES);
+    nh_analysis_file_free(a);
 }
 
 Test(include, mistakes_are_told_where_they_stand)

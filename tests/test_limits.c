@@ -35,7 +35,7 @@ static void brake(const place *p, const char *arguments)
 
 Test(limits, every_command_has_the_brake)
 {
-    static const char *const lines[] = {"analyze nasty/many_functions.yaml", "reduce nasty/spherical_chain.yaml", "analyze nasty/robot_12.yaml", "chart liouville --budget 100", "verify nasty/quadratic_constraints.yaml --current \"q1'\"",
+    static const char *const lines[] = {"analyze nasty/many_functions.yaml", "reduce nasty/spherical_chain.yaml", "analyze nasty/robot_12.yaml", "benchmark liouville --budget 100", "verify nasty/quadratic_constraints.yaml --current \"q1'\"",
                                         "simulate nasty/dense_mass.yaml --initial \"q1'=1\" --until 1000"};
     place p = place_with_nasty();
     char line[300];
@@ -69,7 +69,7 @@ Test(limits, an_unfinished_run_says_what_it_knows)
                  {"reduce", "robot_12", "", "Arm of twelve revolute joints", "the symmetry group", 12},
                  {"verify", "dense_mass", "--current \"q1'\"", "Full mass matrix", "the equations of motion", 10},
                  {"simulate", "dense_mass", "--initial \"q1'=1\"", "Full mass matrix", "the equations of motion", 10},
-                 {"chart", "dense_mass", "", "Full mass matrix", "the equations of motion", 10}};
+                 {"benchmark", "dense_mass", "", "Full mass matrix", "the equations of motion", 10}};
     place p = place_with_nasty();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char line[300];

@@ -58,7 +58,7 @@ static void zeros_of(const char *text, const double *q, const double *v, size_t 
 Test(scales, zero_is_not_small)
 {
     static const char *const disk = "name: test\ncoordinates: [{name: x}, {name: y}, {name: phi, type: angle}, {name: psi, type: angle}]\nlagrangian: (x'^2 + y'^2)/2 + psi'^2/4 + phi'^2/8\n"
-                                    "constraints: [\"x' = cos(phi)*psi'\", \"y' = sin(phi)*psi'\"]\nchart: {velocities: [w, p], map: [\"x' = cos(phi)*p\", \"y' = sin(phi)*p\", \"phi' = w\", \"psi' = p\"]}\n";
+                                    "constraints: [\"x' = cos(phi)*psi'\", \"y' = sin(phi)*psi'\"]\nvelocities: {names: [w, p], map: [\"x' = cos(phi)*p\", \"y' = sin(phi)*p\", \"phi' = w\", \"psi' = p\"]}\n";
     static const char *const names[] = {"x", "x'", "y'", "phi'", "cos(phi)^2 + sin(phi)^2 - 1 + x'", "p*(phi - 1)"};
     double q[4] = {0, 0, acos(0), 0}, v[4] = {cos(q[2]), 1, 0, 1};
     bool zero[6];
@@ -74,7 +74,7 @@ Test(scales, zero_is_not_small)
 Test(scales, what_is_ill_conditioned_is_not_zero)
 {
     static const char *const disk = "name: test\ncoordinates: [{name: x}, {name: y}, {name: phi, type: angle}]\nlagrangian: (x'^2 + y'^2 + phi'^2)/2\nconstraints: [\"y' = tan(phi)*x'\"]\n"
-                                    "chart: {velocities: [u, w], map: [\"x' = u\", \"y' = tan(phi)*u\", \"phi' = w\"]}\n";
+                                    "velocities: {names: [u, w], map: [\"x' = u\", \"y' = tan(phi)*u\", \"phi' = w\"]}\n";
     static const char *const names[] = {"y'", "phi'"};
     double q[3] = {0, 0, acos(0)}, v[3] = {6.123233995736766e-17, 1, 0};
     bool zero[2];

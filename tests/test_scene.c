@@ -289,7 +289,7 @@ Test(scene, the_chart_that_keeps_fewest_states)
     char path[64];
     snprintf(path, sizeof path, "/tmp/nhsym-test-scene-%ld.yaml", (long)getpid());
     FILE *file = fopen(path, "w");
-    fputs("name: mixed\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2 - y^2\nchart: {velocities: [a, b], map: [\"x' = a + b\", \"y' = a - b\"]}\n", file);
+    fputs("name: mixed\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2 - y^2\nvelocities: {names: [a, b], map: [\"x' = a + b\", \"y' = a - b\"]}\n", file);
     fclose(file);
     nh_error error = {0};
     nh_simulate_request q = {.system_path = path, .initial = "x=1, x'=0.5", .watch = "x", .until_given = true};

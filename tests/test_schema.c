@@ -114,13 +114,13 @@ Test(schema, what_analyze_writes_fits)
 Test(schema, what_chart_writes_fits)
 {
     static const char *const lines[] = {"sleigh --budget 2s", "ball_on_turntable --until 3 --budget 500ms", "lagrange_top --until 2 --budget 300ms"};
-    cJSON *schema = read_json("docs/schema/chart.json");
+    cJSON *schema = read_json("docs/schema/benchmark.json");
     place p = place_make();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         if (!sweep_tries(i + 1, 1, 3)) continue;
         char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
         snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
-        snprintf(line, sizeof line, "chart %s --quiet --json c.json", lines[i]);
+        snprintf(line, sizeof line, "benchmark %s --quiet --json c.json", lines[i]);
         finished f = run_so(&p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
         cr_assert(f.code == 0, "%s: %s", line, f.err);
         snprintf(path, sizeof path, "%s/c.json", p.folder);

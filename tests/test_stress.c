@@ -14,7 +14,7 @@ static nh_robustness *map_within(const char *path, const char *over, double step
     nh_error error = {0};
     nh_simulate_request q = {.system_path = path};
     nh_options_default(&q.options);
-    if (steps > 0) q.options.stress_steps = steps;
+    if (steps > 0) q.options.robustness_steps = steps;
     nh_robustness *s = nh_robustness_create(&q, over, budget, &error);
     must(s != NULL, &error, path);
     return s;
@@ -102,8 +102,8 @@ Test(stress, every_named_map_can_be_read)
             snprintf(path, sizeof path, "%s/%s.yaml", folders[f], name[s]);
             nh_system *system = nh_system_read(path, 0, NULL, &error);
             must(system != NULL, &error, path);
-            for (size_t i = 0; i < system->stresses; i++, named++) /* a name that does not fit fails here */
-                if (sweep_tries(named, 3, 10)) nh_robustness_free(map_within(path, system->stress[i].name, 0, 1e-3));
+            for (size_t i = 0; i < system->robustness_maps; i++, named++) /* a name that does not fit fails here */
+                if (sweep_tries(named, 3, 10)) nh_robustness_free(map_within(path, system->robustness_map[i].name, 0, 1e-3));
             nh_system_free(system);
         }
     }
@@ -116,7 +116,7 @@ Test(stress, a_name_that_is_not_there)
     nh_simulate_request q = {.system_path = "systems/suslov.yaml"};
     nh_options_default(&q.options);
     cr_expect_null(nh_robustness_create(&q, "inertia", 1, &error));
-    cr_expect(strstr(error.what, "neither a range nor a stress") && strstr(error.hint, "inertia ratios up to 1e6"), "%s: %s", error.what, error.hint);
+    cr_expect(strstr(error.what, "neither a range nor a robustness map") && strstr(error.hint, "inertia ratios up to 1e6"), "%s: %s", error.what, error.hint);
 }
 
 /* The chart of coordinate velocities ends at l = c sin(psi1): some motions cross it, and no cell of these is called right. */

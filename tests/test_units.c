@@ -27,7 +27,7 @@ static void write_rolling(const units *u, char *out, size_t size)
 {
     double k = u->mass / u->time / u->time;
     snprintf(out, size, "name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\nlagrangian: %.17g*(x'^2 + y'^2 + z'^2)/2 - %.17g*(x^2 + 1.7*y^2 + z^2)/2\nconstraints: [\"z' = y*x'/%.17g\"]\n"
-                        "chart: {velocities: [u, w], map: [\"x' = u\", \"y' = w\", \"z' = y*u/%.17g\"]}\n"
+                        "velocities: {names: [u, w], map: [\"x' = u\", \"y' = w\", \"z' = y*u/%.17g\"]}\n"
                         "domain: {x: [-%.17g, %.17g], y: [-%.17g, %.17g], z: [-%.17g, %.17g], u: [-%.17g, %.17g], w: [-%.17g, %.17g]}\n",
              u->mass, k, u->length, u->length, u->length, u->length, u->length, u->length, u->length, u->length, u->length / u->time, u->length / u->time, u->length / u->time, u->length / u->time);
 }

@@ -11,12 +11,12 @@ static const char *const WRITERS[] = {
     "analyze free_particle --quiet --tex %s",
     "verify free_particle --current x --quiet --json %s",
     "simulate free_particle --initial x=1 --until 1 --json %s",
-    "chart free_particle --initial x=1 --until 1 --budget 100ms --quiet --json %s",
-    "chart free_particle --initial x=1 --until 1 --budget 100ms --quiet --svg %s",
+    "benchmark free_particle --initial x=1 --until 1 --budget 100ms --quiet --json %s",
+    "benchmark free_particle --initial x=1 --until 1 --budget 100ms --quiet --svg %s",
     "reduce vertical_disk --quiet --json %s",
     "verify free_particle --current x --quiet --html %s",
     "simulate free_particle --initial x=1 --until 1 --quiet --html %s",
-    "chart free_particle --initial x=1 --until 1 --budget 100ms --quiet --html %s",
+    "benchmark free_particle --initial x=1 --until 1 --budget 100ms --quiet --html %s",
     "reduce vertical_disk --quiet --html %s",
 };
 enum { writers = sizeof WRITERS / sizeof *WRITERS };

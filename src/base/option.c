@@ -34,10 +34,19 @@ static double *field(nh_options *options, size_t index)
     return (double *)((char *)options + offset[index]);
 }
 
+const char *nh_option_name(const char *word)
+{
+#define X(old, name) if (!strcmp(word, #old)) return #name;
+    NH_OPTION_OLD_TABLE(X)
+#undef X
+    return word;
+}
+
 bool nh_options_set(nh_options *options, const char *name, const char *value, nh_error *error)
 {
     const char *names[count];
     size_t index = count;
+    name = nh_option_name(name);
     for (size_t i = 0; i < count; i++) {
         names[i] = table[i].name;
         if (!strcmp(name, names[i])) index = i;

@@ -46,7 +46,7 @@
     X(shown,            600,     10,     1e9,   whole, "symbols",  "longer formulas are not written out in the summary")                     \
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \
     X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \
-    X(absolute,         1e-3,    0,      1e6,   real,  "",         "part of a state's largest size so far below which errors are absolute; chart: the size")       \
+    X(absolute,         1e-3,    0,      1e6,   real,  "",         "part of a state's largest size so far below which errors are absolute; benchmark: the size")       \
     X(drift,            100,     1,      1e6,   real,  "tolerance", "a current that drifts by more tolerances must drift less at smaller ones")               \
     X(steps,            2e5,     10,     1e9,   whole, "steps",    "a motion that needs more steps than this is ended and said to be so")    \
     X(group,            1e-7,   0,      1,     real,  "",         "equations of a symmetry group, scaled to size one: what is below this vanishes") \
@@ -57,21 +57,35 @@
     X(jets,             240,     1,      1e5,   whole, "unknowns", "reduce: m coordinates give m (m + 1)/2 unknowns of local symmetries of the metric; more are not solved for") \
     X(ideals,           24,      1,      1000,  whole, "dimensions", "reduce: a larger Lie algebra is not taken apart into ideals")           \
     X(compile,          1,       0,      1e6,   real,  "",         "a motion's equations are compiled once interpreting them needed so many times the counted work of compiling; 0: never") \
-    X(stress_tolerance, 1e-8,    1e-14,  1e-2,  real,  "",         "of the motions of chart --stress")                                       \
-    X(stress_error,     1e-4,    1e-12,  1,     real,  "",         "an error up to this is right in chart --stress")                         \
-    X(stress_steps,     3e4,     10,     1e10,  whole, "steps",    "a motion of chart --stress that needs more steps is out of time")        \
-    X(stress_columns,   40,      2,      2000,  whole, "columns",  "chart --stress: largest ansatz of the discrete problem")                 \
-    X(chart_wrong,      1e-2,    1e-12,  1e6,   real,  "",         "chart: an error above this, and above chart_far tolerances, is called wrong") \
-    X(chart_far,        1e4,     1,      1e15,  real,  "tolerance", "chart: how far above its tolerance an error may be")                    \
-    X(chart_fixed,      0.1,     1e-12,  1e6,   real,  "",         "chart: the same for methods with a fixed step")                          \
-    X(chart_trusted,    1e-4,    1e-14,  1,     real,  "",         "chart: a reference whose two methods agree better is looked for no further") \
-    X(chart_closed,     100,     1,      1e15,  real,  "",         "chart: how many times what two methods agree to a closed form may be off")  \
-    X(chart_steps,      32,      1,      1e6,   whole, "steps",    "chart: of the longest fixed step; then four times as many at each level") \
-    X(chart_columns,    220,     2,      5000,  whole, "columns",  "chart: largest ansatz of the discrete problem")                          \
+    X(robustness_tolerance, 1e-8, 1e-14, 1e-2, real, "",         "of the motions of benchmark --robustness")                                  \
+    X(robustness_error, 1e-4,    1e-12,  1,     real,  "",         "an error up to this is accurate in benchmark --robustness")              \
+    X(robustness_steps, 3e4,     10,     1e10,  whole, "steps",    "step limit of benchmark --robustness; a motion beyond it is a timeout")  \
+    X(robustness_columns, 40,    2,      2000,  whole, "columns",  "benchmark --robustness: largest ansatz of the discrete problem")         \
+    X(benchmark_error,  1e-2,    1e-12,  1e6,   real,  "",         "benchmark: an error above this, and above benchmark_far tolerances, is not accurate") \
+    X(benchmark_far,    1e4,     1,      1e15,  real,  "tolerance", "benchmark: how far above its tolerance an error may be")                \
+    X(benchmark_fixed,  0.1,     1e-12,  1e6,   real,  "",         "benchmark: with a fixed step, an error above this is not accurate")      \
+    X(benchmark_trusted, 1e-4,   1e-14,  1,     real,  "",         "benchmark: the search for a reference stops when its two methods agree to this") \
+    X(benchmark_closed, 100,     1,      1e15,  real,  "",         "benchmark: how many times what two methods agree to a closed form may be off") \
+    X(benchmark_steps,  32,      1,      1e6,   whole, "steps",    "benchmark: of the longest fixed step; then four times as many at each level") \
+    X(benchmark_columns, 220,    2,      5000,  whole, "columns",  "benchmark: largest ansatz of the discrete problem")                      \
     X(check_work,       4000,    1,      1e9,   real,  "millions", "of units of work that the motions of the check may take together")       \
     X(until,            10,      -1e9,   1e9,   real,  "time",     "end of the validation motion")
 
 typedef enum { NH_OPTION_real, NH_OPTION_whole } nh_option_kind;
+
+/* Old names: still read, and shown nowhere. */
+#define NH_OPTION_OLD_TABLE(X)                       \
+    X(stress_tolerance, robustness_tolerance)        \
+    X(stress_error,     robustness_error)            \
+    X(stress_steps,     robustness_steps)            \
+    X(stress_columns,   robustness_columns)          \
+    X(chart_wrong,      benchmark_error)             \
+    X(chart_far,        benchmark_far)               \
+    X(chart_fixed,      benchmark_fixed)             \
+    X(chart_trusted,    benchmark_trusted)           \
+    X(chart_closed,     benchmark_closed)            \
+    X(chart_steps,      benchmark_steps)             \
+    X(chart_columns,    benchmark_columns)
 
 typedef struct {
 #define X(name, value, low, high, kind, unit, doc) double name;
@@ -83,6 +97,9 @@ void nh_options_default(nh_options *options);
 
 /* "name=value" or a name and a value; unknown names, values out of range and fractions of what is whole are refused with a suggestion. */
 bool nh_options_set(nh_options *options, const char *name, const char *value, nh_error *error);
+
+/* The name of an option that may be given by its old one; any other word as it is. */
+const char *nh_option_name(const char *word);
 
 /* For documentation and help. */
 typedef struct {

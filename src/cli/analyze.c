@@ -21,7 +21,7 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
         return nh_error_hint(error, "--tex body.tex --fragment");
     }
     if (cli->operands > 1) return nh_fail(error, NH_USAGE, "", "`nhsym analyze` takes one system, found `%s` too", cli->operand[1]);
-    *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->chart, .options = cli->options, .accuracy = cli->accuracy,
+    *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .options = cli->options, .accuracy = cli->accuracy,
                               .seed_given = cli->seed_given, .samples_given = cli->samples_given, .tolerance_given = cli->tolerance_given,
                               .until_given = cli->until_given};
     if (cli->analysis && !(q->analysis_path = nh_places_find(cli->arena, "analyses", cli->analysis, error))) return false;

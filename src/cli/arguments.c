@@ -7,10 +7,12 @@
 #include "cli/cli.h"
 #include "cli/cli_table.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_chart, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_stress, opt_over };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
-static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X){NULL, 0, NULL, 0}};
+#define OLD(code, old, argument) {old, argument, NULL, code},
+static const struct option long_options[] = {NH_CLI_OPTION_TABLE(X) NH_CLI_OLD_OPTION_TABLE(OLD){NULL, 0, NULL, 0}};
+#undef OLD
 #undef X
 #define X(code, name, argument, shown, commands, meaning) {code, name, commands},
 static const struct {
@@ -78,16 +80,16 @@ static bool members(const char *text, size_t *out, nh_error *error)
     return (x == (double)*out && x <= 1e7) || nh_fail(error, NH_USAGE, "", "--ensemble needs a whole number of members up to 1e7, found `%s`", text);
 }
 
-static bool set_chart(nh_cli *cli, const char *text, nh_error *error)
+static bool set_velocities(nh_cli *cli, const char *text, nh_error *error)
 {
     static const char *const names[] = {"auto", "quasi", "coordinates"};
     for (int i = 0; i < 3; i++) {
         if (strcmp(text, names[i])) continue;
-        cli->chart = (nh_chart_choice)i;
+        cli->velocities = (nh_chart_choice)i;
         return true;
     }
-    nh_fail(error, NH_USAGE, "", "there is no chart `%s`", text);
-    return nh_error_hint(error, "--chart takes auto, quasi or coordinates");
+    nh_fail(error, NH_USAGE, "", "there are no velocities `%s`", text);
+    return nh_error_hint(error, "--velocities takes auto, quasi or coordinates");
 }
 
 static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
@@ -102,6 +104,14 @@ static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
     return nh_error_hint(error, "--progress takes auto, always or never");
 }
 
+/* The name that is shown for an option: the first of its code. */
+static const char *name_of(int code)
+{
+    const struct option *o = long_options;
+    while (o->val != code) o++;
+    return o->name;
+}
+
 static bool unknown_option(const char *word, nh_error *error)
 {
     const char *names[sizeof long_options / sizeof *long_options];
@@ -109,6 +119,8 @@ static bool unknown_option(const char *word, nh_error *error)
     for (const struct option *o = long_options; o->name; o++) names[n++] = o->name;
     nh_fail(error, NH_USAGE, "", "there is no option `%s`", word);
     const char *near = nh_text_nearest(word + strspn(word, "-"), names, n);
+    for (const struct option *o = long_options; near && o->name; o++)
+        if (!strcmp(near, o->name)) near = name_of(o->val); /* an old name: the one of today */
     return near ? nh_error_hint(error, "did you mean `--%s`?", near) : nh_error_hint(error, "`nhsym help` lists them");
 }
 
@@ -116,13 +128,15 @@ static bool unknown_option(const char *word, nh_error *error)
 static bool in_full(const char *word, int code, nh_error *error)
 {
     size_t length = strcspn(word, "=");
+    bool named = false;
+    if (strncmp(word, "--", 2)) return true;
     for (const struct option *o = long_options; o->name; o++) {
-        if (o->val != code || strncmp(word, "--", 2)) continue;
-        if (strlen(o->name) + 2 == length && !strncmp(word + 2, o->name, length - 2)) return true;
-        nh_fail(error, NH_USAGE, "", "there is no option `%.*s`", (int)length, word);
-        return nh_error_hint(error, "names are written in full: `--%s`", o->name);
+        named = named || o->val == code;
+        if (o->val == code && strlen(o->name) + 2 == length && !strncmp(word + 2, o->name, length - 2)) return true;
     }
-    return true;
+    if (!named) return true;
+    nh_fail(error, NH_USAGE, "", "there is no option `%.*s`", (int)length, word);
+    return nh_error_hint(error, "names are written in full: `--%s`", name_of(code));
 }
 
 static bool missing_value(const char *word, nh_error *error)
@@ -154,8 +168,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_accuracy: return positive(value, "accuracy", &cli->accuracy, error);
     case opt_ensemble: return members(value, &cli->ensemble, error);
     case opt_spread: return positive(value, "spread", &cli->spread, error);
-    case opt_stress: return cli->stress = true;
-    case opt_over: cli->over = value; return cli->stress = true;
+    case opt_robustness: return cli->robustness = true;
+    case opt_over: cli->over = value; return cli->robustness = true;
     case opt_scene: return cli->scene = true;
     case opt_chain: cli->chain = value; return true;
     case opt_group: cli->group = value; return true;
@@ -164,7 +178,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_columns: return nh_options_set(&cli->options, "columns", value, error);
     case opt_degree: return nh_options_set(&cli->options, "degree", value, error);
     case opt_option: return assignment(cli, value, "option", &name, &text, error) && set_option(cli, name, text, error);
-    case opt_chart: return set_chart(cli, value, error);
+    case opt_velocities: return set_velocities(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);
     case 'o': cli->folder = value; return true;
@@ -228,7 +242,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
         if (code != 1 && !in_full(argv[at], code, error)) return false;
         for (size_t i = 0; i < owner_count; i++) given[i] = given[i] || owners[i].code == code;
         if (code == 1) {
-            if (!cli->command) cli->command = optarg;
+            if (!cli->command) cli->command = nh_cli_command_name(optarg);
             else cli->operand[cli->operands++] = optarg;
         } else if (code == ':') {
             return missing_value(argv[optind - 1], error);

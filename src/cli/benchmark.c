@@ -28,16 +28,16 @@ static bool write_all(nh_cli *cli, const nh_run *run, const nh_benchmark *c, con
     return nh_cli_written(cli, good, error);
 }
 
-int nh_cli_chart(nh_cli *cli, nh_error *error)
+int nh_cli_benchmark(nh_cli *cli, nh_error *error)
 {
     nh_simulate_request request;
     nh_cli_progress_begin(cli);
-    if (!nh_cli_motion_request(cli, "nhsym chart sleigh", &request, error) || !nh_cli_can_write(cli, error)) return error->code;
+    if (!nh_cli_motion_request(cli, "nhsym benchmark sleigh", &request, error) || !nh_cli_can_write(cli, error)) return error->code;
     /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
     const double longest = 300;
-    double budget = cli->budget > 0 ? cli->budget : 5, of_stress = cli->budget > 0 ? budget / 2 : longest;
-    nh_benchmark *c = nh_benchmark_run(&request, cli->stress && cli->budget > 0 ? budget / 2 : budget, error);
-    nh_robustness *s = c && cli->stress && !nh_interrupted() ? nh_robustness_create(&request, cli->over, of_stress, error) : NULL;
+    double budget = cli->budget > 0 ? cli->budget : 5, of_maps = cli->budget > 0 ? budget / 2 : longest;
+    nh_benchmark *c = nh_benchmark_run(&request, cli->robustness && cli->budget > 0 ? budget / 2 : budget, error);
+    nh_robustness *s = c && cli->robustness && !nh_interrupted() ? nh_robustness_create(&request, cli->over, of_maps, error) : NULL;
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);

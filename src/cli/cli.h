@@ -29,18 +29,18 @@ typedef struct {
     const char *group, *chain, *to; /* of reduce */
     bool project, weak;
     const char *watch;           /* of simulate */
-    const char *over;            /* of chart */
+    const char *over;            /* of benchmark */
     bool scene;
     double accuracy, spread;
     size_t ensemble;
-    const char *svg;             /* of chart */
-    bool stress;
+    const char *svg;             /* of benchmark */
+    bool robustness;
     double budget;
     double step;
     bool no_analysis;
     size_t settings;
     nh_setting *setting;
-    nh_chart_choice chart;
+    nh_chart_choice velocities;
     nh_options options;
     bool seed_given, samples_given, tolerance_given, until_given;
     bool limited;                /* a time limit was given */
@@ -54,9 +54,9 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_chart, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
+nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_benchmark, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
 
-/* What simulate and chart ask for; `example` is the hint when no system is named. */
+/* What simulate and benchmark ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);
 
 /* Before the work: what is being done is shown on stderr, as --progress says; --max-seconds, SIGINT and SIGTERM end the work with what there is.  After it, before

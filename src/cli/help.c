@@ -180,8 +180,8 @@ static void fish(void)
         for (const char *c = meaning(&options[j]); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
         puts("'");
     }
-    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate chart reduce show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
-         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate chart reduce' -k -a '(__fish_complete_suffix .yaml)'");
+    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
+         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce' -k -a '(__fish_complete_suffix .yaml)'");
 }
 
 int nh_cli_help(nh_cli *cli, nh_error *error)
@@ -191,15 +191,13 @@ int nh_cli_help(nh_cli *cli, nh_error *error)
         void (*print)(void);
     } files[] = {{"man", manual_page}, {"bash", bash}, {"zsh", zsh}, {"fish", fish}};
     bool asked = cli->command && !strcmp(cli->command, "help");
-    const char *about = asked ? (cli->operands ? cli->operand[0] : NULL) : cli->command, *names[command_count];
+    const char *about = asked ? (cli->operands ? nh_cli_command_name(cli->operand[0]) : NULL) : cli->command;
     if (!about) return all_commands(), NH_OK;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (!strcmp(about, files[i].name)) return files[i].print(), NH_OK;
-    for (size_t i = 0; i < command_count; i++) {
-        names[i] = commands[i].name;
-        if (!strcmp(about, names[i])) return one_command(&commands[i]), NH_OK;
-    }
+    for (size_t i = 0; i < command_count; i++)
+        if (!strcmp(about, commands[i].name)) return one_command(&commands[i]), NH_OK;
     nh_fail(error, NH_USAGE, "", "there is no command `%s`", about);
-    const char *near = nh_text_nearest(about, names, command_count);
+    const char *near = nh_cli_command_near(about);
     return near ? nh_error_hint(error, "did you mean `nhsym help %s`?", near) : nh_error_hint(error, "`nhsym help` lists the commands"), NH_USAGE;
 }

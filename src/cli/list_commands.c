@@ -63,7 +63,7 @@ static void explain_options(void)
 {
     for (size_t i = 0; i < nh_option_count(); i++) {
         nh_option_row o = nh_option_at(i);
-        printf("%-13s %-9g %-10s %s\n", o.name, o.value, o.unit, o.doc);
+        printf("%-20s %-9g %-10s %s\n", o.name, o.value, o.unit, o.doc);
     }
 }
 

@@ -30,14 +30,11 @@ static void out_of_memory(size_t wanted)
 
 static int run(nh_cli *cli, nh_error *error)
 {
-    const char *names[command_count];
     if (cli->help || !cli->command) return nh_cli_help(cli, error);
-    for (size_t i = 0; i < command_count; i++) {
-        names[i] = commands[i].name;
-        if (!strcmp(cli->command, names[i])) return commands[i].run(cli, error);
-    }
+    for (size_t i = 0; i < command_count; i++)
+        if (!strcmp(cli->command, commands[i].name)) return commands[i].run(cli, error);
     nh_fail(error, NH_USAGE, "", "there is no command `%s`", cli->command);
-    const char *near = nh_text_nearest(cli->command, names, command_count);
+    const char *near = nh_cli_command_near(cli->command);
     if (near) nh_error_hint(error, "did you mean `nhsym %s`?", near);
     else nh_error_hint(error, "`nhsym help` lists the commands");
     return NH_USAGE;

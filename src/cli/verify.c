@@ -14,8 +14,8 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error
     if (path) *run = nh_cli_run(cli, path, NULL);
     nh_system *system = path ? nh_system_read(path, cli->settings, cli->setting, error) : NULL;
     if (!system) return false;
-    if (cli->current) *out = nh_verification_of_current(system, cli->chart, cli->current, &cli->options, error);
-    else *out = nh_verification_of_field(system, cli->chart, cli->field, &cli->options, error);
+    if (cli->current) *out = nh_verification_of_current(system, cli->velocities, cli->current, &cli->options, error);
+    else *out = nh_verification_of_field(system, cli->velocities, cli->field, &cli->options, error);
     return *out != NULL;
 }
 

@@ -24,7 +24,7 @@ static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_b
 /* ---- one motion ---- */
 
 /* A count is the same on a busy machine. */
-static double most_steps(const nh_benchmark_work *c) { return c->once ? c->options.stress_steps : 1e8; }
+static double most_steps(const nh_benchmark_work *c) { return c->once ? c->options.robustness_steps : 1e8; }
 
 static bool out_of_time(nh_benchmark_work *c, const nh_motion *motion) { return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)); }
 
@@ -63,7 +63,7 @@ static bool breaks_down(nh_formulation *f, const nh_motion *motion)
 static nh_run_record_status status_of(const nh_options *o, const nh_run_record *m, bool complete, bool cancelled, bool guarded)
 {
     if (!complete) return guarded ? NH_DETECTED : cancelled ? NH_TIMEOUT : NH_FAILED;
-    bool wrong = isnan(m->tolerance) ? !(m->error <= o->chart_fixed) : !(m->error <= fmax(o->chart_wrong, o->chart_far * m->tolerance));
+    bool wrong = isnan(m->tolerance) ? !(m->error <= o->benchmark_fixed) : !(m->error <= fmax(o->benchmark_error, o->benchmark_far * m->tolerance));
     if (guarded) return wrong ? NH_DETECTED : NH_FLAGGED;
     return wrong ? NH_UNDETECTED : NH_ACCURATE;
 }
@@ -172,7 +172,7 @@ static bool try_pair(nh_benchmark_work *c, const pair *p, size_t f, double *stat
     }
     const char *name = nh_arena_printf(arena, "%s at %.0e in %s", p->first, p->first_tolerance, c->formulation[f].name);
     if (states_of(c, f, p->second, p->second_tolerance, other)) prefer(c, agreement_of(c, states, other), states, name, nh_arena_printf(arena, "%s at %.0e", p->second, p->second_tolerance));
-    for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.chart_trusted); k++) /* where the second does not agree, a closed form may */
+    for (size_t k = 0; k < c->closeds && !(c->out->agreement < c->options.benchmark_trusted); k++) /* where the second does not agree, a closed form may */
         if (c->closed[k].whole) prefer(c, nh_closed_off(c, &c->closed[k], states, &ignored), states, name, nh_arena_printf(arena, "closed form \"%s\"", c->closed[k].motion->name));
     c->hurried |= hurried;
     return true;
@@ -187,7 +187,7 @@ bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
     c->out->agreement = INFINITY;
     for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
         bool time = true; /* where there is none in one formulation there is none in the next, which takes longer */
-        for (size_t f = 0; f < c->formulations && (time || c->once) && !(c->out->agreement < c->options.chart_trusted); f++)
+        for (size_t f = 0; f < c->formulations && (time || c->once) && !(c->out->agreement < c->options.benchmark_trusted); f++)
             if (!c->formulation[f].breaks) time = try_pair(c, &pairs[p], f, states, other);
     }
     nh_free(states);
@@ -276,7 +276,7 @@ static void measure_all(nh_benchmark_work *c)
                 c->out->partial = k->given_up = true;
                 continue;
             }
-            double step = fixed ? span / (c->options.chart_steps * pow(step_ratio, (double)level)) : NAN;
+            double step = fixed ? span / (c->options.benchmark_steps * pow(step_ratio, (double)level)) : NAN;
             nh_benchmark_work_measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
         }
 }
@@ -396,7 +396,7 @@ static bool open_somewhere(nh_benchmark_work *c, const nh_simulate_request *requ
         if (!nh_benchmark_work_open(c, &q, budget, error)) break;
         bool chosen = request->until_given || (c->out->question->analysis && c->out->question->analysis->has_until), last = chosen || i + 1 == most_halvings;
         bool there = nh_benchmark_work_reference(c, error);
-        c->out->doubtful = there && !(c->out->agreement < c->options.chart_trusted);
+        c->out->doubtful = there && !(c->out->agreement < c->options.benchmark_trusted);
         if (there && (last || !c->out->doubtful)) {
             c->out->shortened = i > 0;
             return true;

@@ -60,7 +60,7 @@ typedef struct {
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */
-    bool doubtful;               /* they do not agree well enough for it to be a reference (options.chart_trusted): errors then say little, and nothing is right */
+    bool doubtful;               /* they do not agree well enough for it to be a reference (options.benchmark_trusted): errors then say little, and nothing is right */
     bool shortened;              /* the motion did not reach the time that was meant, and nobody had chosen that */
 } nh_benchmark;
 

@@ -219,7 +219,7 @@ static bool measure_degree(fit *f, size_t letters, const nh_ex *letter, size_t d
     nh_family family = {.kind = NH_POLYNOMIAL, .in = letter, .in_count = letters, .degree = degree};
     nh_error ignored;
     nh_error_clear(&ignored);
-    f->cheb = nh_ansatz_create(f->model, f->ranges, 1, &family, (size_t)f->options.chart_columns, &ignored);
+    f->cheb = nh_ansatz_create(f->model, f->ranges, 1, &family, (size_t)f->options.benchmark_columns, &ignored);
     f->raw = f->cheb ? raw_ansatz(f, &ignored) : NULL;
     bool good = f->raw != NULL;
     if (good) {
@@ -243,7 +243,7 @@ void nh_benchmark_fit(nh_benchmark_work *c, double seconds)
     size_t letters = nh_fit_letters(f.model, letter);
     out->fit = nh_arena_alloc(out->arena, (most_levels * densities * ways + 1) * sizeof *out->fit);
     f.ranges = nh_points_create(f.model, heldout_points, 1, seed, &ignored);
-    f.heldout = nh_points_create(f.model, 2 * (size_t)f.options.chart_columns, 1, seed + 77, &ignored);
+    f.heldout = nh_points_create(f.model, 2 * (size_t)f.options.benchmark_columns, 1, seed + 77, &ignored);
     for (size_t degree = 1; f.ranges && f.heldout && degree <= most_levels && !past(&f); degree++)
         if (!measure_degree(&f, letters, letter, degree)) break;
     mark_front(out);

@@ -103,7 +103,7 @@ typedef struct {
 
 /* System, formulations and charts of a request; close it also on failure (and free `out`). */
 bool nh_benchmark_work_open(nh_benchmark_work *bench, const nh_simulate_request *request, double budget, nh_error *error);
-/* The same without repetitions, with at most options.stress_steps steps per motion, one coordinate of the initial state moved, and velocities that the constraints allow
+/* The same without repetitions, with at most options.robustness_steps steps per motion, one coordinate of the initial state moved, and velocities that the constraints allow
  * there. */
 bool nh_benchmark_work_open_once(nh_benchmark_work *bench, const nh_simulate_request *request, size_t coordinate, double turn, double budget, nh_error *error);
 void nh_benchmark_work_close(nh_benchmark_work *bench);

@@ -142,7 +142,7 @@ void nh_known_motions_use(nh_benchmark_work *c)
         const nh_known_motions *f = &c->closed[k];
         size_t worst;
         double off = nh_closed_off(c, f, c->yard.state, &worst);
-        if (!(off <= fmax(fmin(c->options.chart_closed * c->out->agreement, c->options.chart_trusted), least_off))) {
+        if (!(off <= fmax(fmin(c->options.benchmark_closed * c->out->agreement, c->options.benchmark_trusted), least_off))) {
             refuse(c, f, off, worst, methods);
             continue;
         }

@@ -28,13 +28,13 @@ static const char *guard_of(nh_benchmark_work *b, const nh_candidate_run *k, con
     nh_run_record tight;
     nh_candidate_run again = *k;
     if (m->status == NH_FLAGGED || m->status == NH_DETECTED) return "the pivot of the chart";
-    if (drift_of(m) > o->stress_error) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
-    nh_benchmark_work_measure(b, &again, step > 0 ? NAN : o->stress_tolerance / 10, step > 0 ? step / 2 : NAN, &tight);
+    if (drift_of(m) > o->robustness_error) return nh_arena_printf(arena, "a current drifts by %.0e", drift_of(m));
+    nh_benchmark_work_measure(b, &again, step > 0 ? NAN : o->robustness_tolerance / 10, step > 0 ? step / 2 : NAN, &tight);
     if (tight.status == NH_TIMEOUT) b->hurried = true; /* it says nothing */
     if (tight.status == NH_TIMEOUT) return NULL;
     if (tight.status == NH_FAILED) return step > 0 ? "half the step does not reach the end" : "a tighter tolerance does not reach the end";
     /* both against the same reference, so that the difference of the errors bounds that of the states from below */
-    if (fabs(tight.error - m->error) > o->stress_error / 4) return step > 0 ? "half the step gives another motion" : "a tighter tolerance gives another motion";
+    if (fabs(tight.error - m->error) > o->robustness_error / 4) return step > 0 ? "half the step gives another motion" : "a tighter tolerance gives another motion";
     return NULL;
 }
 
@@ -42,7 +42,7 @@ static void decide(nh_benchmark_work *b, const nh_candidate_run *k, nh_run_recor
 {
     bool ended = m->status != NH_FAILED && m->status != NH_TIMEOUT;
     const char *guard = ended && (reference || !b->hurried) ? guard_of(b, k, m, step, o) : NULL;
-    bool good = m->error <= o->stress_error;
+    bool good = m->error <= o->robustness_error;
     cell->error = reference ? m->error : NAN;
     cell->drift = m->worst_drift;
     cell->note = guard ? guard : m->note;
@@ -66,7 +66,7 @@ static void try_method(nh_benchmark_work *b, const char *name, bool in_coordinat
         return;
     }
     b->hurried &= !reference; /* what one method had no time for does not concern the next */
-    nh_benchmark_work_measure(b, &k, step > 0 ? NAN : o->stress_tolerance, step > 0 ? step : NAN, &m);
+    nh_benchmark_work_measure(b, &k, step > 0 ? NAN : o->robustness_tolerance, step > 0 ? step : NAN, &m);
     decide(b, &k, &m, reference, step, o, cell);
 }
 
@@ -77,7 +77,7 @@ void nh_robustness_try(nh_robustness_work *w, const nh_simulate_request *request
     double left = w->begun + w->budget - nh_clock(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
     nh_benchmark_work b;
     bool opened = nh_benchmark_work_open_once(&b, request, coordinate, turn, budget, &error);
-    bool reference = opened && nh_benchmark_work_reference(&b, &error) && b.out->agreement <= request->options.stress_error; /* else the two say nothing about what is right */
+    bool reference = opened && nh_benchmark_work_reference(&b, &error) && b.out->agreement <= request->options.robustness_error; /* else the two say nothing about what is right */
     if (opened && !reference) nh_benchmark_work_no_reference(&b);
     for (size_t i = 0; i < method_count; i++) {
         cell[i].method = w->step > 0 ? stepping[i] : methods[i];
@@ -173,17 +173,17 @@ static bool all_maps(nh_robustness_work *w, const nh_benchmark_work *plain, nh_e
     const nh_system *s = plain->out->question->system;
     bool charts = plain->formulations == NH_BENCHMARK_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
     size_t parameters = s->parameters < most_parameters ? s->parameters : most_parameters, angles = angles_of(s, charts);
-    w->out->map = nh_arena_alloc(w->out->arena, (3 + s->stresses + parameters + angles + NH_ROBUSTNESS_FITS) * sizeof *w->out->map);
+    w->out->map = nh_arena_alloc(w->out->arena, (3 + s->robustness_maps + parameters + angles + NH_ROBUSTNESS_FITS) * sizeof *w->out->map);
     w->values_left = longer_times + sizeof absolute / sizeof *absolute + parameters * (sizeof parameter / sizeof *parameter) + angles * most_values + longer_by_steps;
     nh_robustness_fits(w, plain);
-    for (size_t i = 0; i < s->stresses; i++)
-        if (!nh_robustness_named(w, plain, &s->stress[i], error)) return false;
+    for (size_t i = 0; i < s->robustness_maps; i++)
+        if (!nh_robustness_named(w, plain, &s->robustness_map[i], error)) return false;
     map_absolute(w);
     for (size_t i = 0; i < s->coordinates && angles; i++)
         if (s->coordinate[i].type == NH_ANGLE) map_angle(w, s->coordinate[i].name, i);
     for (size_t i = 0; i < parameters; i++) map_parameter(w, s->parameter[i].name, s->parameter[i].value);
     double begin = plain->out->begin, end = plain->out->end;
-    map_time(w, "long times by fixed steps", longer_by_steps, fabs(end - begin) / (4 * w->request->options.chart_steps), begin, end);
+    map_time(w, "long times by fixed steps", longer_by_steps, fabs(end - begin) / (4 * w->request->options.benchmark_steps), begin, end);
     map_time(w, "long times", longer_times, 0, begin, end);
     return true;
 }
@@ -194,18 +194,18 @@ static bool one_map(nh_robustness_work *w, const nh_benchmark_work *plain, const
     const nh_system *s = plain->out->question->system;
     w->out->map = nh_arena_alloc(w->out->arena, NH_ROBUSTNESS_FITS * sizeof *w->out->map);
     if (!strcmp(over, "samples")) return nh_robustness_fits(w, plain), true;
-    for (size_t i = 0; i < s->stresses; i++)
-        if (!strcmp(over, s->stress[i].name)) return nh_robustness_named(w, plain, &s->stress[i], error);
-    if (!s->stresses || strchr(over, '=')) return nh_robustness_axes(w, plain, w->request, NULL, over, error);
-    nh_fail(error, NH_USAGE, "", "--over `%s` is neither a range nor a stress of this system", over);
-    return nh_error_hint(error, "--over \"NAME=LOW:HIGH\", or one of its stresses, such as --over \"%s\"", s->stress[0].name);
+    for (size_t i = 0; i < s->robustness_maps; i++)
+        if (!strcmp(over, s->robustness_map[i].name)) return nh_robustness_named(w, plain, &s->robustness_map[i], error);
+    if (!s->robustness_maps || strchr(over, '=')) return nh_robustness_axes(w, plain, w->request, NULL, over, error);
+    nh_fail(error, NH_USAGE, "", "--over `%s` is neither a range nor a robustness map of this system", over);
+    return nh_error_hint(error, "--over \"NAME=LOW:HIGH\", or one of its maps, such as --over \"%s\"", s->robustness_map[0].name);
 }
 
 nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_robustness *out = nh_arena_alloc(arena, sizeof *out);
-    *out = (nh_robustness){.arena = arena, .tolerance = request->options.stress_tolerance, .accuracy = request->options.stress_error};
+    *out = (nh_robustness){.arena = arena, .tolerance = request->options.robustness_tolerance, .accuracy = request->options.robustness_error};
     nh_robustness_work w = {.out = out, .request = request, .begun = nh_clock(), .budget = budget};
     nh_benchmark_work plain;
     bool good = nh_benchmark_work_open_once(&plain, request, 0, 0, budget, error) && (over ? one_map(&w, &plain, over, error) : all_maps(&w, &plain, error));

@@ -12,7 +12,7 @@
  * Maps: the time, ten to a thousand times longer, also by methods with a fixed step; the size below which errors count as absolute, wrong by powers of ten, which is
  * what badly scaled units do; every parameter, made small and large (masses and lengths that vanish, stiffness); every angle of the initial state, turned once
  * around, in the chart of coordinate velocities; those that the system file names (`stress`); and the discrete problem where it is hardly determined
- * (stress_fit.c).  A motion that needs more than options.stress_steps is out of time: a count, so that a map is the same on a busy machine. */
+ * (stress_fit.c).  A motion that needs more than options.robustness_steps is out of time: a count, so that a map is the same on a busy machine. */
 #ifndef NH_ROBUSTNESS_H
 #define NH_ROBUSTNESS_H
 
@@ -44,7 +44,7 @@ typedef struct {
 /* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these parameters, numbers of the initial state or
  * options instead of all others; or the name of a stress of the system file; or "samples", the maps of the discrete problem; NULL: all.  `budget`: seconds for all,
  * HUGE_VAL: only steps are counted.  NULL with a message when the system itself cannot be read.  The tolerance of
- * every run and the error that counts as right are request->options.stress_tolerance and stress_error. */
+ * every run and the error that counts as right are request->options.robustness_tolerance and robustness_error. */
 nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error);
 void nh_robustness_free(nh_robustness *stress);
 

@@ -59,6 +59,7 @@ static bool know(const nh_benchmark_work *plain, const nh_simulate_request *requ
         nh_fail(error, NH_USAGE, "", "--over `%s` changes the initial state, which is not given", a->name);
         return nh_error_hint(error, "--initial \"%s=0\" gives it; what is not named is 0 or follows from the constraints", a->name);
     }
+    a->name = nh_option_name(a->name);
     for (size_t i = 0; i < nh_option_count(); i++)
         if (!strcmp(a->name, nh_option_at(i).name)) return true;
     nh_fail(error, NH_USAGE, "", "--over `%s`: there is no such parameter, coordinate, velocity or option", a->name);
@@ -145,7 +146,7 @@ bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, c
 
 /* ---- by name ---- */
 
-bool nh_robustness_named(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_named_stress *s, nh_error *error)
+bool nh_robustness_named(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_named_map *s, nh_error *error)
 {
     nh_simulate_request q = *w->request;
     nh_setting *setting = nh_arena_alloc(w->out->arena, (q.settings + s->settings + 1) * sizeof *setting);
@@ -153,7 +154,7 @@ bool nh_robustness_named(nh_robustness_work *w, const nh_benchmark_work *plain, 
     for (size_t i = 0; i < s->settings; i++) setting[q.settings++] = (nh_setting){.name = s->setting[i].name, .value = s->setting[i].value};
     q.setting = setting;
     if (s->initial) q.initial = s->initial;
-    if (s->chart) q.chart = !strcmp(s->chart, "auto") ? NH_CHART_AUTO : !strcmp(s->chart, "quasi") ? NH_CHART_QUASI : NH_CHART_COORDINATES;
+    if (s->velocities) q.chart = !strcmp(s->velocities, "auto") ? NH_CHART_AUTO : !strcmp(s->velocities, "quasi") ? NH_CHART_QUASI : NH_CHART_COORDINATES;
     if (s->until > 0) q.options.until = s->until, q.until_given = true;
     for (size_t i = 0; i < s->options; i++)
         if (!nh_options_set(&q.options, s->option[i].name, nh_arena_printf(w->out->arena, "%.17g", s->option[i].value), error)) return false;

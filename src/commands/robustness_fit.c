@@ -300,7 +300,7 @@ static void map_apart(fit *f, const char *name, const char *axis, size_t (*ansat
 /* The polynomials of the highest degree that are not too many. */
 static bool choose_polynomials(fit *f, nh_error *error)
 {
-    size_t most = (size_t)f->w->request->options.stress_columns;
+    size_t most = (size_t)f->w->request->options.robustness_columns;
     f->letter = nh_alloc_array(3 * f->model->m + 1, sizeof *f->letter);
     f->letters = nh_fit_letters(f->model, f->letter);
     for (size_t degree = most_degree; degree > 0; degree--) {
@@ -320,7 +320,7 @@ void nh_robustness_fits(nh_robustness_work *w, const nh_benchmark_work *plain)
 {
     const nh_options *o = &w->request->options;
     uint64_t seed = (uint64_t)o->seed;
-    size_t most = (size_t)o->stress_columns + 1;
+    size_t most = (size_t)o->robustness_columns + 1;
     nh_error ignored;
     nh_error_clear(&ignored);
     fit f = {.w = w, .plain = plain, .model = plain->out->question->model, .limits = nh_nullspace_options_from(o), .state = 88172645463325252u};

@@ -22,7 +22,7 @@ nh_robustness_map *nh_robustness_add_map(nh_robustness_work *work, const char *n
 /* The map of NAME=LOW:HIGH or two of them; name NULL: it is called what it goes over. */
 bool nh_robustness_axes(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_simulate_request *request, const char *name, const char *over, nh_error *error);
 /* A map that the system file names. */
-bool nh_robustness_named(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_named_stress *stress, nh_error *error);
+bool nh_robustness_named(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_named_map *map, nh_error *error);
 /* Is the time of all maps over? */
 bool nh_robustness_late(const nh_robustness_work *work);
 /* The maps of the discrete problem: clustered and noisy samples, an ansatz at the edge of dependence, frequencies that nearly coincide. */

@@ -32,7 +32,7 @@ static const nh_glossary_entry entries[] = {
     {"right", "A measured integration (nhsym chart) whose error its tolerance or step lets expect, and no guard complains."},
     {"warned", "Right, but a guard complains: the pivot of the chart, and in maps the drift of a current or a run at a tenth of the tolerance."},
     {"caught", "It failed, or its error is larger than may be expected, and a guard says so."},
-    {"wrong", "It ended without complaint, and its error is larger than may be expected: options chart_wrong, chart_far and chart_fixed."},
+    {"wrong", "It ended without complaint, and its error is larger than may be expected: options benchmark_error, benchmark_far and benchmark_fixed."},
     {"timeout", "An integration that was given up because it took too long."},
     {"semiholonomic", "eps'_l(g) = 0 for a constraint that is linear or affine in the velocities: it is integrable.  Not defined for nonlinear constraints."},
     {"projectable", "The components of Z along time and coordinates do not depend on velocities.  Whether Z is a symmetry of the equations of motion is another question."},

@@ -100,7 +100,7 @@ static bool unexpected(parser *p, const char *wanted)
     if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*') return hint(p, "powers are written with ^: x^2");
     if ((c == '<' || c == '>') && p->equation) return hint(p, "only equations can be written: where a motion is looked at, `domain:` says");
     if (c == '=' && p->equation) return hint(p, "an equation has one `=` between two expressions");
-    if (c == '=') return hint(p, "an equation is expected only under constraints, forces, definitions and chart maps");
+    if (c == '=') return hint(p, "an equation is expected only under constraints, forces, definitions and the map of velocities");
     return false;
 }
 

@@ -10,7 +10,7 @@
 /* ---- before the system ---- */
 
 static const char *const top_keys[] = {"name", "system", "set", "route", "ansatz", "unknowns", "samples", "seed", "validate", "scene",
-                                       "definitions", "chart", "title", "doc", "figures"};
+                                       "definitions", "velocities", "title", "doc", "figures"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
@@ -48,10 +48,11 @@ static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error
 
 static bool read_head(nh_analysis_file *a, nh_error *error)
 {
-    static const char *const routes[] = {"both", "symmetry", "current"}, *const charts[] = {"auto", "quasi", "coordinates"};
+    static const char *const routes[] = {"both", "symmetry", "current"}, *const velocities[] = {"auto", "quasi", "coordinates"};
     const nh_deck_node *root = nh_deck_root(a->deck), *node;
     size_t index = 0;
     if (!nh_deck_is(a->deck, root, NH_DECK_MAP, "an analysis file (system: ..., ansatz: ...)", error)) return false;
+    if (!nh_deck_rename(a->deck, root, "chart", "velocities", error)) return false; /* of earlier versions */
     if (!nh_deck_only(a->deck, root, top_keys, top_key_count, error)) return false;
     const char *remark; /* title and doc are for the reader of the file */
     if (!text_of(a->deck, root, "name", "analysis", &a->name, error) || !text_of(a->deck, root, "system", NULL, &a->system, error)) return false;
@@ -59,7 +60,7 @@ static bool read_head(nh_analysis_file *a, nh_error *error)
     if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "route"), "route", routes, &index, error)) return false;
     a->route = (nh_route)index;
     index = 0;
-    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "chart"), "chart", charts, &index, error)) return false;
+    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "velocities"), "velocities", velocities, &index, error)) return false;
     a->chart = (nh_chart_choice)index;
     long whole;
     if ((node = nh_deck_get(root, "samples"))) {

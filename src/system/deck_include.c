@@ -115,8 +115,9 @@ static const nh_deck_node *without(nh_arena *arena, const nh_deck_node *map, con
     return node;
 }
 
-static bool include(nh_deck *deck, int depth, nh_error *error)
+static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error *error)
 {
+    if (prepare && !prepare(deck, error)) return false;
     const nh_deck_node *node = nh_deck_get(deck->root, "include");
     if (!node) return true;
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, "the name of a file", error)) return false;
@@ -135,10 +136,26 @@ static bool include(nh_deck *deck, int depth, nh_error *error)
     }
     deck->included = nh_deck_parse(path, text, length, error);
     nh_free(text);
-    if (!deck->included || !include(deck->included, depth + 1, error)) return false;
+    if (!deck->included || !include(deck->included, depth + 1, prepare, error)) return false;
     if (!nh_deck_is(deck->included, deck->included->root, NH_DECK_MAP, "an included file (name: ..., ...)", error)) return false;
     deck->root = merged(deck->arena, deck->included->root, without(deck->arena, deck->root, "include"));
     return true;
 }
 
-bool nh_deck_include(nh_deck *deck, nh_error *error) { return include(deck, 1, error); }
+bool nh_deck_include(nh_deck *deck, nh_deck_prepare *prepare, nh_error *error) { return include(deck, 1, prepare, error); }
+
+bool nh_deck_rename(nh_deck *deck, const nh_deck_node *map, const char *old, const char *key, nh_error *error)
+{
+    for (size_t i = 0; map && map->kind == NH_DECK_MAP && i < map->count; i++) {
+        if (strcmp(map->key[i]->text, old)) continue;
+        if (nh_deck_get(map, key)) {
+            nh_deck_fail(deck, map->key[i], 0, error, "`%s` and `%s` are two names of one key", old, key);
+            return nh_error_hint(error, "keep `%s`; `%s` is its old name", key, old);
+        }
+        nh_deck_node *renamed = nh_arena_alloc(deck->arena, sizeof *renamed);
+        *renamed = *map->key[i];
+        renamed->text = key;
+        map->key[i] = renamed;
+    }
+    return true;
+}

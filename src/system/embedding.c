@@ -203,7 +203,7 @@ static bool chart_satisfies(const nh_chart *c, nh_error *error)
         nh_tape_work_free(work);
         nh_tape_free(tape);
         if (worst < 1e-10) continue;
-        nh_deck_fail(s->deck, s->constraint[a].node, 0, error, "the chart's map does not satisfy this constraint (off by %.2g at a sample point)", worst);
+        nh_deck_fail(s->deck, s->constraint[a].node, 0, error, "the velocities' map does not satisfy this constraint (off by %.2g at a sample point)", worst);
         return nh_error_hint(error, "substitute the map into the constraint: it must vanish for all quasi-velocities");
     }
     return true;
@@ -243,7 +243,7 @@ static bool velocities_independent(const nh_chart *c, nh_error *error)
     size_t rank = rank_of_map(c);
     if (rank == c->n) return true;
     const nh_deck *deck = c->system->deck;
-    nh_deck_fail(deck, nh_deck_get(nh_deck_root(deck), "chart"), 0, error, "the chart's map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank, c->n);
+    nh_deck_fail(deck, nh_deck_get(nh_deck_root(deck), "velocities"), 0, error, "the velocities' map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank, c->n);
     return nh_error_hint(error, "each quasi-velocity must move something that the others do not");
 }
 
@@ -270,7 +270,7 @@ nh_chart *nh_chart_create(nh_system *system, nh_chart_choice choice, uint64_t se
 {
     if (choice == NH_CHART_QUASI && !system->quasi) {
         nh_fail(error, NH_USAGE, "", "%s defines no quasi-velocities", system->name);
-        nh_error_hint(error, "add a `chart:` to the system file");
+        nh_error_hint(error, "add `velocities:` to the system file");
         return NULL;
     }
     bool quasi = system->quasi && choice != NH_CHART_COORDINATES;

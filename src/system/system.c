@@ -38,7 +38,7 @@ static bool in_coordinates(const scope *s, const char *name, nh_ex *out, nh_pars
         *out = velocity ? y->coordinate[i].v : y->coordinate[i].q;
         if (!velocity || !(s->forbid & NH_NO_VELOCITIES)) return true;
         snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
-        snprintf(fault->hint, sizeof fault->hint, "the chart's map gives the velocities: write it in quasi-velocities, coordinates and t");
+        snprintf(fault->hint, sizeof fault->hint, "the map gives the coordinates' velocities: write it in quasi-velocities, coordinates and t");
         return false;
     }
     return false;
@@ -144,7 +144,7 @@ static bool not_an_equation(const nh_deck *deck, const nh_deck_node *node, size_
     size_t at = (size_t)(equal - node->text);
     if (skip) return nh_deck_fail(deck, node, at, error, at == skip ? "this is written with a single `=`" : "there is a second `=`");
     nh_deck_fail(deck, node, at, error, "an expression was expected here, not an equation");
-    return nh_error_hint(error, "equations stand under constraints, forces, definitions and in a chart's map");
+    return nh_error_hint(error, "equations stand under constraints, forces, definitions and in the velocities' map");
 }
 
 bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip, unsigned forbid,

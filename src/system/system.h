@@ -52,11 +52,11 @@ typedef struct {
 /* A map of where motions are hard to compute, as texts of the command line: nothing of it is looked at before it is made. */
 typedef struct {
     const char *name, *doc, *over;
-    const char *initial, *chart; /* NULL: not given */
+    const char *initial, *velocities; /* NULL: not given */
     double until, step;          /* 0: not given; step: by methods with this fixed step */
     size_t settings, options;
     nh_setting *setting, *option;
-} nh_named_stress;
+} nh_named_map;
 
 /* A closed form: some coordinates as functions of t and of numbers that the initial state gives.  A claim of the file, which whoever uses it has to check. */
 typedef struct {
@@ -89,8 +89,8 @@ typedef struct {
     nh_ex *symmetry;         /* symmetries x coordinates: components */
     size_t shapes;
     nh_shape *shape;         /* to be drawn, in t, coordinates and parameters */
-    size_t stresses;
-    nh_named_stress *stress;
+    size_t robustness_maps;
+    nh_named_map *robustness_map;
     nh_ex lagrangian;        /* with the energies of bodies and joints */
     nh_ex *force;            /* per coordinate; the number 0 where there is none */
     bool has_forces;

@@ -1,4 +1,4 @@
-/* system_parts: the optional parts of a system file: chart, forces, domain, known currents. */
+/* system_parts: the optional parts of a system file: velocities, forces, domain, known currents. */
 #include <string.h>
 
 #include "base/text.h"
@@ -8,11 +8,11 @@
 static bool count_quasi(nh_system_reader *r, const nh_deck_node *chart)
 {
     const nh_system *s = r->system;
-    const nh_deck_node *list = nh_deck_get(chart, "velocities");
+    const nh_deck_node *list = nh_deck_get(chart, "names");
     if (s->constraints > s->coordinates) return true; /* told by the ranks */
     size_t left = s->coordinates - s->constraints;
     if (s->quasi == left) return true;
-    nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "the chart must have as many velocities as there are degrees of freedom: %zu, not %zu (coordinates: %zu, constraints: %zu)",
+    nh_deck_fail(r->deck, list ? list : chart, 0, r->error, "there must be as many velocities as degrees of freedom: %zu, not %zu (coordinates: %zu, constraints: %zu)",
                  left, s->quasi, s->coordinates, s->constraints);
     return s->quasi < left ? nh_error_hint(r->error, "list every constraint under `constraints:`, and every velocity here") : false;
 }
@@ -31,8 +31,8 @@ static long velocity_on_left(nh_system_reader *r, const nh_deck_node *node, cons
 
 bool nh_system_read_chart(nh_system_reader *r)
 {
-    static const char *const keys[] = {"velocities", "map"};
-    const nh_deck_node *chart = nh_deck_get(r->root, "chart"), *map;
+    static const char *const keys[] = {"names", "map"};
+    const nh_deck_node *chart = nh_deck_get(r->root, "velocities"), *map;
     nh_system *s = r->system;
     size_t n;
     if (!chart) return true;
@@ -42,7 +42,7 @@ bool nh_system_read_chart(nh_system_reader *r)
     bool *given = nh_system_take(r, s->coordinates, sizeof *given);
     for (size_t i = 0; i < n; i++) {
         const char *name;
-        if (!nh_system_assignment_name(r, map->item[i], "a line `x' = ...` of the chart's map", &name)) return false;
+        if (!nh_system_assignment_name(r, map->item[i], "a line `x' = ...` of the velocities' map", &name)) return false;
         long index = velocity_on_left(r, map->item[i], name);
         if (index < 0) return false;
         if (given[index]) return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` is given twice", name);
@@ -54,7 +54,7 @@ bool nh_system_read_chart(nh_system_reader *r)
     }
     for (size_t i = 0; i < s->coordinates; i++)
         if (!given[i])
-            return nh_deck_fail(r->deck, map ? map : chart, 0, r->error, "the chart's map does not say what `%s'` is", s->coordinate[i].name);
+            return nh_deck_fail(r->deck, map ? map : chart, 0, r->error, "the velocities' map does not say what `%s'` is", s->coordinate[i].name);
     return true;
 }
 

@@ -12,8 +12,8 @@
 typedef nh_system_reader reader;
 
 static const char *const top_keys[] = {"name", "title", "source", "parameters", "coordinates", "definitions", "lagrangian",
-                                       "constraints", "dependent", "chart", "forces", "domain", "known", "doc",
-                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw", "stress"};
+                                       "constraints", "dependent", "velocities", "forces", "domain", "known", "doc",
+                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw", "robustness"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 void *nh_system_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
@@ -157,12 +157,12 @@ static bool read_coordinates(reader *r)
 /* The names of the quasi-velocities, before any expression: using one where it may not stand is then told as such. */
 static bool read_quasi_names(reader *r)
 {
-    const nh_deck_node *chart = nh_deck_get(r->root, "chart"), *list;
+    const nh_deck_node *chart = nh_deck_get(r->root, "velocities"), *list;
     size_t n;
     nh_system *s = r->system;
     if (!chart) return true;
-    if (!nh_deck_is(r->deck, chart, NH_DECK_MAP, "a chart {velocities: [...], map: [...]}", r->error)) return false;
-    if (!nh_system_list_of(r, chart, "velocities", &list, &n)) return false;
+    if (!nh_deck_is(r->deck, chart, NH_DECK_MAP, "velocities {names: [...], map: [...]}", r->error)) return false;
+    if (!nh_system_list_of(r, chart, "names", &list, &n)) return false;
     s->quasi_velocity = nh_system_take(r, n, sizeof *s->quasi_velocity);
     for (size_t i = 0; i < n; i++) {
         if (!nh_system_new_name(r, list->item[i])) return false;
@@ -334,12 +334,24 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     s->t = nh_symbol(s->dag, "t");
     return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && nh_system_read_chain(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
            && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_symmetry(r) && nh_system_read_drawing(r) && nh_system_read_known(r)
-           && nh_system_read_stresses(r);
+           && nh_system_read_robustness(r);
+}
+
+/* Files of earlier versions: chart {velocities: ..}, and stress. */
+static bool rename_old_keys(nh_deck *deck, nh_error *error)
+{
+    const nh_deck_node *root = nh_deck_root(deck);
+    if (!nh_deck_rename(deck, nh_deck_get(root, "chart"), "velocities", "names", error)) return false;
+    if (!nh_deck_rename(deck, root, "chart", "velocities", error) || !nh_deck_rename(deck, root, "stress", "robustness", error)) return false;
+    const nh_deck_node *maps = nh_deck_get(root, "robustness");
+    for (size_t i = 0; maps && maps->kind == NH_DECK_LIST && i < maps->count; i++)
+        if (!nh_deck_rename(deck, maps->item[i], "chart", "velocities", error)) return false;
+    return true;
 }
 
 static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *setting, nh_error *error)
 {
-    if (deck && !nh_deck_include(deck, error)) {
+    if (deck && !nh_deck_include(deck, rename_old_keys, error)) {
         nh_deck_free(deck);
         return NULL;
     }
