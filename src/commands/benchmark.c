@@ -15,6 +15,12 @@ static const double share_of_fits = 0.25;              /* of the budget, for the
 
 const char *nh_run_record_status_name(nh_run_record_status status)
 {
+    static const char *const names[] = {"accurate", "flagged", "detected", "failed", "timeout", "undetected"};
+    return names[status];
+}
+
+const char *nh_run_record_status_json(nh_run_record_status status)
+{
     static const char *const names[] = {"right", "warned", "caught", "failed", "timeout", "wrong"};
     return names[status];
 }
@@ -198,7 +204,7 @@ bool nh_benchmark_work_reference(nh_benchmark_work *c, nh_error *error)
         return true;
     }
     nh_fail(error, NH_NUMERIC, "", "no reference could be computed: the motion does not reach t = %g by two methods", c->out->end);
-    return nh_error_hint(error, c->hurried && !c->once ? "there was no time for more: choose an earlier --until or a larger --budget" : "choose an earlier --until, another --initial or another --chart");
+    return nh_error_hint(error, c->hurried && !c->once ? "there was no time for more: choose an earlier --until or a larger --budget" : "choose an earlier --until, another --initial or other --velocities");
 }
 
 /* ---- all methods in all formulations ---- */
@@ -289,7 +295,7 @@ static void collect(nh_benchmark_work *c)
         if (c->grid[i].method) out->item[out->count++] = c->grid[i];
     for (size_t i = 0; i < out->count; i++) {
         nh_run_record *m = &out->item[i];
-        m->front = m->status == NH_ACCURATE && !m->reduced; /* what a guard complains about is no advice */
+        m->front = m->status == NH_ACCURATE && !m->reduced; /* what is flagged is no advice */
         for (size_t j = 0; j < out->count && m->front; j++) {
             const nh_run_record *o = &out->item[j];
             double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement); /* smaller ones cannot be told apart */

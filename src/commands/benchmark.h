@@ -3,8 +3,8 @@
  *
  * The reference is a Runge-Kutta motion of order 8 at the smallest tolerance; a second method at a tight tolerance says how far it can be
  * trusted.  Errors are the largest over output times, coordinates and velocities, relative to the largest value of each along the motion. */
-#ifndef NH_STUDY_CHART_H
-#define NH_STUDY_CHART_H
+#ifndef NH_BENCHMARK_H
+#define NH_BENCHMARK_H
 
 #include "commands/simulate.h"
 
@@ -60,7 +60,7 @@ typedef struct {
     size_t refused;
     const char **refusal;        /* "energy-preserving: it would converge ..." */
     bool partial;                /* the budget ended it */
-    bool doubtful;               /* they do not agree well enough for it to be a reference (options.benchmark_trusted): errors then say little, and nothing is right */
+    bool doubtful;               /* they do not agree well enough for it to be a reference (options.benchmark_trusted): errors then say little, and nothing is accurate */
     bool shortened;              /* the motion did not reach the time that was meant, and nobody had chosen that */
 } nh_benchmark;
 
@@ -68,6 +68,8 @@ typedef struct {
 nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget, nh_error *error);
 void nh_benchmark_free(nh_benchmark *comparison);
 
+/* The word of text and page, and that of JSON, which is older and stays for the scripts that read it. */
 const char *nh_run_record_status_name(nh_run_record_status status);
+const char *nh_run_record_status_json(nh_run_record_status status);
 
 #endif

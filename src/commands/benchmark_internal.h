@@ -1,6 +1,6 @@
 /* benchmark_internal: formulations of one motion, and how a computed motion is judged. */
-#ifndef NH_STUDY_CHART_INTERNAL_H
-#define NH_STUDY_CHART_INTERNAL_H
+#ifndef NH_BENCHMARK_INTERNAL_H
+#define NH_BENCHMARK_INTERNAL_H
 
 #include "motion/method.h"
 #include "motion/projection.h"

@@ -21,7 +21,7 @@ bool nh_robustness_late(const nh_robustness_work *w) { return nh_interrupted() |
 
 static double drift_of(const nh_run_record *m) { return isnan(m->worst_drift) ? 0 : m->worst_drift; }
 
-/* Which guard complains about a run that ended? NULL: none. */
+/* Which safeguard triggered for a run that ended?  NULL: none. */
 static const char *guard_of(nh_benchmark_work *b, const nh_candidate_run *k, const nh_run_record *m, double step, const nh_options *o)
 {
     nh_arena *arena = b->out->arena;
@@ -77,7 +77,7 @@ void nh_robustness_try(nh_robustness_work *w, const nh_simulate_request *request
     double left = w->begun + w->budget - nh_clock(), budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
     nh_benchmark_work b;
     bool opened = nh_benchmark_work_open_once(&b, request, coordinate, turn, budget, &error);
-    bool reference = opened && nh_benchmark_work_reference(&b, &error) && b.out->agreement <= request->options.robustness_error; /* else the two say nothing about what is right */
+    bool reference = opened && nh_benchmark_work_reference(&b, &error) && b.out->agreement <= request->options.robustness_error; /* else the two say nothing about what is accurate */
     if (opened && !reference) nh_benchmark_work_no_reference(&b);
     for (size_t i = 0; i < method_count; i++) {
         cell[i].method = w->step > 0 ? stepping[i] : methods[i];
@@ -218,7 +218,7 @@ nh_robustness *nh_robustness_create(const nh_simulate_request *request, const ch
     return NULL;
 }
 
-void nh_robustness_free(nh_robustness *stress)
+void nh_robustness_free(nh_robustness *maps)
 {
-    if (stress) nh_arena_free(stress->arena);
+    if (maps) nh_arena_free(maps->arena);
 }

@@ -1,18 +1,18 @@
 /* robustness: what the integrators do where methods fail.  Maps over one thing that is made worse, with one cell per value and method:
  *
- *     right     within the accuracy, and no guard complains
- *     warned    within it, but a guard complains
- *     caught    not within it, and a guard says so
- *     failed    the integrator gave up, or the model is refused, with a reason
- *     timeout   neither within its time
- *     wrong     not within the accuracy, and nothing says so
+ *     accurate    within the accuracy, and no safeguard triggered
+ *     flagged     within it, and a safeguard triggered
+ *     detected    not within it, and a safeguard says so
+ *     failed      the integrator gave up, or the model is refused, with a reason
+ *     timeout     neither within its time
+ *     undetected  not within the accuracy, and no safeguard triggered
  *
- * Guards: the pivot of the chart, the drift of every known current, and a second run at a tenth of the tolerance.
+ * Safeguards: the pivot of the chart, the drift of every known current, and a second run at a tenth of the tolerance.
  *
  * Maps: the time, ten to a thousand times longer, also by methods with a fixed step; the size below which errors count as absolute, wrong by powers of ten, which is
  * what badly scaled units do; every parameter, made small and large (masses and lengths that vanish, stiffness); every angle of the initial state, turned once
- * around, in the chart of coordinate velocities; those that the system file names (`stress`); and the discrete problem where it is hardly determined
- * (stress_fit.c).  A motion that needs more than options.robustness_steps is out of time: a count, so that a map is the same on a busy machine. */
+ * around, in the chart of coordinate velocities; those that the system file names (`robustness`); and the discrete problem where it is hardly determined
+ * (robustness_fit.c).  A motion that needs more than options.robustness_steps is out of time: a count, so that a map is the same on a busy machine. */
 #ifndef NH_ROBUSTNESS_H
 #define NH_ROBUSTNESS_H
 
@@ -35,17 +35,17 @@ typedef struct {
 
 typedef struct {
     nh_arena *arena;
-    double tolerance, accuracy; /* of every run; what counts as right */
+    double tolerance, accuracy; /* of every run; what counts as accurate */
     size_t maps;
     nh_robustness_map *map;
     size_t count[NH_UNDETECTED + 1]; /* cells per status */
 } nh_robustness;
 
 /* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these parameters, numbers of the initial state or
- * options instead of all others; or the name of a stress of the system file; or "samples", the maps of the discrete problem; NULL: all.  `budget`: seconds for all,
+ * options instead of all others; or the name of a map of the system file; or "samples", the maps of the discrete problem; NULL: all.  `budget`: seconds for all,
  * HUGE_VAL: only steps are counted.  NULL with a message when the system itself cannot be read.  The tolerance of
- * every run and the error that counts as right are request->options.robustness_tolerance and robustness_error. */
+ * every run and the error that counts as accurate are request->options.robustness_tolerance and robustness_error. */
 nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget, nh_error *error);
-void nh_robustness_free(nh_robustness *stress);
+void nh_robustness_free(nh_robustness *maps);
 
 #endif

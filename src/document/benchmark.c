@@ -23,7 +23,7 @@ size_t nh_benchmark_warnings(const nh_benchmark *c, const char *out[NH_BENCHMARK
 {
     size_t n = 0;
     if (c->shortened) out[n++] = "the time was shortened until two methods reached its end and agreed";
-    if (c->doubtful) out[n++] = "no two methods agree on this motion, so that errors say little and nothing is called right; an earlier --until may help";
+    if (c->doubtful) out[n++] = "no two methods agree on this motion, so that errors say little and nothing is called accurate; an earlier --until may help";
     return n;
 }
 
@@ -75,7 +75,7 @@ static void put_run(const nh_benchmark *c, const nh_run_record *m, nh_text *out)
     nh_text_addf(out, "  %-30s %-36s ", m->method, m->formulation);
     if (isnan(m->step)) nh_text_addf(out, "tolerance %-8.0e", m->tolerance);
     else nh_text_addf(out, "step %-13.3g", m->step);
-    nh_text_addf(out, " %-8s", nh_run_record_status_name(m->status));
+    nh_text_addf(out, " %-10s", nh_run_record_status_name(m->status));
     if (isfinite(m->error)) nh_text_addf(out, " error %-9.1e", m->error);
     for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++)
         if (!isnan(m->drift[k])) nh_text_addf(out, " %s %.0e", c->current[k], m->drift[k]);
@@ -135,7 +135,7 @@ void nh_benchmark_text(const nh_benchmark *c, bool verbose, nh_text *out)
     for (size_t i = 0; i < c->count && verbose; i++) put_run(c, &c->item[i], out);
 }
 
-/* ---- stress ---- */
+/* ---- robustness ---- */
 
 static void put_at(const nh_robustness_map *map, const nh_robustness_cell *cell, char *out, size_t size)
 {
@@ -145,7 +145,7 @@ static void put_at(const nh_robustness_map *map, const nh_robustness_cell *cell,
 
 void nh_robustness_text(const nh_robustness *s, bool verbose, nh_text *out)
 {
-    nh_text_addf(out, "\nStress at tolerance %.0e: right is an error below %.0e\n", s->tolerance, s->accuracy);
+    nh_text_addf(out, "\nRobustness at tolerance %.0e: an error below %.0e is accurate\n", s->tolerance, s->accuracy);
     for (size_t i = 0; i < s->maps; i++) {
         const nh_robustness_map *map = &s->map[i];
         nh_text_addf(out, "\n  %s\n  %14s", map->name, "");
@@ -185,7 +185,7 @@ static void put_item(const nh_benchmark *c, const nh_run_record *m, nh_json *lis
         if (!isnan(m->drift[k])) nh_json_put_number(drifts, c->current[k], m->drift[k]);
     nh_json_put_number(item, "seconds", m->seconds);
     nh_json_put_number(item, "evaluations", (double)m->evaluations);
-    nh_json_put_text(item, "status", nh_run_record_status_name(m->status));
+    nh_json_put_text(item, "status", nh_run_record_status_json(m->status));
     nh_json_put_bool(item, "reduced", m->reduced);
     nh_json_put_bool(item, "front", m->front);
     nh_json_put_text(item, "note", m->note ? m->note : "");
@@ -203,7 +203,7 @@ static void put_map(const nh_robustness_map *map, nh_json *list)
         nh_json *cell = nh_json_add_object(cells);
         nh_json_put_numbers(cell, "at", map->second_axis ? 2 : 1, (double[]){map->cell[i].at, map->cell[i].second_at}, 1);
         nh_json_put_text(cell, "method", map->cell[i].method);
-        nh_json_put_text(cell, "status", nh_run_record_status_name(map->cell[i].status));
+        nh_json_put_text(cell, "status", nh_run_record_status_json(map->cell[i].status));
         nh_json_put_number(cell, "error", map->cell[i].error);
         nh_json_put_number(cell, "drift", map->cell[i].drift);
         nh_json_put_text(cell, "note", map->cell[i].note ? map->cell[i].note : "");
@@ -236,8 +236,8 @@ char *nh_benchmark_json(const nh_benchmark *c, const nh_robustness *s, const nh_
     nh_json *refused = nh_json_put_array(root, "refused");
     for (size_t i = 0; i < c->refused; i++) nh_json_add_text(refused, c->refusal[i]);
     nh_json_put_bool(root, "partial", c->partial);
-    nh_json *stress = nh_json_put_array(root, "stress");
-    for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], stress);
+    nh_json *maps = nh_json_put_array(root, "stress"); /* the older word, for the scripts that read it */
+    for (size_t i = 0; s && i < s->maps; i++) put_map(&s->map[i], maps);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     const char *warning[NH_BENCHMARK_WARNINGS];
     for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++) nh_json_add_text(warnings, warning[i]);

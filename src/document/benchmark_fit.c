@@ -16,7 +16,7 @@ const char *nh_fitted_word(const nh_fitted *m)
     if (m->undecided) return "undecided";
     if (m->dimension > m->wanted) return "too many";
     if (m->dimension < m->wanted) return "too few";
-    return m->right ? "right" : "inexact";
+    return m->right ? "accurate" : "inexact";
 }
 
 static void put(const nh_fitted *m, nh_text *out)
@@ -43,7 +43,7 @@ void nh_fits_text(const nh_benchmark *c, bool verbose, nh_text *out)
             if (verbose || j == i || f->front || (m->functions == largest && f->samples == m->samples)) put(f, out);
         }
     }
-    nh_text_addf(out, "  * right, and no other of as many functions is both faster and more exact%s\n", verbose ? "" : "; --verbose shows all");
+    nh_text_addf(out, "  * accurate, and no other of as many functions is both faster and more exact%s\n", verbose ? "" : "; --verbose shows all");
     if (c->fits_partial) nh_text_add(out, "  there was no time for more functions; --budget allows more\n");
 }
 
@@ -65,7 +65,8 @@ void nh_fits_json(const nh_benchmark *c, nh_json *root)
         nh_json_put_number(item, "gap", m->gap);
         nh_json_put_number(item, "error", m->error);
         nh_json_put_number(item, "seconds", m->seconds);
-        nh_json_put_text(item, "status", nh_fitted_word(m));
+        const char *word = nh_fitted_word(m);
+        nh_json_put_text(item, "status", !strcmp(word, "accurate") ? "right" : word);
         nh_json_put_bool(item, "front", m->front);
     }
 }

@@ -1,6 +1,6 @@
-/* benchmark_internal: parts of the report of a chart. */
-#ifndef NH_REPORT_CHART_INTERNAL_H
-#define NH_REPORT_CHART_INTERNAL_H
+/* benchmark_internal: parts of the report of a benchmark. */
+#ifndef NH_DOCUMENT_BENCHMARK_INTERNAL_H
+#define NH_DOCUMENT_BENCHMARK_INTERNAL_H
 
 #include "base/json.h"
 #include "base/text.h"
@@ -13,6 +13,6 @@ size_t nh_benchmark_warnings(const nh_benchmark *comparison, const char *out[NH_
 /* The discrete problem. */
 void nh_fits_text(const nh_benchmark *comparison, bool verbose, nh_text *out);
 void nh_fits_json(const nh_benchmark *comparison, nh_json *root);
-const char *nh_fitted_word(const nh_fitted *fitted); /* "right", "too few", ... */
+const char *nh_fitted_word(const nh_fitted *fitted); /* "accurate", "too few", ...; in JSON the first is "right" */
 
 #endif

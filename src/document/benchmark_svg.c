@@ -16,7 +16,7 @@ static const char *const dash[dashes] = {"none", "7 3", "2 3", "9 3 2 3", "4 2",
 
 typedef struct {
     double error, seconds; /* not finite: not drawn */
-    bool front, hollow; /* hollow: right, but a guard complains */
+    bool front, hollow; /* hollow: flagged */
     const char *note;
 } mark;
 
@@ -227,8 +227,8 @@ void nh_benchmark_svg(const nh_benchmark *c, nh_text *out)
     nh_arena *arena = nh_arena_create();
     const nh_system *system = c->question->system;
     const char *name = system->title ? system->title : system->name;
-    panel part[2] = {{.out = out, .arena = arena, .across = "error, relative", .key = "thick: nothing that is right and computes all is both faster and more exact; hollow: a guard complains; grey names: never right", .title = nh_arena_printf(arena, "%s, t = %g to %g: time against error", name, c->begin, c->end)},
-                     {.out = out, .arena = arena, .by_group = true, .across = "distance of the known currents from the null space", .key = "thick: no other of as many functions is both faster and more exact; grey names: never right", .title = "The discrete problem: time against error"}};
+    panel part[2] = {{.out = out, .arena = arena, .across = "error, relative", .key = "thick: nothing that is accurate and computes all is both faster and more exact; hollow: flagged; grey names: never accurate", .title = nh_arena_printf(arena, "%s, t = %g to %g: time against error", name, c->begin, c->end)},
+                     {.out = out, .arena = arena, .by_group = true, .across = "distance of the known currents from the null space", .key = "thick: no other of as many functions is both faster and more exact; grey names: never accurate", .title = "The discrete problem: time against error"}};
     motions(&part[0], c);
     fits(&part[1], c);
     int y = 0;

@@ -228,7 +228,7 @@ static void discrete(nh_html_writer *w, const nh_benchmark *c)
 
 /* ---- stability maps ---- */
 
-/* A cell with what its guard says, or why it failed, where the pointer rests on it. */
+/* A cell with what its safeguard says, or why it failed, where the pointer rests on it. */
 static void stability_cell(nh_html_writer *w, const nh_robustness_cell *cell)
 {
     nh_text_addf(w->out, "<td class=\"%s\"", nh_run_record_status_name(cell->status));
@@ -306,11 +306,11 @@ static void stability_map(nh_html_writer *w, const nh_robustness_map *map)
     for (size_t j = 0; map->second_axis && j < map->methods; j++) plane_map(w, map, j);
 }
 
-static void stress(nh_html_writer *w, const nh_robustness *s)
+static void robustness(nh_html_writer *w, const nh_robustness *s)
 {
     if (!s) return;
-    nh_html_add(w, "<section id=\"stress\"><h2>Where methods fail</h2>\n<p>Right and warned: within the accuracy, the second with a complaint of a guard. Caught: not within it, and a guard says so. "
-                   "Failed: given up with a reason. Timeout. Wrong: not within it, and nothing says so.</p>\n");
+    nh_html_add(w, "<section id=\"robustness\"><h2>Where methods fail</h2>\n<p>Accurate; flagged: accurate, and a safeguard triggered; detected: not accurate, and a safeguard says so; "
+                   "failed: ended early, with a reason; timeout; undetected: not accurate, and no safeguard triggered.</p>\n");
     for (size_t i = 0; i < s->maps; i++) stability_map(w, &s->map[i]);
     nh_html_add(w, "</section>\n");
 }
@@ -322,7 +322,7 @@ void nh_html_benchmark(const nh_benchmark *c, const nh_robustness *s, const nh_r
     nh_html_begin(&w, "integrators compared");
     answer(&w, c);
     char sections[200];
-    snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|words|Words|repeat|Repeat it", c->fits ? "discrete|The discrete problem|" : "", s ? "stress|Where they fail|" : "");
+    snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|words|Words|repeat|Repeat it", c->fits ? "discrete|The discrete problem|" : "", s ? "robustness|Where they fail|" : "");
     nh_html_links(&w, sections);
     nh_html_add(&w, "<section id=\"methods\"><h2>Methods</h2>\n");
     fastest(&w, c);
@@ -331,11 +331,11 @@ void nh_html_benchmark(const nh_benchmark *c, const nh_robustness *s, const nh_r
     all_runs(&w, c);
     nh_html_add(&w, "</section>\n");
     discrete(&w, c);
-    stress(&w, s);
+    robustness(&w, s);
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);
     nh_html_add(&w, "</section>\n");
-    nh_html_words(&w, "right warned caught wrong timeout drift");
+    nh_html_words(&w, "accurate flagged detected undetected timeout drift");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }
