@@ -59,14 +59,14 @@ Test(choice, every_way_meets_the_closed_form)
         nh_velocities velocities;
         double setting, error;
         size_t count;
-    } ways[] = {{"GSL rkf45", "reduced equations", NH_OWN_VELOCITIES, 1e-9, 1e-9, 7},
+    } ways[] = {{"GSL rkf45", NH_ON_SUBMANIFOLD, NH_OWN_VELOCITIES, 1e-9, 1e-9, 7},
                 {"GSL rk8pd", "in coordinate velocities", NH_OTHER_VELOCITIES, 1e-9, 1e-9, 7},
                 {"CVODE Adams", "all coordinates", NH_ALL_COORDINATES, 1e-9, 1e-9, 7},
-                {"CVODE BDF", "reduced equations", NH_OWN_VELOCITIES, 1e-6, 5e-9, 51},
-                {"relaxation, order 8", "reduced equations", NH_OWN_VELOCITIES, 0.02, 1e-9, 7},
-                {"relaxation, order 8", "reduced equations", NH_OWN_VELOCITIES, 0.02, 1e-9, 61},  /* an output every 0.02: one step each, then two */
-                {"relaxation, order 8", "reduced equations", NH_OWN_VELOCITIES, 0.02, 1e-17, 7},  /* it was promised too much */
-                {"Lagrange-d'Alembert, order 4", "reduced equations", NH_OWN_VELOCITIES, 0.02, 5e-9, 7}};
+                {"CVODE BDF", NH_ON_SUBMANIFOLD, NH_OWN_VELOCITIES, 1e-6, 5e-9, 51},
+                {"relaxation, order 8", NH_ON_SUBMANIFOLD, NH_OWN_VELOCITIES, 0.02, 1e-9, 7},
+                {"relaxation, order 8", NH_ON_SUBMANIFOLD, NH_OWN_VELOCITIES, 0.02, 1e-9, 61},  /* an output every 0.02: one step each, then two */
+                {"relaxation, order 8", NH_ON_SUBMANIFOLD, NH_OWN_VELOCITIES, 0.02, 1e-17, 7},  /* it was promised too much */
+                {"Lagrange-d'Alembert, order 4", NH_ON_SUBMANIFOLD, NH_OWN_VELOCITIES, 0.02, 5e-9, 7}};
     mechanics x = mechanics_of_file("systems/sleigh.yaml", NH_CHART_AUTO, 0, NULL);
     nh_error error = {0};
     nh_model *other = nh_model_create(x.system, nh_chart_create(x.system, NH_CHART_COORDINATES, 1, &error), &error);
@@ -104,7 +104,7 @@ Test(choice, what_does_not_do_is_replaced)
     nh_trajectory *t = accurate(&x, other, &initial, 5, 6, 1e-8, 1, &through, &a);
     cr_assert(t && a.held, "%s", a.why);
     cr_expect_float_eq(t->value[2 * 4], 4 * atan(tanh(3)), 3.2e-8);
-    cr_expect(!strcmp(t->formulation, "reduced equations"), "%s", t->formulation);
+    cr_expect(!strcmp(t->formulation, NH_ON_SUBMANIFOLD), "%s", t->formulation);
     nh_trajectory_free(t);
     t = accurate(&x, other, &initial, 5, 6, 1e-8, 1, &loose, &a);
     cr_expect(t && a.held && !a.measured && a.choice == NH_CHOICE_RACE, "%s", a.why);

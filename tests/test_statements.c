@@ -87,8 +87,8 @@ Test(statements, projectable_is_said_alike)
     cr_expect_eq(occurrences(r.text, "; Z is projectable\n"), projectable);
     cr_expect_eq(occurrences(r.page, "; Z is projectable</dd>"), projectable);
     cr_expect_eq(occurrences(r.tex, "; $Z$ is projectable."), projectable);
-    cr_expect_eq(occurrences(r.text, "case 3: Z is not a symmetry of the equations of motion"), third);
-    cr_expect_eq(occurrences(r.tex, "Case 3: $Z$ is not a symmetry of the equations of motion"), third);
+    cr_expect_eq(occurrences(r.text, "Z is not a symmetry of the equations of motion, nor is [Gamma,Z] = a Gamma + b Z (case 3)"), third);
+    cr_expect_eq(occurrences(r.tex, "$Z$ is not a symmetry of the equations of motion, nor is $[\\Gamma, Z]$ = a $\\Gamma$ + b $Z$ (case 3)"), third);
     cr_expect(!strstr(r.text, "point symmetry") && !strstr(r.page, "point symmetry") && !strstr(r.tex, "point symmetry"));
     reports_clear(&r);
     r = verify(&p, "sleigh --current m*(v*sin(phi/k)+a*k*omega*cos(phi/k))", 0);

@@ -23,7 +23,7 @@ typedef struct {
     const char *note;            /* why it failed, or empty */
 } nh_run_record;
 
-/* The Jacobian of the reduced equations at the chart's probes. */
+/* The Jacobian of the equations of motion at the chart's probes. */
 typedef struct {
     const char *method;
     double error;     /* the largest difference from the exact one, relative to its largest entry (or 1); NAN where none could be computed */

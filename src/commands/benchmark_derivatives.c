@@ -1,4 +1,4 @@
-/* benchmark_derivatives: the Jacobian of the reduced equations, exact from the graph, by a complex step or by differences of the right-hand side: what each
+/* benchmark_derivatives: the Jacobian of the equations of motion, exact from the graph, by a complex step or by differences of the right-hand side: what each
  * costs, and how far it is off.  At the chart's probes; exact derivatives are the reference. */
 #include <float.h>
 #include <math.h>

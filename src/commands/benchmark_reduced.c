@@ -1,4 +1,4 @@
-/* benchmark_reduced: the motion of the chart in the reduced equations of every stage of the system's reduction (reduce.h): z = (x, p).
+/* benchmark_reduced: the motion of the benchmark in the reduced equations of every stage of the system's reduction (reduce.h): z = (x, p).
  *
  * Reduced states are not functions of the full ones where the slice's coordinates are not invariant, so that errors are those of (x, p), against a
  * reference of their own; the reduction itself has compared the motion that is found again from it with the full one. */

@@ -28,7 +28,7 @@ bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_t
     if (!s->ensemble) return false;
     if (s->checked) s->tolerance = s->accuracy_of_all.tolerance, s->held = s->accuracy_of_all.held, s->why = s->accuracy_of_all.why;
     s->method = "Prince-Dormand 8, in batches";
-    s->formulation = "reduced equations";
+    s->formulation = NH_ON_SUBMANIFOLD;
     const nh_ensemble_accuracy *a = s->checked && s->accuracy_of_all.all_alone ? &s->accuracy_of_all : NULL;
     if (a) s->method = nh_arena_printf(s->arena, "%s, each alone", a->way.method->name);
     if (a && a->way.velocities == NH_ALL_COORDINATES) s->formulation = "all coordinates, accelerations from the bordered system";

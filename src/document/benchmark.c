@@ -121,9 +121,9 @@ void nh_benchmark_text(const nh_benchmark *c, bool verbose, nh_text *out)
     for (size_t i = 0; i < c->refused; i++) nh_text_addf(out, "  not used, %s\n", c->refusal[i]);
     bool reduced = false;
     for (size_t i = 0; i < c->count; i++) reduced |= c->item[i].reduced;
-    if (reduced) nh_text_add(out, "  reduced equations compute shape and momenta only, and are left out here; errors are those of their own states\n");
+    if (reduced) nh_text_add(out, "  reduced equations (the group divided out) compute shape and momenta only, and are left out here; errors are those of their own states\n");
     if (c->partial) nh_text_add(out, "  the budget ended before every method had all its runs; --budget allows more\n");
-    if (c->derivatives) nh_text_add(out, "\nDerivatives: one Jacobian of the reduced equations\n");
+    if (c->derivatives) nh_text_add(out, "\nDerivatives: one Jacobian of the equations of motion\n");
     for (size_t i = 0; i < c->derivatives; i++) {
         const nh_derivative *d = &c->derivative[i];
         char us[16];

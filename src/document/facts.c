@@ -68,27 +68,29 @@ void nh_facts_constraint(const nh_analysis *r, nh_text *out)
 
 /* The signs of one kind of report. */
 typedef struct {
-    const char *capital, *small, *Z, *Gamma, *bracket; /* how "Case" begins */
+    const char *the_case, *Z, *Gamma, *bracket; /* the first may begin a sentence */
 } signs;
 
 static const signs signs_of[] = {
-    [NH_FACTS_TEXT] = {"case", "the case", "Z", "Gamma", "[Gamma,Z]"},
-    [NH_FACTS_PAGE] = {"case", "the case", "Z", "\u0393", "[\u0393,\u2009Z]"},
-    [NH_FACTS_TEX] = {"Case", "The case", "$Z$", "$\\Gamma$", "$[\\Gamma, Z]$"},
+    [NH_FACTS_TEXT] = {"the case", "Z", "Gamma", "[Gamma,Z]"},
+    [NH_FACTS_PAGE] = {"the case", "Z", "\u0393", "[\u0393,\u2009Z]"},
+    [NH_FACTS_TEX] = {"The case", "$Z$", "$\\Gamma$", "$[\\Gamma, Z]$"},
 };
 
 void nh_facts_symmetry(const nh_symmetry *z, nh_facts_form form, const char *between, nh_text *out)
 {
     const signs *s = &signs_of[form];
     switch (z->kase) {
-    case 1: nh_text_addf(out, "%s 1: %s is also a symmetry of the equations of motion", s->capital, s->Z); break;
-    case 2: nh_text_addf(out, "%s 2: %s lies in the span of %s and %s", s->capital, s->bracket, s->Gamma, s->Z); break;
-    case 3: nh_text_addf(out, "%s 3: %s is not a symmetry of the equations of motion", s->capital, s->Z); break;
-    default: nh_text_addf(out, "%s could not be decided", s->small);
+    case 1: nh_text_addf(out, "%s is a symmetry of the equations of motion (case 1)", s->Z); break;
+    case 2: nh_text_addf(out, "%s = a %s + b %s (case 2)", s->bracket, s->Gamma, s->Z); break;
+    case 3: nh_text_addf(out, "%s is not a symmetry of the equations of motion, nor is %s = a %s + b %s (case 3)", s->Z, s->bracket, s->Gamma, s->Z); break;
+    default: nh_text_addf(out, "%s (1, 2 or 3) could not be decided", s->the_case);
     }
     nh_text_addf(out, "%s%s %s the canonical distribution", between, s->bracket, z->bracket_in_distribution ? "lies in" : "leaves");
     if (z->projectable) nh_text_addf(out, "; %s is projectable", s->Z);
 }
+
+const char *nh_facts_equations(const nh_model *o) { return o->k ? "Equations of motion on the constraint submanifold" : "Equations of motion"; }
 
 const char *nh_facts_drift(const nh_drift *d)
 {

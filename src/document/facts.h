@@ -28,6 +28,9 @@ void nh_facts_constraint(const nh_analysis *result, nh_text *out);
 typedef enum { NH_FACTS_TEXT, NH_FACTS_PAGE, NH_FACTS_TEX } nh_facts_form;
 void nh_facts_symmetry(const nh_symmetry *symmetry, nh_facts_form form, const char *between, nh_text *out);
 
+/* The heading of w' = a(t, q, w), from which the constraints are eliminated and nothing else. */
+const char *nh_facts_equations(const nh_model *model);
+
 /* Whether the currents found are all that are polynomial in the velocities, in sentences; "" when this was not counted. */
 void nh_facts_completeness(const nh_analysis *result, nh_text *out);
 

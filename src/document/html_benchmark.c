@@ -148,7 +148,7 @@ static void all_runs(nh_html_writer *w, const nh_benchmark *c)
 static void derivatives(nh_html_writer *w, const nh_benchmark *c)
 {
     if (!c->derivatives) return;
-    nh_html_table(w, "One Jacobian of the reduced equations", "by|seconds|evaluations|off by");
+    nh_html_table(w, "One Jacobian of the equations of motion", "by|seconds|evaluations|off by");
     for (size_t i = 0; i < c->derivatives; i++) {
         const nh_derivative *d = &c->derivative[i];
         if (!isfinite(d->seconds)) continue;

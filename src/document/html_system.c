@@ -180,7 +180,7 @@ void nh_html_equations(nh_html_writer *w, const nh_model *o)
     formulas_write(w, "Constrained Lagrangian and energy", &f);
     f = formulas_create(o->n);
     for (size_t i = 0; i < o->n; i++) snprintf(formulas_add(&f, o->a[i]), sizeof *f.text, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
-    formulas_write(w, "Reduced equations", &f);
+    formulas_write(w, nh_facts_equations(o), &f);
     multipliers(w, o);
 }
 
@@ -192,7 +192,7 @@ void nh_html_system(nh_html_writer *w)
     kind(w);
     nh_html_equations(w, w->r->model);
     if (w->r->other) {
-        nh_html_add(w, "<details><summary>The same in the other chart</summary>\n");
+        nh_html_add(w, "<details><summary>The same in the other velocities</summary>\n");
         nh_html_equations(w, w->r->other);
         nh_html_add(w, "</details>\n");
     }

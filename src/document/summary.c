@@ -118,7 +118,7 @@ static void equations(nh_summary_writer *w)
     const nh_analysis *r = w->r;
     nh_text title;
     nh_text_init(&title);
-    nh_text_addf(&title, "Reduced equations in %s", r->model->chart->name);
+    nh_text_addf(&title, "%s, in %s", nh_facts_equations(r->model), r->model->chart->name);
     nh_summary_heading(w, nh_text_string(&title));
     nh_text_clear(&title);
     equations_of(w, r->model);

@@ -84,7 +84,9 @@ static void parameters(nh_tex_writer *w)
 static void equations(nh_tex_writer *w, const nh_model *o)
 {
     char label[200];
-    nh_tex_add(w, "\\subsection*{Reduced equations in ");
+    nh_tex_add(w, "\\subsection*{");
+    nh_tex_add(w, nh_facts_equations(o));
+    nh_tex_add(w, ", in ");
     nh_tex_chart(w, o->chart->name);
     nh_tex_add(w, "}\n");
     for (size_t i = 0; i < o->n; i++) {

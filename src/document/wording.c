@@ -3,7 +3,7 @@
 static const nh_glossary_entry entries[] = {
     {"current", "A function Phi of time, coordinates and velocities that stays constant along every motion: Gamma(Phi) = 0."},
     {"symmetry", "The Chetaev field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is Phi = alpha(Z)."},
-    {"case", "1: [Gamma,Z] = a Gamma, Z is also a symmetry of the equations of motion.  2: [Gamma,Z] = a Gamma + b Z.  3: neither."},
+    {"case", "Z is a symmetry of the equations of motion, [Gamma,Z] = a Gamma (case 1); [Gamma,Z] = a Gamma + b Z (case 2); neither (case 3)."},
     {"distribution", "The canonical distribution: virtual displacements that the constraints allow. [Gamma,Z] may leave it."},
     {"FOUND", "Currents were found and each is proved, or certified to at least 50 digits."},
     {"NONE", "No combination of the ansatz is conserved: every generalized singular value is far above rounding, and nothing was left out."},

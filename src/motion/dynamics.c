@@ -7,7 +7,7 @@
 #include "graph/diff.h"
 #include "exact/walls.h"
 
-/* ---- reduced equations ---- */
+/* ---- equations of motion on the constraint submanifold ---- */
 
 struct nh_dynamics {
     const nh_model *model;

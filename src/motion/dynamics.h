@@ -12,7 +12,7 @@ typedef struct {
     bool *given;   /* per velocity: it was named; the others follow from the constraints.  NULL: all were */
 } nh_state;
 
-/* Reduced equations: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot of a chart of coordinate velocities is a guard. */
+/* Equations of motion on the constraint submanifold: z = (q, w), z' = (rho, a), with their exact Jacobian.  The pivot of a chart of coordinate velocities is a guard. */
 typedef struct nh_dynamics nh_dynamics;
 nh_dynamics *nh_dynamics_create(const nh_model *model);
 void nh_dynamics_free(nh_dynamics *dynamics);
@@ -21,7 +21,7 @@ nh_flow_problem nh_dynamics_problem(nh_dynamics *dynamics);
 void nh_dynamics_jit(nh_dynamics *dynamics, double patience);
 double nh_dynamics_patience(const nh_dynamics *dynamics);
 const char *nh_dynamics_words(const nh_dynamics *dynamics);
-/* Instructions of one evaluation of the reduced equations. */
+/* Instructions of one evaluation of the equations of motion. */
 size_t nh_dynamics_length(const nh_dynamics *dynamics);
 /* Does the model's chart have a pivot to watch? */
 bool nh_dynamics_watched(const nh_model *model);

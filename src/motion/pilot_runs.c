@@ -57,7 +57,7 @@ static nh_trajectory *run(survey *s, const nh_method *method, nh_velocities velo
     s->piece.max_effort = fmax(fmin(effort, left(s)), 1);
     nh_trajectory *t = nh_trajectory_create(&s->piece, &ignored);
     if (t) s->out->evaluations += t->motion->evaluations;
-    bool other = t && velocities == NH_OTHER_VELOCITIES && !strcmp(t->formulation, "reduced equations"); /* they could not be used */
+    bool other = t && velocities == NH_OTHER_VELOCITIES && !strcmp(t->formulation, NH_ON_SUBMANIFOLD); /* they could not be used */
     if (t && t->motion->complete && !other && !nh_interrupted()) return t;
     nh_trajectory_free(t);
     return NULL;

@@ -336,7 +336,7 @@ static bool to_coordinates(nh_dynamics *dynamics, nh_motion *motion)
     return good;
 }
 
-/* By the reduced equations of the other model, unless its chart breaks down on the way; values as in all coordinates. */
+/* By the equations of motion of the other model, unless its chart breaks down on the way; values as in all coordinates. */
 static bool in_other_velocities(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
@@ -351,7 +351,7 @@ static bool in_other_velocities(job *j, nh_error *error)
     bool good = motion && motion->complete && !steep && to_coordinates(other, motion);
     if (good) {
         j->out->motion = motion;
-        j->out->formulation = q->other->chart->quasi ? "reduced equations in quasi-velocities" : "reduced equations in coordinate velocities";
+        j->out->formulation = q->other->chart->quasi ? NH_ON_SUBMANIFOLD ", in quasi-velocities" : NH_ON_SUBMANIFOLD ", in coordinate velocities";
         say_machine(nh_dynamics_words(other), j->out->machine);
         if (q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
     } else {
@@ -387,7 +387,7 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
 {
     size_t size = q->model->m + q->model->n;
     nh_trajectory *out = nh_alloc(sizeof *out);
-    *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = "reduced equations", .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
+    *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = NH_ON_SUBMANIFOLD, .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
     job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
     nh_dynamics_jit(j.dynamics, q->options->compile);
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .absolute = fmax(q->options->absolute, DBL_MIN), .max_steps = q->options->steps, .effort = q->max_effort};

@@ -6,9 +6,12 @@
 #include "motion/method.h"
 #include "motion/closed_subsystem.h"
 
+/* The formulation in the model's own velocities, as reports name it. */
+#define NH_ON_SUBMANIFOLD "equations of motion on the constraint submanifold"
+
 /* The equations of a motion. */
 typedef enum {
-    NH_OWN_VELOCITIES,   /* the reduced equations of the model; all coordinates where its chart breaks down on the way */
+    NH_OWN_VELOCITIES,   /* those on the constraint submanifold, of the model; all coordinates where its chart breaks down on the way */
     NH_OTHER_VELOCITIES, /* those of another model of the same system, in other velocities */
     NH_ALL_COORDINATES   /* the bordered system from the start */
 } nh_velocities;

@@ -1,6 +1,6 @@
 /* validation: do the currents stay constant along a motion, and is the motion right?
  *
- * The reduced equations are integrated at three tolerances: a true current's drift falls with the tolerance, a false one's does not.
+ * The equations of motion are integrated at three tolerances: a true current's drift falls with the tolerance, a false one's does not.
  * The same motion in all coordinates with Chetaev multipliers gives a second opinion on the states, and its multipliers
  * are compared with the formula of the model.  [docs/method.md, sec. 6] */
 #ifndef NH_VALIDATION_H
