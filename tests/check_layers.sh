@@ -51,6 +51,26 @@ else
     echo "$build/libnhsym.a: is not there" >>"$offences"
 fi
 
+# ---- a name begins with its module's name, or with a word that docs/glossary.md has for its folder ----
+for object in "$build"/src/*/*.o; do
+    module=${object#"$build"/src/}
+    nm -g --defined-only "$object" 2>/dev/null | awk -v module="${module%.o}" 'NF == 3 && $3 ~ /^nh_/ { print module, substr($3, 4) }'
+done | awk '
+    FILENAME != "-" { if (split($0, cell, "|") > 4 && cell[2] ~ /`[a-z]+`/) { gsub(/[ `]/, "", cell[2]); gsub(/[ `]/, "", cell[3]); n = split(cell[3], word, ","); for (i = 1; i <= n; i++) listed[cell[2] " " word[i]] = 1 } next }
+    {
+        split($1, path, "/")
+        n = split(path[2], part, "_")
+        split($2, word, "_")
+        prefix = part[1]
+        for (i = 1; i <= n; i++) {
+            if ($2 == prefix || index($2, prefix "_") == 1) next
+            prefix = prefix "_" part[i + 1]
+        }
+        if (path[1] " " word[1] in listed) used[path[1] " " word[1]] = 1
+        else print "src/" $1 ".c: exports nh_" $2 ", whose prefix docs/glossary.md does not have for " path[1]
+    }
+    END { for (entry in listed) if (!(entry in used)) print "docs/glossary.md: no name needs the prefix " entry }' docs/glossary.md - >>"$offences"
+
 # ---- cited sources and sections exist ----
 grep -noE '\[[A-Za-z]*:? ?[A-Z][A-Za-z]+[0-9]{4}[a-z]?' src/*/*.c src/*/*.h tests/*.c tests/*.h tests/*.sh README.md docs/*.md | grep -v '^docs/references.md' |
     sed 's/^\([^:]*:[0-9]*\):.*[^A-Za-z]\([A-Z][A-Za-z]*[0-9]\{4\}[a-z]\{0,1\}\)$/\1 \2/' | while read -r place key; do

@@ -445,7 +445,7 @@ Test(chart, stress_over_what_is_not_there)
 {
     expect_no_map("omega=2", "nothing=1:2", "no such parameter, coordinate, velocity or option");
     expect_no_map(NULL, "omega=1:2", "not given");
-    expect_no_map("omega=2", "a", "neither a range nor a stress");
+    expect_no_map("omega=2", "a", "neither a range nor a robustness map");
     expect_no_map("omega=2", "a=1", "is no range");
     expect_no_map("omega=2", "a=1:2:0", "is no range");
     expect_no_map("omega=2", "a=1:2:x", "is no range");

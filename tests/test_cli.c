@@ -240,6 +240,46 @@ Test(cli, explain_knows_its_own_topics)
     place_clear(&p);
 }
 
+/* What docs/glossary.md says of each word is what `nhsym explain` says, word by word and in the same order. */
+Test(cli, the_glossary_says_what_explain_says)
+{
+    place p = place_make();
+    finished all = run_expecting(&p, "explain", 0);
+    FILE *page = fopen("docs/glossary.md", "r");
+    char line[1000], *at = all.out;
+    bool words = false;
+    int rows = 0;
+    cr_assert_not_null(page);
+    while (fgets(line, sizeof line, page)) {
+        if (line[0] != '|') words = false;
+        char *meaning = strstr(line, " | "), word[100], said[1000];
+        if (words && line[1] == ' ') {
+            snprintf(word, sizeof word, "%.*s", (int)(meaning - line - 2), line + 2);
+            size_t n = 0;
+            for (const char *c = at + strlen(word) + strspn(at + strlen(word), " "); *c && *c != '\n'; c++)
+                if (c[0] == '|') said[n++] = '\\', said[n++] = '|';
+                else if (c[0] != ' ' || c[1] != ' ') said[n++] = *c;
+            said[n] = 0;
+            cr_expect_eq(strncmp(at, word, strlen(word)), 0, "explain says %.60s where the page says %s", at, word);
+            cr_expect_eq(strncmp(meaning + 3, said, n), 0, "%s: the page says %s, explain %s", word, meaning + 3, said);
+            cr_expect_str_eq(meaning + 3 + n, " |\n", "%s", word);
+            at = strchr(at, '\n') + 1;
+            rows++;
+        }
+        words = words || !strcmp(line, "| word | meaning |\n");
+    }
+    fclose(page);
+    cr_expect_eq(strncmp(at, "options ", 8), 0, "the page ends before %s", at);
+    cr_expect_gt(rows, 60);
+    finished_clear(&all);
+    finished stages = run_expecting(&p, "explain stage", 0), of = run_expecting(&p, "explain stage of a search", 0);
+    check_contains(stages.out, "stage of a reduction: ");
+    check_contains(stages.out, of.out);
+    finished_clear(&stages);
+    finished_clear(&of);
+    place_clear(&p);
+}
+
 Test(cli, list_and_show)
 {
     place p = place_make();

@@ -67,18 +67,41 @@ static void explain_options(void)
     }
 }
 
+/* The words behind `explain`, with a blank between them. */
+static const char *words_of(nh_cli *cli)
+{
+    const char *out = cli->operands ? cli->operand[0] : NULL;
+    for (size_t i = 1; i < cli->operands; i++) out = nh_arena_printf(cli->arena, "%s %s", out, cli->operand[i]);
+    return out;
+}
+
+/* "stage" finds the stages of a reduction and of a search, "constraint" the constraint submanifold.  How many begin like this? */
+static size_t explain_beginning(const char *word)
+{
+    size_t found = 0, length = strlen(word);
+    for (size_t i = 0; i < nh_glossary_count(); i++) {
+        nh_glossary_entry topic = nh_glossary_at(i);
+        if (strncmp(topic.word, word, length) || topic.word[length] != ' ') continue;
+        printf("%s: %s\n", topic.word, topic.text);
+        found++;
+    }
+    return found;
+}
+
 int nh_cli_explain(nh_cli *cli, nh_error *error)
 {
+    static const char row[] = "%-22s %s\n";
     size_t count = nh_glossary_count();
-    const char **names = nh_arena_alloc(cli->arena, (count + 1) * sizeof *names), *word = cli->operands ? cli->operand[0] : NULL;
+    const char **names = nh_arena_alloc(cli->arena, (count + 1) * sizeof *names), *word = words_of(cli);
     for (size_t i = 0; i < count; i++) {
         nh_glossary_entry topic = nh_glossary_at(i);
         names[i] = topic.word;
-        if (!word) printf("%-14s %s\n", topic.word, topic.text);
+        if (!word) printf(row, topic.word, topic.text);
         else if (!strcmp(word, topic.word)) return puts(topic.text), NH_OK;
     }
-    if (!word) return puts("options        every number that decides something (nhsym explain options)"), NH_OK;
+    if (!word) return printf(row, "options", "every number that decides something (nhsym explain options)"), NH_OK;
     if (!strcmp(word, "options")) return explain_options(), NH_OK;
+    if (explain_beginning(word)) return NH_OK;
     names[count] = "options";
     nh_fail(error, NH_USAGE, "", "nothing is known about `%s`", word);
     const char *near = nh_text_nearest(word, names, count + 1);

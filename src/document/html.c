@@ -92,7 +92,7 @@ void nh_html(const nh_analysis *r, nh_text *out)
     nh_html_figures(&w);
     nh_html_system(&w);
     nh_html_evidence(&w);
-    nh_html_words(&w, "current symmetry case distribution projectable independent local residual drift gap multiplier nonholonomic growth");
+    nh_html_words(&w, "current, symmetry, case, distribution, projectable, independent, local, residual, drift, gap, multiplier, nonholonomic, growth");
     nh_html_repeat(&w, &run);
     nh_html_end(&w);
 }

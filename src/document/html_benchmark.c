@@ -335,7 +335,7 @@ void nh_html_benchmark(const nh_benchmark *c, const nh_robustness *s, const nh_r
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);
     nh_html_add(&w, "</section>\n");
-    nh_html_words(&w, "accurate flagged detected undetected timeout drift");
+    nh_html_words(&w, "accurate, flagged, detected, undetected, timeout, drift");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }

@@ -398,7 +398,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);
     nh_html_add(&w, "</section>\n");
-    nh_html_words(&w, "group shape stage Chaplygin distribution nonholonomic");
+    nh_html_words(&w, "group, shape, stage of a reduction, Chaplygin, distribution, nonholonomic");
     nh_html_repeat(&w, run);
     nh_html_end(&w);
 }
