@@ -1,4 +1,4 @@
-/* The shipped stresses: every map that a system file names, and those of the discrete problem, and how many cells are silently wrong.  And the nonreversible test:
+/* The shipped robustness maps: every map that a system file names, and those of the discrete problem, and how many cells are undetected.  And the nonreversible test:
  * which methods gain energy exponentially.
  * usage: bench_stress [-v] [SECONDS]        at most so many seconds per map (120) */
 #include <dirent.h>

@@ -80,7 +80,7 @@ Test(drawing, bodies_stand_where_they_are)
     size_t count;
     const char *words = nh_drawing_choose(arena, s, &count, &shape);
     cr_assert_not_null(words);
-    cr_expect(!strncmp(words, "from above", 10), "%s", words);
+    cr_expect(!strncmp(words, "view along z", 12), "%s", words);
     const nh_shape *base = first(shape, count, NH_SHAPE_ARROW), *wheel = first(shape, count, NH_SHAPE_WHEEL), *end = first(shape, count, NH_SHAPE_POINT);
     cr_expect_float_eq(at(s, base, 0, q), 2, 1e-12);
     cr_expect_float_eq(at(s, base, 2, q), 0.5, 1e-12);

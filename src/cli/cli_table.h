@@ -27,14 +27,14 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_scene,       "scene",       no_argument,       "",                   "simulate", "only the quantities of the analysis file")                             \
     X(opt_accuracy,    "accuracy",    required_argument, "EPS",                "analyze simulate reduce", "the error of the motions: method and tolerance are chosen, and checked") \
     X(opt_ensemble,    "ensemble",    required_argument, "N",                  "simulate", "many motions at once, from states around the initial one")             \
-    X(opt_spread,      "spread",      required_argument, "S",                  "simulate", "how far around")                                                       \
+    X(opt_spread,      "spread",      required_argument, "S",                  "simulate", "relative spread of initial states")                                             \
     X(opt_robustness,  "robustness",  no_argument,       "",                   "benchmark", "maps of where the methods are accurate and where they fail")              \
     X(opt_over,        "over",        required_argument, "\"a=1e-9:1, omega=1:9\"", "benchmark", "the robustness map of these ranges: parameters, initial values, options") \
     X(opt_budget,      "budget",      required_argument, "TIME",               "benchmark", "how long to measure: 5s, 200ms")                                          \
     X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark", "time against error as a picture")                                         \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce", "\"1, 2\" or \"x=1; theta=1\": what to reduce by")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "the stages")                                                             \
-    X(opt_weak,        "weak",        no_argument,       "",                   "reduce", "symmetries that change L by a total derivative count, too")              \
+    X(opt_weak,        "weak",        no_argument,       "",                   "reduce", "also allow symmetries up to a total derivative")              \
     X(opt_to,          "to",          required_argument, "c|latex",            "reduce", "write the equations as code")                                            \
     X(opt_tolerance,   "tolerance",   required_argument, "EPS",                "analyze simulate benchmark reduce", "of the motions")                                  \
     X(opt_until,       "until",       required_argument, "T",                  "analyze simulate benchmark reduce", "their end")                                       \
@@ -58,7 +58,8 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_robustness, "stress", no_argument)
 #define NH_CLI_OLD_COMMAND_TABLE(X) X("chart", "benchmark")
 
-/* The command of this name, old or not; else the word itself.  And the command whose name, old or not, is nearest to a word, or NULL. */
+/* The command of this name, old or not; else the word itself.  And the command whose name, old or not, is nearest to
+ * a word, or NULL. */
 const char *nh_cli_command_name(const char *word);
 const char *nh_cli_command_near(const char *word);
 
@@ -69,10 +70,10 @@ const char *nh_cli_command_near(const char *word);
     X(simulate, "SYSTEM|FILE", "a motion, as CSV or JSON", "nhsym simulate sleigh --initial \"phi=0, omega=2\" --until 5 --step 0.1")                  \
     X(benchmark, "SYSTEM|FILE", "integrators compared: error against cost", "nhsym benchmark sleigh --budget 1s --svg sleigh.svg") \
     X(reduce,   "SYSTEM|FILE", "its symmetry group, and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
-    X(list,     "",            "systems that are here", "nhsym list")                                                                                  \
+    X(list,     "",            "list available systems", "nhsym list")                                                                                  \
     X(show,     "SYSTEM",      "a system file", "nhsym show sleigh")                                                                                   \
     X(new,      "NAME",        "write NAME.yaml, a system to start from", "nhsym new skate")                                                           \
-    X(explain,  "[TOPIC]",     "what a word of the report means", "nhsym explain gap")                                                                 \
+    X(explain,  "[WORD]",      "what a word of the report means", "nhsym explain gap")                                                                 \
     X(version,  "",            "the version", "nhsym version")                                                                                         \
     X(help,     "[COMMAND]",   "a command, its options and an example", "nhsym help analyze")
 

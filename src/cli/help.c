@@ -98,7 +98,7 @@ static void manual_page(void)
         if (options[i].commands[0]) printf(" (%s)", options[i].commands);
         putchar('\n');
     }
-    puts(".SH EXIT STATUS\n0 done; 1 verify says no; 2 a wrong command line; 3 a wrong file; 4 a computation failed for a reason that is told; 5 a limit was reached; 130 interrupted. "
+    puts(".SH EXIT STATUS\n0 done; 1 verify says no; 2 a wrong command line; 3 a wrong file; 4 a numerical failure, the message gives the reason; 5 a limit was reached; 130 interrupted. "
          "With 5 and 130 partial results are written and marked partial.\n.SH ENVIRONMENT\n.TP\n.B NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for long motions instead of cc; empty: none\n.TP\n.B NO_COLOR\n"
          "no colours");
 }

@@ -1,4 +1,4 @@
-/* known_motions: the closed forms that a system file knows of its motions (known: motions:), as references of the chart.
+/* known_motions: the closed forms that a system file knows of its motions (known: motions:), as references of the benchmark.
  *
  * A closed form is a claim: it is used only where two methods that agree with each other agree with it, too; where they do not agree with each other, a complete
  * one takes the place of the second. */

@@ -375,7 +375,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     nh_progress("the symmetry group", -1);
     bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && starts_well(r, error) && joint_by_joint(r, q, error);
     bool some = r->kinetic && (r->kinetic->reducible || r->kinetic->general);
-    if (good && !some && r->group->action.d) nh_reduction_warn(r, "%s: no connection and no momentum is used, the equations are divided by the group as they are", r->kinetic->obstacle);
+    if (good && !some && r->group->action.d) nh_reduction_warn(r, "%s: no connection and no momentum is used, the equations are reduced directly", r->kinetic->obstacle);
     bool divide = good && r->group->action.d;
     if (divide) nh_progress("reduced equations, and motions of both", -1);
     if (divide) good = divide_by_group(r, error);

@@ -180,7 +180,7 @@ static void symmetry(nh_html_writer *w, const nh_current *f)
         along[i] = term[i].along ? term[i].along : "Gamma";
         e[i] = term[i].coefficient;
     }
-    if (count && !term[0].along) nh_html_add(w, "<p>Relative to the motion, where it is shorter: so much of \u0393, and besides it the other components.</p>\n");
+    if (count && !term[0].along) nh_html_add(w, "<p>Written as a multiple of \u0393 plus the remaining components.</p>\n");
     nh_html_field(w, count, along, e);
     nh_free(e);
     nh_free(along);

@@ -219,7 +219,7 @@ static void checks(nh_html_writer *w, const nh_reduction *r, const nh_reduction_
     const char *why = nh_reduction_no_energy(r, s);
     nh_html_add(w, "<dl><dt>Check</dt><dd>");
     if (s->compared) {
-        nh_html_add(w, "with the group's motion found again ");
+        nh_html_add(w, "after reconstruction: ");
         nh_html_number(w, s->agreement, 1);
         nh_html_add(w, s->against_full ? " from the full motion up to t = " : " from the first stage up to t = ");
         nh_html_number(w, s->reached, 4);

@@ -202,7 +202,7 @@ void nh_html_time_series(nh_html_writer *w, const nh_time_series *c)
     if (states) positions(w, c);
     if (states) velocities(w, c);
     lines(w, c, NH_TRACK_ENERGY, 0, c->lines, "Energy", "E", "The energy function over time.");
-    lines(w, c, NH_TRACK_WATCH, 0, c->lines, "Watched quantities", "value", "What was asked to be watched, over time.");
+    lines(w, c, NH_TRACK_WATCH, 0, c->lines, "Observables", "value", "Observables over time.");
     lines(w, c, NH_TRACK_MULTIPLIER, 0, c->lines, "Chetaev multipliers", "multiplier",
           c->model->k == 1 ? "The Chetaev multiplier over time." : "Chetaev multipliers over time, in the order of the constraints.");
     if (!w->r) constancy(w, c);

@@ -194,7 +194,7 @@ static void put_full(const nh_reduction *r, nh_text *out)
 static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_text *out)
 {
     const char *with = s->against_full ? "the full motion" : "the first stage";
-    if (s->compared) nh_text_addf(out, "  with the group's motion found again, %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
+    if (s->compared) nh_text_addf(out, "  after reconstruction: %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
     if (s->compared && s->unsure > 0) nh_text_addf(out, ", which is known to %.1e itself", s->unsure);
     if (!s->compared) nh_text_addf(out, "  not compared with %s", with);
     const char *why = nh_reduction_no_energy(r, s), *energy = nh_reduction_energy(r, s);

@@ -1,4 +1,4 @@
-/* pilot_runs: a small chart of one motion, made on a piece of it while the motion itself waits.
+/* pilot_runs: a small benchmark of one motion, made on a piece of it while the motion itself waits.
  *
  * The piece begins where the caller says, and is so long that the best way known so far takes a small part of the budget for it, all in counted work (base/effort.h).  A run of that way at a
  * tolerance a hundred times tighter is the reference.  Every other way runs a few times, at the tolerance (or step) at which its error is expected to

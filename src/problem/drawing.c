@@ -60,7 +60,7 @@ static const char *choose_view(const drawing *w, int axis[2])
     int across = c->wheels || !any[2] ? 2 : !any[1] ? 1 : !any[0] ? 0 : nh_is_zero(w->s->dag, c->gravity[2]) ? 2 : 1;
     axis[0] = across == 0;
     axis[1] = across == 2 ? 1 : 2;
-    return across == 2 ? "from above: across the third axis" : across == 1 ? "from the side: across the second axis" : "from the side: across the first axis";
+    return across == 2 ? "view along z" : across == 1 ? "view along y" : "view along x";
 }
 
 static void seen(const nh_ex p[3], const int axis[2], nh_ex out[2])

@@ -74,7 +74,7 @@ const char *nh_places_look(nh_arena *arena, const char *kind, const char *name)
         const char *file = nh_arena_printf(arena, "%s/%s.yaml", where[i].folder, name);
         if (!access(file, F_OK) && (!where[i].mixed || is_of_kind(file, kind))) return file;
     }
-    for (size_t i = 0; i < n; i++) { /* those that are there for chart --stress, and not listed */
+    for (size_t i = 0; i < n; i++) { /* those that are there for benchmark --robustness, and not listed */
         const char *file = nh_arena_printf(arena, "%s/stress/%s.yaml", where[i].folder, name);
         if (!access(file, F_OK)) return file;
     }

@@ -1,4 +1,4 @@
-/* stresses: the maps that a system file names, of where motions of this system are hard to compute. */
+/* stresses: the robustness maps that a system file names, of where motions of this system are hard to compute. */
 #include <stdlib.h>
 #include <string.h>
 
