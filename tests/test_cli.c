@@ -37,12 +37,12 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
     static const struct { const char *line, *err; } list[] = {
         {"analyz sleigh", "nhsym: there is no command `analyz`\nhint: did you mean `nhsym analyze`?\n"},
         {"frobnicate", "nhsym: there is no command `frobnicate`\nhint: `nhsym help` lists the commands\n"},
-        {"analyze", "nhsym: analyze what?\nhint: nhsym analyze sleigh, or nhsym analyze mine.yaml\n"},
-        {"analyze sleigh tops", "nhsym: `nhsym analyze` takes one system, found `tops` too\n"},
+        {"analyze", "nhsym: `nhsym analyze` needs a system or an analysis file\nhint: nhsym analyze sleigh, or nhsym analyze mine.yaml\n"},
+        {"analyze sleigh tops", "nhsym: `nhsym analyze` takes one system, but a second one is given: `tops`\n"},
         {"analyze sleigh --seedd 3", "nhsym: there is no option `--seedd`\nhint: did you mean `--seed`?\n"},
         {"analyze sleigh --frob", "nhsym: there is no option `--frob`\nhint: `nhsym help` lists them\n"},
         {"analyze sleigh -z", "nhsym: there is no option `-z`\nhint: `nhsym help` lists them\n"},
-        {"analyze sleigh --seed", "nhsym: `--seed` needs a value\nhint: `nhsym help` shows how it is written\n"},
+        {"analyze sleigh --seed", "nhsym: `--seed` needs a value\nhint: `nhsym help` describes the option\n"},
         {"analyze sleigh --set k", "nhsym: --set needs NAME=VALUE, found `k`\n"},
         {"analyze sleigh --set =3", "nhsym: --set needs NAME=VALUE, found `=3`\n"},
         {"analyze sleigh --set k=two", "nhsym: --set k needs a number, found `two`\n"},
@@ -52,23 +52,23 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"analyze sleigh --set k=0x10", "nhsym: --set k needs a number, found `0x10`\n"},
         {"analyze sleigh --set k=inf", "nhsym: --set k needs a number, found `inf`\n"},
         {"analyze sleigh --set kk=3", "nhsym: `kk` is not a parameter of sleigh\nhint: did you mean `k`?\n"},
-        {"analyze sleigh --seed 1.5", "nhsym: the option `seed` is a whole number, found `1.5`\n"},
+        {"analyze sleigh --seed 1.5", "nhsym: the option `seed` needs a whole number, found `1.5`\n"},
         {"analyze sleigh --seed -3", "nhsym: the option `seed` must lie between 0 and 1e+15, found `-3`\n"},
         {"analyze sleigh --seed many", "nhsym: the option `seed` needs a number, found `many`\n"},
         {"analyze sleigh --option sed=3", "nhsym: there is no option `sed`\nhint: did you mean `seed`?\n"},
         {"analyze sleigh --option seed", "nhsym: --option needs NAME=VALUE, found `seed`\n"},
         {"analyze sleigh --velocities quasy", "nhsym: there are no velocities `quasy`\nhint: --velocities takes auto, quasi or coordinates\n"},
-        {"show", "nhsym: show which system?\nhint: nhsym show sleigh\n"},
-        {"analyze sleigh --htm page.html", "nhsym: there is no option `--htm`\nhint: names are written in full: `--html`\n"},
-        {"analyze sleigh --qui", "nhsym: there is no option `--qui`\nhint: names are written in full: `--quiet`\n"},
-        {"analyze sleigh --html=page.html --verb", "nhsym: there is no option `--verb`\nhint: names are written in full: `--verbose`\n"},
-        {"analyze sleigh --budget 2s", "nhsym: `nhsym analyze` does not take --budget\nhint: `nhsym help analyze` lists what it takes; this is for: benchmark\n"},
-        {"reduce sleigh --analysis sleigh", "nhsym: `nhsym reduce` does not take --analysis\nhint: `nhsym help reduce` lists what it takes; this is for: analyze simulate benchmark\n"},
-        {"--html page.html list", "nhsym: `nhsym list` does not take --html\nhint: `nhsym help list` lists what it takes; this is for: analyze verify simulate benchmark reduce\n"},
-        {"simulate sleigh -o folder", "nhsym: `nhsym simulate` does not take --output\nhint: `nhsym help simulate` lists what it takes; this is for: analyze\n"},
-        {"analyze sleigh --fragment", "nhsym: --fragment says how the LaTeX is written, and none is asked for\nhint: --tex body.tex --fragment\n"},
-        {"explain frobnicate", "nhsym: nothing is known about `frobnicate`\nhint: `nhsym explain` lists the topics\n"},
-        {"explain gapp", "nhsym: nothing is known about `gapp`\nhint: did you mean `gap`?\n"},
+        {"show", "nhsym: `nhsym show` needs the name of a system\nhint: nhsym show sleigh\n"},
+        {"analyze sleigh --htm page.html", "nhsym: there is no option `--htm`\nhint: write the full name: `--html`\n"},
+        {"analyze sleigh --qui", "nhsym: there is no option `--qui`\nhint: write the full name: `--quiet`\n"},
+        {"analyze sleigh --html=page.html --verb", "nhsym: there is no option `--verb`\nhint: write the full name: `--verbose`\n"},
+        {"analyze sleigh --budget 2s", "nhsym: `nhsym analyze` does not take --budget\nhint: `nhsym help analyze` lists its options; this one belongs to: benchmark\n"},
+        {"reduce sleigh --analysis sleigh", "nhsym: `nhsym reduce` does not take --analysis\nhint: `nhsym help reduce` lists its options; this one belongs to: analyze simulate benchmark\n"},
+        {"--html page.html list", "nhsym: `nhsym list` does not take --html\nhint: `nhsym help list` lists its options; this one belongs to: analyze verify simulate benchmark reduce\n"},
+        {"simulate sleigh -o folder", "nhsym: `nhsym simulate` does not take --output\nhint: `nhsym help simulate` lists its options; this one belongs to: analyze\n"},
+        {"analyze sleigh --fragment", "nhsym: --fragment needs --tex\nhint: for example: --tex body.tex --fragment\n"},
+        {"explain frobnicate", "nhsym: there is no topic `frobnicate`\nhint: `nhsym explain` lists the topics\n"},
+        {"explain gapp", "nhsym: there is no topic `gapp`\nhint: did you mean `gap`?\n"},
     };
     place p = place_make();
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) check(&p, list[i].line, 2, "", list[i].err);
@@ -131,9 +131,9 @@ Test(cli, unknown_systems_and_files)
     check(&p, "analyze sleig", 3, "", "nhsym: there is no system `sleig` in ./systems, in NHSYM_PATH or among the installed ones\nhint: did you mean `sleigh`?\n");
     check(&p, "show sleig", 3, "", "nhsym: there is no system `sleig` in ./systems, in NHSYM_PATH or among the installed ones\nhint: did you mean `sleigh`?\n");
     check(&p, "analyze xyzzyx", 3, "",
-          "nhsym: there is no system `xyzzyx` in ./systems, in NHSYM_PATH or among the installed ones\nhint: give the path of a file, or see `nhsym list`\n");
-    check(&p, "analyze no/such.yaml", 3, "", "nhsym: no/such.yaml: there is no such file\nhint: `nhsym list` shows the systems that are here, `nhsym new skate` writes one to start from\n");
-    check(&p, "analyze mine.yaml", 3, "", "nhsym: mine.yaml: there is no such file\nhint: `nhsym list` shows the systems that are here, `nhsym new skate` writes one to start from\n");
+          "nhsym: there is no system `xyzzyx` in ./systems, in NHSYM_PATH or among the installed ones\nhint: give the path of a file, or a name that `nhsym list` shows\n");
+    check(&p, "analyze no/such.yaml", 3, "", "nhsym: no/such.yaml: there is no such file\nhint: `nhsym list` lists the available systems; `nhsym new skate` writes an example\n");
+    check(&p, "analyze mine.yaml", 3, "", "nhsym: mine.yaml: there is no such file\nhint: `nhsym list` lists the available systems; `nhsym new skate` writes an example\n");
     check(&p, "analyze sleigh --analysis sleig", 3, "",
           "nhsym: there is no analysis `sleig` in ./analyses, in NHSYM_PATH or among the installed ones\nhint: did you mean `sleigh`?\n");
     place_clear(&p);
@@ -194,7 +194,7 @@ Test(cli, output_that_cannot_be_written_is_told)
     snprintf(line, sizeof line, "'%s' help >/dev/full", p.program);
     finished f = run_vector(&p, &(manner){0}, argument);
     cr_expect_eq(f.code, 4);
-    cr_expect_str_eq(f.err, "nhsym: the output could not be written\n");
+    cr_expect_str_eq(f.err, "nhsym: standard output could not be written\n");
     finished_clear(&f);
     place_clear(&p);
 }

@@ -17,10 +17,10 @@ static const char *analysis_of(nh_cli *cli, const char *system)
 static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
 {
     if (cli->fragment && !cli->tex && !cli->folder) {
-        nh_fail(error, NH_USAGE, "", "--fragment says how the LaTeX is written, and none is asked for");
-        return nh_error_hint(error, "--tex body.tex --fragment");
+        nh_fail(error, NH_USAGE, "", "--fragment needs --tex");
+        return nh_error_hint(error, "for example: --tex body.tex --fragment");
     }
-    if (cli->operands > 1) return nh_fail(error, NH_USAGE, "", "`nhsym analyze` takes one system, found `%s` too", cli->operand[1]);
+    if (cli->operands > 1) return nh_fail(error, NH_USAGE, "", "`nhsym analyze` takes one system, but a second one is given: `%s`", cli->operand[1]);
     *q = (nh_analyze_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .options = cli->options, .accuracy = cli->accuracy,
                               .seed_given = cli->seed_given, .samples_given = cli->samples_given, .tolerance_given = cli->tolerance_given,
                               .until_given = cli->until_given};
@@ -34,7 +34,7 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
         nh_analysis_file_free(peek);
     }
     if (!name) {
-        nh_fail(error, NH_USAGE, "", "analyze what?");
+        nh_fail(error, NH_USAGE, "", "`nhsym analyze` needs a system or an analysis file");
         return nh_error_hint(error, "nhsym analyze sleigh, or nhsym analyze mine.yaml");
     }
     q->system_path = nh_places_find(cli->arena, "systems", name, error);
@@ -91,7 +91,7 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
     good = nh_cli_written(cli, good, error);
     bool partial = result->partial;
     const nh_validation *v = result->validation;
-    if (good && cli->accuracy > 0 && !partial && !(v && v->accuracy.held)) nh_fail(error, NH_NUMERIC, "", "%s", v ? v->accuracy.why : "no motion was computed, and so none with the accuracy that was asked for");
+    if (good && cli->accuracy > 0 && !partial && !(v && v->accuracy.held)) nh_fail(error, NH_NUMERIC, "", "%s", v ? v->accuracy.why : "no motion was computed, so the requested accuracy was not reached");
     nh_analysis_free(result);
     if (!good) return error->code;
     return nh_interrupted() ? (int)nh_ended_code() : partial ? NH_LIMIT : (int)error->code;

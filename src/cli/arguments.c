@@ -136,13 +136,13 @@ static bool in_full(const char *word, int code, nh_error *error)
     }
     if (!named) return true;
     nh_fail(error, NH_USAGE, "", "there is no option `%.*s`", (int)length, word);
-    return nh_error_hint(error, "names are written in full: `--%s`", name_of(code));
+    return nh_error_hint(error, "write the full name: `--%s`", name_of(code));
 }
 
 static bool missing_value(const char *word, nh_error *error)
 {
     nh_fail(error, NH_USAGE, "", "`%s` needs a value", word);
-    return nh_error_hint(error, "`nhsym help` shows how it is written");
+    return nh_error_hint(error, "`nhsym help` describes the option");
 }
 
 static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
@@ -211,7 +211,7 @@ static bool all_belong(const nh_cli *cli, const bool *given, nh_error *error)
     for (size_t i = 0; i < owner_count; i++) {
         if (!given[i] || for_all(owners[i].code) || nh_word_among(owners[i].commands, cli->command)) continue;
         nh_fail(error, NH_USAGE, "", "`nhsym %s` does not take --%s", cli->command, owners[i].name);
-        return nh_error_hint(error, "`nhsym help %s` lists what it takes; this is for: %s", cli->command, owners[i].commands);
+        return nh_error_hint(error, "`nhsym help %s` lists its options; this one belongs to: %s", cli->command, owners[i].commands);
     }
     return true;
 }

@@ -19,8 +19,8 @@ bool nh_cli_use_folder(nh_cli *cli, nh_error *error)
 {
     if (!cli->folder) return true;
     if (mkdir(cli->folder, 0777) && errno != EEXIST) {
-        nh_fail(error, NH_NUMERIC, cli->folder, "the folder could not be made: %s", strerror(errno));
-        return nh_error_hint(error, "-o takes a folder; the one that holds it must exist");
+        nh_fail(error, NH_NUMERIC, cli->folder, "the folder could not be created: %s", strerror(errno));
+        return nh_error_hint(error, "-o takes a folder; its parent folder must exist");
     }
     if (!cli->json) cli->json = nh_cli_in_folder(cli, "result.json");
     if (!cli->html) cli->html = nh_cli_in_folder(cli, "report.html");

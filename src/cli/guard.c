@@ -26,7 +26,7 @@ static void end_at_once(int code)
     nh_progress_last(doing, sizeof doing);
     if (code == NH_INTERRUPTED) dprintf(STDERR_FILENO, "nhsym: interrupted\n");
     else
-        dprintf(STDERR_FILENO, "nhsym: %s%s%sthe time limit was reached, and nothing could be reported in time\nhint: --max-seconds raises it\n", doing, *doing ? ": " : "",
+        dprintf(STDERR_FILENO, "nhsym: %s%s%sthe time limit was reached before any result could be written\nhint: raise it by --max-seconds\n", doing, *doing ? ": " : "",
                 atomic_load(&writing) ? "the results were being written when " : "");
     _exit(code);
 }

@@ -56,8 +56,8 @@ static void all_commands(void)
         snprintf(head, sizeof head, "nhsym %s %s", commands[i].name, commands[i].operand);
         printf("  %-28s %s\n", head, commands[i].meaning);
     }
-    puts("\n  --set NAME=VALUE             another parameter value; repeatable\n"
-         "  --json [FILE|-]  --html FILE  --tex FILE  -o DIR     the result as a file\n"
+    puts("\n  --set NAME=VALUE             set a parameter; repeatable\n"
+         "  --json [FILE|-]  --html FILE  --tex FILE  -o DIR     output files\n"
          "  --quiet  --verbose  --no-color  --help      `nhsym help COMMAND` lists all\n"
          "\nExamples");
     for (size_t i = 0; i < 3; i++) printf("  %s\n", commands[i == 2 ? 7 : i].example);
@@ -98,8 +98,8 @@ static void manual_page(void)
         if (options[i].commands[0]) printf(" (%s)", options[i].commands);
         putchar('\n');
     }
-    puts(".SH EXIT STATUS\n0 done; 1 verify says no; 2 a wrong command line; 3 a wrong file; 4 a numerical failure, the message gives the reason; 5 a limit was reached; 130 interrupted. "
-         "With 5 and 130 partial results are written and marked partial.\n.SH ENVIRONMENT\n.TP\n.B NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for long motions instead of cc; empty: none\n.TP\n.B NO_COLOR\n"
+    puts(".SH EXIT STATUS\n0 success; 1 verify answers no; 2 an error in the command line; 3 an error in a file; 4 a numerical failure; the message gives the reason; 5 a limit was reached; 130 interrupted. "
+         "After 5 and 130 the output files hold partial results, marked partial.\n.SH ENVIRONMENT\n.TP\n.B NHSYM_PATH\nfolders with systems and analyses, separated by colons\n.TP\n.B NHSYM_CC\nthe C compiler for long motions (default: cc); empty: no compiler\n.TP\n.B NO_COLOR\n"
          "no colours");
 }
 

@@ -36,7 +36,7 @@ int nh_cli_list(nh_cli *cli, nh_error *error)
 int nh_cli_show(nh_cli *cli, nh_error *error)
 {
     if (cli->operands != 1) {
-        nh_fail(error, NH_USAGE, "", "show which system?");
+        nh_fail(error, NH_USAGE, "", "`nhsym show` needs the name of a system");
         nh_error_hint(error, "nhsym show sleigh");
         return NH_USAGE;
     }
@@ -99,11 +99,11 @@ int nh_cli_explain(nh_cli *cli, nh_error *error)
         if (!word) printf(row, topic.word, topic.text);
         else if (!strcmp(word, topic.word)) return puts(topic.text), NH_OK;
     }
-    if (!word) return printf(row, "options", "every number that decides something (nhsym explain options)"), NH_OK;
+    if (!word) return printf(row, "options", "all numerical options (nhsym explain options)"), NH_OK;
     if (!strcmp(word, "options")) return explain_options(), NH_OK;
     if (explain_beginning(word)) return NH_OK;
     names[count] = "options";
-    nh_fail(error, NH_USAGE, "", "nothing is known about `%s`", word);
+    nh_fail(error, NH_USAGE, "", "there is no topic `%s`", word);
     const char *near = nh_text_nearest(word, names, count + 1);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "`nhsym explain` lists the topics");

@@ -83,7 +83,7 @@ int main(int argc, char **argv)
     nh_machine_cleanup();
     nh_normal_cleanup();
     if (fflush(stdout) || ferror(stdout)) {
-        fprintf(stderr, "nhsym: the output could not be written\n");
+        fprintf(stderr, "nhsym: standard output could not be written\n");
         code = code ? code : NH_NUMERIC;
     }
     if (nh_interrupted()) _exit(code); /* a decomposition that was left alone may still run */

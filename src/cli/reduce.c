@@ -8,12 +8,12 @@
 static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
 {
     if (cli->operands != 1) {
-        nh_fail(error, NH_USAGE, "", "reduce which system?");
+        nh_fail(error, NH_USAGE, "", "`nhsym reduce` needs a system");
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
     *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .accuracy = cli->accuracy, .options = cli->options};
     if (cli->to && strcmp(cli->to, "c") && strcmp(cli->to, "latex")) {
-        nh_fail(error, NH_USAGE, "", "reduce does not write `%s`", cli->to);
+        nh_fail(error, NH_USAGE, "", "`nhsym reduce` cannot write `%s`", cli->to);
         return nh_error_hint(error, "--to takes c or latex");
     }
     q->system_path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
@@ -38,7 +38,7 @@ static void complain(const nh_reduction *r, double accuracy, nh_error *error)
     for (size_t i = 0; i < r->stages && error->code == NH_OK; i++) {
         const nh_reduction_stage *s = &r->stage[i];
         if (!s->compared) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: stage %zu could not be compared with the full motion", accuracy, i + 1);
-        else if (!s->complete || s->reached < r->until) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached to the end: stage %zu was compared to t = %.6g%s", accuracy, i + 1, s->reached, s->complete ? ", up to which the motion that it is compared with is known" : "");
+        else if (!s->complete || s->reached < r->until) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached to the end: stage %zu was compared to t = %.6g%s", accuracy, i + 1, s->reached, s->complete ? ", the time up to which the full motion is known" : "");
         else if (!(s->agreement < accuracy)) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: stage %zu is %.1e from the full motion", accuracy, i + 1, s->agreement);
     }
     if (r->stages && r->full.method && !r->full.held && error->code == NH_OK) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: %s", accuracy, r->full.why);

@@ -8,7 +8,7 @@
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *q, nh_error *error)
 {
     if (cli->operands != 1) {
-        nh_fail(error, NH_USAGE, "", "%s which system?", cli->command);
+        nh_fail(error, NH_USAGE, "", "`nhsym %s` needs a system", cli->command);
         return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
@@ -55,7 +55,7 @@ static void complain(const nh_simulation *s, nh_error *error)
     if (unsure) nh_fail(error, NH_NUMERIC, "", "%s", s->why);
     if (s->ensemble) return;
     if (unsure && s->columns.count > 1)
-        nh_error_hint(error, "`%s` is the least certain of %zu columns; --watch names those that are wanted", s->columns.track[s->accuracy.quantity].name, s->columns.count);
+        nh_error_hint(error, "`%s` is the least certain of %zu columns; choose the wanted columns by --watch", s->columns.track[s->accuracy.quantity].name, s->columns.count);
     if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->why : s->motion->note);
 }
 

@@ -7,7 +7,7 @@
 static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error)
 {
     if (cli->operands != 1 || !cli->current == !cli->field) {
-        nh_fail(error, NH_USAGE, "", "verify needs one system and either --current or --field");
+        nh_fail(error, NH_USAGE, "", "`nhsym verify` needs one system and either --current or --field");
         return nh_error_hint(error, "nhsym verify sleigh --current \"m*v\", or --field \"Z0=1; phi=phi'; x=x'\"");
     }
     const char *path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
