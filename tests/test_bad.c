@@ -236,6 +236,6 @@ Test(bad, a_file_in_another_encoding)
     scratch_name(folder);
     cr_assert_not_null(mkdtemp(folder));
     cr_expect_eq(judge(folder, "bytes_utf16", false, utf16, sizeof utf16 - 1, message, sizeof message), NH_INPUT);
-    cr_expect_str_eq(message, "bytes_utf16.yaml: the file is in the encoding UTF-16\nhint: save the file in the encoding UTF-8\n");
+    cr_expect_str_eq(message, "bytes_utf16.yaml: the encoding of this file is UTF-16\nhint: save the file in the encoding UTF-8\n");
     cr_expect_eq(rmdir(folder), 0);
 }

@@ -123,7 +123,7 @@ static void check_refusals(const pair *list, size_t count)
 #define CHECK_REFUSALS(list) check_refusals(list, sizeof list / sizeof list[0])
 #define QUOTE "put the expression in double quotes"
 #define COMMA "inside { } and [ ] a comma ends the entry: put the expression in double quotes"
-#define ALIGNED "entries of one map, and items of one list, begin in the same column"
+#define ALIGNED "start all entries of a map, and all items of a list, in the same column"
 #define ESCAPE "a backslash in double quotes begins an escape, and this is none"
 #define BACKSLASH "write \\\\ for a backslash, or use single quotes"
 
@@ -149,7 +149,7 @@ Test(deck, explains_expressions_that_yaml_takes_for_something_else)
         {"%x: 1\n", "f.yaml:1:1: a line that begins with `%` means something else in YAML\n  %x: 1\n  ^\nhint: " QUOTE},
         {"a: b: c\n", "f.yaml:1:5: this `:` cannot stand here\n  a: b: c\n      ^\nhint: put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
         {"a: - x\n", "f.yaml:1:4: a list item `- ` cannot stand here\n  a: - x\n     ^\nhint: begin the list on a line of its own, or put the expression in double quotes"},
-        {"a: 1\nb:2\n", "f.yaml:2:1: expected `key: value`\n  b:2\n  ^\nhint: write a space after the colon; a value that goes on in the next line is indented deeper than its key"},
+        {"a: 1\nb:2\n", "f.yaml:2:1: expected `key: value`\n  b:2\n  ^\nhint: write a space after the colon; indent a continued value deeper than its key"},
         {"a: \"x\\q\"\n", "f.yaml:1:6: " ESCAPE "\n  a: \"x\\q\"\n       ^\nhint: " BACKSLASH},
         {"a: \"\\xq\"\n", "f.yaml:1:5: " ESCAPE "\n  a: \"\\xq\"\n      ^\nhint: " BACKSLASH},
         {"a: \"\\ud800\"\n", "f.yaml:1:5: " ESCAPE "\n  a: \"\\ud800\"\n      ^\nhint: " BACKSLASH},
@@ -164,8 +164,8 @@ Test(deck, explains_commas_and_brackets)
         {"[\"a\", f(é, x)]\n", "f.yaml:1:10: this comma stands inside parentheses\n  [\"a\", f(é, x)]\n           ^\nhint: " COMMA},
         {"- {expr: x, y + 1}\n", "f.yaml:1:13: `y + 1` has no value\n  - {expr: x, y + 1}\n              ^\nhint: " COMMA},
         {"{a:1, b: 2}\n", "f.yaml:1:2: `a:1` has no value\n  {a:1, b: 2}\n   ^\nhint: write a space after the colon"},
-        {"a: [1, 2\n\n", "f.yaml:1:4: this `[` is not closed\n  a: [1, 2\n     ^\nhint: add `]`, or put an expression that contains `[` in double quotes"},
-        {"a: {b: 2", "f.yaml:1:4: this `{` is not closed\n  a: {b: 2\n     ^\nhint: add `}`, or put an expression that contains `{` in double quotes"},
+        {"a: [1, 2\n\n", "f.yaml:1:4: this `[` is not closed\n  a: [1, 2\n     ^\nhint: add `]`, or write an expression that contains `[` in double quotes"},
+        {"a: {b: 2", "f.yaml:1:4: this `{` is not closed\n  a: {b: 2\n     ^\nhint: add `}`, or write an expression that contains `{` in double quotes"},
         {"a: [1, 2\nb: 3\n", "f.yaml:2:2: expected `,` or `]` in the list that begins with `[` in line 1\n  b: 3\n   ^\nhint: is the `[` in line 1 closed?"},
         {"- {a: 1\n- {b: 1}\n", "f.yaml:2:3: expected `,` or `}` in the map that begins with `{` in line 1\n  - {b: 1}\n    ^\nhint: is the `{` in line 1 closed?"},
         {"{a: 'x' + 1}\n", "f.yaml:1:9: expected `,` or `}` in the map that begins with `{` in line 1\n  {a: 'x' + 1}\n          ^\nhint: " QUOTE},
@@ -187,8 +187,8 @@ Test(deck, explains_indentation_and_keys)
         {"a:\n  - x\n y\n", "f.yaml:3:2: this line does not fit the map that begins in line 1\n   y\n   ^\nhint: " ALIGNED},
         {"-\n  - x\n y\n", "f.yaml:3:2: this line does not fit the list that begins in line 1\n   y\n   ^\nhint: " ALIGNED},
         {"  a: 1\nb: 2\n", "f.yaml:2:1: this does not go on with what stands above\n  b: 2\n  ^\nhint: keys of one map begin in the same column; put an expression with quotes or brackets in double quotes"},
-        {"m: 1\nk: 2\nm: 3\nk: 4\nm: 5\n", "f.yaml:3:1: the key `m` is there already, in line 1\n  m: 3\n  ^\nhint: remove or rename one of them"},
-        {"{\"m\": 1, m: 2}\n", "f.yaml:1:10: the key `m` is there already, in line 1\n  {\"m\": 1, m: 2}\n           ^\nhint: remove or rename one of them"},
+        {"m: 1\nk: 2\nm: 3\nk: 4\nm: 5\n", "f.yaml:3:1: the key `m` occurs already in line 1\n  m: 3\n  ^\nhint: remove or rename one of them"},
+        {"{\"m\": 1, m: 2}\n", "f.yaml:1:10: the key `m` occurs already in line 1\n  {\"m\": 1, m: 2}\n           ^\nhint: remove or rename one of them"},
         {"[x]: 1\n", "f.yaml:1:1: a key must be a word, found a list\n  [x]: 1\n  ^\nhint: " QUOTE},
         {"{x: y}: 1\n", "f.yaml:1:1: a key must be a word, found a map\n  {x: y}: 1\n  ^\nhint: " QUOTE},
         {": 1\n", "f.yaml:1:1: there is no key before the `:`\n  : 1\n  ^\nhint: write `key: value`"},
@@ -214,10 +214,10 @@ Test(deck, refuses_what_is_no_text)
         {"a: \"x\\e[0m\"\n", "f.yaml:1:4: this text contains a control character\n  a: \"x\\e[0m\"\n     ^\nhint: remove the escape that stands for it"},
         {"a: \"x\\Ny\"\n", "f.yaml:1:4: this text contains a control character\n  a: \"x\\Ny\"\n     ^\nhint: remove the escape that stands for it"},
         {"a: \"x\\0y\"\n", "f.yaml:1:4: this text contains a control character\n  a: \"x\\0y\"\n     ^\nhint: remove the escape that stands for it"},
-        {"", "f.yaml: there is nothing in this file"},
-        {"# only a remark\n\n", "f.yaml: there is nothing in this file"},
-        {"---\n", "f.yaml: there is nothing in this file"},
-        {"\xFF\xFE" "a", "f.yaml: the file is in the encoding UTF-16\nhint: save the file in the encoding UTF-8"},
+        {"", "f.yaml: this file is empty"},
+        {"# only a remark\n\n", "f.yaml: this file is empty"},
+        {"---\n", "f.yaml: this file is empty"},
+        {"\xFF\xFE" "a", "f.yaml: the encoding of this file is UTF-16\nhint: save the file in the encoding UTF-8"},
     };
     CHECK_REFUSALS(list);
     cr_expect_str_eq(refused_n("a: \0b\n", 6), "f.yaml:1:4: there is a NUL byte in the text\n  a: ?b\n     ^\nhint: is this a text file?");
@@ -291,7 +291,7 @@ Test(deck, tells_why_a_file_is_not_read)
 {
     cr_expect_str_eq(unread("/no/such.yaml"), "/no/such.yaml: this file cannot be opened: No such file or directory");
     cr_expect_str_eq(unread("/tmp"), "/tmp: this is a directory, not a file");
-    cr_expect_str_eq(unread("/dev/null"), "/dev/null: there is nothing in this file");
+    cr_expect_str_eq(unread("/dev/null"), "/dev/null: this file is empty");
     cr_expect_str_eq(unread("/dev/zero"), "/dev/zero: the file is larger than 4 MiB");
     if (access("/proc/self/mem", R_OK) == 0)
         cr_expect_str_eq(unread("/proc/self/mem"), "/proc/self/mem: this file cannot be read: Input/output error");
@@ -491,7 +491,7 @@ Test(typed, numbers)
     cr_expect_str_eq(not_number("none", "value"), "f.yaml: `value` is missing");
     cr_expect_str_eq(not_number("big", "value"), "f.yaml:7:6: `value` must be a number that a double can hold, found `1e999`\n  big: 1e999\n       ^");
     cr_expect_str_eq(not_number("small", "value"), "f.yaml:17:8: `value` must be a number that a double can hold, found `1e-999`\n  small: 1e-999\n         ^");
-    cr_expect_str_eq(not_number("q", "value"), "f.yaml:2:5: `value` must be a number, found the text `3`\n  q: '3'\n      ^\nhint: remove the quotes: what is quoted is a text");
+    cr_expect_str_eq(not_number("q", "value"), "f.yaml:2:5: `value` must be a number, found the text `3`\n  q: '3'\n      ^\nhint: remove the quotes: a quoted value is a text");
 }
 
 Test(typed, numbers_as_people_write_them)
@@ -539,7 +539,7 @@ Test(typed, whole_numbers)
     cr_expect_str_eq(not_whole("h", 1, LONG_MAX), "f.yaml:13:4: `samples` must be a whole number, at least 1, found `1.5`\n  h: 1.5\n     ^");
     cr_expect_str_eq(not_whole("w", LONG_MIN, 5), "f.yaml:3:4: `samples` must be a whole number, at most 5, found `abc`\n  w: abc\n     ^");
     cr_expect_str_eq(not_whole("huge", LONG_MIN, LONG_MAX), "f.yaml:14:7: `samples` must be a whole number, found `99999999999999999999`\n  huge: 99999999999999999999\n        ^");
-    cr_expect_str_eq(not_whole("q", 1, 9), "f.yaml:2:5: `samples` must be a whole number from 1 to 9, found the text `3`\n  q: '3'\n      ^\nhint: remove the quotes: what is quoted is a text");
+    cr_expect_str_eq(not_whole("q", 1, 9), "f.yaml:2:5: `samples` must be a whole number from 1 to 9, found the text `3`\n  q: '3'\n      ^\nhint: remove the quotes: a quoted value is a text");
     cr_expect_str_eq(not_whole("big", 1, 9), "f.yaml:7:6: `samples` must be a whole number from 1 to 9, found `1e999`\n  big: 1e999\n       ^");
     cr_expect_str_eq(not_whole("none", 1, 9), "f.yaml: `samples` is missing");
 }

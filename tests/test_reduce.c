@@ -148,7 +148,7 @@ static void refused(const char *system, const char *group, const char *chain, co
 
 Test(reduce, bad_groups_are_explained)
 {
-    refused("systems/sleigh.yaml", "x=1; phi=1, x=-y, y=x", NULL, "[d/dx, d/dphi - y d/dx + x d/dy] = d/dy is not a combination of them");
+    refused("systems/sleigh.yaml", "x=1; phi=1, x=-y, y=x", NULL, "[d/dx, d/dphi - y d/dx + x d/dy] = d/dy is not a linear combination of them");
     refused("systems/sleigh.yaml", "phi=1", NULL, "does not leave the kinetic energy invariant");
     refused("systems/rolling_disk.yaml", "p=1", NULL, "does not leave the constraint distribution invariant");
     refused("systems/kepler.yaml", "x=-y, y=x; y=-z, z=y; z=-x, x=z", NULL, "the action is not free: 3 fields, but an orbit of dimension 2 at x = ");
@@ -157,7 +157,7 @@ Test(reduce, bad_groups_are_explained)
     refused("systems/sleigh.yaml", "x", NULL, "is not a component of a field");
     refused("systems/sleigh.yaml", "x=y'", NULL, "a velocity occurs");
     refused("systems/sleigh.yaml", "x=1+", NULL, "");
-    refused("systems/vertical_disk.yaml", NULL, "1; 4; 2, 3", "the chain is not one of normal subgroups");
+    refused("systems/vertical_disk.yaml", NULL, "1; 4; 2, 3", "the subgroups of the chain are not normal");
     refused("systems/vertical_disk.yaml", NULL, "1, 2", "names every generator of the group once");
 }
 

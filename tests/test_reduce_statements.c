@@ -120,7 +120,7 @@ Test(reduce_statements, momenta_of_symmetries_outside_the_distribution)
     told t = tell_file("systems/sleigh.yaml", 1, (nh_setting[]){{.name = "k", .value = 1}});
     cr_assert_eq(t.r->momenta.count, 3);
     for (size_t i = 0; i < 3; i++) cr_expect(!t.r->momenta.momentum[i].horizontal && !t.r->momenta.momentum[i].gauge);
-    SAYS(TEXT(t), "not horizontal, conserved all the same: momentum of d/dx");
+    SAYS(TEXT(t), "not horizontal, but conserved: momentum of d/dx");
     IS_SILENT(TEXT(t), "horizontal symmetry");
     SAYS(t.json, "\"kind\":\t\"momentum\"");
     done(&t);

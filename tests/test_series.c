@@ -309,7 +309,7 @@ Test(series, the_interval_of_time_is_said_everywhere, .timeout = 120)
     cr_expect_not_null(strstr(f.out, " in t on [-0.4, 10.4] without closed form"), "%s", f.out);
     cr_expect_not_null(strstr(json, "\"coordinate\":\t\"t\""), "%.3000s", json);
     cr_expect_not_null(strstr(json, "\"low\":\t-0.4"));
-    cr_expect_not_null(strstr(page, "it has no closed form among the functions that were tried"));
+    cr_expect_not_null(strstr(page, "it has no closed form among the functions of the search"));
     cr_expect_not_null(strstr(page, "-0.4"));
     cr_expect_not_null(strstr(tex, "without closed form: for "));
     free(json), free(page), free(tex);

@@ -146,7 +146,7 @@ Test(statements, a_drift_of_zero_is_zero)
     const cJSON *current;
     cJSON_ArrayForEach(current, item(r.json, "currents")) zero += item(current, "drift")->valuedouble == 0;
     cr_assert_gt(zero, 0u);
-    cr_expect_eq(occurrences(r.page, "; no digit of it changes</dd>"), zero);
+    cr_expect_eq(occurrences(r.page, "; it does not change at all</dd>"), zero);
     reports_clear(&r);
     place_clear(&p);
 }

@@ -234,7 +234,7 @@ Test(simulate, what_cannot_be_started_is_explained)
 {
     static const struct { const char *initial, *what; } list[] = {
         {NULL, "simulate needs an initial state"},
-        {"phi=0, x'=1, y'=1", "the initial velocities violate the constraints: they are off by 1"},
+        {"phi=0, x'=1, y'=1", "the initial velocities violate the constraints: the residual is 1"},
     };
     for (size_t i = 0; i < 2; i++) {
         nh_error error;

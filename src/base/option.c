@@ -61,7 +61,7 @@ bool nh_options_set(nh_options *options, const char *name, const char *value, nh
     if (!(x >= table[index].low && x <= table[index].high))
         return nh_fail(error, NH_USAGE, "", "the option `%s` must lie between %g and %g, found `%s`", name, table[index].low, table[index].high, value);
     if (table[index].kind == NH_OPTION_whole && x != floor(x))
-        return nh_fail(error, NH_USAGE, "", "the option `%s` is a whole number, found `%s`", name, value);
+        return nh_fail(error, NH_USAGE, "", "the option `%s` needs a whole number, found `%s`", name, value);
     *field(options, index) = x;
     return true;
 }

@@ -96,7 +96,7 @@ bool nh_fail_ended(nh_error *error, const char *format, ...)
     va_end(list);
     nh_ended_words(words, sizeof words);
     nh_fail(error, nh_ended_code(), "", "%s %s", words, doing);
-    return nh_limit_reached() ? nh_error_hint(error, "--max-seconds raises it") : false;
+    return nh_limit_reached() ? nh_error_hint(error, "raise it by --max-seconds") : false;
 }
 
 bool nh_interrupted_callback(void *context)

@@ -76,7 +76,7 @@ static bool set_pace(nh_analysis *r, nh_chart_choice choice, nh_error *error)
     nh_model_free(r->model);
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, (uint64_t)r->options.seed, error), error);
     r->pace = Omega;
-    nh_analysis_warn(r, "the forces act within %.1e units of time: where `domain:` says nothing, t is sampled up to there, and velocities in proportion", 1 / Omega);
+    nh_analysis_warn(r, "the forces act within %.1e units of time: without `domain:`, the samples of t extend to this time, and the velocities are scaled with it", 1 / Omega);
     return r->model != NULL;
 }
 
@@ -87,7 +87,7 @@ static bool make_models(nh_analysis *r, const nh_analyze_request *q, nh_error *e
     r->model = nh_model_create(r->system, nh_chart_create(r->system, choice, seed, error), error);
     if (!r->model || !set_pace(r, choice, error) || !turn_to_initial(r, choice, q, error)) return false;
     if (r->model->chart->replaced)
-        nh_analysis_warn(r, "the dependent velocities of the system file are hardly determined by the others anywhere on the sampling domain (pivots below %g): the chart is %s instead",
+        nh_analysis_warn(r, "the constraints barely determine the dependent velocities of the system file on the sampling domain (pivots below %g): the program uses the chart %s instead",
                        nh_chart_least_pivot, r->model->chart->name);
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -170,7 +170,7 @@ static void watch_deadline(nh_analysis *r)
     if (late) r->search = NH_SEARCH_CUT;
     if (late && !nh_interrupted()) {
         r->partial = true;
-        nh_analysis_warn(r, "the time limit of %g s ended the search; --max-seconds raises it", r->options.max_seconds);
+        nh_analysis_warn(r, "the time limit of %g s ended the search; raise it by --max-seconds", r->options.max_seconds);
     }
     nh_deadline_set(INFINITY);
 }
@@ -181,11 +181,11 @@ static void conclude(nh_analysis *r)
     bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(r)), open = r->open > 0 || kept_out, failed = r->count == 0 && r->current.dimension > 0;
     r->verdict = r->count == 0 ? (open || failed || r->pieces ? NH_UNDECIDED : NH_NONE) : NH_FOUND;
     if (r->count == 0 && kept_out)
-        nh_analysis_warn(r, "what a limit left out may hold currents%s", nh_analysis_left_out(r) ? ": the list of stages names the options that bring it in" : "");
+        nh_analysis_warn(r, "stages beyond a limit may contain further currents%s", nh_analysis_left_out(r) ? ": the list of stages names the options to raise" : "");
     if (r->count == 0 && r->open)
-        nh_analysis_warn(r, "some null vectors could be true but got no certificate: another ansatz, or more samples (--samples), would decide");
+        nh_analysis_warn(r, "some null vectors have no certificate: to decide, use another ansatz or more samples (--samples)");
     if (r->stages == 0 && r->current.rank_in_doubt)
-        nh_analysis_warn(r, "two columns of the ansatz are nearly dependent: which were kept is a matter of the option `rank`");
+        nh_analysis_warn(r, "two columns of the ansatz are nearly dependent: the option `rank` decides which are kept");
 }
 
 /* ---- the motion ---- */
@@ -235,7 +235,7 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
     for (size_t k = 0; k < r->count; k++) {
         r->found[k].drift = r->validation->current[k];
         if (!r->found[k].drift.explained)
-            nh_analysis_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances, and not as the error of the motion: it hardly falls with the tolerance", r->found[k].name,
+            nh_analysis_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances; the drift hardly falls with the tolerance, so it is not the error of the motion", r->found[k].name,
                            r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);
     }
     if (r->validation->note[0]) nh_analysis_warn(r, "%s", r->validation->note);
@@ -292,7 +292,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
         r->partial = true;
         char words[80];
         nh_ended_words(words, sizeof words);
-        nh_analysis_warn(r, "%s: this is what was found until then%s%s", words, r->validation ? "" : ", and no motion was computed", nh_limit_reached() ? "; --max-seconds raises it" : "");
+        nh_analysis_warn(r, "%s: the results are partial%s%s", words, r->validation ? "" : ", and no motion was computed", nh_limit_reached() ? "; raise the limit by --max-seconds" : "");
     }
     r->timing.validation = lap(&clock);
     r->timing.total = nh_clock() - start;

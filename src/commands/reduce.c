@@ -33,7 +33,7 @@ void nh_reduction_warn(nh_reduction *r, const char *format, ...)
 bool nh_reduction_late(nh_reduction *r, const char *what)
 {
     if (!nh_late()) return false;
-    nh_reduction_warn(r, "the time limit left out %s; --max-seconds raises it", what);
+    nh_reduction_warn(r, "the time limit prevented %s; raise it by --max-seconds", what);
     return r->partial = true;
 }
 
@@ -100,8 +100,8 @@ static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *
     double left = satisfy(r->kinetic, r->initial.q, given ? given : all, r->initial.v);
     if (left <= allowed) return true;
     if (q->project) return satisfy(r->kinetic, r->initial.q, NULL, r->initial.v) <= allowed || nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
-    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g of their size", left);
-    return nh_error_hint(error, "leave out velocities that the constraints determine, or --project them to the nearest allowed ones");
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the residual is %.3g of their size", left);
+    return nh_error_hint(error, "omit velocities that the constraints determine, or use --project, which takes the nearest allowed velocities");
 }
 
 /* The same for constraints of any kind: to the nearest velocities that satisfy them, which those that are given must not notice. */
@@ -120,8 +120,8 @@ static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *giv
     nh_free(v);
     if (!found) return nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
     if (off <= allowed || q->project) return true;
-    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the nearest that do not are off by %.3g of their size", off);
-    return nh_error_hint(error, "give other values, or --project them to these");
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the distance to the nearest allowed velocities is %.3g of their size", off);
+    return nh_error_hint(error, "give other values, or use --project, which takes these velocities");
 }
 
 static bool read_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
@@ -154,8 +154,8 @@ static char *trimmed(nh_arena *arena, const char *text, size_t length)
 
 static bool bad_field(const nh_reduction *r, const char *item, nh_error *error)
 {
-    nh_fail(error, NH_USAGE, "--group", "`%.200s` is not a component of a field", item);
-    return nh_error_hint(error, "write fields as `%s=1; ...`: components along coordinates by commas, fields by semicolons", r->kinetic->name[0]);
+    nh_fail(error, NH_USAGE, "--group", "`%.200s` is not a component of a vector field", item);
+    return nh_error_hint(error, "write fields as `%s=1; ...`; separate components by commas, fields by semicolons", r->kinetic->name[0]);
 }
 
 /* "theta=1, x=-y, y=x" */
@@ -176,7 +176,7 @@ static bool parse_field(nh_reduction *r, const char *text, nh_ex *component, nh_
         }
         if (!nh_system_expression_text(r->system, "--group", equal + 1, 0, NULL, &component[s], error)) return false;
         for (size_t j = 0; j < k->m; j++)
-            if (nh_depends(k->dag, component[s], k->v[j])) return nh_fail(error, NH_USAGE, "--group", "a velocity occurs in the component of `%s`: symmetries are fields on configuration space", name);
+            if (nh_depends(k->dag, component[s], k->v[j])) return nh_fail(error, NH_USAGE, "--group", "the component of `%s` contains a velocity; symmetries are fields on configuration space", name);
         c += length + (c[length] == ',');
     }
     return true;
@@ -199,7 +199,7 @@ static bool group_of_fields(nh_reduction *r, const char *text, nh_error *error)
         c += length + (c[length] == ';');
     }
     if (good && n) r->group = nh_group_of(r->kinetic, n, g, &r->options);
-    if (good && !n) good = nh_fail(error, NH_USAGE, "--group", "no field is given");
+    if (good && !n) good = nh_fail(error, NH_USAGE, "--group", "no vector field is given");
     nh_free(g);
     nh_free(component);
     return good && nh_action_check(&r->group->action, &r->options, error);
@@ -231,7 +231,7 @@ static bool group_of_numbers(nh_reduction *r, const char *text, nh_error *error)
         }
         good = i >= 1 && (size_t)i <= d;
         if (good) g[n++] = r->all->action.generator[i - 1];
-        else nh_fail(error, NH_USAGE, "--group", "there is no generator %ld: %zu were found", i, d);
+        else nh_fail(error, NH_USAGE, "--group", "there is no generator %ld; the group has %zu", i, d);
         c = end;
     }
     if (good) r->group = nh_group_of(r->kinetic, n, g, &r->options);
@@ -255,14 +255,14 @@ static void count_weaker(nh_reduction *r)
 
 static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
 {
-    if (q->group && !q->group[strspn(q->group, " ,;\t")]) return nh_fail(error, NH_USAGE, "--group", "no field and no number of a generator is given");
+    if (q->group && !q->group[strspn(q->group, " ,;\t")]) return nh_fail(error, NH_USAGE, "--group", "give vector fields or numbers of generators");
     bool numbers = q->group && !q->group[strspn(q->group, "0123456789 ,;")];
     if (!q->group && r->system->symmetries) return group_of_file(r, error);
     if (!q->group || numbers) {
         r->all = nh_group_find(r->kinetic, &r->options, error);
         if (!r->all) return false;
         count_weaker(r);
-        if (r->all->missing) nh_reduction_warn(r, "%zu further local symmetries have no closed form in the functions that were tried", r->all->missing);
+        if (r->all->missing) nh_reduction_warn(r, "%zu further local symmetries have no closed form among the functions in the search", r->all->missing);
     }
     if (numbers) return group_of_numbers(r, q->group, error);
     if (q->group) return group_of_fields(r, q->group, error);
@@ -276,7 +276,7 @@ static bool starts_well(nh_reduction *r, nh_error *error)
     nh_error trouble = {0};
     if (!r->kinetic->metric || nh_action_check_at(&r->group->action, r->initial.q, &r->options, r->group->given ? error : &trouble)) return true;
     if (r->group->given) return false;
-    nh_reduction_warn(r, "at the initial place %s", trouble.what);
+    nh_reduction_warn(r, "at the initial position, %s", trouble.what);
     return true;
 }
 
@@ -312,8 +312,8 @@ static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *e
     if (!r->kinetic) explain_failure(r, q, error);
     if (!r->kinetic || !q->weak) return r->kinetic != NULL;
     if (!r->kinetic->general) {
-        nh_fail(error, NH_USAGE, "", "symmetries up to a total derivative are looked for with metrics and constraints that are at most affine only: %s", r->kinetic->obstacle);
-        return nh_error_hint(error, "leave --weak out");
+        nh_fail(error, NH_USAGE, "", "--weak needs a kinetic energy quadratic in the velocities and constraints that are at most affine: %s", r->kinetic->obstacle);
+        return nh_error_hint(error, "remove --weak");
     }
     r->strict = r->kinetic;
     r->kinetic = nh_quasi_symmetry_kinetic(r->strict);
@@ -325,7 +325,7 @@ static bool conserved(nh_reduction *r)
 {
     nh_error trouble = {0};
     if (r->strict) nh_quasi_symmetry_momenta(&r->momenta, r->strict, &r->group->action, &r->options);
-    else if (!nh_reduction_quotient_momenta(r, &trouble)) nh_reduction_warn(r, "no momenta were looked for: %s", trouble.what);
+    else if (!nh_reduction_quotient_momenta(r, &trouble)) nh_reduction_warn(r, "the search for conserved momenta was skipped: %s", trouble.what);
     nh_error_clear(&trouble);
     return true;
 }
@@ -364,7 +364,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     r->wanted = q->accuracy;
     if (q->accuracy > 0) r->options.tolerance = q->accuracy / NH_REDUCTION_ALLOWED;
     if (!(r->options.tolerance >= finest)) {
-        nh_fail(error, NH_USAGE, "", "reduced motions can be compared to %.0e at best, not to %.0e", NH_REDUCTION_ALLOWED * finest, q->accuracy);
+        nh_fail(error, NH_USAGE, "", "reduced motions can be compared to %.0e at best; %.0e was requested", NH_REDUCTION_ALLOWED * finest, q->accuracy);
         nh_reduction_free(r);
         return NULL;
     }
@@ -375,7 +375,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     nh_progress("the symmetry group", -1);
     bool good = open_system(r, q, error) && find_groups(r, q, error) && read_initial(r, q, error) && starts_well(r, error) && joint_by_joint(r, q, error);
     bool some = r->kinetic && (r->kinetic->reducible || r->kinetic->general);
-    if (good && !some && r->group->action.d) nh_reduction_warn(r, "%s: no connection and no momentum is used, the equations are reduced directly", r->kinetic->obstacle);
+    if (good && !some && r->group->action.d) nh_reduction_warn(r, "%s: the equations are reduced directly, without a connection and without momenta", r->kinetic->obstacle);
     bool divide = good && r->group->action.d;
     if (divide) nh_progress("reduced equations, and motions of both", -1);
     if (divide) good = divide_by_group(r, error);
@@ -384,7 +384,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     if (nh_interrupted()) {
         char words[80];
         nh_ended_words(words, sizeof words);
-        nh_reduction_warn(r, "%s: this is what was found until then%s", words, nh_limit_reached() ? "; --max-seconds raises it" : "");
+        nh_reduction_warn(r, "%s: the results are partial%s", words, nh_limit_reached() ? "; raise the limit by --max-seconds" : "");
         r->partial = true;
     }
     if (good && nh_interrupted()) nh_error_clear(error);
@@ -397,7 +397,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
 bool nh_reduction_again(nh_reduction *r, size_t place, nh_error *error)
 {
     const nh_kinetic *k = r->kinetic;
-    if (place >= k->places) return nh_fail(error, NH_USAGE, "", "there are %zu sample points only", k->places);
+    if (place >= k->places) return nh_fail(error, NH_USAGE, "", "there are only %zu sample points", k->places);
     if (!r->group->action.d) return nh_fail(error, NH_USAGE, "", "the system is not reduced");
     clear_stages(r);
     r->begin = clock();

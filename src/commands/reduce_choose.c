@@ -111,12 +111,12 @@ static void explain(race *q, size_t n, const runner *m)
     int at = snprintf(c->why, sizeof c->why, "%s at tolerance %.1e", c->method, c->tolerance);
     char *end = c->why + at;
     size_t left = sizeof c->why - (size_t)at;
-    if (!reached && c->held) snprintf(end, left, ": the nearest to %s", with);
-    else if (!reached && isfinite(q->distance)) snprintf(end, left, " is %.1e from %s, and no method comes nearer", q->distance, with);
-    else if (!reached) snprintf(end, left, ": no method goes as far as %s is known", with);
-    else if (c->next && c->times < 1.05) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e, and the next, %s, is as cheap", reached, with, aim * q->wanted, c->next);
-    else if (c->next) snprintf(end, left, ": the cheapest of %zu that agree with %s to %.1e; the next, %s, needs %.2g times as much counted work", reached, with, aim * q->wanted, c->next, c->times);
-    else snprintf(end, left, ": the only one that agrees with %s to %.1e, or the others need more than twice the counted work", with, aim * q->wanted);
+    if (!reached && c->held) snprintf(end, left, ": the closest to %s", with);
+    else if (!reached && isfinite(q->distance)) snprintf(end, left, " is %.1e from %s, and no method comes closer", q->distance, with);
+    else if (!reached) snprintf(end, left, ": no method reaches the time up to which %s is known", with);
+    else if (c->next && c->times < 1.05) snprintf(end, left, ": the cheapest of %zu methods that agree with %s to %.1e; the next, %s, costs the same", reached, with, aim * q->wanted, c->next);
+    else if (c->next) snprintf(end, left, ": the cheapest of %zu methods that agree with %s to %.1e; the next, %s, needs %.2g times as much counted work", reached, with, aim * q->wanted, c->next, c->times);
+    else snprintf(end, left, ": the only method that agrees with %s to %.1e within twice the counted work", with, aim * q->wanted);
 }
 
 nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, nh_reconstruct_how *how)

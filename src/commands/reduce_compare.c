@@ -132,7 +132,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh
     if (course->atlas) reduced_alone(b, s, course, &(nh_reconstruct_how){.tolerance = b->rtol, .steps = fmin(r->options.steps, NH_REDUCTION_STEPS)});
     if (!nearer(b, s, course) || s->agreement <= NH_REDUCTION_ALLOWED * r->options.tolerance) return;
     s->unsure = nh_reduction_unsure(b);
-    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s is %.1e from the one that it is compared with: more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);
+    if (nh_stage_apart(s, &r->options)) nh_reduction_warn(r, "the reduced motion by %s differs by %.1e from the motion of reference, more than %d tolerances", s->group, s->agreement, NH_REDUCTION_ALLOWED);
 }
 
 bool nh_stage_apart(const nh_reduction_stage *s, const nh_options *options) { return s->compared && !(s->agreement <= NH_REDUCTION_ALLOWED * options->tolerance + s->unsure); }

@@ -179,7 +179,7 @@ static void take(nh_reduction_bench *b, const pair *p)
     b->finest = p->finest;
     r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
     if (b->reached < fine->count)
-        nh_reduction_warn(r, "the full motion is known well enough up to t = %.4g only: there it comes too near to a singularity of the coordinates, or is chaotic", r->full_reached);
+        nh_reduction_warn(r, "the full motion is accurate only up to t = %.4g: it approaches a singularity of the coordinates there, or it is chaotic", r->full_reached);
     b->full = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * m * sizeof *b->full);
     for (size_t i = 0; i < fine->count; i++) memcpy(b->full + i * m, fine->state + i * fine->size, m * sizeof *b->full);
 }

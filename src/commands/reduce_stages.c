@@ -305,7 +305,7 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
-        if (n && !d && !first->plain) nh_reduction_warn(r, "stage 1 is not reduced further: in the reduced system forces act along the further symmetries (%zu) that normalise the first group, so that no momentum is conserved", n);
+        if (n && !d && !first->plain) nh_reduction_warn(r, "stage 1 is not reduced further: forces of the reduced system act along the further symmetries (%zu) that normalise the first group, so no momentum is conserved", n);
         if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, q, v, d, field, &trouble)) nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
         nh_free(field);
     }
@@ -329,13 +329,13 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
         nh_reduction_warn(r, "no subgroup acts freely on the sample points");
         return true;
     }
-    if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); a subgroup of dimension %zu is divided out at once", g->d - g->orbit, r->action[1].d);
+    if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); the reduction uses a subgroup of dimension %zu", g->d - g->orbit, r->action[1].d);
     nh_error trouble = {0};
     bool good = quotient ? nh_reduction_quotient(&b, &r->action[1], &trouble) : nh_reduction_whole(&b, &r->action[1], &trouble);
     if (!good && r->chain_text) {
         if (error) *error = trouble;
         return false;
     }
-    if (trouble.code != NH_OK) nh_reduction_warn(r, "the whole group is not divided out: %s", trouble.what);
+    if (trouble.code != NH_OK) nh_reduction_warn(r, "the system is not reduced by the whole group: %s", trouble.what);
     return true;
 }

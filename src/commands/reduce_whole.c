@@ -27,7 +27,7 @@ static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order
     }
     nh_free(used);
     if (good && n == d) return blocks + (size[blocks] > 0);
-    nh_fail(error, NH_USAGE, "--chain", "a chain names every generator of the group once, found `%.100s`", text);
+    nh_fail(error, NH_USAGE, "--chain", "a chain must name every generator of the group once, found `%.100s`", text);
     nh_error_hint(error, "--chain \"3; 1, 2\": generators of the quotient first, those of the smallest normal subgroup last");
     return 0;
 }

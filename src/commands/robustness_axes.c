@@ -57,7 +57,7 @@ static bool know(const nh_benchmark_work *plain, const nh_simulate_request *requ
     if (initial && request->initial) return true;
     if (initial) {
         nh_fail(error, NH_USAGE, "", "--over `%s` changes the initial state, which is not given", a->name);
-        return nh_error_hint(error, "--initial \"%s=0\" gives it; what is not named is 0 or follows from the constraints", a->name);
+        return nh_error_hint(error, "--initial \"%s=0\" gives it; omitted values are 0 or follow from the constraints", a->name);
     }
     a->name = nh_option_name(a->name);
     for (size_t i = 0; i < nh_option_count(); i++)
@@ -73,7 +73,7 @@ static size_t read_axes(nh_arena *arena, const nh_benchmark_work *plain, const n
     char *text = nh_arena_strdup(arena, over), *rest = text;
     for (char *part; (part = strsep(&rest, ","));) {
         while (*part == ' ') part++;
-        if (n == most_axes) return nh_fail(error, NH_USAGE, "", "--over takes at most %d ranges", most_axes), nh_error_hint(error, "further ones can be tried in turn with --set"), 0;
+        if (n == most_axes) return nh_fail(error, NH_USAGE, "", "--over takes at most %d ranges", most_axes), nh_error_hint(error, "set further parameters one at a time by --set"), 0;
         if (!read_axis(arena, part, &a[n], error) || !know(plain, request, &a[n], error)) return 0;
         n++;
     }

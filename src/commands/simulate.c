@@ -88,7 +88,7 @@ static bool no_initial(const nh_simulation *s, nh_error *error)
 {
     const char *name = s->system->coordinate[0].name;
     nh_fail(error, NH_USAGE, "", "simulate needs an initial state");
-    return nh_error_hint(error, "--initial \"%s=0, %s'=1\"; what is not named is 0 or follows from the constraints", name, name);
+    return nh_error_hint(error, "--initial \"%s=0, %s'=1\"; omitted values are 0 or follow from the constraints", name, name);
 }
 
 bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_choose, nh_state *initial, double *until, nh_error *error)
@@ -166,8 +166,8 @@ static bool read_scene(nh_simulation *s, nh_error *error)
 {
     nh_observables_add_watches(&s->columns, s->analysis);
     if (s->columns.count) return true;
-    nh_fail(error, NH_USAGE, "", "--scene needs an analysis file that says what is watched");
-    return nh_error_hint(error, "--watch \"%s\" names it here", s->system->coordinate[0].name);
+    nh_fail(error, NH_USAGE, "", "--scene needs an analysis file with a list `watch`");
+    return nh_error_hint(error, "use --watch \"%s\" instead", s->system->coordinate[0].name);
 }
 
 static void list_columns(nh_simulation *s, bool draw)

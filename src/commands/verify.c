@@ -199,7 +199,7 @@ static bool component(nh_verification *v, const char *text, size_t length, given
         }
     if (!to) {
         nh_fail(error, NH_USAGE, "--field", "`%s` is neither Z0 nor a coordinate nor a velocity of the chart", name);
-        return nh_error_hint(error, "components along time (Z0) and the coordinates determine the field; those not named are 0");
+        return nh_error_hint(error, "the components along time (Z0) and along the coordinates determine the field; omitted components are 0");
     }
     return nh_system_expression_text(v->system, "--field", equal + 1, 0, NULL, &e, error) && nh_analysis_file_to_chart(v->model, e, to, error);
 }

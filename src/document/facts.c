@@ -95,9 +95,9 @@ const char *nh_facts_equations(const nh_model *o) { return o->k ? "Equations of 
 const char *nh_facts_drift(const nh_drift *d)
 {
     double tight = d->drift[NH_DRIFT_RUNS - 1];
-    if (tight == 0) return "no digit of it changes";
+    if (tight == 0) return "it does not change at all";
     if (!d->falls) return "it does not fall with the tolerance";
-    return tight < d->drift[0] ? "it falls with the tolerance" : "it is as small as rounding at every tolerance";
+    return tight < d->drift[0] ? "it falls with the tolerance" : "it is of the size of rounding error at every tolerance";
 }
 
 void nh_facts_spectrum(const nh_spectrum *s, double number[NH_SPECTRUM_NUMBERS])
@@ -166,7 +166,7 @@ const char *nh_facts_on_branches(const nh_analysis *r, const nh_current *f)
 const char *nh_facts_nothing(const nh_analysis *r)
 {
     if (r->verdict == NH_NONE) return "No current in this ansatz";
-    return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far" : "Undecided: nothing found got a certificate";
+    return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far" : "Undecided: no candidate has a certificate";
 }
 
 const char *nh_facts_search(const nh_analysis *r)
@@ -175,11 +175,11 @@ const char *nh_facts_search(const nh_analysis *r)
     bool counted = false; /* what else there can be is said by the count */
     for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++) counted |= r->completeness[i].counted && !r->completeness[i].count.obstacle;
     if (r->search == NH_SEARCH_COMPLETE) return "The search is complete. There cannot be more currents: together they determine every orbit locally.";
-    if (r->search == NH_SEARCH_CUT) return "The search was cut before all stages were tried: there may be more currents.";
+    if (r->search == NH_SEARCH_CUT) return "A limit ended the search before the last stage: more currents may exist.";
     if (left_out)
-        return nh_arena_printf(r->arena, "The search is exhausted: every stage was tried but %zu that %s too large; the list of stages names the option that brings %s in.", left_out, left_out == 1 ? "is" : "are",
+        return nh_arena_printf(r->arena, "The search is exhausted: it tried every stage except %zu that %s too large; the list of stages names the option that allows %s.", left_out, left_out == 1 ? "is" : "are",
                                left_out == 1 ? "it" : "them");
-    return counted ? "The search is exhausted: all that there was to try was tried." : "The search is exhausted: all that there was to try was tried, and there may be other currents.";
+    return counted ? "The search is exhausted: it tried every stage." : "The search is exhausted: it tried every stage. Other currents may exist.";
 }
 
 void nh_facts_completeness(const nh_analysis *r, nh_text *out)

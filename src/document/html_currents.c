@@ -38,7 +38,7 @@ static void series_plot(nh_html_writer *w, const nh_current *f)
         curve[i] = (nh_curve){.name = name[i], .count = points, .x = x, .x_stride = 1, .y = y, .y_stride = 1};
     }
     snprintf(title, sizeof title, "Coefficient functions of %.100s", f->name);
-    nh_plot plot = {.title = title, .description = "The functions that multiply the velocities, over their coordinate", .x_label = nh_name_of(w->dag, s->variable),
+    nh_plot plot = {.title = title, .description = "The coefficient functions over their variable", .x_label = nh_name_of(w->dag, s->variable),
                     .y_label = n == 1 ? name[0] : "value", .curves = n, .curve = curve};
     nh_html_figure(w, &plot, "The coefficient functions.");
     nh_free(x);
@@ -52,7 +52,7 @@ static void series_table(nh_html_writer *w, const nh_current *f)
     nh_text_add(&heads, "k");
     for (size_t i = 0; i < s->words; i++) nh_text_addf(&heads, "|f%zu", i + 1);
     nh_html_add(w, "<details><summary>Chebyshev coefficients</summary>\n");
-    nh_html_table(w, "Factors of T_k, the interval taken to [-1, 1]", nh_text_string(&heads));
+    nh_html_table(w, "Coefficients of T_k on the interval mapped to [-1, 1]", nh_text_string(&heads));
     nh_text_clear(&heads);
     for (size_t k = 0; k <= s->degree; k++) {
         nh_text_addf(w->out, "<tr><th scope=\"row\">%zu</th>", k);
@@ -78,7 +78,7 @@ static void series(nh_html_writer *w, const nh_current *f)
     nh_html_number(w, s->low, 4);
     nh_html_add(w, ", ");
     nh_html_number(w, s->high, 4);
-    nh_html_add(w, "]: it has no closed form among the functions that were tried.</p>\n");
+    nh_html_add(w, "]: it has no closed form among the functions of the search.</p>\n");
     series_plot(w, f);
     series_table(w, f);
 }
@@ -114,7 +114,7 @@ static void certificate(nh_html_writer *w, const nh_current *f)
     nh_html_text(w, nh_facts_on_branches(w->r, f));
     nh_html_add(w, "</dd>\n<dt>Residual</dt><dd>");
     nh_html_number(w, f->heldout, 2);
-    nh_html_add(w, " at points not used to find it</dd>\n");
+    nh_html_add(w, " at points outside the fit</dd>\n");
 }
 
 static void drift_line(nh_html_writer *w, const nh_current *f)
@@ -261,7 +261,7 @@ static void pieces(nh_html_writer *w)
 {
     const nh_analysis *r = w->r;
     if (!r->pieces) return;
-    nh_html_add(w, "<h3>In a part of the motions only</h3>\n<p>These stay constant while a motion stays in the region that is given. They are not counted.</p>\n");
+    nh_html_add(w, "<h3>Constant only in a region</h3>\n<p>These functions are constant while a motion stays in the given region. They are not counted.</p>\n");
     for (size_t k = 0; k < r->pieces; k++) {
         const nh_current *f = &r->piece[k];
         nh_html_add(w, "<article class=\"card\">\n<h4>");
@@ -282,7 +282,7 @@ static void almost(nh_html_writer *w)
 {
     const nh_analysis *r = w->r;
     if (!r->almosts) return;
-    nh_html_add(w, "<h3>Almost conserved, not currents</h3>\n<p>In double precision these look constant. With more digits they are not, or nothing certifies that they are. Slowest first; they are not counted.</p>\n");
+    nh_html_add(w, "<h3>Almost conserved, not currents</h3>\n<p>In double precision these functions look constant. With more digits they change, or they have no certificate. They are not counted; the slowest comes first.</p>\n");
     for (size_t k = 0; k < r->almosts; k++) {
         nh_html_add(w, "<article class=\"card almost\">\n");
         nh_html_formula(w, "", r->almost[k].phi);
@@ -297,8 +297,8 @@ static void almost(nh_html_writer *w)
 void nh_html_currents(nh_html_writer *w)
 {
     const nh_analysis *r = w->r;
-    nh_html_add(w, "<section id=\"currents\"><h2>Currents</h2>\n<p>A current is a function of time, coordinates and velocities that stays constant along every motion.</p>\n");
-    if (!r->count) nh_html_add(w, "<p>None was found. What was tried is listed below.</p>\n");
+    nh_html_add(w, "<section id=\"currents\"><h2>Currents</h2>\n<p>A current is a function of time, coordinates and velocities that is constant along every motion.</p>\n");
+    if (!r->count) nh_html_add(w, "<p>None was found. The stages of the search are listed below.</p>\n");
     for (size_t k = 0; k < r->count; k++) card(w, &r->found[k]);
     abbreviations(w);
     pieces(w);

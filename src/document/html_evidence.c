@@ -22,9 +22,9 @@ static void spectrum_plot(nh_html_writer *w)
     for (int i = 0; i < 2; i++)
         if (s[i]->done && s[i]->rank)
             curve[curves++] = (nh_curve){.name = names[i], .count = s[i]->rank, .x = index, .x_stride = 1, .y = s[i]->spectrum, .y_stride = 1, .dots = true};
-    nh_plot plot = {.title = "Singular spectrum", .description = "Generalized singular values in ascending order on a logarithmic scale; the values below the gap belong to currents",
+    nh_plot plot = {.title = "Singular spectrum", .description = "Generalized singular values in ascending order on a logarithmic scale; those below the gap belong to currents",
                     .x_label = "index", .y_label = "singular value", .log_y = true, .floor = 1e-18, .curves = curves, .curve = curve};
-    nh_html_figure(w, &plot, "Generalized singular values. Those below the gap, at rounding, belong to currents.");
+    nh_html_figure(w, &plot, "Generalized singular values. Those below the gap, at rounding error, belong to currents.");
     nh_free(index);
 }
 

@@ -43,7 +43,7 @@ static void scan(nh_html_writer *w, const nh_figure *f)
     for (size_t k = 0; k < n; k++) found[k] = r->hits->hit[k].value[u], found[n + k] = r->hits->hit[k].quotient;
     nh_curve curve[] = {curve_of(&f->curve[0]), {.name = "values found", .count = n, .x = found, .x_stride = 1, .y = found + n, .y_stride = 1, .dots = true}};
     curve[0].name = "smallest singular value that is not null everywhere";
-    nh_plot plot = {.title = f->request->title, .description = "The smallest generalized singular value that is not null for every value of the unknown, on a logarithmic scale; it falls to rounding where there is a current",
+    nh_plot plot = {.title = f->request->title, .description = "The smallest generalized singular value that does not vanish for all values of the unknown, on a logarithmic scale; it falls to rounding error where a current exists",
                     .x_label = f->curve[0].name, .y_label = "singular value", .log_y = true, .floor = 1e-17, .curves = n ? 2 : 1, .curve = curve};
     nh_html_figure(w, &plot, f->request->title);
     nh_free(found);
@@ -62,7 +62,7 @@ void nh_html_figures(nh_html_writer *w)
 {
     const nh_analysis *r = w->r;
     if (!r->figures) return;
-    nh_html_add(w, "<section id=\"figures\"><h2>Figures</h2>\n<p>As the analysis file asks for them.</p>\n");
+    nh_html_add(w, "<section id=\"figures\"><h2>Figures</h2>\n<p>The analysis file defines these figures.</p>\n");
     for (size_t i = 0; i < r->figures; i++) {
         const nh_figure *f = &r->figure[i];
         if (!f->curves) continue;

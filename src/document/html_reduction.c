@@ -137,7 +137,7 @@ static void algebra(nh_html_writer *w, const nh_group *g)
 static void constraints(nh_html_writer *w, const nh_reduction *r, const nh_action *g)
 {
     if (!r->kinetic->affine || !r->kinetic->f) return;
-    nh_html_add(w, g->dimension_assumption ? "<p>The directions of the group and those that the constraints allow span all directions" : "<p>The directions of the group and those that the constraints allow do not span all directions");
+    nh_html_add(w, g->dimension_assumption ? "<p>The directions of the group and the allowed directions together span the tangent space" : "<p>The directions of the group and the allowed directions together do not span the tangent space");
     nh_html_add(w, "; they have ");
     nh_html_count(w, g->intersection);
     nh_html_add(w, g->chaplygin ? " in common: a Chaplygin system.</p>\n" : " in common.</p>\n");
@@ -156,11 +156,11 @@ static void group(nh_html_writer *w, const nh_reduction *r, const nh_group *g, c
         nh_html_count(w, g->jets->of_metric);
         nh_html_add(w, ".");
         if (r->weaker && g == r->all) {
-            nh_html_add(w, " Those that change the Lagrangian by a total derivative, beyond these: ");
+            nh_html_add(w, " Further symmetries that change the Lagrangian by a total derivative: ");
             nh_html_count(w, r->weaker);
             nh_html_add(w, ".");
         }
-        if (g->missing) nh_html_add(w, " Those without a closed form: ");
+        if (g->missing) nh_html_add(w, " Symmetries without a closed form: ");
         if (g->missing) nh_html_count(w, g->missing);
         nh_html_add(w, "</p>\n");
     }
@@ -177,9 +177,9 @@ static void measure(nh_html_writer *w, const nh_reduction_stage *s)
     const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
     nh_html_add(w, "<dt>Measure</dt><dd>");
-    if (m->measure) nh_html_add(w, m->size == 0 ? "Liouville's is invariant" : m->local ? "an invariant one exists, but locally only: its density is many-valued on an angle" : "an invariant one exists");
+    if (m->measure) nh_html_add(w, m->size == 0 ? "the Liouville measure is invariant" : m->local ? "an invariant measure exists, but only locally: its density is many-valued on an angle" : "an invariant measure exists");
     else {
-        nh_html_add(w, "none with a density on the shape space is invariant (|d\u0398| = ");
+        nh_html_add(w, "no measure with a density on the shape space is invariant (|d\u0398| = ");
         nh_html_number(w, m->curl, 2);
         nh_html_add(w, ")");
     }
@@ -200,7 +200,7 @@ static void second(nh_html_writer *w, const nh_reduction_stage *s)
     nh_html_add(w, ", strong form ");
     nh_html_number(w, t->strong, 1);
     nh_html_add(w, "</dd>\n<dt>Momentum</dt><dd>");
-    if (t->magnetic) nh_html_add(w, "constant with what the Lagrangian's part linear in the velocities adds");
+    if (t->magnetic) nh_html_add(w, "constant, including the part of the Lagrangian that is linear in the velocities");
     else if (t->abelian) nh_html_add(w, "constant");
     else {
         nh_html_add(w, "moves on a coadjoint orbit of dimension ");
@@ -298,7 +298,7 @@ static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
         field(w, s->action->kinetic, s->action->generator[a].component);
     }
     if (s->local) nh_html_add(w, " (this group acts locally only: it is many-valued on an angle)");
-    nh_html_add(w, s->shown->n ? "</p>\n<p>What is left, the shape: " : "</p>\n<p>What is left, the shape, is a point.");
+    nh_html_add(w, s->shown->n ? "</p>\n<p>Shape coordinates: " : "</p>\n<p>The shape space is a point.");
     for (size_t i = 0; i < s->shown->n; i++) {
         nh_html_add(w, i ? ", " : "");
         nh_html_name(w, nh_name_of(w->dag, s->shown->x[i]));
@@ -327,9 +327,9 @@ static void momenta(nh_html_writer *w, const nh_reduction *r)
     if (!r->momenta.count && linear < r->stages) {
         nh_html_add(w, "<p>The ");
         nh_html_count(w, r->stage[linear].linear.count);
-        nh_text_addf(w->out, " of stage %zu, linear in the velocities, %s; no momentum of the group has a closed form, among the sections that were tried.</p>\n", linear + 1, r->stage[linear].linear.count == 1 ? "is conserved" : "are conserved");
-    } else if (r->momenta.untried) nh_html_add(w, "<p>They were not looked for: the constraints are not solved for velocities.</p>\n");
-    else if (!r->momenta.count) nh_html_add(w, "<p>No momentum of the group is conserved, among the sections that were tried.</p>\n");
+        nh_text_addf(w->out, " of stage %zu, linear in the velocities, %s; no momentum of the group has a closed form, among the sections of the search.</p>\n", linear + 1, r->stage[linear].linear.count == 1 ? "is conserved" : "are conserved");
+    } else if (r->momenta.untried) nh_html_add(w, "<p>No search: the constraints are not solved for velocities.</p>\n");
+    else if (!r->momenta.count) nh_html_add(w, "<p>No momentum of the group is conserved, among the sections of the search.</p>\n");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_html_add(w, "<article class=\"card\">\n");
@@ -388,9 +388,9 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     for (size_t i = 0; i < r->warnings; i++) nh_html_warning(&w, r->warning[i]);
     nh_html_add(&w, "<section id=\"group\"><h2>The group</h2>\n");
     if (r->all) group(&w, r, r->all, "The whole group");
-    if (r->group != r->all) group(&w, r, r->group, r->group->given ? "The group given" : "The group divided out");
+    if (r->group != r->all) group(&w, r, r->group, r->group->given ? "The given group" : "The group of the reduction");
     nh_html_add(&w, "</section>\n<section id=\"stages\"><h2>Reduced equations</h2>\n");
-    if (!r->stages) nh_html_add(&w, "<p>Nothing could be divided out.</p>\n");
+    if (!r->stages) nh_html_add(&w, "<p>No reduction was possible.</p>\n");
     full_motion(&w, r);
     for (size_t i = 0; i < r->stages; i++) stage(&w, r, i);
     nh_html_add(&w, "</section>\n");

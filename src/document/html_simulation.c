@@ -22,7 +22,7 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     nh_html_number(w, time[0], 6);
     nh_html_add(w, " to ");
     nh_html_number(w, time[count - 1], 6);
-    nh_html_add(w, complete ? ".</p>\n" : e ? "; not all of them reach the end.</p>\n" : ", where it ended early.</p>\n");
+    nh_html_add(w, complete ? ".</p>\n" : e ? "; not all members reach the end.</p>\n" : ", where it ended early.</p>\n");
     nh_html_add(w, "<p>");
     nh_html_text(w, s->method);
     nh_html_add(w, " in ");
@@ -39,7 +39,7 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     }
     nh_html_add(w, "</p>\n");
     if (!s->scene) return;
-    nh_html_add(w, "<p>The smallest model for what is shown: ");
+    nh_html_add(w, "<p>The smallest model that determines the observables: ");
     nh_html_text(w, s->scene);
     nh_html_add(w, ".</p>\n");
 }
@@ -52,7 +52,7 @@ static void fans(nh_html_writer *w, const nh_simulation *s)
     nh_curve curve[most_members];
     size_t members = e->members < most_members ? e->members : most_members;
     nh_html_add(w, "<p>Each line is one member");
-    if (members < e->members) nh_html_add(w, "; of so many only the first are drawn");
+    if (members < e->members) nh_html_add(w, "; only the first members are drawn");
     nh_html_add(w, ".</p>\n");
     for (size_t k = 0; k < e->n; k++) {
         char title[200];

@@ -49,7 +49,7 @@ void nh_html_written(nh_html_writer *w)
 {
     const nh_system *s = w->system;
     const nh_deck_node *node = s->deck ? nh_deck_get(nh_deck_root(s->deck), "lagrangian") : NULL;
-    nh_html_add(w, "<h3>As it was written</h3>\n");
+    nh_html_add(w, "<h3>System file</h3>\n");
     w->names = 0;
     parameters(w);
     coordinates(w);
@@ -63,7 +63,7 @@ void nh_html_written(nh_html_writer *w)
         nh_html_source(w, node->text);
         nh_html_add(w, "</div>\n");
     } else {
-        nh_html_add(w, s->chain ? "<p>Lagrangian, of the bodies and joints in the file</p>\n" : "<p>Lagrangian</p>\n");
+        nh_html_add(w, s->chain ? "<p>Lagrangian, from the bodies and joints of the system file</p>\n" : "<p>Lagrangian</p>\n");
         nh_html_formula(w, "L", s->lagrangian);
     }
     if (s->constraints) nh_html_add(w, "<p>Constraints</p>\n");
@@ -165,7 +165,7 @@ static void multipliers(nh_html_writer *w, const nh_model *o)
     formulas f = formulas_create(o->k + o->m);
     for (size_t a = 0; a < o->k; a++) snprintf(formulas_add(&f, o->mu[a]), sizeof *f.text, o->k == 1 ? "mu" : "mu_%zu", a + 1);
     for (size_t s = 0; s < o->m; s++) snprintf(formulas_add(&f, o->reaction[s]), sizeof *f.text, "F_%.180s", o->system->coordinate[s].name);
-    formulas_write(w, "Chetaev multipliers, and the force of the constraints", &f);
+    formulas_write(w, "Chetaev multipliers and constraint force", &f);
 }
 
 void nh_html_equations(nh_html_writer *w, const nh_model *o)
@@ -192,7 +192,7 @@ void nh_html_system(nh_html_writer *w)
     kind(w);
     nh_html_equations(w, w->r->model);
     if (w->r->other) {
-        nh_html_add(w, "<details><summary>The same in the other velocities</summary>\n");
+        nh_html_add(w, "<details><summary>In the other velocities</summary>\n");
         nh_html_equations(w, w->r->other);
         nh_html_add(w, "</details>\n");
     }

@@ -94,7 +94,7 @@ static void constancy(nh_html_writer *w, const nh_time_series *c)
     }
     nh_plot plot = {.title = "Change of the known currents", .description = "Absolute change since the start on a logarithmic scale", .x_label = "t", .y_label = "change", .log_y = true,
                     .floor = 1e-17, .timed = c->count > 1, .curves = n, .curve = curve};
-    if (n) nh_html_figure(w, &plot, "Change since the start of the currents that the system file knows: the error of the motion, as they see it.");
+    if (n) nh_html_figure(w, &plot, "Change of the known currents since the start, a measure of the error of the motion.");
     nh_free(y);
 }
 
@@ -146,7 +146,7 @@ static void path_plot(nh_html_writer *w, const nh_time_series *c)
             if (s->coordinate[i].q == c->shape[k].value[0]) plot.x_label = s->coordinate[i].name;
             if (s->coordinate[i].q == c->shape[k].value[1]) plot.y_label = s->coordinate[i].name;
         }
-    nh_html_figure(w, &plot, marks ? "Path of the motion; the marks show where a body heads, at equal steps of time." : "Path of the motion.");
+    nh_html_figure(w, &plot, marks ? "Path of the motion; the marks show the heading of a body at equal time steps." : "Path of the motion.");
 }
 
 static void number(nh_html_writer *w, double value) { nh_text_addf(w->out, isfinite(value) ? "%.6g" : "null", value); }
@@ -185,7 +185,7 @@ static void player(nh_html_writer *w, const nh_time_series *c)
     nh_html_add(w, "<div id=\"player\" hidden=\"hidden\">\n");
     if (c->shapes) {
         nh_html_add(w, "<figure><svg id=\"scene\" class=\"plot\" role=\"img\" aria-label=\"The system in motion; the slider below chooses the time\" viewBox=\"0 0 640 420\" width=\"640\" height=\"420\"></svg>"
-                       "<figcaption>The system in motion, with its track. Drawn: ");
+                       "<figcaption>The system in motion, with its path. Drawn: ");
         nh_html_text(w, c->drawing);
         nh_html_add(w, ".</figcaption></figure>\n");
     }
@@ -242,7 +242,7 @@ static void second_opinion(nh_html_writer *w)
         nh_html_benchmark_page(w, v->crossing_chart);
         nh_html_add(w, " breaks down at t = ");
         nh_html_number(w, v->crossing, 4);
-        nh_html_add(w, "; the one used here is regular there.</p>\n");
+        nh_html_add(w, "; the chart of this motion is regular there.</p>\n");
     }
     if (!v->multiplier_form) return;
     bool constrained = w->r->model->system->constraints > 0;

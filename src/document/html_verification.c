@@ -27,12 +27,12 @@ static void answer(nh_html_writer *w, const nh_verification *v, bool field)
         certificate(w, v);
         nh_html_text(w, nh_verification_branches(v));
     } else if (v->region) {
-        nh_html_add(w, "No: this is conserved in a part of the motions only: ");
+        nh_html_add(w, "No: this is conserved only in a region: ");
         nh_html_text(w, v->region);
     } else {
         nh_html_add(w, field ? "No: this is not a constraint symmetry" : "No: this is not conserved");
     }
-    nh_html_add(w, v->conserved && v->trivial ? "; but it is trivial: the current is constant.</p>\n" : ".</p>\n");
+    nh_html_add(w, v->conserved && v->trivial ? "; it is trivial: the current is a constant.</p>\n" : ".</p>\n");
 }
 
 static void counterexample(nh_html_writer *w, const nh_verification *v, bool field)
@@ -59,7 +59,7 @@ static void counterexample(nh_html_writer *w, const nh_verification *v, bool fie
 static void symmetry(nh_html_writer *w, const nh_verification *v, bool field)
 {
     if (!v->has_symmetry || v->trivial) return;
-    nh_text_addf(w->out, "<section id=\"symmetry\"><h2>%s</h2>\n", field ? "The field, with its Chetaev components" : "The symmetry it comes from");
+    nh_text_addf(w->out, "<section id=\"symmetry\"><h2>%s</h2>\n", field ? "The field, with its Chetaev components" : "The symmetry that gives it");
     size_t m = v->model->m, n = v->model->n;
     const char **along = nh_alloc_array(1 + m + n, sizeof *along);
     nh_ex *e = nh_alloc_array(1 + m + n, sizeof *e);
@@ -95,8 +95,8 @@ static void question(nh_html_writer *w, const nh_verification *v, bool field)
     else nh_html_formula(w, "Phi", v->current);
     nh_html_add(w, "<dl><dt>Residual</dt><dd>");
     nh_html_number(w, v->residual, 2);
-    nh_html_add(w, field ? ", the largest of its conditions at random states, relative to their terms</dd></dl>\n</article></section>\n"
-                         : ", its largest rate at random states, relative to the terms of the rate</dd></dl>\n</article></section>\n");
+    nh_html_add(w, field ? ", the largest residual of the conditions at random states, relative to their terms</dd></dl>\n</article></section>\n"
+                         : ", the largest rate at random states, relative to its terms</dd></dl>\n</article></section>\n");
 }
 
 void nh_html_verification(const nh_verification *v, bool field, const nh_run *run, nh_text *out)

@@ -125,7 +125,7 @@ static void put_group(const nh_reduction *r, const nh_group *g, bool verbose, nh
         nh_text_addf(out, "  local symmetries of kinetic energy, potential and constraints: %zu (counted without an ansatz; of the kinetic energy alone: %zu)\n", g->jets->dimension, g->jets->of_metric);
     if (r->weaker && g == r->all)
         nh_text_addf(out, "  %zu more up to a total derivative in the Lagrangian: --weak\n", r->weaker);
-    if (r->strict) nh_text_add(out, "  of the equations of motion: the Lagrangian may change by a total derivative\n");
+    if (r->strict) nh_text_add(out, "  symmetries of the equations of motion: the Lagrangian may change by a total derivative\n");
     put_generators(r, g, verbose, out);
     put_brackets(&g->action, out);
     if (!g->action.d) return;
@@ -176,7 +176,7 @@ static void put_choice(const nh_reduction *r, const nh_reduction_stage *s, nh_te
     const nh_reduction_choice *c = &s->choice;
     if (!c->method) return;
     nh_text_addf(out, "  accuracy %.1e %s up to t = %.4g: %s\n", r->wanted, c->held ? "held" : "not reached", s->reached, c->why);
-    nh_text_addf(out, "    %ld evaluations, %.2g ms with the group's motion", c->evaluations, 1e3 * c->seconds);
+    nh_text_addf(out, "    %ld evaluations, %.2g ms with reconstruction", c->evaluations, 1e3 * c->seconds);
     if (c->seconds > 0 && r->full.seconds > 0) nh_text_addf(out, ": %.2g times the time of the full motion", c->seconds / r->full.seconds);
     if (s->seconds > 0 && r->full.seconds > 0) nh_text_addf(out, ", %.2g times without it", s->seconds / r->full.seconds);
     nh_text_add(out, "\n");
@@ -195,7 +195,7 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
 {
     const char *with = s->against_full ? "the full motion" : "the first stage";
     if (s->compared) nh_text_addf(out, "  after reconstruction: %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
-    if (s->compared && s->unsure > 0) nh_text_addf(out, ", which is known to %.1e itself", s->unsure);
+    if (s->compared && s->unsure > 0) nh_text_addf(out, ", whose own error is %.1e", s->unsure);
     if (!s->compared) nh_text_addf(out, "  not compared with %s", with);
     const char *why = nh_reduction_no_energy(r, s), *energy = nh_reduction_energy(r, s);
     if (why) nh_text_addf(out, "; %s not followed: %s", energy, why);
@@ -203,7 +203,7 @@ static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_t
     if (s->kind == NH_STAGE_SECOND && s->momentum_drift >= 0) nh_text_addf(out, why ? "; the momentum drifts by %.1e" : ", the momentum by %.1e", s->momentum_drift);
     nh_text_add(out, "\n");
     put_choice(r, s, out);
-    if (s->charts) nh_text_addf(out, "  on the way the slice or the velocities are changed %zu time%s\n", s->charts, s->charts == 1 ? "" : "s");
+    if (s->charts) nh_text_addf(out, "  the slice or the velocities change %zu time%s along the motion\n", s->charts, s->charts == 1 ? "" : "s");
     if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
 }
 
@@ -211,7 +211,7 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, doub
 {
     const nh_chaplygin_measure *m = &s->measure;
     if (!m->tested) return;
-    if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the one of Liouville" : m->local ? ", but locally only: its density is many-valued on an angle" : "");
+    if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the Liouville measure" : m->local ? ", but only locally: its density is many-valued on an angle" : "");
     if (m->measure && m->closed) {
         put_expression(out, "    ", "density", r->kinetic->dag, m->density, shown);
         if (!m->proof.all_parameters) nh_text_addf(out, "      (%s)\n", m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) + 1 : "to rounding");
@@ -226,9 +226,9 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, doub
 
 static void put_second(const nh_second *t, nh_text *out)
 {
-    nh_text_addf(out, "  condition (ii): weak form %.1e, strong form %.1e%s\n", t->weak, t->strong, t->strong > 1e-6 * (1 + t->weak) && t->strong > 1e-9 ? " (the momentum is conserved all the same)" : "");
-    if (t->magnetic) nh_text_add(out, "  the Lagrangian's part that is linear in the velocities belongs to the momentum that is conserved\n");
-    else if (t->abelian) nh_text_add(out, "  the momentum in it is constant: a level set, divided by the whole group\n");
+    nh_text_addf(out, "  condition (ii): weak form %.1e, strong form %.1e%s\n", t->weak, t->strong, t->strong > 1e-6 * (1 + t->weak) && t->strong > 1e-9 ? " (the momentum is conserved nevertheless)" : "");
+    if (t->magnetic) nh_text_add(out, "  the conserved momentum includes the part of the Lagrangian that is linear in the velocities\n");
+    else if (t->abelian) nh_text_add(out, "  its momentum is constant: the stage is a level set divided by the whole group\n");
     else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
 }
 
@@ -297,9 +297,9 @@ static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
     if (!r->stages || (r->partial && !r->momenta.count)) return;
     size_t linear = nh_reduction_linear_stage(r);
     if (r->momenta.count) nh_text_add(out, "\nConserved momenta of the group\n");
-    else if (linear < r->stages) nh_text_addf(out, "\nConserved momenta of the group: the %zu of stage %zu; none has a closed form among the sections that were tried\n", r->stage[linear].linear.count, linear + 1);
-    else if (r->momenta.untried) nh_text_add(out, "\nMomenta of the group were not looked for: the constraints are not solved for velocities\n");
-    else nh_text_add(out, "\nNo momentum of the group is conserved (among the sections that were tried)\n");
+    else if (linear < r->stages) nh_text_addf(out, "\nConserved momenta of the group: the %zu of stage %zu; none has a closed form among the sections of the search\n", r->stage[linear].linear.count, linear + 1);
+    else if (r->momenta.untried) nh_text_add(out, "\nNo search for momenta of the group: the constraints are not solved for velocities\n");
+    else nh_text_add(out, "\nNo momentum of the group is conserved (among the sections of the search)\n");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_generator field = {.component = p->field};

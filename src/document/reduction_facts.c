@@ -33,7 +33,7 @@ const char *nh_reduction_no_energy(const nh_reduction *r, const nh_reduction_sta
     if (s->energy_drift >= 0) return NULL;
     if (s->reduced->conservative) return "the reduced motion could not be computed";
     if (!k->autonomous) return "the equations depend on time";
-    if (r->strict) return "with --weak all but the kinetic energy counts as a force";
+    if (r->strict) return "with --weak everything except the kinetic energy is a force";
     return k->forced ? "forces act" : k->linear ? "it is not conserved" : "the constraints do work";
 }
 
@@ -52,7 +52,7 @@ size_t nh_reduction_linear_stage(const nh_reduction *r)
 const char *nh_reduction_momentum_kind(const nh_momentum *p)
 {
     if (p->moving) return "energy less the momentum of";
-    return p->horizontal ? "horizontal symmetry: momentum of" : p->gauge ? "gauge momentum of" : "not horizontal, conserved all the same: momentum of";
+    return p->horizontal ? "horizontal symmetry: momentum of" : p->gauge ? "gauge momentum of" : "not horizontal, but conserved: momentum of";
 }
 
 const char *nh_reduction_globally(const nh_reduction *r, const nh_group *g)

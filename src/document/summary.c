@@ -250,7 +250,7 @@ static void almost(nh_summary_writer *w)
                      a->digits, a->rate, brief ? "" : " (expression in the JSON)");
         if (brief) formula(w, 8, "", a->phi);
     }
-    if (r->almosts > most) nh_text_addf(w->out, "\n  almost conserved too: %zu more, in the JSON\n", r->almosts - most);
+    if (r->almosts > most) nh_text_addf(w->out, "\n  %zu more functions are almost conserved: see the JSON\n", r->almosts - most);
 }
 
 /* Words that begin at this column. */
@@ -291,7 +291,7 @@ static void answer(nh_summary_writer *w)
     nh_text_clear(&title);
     completeness(w);
     for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);
-    if (r->pieces) nh_text_add(w->out, "\n  In a part of the motions only, and not counted:\n");
+    if (r->pieces) nh_text_add(w->out, "\n  Constant only in a region of the states, and not counted:\n");
     for (size_t k = 0; k < r->pieces; k++) current(w, &r->piece[k]);
     almost(w);
     abbreviations(w);

@@ -149,7 +149,7 @@ void nh_summary_motion(nh_summary_writer *w)
     nh_text_addf(w->out, "  %s in %s, t = %g to %.6g, %ld evaluations\n", v->method, v->chart, v->begin, v->end, v->evaluations);
     if (v->checked) nh_text_addf(w->out, "  %s\n", v->accuracy.why);
     if (!isnan(v->crossing))
-        nh_text_addf(w->out, "  the chart of %s breaks down at t = %.4g; this one is regular there\n", v->crossing_chart, v->crossing);
+        nh_text_addf(w->out, "  the chart of %s breaks down at t = %.4g; the chart of this motion is regular there\n", v->crossing_chart, v->crossing);
     if (v->currents) {
         nh_text_addf(w->out, "  drift at tolerance%10.0e%10.0e%10.0e   over time, from 1e-16 to 1\n", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
         for (size_t k = 0; k < v->currents; k++) {

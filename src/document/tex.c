@@ -254,7 +254,7 @@ static void piece(nh_tex_writer *w, const nh_current *f)
 {
     nh_tex_add(w, "\\subsection*{");
     nh_tex_name(w, f->name);
-    nh_tex_add(w, "}\nIt holds in a part of the motions only, and is not counted: ");
+    nh_tex_add(w, "}\nIt is constant only in a region, and is not counted: ");
     nh_tex_words(w, f->region);
     nh_tex_add(w, ".\n");
     nh_tex_formula(w, f->name, f->phi);

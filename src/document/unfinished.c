@@ -39,11 +39,11 @@ char *nh_unfinished_json(const nh_unfinished *u)
 void nh_html_unfinished(const nh_unfinished *u, nh_text *out)
 {
     nh_html_writer w = {.out = out, .system = u->system, .dag = u->system->dag, .shown = u->run->shown, .written = INFINITY};
-    nh_html_begin(&w, "an unfinished run");
+    nh_html_begin(&w, "an incomplete run");
     nh_html_add(&w, u->search ? "<p class=\"answer undecided\">Undecided: no current so far (search cut).</p>\n" : "<p class=\"answer undecided\">Unfinished.</p>\n");
     nh_html_links(&w, "system|System|repeat|Repeat it");
     nh_html_warning(&w, u->why);
-    if (*u->doing) nh_html_tagged(&w, "p", "It was reached during this:");
+    if (*u->doing) nh_html_tagged(&w, "p", "The run ended during:");
     if (*u->doing) nh_html_tagged(&w, "p", u->doing);
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");
     nh_html_written(&w);

@@ -84,7 +84,7 @@ void nh_verification_text(const nh_verification *v, bool field, double shown, nh
     else if (field) put(v, out, "the field's current is  ", v->current, shown);
     else put(v, out, "Phi = ", v->current, INFINITY);
     if (v->region) {
-        nh_text_addf(out, "NO: this is conserved in a part of the motions only: %s\n", v->region);
+        nh_text_addf(out, "NO: this is conserved only in a region: %s\n", v->region);
         return;
     }
     if (!v->conserved) {
@@ -97,7 +97,7 @@ void nh_verification_text(const nh_verification *v, bool field, double shown, nh
     if (v->proof.proved) nh_text_addf(out, ", proved%s", nh_facts_holds(v->model, &v->proof, false));
     else nh_text_addf(out, ", to %.0f digits%s", v->proof.digits, v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
     nh_text_add(out, nh_verification_branches(v));
-    nh_text_addf(out, "%s\n", v->trivial ? "; but it is trivial: the current is constant" : "");
+    nh_text_addf(out, "%s\n", v->trivial ? "; it is trivial: the current is a constant" : "");
     if (v->has_symmetry && !v->trivial) put_field(v, shown, out);
 }
 

@@ -192,7 +192,7 @@ bool nh_model_singular(const nh_model *o, nh_error *error)
     if (a.count == 0) {
         masses_clear(&a);
         nh_deck_fail(o->system->deck, where, 0, error, "the mass matrix of the Lagrangian is not finite at any point of the sampling domain");
-        return nh_error_hint(error, "is it divided by a parameter that is 0, or a root taken of something negative?  Or does `domain:` lie outside of where it is defined?");
+        return nh_error_hint(error, "is a denominator 0, or a radicand negative?  Or does `domain:` lie outside the region where the Lagrangian is defined?");
     }
     double *null = nh_alloc_array(o->n * o->n + 1, sizeof *null);
     size_t rank;

@@ -247,10 +247,10 @@ static const char *instead_of(const char *name)
         {"csc", "write 1/sin(...)"},
         {"diff", "a velocity is written with a prime: x'"},
         {"Derivative", "a velocity is written with a prime: x'"},
-        {"sgn", "the functions are smooth ones; `abs` is there for what has one sign on the domain"},
-        {"sign", "the functions are smooth ones; `abs` is there for what has one sign on the domain"},
-        {"max", "the functions are smooth ones; `abs` is there for what has one sign on the domain"},
-        {"min", "the functions are smooth ones; `abs` is there for what has one sign on the domain"},
+        {"sgn", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
+        {"sign", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
+        {"max", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
+        {"min", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
     };
     for (size_t i = 0; i < sizeof other / sizeof *other; i++)
         if (!strcmp(name, other[i][0])) return other[i][1];

@@ -68,7 +68,7 @@ void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_
     const nh_completeness *first = &c[c[0].counted ? 0 : 1], *time = &c[NH_COMPLETE_IN_TIME];
     if (!first->counted) return;
     if (first->count.obstacle) {
-        nh_text_addf(out, "Whether there are more was not counted: %s.", first->count.obstacle);
+        nh_text_addf(out, "More integrals were not counted: %s.", first->count.obstacle);
         return;
     }
     coordinates_words(first, first == time ? "time and the coordinates" : "the coordinates", out);

@@ -85,8 +85,8 @@ static char *taken(nh_text *text)
 
 static char *no_document(const char *what, nh_error *error)
 {
-    nh_fail(error, NH_USAGE, "", "%s is not written as LaTeX", what);
-    nh_error_hint(error, "text, JSON and HTML are there");
+    nh_fail(error, NH_USAGE, "", "%s cannot be written as LaTeX", what);
+    nh_error_hint(error, "choose text, JSON or HTML");
     return NULL;
 }
 

@@ -350,12 +350,12 @@ static void explain_choice(const search *s)
     double part = 100 * s->survey.part;
     if (a->choice == NH_CHOICE_SHORT) snprintf(end, left, "; the motion needs %.2g million counted operations: measuring other methods would need more", s->first / 1e6);
     if (a->choice != NH_CHOICE_SURVEY) return;
-    if (!a->measured) snprintf(end, left, "; %zu ways were measured on %.2g %% of the motion: none would save work", s->survey.tried, part);
-    else if (a->other) snprintf(end, left, "; the cheapest below %.1e of %zu ways that were measured on %.2g %% of the motion, where the next, %s, needs %.2g times as much counted work", s->eps, s->survey.tried, part, a->other->name, a->next);
-    else snprintf(end, left, "; the cheapest below %.1e of %zu ways that were measured on %.2g %% of the motion, and no other needs less than twice as much counted work", s->eps, s->survey.tried, part);
+    if (!a->measured) snprintf(end, left, "; %zu methods were measured on %.2g %% of the motion: none would save work", s->survey.tried, part);
+    else if (a->other) snprintf(end, left, "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); the next, %s, needs %.2g times as much counted work", s->eps, s->survey.tried, part, a->other->name, a->next);
+    else snprintf(end, left, "; the cheapest of the methods with an error below %.1e (%zu were measured on %.2g %% of the motion); every other needs at least twice as much counted work", s->eps, s->survey.tried, part);
 }
 
-static const char *words_of_size(const search *s, const nh_trajectory *t) { return nh_accuracy_cancels(s->request, t, s->out->quantity, &s->out->size) ? ", in which larger terms cancel" : ""; }
+static const char *words_of_size(const search *s, const nh_trajectory *t) { return nh_accuracy_cancels(s->request, t, s->out->quantity, &s->out->size) ? ", a sum of larger terms that cancel" : ""; }
 
 static void explain(search *s, const nh_trajectory *t)
 {
@@ -364,7 +364,7 @@ static void explain(search *s, const nh_trajectory *t)
     char what[96];
     put_setting(s, t, what, sizeof what);
     if (nh_interrupted() && !a->held)
-        snprintf(a->why, size, "interrupted before the accuracy %.1e was reached: this is %s, and its error is not known", s->eps, what);
+        snprintf(a->why, size, "interrupted before the accuracy %.1e was reached: the result is that of %s, with unknown error", s->eps, what);
     else if (!t->motion->complete)
         snprintf(a->why, size, "the accuracy %.1e was not reached: the motion ended at t = %.6g", s->eps, t->motion->end_time);
     else if (!(a->estimate < s->eps / 2)) {
@@ -429,7 +429,7 @@ nh_trajectory *nh_trajectory_accurate(const nh_trajectory_request *request, doub
     plain.seconds += accuracy->seconds;
     if (other && plain.held) {
         size_t used = strlen(plain.why);
-        snprintf(plain.why + used, sizeof plain.why - used, "; what seemed to be the cheapest, %s%s, did not reach it here", t->method, where(&accuracy->way));
+        snprintf(plain.why + used, sizeof plain.why - used, "; the method chosen first, %s%s, did not reach the accuracy", t->method, where(&accuracy->way));
         *accuracy = plain;
         nh_trajectory_free(t);
         return other;

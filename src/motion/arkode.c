@@ -149,7 +149,7 @@ static bool pairs_state(double time, double *state, void *context)
 static void pairs_stuck(nh_motion *motion, void *context)
 {
     (void)context;
-    nh_motion_note(motion, "the time no longer moves near t = %.10g: the solution is singular there", motion->end_time);
+    nh_motion_note(motion, "the steps vanish near t = %.10g: the solution is singular there", motion->end_time);
 }
 
 /* Newton's iteration with a dense matrix, made anew for every step: with an old one the steps after a short one, as those that end at the output times, passed

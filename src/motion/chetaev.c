@@ -143,7 +143,7 @@ static bool make_consistent(ida_work *work, double t, const double *initial, dou
     if (!solve_bordered(work, rate + m, state + 2 * m, &rcond)) {
         nh_fail(error, NH_NUMERIC, "", "the accelerations and multipliers are not determined at the initial state: the mass matrix "
                 "bordered by the constraints has the reciprocal condition number %.2g", rcond);
-        return nh_error_hint(error, "look for dependent constraints, and for coordinates without inertia that no constraint holds");
+        return nh_error_hint(error, "check for dependent constraints, and for coordinates without inertia that no constraint fixes");
     }
     scale_multipliers(work, rate + m, fabs(work->stop - t));
     return true;
@@ -252,7 +252,7 @@ static void explain(int flag, ida_work *work, nh_motion *motion)
         nh_motion_note(motion, "the equations of motion cannot be evaluated near t = %.10g: the motion leaves their domain or "
                        "meets a singularity there; use other coordinates or stop earlier", work->failed_at);
     else if (flag == IDA_TOO_MUCH_ACC)
-        nh_motion_note(motion, "the tolerance %g asks for more than double precision gives near t = %.10g; use a larger one",
+        nh_motion_note(motion, "double precision cannot reach the tolerance %g near t = %.10g; use a larger tolerance",
                        work->rtol, t);
     else if (flag == IDA_ERR_FAIL || flag == IDA_CONV_FAIL || flag == IDA_LSETUP_FAIL || flag == IDA_LSOLVE_FAIL)
         nh_motion_note(motion, "no step near t = %.10g reaches the tolerance %g; the mass matrix bordered by the constraints has the "

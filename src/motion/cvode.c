@@ -112,7 +112,7 @@ static void explain(int flag, const cvode_work *work, nh_motion *motion)
         nh_motion_note(motion, "the %s cannot be evaluated near t = %.10g: the motion leaves its domain or meets a singularity "
                        "there; use other coordinates or stop earlier", work->failed, work->failed_at);
     else if (flag == CV_TOO_MUCH_ACC)
-        nh_motion_note(motion, "the tolerance %g asks for more than double precision gives near t = %.10g; use a larger one",
+        nh_motion_note(motion, "double precision cannot reach the tolerance %g near t = %.10g; use a larger tolerance",
                        work->rtol, t);
     else if (flag == CV_ERR_FAILURE)
         nh_motion_note(motion, "no step near t = %.10g is small enough for the tolerance %g: the solution jumps or is singular there; "

@@ -261,13 +261,13 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
     }
     if (size < 0 || !nh_dynamics_point(d, state->t, z, d->point))
     {
-        nh_fail(error, NH_NUMERIC, "", "the initial state has no place in the chart of %s: no velocities near the given ones satisfy the constraints there", c->name);
-        return nh_error_hint(error, "give fewer velocities (the others follow from the constraints), other values, or another `domain:` to choose another branch");
+        nh_fail(error, NH_NUMERIC, "", "the initial state does not lie in the chart of %s: no velocities near the given ones satisfy the constraints", c->name);
+        return nh_error_hint(error, "give fewer velocities (the constraints determine the others), change the values, or choose another branch by `domain:`");
     }
     double off = 0;
     if (mismatch(d, state, z + d->m, &off) <= on_constraint || project) return true;
-    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: they are off by %.3g", off);
-    return nh_error_hint(error, "leave the dependent ones out: they follow from the constraints; or --project takes the nearest that satisfy them");
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the residual is %.3g", off);
+    return nh_error_hint(error, "omit the dependent velocities, which the constraints determine; or use --project, which takes the nearest velocities that satisfy the constraints");
 }
 
 /* Expressions of (t, q, v) at a state. */

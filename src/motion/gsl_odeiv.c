@@ -180,7 +180,7 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
         nh_sizes_follow(&work->sizes, *time, work->state);
         return last ? NH_STEP_LAST : NH_STEP_ON;
     }
-    nh_motion_note(motion, "no step near t = %.10g is small enough, or the right-hand side cannot be evaluated there", *time);
+    nh_motion_note(motion, "no step is small enough near t = %.10g, or the right-hand side cannot be evaluated there", *time);
     return NH_STEP_FAILED;
 }
 
@@ -207,7 +207,7 @@ static bool between_state(double time, double *state, void *context)
 static void explicit_stuck(nh_motion *motion, void *context)
 {
     (void)context;
-    nh_motion_note(motion, "the time no longer moves near t = %.10g: the solution is singular there", motion->end_time);
+    nh_motion_note(motion, "the steps vanish near t = %.10g: the solution is singular there", motion->end_time);
 }
 
 /* A first step that changes the state by a hundredth of its size; the error control takes it from there. */

@@ -158,7 +158,7 @@ void nh_kinks_go_over(nh_kinks *k, double t, nh_motion *motion)
     k->last = t;
     if (!held) return;
     k->held = true;
-    nh_motion_note(motion, "near t = %.10g the motion comes to a kink of its equations from which both sides lead back to it: they say nothing of how it goes on", t);
+    nh_motion_note(motion, "near t = %.10g the motion reaches a kink of its equations, and both sides lead back to it: the equations do not determine the continuation", t);
 }
 
 /* Does the step end exactly on a wall? */

@@ -93,7 +93,7 @@ double nh_motion_rtol(nh_motion *motion, const nh_flow_options *options)
 {
     if (options->rtol >= smallest_rtol)
         return options->rtol;
-    nh_motion_note(motion, "a relative tolerance of %g is below rounding, %g was used", options->rtol, smallest_rtol);
+    nh_motion_note(motion, "the relative tolerance %g is below rounding error; %g was used", options->rtol, smallest_rtol);
     return smallest_rtol;
 }
 

@@ -161,7 +161,7 @@ static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
     }
     for (size_t i = 0; i < r->extras; i++)
         if (!strcmp(r->extra[i].name, name))
-            return nh_deck_fail(deck, node, 0, r->error, i < r->own ? "`%s` is there already: E is the energy, Lbar the constrained Lagrangian" : "`%s` is declared twice", name);
+            return nh_deck_fail(deck, node, 0, r->error, i < r->own ? "`%s` is defined already: E is the energy, Lbar the constrained Lagrangian" : "`%s` is declared twice", name);
     bool used = nh_symbol_find(r->model->dag, name, &taken);
     for (size_t i = 0; i < s->definitions; i++) used |= !strcmp(s->definition[i].name, name);
     return !used || nh_deck_fail(deck, node, 0, r->error, "`%s` is already a name of the system", name);

@@ -6,9 +6,9 @@
 static bool read_in(nh_analysis_file_reader *r, const nh_deck_node *item, nh_family *f)
 {
     const nh_deck_node *in = nh_deck_get(item, "in");
-    if (!in) return nh_deck_fail(r->a->deck, item, 0, r->error, "this family has no `in`: functions of what?");
+    if (!in) return nh_deck_fail(r->a->deck, item, 0, r->error, "this family needs `in`, the list of its variables");
     size_t n = in->kind == NH_DECK_LIST ? in->count : 1;
-    if (n == 0) return nh_deck_fail(r->a->deck, in, 0, r->error, "this `in` is empty: functions of what?");
+    if (n == 0) return nh_deck_fail(r->a->deck, in, 0, r->error, "this `in` is empty; name at least one variable");
     nh_ex *list = nh_analysis_file_take(r, n, sizeof *list);
     for (size_t i = 0; i < n; i++)
         if (!nh_analysis_file_parse(r, in->kind == NH_DECK_LIST ? in->item[i] : in, &list[i])) return false;

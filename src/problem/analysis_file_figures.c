@@ -29,7 +29,7 @@ static bool read_scan(reader *r, const nh_deck_node *node, nh_figure_request *f)
         if (!strcmp(node->text, nh_name_of(r->model->dag, a->unknown[f->unknown].symbol))) break;
     if (f->unknown == a->unknowns) {
         nh_deck_fail(a->deck, node, 0, r->error, "`%s` is not an unknown of this analysis", node->text);
-        return nh_error_hint(r->error, "unknowns: {%s: [low, high]} would make it one, in an ansatz that uses it", node->text);
+        return nh_error_hint(r->error, "to declare it, write unknowns: {%s: [low, high]}, and use it in the ansatz", node->text);
     }
     return a->unknowns == 1 || nh_deck_fail(a->deck, node, 0, r->error, "a scan needs an analysis with one unknown, this one has %zu", a->unknowns);
 }
@@ -98,7 +98,7 @@ static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *
     f->begin = range[0];
     f->end = range[1];
     const nh_deck_node *vary = nh_deck_get(node, "vary");
-    if ((scan || samples) && (vary || time)) return nh_deck_fail(deck, vary ? vary : time, 0, r->error, "a scan and a figure of samples follow no motion: `vary` and `time` mean nothing in it");
+    if ((scan || samples) && (vary || time)) return nh_deck_fail(deck, vary ? vary : time, 0, r->error, "`scan` and `samples` do not use a motion: remove `vary` and `time`");
     return read_vary(r, vary, f);
 }
 

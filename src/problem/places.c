@@ -114,15 +114,15 @@ const char *nh_places_find(nh_arena *arena, const char *kind, const char *name, 
     if (found) return found;
     if (strchr(name, '/') || strstr(name, ".yaml")) {
         nh_fail(error, NH_INPUT, name, "there is no such file");
-        if (!strcmp(kind, "systems")) nh_error_hint(error, "`nhsym list` shows the systems that are here, `nhsym new skate` writes one to start from");
+        if (!strcmp(kind, "systems")) nh_error_hint(error, "`nhsym list` lists the available systems; `nhsym new skate` writes an example");
         return NULL;
     }
     const char **names;
     size_t count = nh_places_names(arena, kind, &names);
     nh_fail(error, NH_INPUT, "", "there is no %s `%s` in ./%s, in NHSYM_PATH or among the installed ones", strcmp(kind, "systems") ? "analysis" : "system", name, kind);
     const char *near = nh_text_nearest(name, names, count), *file = nh_arena_printf(arena, "%s.yaml", name);
-    if (!access(file, F_OK)) nh_error_hint(error, "there is a file %s here: write its whole name", file);
+    if (!access(file, F_OK)) nh_error_hint(error, "did you mean the file %s?  Write its whole name", file);
     else if (near) nh_error_hint(error, "did you mean `%s`?", near);
-    else nh_error_hint(error, "give the path of a file, or see `nhsym list`");
+    else nh_error_hint(error, "give the path of a file, or a name that `nhsym list` shows");
     return NULL;
 }

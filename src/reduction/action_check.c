@@ -24,9 +24,9 @@ static bool not_invariant(const nh_action *g, size_t a, nh_error *error)
     const nh_generator *x = &g->generator[a];
     const nh_condition *worst = !x->metric.holds ? &x->metric : !x->potential.holds ? &x->potential : !x->constraints.holds ? &x->constraints : &x->forces;
     const char *what = worst == &x->metric ? "kinetic energy" : worst == &x->potential ? "potential" : worst == &x->constraints ? "constraint distribution" : "law of force";
-    nh_fail(error, NH_INPUT, "", "%s is not a symmetry: it does not leave the %s invariant (off by %.2g of its size)", field_text(g->kinetic, x, &t), what, worst->residual);
+    nh_fail(error, NH_INPUT, "", "%s is not a symmetry: it does not leave the %s invariant (relative residual %.2g)", field_text(g->kinetic, x, &t), what, worst->residual);
     nh_text_clear(&t);
-    return nh_error_hint(error, "nhsym reduce without a given group lists the symmetries that there are");
+    return nh_error_hint(error, "nhsym reduce without --group lists all symmetries");
 }
 
 static bool not_closed(const nh_action *g, nh_error *error)
@@ -36,10 +36,10 @@ static bool not_closed(const nh_action *g, nh_error *error)
     nh_text_init(&a), nh_text_init(&b), nh_text_init(&c);
     nh_generator bracket = {.component = nh_arena_alloc(k->arena, k->m * sizeof(nh_ex))};
     nh_field_bracket(k, g->generator[g->worst[0]].component, g->generator[g->worst[1]].component, bracket.component);
-    nh_fail(error, NH_INPUT, "", "these fields do not generate a group: [%s, %s] = %s is not a combination of them (off by %.2g of its size)",
+    nh_fail(error, NH_INPUT, "", "these fields do not span a Lie algebra: [%s, %s] = %s is not a linear combination of them (relative residual %.2g)",
             field_text(k, &g->generator[g->worst[0]], &a), field_text(k, &g->generator[g->worst[1]], &b), field_text(k, &bracket, &c), g->closure);
     nh_text_clear(&a), nh_text_clear(&b), nh_text_clear(&c);
-    return nh_error_hint(error, "add the bracket to the list, or leave one of the two out");
+    return nh_error_hint(error, "add the bracket to the list, or remove one of the two fields");
 }
 
 /* sum_a c[a] e_a = 0 everywhere: true with one such c, the last coefficient that is not zero made 1.  Components are compared in units of the coordinates' sizes, and
@@ -82,7 +82,7 @@ static bool not_independent(const nh_action *g, const double *c, nh_error *error
     if (terms == 1) nh_fail(error, NH_INPUT, "", "field %zu is zero everywhere: it generates nothing", last + 1);
     else nh_fail(error, NH_INPUT, "", "these fields are not independent: field %zu, %s, is %s", last + 1, field_text(g->kinetic, &g->generator[last], &t), nh_text_string(&sum));
     nh_text_clear(&t), nh_text_clear(&sum);
-    return nh_error_hint(error, "leave field %zu out", last + 1);
+    return nh_error_hint(error, "remove field %zu", last + 1);
 }
 
 static bool not_free(const nh_action *g, const double *q, size_t rank, nh_error *error)
@@ -92,7 +92,7 @@ static bool not_free(const nh_action *g, const double *q, size_t rank, nh_error 
     place_text(g->kinetic, q, &t);
     nh_fail(error, NH_INPUT, "", "the action is not free: %zu field%s, but an orbit of dimension %zu at %s", g->d, g->d == 1 ? "" : "s", rank, nh_text_string(&t));
     nh_text_clear(&t);
-    return nh_error_hint(error, rank < g->orbit ? "start from a place that the fields move, or reduce by a subgroup whose generators are independent there" : "reduce by a subgroup whose generators are independent everywhere");
+    return nh_error_hint(error, rank < g->orbit ? "choose an initial state that is not fixed by the fields, or reduce by a subgroup with independent generators there" : "reduce by a subgroup with independent generators everywhere");
 }
 
 bool nh_action_check(const nh_action *g, const nh_options *options, nh_error *error)

@@ -355,7 +355,7 @@ nh_chain_symmetries *nh_chain_symmetries_find(const nh_system *system, uint64_t 
 {
     const nh_chain *c = system->chain;
     if (!c) {
-        nh_fail(error, NH_USAGE, "", "%s is not given by bodies and joints", system->name);
+        nh_fail(error, NH_USAGE, "", "the system %s has no bodies and joints", system->name);
         return NULL;
     }
     nh_arena *arena = nh_arena_create();

@@ -17,7 +17,7 @@ static bool ideal(const nh_algebra *g, size_t from, nh_error *error, const size_
         for (size_t b = from; b < d; b++)
             for (size_t k = 0; k < from; k++)
                 if (fabs(g->c[(a * d + b) * d + k]) > 1e-9 * most)
-                    return nh_fail(error, NH_INPUT, "", "the chain is not one of normal subgroups: [e%zu, e%zu] has a component along e%zu", order[a] + 1, order[b] + 1, order[k] + 1);
+                    return nh_fail(error, NH_INPUT, "", "the subgroups of the chain are not normal: [e%zu, e%zu] has a component along e%zu", order[a] + 1, order[b] + 1, order[k] + 1);
     return true;
 }
 
@@ -65,7 +65,7 @@ bool nh_ideals_init(nh_ideals *c, const nh_algebra *g, size_t blocks, const size
     for (size_t i = 0; i < d; i++) t[order[i] + i * d] = 1;
     c->algebra = nh_algebra_change(g, d, t, NULL);
     nh_free(t);
-    bool good = at == d || nh_fail(error, NH_INPUT, "", "the blocks of the chain hold %zu generators, the group has %zu", at, d);
+    bool good = at == d || nh_fail(error, NH_INPUT, "", "the blocks of the chain contain %zu generators, but the group has %zu", at, d);
     for (size_t j = 1; j < blocks && good; j++) good = ideal(&c->algebra, c->start[j], error, order);
     if (good && !make_lifts(c, metric)) good = nh_fail(error, NH_NUMERIC, "", "the inner product on the Lie algebra is singular");
     if (!good) nh_ideals_clear(c);

@@ -172,8 +172,8 @@ nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *
 {
     size_t m = k->m, unknowns = m * (m + 1) / 2;
     if ((double)unknowns > options->jets) {
-        nh_fail(error, NH_LIMIT, "", "the symmetries of a kinetic energy in %zu coordinates are not looked for: %zu unknowns", m, unknowns);
-        return nh_error_hint(error, "name the group by --group \"%s=1; ...\", or allow more by --option jets=%zu", k->name[0], unknowns), NULL;
+        nh_fail(error, NH_LIMIT, "", "the symmetries of a kinetic energy in %zu coordinates were not computed: too many unknowns (%zu)", m, unknowns);
+        return nh_error_hint(error, "give the group by --group \"%s=1; ...\", or allow more unknowns by --option jets=%zu", k->name[0], unknowns), NULL;
     }
     nh_jets *out = nh_alloc(sizeof *out);
     nh_jet_conditions s;
@@ -185,12 +185,12 @@ nh_jets *nh_jets_find(const nh_kinetic *k, const nh_options *options, nh_error *
     nh_jet_conditions_clear(&s);
     if (out->places && left > 0 && !nh_interrupted()) return out;
     nh_jets_free(out);
-    if (nh_interrupted()) return nh_fail_ended(error, "while symmetries of the kinetic energy were looked for"), NULL;
+    if (nh_interrupted()) return nh_fail_ended(error, "during the search for symmetries of the kinetic energy"), NULL;
     if (!left) {
-        nh_fail(error, NH_LIMIT, "", "the symmetries of the kinetic energy could not be followed from place to place within %g steps", options->transport_steps);
-        return nh_error_hint(error, "are there masses or lengths of very different sizes?  --option transport_steps=%g allows more, --group names the group", 10 * options->transport_steps), NULL;
+        nh_fail(error, NH_LIMIT, "", "the symmetries of the kinetic energy could not be transported within %g steps", options->transport_steps);
+        return nh_error_hint(error, "do masses or lengths differ by many orders of magnitude?  Allow more steps by --option transport_steps=%g, or give the group by --group", 10 * options->transport_steps), NULL;
     }
-    nh_fail(error, NH_NUMERIC, "", "no way could be found along which symmetries of the metric could be followed");
+    nh_fail(error, NH_NUMERIC, "", "the symmetries of the metric could not be transported: no regular path was found");
     nh_error_hint(error, "give a domain without singularities of the coordinates");
     return NULL;
 }

@@ -31,7 +31,7 @@ nh_kinetic *nh_quasi_symmetry_kinetic(const nh_kinetic *k)
     w->Q = Q;
     w->forced = true;
     w->magnetic = w->reducible = false;
-    w->obstacle = "symmetries of the equations are asked for";
+    w->obstacle = "--weak allows symmetries of the equations";
     return w;
 }
 

@@ -145,7 +145,7 @@ bool nh_quotient_init(nh_reduced *out, const nh_model *o, const nh_slice *s, nh_
     nh_reduced_guard_slice(out, s);
     nh_lu_free(lu);
     nh_free(from);
-    return good || nh_fail(error, NH_NUMERIC, "", "the generators cannot be carried over to the chart's velocities, or the slice is singular");
+    return good || nh_fail(error, NH_NUMERIC, "", "the generators cannot be expressed in the chart's velocities, or the slice is singular");
 }
 
 /* ---- states ---- */

@@ -268,7 +268,7 @@ static nh_reconstruction *follow(nh_atlas *atlas, const beginning *at, bool grou
     nh_free(c.left);
     if (good) return out;
     nh_reconstruction_free(out);
-    nh_fail(error, NH_NUMERIC, "", "the motion of the group could not be found again from the reduced one");
+    nh_fail(error, NH_NUMERIC, "", "the group motion could not be reconstructed from the reduced motion");
     return NULL;
 }
 

@@ -164,7 +164,7 @@ static bool keeps(nh_current_checker *b, const nh_current *f, bool certain)
         note_almost(b, f, f->proof.digits);
         return false;
     }
-    nh_analysis_warn(r, "a combination that fits the samples to %.1e is not conserved (held-out residual %.1e, its rate cancels to %.0f digits): left out",
+    nh_analysis_warn(r, "rejected a combination that fits the samples to %.1e: it is not conserved (held-out residual %.1e, its rate cancels to %.0f digits)",
                    f->quotient, f->heldout, f->proof.digits);
     return false;
 }
@@ -182,7 +182,7 @@ nh_current_checker *nh_current_checker_create(nh_analysis *r, nh_error *error)
         return NULL;
     }
     b->invertible = nh_chart_inverse(r->model->chart, b->inverse);
-    if (!b->invertible) nh_analysis_warn(r, "currents could not be written in coordinate velocities: the chart is not affine in its quasi-velocities");
+    if (!b->invertible) nh_analysis_warn(r, "the currents are not given in coordinate velocities: the chart is not affine in its quasi-velocities");
     return b;
 }
 

@@ -42,7 +42,7 @@ static void check(nh_analysis *r)
         const nh_completeness *c = &r->completeness[i];
         for (size_t d = 0; d < c->count.rows; d++)
             if (c->count.row[d].known > c->count.row[d].bound)
-                nh_analysis_warn(r, "at degree %zu more currents were proved than the count allows: one of the two is wrong, please report this", d + 1);
+                nh_analysis_warn(r, "at degree %zu the program proved more currents than the count allows: this is a bug, please report it", d + 1);
     }
 }
 

@@ -99,7 +99,7 @@ static void how_it_ended(nh_analysis *r)
     else r->search = spent || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
     if (r->search != NH_SEARCH_CUT || !spent) return;
     r->partial = true;
-    nh_analysis_warn(r, "the limit of %g million units of work ended the search; --option work=%g raises it", r->options.work, 10 * r->options.work);
+    nh_analysis_warn(r, "the limit of %g million units of work ended the search; raise it by --option work=%g", r->options.work, 10 * r->options.work);
 }
 
 bool nh_staged_search_run(nh_analysis *r, nh_error *error)

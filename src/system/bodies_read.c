@@ -34,7 +34,7 @@ long nh_system_body_word(reader *r, const nh_deck_node *map, const char *key, lo
     if (!node && fallback >= NH_GROUND) return fallback;
     if (!node) {
         nh_deck_fail(r->deck, map, 0, r->error, "this entry has no `%s`", key);
-        nh_error_hint(r->error, "it is the name of a body");
+        nh_error_hint(r->error, "its value is the name of a body");
         return NH_NOBODY;
     }
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, key, r->error)) return NH_NOBODY;
@@ -66,7 +66,7 @@ static bool read_body(reader *r, const nh_deck_node *item, nh_body *b)
         nh_deck_fail(r->deck, name, 0, r->error, "`%s` is not a name", name->text);
         return nh_error_hint(r->error, "a name is a letter a-z or A-Z, then letters, digits and _");
     }
-    if (!strcmp(name->text, "ground")) return nh_deck_fail(r->deck, name, 0, r->error, "`ground` is what joints start from; a body needs another name");
+    if (!strcmp(name->text, "ground")) return nh_deck_fail(r->deck, name, 0, r->error, "`ground` is the fixed frame; choose another name for the body");
     for (size_t i = 0; i < c->bodies; i++)
         if (!strcmp(c->body[i].name, name->text)) return nh_deck_fail(r->deck, name, 0, r->error, "there are two bodies `%s`", name->text);
     *b = (nh_body){.name = name->text, .joint = SIZE_MAX, .node = item};
@@ -135,7 +135,7 @@ static bool fitting_keys(reader *r, const nh_deck_node *item, nh_joint_kind kind
     }
     if (kind == NH_JOINT_HELICAL && !nh_deck_get(item, "pitch")) {
         nh_deck_fail(r->deck, item, 0, r->error, "a joint of type helical needs a `pitch`");
-        return nh_error_hint(r->error, "it is the advance per radian");
+        return nh_error_hint(r->error, "the pitch is the advance per radian");
     }
     return true;
 }
@@ -210,10 +210,10 @@ bool nh_system_read_tree(reader *r)
 {
     const nh_deck_node *bodies = nh_deck_get(r->root, "bodies"), *joints = nh_deck_get(r->root, "joints");
     static const char *const others[] = {"gravity", "wheels"};
-    if (!bodies && joints) return nh_deck_fail(r->deck, joints, 0, r->error, "there are joints, but no `bodies:`");
+    if (!bodies && joints) return nh_deck_fail(r->deck, joints, 0, r->error, "the file has joints, but no `bodies:`");
     for (int i = 0; i < 2; i++) {
         const nh_deck_node *other = nh_deck_get(r->root, others[i]);
-        if (!bodies && other) return nh_deck_fail(r->deck, other, 0, r->error, "`%s` acts on bodies, but there are no `bodies:`", others[i]);
+        if (!bodies && other) return nh_deck_fail(r->deck, other, 0, r->error, "`%s` needs `bodies:`, but the file has none", others[i]);
     }
     if (!bodies) return true;
     r->system->chain = nh_system_take(r, 1, sizeof *r->system->chain);
@@ -245,7 +245,7 @@ static bool coordinate_of(reader *r, const nh_joint *j, size_t k, const nh_deck_
     for (size_t i = 0; i < j->first + k && known >= 0; i++)
         if (s->chain->screw[i].coordinate == known) {
             nh_deck_fail(r->deck, name, 0, r->error, "`%s` is already the coordinate of another degree of freedom", name->text);
-            return nh_error_hint(r->error, "where one motion drives another, write `values: [%s]` for the second", name->text);
+            return nh_error_hint(r->error, "if one joint drives another, write `values: [%s]` for the second joint", name->text);
         }
     if (known < 0) {
         if (!nh_system_new_name(r, name)) return false;

@@ -25,8 +25,8 @@ static bool constant(reader *r, const nh_deck_node *node, const char *what, nh_e
             moves = nh_depends(s->dag, *out, moving);
         }
     if (!moves) return true;
-    nh_deck_fail(r->deck, node, 0, r->error, "%s is constant, but `%s` varies", what, nh_name_of(s->dag, moving));
-    return nh_error_hint(r->error, "write it in numbers and parameters");
+    nh_deck_fail(r->deck, node, 0, r->error, "%s must be constant, but `%s` varies", what, nh_name_of(s->dag, moving));
+    return nh_error_hint(r->error, "use only numbers and parameters");
 }
 
 static bool constant_of(reader *r, const nh_deck_node *map, const char *key, const char *what, int64_t fallback, nh_ex *out)
@@ -271,7 +271,7 @@ static bool wheel_values(reader *r, const nh_deck_node *item, nh_wheel *w)
         if (other && nh_deck_get(item, other)) return nh_deck_fail(r->deck, nh_deck_get(item, other), 0, r->error, "a wheel of type %s has no `%s`", types[kind], other);
         if (!need || nh_deck_get(item, need)) continue;
         nh_deck_fail(r->deck, item, 0, r->error, "a wheel of type %s needs `%s`", types[kind], need);
-        return nh_error_hint(r->error, kind == 0 ? "`axis: y` stands across the blade: it does not slide that way" : kind == 1 ? "`axle: y, radius: 0.3`: the line that it turns about, and its size" : "`radius: 0.3`");
+        return nh_error_hint(r->error, kind == 0 ? "`axis: y` is the normal of the blade: the blade does not slide along it" : kind == 1 ? "for example `axle: y, radius: 0.3`: the axis of rotation and the radius" : "`radius: 0.3`");
     }
     if (normal) w->normal = (int)nh_system_word(r, normal, "the normal of a surface", 3, axis_names);
     if (w->normal < 0 || !nh_system_text_of(r, item, "doc", "", &doc) || !nh_system_text_of(r, item, "name", types[kind], &w->name)) return false;

@@ -161,10 +161,10 @@ static bool contradiction(const nh_constraint_samples *c, uint64_t seed, nh_erro
     const nh_deck_node *node = s->constraint[a < c->k ? a : 0].node;
     if (a == 0) {
         nh_deck_fail(s->deck, node, 0, error, "no point of the sampling domain satisfies this constraint");
-        return nh_error_hint(error, "it contradicts itself, or `domain:` keeps away from where it holds");
+        return nh_error_hint(error, "the constraint contradicts itself, or `domain:` excludes all its solutions");
     }
     nh_deck_fail(s->deck, node, 0, error, "this constraint contradicts those before it: no point of the sampling domain satisfies them all");
-    return nh_error_hint(error, "correct one of them; or does `domain:` keep away from where they hold?");
+    return nh_error_hint(error, "correct one of them; or does `domain:` exclude their common solutions?");
 }
 
 bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t seed, nh_error *error)
@@ -175,7 +175,7 @@ bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t s
     if (rank < c->k) {
         nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
                      "this constraint says nothing new about the velocities: the %zu constraints have rank %zu", c->k, rank);
-        return nh_error_hint(error, s->constraint[redundant].position ? "as an equation between positions it repeats the others or contradicts them; remove it" : "it repeats the others; remove it");
+        return nh_error_hint(error, s->constraint[redundant].position ? "as an equation between positions it follows from the other constraints or contradicts them; remove it" : "it follows from the other constraints; remove it");
     }
     if (c->k < c->m) return true;
     nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "%zu independent constraints on %zu coordinates leave no freedom to move", c->k, c->m);

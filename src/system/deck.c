@@ -161,7 +161,7 @@ static bool is_plain(const nh_deck_node *node)
 static void hint_unquote(const nh_deck_node *node, bool fresh, nh_error *error)
 {
     if (fresh && node && node->kind == NH_DECK_SCALAR && !node->plain && nh_text_is_number(node->text))
-        nh_error_hint(error, "remove the quotes: what is quoted is a text");
+        nh_error_hint(error, "remove the quotes: a quoted value is a text");
 }
 
 bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *what, double *out, nh_error *error)

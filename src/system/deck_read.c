@@ -173,7 +173,7 @@ static bool check_duplicates(builder *b, const nh_deck_node *map)
         return true;
     char shown[NH_DECK_SHOWN];
     nh_deck_shorten(second->text, shown);
-    nh_deck_fail_at(b->deck, second->begin, b->error, "the key `%s` is there already, in line %zu", shown, first->line);
+    nh_deck_fail_at(b->deck, second->begin, b->error, "the key `%s` occurs already in line %zu", shown, first->line);
     return nh_error_hint(b->error, "remove or rename one of them");
 }
 
@@ -263,7 +263,7 @@ static bool read_node(builder *b, yaml_event_t *event, size_t depth)
 
 static bool fail_empty(builder *b)
 {
-    return nh_fail(b->error, NH_INPUT, b->deck->name, "there is nothing in this file");
+    return nh_fail(b->error, NH_INPUT, b->deck->name, "this file is empty");
 }
 
 /* Take the next event and tell its type; `begin` gets its place. */
@@ -320,7 +320,7 @@ static bool check_bytes(const char *name, const char *text, size_t length, nh_er
     if (length > SIZE_LIMIT)
         return nh_fail(error, NH_INPUT, name, "the file is larger than %d MiB", SIZE_LIMIT >> 20);
     if (length >= 2 && (memcmp(text, "\xFF\xFE", 2) == 0 || memcmp(text, "\xFE\xFF", 2) == 0)) {
-        nh_fail(error, NH_INPUT, name, "the file is in the encoding UTF-16");
+        nh_fail(error, NH_INPUT, name, "the encoding of this file is UTF-16");
         return nh_error_hint(error, "save the file in the encoding UTF-8");
     }
     return true;

@@ -27,7 +27,7 @@ static const rewording table[] = {
     {"mapping values are not allowed", NULL, false, "this `:` cannot stand here",
      "put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
     {"find expected ':'", "simple key", true, "expected `key: value`",
-     "write a space after the colon; a value that goes on in the next line is indented deeper than its key"},
+     "write a space after the colon; indent a continued value deeper than its key"},
     {"block sequence entries", NULL, false, "a list item `- ` cannot stand here",
      "begin the list on a line of its own, or put the expression in double quotes"},
     {"mapping keys are not allowed", NULL, false, NULL, NH_DECK_QUOTE_HINT},
@@ -60,7 +60,7 @@ static bool explain_bracket(const nh_deck *deck, size_t at, size_t since, nh_err
     size_t line = line_of(deck, since);
     if (nothing_after(deck, at)) {
         nh_deck_fail_at(deck, since, error, "this `%c` is not closed", open);
-        return nh_error_hint(error, "add `%c`, or put an expression that contains `%c` in double quotes", close, open);
+        return nh_error_hint(error, "add `%c`, or write an expression that contains `%c` in double quotes", close, open);
     }
     nh_deck_fail_at(deck, at, error, "expected `,` or `%c` in the %s that begins with `%c` in line %zu", close,
                     map ? "map" : "list", open, line);
@@ -84,7 +84,7 @@ static bool explain_misfit(const nh_deck *deck, size_t at, const char *kind, siz
         return nh_error_hint(error, NH_DECK_QUOTE_HINT ", all of it");
     }
     nh_deck_fail_at(deck, at, error, "this line does not fit the %s that begins in line %zu", kind, line_of(deck, since));
-    return nh_error_hint(error, "entries of one map, and items of one list, begin in the same column");
+    return nh_error_hint(error, "start all entries of a map, and all items of a list, in the same column");
 }
 
 static bool explain_tab(const nh_deck *deck, size_t at, nh_error *error)

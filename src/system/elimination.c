@@ -398,7 +398,7 @@ static nh_chart *build(const nh_constraint_samples *c, const size_t *dependent, 
     nh_free(f);
     if (chart) return chart;
     nh_deck_fail(s->deck, s->constraint[0].node, 0, error, "the constraints cannot be solved for the chosen dependent velocities");
-    nh_error_hint(error, "name others under `dependent:`, or leave it out");
+    nh_error_hint(error, "name other velocities under `dependent:`, or remove that key");
     return NULL;
 }
 
@@ -423,7 +423,7 @@ nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *e
         double pivot = c.k ? choose_dependent(&c, dependent, &replaced) : 1;
         if (pivot < 1e-12) {
             nh_deck_fail(system->deck, system->constraint[0].node, 0, error, "the constraints do not determine the velocities named under `dependent:`");
-            nh_error_hint(error, "name others, or leave `dependent:` out");
+            nh_error_hint(error, "name other velocities, or remove `dependent:`");
         } else {
             chart = build(&c, dependent, pivot, error);
             if (chart) chart->replaced = replaced;

@@ -229,7 +229,7 @@ bool nh_levels_check(nh_system *s, uint64_t seed, nh_error *error)
         else if (k == 1) nh_deck_fail(s->deck, node, 0, error, "no positions were found that satisfy this constraint");
         else nh_deck_fail(s->deck, node, 0, error,
             "no positions were found that satisfy this constraint and those before it");
-        if (proved) nh_error_hint(error, "is a sign wrong, or the value of a parameter?");
+        if (proved) nh_error_hint(error, "check the signs and the parameter values");
         else nh_error_hint(error, "Newton's method looked for them from %d places, up to %g times the sampling domain around its middle; "
                                     "if there are some, give a `domain:` near them", starts, farthest);
     }

@@ -67,7 +67,7 @@ static bool read_motion(nh_system_reader *r, const nh_deck_node *item, const nh_
     const nh_deck_node *list;
     size_t n;
     if (!nh_system_list_of(r, item, "motion", &list, &n)) return false;
-    if (!n) return nh_deck_fail(r->deck, item, 0, r->error, "a motion needs a `motion`: what its coordinates are at every time"), nh_error_hint(r->error, "for example: motion: [%s = 2*t]", s->coordinate[0].name);
+    if (!n) return nh_deck_fail(r->deck, item, 0, r->error, "a motion needs the key `motion`: its coordinates as functions of time"), nh_error_hint(r->error, "for example: motion: [%s = 2*t]", s->coordinate[0].name);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *node = list->item[i];
         const char *name, *which;
@@ -76,7 +76,7 @@ static bool read_motion(nh_system_reader *r, const nh_deck_node *item, const nh_
         long index = nh_system_coordinate(s, name);
         if (index < 0) {
             nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not a coordinate", name);
-            return nh_error_hint(r->error, "the velocities follow from the coordinates' derivatives by time");
+            return nh_error_hint(r->error, "the velocities are the time derivatives of the coordinates");
         }
         if (out->given[index]) return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is given twice", name);
         size_t skip = (size_t)(strchr(node->text, '=') - node->text) + 1;

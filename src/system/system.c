@@ -142,7 +142,7 @@ static bool not_an_equation(const nh_deck *deck, const nh_deck_node *node, size_
     const char *equal = strchr(node->text + skip, '=');
     if (!equal) return true;
     size_t at = (size_t)(equal - node->text);
-    if (skip) return nh_deck_fail(deck, node, at, error, at == skip ? "this is written with a single `=`" : "there is a second `=`");
+    if (skip) return nh_deck_fail(deck, node, at, error, at == skip ? "write a single `=`" : "there is a second `=`");
     nh_deck_fail(deck, node, at, error, "an expression was expected here, not an equation");
     return nh_error_hint(error, "equations stand under constraints, forces, definitions and in the velocities' map");
 }

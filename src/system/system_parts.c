@@ -50,7 +50,7 @@ bool nh_system_read_chart(nh_system_reader *r)
         if (!nh_system_read_right_side(r, map->item[i], NH_NO_VELOCITIES, &s->quasi_map[index])) return false;
         for (size_t j = 0; j < s->coordinates; j++) /* through a definition */
             if (nh_depends(s->dag, s->quasi_map[index], s->coordinate[j].v))
-                return nh_deck_fail(r->deck, map->item[i], 0, r->error, "the velocity `%s` cannot be used here; it comes in through a definition", nh_name_of(s->dag, s->coordinate[j].v));
+                return nh_deck_fail(r->deck, map->item[i], 0, r->error, "the velocity `%s` is not allowed here; a definition brings it in", nh_name_of(s->dag, s->coordinate[j].v));
     }
     for (size_t i = 0; i < s->coordinates; i++)
         if (!given[i])

@@ -64,9 +64,9 @@ static bool read_unit(reader *r, const nh_deck_node *item, const char **out)
     nh_unit_fault fault;
     if (!nh_system_text_of(r, item, "unit", "", out)) return false;
     if (nh_is_unit(*out, &fault)) return true;
-    nh_deck_fail(r->deck, nh_deck_get(item, "unit"), fault.offset, r->error, "`%.*s` is no unit that is known here", (int)fault.length, *out + fault.offset);
+    nh_deck_fail(r->deck, nh_deck_get(item, "unit"), fault.offset, r->error, "unknown unit `%.*s`", (int)fault.length, *out + fault.offset);
     if (fault.nearest) return nh_error_hint(r->error, "did you mean `%s`?", fault.nearest);
-    return nh_error_hint(r->error, "units are those of the SI and what is used with it, as in m, kg m^2, N/m, rad/s, 1/s, deg; anything else can stand under `doc`");
+    return nh_error_hint(r->error, "use SI units and units accepted with them, such as m, kg m^2, N/m, rad/s, 1/s, deg; write any other unit under `doc`");
 }
 
 static bool read_parameters(reader *r)
@@ -126,8 +126,8 @@ static bool read_coordinates(reader *r)
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
     if (n > most_coordinates) {
-        nh_deck_fail(r->deck, list, 0, r->error, "there are %zu coordinates, more than the %d that can be worked with", n, most_coordinates);
-        return nh_error_hint(r->error, "matrices of this size are inverted as formulas: leave out what does not move");
+        nh_deck_fail(r->deck, list, 0, r->error, "there are %zu coordinates; at most %d are possible", n, most_coordinates);
+        return nh_error_hint(r->error, "the program inverts matrices of this size symbolically: remove coordinates that do not move");
     }
     s->coordinate = nh_system_take(r, n + (s->chain ? s->chain->screws : 0), sizeof *s->coordinate);
     for (size_t i = 0; i < n; i++) {
@@ -148,7 +148,7 @@ static bool read_coordinates(reader *r)
         s->coordinates = i + 1;
     }
     if (!nh_system_read_joint_coordinates(r)) return false;
-    if (s->coordinates == 0) return nh_deck_fail(r->deck, NULL, 0, r->error, "no joint of this system has a coordinate, and there are no others");
+    if (s->coordinates == 0) return nh_deck_fail(r->deck, NULL, 0, r->error, "no joint of this system has a coordinate, and `coordinates:` declares none");
     for (size_t i = 0; i < s->coordinates; i++) /* after all coordinates: symbols print in the order of declaration */
         s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
     return true;
@@ -263,7 +263,7 @@ static bool read_constraints(reader *r)
         }
         if (!moving && !placed) {
             nh_deck_fail(r->deck, node, 0, r->error, "this constraint contains no coordinate and no velocity");
-            return nh_error_hint(r->error, nh_is_zero(s->dag, f) ? "it is always true: remove it" : "it can never hold: is a name missing?");
+            return nh_error_hint(r->error, nh_is_zero(s->dag, f) ? "this equation always holds: remove it" : "this equation never holds: is a name missing?");
         }
         if (!moving) differentiate_position(s, c);
         s->constraints++;
