@@ -154,11 +154,11 @@ Test(reduce, bad_groups_are_explained)
     refused("systems/kepler.yaml", "x=-y, y=x; y=-z, z=y; z=-x, x=z", NULL, "the action is not free: 3 fields, but an orbit of dimension 2 at x = ");
     refused("systems/sleigh.yaml", "1, 7", NULL, "there is no generator 7");
     refused("systems/sleigh.yaml", "phj=1", NULL, "`phj` is not a coordinate");
-    refused("systems/sleigh.yaml", "x", NULL, "is not a component of a field");
-    refused("systems/sleigh.yaml", "x=y'", NULL, "a velocity occurs");
+    refused("systems/sleigh.yaml", "x", NULL, "is not a component of a vector field");
+    refused("systems/sleigh.yaml", "x=y'", NULL, "contains a velocity");
     refused("systems/sleigh.yaml", "x=1+", NULL, "");
     refused("systems/vertical_disk.yaml", NULL, "1; 4; 2, 3", "the subgroups of the chain are not normal");
-    refused("systems/vertical_disk.yaml", NULL, "1, 2", "names every generator of the group once");
+    refused("systems/vertical_disk.yaml", NULL, "1, 2", "must name every generator of the group once");
 }
 
 /* A smaller group, given: its own stage and momenta. */

@@ -93,7 +93,7 @@ Test(scales, what_is_printed)
     cr_expect_float_eq(strtod(last + 4, NULL) / 1e-12, cos(30), 1e-6, "%s", last);
     finished_clear(&r);
     r = run_expecting(&p, "simulate osc.yaml --initial x=1 --watch x'^2+x^2-1 --accuracy 1e-6 --until 30", 4);
-    cr_expect(strstr(r.err, "larger terms cancel"), "%s", r.err);
+    cr_expect(strstr(r.err, "larger terms that cancel"), "%s", r.err);
     finished_clear(&r);
     place_clear(&p);
 }

@@ -202,7 +202,7 @@ Test(statements, a_constant_current_is_trivial_on_the_submanifold)
         write_here(&p, "four.yaml", text);
         reports r = verify(&p, "four.yaml --field t=1;T=T';x=x';y=y'", 0);
         cr_expect(cJSON_IsTrue(item(r.json, "trivial")), "%s", r.source);
-        cr_expect_not_null(strstr(r.text, "it is trivial: the current is constant"), "%s", r.text);
+        cr_expect_not_null(strstr(r.text, "it is trivial: the current is a constant"), "%s", r.text);
         reports_clear(&r);
     }
     place_clear(&p);

@@ -278,7 +278,7 @@ Test(writing, a_new_file_is_whole_or_not_there)
     f = run(&p, "new mine");
     char *text = read_here(&p, "mine.yaml");
     cr_expect_str_eq(text, "mine");
-    cr_expect_not_null(strstr(f.err, "stays as it is"), "%s", f.err);
+    cr_expect_not_null(strstr(f.err, "it was not changed"), "%s", f.err);
     free(text);
     finished_clear(&f);
     place_clear(&p);
