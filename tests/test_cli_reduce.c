@@ -23,8 +23,8 @@ static finished reduce(const place *p, char **more, size_t count)
 static const refusal refusals[] = {
     /* brackets: which one, and what it is */
     {"sleigh", "--group", "x=1; phi=1, x=-y, y=x", 3, {"these fields do not span a Lie algebra", "[d/dx, d/dphi - y d/dx + x d/dy] = d/dy is not a linear combination of them", "hint: add the bracket"}},
-    {"crane", "--group", "x=1; phi1=1; theta=1, x=-y, y=x", 3, {"[d/dx, -y d/dx + x d/dy + d/dtheta] = d/dy is not a combination"}},
-    {"two_wheel_cart", "--group", "y=1; h=1, x=-y, y=x", 3, {"[d/dy, -y d/dx + x d/dy + d/dh] = -d/dx is not a combination"}},
+    {"crane", "--group", "x=1; phi1=1; theta=1, x=-y, y=x", 3, {"[d/dx, -y d/dx + x d/dy + d/dtheta] = d/dy is not a linear combination"}},
+    {"two_wheel_cart", "--group", "y=1; h=1, x=-y, y=x", 3, {"[d/dy, -y d/dx + x d/dy + d/dh] = -d/dx is not a linear combination"}},
     {"kepler", "--group", "x=-y, y=x; y=-z, z=y", 3, {"these fields do not span a Lie algebra", "is not a linear combination of them"}},
     {"rolling_ball", "--group", "x=1; p=1, x=-y, y=x", 3, {"these fields do not span a Lie algebra", "= d/dy is not a linear combination of them"}},
     /* what is not left alone, and by how much */
@@ -45,7 +45,7 @@ static const refusal refusals[] = {
     {"vertical_disk", "--chain", "1, 2", 2, {"must name every generator of the group once"}},
     /* not a group at all */
     {"sleigh", "--group", "", 2, {"give vector fields or numbers of generators"}},
-    {"crane", "--group", "1, 7", 2, {"there is no generator 7: 6 were found"}},
+    {"crane", "--group", "1, 7", 2, {"there is no generator 7; the group has 6"}},
     {"sleigh", "--group", "phj=1", 2, {"`phj` is not a coordinate", "did you mean `phi`?"}},
     {"sleigh", "--group", "x=y'", 2, {"the component of `x` contains a velocity"}},
     {"kepler", "--group", "x", 2, {"`x` is not a component of a vector field", "hint: write fields as `x=1; ...`"}},
@@ -152,7 +152,7 @@ Test(cli_reduce, accuracy_that_cannot_be_had)
     char *more[] = {"euler_disk", "--accuracy", "1e-10"};
     finished f = reduce(&p, more, 3);
     cr_expect_eq(f.code, 4, "%d", f.code);
-    cr_expect(strstr(f.err, "the accuracy 1.0e-10 was not reached to the end: stage 1 was compared to t = ") && strstr(f.err, "up to which the motion that it is compared with is known"), "%s", f.err);
+    cr_expect(strstr(f.err, "the accuracy 1.0e-10 was not reached to the end: stage 1 was compared to t = ") && strstr(f.err, "the time up to which the full motion is known"), "%s", f.err);
     cr_expect(strstr(f.out, "the full motion is not known to 2.5e-11: GSL rk8pd at tolerance") != NULL, "%s", f.out);
     finished_clear(&f);
     place_clear(&p);
@@ -170,7 +170,7 @@ Test(cli_reduce, starts_where_the_action_is_not_free)
     char *found[] = {"isotropic_oscillator", "--initial", "x=0, y=0, z=0"};
     f = reduce(&p, found, 3);
     cr_expect_eq(f.code, 0);
-    cr_expect(strstr(f.out, "at the initial place the action is not free: 3 fields, but an orbit of dimension 0 at x = 0, y = 0, z = 0"), "%s", f.out);
+    cr_expect(strstr(f.out, "at the initial position, the action is not free: 3 fields, but an orbit of dimension 0 at x = 0, y = 0, z = 0"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);
 }

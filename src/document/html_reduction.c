@@ -183,7 +183,7 @@ static void measure(nh_html_writer *w, const nh_reduction_stage *s)
         nh_html_number(w, m->curl, 2);
         nh_html_add(w, ")");
     }
-    if (s->kind != NH_STAGE_SECOND || s->shown->n <= 2) nh_html_add(w, m->factor ? m->local ? "; a conformal factor makes it Hamiltonian, locally only" : "; a conformal factor makes it Hamiltonian" : "; no conformal factor makes it Hamiltonian");
+    if (s->kind != NH_STAGE_SECOND || s->shown->n <= 2) nh_html_add(w, m->factor ? m->local ? "; a conformal factor makes it Hamiltonian, only locally" : "; a conformal factor makes it Hamiltonian" : "; no conformal factor makes it Hamiltonian");
     if (m->measure && m->closed) {
         nh_html_formula(w, "density", m->density);
         limit(w, s->action->kinetic->model, &m->proof);
@@ -297,7 +297,7 @@ static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
         nh_html_add(w, a ? "; " : "");
         field(w, s->action->kinetic, s->action->generator[a].component);
     }
-    if (s->local) nh_html_add(w, " (this group acts locally only: it is many-valued on an angle)");
+    if (s->local) nh_html_add(w, " (this group acts only locally: it is many-valued on an angle)");
     nh_html_add(w, s->shown->n ? "</p>\n<p>Shape coordinates: " : "</p>\n<p>The shape space is a point.");
     for (size_t i = 0; i < s->shown->n; i++) {
         nh_html_add(w, i ? ", " : "");

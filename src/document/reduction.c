@@ -220,7 +220,7 @@ static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, doub
     if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) return; /* what the momentum adds to the form would have to be closed, too */
     if (m->factor && m->closed && s->shown->n == 2) nh_text_add(out, "  the density is a conformal factor that makes it Hamiltonian, in the time d tau = density dt\n");
     else if (m->factor && m->closed && s->shown->n > 2) nh_text_addf(out, "  density^(1/%zu) is a conformal factor that makes it Hamiltonian\n", s->shown->n - 1);
-    else if (m->factor) nh_text_addf(out, "  a conformal factor makes it Hamiltonian%s\n", m->local ? ", locally only" : "");
+    else if (m->factor) nh_text_addf(out, "  a conformal factor makes it Hamiltonian%s\n", m->local ? ", only locally" : "");
     else nh_text_addf(out, "  no conformal factor makes it Hamiltonian%s\n", m->simple ? "" : " (Ups is not phi-simple)");
 }
 
@@ -277,7 +277,7 @@ static void put_stage(const nh_reduction *r, size_t number, double shown, nh_tex
         nh_text_add(out, a ? "; " : "  group    ");
         nh_generator_text(s->action->kinetic, &s->action->generator[a], out);
     }
-    if (s->local) nh_text_add(out, "\n           acts locally only: many-valued on an angle");
+    if (s->local) nh_text_add(out, "\n           acts only locally: many-valued on an angle");
     nh_text_add(out, "\n  shape    ");
     for (size_t i = 0; i < s->shown->n; i++) nh_text_addf(out, "%s%s", i ? ", " : "", nh_name_of(r->kinetic->dag, s->shown->x[i]));
     if (!s->shown->n) nh_text_add(out, "none: a point");

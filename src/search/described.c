@@ -95,7 +95,7 @@ static bool with_symmetry(nh_analysis *r, const nh_points *points, nh_current *f
 
 /* ---- what it is ---- */
 
-/* Does the current change when an angle goes once around?  Then it is defined locally only.  A series in the angle is compared half a turn before and
+/* Does the current change when an angle goes once around?  Then it is defined only locally.  A series in the angle is compared half a turn before and
  * behind the middle of its interval: shorter than a turn it says nothing. */
 static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, const nh_series *series)
 {
