@@ -1,4 +1,4 @@
-/* budget: how much has been computed, in units that depend on what is computed only, not on the clock, the load, or the number of threads.
+/* budget: counted work of a computation, in units that do not depend on the clock, the load or the number of threads.
  *
  * A search ends when its budget is spent, so that the same question has the same answer on every machine; the deadline of base/progress.h is the
  * emergency brake behind it.  Any thread may add work; whether the budget is spent, or how much of it is left, is asked only where no other thread is

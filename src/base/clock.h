@@ -1,4 +1,4 @@
-/* clock: how long things take. */
+/* clock: elapsed time. */
 #ifndef NH_CLOCK_H
 #define NH_CLOCK_H
 

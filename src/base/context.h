@@ -1,4 +1,4 @@
-/* context: what one computation has for itself: how much work it has counted, when it must end, who wants to know how far it is, and the files that it
+/* context: the state of one computation: counted work, time limit, progress report, and the files that it
  * has read.
  *
  * Every thread works for one context: for that of the process, unless it entered another; the threads that base/parallel.h starts work for the context of

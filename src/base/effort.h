@@ -1,4 +1,4 @@
-/* effort: what this thread has computed along motions, in units that do not depend on the clock, the load or the machine: a clock that counts.
+/* effort: counted work of this thread along motions, in units that do not depend on the clock, the load or the machine.
  *
  * A unit is about a nanosecond, as in base/budget.h: an instruction of a straight-line program that is interpreted costs about two, a step of an
  * integrator some hundred and what it does with its vectors.  Tapes, linear algebra and integrators add what they do; whoever compares ways of computing

@@ -1,4 +1,4 @@
-/* error: why something failed, in words for the person who asked.
+/* error: the reason of a failure, as a message for the user.
  *
  * Every fallible function takes an `nh_error *` last, returns false (or NULL) on failure and fills it once (nhsym.h);
  * the first cause is kept.  The library never prints and never exits. */

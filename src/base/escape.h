@@ -1,4 +1,4 @@
-/* escape: text from files and command lines in the languages that it is written into, so that it stays text there.  (LaTeX's running text is document/tex_parts.c, JSON is json.c.) */
+/* escape: escapes text from files and command lines for the output language.  (LaTeX's running text is document/tex_parts.c, JSON is json.c.) */
 #ifndef NH_ESCAPE_H
 #define NH_ESCAPE_H
 

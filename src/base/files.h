@@ -1,4 +1,4 @@
-/* files: the files of one run are read once.
+/* files: reads each file once per run.
  *
  * What was read stays in memory while this is on, so that all parts of a run see one text, whatever becomes of the file meanwhile, and so that a
  * pipe can be read as often as it is needed. */

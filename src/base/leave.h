@@ -1,4 +1,4 @@
-/* leave: what must not stay behind when the process ends at once: temporary files, folders, child processes. */
+/* leave: removes temporary files, folders and child processes when the process ends early. */
 #ifndef NH_LEAVE_H
 #define NH_LEAVE_H
 

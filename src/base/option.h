@@ -1,4 +1,4 @@
-/* option: every number that decides something, in one table: name, default, range, kind (real or whole), unit, meaning.
+/* option: the table of numerical options: name, default, range, kind (real or whole), unit, meaning.
  *
  * The command line (--option NAME=VALUE), `nhsym explain options` and docs/options.md all print from it. */
 #ifndef NH_OPTION_H

@@ -1,4 +1,4 @@
-/* output: files that are either written whole or left as they were. */
+/* output: files that are either written completely or left unchanged. */
 #ifndef NH_OUTPUT_H
 #define NH_OUTPUT_H
 

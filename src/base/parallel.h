@@ -1,6 +1,6 @@
 /* parallel: independent jobs on a few threads.
  *
- * Which thread does a job is a matter of chance; a job must write to places of its own, so that the result does not depend on it. */
+ * The assignment of jobs to threads varies between runs; each job writes only to its own memory, so the result does not depend on it. */
 #ifndef NH_PARALLEL_H
 #define NH_PARALLEL_H
 

@@ -1,4 +1,4 @@
-/* progress: what a long computation tells its caller, and how it is ended: by a signal, or by the time limit of the run. One per context (base/context.h).
+/* progress: progress reports of a long computation, and its early end by a signal or by the time limit of the run. One per context (base/context.h).
  *
  * Both ends are one thing to whoever computes: nh_interrupted() is true from then on for ever, and the computation returns soon, with what it has.  What it says
  * then is partial: nothing that was computed afterwards is a proof or a refutation.  The limit is an emergency brake.  How much is computed in a run that it does

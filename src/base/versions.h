@@ -1,4 +1,4 @@
-/* versions: what this program runs on, so that a run can be repeated. */
+/* versions: versions of libraries and machine, so that a run can be repeated. */
 #ifndef NH_VERSIONS_H
 #define NH_VERSIONS_H
 

@@ -1,4 +1,4 @@
-/* cli: what the commands share.  Only this folder prints or exits. */
+/* cli: declarations that all commands share.  Only this folder prints or exits. */
 #ifndef NH_CLI_H
 #define NH_CLI_H
 
@@ -72,7 +72,7 @@ void nh_cli_guard_writing(void);
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);
 /* No result came of the work: the exit code.  Where it was ended that is the reason, whatever failed for it, and what is known is written. */
 int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error);
-/* Before the work: a folder that cannot be written is told now, not after minutes. */
+/* Called before the computation: an output folder without write access is reported at once. */
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
 /* A text for a file, which is cleared; a JSON, which is freed, for --json.  The files take their places together, in the last of these: with `good`, or not at all. */
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error);

@@ -1,4 +1,4 @@
-/* cli_table: every command and option in one table each; help, manual page and completions print from them, and the command line is read by them. */
+/* cli_table: one table of commands and one of options, for help, manual page, completions and the parser of the command line. */
 #ifndef NH_CLI_TABLE_H
 #define NH_CLI_TABLE_H
 

@@ -31,7 +31,7 @@ static void put_scene(const nh_simulation *s)
                 1e3 * s->whole_seconds, s->whole_evaluations, s->whole_difference);
 }
 
-/* The table, unless JSON or silence is wanted, and what is told beside it. */
+/* The table, unless the output is JSON or --quiet, and the notes on standard error. */
 static void put_table(const nh_cli *cli, const nh_simulation *s)
 {
     if (cli->json || cli->quiet) return;
@@ -47,7 +47,7 @@ static void put_table(const nh_cli *cli, const nh_simulation *s)
     if (s->ensemble && s->ensemble->alone && !s->checked) fprintf(stderr, "nhsym: %zu of %zu members were computed alone\n", s->ensemble->alone, s->ensemble->members);
 }
 
-/* What did not come to its end, or is not as accurate as was asked for. */
+/* Motions that ended early or missed the requested accuracy. */
 static void complain(const nh_simulation *s, nh_error *error)
 {
     if (s->ensemble && s->ensemble->incomplete) nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete, s->ensemble->note);

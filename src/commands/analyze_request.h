@@ -1,4 +1,4 @@
-/* analyze_request: what an analysis is asked for. */
+/* analyze_request: the question that `analyze` answers. */
 #ifndef NH_ANALYZE_REQUEST_H
 #define NH_ANALYZE_REQUEST_H
 

@@ -1,4 +1,4 @@
-/* choice: from what --accuracy may choose: what is measured for this motion, in the model's velocities and in others that are derived for it. */
+/* choice: the methods and velocities that --accuracy compares for one motion. */
 #ifndef NH_CHOICE_H
 #define NH_CHOICE_H
 

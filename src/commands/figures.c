@@ -193,7 +193,7 @@ void nh_figures_compute(nh_analysis *r, const nh_analyze_request *q, size_t fami
 {
     const nh_analysis_file *a = r->analysis;
     if (!a || !a->figures) return;
-    nh_progress("the figures that are asked for", -1);
+    nh_progress("the figures of the analysis file", -1);
     r->figure = nh_arena_alloc(r->arena, a->figures * sizeof *r->figure);
     for (size_t i = 0; i < a->figures && !nh_interrupted(); i++) {
         nh_figure *f = &r->figure[r->figures++];

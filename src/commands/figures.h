@@ -1,4 +1,4 @@
-/* figures: the curves of the figures that an analysis asks for: paths and quantities along motions, repeated over the values of a parameter, the smallest
+/* figures: the curves of the figures of an analysis file: paths and quantities along motions, repeated over the values of a parameter, the smallest
  * singular value over an unknown, the gap over the number of samples. */
 #ifndef NH_FIGURES_H
 #define NH_FIGURES_H

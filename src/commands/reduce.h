@@ -1,4 +1,4 @@
-/* reduce: the symmetry group of a system, what kind of reduction it allows, the reduction, and the reduced motions against the full one. */
+/* reduce: the symmetry group of a system, its reduction, and the reduced motions compared with the full motion. */
 #ifndef NH_REDUCE_H
 #define NH_REDUCE_H
 
@@ -22,7 +22,7 @@ typedef struct {
     nh_chart_choice chart;
     const char *initial;      /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
     bool project;             /* move velocities that violate the constraints to the nearest that do not */
-    bool weak;                /* symmetries that change L by a total derivative count, too */
+    bool weak;                /* also symmetries that change L by a total derivative */
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     double accuracy;          /* to which reduced and full motions must agree: their methods and tolerances are chosen for it, options.tolerance is a hundredth of it; 0: none is asked for */

@@ -1,6 +1,6 @@
 /* reduce_accurate: the full motion that reduced ones are compared with, where an accuracy is wanted.
  *
- * Its method, equations and tolerance are chosen as everywhere else (accuracy.h).  What counts here is the distance of places
+ * accuracy.h chooses its method, equations and tolerance.  What counts here is the distance of places
  * (reduce_full.c), which is another norm: so the motion is computed once more with a much smaller tolerance, and is accepted where that moves it by less than a quarter of what is wanted.  The
  * finer of the two is the reference. */
 #include <math.h>

@@ -1,4 +1,4 @@
-/* simulate: one motion, with everything that is known along it. */
+/* simulate: one motion with states, energy, currents, multipliers and observables. */
 #ifndef NH_SIMULATE_H
 #define NH_SIMULATE_H
 

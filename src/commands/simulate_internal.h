@@ -1,4 +1,4 @@
-/* simulate_internal: what simulate.c and simulate_many.c share. */
+/* simulate_internal: declarations for simulate.c and simulate_many.c. */
 #ifndef NH_SIMULATE_INTERNAL_H
 #define NH_SIMULATE_INTERNAL_H
 

@@ -1,4 +1,4 @@
-/* verify: is this a first integral, is this a constraint symmetry?
+/* verify: tests whether a function is a first integral, or a field a constraint symmetry.
  *
  * A current is confirmed by proof or by its digits, and shown with the field it comes from; or refuted with a point at which its rate is
  * not zero.  A field Z^0, Z^s is a constraint symmetry when zeta^i from it satisfies (N0), (NX), (NY). */

@@ -1,4 +1,4 @@
-/* What the files of the JSON of a result share. */
+/* analysis_json_internal: declarations for analysis_json*.c. */
 #ifndef NH_ANALYSIS_JSON_INTERNAL_H
 #define NH_ANALYSIS_JSON_INTERNAL_H
 

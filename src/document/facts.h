@@ -1,4 +1,4 @@
-/* facts: what the page and the LaTeX document say alike, each in its own markup. */
+/* facts: sentences that the text, page and LaTeX document share, in the markup of each. */
 #ifndef NH_FACTS_H
 #define NH_FACTS_H
 

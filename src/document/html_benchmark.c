@@ -22,7 +22,7 @@ static void step_or_tolerance(nh_html_writer *w, const nh_run_record *m)
     nh_html_number(w, isnan(m->step) ? m->tolerance : m->step, 3);
 }
 
-/* What a run was told, and what came of it, as cells of its row. */
+/* Settings and results of a run, as cells of its row. */
 static void set_to(nh_html_writer *w, const nh_run_record *m)
 {
     nh_html_tagged(w, "td", m->method);

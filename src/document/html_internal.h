@@ -1,4 +1,4 @@
-/* What the sections of the pages share. */
+/* html_internal: declarations for the sections of the pages. */
 #ifndef NH_HTML_INTERNAL_H
 #define NH_HTML_INTERNAL_H
 

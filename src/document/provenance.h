@@ -1,4 +1,4 @@
-/* provenance: what it takes to repeat a run: command, files, seed, versions, machine. */
+/* provenance: the data to repeat a run: command, files, seed, versions, machine. */
 #ifndef NH_PROVENANCE_H
 #define NH_PROVENANCE_H
 

@@ -1,4 +1,4 @@
-/* reduction: what `nhsym reduce` found, as text and as JSON (docs/formats.md). */
+/* reduction: the result of `nhsym reduce` as text and as JSON (docs/formats.md). */
 #ifndef NH_REPORT_REDUCTION_H
 #define NH_REPORT_REDUCTION_H
 

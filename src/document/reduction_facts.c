@@ -1,4 +1,4 @@
-/* reduction_facts: what text, page, LaTeX and C say alike of a reduction. */
+/* reduction_facts: sentences about a reduction that text, page, LaTeX and C share. */
 #include "document/reduction.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* What the files of the summary share. */
+/* summary_internal: declarations for summary*.c. */
 #ifndef NH_SUMMARY_INTERNAL_H
 #define NH_SUMMARY_INTERNAL_H
 

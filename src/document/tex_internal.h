@@ -1,4 +1,4 @@
-/* What the sections of the LaTeX document share. */
+/* tex_internal: declarations for the sections of the LaTeX document. */
 #ifndef NH_TEX_INTERNAL_H
 #define NH_TEX_INTERNAL_H
 

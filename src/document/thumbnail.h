@@ -1,4 +1,4 @@
-/* thumbnail: a motion as one small picture: tracks, and the system at the end of them. */
+/* thumbnail: a motion as a small picture: paths, and the system at their end. */
 #ifndef NH_THUMBNAIL_H
 #define NH_THUMBNAIL_H
 

@@ -1,4 +1,4 @@
-/* time_series: one motion as reports show it, whether an analysis or a simulation computed it: lines of numbers over common times, and a drawing. */
+/* time_series: one motion of an analysis or a simulation for reports: quantities over common times, and a picture. */
 #ifndef NH_TIME_SERIES_H
 #define NH_TIME_SERIES_H
 

@@ -1,4 +1,4 @@
-/* typeset: formulas for the eye.
+/* typeset: formulas as MathML and LaTeX.
  *
  * From the text of an expression or equation, as a user wrote it or as nh_print wrote it, to MathML [w3.org/TR/mathml-core] or LaTeX: the
  * choices of the text (order of terms, what is factored out) are kept.  x' becomes a dot, Greek names become letters, x_1 and x1 get subscripts. */

@@ -1,4 +1,4 @@
-/* What reading and writing of formulas for the eye share. */
+/* typeset_internal: declarations for reading and writing typeset formulas. */
 #ifndef NH_TYPESET_INTERNAL_H
 #define NH_TYPESET_INTERNAL_H
 

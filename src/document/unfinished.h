@@ -1,4 +1,4 @@
-/* unfinished: what is known of a run that was ended before it had a result: the system as it was read, and what was being done. */
+/* unfinished: the document of a run that ended before it had a result: the system and the step at which the run ended. */
 #ifndef NH_UNFINISHED_H
 #define NH_UNFINISHED_H
 

@@ -1,4 +1,4 @@
-/* wording: what the words of the reports mean, for `nhsym explain` and the pages. */
+/* wording: definitions of the words in reports, for `nhsym explain` and the pages. */
 #ifndef NH_WORDING_H
 #define NH_WORDING_H
 

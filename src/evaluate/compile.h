@@ -2,7 +2,7 @@
  *
  * The compiler is `cc` on the PATH, or the program that NHSYM_CC names (empty: none).  It is started without a shell, reads and writes in a
  * private folder below TMPDIR or /tmp that is removed as soon as the code is loaded, and may fail in any way: then there is no code, a reason
- * in words, and whoever asked goes on without. */
+ * as a message, and the caller continues without compiled code. */
 #ifndef NH_COMPILE_H
 #define NH_COMPILE_H
 

@@ -1,4 +1,4 @@
-/* What the files of the ball module share: Arb's numbers. */
+/* ball_internal: declarations for ball*.c, with Arb's numbers. */
 #ifndef NH_BALL_INTERNAL_H
 #define NH_BALL_INTERNAL_H
 

@@ -1,4 +1,4 @@
-/* What the files of ball_ode share. */
+/* ball_ode_internal: declarations for ball_ode*.c. */
 #ifndef NH_BALL_ODE_INTERNAL_H
 #define NH_BALL_ODE_INTERNAL_H
 

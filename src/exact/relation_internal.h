@@ -1,4 +1,4 @@
-/* relation_internal: expressions in one field, and which of its kernels are coefficients; for relation.c and
+/* relation_internal: expressions in one field, and the kernels that are coefficients; for relation.c and
  * relation_unknown.c. */
 #ifndef NH_RELATION_INTERNAL_H
 #define NH_RELATION_INTERNAL_H

@@ -5,7 +5,7 @@
 
 #include "graph/num_long.h"
 
-/* Exact arithmetic in 128 bit; what does not fit into 64 goes on in GMP. */
+/* Exact arithmetic in 128 bit; larger numbers continue in GMP. */
 typedef __int128 wide;
 
 static wide wide_gcd(wide a, wide b)

@@ -1,4 +1,4 @@
-/* The count compared with what is known, for the parameters' values and for generic ones, and in words. */
+/* The count compared with the known integrals, for the given and for generic parameter values, and as sentences. */
 #include "integrals/completeness.h"
 
 /* The highest degree that is settled by the rows; what is missing at the next. */

@@ -1,4 +1,4 @@
-/* construct: closed forms of integrals that the count says are missing.
+/* construct: closed forms of integrals that the count predicts.
  *
  * The power series of the solutions of Gamma(Phi) = 0 (graded_solver.h) are continued to an order at which they have more coefficients than there are words
  * (closed_words.h).  Which combinations of the solutions have coefficients c_alpha in the span of the words?  The remainder of every c_alpha modulo one echelon

@@ -1,4 +1,4 @@
-/* What is known, beside what there can be: products of known integrals, and differentials of both, as ranks modulo the prime. */
+/* Lower bounds for the count: ranks modulo the prime of products of known integrals and of their differentials. */
 #include <flint/nmod_mat.h>
 #include <string.h>
 

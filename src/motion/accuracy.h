@@ -1,4 +1,4 @@
-/* accuracy: a motion whose error is measured to be below what was asked for, or a plain statement that it is not.
+/* accuracy: a motion with an estimated error below the requested accuracy, or a statement that it was not reached.
  *
  * 1. The method is an explicit pair of order 8; where that needs much work and CVODE BDF much less, as on stiff motions, CVODE BDF.  Where the motion needs so much
  *    by it that a choice can pay, other ways are then measured on a piece of the motion (survey.h), with a part of that work, and the cheapest takes over if it saves

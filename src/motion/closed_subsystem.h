@@ -1,7 +1,7 @@
-/* closed_subsystem: the smallest closed part of a model that what is watched needs.
+/* closed_subsystem: the smallest closed subsystem of a model that determines the observables.
  *
  * The states are z = (q, w), z' = f(t, z) = (rho, a).  The states that feed a watched quantity, directly or through others (network.h), are a
- * closed system: the rest of the model cannot change what is watched.  Conserved currents may determine some of them, which then need no
+ * closed system: the rest of the model cannot influence the observables.  Conserved currents may determine some of them, which then need no
  * equation.  Of the states that are kept, those that no other kept state reads are quadratures: they follow from the others by integration alone,
  * in layers.  What is left is the core.
  *

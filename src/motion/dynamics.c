@@ -158,7 +158,7 @@ static bool jacobian_of(double t, const double *z, double *jacobian, void *conte
     return nh_all_finite(d->size * d->size, jacobian);
 }
 
-/* det(df^a/dv^dependent) with rows of |df/dv| = 1: integrators step over its zeros without a word. */
+/* det(df^a/dv^dependent) with rows of |df/dv| = 1: integrators step over its zeros without notice. */
 static bool pivot_of(double t, const double *z, double *value, void *context)
 {
     nh_dynamics *d = context;

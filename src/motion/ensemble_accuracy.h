@@ -1,4 +1,4 @@
-/* ensemble_accuracy: an ensemble whose errors are measured to be below what was asked for, member by member.
+/* ensemble_accuracy: an ensemble with estimated errors below the requested accuracy, member by member.
  *
  * The first member alone tells by which way one is computed best (accuracy.h), two more what that costs; the first batch is tried for as long as its
  * members would take alone, no longer.  The cheaper of the two is done: on stiff motions, where another method is so much better than the batches' pair of order 8

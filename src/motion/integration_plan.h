@@ -1,4 +1,4 @@
-/* integration_plan: how a motion can be computed, as it was measured on a piece of it: a method, in some equations, and what a run of it cost and gave. */
+/* integration_plan: a method with its equations, and the measured cost and error of a run on a piece of the motion. */
 #ifndef NH_INTEGRATION_PLAN_H
 #define NH_INTEGRATION_PLAN_H
 

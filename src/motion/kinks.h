@@ -1,6 +1,6 @@
 /* kinks: steps that end where the equations of motion have a kink or a jump.
  *
- * Between two walls (exact/walls.h) the right-hand side is smooth, and the error control of an integrator says what it is meant to say.  Across a wall it does not: where
+ * Between two walls (exact/walls.h) the right-hand side is smooth, and the error control of an integrator is reliable.  Across a wall it is not: where
  * the force is constant on both sides steps become so long that they leap over a whole excursion to the other side, and no error is seen.  So each step is looked
  * at from within: the walls' functions are sampled along it, more densely until they are resolved, and the first change of a sign is found.
  *

@@ -1,4 +1,4 @@
-/* validation: do the currents stay constant along a motion, and is the motion right?
+/* validation: are the currents constant along a motion, and is the motion accurate?
  *
  * The equations of motion are integrated at three tolerances: a true current's drift falls with the tolerance, a false one's does not.
  * The same motion in all coordinates with Chetaev multipliers gives a second opinion on the states, and its multipliers

@@ -1,4 +1,4 @@
-/* vanishing: which quantities are zero all along a motion, so that there is no size that their errors could be relative to.
+/* vanishing: quantities that vanish along a whole motion, for which no relative error exists.
  *
  * The largest set C of states is sought that stay what they are at the start whatever the others do: their rates vanish at states of the chart (its
  * probes) in which C has its initial values.  A quantity vanishes along the motion if it does so at all these states.  To vanish is to be no larger than rounding makes

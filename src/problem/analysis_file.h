@@ -1,4 +1,4 @@
-/* analysis_file: a question as text (docs/formats.md): which ansatz, which unknowns, which motion. */
+/* analysis_file: a question as text (docs/formats.md): ansatz, unknowns, motion, figures. */
 #ifndef NH_ANALYSIS_FILE_H
 #define NH_ANALYSIS_FILE_H
 
@@ -7,7 +7,7 @@
 
 typedef enum { NH_ROUTE_BOTH, NH_ROUTE_SYMMETRY, NH_ROUTE_CURRENT } nh_route;
 
-/* A figure that is asked for. */
+/* A figure of the file. */
 typedef enum { NH_FIGURE_PATH, NH_FIGURE_PLOT, NH_FIGURE_SCAN, NH_FIGURE_SAMPLES } nh_figure_kind;
 typedef struct {
     nh_figure_kind kind;

@@ -1,4 +1,4 @@
-/* drawing: what is drawn of a system whose files do not say. */
+/* drawing: the default picture of a system. */
 #ifndef NH_DRAWING_H
 #define NH_DRAWING_H
 

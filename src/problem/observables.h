@@ -1,4 +1,4 @@
-/* observables: what is followed along a motion, for reports: states, energy, currents, multipliers, watched quantities, and the drawing. */
+/* observables: quantities along a motion, for reports: states, energy, currents, multipliers, observables, and the picture. */
 #ifndef NH_OBSERVABLES_H
 #define NH_OBSERVABLES_H
 

@@ -1,4 +1,4 @@
-/* places: where systems and analyses live. */
+/* places: the folders of systems and analyses. */
 #ifndef NH_PLACES_H
 #define NH_PLACES_H
 

@@ -1,4 +1,4 @@
-/* action: a group by its infinitesimal generators, and what kind of reduction it allows.
+/* action: a group by its infinitesimal generators, and the kind of reduction that it allows.
  *
  * With E = (e_a) (m x d) and D = ker omega, at generic points:
  *

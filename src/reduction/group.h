@@ -1,4 +1,4 @@
-/* group: the symmetry group of a system: how large it is, in closed form, what it is called, and by which subgroup to reduce. */
+/* group: the symmetry group of a system: dimension, closed form, name, and the subgroup for the reduction. */
 #ifndef NH_GROUP_H
 #define NH_GROUP_H
 

@@ -1,4 +1,4 @@
-/* jet_conditions: what a 1-jet (xi, B) must satisfy at a place to be that of a symmetry (jets.h), as rows of a linear system.
+/* jet_conditions: the conditions on the 1-jet (xi, B) of a symmetry at one point (jets.h), as rows of a linear system.
  *
  * One column per jet in question; works in the scaled coordinates of transport.h.  The rows are kept apart by what they belong to, so that each kind
  * can be left out. */

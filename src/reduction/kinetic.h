@@ -2,8 +2,8 @@
  *
  *     L = 1/2 K_rs(q) v^r v^s + a_s(q) v^s - V(q),      f^A = omega^A_s(q) v^s + b^A(q)
  *
- * The constraints are taken without poles (sin instead of tan).  What a system has beyond this (explicit time, forces, a Lagrangian that is not
- * quadratic, constraints that are not linear) is told. */
+ * The constraints are taken without poles (sin instead of tan).  Any property beyond this (explicit time, forces, a Lagrangian that is not
+ * quadratic, constraints that are not linear) is recorded. */
 #ifndef NH_KINETIC_H
 #define NH_KINETIC_H
 

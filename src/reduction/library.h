@@ -1,4 +1,4 @@
-/* library: functions that the components of infinitesimal generators are made of.
+/* library: functions for the components of infinitesimal generators.
  *
  * Component i is looked for among the products, over the coordinates that it depends on, of
  *

@@ -1,4 +1,4 @@
-/* momenta: what of the group's momenta is conserved under the constraints [Bloch1996].
+/* momenta: momenta of the group that are conserved under the constraints [Bloch1996].
  *
  * For a section f^a(q) e_a of V that lies in D, and J_a = e_a^s K_sr v^r, along every motion
  *

@@ -1,4 +1,4 @@
-/* quotient: what remains of any equations of motion that a group leaves invariant, whatever the constraints and the Lagrangian are.
+/* quotient: the quotient of equations of motion by a symmetry group, for any constraints and any Lagrangian.
  *
  * In a chart (t, q, w) of the constraint submanifold, v = rho(t, q, w), the semispray is Gamma = d/dt + rho^s d/dq^s + a^k d/dw^k, and the generators, prolonged,
  * are e_a^s d/dq^s + eta_a^k d/dw^k with

@@ -1,6 +1,6 @@
-/* reach: places and velocities moved along the orbits of a group.
+/* reach: positions and velocities moved along the orbits of a group.
  *
- * A slice need not pass through the place that a motion starts from: with h such that h q lies on it the motion is h^-1 that from h q.  On the slice y = 0 the
+ * A slice need not pass through the place that a motion starts from: if h q lies on it, we integrate from h q and map back by h^-1.  On the slice y = 0 the
  * equations are shortest, and often regular where those on a slice through q are not. */
 #ifndef NH_REACH_H
 #define NH_REACH_H

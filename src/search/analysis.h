@@ -1,4 +1,4 @@
-/* analysis: what an analysis found.  Reports are views of it; nothing is computed after it is complete. */
+/* analysis: the result of an analysis.  Documents are views of it; nothing is computed after it is complete. */
 #ifndef NH_ANALYSIS_H
 #define NH_ANALYSIS_H
 

@@ -13,7 +13,7 @@ nh_ex nh_coefficients_assemble(const nh_model *model, nh_candidate *candidate, c
 /* After the proof: where that left the question open the refined digits are the certificate. */
 void nh_coefficients_certify(const nh_options *options, nh_current *found);
 
-/* Proved, or certified to as many digits as are asked for. */
+/* Proved, or certified to the required digits. */
 bool nh_coefficients_certain(const nh_current *found, const nh_options *options);
 
 /* Decided the other way: the refined combination does not cancel, and nothing in it is inexact. */

@@ -1,4 +1,4 @@
-/* constraint_integrals: which currents are functions that the constraints alone hold constant.
+/* constraint_integrals: currents that the constraints alone keep constant.
  *
  * A current Phi(t, q) satisfies X_0(Phi) = 0 for all velocities, hence X_i(Phi) = 0: it belongs to the constraints, whatever the Lagrangian is, and is a
  * hidden holonomic constraint Phi = const.  How many there are is known from the growth vector (geometry/distribution.h); they are looked for

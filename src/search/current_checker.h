@@ -1,4 +1,4 @@
-/* current_checker: what all currents of one analysis are checked with. */
+/* current_checker: the data for checking all currents of one analysis. */
 #ifndef NH_CURRENT_CHECKER_H
 #define NH_CURRENT_CHECKER_H
 

@@ -1,4 +1,4 @@
-/* currents: from null vectors to currents a person can read, each checked in every way this program knows. */
+/* currents: from null vectors to readable currents with all checks. */
 #ifndef NH_CURRENTS_H
 #define NH_CURRENTS_H
 

@@ -1,4 +1,4 @@
-/* defaults: what the program chooses when the user says nothing. */
+/* defaults: the default ansatz, samples and motion. */
 #ifndef NH_DEFAULTS_H
 #define NH_DEFAULTS_H
 

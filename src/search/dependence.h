@@ -1,4 +1,4 @@
-/* dependence: what a dependent current is a function of, where a quadratic relation says it. */
+/* dependence: quadratic relations between a dependent current and the others. */
 #ifndef NH_DEPENDENCE_H
 #define NH_DEPENDENCE_H
 

@@ -1,4 +1,4 @@
-/* described: what is said about a current that was found: its simplest multiple, its symmetry, what it means, and how it reads. */
+/* described: the description of a current: simplest multiple, symmetry, meaning, formula. */
 #ifndef NH_DESCRIBED_H
 #define NH_DESCRIBED_H
 

@@ -1,4 +1,4 @@
-/* missing: what the count says there is beside the currents that were found, constructed.
+/* missing: construction of integrals that the count predicts beyond the currents found.
  *
  * The integrals polynomial in the velocities are counted (integrals/count.h); where more of them may exist than are proved, their power series say of which terms
  * they consist (integrals/construct.h), and a stage with these terms alone looks for them as any other: coefficients over the parameters, proof, field.

@@ -1,4 +1,4 @@
-/* stage_solver: what every stage of the ladder is made of: solve a linear problem, see what in it is new, keep that. */
+/* stage_solver: one stage of the search: solve a linear problem and keep the new currents. */
 #ifndef NH_STAGE_SOLVER_H
 #define NH_STAGE_SOLVER_H
 

@@ -1,4 +1,4 @@
-/* stages: what the ladder tries, in order. */
+/* stages: the stages of the search, in order. */
 #ifndef NH_STAGES_H
 #define NH_STAGES_H
 

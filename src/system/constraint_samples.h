@@ -1,4 +1,4 @@
-/* constraint_samples: points (t, q, q') that satisfy the constraints, and the rank of the constraints over them. */
+/* constraint_samples: points (t, q, q') that satisfy the constraints, and the rank of the constraints at these points. */
 #ifndef NH_CONSTRAINT_SAMPLES_H
 #define NH_CONSTRAINT_SAMPLES_H
 

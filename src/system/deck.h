@@ -1,4 +1,4 @@
-/* deck: YAML text as a tree that remembers where every word stood.
+/* deck: YAML text as a tree with the position of every word.
  *
  * libyaml parses; this module keeps file, line and column of each node, so that readers can point at what they do
  * not understand, and knows the source text, so that a message shows the line with a caret. Aliases, anchors, tags

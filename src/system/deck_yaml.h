@@ -1,4 +1,4 @@
-/* deck_yaml: what libyaml says when it cannot read, in words for people.  Private to deck_read.c. */
+/* deck_yaml: errors of libyaml as messages for users.  Private to deck_read.c. */
 #ifndef NH_DECK_YAML_H
 #define NH_DECK_YAML_H
 

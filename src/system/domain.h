@@ -1,4 +1,4 @@
-/* domain: where the states of a system are sampled: what its file says, and defaults by the kind of coordinate. */
+/* domain: the sampling domain of a system: intervals of its file, and defaults by the kind of coordinate. */
 #ifndef NH_DOMAIN_H
 #define NH_DOMAIN_H
 

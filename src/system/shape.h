@@ -1,4 +1,4 @@
-/* shape: what is to be drawn of a system in motion (docs/formats.md): `draw: [{wheel: [x, y, phi, r]}, ...]`, in a system file or an analysis file. */
+/* shape: the shapes of the picture of a system in motion (docs/formats.md): `draw: [{wheel: [x, y, phi, r]}, ...]`, in a system file or an analysis file. */
 #ifndef NH_SHAPE_H
 #define NH_SHAPE_H
 

@@ -1,4 +1,4 @@
-/* system: what a user wrote, as expressions (docs/formats.md). */
+/* system: the content of a system file as expressions (docs/formats.md). */
 #ifndef NH_SYSTEM_H
 #define NH_SYSTEM_H
 
@@ -58,7 +58,7 @@ typedef struct {
     nh_setting *setting, *option;
 } nh_named_map;
 
-/* A closed form: some coordinates as functions of t and of numbers that the initial state gives.  A claim of the file, which whoever uses it has to check. */
+/* A closed form: some coordinates as functions of t and of numbers that the initial state gives.  A claim of the file; its user must check it. */
 typedef struct {
     const char *name;
     size_t starts, conditions, values;
