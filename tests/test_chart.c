@@ -200,9 +200,9 @@ Test(chart, why_the_energy_preserving_method_is_refused)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         nh_benchmark *c = compare(all[i].path, NULL, 1, 0.05);
         char words[200];
-        snprintf(words, sizeof words, "energy-preserving: it would converge to another motion: %s", all[i].why);
+        snprintf(words, sizeof words, "energy-preserving: it would converge to a different motion: %s", all[i].why);
         bool refused = false;
-        for (size_t k = 0; k < c->refused; k++) refused |= strstr(c->refusal[k], strstr(all[i].why, "forces") ? "it knows no forces without a potential" : words) != NULL;
+        for (size_t k = 0; k < c->refused; k++) refused |= strstr(c->refusal[k], strstr(all[i].why, "forces") ? "it has no terms for forces without a potential" : words) != NULL;
         cr_expect(refused, "%s: %s", all[i].path, all[i].why);
         nh_benchmark_free(c);
     }

@@ -124,14 +124,14 @@ static void check_refusals(const pair *list, size_t count)
 #define QUOTE "put the expression in double quotes"
 #define COMMA "inside { } and [ ] a comma ends the entry: put the expression in double quotes"
 #define ALIGNED "start all entries of a map, and all items of a list, in the same column"
-#define ESCAPE "a backslash in double quotes begins an escape, and this is none"
+#define ESCAPE "a backslash in double quotes begins an escape sequence; this is not one"
 #define BACKSLASH "write \\\\ for a backslash, or use single quotes"
 
 Test(deck, explains_expressions_that_yaml_takes_for_something_else)
 {
     static const pair list[] = {
-        {"a: 'phi' + 1\n", "f.yaml:1:10: there is something behind the end of the value\n  a: 'phi' + 1\n           ^\nhint: " QUOTE ", all of it"},
-        {"a: [x]*2\n", "f.yaml:1:7: there is something behind the end of the value\n  a: [x]*2\n        ^\nhint: " QUOTE ", all of it"},
+        {"a: 'phi' + 1\n", "f.yaml:1:10: unexpected text after the end of the value\n  a: 'phi' + 1\n           ^\nhint: " QUOTE ", all of it"},
+        {"a: [x]*2\n", "f.yaml:1:7: unexpected text after the end of the value\n  a: [x]*2\n        ^\nhint: " QUOTE ", all of it"},
         {"a: *phi + 1\n", "f.yaml:1:4: a value cannot begin with `*` (YAML's aliases are not used here)\n  a: *phi + 1\n     ^\nhint: " QUOTE},
         {"a: *phi*x\n", "f.yaml:1:4: a value cannot begin with `*`\n  a: *phi*x\n     ^\nhint: " QUOTE},
         {"a: &phi 1\n", "f.yaml:1:4: a value cannot begin with `&` (YAML's anchors are not used here)\n  a: &phi 1\n     ^\nhint: " QUOTE},
@@ -146,9 +146,9 @@ Test(deck, explains_expressions_that_yaml_takes_for_something_else)
         {"a: |x| + 1\n", "f.yaml:1:4: a value cannot begin with `|`\n  a: |x| + 1\n     ^\nhint: " QUOTE},
         {"{a: |x|}\n", "f.yaml:1:5: a value cannot begin with `|`\n  {a: |x|}\n      ^\nhint: " QUOTE},
         {"a: ? x\n", "f.yaml:1:4: a value cannot begin with `?`\n  a: ? x\n     ^\nhint: " QUOTE},
-        {"%x: 1\n", "f.yaml:1:1: a line that begins with `%` means something else in YAML\n  %x: 1\n  ^\nhint: " QUOTE},
-        {"a: b: c\n", "f.yaml:1:5: this `:` cannot stand here\n  a: b: c\n      ^\nhint: put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
-        {"a: - x\n", "f.yaml:1:4: a list item `- ` cannot stand here\n  a: - x\n     ^\nhint: begin the list on a line of its own, or put the expression in double quotes"},
+        {"%x: 1\n", "f.yaml:1:1: YAML reads a line that begins with `%` as a directive\n  %x: 1\n  ^\nhint: " QUOTE},
+        {"a: b: c\n", "f.yaml:1:5: this `:` is not allowed here\n  a: b: c\n      ^\nhint: put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
+        {"a: - x\n", "f.yaml:1:4: a list item `- ` is not allowed here\n  a: - x\n     ^\nhint: begin the list on a line of its own, or put the expression in double quotes"},
         {"a: 1\nb:2\n", "f.yaml:2:1: expected `key: value`\n  b:2\n  ^\nhint: write a space after the colon; indent a continued value deeper than its key"},
         {"a: \"x\\q\"\n", "f.yaml:1:6: " ESCAPE "\n  a: \"x\\q\"\n       ^\nhint: " BACKSLASH},
         {"a: \"\\xq\"\n", "f.yaml:1:5: " ESCAPE "\n  a: \"\\xq\"\n      ^\nhint: " BACKSLASH},
@@ -181,22 +181,22 @@ Test(deck, explains_commas_and_brackets)
 Test(deck, explains_indentation_and_keys)
 {
     static const pair list[] = {
-        {"a:\n\t- x\n", "f.yaml:2:1: there is a tab where YAML wants spaces\n   - x\n  ^\nhint: indent with spaces"},
-        {"a: |\n\n\tx\n", "f.yaml:3:1: there is a tab where YAML wants spaces\n   x\n  ^\nhint: indent with spaces"},
-        {"a: 1\n  b: 2\n", "f.yaml:2:4: this `:` cannot stand here\n    b: 2\n     ^\nhint: put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
+        {"a:\n\t- x\n", "f.yaml:2:1: YAML needs spaces here, not a tab\n   - x\n  ^\nhint: indent with spaces"},
+        {"a: |\n\n\tx\n", "f.yaml:3:1: YAML needs spaces here, not a tab\n   x\n  ^\nhint: indent with spaces"},
+        {"a: 1\n  b: 2\n", "f.yaml:2:4: this `:` is not allowed here\n    b: 2\n     ^\nhint: put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
         {"a:\n  - x\n y\n", "f.yaml:3:2: this line does not fit the map that begins in line 1\n   y\n   ^\nhint: " ALIGNED},
         {"-\n  - x\n y\n", "f.yaml:3:2: this line does not fit the list that begins in line 1\n   y\n   ^\nhint: " ALIGNED},
-        {"  a: 1\nb: 2\n", "f.yaml:2:1: this does not go on with what stands above\n  b: 2\n  ^\nhint: keys of one map begin in the same column; put an expression with quotes or brackets in double quotes"},
+        {"  a: 1\nb: 2\n", "f.yaml:2:1: this line does not continue the text above\n  b: 2\n  ^\nhint: keys of one map begin in the same column; put an expression with quotes or brackets in double quotes"},
         {"m: 1\nk: 2\nm: 3\nk: 4\nm: 5\n", "f.yaml:3:1: the key `m` occurs already in line 1\n  m: 3\n  ^\nhint: remove or rename one of them"},
         {"{\"m\": 1, m: 2}\n", "f.yaml:1:10: the key `m` occurs already in line 1\n  {\"m\": 1, m: 2}\n           ^\nhint: remove or rename one of them"},
         {"[x]: 1\n", "f.yaml:1:1: a key must be a word, found a list\n  [x]: 1\n  ^\nhint: " QUOTE},
         {"{x: y}: 1\n", "f.yaml:1:1: a key must be a word, found a map\n  {x: y}: 1\n  ^\nhint: " QUOTE},
         {": 1\n", "f.yaml:1:1: there is no key before the `:`\n  : 1\n  ^\nhint: write `key: value`"},
         {"a: {'': 1}\n", "f.yaml:1:5: there is no key before the `:`\n  a: {'': 1}\n      ^\nhint: write `key: value`"},
-        {"<<: {a: 1}\n", "f.yaml:1:1: merge keys (`<<`) are not used here\n  <<: {a: 1}\n  ^\nhint: write out the entries"},
+        {"<<: {a: 1}\n", "f.yaml:1:1: merge keys (`<<`) are not supported\n  <<: {a: 1}\n  ^\nhint: write out the entries"},
         {"---\na: 1\n---\nb: 2\n", "f.yaml:3:1: a second document begins here\n  ---\n  ^\nhint: one file holds one document: remove this line or split the file"},
         {"%YAML 1.1\n%YAML 1.1\n---\na: 1\n", "f.yaml:2:1: this is not YAML: found duplicate %YAML directive\n  %YAML 1.1\n  ^"},
-        {"%YAML 1.7\n---\na: 1\n", "f.yaml:1:1: this file asks for a version of YAML that is not known here\n  %YAML 1.7\n  ^\nhint: remove this line"},
+        {"%YAML 1.7\n---\na: 1\n", "f.yaml:1:1: unsupported version of YAML\n  %YAML 1.7\n  ^\nhint: remove this line"},
     };
     CHECK_REFUSALS(list);
 }

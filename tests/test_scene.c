@@ -262,7 +262,7 @@ Test(scene, the_end_of_a_chart_that_does_not_matter)
         nh_simulation_free(s);
     }
     nh_simulation *s = simulate_watching("systems/knife_edge.yaml", "p'=1, x'=1", "x", 0);
-    cr_expect_str_eq(s->scene, "all 6 states integrated, in all coordinates: no smaller part reaches the end", "%s", s->scene);
+    cr_expect_str_eq(s->scene, "all 6 states integrated, in all coordinates: no smaller subsystem reaches the end", "%s", s->scene);
     nh_simulation_free(s);
 }
 

@@ -123,6 +123,6 @@ bool nh_reduction_full_accurate(nh_reduction_bench *b)
     b->rtol = fmax(part * r->wanted, least);
     r->full_seconds = r->full.seconds;
     r->full_reached = b->times[b->reached ? b->reached - 1 : 0];
-    if (!r->full.held) nh_reduction_warn(r, "%s; up to t = %.4g it is", r->full.why, r->full_reached);
+    if (!r->full.held) nh_reduction_warn(r, "%s; it is accurate up to t = %.4g", r->full.why, r->full_reached);
     return true;
 }

@@ -135,7 +135,7 @@ nh_reconstruction *nh_reduction_choose(nh_reduction_bench *b, nh_reduction_stage
         }
         if (!left) break;
     }
-    if (isinf(q.effort) && !nh_interrupted()) nh_reduction_late(r, "what slower methods reach in the motion of a stage");
+    if (isinf(q.effort) && !nh_interrupted()) nh_reduction_late(r, "the runs of slower methods for the motion of a stage");
     *how = q.how;
     if (q.best) {
         s->choice = (nh_reduction_choice){.method = q.how.method->name, .tolerance = q.how.tolerance, .step = NAN, .error = q.distance, .evaluations = q.best->evaluations, .effort = q.best->effort, .runs = q.runs};

@@ -118,7 +118,7 @@ void nh_reduction_compare(nh_reduction_bench *b, nh_reduction_stage *s, const nh
     nh_reduction *r = b->r;
     if (nh_reduction_late(r, "the motion of a stage")) return;
     if (!course->atlas && course->reached < 2) {
-        snprintf(s->note, sizeof s->note, "the motion that it is compared with is not known anywhere, so that nothing could be compared");
+        snprintf(s->note, sizeof s->note, "the full motion is not accurate at any time, so no comparison was possible");
         return;
     }
     if (course->atlas) {

@@ -324,7 +324,7 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     bool quotient = !r->kinetic->general;
     if (nh_interrupted()) return true;
     if (g->d == r->kinetic->f && r->stages) return true; /* the first stage divides all of it out */
-    if (nh_reduction_late(r, "the whole group divided out at once")) return true;
+    if (nh_reduction_late(r, "the reduction by the whole group at once")) return true;
     if (!nh_reduction_free_subgroup(r, &r->action[1])) {
         nh_reduction_warn(r, "no subgroup acts freely on the sample points");
         return true;

@@ -1,4 +1,4 @@
-/* reduce_whole: the whole group divided out at once, and the equations by stages. */
+/* reduce_whole: the reduction by the whole group at once, and the equations by stages. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -297,7 +297,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
     if (!s->trajectory->scene && request.smallest) /* it was tried */
-        s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller part reaches the end", s->motion->size, strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
+        s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end", s->motion->size, strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
     if (!s->trajectory->scene) return true;
     s->scene = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_words);
     s->idle = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_idle_words);
@@ -337,7 +337,7 @@ static const char *words_astray(const nh_simulation *s, const nh_state *at)
         nh_tape_free(tape);
         for (size_t i = 0; i < m; i++) slope = hypot(slope, value[1 + i]);
         if (fabs(value[0]) > small * slope * fmax(1, largest_of(m, at->q)))
-            return nh_arena_printf(s->arena, "the initial position does not satisfy %s: it is off by about %.2g, and the motion keeps left side minus right side at %.6g",
+            return nh_arena_printf(s->arena, "the initial position does not satisfy %s: the error is about %.2g; along the motion left side minus right side stays %.6g",
                                    c->text, fabs(value[0]) / slope, value[0]);
     }
     return NULL;

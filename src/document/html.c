@@ -50,7 +50,7 @@ static void answer(nh_html_writer *w)
         nh_html_add(w, nh_facts_nothing(r));
     }
     nh_html_add(w, ".</p>\n");
-    if (r->count && r->verdict == NH_UNDECIDED) nh_html_add(w, "<p>Not every one is certified; the cards say which.</p>\n");
+    if (r->count && r->verdict == NH_UNDECIDED) nh_html_add(w, "<p>Not all of them are certified; each card states its certificate.</p>\n");
     nh_html_add(w, r->partial ? "<p class=\"warning\"><strong>Partial:</strong> " : "<p>");
     nh_html_text(w, nh_facts_search(r));
     nh_html_add(w, "</p>\n");

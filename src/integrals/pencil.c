@@ -56,7 +56,7 @@ static bool check_column(const char *what, size_t j, size_t rows, const double *
 static bool check_input(const work *w, nh_error *error)
 {
     if (w->rows < 2 * w->columns) {
-        nh_fail(error, NH_NUMERIC, "", "%zu equations cannot decide about the frequencies of %zu columns; at least %zu are needed",
+        nh_fail(error, NH_NUMERIC, "", "%zu equations do not determine the frequencies of %zu columns; at least %zu are needed",
                 w->rows, w->columns, 2 * w->columns);
         return nh_error_hint(error, "take more sample points (2.5 per column are usual)");
     }

@@ -7,8 +7,8 @@
  * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that is expected of them).  With d
  *    the difference of two successive runs and p the exponent with which differences fall (0.7 until two differences are known, then measured,
  *    within [0.2, 0.9]) the error of the tighter one is about d (tau2/tau1)^p. It is accepted when that is below eps/2 and d is below 30 eps, of the
- *    first two runs below eps/10 (they may err alike); otherwise the next tolerance follows from the estimate.  Every second run starts beside the start
- *    by a part 1e-15 of each number, so that the differences also show what rounding errors grow to.
+ *    first two runs below eps/10 (they may err alike); otherwise the next tolerance follows from the estimate.  Every second run perturbs the
+ *    initial state by 1e-15, relative, so that the differences also show the growth of rounding errors.
  * 3. Where the method is implicit, or an error is a thousand times the tolerance, another method must agree to eps, at a tolerance tightened
  *    until it does: step halving alone can be deceived where a motion is unstable.
  *

@@ -287,12 +287,12 @@ static const char *why_another_motion(const nh_model *o)
         for (size_t i = 0; i < o->n * o->n; i++) nonlinear |= nh_depends(o->dag, o->R[s * o->n + i / o->n], o->chart->w[i % o->n]);
     }
     nh_free(zero);
-    if (o->system->has_forces) return "it would converge to another motion: it knows no forces without a potential";
-    if (time) return "it would converge to another motion: the constraints depend on time";
-    if (nonlinear) return "it would converge to another motion: the constraints are not linear in the velocities";
-    if (affine) return "it would converge to another motion: the constraints are affine";
-    return nh_depends(o->dag, o->E, o->system->t) ? "it would converge to another motion: time occurs in the energy"
-                                                  : "it would converge to another motion: its equations differ from those of the system at random points";
+    if (o->system->has_forces) return "it would converge to a different motion: it has no terms for forces without a potential";
+    if (time) return "it would converge to a different motion: the constraints depend on time";
+    if (nonlinear) return "it would converge to a different motion: the constraints are not linear in the velocities";
+    if (affine) return "it would converge to a different motion: the constraints are affine";
+    return nh_depends(o->dag, o->E, o->system->t) ? "it would converge to a different motion: time occurs in the energy"
+                                                  : "it would converge to a different motion: its equations differ from those of the system at random points";
 }
 
 const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule)

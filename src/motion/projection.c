@@ -97,7 +97,7 @@ size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *cur
     memset(out, 0, currents * sizeof *out);
     independent_rows(p, start, out);
     for (size_t k = 0; k < currents; k++) {
-        why[k] = !out[k] ? NULL : anywhere[k] ? "its gradient vanishes or depends on those before it at the initial state" : "it depends on the currents before it";
+        why[k] = !out[k] ? NULL : anywhere[k] ? "at the initial state its gradient vanishes or depends on the gradients of the currents before it" : "it depends on the currents before it";
         chosen += !why[k];
     }
     nh_free(start);

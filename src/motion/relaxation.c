@@ -35,9 +35,9 @@ const char *nh_relaxation_refused(nh_programs *s)
         double terms = 0, energy = fabs(e[size]); /* beside the terms of dE/dt, which are large near the end of a chart */
         for (size_t j = 0; j < size; j++) terms += fabs(e[j] * f[j]), energy += fabs(e[j] * z[1 + j]);
         terms += energy * nh_programs_pace(o, f);
-        if (!(fabs(e[size + 1]) <= conserved * terms)) return "the energy is not conserved: to keep it would lead to another motion";
+        if (!(fabs(e[size + 1]) <= conserved * terms)) return "the energy is not conserved: constant energy would give a wrong motion";
     }
-    return o->chart->probes ? NULL : "there is no point at which the energy could be tested";
+    return o->chart->probes ? NULL : "the energy could not be tested at any point";
 }
 
 /* d of a step h from (t, z); false where the equations are not finite. */

@@ -177,9 +177,9 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
         v->multiplier_evaluations = full->motion->evaluations;
         compare(r, b, reduced, full, &sizes);
         if (!full->motion->complete && (double)full->motion->steps >= options.max_steps)
-            snprintf(v->note, sizeof v->note, "the multiplier form, a second opinion, was compared to t = %.4g only: so far it comes in %.0f steps", full->motion->end_time, options.max_steps);
+            snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g, which it reaches in %.0f steps", full->motion->end_time, options.max_steps);
         else if (!full->motion->complete)
-            snprintf(v->note, sizeof v->note, "the multiplier form was compared to t = %.4g only: %.180s", full->motion->end_time, full->motion->note);
+            snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g: %.180s", full->motion->end_time, full->motion->note);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
     }

@@ -200,7 +200,7 @@ static const char *dials(drawing *w)
         nh_ex end[2] = {nh_add(d, at[0], nh_call(d, NH_SIN, q)), nh_neg(d, nh_call(d, NH_COS, q))};
         segment(w, at, end);
     }
-    return w->s->coordinates == 1 ? "the angle as a hand; 0 points down" : "each angle as the hand of a dial of its own, in their order; 0 points down";
+    return w->s->coordinates == 1 ? "the angle as a hand; 0 points down" : "each angle as the hand of a separate dial, in order; 0 points down";
 }
 
 static const char *from_coordinates(drawing *w)

@@ -38,11 +38,11 @@ void nh_observables_add_drawing(nh_observables *t, const nh_analysis_file *a)
     if (a && a->shapes) {
         t->shape = a->shape;
         t->shapes = a->shapes;
-        t->drawing = "as the analysis file asks";
+        t->drawing = "as in the analysis file";
     } else if (s->shapes) {
         t->shape = s->shape;
         t->shapes = s->shapes;
-        t->drawing = "as the system file asks";
+        t->drawing = "as in the system file";
     } else {
         t->drawing = nh_drawing_choose(t->arena, s, &t->shapes, &t->shape);
     }

@@ -20,7 +20,7 @@ typedef struct {
     nh_track *track;
     size_t shapes;
     const nh_shape *shape;  /* what is drawn; its numbers are the tracks of that kind, in order */
-    const char *drawing;    /* whose drawing it is, in words: "as the analysis file asks"; NULL: nothing is drawn */
+    const char *drawing;    /* whose drawing it is, in words: "as in the analysis file"; NULL: nothing is drawn */
 } nh_observables;
 
 /* An empty list that lives in the arena. */

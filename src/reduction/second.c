@@ -301,10 +301,10 @@ bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *
     for (size_t i = 0; i < n; i++) s->magnetic |= !nh_is_zero(f->dag, f->a[i]);
     s->abelian = nh_largest(d * d * d, s->action.algebra.c) == 0;
     if (s->weak <= options->group && s->invariance <= options->group) return true;
-    nh_fail(error, NH_INPUT, "", s->weak > options->group ? "the momentum of the second group is not conserved: forces act along its field (off by %.2g of their size)"
-                                                          : "the gyroscopic or magnetic form is not invariant under the second group (off by %.2g of its size)",
+    nh_fail(error, NH_INPUT, "", s->weak > options->group ? "the momentum of the second group is not conserved: forces act along its field (relative residual %.2g)"
+                                                          : "the gyroscopic or magnetic form is not invariant under the second group (relative residual %.2g)",
             fmax(s->weak, s->invariance));
-    return nh_error_hint(error, "a cyclic coordinate of the reduced metric is not enough");
+    return nh_error_hint(error, "a cyclic coordinate of the reduced metric is not sufficient");
 }
 
 bool nh_second_renew(nh_second *out, const nh_second *s, const double *pivots, nh_error *error)

@@ -79,7 +79,7 @@ static bool read_bodies(reader *r)
     size_t n;
     nh_chain *c = r->system->chain;
     if (!nh_system_list_of(r, r->root, "bodies", &list, &n)) return false;
-    if (n == 0) return nh_deck_fail(r->deck, list, 0, r->error, "there is no body in this list");
+    if (n == 0) return nh_deck_fail(r->deck, list, 0, r->error, "this list contains no body");
     c->body = nh_system_take(r, n, sizeof *c->body);
     for (size_t i = 0; i < n; i++) {
         if (!read_body(r, list->item[i], &c->body[i])) return false;
@@ -197,8 +197,8 @@ static bool sort_joints(reader *r)
         }
         for (size_t i = 0; i < c->joints && next == c->joints; i++) {
             if (done[c->joint[i].child]) continue;
-            nh_deck_fail(r->deck, c->joint[i].node, 0, r->error, "the joints above `%s` run in a circle and never reach the ground", c->body[c->joint[i].child].name);
-            return nh_error_hint(r->error, "some joint must have `parent: ground`");
+            nh_deck_fail(r->deck, c->joint[i].node, 0, r->error, "the joints above `%s` form a cycle and never reach the ground", c->body[c->joint[i].child].name);
+            return nh_error_hint(r->error, "one joint must have `parent: ground`");
         }
         c->order[n] = next;
         done[c->joint[next].child] = true;

@@ -174,7 +174,7 @@ bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t s
     size_t redundant, rank = rank_of(c, &redundant);
     if (rank < c->k) {
         nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
-                     "this constraint says nothing new about the velocities: the %zu constraints have rank %zu", c->k, rank);
+                     "this constraint follows from the others: the %zu constraints have rank %zu", c->k, rank);
         return nh_error_hint(error, s->constraint[redundant].position ? "as an equation between positions it follows from the other constraints or contradicts them; remove it" : "it follows from the other constraints; remove it");
     }
     if (c->k < c->m) return true;

@@ -185,7 +185,7 @@ static bool check_key(builder *b, const nh_deck_node *key)
     if (!key->text[0])
         return refuse(b, key->begin, "there is no key before the `:`", "write `key: value`");
     if (key->plain && strcmp(key->text, "<<") == 0)
-        return refuse(b, key->begin, "merge keys (`<<`) are not used here", "write out the entries");
+        return refuse(b, key->begin, "merge keys (`<<`) are not supported", "write out the entries");
     return true;
 }
 

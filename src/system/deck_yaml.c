@@ -17,24 +17,24 @@ static const rewording table[] = {
     {"cannot start any token", NULL, false, NULL, NH_DECK_QUOTE_HINT},
     {"alphabetic or numeric", NULL, true, NULL, NH_DECK_QUOTE_HINT},
     {"undefined tag handle", NULL, true, NULL, NH_DECK_QUOTE_HINT},
-    {"incompatible YAML document", NULL, false, "this file asks for a version of YAML that is not known here", "remove this line"},
+    {"incompatible YAML document", NULL, false, "unsupported version of YAML", "remove this line"},
     {"", "block scalar", true, NULL, NH_DECK_QUOTE_HINT},
     {"", "a tag", true, NULL, NH_DECK_QUOTE_HINT},
-    {"", "directive", true, "a line that begins with `%` means something else in YAML", NH_DECK_QUOTE_HINT},
+    {"", "directive", true, "YAML reads a line that begins with `%` as a directive", NH_DECK_QUOTE_HINT},
     {"unexpected end of stream", "quoted scalar", true, "this quote is not closed",
      "a value that begins with a quote ends with the same quote; an expression that begins with one goes into double quotes"},
     {"document indicator", "quoted scalar", true, "this quote is not closed", "close it before the line that begins with --- or ..."},
-    {"mapping values are not allowed", NULL, false, "this `:` cannot stand here",
+    {"mapping values are not allowed", NULL, false, "this `:` is not allowed here",
      "put a text that contains `: ` in double quotes; keys of one map begin in the same column"},
     {"find expected ':'", "simple key", true, "expected `key: value`",
      "write a space after the colon; indent a continued value deeper than its key"},
-    {"block sequence entries", NULL, false, "a list item `- ` cannot stand here",
+    {"block sequence entries", NULL, false, "a list item `- ` is not allowed here",
      "begin the list on a line of its own, or put the expression in double quotes"},
     {"mapping keys are not allowed", NULL, false, NULL, NH_DECK_QUOTE_HINT},
     {"node content", NULL, false, "expected a value here", "write the value, or put an expression with commas in double quotes"},
-    {"<document start>", NULL, false, "this does not go on with what stands above",
+    {"<document start>", NULL, false, "this line does not continue the text above",
      "keys of one map begin in the same column; put an expression with quotes or brackets in double quotes"},
-    {"unexpected ':'", NULL, false, "this `:` cannot stand here", NH_DECK_QUOTE_HINT},
+    {"unexpected ':'", NULL, false, "this `:` is not allowed here", NH_DECK_QUOTE_HINT},
 };
 
 /* Only blanks between `from` and the end? */
@@ -80,7 +80,7 @@ static bool explain_misfit(const nh_deck *deck, size_t at, const char *kind, siz
     while (before > 0 && (deck->source[before - 1] == ' ' || deck->source[before - 1] == '\t'))
         before--;
     if (before > 0 && !nh_deck_is_break(deck->source[before - 1])) {
-        nh_deck_fail_at(deck, at, error, "there is something behind the end of the value");
+        nh_deck_fail_at(deck, at, error, "unexpected text after the end of the value");
         return nh_error_hint(error, NH_DECK_QUOTE_HINT ", all of it");
     }
     nh_deck_fail_at(deck, at, error, "this line does not fit the %s that begins in line %zu", kind, line_of(deck, since));
@@ -89,7 +89,7 @@ static bool explain_misfit(const nh_deck *deck, size_t at, const char *kind, siz
 
 static bool explain_tab(const nh_deck *deck, size_t at, nh_error *error)
 {
-    nh_deck_fail_at(deck, at, error, "there is a tab where YAML wants spaces");
+    nh_deck_fail_at(deck, at, error, "YAML needs spaces here, not a tab");
     return nh_error_hint(error, "indent with spaces");
 }
 
@@ -98,7 +98,7 @@ static bool explain_escape(const nh_deck *deck, size_t at, nh_error *error)
 {
     while (at > 0 && deck->source[at] != '\\')
         at--;
-    nh_deck_fail_at(deck, at, error, "a backslash in double quotes begins an escape, and this is none");
+    nh_deck_fail_at(deck, at, error, "a backslash in double quotes begins an escape sequence; this is not one");
     return nh_error_hint(error, "write \\\\ for a backslash, or use single quotes");
 }
 

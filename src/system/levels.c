@@ -230,8 +230,8 @@ bool nh_levels_check(nh_system *s, uint64_t seed, nh_error *error)
         else nh_deck_fail(s->deck, node, 0, error,
             "no positions were found that satisfy this constraint and those before it");
         if (proved) nh_error_hint(error, "check the signs and the parameter values");
-        else nh_error_hint(error, "Newton's method looked for them from %d places, up to %g times the sampling domain around its middle; "
-                                    "if there are some, give a `domain:` near them", starts, farthest);
+        else nh_error_hint(error, "Newton's method was started at %d points, up to %g times the sampling domain around its centre; "
+                                    "if solutions exist, give a `domain:` near them", starts, farthest);
     }
     nh_free(level);
     return good;

@@ -56,11 +56,11 @@ static bool rate_of_definition(const scope *s, const char *name, nh_ex *out, nh_
     *out = nh_diff(y->dag, x->value, y->t);
     for (size_t i = 0; i < y->coordinates; i++) {
         if (!nh_is_zero(y->dag, nh_diff(y->dag, x->value, y->coordinate[i].v)))
-            snprintf(fault->what, sizeof fault->what, "`%s` is the rate of something with velocities: it holds accelerations", name);
+            snprintf(fault->what, sizeof fault->what, "`%s` is the time derivative of a definition with velocities: it contains accelerations", name);
         *out = nh_add(y->dag, *out, nh_mul(y->dag, nh_diff(y->dag, x->value, y->coordinate[i].q), y->coordinate[i].v));
     }
     if (!fault->what[0] && (s->forbid & NH_NO_VELOCITIES)) snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
-    if (fault->what[0]) snprintf(fault->hint, sizeof fault->hint, "the rate of a definition can stand wherever velocities can, when the definition has none itself");
+    if (fault->what[0]) snprintf(fault->hint, sizeof fault->hint, "the time derivative of a definition without velocities is allowed wherever velocities are");
     return !fault->what[0];
 }
 
@@ -82,7 +82,7 @@ static void suggest(const scope *s, const char *name, nh_parse_fault *fault)
     const char *near = nh_text_nearest(name, list, n), *prime = strchr(name, '\'');
     bool meant = near && (!prime || strchr(near, '\'')); /* m' is not a misspelt m */
     if (meant) snprintf(fault->hint, sizeof fault->hint, "did you mean `%s`?", near);
-    else if (prime) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate or the rate of a definition, and `%.*s` is none", (int)(prime - name), name);
+    else if (prime) snprintf(fault->hint, sizeof fault->hint, "a prime marks the velocity of a coordinate or the time derivative of a definition; `%.*s` is neither", (int)(prime - name), name);
     else if (s->extras) snprintf(fault->hint, sizeof fault->hint, "declare it in the system file (parameters, coordinates, definitions), or where this has definitions, unknowns or a start of its own");
     else snprintf(fault->hint, sizeof fault->hint, "declare it under parameters, coordinates or definitions");
     nh_free(list);
