@@ -6,7 +6,7 @@
 #include "search/analysis.h"
 
 typedef struct {
-    const char *command;         /* as it was typed, to be told in reports; may be NULL */
+    const char *command;         /* as it was typed, for reports; may be NULL */
     const char *system_path;     /* a file */
     const char *analysis_path;   /* or NULL: the program chooses */
     size_t settings;             /* --set, after the analysis' own */
@@ -14,7 +14,7 @@ typedef struct {
     nh_chart_choice chart;       /* NH_CHART_AUTO: the analysis' choice */
     nh_options options;
     double accuracy;             /* of the motions; 0: that of options.tolerance, unchecked */
-    bool no_figures;             /* those that the analysis asks for stay uncomputed: nobody will look at them */
+    bool no_figures;             /* skip the figures of the analysis file, which nobody reads */
     bool seed_given, samples_given, tolerance_given, until_given; /* these options outrank the analysis file's values */
 } nh_analyze_request;
 

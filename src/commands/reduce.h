@@ -84,7 +84,7 @@ struct nh_reduction {
     nh_frame_motion *frame;   /* of a quotient; NULL */
     nh_chart_choice chart;
     nh_kinetic *kinetic;
-    nh_kinetic *strict;       /* the true one, where `kinetic` has the potential as a force (weak.h); else NULL */
+    nh_kinetic *strict;       /* the true one, where `kinetic` has the potential as a force (quasi_symmetry.h); else NULL */
     size_t weaker;            /* symmetries that change L by a total derivative, beyond those counted in `all` */
     nh_group *all;            /* the whole symmetry group; NULL where fields were given */
     nh_group *group;          /* the one that is reduced by (may be `all`) */

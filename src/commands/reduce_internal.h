@@ -71,7 +71,7 @@ bool nh_reduction_whole_model(nh_reduction *reduction, nh_error *error);
 bool nh_reduction_quotient(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
 bool nh_reduction_quotient_momenta(nh_reduction *reduction, nh_error *error);
 
-/* Is the time limit passed?  Then what is about to be left out is told. */
+/* Is the time limit passed?  Then a warning names the step that is skipped. */
 bool nh_reduction_late(nh_reduction *reduction, const char *what);
 /* Add a warning to the result. */
 void nh_reduction_warn(nh_reduction *reduction, const char *format, ...) __attribute__((format(printf, 2, 3)));

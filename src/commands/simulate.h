@@ -42,7 +42,7 @@ struct nh_simulation {
     nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
     nh_ensemble *ensemble;     /* instead of motion, value and trajectory; NULL: one motion */
-    bool checked, held;        /* an accuracy was asked for; it was reached */
+    bool checked, held;        /* an accuracy is requested; it was reached */
     const char *why;           /* then: by what, or why not */
     nh_choice ways;            /* with an accuracy: from what it was chosen */
     double deriving;           /* units of effort that the model took */

@@ -29,7 +29,7 @@ struct nh_verification {
     const char *equation;     /* which equation of a field fails: "(N0)", "(NY) for phi'", ... */
 };
 
-/* NULL when the question cannot be asked (bad input). */
+/* NULL for bad input. */
 nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *current, const nh_options *options, nh_error *error);
 /* "Z0=..; phi=..; x=..": components along t and the coordinates, those not named are 0. */
 nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);

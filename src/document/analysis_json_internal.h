@@ -6,7 +6,7 @@
 #include "document/analysis_json.h"
 
 void nh_analysis_json_validation(const nh_analysis *result, nh_json *to); /* the motion, and what stayed constant on it */
-void nh_analysis_json_figures(const nh_analysis *result, nh_json *to);    /* those that were asked for */
+void nh_analysis_json_figures(const nh_analysis *result, nh_json *to);    /* those of the analysis file */
 /* How many values along the motion have no value. */
 size_t nh_analysis_json_holes(const nh_analysis *result);
 void nh_analysis_json_completeness(const nh_analysis *result, nh_json *to); /* how many integrals there are */

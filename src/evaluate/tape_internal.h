@@ -40,7 +40,7 @@ struct nh_tape_work {
     const char *words;     /* why there is no machine; or NULL */
 };
 
-/* One look: has another motion paid for the code, start the compiler, or see whether it is ready (tape_hasten.c). */
+/* One look: has another motion paid for the code, start the compiler, or see whether it is ready (tape_jit.c). */
 void nh_tape_look(const nh_tape *tape, nh_tape_work *work);
 
 /* Units of one instruction, interpreted. */

@@ -104,7 +104,7 @@ bool nh_depends(const nh_dag *dag, nh_ex e, nh_ex symbol);
 size_t nh_symbols_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 /* The function calls that occur in e likewise. */
 size_t nh_functions_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
-/* The products, which powers are, too. */
+/* Products; powers are products as well. */
 size_t nh_products_in(const nh_dag *dag, nh_ex e, nh_ex *out, size_t max);
 /* Number of distinct nodes reachable from e. */
 size_t nh_node_count(const nh_dag *dag, nh_ex e);

@@ -1,9 +1,9 @@
 /* accuracy: a motion with an estimated error below the requested accuracy, or a statement that it was not reached.
  *
  * 1. The method is an explicit pair of order 8; where that needs much work and CVODE BDF much less, as on stiff motions, CVODE BDF.  Where the motion needs so much
- *    by it that a choice can pay, other ways are then measured on a piece of the motion (survey.h), with a part of that work, and the cheapest takes over if it saves
- *    work from there on.  Work is counted (base/effort.h), not timed: the same motion is computed in the same way everywhere.  A caller who knows by which way motions
- *    like this one were computed gives that.
+ *    by it that a choice can pay, other methods are then measured on a piece of the motion (pilot_runs.h), with a part of that work, and the cheapest takes over if it saves
+ *    work from there on.  Work is counted (base/effort.h), not timed: the same motion is computed in the same way everywhere.  A caller may also give the
+ *    methods to choose from.
  * 2. It runs at ever tighter tolerances tau (a method with fixed steps: with ever more steps, tau being the error that is expected of them).  With d
  *    the difference of two successive runs and p the exponent with which differences fall (0.7 until two differences are known, then measured,
  *    within [0.2, 0.9]) the error of the tighter one is about d (tau2/tau1)^p. It is accepted when that is below eps/2 and d is below 30 eps, of the
@@ -20,7 +20,7 @@
 #include "motion/accuracy_measure.h"
 #include "motion/pilot_runs.h"
 
-/* Where the method comes from: the race of two methods; who asked; what was measured for this motion; the race, because the motion is too short to measure
+/* Origin of the method: the race of two methods; the caller; what was measured for this motion; the race, because the motion is too short to measure
  * anything. */
 typedef enum { NH_CHOICE_RACE, NH_CHOICE_GIVEN, NH_CHOICE_SURVEY, NH_CHOICE_SHORT } nh_accuracy_choice;
 

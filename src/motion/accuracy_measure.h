@@ -1,4 +1,4 @@
-/* accuracy_measure: how far two runs of a motion are apart, and how the second is begun beside the first (accuracy.h). */
+/* accuracy_measure: the distance of two runs of a motion, and the perturbed start of the second run (accuracy.h). */
 #ifndef NH_ACCURACY_MEASURE_H
 #define NH_ACCURACY_MEASURE_H
 

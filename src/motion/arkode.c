@@ -97,7 +97,7 @@ static int call_weight(N_Vector state, N_Vector weight, void *user)
     return nh_all_finite(work->problem->size, NV_DATA_S(weight)) ? 0 : -1;
 }
 
-/* SUNDIALS' dense matrices are stored by columns without gaps, as flow.h wants them. */
+/* SUNDIALS' dense matrices are stored by columns without gaps, as motion.h requires. */
 static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector a, N_Vector b, N_Vector c)
 {
     (void)rate, (void)a, (void)b, (void)c;

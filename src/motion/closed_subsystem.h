@@ -1,11 +1,11 @@
 /* closed_subsystem: the smallest closed subsystem of a model that determines the observables.
  *
- * The states are z = (q, w), z' = f(t, z) = (rho, a).  The states that feed a watched quantity, directly or through others (network.h), are a
+ * The states are z = (q, w), z' = f(t, z) = (rho, a).  The states that feed an observable, directly or through others (dependency_graph.h), are a
  * closed system: the rest of the model cannot influence the observables.  Conserved currents may determine some of them, which then need no
- * equation.  Of the states that are kept, those that no other kept state reads are quadratures: they follow from the others by integration alone,
- * in layers.  What is left is the core.
+ * equation.  Kept states that feed no other kept state are quadratures: they follow from the others by integration alone,
+ * in layers.  The remaining states are the core.
  *
- * A scene is constant after creation; its problem brings its own work memory. */
+ * A subsystem is constant after creation; its problem has its own work memory. */
 #ifndef NH_CLOSED_SUBSYSTEM_H
 #define NH_CLOSED_SUBSYSTEM_H
 
@@ -44,7 +44,7 @@ void nh_closed_subsystem_run_free(nh_closed_subsystem_run *run);
 /* As nh_dynamics_jit. */
 void nh_closed_subsystem_run_jit(nh_closed_subsystem_run *run, double patience);
 const char *nh_closed_subsystem_run_words(const nh_closed_subsystem_run *run);
-/* The level whose current does not determine its state: at the start or at the last point that was asked for; -1: none. */
+/* The level whose current does not determine its state, at the start or at the last evaluated point; -1: none. */
 long nh_closed_subsystem_run_failed(const nh_closed_subsystem_run *run);
 /* `whole`: the problem of the whole model, whose guards are watched unless the scene is smooth; it must live as long as the run.  May be NULL. */
 nh_flow_problem nh_closed_subsystem_problem(nh_closed_subsystem_run *run, const nh_flow_problem *whole);

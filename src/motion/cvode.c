@@ -1,4 +1,4 @@
-/* cvode: CVODE's part of flow.h.
+/* cvode: CVODE's part of motion.h.
  *
  * CVODE is driven step by step and the output times are interpolated in each step: so the limit of steps is exact, a
  * cancellation is seen after every step, and the choice of output times does not change the motion. */
@@ -74,7 +74,7 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
     return not_computed(work, "right-hand side", t);
 }
 
-/* SUNDIALS' dense matrices are stored by columns without gaps, as flow.h wants them. */
+/* SUNDIALS' dense matrices are stored by columns without gaps, as motion.h requires. */
 static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2,
                          N_Vector work3)
 {

@@ -1,4 +1,4 @@
-/* cvode: motions of z' = f(t, z) by CVODE, with dense output, events and an honest account of what happened.
+/* cvode: motions of z' = f(t, z) by CVODE, with dense output, events and a report of the reason when a motion ends early.
  *
  * Reference: [Hindmarsh2005]. */
 #ifndef NH_CVODE_H

@@ -1,10 +1,10 @@
-/* dependency_graph: which state of a model feeds which, and what a known current makes superfluous.
+/* dependency_graph: the dependence of a model's states on each other, and the states that a known current determines.
  *
  * State j feeds a function e of the chart when de/dz_j is not identically zero.  A derivative that vanishes at all probes of the chart counts as zero
  * when its normal form is zero, or when balls of 40 digits around its values at the probes contain zero (sums that cancel in M^-1 A).
  *
  * A current Phi = A(z) z_j + B(t, z) that is conserved determines the state z_j = (c - B)/A, c = Phi at the start, wherever A keeps its sign: this
- * state, a velocity for the most part, needs no equation.  What fed others through Phi alone then feeds nothing, and may be dropped. */
+ * state, a velocity for the most part, needs no equation.  States that feed others only through Phi may be dropped. */
 #ifndef NH_DEPENDENCY_GRAPH_H
 #define NH_DEPENDENCY_GRAPH_H
 

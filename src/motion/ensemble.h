@@ -2,8 +2,8 @@
  *
  * Members are integrated in batches that take common steps, by an explicit Runge-Kutta pair of order 8 (Prince and Dormand) whose right-hand
  * side is evaluated for the whole batch at once; the member that needs the smallest step decides it.  The coefficients are read from GSL's
- * own stepper.  A member that cannot go on (a singularity, a chart that ends), or one that holds up its batch, is computed alone afterwards, in all
- * coordinates if need be.  Batches and members alone go to several threads; the results do not depend on how many.  Each result is that of a motion of its
+ * own stepper.  A member that cannot continue (a singularity, the end of a chart) or that slows its batch is computed alone afterwards, in all
+ * coordinates if necessary.  Batches and members alone go to several threads; the results do not depend on how many.  Each result is that of a motion of its
  * own to the tolerance.                                                                                             [Galassi2009] */
 #ifndef NH_ENSEMBLE_H
 #define NH_ENSEMBLE_H

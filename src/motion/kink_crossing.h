@@ -1,4 +1,4 @@
-/* kink_crossing: how a method with many steps behind it comes over a kink (kinks.h): from before the step to behind the wall by a one-step method. */
+/* kink_crossing: how a multistep method crosses a kink (kinks.h): a one-step method computes the motion from before the step to behind the wall. */
 #ifndef NH_KINK_CROSSING_H
 #define NH_KINK_CROSSING_H
 

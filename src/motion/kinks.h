@@ -1,8 +1,8 @@
 /* kinks: steps that end where the equations of motion have a kink or a jump.
  *
  * Between two walls (exact/walls.h) the right-hand side is smooth, and the error control of an integrator is reliable.  Across a wall it is not: where
- * the force is constant on both sides steps become so long that they leap over a whole excursion to the other side, and no error is seen.  So each step is looked
- * at from within: the walls' functions are sampled along it, more densely until they are resolved, and the first change of a sign is found.
+ * the force is constant on both sides steps become so long that they skip a whole excursion to the other side without a visible error.  So the functions
+ * of the walls are sampled inside each step, more densely until they are resolved, and the first change of a sign is found.
  *
  * A step over a wall is taken back. A one-step method goes back to the beginning of the step and approaches the wall by steps of which no stage is behind it; only one as
  * short as the rounding of the time leads across.  A method with many steps behind it leaves that to a one-step method, and starts again behind the wall. */

@@ -1,6 +1,6 @@
-/* motion: motions of z' = f(t, z): problems, options, results, and what every integrator does alike.
+/* motion: motions of z' = f(t, z): problems, options, results, and the common part of all integrators.
  *
- * The right-hand side comes as a callback, so that this module knows nothing of mechanics.  Tolerances: relative rtol and
+ * The right-hand side comes as a callback, so this module does not depend on mechanics.  Tolerances: relative rtol and
  * absolute atol_i, a part of the largest size that the state has had (sizes.h), or rtol * scale_i.  Roots of guard functions are events: a chart's pivot that changes
  * sign stops the integration there (integrators step over chart singularities without any failure flag). */
 #ifndef NH_MOTION_H
@@ -42,7 +42,7 @@ typedef struct {
     /* Called after every step of a one-step method with the new state, which it may change (a projection); false: it could not. */
     bool (*after)(double t, double *z, void *context);
     void *after_context;
-    bool guarded;            /* guards end the motions of one-step methods, too (guards.h); those of CVODE they always do */
+    bool guarded;            /* guards end the motions of one-step methods, too (safeguards.h); those of CVODE they always do */
 } nh_flow_options;
 
 typedef struct {

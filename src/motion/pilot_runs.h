@@ -1,7 +1,7 @@
 /* pilot_runs: a small benchmark on a piece of one motion, before the rest of it is computed.
  *
- * The piece begins where the caller says, and is so long that the best way known so far takes a small part of the budget for it, all in counted work (base/effort.h).  A run of that way at a
- * tolerance a hundred times tighter is the reference.  Every other way runs a few times, at the tolerance (or step) at which its error is expected to
+ * The caller gives the begin of the piece; its length is such that the best method so far needs a small part of the budget, in counted work (base/effort.h).  A run of that method at a
+ * tolerance a hundred times tighter is the reference.  Every other method runs a few times, at the tolerance (or step) at which its error is expected to
  * be eps at the end of the whole motion, and no longer than a few times the best so far: slow methods are stopped early.  Errors are taken to grow in proportion to
  * time, as those of regular motions do; they only rank methods; accuracy.h checks the chosen one. */
 #ifndef NH_PILOT_RUNS_H

@@ -1,9 +1,9 @@
-/* projection: bring a state back to where the currents have their initial values, by the smallest change [HairerLubichWanner2006].
+/* projection: the smallest change of a state that restores the initial values of the currents [HairerLubichWanner2006].
  *
  *     z1 = z + D J^T l,   Phi(z1) = Phi(z0),     J = d Phi / dz,  D = diag(s_i^2), s_i: the size of state i at the start (motion/sizes.h)
  *
  * by at most three Gauss-Newton steps of least norm; rows that depend on others on the way are left out by a rank decision, so that
- * dependent currents do no harm. */
+ * dependent currents are harmless. */
 #ifndef NH_PROJECTION_H
 #define NH_PROJECTION_H
 

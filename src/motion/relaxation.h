@@ -2,7 +2,7 @@
  *
  *     k_i = f(t + c_i h, z + h a_ij k_j),    d = b_i k_i,    z1 = z + g h d,    t1 = t + g h,    g near 1 with E(z1) = E(z at the start)
  *
- * With g h instead of h as the time that has passed the order of the method stays what it was.  The last step before an output is repeated
+ * With g h instead of h as the elapsed time the order of the method is unchanged.  The last step before an output is repeated
  * with another h until g h meets the time.  Where no g within a tenth of 1 keeps the energy, the step is halved, at most three times. */
 #ifndef NH_RELAXATION_H
 #define NH_RELAXATION_H

@@ -22,7 +22,7 @@ typedef struct {
 typedef struct {
     nh_arena *arena;
     const char *method, *multiplier_method, *chart;
-    bool checked;              /* an accuracy was asked for */
+    bool checked;              /* an accuracy is requested */
     nh_accuracy accuracy;
     double tolerance[NH_DRIFT_RUNS], begin, end;
     size_t currents;

@@ -1,4 +1,4 @@
-/* analysis_file_internal: shared by analysis.c and analysis_ansatz.c. */
+/* analysis_file_internal: shared by analysis_file*.c. */
 #ifndef NH_ANALYSIS_FILE_INTERNAL_H
 #define NH_ANALYSIS_FILE_INTERNAL_H
 

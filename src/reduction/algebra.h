@@ -2,7 +2,7 @@
  *
  *     [e_a, e_b] = C_ab^k e_k,     C_ab^k = c[(a*d + b)*d + k]
  *
- * The constants may be given in any basis.  Subspaces are orthonormal columns, d x dimension.  `small`: what counts as zero, relative to the
+ * The constants may be given in any basis.  Subspaces are orthonormal columns, d x dimension.  `small`: the threshold for zero, relative to the
  * largest constant. */
 #ifndef NH_ALGEBRA_H
 #define NH_ALGEBRA_H

@@ -1,7 +1,7 @@
 /* atlas: the charts in which one reduced motion is computed, one after the other.
  *
  * The equations of a stage hold where the slice is transversal to the orbits and the constraints can be solved for the velocities that are not among w.  Where
- * one of the two is lost the motion goes on: on another slice through the place that was reached, or with other components of (x', zeta) as w.  For a
+ * one of the two fails the motion continues on another slice through the current position, or with other components of (x', zeta) as w.  For a
  * Chaplygin group the equations with multipliers eliminated by the connection are used as long as there is a connection; near a place where the orbits
  * are tangent to D the same reduced motion has quasi-velocities, by the equations of any group (reduced.h).  Neither changes the group that is divided out.
  * The slice may lie nearer to a singularity of the coordinates than the motion itself does: then it is moved along the orbits.  Of a second stage only the slice can be changed: where the first stage has no connection it ends. */

@@ -11,7 +11,7 @@
  *
  * Each condition is linear in the coefficients of a (or c): its null space over random states, and the same relation with the parameters as symbols, whose
  * coefficients are expressions of these.  The last two are exact where their conditions are;
- * the fields are for the caller to prove (they leave K alone; the potential and the constraints are another matter). */
+ * the caller proves the fields (they leave K invariant, but perhaps not the potential and the constraints). */
 #ifndef NH_REDUCTION_CHAIN_H
 #define NH_REDUCTION_CHAIN_H
 

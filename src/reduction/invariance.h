@@ -1,4 +1,4 @@
-/* invariance: does a field on configuration space leave the metric, the potential and the constraints alone?
+/* invariance: does a field on configuration space leave the metric, the potential and the constraints invariant?
  *
  *     (L_xi K)_rs = xi^l d_l K_rs + K_ls d_r xi^l + K_rl d_s xi^l = 0,        xi(V) = 0,
  *     xi^s d_s f^A + v^r (d_r xi^s) df^A/dv^s = 0   where f = 0               (the field, prolonged to velocities, is tangent to f = 0)

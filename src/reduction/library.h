@@ -1,6 +1,6 @@
 /* library: functions for the components of infinitesimal generators.
  *
- * Component i is looked for among the products, over the coordinates that it depends on, of
+ * Component i is sought among the products, over the coordinates that it depends on, of
  *
  *     level 1    1;  sin q, cos q for angles and where the system has such functions of q, else q
  *     level 2    also 1/sin q, cot q, 1/cos q, tan q (generators of rotations in Euler's angles), else q^2

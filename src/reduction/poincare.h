@@ -8,7 +8,7 @@
  *
  *     mu'(chi) = mu([v - A x', chi]),      pi_i' = dl/dx^i + mu_a B^a_ij x'^j + mu([A_i, v])
  *
- * By stages, in parts of a chain of ideals (bystages.h), beta = parts of mu:
+ * By stages, in parts of a chain of ideals (ideal_chain.h), beta = parts of mu:
  *
  *     sum_j beta_j'(chi_j)  = sum_i <beta_i, [parts(v - A x'), parts(chi)]_i>           one equation per chi, all blocks summed
  *     dl/dx^i - pi_i'       = sum_k <beta_k, parts(B_ji x'^j)_k - [parts(A_i), parts(v)]_k>

@@ -8,7 +8,7 @@
 
 enum { NH_MOST_FACTORS = 10 };
 
-/* The ladder's state. */
+/* The state of the search. */
 typedef struct {
     nh_analysis *r;
     nh_current_checker *bench;
@@ -20,7 +20,7 @@ typedef struct {
     bool wide;                   /* the stage at hand has few columns for what it looks for: it may have as many as any ansatz */
 } nh_stage_solver;
 
-/* Points for the ranges of columns, and a workbench; no words yet. */
+/* Points for the ranges of columns, and a current checker; no stages yet. */
 bool nh_stage_solver_begin(nh_stage_solver *climb, nh_analysis *result, nh_error *error);
 void nh_stage_solver_end(nh_stage_solver *climb);
 

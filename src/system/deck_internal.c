@@ -1,4 +1,4 @@
-/* deck_internal: see deck_source.h. */
+/* deck_internal: see deck_internal.h. */
 #include "system/deck_internal.h"
 
 #include <stdarg.h>

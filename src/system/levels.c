@@ -188,7 +188,7 @@ static void clear(search *x)
     nh_free(x->step);
 }
 
-/* Does some start lead to a point?  True, too, where hardly any can be evaluated: then nothing is known. */
+/* Does some start lead to a point?  Also true where hardly any point can be evaluated: then nothing is known. */
 static bool has_point(nh_system *s, size_t k, const nh_ex *level, uint64_t seed)
 {
     search x = {.system = s, .k = k, .m = s->coordinates, .width = 1 + s->coordinates};
