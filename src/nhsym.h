@@ -10,9 +10,9 @@
  *         nh_string_free(formula);
  *     }
  *
- * A fallible function takes an nh_error last, returns NULL or false when it fails, and says why; nothing prints or ends the process.  A result belongs to
- * whoever asked for it, is complete when it is returned, and lives on without its problem and context.  Threads with a context each do not disturb one another; what is
- * made with one context is used by one thread at a time.  Angles are in radians, other quantities in the units of the system file. */
+ * A fallible function takes an nh_error last, returns NULL or false on failure and fills the error; no function prints or ends the process.  The caller
+ * owns a result.  A result is complete when it is returned and remains valid without its problem and context.  Threads with separate contexts are independent; objects
+ * of one context may be used by one thread at a time.  Angles are in radians, other quantities in the units of the system file. */
 #ifndef NHSYM_H
 #define NHSYM_H
 
@@ -33,11 +33,11 @@ extern "C" {
 /* The values are the exit codes of the command line. */
 typedef enum {
     NH_OK = 0,
-    NH_REFUTED = 1,  /* the question was answered "no" */
-    NH_USAGE = 2,    /* the question is not one: an option, a name */
-    NH_INPUT = 3,    /* a file is wrong */
+    NH_REFUTED = 1,  /* the answer to the question is "no" */
+    NH_USAGE = 2,    /* an invalid question: an option, a name */
+    NH_INPUT = 3,    /* an error in a file */
     NH_NUMERIC = 4,  /* a numerical failure; the message gives the reason */
-    NH_LIMIT = 5,    /* time, memory or iterations ran out */
+    NH_LIMIT = 5,    /* a limit of time, memory or iterations */
     NH_INTERRUPTED = 130
 } nh_code;
 
@@ -55,15 +55,15 @@ NH_API void nh_error_format(const nh_error *error, char *out, size_t size);
 
 NH_API const char *nh_version_text(void); /* "0.1.0" */
 
-/* ---- a context: what one thread works in ---- */
+/* ---- a context: the state of one thread's computations ---- */
 
 typedef struct nh_context nh_context;
 
 NH_API nh_context *nh_context_create(void);
 NH_API void nh_context_free(nh_context *context);
-/* What is being done, and which part of it, in [0, 1], is done; below 0: not known.  Called from the thread that computes; NULL: never. */
+/* The current step and its completed part in [0, 1]; below 0: unknown.  The computing thread calls `tell`; NULL: no calls. */
 NH_API void nh_context_on_progress(nh_context *context, void (*tell)(void *data, const char *doing, double part), void *data);
-/* The computation returns soon, with what it has; from any thread or signal handler.  Later computations in this context begin anew. */
+/* The computation returns soon with partial results.  May be called from any thread or signal handler.  Later computations in this context are not affected. */
 NH_API void nh_context_interrupt(nh_context *context);
 
 /* ---- a question about a system ---- */
@@ -71,17 +71,17 @@ NH_API void nh_context_interrupt(nh_context *context);
 /* Members that are NULL, 0 or false are not given. */
 typedef struct {
     const char *system;        /* a name ("sleigh") or the path of a system file, */
-    const char *system_text;   /* or the text of one; then `system` is what messages call it */
-    const char *analysis;      /* likewise an analysis file; NULL: that of the system's name, where there is one */
+    const char *system_text;   /* or the text of one; `system` is then its name in messages */
+    const char *analysis;      /* likewise an analysis file; NULL: the one with the name of the system, if it exists */
     const char *analysis_text;
-    bool        no_analysis;   /* take none */
+    bool        no_analysis;   /* use no analysis file */
     const char *set;           /* parameters: "m=2, k=1/3" */
     const char *velocities;    /* "auto", "quasi" or "coordinates" */
     const char *initial;       /* "phi=0, omega=2" */
     double      until;         /* the end of motions; 0: that of the files, or 10 */
     double      step;          /* between outputs of a simulation; 0: a hundredth of the time */
-    double      accuracy;      /* the largest error of motions that is allowed; 0: the option `tolerance`, unchecked */
-    const char *watch;         /* a simulation of these alone: "y, T = m/2*v^2" */
+    double      accuracy;      /* the largest allowed error of motions; 0: the option `tolerance`, errors not estimated */
+    const char *watch;         /* observables of a simulation: "y, T = m/2*v^2" */
     const char *options;       /* of docs/options.md: "seed=3, samples=500" */
 } nh_question;
 
@@ -100,7 +100,7 @@ NH_API const char *nh_problem_parameter(const nh_problem *problem, size_t index,
 
 typedef struct nh_analysis     nh_analysis;     /* currents and symmetries */
 typedef struct nh_simulation   nh_simulation;   /* one motion */
-typedef struct nh_reduction    nh_reduction;    /* the symmetry group and the equations divided by it */
+typedef struct nh_reduction    nh_reduction;    /* the symmetry group and the reduced equations */
 typedef struct nh_verification nh_verification; /* of one current or field */
 
 NH_API nh_analysis     *nh_analyze(nh_problem *problem, nh_error *error);
@@ -114,8 +114,8 @@ NH_API void nh_simulation_free(nh_simulation *simulation);
 NH_API void nh_reduction_free(nh_reduction *reduction);
 NH_API void nh_verification_free(nh_verification *verification);
 
-/* As the command line writes them.  LaTeX: of an analysis a document, of a reduction its equations; simulations and verifications have none (NULL, NH_USAGE).  The text
- * of a simulation is its table.  To be given to nh_string_free. */
+/* The documents of the command line.  LaTeX: an analysis gives a document, a reduction its equations; simulations and verifications have none (NULL, NH_USAGE).  The text
+ * of a simulation is its table.  Free the string by nh_string_free. */
 typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX } nh_format;
 
 NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);
@@ -130,15 +130,15 @@ NH_API const char *nh_analysis_verdict(const nh_analysis *analysis); /* "FOUND",
 NH_API const char *nh_analysis_search(const nh_analysis *analysis);  /* "complete", "exhausted" or "cut" */
 NH_API size_t nh_analysis_currents(const nh_analysis *analysis);
 NH_API size_t nh_analysis_independent(const nh_analysis *analysis);  /* functionally independent ones among them */
-NH_API size_t nh_analysis_most(const nh_analysis *analysis);         /* locally there are as many: 2m - k, with t one more */
+NH_API size_t nh_analysis_most(const nh_analysis *analysis);         /* the number that exists locally: 2m - k, with t one more */
 
 typedef struct {
     const char *name;    /* "Phi1" */
     const char *meaning; /* "energy", "minus the momentum of x", or "" */
-    bool   proved;       /* exactly, for the given parameters at least */
+    bool   proved;       /* exactly, at least for the given parameters */
     bool   for_all;      /* proved for all parameter values */
     bool   independent;  /* of those before it */
-    double digits;       /* to which its rate was seen to vanish in ball arithmetic */
+    double digits;       /* to which its rate vanishes in ball arithmetic */
     double drift;        /* along the test motion, relative; NAN: none was computed */
 } nh_current_facts;
 
@@ -146,9 +146,9 @@ NH_API nh_current_facts nh_current_describe(const nh_analysis *analysis, size_t 
 
 typedef enum { NH_SYNTAX_PLAIN, NH_SYNTAX_LATEX, NH_SYNTAX_MATHML } nh_syntax;
 
-/* In t, coordinates, velocities and parameters, in the velocities of the system file.  NULL: too long to be written.  To be given to nh_string_free. */
+/* A formula in t, coordinates, parameters and the velocities of the system file.  NULL: too long to be written.  Free the string by nh_string_free. */
 NH_API char *nh_current_formula(const nh_analysis *analysis, size_t index, nh_syntax syntax);
-/* At a time, positions and velocities (one of each per coordinate, in their order).  NAN where it is not defined. */
+/* The value at a time, positions and velocities (one of each per coordinate, in their order); NAN where it is not defined. */
 NH_API double nh_current_value(const nh_analysis *analysis, size_t index, double t, const double *q, const double *v);
 
 /* ---- a simulation: a table with time in column 0 ---- */
