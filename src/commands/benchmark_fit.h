@@ -1,6 +1,6 @@
 /* benchmark_fit: the functions in the polynomials of the discrete problem. */
-#ifndef NH_STUDY_CHART_FIT_H
-#define NH_STUDY_CHART_FIT_H
+#ifndef NH_BENCHMARK_FIT_H
+#define NH_BENCHMARK_FIT_H
 
 #include "geometry/model.h"
 

@@ -11,8 +11,8 @@
  *
  * Maps: the time, ten to a thousand times longer, also by methods with a fixed step; the size below which errors count as absolute, wrong by powers of ten, which is
  * what badly scaled units do; every parameter, made small and large (masses and lengths that vanish, stiffness); every angle of the initial state, turned once
- * around, in the chart of coordinate velocities; those that the system file names (`stress`); and the discrete problem where it is hardly determined
- * (robustness_fit.c).  A motion that needs more than options.stress_steps is out of time: a count, so that a map is the same on a busy machine. */
+ * around, in the chart of coordinate velocities; those that the system file names (`robustness`); and the discrete problem where it is hardly determined
+ * (robustness_fit.c).  A motion that needs more than options.robustness_steps is out of time: a count, so that a map is the same on a busy machine. */
 #ifndef NH_ROBUSTNESS_H
 #define NH_ROBUSTNESS_H
 

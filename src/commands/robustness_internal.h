@@ -1,6 +1,6 @@
 /* robustness_internal: one value of a map, for the maps of robustness.c and those that a user names (robustness_axes.c). */
-#ifndef NH_STUDY_STRESS_INTERNAL_H
-#define NH_STUDY_STRESS_INTERNAL_H
+#ifndef NH_ROBUSTNESS_INTERNAL_H
+#define NH_ROBUSTNESS_INTERNAL_H
 
 #include "commands/benchmark_internal.h"
 #include "commands/robustness.h"

@@ -222,7 +222,7 @@ static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
 /* ---- the scene ---- */
 
 /* Does the smallest model give the same values of the observables? */
-static void smallest_model(run *r, const nh_state *initial, const nh_ex *watched)
+static void smallest_model(run *r, const nh_state *initial, const nh_motion *motion, const nh_ex *watched)
 {
     nh_validation *v = r->out;
     size_t n = 0, *column = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *column);

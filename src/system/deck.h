@@ -37,8 +37,11 @@ void nh_deck_free(nh_deck *deck);
 
 /* Merge in the file that the root's key `include` names, relative to the folder of this one, and those that it includes: the root is then a map
  * without that key.  Maps are united and lists appended to those of the included file; on conflicts, also of list entries {name: ...} of one name,
- * this file takes precedence.  Messages about a node name the file in which it stands. */
-bool nh_deck_include(nh_deck *deck, nh_error *error);
+ * this file takes precedence.  Messages about a node name the file in which it stands.  Before a file is merged, `prepare` (or NULL) may rename its old keys. */
+typedef bool nh_deck_prepare(nh_deck *deck, nh_error *error);
+bool nh_deck_include(nh_deck *deck, nh_deck_prepare *prepare, nh_error *error);
+/* In a map (anything else stays as it is), the key `old` is read as `key`, which is its name now.  Both at once are refused. */
+bool nh_deck_rename(nh_deck *deck, const nh_deck_node *map, const char *old, const char *key, nh_error *error);
 /* A map {x: 1, y: {unit: m}} as the list [{name: x, value: 1}, {name: y, unit: m}] that it is short for; any other node as it is. */
 const nh_deck_node *nh_deck_named(nh_deck *deck, const nh_deck_node *node);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);

@@ -243,7 +243,7 @@ static bool velocities_independent(const nh_chart *c, nh_error *error)
     size_t rank = rank_of_map(c);
     if (rank == c->n) return true;
     const nh_deck *deck = c->system->deck;
-    nh_deck_fail(deck, nh_deck_get(nh_deck_root(deck), "chart"), 0, error, "the chart's map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank, c->n);
+    nh_deck_fail(deck, nh_deck_get(nh_deck_root(deck), "velocities"), 0, error, "the velocities' map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank, c->n);
     return nh_error_hint(error, "the quasi-velocities must be independent: each must add a direction of motion");
 }
 
