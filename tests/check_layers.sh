@@ -53,6 +53,8 @@ fi
 
 # ---- a name begins with its module's name, or with a word that docs/glossary.md has for its folder ----
 for object in "$build"/src/*/*.o; do
+    source=${object#"$build/"}
+    [ -f "${source%.o}.c" ] || continue # left behind by a module that is no more
     module=${object#"$build"/src/}
     nm -g --defined-only "$object" 2>/dev/null | awk -v module="${module%.o}" 'NF == 3 && $3 ~ /^nh_/ { print module, substr($3, 4) }'
 done | awk '

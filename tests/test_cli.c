@@ -106,7 +106,7 @@ Test(cli, old_names_are_still_understood)
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) check_old(&p, list[i].old, list[i].now);
     check(&p, "charrt sleigh", 2, "", "nhsym: there is no command `charrt`\nhint: did you mean `nhsym benchmark`?\n");
     check(&p, "help charrt", 2, "", "nhsym: there is no command `charrt`\nhint: did you mean `nhsym help benchmark`?\n");
-    check(&p, "benchmark sleigh --stres", 2, "", "nhsym: there is no option `--stres`\nhint: names are written in full: `--robustness`\n");
+    check(&p, "benchmark sleigh --stres", 2, "", "nhsym: there is no option `--stres`\nhint: write the full name: `--robustness`\n");
     check(&p, "benchmark sleigh --charts auto", 2, "", "nhsym: there is no option `--charts`\nhint: did you mean `--velocities`?\n");
     place_clear(&p);
 }

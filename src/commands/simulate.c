@@ -214,7 +214,7 @@ static double difference_from(const nh_simulation *s, const nh_trajectory_reques
 {
     nh_dynamics *d = nh_dynamics_create(s->model);
     double worst = 0, *size = nh_alloc_array(q->n + 1, sizeof *size);
-    bool known = nh_sizes_along(d, t->motion, q->n, q->e, size);
+    bool known = nh_trajectory_sizes(d, t->motion, q->n, q->e, size);
     for (size_t k = 0; known && k < q->n * t->motion->count; k++) {
         double off = fabs(s->value[k] - t->value[k]);
         if (off > 0 && isfinite(off)) worst = fmax(worst, off / size[k % q->n]);

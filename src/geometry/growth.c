@@ -319,7 +319,7 @@ static void shift_down(size_t length, size_t *rank, size_t shift)
 nh_growth nh_growth_of(const nh_model *o, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field, size_t shift)
 {
     space x = {.o = o, .d = o->dag, .N = N, .symbol = symbol, .proved = true, .end = nh_dag_size(o->dag) + most_nodes, .unit = nh_alloc_array(N + 1, sizeof(double))};
-    for (size_t s = 0; s < N; s++) x.unit[s] = nh_symbol_unit(o->system, symbol[s]);
+    for (size_t s = 0; s < N; s++) x.unit[s] = nh_chart_symbol_unit(o->system, symbol[s]);
     nh_growth g = {.dimension = N - shift};
     generic_ranks(&x, count, field, &g);
     look_for_drops(&x, count, field, &g);

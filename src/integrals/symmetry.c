@@ -297,7 +297,7 @@ static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const n
     memcpy(e + 4 * width + o->k, o->nu, o->k * o->m * sizeof *e);
     double *value = nh_alloc_array(total * count, sizeof *value), *at = nh_alloc_array(total + 3 * width, sizeof *at), *unit = at + total + 2 * width;
     nh_points_evaluate(points, o, total, e, value);
-    for (size_t j = 0; j < width; j++) unit[j] = nh_symbol_unit(o->system, o->chart->symbol[j]);
+    for (size_t j = 0; j < width; j++) unit[j] = nh_chart_symbol_unit(o->system, o->chart->symbol[j]);
     local l = {.width = width, .forms = o->k, .gamma = at, .z = at + width, .first = at + 2 * width, .second = at + 3 * width, .form = at + 4 * width, .nu = at + 4 * width + o->k,
                .b = at + total, .scale = at + total + width, .unit = unit};
     int worst = 1;
@@ -363,7 +363,7 @@ static bool vanishes(const nh_model *o, const nh_points *points, nh_ex e, nh_ex 
 static bool is_projectable(const nh_model *o, const nh_points *points, const nh_symmetry *z, double same)
 {
     for (size_t i = 0; i < o->n; i++) {
-        double unit = nh_symbol_unit(o->system, o->chart->w[i]);
+        double unit = nh_chart_symbol_unit(o->system, o->chart->w[i]);
         for (size_t s = 0; s <= o->m; s++) {
             nh_ex c = s < o->m ? z->field.space[s] : z->Z0;
             if (!vanishes(o, points, nh_model_Y(o, i, c), c, unit, same)) return false;

@@ -104,7 +104,7 @@ static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, doub
         if (o->system->coordinate[j].type == NH_ANGLE) large[j] = fmin(large[j], 1);
 }
 
-bool nh_sizes_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size)
+bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size)
 {
     static const double part = 1e-6; /* of a state's size: first order, and far above rounding */
     size_t states = motion->size, count = motion->count;

@@ -60,7 +60,7 @@ bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, do
 
 /* How large each expression is along a motion: the largest |e|, and of the first-order change of e when each state changes by its own largest value, with any signs;
  * so what is zero but for rounding is as large as what it is made of. */
-bool nh_sizes_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size);
+bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size);
 
 /* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);

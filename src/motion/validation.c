@@ -112,9 +112,9 @@ static sizes_of_all measure_sizes(run *r, const nh_motion *motion)
     nh_sizes sizes;
     bool known = nh_sizes_begin(&sizes, &problem, 1, r->z0, r->times[0], r->times[r->outputs - 1]);
     double tau = known ? sizes.tau : fabs(r->times[r->outputs - 1] - r->times[0]);
-    nh_sizes_along(r->dynamics, motion, m, o->rho, all.state + m);
-    nh_sizes_along(r->dynamics, motion, m, o->reaction, all.force);
-    nh_sizes_along(r->dynamics, motion, m, o->p, momentum);
+    nh_trajectory_sizes(r->dynamics, motion, m, o->rho, all.state + m);
+    nh_trajectory_sizes(r->dynamics, motion, m, o->reaction, all.force);
+    nh_trajectory_sizes(r->dynamics, motion, m, o->p, momentum);
     for (size_t s = 0; s < m; s++) {
         double q = fmax(sizes.size[s], tau * all.state[m + s]);
         for (size_t i = 0; i < motion->count; i++) q = fmax(q, fabs(motion->state[i * motion->size + s]));
@@ -246,7 +246,7 @@ static void smallest_model(run *r, const nh_state *initial, const nh_motion *mot
         v->scene = nh_arena_strdup(v->arena, nh_text_string(&words));
         v->scene_evaluations = t->motion->evaluations;
         double *size = nh_alloc_array(n, sizeof *size);
-        nh_sizes_along(r->dynamics, motion, n, asked, size);
+        nh_trajectory_sizes(r->dynamics, motion, n, asked, size);
         for (size_t i = 0; i < v->count * n; i++) {
             double full = v->watch[i / n * r->watches + column[i % n]];
             if (isfinite(full)) v->scene_difference = fmax(v->scene_difference, beside(t->value[i] - full, size[i % n]));

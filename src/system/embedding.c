@@ -56,7 +56,7 @@ void nh_embedding_symbols(nh_chart *c)
 
 void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high) { nh_domain_range(c->system, symbol, low, high); }
 
-double nh_symbol_unit(const nh_system *s, nh_ex symbol)
+double nh_chart_symbol_unit(const nh_system *s, nh_ex symbol)
 {
     double unit = 1;
     for (size_t k = 0; k < s->intervals; k++)
@@ -64,7 +64,7 @@ double nh_symbol_unit(const nh_system *s, nh_ex symbol)
     return unit > 0 && isfinite(unit) ? unit : 1;
 }
 
-double nh_chart_unit(const nh_system *s, size_t i) { return nh_symbol_unit(s, s->coordinate[i].q); }
+double nh_chart_unit(const nh_system *s, size_t i) { return nh_chart_symbol_unit(s, s->coordinate[i].q); }
 
 void nh_chart_slopes(const nh_chart *c, double *factor)
 {

@@ -58,7 +58,7 @@ bool nh_chart_complete(const nh_chart *chart, double *z);
 /* The sampling interval of any symbol of the system. */
 void nh_chart_range(const nh_chart *chart, nh_ex symbol, double *low, double *high);
 /* What a coordinate, a velocity or the time is measured in: half the width of the interval that the system's author gives it; without one, 1. */
-double nh_symbol_unit(const nh_system *system, nh_ex symbol);
+double nh_chart_symbol_unit(const nh_system *system, nh_ex symbol);
 /* That of coordinate i, in which its velocity is measured, too, per unit of time, so that velocities of lengths and angles compare in all units of length. */
 double nh_chart_unit(const nh_system *system, size_t i);
 /* What the entries of R (m x n, row-major) are multiplied by to be numbers without units; 1 in quasi-velocities. */
