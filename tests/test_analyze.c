@@ -315,6 +315,7 @@ Test(analyze, friction)
 /* Nothing is said against the energy where it is conserved but not in the ansatz. */
 Test(analyze, an_ansatz_without_a_true_integral_says_none)
 {
+    sweep_plain_only();
     static const char *const items[] = {"  - {basis: polynomial, in: [x, y, phi], degree: 3}\n", "  - terms: [omega, v, omega*v, omega^2]\n",
                                         "  - product:\n      - terms: [omega, v]\n      - {basis: fourier, in: phi, harmonics: 4}\n"};
     for (size_t i = 0; i < 3; i++) {
@@ -413,6 +414,7 @@ static nh_analysis *plain(const char *system, const char *items, uint64_t seed, 
 /* The same rows in another order: the same spectrum.  The seed moves the points: the same dimensions, the same kind of spectrum. */
 Test(analyze, order_of_the_ansatz_and_seed)
 {
+    sweep_plain_only();
     nh_analysis *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
     const char *orders[] = {TERMS TRUE_WAVES WAVES POLYNOMIAL, WAVES TERMS POLYNOMIAL TRUE_WAVES};
     for (size_t i = 0; i < 2; i++) {
@@ -488,6 +490,7 @@ Test(analyze, units)
 /* The same question in both charts: the same functions, so the same dimensions and ranks. */
 Test(analyze, charts)
 {
+    sweep_plain_only();
     nh_analysis *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_QUASI);
     nh_analysis *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_COORDINATES);
     cr_expect(a->model->chart->quasi && !b->model->chart->quasi);

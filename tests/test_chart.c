@@ -183,6 +183,7 @@ Test(chart, a_known_current_that_is_none)
 
 Test(chart, projection_has_no_drift)
 {
+    sweep_plain_only();
     nh_benchmark *c = compare("systems/contact_oscillator.yaml", NULL, 8, 20);
     const nh_run_record *plain = find(c, "GSL rk8pd", "", 1e-4), *projected = find(c, "GSL rk8pd, projected", "", 1e-4);
     cr_assert(plain && projected);
@@ -291,6 +292,7 @@ Test(chart, the_discrete_problem)
 /* What is called wrong is an option. */
 Test(chart, thresholds_are_options)
 {
+    sweep_plain_only();
     nh_error error = {0};
     nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
     nh_options_default(&q.options);

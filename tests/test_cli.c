@@ -1,5 +1,6 @@
 /* cli: what the commands print and return, in folders and environments like those of users.  (JSON: test_cli_json.c.) */
 #include "program.h"
+#include "sweep.h"
 
 static const char FREE[] = "name: free\n"
                            "title: A particle without forces\n"
@@ -376,6 +377,7 @@ Test(cli, a_folder_may_hold_systems_and_analyses)
 /* `make install` into a folder; the program is then run there from elsewhere, without any setting. */
 Test(cli, the_installed_program_works_from_anywhere, .timeout = 300)
 {
+    sweep_plain_only();
     place p = place_make();
     char build[PATH_MAX + 8], destination[2 * PATH_MAX], *slash;
     snprintf(build, sizeof build, "BUILD=%s", p.program);
@@ -464,6 +466,7 @@ static void cut_last_line(char *text)
 
 Test(cli, the_same_question_gets_the_same_answer)
 {
+    sweep_plain_only();
     place p = place_make();
     finished a = run_with_path(&p, "analyze sleigh --seed 5"), b = run_with_path(&p, "analyze sleigh --seed 5"), c = run_with_path(&p, "analyze sleigh --seed 6");
     cut_last_line(a.out);

@@ -99,6 +99,7 @@ Test(cli_reduce, accuracy)
 /* The full motion and every stage say by which method they are computed, and agree to what is asked for: groups of several kinds, one and two stages, equations by stages, a quotient. */
 Test(cli_reduce, accuracy_chooses_methods)
 {
+    sweep_plain_only();
     static const char *const cases[][2] = {{"sleigh", "1e-5"}, {"sleigh", "1e-10"}, {"suslov", "1e-8"}, {"kepler", "1e-5"}, {"kepler", "1e-10"}, {"crane_lagrangian", "1e-8"}, {"constant_speed", "1e-8"}};
     place p = place_make();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -148,6 +149,7 @@ Test(cli_reduce, accuracy_of_a_stiff_reduced_motion)
 /* Euler's disk passes so near to the vertical that no method knows its motion to 1e-10: what is known, and from when on it is not. */
 Test(cli_reduce, accuracy_that_cannot_be_had)
 {
+    sweep_plain_only();
     place p = place_make();
     char *more[] = {"euler_disk", "--accuracy", "1e-10"};
     finished f = reduce(&p, more, 3);
@@ -195,6 +197,7 @@ Test(cli_reduce, time_limit)
 /* The momentum map is that of the Lagrangian, whatever stands in it; and what is only a symmetry of the equations is counted. */
 Test(cli_reduce, momenta_of_any_lagrangian)
 {
+    sweep_plain_only();
     static const struct {
         const char *system, *momentum;
         size_t which, weaker;

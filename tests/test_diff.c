@@ -8,6 +8,7 @@
 #include "graph/diff.h"
 #include "graph/print.h"
 #include "random_expression.h"
+#include "sweep.h"
 
 /* ---- a complex evaluator ---- */
 
@@ -258,6 +259,7 @@ Test(diff, implicit_symbols_follow_their_rules)
 
 Test(diff, deep_expressions_need_no_deep_stack, .timeout = 20)
 {
+    sweep_plain_only();
     nh_dag *d = nh_dag_create();
     nh_ex x = nh_symbol(d, "x"), e = x;
     for (int i = 0; i < 100000; i++) e = nh_call(d, NH_SIN, nh_add(d, e, nh_symbol(d, "a")));
@@ -268,6 +270,7 @@ Test(diff, deep_expressions_need_no_deep_stack, .timeout = 20)
 
 Test(diff, wide_expressions, .timeout = 20)
 {
+    sweep_plain_only();
     enum { sum_terms = 100000, factors = 1000 };
     nh_dag *d = nh_dag_create();
     nh_ex x = nh_symbol(d, "x"), *part = nh_alloc_array(sum_terms, sizeof *part);

@@ -3,6 +3,7 @@
  * Errors are relative to the largest component of the vector that is compared (Z, the bracket, Gamma, ...), and to the number itself for
  * single numbers.  NHSYM_TEST_FIGURES=1 prints the worst of each kind. */
 #include "oracle.h"
+#include "sweep.h"
 
 #include "motion/cvode.h"
 #include "motion/validation.h"
@@ -283,6 +284,7 @@ Test(oracle, drifts_of_the_sleighs_currents)
 /* Euler's disk: the reference motions are from an extrapolation method in extended precision (errors below 1e-20). */
 Test(oracle, motions_of_the_disk)
 {
+    sweep_plain_only();
     static const char *const parameter[] = {"r", "e", "M", "I1", "I3", "g"};
     cJSON *data = oracle_read("tests/data/disk_oracle.json");
     const cJSON *set, *motion;

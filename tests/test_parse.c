@@ -10,6 +10,7 @@
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "random_expression.h"
+#include "sweep.h"
 
 /* ---- text that reads well ---- */
 
@@ -329,6 +330,7 @@ Test(parse, deep_expressions_are_cut_off)
 /* A hundred thousand operands of every operator. */
 Test(parse, long_texts_take_linear_time, .timeout = 20)
 {
+    sweep_plain_only();
     nh_dag *d = nh_dag_create();
     static const char *const operator[] = {" + ", " - ", "*", "/"};
     for (size_t k = 0; k < 4; k++) {
@@ -348,7 +350,7 @@ Test(parse, noise)
 {
     static const char alphabet[] = "xy'()+-*/^.,0123e =sincoqrtalgpb\n\xcf";
     source s = source_create(2385);
-    for (int i = 0; i < 100000; i++) {
+    for (int i = 0; i < (SWEEP_SANITIZED && !sweep_whole() ? 20000 : 100000); i++) {
         char text[40];
         int n = random_below(&s, 39);
         for (int k = 0; k < n; k++) text[k] = alphabet[random_below(&s, (int)sizeof alphabet - 1)];
@@ -373,6 +375,7 @@ Test(parse, noise)
 Test(parse, exact_expressions_come_back_identical)
 {
     for (uint64_t seed = 1; seed <= 10000; seed++) {
+        if (!sweep_tries(seed, 1, 5)) continue;
         source s = source_create(seed);
         nh_ex e = random_expression(&s, 2 + (int)(seed % 4));
         char *text = nh_print_string(s.dag, e);

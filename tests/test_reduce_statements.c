@@ -4,6 +4,7 @@
 #include "document/html.h"
 #include "document/reduction.h"
 #include "scratch.h"
+#include "sweep.h"
 
 typedef struct {
     nh_reduction *r;
@@ -87,6 +88,7 @@ Test(reduce_statements, energy_that_is_not_followed)
 /* The whole group divided at once is an alternative, not what follows. */
 Test(reduce_statements, stages_that_do_not_follow_each_other)
 {
+    sweep_plain_only();
     told t = tell_file("systems/crane.yaml", 0, NULL);
     SAYS(TEXT(t), "\nStage 2: second stage, by SO(2)");
     SAYS(TEXT(t), "\nStage 3, in one step instead of stages 1 and 2: ");
@@ -245,6 +247,7 @@ Test(reduce_statements, one_coordinate)
 /* A momentum is not called by the letter of a parameter. */
 Test(reduce_statements, momenta_beside_a_parameter_of_that_name)
 {
+    sweep_plain_only();
     told t = tell_file("systems/vertical_disk.yaml", 0, NULL);
     IS_SILENT(TEXT(t), "    J = ");
     SAYS(TEXT(t), "    p_xi = K*p'\n");

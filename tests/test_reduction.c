@@ -1,6 +1,7 @@
 /* reduction: reduced motions with reconstruction against the motion in all coordinates. */
 #include "oracle.h"
 #include "reduced.h"
+#include "sweep.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -248,6 +249,7 @@ Test(reduction, crane_reference_values)
 /* The reduced motions with reconstruction, from initial states with any group coordinates. */
 Test(reduction, crane_reference_motions)
 {
+    sweep_plain_only();
     nh_error error = {0};
     cJSON *data = oracle_read("tests/data/crane_oracle.json");
     tally tq = {.what = "q(T)"}, tz = {.what = "reduced"};

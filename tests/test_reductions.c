@@ -216,6 +216,7 @@ static const struct {
 
 Test(reductions, two_stages_with_affine_constraints_magnetic_terms_and_forces)
 {
+    sweep_plain_only();
     for (size_t i = 0; i < sizeof twice / sizeof *twice; i++) {
         nh_error error = {0};
         nh_reduction *r = reduce_text(twice[i].text, &error);
@@ -463,6 +464,7 @@ Test(reductions, many_functions)
 /* A place and its velocity moved onto a slice, and back by the flows of the generators. */
 Test(reductions, moved_onto_a_slice)
 {
+    sweep_plain_only();
     static const char *const systems[] = {"sleigh", "crane", "isotropic_oscillator", "rolling_ball", "veselova"};
     for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
         char path[100];
@@ -497,6 +499,7 @@ Test(reductions, moved_onto_a_slice)
 /* Nothing is said about currents along a motion that changes its chart. */
 Test(reductions, linear_currents_that_are_not_followed)
 {
+    sweep_plain_only();
     nh_error error = {0};
     nh_reduction *r = reduce_file("systems/euler_disk.yaml", NULL, &error);
     must(r != NULL, &error, "disk");
