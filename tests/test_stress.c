@@ -160,7 +160,7 @@ Test(stress, energy_by_fixed_steps)
     nh_robustness_free(s);
 }
 
-/* What would converge to another motion is refused, with the reason. */
+/* What would converge to a different motion is refused, with the reason. */
 Test(stress, a_refusal_is_told)
 {
     sweep_plain_only();
@@ -168,7 +168,7 @@ Test(stress, a_refusal_is_told)
     const nh_robustness_map *map = map_of(s, "long times by fixed steps");
     size_t told = 0;
     for (size_t i = 0; i < map->cells; i++)
-        if (!strcmp(map->cell[i].method, "energy-preserving")) told += map->cell[i].status == NH_FAILED && strstr(map->cell[i].note, "another motion");
+        if (!strcmp(map->cell[i].method, "energy-preserving")) told += map->cell[i].status == NH_FAILED && strstr(map->cell[i].note, "a different motion");
     cr_expect_eq(told, map->cells / map->methods);
     nh_robustness_free(s);
 }
