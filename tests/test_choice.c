@@ -222,7 +222,7 @@ Test(choice, units_do_not_choose)
         must(t != NULL, &error, "the disk");
         if (i == 0) snprintf(chart, sizeof chart, "%s", x.model->chart->name), tilt = t->value[1];
         cr_expect_str_eq(x.model->chart->name, chart);
-        cr_expect(a.held && !strcmp(t->formulation, "reduced equations"), "%g: %s; %s", units[i], t->formulation, a.why);
+        cr_expect(a.held && !strcmp(t->formulation, "equations of motion on the constraint submanifold"), "%g: %s; %s", units[i], t->formulation, a.why);
         cr_expect_float_eq(t->value[1], tilt, 2e-9, "%g: %.17g", units[i], t->value[1]);
         nh_trajectory_free(t);
         mechanics_clear(&x);

@@ -64,7 +64,7 @@ static const unseen UNSEEN[] = {
      "lagrangian: (x'^2 + y'^2)/2 - k/2*(x^2 + y^2) - a/x^2 - b/y^2\n"
      "domain: {x: [0.5, 1.5], y: [0.5, 1.5]}\n"
      "known: {currents: [{name: one, expr: \"y'^2/2 + k/2*y^2 + b/y^2\"}, {name: breath, expr: \"(y'^2/2 + b/y^2 - k/2*y^2)*cos(2*sqrt(k)*t) + sqrt(k)*y*y'*sin(2*sqrt(k)*t)\"}]}\n",
-     3},
+     4},
     /* driven by forces that are no part of the Lagrangian */
     {"cart with a pendulum and a motor",
      "parameters: {M: 2, m: 0.5, l: 0.7, g: 9.81, F: 0.4, w: 2}\n"
