@@ -263,6 +263,7 @@ static void try_ensemble(const char *text, const double start[4], double until, 
 
 Test(accuracy, every_member_of_an_ensemble_is_as_accurate)
 {
+    sweep_plain_only();
     static const char *const pendulum = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 + cos(x) - y^4/4 + x*y/5\n";
     static const char *const kepler = "name: test\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2)\n";
     static double one[MEMBERS * COUNT * 2], two[MEMBERS * COUNT * 2];

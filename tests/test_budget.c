@@ -84,6 +84,7 @@ Test(budget, ends_a_search_at_the_same_place_with_any_threads)
 
 Test(budget, finds_nothing_is_not_none)
 {
+    sweep_plain_only();
     nh_analysis *late = search("systems/crane.yaml", 1e4, 0.01, 1, 330), *poor = search("systems/crane.yaml", 1, 1e6, 1, 330);
     for (int i = 0; i < 2; i++) {
         const nh_analysis *r = i ? poor : late;

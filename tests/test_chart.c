@@ -211,6 +211,7 @@ Test(chart, why_the_energy_preserving_method_is_refused)
 
 Test(chart, what_would_be_wrong_is_refused)
 {
+    sweep_plain_only();
     nh_benchmark *c = compare("systems/ball_on_turntable.yaml", NULL, 3, 2);
     bool refused = false;
     for (size_t i = 0; i < c->refused; i++) refused |= strstr(c->refusal[i], "energy-preserving: it would converge to a different motion") != NULL;

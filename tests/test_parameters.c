@@ -148,6 +148,7 @@ Test(parameters, frequencies_in_a_turning_frame_are_named)
 /* A decay and a frequency together; two decays. */
 Test(parameters, rates_of_damped_motions_are_named)
 {
+    sweep_plain_only();
     static const char damped[] = "name: s\nparameters: {m: 1.3, k: 2.1, c: 0.3, b: 0.7}\ncoordinates: [x, y]\n"
                                  "lagrangian: m*(x'^2 + y'^2)/2 - k*(x^2 + y^2)/2 - b*x*y\nforces: [\"x = -c*x'\", \"y = -c*y'\"]\n";
     expect_names(&(named_case){damped, {"", "--set m=0.9174 --set k=1.7731 --set c=0.4 --set b=0.3219"}, 4});

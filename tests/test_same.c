@@ -116,7 +116,7 @@ static void other_seeds(const answer *a, const char *name, const nh_options *opt
     }
 }
 
-Test(same, whatever_the_seed) { for_all(other_seeds, 21); }
+Test(same, whatever_the_seed) { for_all(other_seeds, 19); }
 
 static void other_names(const answer *a, const char *name, const nh_options *options)
 {
@@ -141,7 +141,7 @@ static void other_units(const answer *a, const char *name, const nh_options *opt
     expect_same(a, name, "all units changed", options, (rewriting){.length = nh_num_int(12), .time = nh_num_ratio(7, 2), .action = nh_num_int(1000)}, NH_CHART_AUTO);
 }
 
-Test(same, whatever_the_units) { for_all(other_units, 5); }
+Test(same, whatever_the_units) { for_all(other_units, 21); }
 
 /* Every other choice of dependent velocities that gives a chart at all, up to a few. */
 static void other_charts(const answer *a, const char *name, const nh_options *options)

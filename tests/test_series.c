@@ -115,7 +115,7 @@ Test(series, disk_on_a_wide_interval, .timeout = 120)
 
 Test(series, disk_on_a_very_wide_interval, .timeout = 120)
 {
-    sweep_plain_only();
+    sweep_whole_only();
     two_on("disk", disk, 0.3, 2.8);
 }
 
