@@ -66,7 +66,7 @@ STATES  = 50
 SEED    = 1
 SECONDS = 60
 
-.PHONY: all sleigh check check-all tests install bench catalogue reductions random parameters perturbed fuzz print-libraries print-includes clean packages test-packages check-packages
+.PHONY: all sleigh check check-all tests install bench catalogue reductions random parameters perturbed classification fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -95,6 +95,11 @@ catalogue: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@{ printf '# Catalogue\n\nWritten by `make catalogue`: every system of `systems/`, analysed without an analysis file, against the integrals that its file knows.\nMissing: known integrals that are not functions of those found. Out of reach: with the reason that the file gives. False: reported but not conserved, or a function known not to be. Rate: the largest relative one of the certified currents, by all coordinates and Chetaev multipliers in ball arithmetic of 120 digits at random points. Complete to degree: up to this degree in the velocities nothing but functions of what was found is conserved, whatever functions of the coordinates (with t: of time and the coordinates) the coefficients are; generic: for generic parameters as well ([method.md](method.md), section 10).\n\n'; \
 	   $(BUILD)/tests/bench_catalogue systems; } >$(BUILD)/catalogue.md; code=$$?; mv $(BUILD)/catalogue.md docs/; $(BUILD)/tests/bench_pictures systems docs/catalogue || code=1; tail -n 1 docs/catalogue.md; exit $$code
+
+classification: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@{ printf '# Classification\n\nWritten by `make classification`: families of `tests/data/classify`, whose files hold no answers, by `nhsym classify`. For almost all values: how many integrals polynomial in the velocities of at most this degree there are, with the constant 1, for degrees 1, 2, ..; with <= where products of known ones do not reach that number. Special values: from which degree on there are more; proved: the currents were constructed there and are all. Degenerate: values at which the equations mean nothing. Height: no other rational number with numerator and denominator up to this has more, nor has any transcendental one ([method.md](method.md), section 11). s: seconds, with the analyses that construct and prove.\n\n'; \
+	   $(BUILD)/tests/bench_classify; } >$(BUILD)/classification.md; code=$$?; mv $(BUILD)/classification.md docs/; tail -n 1 docs/classification.md; exit $$code
 
 reductions: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests

@@ -111,6 +111,30 @@ Test(schema, what_analyze_writes_fits)
     place_clear(&p);
 }
 
+Test(schema, what_classify_writes_fits)
+{
+    static const char *const lines[] = {"classify/henon_heiles.yaml --over eps", "classify/atwood.yaml --over mu --degree 2", "classify/knife.yaml --over b --degree 1 --shape"};
+    cJSON *schema = read_json("docs/schema/classification.json");
+    place p = place_make();
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char line[600], path[PATH_MAX + 30];
+        snprintf(line, sizeof line, "classify %.300s/tests/data/%s --quiet --json c.json", p.project, lines[i]);
+        finished f = run(&p, line);
+        cr_assert(f.code == 0, "%s: %s", line, f.err);
+        snprintf(path, sizeof path, "%s/c.json", p.folder);
+        cJSON *root = read_json(path);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", lines[i], v.fault);
+        cr_expect(cJSON_GetArraySize(cJSON_GetObjectItem(root, "degrees")) > 0);
+        cJSON_AddNumberToObject(cJSON_GetArrayItem(cJSON_GetObjectItem(root, "degrees"), 0), "more", 1);
+        cr_expect_not(fits(schema, root, "", &v), "an unknown key");
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(schema);
+    place_clear(&p);
+}
+
 Test(schema, what_chart_writes_fits)
 {
     static const char *const lines[] = {"sleigh --budget 2s", "ball_on_turntable --until 3 --budget 500ms", "lagrange_top --until 2 --budget 300ms"};

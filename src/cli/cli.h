@@ -30,7 +30,7 @@ typedef struct {
     bool project, weak;
     const char *watch;           /* of simulate */
     const char *over;            /* of benchmark */
-    bool scene;
+    bool scene, shape;           /* shape: of classify */
     double accuracy, spread;
     size_t ensemble;
     const char *svg;             /* of benchmark */
@@ -54,7 +54,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_benchmark, nh_cli_reduce, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
+nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_benchmark, nh_cli_reduce, nh_cli_classify, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
 
 /* What simulate and benchmark ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);

@@ -60,7 +60,7 @@ static void all_commands(void)
          "  --json [FILE|-]  --html FILE  --tex FILE  -o DIR     output files\n"
          "  --quiet  --verbose  --no-color  --help      `nhsym help COMMAND` lists all\n"
          "\nExamples");
-    for (size_t i = 0; i < 3; i++) printf("  %s\n", commands[i == 2 ? 7 : i].example);
+    for (size_t i = 0; i < 3; i++) printf("  %s\n", commands[i == 2 ? 8 : i].example);
 }
 
 /* ---- the manual page ---- */
@@ -180,8 +180,8 @@ static void fish(void)
         for (const char *c = meaning(&options[j]); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
         puts("'");
     }
-    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
-         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce' -k -a '(__fish_complete_suffix .yaml)'");
+    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
+         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify' -k -a '(__fish_complete_suffix .yaml)'");
 }
 
 int nh_cli_help(nh_cli *cli, nh_error *error)

@@ -197,17 +197,19 @@ static bool read_definitions(reader *r)
     size_t n;
     nh_system *s = r->system;
     if (!nh_system_list_of(r, r->root, "definitions", &list, &n)) return false;
-    s->definition = nh_system_take(r, n, sizeof *s->definition);
+    const nh_named *fixed = s->definition;
+    s->definition = nh_system_take(r, s->definitions + n, sizeof *s->definition);
+    if (s->definitions) memcpy(s->definition, fixed, s->definitions * sizeof *fixed);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *node = list->item[i];
-        nh_named *d = &s->definition[i];
+        nh_named *d = &s->definition[s->definitions];
         if (!nh_system_assignment_name(r, node, "a definition `name = expression`", &d->name)) return false;
         nh_deck_node name = *node;
         name.text = d->name;
         if (!nh_system_new_name(r, &name)) return false;
         if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
         d->text = node->text;
-        s->definitions = i + 1;
+        s->definitions++;
     }
     return true;
 }
@@ -300,13 +302,28 @@ static bool read_dependent(reader *r)
     return true;
 }
 
+/* A parameter with an exact value becomes a definition. */
+static void fix(nh_system *s, nh_parameter *p, const nh_setting *setting)
+{
+    const char *text = nh_arena_printf(s->arena, setting->bottom == 1 ? "%s = %lld" : "%s = %lld/%lld", p->name, (long long)setting->top, (long long)setting->bottom);
+    s->definition[s->definitions++] = (nh_named){.name = p->name, .text = text, .value = nh_ratio(s->dag, setting->top, setting->bottom)};
+    size_t behind = s->parameters - 1 - (size_t)(p - s->parameter);
+    memmove(p, p + 1, behind * sizeof *p);
+    s->parameters--;
+}
+
 static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
 {
     nh_system *s = r->system;
+    s->definition = nh_system_take(r, count, sizeof *s->definition);
     for (size_t k = 0; k < count; k++) {
         nh_parameter *found = NULL;
         for (size_t i = 0; i < s->parameters; i++)
             if (!strcmp(s->parameter[i].name, setting[k].name)) found = &s->parameter[i];
+        if (found && setting[k].bottom > 0) {
+            fix(s, found, &setting[k]);
+            continue;
+        }
         if (found) {
             found->value = setting[k].value;
             found->set = true;

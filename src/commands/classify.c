@@ -1,0 +1,195 @@
+/* From a system file and the name of a parameter to its special values, with the currents that hold there. */
+#include "commands/classify.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/progress.h"
+
+enum { chosen_degree = 4 };
+
+/* ---- the family ---- */
+
+static bool find_parameter(const nh_system *s, const char *name, size_t *out, nh_error *error)
+{
+    const char **names = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *names);
+    for (size_t i = 0; i < s->parameters; i++) {
+        names[i] = s->parameter[i].name;
+        *out = i;
+        if (!strcmp(names[i], name)) return true;
+    }
+    nh_fail(error, NH_USAGE, "", "`%s` is not a parameter of %s", name, s->name);
+    const char *near = nh_text_nearest(name, names, s->parameters);
+    if (near) return nh_error_hint(error, "did you mean `%s`?", near);
+    return nh_error_hint(error, "--over takes one of the names under `parameters:` in the system file");
+}
+
+/* All other parameters at the ratios that their decimals are. */
+static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_system *s, size_t parameter,
+                       nh_error *error)
+{
+    x->other = nh_arena_alloc(x->arena, (s->parameters + q->settings + 1) * sizeof *x->other);
+    for (size_t k = 0; k < q->settings; k++)
+        if (q->setting[k].bottom > 0) x->other[x->others++] = q->setting[k];
+    for (size_t i = 0; i < s->parameters; i++) {
+        nh_num value = nh_num_decimal(s->parameter[i].value);
+        if (i == parameter) continue;
+        if (!nh_num_short(value))
+            return nh_fail(error, NH_USAGE, "", "the value %.17g of `%s` has too many digits for a classification",
+                           s->parameter[i].value, s->parameter[i].name);
+        x->other[x->others++] = (nh_setting){.name = nh_arena_strdup(x->arena, s->parameter[i].name),
+                                             .value = s->parameter[i].value, .top = value.p, .bottom = value.q};
+    }
+    return true;
+}
+
+/* A value near the file's, which is special by no design. */
+static double unimportant(double value) { return round((value * 1.0871 + (value == 0 ? 0.3187 : 0)) * 1e6) / 1e6; }
+
+static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q, const nh_setting *at, nh_error *error)
+{
+    nh_setting *setting = nh_alloc_array(x->others + 1, sizeof *setting);
+    memcpy(setting, x->other, x->others * sizeof *setting);
+    setting[x->others] = *at;
+    nh_analyze_request request = {.command = q->command, .system_path = q->system_path, .settings = x->others + 1,
+                                  .setting = setting, .options = q->options, .no_figures = true};
+    request.options.degree = (double)x->degree;
+    nh_analysis *r = nh_analysis_create(&request, error);
+    nh_free(setting);
+    return r;
+}
+
+static bool polynomial_in_velocities(const nh_analysis *r, const nh_current *f)
+{
+    return f->proof.proved && !f->series && !nh_depends(r->model->dag, f->phi, r->system->t);
+}
+
+static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error *error)
+{
+    size_t parameter = 0;
+    nh_system *s = nh_system_read(q->system_path, q->settings, q->setting, error);
+    if (!s) return false;
+    bool good = find_parameter(s, q->over, &parameter, error) && fix_others(x, q, s, parameter, error);
+    if (good) {
+        x->name = nh_arena_strdup(x->arena, s->name);
+        x->title = nh_arena_strdup(x->arena, s->title);
+        x->over = nh_arena_strdup(x->arena, q->over);
+        nh_setting at = {.name = x->over, .value = unimportant(s->parameter[parameter].value)};
+        x->almost_all = analyse(x, q, &at, error);
+    }
+    nh_system_free(s);
+    return x->almost_all != NULL;
+}
+
+/* ---- special values ---- */
+
+static nh_ex *known_currents(nh_classified *x)
+{
+    const nh_analysis *r = x->almost_all;
+    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
+    x->currents = nh_arena_alloc(x->arena, (r->count + 1) * sizeof *x->currents);
+    for (size_t k = 0; k < r->count; k++) {
+        if (!polynomial_in_velocities(r, &r->found[k]) || !r->found[k].proof.all_parameters) continue;
+        if (!nh_parametric_rational(r->model->dag, r->found[k].phi, r->model->parameter[0])) continue;
+        phi[x->known] = r->found[k].phi;
+        x->currents[x->known++] = k;
+    }
+    return phi;
+}
+
+bool nh_classified_rational(const nh_special_factor *f, int64_t *top, int64_t *bottom)
+{
+    if (f->degree != 1) return false;
+    *top = -f->coefficient[0];
+    *bottom = f->coefficient[1];
+    return true;
+}
+
+static void analyse_value(nh_classified *x, const nh_classify_request *q, const nh_classify_value *v,
+                          nh_classified_value *out)
+{
+    int64_t top, bottom;
+    nh_error error;
+    if (!v->first || v->degenerate) return;
+    out->why = "currents are constructed at rational values only";
+    if (!nh_classified_rational(&v->polynomial, &top, &bottom)) return;
+    nh_error_clear(&error);
+    nh_setting at = {.name = x->over, .value = (double)top / (double)bottom, .top = top, .bottom = bottom};
+    nh_analysis *r = out->result = analyse(x, q, &at, &error);
+    out->why = r ? NULL : nh_arena_strdup(x->arena, error.what);
+    if (!r) return;
+    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    if (c->counted && !c->count.obstacle) out->complete = c->degree;
+}
+
+nh_classified *nh_classify_system(const nh_classify_request *q, nh_error *error)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_classified *x = nh_arena_alloc(arena, sizeof *x);
+    *x = (nh_classified){.arena = arena, .shape = q->shape, .degree = q->options.degree > 0 ? (size_t)q->options.degree
+                         : chosen_degree};
+    if (!read_family(x, q, error)) {
+        nh_classified_free(x);
+        return NULL;
+    }
+    nh_ex *phi = known_currents(x);
+    size_t parameter = 0;
+    find_parameter(x->almost_all->system, q->over, &parameter, error);
+    nh_classify_question question = {.parameter = parameter, .shape = q->shape, .degree = x->degree,
+                                     .work = q->options.count_work, .unknowns = (size_t)q->options.pencil, .known =
+                                         x->known, .current = phi};
+    x->classification = nh_classify(x->almost_all->model, &question);
+    nh_free(phi);
+    x->value = nh_arena_alloc(arena, (x->classification->values + 1) * sizeof *x->value);
+    for (size_t k = 0; k < x->classification->values && !nh_interrupted(); k++)
+        analyse_value(x, q, &x->classification->value[k], &x->value[k]);
+    x->partial = nh_interrupted();
+    return x;
+}
+
+void nh_classified_free(nh_classified *x)
+{
+    for (size_t k = 0; x->value && k < x->classification->values; k++) nh_analysis_free(x->value[k].result);
+    nh_classification_free(x->classification);
+    nh_analysis_free(x->almost_all);
+    nh_arena_free(x->arena);
+}
+
+/* ---- words ---- */
+
+static void put_polynomial(const nh_special_factor *f, const char *name, nh_text *out)
+{
+    for (size_t j = f->degree + 1, written = 0; j-- > 0;) {
+        int64_t c = f->coefficient[j];
+        if (!c) continue;
+        nh_text_add(out, written++ == 0 ? (c < 0 ? "-" : "") : c < 0 ? " - " : " + ");
+        uint64_t size = c < 0 ? 0 - (uint64_t)c : (uint64_t)c;
+        if (size != 1 || j == 0) nh_text_addf(out, "%" PRIu64 "%s", size, j ? "*" : "");
+        if (j) nh_text_add(out, name);
+        if (j > 1) nh_text_addf(out, "^%zu", j);
+    }
+}
+
+const char *nh_classified_words(const nh_classified *x, const nh_special_factor *f)
+{
+    int64_t top, bottom;
+    nh_text text;
+    nh_text_init(&text);
+    if (nh_classified_rational(f, &top, &bottom)) {
+        nh_text_addf(&text, "%s = %" PRId64, x->over, top);
+        if (bottom != 1) nh_text_addf(&text, "/%" PRId64, bottom);
+    } else {
+        double *root = nh_alloc_array(f->degree + 1, sizeof *root);
+        size_t reals = nh_special_reals(f, root);
+        put_polynomial(f, x->over, &text);
+        nh_text_add(&text, reals ? " = 0 (" : " = 0 (no real value");
+        for (size_t k = 0; k < reals; k++)
+            nh_text_addf(&text, "%s%.8g", k ? ", " : nh_arena_printf(x->arena, "%s = ", x->over), root[k]);
+        nh_text_add(&text, ")");
+        nh_free(root);
+    }
+    const char *out = nh_arena_strdup(x->arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}

@@ -1,0 +1,29 @@
+/* staircase: at which values of a parameter does a linear system modulo a prime lose rank?
+ *
+ * For A(lambda) = A_0 + lambda A_1 + .. + lambda^D A_D, with companion variables y_i = lambda y_(i-1) where D > 1, the
+ * pencil A + lambda E is reduced to its regular part (Kronecker's form, by the staircase algorithm [VanDooren1979] over
+ * a finite field):
+ *
+ *     rows      echelon form of [E | A]: rows without a part in E are constant equations, whose pivots are substituted
+ *     columns   the same for the transposes
+ *
+ * until E is square and invertible. Then chi = det(lambda + E^-1 A) is the product of the finite elementary divisors:
+ * rank A(lambda) is that of almost all values exactly where chi(lambda) is not zero. */
+#ifndef NH_STAIRCASE_H
+#define NH_STAIRCASE_H
+
+#include "integrals/sparse_pencil.h"
+
+/* A polynomial modulo a prime, from the constant term on; on the heap. */
+typedef struct {
+    size_t degree;
+    nh_residue *coefficient;
+} nh_residue_polynomial;
+
+/* chi, monic.  False behind the deadline (base/progress.h). */
+bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, nh_residue_polynomial *chi);
+
+/* The rank at one value. */
+size_t nh_staircase_rank(const nh_sparse_pencil *pencil, nh_prime field, nh_residue lambda);
+
+#endif

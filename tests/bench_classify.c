@@ -1,0 +1,152 @@
+/* bench_classify: families of tests/data/classify, whose files hold no answers, classified: the rows of
+ * docs/classification.md. And random families, as many of them with a planted special value as without.
+ *
+ *     bench_classify [FAMILIES OF EACH KIND]
+ *
+ * The exit code is 1 when a value is missed or false among the random ones. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "commands/classify.h"
+
+static const struct {
+    const char *file, *over;
+    double degree;
+    bool shape;
+    const char *name;        /* of another parameter that is set, or NULL */
+    int64_t top, bottom;
+} FAMILIES[] = {
+    {"henon_heiles", "eps", 4, false, "B", 1, 1},  {"henon_heiles", "eps", 6, false, "B", 16, 1}, {"henon_heiles",
+        "eps", 4, false, "B", 5, 7}, {"henon_heiles", "B", 4, false, "eps", 1, 3},
+    {"quartic", "b", 4, false, "mu", 1, 1},        {"quartic", "b", 4, false, "mu", 8, 1},        {"quartic", "b", 4,
+        false, "mu", 16, 1},      {"quartic", "mu", 4, false, "b", 6, 1},
+    {"quartic", "mu", 4, false, "b", 12, 1},       {"holt", "b", 6, false, NULL, 0, 0},           {"oscillators", "b",
+        4, false, NULL, 0, 0},   {"atwood", "mu", 4, false, NULL, 0, 0},
+    {"top", "C", 4, true, NULL, 0, 0},             {"top_level", "C", 3, true, NULL, 0, 0},       {"contact", "b", 3,
+        false, NULL, 0, 0},        {"knife", "b", 2, false, NULL, 0, 0},         {"sleigh", "a", 1, false, NULL, 0, 0},
+};
+
+/* ---- families of the literature ---- */
+
+static void put_values(const nh_classified *x)
+{
+    const nh_classification *c = x->classification;
+    size_t written = 0;
+    for (size_t k = 0; k < c->values; k++) {
+        const nh_classify_value *v = &c->value[k];
+        if (!v->first && !v->open) continue;
+        printf("%s%s from degree %zu", written++ ? "; " : "", nh_classified_words(x, &v->polynomial), v->first
+               ? v->first : v->open);
+        if (v->first)
+            printf(" (%zu instead of %zu, %s)", v->number[v->first].bound, c->row[v->first - 1].number.bound,
+                   x->value[k].complete >= v->first ? "proved" : "counted");
+        else printf(" (not decided)");
+    }
+    printf("%s | ", written ? "" : "none");
+    written = 0;
+    for (size_t k = 0; k < c->values; k++)
+        if (c->value[k].degenerate)
+            printf("%s%s", written++ ? "; " : "", nh_classified_words(x, &c->value[k].polynomial));
+}
+
+static void row(size_t index)
+{
+    char path[200];
+    nh_error error;
+    nh_error_clear(&error);
+    nh_setting setting = {.name = FAMILIES[index].name,
+                          .value = (double)FAMILIES[index].top / (double)(FAMILIES[index].bottom
+                              ? FAMILIES[index].bottom : 1)};
+    setting.top = FAMILIES[index].top, setting.bottom = FAMILIES[index].bottom;
+    snprintf(path, sizeof path, "tests/data/classify/%s.yaml", FAMILIES[index].file);
+    nh_classify_request q = {.system_path = path, .settings = setting.name != NULL, .setting = &setting,
+                             .over = FAMILIES[index].over, .shape = FAMILIES[index].shape};
+    nh_options_default(&q.options);
+    q.options.degree = FAMILIES[index].degree;
+    double begin = nh_clock();
+    nh_classified *x = nh_classify_system(&q, &error);
+    if (!x) {
+        printf("| %s | %s |\n", FAMILIES[index].file, error.what);
+        return;
+    }
+    const nh_classification *c = x->classification;
+    printf("| %s", x->title);
+    if (setting.name) printf(", %s = %" PRId64, setting.name, setting.top);
+    if (setting.name && setting.bottom != 1) printf("/%" PRId64, setting.bottom);
+    printf("%s | %s | %zu | ", x->shape ? ", coefficients free of cyclic coordinates" : "", x->over, c->rows);
+    for (size_t d = 0; d < c->rows; d++)
+        printf("%s%s%zu", d ? ", " : "", c->row[d].number.bound == c->row[d].known ? "" : "<= ",
+               c->row[d].number.bound);
+    printf(" | ");
+    put_values(x);
+    printf(" | %.0e | %.1f |\n", c->rows ? c->row[c->rows - 1].height : 0, nh_clock() - begin);
+    fflush(stdout);
+    nh_classified_free(x);
+}
+
+/* ---- random families ---- */
+
+static int small(uint64_t *random) { return (int)(nh_residue_random(nh_prime_at(0), random) % 19) - 9; }
+
+static void put_potential(nh_text *out, uint64_t *random)
+{
+    nh_text_add(out, "(");
+    for (int degree = 2; degree <= 4; degree++)
+        for (int i = 0; i <= degree; i++) nh_text_addf(out, " + (%d)*x^%d*y^%d", small(random), i, degree - i);
+    nh_text_add(out, ")");
+}
+
+/* Without a value: V + eps W; with one: V is separable in turned coordinates, (b eps - a) W. How many values there are,
+ * and is the planted one among them? */
+static size_t random_values(uint64_t *random, bool planted, bool *found)
+{
+    nh_text text;
+    nh_error error;
+    int a = 1 + abs(small(random)) % 5, top = small(random), bottom = 1 + abs(small(random)) % 7;
+    nh_error_clear(&error);
+    nh_text_init(&text);
+    nh_text_add(&text, "name: random\nparameters: {eps: 0.37}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (");
+    if (planted)
+        nh_text_addf(&text, "(%d*x + y)^4 + (%d)*(%d*x + y)^2 + (x - %d*y)^3 + (%d)*(x - %d*y)^2 + (%d*eps - (%d))*", a,
+                     small(random), a, a, small(random), a, bottom, top);
+    else put_potential(&text, random), nh_text_add(&text, " + eps*");
+    put_potential(&text, random);
+    nh_text_add(&text, ")\n");
+    nh_system *s = nh_system_parse("random.yaml", nh_text_string(&text), 0, NULL, &error);
+    nh_model *o = s ? nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error) : NULL;
+    nh_text_clear(&text);
+    if (!o) return SIZE_MAX;
+    nh_classify_question q = {.degree = 4, .work = 1e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classification *c = nh_classify(o, &q);
+    size_t values = c->rows < 4 ? SIZE_MAX : 0;
+    for (size_t k = 0; k < c->values; k++) {
+        const nh_special_factor *f = &c->value[k].polynomial;
+        if (!c->value[k].first) continue;
+        values++;
+        *found |= f->degree == 1 && f->coefficient[1] * top + f->coefficient[0] * bottom == 0;
+    }
+    nh_classification_free(c);
+    nh_model_free(o);
+    nh_system_free(s);
+    return values;
+}
+
+int main(int argc, char **argv)
+{
+    size_t each = argc > 1 ? strtoul(argv[1], NULL, 10) : 100, missed = 0, wrong = 0;
+    puts("| family | over | degree | for almost all values, by degree | special values | degenerate | height | s |\n|---|---|---|---|---|---|---|---|");
+    for (size_t i = 0; i < sizeof FAMILIES / sizeof *FAMILIES; i++) row(i);
+    uint64_t random = 2026;
+    for (size_t i = 0; i < 2 * each; i++) {
+        bool planted = i % 2, found = false;
+        size_t values = random_values(&random, planted, &found);
+        missed += planted && !found;
+        wrong += values != planted;
+    }
+    printf("\nRandom potentials of degree four in the plane, integrals up to degree four: %zu with a planted rational value, of which %zu missed; %zu without; with other values than the planted ones, or ended before: %zu.\n",
+           each, missed, each, wrong);
+    return missed + wrong > 0;
+}

@@ -1,0 +1,419 @@
+/* Special values of a parameter: pencils with eigenvalues that are known, lifting, families of the literature (whose files hold no answers), random families with
+ * and without planted values, and the command. */
+#include <criterion/criterion.h>
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "integrals/classify.h"
+#include "names.h"
+#include "program.h"
+#include "commands/classify.h"
+#include "commands/verify.h"
+
+/* ---- pencils ---- */
+
+static void put(nh_sparse_pencil *p, size_t row, size_t column, size_t power, nh_residue value)
+{
+    nh_grow(&p->entry, &p->capacity, p->entries + 1, sizeof *p->entry);
+    p->entry[p->entries++] = (nh_sparse_entry){(uint32_t)row, (uint32_t)column, (uint32_t)power, value};
+}
+
+enum { blocks = 5, across = 14, down = 17, most_power = 3 };
+
+/* Left times (diagonal: lambda - value, and a row [1 | lambda] and its transpose, which have no elementary divisors) times right, all random. */
+static nh_sparse_pencil hidden(nh_prime f, const nh_residue *value, size_t power, uint64_t *random)
+{
+    nh_residue core[down][across][most_power + 1] = {{{0}}}, left[down][down], right[across][across];
+    for (size_t i = 0; i < blocks; i++) {
+        core[i][i][power] = 1;
+        core[i][i][0] = nh_residue_negative(f, value[i]);
+    }
+    for (size_t i = 0; i < 2; i++) core[blocks + i][blocks + i][0] = core[blocks + i][blocks + i + 1][1] = 1;        /* 2 x 3 */
+    for (size_t j = 0; j < 2; j++) core[blocks + 2 + j][blocks + 3 + j][0] = core[blocks + 3 + j][blocks + 3 + j][1] = 1; /* 3 x 2 */
+    core[blocks + 5][blocks + 5][0] = 1;
+    for (size_t i = 0; i < down * down; i++) left[i / down][i % down] = nh_residue_random(f, random);
+    for (size_t i = 0; i < across * across; i++) right[i / across][i % across] = nh_residue_random(f, random);
+    nh_sparse_pencil p = {.rows = down, .columns = across, .degree = power};
+    for (size_t i = 0; i < down; i++)
+        for (size_t j = 0; j < across; j++)
+            for (size_t k = 0; k <= power; k++) {
+                nh_residue sum = 0;
+                for (size_t a = 0; a < down; a++)
+                    for (size_t b = 0; b < across; b++)
+                        if (core[a][b][k]) sum = nh_residue_add(f, sum, nh_residue_mul(f, nh_residue_mul(f, left[i][a], right[b][j]), core[a][b][k]));
+                put(&p, i, j, k, sum);
+            }
+    return p;
+}
+
+static nh_residue residue_at(nh_prime f, const nh_residue_polynomial *p, nh_residue x)
+{
+    nh_residue y = 0;
+    for (size_t j = p->degree + 1; j-- > 0;) y = nh_residue_add(f, nh_residue_mul(f, y, x), p->coefficient[j]);
+    return y;
+}
+
+Test(classify, chi_vanishes_where_a_hidden_pencil_loses_rank)
+{
+    nh_prime f = nh_prime_at(0);
+    uint64_t random = 5;
+    for (size_t power = 1; power <= 2; power++)
+        for (int round = 0; round < 10; round++) {
+            nh_residue value[blocks], root;
+            for (size_t i = 0; i < blocks; i++) value[i] = nh_residue_random(f, &random);
+            value[1] = value[0]; /* a double one */
+            nh_sparse_pencil p = hidden(f, value, power, &random);
+            nh_residue_polynomial chi;
+            cr_assert(nh_staircase(&p, f, &chi));
+            cr_assert_eq(chi.degree, blocks * power);
+            size_t generic = nh_staircase_rank(&p, f, 12345);
+            for (size_t i = 0; i < blocks; i++) {
+                if (power == 2 && !nh_residue_root(f, value[i], 2, &root)) continue;
+                if (power == 1) root = value[i];
+                cr_expect_eq(residue_at(f, &chi, root), 0);
+                cr_expect_lt(nh_staircase_rank(&p, f, root), generic);
+            }
+            for (int k = 0; k < 20; k++) {
+                nh_residue x = nh_residue_random(f, &random);
+                cr_expect_neq(residue_at(f, &chi, x), 0);
+                cr_expect_eq(nh_staircase_rank(&p, f, x), generic);
+            }
+            nh_free(chi.coefficient);
+            nh_free(p.entry);
+        }
+}
+
+/* ---- lifting ---- */
+
+Test(classify, polynomials_are_lifted_and_factored)
+{
+    /* (3 x - 1)(x + 7)(x^2 - 3), monic modulo each prime */
+    static const int64_t whole[] = {21, -60, -16, 20, 3};
+    nh_prime prime[4];
+    nh_residue_polynomial residue[4];
+    for (size_t i = 0; i < 4; i++) {
+        prime[i] = nh_prime_at(i);
+        residue[i] = (nh_residue_polynomial){4, nh_alloc_array(5, sizeof(nh_residue))};
+        for (size_t j = 0; j < 5; j++) residue[i].coefficient[j] = nh_residue_mul(prime[i], nh_residue_of(prime[i], whole[j]), nh_residue_inverse(prime[i], 3));
+    }
+    nh_special_factors f = nh_special_lift(4, prime, residue);
+    cr_assert(f.lifted);
+    cr_assert_eq(f.factors, 3);
+    cr_expect_eq(f.factor[0].coefficient[0], 7);
+    cr_expect(f.factor[1].coefficient[1] == 3 && f.factor[1].coefficient[0] == -1);
+    cr_expect(f.factor[2].degree == 2 && f.factor[2].coefficient[0] == -3 && f.factor[2].coefficient[2] == 1);
+    double root[2];
+    cr_assert_eq(nh_special_reals(&f.factor[2], root), 2);
+    cr_expect_float_eq(root[1], sqrt(3), 1e-12);
+    nh_special_factors_clear(&f);
+    residue[3].coefficient[2] ^= 1; /* the last prime does not agree */
+    f = nh_special_lift(4, prime, residue);
+    cr_expect_not(f.lifted);
+    nh_special_factors_clear(&f);
+    for (size_t i = 0; i < 4; i++) nh_free(residue[i].coefficient);
+}
+
+/* ---- families ---- */
+
+/* A system whose only parameter is the last one of the list; the others get these exact values. */
+static nh_system *family_of(const char *path, const char *text, size_t settings, const nh_setting *setting)
+{
+    nh_error error = {0};
+    nh_system *s = path ? nh_system_read(path, settings, setting, &error) : nh_system_parse("family.yaml", text, settings, setting, &error);
+    must(s != NULL, &error, path ? path : text);
+    cr_assert_eq(s->parameters, 1);
+    return s;
+}
+
+static nh_classification *classify(nh_system *s, size_t degree, bool shape)
+{
+    nh_error error = {0};
+    nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
+    must(o != NULL, &error, "the model");
+    nh_classify_question q = {.shape = shape, .degree = degree, .work = 1e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classification *c = nh_classify(o, &q);
+    nh_model_free(o);
+    return c;
+}
+
+/* "1/3@2 2@2 C0": values with the degrees from which on they are special, degenerate ones behind a C; sorted as they come. */
+static void describe(const nh_classification *c, char *out, size_t size)
+{
+    size_t at = 0;
+    out[0] = 0;
+    for (size_t k = 0; k < c->values && at < size; k++) {
+        const nh_classify_value *v = &c->value[k];
+        if (!v->first && !v->degenerate) continue;
+        at += (size_t)snprintf(out + at, size - at, "%s%s", at ? " " : "", v->degenerate ? "C" : "");
+        if (v->polynomial.degree == 1 && v->polynomial.coefficient[1] == 1) at += (size_t)snprintf(out + at, size - at, "%lld", (long long)-v->polynomial.coefficient[0]);
+        else if (v->polynomial.degree == 1) at += (size_t)snprintf(out + at, size - at, "%lld/%lld", (long long)-v->polynomial.coefficient[0], (long long)v->polynomial.coefficient[1]);
+        else
+            for (size_t j = v->polynomial.degree + 1; j-- > 0;) at += (size_t)snprintf(out + at, size - at, "%+lld%s", (long long)v->polynomial.coefficient[j], j ? "," : "");
+        if (v->first) at += (size_t)snprintf(out + at, size - at, "@%zu", v->first);
+    }
+}
+
+static void expect_values(nh_system *s, size_t degree, bool shape, const char *expected, const char *name)
+{
+    char found[1000];
+    nh_classification *c = classify(s, degree, shape);
+    cr_assert_null(c->obstacle, "%s: %s", name, c->obstacle);
+    cr_assert_eq(c->rows, degree, "%s: ended by %s", name, c->end);
+    for (size_t d = 0; d < degree; d++) {
+        cr_expect(c->row[d].lifted, "%s, degree %zu", name, d + 1);
+        cr_expect_geq(c->row[d].height, 100, "%s, degree %zu", name, d + 1);
+    }
+    describe(c, found, sizeof found);
+    cr_expect_str_eq(found, expected, "%s", name);
+    nh_classification_free(c);
+    nh_system_free(s);
+}
+
+static void expect_family(const char *file, size_t settings, const nh_setting *setting, size_t degree, bool shape, const char *expected)
+{
+    char path[200];
+    snprintf(path, sizeof path, "tests/data/classify/%s.yaml", file);
+    expect_values(family_of(path, NULL, settings, setting), degree, shape, expected, file);
+}
+
+static nh_setting at(const char *name, int64_t top, int64_t bottom) { return (nh_setting){.name = name, .value = (double)top / (double)bottom, .top = top, .bottom = bottom}; }
+
+/* [Hietarinta1987]: the three integrable Henon-Heiles systems. */
+Test(classify, henon_heiles)
+{
+    expect_family("henon_heiles", 2, (nh_setting[]){at("A", 1, 1), at("B", 1, 1)}, 4, false, "2@2 1/3@2");
+    expect_family("henon_heiles", 2, (nh_setting[]){at("A", 1, 1), at("B", 16, 1)}, 4, false, "2@2 16/3@4");
+    expect_family("henon_heiles", 2, (nh_setting[]){at("A", 1, 3), at("B", 16, 3)}, 4, false, "2@2 16/3@4");
+    expect_family("henon_heiles", 2, (nh_setting[]){at("A", 1, 1), at("B", 5, 7)}, 4, false, "2@2");
+}
+
+Test(classify, quartic_potentials)
+{
+    expect_family("quartic", 1, (nh_setting[]){at("mu", 1, 1)}, 4, false, "2@1 6@2 0@2");
+    expect_family("quartic", 1, (nh_setting[]){at("mu", 8, 1)}, 4, false, "0@2 6@4");
+    expect_family("quartic", 1, (nh_setting[]){at("mu", 16, 1)}, 4, false, "12@2 0@2");
+    expect_family("quartic", 1, (nh_setting[]){at("mu", 5, 1)}, 4, false, "0@2");
+}
+
+Test(classify, holt) { expect_family("holt", 0, NULL, 6, false, "3/4@3 9/2@4 12@6"); }
+
+/* Frequencies p : q give an integral of degree p + q - 1 or p + q. */
+Test(classify, oscillators) { expect_family("oscillators", 0, NULL, 4, false, "1@1 0@1 4@2 1/4@2 9@3 1/9@3 16@4 9/4@4 4/9@4 1/16@4"); }
+
+/* [Tufillaro1986]: the ratio three; at -1 there is no inertia along the thread, at 0 the swinging mass falls freely. */
+Test(classify, swinging_atwood) { expect_family("atwood", 0, NULL, 4, false, "C-1 0@1 3@2"); }
+
+/* The sphere has a third of degree one, Kovalevskaya's top a fourth of degree four. */
+Test(classify, tops) { expect_family("top", 0, NULL, 4, true, "C0 1@1 1/2@4"); }
+
+/* On the level 0 of a momentum, which is a constraint that needs no force: the top of Goryachev and Chaplygin, of degree three.  [BorisovMamaev2005] */
+Test(classify, levels_are_constraints) { expect_family("top_level", 0, NULL, 3, true, "C0 1@1 1/4@3"); }
+
+Test(classify, constraints)
+{
+    expect_family("contact", 0, NULL, 2, false, "4@2");
+    expect_family("knife", 0, NULL, 2, false, "1@2");
+    expect_family("sleigh", 0, NULL, 1, false, "C+1,+0,+2 0@1");
+}
+
+/* ---- random families ---- */
+
+static int small(uint64_t *random) { return (int)(nh_residue_random(nh_prime_at(0), random) % 19) - 9; }
+
+/* A dense potential of degrees 2 to 4, in brackets. */
+static void put_potential(nh_text *out, uint64_t *random)
+{
+    nh_text_add(out, "(");
+    for (int degree = 2; degree <= 4; degree++)
+        for (int i = 0; i <= degree; i++) nh_text_addf(out, " + (%d)*x^%d*y^%d", small(random), i, degree - i);
+    nh_text_add(out, ")");
+}
+
+static nh_system *random_family(const char *potential)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_addf(&text, "name: random\nparameters: {eps: 0.37}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (%s)\n", potential);
+    nh_system *s = family_of(NULL, nh_text_string(&text), 0, NULL);
+    nh_text_clear(&text);
+    return s;
+}
+
+Test(classify, nothing_is_found_where_there_is_nothing)
+{
+    uint64_t random = 20;
+    for (int round = 0; round < 10; round++) {
+        nh_text text;
+        nh_text_init(&text);
+        put_potential(&text, &random);
+        nh_text_add(&text, " + eps*");
+        put_potential(&text, &random);
+        expect_values(random_family(nh_text_string(&text)), 3, false, "", nh_text_string(&text));
+        nh_text_clear(&text);
+    }
+}
+
+/* Separable in turned coordinates where the factor vanishes: at a rational value, or at two irrational ones. */
+Test(classify, planted_values_are_found)
+{
+    uint64_t random = 33;
+    for (int round = 0; round < 10; round++) {
+        nh_text text;
+        char expected[60];
+        int a = 1 + round % 4, top = 2 * small(&random) + 1, bottom = round % 2 ? 2 : 1, square = (int[]){2, 3, 5, 6, 7}[round % 5];
+        nh_text_init(&text);
+        nh_text_addf(&text, "(%d*x + y)^4 + %d*(%d*x + y)^2 + (x - %d*y)^3 + %d*(x - %d*y)^2 + ", a, round + 2, a, a, 3 * round + 1, a);
+        if (round < 6) nh_text_addf(&text, "(%d*eps - (%d))*", bottom, top);
+        else nh_text_addf(&text, "(eps^2 - %d)*", square);
+        put_potential(&text, &random);
+        if (round >= 6) snprintf(expected, sizeof expected, "+1,+0,%d@2", -square);
+        else snprintf(expected, sizeof expected, bottom == 1 ? "%d@2" : "%d/%d@2", top, bottom);
+        expect_values(random_family(nh_text_string(&text)), 3, false, expected, nh_text_string(&text));
+        nh_text_clear(&text);
+    }
+}
+
+/* ---- what cannot be done ---- */
+
+static void expect_obstacle(const char *text, const char *words)
+{
+    nh_system *s = family_of(NULL, text, 0, NULL);
+    nh_classification *c = classify(s, 2, false);
+    cr_assert_not_null(c->obstacle, "%s", text);
+    cr_expect(strstr(c->obstacle, words), "%s", c->obstacle);
+    nh_classification_free(c);
+    nh_system_free(s);
+}
+
+Test(classify, obstacles_are_named)
+{
+    expect_obstacle("name: a\nparameters: {k: 0.4}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - exp(k*x)*y\n", "inside of a function");
+    expect_obstacle("name: a\nparameters: {k: 0.4}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - sqrt(k + x^2)*y\n", "inside of a function");
+    expect_obstacle("name: a\nparameters: {k: 0.4}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^2*y\n", "do not depend");
+    expect_obstacle("name: a\nparameters: {k: 0.4}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^k*y\ndomain: {x: [0.5, 2]}\n", "");
+    expect_obstacle("name: a\nparameters: {k: 0.4}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [z' = k*y*x']\n", "constraints depend");
+}
+
+/* A metric whose determinant vanishes at values that depend on the point: these are not special. */
+Test(classify, metrics_may_depend_on_the_parameter)
+{
+    static const char text[] = "name: a\nparameters: {m: 0.4}\ncoordinates: [x, y]\nlagrangian: ((1 + m*x^2)*x'^2 + y'^2 + m*x*y*x'*y')/2 - y\n";
+    nh_classification *c;
+    nh_system *s = family_of(NULL, text, 0, NULL);
+    char found[200];
+    c = classify(s, 2, false);
+    describe(c, found, sizeof found);
+    cr_expect_str_eq(found, "0@1");
+    nh_classification_free(c);
+    nh_system_free(s);
+}
+
+/* Another parameter for the same family: mu = 1/b gives reciprocal values, 0 and infinity changed. */
+Test(classify, values_follow_the_parameter)
+{
+    nh_system *s = family_of(NULL, "name: a\nparameters: {mu: 0.4}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^4 - x^2*y^2/mu - y^4\n", 0, NULL);
+    nh_error error = {0};
+    nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
+    nh_classify_question q = {.degree = 2, .work = 1e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classification *c = nh_classify(o, &q);
+    char found[200];
+    describe(c, found, sizeof found);
+    cr_expect_str_eq(found, "C0 1/2@1 1/6@2");
+    cr_expect(c->limit, "b = 0");
+    cr_expect_eq(c->row[1].number.bound, 2);
+    cr_expect_eq(c->row[1].infinite.bound, 3);
+    nh_classification_free(c);
+    nh_model_free(o);
+    nh_system_free(s);
+}
+
+/* ---- the command ---- */
+
+static cJSON *classified(place *p, const char *words)
+{
+    char line[500];
+    snprintf(line, sizeof line, "classify %.300s/tests/data/classify/%.100s --quiet --json -", p->project, words);
+    finished f = run(p, line);
+    cr_assert_eq(f.code, 0, "%s: %s", line, f.err);
+    cJSON *root = cJSON_Parse(f.out);
+    cr_assert_not_null(root, "%s", line);
+    finished_clear(&f);
+    return root;
+}
+
+static const char *text_of(const cJSON *object, const char *key) { return cJSON_GetStringValue(cJSON_GetObjectItem(object, key)); }
+
+Test(classify, the_command_constructs_and_proves)
+{
+    place p = place_make();
+    cJSON *root = classified(&p, "henon_heiles.yaml --over eps --set B=16"), *values = cJSON_GetObjectItem(root, "values"), *value;
+    cr_assert_eq(cJSON_GetArraySize(values), 2);
+    cJSON_ArrayForEach(value, values)
+    {
+        cr_expect(cJSON_IsTrue(cJSON_GetObjectItem(value, "constructed")), "%s", text_of(value, "value"));
+        cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItem(value, "currents")), 2);
+    }
+    cr_expect_str_eq(text_of(cJSON_GetArrayItem(values, 0), "value"), "2");
+    cr_expect_str_eq(text_of(cJSON_GetArrayItem(values, 1), "value"), "16/3");
+    cJSON_Delete(root);
+    place_clear(&p);
+}
+
+/* Other parameters may be ratios that are no decimals, too; the parameter is not the first of those that are left. */
+Test(classify, other_parameters_are_exact)
+{
+    nh_setting settings[] = {at("A", 1, 3), at("B", 16, 3)};
+    nh_error error = {0};
+    nh_classify_request q = {.system_path = "tests/data/classify/henon_heiles.yaml", .settings = 2, .setting = settings, .over = "eps"};
+    nh_options_default(&q.options);
+    nh_classified *x = nh_classify_system(&q, &error);
+    must(x != NULL, &error, "classification");
+    char found[200];
+    describe(x->classification, found, sizeof found);
+    cr_expect_str_eq(found, "2@2 16/3@4");
+    cr_expect_eq(x->value[1].complete, 4);
+    nh_classified_free(x);
+    nh_setting one = at("B", 1, 1);
+    q.settings = 1, q.setting = &one;
+    x = nh_classify_system(&q, &error);
+    must(x != NULL, &error, "classification");
+    describe(x->classification, found, sizeof found);
+    cr_expect_str_eq(found, "2@2 1/3@2");
+    nh_classified_free(x);
+}
+
+/* The currents of the value 16/3, which is no decimal, hold: refuted for another value, confirmed at this one. */
+Test(classify, exact_ratios_stand_for_parameters)
+{
+    nh_setting third = at("eps", 1, 3);
+    nh_error error = {0};
+    nh_system *s = nh_system_read("tests/data/classify/henon_heiles.yaml", 1, &third, &error);
+    must(s != NULL, &error, "the system");
+    cr_assert_eq(s->parameters, 2);
+    cr_assert_eq(s->definitions, 1);
+    cr_expect_eq(s->definition[0].value, nh_ratio(s->dag, 1, 3));
+    nh_options options;
+    nh_options_default(&options);
+    nh_verification *v = nh_verification_of_current(s, NH_CHART_AUTO, "x'*y' + x*(x^2 + 3*y*(y + 1))/3", &options, &error);
+    must(v != NULL, &error, "the current");
+    cr_expect(v->conserved && v->proof.proved);
+    nh_verification_free(v);
+}
+
+Test(classify, the_command_refuses)
+{
+    static const struct {
+        const char *line, *words;
+    } lines[] = {{"classify henon_heiles_sk", "over which parameter"}, {"classify henon_heiles_sk --over B", "not a parameter"}, {"classify --over A", "over which parameter"},
+                 {"classify toda_lattice --over x --html a.html", "does not take --html"}};
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        finished f = run(&p, lines[i].line);
+        cr_expect_eq(f.code, 2, "%s: %d", lines[i].line, f.code);
+        cr_expect(strstr(f.err, lines[i].words), "%s: %s", lines[i].line, f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
