@@ -118,7 +118,7 @@ Test(parse, names)
 #define OPERAND "a number, a name or `(`"
 #define IMPLICIT "there is no implicit multiplication"
 #define LETTERS "names consist of the letters a-z, A-Z, digits and _ (write phi, not a Greek letter)"
-#define EQUATION "an equation is expected only under constraints, forces, definitions and chart maps"
+#define EQUATION "an equation is expected only under constraints, forces, definitions and the map of velocities"
 #define FOREIGN "a character that the expression language does not have; "
 #define NAME64 "abcdefghijklmnopqrstuvwxyz_abcdefghijklmnopqrstuvwxyz_0123456789"
 
