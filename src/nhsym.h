@@ -89,6 +89,7 @@ typedef struct nh_problem nh_problem;
 
 /* Reads the files.  The context must outlive the problem. */
 NH_API nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh_error *error);
+/* After its results, in the thread that worked with it: what the algebra keeps for this thread is given back, too. */
 NH_API void nh_problem_free(nh_problem *problem);
 NH_API const char *nh_problem_name(const nh_problem *problem);
 NH_API size_t nh_problem_coordinates(const nh_problem *problem);

@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 #include "base/text.h"
+#include "exact/normal.h"
 #include "library/library_internal.h"
 #include "problem/places.h"
 
@@ -163,6 +164,7 @@ void nh_problem_free(nh_problem *p)
     nh_system_free(p->system);
     nh_files_free(p->files);
     nh_arena_free(p->arena);
+    nh_normal_cleanup(); /* FLINT keeps memory for each thread */
 }
 
 const char *nh_problem_name(const nh_problem *p) { return p->system->name; }
