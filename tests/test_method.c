@@ -185,7 +185,7 @@ Test(method, a_wrong_motion_is_refused)
         const nh_method *m = nh_method_find(wrong[i]);
         cr_expect_not_null(nh_method_refused(m, programs));
         cr_expect_null(nh_method_steps(m, programs, start, 2, times, &how, &error));
-        cr_expect_not_null(strstr(error.what, "a different motion"), "%s", error.what);
+        cr_expect(strstr(error.what, i < 2 ? "it would converge to a different motion" : "constant energy would give a wrong motion"), "%s", error.what);
         nh_error_clear(&error);
     }
     cr_expect_null(nh_midpoint_refused(programs, NH_LAGRANGE_DALEMBERT));
