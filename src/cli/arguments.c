@@ -169,7 +169,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_ensemble: return members(value, &cli->ensemble, error);
     case opt_spread: return positive(value, "spread", &cli->spread, error);
     case opt_robustness: return cli->robustness = true;
-    case opt_over: cli->over = value; return cli->robustness = true;
+    case opt_over: cli->over = value; return true;
     case opt_shape: return cli->shape = true;
     case opt_scene: return cli->scene = true;
     case opt_chain: cli->chain = value; return true;

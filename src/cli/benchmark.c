@@ -36,8 +36,9 @@ int nh_cli_benchmark(nh_cli *cli, nh_error *error)
     /* without a budget of its own a map counts steps, so that it is the same on a busy machine */
     const double longest = 300;
     double budget = cli->budget > 0 ? cli->budget : 5, of_maps = cli->budget > 0 ? budget / 2 : longest;
-    nh_benchmark *c = nh_benchmark_run(&request, cli->robustness && cli->budget > 0 ? budget / 2 : budget, error);
-    nh_robustness *s = c && cli->robustness && !nh_interrupted() ? nh_robustness_create(&request, cli->over, of_maps, error) : NULL;
+    bool maps = cli->robustness || cli->over; /* ranges are those of a map */
+    nh_benchmark *c = nh_benchmark_run(&request, maps && cli->budget > 0 ? budget / 2 : budget, error);
+    nh_robustness *s = c && maps && !nh_interrupted() ? nh_robustness_create(&request, cli->over, of_maps, error) : NULL;
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);
     if (c && error->code == NH_OK) write_all(cli, &run, c, s, error);

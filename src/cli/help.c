@@ -60,7 +60,8 @@ static void all_commands(void)
          "  --json [FILE|-]  --html FILE  --tex FILE  -o DIR     output files\n"
          "  --quiet  --verbose  --no-color  --help      `nhsym help COMMAND` lists all\n"
          "\nExamples");
-    for (size_t i = 0; i < 3; i++) printf("  %s\n", commands[i == 2 ? 8 : i].example);
+    for (size_t i = 0; i < command_count; i++)
+        if (nh_word_among("analyze verify new", commands[i].name)) printf("  %s\n", commands[i].example);
 }
 
 /* ---- the manual page ---- */

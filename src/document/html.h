@@ -1,6 +1,6 @@
 /* html: results as self-contained pages: no network, no other file.
  *
- * Well-formed as XML too.  Every number stands in <data value="..."> with all its digits, as the JSON has it; plots are inline SVG, formulas
+ * Pages are well-formed XML.  Every number stands in <data value="..."> with all its digits, as the JSON has it; plots are inline SVG, formulas
  * MathML.  Text from files is escaped.  The script on the page draws what the JSON tells of the motion. */
 #ifndef NH_HTML_H
 #define NH_HTML_H

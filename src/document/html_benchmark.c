@@ -27,7 +27,7 @@ static void set_to(nh_html_writer *w, const nh_run_record *m)
 {
     nh_html_tagged(w, "td", m->method);
     nh_html_add(w, "<td>");
-    nh_html_benchmark_page(w, m->formulation);
+    nh_html_chart_name(w, m->formulation);
     nh_html_add(w, "</td><td>");
     step_or_tolerance(w, m);
     nh_html_add(w, "</td>");
@@ -56,16 +56,16 @@ static void answer(nh_html_writer *w, const nh_benchmark *c)
     if (best) {
         nh_html_text(w, best->method);
         nh_html_add(w, " in ");
-        nh_html_benchmark_page(w, best->formulation);
+        nh_html_chart_name(w, best->formulation);
     }
     nh_html_add(w, ".</p>\n<p>One motion, t = ");
     nh_html_number(w, c->begin, 6);
     nh_html_add(w, " to ");
     nh_html_number(w, c->end, 6);
     nh_html_add(w, ", by every integrator in every formulation, measured on this machine. Reference: ");
-    nh_html_benchmark_page(w, c->reference);
+    nh_html_chart_name(w, c->reference);
     nh_html_add(w, "; ");
-    nh_html_benchmark_page(w, c->second);
+    nh_html_chart_name(w, c->second);
     nh_html_add(w, " agrees to ");
     nh_html_number(w, c->agreement, 1);
     nh_html_add(w, ", so that smaller errors mean nothing.</p>\n");

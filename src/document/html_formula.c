@@ -51,7 +51,7 @@ void nh_html_name(nh_html_writer *w, const char *name)
     nh_text_clear(&formula);
 }
 
-void nh_html_benchmark_page(nh_html_writer *w, const char *name)
+void nh_html_chart_name(nh_html_writer *w, const char *name)
 {
     char words[200], one[200];
     const char *list = nh_facts_list(name, words, sizeof words);
@@ -145,7 +145,7 @@ static bool room(nh_html_writer *w, nh_ex e, size_t parts, const nh_formula_part
     return true;
 }
 
-/* Names in the order in which they are told, without gaps. */
+/* Numbers the parts in their order of appearance, without gaps. */
 static void number_parts(nh_html_writer *w, size_t n, nh_ex *e, size_t parts, nh_formula_part *part, const bool *needed)
 {
     nh_ex from[NH_FORMULA_PARTS], to[NH_FORMULA_PARTS];

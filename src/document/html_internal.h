@@ -37,7 +37,7 @@ void nh_html_source(nh_html_writer *w, const char *text);
 /* The same for a name within the text. */
 void nh_html_name(nh_html_writer *w, const char *name);
 /* Words with a list of names in parentheses at their end, such as a chart has: the names as formulas. */
-void nh_html_benchmark_page(nh_html_writer *w, const char *name);
+void nh_html_chart_name(nh_html_writer *w, const char *name);
 /* label = e, with the user's abbreviations; or that it is too long for a page.  label may be "", a name, `Z|x'`: Z with the index x', or
  * MathML that begins with <. */
 void nh_html_formula(nh_html_writer *w, const char *label, nh_ex e);

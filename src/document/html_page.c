@@ -1,4 +1,4 @@
-/* The style sheet and the script of the pages.  Neither contains < or &, so that a page is well-formed XML too. */
+/* The style sheet and the script of the pages.  Neither contains < or &, so that a page is well-formed XML. */
 #include "document/html_internal.h"
 
 const char *const nh_html_style =

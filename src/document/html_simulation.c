@@ -26,8 +26,8 @@ static void answer(nh_html_writer *w, const nh_simulation *s)
     nh_html_add(w, "<p>");
     nh_html_text(w, s->method);
     nh_html_add(w, " in ");
-    nh_html_benchmark_page(w, s->formulation);
-    if (!isnan(s->tolerance)) { /* a fixed step is told below */
+    nh_html_chart_name(w, s->formulation);
+    if (!isnan(s->tolerance)) { /* a fixed step follows below */
         nh_html_add(w, ", tolerance ");
         nh_html_number(w, s->tolerance, 2);
     }

@@ -172,7 +172,7 @@ void nh_html_equations(nh_html_writer *w, const nh_model *o)
 {
     w->names = 0;
     nh_html_add(w, "<h4>In ");
-    nh_html_benchmark_page(w, o->chart->name);
+    nh_html_chart_name(w, o->chart->name);
     nh_html_add(w, "</h4>\n");
     formulas f = formulas_create(2);
     snprintf(formulas_add(&f, o->Lbar), sizeof *f.text, "L");

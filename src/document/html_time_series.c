@@ -239,7 +239,7 @@ static void second_opinion(nh_html_writer *w)
     const nh_validation *v = w->r->validation;
     if (v->crossing_chart && !isnan(v->crossing)) {
         nh_html_add(w, "<p>The chart of ");
-        nh_html_benchmark_page(w, v->crossing_chart);
+        nh_html_chart_name(w, v->crossing_chart);
         nh_html_add(w, " breaks down at t = ");
         nh_html_number(w, v->crossing, 4);
         nh_html_add(w, "; the chart of this motion is regular there.</p>\n");
@@ -264,7 +264,7 @@ void nh_html_simulation_motion(nh_html_writer *w)
     if (!v || v->count < 2) return;
     nh_time_series *c = nh_time_series_of_analysis(r);
     nh_text_addf(w->out, "<section id=\"motion\"><h2>A motion</h2>\n<p>%s in ", v->method);
-    nh_html_benchmark_page(w, v->chart);
+    nh_html_chart_name(w, v->chart);
     nh_html_add(w, ", t = ");
     nh_html_number(w, v->begin, 4);
     nh_html_add(w, " to ");
