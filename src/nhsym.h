@@ -103,6 +103,8 @@ typedef struct nh_analysis     nh_analysis;     /* currents and symmetries */
 typedef struct nh_simulation   nh_simulation;   /* one motion */
 typedef struct nh_reduction    nh_reduction;    /* the symmetry group and the reduced equations */
 typedef struct nh_verification nh_verification; /* of one current or field */
+typedef struct nh_classified   nh_classified;   /* the values of one parameter at which there are more currents */
+typedef struct nh_benchmark    nh_benchmark;    /* integrators compared on one motion */
 
 NH_API nh_analysis     *nh_analyze(nh_problem *problem, nh_error *error);
 NH_API nh_simulation   *nh_simulate(nh_problem *problem, nh_error *error);
@@ -110,19 +112,28 @@ NH_API nh_reduction    *nh_reduce(nh_problem *problem, nh_error *error);
 NH_API nh_verification *nh_verify_current(nh_problem *problem, const char *current, nh_error *error); /* "m*v" */
 NH_API nh_verification *nh_verify_field(nh_problem *problem, const char *field, nh_error *error);     /* "Z0=1; phi=phi'; x=x'" */
 
+/* `shape`: only currents whose coefficients do not depend on cyclic coordinates. */
+NH_API nh_classified   *nh_classify_over(nh_problem *problem, const char *parameter, bool shape, nh_error *error);
+/* `seconds`: of processor time for the measurements; 0: 5. */
+NH_API nh_benchmark    *nh_benchmark_methods(nh_problem *problem, double seconds, nh_error *error);
+
 NH_API void nh_analysis_free(nh_analysis *analysis);
 NH_API void nh_simulation_free(nh_simulation *simulation);
 NH_API void nh_reduction_free(nh_reduction *reduction);
 NH_API void nh_verification_free(nh_verification *verification);
+NH_API void nh_classified_free(nh_classified *classified);
+NH_API void nh_benchmark_free(nh_benchmark *benchmark);
 
-/* The documents of the command line.  LaTeX: an analysis gives a document, a reduction its equations; simulations and verifications have none (NULL, NH_USAGE).  The text
- * of a simulation is its table.  Free the string by nh_string_free. */
+/* The documents of the command line.  LaTeX: an analysis gives a document, a reduction its equations; the others have none (NULL, NH_USAGE), and a classification has no
+ * HTML either.  The text of a simulation is its table.  Free the string by nh_string_free. */
 typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX } nh_format;
 
 NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);
 NH_API char *nh_simulation_document(const nh_simulation *simulation, nh_format format, nh_error *error);
 NH_API char *nh_reduction_document(const nh_reduction *reduction, nh_format format, nh_error *error);
 NH_API char *nh_verification_document(const nh_verification *verification, nh_format format, nh_error *error);
+NH_API char *nh_classified_document(const nh_classified *classified, nh_format format, nh_error *error);
+NH_API char *nh_benchmark_document(const nh_benchmark *benchmark, nh_format format, nh_error *error);
 NH_API void  nh_string_free(char *string);
 
 /* ---- an analysis ---- */
@@ -149,8 +160,12 @@ typedef enum { NH_SYNTAX_PLAIN, NH_SYNTAX_LATEX, NH_SYNTAX_MATHML } nh_syntax;
 
 /* A formula in t, coordinates, parameters and the velocities of the system file.  NULL: too long to be written.  Free the string by nh_string_free. */
 NH_API char *nh_current_formula(const nh_analysis *analysis, size_t index, nh_syntax syntax);
+/* Any formula in the language of system files ("J*phi'^2/2"), typeset.  NULL: it is none. */
+NH_API char *nh_formula_typeset(const char *formula, nh_syntax syntax);
 /* The value at a time, positions and velocities (one of each per coordinate, in their order); NAN where it is not defined. */
 NH_API double nh_current_value(const nh_analysis *analysis, size_t index, double t, const double *q, const double *v);
+/* The same at many states, faster for each: coordinate i of state j is q[i*count + j], likewise v; t[j] (NULL: 0).  False where the current has no such formula. */
+NH_API bool nh_current_values(const nh_analysis *analysis, size_t index, size_t count, const double *t, const double *q, const double *v, double *out);
 
 /* ---- a simulation: a table with time in column 0 ---- */
 
@@ -158,11 +173,23 @@ NH_API size_t nh_simulation_rows(const nh_simulation *simulation);
 NH_API size_t nh_simulation_columns(const nh_simulation *simulation);
 NH_API const char *nh_simulation_column(const nh_simulation *simulation, size_t column);
 NH_API double nh_simulation_value(const nh_simulation *simulation, size_t row, size_t column);
+NH_API void nh_simulation_read(const nh_simulation *simulation, size_t column, double *out); /* all rows */
+/* One column against another as an SVG picture, with one scale on both axes where x is not the time; NULL: there is no such column.  Free the string by nh_string_free. */
+NH_API char *nh_simulation_svg(const nh_simulation *simulation, size_t x, size_t y);
 
 /* ---- a verification ---- */
 
 NH_API bool nh_verification_holds(const nh_verification *verification);
 NH_API bool nh_verification_proved(const nh_verification *verification);
+
+/* ---- equations of motion ---- */
+
+typedef struct nh_rates nh_rates;
+
+NH_API nh_rates *nh_rates_create(nh_problem *problem, nh_error *error); /* remains valid without its problem */
+NH_API void nh_rates_free(nh_rates *rates);
+/* The accelerations of all coordinates at many states that satisfy the constraints, arranged as for nh_current_values; NAN where they are not determined. */
+NH_API void nh_rates_at(nh_rates *rates, size_t count, const double *t, const double *q, const double *v, double *out);
 
 #ifdef __cplusplus
 }

@@ -87,6 +87,70 @@ Test(library, currents_have_values)
     close_one(&o);
 }
 
+/* Many states at once, more than a batch has: as one by one, and undefined where those are. */
+Test(library, currents_have_values_at_many_states)
+{
+    enum { count = 700 };
+    static const char singular[] = "name: far\ncoordinates: [r, s]\nlagrangian: (r'^2 + s'^2)/2 + log(r)\n";
+    static double t[count], q[2 * count], v[2 * count], out[count];
+    opened o = open_one((nh_question){.system_text = singular});
+    nh_analysis *a = nh_analyze(o.problem, &o.error);
+    cr_assert_not_null(a, "%s", o.error.what);
+    for (size_t j = 0; j < count; j++) {
+        t[j] = 0.01 * (double)j;
+        q[j] = 0.01 * (double)j - 0.5; /* of r: negative at first */
+        q[count + j] = sin((double)j);
+        v[j] = cos((double)j);
+        v[count + j] = 1.5 + sin(0.3 * (double)j);
+    }
+    size_t undefined = 0;
+    for (size_t i = 0; i < nh_analysis_currents(a); i++) {
+        cr_assert(nh_current_values(a, i, count, t, q, v, out));
+        for (size_t j = 0; j < count; j++) {
+            double one = nh_current_value(a, i, t[j], (double[]){q[j], q[count + j]}, (double[]){v[j], v[count + j]});
+            undefined += isnan(one);
+            if (isnan(one)) cr_expect(isnan(out[j]));
+            else cr_expect_float_eq(out[j], one, 1e-14 * (1 + fabs(one)));
+        }
+    }
+    cr_expect_geq(undefined, 50u); /* the energy has a logarithm */
+    cr_expect_not(nh_current_values(a, nh_analysis_currents(a), count, t, q, v, out));
+    nh_analysis_free(a);
+    close_one(&o);
+}
+
+/* A bead on a rotating blade, y' cos t = x' sin t, at rest apart from that: its acceleration is (v cos t)', where v' = 0. */
+Test(library, rates_are_accelerations)
+{
+    enum { count = 600 };
+    static const char blade[] = "name: blade\nparameters: [{name: m, value: 3}, {name: g, value: 2}]\ncoordinates: [x, y]\n"
+                                "lagrangian: m*(x'^2 + y'^2)/2 - m*g*y\nconstraints: [\"y'*cos(t) = x'*sin(t)\"]\n";
+    static double t[count], q[2 * count], v[2 * count], a[2 * count];
+    opened o = open_one((nh_question){.system_text = blade, .set = "g=0.5"});
+    nh_rates *rates = nh_rates_create(o.problem, &o.error);
+    close_one(&o); /* they live on */
+    cr_assert_not_null(rates, "%s", o.error.what);
+    for (size_t j = 0; j < count; j++) {
+        t[j] = 0.01 * (double)j;
+        double speed = 1 + cos((double)j);
+        v[j] = speed * cos(t[j]);
+        v[count + j] = speed * sin(t[j]);
+    }
+    nh_rates_at(rates, count, t, q, v, a);
+    for (size_t j = 0; j < count; j++) {
+        double speed = 1 + cos((double)j), along = -0.5 * sin(t[j]); /* v' = -g sin t */
+        cr_expect_float_eq(a[j], along * cos(t[j]) - speed * sin(t[j]), 1e-12);
+        cr_expect_float_eq(a[count + j], along * sin(t[j]) + speed * cos(t[j]), 1e-12);
+    }
+    nh_rates_at(rates, 1, NULL, (double[]){0, 0}, (double[]){NAN, 0}, a);
+    cr_expect(isnan(a[0]) && isnan(a[1]));
+    nh_rates_free(rates);
+    o = open_one((nh_question){.system_text = "name: none\ncoordinates: [x, y]\nlagrangian: x'^2/2\n"});
+    cr_expect_null(nh_rates_create(o.problem, &o.error));
+    cr_expect(strstr(o.error.what, "inertia") || strstr(o.error.what, "singular"), "%s", o.error.what);
+    close_one(&o);
+}
+
 Test(library, a_motion_agrees_with_its_closed_form)
 {
     opened o = open_one((nh_question){.system_text = oscillator, .set = "k=18", .initial = "x=1, x'=0", .until = 2, .step = 0.5, .accuracy = 1e-9});
@@ -97,6 +161,13 @@ Test(library, a_motion_agrees_with_its_closed_form)
     cr_expect_str_eq(nh_simulation_column(s, 1), "x");
     for (size_t i = 0; i < nh_simulation_rows(s); i++) cr_expect_float_eq(nh_simulation_value(s, i, 1), cos(3 * nh_simulation_value(s, i, 0)), 1e-8);
     cr_expect(isnan(nh_simulation_value(s, 5, 1)));
+    double x[5];
+    nh_simulation_read(s, 1, x);
+    for (size_t i = 0; i < 5; i++) cr_expect_eq(x[i], nh_simulation_value(s, i, 1));
+    char *picture = nh_simulation_svg(s, 0, 1);
+    cr_expect(picture && strstr(picture, "<svg") && strstr(picture, "</svg>") && !strstr(picture, "nan"));
+    nh_string_free(picture);
+    cr_expect_null(nh_simulation_svg(s, 0, nh_simulation_columns(s)));
     nh_simulation_free(s);
     close_one(&o);
 }
@@ -116,6 +187,51 @@ Test(library, a_current_and_a_field_are_verified)
     nh_verification_free(no);
     nh_verification_free(field);
     close_one(&o);
+}
+
+/* The oscillator with another force constant in y: more is conserved where the two agree. */
+Test(library, a_parameter_is_classified)
+{
+    static const char two[] = "name: two\nparameters: [{name: k, value: 3}]\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + k*y^2)/2\n";
+    opened o = open_one((nh_question){.system_text = two, .options = "degree=2"});
+    nh_classified *c = nh_classify_over(o.problem, "k", false, &o.error);
+    cr_assert_not_null(c, "%s", o.error.what);
+    char *text = nh_classified_document(c, NH_FORMAT_TEXT, &o.error), *json = nh_classified_document(c, NH_FORMAT_JSON, &o.error);
+    cr_expect(strstr(text, "k = 1"), "%s", text);
+    cr_expect_eq(json[0], '{');
+    nh_string_free(text);
+    nh_string_free(json);
+    cr_expect_null(nh_classified_document(c, NH_FORMAT_HTML, &o.error));
+    cr_expect_eq(o.error.code, NH_USAGE);
+    nh_classified_free(c);
+    cr_expect_null(nh_classify_over(o.problem, "kk", false, &o.error));
+    cr_expect_not_null(strstr(o.error.what, "kk"));
+    close_one(&o);
+}
+
+Test(library, methods_are_compared)
+{
+    opened o = open_one((nh_question){.system_text = oscillator, .initial = "x=1", .until = 3});
+    nh_benchmark *b = nh_benchmark_methods(o.problem, 0.2, &o.error);
+    cr_assert_not_null(b, "%s", o.error.what);
+    static const nh_format formats[] = {NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML};
+    for (int f = 0; f < 3; f++) {
+        char *text = nh_benchmark_document(b, formats[f], &o.error);
+        cr_expect(text && strstr(text, "CVODE Adams"));
+        nh_string_free(text);
+    }
+    nh_benchmark_free(b);
+    close_one(&o);
+}
+
+Test(library, formulas_are_typeset)
+{
+    char *latex = nh_formula_typeset("J*phi'^2/2", NH_SYNTAX_LATEX), *mathml = nh_formula_typeset("J*phi'^2/2", NH_SYNTAX_MATHML), *none = nh_formula_typeset("J*(", NH_SYNTAX_LATEX);
+    cr_expect(latex && strstr(latex, "\\dot"), "%s", latex);
+    cr_expect(mathml && strstr(mathml, "<mover"), "%s", mathml);
+    cr_expect_null(none);
+    nh_string_free(latex);
+    nh_string_free(mathml);
 }
 
 Test(library, errors_have_place_cause_and_cure)

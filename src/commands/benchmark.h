@@ -42,7 +42,7 @@ typedef struct {
     bool good, undecided, right, front;
 } nh_fitted;
 
-typedef struct {
+struct nh_benchmark {
     nh_arena *arena;
     nh_simulation *question;     /* system, model, analysis */
     double begin, end;
@@ -62,7 +62,7 @@ typedef struct {
     bool partial;                /* the budget ended it */
     bool doubtful;               /* they do not agree well enough for it to be a reference (options.benchmark_trusted): errors then say little, and nothing is accurate */
     bool shortened;              /* the motion did not reach the time that was meant, and nobody had chosen that */
-} nh_benchmark;
+};
 
 /* `budget`: seconds for the measurements.  NULL with a message when no motion can be computed at all. */
 nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget, nh_error *error);

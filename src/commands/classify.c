@@ -150,6 +150,7 @@ nh_classified *nh_classify_system(const nh_classify_request *q, nh_error *error)
 
 void nh_classified_free(nh_classified *x)
 {
+    if (!x) return;
     for (size_t k = 0; x->value && k < x->classification->values; k++) nh_analysis_free(x->value[k].result);
     nh_classification_free(x->classification);
     nh_analysis_free(x->almost_all);

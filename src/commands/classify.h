@@ -25,7 +25,7 @@ typedef struct {
     size_t complete;         /* the degree up to which they account for the number of integrals */
 } nh_classified_value;
 
-typedef struct {
+struct nh_classified {
     nh_arena *arena;
     const char *name, *title, *over;
     nh_analysis *almost_all;   /* the analysis of the family */
@@ -37,7 +37,7 @@ typedef struct {
     size_t others;           /* other parameters, with their values */
     nh_setting *other;
     bool partial;            /* the run was ended before it was through */
-} nh_classified;
+};
 
 nh_classified *nh_classify_system(const nh_classify_request *request, nh_error *error);
 void nh_classified_free(nh_classified *classified);

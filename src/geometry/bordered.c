@@ -141,6 +141,23 @@ bool nh_bordered_accelerations(nh_bordered *b, double t, const double *q, const 
     return nh_bordered_terms(b, t, q, v, b->terms, h, F, g, f) && nh_saddle_solve(m, k, b->terms, F, h, g, acceleration, NULL, NULL, b->saddle);
 }
 
+void nh_bordered_accelerations_batch(nh_bordered *b, size_t count, const double *const *in, size_t stride, double *to)
+{
+    size_t m = b->m, k = b->k, total = m * m + m + k * m + 2 * k;
+    double *h = b->terms + m * m, *F = h + m, *g = F + k * m, *column = nh_alloc_array(total * NH_BATCH, sizeof *column);
+    double **out = nh_alloc_array(total, sizeof *out);
+    for (size_t i = 0; i < total; i++) out[i] = column + i * NH_BATCH;
+    nh_tape_eval_batch(b->tape, b->work, count, in, out);
+    for (size_t j = 0; j < count; j++) {
+        for (size_t i = 0; i < total; i++) b->terms[i] = out[i][j];
+        normalise(m, k, b->unit, F);
+        bool good = nh_all_finite(total, b->terms) && nh_saddle_solve(m, k, b->terms, F, h, g, b->right, NULL, NULL, b->saddle);
+        for (size_t s = 0; s < m; s++) to[s * stride + j] = good ? b->right[s] : NAN;
+    }
+    nh_free(out);
+    nh_free(column);
+}
+
 bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *v, const double *mu, double *force)
 {
     size_t m = b->m, k = b->k;

@@ -32,6 +32,9 @@ bool nh_bordered_terms(nh_bordered *bordered, double t, const double *q, const d
 /* v' (m values).  False when not finite or the bordered matrix is singular. */
 bool nh_bordered_accelerations(nh_bordered *bordered, double t, const double *q, const double *v, double *acceleration);
 
+/* The same at count <= NH_BATCH states: in[j] is input j of t, q, v at each of them (1 + 2m); v' of coordinate s at state j is to[s*stride + j], NAN where there is none. */
+void nh_bordered_accelerations_batch(nh_bordered *bordered, size_t count, const double *const *in, size_t stride, double *to);
+
 /* force[s] = mu_a df^a/dv^s at (t, q, v), m values.  False when not finite. */
 bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const double *v, const double *mu, double *force);
 

@@ -4,10 +4,14 @@
 
 #include "base/progress.h"
 #include "commands/analyze.h"
+#include "commands/benchmark.h"
+#include "commands/classify.h"
 #include "commands/reduce.h"
 #include "commands/simulate.h"
 #include "commands/verify.h"
 #include "document/analysis_json.h"
+#include "document/benchmark.h"
+#include "document/classification.h"
 #include "document/html.h"
 #include "document/reduction.h"
 #include "document/simulation.h"
@@ -30,11 +34,16 @@ nh_analysis *nh_analyze(nh_problem *p, nh_error *error)
     return a;
 }
 
+static nh_simulate_request motion_of(const nh_problem *p)
+{
+    return (nh_simulate_request){.system_path = p->system_path, .analysis_path = p->analysis_path, .settings = p->settings, .setting = p->setting, .chart = p->chart,
+                                 .initial = p->question.initial, .watch = p->question.watch, .step = p->question.step, .accuracy = p->question.accuracy,
+                                 .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0, .options = p->options};
+}
+
 nh_simulation *nh_simulate(nh_problem *p, nh_error *error)
 {
-    nh_simulate_request request = {.system_path = p->system_path, .analysis_path = p->analysis_path, .settings = p->settings, .setting = p->setting, .chart = p->chart,
-                                   .initial = p->question.initial, .watch = p->question.watch, .step = p->question.step, .accuracy = p->question.accuracy,
-                                   .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0, .options = p->options};
+    nh_simulate_request request = motion_of(p);
     nh_error_clear(error);
     nh_problem_enter(p);
     nh_simulation *s = nh_simulation_create(&request, error);
@@ -72,6 +81,28 @@ bool nh_verification_holds(const nh_verification *v) { return v->conserved; }
 
 bool nh_verification_proved(const nh_verification *v) { return v->proof.proved; }
 
+nh_classified *nh_classify_over(nh_problem *p, const char *parameter, bool shape, nh_error *error)
+{
+    nh_classify_request request = {.system_path = p->system_path, .settings = p->settings, .setting = p->setting,
+                                   .over = parameter, .shape = shape, .options = p->options};
+    nh_error_clear(error);
+    nh_problem_enter(p);
+    nh_classified *c = nh_classify_system(&request, error);
+    nh_problem_leave(p);
+    return c;
+}
+
+nh_benchmark *nh_benchmark_methods(nh_problem *p, double seconds, nh_error *error)
+{
+    static const double usual = 5; /* seconds, as on the command line */
+    nh_simulate_request request = motion_of(p);
+    nh_error_clear(error);
+    nh_problem_enter(p);
+    nh_benchmark *b = nh_benchmark_run(&request, seconds > 0 ? seconds : usual, error);
+    nh_problem_leave(p);
+    return b;
+}
+
 /* ---- documents ---- */
 
 static const double shown = 600; /* symbols of the longest formula on a page, as by default */
@@ -83,10 +114,10 @@ static char *taken(nh_text *text)
     return out;
 }
 
-static char *no_document(const char *what, nh_error *error)
+static char *no_document(const char *what, const char *format, const char *instead, nh_error *error)
 {
-    nh_fail(error, NH_USAGE, "", "%s cannot be written as LaTeX", what);
-    nh_error_hint(error, "choose text, JSON or HTML");
+    nh_fail(error, NH_USAGE, "", "%s cannot be written as %s", what, format);
+    nh_error_hint(error, "choose %s", instead);
     return NULL;
 }
 
@@ -115,7 +146,7 @@ char *nh_simulation_document(const nh_simulation *s, nh_format format, nh_error 
     case NH_FORMAT_JSON: return nh_motion_json(s, &run);
     case NH_FORMAT_HTML: nh_html_simulation(s, &run, &text); break;
     case NH_FORMAT_TEXT: nh_motion_csv(s, &text); break;
-    case NH_FORMAT_LATEX: return no_document("a simulation", error);
+    case NH_FORMAT_LATEX: return no_document("a simulation", "LaTeX", "text, JSON or HTML", error);
     }
     return taken(&text);
 }
@@ -145,7 +176,35 @@ char *nh_verification_document(const nh_verification *v, nh_format format, nh_er
     case NH_FORMAT_JSON: return nh_verification_json(v, &run);
     case NH_FORMAT_HTML: nh_html_verification(v, field, &run, &text); break;
     case NH_FORMAT_TEXT: nh_verification_text(v, field, shown, &text); break;
-    case NH_FORMAT_LATEX: return no_document("a verification", error);
+    case NH_FORMAT_LATEX: return no_document("a verification", "LaTeX", "text, JSON or HTML", error);
+    }
+    return taken(&text);
+}
+
+char *nh_classified_document(const nh_classified *c, nh_format format, nh_error *error)
+{
+    nh_run  run = run_of(1);
+    nh_text text;
+    nh_text_init(&text);
+    switch (format) {
+    case NH_FORMAT_JSON: return nh_classification_json(c, &run);
+    case NH_FORMAT_TEXT: nh_classification_text(c, false, &text); break;
+    case NH_FORMAT_HTML: return no_document("a classification", "HTML", "text or JSON", error);
+    case NH_FORMAT_LATEX: return no_document("a classification", "LaTeX", "text or JSON", error);
+    }
+    return taken(&text);
+}
+
+char *nh_benchmark_document(const nh_benchmark *b, nh_format format, nh_error *error)
+{
+    nh_run  run = run_of(1);
+    nh_text text;
+    nh_text_init(&text);
+    switch (format) {
+    case NH_FORMAT_JSON: return nh_benchmark_json(b, NULL, &run);
+    case NH_FORMAT_HTML: nh_html_benchmark(b, NULL, &run, &text); break;
+    case NH_FORMAT_TEXT: nh_benchmark_text(b, false, &text); break;
+    case NH_FORMAT_LATEX: return no_document("a benchmark", "LaTeX", "text, JSON or HTML", error);
     }
     return taken(&text);
 }

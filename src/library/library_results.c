@@ -1,11 +1,14 @@
 /* library_results: what a caller reads of results, number by number. */
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "commands/simulate.h"
+#include "document/svg.h"
 #include "document/typeset.h"
 #include "evaluate/tape.h"
 #include "graph/print.h"
+#include "library/library_columns.h"
 #include "search/analysis.h"
 
 /* ---- an analysis ---- */
@@ -33,43 +36,77 @@ nh_current_facts nh_current_describe(const nh_analysis *a, size_t index)
 /* In velocities where that is possible, else in the chart. */
 static nh_ex shown_form(const nh_current *c) { return c->has_in_velocities ? c->in_velocities : c->phi; }
 
+char *nh_formula_typeset(const char *formula, nh_syntax syntax)
+{
+    if (syntax == NH_SYNTAX_PLAIN) return nh_strdup(formula);
+    nh_text text;
+    nh_text_init(&text);
+    bool  good = nh_typeset(formula, syntax == NH_SYNTAX_LATEX ? NH_LATEX : NH_MATHML, &text);
+    char *out = good ? nh_strdup(nh_text_string(&text)) : NULL;
+    nh_text_clear(&text);
+    return out;
+}
+
 char *nh_current_formula(const nh_analysis *a, size_t index, nh_syntax syntax)
 {
     if (index >= a->count) return NULL;
     char *plain = nh_print_short(a->model->dag, shown_form(&a->found[index]), a->options.written);
     if (!plain || syntax == NH_SYNTAX_PLAIN) return plain;
-    nh_text text;
-    nh_text_init(&text);
-    bool good = nh_typeset(plain, syntax == NH_SYNTAX_LATEX ? NH_LATEX : NH_MATHML, &text);
+    char *out = nh_formula_typeset(plain, syntax);
     nh_free(plain);
-    plain = good ? nh_strdup(nh_text_string(&text)) : NULL;
-    nh_text_clear(&text);
-    return plain;
+    return out;
+}
+
+/* Of t, positions and velocities; NULL where the current cannot be written in velocities. */
+static nh_tape *tape_of(const nh_analysis *a, size_t index)
+{
+    if (index >= a->count || !a->found[index].has_in_velocities) return NULL;
+    const nh_system *s = a->system;
+    size_t m = s->coordinates;
+    nh_ex  form = a->found[index].in_velocities, *in = nh_alloc_array(2 * m + 1, sizeof *in);
+    in[0] = s->t;
+    for (size_t i = 0; i < m; i++) {
+        in[1 + i] = s->coordinate[i].q;
+        in[1 + m + i] = s->coordinate[i].v;
+    }
+    nh_tape *tape = nh_tape_create(a->model->dag, 2 * m + 1, in, 1, &form, s->parameters, a->model->parameter, a->model->parameter_value);
+    nh_free(in);
+    return tape;
 }
 
 double nh_current_value(const nh_analysis *a, size_t index, double t, const double *q, const double *v)
 {
-    if (index >= a->count || !a->found[index].has_in_velocities) return NAN;
-    const nh_system *s = a->system;
-    size_t m = s->coordinates;
-    nh_ex  form = a->found[index].in_velocities, *in = nh_alloc_array(2 * m + 1, sizeof *in);
+    nh_tape *tape = tape_of(a, index);
+    if (!tape) return NAN;
+    size_t m = a->system->coordinates;
     double out, *value = nh_alloc_array(2 * m + 1, sizeof *value);
-    in[0] = s->t;
     value[0] = t;
-    for (size_t i = 0; i < m; i++) {
-        in[1 + i] = s->coordinate[i].q;
-        in[1 + m + i] = s->coordinate[i].v;
-        value[1 + i] = q[i];
-        value[1 + m + i] = v[i];
-    }
-    nh_tape *tape = nh_tape_create(a->model->dag, 2 * m + 1, in, 1, &form, s->parameters, a->model->parameter, a->model->parameter_value);
+    memcpy(value + 1, q, m * sizeof *q);
+    memcpy(value + 1 + m, v, m * sizeof *v);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, value, &out);
     nh_tape_work_free(work);
     nh_tape_free(tape);
-    nh_free(in);
     nh_free(value);
     return isfinite(out) ? out : NAN;
+}
+
+bool nh_current_values(const nh_analysis *a, size_t index, size_t count, const double *t, const double *q, const double *v, double *out)
+{
+    nh_tape *tape = tape_of(a, index);
+    if (!tape) return false;
+    nh_columns columns;
+    nh_columns_open(&columns, a->system->coordinates, count, t, q, v);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t from = 0, n; (n = nh_columns_next(&columns, from)) > 0; from += n) {
+        double *to = out + from;
+        nh_tape_eval_batch(tape, work, n, columns.in, &to);
+        for (size_t j = 0; j < n; j++) to[j] = isfinite(to[j]) ? to[j] : NAN;
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_columns_close(&columns);
+    return true;
 }
 
 /* ---- a simulation ---- */
@@ -94,4 +131,32 @@ double nh_simulation_value(const nh_simulation *s, size_t row, size_t column)
 {
     if (row >= s->motion->count || column >= nh_simulation_columns(s)) return NAN;
     return column == 0 ? s->motion->time[row] : s->value[row * s->columns.count + column - 1];
+}
+
+void nh_simulation_read(const nh_simulation *s, size_t column, double *out)
+{
+    for (size_t row = 0; row < s->motion->count; row++) out[row] = nh_simulation_value(s, row, column);
+}
+
+char *nh_simulation_svg(const nh_simulation *s, size_t x, size_t y)
+{
+    size_t rows = s->motion->count, columns = nh_simulation_columns(s);
+    if (x >= columns || y >= columns) return NULL;
+    double *value = nh_alloc_array(2 * rows, sizeof *value);
+    nh_simulation_read(s, x, value);
+    nh_simulation_read(s, y, value + rows);
+    const char *across = nh_simulation_column(s, x), *up = nh_simulation_column(s, y);
+    nh_curve curve = {.name = up, .count = rows, .x = value, .y = value + rows, .x_stride = 1, .y_stride = 1};
+    nh_plot  plot = {.id = "plot", .title = up, .x_label = across, .y_label = up, .equal = x > 0, .timed = x == 0, .curves = 1, .curve = &curve};
+    nh_text  text, words;
+    nh_text_init(&text);
+    nh_text_init(&words);
+    nh_text_addf(&words, "%s against %s", up, across);
+    plot.description = nh_text_string(&words);
+    nh_svg_plot(&plot, &text);
+    char *out = nh_strdup(nh_text_string(&text));
+    nh_text_clear(&text);
+    nh_text_clear(&words);
+    nh_free(value);
+    return out;
 }
