@@ -3,7 +3,8 @@
 #   make sleigh    install what is missing, build, analyse the Chaplygin sleigh
 #   make check     install what the tests need, build, run the tests, of long sweeps a sample (also under ASan and UBSan)
 #   make check-all the same with the sweeps in full
-#   make           build only            make install PREFIX=/usr/local
+#   make           build only            make install PREFIX=/usr/local LIBDIR=.. DESTDIR=..  (make uninstall removes the same files)
+#   make library   the shared library    make wheel    the Python package, into build/python
 #   make bench     measure, and write docs/performance.md
 #   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
 #   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
@@ -15,7 +16,10 @@
 
 CC      = gcc
 PREFIX  = /usr/local
+LIBDIR  = $(PREFIX)/lib
 VERSION = 0.1.0
+# Of the binary interface nhsym.h: another number when a program that was compiled with the old one would no longer run.
+SONAME  = libnhsym.so.0
 BUILD   = build$(if $(SANITIZE),-sanitize)
 JOBS    = $(shell nproc 2>/dev/null || echo 2)
 comma   = ,
@@ -26,9 +30,12 @@ WARN     = -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-
 SANE     = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT      = $(if $(SANITIZE),-O1 -g $(SANE),-O2 -g)
 # A product and a sum are rounded one after the other, on every machine and in every build.
-CFLAGS   = -std=c17 -ffp-contract=off $(OPT) $(WARN)
+# CFLAGS, CPPFLAGS and LDFLAGS of the environment and the command line come after the project's own.
+OWN_CFLAGS = -std=c17 -ffp-contract=off $(OPT) $(WARN)
 INCLUDES = -Isrc $(patsubst -I%,-isystem %,$(MPI_INCLUDE))
-CPPFLAGS = $(INCLUDES) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -DNH_DATADIR='"$(PREFIX)/share/nhsym"' -MMD -MP
+OWN_CPPFLAGS = $(INCLUDES) -D_GNU_SOURCE -DNH_VERSION='"$(VERSION)"' -MMD -MP
+COMPILE  = $(CC) $(OWN_CPPFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS)
+LINK     = $(CC) $(OPT) $(CFLAGS) $(LDFLAGS)
 # What other versions have in other places: SUNDIALS 7 a core of its own, whose headers want MPI's where it was built with MPI (as Debian's is); FLINT 2
 # Arb as a library of its own.
 has      = $(if $(findstring /,$(shell $(CC) -print-file-name=lib$(1).so)),-l$(1))
@@ -52,11 +59,13 @@ FORTRAN  = $(if $(findstring :,$(call archive,openblas)),-l:libgfortran.so.5)
 WITHOUT_MPI = $(and $(MPI),$(findstring :,$(call archive,sundials_core)))
 
 PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
-TEST_PACKAGES = $(PACKAGES) libcriterion-dev
+TEST_PACKAGES = $(PACKAGES) libcriterion-dev pkg-config
 BROWSER       = chromium
 
 MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
 OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
+# Of the shared library alone: code that may stand anywhere costs the program a few per cent.
+SHARED  = $(MODULES:%.c=$(BUILD)/shared/%.o)
 CLI     = $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/cli/*.c))
 TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
 BENCHES = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/bench_*.c))
@@ -66,11 +75,13 @@ STATES  = 50
 SEED    = 1
 SECONDS = 60
 
-.PHONY: all sleigh check check-all tests install bench catalogue reductions random parameters perturbed classification fuzz print-libraries print-includes clean packages test-packages check-packages
+.PHONY: all library sleigh check check-all tests install uninstall wheel bench catalogue reductions random parameters perturbed classification fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
 all: $(BUILD)/nhsym
+
+library: $(BUILD)/$(SONAME)
 
 sleigh: packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all
@@ -85,7 +96,7 @@ check-all: export NHSYM_SWEEPS = all
 check-all: check
 
 # The benches are there to be measured: not under sanitizers.
-tests: $(TESTS) $(if $(SANITIZE),,$(BENCHES))
+tests: $(TESTS) $(if $(SANITIZE),,$(BENCHES) library)
 
 bench: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all tests $(BUILD)/tests/nhsym-shared
@@ -135,49 +146,90 @@ $(BUILD)/libnhsym.a: $(OBJECTS)
 
 $(BUILD)/nhsym: $(CLI) $(BUILD)/libnhsym.a
 	@echo "  link $@"
-	@$(CC) $(OPT) $(LDFLAGS) $(CLI) $(BUILD)/libnhsym.a $(call libraries,archive) -o $@
+	@$(LINK) $(CLI) $(BUILD)/libnhsym.a $(call libraries,archive) -o $@
+
+# Only what nhsym.h marks NH_API is seen from outside, and has a version.  (-fvisibility=hidden alone forgets functions that have clones for several processors.)
+$(BUILD)/libnhsym.map: src/nhsym.h
+	@mkdir -p $(@D)
+	@{ echo 'NHSYM_$(subst libnhsym.so.,,$(SONAME)) { global:'; sed -n 's/^NH_API .*[ *]\(nh_[a-z_]*\)(.*/    \1;/p' $<; echo '  local: *; };'; } >$@
+
+$(BUILD)/$(SONAME): $(SHARED) $(BUILD)/libnhsym.map
+	@echo "  link $@"
+	@$(LINK) -shared -Wl,-soname,$(SONAME) -Wl,-z,defs -Wl,--version-script=$(BUILD)/libnhsym.map $(SHARED) $(LDLIBS) -o $@
 
 # For `make bench`: what the archives are good for.
 $(BUILD)/tests/nhsym-shared: $(CLI) $(BUILD)/libnhsym.a
 	@mkdir -p $(@D)
-	@$(CC) $(OPT) $(LDFLAGS) $(CLI) $(BUILD)/libnhsym.a $(LDLIBS) -o $@
+	@$(LINK) $(CLI) $(BUILD)/libnhsym.a $(LDLIBS) -o $@
 
-$(BUILD)/src/cli/archives.o: CPPFLAGS += $(if $(WITHOUT_MPI),-DNH_WITHOUT_MPI)
+$(BUILD)/src/cli/archives.o: OWN_CPPFLAGS += $(if $(WITHOUT_MPI),-DNH_WITHOUT_MPI)
 
 # The loops over batches of points; see the head of the file for why no -ffast-math.
-$(BUILD)/src/evaluate/tape_batch.o: CFLAGS += -O3 -fno-math-errno -fno-trapping-math
+$(addprefix $(BUILD)/,src/evaluate/tape_batch.o shared/src/evaluate/tape_batch.o): OWN_CFLAGS += -O3 -fno-math-errno -fno-trapping-math
 
-$(BUILD)/src/motion/ensemble.o: CFLAGS += -O3
+$(addprefix $(BUILD)/,src/motion/ensemble.o shared/src/motion/ensemble.o): OWN_CFLAGS += -O3
+
+# Where systems are looked for at last (src/problem/places.c).
+$(addprefix $(BUILD)/,src/problem/places.o shared/src/problem/places.o): OWN_CPPFLAGS += -DNH_DATADIR='"$(PREFIX)/share/nhsym"'
+
+$(BUILD)/shared/%.o: %.c
+	@mkdir -p $(@D)
+	@echo "  cc   $< (shared)"
+	@$(COMPILE) -fPIC -fvisibility=hidden -c $< -o $@
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  cc   $<"
-	@$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+	@$(COMPILE) -c $< -o $@
 
 # Under sanitizers the code of a test itself, which takes no time worth optimising, took most of the time to compile.
-$(BUILD)/tests/test_%.o: CFLAGS += $(if $(SANITIZE),-O0)
+$(BUILD)/tests/test_%.o: OWN_CFLAGS += $(if $(SANITIZE),-O0)
 # Tests are linked, and linked anew, a hundred at a time.
 FAST_LINKER := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 
+# They take what is installed, and Python's package, from the build.
+$(if $(SANITIZE),,$(BUILD)/tests/test_install $(BUILD)/tests/test_python: | $(BUILD)/$(SONAME))
+
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/libnhsym.a
 	@echo "  link $@"
-	@$(CC) $(OPT) $(FAST_LINKER) $(LDFLAGS) $< $(BUILD)/libnhsym.a $(LDLIBS) -lcriterion -o $@
+	@$(LINK) $(FAST_LINKER) $< $(BUILD)/libnhsym.a $(LDLIBS) -lcriterion -o $@
 
-install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/nhsym/systems/stress $(DESTDIR)$(PREFIX)/share/nhsym/analyses
+# ---- installation ----
+
+SHARE = $(DESTDIR)$(PREFIX)/share
+
+install: all library
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(LIBDIR)/pkgconfig
 	install -m 755 $(BUILD)/nhsym $(DESTDIR)$(PREFIX)/bin/
-	install -m 644 systems/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/systems/
-	install -m 644 systems/stress/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/systems/stress/
-	install -m 644 analyses/*.yaml $(DESTDIR)$(PREFIX)/share/nhsym/analyses/
-	install -d $(DESTDIR)$(PREFIX)/share/nhsym/schema
-	install -m 644 docs/schema/*.json $(DESTDIR)$(PREFIX)/share/nhsym/schema/
-	install -d $(addprefix $(DESTDIR)$(PREFIX)/share/,man/man1 bash-completion/completions zsh/site-functions fish/vendor_completions.d)
-	$(BUILD)/nhsym help man >$(DESTDIR)$(PREFIX)/share/man/man1/nhsym.1
-	$(BUILD)/nhsym help bash >$(DESTDIR)$(PREFIX)/share/bash-completion/completions/nhsym
-	$(BUILD)/nhsym help zsh >$(DESTDIR)$(PREFIX)/share/zsh/site-functions/_nhsym
-	$(BUILD)/nhsym help fish >$(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d/nhsym.fish
+	install -m 644 src/nhsym.h $(DESTDIR)$(PREFIX)/include/
+	install -m 644 $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)/libnhsym.so.$(VERSION)
+	ln -sf libnhsym.so.$(VERSION) $(DESTDIR)$(LIBDIR)/$(SONAME)
+	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libnhsym.so
+	install -m 644 $(BUILD)/libnhsym.a $(DESTDIR)$(LIBDIR)/
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBRARIES@|$(LDLIBS)|' src/library/nhsym.pc.in \
+	    >$(DESTDIR)$(LIBDIR)/pkgconfig/nhsym.pc
+	install -d $(addprefix $(SHARE)/nhsym/,systems/stress analyses schema) $(addprefix $(SHARE)/doc/nhsym/,pictures catalogue)
+	install -m 644 systems/*.yaml $(SHARE)/nhsym/systems/
+	install -m 644 systems/stress/*.yaml $(SHARE)/nhsym/systems/stress/
+	install -m 644 analyses/*.yaml $(SHARE)/nhsym/analyses/
+	install -m 644 docs/schema/*.json $(SHARE)/nhsym/schema/
+	install -m 644 README.md docs/*.md docs/example.c $(SHARE)/doc/nhsym/
+	install -m 644 docs/pictures/* $(SHARE)/doc/nhsym/pictures/
+	install -m 644 docs/catalogue/* $(SHARE)/doc/nhsym/catalogue/
+	install -d $(addprefix $(SHARE)/,man/man1 man/man3 bash-completion/completions zsh/site-functions fish/vendor_completions.d)
+	$(BUILD)/nhsym help man >$(SHARE)/man/man1/nhsym.1
+	awk -v version=$(VERSION) -f src/library/man.awk src/nhsym.h >$(SHARE)/man/man3/nhsym.3
+	$(BUILD)/nhsym help bash >$(SHARE)/bash-completion/completions/nhsym
+	$(BUILD)/nhsym help zsh >$(SHARE)/zsh/site-functions/_nhsym
+	$(BUILD)/nhsym help fish >$(SHARE)/fish/vendor_completions.d/nhsym.fish
+
+# What `make install` would put there, and the folders that are then empty: the project's own, and below a DESTDIR all.
+uninstall: all library
+	@stage=$$(mktemp -d) && trap 'rm -rf "$$stage"' EXIT && $(MAKE) -s --no-print-directory install DESTDIR="$$stage" && cd "$$stage" && \
+	find . ! -type d | while read -r file; do rm -f "$(DESTDIR)/$$file"; done && \
+	find . -mindepth 1 -depth -type d $(if $(DESTDIR),,-path '*/nhsym*') | while read -r folder; do rmdir "$(DESTDIR)/$$folder" 2>/dev/null || :; done
 
 clean:
 	rm -rf build build-sanitize build-fuzz
 
--include $(OBJECTS:.o=.d) $(CLI:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)
+-include $(OBJECTS:.o=.d) $(SHARED:.o=.d) $(CLI:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)

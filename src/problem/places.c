@@ -2,6 +2,8 @@
 #include "problem/places.h"
 
 #include <dirent.h>
+#include <dlfcn.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -12,18 +14,15 @@
 
 enum { most_places = 64 };
 
-/* PREFIX of an installed program, wherever it was moved to: PREFIX/bin/nhsym runs. */
-static const char *prefix_of_program(nh_arena *arena)
+/* The file that this code runs from: the shared library, or the program. */
+static char *file_of_code(nh_arena *arena)
 {
+    Dl_info info;
+    void   *here = (void *)(uintptr_t)nh_places_look;
+    if (dladdr(here, &info) && info.dli_fname && info.dli_fname[0] == '/' && strstr(info.dli_fname, ".so")) return nh_arena_strdup(arena, info.dli_fname);
     char path[4096];
     ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
-    path[n > 0 ? n : 0] = 0;
-    for (int i = 0; i < 2; i++) {
-        char *slash = strrchr(path, '/');
-        if (!slash) return NULL;
-        *slash = 0;
-    }
-    return nh_arena_strdup(arena, path);
+    return n > 0 ? nh_arena_strndup(arena, path, (size_t)n) : NULL;
 }
 
 /* In a folder of both kinds: a file of the other? One that cannot be read is what it is asked for, and its mistakes are told. */
@@ -50,7 +49,7 @@ static size_t places(nh_arena *arena, const char *kind, place *out)
     size_t n = 0;
     out[n++].folder = nh_arena_strdup(arena, kind);
     const char *path = getenv("NHSYM_PATH");
-    while (path && *path && n + 5 < most_places) {
+    while (path && *path && n + 7 < most_places) {
         size_t length = strcspn(path, ":");
         if (length) {
             out[n++].folder = nh_arena_printf(arena, "%.*s/%s", (int)length, path, kind);
@@ -58,9 +57,14 @@ static size_t places(nh_arena *arena, const char *kind, place *out)
         }
         path += length + (path[length] == ':');
     }
-    const char *prefix = prefix_of_program(arena);
-    if (prefix) out[n++].folder = nh_arena_printf(arena, "%s/share/nhsym/%s", prefix, kind);
-    if (prefix) out[n++].folder = nh_arena_printf(arena, "%s/%s", prefix, kind); /* built, and not installed: beside the folder of the build */
+    char *above = file_of_code(arena), *slash = above ? strrchr(above, '/') : NULL;
+    for (int i = 0; i < 3 && slash; i++) { /* PREFIX is above bin, lib or lib/ARCHITECTURE, wherever it was moved to */
+        *slash = 0;
+        if (!(slash = strrchr(above, '/'))) break;
+        size_t length = (size_t)(slash - above);
+        out[n++].folder = nh_arena_printf(arena, "%.*s/share/nhsym/%s", (int)length, above, kind);
+        if (i == 0) out[n++].folder = nh_arena_printf(arena, "%.*s/%s", (int)length, above, kind); /* built, and not installed: beside the folder of the build */
+    }
     out[n++].folder = nh_arena_printf(arena, "%s/%s", NH_DATADIR, kind);
     return n;
 }
