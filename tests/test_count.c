@@ -431,6 +431,27 @@ Test(count, exponentials_of_multiples_are_not_independent)
     EXPECT("name: m\ncoordinates: [{name: x}]\nlagrangian: x'^2/2 - exp(x) - exp(2*x) - exp(x/3)\n", 1, 2, 2, 3);
 }
 
+/* Too little work: what the series so far allow is said, and that it is not settled. */
+Test(count, numbers_that_are_not_settled_are_said)
+{
+    problem p = problem_of("name: s\nparameters: [{name: g, value: 0.9}]\ncoordinates: [{name: x}, {name: y}, {name: f, type: angle}]\n"
+                           "constraints: [\"x'*sin(f) = y'*cos(f)\"]\nlagrangian: (x'^2 + y'^2 + f'^2)/2 - g*x\n"
+                           "known: {currents: [{name: f, expr: f'}, {name: E, expr: (x'^2 + y'^2 + f'^2)/2 + g*x}]}\n");
+    nh_text said;
+    nh_text_init(&said);
+    for (double work = 1e3; work < 1e9 && !strstr(nh_text_string(&said), "is not settled: series up to order"); work *= 2) {
+        nh_completeness c[NH_COMPLETENESS_KINDS];
+        nh_completeness_of(p.model, &(nh_completeness_question){.known = p.count, .current = p.known, .degree = 2, .work = work}, c);
+        nh_text_clear(&said);
+        nh_text_init(&said);
+        nh_completeness_words(c, 0, &said);
+        cr_expect(!c[0].missing_at || c[0].settled || strstr(nh_text_string(&said), "not settled") || !nh_text_string(&said)[0], "%s", nh_text_string(&said));
+    }
+    cr_expect_not_null(strstr(nh_text_string(&said), "is not settled: series up to order"), "%s", nh_text_string(&said));
+    nh_text_clear(&said);
+    problem_clear(&p);
+}
+
 /* What is said of a system, nothing of which is known; `all`: there can be no more independent integrals. */
 static void words_of(const char *text, bool all, nh_text *out)
 {

@@ -46,6 +46,11 @@ static const published PUBLISHED[] = {
      "parameters: {w: 0.8, a: 0.3, b: 0.5}\ncoordinates: [r, {name: th, type: angle}]\n"
      "lagrangian: (r'^2 + r^2*th'^2 - w^2*r^2)/2 - (a/cos(2*th)^2 + b/sin(2*th)^2)/r^2\n"
      "domain: {r: [0.5, 2], th: [0.2, 0.6]}\n", 3, 6},
+    /* Neimark and Fufaev 1972; A. M. Bloch, Nonholonomic Mechanics and Control, 2015, section 1.6.  A series in f that is a function of a closed form was once taken for
+     * the fifth integral. */
+    {"skate on a slope",
+     "parameters: {m: 1.3, J: 0.4, g: 0.9}\ncoordinates: [x, y, {name: f, type: angle}]\n"
+     "lagrangian: m*(x'^2 + y'^2)/2 + J*f'^2/2 - m*g*x\nconstraints: [\"x'*sin(f) = y'*cos(f)\"]\n", 5, 4},
 };
 enum { PUBLISHED_COUNT = sizeof PUBLISHED / sizeof *PUBLISHED };
 

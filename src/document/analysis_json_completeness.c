@@ -57,6 +57,7 @@ static nh_json *put_count(nh_json *to, const char *key, const nh_completeness *c
     if (c->missing_at) nh_json_put_number(item, "missing_at", (double)c->missing_at);
     else nh_json_put_null(item, "missing_at");
     nh_json_put_number(item, "missing", (double)c->missing);
+    nh_json_put_bool(item, "missing_settled", !c->missing_at || c->settled);
     put_degrees(item, c);
     return item;
 }

@@ -10,7 +10,7 @@ static void read_rows(nh_completeness *c, bool all)
     while (c->degree < c->count.rows && (all || c->count.row[c->degree].complete || c->count.row[c->degree].functions)) c->linear &= c->count.row[c->degree++].complete;
     if (c->degree == c->count.rows) return;
     const nh_count_row *row = &c->count.row[c->degree];
-    if (c->degree && !row->settled) return; /* the work was not enough for more */
+    c->settled = row->settled;
     c->missing_at = row->degree;
     c->missing = row->rank > row->known_rank ? row->rank - row->known_rank : 0;
 }
@@ -58,6 +58,11 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
     else if (c->degree) nh_text_addf(out, " (%s %s).", c->linear ? "proved for" : "the number of all is proved, the rank of their differentials taken modulo a prime, for", c->generic ? "generic parameters, and these" : "these parameters");
     if (!c->missing_at) return;
     const nh_count_row *row = &c->count.row[c->missing_at - 1];
+    if (c->degree && !c->settled) {
+        nh_text_addf(out, " Degree %zu is not settled: series up to order %zu, as far as the work for a count goes, still allow %zu more independent integral%s.", c->missing_at, row->order, c->missing,
+                     plural(c->missing));
+        return;
+    }
     nh_text_addf(out, "%s degree %zu", c->degree ? " At" : "Not complete: at", c->missing_at);
     if (!c->degree) nh_text_addf(out, ", with any functions of %s as coefficients,", coefficients);
     nh_text_addf(out, " there may be at most %zu more independent integral%s (order %zu%s).", c->missing, plural(c->missing), row->order, row->settled ? "" : ", not settled");
@@ -75,5 +80,8 @@ void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_
     if (first->missing_at && uncertain) nh_text_addf(out, " The %zu current%s that %s certified, not proved, may be among them.", uncertain, plural(uncertain), uncertain == 1 ? "is" : "are");
     if (first == time || !time->counted || time->count.obstacle) return;
     if (time->degree) nh_text_addf(out, " With time in the coefficients: complete to degree %zu%s", time->degree, time->missing_at ? "" : ".");
-    if (time->missing_at) nh_text_addf(out, "%s at degree %zu at most %zu more.", time->degree ? ";" : " With time in the coefficients:", time->missing_at, time->missing);
+    if (!time->missing_at) return;
+    nh_text_add(out, time->degree ? ";" : " With time in the coefficients:");
+    if (time->settled) nh_text_addf(out, " at degree %zu at most %zu more.", time->missing_at, time->missing);
+    else nh_text_addf(out, " degree %zu is not settled.", time->missing_at);
 }

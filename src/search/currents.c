@@ -394,11 +394,32 @@ static void name_pieces(nh_current_checker *b)
     r->pieces = kept;
 }
 
+/* A series that is a function of closed forms found since is no news. */
+static bool forget_known_series(nh_analysis *r)
+{
+    size_t kept = 0, before = r->count;
+    for (size_t k = 0; k < before; k++)
+        if (!r->found[k].series || r->found[k].independence == NH_INDEPENDENT) r->found[kept++] = r->found[k];
+    r->count = kept;
+    return kept < before;
+}
+
+void nh_currents_recount(nh_current_checker *b)
+{
+    bool series = false;
+    for (size_t k = 0; k < b->result->count; k++) series |= b->result->found[k].series != NULL;
+    if (!series) return;
+    sort(b->result);
+    independence(b->result, b->generic);
+    forget_known_series(b->result);
+}
+
 void nh_currents_finish(nh_current_checker *b)
 {
     name_pieces(b);
     forget_known_almosts(b);
     sort(b->result);
     independence(b->result, b->generic);
+    if (forget_known_series(b->result)) independence(b->result, b->generic);
     miss_energy(b);
 }

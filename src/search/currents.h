@@ -24,7 +24,10 @@ bool nh_currents_add_series(nh_current_checker *bench, nh_ex phi, const nh_serie
 /* After the last candidate of a list: is a combination of those that were only nearly conserved a current?  Returns how many were added. */
 size_t nh_currents_join(nh_current_checker *bench, const nh_points *fit);
 
-/* Order, name and relate what was found. */
+/* Where there are series: which currents are independent, closed forms first?  Series that depend on them go. */
+void nh_currents_recount(nh_current_checker *bench);
+
+/* Order, name and relate what was found; series that depend on closed forms go. */
 void nh_currents_finish(nh_current_checker *bench);
 
 #endif

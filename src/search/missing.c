@@ -119,7 +119,7 @@ static bool construct_at(search *s, const nh_completeness *c, double price, bool
 static bool construct(search *s, const nh_completeness *c)
 {
     double dearest = c->count.time ? 6 : 16; /* in t alone most are no words but waves */
-    bool found = false, more = c->counted && c->missing_at && c->missing;
+    bool found = false, more = c->counted && c->missing_at && c->missing && (c->settled || !c->count.time); /* in time a number that is not settled is mostly far too large */
     s->work = s->climb.r->options.construct;
     for (double price = 2; more && !found && price <= dearest && s->work > 0 && !nh_stage_solver_done(&s->climb); price += price < 4 ? 1 : 2) found = construct_at(s, c, price, &more);
     return found;
@@ -151,7 +151,8 @@ static void look(nh_analysis *r)
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.climb.bench);
     nh_stage_solver_end(&s.climb);
-    if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
+    bool all = r->independent >= r->local_maximum;
+    if (all || r->search == NH_SEARCH_COMPLETE) r->search = all ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
 }
 
 void nh_missing_count(nh_analysis *r, bool construct)

@@ -94,7 +94,8 @@ static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_points *
     }
     r->independent += nh_currents_join(x->bench, fit);
     nh_free(kind);
-    return r->independent - before;
+    if (r->independent >= r->local_maximum) nh_currents_recount(x->bench); /* a series may look independent of what came after it */
+    return r->independent > before ? r->independent - before : 0;
 }
 
 /* ---- one stage ---- */

@@ -91,9 +91,8 @@ static void stages_of_many(nh_stage_solver *x)
 }
 
 /* Work ends it at the same place everywhere, time does not; a stage that was too large is left out and ends nothing. */
-static void how_it_ended(nh_analysis *r)
+static void how_it_ended(nh_analysis *r, bool spent)
 {
-    bool spent = nh_budget_spent();
     for (size_t i = 0; i < r->stages; i++) spent |= r->stage[i].limit.option && !strcmp(r->stage[i].limit.option, "work");
     if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
     else r->search = spent || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
@@ -124,9 +123,10 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
         if (i + 1 == time_after) nh_stage_solver_series_in_time(&x);
     }
     if (!nh_stage_solver_done(&x)) nh_stage_solver_series_in_each(&x);
-    how_it_ended(r);
+    bool spent = nh_budget_spent();
     nh_budget_begin(INFINITY);
     nh_currents_finish(x.bench);
+    how_it_ended(r, spent);
     nh_stage_solver_end(&x);
     return true;
 }
