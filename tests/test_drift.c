@@ -12,6 +12,7 @@ static nh_validation *validated(const mechanics *x, const char *const *current, 
     nh_error error = {0};
     nh_options options;
     nh_options_default(&options);
+    options.drift = 0.1; /* tolerances: the motion errs by more than this */
     nh_ex e[CURRENTS];
     for (size_t k = 0; k < CURRENTS; k++) e[k] = formula(x->model, current[k]);
     nh_state initial = {.q = (double *)q, .v = (double *)v};

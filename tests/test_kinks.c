@@ -72,7 +72,7 @@ static double drift_by(nh_dynamics *d, const nh_method *method, bool everywhere,
     for (size_t i = 0; i < OUTPUTS; i++) times[i] = BEGIN + (END - BEGIN) * (double)i / (OUTPUTS - 1);
     nh_flow_options options = {.rtol = tolerance, .absolute = 1e-3, .max_steps = 1e5};
     nh_flow_problem problem = nh_dynamics_problem(d);
-    nh_motion *motion = everywhere ? nh_motion_everywhere(d, method, z0, OUTPUTS, times, &options, NULL, &error) : nh_method_flow(method, &problem, z0, OUTPUTS, times, &options, &error);
+    nh_motion *motion = everywhere ? nh_motion_everywhere(d, method, z0, OUTPUTS, times, &options, NULL, NULL, &error) : nh_method_flow(method, &problem, z0, OUTPUTS, times, &options, &error);
     must(motion != NULL, &error, method->name);
     cr_expect(nh_along(d, motion, n, e, value));
     double drift = drift_of(motion->count, n, value);

@@ -49,6 +49,13 @@ void nh_analysis_json_validation(const nh_analysis *r, nh_json *to)
     } else {
         nh_json_put_null(item, "multiplier_form");
     }
+    if (v->multistep) {
+        nh_json *other = nh_json_put_object(item, "multistep");
+        nh_json_put_text(other, "method", "CVODE Adams");
+        nh_json_put_number(other, "state_difference", v->multistep_difference);
+    } else {
+        nh_json_put_null(item, "multistep");
+    }
     if (v->crossing_chart) {
         nh_json *crossing = nh_json_put_object(item, "chart_crossing");
         nh_json_put_text(crossing, "chart", v->crossing_chart);

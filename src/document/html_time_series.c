@@ -254,6 +254,10 @@ static void second_opinion(nh_html_writer *w)
         nh_html_add(w, ", and the constraints hold to ");
         nh_html_number(w, v->violation, 1);
     }
+    if (v->multistep) {
+        nh_html_add(w, "; by CVODE Adams states agree to ");
+        nh_html_number(w, v->multistep_difference, 1);
+    }
     nh_html_add(w, ".</p>\n");
 }
 

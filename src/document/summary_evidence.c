@@ -168,4 +168,5 @@ void nh_summary_motion(nh_summary_writer *w)
     if (v->multiplier_form && w->r->model->system->constraints)
         nh_text_addf(w->out, ", multipliers to %.0e, constraints hold to %.0e", v->multiplier_difference, v->violation);
     if (v->multiplier_form) nh_text_add(w->out, "\n");
+    if (v->multistep) nh_text_addf(w->out, "  CVODE Adams: states agree to %.0e\n", v->multistep_difference);
 }

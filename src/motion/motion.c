@@ -128,9 +128,10 @@ static bool may_go_on(nh_motion *motion, const nh_flow_options *options, double 
         return false;
     }
     double limit = options->max_steps > 0 ? options->max_steps : default_max_steps;
+    bool cancelled = options->cancelled && options->cancelled(options->cancel_context); /* this may compute for a while */
     if (nh_interrupted())
         nh_motion_note(motion, "interrupted at t = %.10g", motion->end_time);
-    else if (options->cancelled && options->cancelled(options->cancel_context))
+    else if (cancelled)
         nh_motion_note(motion, "cancelled at t = %.10g", motion->end_time);
     else if ((double)motion->steps >= limit)
         nh_motion_note(motion, "the limit of %g steps was reached at t = %.10g; allow more steps or a larger tolerance", limit,

@@ -1,3 +1,4 @@
+#include "motion/automatic.h"
 #include "motion/cvode.h"
 #include "motion/trajectory.h"
 
@@ -11,7 +12,6 @@
 #include "base/progress.h"
 #include "motion/sizes.h"
 
-static const char *const usual = "CVODE Adams";
 static const double steepest = 10; /* |R| of a chart of coordinate velocities, without units, beyond which its formulas lose digits */
 
 /* ---- expressions along a motion ---- */
@@ -204,7 +204,7 @@ static void say_machine(const char *words, char *machine)
     snprintf(machine, room, "%s", words ? words : "interpreted");
 }
 
-nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *given, char *machine, nh_error *error)
+nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *given, char *machine, const nh_method **used, nh_error *error)
 {
     const nh_model *o = nh_dynamics_model(dynamics);
     size_t m = o->m;
@@ -218,7 +218,7 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, 
     for (size_t s = 0; s < 2 * m && scale; s++) scale[s] = given->scale[0];
     options.scale = scale;
     bool good = nh_along(dynamics, &first, m, o->rho, y + m);
-    nh_motion *motion = good ? nh_method_flow(method ? method : nh_method_find(usual), &problem, y, count, times, &options, error) : NULL;
+    nh_motion *motion = good ? nh_automatic_or(method, &problem, y, count, times, &options, used, error) : NULL;
     if (machine) say_machine(nh_bordered_words(b), machine);
     nh_free(scale);
     nh_free(y);
@@ -232,7 +232,8 @@ typedef struct {
     const nh_trajectory_request *q;
     nh_dynamics *dynamics;
     nh_trajectory *out;
-    const nh_method *method;
+    const nh_method *method; /* NULL: automatic */
+    const nh_method *used;   /* of the last motion */
     double *z0, deadline;
     nh_flow_options how;
     bool leave; /* the chart ends on the way */
@@ -247,7 +248,7 @@ bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double
     nh_flow_options how = *options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(nh_dynamics_model(dynamics))) return false;
+    if (!method || method->family == NH_METHOD_CVODE || !problem.guards || !nh_may_leave_chart(nh_dynamics_model(dynamics))) return false;
     how.method = NH_ADAMS;
     how.rtol = fmax(how.rtol, loose);
     nh_motion *motion = nh_cvode(&problem, z0, 2, times, &how, &ignored);
@@ -272,7 +273,7 @@ static bool in_scene_of(job *j, size_t currents, const nh_ex *current, long *fai
     for (size_t i = 0; i < s->kept; i++) small[i] = j->z0[s->state[i]];
     nh_closed_subsystem_run_jit(run, j->q->options->compile);
     bool starts = s->kept && nh_closed_subsystem_run_failed(run) < 0 && (s->smooth || !j->leave);
-    nh_motion *motion = starts ? nh_method_flow(j->method, &problem, small, j->q->count, j->q->times, &j->how, error) : NULL;
+    nh_motion *motion = starts ? nh_automatic_or(j->method, &problem, small, j->q->count, j->q->times, &j->how, &j->used, error) : NULL;
     bool good = motion && !(nh_may_leave_chart(j->q->model) && ((!s->smooth && !motion->complete) || scene_is_steep(s, run, motion)));
     if (good) good = values_along(j->q->model, point_of_scene, run, motion, j->q->n, j->q->e, j->out->value);
     if (good && s->levels) good = motion->complete;
@@ -312,12 +313,14 @@ static bool in_scene(job *j, nh_error *error)
     return good;
 }
 
+static bool fixed_steps(const job *j) { return j->method && j->method->order; }
+
 /* The model's own equations by the method of the request. */
 static nh_motion *in_own_velocities(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;
     nh_flow_problem problem = nh_dynamics_problem(j->dynamics);
-    if (!j->method->order) return nh_method_flow(j->method, &problem, j->z0, q->count, q->times, &j->how, error);
+    if (!fixed_steps(j)) return nh_automatic_or(j->method, &problem, j->z0, q->count, q->times, &j->how, &j->used, error);
     nh_programs *own = q->programs ? NULL : nh_programs_create(q->model);
     nh_motion *motion = nh_method_steps(j->method, own ? own : q->programs, j->z0, q->count, q->times, &j->how, error);
     nh_programs_free(own);
@@ -345,7 +348,7 @@ static bool in_other_velocities(job *j, nh_error *error)
     double *z0 = nh_alloc_array(q->other->m + q->other->n + 1, sizeof *z0);
     nh_dynamics_jit(other, q->options->compile);
     bool starts = nh_dynamics_start(other, q->initial, q->project, z0, error) && !meets_pivot(j, other, z0);
-    nh_motion *motion = starts ? nh_method_flow(j->method, &problem, z0, q->count, q->times, &j->how, error) : NULL;
+    nh_motion *motion = starts ? nh_automatic_or(j->method, &problem, z0, q->count, q->times, &j->how, &j->used, error) : NULL;
     bool steep = false;
     if (motion) nh_free(nh_steep_points(other, motion, &steep));
     bool good = motion && motion->complete && !steep && to_coordinates(other, motion);
@@ -376,8 +379,7 @@ static void in_all_states(job *j, nh_error *error)
     if (j->leave || (motion && nh_may_leave_chart(q->model) && (any || !motion->complete) && !out_of_time)) {
         nh_motion_free(motion);
         j->out->formulation = "all coordinates, accelerations from the bordered system";
-        if (j->method->order) j->out->method = usual;
-        motion = nh_motion_everywhere(j->dynamics, j->method->order ? NULL : j->method, j->z0, q->count, q->times, &j->how, j->out->machine, error);
+        motion = nh_motion_everywhere(j->dynamics, fixed_steps(j) ? NULL : j->method, j->z0, q->count, q->times, &j->how, j->out->machine, &j->used, error);
     }
     j->out->motion = motion;
     if (motion && q->n) nh_along(j->dynamics, motion, q->n, q->e, j->out->value);
@@ -387,8 +389,8 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
 {
     size_t size = q->model->m + q->model->n;
     nh_trajectory *out = nh_alloc(sizeof *out);
-    *out = (nh_trajectory){.method = q->method ? q->method->name : usual, .formulation = NH_ON_SUBMANIFOLD, .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
-    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = nh_method_find(out->method), .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
+    *out = (nh_trajectory){.formulation = NH_ON_SUBMANIFOLD, .value = nh_alloc_array(q->n * q->count + 1, sizeof *out->value)};
+    job j = {.q = q, .dynamics = nh_dynamics_create(q->model), .out = out, .z0 = nh_alloc_array(size + 1, sizeof *j.z0), .method = q->method, .used = q->method, .deadline = q->max_seconds > 0 ? nh_clock() + q->max_seconds : INFINITY};
     nh_dynamics_jit(j.dynamics, q->options->compile);
     j.how = (nh_flow_options){.method = NH_ADAMS, .rtol = q->options->tolerance, .absolute = fmax(q->options->absolute, DBL_MIN), .max_steps = q->options->steps, .effort = q->max_effort};
     j.how.step = q->step;
@@ -397,13 +399,14 @@ nh_trajectory *nh_trajectory_create(const nh_trajectory_request *q, nh_error *er
     nh_error ignored;
     nh_error_clear(&ignored);
     if (nh_dynamics_start(j.dynamics, q->initial, q->project, j.z0, error)) {
-        bool other = q->velocities == NH_OTHER_VELOCITIES && q->other && !j.method->order && nh_may_leave_chart(q->model);
+        bool other = q->velocities == NH_OTHER_VELOCITIES && q->other && !fixed_steps(&j) && nh_may_leave_chart(q->model);
         j.leave = (q->velocities == NH_ALL_COORDINATES && nh_may_leave_chart(q->model)) || meets_pivot(&j, j.dynamics, j.z0);
-        bool scene = q->smallest && !j.method->order;
+        bool scene = q->smallest && !fixed_steps(&j);
         if (!(scene && in_scene(&j, &ignored)) && !(other && in_other_velocities(&j, &ignored))) in_all_states(&j, error);
     }
     nh_dynamics_free(j.dynamics);
     nh_free(j.z0);
+    if (j.used) out->method = j.used->name;
     if (out->motion) return out;
     nh_trajectory_free(out);
     return NULL;

@@ -29,7 +29,7 @@ typedef struct {
     size_t currents;          /* of the chart, known to be conserved: they may make states superfluous there */
     const nh_ex *current;
     bool project;             /* velocities that violate the constraints are replaced by the nearest that satisfy them */
-    const nh_method *method;  /* NULL: CVODE Adams */
+    const nh_method *method;  /* NULL: the one that suits (automatic.h) */
     double step;              /* of methods with a fixed step, which take the model's own equations, and all states */
     nh_programs *programs;    /* of the model, for them; NULL: made for this motion */
     nh_velocities velocities;   /* where they can be used; the model's own otherwise */
@@ -65,13 +65,13 @@ bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t 
 /* Where does a chart of coordinate velocities lose digits?  One flag per output (nh_free); *any: anywhere. */
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any);
 
-/* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: CVODE Adams.  `machine`: 320 bytes for how the
- * equations were evaluated, or NULL. */
+/* The motion in all coordinates, in (q, v), with accelerations from the bordered system; `method` NULL: the one that suits (automatic.h),
+ * *used where `used` is not NULL.  `machine`: 320 bytes for how the equations were evaluated, or NULL. */
 nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, const double *z0, size_t count, const double *times, const nh_flow_options *options, char *machine,
-                                nh_error *error);
+                                const nh_method **used, nh_error *error);
 
-/* Does the chart's pivot change sign on the way from z0 at times[0] to times[1]?  CVODE watches it, other methods step over it: this is to be asked before
- * another method runs. */
+/* Does the chart's pivot change sign on the way from z0 at times[0] to times[1]?  CVODE and the automatic choice (NULL) watch it, other methods step over it: call
+ * this before another method runs. */
 bool nh_meets_pivot(nh_dynamics *dynamics, const nh_method *method, const double *z0, const double times[2], const nh_flow_options *options);
 
 /* Can the chart be replaced by all coordinates?  One of quasi-velocities must be known by its inverse. */

@@ -9,6 +9,7 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "graph/terms.h"
+#include "motion/automatic.h"
 #include "motion/sizes.h"
 
 typedef struct {
@@ -21,19 +22,23 @@ typedef struct {
     size_t watches;
     const nh_observable *watch;
     const nh_valid *valid;
-    const nh_method *method;
+    const nh_method *method; /* NULL: the one that suits */
     bool everywhere;  /* the chart breaks down on the way: integrate in all coordinates */
     size_t currents;
     const nh_ex *current; /* of the chart */
 } run;
 
-/* Of the work for all motions of the check each has the same part, in steps: what one takes depends on the equations alone.  A step evaluates them about
- * twice, and makes a new Jacobian once in a while, which takes about as much. */
+/* Of the work for all motions of the check each has the same part: in units of base/effort.h, and for multistep methods also in steps, which evaluate the
+ * equations about twice and make a new Jacobian once in a while. */
+enum { all_motions = NH_DRIFT_RUNS + 2 };
+
+static double most_effort(const run *r) { return 1e6 * r->options->check_work / all_motions; }
+
 static double most_steps(const run *r)
 {
-    enum { evaluations = 3, motions = NH_DRIFT_RUNS + 1, least = 1000 };
+    enum { evaluations = 3, least = 1000 };
     double each = nh_work_millions(NH_WORK_VALUE, evaluations * (double)nh_dynamics_length(r->dynamics));
-    return fmin(r->options->steps, fmax(least, floor(r->options->check_work / motions / each)));
+    return fmin(r->options->steps, fmax(least, floor(r->options->check_work / all_motions / each)));
 }
 
 /* ---- currents along a motion ---- */
@@ -154,7 +159,7 @@ static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, con
     nh_free(velocity);
 }
 
-static void multiplier_form(run *r, const nh_state *initial, const nh_motion *reduced)
+static void multiplier_form(run *r, const nh_state *initial, const nh_motion *reduced, const sizes_of_all *sizes)
 {
     const nh_model *o = r->model;
     nh_validation *v = r->out;
@@ -168,14 +173,13 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
     first.count = 1;
     bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
     double enough = fmin(20000, 2000 + 20 * (double)reduced->steps); /* a second opinion: near a pole of the coordinates it may need millions */
-    sizes_of_all sizes = measure_sizes(r, reduced);
-    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .scale = sizes.state, .max_steps = fmin(enough, most_steps(r)), .cancelled = nh_interrupted_callback};
+    nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1], .scale = sizes->state, .max_steps = fmin(enough, most_steps(r)), .cancelled = nh_interrupted_callback};
     nh_chetaev_motion *full = good ? nh_chetaev(&problem, y, reduced->count, reduced->time, &options, &ignored) : NULL;
     if (full && full->motion->count > 1) {
         v->multiplier_form = true;
         v->violation = full->violation;
         v->multiplier_evaluations = full->motion->evaluations;
-        compare(r, b, reduced, full, &sizes);
+        compare(r, b, reduced, full, sizes);
         if (!full->motion->complete && (double)full->motion->steps >= options.max_steps)
             snprintf(v->note, sizeof v->note, "the multiplier form was compared only up to t = %.4g, which it reaches in %.0f steps", full->motion->end_time, options.max_steps);
         else if (!full->motion->complete)
@@ -184,9 +188,46 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s", full ? full->motion->note : ignored.what);
     }
     nh_chetaev_motion_free(full);
-    nh_free(sizes.state);
     nh_free(y);
     nh_bordered_free(b);
+}
+
+/* ---- a multistep method ---- */
+
+static nh_flow_options options_of(const run *r, size_t which)
+{
+    return (nh_flow_options){.method = NH_ADAMS, .rtol = r->out->tolerance[which], .absolute = fmax(r->options->absolute, DBL_MIN), .max_steps = r->options->steps, .effort = most_effort(r), .cancelled = nh_interrupted_callback};
+}
+
+static nh_motion *motion_by(run *r, const nh_method *method, const nh_flow_options *options, const nh_method **used, nh_error *error)
+{
+    nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
+    if (r->everywhere) return nh_motion_everywhere(r->dynamics, method, r->z0, r->outputs, r->times, options, NULL, used, error);
+    return nh_automatic_or(method, &problem, r->z0, r->outputs, r->times, options, used, error);
+}
+
+/* The motion once more by CVODE Adams, unless it was computed so: coordinates and coordinate velocities are compared as far as both go. */
+static void multistep(run *r, const nh_motion *motion, const sizes_of_all *sizes)
+{
+    const nh_method *adams = nh_method_find("CVODE Adams");
+    size_t states = 2 * r->model->m;
+    nh_validation *v = r->out;
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (!strcmp(v->method, adams->name)) return;
+    nh_flow_options options = options_of(r, NH_DRIFT_RUNS - 1);
+    options.max_steps = most_steps(r);
+    nh_motion *other = motion_by(r, adams, &options, NULL, &ignored);
+    size_t count = other ? (other->count < motion->count ? other->count : motion->count) : 0;
+    double *own = nh_alloc_array(2 * motion->count * states + 1, sizeof *own), *its = own + motion->count * states;
+    nh_motion head = *motion;
+    head.count = count;
+    if (other) other->count = count;
+    v->multistep = count > 1 && nh_states_in_coordinates(r->dynamics, &head, own) && nh_states_in_coordinates(r->dynamics, other, its);
+    for (size_t i = 0; i < count * states && v->multistep; i++)
+        v->multistep_difference = fmax(v->multistep_difference, beside(own[i] - its[i], sizes->state[i % states]));
+    nh_free(own);
+    nh_motion_free(other);
 }
 
 /* ---- the other chart's pivot ---- */
@@ -289,18 +330,23 @@ static void keep(run *r, const nh_state *initial, const nh_motion *motion)
     if (!motion->complete) snprintf(v->note, sizeof v->note, "the test motion ends at t = %.4g: %.200s", motion->end_time, motion->note);
 }
 
-static nh_motion *reduced_motion(run *r, const nh_flow_options *options, nh_error *error)
+/* Second opinions on the tightest run. */
+static void compare_with_others(run *r, const nh_validation_request *q, const nh_motion *motion)
 {
-    nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
-    return nh_method_flow(r->method, &problem, r->z0, r->outputs, r->times, options, error);
+    sizes_of_all sizes = measure_sizes(r, motion);
+    watch_pivot(r, q->other, motion);
+    multiplier_form(r, q->initial, motion, &sizes);
+    multistep(r, motion, &sizes);
+    nh_free(sizes.state);
 }
 
 static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
 {
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) {
-        nh_flow_options options = {.method = NH_ADAMS, .rtol = r->out->tolerance[i], .absolute = fmax(r->options->absolute, DBL_MIN), .max_steps = most_steps(r), .cancelled = nh_interrupted_callback};
+        const nh_method *used = NULL;
+        nh_flow_options options = options_of(r, i);
         if (i == 0 && nh_meets_pivot(r->dynamics, r->method, r->z0, (double[]){r->times[0], r->times[r->outputs - 1]}, &options)) r->everywhere = true;
-        nh_motion *motion = r->everywhere ? nh_motion_everywhere(r->dynamics, r->method, r->z0, r->outputs, r->times, &options, NULL, error) : reduced_motion(r, &options, error);
+        nh_motion *motion = motion_by(r, r->method, &options, &used, error);
         if (!motion) return false;
         bool steep;
         nh_free(nh_steep_points(r->dynamics, motion, &steep));
@@ -310,11 +356,11 @@ static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
             return all_runs(r, q, error);
         }
         if (r->everywhere) r->out->chart = "all coordinates (the chart breaks down on the way)";
+        r->out->method = used->name;
         measure(r, motion, q->currents, q->current, i);
         if (i == NH_DRIFT_RUNS - 1) {
             keep(r, q->initial, motion);
-            watch_pivot(r, q->other, motion);
-            multiplier_form(r, q->initial, motion);
+            compare_with_others(r, q, motion);
         }
         nh_motion_free(motion);
     }
@@ -357,12 +403,11 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     double tolerance = q->options->tolerance;
     *v = (nh_validation){.arena = arena, .multiplier_method = "IDA, index 1", .chart = nh_arena_strdup(arena, o->chart->name),
                          .begin = q->initial->t, .end = q->until, .currents = q->currents, .current = nh_arena_alloc(arena, (q->currents + 1) * sizeof *v->current), .crossing = NAN};
-    run r = {.model = o, .dynamics = nh_dynamics_create(o), .out = v, .options = q->options, .outputs = q->outputs, .watches = q->watches, .watch = q->watch, .valid = q->valid, .currents = q->currents, .current = q->current, .method = nh_method_find("CVODE Adams")};
+    run r = {.model = o, .dynamics = nh_dynamics_create(o), .out = v, .options = q->options, .outputs = q->outputs, .watches = q->watches, .watch = q->watch, .valid = q->valid, .currents = q->currents, .current = q->current};
     r.times = nh_alloc_array(q->outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
     for (size_t i = 0; i < q->outputs; i++) r.times[i] = q->initial->t + (q->until - q->initial->t) * (double)i / (double)(q->outputs - 1);
     bool good = nh_dynamics_start(r.dynamics, q->initial, false, r.z0, error) && (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
-    v->method = r.method->name;
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
     good = good && all_runs(&r, q, error);
     if (good) judge(v, q->options);

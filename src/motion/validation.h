@@ -2,7 +2,7 @@
  *
  * The equations of motion are integrated at three tolerances: a true current's drift falls with the tolerance, a false one's does not.
  * The same motion in all coordinates with Chetaev multipliers gives a second opinion on the states, and its multipliers
- * are compared with the formula of the model.  [docs/method.md, sec. 6] */
+ * are compared with the formula of the model.  CVODE Adams gives another one, in the same states.  [docs/method.md, sec. 6] */
 #ifndef NH_VALIDATION_H
 #define NH_VALIDATION_H
 
@@ -35,6 +35,8 @@ typedef struct {
     bool multiplier_form;      /* was it integrated? */
     double state_difference, multiplier_difference, violation; /* relative to sizes along the motion */
     long multiplier_evaluations;
+    bool multistep;            /* was the motion computed once more by CVODE Adams, which shares nothing with an explicit pair? */
+    double multistep_difference; /* of its states, relative to sizes along the motion */
     double crossing;           /* first time at which another chart's pivot changes sign; NAN: never */
     const char *crossing_chart;
     size_t watches;
@@ -70,7 +72,7 @@ typedef struct {
     size_t outputs;
     const nh_options *options;
     double accuracy;               /* of the states and of what is watched, along the tightest run: its method and tolerance are chosen for it (accuracy.h).
-                                      0: CVODE Adams at the tolerance of the options */
+                                      0: the method that suits (automatic.h), at the tolerance of the options */
     const nh_integration_plans *ways;           /* with an accuracy: from what may be chosen; only plain ones, in their own velocities and with error control */
 } nh_validation_request;
 
