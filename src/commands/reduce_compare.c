@@ -75,13 +75,12 @@ static bool reduced_and_group(nh_reduction_bench *b, nh_reduction_stage *s, cons
     return true;
 }
 
-/* Where the two are apart the reduced motion is computed again with a smaller tolerance: it may be the more sensitive one.  The errors of a multistep method can be
- * large beside its tolerance all the same, as where a disk passes the vertical and its angles turn by pi within a few steps; so at last by a pair of order 8. */
+/* Where the two are apart the reduced motion is computed again with a smaller tolerance: it may be the more sensitive one. */
 static bool nearer(nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course)
 {
-    static const double apart = 50, finer = 0.02, least = 2e-14, least_of_pair = 3e-13; /* apart in tolerances */
+    static const double apart = 50, finer = 0.02, least = 2e-14; /* apart in tolerances */
     const nh_reduction *r = b->r;
-    nh_reconstruct_how how[] = {{.tolerance = b->rtol}, {.tolerance = fmax(b->rtol * finer, least)}, {.method = nh_method_find("GSL rk8pd"), .tolerance = fmax(b->rtol, least_of_pair)}};
+    nh_reconstruct_how how[] = {{.tolerance = b->rtol}, {.tolerance = fmax(b->rtol * finer, least)}};
     for (size_t i = 0; i < sizeof how / sizeof *how; i++) {
         nh_reduction_stage before = *s;
         how[i].steps = fmin(r->options.steps, NH_REDUCTION_STEPS);

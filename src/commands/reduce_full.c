@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "commands/reduce_internal.h"
+#include "motion/automatic.h"
 
 /* What differences count beside: angles have one size together, and so have other coordinates, of which rotations mix the errors: the largest of them, or the
  * largest as the metric compares them, sqrt(K_rr / K_ss) size_r, where that is smaller (a light body beside a heavy one).  Lengths that are zero but for rounding
@@ -104,24 +105,22 @@ static size_t reliable(const nh_kinetic *k, const nh_motion *a, const nh_motion 
 
 /* ---- the full motion ---- */
 
-/* By CVODE Adams, or by another method that takes no more than so much effort (0: no limit). */
-static nh_motion *full_by(nh_reduction_bench *b, const nh_method *method, double rtol, size_t outputs, double effort, nh_error *error)
+/* By a method, or by the one that suits (NULL). */
+static nh_motion *full_by(nh_reduction_bench *b, const nh_method *method, double rtol, size_t outputs, const nh_method **used, nh_error *error)
 {
     nh_reduction *r = b->r;
     size_t m = r->kinetic->m;
     nh_bordered *bordered = nh_bordered_create(r->model);
     nh_flow_problem problem = nh_bordered_flow(bordered);
-    nh_flow_options options = {.method = NH_ADAMS, .absolute = nh_reduction_absolute(r), .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS), .effort = effort};
+    nh_flow_options options = {.method = NH_ADAMS, .absolute = nh_reduction_absolute(r), .rtol = rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
     double *z = nh_alloc_array(2 * m, sizeof *z);
     memcpy(z, r->initial.q, m * sizeof *z);
     memcpy(z + m, r->initial.v, m * sizeof *z);
-    nh_motion *motion = nh_method_flow(method, &problem, z, outputs, b->times, &options, error);
+    nh_motion *motion = nh_automatic_or(method, &problem, z, outputs, b->times, &options, used, error);
     nh_bordered_free(bordered);
     nh_free(z);
     return motion;
 }
-
-static const nh_method *multistep(void) { return nh_method_find("CVODE Adams"); }
 
 /* Two motions of different tolerances, which agree at the first `reached` outputs. */
 typedef struct {
@@ -148,25 +147,6 @@ static void take_usual(nh_reduction *r, const pair *p, bool held)
     snprintf(c->why, sizeof c->why, "%s at tolerance %.1e; none is chosen because %.400s", c->method, p->tolerance, reason);
 }
 
-/* Where a multistep method does not know the motion to its end: its errors can be large beside its tolerance, as where a disk passes the vertical and its angles turn by pi
- * within a few steps.  A pair of order 8 may know it further. */
-static void try_pair(nh_reduction_bench *b, pair *best)
-{
-    static const double coarse = 5e-13, fine = 1e-13, most = 30; /* tolerances; times the effort of the motion in hand */
-    pair p = {.method = nh_method_find("GSL rk8pd"), .tolerance = coarse, .finest = fine};
-    nh_error ignored = {0};
-    p.coarse = full_by(b, p.method, coarse, best->fine->count, most * best->fine->effort, &ignored);
-    bool some = p.coarse && p.coarse->count > best->reached;
-    p.fine = some ? full_by(b, p.method, fine, best->fine->count, most * best->fine->effort, &ignored) : NULL;
-    if (p.fine) judge(b, &p);
-    nh_error_clear(&ignored);
-    bool further = p.fine && p.reached > best->reached;
-    pair other = further ? *best : p;
-    if (further) *best = p;
-    nh_motion_free(other.coarse);
-    nh_motion_free(other.fine);
-}
-
 /* The motion and how far it is known, into the reduction. */
 static void take(nh_reduction_bench *b, const pair *p)
 {
@@ -188,26 +168,25 @@ static void take(nh_reduction_bench *b, const pair *p)
  * all are computed is a hundredth of the one that is asked for, or less where the full motion shows that this would not do. */
 static bool full_motion(nh_reduction_bench *b, nh_error *error)
 {
-    static const double part = 0.01, least = 5e-14, aim = 10; /* aim: in tolerances */
+    static const double part = 0.01, least = 3e-13, aim = 10; /* aim: in tolerances */
     nh_reduction *r = b->r;
     b->rtol = fmax(r->options.tolerance * part, least);
-    pair p = {.method = multistep(), .finest = 1e-14};
-    p.coarse = full_by(b, p.method, b->rtol, NH_REDUCTION_OUTPUTS, 0, error);
+    pair p = {.finest = 1e-13};
+    p.coarse = full_by(b, NULL, b->rtol, NH_REDUCTION_OUTPUTS, &p.method, error);
     const nh_motion *coarse = p.coarse;
     /* one that ends early, with steps that become smaller and smaller, is not brought to its end a second time */
     size_t outputs = coarse && !coarse->complete && coarse->guard_hit < 0 && coarse->count > 1 ? coarse->count : NH_REDUCTION_OUTPUTS;
     const char *ended = outputs < NH_REDUCTION_OUTPUTS ? nh_arena_printf(r->arena, "the full motion ended at t = %.4g: %s", coarse->end_time, coarse->note) : NULL;
-    p.fine = coarse ? full_by(b, p.method, p.finest, outputs, 0, error) : NULL;
+    p.fine = coarse ? full_by(b, p.method, p.finest, outputs, NULL, error) : NULL;
     if (p.fine) reliable(r->kinetic, p.coarse, p.fine, INFINITY, &p.off);
     if (p.fine && p.off > aim * r->options.tolerance && b->rtol > least) {
         b->rtol = fmax(b->rtol * aim * r->options.tolerance / p.off, least);
         nh_motion_free(p.coarse);
-        p.coarse = full_by(b, p.method, b->rtol, outputs, 0, error);
+        p.coarse = full_by(b, p.method, b->rtol, outputs, NULL, error);
     }
     if (p.coarse && p.fine) {
         p.tolerance = b->rtol;
         judge(b, &p);
-        if (p.reached < p.fine->count) try_pair(b, &p);
         take(b, &p);
         if (ended) nh_reduction_warn(r, "%s", ended);
         else if (!p.fine->complete) nh_reduction_warn(r, "the full motion ended at t = %.4g: %s", p.fine->end_time, p.fine->note);
@@ -223,12 +202,12 @@ bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error) { return (
 /* Errors of one size, made at other places of the motion: what remains of them at the outputs is how well a motion in all coordinates is known, whatever its sensitivity. */
 double nh_reduction_unsure(nh_reduction_bench *b)
 {
-    static const double finest = 1e-14, coarser[] = {2, 5};
+    static const double finest = 1e-13, coarser[] = {2, 5};
     const nh_kinetic *k = b->r->kinetic;
     if (b->unsure > 0) return b->unsure;
     for (size_t t = 0; t < sizeof coarser / sizeof *coarser; t++) {
         nh_error ignored = {0};
-        nh_motion *other = full_by(b, b->method ? b->method : multistep(), coarser[t] * fmax(b->finest, finest), b->reached, 0, &ignored);
+        nh_motion *other = full_by(b, b->method, coarser[t] * fmax(b->finest, finest), b->reached, NULL, &ignored);
         double off = 0;
         if (other) nh_reduction_reliable(k, b->reached < other->count ? b->reached : other->count, other->state, other->size, b->full, k->m, INFINITY, &off);
         b->unsure = fmax(b->unsure, off);

@@ -5,7 +5,7 @@
 
 #include "base/linalg.h"
 #include "base/progress.h"
-#include "motion/cvode.h"
+#include "motion/automatic.h"
 #include "reduction/density.h"
 #include "reduction/reach.h"
 #include "reduction/subspace.h"
@@ -188,7 +188,7 @@ static double *once_reduced(nh_reduction_bench *b, const nh_chaplygin *first, co
     nh_reduced_flow *flow = nh_reduced_flow_create(&first->reduced);
     nh_flow_problem problem = nh_reduced_flow_problem(flow);
     nh_flow_options options = {.method = NH_ADAMS, .absolute = nh_reduction_absolute(r), .rtol = b->rtol, .max_steps = fmin(r->options.steps, NH_REDUCTION_STEPS)};
-    nh_motion *motion = nh_cvode(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, &trouble);
+    nh_motion *motion = nh_automatic(&problem, z, NH_REDUCTION_OUTPUTS, b->times, &options, NULL, &trouble);
     double *out = nh_arena_alloc(r->arena, (NH_REDUCTION_OUTPUTS * n + 1) * sizeof *out), *E = nh_alloc_array(n * d + 2 * d + n + n * n, sizeof *E);
     double *start = E + n * d, *size = start + d, *magnetic = size + d, *K = magnetic + n;
     *reached = motion ? motion->count : 0;

@@ -1,7 +1,7 @@
 /* automatic: an explicit pair of order 8 whose motion is handed to CVODE BDF where that needs far less work.
  *
  * The pair runs first.  When its work exceeds a limit, BDF computes the same motion with a small part of the work that the pair would need to the end; if it gets
- * there, its motion is returned, otherwise the pair goes on from where it is.  So a motion that is not stiff costs at most that part more. */
+ * there, its motion is returned, otherwise the pair goes on from where it is.  Where the pair itself fails before, BDF may need as much work.  So a motion that is not stiff costs at most that part more. */
 #include "motion/automatic.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "base/clock.h"
 #include "base/effort.h"
 
-static const double least_effort = 1e6, least_done = 1e-6; /* of a motion by BDF; part of the time after which work is extrapolated */
+static const double least_effort = 1e6, least_done = 1e-6; /* that BDF may need where the pair fails; part of the time after which work is extrapolated */
 
 typedef struct {
     const nh_flow_problem *problem;
@@ -81,7 +81,7 @@ nh_motion *nh_automatic(const nh_flow_problem *problem, const double *initial, s
     how.cancelled = give_up;
     how.cancel_context = &a;
     nh_motion *motion = nh_method_flow(pair, &watched, initial, count, times, &how, error);
-    if (may_be_stiff(&a, motion)) try_stiff(&a, fmax(whole(&a, motion->end_time, motion->effort) / nh_automatic_faster, least_effort));
+    if (may_be_stiff(&a, motion)) try_stiff(&a, fmax(motion->effort, least_effort));
     if (used) *used = a.stiff ? nh_method_find("CVODE BDF") : pair;
     if (!a.stiff) return motion;
     a.stiff->evaluations += motion->evaluations;

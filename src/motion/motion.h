@@ -73,11 +73,11 @@ typedef struct {
     /* The state at a time inside the last step; false when there is none. */
     bool (*state)(double time, double *state, void *context);
     double step_effort;   /* units of one step, beside the right-hand sides and what is counted elsewhere */
-    /* The last NH_STUCK_AFTER steps did not move the time: write the note. */
+    /* The last NH_STUCK_AFTER steps did not move the time, or the last NH_ADVANCE_AFTER hardly: write the note. */
     void (*stuck)(nh_motion *motion, void *context);
 } nh_stepper;
 
-enum { NH_STUCK_AFTER = 100 };
+enum { NH_STUCK_AFTER = 100, NH_ADVANCE_AFTER = 1000 };
 
 /* A motion that holds its initial state, of which `given` values are known; NULL when the times, these values or the options
  * (with `given` scales) make no sense. */

@@ -1,5 +1,7 @@
 #include "reduction/reconstruct.h"
 
+#include "motion/automatic.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -193,8 +195,8 @@ static void least_sizes(const course *c, const double *place, double *least)
 static bool run(course *c, size_t count, const double *times, const nh_reconstruct_how *how, nh_error *error)
 {
     enum { most_stretches = 10000 };
-    const nh_method *method = how->method ? how->method : nh_method_find("CVODE Adams");
-    double patience = method->family == NH_METHOD_CVODE ? 3000 : 30000; /* one-step methods, above all those of low order, take more and shorter steps */
+    const nh_method *method = how->method;
+    double patience = !method || method->family == NH_METHOD_CVODE ? 3000 : 30000; /* one-step methods of low order take more and shorter steps */
     nh_reconstruction *out = c->out;
     nh_group_flow *f = &c->f;
     size_t stretches = 0;
@@ -210,7 +212,7 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
         }
         size_t n = count - out->count, first = stretches > 0; /* a later stretch begins where the last one ended */
         if (first) memcpy(c->left + 1, times + out->count, n * sizeof *times);
-        nh_motion *motion = nh_method_flow(method, &problem, c->state, n + first, c->left, &o, error);
+        nh_motion *motion = nh_automatic_or(method, &problem, c->state, n + first, c->left, &o, NULL, error);
         if (!motion) return false;
         out->evaluations += motion->evaluations;
         out->steps += motion->steps;
@@ -219,7 +221,7 @@ static bool run(course *c, size_t count, const double *times, const nh_reconstru
         bool found = store(c, motion, first), late = how->effort > 0 && out->effort >= how->effort;
         out->complete = motion->complete && found;
         bool renew = may_renew(c, motion);
-        bool guarded = motion->guard_hit >= 0 && (c->atlas || motion->guard_hit == 2);
+        bool guarded = motion->guard_hit >= 0 && motion->end_time != c->left[0] && (c->atlas || motion->guard_hit == 2); /* a guard met at once is met again */
         bool on = !out->complete && found && (double)out->steps < how->steps && !late && (guarded || renew) && go_on(c, motion, renew);
         if (!out->complete && !on) explain(c, motion, found, times);
         nh_motion_free(motion);

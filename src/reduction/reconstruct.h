@@ -16,7 +16,7 @@
 
 /* How a motion is computed. */
 typedef struct {
-    const nh_method *method; /* with error control; NULL: CVODE Adams */
+    const nh_method *method; /* with error control; NULL: the one that suits (automatic.h) */
     double tolerance, steps; /* steps: at most */
     double absolute;         /* of nh_flow_options: sizes are those that states have along the motion; 0: sizes 1 */
     const double *place;     /* m: the least size of each coordinate, beside which an error in it counts; NULL: from the motion */
