@@ -120,7 +120,7 @@ static size_t null_numbers(const cJSON *item)
     static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "components_with_gamma", "symmetry_route",
                                         "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file", "accuracy",
                                         "semiholonomic", "branch", "on_both_branches",
-                                        "completeness", "in_time", "obstacle", "of", "proved", "missing_at"};
+                                        "completeness", "in_time", "obstacle", "of", "proved", "missing_at", "equations"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {
         for (size_t i = 0; i < COUNT(texts); i++)

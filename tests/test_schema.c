@@ -76,7 +76,7 @@ static cJSON *read_json(const char *path)
 
 /* With and without constraints, unknowns, stages, a drawing, a second chart, a motion, nearly conserved quantities, series. */
 static const char *const LINES[] = {
-    "sleigh", "sleigh --no-analysis --option work=600", "free_particle", "heisenberg_particle --option work=600", "appell_hamel --option work=600", "lagrange_top --option work=600",
+    "sleigh --equations", "sleigh --no-analysis --option work=600", "free_particle", "heisenberg_particle --option work=600", "appell_hamel --option work=600", "lagrange_top --option work=600",
     "routh_sphere --option work=1200", "henon_heiles --option work=600", "spherical_pendulum --option work=600", "rolling_disk --option work=1200", "contact_oscillator --option work=600",
 };
 

@@ -81,6 +81,7 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
     nh_analyze_request request;
     nh_cli_progress_begin(cli);
     if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
+    request.equations = cli->equations;
     request.no_figures = !cli->html && !cli->tex && !cli->json;
     nh_analysis *result = nh_analysis_create(&request, error);
     nh_cli_progress_end();

@@ -25,6 +25,7 @@ typedef struct {
     const char *folder;          /* for all of them, or NULL */
     nh_cli_progress progress;
     const char *current, *field; /* questions of verify */
+    bool equations;              /* of analyze and verify: the geometry written out */
     const char *initial;         /* of simulate and reduce */
     const char *group, *chain, *to; /* of reduce */
     bool project, weak;

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "cli/cli.h"
+#include "document/geometry_sheet.h"
 #include "document/html.h"
 #include "document/verification.h"
 
@@ -16,6 +17,7 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error
     if (!system) return false;
     if (cli->current) *out = nh_verification_of_current(system, cli->velocities, cli->current, &cli->options, error);
     else *out = nh_verification_of_field(system, cli->velocities, cli->field, &cli->options, error);
+    if (*out && cli->equations) nh_verification_write_out(*out, &cli->options);
     return *out != NULL;
 }
 
@@ -31,6 +33,7 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
         nh_text text;
         nh_text_init(&text);
         nh_verification_text(v, cli->field != NULL, cli->options.shown, &text);
+        if (v->theory) nh_sheet_text(nh_geometry_sheet(v->arena, v->theory, NULL), cli->colour, &text);
         fputs(nh_text_string(&text), stdout);
         nh_text_clear(&text);
     }

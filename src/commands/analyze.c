@@ -18,6 +18,7 @@
 #include "search/missing.h"
 #include "problem/time_scale.h"
 #include "search/routes.h"
+#include "search/theory.h"
 #include "search/specials.h"
 
 enum { least_samples = 256, samples_per_column = 4, motion_outputs = 401 };
@@ -242,6 +243,17 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
     if (r->validation->checked && !r->validation->accuracy.held) nh_analysis_warn(r, "%s", r->validation->accuracy.why);
 }
 
+/* The geometry, with the brackets of the currents that have a field in closed form. */
+static void write_out(nh_analysis *r)
+{
+    nh_progress("the geometry", -1);
+    r->theory = nh_theory_of(r->arena, r->model, r->other, r->count, &r->options);
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_current *f = &r->found[k];
+        if (f->has_symmetry && !f->series) nh_theory_add(r->arena, r->theory, f->name, &f->symmetry);
+    }
+}
+
 /* ---- the pipeline ---- */
 
 static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
@@ -287,6 +299,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     nh_branch_compare(r);
     nh_progress("a motion to check it", -1);
     if (!nh_interrupted()) validate(r, q);
+    if (!nh_interrupted() && q->equations) write_out(r);
     if (!nh_interrupted() && !q->no_figures) nh_figures_compute(r, q, families, family);
     if (nh_interrupted()) {
         r->partial = true;

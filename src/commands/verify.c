@@ -9,6 +9,7 @@
 #include "exact/normal.h"
 #include "integrals/independence.h"
 #include "search/branch.h"
+#include "search/theory.h"
 #include "problem/time_scale.h"
 
 enum { test_points = 256, generic_points = 24 };
@@ -66,6 +67,7 @@ static nh_verification *complete(nh_verification *v, bool good, nh_error *error)
 void nh_verification_free(nh_verification *v)
 {
     if (!v) return;
+    nh_model_free(v->other);
     nh_model_free(v->model);
     nh_system_free(v->system);
     nh_arena_free(v->arena);
@@ -327,4 +329,14 @@ nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice cha
         good = check_field(v, &g, options, error) && (!v->conserved || describe(v, options, error));
     }
     return complete(v, good, error);
+}
+
+void nh_verification_write_out(nh_verification *v, const nh_options *options)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    if (v->model->chart->quasi && v->system->constraints)
+        v->other = nh_model_create(v->system, nh_chart_create(v->system, NH_CHART_COORDINATES, (uint64_t)options->seed, &ignored), &ignored);
+    v->theory = nh_theory_of(v->arena, v->model, v->other, 1, options);
+    if (v->has_symmetry && !v->trivial) nh_theory_add(v->arena, v->theory, "Phi", &v->symmetry);
 }

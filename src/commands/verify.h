@@ -21,6 +21,8 @@ struct nh_verification {
     bool on_both;             /* a current, as it was asked for, is conserved on the other branch too */
     bool has_symmetry;
     nh_symmetry symmetry;
+    struct nh_theory *theory; /* the geometry, where it was asked for; else NULL */
+    nh_model *other;          /* then: the chart of coordinate velocities beside a quasi one; or NULL */
     nh_proof proof;
     double residual;          /* largest relative rate on random points */
     bool has_counterexample;
@@ -33,5 +35,8 @@ struct nh_verification {
 nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *current, const nh_options *options, nh_error *error);
 /* "Z0=..; phi=..; x=..": components along t and the coordinates, those not named are 0. */
 nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
+
+/* The geometry written out, with the bracket of the field where there is one. */
+void nh_verification_write_out(nh_verification *verification, const nh_options *options);
 
 #endif

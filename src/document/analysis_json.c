@@ -9,6 +9,7 @@
 #include "document/typeset.h"
 #include "document/facts.h"
 #include "document/formula.h"
+#include "document/geometry_sheet.h"
 #include "document/analysis_json_internal.h"
 #include "document/provenance.h"
 
@@ -391,6 +392,7 @@ char *nh_analysis_json(const nh_analysis *r)
     nh_json *root = nh_json_object();
     put_system(&w, root);
     put_equations(&w, root);
+    nh_geometry_json(r->arena, r->theory, r->analysis, root);
     put_search(&w, root);
     nh_json *currents = nh_json_put_array(root, "currents");
     for (size_t k = 0; k < r->count; k++) put_current(&w, currents, &r->found[k]);

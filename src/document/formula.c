@@ -138,6 +138,16 @@ char *nh_formula_text(nh_dag *d, nh_ex e, double shown)
     return nh_strdup(size);
 }
 
+bool nh_formula_is_sum(const char *text)
+{
+    int depth = 0;
+    for (const char *c = text; *c; c++) {
+        depth += (*c == '(') - (*c == ')');
+        if (depth == 0 && *c == ' ' && (c[1] == '+' || c[1] == '-')) return true;
+    }
+    return false;
+}
+
 void nh_formula_series(nh_dag *d, const nh_series *s, nh_typeset_form form, nh_text *out)
 {
     const char *q = nh_name_of(d, s->variable);

@@ -32,6 +32,9 @@ size_t nh_formula_field(const nh_analysis *result, const nh_symmetry *z, nh_fiel
 /* A formula as text; when it is longer than `shown` symbols, how long it is and which option shows it. */
 char *nh_formula_text(nh_dag *dag, nh_ex e, double shown);
 
+/* Of the text of an expression: has it a plus or minus outside all parentheses, after the first character? */
+bool nh_formula_is_sum(const char *text);
+
 /* f_1(q) word_1 + ..., for a current without closed form. */
 void nh_formula_series(nh_dag *dag, const nh_series *series, nh_typeset_form form, nh_text *out);
 

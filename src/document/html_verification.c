@@ -116,6 +116,7 @@ void nh_html_verification(const nh_verification *v, bool field, const nh_run *ru
     nh_html_add(&w, "<h3>As it was understood</h3>\n");
     nh_html_equations(&w, v->model);
     nh_html_add(&w, "</section>\n");
+    nh_html_geometry(&w, v->arena, v->theory);
     nh_html_words(&w, "current, symmetry, case, distribution, projectable, residual");
     nh_html_repeat(&w, run);
     nh_html_end(&w);

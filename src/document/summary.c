@@ -8,6 +8,7 @@
 #include "graph/print.h"
 #include "document/facts.h"
 #include "document/formula.h"
+#include "document/geometry_sheet.h"
 
 enum { line_width = 100 };
 
@@ -138,17 +139,6 @@ static void equations(nh_summary_writer *w)
 
 /* ---- currents ---- */
 
-/* A plus or minus outside all parentheses, after the first character. */
-static bool reads_as_sum(const char *text)
-{
-    int depth = 0;
-    for (const char *c = text; *c; c++) {
-        depth += (*c == '(') - (*c == ')');
-        if (depth == 0 && *c == ' ' && (c[1] == '+' || c[1] == '-')) return true;
-    }
-    return false;
-}
-
 static void component(nh_summary_writer *w, const nh_field_term *term, bool first)
 {
     nh_dag *d = w->r->model->dag;
@@ -162,7 +152,7 @@ static void component(nh_summary_writer *w, const nh_field_term *term, bool firs
     nh_text text;
     nh_text_init(&text);
     char *printed = text_of(w, e);
-    bool sum = reads_as_sum(printed);
+    bool sum = nh_formula_is_sum(printed);
     nh_text_addf(&text, "%s%s%s %s%s", sum ? "(" : "", printed, sum ? ")" : "", before, along);
     nh_free(printed);
     wrapped(w, 12, nh_text_string(&text));
@@ -303,6 +293,7 @@ void nh_summary(const nh_analysis *r, nh_summary_style style, nh_text *out)
     system_lines(&w);
     answer(&w);
     equations(&w);
+    if (r->theory) nh_sheet_text(nh_geometry_sheet(r->arena, r->theory, r->analysis), style.colour, out);
     nh_summary_evidence(&w);
     nh_summary_motion(&w);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%s  warning: %s\n", i ? "" : "\n", r->warning[i]);

@@ -419,6 +419,7 @@ void nh_tex(const nh_analysis *r, bool fragment, nh_text *out)
     answer(&w);
     currents_section(&w);
     system_section(&w);
+    nh_tex_geometry(&w);
     motion_section(&w);
     figures_section(&w);
     search_section(&w);

@@ -32,6 +32,9 @@ void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e);
 /* The same with a label in LaTeX, such as Z_{\dot{x}}. */
 void nh_tex_labelled(nh_tex_writer *w, const char *latex, nh_ex e);
 
+/* The geometry, where it was asked for. */
+void nh_tex_geometry(nh_tex_writer *w);
+
 /* A figure, drawn by pgfplots from the numbers themselves. */
 void nh_tex_plot(nh_tex_writer *w, const nh_plot *plot, const char *caption);
 

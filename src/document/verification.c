@@ -7,6 +7,7 @@
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "document/facts.h"
+#include "document/geometry_sheet.h"
 
 const nh_chart *nh_verification_chart(const nh_verification *v)
 {
@@ -168,6 +169,7 @@ char *nh_verification_json(const nh_verification *v, const nh_run *run)
     } else {
         nh_json_put_null(root, "counterexample");
     }
+    nh_geometry_json(v->arena, v->theory, NULL, root);
     if (run) nh_run_json(run, v->system, root);
     return nh_json_finish(root);
 }

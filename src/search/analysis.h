@@ -117,6 +117,7 @@ struct nh_analysis {
     const char *command, *system_path, *analysis_path; /* to repeat it; command and analysis_path may be NULL */
     nh_system *system;
     nh_analysis_file *analysis;    /* NULL: chosen by the program */
+    struct nh_theory *theory;  /* where it was asked for; else NULL */
     nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
     nh_distribution constraint; /* the kind of constraint */
     const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where everything was computed, and "z' > 0"; NULL: there are no branches */

@@ -1,0 +1,13 @@
+/* geometry_sheet: the geometry of a system (search/theory.h) as a sheet, in the letters of [CechMusilova2014]. */
+#ifndef NH_GEOMETRY_SHEET_H
+#define NH_GEOMETRY_SHEET_H
+
+#include "document/sheet.h"
+#include "search/theory.h"
+
+/* `analysis`: whose abbreviations are used, or NULL. */
+nh_sheet *nh_geometry_sheet(nh_arena *arena, const nh_theory *theory, const nh_analysis_file *analysis);
+/* The member `equations` of a result: null without a theory. */
+void nh_geometry_json(nh_arena *arena, const nh_theory *theory, const nh_analysis_file *analysis, nh_json *to);
+
+#endif

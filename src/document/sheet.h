@@ -1,0 +1,71 @@
+/* sheet: formulas under headings, written once for text, JSON, page and LaTeX.
+ *
+ * A line is   label = c_1 f_1 + c_2 f_2 + ...   with expressions c and letters f of the theory (notation.h), or an equation, with such a sum on both
+ * sides; or words.  Lines belong to sections. */
+#ifndef NH_SHEET_H
+#define NH_SHEET_H
+
+#include "base/json.h"
+#include "document/html_internal.h"
+#include "document/tex_internal.h"
+
+typedef struct {
+    nh_ex coefficient;
+    const char *factor;      /* notation; "": none */
+} nh_sheet_term;
+
+typedef struct {
+    const char *tag;         /* notation: the number of an equation, "(17)"; "" */
+    const char *label;       /* notation; "": an equation, whose left side is a sum */
+    const char *words;       /* instead of a formula; else NULL */
+    size_t left, right, room;
+    nh_sheet_term *term;     /* the left side's, then the right side's */
+} nh_sheet_line;
+
+typedef struct {
+    const char *key, *title; /* of the JSON; of the heading */
+    const char *words;       /* what the letters mean; "" */
+    bool literal;            /* roots are shown as they are */
+    size_t lines, room;
+    nh_sheet_line *line;
+} nh_sheet_section;
+
+typedef struct {
+    nh_arena *arena;
+    nh_dag *dag;
+    const nh_analysis_file *analysis; /* whose abbreviations text and page use; or NULL */
+    const nh_chart *chart;   /* whose roots are shown as velocities; or NULL */
+    double shown, written;   /* options: longer formulas are left out of text and page; of the JSON */
+    size_t sections, room;
+    nh_sheet_section *section;
+    size_t names;            /* of repeated parts, so far */
+} nh_sheet;
+
+/* ---- writing it: into the last section, the last line ---- */
+
+nh_sheet *nh_sheet_create(nh_arena *arena, nh_dag *dag);
+void nh_sheet_begin(nh_sheet *sheet, const char *key, const char *title, const char *words);
+/* label = e */
+void nh_sheet_formula(nh_sheet *sheet, const char *label, nh_ex e);
+/* label = the terms that follow; with a tag and without a label: an equation, (tag) terms = 0, or = what follows nh_sheet_equals. */
+void nh_sheet_sum(nh_sheet *sheet, const char *tag, const char *label);
+void nh_sheet_add(nh_sheet *sheet, nh_ex coefficient, const char *factor); /* nothing where the coefficient is 0 */
+void nh_sheet_equals(nh_sheet *sheet);
+void nh_sheet_words(nh_sheet *sheet, const char *words);
+/* A label in the arena. */
+const char *nh_sheet_label(nh_sheet *sheet, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* ---- reading it ---- */
+
+/* The section as text and page show it: with the user's abbreviations, and with names for what is repeated in long formulas, which are defined in lines
+ * after the `own` first ones. */
+nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, size_t *own);
+/* A coefficient before its factor: its sign, and the rest, which needs parentheses where it is a sum; "" for 1.  NULL: too long.  To be freed. */
+char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, bool *minus, bool *sum);
+
+void nh_sheet_text(nh_sheet *sheet, bool colour, nh_text *out);
+void nh_sheet_json(nh_sheet *sheet, nh_json *to);     /* a member of `to` for each section */
+void nh_sheet_html(nh_sheet *sheet, nh_html_writer *w);
+void nh_sheet_tex(nh_sheet *sheet, nh_tex_writer *w);
+
+#endif

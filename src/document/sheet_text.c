@@ -1,0 +1,101 @@
+/* A sheet as text of 80 columns. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "document/notation.h"
+#include "document/sheet.h"
+
+enum { line_width = 80, line_indent = 2 };
+
+/* Where a line that may have `room` characters is best broken: before a + or - with few parentheses open; else after a factor; 0: nowhere. */
+static size_t break_at(const char *text, size_t room)
+{
+    size_t best = 0;
+    int depth = 0, least = 1 << 20;
+    for (size_t i = 0; i < room && text[i]; i++) {
+        depth += (text[i] == '(') - (text[i] == ')');
+        bool equal = text[i + 1] == '=' && i > room / 4; /* not right after a label */
+        if (i == 0 || text[i] != ' ' || (!equal && text[i + 1] != '+' && text[i + 1] != '-') || text[i + 2] != ' ') continue;
+        if (depth > least && i < best + room / 2) continue;
+        least = depth;
+        best = i;
+    }
+    for (size_t i = room; i > room / 2 && !best; i--)
+        if (text[i - 1] == '*' || text[i - 1] == ' ') best = i;
+    return best;
+}
+
+/* A formula, broken so that nothing runs beyond the last column; words at any blank. */
+static void wrapped(nh_text *out, size_t indent, const char *text, bool words)
+{
+    size_t hang = indent + (words ? 0 : 4);
+    nh_text_addf(out, "%*s", (int)indent, "");
+    for (size_t room = line_width - indent; nh_text_width(text) > room; room = line_width - hang) {
+        size_t cut = words ? 0 : break_at(text, room);
+        for (size_t i = 1; i <= room && words; i++)
+            if (text[i] == ' ') cut = i;
+        if (!cut) break;
+        nh_text_add_n(out, text, cut);
+        text += cut + (text[cut] == ' ');
+        nh_text_addf(out, "\n%*s", (int)hang, "");
+    }
+    nh_text_addf(out, "%s\n", text);
+}
+
+static void put_words(nh_text *out, const char *words)
+{
+    nh_text text, part;
+    bool label;
+    nh_text_init(&text);
+    for (; nh_notation_next(&words, &part, &label); nh_text_clear(&part)) {
+        if (label) nh_notation_write(nh_text_string(&part), NH_NOTATION_TEXT, &text);
+        else nh_text_add(&text, nh_text_string(&part));
+    }
+    wrapped(out, line_indent, nh_text_string(&text), true);
+    nh_text_clear(&text);
+}
+
+static void terms(const nh_sheet *s, size_t n, const nh_sheet_term *term, nh_text *out)
+{
+    if (n == 0) nh_text_add(out, "0");
+    for (size_t i = 0; i < n; i++) {
+        bool minus, sum;
+        char *text = nh_sheet_coefficient(s, &term[i], &minus, &sum);
+        if (!text) text = nh_strdup(term[i].factor[0] ? "(too long)" : "too long to be shown (option `shown`)");
+        nh_text_add(out, i ? (minus ? " - " : " + ") : minus ? "-" : "");
+        nh_text_addf(out, sum ? "(%s)%s" : "%s%s", text, text[0] && term[i].factor[0] ? " " : "");
+        nh_notation_write(term[i].factor, NH_NOTATION_TEXT, out);
+        nh_free(text);
+    }
+}
+
+static void put_line(const nh_sheet *s, const nh_sheet_line *line, nh_text *out)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_notation_write(line->tag, NH_NOTATION_TEXT, &text);
+    nh_text_add(&text, line->tag[0] ? "  " : "");
+    nh_notation_write(line->label, NH_NOTATION_TEXT, &text);
+    if (!line->label[0]) terms(s, line->left ? line->left : line->right, line->term, &text);
+    nh_text_add(&text, " = ");
+    if (line->label[0]) terms(s, line->right, line->term, &text);
+    else terms(s, line->left ? line->right : 0, line->term + line->left, &text);
+    wrapped(out, line_indent, nh_text_string(&text), false);
+    nh_text_clear(&text);
+}
+
+void nh_sheet_text(nh_sheet *s, bool colour, nh_text *out)
+{
+    for (size_t i = 0; i < s->sections; i++) {
+        size_t own;
+        nh_sheet_section c = nh_sheet_brief(s, i, &own);
+        nh_text_addf(out, "\n%s%s%s\n", colour ? "\033[1m" : "", c.title, colour ? "\033[0m" : "");
+        if (c.words[0]) put_words(out, c.words);
+        for (size_t j = 0; j < c.lines; j++) {
+            if (j == own) nh_text_addf(out, "%*swhere\n", line_indent, "");
+            if (c.line[j].words) put_words(out, c.line[j].words);
+            else put_line(s, &c.line[j], out);
+        }
+    }
+}

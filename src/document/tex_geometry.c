@@ -1,0 +1,14 @@
+/* The geometry of a system as a section of a LaTeX document. */
+#include "document/geometry_sheet.h"
+#include "document/tex_internal.h"
+
+void nh_tex_geometry(nh_tex_writer *w)
+{
+    const nh_analysis *r = w->r;
+    if (!r->theory) return;
+    nh_tex_add(w, "\\section{Geometry}\nIn ");
+    nh_tex_chart(w, r->theory->model->chart->name);
+    nh_tex_words(w, ", with the numbers of the equations in \u010cech and Musilov\u00e1 (2014).");
+    nh_tex_add(w, "\n");
+    nh_sheet_tex(nh_geometry_sheet(r->arena, r->theory, r->analysis), w);
+}

@@ -1,0 +1,29 @@
+/* theory: the geometry of a system written out, for --equations: what a report shows of the constraint submanifold, of the equations for symmetries,
+ * and of the brackets of the currents.  Everything is exact; nothing decides. */
+#ifndef NH_THEORY_H
+#define NH_THEORY_H
+
+#include "base/option.h"
+#include "geometry/determining.h"
+#include "geometry/inertial.h"
+#include "integrals/bracket.h"
+
+typedef struct nh_theory {
+    const nh_model *model;         /* the chart of coordinate velocities where there is one: the geometry is written in it */
+    const nh_submanifold *submanifold, *own; /* of it; and of the chart that the currents are in (perhaps the same) */
+    const nh_determining *determining;
+    const nh_inertial *inertial;   /* NULL: the reaction does not split */
+    double shown, written;         /* options: longer formulas are left out of text and page; of the JSON */
+    size_t brackets;
+    struct nh_theory_bracket {
+        const char *name;          /* of the current */
+        const nh_symmetry *symmetry;
+        const nh_bracket *bracket;
+    } *bracket;
+} nh_theory;
+
+/* `other`: a chart of coordinate velocities beside a quasi one, or NULL.  There is room for `most` brackets. */
+nh_theory *nh_theory_of(nh_arena *arena, const nh_model *model, const nh_model *other, size_t most, const nh_options *options);
+void nh_theory_add(nh_arena *arena, nh_theory *theory, const char *name, const nh_symmetry *symmetry);
+
+#endif
