@@ -3,8 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "graph/terms.h"
 #include "scratch.h"
-#include "commands/reduce.h"
+#include "commands/reduce_internal.h"
 
 /* Lengths, masses and times are multiplied by these. */
 typedef struct {
@@ -149,6 +150,52 @@ Test(reduce_scales, lengths)
 Test(reduce_scales, all_of_them)
 {
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) same(&all[i], &(units){1e9, 1e-9, 1e8}, true), same(&all[i], &(units){1e-9, 1e9, 1e-9}, true);
+}
+
+/* The largest rate of a momentum at the probes, relative to the terms of the rate. */
+static double largest_rate(const nh_model *o, nh_ex value)
+{
+    nh_ex phi = nh_chart_compose(o->chart, value), e[2] = {nh_model_gamma(o, phi), 0};
+    e[1] = nh_terms_moduli(o->dag, e[0]);
+    nh_tape *tape = nh_model_tape(o, 2, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    double worst = 0;
+    cr_assert_gt(o->chart->probes, 0);
+    for (size_t p = 0; p < o->chart->probes; p++) {
+        double at[2];
+        nh_tape_eval(tape, work, o->chart->probe + p * o->width, at);
+        if (at[0] != 0) worst = fmax(worst, fabs(at[0]) / at[1]);
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return worst;
+}
+
+/* A small wheel in a large box: fields that hardly move anything in one direction, and everything in another one.  What is called conserved is conserved. */
+Test(reduce_scales, lengths_far_apart)
+{
+    static const double radius[] = {1e-9, 1e-6, 1e-3, 1, 1e6};
+    static const char *const potential[] = {"", " - r*y", " - r^2*x^2", " - 3*cos(th)"};
+    for (size_t i = 0; i < 5; i++)
+        for (size_t j = 0; j < 8; j++) {
+            char text[1000], path[SCRATCH];
+            nh_error error = {0};
+            snprintf(text, sizeof text, "name: wheel\nparameters: [{name: r, value: %.17g}]\ncoordinates: [{name: th, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
+                                        "lagrangian: 1/2*(r^2*th'^2 + x'^2 + y'^2)%s\n", radius[i], potential[j % 4]);
+            cr_assert(scratch_text(path, text));
+            nh_reduce_request q = {.system_path = path, .weak = j >= 4};
+            nh_options_default(&q.options);
+            nh_reduction *r = nh_reduction_create(&q, &error);
+            remove(path);
+            cr_assert_not_null(r, "%s", error.what);
+            cr_assert(nh_reduction_whole_model(r, &error), "%s", error.what);
+            cr_expect_gt(r->momenta.count, 0, "r = %g, V =%s", radius[i], potential[j % 4]);
+            for (size_t a = 0; a < r->momenta.count; a++)
+                cr_expect_lt(largest_rate(r->whole, r->momenta.momentum[a].value), 1e-9, "r = %g, V =%s: momentum %zu is not conserved", radius[i], potential[j % 4], a);
+            for (size_t a = 0; a < r->group->action.d; a++)
+                cr_expect(nh_generator_proof(r->group->action.kinetic, &r->group->action.generator[a]).proved, "r = %g, V =%s: generator %zu", radius[i], potential[j % 4], a);
+            nh_reduction_free(r);
+        }
 }
 
 /* Velocities that violate the constraints are off by a part of their size, whatever that is. */

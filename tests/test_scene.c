@@ -216,12 +216,12 @@ Test(scene, a_chart_that_ends_between_outputs_is_left)
 static const char *const rotor =
     "name: test\nparameters: [{name: I, value: 0.02}]\nbodies:\n  - {name: plate, mass: 2, inertia: [0.1, 0.2, 0.3]}\n  - {name: rotor, mass: 1, inertia: [0.01, 0.01, %s]}\n"
     "joints:\n  - {type: planar, child: plate, coordinates: [x, y, h]}\n  - {type: revolute, parent: plate, child: rotor, axis: z%s, coordinates: [p]}\n"
-    "forces: [h = -h']\n";
+    "forces: [\"h = -(%s)*h'\"]\n";
 
-static void expect_idle(const char *inertia, const char *at, const char *watched, const char *words)
+static void expect_idle(const char *inertia, const char *at, const char *friction, const char *watched, const char *words)
 {
     char text[800];
-    snprintf(text, sizeof text, rotor, inertia, at);
+    snprintf(text, sizeof text, rotor, inertia, at, friction);
     mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
     nh_closed_subsystem *s = scene_of(x.model, watched);
     nh_text idle;
@@ -235,11 +235,13 @@ static void expect_idle(const char *inertia, const char *at, const char *watched
 
 Test(scene, bodies_whose_masses_are_numbers)
 {
-    expect_idle("0.02", "", "h", "the parameter I has no influence, nor the body rotor");
-    expect_idle("0.02", "", "p", "the parameter I has no influence, nor the body rotor"); /* p'' = -h'' */
-    expect_idle("I", "", "h", "the parameter I has no influence, nor the body rotor");
-    expect_idle("0.02", ", at: [0.5, 0, 0]", "h", "the parameter I has no influence"); /* its mass is the plate's burden */
-    expect_idle("0.02", "", "E", "the parameter I has no influence");
+    expect_idle("0.02", "", "1", "h", "the parameter I has no influence, nor the body rotor");
+    expect_idle("0.02", "", "1", "p", "the parameter I has no influence, nor the body rotor"); /* p'' = -h'' */
+    expect_idle("I", "", "1", "h", "the parameter I has no influence, nor the body rotor");
+    expect_idle("0.02", ", at: [0.5, 0, 0]", "1", "h", "the parameter I has no influence"); /* its mass is the plate's burden */
+    expect_idle("0.02", ", at: [0.5, 0, 0]", "1e-13", "h", "the parameter I has no influence"); /* also in a slow scene */
+    expect_idle("0.02", "", "1e-13", "h", "the parameter I has no influence, nor the body rotor");
+    expect_idle("0.02", "", "1", "E", "the parameter I has no influence");
 }
 
 static nh_simulation *simulate_watching(const char *path, const char *initial, const char *watch, double accuracy)

@@ -262,7 +262,7 @@ static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *e
         r->all = nh_group_find(r->kinetic, &r->options, error);
         if (!r->all) return false;
         count_weaker(r);
-        if (r->all->missing) nh_reduction_warn(r, "%zu further local symmetries have no closed form among the functions in the search", r->all->missing);
+        if (r->all->missing) nh_reduction_warn(r, "%zu further local symmetr%s: the search found no closed form", r->all->missing, r->all->missing == 1 ? "y exists" : "ies exist");
     }
     if (numbers) return group_of_numbers(r, q->group, error);
     if (q->group) return group_of_fields(r, q->group, error);
@@ -330,6 +330,14 @@ static bool conserved(nh_reduction *r)
     return true;
 }
 
+/* Where there are no accelerations, a momentum that is not proved remains one "to rounding". */
+static void confirm(nh_reduction *r)
+{
+    nh_error trouble = {0};
+    if (nh_reduction_whole_model(r, &trouble)) nh_momenta_confirm(&r->momenta, r->whole, &r->options);
+    nh_error_clear(&trouble);
+}
+
 static void clear_stages(nh_reduction *r)
 {
     for (size_t i = 0; i < 4; i++) nh_action_clear(&r->action[i]);
@@ -380,6 +388,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     if (divide) nh_progress("reduced equations, and motions of both", -1);
     if (divide) good = divide_by_group(r, error);
     if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta")) good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
+    if (good && nh_momenta_unproved(&r->momenta, &r->group->action)) confirm(r);
     if (good) nh_momenta_mark(&r->momenta, r->kinetic);
     if (nh_interrupted()) {
         char words[80];

@@ -19,3 +19,12 @@ size_t nh_terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
     *out = e;
     return 1 + n;
 }
+
+nh_ex nh_terms_moduli(nh_dag *d, nh_ex e)
+{
+    if (nh_kind_of(d, e) != NH_SUM) return nh_call(d, NH_ABS, e);
+    nh_ex sum = nh_int(d, 0);
+    for (size_t i = 0; i < nh_arity(d, e); i++)
+        sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
+    return sum;
+}

@@ -7,4 +7,7 @@
 /* The expression itself, then its terms: those of a sum, also under a common factor.  Their number; the caller frees *out. */
 size_t nh_terms_of(nh_dag *dag, nh_ex e, nh_ex **out);
 
+/* The sum of the moduli of the terms of a sum (not below a common factor): e is small when it is small relative to this. */
+nh_ex nh_terms_moduli(nh_dag *dag, nh_ex e);
+
 #endif

@@ -8,11 +8,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/linalg.h"
+#include "exact/ball.h"
+#include "exact/solve.h"
 #include "graph/diff.h"
+#include "graph/terms.h"
+#include "integrals/exact_points.h"
 #include "motion/closed_subsystem.h"
 
-static const double nothing = 1e-9; /* relative size of an influence that is rounding */
+enum { ball_bits = 256, zero_digits = 40, wanted_points = 2, most_tries = 40 };
 
 static void list_names(size_t n, const char *const *name, nh_text *out)
 {
@@ -38,15 +41,12 @@ static nh_ex lagrangian_of(const nh_model *o, const nh_chain *chain, size_t body
     return nh_add(d, nh_mul(d, nh_ratio(d, 1, 2), nh_pairing(d, &twist, &momentum)), nh_mul(d, b->mass, nh_dot(d, chain->gravity, b->position)));
 }
 
-/* M (n x n), a (n), A_b - M_b a (n), dL_b/dw of what is dropped (n; 0 for the rest). */
-static void influence_of(const nh_closed_subsystem *s, nh_ex L, nh_ex *out)
+/* A_b - M_b a (n), and dL_b/dw (n). */
+static void influence_of(const nh_model *o, nh_ex L, nh_ex *influence, nh_ex *momentum)
 {
-    const nh_model *o = s->model;
     nh_dag *d = o->dag;
     size_t n = o->n, m = o->m;
     nh_ex *p = nh_alloc_array(m + 1, sizeof *p), lbar = nh_model_compose(o, L);
-    memcpy(out, o->M, n * n * sizeof *out);
-    memcpy(out + n * n, o->a, n * sizeof *out);
     for (size_t i = 0; i < m; i++) p[i] = nh_model_compose(o, nh_diff(d, L, o->system->coordinate[i].v));
     for (size_t i = 0; i < n; i++) {
         nh_ex sum = nh_int(d, 0);
@@ -55,65 +55,87 @@ static void influence_of(const nh_closed_subsystem *s, nh_ex L, nh_ex *out)
             for (size_t j = 0; j < n; j++) force = nh_sub(d, force, nh_mul(d, nh_model_Y(o, j, p[k]), o->a[j]));
             sum = nh_add(d, sum, nh_mul(d, o->R[k * n + i], force));
         }
-        out[n * n + n + i] = sum;
-        out[n * n + 2 * n + i] = nh_int(d, 0);
+        influence[i] = sum;
+        momentum[i] = nh_model_Y(o, i, lbar);
     }
-    for (size_t j = s->kept + s->levels; j < s->states; j++)
-        if (s->state[j] >= m) out[n * n + 2 * n + s->state[j] - m] = nh_model_Y(o, s->state[j] - m, lbar);
     nh_free(p);
 }
 
-static bool vanishes_for_kept(const nh_closed_subsystem *s, size_t n, double *value)
+/* Does the sum of the terms of factor[i] e[i] vanish, to many digits more than its terms have in common by chance? */
+static bool cancels(const nh_model *o, nh_ball *ball, size_t n, const nh_ex *factor, const nh_ex *e)
 {
-    const double *a = value + n * n;
-    double *x = value + n * n + n, most = 0;
-    if (!nh_solve(n, value, 1, x, NULL)) return false;
-    for (size_t i = 0; i < n; i++) most = fmax(most, fabs(a[i]) + fabs(x[i]));
-    for (size_t j = 0; j < s->kept + s->levels; j++)
-        if (s->state[j] >= s->model->m && !(fabs(x[s->state[j] - s->model->m]) <= nothing * (1 + most))) return false;
-    return true;
-}
-
-/* With currents: are those states a closed system without them, too?  Then their rates are the same at places that differ in what is dropped only. */
-static bool closed_without_currents(const nh_closed_subsystem *s, const nh_tape *tape, nh_tape_work *work, const double *point, const double *other, const double *value)
-{
-    size_t n = s->model->n, width = s->model->width, count = n * n + 3 * n;
-    double *mixed = nh_alloc_array(width + count, sizeof *mixed), *there = mixed + width;
+    nh_dag *d = o->dag;
+    nh_ex *term = NULL;
+    size_t count = 0, capacity = 0;
+    double bound, ratio, most = -INFINITY;
     bool good = true;
-    memcpy(mixed, point, width * sizeof *mixed);
-    for (size_t j = s->kept + s->levels; j < s->states; j++) mixed[1 + s->state[j]] = other[1 + s->state[j]];
-    nh_tape_eval(tape, work, mixed, there);
-    for (size_t j = 0; j < s->kept + s->levels; j++) {
-        size_t i = s->state[j] - s->model->m;
-        if (s->state[j] >= s->model->m) good = good && fabs(there[n * n + i] - value[n * n + i]) <= nothing * (1 + fabs(value[n * n + i]));
+    for (size_t i = 0; i < n; i++) {
+        nh_ex *of;
+        size_t terms = nh_terms_of(d, e[i], &of);
+        nh_grow(&term, &capacity, count + terms, sizeof *term);
+        for (size_t k = terms > 1; k < terms; k++) term[count++] = nh_exact_values(o, factor ? nh_mul(d, factor[i], of[k]) : of[k]);
+        nh_free(of);
     }
-    nh_free(mixed);
+    for (size_t i = 0; i < count && good; i++) {
+        good = nh_ball_log10_bound(ball, term[i], &bound);
+        most = fmax(most, bound);
+    }
+    if (good && most > -INFINITY) good = nh_ball_relative_sum(ball, count, term, &ratio) && ratio < -zero_digits;
+    nh_free(term);
     return good;
 }
 
-/* A body whose weight changes nothing at the chart's probes, and that moves with something dropped (else what is watched may be its energy). */
+/* Row j of M^-1 (A_b - M_b a), for the velocities that are kept. */
+static bool vanishes_for_kept(const nh_closed_subsystem *s, nh_ball *ball, const nh_ex *influence)
+{
+    const nh_model *o = s->model;
+    nh_ex *row = nh_alloc_array(o->n + 1, sizeof *row);
+    bool good = true;
+    for (size_t j = 0; j < s->kept + s->levels && good; j++) {
+        if (s->state[j] < o->m) continue;
+        for (size_t i = 0; i < o->n; i++) row[i] = nh_int(o->dag, i == s->state[j] - o->m);
+        nh_lu_solve(o->M_lu, row, row);
+        good = cancels(o, ball, o->n, row, influence);
+    }
+    nh_free(row);
+    return good;
+}
+
+/* With currents: are those states a closed system without them, too?  Then their rates do not depend on what is dropped. */
+static bool closed_without_currents(const nh_closed_subsystem *s, nh_ball *ball)
+{
+    const nh_model *o = s->model;
+    bool good = true;
+    for (size_t i = 0; i < s->kept + s->levels; i++)
+        for (size_t j = s->kept + s->levels; j < s->states && good; j++) {
+            if (s->state[i] < o->m) continue;
+            nh_ex slope = nh_diff(o->dag, o->a[s->state[i] - o->m], o->chart->symbol[1 + s->state[j]]);
+            good = nh_is_zero(o->dag, slope) || cancels(o, ball, 1, NULL, &slope);
+        }
+    return good;
+}
+
+/* A body whose weight changes nothing at random points, and that moves with something dropped (else what is watched may be its energy). */
 static bool body_has_no_influence(const nh_closed_subsystem *s, size_t body)
 {
     const nh_model *o = s->model;
-    size_t n = o->n, count = n * n + 3 * n;
-    if (s->implicit || !n || o->chart->probes < 2) return false;
-    nh_ex *e = nh_alloc_array(count, sizeof *e);
-    double *value = nh_alloc_array(count, sizeof *value);
-    influence_of(s, lagrangian_of(o, o->system->chain, body), e);
-    nh_tape *tape = nh_model_tape(o, count, e);
-    nh_tape_work *work = nh_tape_work_create(tape);
+    size_t n = o->n, points = 0;
+    if (s->implicit || !n || !o->M_lu) return false;
+    nh_ex *influence = nh_alloc_array(2 * n, sizeof *influence), *momentum = influence + n;
+    influence_of(o, lagrangian_of(o, o->system->chain, body), influence, momentum);
+    nh_ball *ball = nh_ball_create(o->dag, ball_bits);
+    uint64_t state = 1;
     bool good = true, moves = false;
-    for (size_t p = 0; p < o->chart->probes && good; p++) {
-        const double *point = o->chart->probe + p * o->width, *other = o->chart->probe + (p + 1) % o->chart->probes * o->width;
-        nh_tape_eval(tape, work, point, value);
-        good = nh_all_finite(count, value) && (!s->levels || closed_without_currents(s, tape, work, point, other, value));
-        for (size_t i = 0; i < n && good; i++) moves |= fabs(value[n * n + 2 * n + i]) > nothing;
-        good = good && vanishes_for_kept(s, n, value);
+    nh_exact_parameters(o, ball);
+    for (int tries = 0; tries < most_tries && points < wanted_points && good; tries++) {
+        if (!nh_exact_point(o, ball, &state)) continue;
+        points++;
+        good = (!s->levels || closed_without_currents(s, ball)) && vanishes_for_kept(s, ball, influence);
+        for (size_t j = s->kept + s->levels; j < s->states && good; j++)
+            if (s->state[j] >= o->m) moves |= !cancels(o, ball, 1, NULL, &momentum[s->state[j] - o->m]);
     }
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    nh_free(value);
-    nh_free(e);
+    nh_ball_free(ball);
+    nh_free(influence);
     return good && moves;
 }
 

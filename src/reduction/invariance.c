@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "graph/diff.h"
+#include "graph/terms.h"
 #include "exact/normal.h"
 #include "graph/print.h"
 
@@ -67,7 +68,7 @@ static double relative_size(nh_tape *tape, nh_tape_work *work, const double *z, 
 /* A size for e to be compared with: the sum of the moduli of its terms, plus `unit`. */
 static nh_ex size_of(nh_dag *d, nh_ex e, nh_ex unit)
 {
-    return nh_add(d, unit, nh_kinetic_terms(d, e));
+    return nh_add(d, unit, nh_terms_moduli(d, e));
 }
 
 static double largest_residual(const nh_kinetic *k, size_t n, const nh_ex *e, const nh_ex *unit)
@@ -123,7 +124,7 @@ static nh_condition condition(const nh_kinetic *k, size_t n, const nh_ex *e, dou
         if (nh_normal_is_zero(k->dag, e[i], (size_t)options->proof_terms) == NH_ZERO) continue;
         nh_proof proof = nh_prove_zero(k->model, 1, &e[i], true, options);
         join(k, &c, proof);
-        if (proof.refuted && !proof.proved) c.holds = c.residual <= options->same; /* a number that was fitted, not an exact one */
+        c.holds &= proof.proved || !proof.refuted;
     }
     return c;
 }

@@ -6,6 +6,7 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "graph/diff.h"
+#include "graph/terms.h"
 #include "exact/normal.h"
 #include "system/constraint_samples.h"
 
@@ -316,21 +317,12 @@ double nh_kinetic_length(const nh_kinetic *k, const double *diagonal)
     return length > 0 && isfinite(length) ? exp2(10 * round(log2(length) / 10)) : 1;
 }
 
-nh_ex nh_kinetic_terms(nh_dag *d, nh_ex e)
-{
-    if (nh_kind_of(d, e) != NH_SUM) return nh_call(d, NH_ABS, e);
-    nh_ex sum = nh_int(d, 0);
-    for (size_t i = 0; i < nh_arity(d, e); i++)
-        sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
-    return sum;
-}
-
 /* The largest sum of the moduli of the terms of each expression at some places, into size. */
 static void terms_at(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, double *size)
 {
     nh_ex *terms = nh_alloc_array(count + 1, sizeof *terms);
     double *value = nh_alloc_array(places * count + 1, sizeof *value);
-    for (size_t i = 0; i < count; i++) terms[i] = nh_kinetic_terms(k->dag, e[i]);
+    for (size_t i = 0; i < count; i++) terms[i] = nh_terms_moduli(k->dag, e[i]);
     nh_kinetic_sample(k, count, terms, places, value);
     for (size_t i = 0; i < places * count; i++) size[i % count] = fmax(size[i % count], value[i]);
     nh_free(terms);

@@ -49,8 +49,6 @@ void nh_kinetic_sizes(const nh_kinetic *kinetic, size_t places, double *size);
 /* The length of the sampling box in the metric with this diagonal (m), or 1 without one: fields are compared with it, and what is found does not depend on units.  A power of 1024, by
  * which no digit is lost: where the length is near one it is 1. */
 double nh_kinetic_length(const nh_kinetic *kinetic, const double *diagonal);
-/* The sum of the moduli of the terms of e, beside which its value is small or not. */
-nh_ex nh_kinetic_terms(nh_dag *dag, nh_ex e);
 /* Does one of them change its value when an angle goes once around?  It is defined on a covering of the configuration space only then. */
 bool nh_kinetic_many_valued(const nh_kinetic *kinetic, size_t count, const nh_ex *e);
 

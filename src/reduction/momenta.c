@@ -178,7 +178,9 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
     nh_dag *dag = s->k->dag;
     size_t *order = nh_library_order(&s->l);
     nh_ex *exact = nh_alloc_array(s->n + 1, sizeof *exact);
-    nh_relative_echelon(s->n, count, order, NULL, v); /* the most complex columns as pivots: the rest of each vector is then the simplest */
+    double *size = nh_alloc_array(s->n + 1, sizeof *size);
+    nh_relative_sizes(&s->rows, size);
+    nh_relative_echelon(s->n, count, order, size, v); /* the most complex columns as pivots: the rest of each vector is then the simplest */
     out->momentum = nh_arena_alloc(s->k->arena, (count + 1) * sizeof *out->momentum);
     for (size_t r = count; r-- > 0;) {
         nh_momentum *p = &out->momentum[out->count++];
@@ -196,8 +198,33 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
         fill(s, p);
         out->count -= multiple(s, p);
     }
+    nh_free(size);
     nh_free(exact);
     nh_free(order);
+}
+
+size_t nh_momenta_unproved(nh_momenta *out, const nh_action *g)
+{
+    const nh_kinetic *k = g->kinetic;
+    size_t n = 0;
+    for (size_t i = 0; i < out->count; i++) {
+        nh_momentum *p = &out->momentum[i];
+        for (size_t a = 0; a < g->d; a++)
+            if (!nh_is_zero(k->dag, p->f[a])) p->proof = nh_proof_both(k->model, p->proof, nh_generator_proof(k, &g->generator[a]));
+        n += !p->proof.proved;
+    }
+    return n;
+}
+
+void nh_momenta_confirm(nh_momenta *out, const nh_model *o, const nh_options *options)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < out->count; i++) {
+        nh_momentum *p = &out->momentum[i];
+        if (!p->proof.proved) p->proof = nh_prove_current(o, nh_chart_compose(o->chart, p->value), true, options);
+        if (p->proof.proved || !p->proof.refuted) out->momentum[kept++] = *p;
+    }
+    out->count = kept;
 }
 
 void nh_momenta_mark(nh_momenta *out, const nh_kinetic *k)

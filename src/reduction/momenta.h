@@ -36,6 +36,12 @@ typedef struct {
     nh_momentum *momentum; /* in the kinetic's arena */
 } nh_momenta;
 
+/* A momentum is proved where its generators are, too: how many are not.  Each proof becomes that of both. */
+size_t nh_momenta_unproved(nh_momenta *momenta, const nh_action *action);
+/* Of those the rate itself decides, by a model with accelerations: what it refutes is left out.  Numbers that hardly weigh in a generator (lengths of
+ * a nanometre beside a metre) may be the whole of the rate. */
+void nh_momenta_confirm(nh_momenta *momenta, const nh_model *model, const nh_options *options);
+
 /* Which of them are local. */
 void nh_momenta_mark(nh_momenta *momenta, const nh_kinetic *kinetic);
 

@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "graph/diff.h"
+#include "graph/terms.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
 #include "reduction/section.h"
@@ -52,9 +53,9 @@ static bool prolong(const nh_model *o, const nh_ex *e, nh_ex *eta)
 static nh_ex terms_of_rate(const nh_model *o)
 {
     nh_dag *d = o->dag;
-    nh_ex sum = nh_kinetic_terms(d, nh_diff(d, o->E, o->system->t));
-    for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_kinetic_terms(d, nh_mul(d, o->rho[s], nh_diff(d, o->E, o->system->coordinate[s].q))));
-    for (size_t i = 0; i < o->n; i++) sum = nh_add(d, sum, nh_kinetic_terms(d, nh_mul(d, o->a[i], nh_model_Y(o, i, o->E))));
+    nh_ex sum = nh_terms_moduli(d, nh_diff(d, o->E, o->system->t));
+    for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_terms_moduli(d, nh_mul(d, o->rho[s], nh_diff(d, o->E, o->system->coordinate[s].q))));
+    for (size_t i = 0; i < o->n; i++) sum = nh_add(d, sum, nh_terms_moduli(d, nh_mul(d, o->a[i], nh_model_Y(o, i, o->E))));
     return sum;
 }
 
@@ -81,7 +82,7 @@ static bool conservative(const nh_model *o)
     double *out = nh_alloc_array(o->m + 3, sizeof *out);
     e[0] = nh_model_gamma(o, o->E);
     e[1] = terms_of_rate(o);
-    e[2] = nh_kinetic_terms(o->dag, o->E);
+    e[2] = nh_terms_moduli(o->dag, o->E);
     memcpy(e + 3, o->rho, o->m * sizeof *e);
     nh_tape *tape = nh_model_tape(o, o->m + 3, e);
     nh_tape_work *work = nh_tape_work_create(tape);
