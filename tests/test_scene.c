@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "mechanics.h"
+#include "scratch.h"
 #include "sweep.h"
 #include "motion/trajectory.h"
 #include "commands/simulate.h"
@@ -383,4 +384,27 @@ Test(scene, the_same_values_for_every_system)
         tried++;
     }
     cr_expect(n * compared > 150 * tried && n * smaller > 80 * tried && (tried < 10 || n * by_currents > 40 * tried), "%zu compared, %zu of them smaller, %zu by currents", compared, smaller, by_currents);
+}
+
+/* A position on or off the circle of a pendulum: in any unit of length. */
+Test(scene, an_initial_position_astray)
+{
+    static const double length[] = {1e-9, 1, 1e9};
+    for (size_t i = 0; i < 6; i++) {
+        double l = length[i / 2];
+        char text[600], initial[100], path[SCRATCH];
+        nh_error error = {0};
+        snprintf(text, sizeof text, "name: pendulum\nparameters: [{name: l, value: %.17g}, {name: g, value: %.17g}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                                    "lagrangian: 1/2*(x'^2 + y'^2) - g*y\nconstraints: [\"x^2 + y^2 = l^2\"]\n", l, l);
+        snprintf(initial, sizeof initial, "x=%.17g, y=%.17g", 0.6 * l * (i % 2 ? 1.001 : 1), -0.8 * l);
+        cr_assert(scratch_text(path, text));
+        nh_simulate_request q = {.system_path = path, .initial = initial, .step = 1};
+        nh_options_default(&q.options);
+        q.options.until = 1;
+        nh_simulation *s = nh_simulation_create(&q, &error);
+        remove(path);
+        must(s != NULL, &error, initial);
+        cr_expect_eq(s->astray != NULL, i % 2 == 1, "l = %g, %s", l, initial);
+        nh_simulation_free(s);
+    }
 }

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 
 #include "graph/diff.h"
+#include "graph/terms.h"
 
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
 static const double small_motion = 1e8, most_whole = 1e9; /* units of effort: a motion that needs less is compared with the whole model's, which may need so much */
@@ -305,15 +306,8 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     return true;
 }
 
-static double largest_of(size_t n, const double *x)
-{
-    double largest = 0;
-    for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(x[i]));
-    return largest;
-}
-
 /* The distance of the initial position from where a constraint between positions holds, |f|/|df/dq|: its time derivative, which is all that the equations
- * of motion know, keeps f as it is. */
+ * of motion know, keeps f as it is.  f is zero beside its terms, or what a part of each coordinate changes in it. */
 static const char *words_astray(const nh_simulation *s, const nh_state *at)
 {
     static const double small = 1e-6;
@@ -326,17 +320,17 @@ static const char *words_astray(const nh_simulation *s, const nh_state *at)
     for (size_t i = 0; i < m; i++) in[1 + i] = o->system->coordinate[i].q, z[1 + i] = at->q[i];
     for (size_t a = 0; a < o->system->constraints; a++) {
         const nh_constraint *c = &o->system->constraint[a];
-        double slope = 0;
+        double slope = 0, size = 0;
         if (!c->position) continue;
-        e[0] = c->level;
+        e[0] = c->level, e[m + 1] = nh_terms_moduli(o->dag, c->level);
         for (size_t i = 0; i < m; i++) e[1 + i] = nh_diff(o->dag, c->level, in[1 + i]);
-        nh_tape *tape = nh_tape_create(o->dag, m + 1, in, m + 1, e, o->system->parameters, o->parameter, o->parameter_value);
+        nh_tape *tape = nh_tape_create(o->dag, m + 1, in, m + 2, e, o->system->parameters, o->parameter, o->parameter_value);
         nh_tape_work *work = nh_tape_work_create(tape);
         nh_tape_eval(tape, work, z, value);
         nh_tape_work_free(work);
         nh_tape_free(tape);
-        for (size_t i = 0; i < m; i++) slope = hypot(slope, value[1 + i]);
-        if (fabs(value[0]) > small * slope * fmax(1, largest_of(m, at->q)))
+        for (size_t i = 0; i < m; i++) slope = hypot(slope, value[1 + i]), size += fabs(value[1 + i] * at->q[i]);
+        if (fabs(value[0]) > small * (size + value[m + 1]))
             return nh_arena_printf(s->arena, "the initial position does not satisfy %s: the error is about %.2g; along the motion left side minus right side stays %.6g",
                                    c->text, fabs(value[0]) / slope, value[0]);
     }
