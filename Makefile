@@ -59,7 +59,7 @@ FORTRAN  = $(if $(findstring :,$(call archive,openblas)),-l:libgfortran.so.5)
 WITHOUT_MPI = $(and $(MPI),$(findstring :,$(call archive,sundials_core)))
 
 PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
-TEST_PACKAGES = $(PACKAGES) libcriterion-dev pkg-config
+TEST_PACKAGES = $(PACKAGES) libcriterion-dev pkg-config python3-numpy python3-sympy python3-pytest python3-setuptools python3-wheel
 BROWSER       = chromium
 
 MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
@@ -188,11 +188,18 @@ $(BUILD)/tests/test_%.o: OWN_CFLAGS += $(if $(SANITIZE),-O0)
 FAST_LINKER := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 
 # They take what is installed, and Python's package, from the build.
-$(if $(SANITIZE),,$(BUILD)/tests/test_install $(BUILD)/tests/test_python: | $(BUILD)/$(SONAME))
+$(if $(SANITIZE),,$(BUILD)/tests/test_docs $(BUILD)/tests/test_install $(BUILD)/tests/test_python: | $(BUILD)/$(SONAME))
 
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(BUILD)/libnhsym.a
 	@echo "  link $@"
 	@$(LINK) $(FAST_LINKER) $< $(BUILD)/libnhsym.a $(LDLIBS) -lcriterion -o $@
+
+# Built from a copy: setuptools leaves files beside its sources.
+wheel: library
+	@rm -rf $(BUILD)/python && mkdir -p $(BUILD)/python && cp -r src/python $(BUILD)/python/source && \
+	python=$(CURDIR)/tests/python.sh && cd $(BUILD)/python/source && \
+	sh "$$python" -c 'from setuptools import build_meta as b; b.build_sdist(".."); b.build_wheel("..")' >../log 2>&1 || { cat ../log; exit 1; }
+	@ls $(BUILD)/python/nhsym*
 
 # ---- installation ----
 
@@ -213,7 +220,7 @@ install: all library
 	install -m 644 systems/stress/*.yaml $(SHARE)/nhsym/systems/stress/
 	install -m 644 analyses/*.yaml $(SHARE)/nhsym/analyses/
 	install -m 644 docs/schema/*.json $(SHARE)/nhsym/schema/
-	install -m 644 README.md docs/*.md docs/example.c $(SHARE)/doc/nhsym/
+	install -m 644 README.md docs/*.md docs/example.c docs/nhsym.ipynb $(SHARE)/doc/nhsym/
 	install -m 644 docs/pictures/* $(SHARE)/doc/nhsym/pictures/
 	install -m 644 docs/catalogue/* $(SHARE)/doc/nhsym/catalogue/
 	install -d $(addprefix $(SHARE)/,man/man1 man/man3 bash-completion/completions zsh/site-functions fish/vendor_completions.d)

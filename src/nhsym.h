@@ -75,7 +75,7 @@ typedef struct {
     const char *analysis;      /* likewise an analysis file; NULL: the one with the name of the system, if it exists */
     const char *analysis_text;
     bool        no_analysis;   /* use no analysis file */
-    const char *set;           /* parameters: "m=2, k=1/3" */
+    const char *set;           /* parameters: "m=2, k=0.5" */
     const char *velocities;    /* "auto", "quasi" or "coordinates" */
     const char *initial;       /* "phi=0, omega=2" */
     double      until;         /* the end of motions; 0: that of the files, or 10 */

@@ -1,0 +1,18 @@
+"""Symmetries and conservation laws of mechanical systems with constraints.
+
+    import nhsym
+    sleigh = nhsym.system("sleigh")
+    for current in sleigh.analyze().currents:
+        print(current.name, current.formula, "proved" if current.proved else "checked")
+
+The package calls the library libnhsym (nhsym.h); docs/python.md describes it.
+"""
+from ._library import Error, InputError, LimitError, NumericalError, UsageError, library_version
+from ._calls import Interrupted
+from .formula import Formula
+from .results import Analysis, Benchmark, Classification, Current, Record, Reduction, Simulation, Verification
+from .system import System, system
+
+__version__ = "0.1.0"
+__all__ = ["Analysis", "Benchmark", "Classification", "Current", "Error", "Formula", "InputError", "Interrupted", "LimitError", "NumericalError", "Record",
+           "Reduction", "Simulation", "System", "UsageError", "Verification", "library_version", "system"]

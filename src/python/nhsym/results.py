@@ -1,0 +1,421 @@
+"""Results as objects: their JSON as attributes, their pages in a notebook, their numbers as arrays."""
+import functools
+import html
+import json
+import threading
+import warnings
+
+import numpy
+
+from ._calls import free_later
+from ._library import AS_LATEX, AS_MATHML, HTML, JSON, LATEX, PLAIN, TEXT, ErrorRecord, UsageError, error_of, library, taken
+from .formula import Formula
+
+# Keys of the JSON documents whose strings are formulas, at whatever depth.
+FORMULAS = {"expression", "in_velocities", "lagrangian", "energy", "rate", "constraint", "reaction", "Z0", "zeta", "W", "components", "components_with_gamma",
+            "generators", "momentum_map", "equation", "current", "recognised", "metric", "potential"}
+
+
+class Record:
+    """A part of a result: what its JSON has, as attributes; as a dict: `record.as_dict()`."""
+
+    def __init__(self, content, coordinates=()):
+        self._content, self._coordinates = content, coordinates
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError("there is no `%s` here, but %s" % (name, ", ".join(self._content))) from None
+
+    def __getitem__(self, key):
+        return _wrapped(self._content[key], key in FORMULAS, self._coordinates)
+
+    def __iter__(self):
+        return iter(self._content)
+
+    def __len__(self):
+        return len(self._content)
+
+    def __contains__(self, key):
+        return key in self._content
+
+    def keys(self):
+        return self._content.keys()
+
+    def items(self):
+        return [(key, self[key]) for key in self._content]
+
+    def as_dict(self):
+        return self._content
+
+    def __dir__(self):
+        return sorted(set(super().__dir__()) | {key for key in self._content if key.isidentifier()})
+
+    def __repr__(self):
+        return "%s(%s)" % (type(self).__name__, ", ".join(self._content))
+
+
+def _wrapped(value, formula, coordinates):
+    if isinstance(value, dict):
+        return Record({k: v for k, v in value.items()}, coordinates) if not formula else {k: _wrapped(v, True, coordinates) for k, v in value.items()}
+    if isinstance(value, list):
+        return [_wrapped(entry, formula, coordinates) for entry in value]
+    return Formula(value, coordinates) if formula and isinstance(value, str) else value
+
+
+def columns(rows, keys):
+    """Rows as a dict of arrays: of numbers where there are only numbers and gaps (nan)."""
+    table = {}
+    for key in keys:
+        values = [row.get(key) for row in rows]
+        numbers = all(value is None or isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
+        table[key] = numpy.array([numpy.nan if v is None else v for v in values], float) if numbers else numpy.array(values, object)
+    return table
+
+
+def _arrays(q, v, t, m):
+    """States as the library takes them: (m, count) and count times; and the shape of the answer."""
+    q, v, t = numpy.asarray(q, float), numpy.asarray(v, float), numpy.asarray(t, float)
+    for name, value in (("q", q), ("v", v)):
+        if value.ndim == 0 or value.shape[0] != m:
+            raise UsageError("%s has the shape %s" % (name, value.shape), "give an array whose first axis has the %d coordinates, in their order" % m)
+    try:
+        shape = numpy.broadcast_shapes(q.shape[1:], v.shape[1:], t.shape)
+    except ValueError:
+        raise UsageError("the shapes of q, v and t do not fit: %s, %s and %s" % (q.shape, v.shape, t.shape), "all axes but the first of q and v are those of t") from None
+    count = int(numpy.prod(shape))
+    flat = [numpy.ascontiguousarray(numpy.broadcast_to(x, (m,) + shape)).reshape(m, count) for x in (q, v)]
+    times = numpy.ascontiguousarray(numpy.broadcast_to(t, shape)).reshape(count) if t.ndim or t != 0 else None
+    return flat[0], flat[1], times, count, shape
+
+
+class Result(Record):
+    """A result of the library.  `text`, `html`, `latex` are the documents of the program; `json` is parsed."""
+
+    _kind = ""       # of its functions in nhsym.h
+    _formats = (TEXT, JSON, HTML, LATEX)
+
+    def __init__(self, address, problem):
+        self._address, self._problem, self._lock = address, problem, threading.Lock()
+        self._coordinates = problem.coordinates
+
+    def __del__(self):
+        if getattr(self, "_address", None):
+            free_later(getattr(library(), "nh_%s_free" % self._kind), self._address)
+
+    def _document(self, form):
+        error = ErrorRecord()
+        with self._lock:
+            text = taken(getattr(library(), "nh_%s_document" % self._kind)(self._address, form, error))
+        if text is None:
+            raise error_of(error)
+        return text
+
+    @functools.cached_property
+    def _content(self):
+        return json.loads(self._document(JSON))
+
+    @property
+    def json(self):
+        """The JSON document of the program, parsed."""
+        return self._content
+
+    @property
+    def text(self):
+        """What the program prints."""
+        return self._document(TEXT)
+
+    @property
+    def html(self):
+        """The page, complete in itself."""
+        return self._document(HTML)
+
+    @property
+    def latex(self):
+        """The LaTeX document, or the equations of a reduction."""
+        return self._document(LATEX)
+
+    def save(self, path):
+        """Write the page (.html), the LaTeX document (.tex), the JSON (.json) or the text (.txt, .csv)."""
+        forms = {".html": HTML, ".tex": LATEX, ".json": JSON, ".txt": TEXT, ".csv": TEXT}
+        ending = "." + str(path).rpartition(".")[2]
+        if ending not in forms:
+            raise UsageError("%s: no such kind of file" % path, "the name ends in " + ", ".join(forms))
+        text = self._document(forms[ending])
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def _repr_html_(self):
+        if HTML not in self._formats:
+            return "<pre>%s</pre>" % html.escape(self.text)
+        return '<iframe srcdoc="%s" style="width:100%%;height:36em;border:1px solid #ccc"></iframe>' % html.escape(self.html, quote=True)
+
+    def __str__(self):
+        return self.text
+
+    def __repr__(self):
+        return "<%s of %s>" % (type(self).__name__, self._problem.name)
+
+
+def _aligned(pairs):
+    """Equations for a notebook, one to a line."""
+    rows = [r"%s &= %s" % pair for pair in pairs if pair[1]]
+    return "$$\\begin{aligned} %s \\end{aligned}$$" % r" \\ ".join(rows) if rows else None
+
+
+# ---- an analysis ----
+
+class Current(Record):
+    """A conserved quantity: `name`, `meaning`, `formula`, `proved`, `for_all` (parameters), `independent`, `digits`, `drift`, and what its JSON has.
+    Called with positions, velocities and times it gives values."""
+
+    def __init__(self, analysis, index):
+        self._analysis, self._index, self._coordinates = analysis, index, analysis._coordinates
+        facts = library().nh_current_describe(analysis._address, index)
+        self.name, self.meaning = facts.name.decode(), facts.meaning.decode()
+        self.proved, self.for_all, self.independent = facts.proved, facts.for_all, facts.independent
+        self.digits, self.drift = facts.digits, facts.drift
+
+    @property
+    def _content(self):
+        return self._analysis.json["currents"][self._index]
+
+    def _written(self, syntax):
+        with self._analysis._lock:
+            return taken(library().nh_current_formula(self._analysis._address, self._index, syntax))
+
+    @functools.cached_property
+    def formula(self):
+        """In t, coordinates, parameters and the velocities of coordinates; None: too long to be written."""
+        text = self._written(PLAIN)
+        return None if text is None else Formula(text, self._coordinates)
+
+    def sympy(self, functions=False):
+        """The formula for SymPy; see Formula.sympy."""
+        if self.formula is None:
+            raise UsageError("the formula of %s is too long to be written" % self.name, "set the option `written` to more")
+        return self.formula.sympy(functions)
+
+    def __call__(self, q, v, t=0.0):
+        """Values at positions q and velocities v, one row per coordinate: shapes (m,), (m, count), ..; nan where it is not defined."""
+        q, v, t, count, shape = _arrays(q, v, t, len(self._coordinates))
+        out = numpy.empty(count)
+        with self._analysis._lock:
+            good = library().nh_current_values(self._analysis._address, self._index, count, None if t is None else t.ctypes.data, q.ctypes.data, v.ctypes.data,
+                                               out.ctypes.data)
+        if not good:
+            raise UsageError("%s cannot be written in the velocities of coordinates" % self.name, "see `expression`, which is in the chart's velocities")
+        return out.reshape(shape) if shape else float(out[0])
+
+    def along(self, simulation):
+        """Its values along a motion."""
+        q, v = simulation.states()
+        return self(q, v, simulation.table["t"])
+
+    def _repr_latex_(self):
+        latex = self._written(AS_LATEX)
+        return "$%s$" % latex if latex else None
+
+    def _repr_html_(self):
+        mathml = self._written(AS_MATHML)
+        return '<math xmlns="http://www.w3.org/1998/Math/MathML">%s</math>' % mathml if mathml else "<code>%s</code>" % self.name
+
+    def __repr__(self):
+        return "<%s = %s%s>" % (self.name, self.formula or "(long)", ", " + self.meaning if self.meaning else "")
+
+
+class Analysis(Result):
+    """Currents and their symmetries: `currents`, `verdict`, `search`, `independent`, `most`, `equations`, `table`, and what the JSON has."""
+
+    _kind = "analysis"
+
+    @functools.cached_property
+    def currents(self):
+        return [Current(self, i) for i in range(library().nh_analysis_currents(self._address))]
+
+    def __getitem__(self, key):
+        """A current by its name or number, or a part of the JSON by its key."""
+        if isinstance(key, int):
+            return self.currents[key]
+        named = [current for current in self.currents if current.name == key]
+        return named[0] if named else super().__getitem__(key)
+
+    @property
+    def verdict(self):
+        return library().nh_analysis_verdict(self._address).decode()
+
+    @property
+    def search(self):
+        return library().nh_analysis_search(self._address).decode()
+
+    @property
+    def independent(self):
+        return library().nh_analysis_independent(self._address)
+
+    @property
+    def most(self):
+        return library().nh_analysis_most(self._address)
+
+    @property
+    def equations(self):
+        """The equations of motion on the constraint submanifold: {velocity: rate}."""
+        return {entry["velocity"]: Formula(entry["rate"], self._coordinates) for entry in self.json["reduced_equations"] if entry["rate"]}
+
+    @property
+    def table(self):
+        rows = [{"name": c.name, "formula": c.formula, "meaning": c.meaning, "proved": c.proved, "for_all": c.for_all, "independent": c.independent,
+                 "digits": c.digits, "drift": c.drift} for c in self.currents]
+        return columns(rows, ["name", "formula", "meaning", "proved", "for_all", "independent", "digits", "drift"])
+
+    def _repr_latex_(self):
+        return _aligned((r"\text{%s}" % c.name, c._written(AS_LATEX)) for c in self.currents)
+
+    def __repr__(self):
+        return "<Analysis of %s: %s, %d independent currents of at most %d, search %s>" % (self._problem.name, self.verdict, self.independent, self.most, self.search)
+
+
+# ---- motions ----
+
+class Simulation(Result):
+    """A motion: `table` is a dict of arrays, time first; `complete`, `warnings` and what the JSON has."""
+
+    _kind = "simulation"
+    _formats = (TEXT, JSON, HTML)
+
+    def __init__(self, address, problem):
+        super().__init__(address, problem)
+        if not self.complete:
+            warnings.warn("the motion of %s ended early, at t = %g: %s" % (problem.name, self.table["t"][-1], "; ".join(self.json["warnings"])), RuntimeWarning,
+                          stacklevel=4)
+
+    @functools.cached_property
+    def table(self):
+        rows, table = library().nh_simulation_rows(self._address), {}
+        for i in range(library().nh_simulation_columns(self._address)):
+            table[library().nh_simulation_column(self._address, i).decode()] = out = numpy.empty(rows)
+            library().nh_simulation_read(self._address, i, out.ctypes.data)
+        return table
+
+    def __getitem__(self, key):
+        """A column by its name, or a part of the JSON by its key."""
+        return self.table[key] if key in self.table else super().__getitem__(key)
+
+    def states(self):
+        """Positions and velocities of all coordinates, two arrays with one row per coordinate."""
+        missing = [name for q in self._coordinates for name in (q, q + "'") if name not in self.table]
+        if missing:
+            raise UsageError("the motion was watched without %s" % ", ".join(missing), "simulate without `watch`, or watch them")
+        return tuple(numpy.array([self.table[q + tail] for q in self._coordinates]) for tail in ("", "'"))
+
+    def plot(self, x="t", *y):
+        """A picture (SVG) of columns against another; `plot("x", "y")` is a path.  In a notebook it is shown."""
+        names = list(self.table)
+        for name in (x,) + y:
+            if name not in names:
+                raise UsageError("there is no column `%s`" % name, "the columns are " + ", ".join(names))
+        y = y or (names[1],)
+        return Picture([taken(library().nh_simulation_svg(self._address, names.index(x), names.index(name))) for name in y], ["%s against %s" % (name, x) for name in y])
+
+    def __repr__(self):
+        return "<Simulation of %s: %d rows, %s>" % (self._problem.name, len(self.table["t"]), ", ".join(self.table))
+
+
+class Picture:
+    """One or more SVG pictures, one below the other."""
+
+    def __init__(self, pictures, words):
+        self.pictures, self.words = pictures, words
+
+    def _repr_svg_(self):
+        return self.pictures[0] if len(self.pictures) == 1 else None
+
+    def _repr_html_(self):
+        return "".join("<div>%s</div>" % picture for picture in self.pictures) if len(self.pictures) > 1 else None
+
+    def __repr__(self):
+        return "<Picture of %s>" % ", ".join(self.words)
+
+    def save(self, path):
+        """Write the picture; several get numbers: plot.svg, plot-2.svg."""
+        stem, dot, ending = str(path).rpartition(".")
+        for i, picture in enumerate(self.pictures):
+            with open(path if i == 0 else "%s-%d%s%s" % (stem, i + 1, dot, ending), "w", encoding="utf-8") as file:
+                file.write(picture)
+
+
+class Benchmark(Result):
+    """Integrators compared: `table` has a row per run; `html`, `text` and what the JSON has."""
+
+    _kind = "benchmark"
+    _formats = (TEXT, JSON, HTML)
+
+    @property
+    def table(self):
+        keys = ["method", "formulation", "tolerance", "step", "error", "drift", "seconds", "evaluations", "status", "reduced", "front"]
+        return columns(self.json["motion"], keys)
+
+
+# ---- symmetry ----
+
+class Reduction(Result):
+    """The symmetry group and the reduced equations: `group`, `stages` and what the JSON has."""
+
+    _kind = "reduction"
+
+    @property
+    def equations(self):
+        """Of each stage: {shape coordinate or velocity: rate}."""
+        return [{e["of"]: Formula(e["rate"], self._coordinates) for e in stage.get("equations", []) if isinstance(e.get("rate"), str)} for stage in self.json["stages"]]
+
+    @property
+    def table(self):
+        return columns(self.json["stages"], ["kind", "group", "agreement_with_full", "speedup"])
+
+    def _repr_latex_(self):
+        return _aligned((r"\frac{d}{dt}\,%s" % (Formula(of).latex or of), rate.latex) for stage in self.equations[:1] for of, rate in stage.items())
+
+    def __repr__(self):
+        return "<Reduction of %s: group %s, %d stages>" % (self._problem.name, self.json["group"]["name"], len(self.json["stages"]))
+
+
+class Verification(Result):
+    """Of a current or a field: true where it is conserved, or a symmetry; `proved`, `counterexample` and what the JSON has."""
+
+    _kind = "verification"
+    _formats = (TEXT, JSON, HTML)
+
+    def __bool__(self):
+        return library().nh_verification_holds(self._address)
+
+    @property
+    def holds(self):
+        return bool(self)
+
+    @property
+    def proved(self):
+        return library().nh_verification_proved(self._address)
+
+    def __repr__(self):
+        return "<Verification: %s>" % (("holds, proved" if self.proved else "holds") if self else "does not hold")
+
+
+class Classification(Result):
+    """Special values of a parameter: `special`, `table` (a row per real value) and what the JSON has."""
+
+    _kind = "classified"
+    _formats = (TEXT, JSON)
+
+    @property
+    def special(self):
+        return self["values"]
+
+    @property
+    def table(self):
+        rows = [dict(entry, value=real, exact=None if entry["value"] is None else str(entry["value"])) for entry in self.json["values"] for real in entry["real_values"]]
+        return columns(rows, ["value", "exact", "from_degree", "degenerate", "constructed"])
+
+    def __repr__(self):
+        return "<Classification of %s over %s: %d special values>" % (self._problem.name, self.json["over"], len(self.json["values"]))

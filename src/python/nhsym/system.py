@@ -1,0 +1,266 @@
+"""Systems: by name, from a file, from text, or built in Python."""
+import ctypes
+import functools
+import json
+import os
+import threading
+
+import numpy
+
+from ._calls import Context, Interrupted, free_later
+from ._library import ErrorRecord, InputError, Question, UsageError, error_of, library
+from .formula import text_of
+from .results import Analysis, Benchmark, Classification, Reduction, Simulation, Verification, _arrays
+
+
+def system(source, **settings):
+    """The system of this name ("sleigh"), of this file (a path, or a name that ends in .yaml), or of this text (of several lines).
+
+    Settings: set={"m": 2}, velocities="quasi", analysis="file.yaml" (or a text; False: none), options={"seed": 3}."""
+    if isinstance(source, os.PathLike):
+        path = os.fspath(source)
+        return System(_question={"system": path if "/" in path else "./" + path}, **settings)
+    if not isinstance(source, str):
+        raise UsageError("a system is a name, a path or a text, found %r" % (source,), "nhsym.System(..) builds one in Python")
+    if "\n" in source:
+        return System(_question={"system_text": source}, **settings)
+    return System(_question={"system": source}, **settings)
+
+
+# ---- system files ----
+
+def _name(coordinate):
+    """Of a string, a SymPy symbol, or a function of t."""
+    return coordinate if isinstance(coordinate, str) else coordinate.func.__name__ if getattr(coordinate, "args", ()) else str(coordinate)
+
+
+def _named(entries, second):
+    """A mapping or a list as the maps of a system file: {"x": "angle"}, ["x", {"name": "y"}]."""
+    if isinstance(entries, str):
+        entries = entries.replace(",", " ").split()
+    if hasattr(entries, "items"):
+        return [dict({"name": _name(key)}, **(value if isinstance(value, dict) else {second: value})) for key, value in entries.items()]
+    return [dict(entry) if isinstance(entry, dict) else {"name": _name(entry)} for entry in entries]
+
+
+def _number(value):
+    return value if isinstance(value, (int, float)) and not isinstance(value, bool) else float(value) if not isinstance(value, str) else value
+
+
+def _equations(entries, right="0"):
+    entries = [entries] if isinstance(entries, str) or not hasattr(entries, "__iter__") else entries
+    if hasattr(entries, "items"):
+        return ["%s = %s" % (_name(key), text_of(value)) for key, value in entries.items()]
+    texts = [text_of(entry) for entry in entries]
+    return [text if "=" in text else "%s = %s" % (text, right) for text in texts]
+
+
+def _file(name, coordinates, lagrangian, parameters, constraints, forces, definitions, velocities, domain, title, more):
+    """The text of a system file.  JSON is YAML."""
+    content = {"name": name, "title": title, "coordinates": _named(coordinates, "type"),
+               "parameters": [dict(p, value=_number(p["value"])) if "value" in p else p for p in _named(parameters, "value")],
+               "definitions": _equations(definitions), "lagrangian": None if lagrangian is None else text_of(lagrangian), "constraints": _equations(constraints),
+               "velocities": velocities and {"names": list(velocities["names"]), "map": _equations(velocities["map"])},
+               "forces": _equations(forces), "domain": domain and {_name(key): list(value) for key, value in domain.items()}}
+    content.update(more)
+    lines = []
+    for key, value in content.items():
+        if value is None or value == [] or value == {}:
+            continue
+        if isinstance(value, list):
+            lines += ["%s:" % key] + ["  - " + json.dumps(entry, ensure_ascii=False) for entry in value]
+        else:
+            lines.append("%s: %s" % (key, json.dumps(value, ensure_ascii=False)))
+    return "\n".join(lines) + "\n"
+
+
+# ---- questions ----
+
+def _pairs(value):
+    """{"m": 2} as "m=2", numbers of any kind as decimals; a string as it is."""
+    if value is None or isinstance(value, str):
+        return value
+    return ", ".join("%s=%s" % (_name(key), entry if isinstance(entry, str) else repr(_number(entry))) for key, entry in value.items())
+
+
+def _list(value):
+    """Names and expressions as "y, T = m/2*v^2"."""
+    if value is None or isinstance(value, str):
+        return value
+    if hasattr(value, "items"):
+        return ", ".join("%s = %s" % (key, text_of(entry)) for key, entry in value.items())
+    return ", ".join(text_of(entry) for entry in value)
+
+
+def _of_analysis(analysis):
+    if analysis is None:
+        return {}
+    if analysis is False:
+        return {"no_analysis": True}
+    path = os.fspath(analysis)
+    return {"analysis_text": path} if "\n" in path else {"analysis": path}
+
+
+class Problem:
+    """nh_problem with its context: a question whose files have been read."""
+
+    def __init__(self, question):
+        self.context = Context()
+        record = Question()
+        for key, value in question.items():
+            setattr(record, key, value.encode() if isinstance(value, str) else value)
+        self.address = self.call(lambda error: library().nh_problem_open(self.context.address, record, error))
+        self.name = library().nh_problem_name(self.address).decode()
+        self.coordinates = tuple(library().nh_problem_coordinate(self.address, i).decode() for i in range(library().nh_problem_coordinates(self.address)))
+        self.parameters = dict(self._parameter(i) for i in range(library().nh_problem_parameters(self.address)))
+
+    def _parameter(self, i):
+        value = ctypes.c_double()
+        return library().nh_problem_parameter(self.address, i, value).decode(), value.value
+
+    def __del__(self):
+        if getattr(self, "address", None):
+            context = self.context  # which outlives it
+            free_later(lambda address, _=context: library().nh_problem_free(address), self.address)
+
+    def call(self, function, progress=None, make=lambda address: address):
+        """make(function(error)), or the error as an exception.  An interrupted computation leaves what it has."""
+        error = ErrorRecord()
+        try:
+            address = self.context.call(lambda: function(error), progress)
+        except Interrupted as stop:
+            stop.partial = make(stop.partial) if stop.partial else None
+            raise
+        if not address:
+            raise error_of(error)
+        return make(address)
+
+
+class System:
+    """A mechanical system and the questions about it.
+
+        nhsym.System(coordinates={"phi": "angle", "x": "length", "y": "length"}, parameters={"m": 2, "J": 0.5},
+                     lagrangian="m/2*(x'^2 + y'^2) + J/2*phi'^2", constraints=["y'*cos(phi) = x'*sin(phi)"])
+
+    Expressions are strings in the language of system files or SymPy expressions, in which coordinates are functions of t and velocities their derivatives.
+    `more`: other keys of system files."""
+
+    def __init__(self, coordinates=None, lagrangian=None, parameters=(), constraints=(), forces=(), definitions=(), quasi_velocities=None, domain=None, name="system",
+                 title=None, *, set=None, velocities=None, analysis=None, options=None, _question=None, **more):
+        if _question is None:
+            if coordinates is None:
+                raise UsageError("a system needs coordinates", 'nhsym.System(coordinates=["x"], lagrangian="x\'^2/2"), or nhsym.system("sleigh") for one by name')
+            text = _file(name, coordinates, lagrangian, parameters, constraints, forces, definitions, quasi_velocities, domain, title, more)
+            _question = {"system": name, "system_text": text}
+        elif more:
+            raise TypeError("unknown settings: %s (known: set, velocities, analysis, options)" % ", ".join(more))
+        self._question = dict(_question, **{key: value for key, value in dict(set=_pairs(set), velocities=velocities, options=_pairs(options)).items() if value is not None},
+                              **_of_analysis(analysis))
+        self._lock = threading.Lock()
+        self.problem = Problem(self._question)
+
+    def __del__(self):
+        if getattr(self, "_rates", None):
+            free_later(library().nh_rates_free, self._rates)
+
+    @property
+    def name(self):
+        return self.problem.name
+
+    @property
+    def coordinates(self):
+        """Their names, in the order of the file."""
+        return self.problem.coordinates
+
+    @property
+    def parameters(self):
+        """{name: value}"""
+        return dict(self.problem.parameters)
+
+    @property
+    def text(self):
+        """The system file."""
+        if "system_text" in self._question:
+            return self._question["system_text"]
+        raise InputError("the text of a shipped system is in its file", "nhsym show %s" % self.name)
+
+    def set(self, **parameters):
+        """The same system with other values of parameters."""
+        return self._with({"set": ", ".join(filter(None, [self._question.get("set"), _pairs(parameters)]))})
+
+    def _with(self, question):
+        other = object.__new__(System)
+        other._question = dict(self._question, **question)
+        other._lock = threading.Lock()
+        other.problem = Problem(other._question)
+        return other
+
+    def _ask(self, settings):
+        """The problem of a question about this system."""
+        given = {key: value for key, value in settings.items() if value is not None}
+        if "options" in given:
+            given["options"] = ", ".join(filter(None, [self._question.get("options"), _pairs(given["options"])]))
+        return Problem(dict(self._question, **given)) if given else self.problem
+
+    # ---- questions ----
+
+    def analyze(self, accuracy=None, until=None, options=None, progress=None):
+        """Currents and their symmetries.  progress(doing, part) is called now and then, part being None where it is not known."""
+        p = self._ask(dict(accuracy=accuracy, until=until, options=options))
+        return p.call(lambda error: library().nh_analyze(p.address, error), progress, lambda a: Analysis(a, p))
+
+    def verify(self, current=None, field=None, options=None, progress=None):
+        """Is `current` conserved (an expression)?  Is `field` a symmetry ({"Z0": 1, "x": "x'"}, or "Z0=1; x=x'")?"""
+        if (current is None) == (field is None):
+            raise UsageError("verify what?", 'verify("m*x\'"), or verify(field={"x": 1})')
+        p = self._ask(dict(options=options))
+        text = (text_of(current) if field is None else field if isinstance(field, str) else "; ".join("%s=%s" % (_name(k), text_of(e)) for k, e in field.items())).encode()
+        ask = library().nh_verify_current if field is None else library().nh_verify_field
+        return p.call(lambda error: ask(p.address, text, error), progress, lambda a: Verification(a, p))
+
+    def simulate(self, initial=None, until=None, step=None, accuracy=None, watch=None, options=None, progress=None):
+        """A motion: initial={"phi": 0, "omega": 2}; watch=["y"] or {"T": "m/2*v^2"}; accuracy: the largest allowed error."""
+        p = self._ask(dict(initial=_pairs(initial), until=until, step=step, accuracy=accuracy, watch=_list(watch), options=options))
+        return p.call(lambda error: library().nh_simulate(p.address, error), progress, lambda a: Simulation(a, p))
+
+    def reduce(self, initial=None, until=None, accuracy=None, options=None, progress=None):
+        """The symmetry group and the reduced equations."""
+        p = self._ask(dict(initial=_pairs(initial), until=until, accuracy=accuracy, options=options))
+        return p.call(lambda error: library().nh_reduce(p.address, error), progress, lambda a: Reduction(a, p))
+
+    def classify(self, over, shape=False, options=None, progress=None):
+        """The values of the parameter `over` at which there are more conservation laws."""
+        p = self._ask(dict(options=options))
+        return p.call(lambda error: library().nh_classify_over(p.address, _name(over).encode(), shape, error), progress, lambda a: Classification(a, p))
+
+    def benchmark(self, seconds=5, initial=None, until=None, options=None, progress=None):
+        """Integrators compared on one motion; `seconds` for the measurements."""
+        p = self._ask(dict(initial=_pairs(initial), until=until, options=options))
+        return p.call(lambda error: library().nh_benchmark_methods(p.address, seconds, error), progress, lambda a: Benchmark(a, p))
+
+    # ---- equations of motion on arrays ----
+
+    @functools.cached_property
+    def _rates(self):
+        return self.problem.call(lambda error: library().nh_rates_create(self.problem.address, error))
+
+    def accelerations(self, q, v, t=0.0):
+        """Of all coordinates, at positions q and velocities v that satisfy the constraints: arrays with one row per coordinate; nan where they are not determined."""
+        m = len(self.coordinates)
+        q, v, t, count, shape = _arrays(q, v, t, m)
+        out = numpy.empty((m, count))
+        rates = self._rates
+        with self._lock:
+            library().nh_rates_at(rates, count, None if t is None else t.ctypes.data, q.ctypes.data, v.ctypes.data, out.ctypes.data)
+        return out.reshape((m,) + shape)
+
+    def right_hand_side(self, t, y):
+        """y' of y = (positions, velocities), as scipy.integrate.solve_ivp takes it, also vectorized."""
+        y = numpy.asarray(y, float)
+        m = len(self.coordinates)
+        if y.ndim == 0 or y.shape[0] != 2 * m:
+            raise UsageError("y has the shape %s" % (y.shape,), "give %d positions, then as many velocities" % m)
+        return numpy.concatenate([y[m:], self.accelerations(y[:m], y[m:], t)])
+
+    def __repr__(self):
+        return "<System %s: coordinates %s; %s>" % (self.name, ", ".join(self.coordinates), ", ".join("%s = %g" % p for p in self.parameters.items()))

@@ -1,0 +1,74 @@
+"""Formulas to SymPy and back."""
+import math
+import random
+
+import pytest
+import sympy
+
+import nhsym
+from nhsym.formula import text_of
+
+x, y, k = sympy.symbols("x y k")
+t = sympy.Symbol("t")
+
+
+@pytest.mark.parametrize("text, expected", [
+    ("-x^2", -x**2), ("2^3^2", 512), ("x^-1", 1 / x), ("-x^-2/2", -x**-2 / 2), ("1 - -x", 1 + x), ("x/y/2", x / y / 2), (".5*x", x / 2), ("1e-3", sympy.Rational(1, 1000)),
+    ("abs(x) + atan2(y, x)", sympy.Abs(x) + sympy.atan2(y, x)), ("sqrt(2)*pi", sympy.sqrt(2) * sympy.pi), ("x = y", sympy.Eq(x, y)), ("x'", sympy.Symbol("x'")),
+    ("lambda*E + I*S", sympy.Symbol("lambda") * sympy.Symbol("E") + sympy.Symbol("I") * sympy.Symbol("S"))])
+def test_reads_the_language(text, expected):
+    assert nhsym.Formula(text).sympy() == expected
+
+
+@pytest.mark.parametrize("text", ["x +", "(x", "2x", "f(x)", "x)", "sin x", "", "x == y", "x**2"])
+def test_refuses_what_is_no_formula(text):
+    with pytest.raises(nhsym.UsageError) as error:
+        nhsym.Formula(text).sympy()
+    assert error.value.hint and "not a formula" in error.value.what
+
+
+def test_velocities_as_derivatives():
+    q = sympy.Function("x")(t)
+    assert nhsym.Formula("k*x'^2 + x", ["x"]).sympy(functions=True) == k * q.diff(t)**2 + q
+
+
+def test_writes_the_language():
+    q = sympy.Function("q")(t)
+    for expression, text in ((q.diff(t)**2 / 2, "q'^2/2"), (sympy.Abs(x) * sympy.exp(1), "exp(1)*abs(x)"), (sympy.Eq(x, 2 * y), "x = 2*y"), (0.1, "0.1"), ("a + b", "a + b")):
+        assert text_of(expression) == text
+    assert nhsym.Formula(text_of(sympy.sec(x))).sympy().equals(1 / sympy.cos(x))
+
+
+@pytest.mark.parametrize("wrong", [sympy.besselj(0, x), sympy.Function("q")(t).diff(t, 2), sympy.Function("q")(x).diff(x), x < y, sympy.Integral(x, x), True, sympy.Matrix([x])])
+def test_refuses_what_the_language_does_not_have(wrong):
+    with pytest.raises(nhsym.UsageError) as error:
+        text_of(wrong)
+    assert error.value.hint
+
+
+def random_expression(draw, depth):
+    if depth == 0:
+        return draw.choice([x, y, k, sympy.Integer(draw.randint(1, 9)), sympy.Rational(draw.randint(1, 9), 7)])
+    a, b = random_expression(draw, depth - 1), random_expression(draw, draw.randint(0, depth - 1))
+    return draw.choice([a + b, a - b, a * b, a / (3 + b**2), -a, a**2, (4 + a**2)**sympy.Rational(-3, 2), sympy.sin(a), sympy.exp(-a**2), sympy.atan2(a, 2 + b**2), sympy.sqrt(1 + a**2)])
+
+
+def test_there_and_back_on_expressions_nobody_wrote():
+    draw, at, compared = random.Random(5), {x: 0.7, y: -1.3, k: 0.4}, 0
+    for _ in range(200):
+        expression = random_expression(draw, 4)
+        first, again = (complex(e.evalf(30, subs=at)).real for e in (expression, nhsym.Formula(text_of(expression)).sympy()))
+        if math.isfinite(first):
+            assert again == pytest.approx(first, rel=1e-12, abs=1e-12)
+            compared += 1
+    assert compared > 150
+
+
+def test_long_sums_are_read():
+    assert nhsym.Formula(" + ".join("a%d*x" % i for i in range(3000))).sympy().args.__len__() == 3000
+
+
+def test_typesets():
+    formula = nhsym.Formula("J*phi'^2/2")
+    assert "\\dot" in formula._repr_latex_() and formula._repr_html_().startswith("<math")
+    assert nhsym.Formula("no (formula")._repr_latex_() is None and "<code>" in nhsym.Formula("no (formula")._repr_html_()

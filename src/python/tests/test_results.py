@@ -1,0 +1,127 @@
+"""Results as objects."""
+import warnings
+
+import numpy
+import pytest
+import sympy
+
+import nhsym
+from nhsym.results import FORMULAS
+
+
+@pytest.fixture(scope="module")
+def sleigh():
+    return nhsym.system("sleigh")
+
+
+@pytest.fixture(scope="module")
+def analysis(sleigh):
+    return sleigh.analyze()
+
+
+def states(system, count=300):
+    draw = numpy.random.default_rng(3)
+    m = len(system.coordinates)
+    return draw.uniform(0.1, 1, (m, count)), draw.uniform(0.1, 1, (m, count)), draw.uniform(0, 1, count)
+
+
+def test_currents(analysis):
+    assert analysis.verdict == "FOUND" and analysis.independent == 3 and analysis.most == 5
+    energy = analysis["Phi1"]
+    assert energy is analysis.currents[0] and energy.proved and energy.for_all and "energy" in energy.meaning and energy.case == 1
+    assert energy.symmetry.components["t"] == "1"
+    assert list(analysis.table["name"]) == [c.name for c in analysis.currents] and analysis.table["drift"].dtype == float
+    with pytest.raises(AttributeError, match="case"):
+        energy.cas
+    with pytest.raises(KeyError):
+        analysis["Phi77"]
+
+
+@pytest.mark.parametrize("name", ["sleigh", "kepler", "vertical_disk"])
+def test_values_are_those_of_the_formula_in_sympy(name):
+    system = nhsym.system(name)
+    q, v, t = states(system)
+    arguments = [sympy.Symbol(word) for word in ["t"] + list(system.coordinates) + [c + "'" for c in system.coordinates]]
+    compared = 0
+    for current in system.analyze().currents:
+        if current.formula is None:
+            continue
+        function = sympy.lambdify(arguments, current.sympy().subs({sympy.Symbol(p): value for p, value in system.parameters.items()}), "numpy")
+        with numpy.errstate(all="ignore"):
+            by_hand = numpy.broadcast_to(function(t, *q, *v), t.shape)
+        values, good = current(q, v, t), numpy.isfinite(by_hand)
+        assert values[good] == pytest.approx(by_hand[good], rel=1e-9, abs=1e-9)
+        assert current(q[:, 0], v[:, 0], t[0]) == pytest.approx(values[0], nan_ok=True)
+        compared += good.sum()
+    assert compared > 300
+
+
+def test_every_formula_of_a_result_goes_to_sympy(analysis, sleigh):
+    def walk(value, inside):
+        if isinstance(value, nhsym.Formula):
+            value.sympy()
+            return 1
+        if isinstance(value, (nhsym.Record, dict)):
+            return sum(walk(value[key], inside) for key in value.keys())
+        return sum(walk(entry, inside) for entry in value) if isinstance(value, list) else 0
+    assert sum(walk(nhsym.Record(analysis.json)[key], False) for key in analysis.json if key not in ("motion", "figures")) > 30
+    reduction = nhsym.system("vertical_disk").reduce()
+    assert sum(walk(reduction[key], False) for key in reduction.json) > 10 and FORMULAS
+
+
+def test_a_motion(sleigh, analysis):
+    motion = sleigh.simulate(initial={"omega": 2}, until=2, step=0.1)
+    assert len(motion.table["t"]) == 21 and motion.complete and motion["phi"][0] == 0
+    for current in analysis.currents[:3]:
+        assert numpy.ptp(current.along(motion)) < 1e-6
+    watched = sleigh.simulate(initial="omega=2", until=1, watch={"T": "m/2*v^2"})
+    assert set(watched.table) == {"t", "T"}
+    with pytest.raises(nhsym.UsageError, match="watch"):
+        watched.states()
+    assert motion.plot("x", "y")._repr_svg_().startswith("<svg") and motion.plot("t", "x", "y")._repr_html_().count("<svg") == 2
+    with pytest.raises(nhsym.UsageError, match="zz"):
+        motion.plot("zz")
+
+
+def test_a_motion_that_ends_early_says_so():
+    fall = nhsym.System(coordinates=["r"], lagrangian="r'^2/2 + 1/r")
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        motion = fall.simulate(initial={"r": 1, "r'": 0}, until=5)
+    assert not motion.complete and any("ended early" in str(w.message) for w in seen)
+
+
+def test_verification(sleigh):
+    yes, no = sleigh.verify("m*(v^2 + a^2*k^2*omega^2)"), sleigh.verify("m*v")
+    assert yes and yes.holds and yes.proved and not no and no.counterexample.rate != 0
+    assert sleigh.verify(field={"Z0": 1, "phi": "phi'", "x": "x'", "y": "y'"}).json["schema"] == 1
+    with pytest.raises(nhsym.UsageError):
+        sleigh.verify()
+
+
+def test_reduction_classification_and_benchmark():
+    reduction = nhsym.system("vertical_disk").reduce()
+    assert reduction.group.dimension == 4 and reduction.stages[0].kind == "chaplygin" and len(reduction.table["kind"]) == len(reduction.stages)
+    two = nhsym.System(coordinates=["x", "y"], parameters={"k": 3}, lagrangian="(x'^2 + y'^2)/2 - (x^2 + k*y^2)/2")
+    special = two.classify(sympy.Symbol("k"), options={"degree": 2})
+    assert 1.0 in special.table["value"] and "1" in special.table["exact"] and special.special[0].currents[0].current.sympy() and "k = 1" in special.text and "<pre>" in special._repr_html_()
+    benchmark = two.benchmark(0.2, initial={"x": 1}, until=2)
+    assert len(benchmark.table["method"]) > 5 and benchmark.table["error"].dtype == float
+
+
+def test_tables_make_data_frames(analysis):
+    pandas = pytest.importorskip("pandas")
+    assert list(pandas.DataFrame(analysis.table).columns)[0] == "name"
+
+
+def test_documents(analysis, sleigh, tmp_path):
+    assert analysis.text == str(analysis) and "FOUND" in analysis.text and analysis.latex.startswith("%")
+    assert 'srcdoc="&lt;!DOCTYPE' in analysis._repr_html_() and analysis._repr_latex_().count("&=") == len(analysis.currents)
+    for ending in ("html", "tex", "json", "txt"):
+        analysis.save(tmp_path / ("result." + ending))
+        assert (tmp_path / ("result." + ending)).stat().st_size > 1000
+    with pytest.raises(nhsym.UsageError, match="doc"):
+        analysis.save(tmp_path / "result.doc")
+    with pytest.raises(nhsym.UsageError):
+        sleigh.verify("m*v").latex
+    assert "currents" in dir(analysis) and "verdict" in repr(nhsym.Record(analysis.json))

@@ -1,0 +1,105 @@
+"""Systems: by name, from files, texts and Python; errors."""
+import fractions
+import pathlib
+
+import numpy
+import pytest
+import sympy
+
+import nhsym
+
+t = sympy.Symbol("t")
+OSCILLATOR = "name: spring\nparameters: [{name: m, value: 2}, {name: k, value: 8}]\ncoordinates: [x]\nlagrangian: m*x'^2/2 - k*x^2/2\n"
+
+
+def test_by_name_file_and_text(tmp_path):
+    file = tmp_path / "mine.yaml"
+    file.write_text(OSCILLATOR)
+    for source in (file, str(file), OSCILLATOR):
+        spring = nhsym.system(source, set={"k": 18})
+        assert (spring.name, spring.coordinates, spring.parameters) == ("spring", ("x",), {"m": 2, "k": 18})
+    assert nhsym.system("sleigh").coordinates == ("phi", "x", "y")
+
+
+def test_built_from_strings_and_from_sympy_alike():
+    phi, x, y = (sympy.Function(name)(t) for name in ("phi", "x", "y"))
+    m, J = sympy.symbols("m J")
+    symbols = nhsym.System(coordinates={phi: "angle", x: "length", y: "length"}, parameters={m: 2, J: fractions.Fraction(1, 2)},
+                           lagrangian=m / 2 * (x.diff(t)**2 + y.diff(t)**2) + J / 2 * phi.diff(t)**2,
+                           constraints=[y.diff(t) * sympy.cos(phi) - x.diff(t) * sympy.sin(phi)], forces={phi: -phi.diff(t) / 10})
+    strings = nhsym.System(coordinates={"phi": "angle", "x": "length", "y": "length"}, parameters={"m": 2, "J": 0.5},
+                           lagrangian="m/2*(x'^2 + y'^2) + J/2*phi'^2", constraints=["y'*cos(phi) = x'*sin(phi)"], forces={"phi": "-phi'/10"})
+    q, v = numpy.array([0.3, 1, 2]), numpy.array([1.1, 0.5 * numpy.cos(0.3), 0.5 * numpy.sin(0.3)])
+    assert symbols.accelerations(q, v) == pytest.approx(strings.accelerations(q, v), rel=1e-14)
+    assert symbols.accelerations(q, v)[0] == pytest.approx(-1.1 / 10 / 0.5)
+
+
+def test_parameters_are_changed_in_a_copy():
+    spring = nhsym.system(OSCILLATOR)
+    other = spring.set(k=18).set(m=1)
+    assert spring.parameters == {"m": 2, "k": 8} and other.parameters == {"m": 1, "k": 18}
+    assert nhsym.system(OSCILLATOR, set={"k": fractions.Fraction(1, 4)}).parameters["k"] == 0.25
+
+
+def test_right_hand_side_on_arrays():
+    spring = nhsym.system(OSCILLATOR)
+    y = numpy.random.default_rng(1).normal(size=(2, 5, 7))
+    assert spring.right_hand_side(0.0, y) == pytest.approx(numpy.array([y[1], -4 * y[0]]))
+    assert spring.right_hand_side(0.0, y[:, 0, 0]).shape == (2,)
+    assert numpy.isnan(spring.accelerations([numpy.nan], [0.0])).all()
+    for wrong in (lambda: spring.right_hand_side(0, [1, 2, 3]), lambda: spring.accelerations([1, 2], [1, 2]), lambda: spring.accelerations(numpy.zeros((1, 3)), numpy.zeros((1, 4)))):
+        with pytest.raises(nhsym.UsageError) as error:
+            wrong()
+        assert "shape" in error.value.what and error.value.hint
+
+
+def test_runge_kutta_with_them_keeps_a_constraint():
+    """The rolling disk of the shipped systems: y' of any method stays on the constraint submanifold to the method's order."""
+    disk = nhsym.system("vertical_disk")
+    with pytest.raises(nhsym.UsageError, match='initial="x=0'):
+        disk.simulate()
+    motion = disk.simulate(initial={"p'": 1.5, "h'": 0.7}, until=1, step=0.01, accuracy=1e-9)
+    q, v = motion.states()
+    y, h = numpy.concatenate([q[:, 0], v[:, 0]]), 0.01
+    for i in range(100):
+        k1 = disk.right_hand_side(i * h, y)
+        k2 = disk.right_hand_side(i * h + h / 2, y + h / 2 * k1)
+        k3 = disk.right_hand_side(i * h + h / 2, y + h / 2 * k2)
+        k4 = disk.right_hand_side(i * h + h, y + h * k3)
+        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    assert y == pytest.approx(numpy.concatenate([q[:, -1], v[:, -1]]), abs=1e-7)
+
+
+def test_errors_carry_place_cause_and_cure():
+    with pytest.raises(nhsym.InputError) as error:
+        nhsym.System(coordinates=["x"], lagrangian="x'^2/2 - kk*x", parameters={"k": 1}, name="mine")
+    assert error.value.where.startswith("mine:") and "kk" in error.value.what and "k" in error.value.hint and "^" in error.value.excerpt and error.value.code == 3
+    with pytest.raises(nhsym.InputError) as error:
+        nhsym.system("sleihg")
+    assert "sleigh" in error.value.hint
+    for wrong in (dict(options={"seeed": 3}), dict(velocities="fast"), dict(set={"q": 1})):
+        with pytest.raises(nhsym.Error) as error:
+            nhsym.system(OSCILLATOR, **wrong)
+        assert error.value.code in (2, 3) and str(error.value)
+    with pytest.raises(TypeError):
+        nhsym.system(OSCILLATOR, velocites="quasi")
+    with pytest.raises(nhsym.UsageError):
+        nhsym.System(lagrangian="x'^2")
+    with pytest.raises(nhsym.UsageError):
+        nhsym.system(7)
+    with pytest.raises(nhsym.InputError):
+        nhsym.system(pathlib.Path("nowhere.yaml"))
+
+
+def test_definitions_domain_and_quasi_velocities():
+    skate = nhsym.System(coordinates={"phi": "angle", "x": {"type": "length"}, "y": "length"}, parameters={"m": 2, "J": 0.5}, definitions={"T": "m/2*(x'^2 + y'^2)"},
+                         lagrangian="T + J/2*phi'^2", constraints="y'*cos(phi) = x'*sin(phi)", domain={"phi": (-1, 1)}, title="A skate: on ice",
+                         quasi_velocities={"names": ["omega", "v"], "map": {"phi'": "omega", "x'": "v*cos(phi)", "y'": "v*sin(phi)"}})
+    assert set(skate.analyze().equations) == {"omega", "v"}
+
+
+def test_the_readme_of_the_package():
+    words = (pathlib.Path(nhsym.__file__).parents[1] / "README.md").read_text()
+    printed = []
+    exec(words.split("```python\n")[1].split("```")[0], {"print": lambda *given: printed.append(given)})
+    assert any("sin(phi/k)" in line[1] and line[2] == "proved" for line in printed)
