@@ -191,7 +191,7 @@ Test(simulate, the_closed_form_in_both_charts)
         nh_text csv;
         nh_text_init(&csv);
         nh_motion_csv(s, &csv);
-        cr_expect_eq(strncmp(nh_text_string(&csv), "t,phi,x,y,phi',x',y',", 21), 0, "%.80s", nh_text_string(&csv));
+        cr_expect_eq(strncmp(nh_text_string(&csv), "t,phi,x,y,phi_dot,x_dot,y_dot,", 30), 0, "%.80s", nh_text_string(&csv));
         cr_expect_null(strstr(nh_text_string(&csv), "nan"));
         nh_text_clear(&csv);
         nh_simulation_free(s);
@@ -232,16 +232,9 @@ Test(simulate, a_motion_leaves_its_chart_and_its_branch)
 
 Test(simulate, what_cannot_be_started_is_explained)
 {
-    static const struct { const char *initial, *what; } list[] = {
-        {NULL, "simulate needs an initial state"},
-        {"phi=0, x'=1, y'=1", "the initial velocities violate the constraints: the residual is 1"},
-    };
-    for (size_t i = 0; i < 2; i++) {
-        nh_error error;
-        cr_expect_null(motion(list[i].initial, 1, 0.5, NH_CHART_QUASI, &error));
-        cr_expect_str_eq(error.what, list[i].what);
-    }
     nh_error error;
+    cr_expect_null(motion("phi=0, x'=1, y'=1", 1, 0.5, NH_CHART_QUASI, &error));
+    cr_expect_str_eq(error.what, "the initial velocities violate the constraints: the residual is 1");
     cr_expect_null(motion("psi=1", 1, 0.5, NH_CHART_QUASI, &error));
     cr_expect_not_null(strstr(error.what, "`psi`"), "%s", error.what);
 }

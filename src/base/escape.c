@@ -77,22 +77,6 @@ void nh_escape_xml(const char *text, nh_text *out)
     }
 }
 
-void nh_escape_csv(const char *text, nh_text *out)
-{
-    bool formula = *text && strchr("=+-@\t\r", *text), quoted = formula || strpbrk(text, ",;\"\n\r\t") || *text == ' ' || *text == '\'';
-    if (!quoted) {
-        nh_escape_line(text, out);
-        return;
-    }
-    nh_text_add(out, formula ? "\"'" : "\"");
-    for (size_t bytes, written; *text; text += bytes) {
-        const char *c = next(text, &bytes, &written);
-        if (*c == '"') nh_text_add(out, "\"\"");
-        else nh_text_add_n(out, is_space(*c) ? " " : c, written); /* a record is a line, also for those that do not read quotes */
-    }
-    nh_text_add(out, "\"");
-}
-
 void nh_escape_terminal(const char *text, nh_text *out)
 {
     for (size_t bytes, written; *text; text += bytes) {

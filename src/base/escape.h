@@ -19,8 +19,6 @@ void nh_escape_line(const char *text, nh_text *out);
 void nh_escape_c_comment(const char *text, nh_text *out);
 /* XML: SVG, MathML, HTML, in text and in attributes. */
 void nh_escape_xml(const char *text, nh_text *out);
-/* A field of CSV, in quotes where it needs them (RFC 4180).  What a spreadsheet would take for a formula begins with an apostrophe. */
-void nh_escape_csv(const char *text, nh_text *out);
 /* Lines for a terminal: what could command it is a question mark. */
 void nh_escape_terminal(const char *text, nh_text *out);
 

@@ -50,6 +50,7 @@
     X(absolute,         1e-3,    0,      1e6,   real,  "",         "part of a state's largest size so far below which errors are absolute; benchmark: the size")       \
     X(drift,            100,     1,      1e6,   real,  "tolerance", "a current that drifts by more tolerances must drift less at smaller ones")               \
     X(steps,            2e5,     10,     1e9,   whole, "steps",    "a motion that needs more steps than this is ended and said to be so")    \
+    X(fixed_steps,      10,      1,      1e6,   whole, "steps",    "simulate --method: of a method with fixed steps, from one output to the next") \
     X(group,            1e-7,   0,      1,     real,  "",         "equations of a symmetry group, scaled to size one: what is below this vanishes") \
     X(transversal,      5e-3,   0,      1,     real,  "",         "a group is divided out by Chaplygin reduction when its orbits stay so far from the distribution") \
     X(cluster,          2e-3,   0,      1,     real,  "",         "eigenvalues nearer than this part of the largest belong to one ideal of an algebra") \

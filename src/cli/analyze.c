@@ -68,8 +68,7 @@ static bool write_summary(nh_cli *cli, const nh_analysis *result, nh_error *erro
     nh_text text;
     nh_text_init(&text);
     nh_summary(result, (nh_summary_style){cli->colour, cli->verbose}, &text);
-    bool shown = !cli->quiet && !(cli->json && !strcmp(cli->json, "-"));
-    if (shown) fputs(nh_text_string(&text), stdout);
+    if (nh_cli_speaks(cli)) fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (!cli->folder) return true;
     nh_summary(result, (nh_summary_style){false, cli->verbose}, &text);

@@ -7,7 +7,7 @@
 #include "cli/cli.h"
 #include "cli/cli_table.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 #define OLD(code, old, argument) {old, argument, NULL, code},
@@ -158,6 +158,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_threads: return nh_options_set(&cli->options, "threads", value, error);
     case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
+    case opt_method: return nh_method_given(value, &cli->method, error);
     case opt_project: return cli->project = true;
     case opt_weak: return cli->weak = true;
     case opt_step: return positive(value, "step", &cli->step, error);
@@ -231,6 +232,9 @@ static const char *optional_value(const nh_cli *cli, int argc, char **argv)
     return next;
 }
 
+/* `-` is a file, too: what is read is kept, so a pipe will do. */
+static void take_operand(nh_cli *cli, const char *word) { cli->operand[cli->operands++] = strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
+
 bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
 {
     cli->setting = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->setting);
@@ -245,7 +249,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
         for (size_t i = 0; i < owner_count; i++) given[i] = given[i] || owners[i].code == code;
         if (code == 1) {
             if (!cli->command) cli->command = nh_cli_command_name(optarg);
-            else cli->operand[cli->operands++] = optarg;
+            else take_operand(cli, optarg);
         } else if (code == ':') {
             return missing_value(argv[optind - 1], error);
         } else if (code == '?') {
@@ -254,6 +258,6 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
             return false;
         }
     }
-    while (optind < argc) cli->operand[cli->operands++] = argv[optind++];
+    while (optind < argc) take_operand(cli, argv[optind++]);
     return all_belong(cli, given, error);
 }

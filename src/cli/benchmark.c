@@ -10,7 +10,7 @@ static bool write_all(nh_cli *cli, const nh_run *run, const nh_benchmark *c, con
     bool good = true;
     nh_text text;
     nh_text_init(&text);
-    if (!(cli->json && !strcmp(cli->json, "-")) && !cli->quiet) {
+    if (nh_cli_speaks(cli)) {
         nh_benchmark_text(c, cli->verbose, &text);
         if (s) nh_robustness_text(s, cli->verbose, &text);
         fputs(nh_text_string(&text), stdout);

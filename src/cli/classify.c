@@ -36,8 +36,8 @@ int nh_cli_classify(nh_cli *cli, nh_error *error)
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!x) return nh_cli_failed(cli, &run, error);
-    bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true, partial = x->partial;
-    if (!to_stdout && !cli->quiet) print(cli, x);
+    bool good = true, partial = x->partial;
+    if (nh_cli_speaks(cli)) print(cli, x);
     if (cli->json) good = nh_cli_write_json(cli, nh_classification_json(x, &run), error);
     good = nh_cli_written(cli, good, error);
     if (good && x->classification->obstacle) nh_fail(error, NH_NUMERIC, "", "%s", x->classification->obstacle);

@@ -13,6 +13,8 @@
 #include "commands/simulate.h"
 #include "problem/places.h"
 
+#define NH_STANDARD_INPUT "/dev/stdin"
+
 typedef enum { NH_PROGRESS_AUTO, NH_PROGRESS_ALWAYS, NH_PROGRESS_NEVER } nh_cli_progress;
 
 typedef struct {
@@ -20,13 +22,14 @@ typedef struct {
     size_t operands;
     const char **operand;
     const char *line;            /* the whole command, as it was typed */
-    const char *analysis, *json, *html, *tex; /* files; json may be "-" */
+    const char *analysis, *json, *html, *tex; /* files; "-": standard output */
     bool fragment;               /* the LaTeX without a preamble */
     const char *folder;          /* for all of them, or NULL */
     nh_cli_progress progress;
     const char *current, *field; /* questions of verify */
     bool equations;              /* of analyze and verify: the geometry written out */
     const char *initial;         /* of simulate and reduce */
+    const nh_method *method;
     const char *group, *chain, *to; /* of reduce */
     bool project, weak;
     const char *watch;           /* of simulate */
@@ -73,9 +76,11 @@ void nh_cli_guard_writing(void);
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);
 /* No result came of the work: the exit code.  Where it was ended that is the reason, whatever failed for it, and what is known is written. */
 int nh_cli_failed(nh_cli *cli, const nh_run *run, nh_error *error);
+/* Is the summary, or the table, printed?  Not with --quiet, nor where an output takes standard output. */
+bool nh_cli_speaks(const nh_cli *cli);
 /* Called before the computation: an output folder without write access is reported at once. */
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
-/* A text for a file, which is cleared; a JSON, which is freed, for --json.  The files take their places together, in the last of these: with `good`, or not at all. */
+/* A text for a file or standard output (`-`), which is cleared; a JSON, which is freed, for --json.  The files take their places together, in the last of these: with `good`, or not at all. */
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error);
 bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error);
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);

@@ -23,6 +23,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify", "also the geometry: forms, Gamma, multipliers, determining equations, brackets") \
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce", "initial state")                                       \
     X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce", "project the initial velocities onto the constraints")            \
+    X(opt_method,      "method",      required_argument, "NAME",               "simulate", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \
     X(opt_watch,       "watch",       required_argument, "\"x, T=m/2*v^2\"",   "simulate", "only these quantities, from the smallest model that determines them")                \
     X(opt_scene,       "scene",       no_argument,       "",                   "simulate", "only the quantities of the analysis file")                             \
@@ -33,7 +34,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_over,        "over",        required_argument, "RANGES",             "benchmark classify", "benchmark: the robustness map of these ranges, as in a=1e-9:1, omega=1:9; classify: the parameter")    \
     X(opt_shape,       "shape",       no_argument,       "",                   "classify", "only integrals whose coefficients do not depend on cyclic coordinates") \
     X(opt_budget,      "budget",      required_argument, "TIME",               "benchmark", "time to spend on measurements: 5s, 200ms")                                          \
-    X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark", "write error against time as an SVG picture")                                         \
+    X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark simulate", "write a picture: error against time, or the columns over time")                                         \
     X(opt_group,       "group",       required_argument, "FIELDS",             "reduce", "\"1, 2\" or \"x=1; theta=1\": the group to divide out")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
     X(opt_weak,        "weak",        no_argument,       "",                   "reduce", "also allow symmetries up to a total derivative")              \

@@ -67,6 +67,12 @@ static void explain_options(void)
     }
 }
 
+static void explain_methods(void)
+{
+    printf("%-16s %s\n", NH_METHOD_AUTOMATIC, "rk8pd, or bdf where the equations are stiff");
+    for (size_t i = 0; i < nh_method_count(); i++) printf("%-16s %s\n", nh_method_at(i)->word, nh_method_at(i)->about);
+}
+
 /* The words behind `explain`, with a blank between them. */
 static const char *words_of(nh_cli *cli)
 {
@@ -92,19 +98,21 @@ int nh_cli_explain(nh_cli *cli, nh_error *error)
 {
     static const char row[] = "%-22s %s\n";
     size_t count = nh_glossary_count();
-    const char **names = nh_arena_alloc(cli->arena, (count + 1) * sizeof *names), *word = words_of(cli);
+    const char **names = nh_arena_alloc(cli->arena, (count + 2) * sizeof *names), *word = words_of(cli);
     for (size_t i = 0; i < count; i++) {
         nh_glossary_entry topic = nh_glossary_at(i);
         names[i] = topic.word;
         if (!word) printf(row, topic.word, topic.text);
         else if (!strcmp(word, topic.word)) return puts(topic.text), NH_OK;
     }
-    if (!word) return printf(row, "options", "all numerical options (nhsym explain options)"), NH_OK;
+    if (!word) return printf(row, "options", "all numerical options (nhsym explain options)"), printf(row, "methods", "all integrators (nhsym explain methods)"), NH_OK;
     if (!strcmp(word, "options")) return explain_options(), NH_OK;
+    if (!strcmp(word, "methods")) return explain_methods(), NH_OK;
     if (explain_beginning(word)) return NH_OK;
     names[count] = "options";
+    names[count + 1] = "methods";
     nh_fail(error, NH_USAGE, "", "there is no topic `%s`", word);
-    const char *near = nh_text_nearest(word, names, count + 1);
+    const char *near = nh_text_nearest(word, names, count + 2);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "`nhsym explain` lists the topics");
     return NH_USAGE;

@@ -53,8 +53,8 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
     if (!r) return nh_cli_failed(cli, &run, error);
-    bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true;
-    if (!to_stdout && !cli->quiet) print(cli, r);
+    bool good = true;
+    if (nh_cli_speaks(cli)) print(cli, r);
     if (cli->json) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);
     if (cli->html && good) {
         nh_text page;

@@ -12,7 +12,7 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
         return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html != NULL,
+    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .method = cli->method, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html != NULL,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
     q->system_path = nh_places_find(cli->arena, "systems", name, error);
     if (!q->system_path) return false;
@@ -31,16 +31,17 @@ static void put_scene(const nh_simulation *s)
                 1e3 * s->whole_seconds, s->whole_evaluations, s->whole_difference);
 }
 
-/* The table, unless the output is JSON or --quiet, and the notes on standard error. */
+/* The table, unless another output is wanted or --quiet, and the notes on standard error. */
 static void put_table(const nh_cli *cli, const nh_simulation *s)
 {
-    if (cli->json || cli->quiet) return;
+    if (cli->json || !nh_cli_speaks(cli)) return;
     nh_text text;
     nh_text_init(&text);
     if (s->ensemble) nh_ensemble_csv(s, &text);
     else nh_motion_csv(s, &text);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
+    if (s->begin) fprintf(stderr, "nhsym: no initial state is given: --initial \"%s\"\n", s->begin);
     if (s->scene && (cli->watch || cli->scene)) put_scene(s);
     if (cli->verbose && s->trajectory) fprintf(stderr, "nhsym: %s, %s, %ld evaluations in %.3g s; %s\n", s->method, s->formulation, s->motion->evaluations, s->motion->seconds, s->trajectory->machine);
     if (s->held) fprintf(stderr, "nhsym: %s\n", s->why);
@@ -77,6 +78,12 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
         nh_text_init(&page);
         nh_html_simulation(s, &run, &page);
         good = nh_cli_write(cli, cli->html, &page, error);
+    }
+    if (cli->svg && good) {
+        nh_text picture;
+        nh_text_init(&picture);
+        nh_motion_svg(s, &picture);
+        good = nh_cli_write(cli, cli->svg, &picture, error);
     }
     good = nh_cli_written(cli, good, error);
     if (s->astray && !cli->quiet) fprintf(stderr, "warning: %s\n", s->astray);

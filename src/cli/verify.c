@@ -28,8 +28,8 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
     nh_cli_progress_begin(cli);
     if (!nh_cli_can_write(cli, error) || !ask(cli, &run, &v, error) || !v) return nh_cli_failed(cli, &run, error);
     nh_cli_progress_end();
-    bool to_stdout = cli->json && !strcmp(cli->json, "-"), good = true, conserved = v->conserved;
-    if (!to_stdout && !cli->quiet) {
+    bool good = true, conserved = v->conserved;
+    if (nh_cli_speaks(cli)) {
         nh_text text;
         nh_text_init(&text);
         nh_verification_text(v, cli->field != NULL, cli->options.shown, &text);

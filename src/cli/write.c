@@ -12,26 +12,56 @@ nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analys
     return (nh_run){cli->line, system_path, analysis_path, cli->options.seed, cli->options.shown, NAN};
 }
 
+/* The files of --json, --html, --tex and --svg; those that are not given are NULL. */
+enum { outputs = 4 };
+static void list_outputs(const nh_cli *cli, const char *path[outputs])
+{
+    const char *const all[outputs] = {cli->json, cli->html, cli->tex, cli->svg};
+    memcpy(path, all, sizeof all);
+}
+
+static bool is_stdout(const char *path) { return path && !strcmp(path, "-"); }
+
+bool nh_cli_speaks(const nh_cli *cli)
+{
+    const char *path[outputs];
+    bool taken = false;
+    list_outputs(cli, path);
+    for (size_t i = 0; i < outputs; i++) taken |= is_stdout(path[i]);
+    return !taken && !cli->quiet;
+}
+
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error)
 {
-    const char *const path[] = {cli->json && strcmp(cli->json, "-") ? cli->json : NULL, cli->html, cli->tex, cli->svg};
-    for (size_t i = 0; i < sizeof path / sizeof *path; i++)
-        if (path[i] && !nh_output_possible(path[i], error)) return false;
+    const char *path[outputs];
+    size_t printed = 0;
+    list_outputs(cli, path);
+    for (size_t i = 0; i < outputs; i++) {
+        printed += is_stdout(path[i]);
+        if (path[i] && !is_stdout(path[i]) && !nh_output_possible(path[i], error)) return false;
+    }
+    if (printed < 2) return true;
+    nh_fail(error, NH_USAGE, "", "`-` prints one output, but %zu options take it", printed);
+    return nh_error_hint(error, "give the others a file");
+}
+
+static bool write_to(nh_cli *cli, const char *path, const char *text, size_t length, nh_error *error)
+{
+    if (!is_stdout(path)) return nh_output_add(&cli->files, path, text, length, error);
+    fwrite(text, 1, length, stdout);
     return true;
 }
 
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error)
 {
-    bool good = nh_output_add(&cli->files, path, nh_text_string(text), text->length, error);
+    bool good = write_to(cli, path, nh_text_string(text), text->length, error);
     nh_text_clear(text);
     return good;
 }
 
 bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error)
 {
-    bool to_stdout = !strcmp(cli->json, "-"), good = true;
-    if (to_stdout) fputs(json, stdout);
-    else good = nh_output_add(&cli->files, cli->json, json, strlen(json), error);
+    bool good = write_to(cli, cli->json, json, strlen(json), error);
     nh_free(json);
     return good;
 }
@@ -44,10 +74,10 @@ bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_
 static bool write_unfinished(nh_cli *cli, const nh_unfinished *u, nh_error *error)
 {
     nh_text text;
-    bool good = true, table = cli->to || !strcmp(cli->command, "simulate") || (cli->json && !strcmp(cli->json, "-"));
+    bool good = true, table = cli->to || !strcmp(cli->command, "simulate");
     nh_text_init(&text);
     nh_unfinished_text(u, &text);
-    if (!cli->quiet && !table) {
+    if (nh_cli_speaks(cli) && !table) {
         nh_text shown;
         nh_text_init(&shown);
         nh_escape_terminal(nh_text_string(&text), &shown);

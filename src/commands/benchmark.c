@@ -343,7 +343,7 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
     out->arena = arena;
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
-    if (!nh_simulate_read(out->question, request, true, &c->initial, &out->end, error)) return false;
+    if (!nh_simulate_read(out->question, request, &c->initial, &out->end, error)) return false;
     c->model = out->question->model;
     c->initial.q[coordinate] += turn;
     if (turn != 0) c->project = true;

@@ -20,7 +20,7 @@ static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_analyze
     nh_simulate_request motion = {.system_path = q->system_path, .analysis_path = q->analysis_path, .settings = settings, .setting = setting, .chart = q->chart,
                                   .options = r->options, .until_given = true, .tolerance_given = true};
     if (motion.chart == NH_CHART_AUTO) motion.chart = r->analysis->chart;
-    return nh_simulate_read(s, &motion, true, initial, until, error);
+    return nh_simulate_read(s, &motion, initial, until, error);
 }
 
 /* From the initial time to `end`, which may lie before it: quantity k at value[i * n + k], i counted from the initial time. */

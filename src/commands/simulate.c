@@ -1,13 +1,10 @@
 #include "commands/simulate_internal.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/budget.h"
 #include "base/clock.h"
-#include "base/progress.h"
 
 #include "graph/diff.h"
 #include "graph/terms.h"
@@ -15,118 +12,6 @@
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
 static const double small_motion = 1e8, most_whole = 1e9; /* units of effort: a motion that needs less is compared with the whole model's, which may need so much */
 static const double repeated = 0.1;                      /* seconds: shorter comparisons are timed again */
-
-nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error)
-{
-    size_t length = strlen(initial);
-    char *text = nh_arena_alloc(arena, 2 * length + 64), *to = text + sprintf(text, "validate:\n  initial: {");
-    for (const char *c = initial; *c; c++) {
-        if (*c == '=') {
-            *to++ = ':';
-            *to++ = ' ';
-        } else {
-            *to++ = *c;
-        }
-    }
-    strcpy(to, "}\n");
-    return nh_analysis_file_text("--initial", text, error);
-}
-
-static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
-{
-    double begin = nh_budget_used();
-    nh_progress("the equations of motion", -1);
-    s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
-    s->deriving = 1e6 * (nh_budget_used() - begin);
-    if (!s->model || (s->analysis && !nh_analysis_file_resolve(s->analysis, s->model, error))) return false;
-    return !q->initial || ((*own = nh_simulate_initial(s->arena, q->initial, error)) && nh_analysis_file_resolve(*own, s->model, error));
-}
-
-/* The initial state chooses the branch of a quadratic constraint, and, where those of the chart do not follow from the constraints there, the dependent velocities. */
-static bool needs_other_chart(nh_simulation *s, const nh_state *at)
-{
-    size_t *dependent = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof *dependent);
-    if (nh_dynamics_other_branch(s->model, at)) {
-        s->system->branch = -s->model->chart->branch;
-        return true;
-    }
-    if (!nh_dynamics_other_dependents(s->model, at, dependent)) return false;
-    s->system->dependent = dependent;
-    s->system->dependents = s->model->k;
-    return true;
-}
-
-static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
-{
-    nh_model_free(s->model);
-    nh_analysis_file_free(*own);
-    nh_analysis_file_free(s->analysis);
-    s->model = NULL;
-    s->analysis = *own = NULL;
-    if (q->analysis_path && !(s->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
-    return resolve(s, q, own, error);
-}
-
-/* A generic state on the constraints: the chart's first probe. */
-static bool choose_initial(nh_simulation *s, nh_state *initial)
-{
-    const nh_model *o = s->model;
-    if (!o->chart->probes) return false;
-    const double *point = o->chart->probe;
-    nh_tape *tape = nh_model_tape(o, o->m, o->rho);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    initial->t = point[0];
-    initial->q = nh_arena_alloc(s->arena, o->m * sizeof(double));
-    initial->v = nh_arena_alloc(s->arena, o->m * sizeof(double));
-    memcpy(initial->q, point + 1, o->m * sizeof(double));
-    nh_tape_eval(tape, work, point, initial->v);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return true;
-}
-
-static bool no_initial(const nh_simulation *s, nh_error *error)
-{
-    const char *name = s->system->coordinate[0].name;
-    nh_fail(error, NH_USAGE, "", "simulate needs an initial state");
-    return nh_error_hint(error, "--initial \"%s=0, %s'=1\"; omitted values are 0 or follow from the constraints", name, name);
-}
-
-bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, bool may_choose, nh_state *initial, double *until, nh_error *error)
-{
-    nh_analysis_file *own = NULL;
-    if (q->analysis_path && !(s->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
-    size_t count = s->analysis ? s->analysis->settings : 0;
-    nh_setting *setting = nh_arena_alloc(s->arena, (count + q->settings + 1) * sizeof *setting);
-    if (count) memcpy(setting, s->analysis->setting, count * sizeof *setting);
-    if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
-    if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
-    if (!may_choose && !q->initial && !(s->analysis && nh_analysis_file_starts(s->analysis))) return no_initial(s, error); /* before minutes of work */
-    bool good = resolve(s, q, &own, error);
-    const nh_analysis_file *first = own ? own : s->analysis;
-    if (good && first && first->has_initial && needs_other_chart(s, &first->initial)) good = resolve_again(s, q, &own, error);
-    if (!good) {
-        nh_analysis_file_free(own);
-        return false;
-    }
-    const nh_analysis_file *from = own ? own : s->analysis;
-    bool given = from && from->has_initial;
-    if (given) {
-        *initial = from->initial;
-        initial->q = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof(double));
-        initial->v = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof(double));
-        memcpy(initial->q, from->initial.q, s->model->m * sizeof(double));
-        memcpy(initial->v, from->initial.v, s->model->m * sizeof(double));
-        if (from->initial.given) {
-            initial->given = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof(bool));
-            memcpy(initial->given, from->initial.given, s->model->m * sizeof(bool));
-        }
-    }
-    *until = !q->until_given && s->analysis && s->analysis->has_until ? s->analysis->until : q->options.until;
-    s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance : q->options.tolerance;
-    nh_analysis_file_free(own);
-    return given || (may_choose && choose_initial(s, initial)) || no_initial(s, error);
-}
 
 /* ---- what is wanted along the motion ---- */
 
@@ -275,6 +160,24 @@ static void open_choice(nh_simulation *s, const nh_simulate_request *q, bool pla
     nh_choice_open(&s->ways, plain);
 }
 
+/* The method of the request, with its steps from one output to the next where these are fixed. */
+static bool use_method(nh_simulation *s, const nh_simulate_request *q, const double *times, nh_trajectory_request *request, nh_error *error)
+{
+    const nh_method *method = request->method = q->method;
+    if (!method) return true;
+    if (q->accuracy > 0 || q->ensemble) {
+        nh_fail(error, NH_USAGE, "", "%s, and --method as well", q->ensemble ? "an ensemble has its own methods" : "--accuracy chooses the method");
+        return nh_error_hint(error, "leave one of the two options out");
+    }
+    if (!method->order) return true;
+    request->programs = s->programs = nh_programs_create(s->model);
+    request->step = (times[1] - times[0]) / q->options.fixed_steps;
+    const char *refused = nh_method_refused(method, s->programs);
+    if (!refused) return true;
+    nh_fail(error, NH_NUMERIC, "", "the method `%s` cannot be used here: %s", method->word, refused);
+    return nh_error_hint(error, "`nhsym explain methods` lists the others");
+}
+
 static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count, const double *times, nh_error *error)
 {
     nh_options options = q->options;
@@ -286,6 +189,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     nh_trajectory_request request = {.model = s->model, .initial = initial, .count = count, .times = times, .options = &options, .n = s->columns.count, .e = e, .by_terms = by_terms,
                                      .smallest = q->watch || q->scene, .project = q->project};
     nh_ex *known;
+    if (!use_method(s, q, times, &request, error)) return false;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;
     s->checked = q->accuracy > 0;
     if (s->checked) open_choice(s, q, request.smallest);
@@ -297,7 +201,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     s->value = s->trajectory->value;
     s->method = s->trajectory->method;
     s->formulation = s->trajectory->formulation;
-    if (!s->trajectory->scene && request.smallest) /* it was tried */
+    if (!s->trajectory->scene && request.smallest && !(q->method && q->method->order)) /* it was tried */
         s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end", s->motion->size, strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
     if (!s->trajectory->scene) return true;
     s->scene = nh_simulate_words(s, s->trajectory->scene, nh_closed_subsystem_words);
@@ -345,7 +249,7 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     double until, *times = NULL;
     size_t count;
     s->arena = arena;
-    if (nh_simulate_read(s, q, false, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
+    if (nh_simulate_read(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
     if (times) s->astray = words_astray(s, &initial);
     if (times && choose_columns(s, q, error) && integrate(s, q, &initial, count, times, error)) return s;
     nh_simulation_free(s);
@@ -365,7 +269,7 @@ static size_t states_kept(const nh_simulate_request *q, bool *quasi)
     double until;
     size_t kept = SIZE_MAX;
     s->arena = arena;
-    if (nh_simulate_read(s, q, false, &initial, &until, &ignored) && choose_columns(s, q, &ignored)) {
+    if (nh_simulate_read(s, q, &initial, &until, &ignored) && choose_columns(s, q, &ignored)) {
         nh_ex *known, *e = nh_arena_alloc(arena, (s->columns.count + 1) * sizeof *e);
         for (size_t k = 0; k < s->columns.count; k++) e[k] = s->columns.track[k].value;
         size_t count = known_currents(s, &known), n = 0;
@@ -410,6 +314,7 @@ void nh_simulation_free(nh_simulation *s)
 {
     if (!s) return;
     nh_trajectory_free(s->trajectory);
+    nh_programs_free(s->programs);
     nh_ensemble_free(s->ensemble);
     nh_choice_close(&s->ways);
     nh_model_free(s->model);

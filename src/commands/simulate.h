@@ -12,12 +12,14 @@ typedef struct {
     size_t settings;
     const nh_setting *setting;
     nh_chart_choice chart;
-    const char *initial;                     /* "phi=0, omega=2", or NULL */
+    const char *initial;                     /* "phi=0, omega=2", or NULL: that of the analysis file, else a state on the constraints */
+    const char *from;                        /* where that is written, for messages; NULL: --initial */
     const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
     bool scene;                              /* the same with what the analysis file watches */
     bool draw;                               /* follow what is drawn, too (one motion with all columns) */
     bool until_given, tolerance_given, project; /* project: velocities that violate the constraints are moved onto them */
     double step;                             /* output spacing; 0: a hundredth of the time */
+    const nh_method *method;                 /* NULL: the one that suits, or with an accuracy the cheapest */
     double accuracy;                         /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
     size_t ensemble;                         /* members; 0: one motion */
     double spread;                           /* of their initial states about the given one, relative to max(|z_i|, 1) */
@@ -31,6 +33,7 @@ struct nh_simulation {
     nh_model *model;
     const char *method, *formulation;
     const char *scene;    /* the smallest model in words; NULL: all states were integrated */
+    const char *begin;    /* no initial state was given: the one that was chosen, as it is written behind --initial; NULL */
     const char *astray;   /* the initial position violates a constraint between positions: which, and by how much; NULL */
     const char *idle;     /* parameters and bodies without influence on what is watched, in words; empty: all matter */
     bool compared;        /* the whole model was integrated too, because the motion is short */
@@ -39,6 +42,7 @@ struct nh_simulation {
     nh_observables columns;    /* with the drawing only where it was asked for, at the end */
     nh_motion *motion;    /* its states are those of the scene, where there is one */
     double *value;        /* motion->count x columns.count, row by row */
+    nh_programs *programs; /* of a method with fixed steps */
     nh_trajectory *trajectory; /* owns the last two */
     double tolerance;
     nh_ensemble *ensemble;     /* instead of motion, value and trajectory; NULL: one motion */
@@ -51,11 +55,11 @@ struct nh_simulation {
 };
 
 nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error *error);
-/* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model). */
-nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *initial, nh_error *error);
+/* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model).  `from`: where it is written, for messages; NULL: --initial. */
+nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *from, const char *initial, nh_error *error);
 
 /* The first part of it, into a simulation that has an arena and nothing else: system, analysis, model, tolerance, the initial state
- * (a generic one where none is given and `may_choose`) and the final time.  Also on failure: nh_simulation_free. */
-bool nh_simulate_read(nh_simulation *simulation, const nh_simulate_request *request, bool may_choose, nh_state *initial, double *until, nh_error *error);
+ * (one on the constraints where none is given) and the final time.  Also on failure: nh_simulation_free. */
+bool nh_simulate_read(nh_simulation *simulation, const nh_simulate_request *request, nh_state *initial, double *until, nh_error *error);
 
 #endif

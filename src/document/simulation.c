@@ -1,9 +1,9 @@
 #include "document/simulation.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-#include "base/escape.h"
 #include "base/memory.h"
 #include "document/time_series.h"
 
@@ -14,27 +14,61 @@ static void put(nh_text *out, double x)
     nh_text_add(out, isfinite(x) ? text : ""); /* an empty field: it has no value there */
 }
 
-/* A second column of one name (a known current that is called E, as the energy is) also says what it is. */
-static void put_name(const nh_observables *t, size_t which, nh_text *out)
+/* ---- column names ----
+ *
+ * Of letters, digits and underscores, as gnuplot, R and pandas take them without quotes: x' is x_dot, and what an expression holds besides them is an underscore.  All are
+ * different: a second column of one name (a known current that is called E, as the energy is) also says what it is. */
+
+static const char *plain_name(nh_arena *arena, const char *name)
+{
+    nh_text out;
+    nh_text_init(&out);
+    if (isdigit((unsigned char)*name)) nh_text_add(&out, "v");
+    for (const char *c = name; *c; c++) {
+        bool letter = isalnum((unsigned char)*c) || *c == '_' || (unsigned char)*c >= 0x80, gap = out.length && nh_text_string(&out)[out.length - 1] == '_';
+        if (letter) nh_text_add_n(&out, c, 1);
+        else if (*c == '\'') nh_text_add(&out, gap ? "dot" : "_dot");
+        else if (!gap && out.length && c[1]) nh_text_add(&out, "_");
+    }
+    const char *kept = nh_arena_strdup(arena, out.length ? nh_text_string(&out) : "value");
+    nh_text_clear(&out);
+    return kept;
+}
+
+static bool is_taken(const char *const *names, size_t count, const char *name)
+{
+    bool taken = !strcmp(name, "t") || !strcmp(name, "member");
+    for (size_t k = 0; k < count && !taken; k++) taken = !strcmp(names[k], name);
+    return taken;
+}
+
+const char **nh_simulation_names(const nh_simulation *s)
 {
     static const char *const kinds[] = {"state", "current", "multiplier", "energy", "watched", "shape"};
-    bool taken = false;
-    for (size_t k = 0; k < which; k++) taken |= !strcmp(t->track[k].name, t->track[which].name);
-    nh_text name;
-    nh_text_init(&name);
-    nh_text_addf(&name, taken ? "%s (%s)" : "%s", t->track[which].name, kinds[t->track[which].kind]);
-    nh_text_add(out, ",");
-    nh_escape_csv(nh_text_string(&name), out);
-    nh_text_clear(&name);
+    const nh_observables *t = &s->columns;
+    const char **out = nh_arena_alloc(s->arena, (t->count + 1) * sizeof *out);
+    for (size_t k = 0; k < t->count; k++) {
+        const char *name = plain_name(s->arena, t->track[k].name), *kind = kinds[t->track[k].kind];
+        out[k] = name;
+        if (is_taken(out, k, out[k])) out[k] = nh_arena_printf(s->arena, "%s_%s", name, kind);
+        for (int more = 2; is_taken(out, k, out[k]); more++) out[k] = nh_arena_printf(s->arena, "%s_%s_%d", name, kind, more);
+    }
+    return out;
+}
+
+static void put_names(const nh_simulation *s, const char *first, size_t shown, nh_text *out)
+{
+    const char **name = nh_simulation_names(s);
+    nh_text_add(out, first);
+    for (size_t k = 0; k < shown; k++) nh_text_addf(out, ",%s", name[k]);
+    nh_text_add(out, "\n");
 }
 
 void nh_motion_csv(const nh_simulation *s, nh_text *out)
 {
     size_t shown = 0; /* without the drawing, which is at the end */
     while (shown < s->columns.count && s->columns.track[shown].kind != NH_TRACK_SHAPE) shown++;
-    nh_text_add(out, "t");
-    for (size_t k = 0; k < shown; k++) put_name(&s->columns, k, out);
-    nh_text_add(out, "\n");
+    put_names(s, "t", shown, out);
     for (size_t i = 0; i < s->motion->count; i++) {
         put(out, s->motion->time[i]);
         for (size_t k = 0; k < shown; k++) {
@@ -48,9 +82,7 @@ void nh_motion_csv(const nh_simulation *s, nh_text *out)
 void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
 {
     const nh_ensemble *e = s->ensemble;
-    nh_text_add(out, "member,t");
-    for (size_t k = 0; k < s->columns.count; k++) put_name(&s->columns, k, out);
-    nh_text_add(out, "\n");
+    put_names(s, "member,t", s->columns.count, out);
     for (size_t j = 0; j < e->members * e->count; j++) {
         nh_text_addf(out, "%zu,", j / e->count);
         put(out, e->time[j % e->count]);

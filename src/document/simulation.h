@@ -7,12 +7,17 @@
 #include "document/provenance.h"
 #include "commands/simulate.h"
 
+/* The names of the columns as a table shows them, one per column, different, of letters, digits and underscores. */
+const char **nh_simulation_names(const nh_simulation *simulation);
 void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head line, then a row per output time */
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
 char *nh_motion_json(const nh_simulation *simulation, const nh_run *run);
 
 /* The member `accuracy` of a motion; null when a is NULL. */
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root);
+
+/* A picture: what is watched, or the coordinates, over time; of an ensemble one quantity of all members. */
+void nh_motion_svg(const nh_simulation *simulation, nh_text *out);
 
 /* The same of an ensemble: a column `member` in front; a list of objects. */
 void nh_ensemble_csv(const nh_simulation *simulation, nh_text *out);

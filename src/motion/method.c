@@ -3,24 +3,26 @@
 
 #include <string.h>
 
+#include "base/text.h"
+
 static const nh_method methods[] = {
-    {"GSL rk8pd", "explicit Runge-Kutta pair of order 8", NH_METHOD_GSL_ODEIV, NH_RK8PD, false, 0},
-    {"GSL rkf45", "explicit Runge-Kutta pair of order 5", NH_METHOD_GSL_ODEIV, NH_RKF45, false, 0},
-    {"GSL msadams", "Adams's method, fixed-point iteration", NH_METHOD_GSL_ODEIV, NH_MSADAMS, false, 0},
-    {"CVODE Adams", "Adams's method, Newton's iteration", NH_METHOD_CVODE, NH_ADAMS, false, 0},
-    {"CVODE BDF", "backward differentiation, for stiff equations", NH_METHOD_CVODE, NH_BDF, false, 0},
-    {"ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_ARKODE, NH_DORMAND_PRINCE_5, false, 0},
-    {"ARKODE Verner", "explicit Runge-Kutta pair of order 6", NH_METHOD_ARKODE, NH_VERNER_6, false, 0},
-    {"ARKODE Fehlberg", "explicit Runge-Kutta pair of order 8", NH_METHOD_ARKODE, NH_FEHLBERG_8, false, 0},
-    {"ARKODE ESDIRK", "diagonally implicit Runge-Kutta pair of order 5, for stiff equations", NH_METHOD_ARKODE, NH_ESDIRK_5, false, 0},
-    {"midpoint", "implicit midpoint rule, order 2", NH_METHOD_MIDPOINT, NH_MIDPOINT, false, 2},
-    {"midpoint, order 4", "five implicit midpoint steps composed", NH_METHOD_MIDPOINT, NH_MIDPOINT, true, 4},
-    {"Lagrange-d'Alembert", "discrete Lagrange-d'Alembert principle, order 2", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, false, 2},
-    {"Lagrange-d'Alembert, order 4", "five discrete Lagrange-d'Alembert steps composed", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, true, 4},
-    {"energy-preserving", "almost-Poisson pair with the mean gradient, order 2", NH_METHOD_MIDPOINT, NH_ENERGY, false, 2},
-    {"energy-preserving, order 4", "five energy-preserving steps composed", NH_METHOD_MIDPOINT, NH_ENERGY, true, 4},
-    {"relaxation, order 4", "Runge-Kutta steps along which the energy is kept", NH_METHOD_RELAXATION, NH_RELAXATION_4, false, 4},
-    {"relaxation, order 8", "Prince-Dormand steps along which the energy is kept", NH_METHOD_RELAXATION, NH_RELAXATION_8, false, 8},
+    {"rk8pd", "GSL rk8pd", "explicit Runge-Kutta pair of order 8", NH_METHOD_GSL_ODEIV, NH_RK8PD, false, 0},
+    {"rkf45", "GSL rkf45", "explicit Runge-Kutta pair of order 5", NH_METHOD_GSL_ODEIV, NH_RKF45, false, 0},
+    {"msadams", "GSL msadams", "Adams's method, fixed-point iteration", NH_METHOD_GSL_ODEIV, NH_MSADAMS, false, 0},
+    {"adams", "CVODE Adams", "Adams's method, Newton's iteration", NH_METHOD_CVODE, NH_ADAMS, false, 0},
+    {"bdf", "CVODE BDF", "backward differentiation, for stiff equations", NH_METHOD_CVODE, NH_BDF, false, 0},
+    {"dormand-prince", "ARKODE Dormand-Prince", "explicit Runge-Kutta pair of order 5", NH_METHOD_ARKODE, NH_DORMAND_PRINCE_5, false, 0},
+    {"verner", "ARKODE Verner", "explicit Runge-Kutta pair of order 6", NH_METHOD_ARKODE, NH_VERNER_6, false, 0},
+    {"fehlberg", "ARKODE Fehlberg", "explicit Runge-Kutta pair of order 8", NH_METHOD_ARKODE, NH_FEHLBERG_8, false, 0},
+    {"esdirk", "ARKODE ESDIRK", "diagonally implicit Runge-Kutta pair of order 5, for stiff equations", NH_METHOD_ARKODE, NH_ESDIRK_5, false, 0},
+    {"midpoint", "midpoint", "implicit midpoint rule, order 2", NH_METHOD_MIDPOINT, NH_MIDPOINT, false, 2},
+    {"midpoint-4", "midpoint, order 4", "five implicit midpoint steps composed", NH_METHOD_MIDPOINT, NH_MIDPOINT, true, 4},
+    {"dalembert", "Lagrange-d'Alembert", "discrete Lagrange-d'Alembert principle, order 2", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, false, 2},
+    {"dalembert-4", "Lagrange-d'Alembert, order 4", "five discrete Lagrange-d'Alembert steps composed", NH_METHOD_MIDPOINT, NH_LAGRANGE_DALEMBERT, true, 4},
+    {"energy", "energy-preserving", "almost-Poisson pair with the mean gradient, order 2", NH_METHOD_MIDPOINT, NH_ENERGY, false, 2},
+    {"energy-4", "energy-preserving, order 4", "five energy-preserving steps composed", NH_METHOD_MIDPOINT, NH_ENERGY, true, 4},
+    {"relaxation-4", "relaxation, order 4", "Runge-Kutta steps along which the energy is kept", NH_METHOD_RELAXATION, NH_RELAXATION_4, false, 4},
+    {"relaxation-8", "relaxation, order 8", "Prince-Dormand steps along which the energy is kept", NH_METHOD_RELAXATION, NH_RELAXATION_8, false, 8},
 };
 
 size_t nh_method_count(void) { return sizeof methods / sizeof *methods; }
@@ -29,8 +31,19 @@ const nh_method *nh_method_at(size_t index) { return &methods[index]; }
 const nh_method *nh_method_find(const char *name)
 {
     for (size_t i = 0; i < nh_method_count(); i++)
-        if (!strcmp(methods[i].name, name)) return &methods[i];
+        if (!strcmp(methods[i].name, name) || !strcmp(methods[i].word, name)) return &methods[i];
     return NULL;
+}
+
+bool nh_method_given(const char *word, const nh_method **out, nh_error *error)
+{
+    const char *word_of[sizeof methods / sizeof *methods + 1] = {NH_METHOD_AUTOMATIC};
+    *out = nh_method_find(word);
+    if (*out || !strcmp(word, NH_METHOD_AUTOMATIC)) return true;
+    for (size_t i = 0; i < nh_method_count(); i++) word_of[1 + i] = methods[i].word;
+    const char *near = nh_text_nearest(word, word_of, nh_method_count() + 1);
+    nh_fail(error, NH_USAGE, "", "there is no method `%s`", word);
+    return near ? nh_error_hint(error, "did you mean `%s`? `nhsym explain methods` lists them", near) : nh_error_hint(error, "`nhsym explain methods` lists them");
 }
 
 nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,

@@ -10,7 +10,7 @@
 typedef enum { NH_METHOD_CVODE, NH_METHOD_GSL_ODEIV, NH_METHOD_ARKODE, NH_METHOD_MIDPOINT, NH_METHOD_RELAXATION } nh_method_family;
 
 typedef struct {
-    const char *name, *about;
+    const char *word, *name, *about; /* word: on the command line */
     nh_method_family family;
     int kind;           /* of the family's own list */
     bool composed;      /* of NH_METHOD_MIDPOINT */
@@ -19,8 +19,11 @@ typedef struct {
 
 size_t nh_method_count(void);
 const nh_method *nh_method_at(size_t index);
-/* The method of that name, or NULL. */
+/* The method of that name or word, or NULL. */
 const nh_method *nh_method_find(const char *name);
+/* The same for a word that a user gives: "auto" is NULL, the method that suits (automatic.h).  False with a suggestion. */
+#define NH_METHOD_AUTOMATIC "auto"
+bool nh_method_given(const char *word, const nh_method **out, nh_error *error);
 
 /* A motion of z' = f(t, z) by a method with error control (order 0). */
 nh_motion *nh_method_flow(const nh_method *method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,

@@ -16,7 +16,7 @@
 /* CVODE and IDA refuse to work below some 10 roundings; the error stops falling well before. */
 static const double smallest_rtol = 1e-14;
 static const double default_max_steps = 1e7;
-static const double least_advance = 1e-11; /* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so */
+static const double least_advance = 1e-10; /* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so */
 
 static bool check_times(size_t count, const double *times, nh_error *error)
 {

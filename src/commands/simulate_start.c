@@ -1,0 +1,179 @@
+/* simulate_start: the system, the analysis file and the initial state of a motion: the one that is given, or one on the constraints. */
+#include "commands/simulate_internal.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/budget.h"
+#include "base/linalg.h"
+#include "base/progress.h"
+
+nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *from, const char *initial, nh_error *error)
+{
+    size_t length = strlen(initial);
+    char *text = nh_arena_alloc(arena, 2 * length + 64), *to = text + sprintf(text, "validate:\n  initial: {");
+    for (const char *c = initial; *c; c++) {
+        if (*c == ';') {
+            *to++ = ',';
+        } else if (*c == '=') {
+            *to++ = ':';
+            *to++ = ' ';
+        } else {
+            *to++ = *c;
+        }
+    }
+    strcpy(to, "}\n");
+    return nh_analysis_file_text(from ? from : "--initial", text, error);
+}
+
+static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
+{
+    double begin = nh_budget_used();
+    nh_progress("the equations of motion", -1);
+    s->model = nh_model_create(s->system, nh_chart_create(s->system, q->chart, (uint64_t)q->options.seed, error), error);
+    s->deriving = 1e6 * (nh_budget_used() - begin);
+    if (!s->model || (s->analysis && !nh_analysis_file_resolve(s->analysis, s->model, error))) return false;
+    return !q->initial || ((*own = nh_simulate_initial(s->arena, q->from, q->initial, error)) && nh_analysis_file_resolve(*own, s->model, error));
+}
+
+/* The initial state chooses the branch of a quadratic constraint, and, where those of the chart do not follow from the constraints there, the dependent velocities. */
+static bool needs_other_chart(nh_simulation *s, const nh_state *at)
+{
+    size_t *dependent = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof *dependent);
+    if (nh_dynamics_other_branch(s->model, at)) {
+        s->system->branch = -s->model->chart->branch;
+        return true;
+    }
+    if (!nh_dynamics_other_dependents(s->model, at, dependent)) return false;
+    s->system->dependent = dependent;
+    s->system->dependents = s->model->k;
+    return true;
+}
+
+static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
+{
+    nh_model_free(s->model);
+    nh_analysis_file_free(*own);
+    nh_analysis_file_free(s->analysis);
+    s->model = NULL;
+    s->analysis = *own = NULL;
+    if (q->analysis_path && !(s->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
+    return resolve(s, q, own, error);
+}
+
+/* Do the equations of motion depend on the time? */
+static bool depends_on_time(const nh_model *o)
+{
+    const nh_ex t = o->system->t;
+    bool any = nh_depends(o->dag, o->Lbar, t);
+    for (size_t i = 0; i < o->m; i++) any |= nh_depends(o->dag, o->rho[i], t);
+    for (size_t i = 0; i < o->n; i++) any |= nh_depends(o->dag, o->a[i], t);
+    return any;
+}
+
+/* A point of the chart with few digits, where positions are free.  False: it is not in the chart any more. */
+static bool round_point(const nh_model *o, double *z)
+{
+    enum { digits = 2 };
+    for (size_t a = 0; a < o->system->constraints; a++)
+        if (o->system->constraint[a].position) return false;
+    for (size_t i = 0; i < 1 + o->m + o->n; i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%.*g", digits, z[i]);
+        z[i] = strtod(text, NULL);
+    }
+    return nh_chart_complete(o->chart, z);
+}
+
+/* The velocities at a point of the chart; false where they are not finite. */
+static bool velocities_at(const nh_model *o, const double *z, double *v)
+{
+    nh_tape *tape = nh_model_tape(o, o->m, o->rho);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, z, v);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return nh_all_finite(o->m, v);
+}
+
+/* The state as it is written behind --initial: coordinates and the independent velocities. */
+static const char *words_of_point(const nh_simulation *s, const double *z)
+{
+    const nh_chart *c = s->model->chart;
+    nh_text words;
+    nh_text_init(&words);
+    for (size_t i = z[0] == 0; i < 1 + s->model->m + s->model->n; i++) {
+        char number[40];
+        nh_text_number(z[i], number, sizeof number);
+        nh_text_addf(&words, "%s%s=%s", words.length ? ", " : "", nh_name_of(s->model->dag, c->symbol[i]), number);
+    }
+    const char *out = nh_arena_strdup(s->arena, nh_text_string(&words));
+    nh_text_clear(&words);
+    return out;
+}
+
+/* A state on the constraints where none is given: the chart's first probe, rounded where that is possible. */
+static bool choose_initial(nh_simulation *s, nh_state *initial)
+{
+    const nh_model *o = s->model;
+    if (!o->chart->probes) return false;
+    double *z = nh_arena_alloc(s->arena, o->width * sizeof *z);
+    initial->q = nh_arena_alloc(s->arena, o->m * sizeof(double));
+    initial->v = nh_arena_alloc(s->arena, o->m * sizeof(double));
+    memcpy(z, o->chart->probe, o->width * sizeof *z);
+    if (!depends_on_time(o)) z[0] = 0;
+    if (!round_point(o, z) || !velocities_at(o, z, initial->v)) {
+        memcpy(z, o->chart->probe, o->width * sizeof *z);
+        velocities_at(o, z, initial->v);
+    }
+    initial->t = z[0];
+    memcpy(initial->q, z + 1, o->m * sizeof(double));
+    s->begin = words_of_point(s, z);
+    return true;
+}
+
+static bool no_initial(const nh_simulation *s, nh_error *error)
+{
+    const char *name = s->system->coordinate[0].name;
+    nh_fail(error, NH_USAGE, "", "simulate needs an initial state, and none was found on the constraints");
+    return nh_error_hint(error, "--initial \"%s=0, %s'=1\"; omitted values are 0 or follow from the constraints", name, name);
+}
+
+bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, nh_state *initial, double *until, nh_error *error)
+{
+    nh_analysis_file *own = NULL;
+    if (q->analysis_path && !(s->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
+    size_t count = s->analysis ? s->analysis->settings : 0;
+    nh_setting *setting = nh_arena_alloc(s->arena, (count + q->settings + 1) * sizeof *setting);
+    if (count) memcpy(setting, s->analysis->setting, count * sizeof *setting);
+    if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
+    if (!(s->system = nh_system_read(q->system_path, count + q->settings, setting, error))) return false;
+    bool good = resolve(s, q, &own, error);
+    const nh_analysis_file *first = own ? own : s->analysis;
+    if (good && first && first->has_initial && needs_other_chart(s, &first->initial)) good = resolve_again(s, q, &own, error);
+    if (!good) {
+        nh_analysis_file_free(own);
+        return false;
+    }
+    const nh_analysis_file *from = own ? own : s->analysis;
+    bool given = from && from->has_initial;
+    if (given) {
+        *initial = from->initial;
+        initial->q = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof(double));
+        initial->v = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof(double));
+        memcpy(initial->q, from->initial.q, s->model->m * sizeof(double));
+        memcpy(initial->v, from->initial.v, s->model->m * sizeof(double));
+        if (from->initial.given) {
+            initial->given = nh_arena_alloc(s->arena, (s->model->m + 1) * sizeof(bool));
+            memcpy(initial->given, from->initial.given, s->model->m * sizeof(bool));
+        }
+    }
+    *until = !q->until_given && s->analysis && s->analysis->has_until ? s->analysis->until : q->options.until;
+    s->tolerance = !q->tolerance_given && s->analysis && s->analysis->has_tolerance ? s->analysis->tolerance : q->options.tolerance;
+    nh_analysis_file_free(own);
+    if (given) return true;
+    return choose_initial(s, initial) || no_initial(s, error);
+}
