@@ -113,3 +113,53 @@ Test(published, without_work_nothing_is_constructed_and_that_is_said)
     cr_expect_eq(c->missing, 1);
     nh_analysis_free(r);
 }
+
+/* ---- integrals that are functions of others, and relations ---- */
+
+static bool has_relation(const nh_analysis *r, const char *left, const char *right)
+{
+    for (size_t k = 0; k < r->relations; k++)
+        if (!strcmp(r->relation[k].left, left) && !strcmp(r->relation[k].right, right)) return true;
+    return false;
+}
+
+/* Two components of Runge and Lenz's vector depend on the third, on energy and momentum: A L = 0 and A^2 = k^2 - 2 E L^2 / m, with Phi1 = -E. */
+Test(published, integrals_that_depend_on_others_and_their_relations)
+{
+    nh_analysis *r = analysed("parameters: {m: 1.3, k: 0.8}\ncoordinates: [x, y, z]\nlagrangian: m*(x'^2 + y'^2 + z'^2)/2 + k/sqrt(x^2 + y^2 + z^2)\n", -1);
+    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    cr_assert_eq(r->independent, 5);
+    cr_assert_eq(r->furthers, 2);
+    for (size_t k = 0; k < r->furthers; k++) cr_expect(r->further[k].degree == 2 && r->further[k].current.proof.all_parameters);
+    cr_expect(c->linear && c->generic && c->degree == 4);
+    cr_expect_eq(c->count.row[3].bound, 80, "%zu", c->count.row[3].bound);
+    cr_assert_eq(r->relations, 2);
+    cr_expect(has_relation(r, "Phi2*Phi7", "Phi3*Phi6 - Phi4*Phi5"));
+    cr_expect(has_relation(r, "Phi7^2", "k^2 - Phi5^2 - Phi6^2 - 2*Phi1*Phi2^2/m - 2*Phi1*Phi3^2/m - 2*Phi1*Phi4^2/m"));
+    nh_analysis_free(r);
+}
+
+/* With time in two currents of Smorodinsky and Winternitz's oscillator the integrals without it, of degrees two and three, are functions of them; the square of the cubic one
+ * is a polynomial in the others. */
+Test(published, a_cubic_integral_whose_square_is_a_polynomial)
+{
+    nh_analysis *r = analysed("parameters: {w: 0.8, a: 0.3, b: 0.5}\n" PLANE "w^2*(x^2 + y^2)/2 - a/x^2 - b/y^2\n" QUADRANT, -1);
+    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    cr_assert_eq(r->furthers, 3);
+    cr_expect_eq(r->further[2].degree, 3);
+    cr_expect(c->linear && c->degree == 6);
+    cr_expect_eq(r->relations, 1);
+    cr_expect_str_eq(r->relation[0].left, "Phi7^2");
+    nh_analysis_free(r);
+}
+
+/* A control: nothing but the energy, and nothing is added. */
+Test(published, generic_systems_have_no_further_integrals)
+{
+    nh_analysis *r = analysed(PLANE "x^4 - x*y^3 - x^2*y\n", -1);
+    cr_expect_eq(r->count, 1);
+    cr_expect_eq(r->furthers, 0);
+    cr_expect_eq(r->relations, 0);
+    cr_expect(r->completeness[NH_COMPLETE_IN_COORDINATES].linear);
+    nh_analysis_free(r);
+}

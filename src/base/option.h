@@ -42,7 +42,7 @@
     X(degree,           0,       0,      12,    whole, "",         "integrals polynomial in the velocities are counted up to this degree; 0: 6 for two coordinates, 4 up to four, 2 for more") \
     X(count_work,       2e8,     0,      1e15,  real,  "products", "of residues that counting one kind of integrals may take")               \
     X(construct,        2e9,     0,      1e15,  real,  "products", "of residues that constructing what one count misses may take; 0: nothing is constructed") \
-    X(words,            600,     1,      20000, whole, "words",    "functions of the coordinates that the coefficients of a missing integral are made of, at most") \
+    X(words,            2000,    1,      20000, whole, "words",    "functions of the coordinates that the coefficients of a missing integral are made of, at most") \
     X(pencil,           6000,   10,      1e6,   whole, "unknowns", "classify: largest linear system for integrals at a degree")                 \
     X(shown,            600,     10,     1e9,   whole, "symbols",  "longer formulas are not written out in the summary")                     \
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \

@@ -337,25 +337,38 @@ static void put_current(const writer *w, nh_json *currents, const nh_current *f)
     nh_json_put_bool(item, "projectable", f->symmetry.projectable);
 }
 
-/* What holds in a part of the motions only. */
-static void put_pieces(const writer *w, nh_json *root)
+static void put_briefly(const writer *w, nh_json *item, const nh_current *f)
+{
+    nh_json_put_text(item, "name", f->name);
+    put_expression(w, item, "expression", f->phi);
+    if (f->has_in_velocities) put_expression(w, item, "in_velocities", f->in_velocities);
+    else nh_json_put_null(item, "in_velocities");
+    put_latex(w, item, f->phi);
+    nh_json_put_text(item, "meaning", f->meaning);
+    nh_json_put_number(item, "certified_digits", floor(f->proof.digits));
+    nh_json_put_bool(item, "proved", f->proof.proved);
+    nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
+    nh_facts_put_holds(item, w->r->model, &f->proof);
+}
+
+/* What holds in a part of the motions only, and what is a function of the currents. */
+static void put_others(const writer *w, nh_json *root)
 {
     nh_json *list = nh_json_put_array(root, "currents_in_regions");
     for (size_t k = 0; k < w->r->pieces; k++) {
-        const nh_current *f = &w->r->piece[k];
         nh_json *item = nh_json_add_object(list);
-        nh_json_put_text(item, "name", f->name);
-        nh_json_put_text(item, "region", f->region);
-        put_expression(w, item, "expression", f->phi);
-        if (f->has_in_velocities) put_expression(w, item, "in_velocities", f->in_velocities);
-        else nh_json_put_null(item, "in_velocities");
-        put_latex(w, item, f->phi);
-        nh_json_put_text(item, "meaning", f->meaning);
-        nh_json_put_number(item, "certified_digits", floor(f->proof.digits));
-        nh_json_put_bool(item, "proved", f->proof.proved);
-        nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
-        nh_facts_put_holds(item, w->r->model, &f->proof);
+        put_briefly(w, item, &w->r->piece[k]);
+        nh_json_put_text(item, "region", w->r->piece[k].region);
     }
+    list = nh_json_put_array(root, "further_integrals");
+    for (size_t k = 0; k < w->r->furthers; k++) {
+        const nh_further_integral *g = &w->r->further[k];
+        nh_json *item = nh_json_add_object(list);
+        put_briefly(w, item, &g->current);
+        nh_json_put_number(item, "degree", (double)g->degree);
+    }
+    list = nh_json_put_array(root, "relations");
+    for (size_t k = 0; k < w->r->relations; k++) nh_json_add_text(list, nh_arena_printf(w->r->arena, "%s = %s", w->r->relation[k].left, w->r->relation[k].right));
 }
 
 static void put_almost(const writer *w, nh_json *root)
@@ -396,7 +409,7 @@ char *nh_analysis_json(const nh_analysis *r)
     put_search(&w, root);
     nh_json *currents = nh_json_put_array(root, "currents");
     for (size_t k = 0; k < r->count; k++) put_current(&w, currents, &r->found[k]);
-    put_pieces(&w, root);
+    put_others(&w, root);
     put_almost(&w, root);
     nh_json_put_number(root, "independent_currents", (double)r->independent);
     nh_json_put_number(root, "local_maximum", (double)r->local_maximum);

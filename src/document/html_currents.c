@@ -278,6 +278,35 @@ static void pieces(nh_html_writer *w)
     }
 }
 
+static void furthers(nh_html_writer *w)
+{
+    const nh_analysis *r = w->r;
+    if (!r->furthers) return;
+    nh_html_add(w, "<h3>Further integrals</h3>\n<p>These integrals are functions of the currents above, but no polynomials in them. They are not counted.</p>\n");
+    for (size_t k = 0; k < r->furthers; k++) {
+        const nh_current *f = &r->further[k].current;
+        nh_html_add(w, "<article class=\"card\">\n<h4>");
+        nh_html_source(w, f->name);
+        nh_html_add(w, "</h4>\n");
+        nh_html_formula(w, f->name, f->phi);
+        nh_html_add(w, "<dl>\n<dt>Degree</dt><dd>");
+        nh_html_count(w, r->further[k].degree);
+        nh_html_add(w, "</dd>\n");
+        certificate(w, f);
+        nh_html_add(w, "</dl>\n");
+        as_text(w, f);
+        nh_html_add(w, "</article>\n");
+    }
+    if (r->relations) nh_html_add(w, "<h4>Relations</h4>\n");
+    for (size_t k = 0; k < r->relations; k++) {
+        nh_html_add(w, "<div class=\"formula\">");
+        nh_html_source(w, r->relation[k].left);
+        nh_html_add(w, "<math><mo>=</mo></math> ");
+        nh_html_source(w, r->relation[k].right);
+        nh_html_add(w, "</div>\n");
+    }
+}
+
 static void almost(nh_html_writer *w)
 {
     const nh_analysis *r = w->r;
@@ -301,6 +330,7 @@ void nh_html_currents(nh_html_writer *w)
     if (!r->count) nh_html_add(w, "<p>None was found. The stages of the search are listed below.</p>\n");
     for (size_t k = 0; k < r->count; k++) card(w, &r->found[k]);
     abbreviations(w);
+    furthers(w);
     pieces(w);
     almost(w);
     nh_html_add(w, "</section>\n");

@@ -175,7 +175,7 @@ static void certificate(nh_summary_writer *w, const nh_current *f)
     else nh_text_addf(w->out, "conserved to %.0f digits%s%s", f->proof.digits, nh_formula_doubt(f), holds);
     nh_text_add(w->out, nh_facts_on_branches(w->r, f));
     nh_text_addf(w->out, "; held-out residual %.1e", f->heldout);
-    if (w->r->validation && !f->region) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
+    if (w->r->validation && !f->region && f->drift.until != 0) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
     nh_text_add(w->out, "\n");
 }
 
@@ -268,6 +268,24 @@ static void completeness(nh_summary_writer *w)
     nh_text_clear(&words);
 }
 
+static void further(nh_summary_writer *w, const nh_further_integral *g)
+{
+    nh_text_addf(w->out, "\n  %s%s%s  (degree %zu)\n", w->style.colour ? "\033[32m" : "", g->current.name, w->style.colour ? "\033[0m" : "", g->degree);
+    formula(w, 8, "", g->current.phi);
+    faint(w, true);
+    certificate(w, &g->current);
+    faint(w, false);
+}
+
+static void relation(nh_summary_writer *w, const nh_further_relation *q)
+{
+    nh_text line;
+    nh_text_init(&line);
+    nh_text_addf(&line, "%s = %s", q->left, q->right);
+    sentence(w, 8, nh_text_string(&line));
+    nh_text_clear(&line);
+}
+
 static void answer(nh_summary_writer *w)
 {
     const nh_analysis *r = w->r;
@@ -281,6 +299,10 @@ static void answer(nh_summary_writer *w)
     nh_text_clear(&title);
     completeness(w);
     for (size_t k = 0; k < r->count; k++) current(w, &r->found[k]);
+    if (r->furthers) nh_text_add(w->out, "\n  Functions of these currents, but no polynomials in them:\n");
+    for (size_t k = 0; k < r->furthers; k++) further(w, &r->further[k]);
+    if (r->relations) nh_text_add(w->out, "\n  Relations among them:\n");
+    for (size_t k = 0; k < r->relations; k++) relation(w, &r->relation[k]);
     if (r->pieces) nh_text_add(w->out, "\n  Constant only in a region of the states, and not counted:\n");
     for (size_t k = 0; k < r->pieces; k++) current(w, &r->piece[k]);
     almost(w);

@@ -260,6 +260,16 @@ static void piece(nh_tex_writer *w, const nh_current *f)
     nh_tex_formula(w, f->name, f->phi);
 }
 
+static void further(nh_tex_writer *w, const nh_further_integral *g)
+{
+    nh_tex_add(w, "\\subsection*{");
+    nh_tex_name(w, g->current.name);
+    nh_tex_add(w, "}\nIt is a function of the currents above, but no polynomial in them; degree ");
+    nh_tex_number(w, (double)g->degree, 2);
+    nh_tex_add(w, ".\n");
+    nh_tex_formula(w, g->current.name, g->current.phi);
+}
+
 static void almost(nh_tex_writer *w)
 {
     const nh_analysis *r = w->r;
@@ -279,6 +289,9 @@ static void currents_section(nh_tex_writer *w)
     const nh_analysis_file *a = w->r->analysis;
     nh_tex_add(w, "\\section{Currents}\n");
     for (size_t k = 0; k < w->r->count; k++) current(w, &w->r->found[k]);
+    for (size_t k = 0; k < w->r->furthers; k++) further(w, &w->r->further[k]);
+    if (w->r->relations) nh_tex_add(w, "\\subsection*{Relations}\n");
+    for (size_t k = 0; k < w->r->relations; k++) nh_tex_display(w, w->r->relation[k].left, w->r->relation[k].right);
     for (size_t k = 0; k < w->r->pieces; k++) piece(w, &w->r->piece[k]);
     for (size_t i = 0; a && w->r->count && i < a->definitions; i++) {
         nh_tex_add(w, i ? "" : "\\medskip Here\n");

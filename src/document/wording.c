@@ -74,6 +74,7 @@ static const nh_glossary_entry entries[] = {
     {"exhausted", "A search that tried all that there was to try, but for stages that are too large: the list of "
      "stages names the option that brings them in.  There may be currents of another kind."},
     {"cut", "A search that a limit of work or time ended before all was tried (exit code 5)."},
+    {"further integral", "Polynomial in the velocities and a function of the currents found, but no polynomial in them."},
     {"completeness", "Every integral that is polynomial in the velocities up to a degree, whatever functions its "
      "coefficients are, is a polynomial in the currents found.  It is proved by counting: an upper bound (power "
      "series modulo a prime) and a lower one (products of the currents) agree.  Integrals of other kinds, and "

@@ -5,6 +5,7 @@
 
 #include "exact/kernel.h"
 #include "exact/normal.h"
+#include "graph/diff.h"
 
 enum { most_found = 400, largest_form = 2000, largest_inertia = 4, least_down = 1 };
 
@@ -168,6 +169,19 @@ static void take_determinant(const nh_jet_equations *x, nh_letters *l)
 
 /* ---- the coordinates ---- */
 
+/* In coordinates that are letters. */
+static bool is_linear(const nh_jet_equations *x, const nh_letters *l, size_t coordinates, nh_ex base)
+{
+    bool linear = true;
+    for (size_t k = 0; k < x->coordinates && linear; k++) {
+        nh_ex slope = nh_diff(x->dag, base, x->coordinate[k]);
+        bool letter = nh_is_zero(x->dag, slope);
+        for (size_t j = 0; j < coordinates; j++) letter |= l->item[j].base == x->coordinate[k];
+        for (size_t j = 0; j < x->coordinates; j++) linear &= letter && !nh_depends(x->dag, slope, x->coordinate[j]);
+    }
+    return linear;
+}
+
 /* Where a coordinate is seen only inside of functions its powers are unlikely. */
 static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_ex q)
 {
@@ -187,7 +201,7 @@ static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_
     return inside && !plain;
 }
 
-nh_letters nh_letters_of(nh_jet_equations *x)
+nh_letters nh_letters_of(nh_jet_equations *x, bool secular)
 {
     const nh_model *o = x->model;
     nh_letters l = {0};
@@ -198,9 +212,11 @@ nh_letters nh_letters_of(nh_jet_equations *x)
     for (size_t i = 0; i < o->n * o->n; i++) e[n++] = o->M[i];
     for (size_t i = 0; i < o->n; i++) e[n++] = o->A[i];
     for (size_t k = 0; k < x->coordinates; k++)
-        if (!only_inside(x, n, e, x->coordinate[k])) letter_of(&l, NH_LETTER_POWER, x->coordinate[k]);
+        if (secular || !only_inside(x, n, e, x->coordinate[k])) letter_of(&l, NH_LETTER_POWER, x->coordinate[k]);
+    size_t coordinates = l.count;
     for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1); /* forces are derivatives */
     take_determinant(x, &l);
+    for (size_t i = coordinates; i < l.count; i++) l.item[i].linear = l.item[i].kind == NH_LETTER_POWER && is_linear(x, &l, coordinates, l.item[i].base);
     nh_free(e);
     return l;
 }

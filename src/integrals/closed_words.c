@@ -37,13 +37,13 @@ static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_
     l->power[at] = p;
 }
 
-/* Exponents k/root; downwards an exponent costs its part of the lowest that the system has. */
+/* Exponents k/root; downwards an exponent costs its part of the lowest that the system has.  Whole powers of what is linear are sums of other words. */
 static void put_powers(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
     double root = (double)a->root, down = a->down;
     for (int64_t k = 1; (double)k / root <= w->most; k++)
-        put_power(w, l, nh_pow(d, a->base, nh_ratio(d, k, a->root)), (double)k / root);
+        if (!a->linear || k % a->root) put_power(w, l, nh_pow(d, a->base, nh_ratio(d, k, a->root)), (double)k / root);
     for (int64_t k = 1; a->down > 0 && (double)k / root <= w->most * down; k++)
         put_power(w, l, nh_pow(d, a->base, nh_ratio(d, -k, a->root)), (double)k / root / down);
 }
@@ -149,11 +149,11 @@ static void sort(nh_known_motions_words *w)
     w->price = price;
 }
 
-nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, double price, size_t most_words)
+nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *x, double price, size_t most_words, bool secular)
 {
     nh_known_motions_words *w = nh_alloc(sizeof *w);
     *w = (nh_known_motions_words){.equations = x, .most = price};
-    nh_letters letters = nh_letters_of(x);
+    nh_letters letters = nh_letters_of(x, secular);
     for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
     nh_free(letters.item);
     w->words = choices(w, most_words, NULL, NULL);

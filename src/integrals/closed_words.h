@@ -37,8 +37,8 @@ typedef struct {
     double *price;        /* per word */
 } nh_known_motions_words;
 
-/* Words up to a price.  All letters are registered for evaluation: choose a point afterwards.  NULL: there would be more words than `most_words`. */
-nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words);
+/* Words up to a price, with `secular` letters (closed_letters.h).  All letters are registered for evaluation: choose a point afterwards.  NULL: there would be more words than `most_words`. */
+nh_known_motions_words *nh_known_motions_words_create(nh_jet_equations *equations, double price, size_t most_words, bool secular);
 void nh_known_motions_words_free(nh_known_motions_words *words);
 
 /* The coordinates that a word depends on, and the word with parameters as symbols. */

@@ -4,10 +4,12 @@
 /* The highest degree that is settled by the rows; what is missing at the next. */
 static void read_rows(nh_completeness *c, bool all)
 {
-    c->degree = c->missing_at = c->missing = 0;
+    c->degree = c->missing_at = c->missing = c->incomplete_at = 0;
     c->linear = c->count.rows > 0;
     c->all = all;
     while (c->degree < c->count.rows && (all || c->count.row[c->degree].complete || c->count.row[c->degree].functions)) c->linear &= c->count.row[c->degree++].complete;
+    for (size_t d = c->count.rows; d-- > 0;)
+        if (!c->count.row[d].complete) c->incomplete_at = d + 1;
     if (c->degree == c->count.rows) return;
     const nh_count_row *row = &c->count.row[c->degree];
     c->settled = row->settled;

@@ -19,6 +19,7 @@ typedef struct {
     bool generic;           /* and so for algebraically independent parameters */
     size_t missing_at;      /* the least degree at which the bound is not reached, or 0 */
     size_t missing;         /* how many functionally independent ones are missing there at most */
+    size_t incomplete_at;   /* the least degree at which the known ones, their products included, are fewer than the bound, or 0 */
     bool settled;           /* that number did not change over the last orders: with more work it would hardly be lower */
 } nh_completeness;
 

@@ -8,7 +8,7 @@
 #include "integrals/closed_words.h"
 #include "integrals/count_internal.h"
 
-enum { spare = 24, spare_few = 2, beyond_degree = 4, most_order = 120, most_points = 60, most_coefficients = 6000 };
+enum { spare = 24, spare_few = 2, beyond_degree = 4, most_order = 120, most_points = 60, most_coefficients = 20000 };
 
 /* One attempt: a point, the words and the solutions as series there. */
 typedef struct {
@@ -217,29 +217,72 @@ static void add_constructed(nh_construction *out, const attempt *a, const nh_gra
     }
 }
 
-/* The differential of a combination of solutions is added to those of the known ones: does the rank grow? */
-static bool is_new(const attempt *a, nh_differentials *known, const nh_differentials *solution, const nmod_mat_t row, size_t i, size_t first)
+/* What is known, as vectors: differentials at one point, or values of products under random functionals; and the same of the solutions. */
+typedef struct {
+    nh_count_space known;
+    nh_residue *solution;   /* N x known.width */
+} news;
+
+static bool known_differentials(news *x, attempt *a)
 {
-    size_t width = known->kept + known->n, before = nh_count_rank(known, a->field);
-    nh_grow(&known->row, &known->capacity, (known->rows + 1) * width + 1, sizeof *known->row);
-    nh_residue *d = known->row + known->rows * width;
-    memset(d, 0, width * sizeof *d);
-    for (size_t s = 0; s < solution->rows; s++)
-        nh_residue_add_multiple(a->field, width, d, solution->row + s * width, (nh_residue)nmod_mat_entry(row, i, first + s));
-    known->rows++;
-    bool grows = nh_count_rank(known, a->field) > before;
-    if (!grows) known->rows--;
+    nh_differentials all, known;
+    nh_count_differentials(a->counter, &all, &known);
+    bool good = nh_count_known_differ(a->counter, a->series->ring, a->series->coordinate, &known);
+    x->known.width = known.kept + known.n;
+    for (size_t i = 0; i < known.rows && good; i++) nh_count_space_add(&x->known, a->field, known.row + i * x->known.width);
+    nh_count_differentials_clear(&all, &known);
+    return good;
+}
+
+static void solution_differentials(news *x, const attempt *a, const nh_graded_count *g)
+{
+    nh_differentials all, solution;
+    nh_count_differentials(a->counter, &all, &solution);
+    nh_count_solutions_differ(g, a->field, &solution);
+    x->solution = nh_alloc_array(solution.rows * x->known.width + 1, sizeof *x->solution);
+    memcpy(x->solution, solution.row, solution.rows * x->known.width * sizeof *x->solution);
+    nh_count_differentials_clear(&all, &solution);
+}
+
+/* Products are compared with solutions to an order that determines them. */
+static nh_count_series *short_series(attempt *a, size_t degree)
+{
+    bool regular;
+    size_t order = (degree + beyond_degree / 2) * a->counter->frame->step;
+    return nh_count_series_create(a->counter, order < a->series->ring->order ? order : a->series->ring->order, &regular);
+}
+
+static bool known_products(news *x, attempt *a, const nh_count_series *s, size_t degree, nh_count_functionals *f)
+{
+    nh_count_monomials p = nh_count_monomials_list(a->counter, degree);
+    *f = nh_count_functionals_create(s->ring, a->counter->equations->n, p.count + spare, 271828 + degree);
+    x->known.width = f->count;
+    nh_residue *value = nh_alloc_array(p.count * f->count + 1, sizeof *value);
+    bool good = p.count && nh_count_product_values(a->counter, s->ring, s->coordinate, &p, f, value);
+    for (size_t i = 0; i < p.count && good; i++) nh_count_space_add(&x->known, a->field, value + i * f->count);
+    nh_free(value);
+    nh_count_monomials_clear(&p);
+    return good;
+}
+
+/* Does a combination of solutions enlarge what is known? */
+static bool is_new(const attempt *a, news *x, const nmod_mat_t row, size_t i, size_t first, size_t N)
+{
+    nh_residue *sum = nh_alloc_array(x->known.width + 1, sizeof *sum);
+    for (size_t s = 0; s < N; s++) nh_residue_add_multiple(a->field, x->known.width, sum, x->solution + s * x->known.width, (nh_residue)nmod_mat_entry(row, i, first + s));
+    bool grows = nh_count_space_add(&x->known, a->field, sum);
+    nh_free(sum);
     return grows;
 }
 
-static representatives represent(const attempt *a, const nh_graded_count *g, const nmod_mat_t combination, size_t way, nh_differentials *known, const nh_differentials *solution)
+static representatives represent(const attempt *a, const nh_graded_count *g, const nmod_mat_t combination, size_t way, news *x)
 {
     representatives r = {.order = order_terms(a, g, a->counter->equations->n, way)};
     size_t terms = g->alphas * a->kept, rows = (size_t)nmod_mat_nrows(combination);
     simplest(a, g, combination, r.order, r.row);
     r.fresh = nh_alloc_array(rows + 1, sizeof *r.fresh);
     for (size_t i = rows; i-- > 0;) {
-        if (!is_new(a, known, solution, r.row, i, terms)) continue;
+        if (!is_new(a, x, r.row, i, terms, g->total[g->order])) continue;
         r.fresh[r.count++] = i;
         for (size_t j = 0; j < terms; j++) r.length += nmod_mat_entry(r.row, i, j) != 0;
     }
@@ -254,28 +297,22 @@ static void representatives_clear(representatives *r)
 }
 
 /* Of one parity: the shortest representatives of several echelon forms. */
-static void recognise(nh_construction *out, attempt *a, const nh_graded_count *g, nh_differentials *known)
+static void recognise(nh_construction *out, attempt *a, const nh_graded_count *g, news *x)
 {
     enum { ways = 4 };
     nmod_mat_t combination;
-    size_t N = g->total[g->order], before = known->rows;
-    out->dimension += N;
-    if (!N) return;
-    size_t found = recognised(a, g, combination);
+    size_t found = recognised(a, g, combination), before = x->known.rows;
     out->recognised += found;
-    nh_differentials solution = {.n = known->n, .kept = known->kept, .w = known->w};
-    nh_count_solutions_differ(g, a->field, &solution);
-    representatives best = represent(a, g, combination, 0, known, &solution);
+    representatives best = represent(a, g, combination, 0, x);
     for (size_t way = 1; way < ways && best.count; way++) {
-        known->rows = before;
-        representatives r = represent(a, g, combination, way, known, &solution), worse = r.length < best.length ? best : r;
+        x->known.rows = before;
+        representatives r = represent(a, g, combination, way, x), worse = r.length < best.length ? best : r;
         if (r.length < best.length) best = r;
         representatives_clear(&worse);
     }
     out->item = nh_realloc_array(out->item, out->count + best.count + 1, sizeof *out->item);
     for (size_t i = 0; i < best.count; i++) add_constructed(out, a, g, &best, best.fresh[i]);
     representatives_clear(&best);
-    nh_free(solution.row);
     nmod_mat_clear(combination);
 }
 
@@ -292,31 +329,49 @@ static size_t order_for(const attempt *a, size_t degree)
 
 typedef enum { DONE, UNLUCKY, TOO_MUCH } outcome;
 
-static outcome solve(nh_construction *out, attempt *a, size_t degree)
+static bool solve_parity(nh_construction *out, attempt *a, size_t degree, nh_parity parity, news *x, const nh_count_functionals *f, const nh_jet_ring *ring)
 {
     nh_counter *c = a->counter;
-    nh_differentials all, known;
-    nh_count_differentials(c, &all, &known);
-    bool good = nh_count_known_differ(c, a->series->ring, a->series->coordinate, &known), enough = true;
-    for (int part = 0; part < (a->series->split ? 2 : 1) && good && enough; part++) {
-        nh_graded_problem p = nh_count_problem(c, a->series, degree, !a->series->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES);
-        p.keep = true;
-        nh_graded_count *g = nh_graded_solve(&p);
-        c->work += g->work;
-        enough = g->solved && c->work < c->q->work && !nh_late();
-        if (enough) recognise(out, a, g, &known);
-        nh_graded_count_clear(g);
+    nh_graded_problem p = nh_count_problem(c, a->series, degree, parity);
+    p.keep = true;
+    nh_graded_count *g = nh_graded_solve(&p);
+    c->work += g->work;
+    bool enough = g->solved && c->work < c->q->work && !nh_late();
+    size_t N = enough ? g->total[g->order] : 0;
+    out->dimension += N;
+    if (N && ring) {
+        x->solution = nh_alloc_array(N * x->known.width + 1, sizeof *x->solution);
+        nh_count_solution_values(g, a->series->ring, f, x->solution);
+    } else if (N) {
+        solution_differentials(x, a, g);
     }
-    nh_count_differentials_clear(&all, &known);
+    if (N) recognise(out, a, g, x);
+    nh_free(x->solution);
+    x->solution = NULL;
+    nh_graded_count_clear(g);
+    return enough;
+}
+
+static outcome solve(nh_construction *out, attempt *a, const nh_construct_question *question)
+{
+    nh_count_series *s = question->further ? short_series(a, question->degree) : NULL;
+    nh_count_functionals f = {0};
+    news x = {0};
+    bool good = s ? known_products(&x, a, s, question->degree, &f) : !question->further && known_differentials(&x, a), enough = true;
+    for (int part = 0; part < (a->series->split ? 2 : 1) && good && enough; part++)
+        enough = solve_parity(out, a, question->degree, !a->series->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES, &x, &f, s ? s->ring : NULL);
+    nh_free(x.known.row);
+    nh_count_functionals_clear(&f);
+    nh_count_series_free(s);
     return !good ? UNLUCKY : enough ? DONE : TOO_MUCH;
 }
 
-static outcome attempt_at(nh_construction *out, attempt *a, size_t degree)
+static outcome attempt_at(nh_construction *out, attempt *a, const nh_construct_question *question)
 {
     nh_counter *c = a->counter;
     bool regular;
     if (c->frame->kept != c->frame->all) return TOO_MUCH; /* functions on a leaf only */
-    out->order = order_for(a, degree);
+    out->order = order_for(a, question->degree);
     if (!out->order) return TOO_MUCH;
     a->series = nh_count_series_create(c, out->order, &regular);
     if (!a->series) return regular ? TOO_MUCH : UNLUCKY;
@@ -329,7 +384,7 @@ static outcome attempt_at(nh_construction *out, attempt *a, size_t degree)
     choose_words(a);
     if (!are_scarce(a, out->order, a->kept, a->chosen)) return TOO_MUCH;
     reduce_words(a);
-    outcome result = solve(out, a, degree);
+    outcome result = solve(out, a, question);
     nmod_mat_clear(a->echelon);
     nmod_mat_clear(a->inverse);
     return result;
@@ -354,12 +409,12 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     nh_counter c;
     *out = (nh_construction){.arena = arena};
     nh_counter_open(&c, model, &q);
-    nh_known_motions_words *words = c.equations->obstacle ? NULL : nh_known_motions_words_create(c.equations, question->price, question->most_words);
+    nh_known_motions_words *words = c.equations->obstacle ? NULL : nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular);
     outcome o = words ? UNLUCKY : TOO_MUCH;
     for (size_t point = 0; point < most_points && o == UNLUCKY && !c.equations->obstacle && !nh_late(); point++) {
         attempt a = {.counter = &c, .words = words};
         if (!nh_count_regular_point(&c, point)) continue;
-        o = attempt_at(out, &a, question->degree);
+        o = attempt_at(out, &a, question);
         clear(&a);
     }
     out->words = words ? words->words : 0;

@@ -14,6 +14,8 @@
 
 typedef struct {
     bool time;              /* coefficients may depend on t */
+    bool further;        /* what is no polynomial in the known ones is new, even if it is another function of them */
+    bool secular;           /* words may contain coordinates that are seen only inside of functions */
     size_t degree;          /* in the velocities, at most */
     double price;           /* of the dearest words */
     size_t most_words;

@@ -7,6 +7,7 @@
 #include "graph/diff.h"
 
 enum { most_parameters = 3000, largest_series = 20000, steps_beyond = 1 };
+static const double least_share = 0.5; /* of the work, for the number of integrals where their rank is known already */
 
 /* ---- the number ---- */
 
@@ -145,7 +146,7 @@ static outcome count_degree(nh_counter *c, size_t degree, nh_count_row *out)
         if (o == TOO_MUCH) break;
         *out = row;
         any = row.bounded;
-        if (row.complete || row.functions || row.settled) break;
+        if (row.complete || row.settled || (row.functions && c->work > least_share * c->q->work)) break;
     }
     return any ? COUNTED : TOO_MUCH;
 }
@@ -217,8 +218,11 @@ static void register_known(nh_counter *c)
             slope[i] = nh_diff(x->dag, e, x->w[i]);
             good = nh_jet_equations_take(x, false, &slope[i]);
         }
-        if (good) c->current[c->known++] = e;
-        else x->obstacle = x->point->obstacle = NULL, x->point->kernels = kernels;
+        if (good) {
+            c->index[c->known] = k;
+            c->current[c->known++] = e;
+        }
+        if (!good) x->obstacle = x->point->obstacle = NULL, x->point->kernels = kernels;
     }
 }
 
@@ -227,6 +231,7 @@ void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_questi
     *c = (nh_counter){.q = question, .equations = nh_jet_equations_create(model, question->time, question->generic)};
     c->current = nh_alloc_array(question->known + 1, sizeof *c->current);
     c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);
+    c->index = nh_alloc_array(question->known + 1, sizeof *c->index);
     c->failed = nh_alloc_array(question->known + 1, sizeof *c->failed);
     c->slope = nh_alloc_array(question->known * model->n + 1, sizeof *c->slope);
     if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_prime_at(0))) c->equations->obstacle = "functions that may be related to each other";
@@ -239,6 +244,7 @@ void nh_counter_close(nh_counter *c)
     nh_jet_equations_free(c->equations);
     nh_free(c->slope);
     nh_free(c->failed);
+    nh_free(c->index);
     nh_free(c->degree);
     nh_free(c->current);
 }

@@ -51,6 +51,16 @@ typedef struct {
     const nh_ex *current;   /* integrals in t, q, w: what is not polynomial in the velocities is left out */
 } nh_count_question;
 
+/* Products of integrals that are linearly dependent: exponents of the question's integrals, products of lower degree first, the last one the leading one. */
+typedef struct {
+    size_t terms;
+    uint8_t *exponent;      /* terms x known */
+} nh_count_relation;
+
+/* Relations of at most this degree in the velocities, modulo a prime, among currents that are polynomials in the velocities; without those that follow from leading
+ * products of before.  At most `most` are written into out; none when there are too many products. */
+size_t nh_count_relations(const nh_model *model, size_t known, const nh_ex *current, size_t degree, nh_arena *arena, size_t most, nh_count_relation *out);
+
 /* Behind the deadline (base/progress.h) what comes out is of no use. */
 nh_count nh_count_integrals(const nh_model *model, const nh_count_question *question);
 

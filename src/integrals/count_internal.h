@@ -10,6 +10,7 @@ typedef struct {
     nh_jet_equations *equations;
     nh_adapted_frame *frame;
     size_t known, *degree;   /* 0: not polynomial in the velocities, or depending on a time that is no coordinate */
+    size_t *index;           /* which of the question's they are */
     size_t *failed;          /* at how many points they could not be evaluated */
     nh_ex *current, *slope;  /* slope: d current/d w, n each */
     double work;
@@ -48,6 +49,37 @@ void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known
 
 /* Find the degrees of the known integrals, and leave out those without values.  False: another point is needed. */
 bool nh_count_take_known(nh_counter *counter);
+
+/* Their products up to a degree, 1 first; none when they are too many. */
+typedef struct {
+    size_t count;
+    uint8_t *exponent; /* count x known */
+} nh_count_monomials;
+
+nh_count_monomials nh_count_monomials_list(const nh_counter *counter, size_t degree);
+void nh_count_monomials_clear(nh_count_monomials *products);
+
+/* Random linear functionals of polynomials in the velocities whose coefficients are series: each takes its own velocities and combines the first coefficients. */
+typedef struct {
+    size_t count, n, size; /* size: of the series */
+    nh_residue *w, *factor; /* count x n; count x size */
+} nh_count_functionals;
+
+nh_count_functionals nh_count_functionals_create(const nh_jet_ring *ring, size_t n, size_t count, uint64_t seed);
+void nh_count_functionals_clear(nh_count_functionals *functionals);
+
+/* Their values on products (count x functionals, false as above), and on solutions whose series may be longer (N x functionals). */
+bool nh_count_product_values(nh_counter *counter, const nh_jet_ring *ring, const nh_residue *coordinate, const nh_count_monomials *products, const nh_count_functionals *functionals, nh_residue *out);
+void nh_count_solution_values(const nh_graded_count *count, const nh_jet_ring *ring, const nh_count_functionals *functionals, nh_residue *out);
+
+/* A subspace that grows row by row. */
+typedef struct {
+    size_t width, rows, capacity;
+    nh_residue *row;
+} nh_count_space;
+
+/* Does it grow? */
+bool nh_count_space_add(nh_count_space *rows, nh_prime field, const nh_residue *row);
 
 /* The rank of their products up to a degree; row->known and row->lower.  False as above. */
 bool nh_count_products(nh_counter *counter, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, nh_count_row *row);

@@ -1,11 +1,10 @@
-/* Lower bounds for the count: ranks modulo the prime of products of known integrals and of their differentials. */
+/* Known integrals: their degrees, and the rank of their differentials modulo the prime. */
 #include <flint/nmod_mat.h>
 #include <string.h>
 
-#include "base/progress.h"
 #include "integrals/count_internal.h"
 
-enum { most_products = 3000, spare_columns = 8, most_failures = 40 };
+enum { most_failures = 40 };
 
 /* ---- known integrals ---- */
 
@@ -41,6 +40,7 @@ static void move_known(nh_counter *c, size_t to, size_t from)
 {
     size_t n = c->equations->n;
     c->failed[to] = c->failed[from];
+    c->index[to] = c->index[from];
     c->current[to] = c->current[from];
     memmove(c->slope + to * n, c->slope + from * n, n * sizeof *c->slope);
 }
@@ -72,95 +72,6 @@ bool nh_count_take_known(nh_counter *c)
     c->known = kept;
     nh_jet_ring_free(ring);
     nh_free(one);
-    return good;
-}
-
-/* Exponents of all products up to a degree, the empty one first: `known` numbers each; 0 when they are too many. */
-static size_t list_products(const nh_counter *c, size_t degree, uint8_t *out)
-{
-    uint8_t *e = nh_alloc(c->known + 1);
-    size_t count = 0;
-    for (bool more = true; more && count <= most_products;) {
-        if (out) memcpy(out + count * c->known, e, c->known);
-        count++;
-        size_t i = 0, sum = 0;
-        for (size_t k = 0; k < c->known; k++) sum += e[k] * c->degree[k];
-        while (i < c->known && (!c->degree[i] || sum + c->degree[i] > degree)) sum -= e[i] * c->degree[i], e[i++] = 0;
-        more = i < c->known;
-        if (more) e[i]++;
-    }
-    nh_free(e);
-    return count <= most_products ? count : 0;
-}
-
-/* All products at one choice of velocities, each from one that came before by a factor. */
-static void multiply_products(const nh_jet_ring *ring, size_t known, size_t count, const uint8_t *exponent, const nh_residue *phi, nh_residue *out)
-{
-    uint8_t *less = nh_alloc(known + 1);
-    nh_jet_constant(ring, 1, out);
-    for (size_t p = 1; p < count; p++) {
-        size_t k = 0, before = p;
-        while (!exponent[p * known + k]) k++;
-        memcpy(less, exponent + p * known, known);
-        less[k]--;
-        while (before-- > 0 && memcmp(exponent + before * known, less, known) != 0) {}
-        nh_jet_mul(ring, out + before * ring->size, phi + k * ring->size, out + p * ring->size);
-    }
-    nh_free(less);
-}
-
-/* The rank of those rows that are no current of this degree by itself. */
-static size_t lower_rank(const nh_counter *c, const nmod_mat_t rows, const uint8_t *exponent, size_t degree)
-{
-    size_t count = (size_t)nmod_mat_nrows(rows), kept = 0;
-    nmod_mat_t lower;
-    nmod_mat_init(lower, nmod_mat_nrows(rows), nmod_mat_ncols(rows), rows->mod.n);
-    for (size_t p = 0; p < count; p++) {
-        bool own = false;
-        for (size_t k = 0; k < c->known; k++) own |= exponent[p * c->known + k] && c->degree[k] == degree;
-        for (slong j = 0; j < nmod_mat_ncols(rows) && !own; j++) nmod_mat_entry(lower, kept, j) = nmod_mat_entry(rows, p, j);
-        kept += !own;
-    }
-    size_t rank = (size_t)nmod_mat_rank(lower);
-    nmod_mat_clear(lower);
-    return rank;
-}
-
-/* The rank of the products modulo the prime: each column is a random combination of their Taylor coefficients at random velocities. */
-bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, nh_count_row *out)
-{
-    nh_jet_equations *x = c->equations;
-    size_t count = list_products(c, degree, NULL), columns = count + spare_columns;
-    out->known = out->lower = 1;
-    if (!count || !c->known) return true;
-    uint8_t *exponent = nh_alloc(count * c->known + 1);
-    list_products(c, degree, exponent);
-    nh_residue *phi = nh_alloc_array(c->known * ring->size, sizeof *phi), *product = nh_alloc_array(count * ring->size, sizeof *product), *w = nh_alloc_array(x->n + 1, sizeof *w);
-    uint64_t random = 1234567 + degree;
-    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
-    nmod_mat_t rows;
-    nmod_mat_init(rows, (slong)count, (slong)columns, ring->field.p);
-    bool good = true;
-    for (size_t j = 0; j < columns && good && !nh_late(); j++) {
-        for (size_t i = 0; i < x->n; i++) w[i] = nh_residue_random(ring->field, &random);
-        nh_jet_equations_velocities(x, v, ring, w);
-        good = nh_jet_eval_all(v, c->known, c->current, phi);
-        if (good) multiply_products(ring, c->known, count, exponent, phi, product);
-        for (size_t e = 0; e < ring->size; e++) {
-            nh_residue factor = nh_residue_random(ring->field, &random);
-            for (size_t p = 0; p < count; p++)
-                nmod_mat_entry(rows, p, j) = nh_residue_add(ring->field, (nh_residue)nmod_mat_entry(rows, p, j), nh_residue_mul(ring->field, factor, product[p * ring->size + e]));
-        }
-        c->work += (double)count * (double)ring->pairs[ring->size];
-    }
-    out->known = (size_t)nmod_mat_rank(rows);
-    out->lower = lower_rank(c, rows, exponent, degree);
-    nmod_mat_clear(rows);
-    nh_jet_eval_free(v);
-    nh_free(w);
-    nh_free(product);
-    nh_free(phi);
-    nh_free(exponent);
     return good;
 }
 

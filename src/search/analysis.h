@@ -67,7 +67,18 @@ typedef struct {
     bool rank_in_doubt;
 } nh_spectrum;
 
-enum { NH_MOST_ALMOST = 6, NH_MOST_PIECES = 6 };
+enum { NH_MOST_ALMOST = 6, NH_MOST_PIECES = 6, NH_MOST_FURTHER = 24, NH_MOST_RELATIONS = 24 };
+
+/* "Phi6^2" and what it is equal to. */
+typedef struct {
+    const char *left, *right;
+} nh_further_relation;
+
+/* An integral that the others determine, and that is needed to write all as polynomials. */
+typedef struct {
+    nh_current current;
+    size_t degree;            /* in the velocities */
+} nh_further_integral;
 
 /* What kept something out, and from which value on it would not; option: NULL: nothing did. */
 typedef struct {
@@ -140,6 +151,10 @@ struct nh_analysis {
     nh_current *found;
     size_t pieces;            /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
     nh_current *piece;
+    size_t furthers;         /* polynomial in the velocities, functions of the currents found, but no polynomials in them: not counted; at most NH_MOST_FURTHER */
+    nh_further_integral *further;
+    size_t relations;         /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
+    nh_further_relation *relation;
     size_t almosts;           /* nearly conserved, found by the way: at most NH_MOST_ALMOST */
     nh_near_current *almost;
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */

@@ -6,15 +6,23 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "integrals/construct.h"
+#include "integrals/echelon.h"
+#include "search/relations.h"
 #include "search/stage_solver.h"
 
 /* ---- the count ---- */
 
-/* What is proved, in closed form. */
+/* What is proved, in closed form, and room for it. */
+static size_t most_proved(const nh_analysis *r) { return r->count + r->furthers + 1; }
+
 static size_t proved(const nh_analysis *r, nh_ex *phi, bool *general)
 {
     size_t n = 0;
     *general = true;
+    for (size_t k = 0; k < r->furthers; k++) {
+        phi[n++] = r->further[k].current.phi;
+        *general &= r->further[k].current.proof.all_parameters;
+    }
     for (size_t k = 0; k < r->count; k++) {
         if (!r->found[k].proof.proved || r->found[k].series) continue;
         phi[n++] = r->found[k].phi;
@@ -26,7 +34,7 @@ static size_t proved(const nh_analysis *r, nh_ex *phi, bool *general)
 /* What is proved is compared with how much there can be. */
 static void count(nh_analysis *r)
 {
-    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
+    nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .degree = (size_t)r->options.degree, .work = r->options.count_work};
     nh_progress("how many integrals there are", -1);
     q.known = proved(r, phi, &q.general);
@@ -84,8 +92,40 @@ static void take_back(search *s)
     }
 }
 
+/* A function of the currents found: it is checked as any other, and set apart. */
+static bool keep_further(search *s, size_t degree, nh_candidate *candidate, const nh_points *fit)
+{
+    nh_analysis *r = s->climb.r;
+    if (!nh_currents_add(s->climb.bench, candidate, fit, true)) return false;
+    nh_current *f = &r->found[--r->count];
+    if (!f->proof.proved || r->furthers == NH_MOST_FURTHER) return false;
+    if (!r->further) r->further = nh_arena_alloc(r->arena, NH_MOST_FURTHER * sizeof *r->further);
+    f->independence = NH_DEPENDENT;
+    r->further[r->furthers++] = (nh_further_integral){*f, degree};
+    return true;
+}
+
+/* Of the null vectors the one with the most complex term: what the others are made of is known. */
+static bool lift_further(search *s, size_t degree, const nh_family *all)
+{
+    nh_analysis *r = s->climb.r;
+    bool found = false;
+    nh_solved x = nh_stage_solver_solve(&s->climb, 1, all);
+    if (x.nullspace && x.nullspace->dimension) {
+        nh_candidates *list = nh_echelon(r->model, x.fit, x.ansatz, x.nullspace, x.nullspace->dimension, &r->options);
+        for (size_t k = 0; k < list->count && !found; k++) {
+            bool leads = false;
+            for (size_t j = 0; j < list->candidate[k].count; j++) leads |= list->candidate[k].term[j] == all->term[0];
+            found = leads && keep_further(s, degree, &list->candidate[k], x.fit);
+        }
+        nh_candidates_free(list);
+    }
+    nh_solved_clear(&x);
+    return found;
+}
+
 /* Is the list of its terms that of a current? */
-static bool lift(search *s, size_t degree, const nh_constructed *c)
+static bool lift(search *s, size_t degree, const nh_constructed *c, bool further)
 {
     nh_analysis *r = s->climb.r;
     nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
@@ -95,34 +135,53 @@ static bool lift(search *s, size_t degree, const nh_constructed *c)
     *all = (nh_family){.kind = NH_TERMS, .terms = c->terms, .term = term};
     s->climb.wide = true;
     nh_stage_solver_stage(&s->climb, nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree), 1, all);
-    return r->count > before;
+    return r->count > before || (further && lift_further(s, degree, all));
 }
 
+static bool is_over(const search *s, bool further) { return further ? nh_budget_spent() || nh_late() || s->climb.r->furthers == NH_MOST_FURTHER : nh_stage_solver_done(&s->climb); }
+
 /* Words of one price. */
-static bool construct_at(search *s, const nh_completeness *c, double price, bool *more)
+static bool construct_at(search *s, const nh_completeness *c, bool further, bool secular, double price, bool *more)
 {
     nh_analysis *r = s->climb.r;
-    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
+    size_t degree = further ? c->incomplete_at : c->missing_at;
+    nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     bool general, found = false;
-    nh_construct_question q = {.time = c->count.time, .degree = c->missing_at, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
+    nh_construct_question q = {.time = c->count.time, .further = further, .secular = secular, .degree = degree, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
     q.known = proved(r, phi, &general);
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
-    *more = !x->limited && x->recognised < x->dimension;
-    for (size_t k = 0; k < x->count && !nh_stage_solver_done(&s->climb); k++) found |= lift(s, c->missing_at, &x->item[k]);
+    for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
+    *more = !x->limited && (x->recognised < x->dimension || x->count); /* what could not be proved may have a simpler form in dearer words */
     nh_construction_free(x);
     nh_free(phi);
     return found;
 }
 
-/* Of one kind: words become dearer until something is found. */
-static bool construct(search *s, const nh_completeness *c)
+/* Of the kind that comes first: time in the coefficients of a system without it gives functions of these. */
+static bool lacks_further(const nh_analysis *r)
 {
-    double dearest = c->count.time ? 6 : 16; /* in t alone most are no words but waves */
-    bool found = false, more = c->counted && c->missing_at && c->missing && (c->settled || !c->count.time); /* in time a number that is not settled is mostly far too large */
-    s->work = s->climb.r->options.construct;
-    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !nh_stage_solver_done(&s->climb); price += price < 4 ? 1 : 2) found = construct_at(s, c, price, &more);
+    const nh_completeness *c = &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME];
+    return c->counted && c->incomplete_at && c->count.row[c->incomplete_at - 1].settled;
+}
+
+/* Words become dearer until something is found. */
+static bool construct_up_to(search *s, const nh_completeness *c, bool further, bool secular, double dearest, double work)
+{
+    bool found = false, more = true;
+    s->work = work;
+    for (double price = 2; more && !found && price <= dearest && s->work > 0 && !is_over(s, further); price += price < 4 ? 1 : 2) found = construct_at(s, c, further, secular, price, &more);
     return found;
+}
+
+/* Of one kind.  In t alone most coefficients are no words but waves, and a number that is not settled is mostly far too large. */
+static bool construct(search *s, const nh_completeness *c, bool further)
+{
+    static const double part = 0.25; /* of the work, for what the currents found determine, and for functions that are rare */
+    double dearest = c->count.time ? 6 : 16, dearest_secular = 6, work = s->climb.r->options.construct * (further ? part : 1);
+    bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time));
+    if (!wanted) return false;
+    return construct_up_to(s, c, further, false, dearest, work) || (!c->count.time && construct_up_to(s, c, further, true, dearest_secular, part * work));
 }
 
 static bool is_missing(const nh_analysis *r)
@@ -141,15 +200,18 @@ static void look(nh_analysis *r)
     nh_progress("integrals that the count misses", -1);
     nh_budget_begin(r->options.work);
     set_aside(&s);
-    for (bool found = true; found && is_missing(r) && !nh_stage_solver_done(&s.climb);) {
+    for (bool found = true; found && !nh_late();) {
         found = false;
-        for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++) found = construct(&s, &r->completeness[i]);
+        for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++) found = construct(&s, &r->completeness[i], false);
+        if (!found && lacks_further(r)) found = construct(&s, &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME], true);
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
         if (found) count(r);
     }
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.climb.bench);
+    for (size_t k = 0; k < r->furthers; k++) r->further[k].current.name = nh_arena_printf(r->arena, "Phi%zu", r->count + r->pieces + k + 1);
+    if (r->furthers) nh_relations_find(r);
     nh_stage_solver_end(&s.climb);
     bool all = r->independent >= r->local_maximum;
     if (all || r->search == NH_SEARCH_COMPLETE) r->search = all ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
@@ -158,6 +220,6 @@ static void look(nh_analysis *r)
 void nh_missing_count(nh_analysis *r, bool construct)
 {
     count(r);
-    if (construct && r->options.construct > 0 && is_missing(r) && !nh_late()) look(r);
+    if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r)) && !nh_late()) look(r);
     check(r);
 }

@@ -1,0 +1,179 @@
+/* Products of known integrals as vectors modulo the prime: values of random linear functionals, the same ones for products and for solutions of the count. */
+#include <flint/nmod_mat.h>
+#include <string.h>
+
+#include "base/progress.h"
+#include "integrals/count_internal.h"
+
+enum { most_products = 3000, spare_columns = 8 };
+
+/* Exponents of all products up to a degree, the empty one first: `known` numbers each; 0 when they are too many. */
+static size_t list(const nh_counter *c, size_t degree, uint8_t *out)
+{
+    uint8_t *e = nh_alloc(c->known + 1);
+    size_t count = 0;
+    for (bool more = true; more && count <= most_products;) {
+        if (out) memcpy(out + count * c->known, e, c->known);
+        count++;
+        size_t i = 0, sum = 0;
+        for (size_t k = 0; k < c->known; k++) sum += e[k] * c->degree[k];
+        while (i < c->known && (!c->degree[i] || sum + c->degree[i] > degree)) sum -= e[i] * c->degree[i], e[i++] = 0;
+        more = i < c->known;
+        if (more) e[i]++;
+    }
+    nh_free(e);
+    return count <= most_products ? count : 0;
+}
+
+nh_count_monomials nh_count_monomials_list(const nh_counter *c, size_t degree)
+{
+    nh_count_monomials p = {.count = list(c, degree, NULL)};
+    p.exponent = nh_alloc(p.count * c->known + 1);
+    if (p.count) list(c, degree, p.exponent);
+    return p;
+}
+
+void nh_count_monomials_clear(nh_count_monomials *p) { nh_free(p->exponent); }
+
+/* All products at one choice of velocities, each from one that came before by a factor. */
+static void multiply_products(const nh_jet_ring *ring, size_t known, size_t count, const uint8_t *exponent, const nh_residue *phi, nh_residue *out)
+{
+    uint8_t *less = nh_alloc(known + 1);
+    nh_jet_constant(ring, 1, out);
+    for (size_t p = 1; p < count; p++) {
+        size_t k = 0, before = p;
+        while (!exponent[p * known + k]) k++;
+        memcpy(less, exponent + p * known, known);
+        less[k]--;
+        while (before-- > 0 && memcmp(exponent + before * known, less, known) != 0) {}
+        nh_jet_mul(ring, out + before * ring->size, phi + k * ring->size, out + p * ring->size);
+    }
+    nh_free(less);
+}
+
+/* ---- functionals ---- */
+
+nh_count_functionals nh_count_functionals_create(const nh_jet_ring *ring, size_t n, size_t count, uint64_t seed)
+{
+    nh_count_functionals f = {.count = count, .n = n, .size = ring->size};
+    f.w = nh_alloc_array(count * n + 1, sizeof *f.w);
+    f.factor = nh_alloc_array(count * ring->size + 1, sizeof *f.factor);
+    for (size_t i = 0; i < count * n; i++) f.w[i] = nh_residue_random(ring->field, &seed);
+    for (size_t i = 0; i < count * ring->size; i++) f.factor[i] = nh_residue_random(ring->field, &seed);
+    return f;
+}
+
+void nh_count_functionals_clear(nh_count_functionals *f)
+{
+    nh_free(f->factor);
+    nh_free(f->w);
+}
+
+/* Of a series at the velocities of functional j. */
+static nh_residue apply(const nh_count_functionals *f, size_t j, const nh_jet_ring *ring, const nh_residue *series)
+{
+    nh_residue sum = 0;
+    for (size_t e = 0; e < f->size; e++) sum = nh_residue_add(ring->field, sum, nh_residue_mul(ring->field, f->factor[j * f->size + e], series[e]));
+    return sum;
+}
+
+bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, const nh_count_monomials *p, const nh_count_functionals *f, nh_residue *out)
+{
+    nh_jet_equations *x = c->equations;
+    nh_residue *phi = nh_alloc_array(c->known * ring->size + 1, sizeof *phi), *product = nh_alloc_array(p->count * ring->size, sizeof *product);
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
+    bool good = true;
+    for (size_t j = 0; j < f->count && good && !nh_late(); j++) {
+        nh_jet_equations_velocities(x, v, ring, f->w + j * f->n);
+        good = c->known == 0 || nh_jet_eval_all(v, c->known, c->current, phi);
+        if (good) multiply_products(ring, c->known, p->count, p->exponent, phi, product);
+        for (size_t i = 0; i < p->count && good; i++) out[i * f->count + j] = apply(f, j, ring, product + i * ring->size);
+        c->work += (double)p->count * (double)ring->pairs[ring->size];
+    }
+    nh_jet_eval_free(v);
+    nh_free(product);
+    nh_free(phi);
+    return good;
+}
+
+/* sum over alpha of c_alpha w^alpha, of which the first coefficients count. */
+void nh_count_solution_values(const nh_graded_count *g, const nh_jet_ring *ring, const nh_count_functionals *f, nh_residue *out)
+{
+    size_t N = g->total[g->order];
+    memset(out, 0, N * f->count * sizeof *out);
+    for (size_t j = 0; j < f->count; j++)
+        for (size_t a = 0; a < g->alphas; a++) {
+            nh_residue power = 1;
+            for (size_t i = 0; i < f->n; i++) power = nh_residue_mul(ring->field, power, nh_residue_power(ring->field, f->w[j * f->n + i], g->alpha[a * f->n + i]));
+            for (size_t e = 0; e < f->size; e++) {
+                nh_residue factor = nh_residue_mul(ring->field, power, f->factor[j * f->size + e]);
+                const nh_residue *c = g->series + (a * ring->size + e) * N;
+                for (size_t s = 0; s < N; s++) out[s * f->count + j] = nh_residue_add(ring->field, out[s * f->count + j], nh_residue_mul(ring->field, factor, c[s]));
+            }
+        }
+}
+
+/* ---- how many are independent ---- */
+
+/* The rank of those rows that are no current of this degree by itself. */
+static size_t lower_rank(const nh_counter *c, const nmod_mat_t rows, const uint8_t *exponent, size_t degree)
+{
+    size_t count = (size_t)nmod_mat_nrows(rows), kept = 0;
+    nmod_mat_t lower;
+    nmod_mat_init(lower, nmod_mat_nrows(rows), nmod_mat_ncols(rows), rows->mod.n);
+    for (size_t p = 0; p < count; p++) {
+        bool own = false;
+        for (size_t k = 0; k < c->known; k++) own |= exponent[p * c->known + k] && c->degree[k] == degree;
+        for (slong j = 0; j < nmod_mat_ncols(rows) && !own; j++) nmod_mat_entry(lower, kept, j) = nmod_mat_entry(rows, p, j);
+        kept += !own;
+    }
+    size_t rank = (size_t)nmod_mat_rank(lower);
+    nmod_mat_clear(lower);
+    return rank;
+}
+
+/* The rank of the products modulo the prime. */
+bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, nh_count_row *out)
+{
+    nh_count_monomials p = nh_count_monomials_list(c, degree);
+    out->known = out->lower = 1;
+    if (!p.count || !c->known) {
+        nh_count_monomials_clear(&p);
+        return true;
+    }
+    nh_count_functionals f = nh_count_functionals_create(ring, c->equations->n, p.count + spare_columns, 1234567 + degree);
+    nh_residue *value = nh_alloc_array(p.count * f.count, sizeof *value);
+    bool good = nh_count_product_values(c, ring, coordinate, &p, &f, value);
+    nmod_mat_t rows;
+    nmod_mat_init(rows, (slong)p.count, (slong)f.count, ring->field.p);
+    for (size_t i = 0; i < p.count * f.count; i++) nmod_mat_entry(rows, i / f.count, i % f.count) = value[i];
+    out->known = (size_t)nmod_mat_rank(rows);
+    out->lower = lower_rank(c, rows, p.exponent, degree);
+    nmod_mat_clear(rows);
+    nh_free(value);
+    nh_count_functionals_clear(&f);
+    nh_count_monomials_clear(&p);
+    return good;
+}
+
+/* ---- a growing subspace ---- */
+
+bool nh_count_space_add(nh_count_space *x, nh_prime field, const nh_residue *row)
+{
+    nh_grow(&x->row, &x->capacity, (x->rows + 1) * x->width + 1, sizeof *x->row);
+    nh_residue *own = x->row + x->rows * x->width;
+    memcpy(own, row, x->width * sizeof *own);
+    for (size_t i = 0; i < x->rows; i++) {
+        const nh_residue *other = x->row + i * x->width;
+        size_t at = 0;
+        while (!other[at]) at++; /* one there */
+        if (own[at]) nh_residue_add_multiple(field, x->width, own, other, nh_residue_sub(field, 0, own[at]));
+    }
+    size_t at = 0;
+    while (at < x->width && !own[at]) at++;
+    if (at == x->width) return false;
+    nh_residue scale = nh_residue_inverse(field, own[at]);
+    for (size_t j = at; j < x->width; j++) own[j] = nh_residue_mul(field, own[j], scale);
+    x->rows++;
+    return true;
+}

@@ -1,0 +1,80 @@
+/* Relations as text, with exact coefficients. */
+#include "search/relations.h"
+
+#include "base/progress.h"
+#include "exact/normal.h"
+#include "exact/relation.h"
+#include "graph/print.h"
+
+typedef struct {
+    nh_analysis *r;
+    size_t count;
+    nh_ex *phi, *symbol;
+} ring;
+
+static void put(ring *x, const nh_current *f)
+{
+    if (!f->proof.proved || f->series) return;
+    x->symbol[x->count] = nh_symbol_fresh(x->r->model->dag, f->name);
+    x->phi[x->count++] = f->phi;
+}
+
+static nh_ex product(nh_dag *d, size_t n, const nh_ex *factor, const uint8_t *exponent)
+{
+    nh_ex e = nh_int(d, 1);
+    for (size_t k = 0; k < n; k++) e = nh_mul(d, e, nh_powi(d, factor[k], exponent[k]));
+    return e;
+}
+
+/* The leading product in terms of the others.  False: the coefficients are not found. */
+static bool exact(const ring *x, const nh_count_relation *q, nh_further_relation *out)
+{
+    nh_analysis *r = x->r;
+    nh_dag *d = r->model->dag;
+    nh_ex *value = nh_alloc_array(q->terms + 1, sizeof *value), *name = nh_alloc_array(q->terms + 1, sizeof *name), *c = nh_alloc_array(q->terms + 1, sizeof *c);
+    for (size_t i = 0; i < q->terms; i++) {
+        value[i] = product(d, x->count, x->phi, q->exponent + i * x->count);
+        name[i] = product(d, x->count, x->symbol, q->exponent + i * x->count);
+    }
+    size_t last = q->terms - 1;
+    bool found = nh_relation_find(d, q->terms, value, r->system->parameters, r->model->parameter, (size_t)r->options.proof_terms, c) == NH_RELATION_UNIQUE;
+    found = found && !nh_is_zero(d, c[last]);
+    if (found) {
+        nh_ex right = nh_int(d, 0);
+        for (size_t i = 0; i < last; i++) right = nh_sub(d, right, nh_mul(d, nh_simplify(d, nh_div(d, c[i], c[last])), name[i]));
+        char *lhs = nh_print_string(d, name[last]), *rhs = nh_print_string(d, right);
+        *out = (nh_further_relation){nh_arena_strdup(r->arena, lhs), nh_arena_strdup(r->arena, rhs)};
+        nh_free(rhs);
+        nh_free(lhs);
+    }
+    nh_free(c);
+    nh_free(name);
+    nh_free(value);
+    return found;
+}
+
+static size_t highest(const nh_analysis *r)
+{
+    size_t degree = 0;
+    for (size_t k = 0; k < r->furthers; k++)
+        if (r->further[k].degree > degree) degree = r->further[k].degree;
+    return degree;
+}
+
+void nh_relations_find(nh_analysis *r)
+{
+    enum { longest = 60 };
+    size_t room = r->count + r->furthers + 1;
+    ring x = {.r = r, .phi = nh_alloc_array(room, sizeof(nh_ex)), .symbol = nh_alloc_array(room, sizeof(nh_ex))};
+    nh_count_relation found[NH_MOST_RELATIONS];
+    for (size_t k = 0; k < r->count; k++) put(&x, &r->found[k]);
+    for (size_t k = 0; k < r->furthers; k++) put(&x, &r->further[k].current);
+    size_t n = 0;
+    for (size_t degree = 2 * highest(r); degree > 0 && n == 0; degree--) /* lower where there are too many products */
+        n = nh_count_relations(r->model, x.count, x.phi, degree, r->arena, NH_MOST_RELATIONS, found);
+    r->relation = nh_arena_alloc(r->arena, (n + 1) * sizeof *r->relation);
+    for (size_t i = 0; i < n && !nh_late(); i++)
+        if (found[i].terms > 1 && found[i].terms <= longest) r->relations += exact(&x, &found[i], &r->relation[r->relations]);
+    nh_free(x.symbol);
+    nh_free(x.phi);
+}
