@@ -477,3 +477,370 @@ Test(theory, the_geometry_is_80_columns_wide_and_there_when_it_is_wanted)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* ---- the reduction ---- */
+
+#include "base/linalg.h"
+
+/* A stage of `reduce --equations` as JSON, and how its expressions are evaluated: at (q, q', w, nu). */
+typedef struct {
+    place p;
+    nh_system *system;
+    cJSON *root;
+    const cJSON *stage, *geometry;
+    size_t names;
+    nh_named name[40];      /* velocities of the group and of S: symbols of their own */
+    size_t symbols;
+    nh_ex symbol[80];
+    double value[80];
+} reduced_sheet;
+
+static reduced_sheet reduced_of(const char *file, size_t settings, const nh_setting *setting, const char *line, size_t stage)
+{
+    reduced_sheet s = {.p = place_make()};
+    nh_error error = {0};
+    char whole[2 * PATH_MAX], command[600], number[24][60], *argument[96] = {s.p.program};
+    size_t count = 1;
+    snprintf(whole, sizeof whole, "%s/%s", s.p.project, file);
+    copy_here(&s.p, whole, "system.yaml");
+    snprintf(command, sizeof command, "reduce system.yaml --equations --until 0.01 --quiet --json=r.json%s", line);
+    cut_words(command, argument, count);
+    while (argument[count]) count++;
+    for (size_t i = 0; i < settings; i++) {
+        snprintf(number[i], sizeof number[i], "%s=%.17g", setting[i].name, setting[i].value);
+        argument[count++] = "--set";
+        argument[count++] = number[i];
+    }
+    finished f = run_vector(&s.p, &(manner){0}, argument);
+    cr_assert_eq(f.code, 0, "%s: %s%s", file, f.out, f.err);
+    finished_clear(&f);
+    char *json = read_here(&s.p, "r.json");
+    s.root = cJSON_Parse(json);
+    free(json);
+    s.stage = cJSON_GetArrayItem(oracle_get(s.root, "stages"), (int)stage);
+    s.geometry = oracle_get(s.stage, "geometry");
+    s.system = nh_system_read(file, settings, setting, &error);
+    must(s.system != NULL, &error, file);
+    for (size_t i = 0; i < s.system->coordinates; i++) {
+        s.symbol[s.symbols++] = s.system->coordinate[i].q;
+        s.symbol[s.symbols++] = s.system->coordinate[i].v;
+    }
+    return s;
+}
+
+static void reduced_clear(reduced_sheet *s)
+{
+    cJSON_Delete(s->root);
+    nh_system_free(s->system);
+    place_clear(&s->p);
+}
+
+/* A name that the system file does not have. */
+static size_t own_name(reduced_sheet *s, const char *text)
+{
+    nh_ex e = nh_symbol(s->system->dag, text);
+    s->name[s->names++] = (nh_named){.name = text, .value = e};
+    s->symbol[s->symbols] = e;
+    return s->symbols++;
+}
+
+static double value_of(const reduced_sheet *s, const char *text)
+{
+    nh_error error = {0};
+    nh_ex e;
+    const nh_ex *parameter;
+    const double *numbers;
+    double out;
+    must(nh_system_expression_text(s->system, "test", text, s->names, s->name, &e, &error), &error, text);
+    nh_system_bindings(s->system, &parameter, &numbers);
+    nh_tape *tape = nh_tape_create(s->system->dag, s->symbols, s->symbol, 1, &e, s->system->parameters, parameter, numbers);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, s->value, &out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return out;
+}
+
+/* The coefficient of a factor in the line with this label; 0 where there is none. */
+static double shown_value(const reduced_sheet *s, const char *section, const char *label, const char *of)
+{
+    const cJSON *line, *term;
+    cJSON_ArrayForEach(line, cJSON_GetObjectItem(s->geometry, section)) {
+        if (strcmp(text_of(line, "label"), label)) continue;
+        if (!of[0] && cJSON_GetObjectItem(line, "expression")) return value_of(s, text_of(line, "expression"));
+        cJSON_ArrayForEach(term, cJSON_GetObjectItem(line, "terms"))
+            if (!strcmp(text_of(term, "of"), of)) return value_of(s, text_of(term, "coefficient"));
+    }
+    return 0;
+}
+
+static void set_state(reduced_sheet *s, const double *q, const double *v)
+{
+    for (size_t i = 0; i < s->system->coordinates; i++) s->value[2 * i] = q[i], s->value[2 * i + 1] = v[i];
+}
+
+static size_t crane_settings(const cJSON *set, nh_setting *setting)
+{
+    const cJSON *parameter;
+    size_t n = 0;
+    cJSON_ArrayForEach(parameter, oracle_get(set, "params")) setting[n++] = (nh_setting){.name = parameter->string, .value = parameter->valuedouble};
+    return n;
+}
+
+static const char *const BASE[4] = {"psi1", "psi2", "phi1", "phi2"}; /* the order of the data */
+
+/* Khat, Upsilon, H(x, p) and the momenta of the group, of the first stage. */
+Test(theory, first_stage_of_the_crane_as_printed_is_the_tabulated_one)
+{
+    cJSON *data = oracle_read("tests/data/crane_oracle.json");
+    const cJSON *set = oracle_get(data, "sets")->child, *point;
+    nh_setting setting[20];
+    size_t n = crane_settings(set, setting);
+    reduced_sheet s = reduced_of("systems/crane.yaml", n, setting, " --group 1,2,5,6", 0);
+    tally t[4] = {{.what = "Khat"}, {.what = "Upsilon12"}, {.what = "kinetic energy"}, {.what = "lift"}};
+    cJSON_ArrayForEach(point, oracle_get(set, "points")) {
+        double q[8], v[8], want[16], got[16], p[4], sum = 0, energy = 0;
+        char label[80];
+        oracle_flat(oracle_get(point, "q_full"), q);
+        oracle_flat(oracle_get(point, "qdot_full"), v);
+        set_state(&s, q, v);
+        for (size_t i = 0; i < 16; i++) {
+            snprintf(label, sizeof label, "Khat_%s,%s", BASE[i / 4], BASE[i % 4]);
+            got[i] = shown_value(&s, "hamiltonian", label, "");
+            snprintf(label, sizeof label, "Khat_%s,%s", BASE[i % 4], BASE[i / 4]);
+            if (got[i] == 0) got[i] = shown_value(&s, "hamiltonian", label, "");
+        }
+        oracle_flat(oracle_get(point, "Khat"), want);
+        tally_add(&t[0], 16, got, want, 0);
+        for (size_t k = 0; k < 4; k++) {
+            char speed[20];
+            snprintf(speed, sizeof speed, "%s'", BASE[k]);
+            sum += shown_value(&s, "gyroscopic_form", "Upsilon_psi1,psi2", speed) * value_of(&s, speed);
+        }
+        oracle_flat(oracle_get(point, "Upsilon12"), want);
+        tally_add(&t[1], 1, &sum, want, 0);
+        oracle_flat(oracle_get(point, "phat"), p); /* H = 1/2 p x' there: no potential */
+        sum = 0;
+        for (size_t i = 0; i < 4; i++) {
+            char speed[20];
+            snprintf(speed, sizeof speed, "%s'", BASE[i]);
+            energy += p[i] * value_of(&s, speed) / 2;
+            for (size_t j = 0; j < 4; j++) {
+                snprintf(label, sizeof label, i == j ? "p_%s^2" : "p_%s p_%s", BASE[i], BASE[j]);
+                sum += shown_value(&s, "hamiltonian", "Hhat", label) * p[i] * p[j];
+            }
+        }
+        tally_add(&t[2], 1, &sum, &energy, 0);
+        /* psi3' = -A^3 x' on the motion: e_3 of the list is d/dpsi3 */
+        got[0] = -shown_value(&s, "connection", "Ahat_psi1^3", "") * value_of(&s, "psi1'") - shown_value(&s, "connection", "Ahat_psi2^3", "") * value_of(&s, "psi2'");
+        want[0] = value_of(&s, "psi3'");
+        tally_add(&t[3], 1, got, want, 0);
+    }
+    for (int i = 0; i < 4; i++) tally_check(&t[i], TIGHT, "crane");
+    reduced_clear(&s);
+    cJSON_Delete(data);
+}
+
+Test(theory, second_stage_of_the_crane_as_printed_is_the_tabulated_one)
+{
+    cJSON *data = oracle_read("tests/data/crane_oracle.json");
+    const cJSON *set = oracle_get(data, "sets")->child, *point;
+    nh_setting setting[20];
+    size_t n = crane_settings(set, setting);
+    reduced_sheet s = reduced_of("systems/crane.yaml", n, setting, " --group 1,2,3,5,6", 1);
+    tally t = {.what = "Abreve, Xi"};
+    cJSON_ArrayForEach(point, oracle_get(set, "points")) {
+        double q[8], v[8], want[4], got[3];
+        oracle_flat(oracle_get(point, "q_full"), q);
+        oracle_flat(oracle_get(point, "qdot_full"), v);
+        set_state(&s, q, v);
+        got[0] = shown_value(&s, "mechanical_connection", "Abreve_psi1^1", "");
+        got[1] = shown_value(&s, "mechanical_connection", "Abreve_psi2^1", "");
+        got[2] = shown_value(&s, "hamiltonian", "Xi_psi1,psi2", "theta_1");
+        oracle_flat(oracle_get(point, "Abreve"), want);
+        want[2] = oracle_number(point, "Xi12_over_vartheta");
+        tally_add(&t, 3, got, want, 0);
+    }
+    tally_check(&t, TIGHT, "crane");
+    reduced_clear(&s);
+    cJSON_Delete(data);
+}
+
+/* ---- the whole group: the printed equations along the stage's own motion ---- */
+
+typedef struct {
+    reduced_sheet *s;
+    size_t n, r, d, dim;              /* shape, velocities, group, S */
+    size_t x[8], dx[8], w[12], nu[12]; /* places of the symbols; of dx: SIZE_MAX where x' is a velocity w already */
+    const cJSON *momentum, *equations, *velocity;
+} bundle;
+
+static size_t place_of(const reduced_sheet *s, const char *name)
+{
+    for (size_t i = 0; i < s->symbols; i++)
+        if (!strcmp(nh_name_of(s->system->dag, s->symbol[i]), name)) return i;
+    return SIZE_MAX;
+}
+
+static bundle bundle_of(reduced_sheet *s)
+{
+    static char names[12][12];
+    bundle b = {.s = s, .momentum = oracle_get(s->stage, "momentum"), .equations = oracle_get(s->stage, "equations"), .velocity = oracle_get(s->stage, "group_velocity")};
+    const cJSON *item;
+    cJSON_ArrayForEach(item, oracle_get(s->stage, "shape")) {
+        char speed[80];
+        snprintf(speed, sizeof speed, "%s'", item->valuestring);
+        b.x[b.n] = place_of(s, item->valuestring);
+        b.dx[b.n++] = place_of(s, speed);
+    }
+    cJSON_ArrayForEach(item, oracle_get(s->stage, "velocities")) {
+        size_t at = place_of(s, item->valuestring);
+        b.w[b.r++] = at < SIZE_MAX ? at : own_name(s, item->valuestring);
+    }
+    b.d = (size_t)cJSON_GetArraySize(b.velocity);
+    cJSON_ArrayForEach(item, oracle_get(s->geometry, "connection")) b.dim += !strncmp(text_of(item, "label"), "chi_", 4);
+    for (size_t p = 0; p < b.dim; p++) {
+        snprintf(names[p], sizeof names[p], "nu_%zu", p + 1);
+        b.nu[p] = own_name(s, names[p]);
+    }
+    return b;
+}
+
+static double numbered(const bundle *b, const char *section, const char *label, size_t i, const char *of, size_t j)
+{
+    char name[80], factor[80];
+    snprintf(name, sizeof name, "%s_%zu", label, i + 1);
+    snprintf(factor, sizeof factor, of[0] ? "%s_%zu" : "", of, j + 1);
+    return shown_value(b->s, section, name, factor);
+}
+
+/* (x, w) into the symbols, with x' where it is not one of w, and nu from zeta + A x' = nu chi; M (r x r), F and x' on demand. */
+static void bundle_state(const bundle *b, const double *x, const double *w, double *M, double *F, double *dx)
+{
+    reduced_sheet *s = b->s;
+    const cJSON *item;
+    for (size_t i = 0; i < b->n; i++) s->value[b->x[i]] = x[i];
+    for (size_t j = 0; j < b->r && M; j++) {
+        size_t i = 0;
+        for (size_t k = 0; k < b->r; k++) s->value[b->w[k]] = k == j;
+        cJSON_ArrayForEach(item, b->momentum) M[i++ + j * b->r] = value_of(s, text_of(item, "value"));
+    }
+    for (size_t k = 0; k < b->r; k++) s->value[b->w[k]] = w[k];
+    size_t at = 0;
+    cJSON_ArrayForEach(item, b->equations) {
+        size_t of = place_of(s, text_of(item, "of"));
+        for (size_t i = 0; i < b->n; i++)
+            if (of == b->x[i]) s->value[b->dx[i]] = value_of(s, text_of(item, "rate"));
+        if (of == SIZE_MAX && F) F[at++] = value_of(s, text_of(item, "rate"));
+    }
+    for (size_t i = 0; i < b->n && dx; i++) dx[i] = s->value[b->dx[i]];
+    double N[144] = {0}, right[12] = {0}, rcond;
+    for (size_t a = 0; a < b->d; a++) {
+        double v = value_of(s, text_of(cJSON_GetArrayItem(b->velocity, (int)a), "value"));
+        for (size_t i = 0; i < b->n; i++) {
+            char label[80];
+            snprintf(label, sizeof label, "A_%s^%zu", nh_name_of(s->system->dag, s->symbol[b->x[i]]), a + 1);
+            v += shown_value(s, "connection", label, "") * s->value[b->dx[i]];
+        }
+        for (size_t p = 0; p < b->dim; p++) {
+            right[p] += numbered(b, "connection", "chi", p, "e", a) * v;
+            for (size_t q = 0; q < b->dim; q++) N[p + q * b->dim] += numbered(b, "connection", "chi", p, "e", a) * numbered(b, "connection", "chi", q, "e", a);
+        }
+    }
+    if (b->dim) cr_assert(nh_solve(b->dim, N, 1, right, &rcond));
+    for (size_t p = 0; p < b->dim; p++) s->value[b->nu[p]] = right[p];
+}
+
+/* mu (d) and pi (n) in the present state. */
+static void bundle_momenta(const bundle *b, double *out)
+{
+    for (size_t a = 0; a < b->d; a++) *out++ = numbered(b, "lagrangian", "mu", a, "", 0);
+    for (size_t i = 0; i < b->n; i++) {
+        char label[80];
+        snprintf(label, sizeof label, "pi_%s", nh_name_of(b->s->system->dag, b->s->symbol[b->x[i]]));
+        *out++ = shown_value(b->s, "lagrangian", label, "");
+    }
+}
+
+/* mu' and pi' along the motion, by differences of the momenta a step before and behind. */
+static void bundle_rates(const bundle *b, const double *x, const double *w, double *out)
+{
+    static const double step = 1e-5;
+    double M[144], F[12], dx[8], p[12], side[2][20], rcond;
+    bundle_state(b, x, w, M, F, dx);
+    for (size_t i = 0; i < b->r; i++) {
+        p[i] = 0;
+        for (size_t j = 0; j < b->r; j++) p[i] += M[i + j * b->r] * w[j];
+    }
+    for (int k = 0; k < 2; k++) {
+        double at[8], q[12], h = k ? step : -step;
+        for (size_t i = 0; i < b->n; i++) at[i] = x[i] + h * dx[i];
+        for (size_t i = 0; i < b->r; i++) q[i] = p[i] + h * F[i];
+        bundle_state(b, at, w, M, NULL, NULL);
+        cr_assert(nh_solve(b->r, M, 1, q, &rcond));
+        bundle_state(b, at, q, NULL, NULL, NULL);
+        bundle_momenta(b, side[k]);
+    }
+    for (size_t i = 0; i < b->d + b->n; i++) out[i] = (side[1][i] - side[0][i]) / (2 * step);
+    bundle_state(b, x, w, NULL, NULL, NULL);
+}
+
+static double sum_of(const bundle *b, const cJSON *terms, const double *rate)
+{
+    const cJSON *term;
+    double sum = 0;
+    cJSON_ArrayForEach(term, terms) {
+        const char *of = text_of(term, "of");
+        double c = value_of(b->s, text_of(term, "coefficient"));
+        if (!of[0]) sum += c;
+        else if (!strncmp(of, "mu'_", 4)) sum += c * rate[atoi(of + 4) - 1];
+        else if (!strncmp(of, "mu_", 3)) sum += c * numbered(b, "lagrangian", "mu", (size_t)atoi(of + 3) - 1, "", 0);
+        else {
+            cr_assert_eq(strncmp(of, "pi'_", 4), 0, "what is %s?", of);
+            for (size_t i = 0; i < b->n; i++)
+                if (!strcmp(of + 4, nh_name_of(b->s->system->dag, b->s->symbol[b->x[i]]))) sum += c * rate[b->d + i];
+        }
+    }
+    return sum;
+}
+
+static void check_bundle(const char *file, const char *line, size_t stage, size_t n, size_t dim)
+{
+    reduced_sheet s = reduced_of(file, 0, NULL, line, stage);
+    bundle b = bundle_of(&s);
+    cr_assert(b.n == n && b.dim == dim, "%s: %zu shape coordinates, S of dimension %zu", file, b.n, b.dim);
+    double x[8], w[12], rate[20], largest = 0;
+    for (int trial = 0; trial < 3; trial++) {
+        size_t p = 0;
+        const cJSON *equation, *part;
+        for (size_t i = 0; i < b.n; i++) x[i] = 0.7 + 0.31 * (double)i - 0.17 * trial;
+        for (size_t i = 0; i < b.r; i++) w[i] = 0.9 - 0.37 * (double)i + 0.23 * trial;
+        bundle_rates(&b, x, w, rate);
+        for (size_t a = 0; a < b.d + b.n; a++) largest = fmax(largest, fabs(rate[a]));
+        for (size_t a = 0; a < b.d; a++) /* omega is the group's velocity */
+            cr_expect_float_eq(numbered(&b, "lagrangian", "omega", a, "", 0), value_of(&s, text_of(cJSON_GetArrayItem(b.velocity, (int)a), "value")), 1e-10, "%s: omega_%zu", file, a + 1);
+        cJSON_ArrayForEach(equation, oracle_get(s.geometry, "equations")) {
+            double left = sum_of(&b, oracle_get(equation, "terms"), rate), right = sum_of(&b, oracle_get(equation, "equals"), rate), whole = 0;
+            cr_expect_float_eq(left, right, 1e-6 * (1 + fabs(left)), "%s: equation %zu: %.9g, %.9g", file, p, left, right);
+            char mine[20];
+            snprintf(mine, sizeof mine, "chi_%zu;", ++p);
+            if (p > b.dim) continue;
+            cJSON_ArrayForEach(part, oracle_get(s.geometry, "by_stages"))
+                if (strstr(text_of(part, "label"), mine)) whole += sum_of(&b, cJSON_GetObjectItem(part, "terms"), rate);
+            cr_expect_float_eq(whole, right, 1e-10 * (1 + fabs(right)), "%s: by stages, equation %zu: %.12g, %.12g", file, p, whole, right);
+        }
+        cr_expect_eq(p, b.n + b.dim);
+    }
+    cr_expect_gt(largest, 1e-3, "%s: nothing happens", file);
+    reduced_clear(&s);
+}
+
+Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_motion)
+{
+    check_bundle("systems/euler_disk.yaml", "", 1, 1, 2);
+    check_bundle("systems/euler_disk.yaml", " --group 1,2,3 --chain 1;2,3", 1, 2, 1);
+    check_bundle("systems/snakeboard.yaml", "", 0, 1, 2);
+    check_bundle("systems/chaplygin_ball.yaml", "", 2, 2, 1);
+    check_bundle("systems/sleigh_inertia.yaml", "", 1, 0, 2);
+    check_bundle("systems/euler_top.yaml", "", 0, 0, 3);
+}

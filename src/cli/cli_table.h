@@ -20,7 +20,7 @@ bool nh_word_among(const char *words, const char *word);
     X('o',             "output",      required_argument, "DIR",                "analyze", "-o: write all these files and every figure into a folder")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
-    X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify", "also the geometry: forms, Gamma, multipliers, determining equations, brackets") \
+    X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce", "initial state")                                       \
     X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce", "project the initial velocities onto the constraints")            \
     X(opt_method,      "method",      required_argument, "NAME",               "simulate", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \

@@ -11,7 +11,7 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "`nhsym reduce` needs a system");
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
-    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .accuracy = cli->accuracy, .options = cli->options};
+    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .accuracy = cli->accuracy, .equations = cli->equations, .options = cli->options};
     if (cli->to && strcmp(cli->to, "c") && strcmp(cli->to, "latex")) {
         nh_fail(error, NH_USAGE, "", "`nhsym reduce` cannot write `%s`", cli->to);
         return nh_error_hint(error, "--to takes c or latex");

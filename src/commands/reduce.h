@@ -7,6 +7,7 @@
 #include "motion/dynamics.h"
 #include "reduction/chain.h"
 #include "reduction/group.h"
+#include "reduction/lagrange_poincare.h"
 #include "reduction/linear.h"
 #include "reduction/momenta.h"
 #include "reduction/poincare.h"
@@ -26,6 +27,7 @@ typedef struct {
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     double accuracy;          /* to which reduced and full motions must agree: their methods and tolerances are chosen for it, options.tolerance is a hundredth of it; 0: none is asked for */
+    bool equations;           /* with the objects of the theory written out */
     nh_options options;
 } nh_reduce_request;
 
@@ -44,6 +46,13 @@ typedef struct {
 } nh_reduction_choice;
 
 typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE, NH_STAGE_QUOTIENT } nh_stage_kind;
+
+/* What is shown of a stage where its objects are asked for. */
+typedef struct {
+    const nh_ex *inverse;     /* of the metric on the shape space: of the first and second kind; NULL where it is not known */
+    const nh_ex *locked;      /* second kind: of the locked inertia */
+    const nh_lagrange_poincare *bundle; /* third kind */
+} nh_reduction_theory;
 
 /* One stage, written on a slice through the initial state; `shown` is the same on the slice y = 0, where it is regular there. */
 typedef struct {
@@ -73,6 +82,7 @@ typedef struct {
     nh_reduction_choice choice; /* with an accuracy */
     bool compared, complete;
     bool dependent;           /* it ended where the constraints become dependent */
+    const nh_reduction_theory *theory; /* NULL: not asked for */
     char note[256];
 } nh_reduction_stage;
 

@@ -71,6 +71,9 @@ bool nh_reduction_whole_model(nh_reduction *reduction, nh_error *error);
 bool nh_reduction_quotient(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
 bool nh_reduction_quotient_momenta(nh_reduction *reduction, nh_error *error);
 
+/* What --equations shows of the stages. */
+void nh_reduction_write_out(nh_reduction *reduction);
+
 /* Is the time limit passed?  Then a warning names the step that is skipped. */
 bool nh_reduction_late(nh_reduction *reduction, const char *what);
 /* Add a warning to the result. */

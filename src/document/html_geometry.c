@@ -8,6 +8,6 @@ void nh_html_geometry(nh_html_writer *w, nh_arena *arena, const struct nh_theory
     nh_html_add(w, "<section id=\"geometry\"><h2>Geometry</h2>\n<p>In ");
     nh_html_chart_name(w, t->model->chart->name);
     nh_html_add(w, ", with the numbers of the equations in \u010cech and Musilov\u00e1 (2014).</p>\n");
-    nh_sheet_html(nh_geometry_sheet(arena, t, w->analysis), w);
+    nh_sheet_html(nh_geometry_sheet(arena, t, w->analysis), "h3", w);
     nh_html_add(w, "</section>\n");
 }

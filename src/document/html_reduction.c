@@ -11,6 +11,7 @@
 #include "document/facts.h"
 #include "document/html_internal.h"
 #include "document/reduction.h"
+#include "document/reduction_sheet.h"
 
 /* "SE(2) x SO(2)^3" with a cross and a raised number. */
 static void name_of_group(nh_html_writer *w, const char *name)
@@ -287,10 +288,11 @@ static bool names_itself(const nh_dag *d, const nh_reduction_equation *e)
 static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
 {
     const nh_reduction_stage *s = &r->stage[number];
-    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d\u2019Alembert-Poincar\u00e9 equations of", "equations on a slice of", "the quotient by"};
     nh_reduction_equation *e;
     size_t n = nh_reduction_equations(r, s, &e);
-    nh_text_addf(w->out, "<article class=\"card\">\n<h3>%s: %s ", nh_reduction_stage_title(r, number), titles[s->kind]);
+    nh_text_addf(w->out, "<article class=\"card\">\n<h3>%s: ", nh_reduction_stage_title(r, number));
+    for (const char *c = nh_reduction_stage_kind(s); *c; c++) nh_text_addf(w->out, *c == '\'' ? "\u2019" : "%c", *c);
+    nh_html_add(w, " ");
     name_of_group(w, s->group);
     nh_html_add(w, "</h3>\n<p>Divided out: ");
     for (size_t a = 0; a < s->action->d; a++) {
@@ -314,6 +316,8 @@ static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
     nh_free(label);
     checks(w, r, s);
     by_stages(w, s);
+    nh_sheet *sheet = nh_reduction_sheet(r, s);
+    if (sheet) nh_sheet_html(sheet, "h4", w);
     nh_html_add(w, "</article>\n");
 }
 

@@ -46,6 +46,9 @@ static const struct {
     {"form", {"phi", "<mi>\u03d5</mi>", "\\phi"}},
     {"eps", {"eps", "<mi>\u03b5</mi>", "\\varepsilon"}},
     {"epsp", {"eps'", "<msup><mi>\u03b5</mi><mo>\u2032</mo></msup>", "\\varepsilon'"}},
+    {"wedge", {" ^ ", "<mo>\u2227</mo>", "\\wedge "}},
+    {"Sigma", {"sum", "<mo>\u2211</mo>", "\\sum"}},
+    {"pidot", {"pi'", "<mover accent=\"true\"><mi>\u03c0</mi><mo>\u02d9</mo></mover>", "\\dot{\\pi}"}},
     {"quad", {"   ", "<mspace width=\"1em\"></mspace>", "\\quad "}},
 };
 
@@ -54,6 +57,7 @@ static const struct {
 } accents[] = {
     {"bar", {{"", "bar"}, {"<mover accent=\"true\">", "<mo>\u00af</mo></mover>"}, {"\\bar{", "}"}}},
     {"tilde", {{"", "tilde"}, {"<mover accent=\"true\">", "<mo>~</mo></mover>"}, {"\\tilde{", "}"}}},
+    {"breve", {{"", "breve"}, {"<mover accent=\"true\">", "<mo>\u02d8</mo></mover>"}, {"\\breve{", "}"}}},
     {"hat", {{"", "hat"}, {"<mover accent=\"true\">", "<mo>^</mo></mover>"}, {"\\hat{", "}"}}},
 };
 
@@ -93,6 +97,7 @@ static void sign(nh_notation_form form, char c, nh_text *out)
 {
     const char *minus = c == '-' && form == NH_NOTATION_MATHML ? "\u2212" : NULL;
     if (form != NH_NOTATION_MATHML) nh_text_add_n(out, &c, 1);
+    else if (c == '>') nh_text_add(out, "<mo>&gt;</mo>");
     else if (c != ' ') nh_text_addf(out, strchr("()[]", c) ? "<mo stretchy=\"false\">%.*s</mo>" : "<mo>%.*s</mo>", minus ? 3 : 1, minus ? minus : &c);
 }
 
@@ -109,7 +114,7 @@ static void atom(reader *r, nh_text *out)
         command(r, &base);
     } else if (isalnum((unsigned char)*r->at)) {
         const char *from = r->at;
-        while (isalnum((unsigned char)*r->at)) r->at++;
+        while (isalnum((unsigned char)*r->at) || *r->at == '\'') r->at++;
         name(r->form, from, (size_t)(r->at - from), &base);
     } else {
         sign(r->form, *r->at++, &base);

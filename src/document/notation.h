@@ -3,7 +3,7 @@
  * A label is written once, in a small language, and shown as text (Abar_phi), MathML or LaTeX:
  *
  *     <phi'>            a name of the system, as formulas have it; letters and digits outside of < > likewise
- *     \bar{A} \tilde{Z} \hat{A}       accents;  _{..} ^{..}  scripts behind a name or a closed group
+ *     \bar{A} \tilde{Z} \hat{A} \breve{A}   accents;  _{..} ^{..}  scripts behind a name or a closed group
  *     \frac{..}{..}     a fraction, in text with a stroke;  \p  the sign of a partial derivative, \pc and \dcp  those with the index c
  *     \form \eps      the letter of the forms phi^a, that of the Euler operators
  *     ( ) [ ] , + - = blank     themselves */

@@ -9,6 +9,7 @@
 #include "reduction/section.h"
 #include "document/facts.h"
 #include "document/formula.h"
+#include "document/reduction_sheet.h"
 
 /* Simplified unless it is so large that nobody would read it. */
 static nh_ex shortened(const nh_reduction *r, nh_ex e)
@@ -271,8 +272,7 @@ static void put_chain(const nh_reduction_stage *s, nh_text *out)
 static void put_stage(const nh_reduction *r, size_t number, double shown, nh_text *out)
 {
     const nh_reduction_stage *s = &r->stage[number];
-    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", "Lagrange-d'Alembert-Poincare equations of", "equations on a slice of", "the quotient by"};
-    nh_text_addf(out, "\n%s: %s %s\n", nh_reduction_stage_title(r, number), titles[s->kind], s->group);
+    nh_text_addf(out, "\n%s: %s %s\n", nh_reduction_stage_title(r, number), nh_reduction_stage_kind(s), s->group);
     for (size_t a = 0; a < s->action->d; a++) {
         nh_text_add(out, a ? "; " : "  group    ");
         nh_generator_text(s->action->kinetic, &s->action->generator[a], out);
@@ -290,6 +290,8 @@ static void put_stage(const nh_reduction *r, size_t number, double shown, nh_tex
     put_linear(r, s, shown, out);
     put_chain(s, out);
     put_numbers(r, s, out);
+    nh_sheet *sheet = nh_reduction_sheet(r, s);
+    if (sheet) nh_sheet_text(sheet, false, out);
 }
 
 static void put_momenta(const nh_reduction *r, double shown, nh_text *out)

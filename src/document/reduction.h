@@ -23,6 +23,9 @@ size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_
 
 /* "Stage 3, in one step instead of stages 1 and 2": the first and the second one build on each other, what divides the whole group is an alternative. */
 const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);
+/* "Chaplygin reduction by": what the stage is, before the name of its group.  The whole group at once: Euler-Poincare where the shape space is a point, else
+ * Lagrange-Poincare; with d'Alembert where there are constraints [CendraDiaz2018]. */
+const char *nh_reduction_stage_kind(const nh_reduction_stage *stage);
 /* " for k = 2": what the stage's group needs to be one of symmetries; "" where that is nothing. */
 const char *nh_reduction_stage_holds(const nh_reduction *reduction, const nh_reduction_stage *stage);
 bool nh_reduction_instead(const nh_reduction *reduction, size_t stage);

@@ -19,6 +19,15 @@ const char *nh_reduction_stage_title(const nh_reduction *r, size_t i)
     return nh_arena_printf(arena, "Stage %zu, in one step instead of stages 1 %s %zu", i + 1, i == 2 ? "and" : "to", i);
 }
 
+const char *nh_reduction_stage_kind(const nh_reduction_stage *s)
+{
+    static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", NULL, "equations on a slice of", "the quotient by"};
+    if (s->kind != NH_STAGE_POINCARE) return titles[s->kind];
+    bool shape = s->shown->n > 0, constrained = s->shown_slice->f > 0;
+    if (shape) return constrained ? "Lagrange-d'Alembert-Poincare equations of" : "Lagrange-Poincare equations of";
+    return constrained ? "Euler-d'Alembert-Poincare equations of" : "Euler-Poincare equations of";
+}
+
 const char *nh_reduction_stage_holds(const nh_reduction *r, const nh_reduction_stage *s)
 {
     nh_proof all = {.proved = true, .all_parameters = true};

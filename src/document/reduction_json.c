@@ -6,6 +6,7 @@
 #include "graph/print.h"
 #include "document/facts.h"
 #include "document/reduction.h"
+#include "document/reduction_sheet.h"
 
 static void put_expression(nh_json *to, const char *key, nh_dag *d, nh_ex e)
 {
@@ -296,6 +297,9 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (s->kind == NH_STAGE_SECOND) put_second(to, r, s);
     if (s->by_stages) put_chain(to, s);
     if (s->kind == NH_STAGE_POINCARE || s->kind == NH_STAGE_SLICE) put_locked_inertia(to, s->shown_slice);
+    nh_sheet *sheet = nh_reduction_sheet(r, s);
+    if (sheet) nh_sheet_json(sheet, nh_json_put_object(to, "geometry"));
+    else nh_json_put_null(to, "geometry");
     if (s->linear.count) {
         nh_json *linear = nh_json_put_object(to, "linear_momenta"), *which = nh_json_put_array(linear, "momenta");
         for (size_t a = 0; a < s->linear.count; a++) nh_json_add_text(which, s->shown->momentum[s->linear.index[a]]);

@@ -65,7 +65,7 @@ char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, boo
 
 void nh_sheet_text(nh_sheet *sheet, bool colour, nh_text *out);
 void nh_sheet_json(nh_sheet *sheet, nh_json *to);     /* a member of `to` for each section */
-void nh_sheet_html(nh_sheet *sheet, nh_html_writer *w);
+void nh_sheet_html(nh_sheet *sheet, const char *heading, nh_html_writer *w); /* heading: h3 */
 void nh_sheet_tex(nh_sheet *sheet, nh_tex_writer *w);
 
 #endif

@@ -70,12 +70,12 @@ static void put_line(const nh_sheet *s, const nh_sheet_line *line, nh_html_write
     nh_html_add(w, "</div>\n");
 }
 
-void nh_sheet_html(nh_sheet *s, nh_html_writer *w)
+void nh_sheet_html(nh_sheet *s, const char *heading, nh_html_writer *w)
 {
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
         nh_sheet_section c = nh_sheet_brief(s, i, &own);
-        nh_html_tagged(w, "h3", c.title);
+        nh_html_tagged(w, heading, c.title);
         nh_html_add(w, "\n");
         if (c.words[0]) put_words(w, c.words);
         for (size_t j = 0; j < c.lines; j++) {

@@ -1,0 +1,194 @@
+/* reduction_sheet: a stage of the first or second kind; the whole group in bundle_sheet.c. */
+#include "document/reduction_sheet.h"
+
+#include "document/reduction_sheet_internal.h"
+
+static void add(const nh_reduction_builder *b, nh_ex e, const char *format, size_t a) { nh_sheet_add(b->s, e, nh_sheet_label(b->s, format, a)); }
+
+const char *nh_reduction_sheet_x(const nh_reduction_builder *b, const nh_slice *s, size_t i) { return nh_name_of(b->d, s->x[i]); }
+
+void nh_reduction_sheet_frame(const nh_reduction_builder *b, const nh_slice *s)
+{
+    nh_text where;
+    nh_text_init(&where);
+    for (size_t a = 0; a < s->d; a++) {
+        char *value = nh_print_string(b->d, s->y[a]);
+        nh_text_addf(&where, "%s$<%s>$ = %s", a ? ", " : "", s->kinetic->name[s->along[a]], value);
+        nh_free(value);
+    }
+    nh_sheet_begin(b->s, "frame", "Slice and generators",
+                   nh_sheet_label(b->s, "On the slice %s. The $e_{a}$ span V, the directions of the orbits; $zeta^{a}$ is the group's velocity in the body frame.", nh_text_string(&where)));
+    nh_text_clear(&where);
+    for (size_t a = 0; a < s->d; a++) {
+        nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "e_{%zu}", a + 1));
+        for (size_t r = 0; r < s->m; r++) nh_sheet_add(b->s, s->E[r * s->d + a], nh_sheet_label(b->s, "\\frac{\\p}{\\p<%s>}", s->kinetic->name[r]));
+    }
+}
+
+/* d_i - A^a_i e_a */
+void nh_reduction_sheet_lift(const nh_reduction_builder *b, const nh_slice *s, const nh_ex *A, const char *letter)
+{
+    size_t n = s->n, d = s->d;
+    for (size_t a = 0; a < d; a++)
+        for (size_t i = 0; i < n; i++)
+            if (!nh_is_zero(b->d, A[a * n + i])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "%s^{%zu}_{<%s>}", letter, a + 1, nh_reduction_sheet_x(b, s, i)), A[a * n + i]);
+    for (size_t i = 0; i < n; i++) {
+        const char *x = nh_reduction_sheet_x(b, s, i);
+        nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "hor(\\frac{\\p}{\\p<%s>})", x));
+        nh_sheet_add(b->s, nh_int(b->d, 1), nh_sheet_label(b->s, "\\frac{\\p}{\\p<%s>}", x));
+        for (size_t a = 0; a < d; a++) add(b, nh_neg(b->d, A[a * n + i]), "e_{%zu}", a + 1);
+    }
+}
+
+void nh_reduction_sheet_curvature(const nh_reduction_builder *b, const nh_slice *s, const nh_ex *B, const char *letter)
+{
+    size_t n = s->n, listed = 0;
+    for (size_t a = 0; a < s->d; a++)
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = i + 1; j < n; j++) {
+                nh_ex e = B[(a * n + i) * n + j];
+                if (nh_is_zero(b->d, e)) continue;
+                nh_sheet_formula(b->s, nh_sheet_label(b->s, "%s^{%zu}_{<%s>,<%s>}", letter, a + 1, nh_reduction_sheet_x(b, s, i), nh_reduction_sheet_x(b, s, j)), e);
+                listed++;
+            }
+    if (!listed) nh_sheet_words(b->s, "The curvature vanishes.");
+}
+
+/* n x n, symmetric: the entries that do not vanish. */
+void nh_reduction_sheet_symmetric(const nh_reduction_builder *b, const nh_slice *s, const nh_ex *e, const char *letter)
+{
+    for (size_t i = 0; i < s->n; i++)
+        for (size_t j = i; j < s->n; j++)
+            if (!nh_is_zero(b->d, e[i * s->n + j])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "%s_{<%s>,<%s>}", letter, nh_reduction_sheet_x(b, s, i), nh_reduction_sheet_x(b, s, j)), e[i * s->n + j]);
+}
+
+/* 1/2 p K^-1 p as terms; names of two momenta by their indices. */
+static void quadratic(const nh_reduction_builder *b, size_t n, const nh_ex *inverse, const char *(*name)(const nh_reduction_builder *, size_t), bool numbered)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++) {
+            nh_ex e = i == j ? nh_mul(b->d, nh_ratio(b->d, 1, 2), inverse[i * n + j]) : inverse[i * n + j];
+            const char *letter = numbered ? "theta" : "p";
+            if (i == j) nh_sheet_add(b->s, e, nh_sheet_label(b->s, "%s_{%s}^{2}", letter, name(b, i)));
+            else nh_sheet_add(b->s, e, nh_sheet_label(b->s, "%s_{%s} %s_{%s}", letter, name(b, i), letter, name(b, j)));
+        }
+}
+
+static const char *shape_name(const nh_reduction_builder *b, size_t i) { return nh_sheet_label(b->s, "<%s>", nh_reduction_sheet_x(b, b->slice, i)); }
+static const char *group_name(const nh_reduction_builder *b, size_t a) { return nh_sheet_label(b->s, "%zu", a + 1); }
+
+static const char *speed(const nh_reduction_builder *b, size_t i) { return nh_sheet_label(b->s, "<%s'>", nh_reduction_sheet_x(b, b->slice, i)); }
+
+static void hamiltonian(const nh_reduction_builder *b, const char *label, const nh_ex *inverse, const nh_ex *locked, nh_ex V)
+{
+    nh_sheet_sum(b->s, "", label);
+    quadratic(b, b->slice->n, inverse, shape_name, false);
+    if (locked) quadratic(b, b->slice->d, locked, group_name, true);
+    nh_sheet_add(b->s, V, "");
+}
+
+/* ---- the first stage ---- */
+
+static void gyroscopic(const nh_reduction_builder *b, const nh_chaplygin *c)
+{
+    size_t n = c->n, d = c->d, listed = 0;
+    nh_sheet_begin(b->s, "gyroscopic_form", "Momentum of the group and almost-symplectic form",
+                   "$J_{a}$ is the group's momentum in the body frame; the form is $\\d x\\wedge\\d p + \\frac{1}{2} Upsilon_{i,j} \\d x^{i}\\wedge\\d x^{j}$ with $Upsilon_{i,j}=J_{a} B^{a}_{i,j}$, (2.11) and (2.12).");
+    for (size_t a = 0; a < d; a++) {
+        nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "J_{%zu}", a + 1));
+        for (size_t j = 0; j < n; j++) nh_sheet_add(b->s, c->J[a * n + j], speed(b, j));
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i + 1; j < n; j++) {
+            bool any = false;
+            for (size_t k = 0; k < n; k++) any |= !nh_is_zero(b->d, c->U[(k * n + i) * n + j]);
+            if (!any) continue;
+            nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "Upsilon_{<%s>,<%s>}", nh_reduction_sheet_x(b, c->slice, i), nh_reduction_sheet_x(b, c->slice, j)));
+            for (size_t k = 0; k < n; k++) nh_sheet_add(b->s, c->U[(k * n + i) * n + j], speed(b, k));
+            listed++;
+        }
+    if (!listed) nh_sheet_words(b->s, "$Upsilon$ vanishes: the form is symplectic.");
+}
+
+static void chaplygin(nh_reduction_builder *b, const nh_chaplygin *c, const nh_reduction_theory *t)
+{
+    size_t n = c->n;
+    b->slice = c->slice;
+    nh_reduction_sheet_frame(b, c->slice);
+    nh_sheet_begin(b->s, "connection", "Connection, horizontal lift and curvature",
+                   "$zeta=-\\hat{A} <x'>$ where the constraints hold (2.8). The lifts span the constraint distribution D, which meets V in 0 only: S = 0. "
+                   "$B^{a}_{i,j}=\\p_{i} A^{a}_{j}-\\p_{j} A^{a}_{i}-C^{a}_{b,c} A^{b}_{i} A^{c}_{j}$. Entries that are not listed vanish.");
+    nh_reduction_sheet_lift(b, c->slice, c->A, "\\hat{A}");
+    nh_reduction_sheet_curvature(b, c->slice, c->B, "B");
+    nh_sheet_begin(b->s, "hamiltonian", "Reduced Lagrangian and Hamiltonian", "$\\hat{K}=H^{T} K H$ with the lift H; $p_{i}=\\hat{K}_{i,j} <x'>^{j}$ (2.10).");
+    nh_reduction_sheet_symmetric(b, c->slice, c->K, "\\hat{K}");
+    nh_sheet_sum(b->s, "", "\\hat{L}");
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++) {
+            nh_ex e = i == j ? nh_mul(b->d, nh_ratio(b->d, 1, 2), c->K[i * n + j]) : c->K[i * n + j];
+            nh_sheet_add(b->s, e, i == j ? nh_sheet_label(b->s, "%s^{2}", speed(b, i)) : nh_sheet_label(b->s, "%s %s", speed(b, i), speed(b, j)));
+        }
+    for (size_t i = 0; i < n && !c->plain; i++) nh_sheet_add(b->s, c->a[i], speed(b, i));
+    nh_sheet_add(b->s, nh_neg(b->d, c->V), "");
+    if (c->plain && t->inverse) hamiltonian(b, "\\hat{H}", t->inverse, NULL, c->V);
+    gyroscopic(b, c);
+}
+
+/* ---- the second stage ---- */
+
+static void magnetic(const nh_reduction_builder *b, const nh_second *t)
+{
+    size_t n = t->n, d = t->d, listed = 0;
+    if (!t->abelian) {
+        nh_sheet_words(b->s, nh_sheet_label(b->s, "The group is not abelian: $theta$ moves on a coadjoint orbit of dimension %zu, and $N_{theta}$ has dimension %zu.", t->orbit, d - t->orbit));
+        nh_reduction_sheet_curvature(b, &t->slice, t->Bv, "B");
+        return;
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i + 1; j < n; j++) {
+            bool any = false;
+            for (size_t a = 0; a < d; a++) any |= !nh_is_zero(b->d, t->Bv[(a * n + i) * n + j]);
+            if (!any) continue;
+            nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "Xi_{<%s>,<%s>}", nh_reduction_sheet_x(b, &t->slice, i), nh_reduction_sheet_x(b, &t->slice, j)));
+            for (size_t a = 0; a < d; a++) nh_sheet_add(b->s, t->Bv[(a * n + i) * n + j], nh_sheet_label(b->s, "theta_{%zu}", a + 1));
+            listed++;
+        }
+    if (!listed) nh_sheet_words(b->s, "$Xi_{theta}$ vanishes.");
+}
+
+static void second(nh_reduction_builder *b, const nh_second *t, const nh_reduction_theory *theory)
+{
+    size_t n = t->n, d = t->d;
+    b->slice = &t->slice;
+    nh_reduction_sheet_frame(b, &t->slice);
+    nh_sheet_begin(b->s, "mechanical_connection", "Locked inertia and mechanical connection",
+                   "$I_{a,b}$ is the metric of the first stage on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} <x'>$ is the momentum, which is kept (2.14).");
+    for (size_t a = 0; a < d; a++)
+        for (size_t c = a; c < d; c++)
+            if (!nh_is_zero(b->d, t->inertia[a * d + c])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "I_{%zu,%zu}", a + 1, c + 1), t->inertia[a * d + c]);
+    nh_reduction_sheet_lift(b, &t->slice, t->Av, "\\breve{A}");
+    nh_sheet_begin(b->s, "hamiltonian", "Momentum level set and reduced Hamiltonian",
+                   t->abelian ? "$N_{theta}=N$: the level set is divided by the whole group. $\\hat{p}$ are the momenta of the first stage, p those that remain; $Xi_{theta}$ is the magnetic form (2.20)."
+                              : "$\\hat{p}$ are the momenta of the first stage, p those that remain.");
+    for (size_t i = 0; i < n; i++) {
+        nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\hat{p}_{<%s>}", nh_reduction_sheet_x(b, &t->slice, i)));
+        nh_sheet_add(b->s, nh_int(b->d, 1), nh_sheet_label(b->s, "p_{<%s>}", nh_reduction_sheet_x(b, &t->slice, i)));
+        for (size_t a = 0; a < d; a++) add(b, t->Av[a * n + i], "theta_{%zu}", a + 1);
+    }
+    magnetic(b, t);
+    nh_reduction_sheet_symmetric(b, &t->slice, t->Kt, "\\breve{K}");
+    if (theory->locked && (theory->inverse || !n)) hamiltonian(b, "\\breve{H}", theory->inverse, theory->locked, t->slice.V);
+}
+
+nh_sheet *nh_reduction_sheet(const nh_reduction *r, const nh_reduction_stage *stage)
+{
+    const nh_reduction_theory *t = stage->theory;
+    nh_reduction_builder b = {.d = r->kinetic->dag};
+    if (!t || (stage->kind != NH_STAGE_CHAPLYGIN && stage->kind != NH_STAGE_SECOND && !t->bundle)) return NULL;
+    b.s = nh_sheet_create(r->arena, b.d);
+    b.s->shown = r->options.shown;
+    if (stage->kind == NH_STAGE_CHAPLYGIN) chaplygin(&b, stage->chaplygin, t);
+    if (stage->kind == NH_STAGE_SECOND) second(&b, stage->second, t);
+    if (t->bundle) nh_reduction_sheet_bundle(&b, t->bundle, stage->by_stages ? stage->chain : NULL);
+    return b.s;
+}
