@@ -66,7 +66,8 @@ MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
 OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
 # Of the shared library alone: code that may stand anywhere costs the program a few per cent.
 SHARED  = $(MODULES:%.c=$(BUILD)/shared/%.o)
-CLI     = $(patsubst %.c,$(BUILD)/%.o,$(wildcard src/cli/*.c))
+# The program; MPI's has another main function.
+CLI     = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/cli/mpi_main.c,$(wildcard src/cli/*.c))) $(BUILD)/fingerprint.o
 TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
 BENCHES = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/bench_*.c))
 
@@ -156,6 +157,10 @@ $(BUILD)/libnhsym.map: src/nhsym.h
 $(BUILD)/$(SONAME): $(SHARED) $(BUILD)/libnhsym.map
 	@echo "  link $@"
 	@$(LINK) -shared -Wl,-soname,$(SONAME) -Wl,-z,defs -Wl,--version-script=$(BUILD)/libnhsym.map $(SHARED) $(LDLIBS) -o $@
+
+# By which a scan knows the program that began it.
+$(BUILD)/fingerprint.o: $(BUILD)/libnhsym.a
+	@printf 'extern const char nh_cli_fingerprint[]; const char nh_cli_fingerprint[] = "%s";\n' "$$(sha256sum <$< | cut -c1-16)" | $(CC) $(CFLAGS) -xc -c - -o $@
 
 # For `make bench`: what the archives are good for.
 $(BUILD)/tests/nhsym-shared: $(CLI) $(BUILD)/libnhsym.a

@@ -135,6 +135,29 @@ Test(schema, what_classify_writes_fits)
     place_clear(&p);
 }
 
+Test(schema, what_scan_writes_fits)
+{
+    static const char *const lines[] = {"henon_heiles.yaml --over B=1,2 --over eps=0.1:2.1:5", "atwood.yaml --over mu=1,3/2 --of reduce"};
+    cJSON *schema = read_json("docs/schema/scan.json");
+    place p = place_make();
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char line[600], path[PATH_MAX + 30];
+        snprintf(line, sizeof line, "scan %.300s/tests/data/classify/%s --quiet -o s%zu", p.project, lines[i], i);
+        finished f = run(&p, line);
+        cr_assert(f.code == 0, "%s: %s", line, f.err);
+        snprintf(path, sizeof path, "%s/s%zu/scan.json", p.folder, i);
+        cJSON *root = read_json(path);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", lines[i], v.fault);
+        cJSON_AddStringToObject(cJSON_GetArrayItem(cJSON_GetObjectItem(root, "points"), 0), "more", "one");
+        cr_expect_not(fits(schema, root, "", &v), "an unknown key that is no number");
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(schema);
+    place_clear(&p);
+}
+
 Test(schema, what_chart_writes_fits)
 {
     static const char *const lines[] = {"sleigh --budget 2s", "ball_on_turntable --until 3 --budget 500ms", "lagrange_top --until 2 --budget 300ms"};

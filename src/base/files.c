@@ -7,6 +7,7 @@
 
 #include "base/context_internal.h"
 #include "base/memory.h"
+#include "base/text.h"
 
 void nh_files_begin(void) { nh_context_here()->files_kept = true; }
 
@@ -84,6 +85,16 @@ void nh_files_add(const char *path, const char *text, size_t length)
     pthread_mutex_lock(&c->files_lock);
     keep(c, path, text, length);
     pthread_mutex_unlock(&c->files_lock);
+}
+
+uint64_t nh_files_fingerprint(void)
+{
+    nh_context *c = nh_context_here();
+    uint64_t h = 0;
+    pthread_mutex_lock(&c->files_lock);
+    for (const nh_known_file *f = c->file; f; f = f->next) h = nh_text_fingerprint(h, f->text, f->length);
+    pthread_mutex_unlock(&c->files_lock);
+    return h;
 }
 
 char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *error)

@@ -5,6 +5,8 @@
 #ifndef NH_FILES_H
 #define NH_FILES_H
 
+#include <stdint.h>
+
 #include "base/error.h"
 
 /* From now on until the end; not for callers that want to see changes of files.  Not while threads read. */
@@ -18,6 +20,9 @@ void nh_files_free(nh_file_store store);
 
 /* A text under the name of a file, whether or not there is such a file. */
 void nh_files_add(const char *path, const char *text, size_t length);
+
+/* A number that tells the texts apart that are kept in this context, in the order in which they were read. */
+uint64_t nh_files_fingerprint(void);
 
 /* The bytes of a file, at most limit + 1 of them; nh_free.  NULL with a message. */
 char *nh_files_read(const char *path, size_t limit, size_t *length, nh_error *error);

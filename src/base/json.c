@@ -69,6 +69,15 @@ char *nh_json_finish(nh_json *root)
     return out;
 }
 
+char *nh_json_line(nh_json *root)
+{
+    char *printed = cJSON_PrintUnformatted(root);
+    cJSON_Delete(root);
+    char *out = nh_strdup(printed);
+    cJSON_free(printed);
+    return out;
+}
+
 nh_json *nh_json_parse(const char *text) { return cJSON_Parse(text); }
 void nh_json_free(nh_json *root) { cJSON_Delete(root); }
 const char *nh_json_text(const nh_json *object, const char *key) { return cJSON_GetStringValue(nh_json_get(object, key)); }
@@ -79,5 +88,33 @@ double nh_json_value(const nh_json *object, const char *key)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
+bool nh_json_is_true(const nh_json *object, const char *key) { return cJSON_IsTrue(nh_json_get(object, key)); }
+
+double nh_json_number_at(const nh_json *array, size_t index)
+{
+    const cJSON *item = nh_json_entry(array, index);
+    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
+}
+
 size_t nh_json_count(const nh_json *array) { return cJSON_IsArray(array) ? (size_t)cJSON_GetArraySize(array) : 0; }
 const nh_json *nh_json_entry(const nh_json *array, size_t index) { return cJSON_GetArrayItem(array, (int)index); }
+
+bool nh_json_is_text(const nh_json *value) { return cJSON_IsString(value); }
+
+double nh_json_size(const nh_json *value)
+{
+    if (cJSON_IsNumber(value)) return value->valuedouble;
+    if (cJSON_IsBool(value)) return cJSON_IsTrue(value);
+    return cJSON_IsArray(value) ? (double)cJSON_GetArraySize(value) : NAN;
+}
+
+size_t nh_json_names(const nh_json *object, size_t most, const char **name)
+{
+    size_t n = 0;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, object)
+    {
+        if (n < most && item->string) name[n++] = item->string;
+    }
+    return n;
+}

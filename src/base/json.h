@@ -35,11 +35,21 @@ void nh_json_free(nh_json *root);
 /* Of a member that may be missing or of another kind: NULL, not a number. */
 const char *nh_json_text(const nh_json *object, const char *key);
 double nh_json_value(const nh_json *object, const char *key);
+bool nh_json_is_true(const nh_json *object, const char *key);
 /* Of an array, which may be NULL. */
+double nh_json_number_at(const nh_json *array, size_t index);
 size_t nh_json_count(const nh_json *array);
 const nh_json *nh_json_entry(const nh_json *array, size_t index);
 
+bool nh_json_is_text(const nh_json *value);
+/* A number itself, a truth value as 1 or 0, of a list how many entries it has; not a number: anything else. */
+double nh_json_size(const nh_json *value);
+/* The names of an object's members, at most so many; they last as long as the object. */
+size_t nh_json_names(const nh_json *object, size_t most, const char **name);
+
 /* The document as a heap string (nh_free) that ends in a newline; the document is freed. */
 char *nh_json_finish(nh_json *root);
+/* The same on one line, which does not end in a newline. */
+char *nh_json_line(nh_json *root);
 
 #endif

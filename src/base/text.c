@@ -282,3 +282,11 @@ size_t nh_text_width(const char *string)
             width++;
     return width;
 }
+
+uint64_t nh_text_fingerprint(uint64_t before, const char *bytes, size_t length)
+{
+    static const uint64_t offset = 0xcbf29ce484222325, prime = 0x100000001b3;
+    uint64_t h = before ^ offset;
+    for (size_t i = 0; i < length; i++) h = (h ^ (unsigned char)bytes[i]) * prime;
+    return h ^ offset;
+}

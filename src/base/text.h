@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct {
     char *data; /* always terminated once something was added; NULL before */
@@ -28,6 +29,9 @@ bool nh_text_to_number(const char *text, double *out);
 /* The candidate nearest to `word` (Damerau-Levenshtein, case ignored), or NULL when none is near enough to be
  * what was meant. */
 const char *nh_text_nearest(const char *word, const char *const *candidates, size_t count);
+
+/* A number that tells texts apart (FNV-1a), continued from that of what stands before; from 0. */
+uint64_t nh_text_fingerprint(uint64_t before, const char *bytes, size_t length);
 
 /* Columns that `string` takes on a terminal (UTF-8 code points; no wide characters are used here). */
 size_t nh_text_width(const char *string);

@@ -1,5 +1,6 @@
 /* arguments: the command line. */
 #include <getopt.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -7,7 +8,8 @@
 #include "cli/cli.h"
 #include "cli/cli_table.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations };
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
+       opt_of, opt_number, opt_workers, opt_chunk };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 #define OLD(code, old, argument) {old, argument, NULL, code},
@@ -78,6 +80,28 @@ static bool members(const char *text, size_t *out, nh_error *error)
     if (!positive(text, "ensemble", &x, error)) return false;
     *out = (size_t)x;
     return (x == (double)*out && x <= 1e7) || nh_fail(error, NH_USAGE, "", "--ensemble needs a whole number of members up to 1e7, found `%s`", text);
+}
+
+static bool whole(const char *text, const char *option, size_t most, size_t *out, nh_error *error)
+{
+    double x;
+    if (!nh_text_to_number(text, &x) || !(x >= 1) || x > (double)most || x != floor(x))
+        return nh_fail(error, NH_USAGE, "", "--%s needs a whole number from 1 to %zu, found `%s`", option, most, text);
+    *out = (size_t)x;
+    return true;
+}
+
+/* "3/40": the third of forty parts. */
+static bool set_chunk(nh_cli *cli, const char *text, nh_error *error)
+{
+    const char *slash = strchr(text, '/');
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    bool good = slash && whole(slash + 1, "chunk", 1000000, &cli->chunks, &ignored);
+    good = good && whole(nh_arena_strndup(cli->arena, text, (size_t)(slash - text)), "chunk", cli->chunks, &cli->chunk, &ignored);
+    if (good) return cli->chunk--, true;
+    nh_fail(error, NH_USAGE, "", "--chunk needs I/N with I from 1 to N, found `%s`", text);
+    return nh_error_hint(error, "--chunk 3/40 is the third of forty parts");
 }
 
 static bool set_velocities(nh_cli *cli, const char *text, nh_error *error)
@@ -170,7 +194,11 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_ensemble: return members(value, &cli->ensemble, error);
     case opt_spread: return positive(value, "spread", &cli->spread, error);
     case opt_robustness: return cli->robustness = true;
-    case opt_over: cli->over = value; return true;
+    case opt_over: cli->over = cli->over_list[cli->overs++] = value; return true;
+    case opt_of: cli->of = value; return true;
+    case opt_number: cli->number[cli->numbers++] = value; return true;
+    case opt_workers: return whole(value, "workers", 256, &cli->workers, error);
+    case opt_chunk: return set_chunk(cli, value, error);
     case opt_shape: return cli->shape = true;
     case opt_scene: return cli->scene = true;
     case opt_equations: return cli->equations = true;
@@ -239,6 +267,8 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
 {
     cli->setting = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->setting);
     cli->operand = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->operand);
+    cli->over_list = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->over_list);
+    cli->number = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->number);
     cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
     nh_options_default(&cli->options);
     bool given[owner_count] = {false};

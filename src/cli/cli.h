@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/option.h"
 #include "base/output.h"
+#include "base/sweep.h"
 #include "base/text.h"
 #include "document/provenance.h"
 #include "commands/analyze.h"
@@ -33,7 +34,12 @@ typedef struct {
     const char *group, *chain, *to; /* of reduce */
     bool project, weak;
     const char *watch;           /* of simulate */
-    const char *over;            /* of benchmark */
+    const char *over;            /* of benchmark and classify: the last --over */
+    size_t overs, numbers;
+    const char **over_list, **number; /* of scan: every --over, every --number */
+    const char *of;              /* of scan */
+    size_t chunk, chunks, workers;
+    const nh_team *team;         /* processes of one run on several machines; or NULL */
     bool scene, shape;           /* shape: of classify */
     double accuracy, spread;
     size_t ensemble;
@@ -53,12 +59,18 @@ typedef struct {
     nh_arena *arena;
 } nh_cli;
 
+/* The program, from its main function: the exit code. `team` may be NULL. */
+int nh_cli_main(int argc, char **argv, const nh_team *team);
+
+/* Version and build, by which two programs are told apart. */
+const char *nh_cli_program(void);
+
 /* Parse the words after the program's name. */
 bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_benchmark, nh_cli_reduce, nh_cli_classify, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
+nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_benchmark, nh_cli_reduce, nh_cli_classify, nh_cli_scan, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
 
 /* What simulate and benchmark ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);

@@ -83,6 +83,11 @@ static void ranges(canvas *c)
         c->y.high = any ? fmax(c->y.high, y1) : y1;
         any = true;
     }
+    if (p->cells) {
+        nh_svg_range(p->cells->across, p->cells->x, 1, &c->x.low, &c->x.high);
+        nh_svg_range(p->cells->up, p->cells->y, 1, &c->y.low, &c->y.high);
+        any = true;
+    }
     if (!any) c->x = (axis){0, 1, 0, 0, false}, c->y = c->x;
     if (p->log_x) whole_decades(&c->x, p->floor);
     else if (!p->timed || !(c->x.high > c->x.low)) widen(&c->x);
@@ -318,6 +323,25 @@ static void curve(const canvas *c, const nh_curve *f, size_t k)
     if (f->marks) dots(c, f, k);
 }
 
+/* From halfway to the point before to halfway to the next one. */
+static double edge(const double *at, size_t n, size_t i, double low, double high)
+{
+    return i == 0 ? low : i == n ? high : 0.5 * (at[i - 1] + at[i]);
+}
+
+static void cells(const canvas *c, const nh_cells *g)
+{
+    for (size_t i = 0; i < g->across; i++)
+        for (size_t j = 0; j < g->up; j++) {
+            const char *fill = g->fill[i * g->up + j];
+            double x0 = place(&c->x, edge(g->x, g->across, i, c->x.low, c->x.high)), x1 = place(&c->x, edge(g->x, g->across, i + 1, c->x.low, c->x.high));
+            double y0 = place(&c->y, edge(g->y, g->up, j + 1, c->y.low, c->y.high)), y1 = place(&c->y, edge(g->y, g->up, j, c->y.low, c->y.high));
+            if (fill[0]) nh_text_addf(c->out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" fill-opacity=\"0.6\"/>", x0, y0, x1 - x0, y1 - y0, fill);
+        }
+}
+
+const char *nh_svg_colour(size_t k) { return colour[k % colours]; }
+
 /* Rows of names above the plot; returns the height that they take.  With `draw` false only that. */
 static double legend(const canvas *c, bool draw)
 {
@@ -384,6 +408,7 @@ void nh_svg_plot(const nh_plot *p, nh_text *out)
     if (p->equal) equalise(&c);
     head(&c);
     legend(&c, true);
+    if (p->cells) cells(&c, p->cells);
     if (p->log_x) decades(&c, false);
     else linear_ticks(&c, false);
     if (p->log_y) decades(&c, true);

@@ -18,6 +18,13 @@ typedef struct {
     const double *heading;       /* NULL, or an angle per point with y_stride: marks show it at equal steps */
 } nh_curve;
 
+/* Rectangles around the points of a grid. */
+typedef struct {
+    size_t across, up;
+    const double *x, *y;         /* `across` and `up` of them, ascending */
+    char (*fill)[8];             /* "#0072B2", or "": none; fill[i * up + j] at (x[i], y[j]) */
+} nh_cells;
+
 typedef struct {
     const char *id, *title, *description, *x_label, *y_label;
     bool log_x, log_y, equal;    /* equal: both axes have one scale */
@@ -26,7 +33,11 @@ typedef struct {
     bool timed;                  /* x is the time: a page may move a cursor along it */
     size_t curves;
     const nh_curve *curve;
+    const nh_cells *cells;       /* under the curves; or NULL */
 } nh_plot;
+
+/* The colour of curve number k. */
+const char *nh_svg_colour(size_t k);
 
 void nh_svg_plot(const nh_plot *plot, nh_text *out);
 /* Does this text begin as the plot with that id does? */

@@ -103,6 +103,9 @@ static const nh_glossary_entry entries[] = {
     {"undetected", "Not accurate, and no safeguard triggered.  What counts as accurate: options benchmark_error, "
      "benchmark_far and benchmark_fixed.  In JSON: wrong."},
     {"timeout", "A motion that was ended because it took too long, or too many steps."},
+    {"scan", "Numbers of a system at every point of a grid of parameter values, and where they jump (nhsym scan)."},
+    {"special value", "A value of a parameter at which there is more than for almost all values beside it."},
+    {"unit", "Points of a scan that are computed one after another; its file is written completely or not at all."},
     {"work", "Operations counted in units that do not depend on the machine."},
 };
 

@@ -302,14 +302,31 @@ static bool read_dependent(reader *r)
     return true;
 }
 
-/* A parameter with an exact value becomes a definition. */
-static void fix(nh_system *s, nh_parameter *p, const nh_setting *setting)
+static bool no_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
 {
-    const char *text = nh_arena_printf(s->arena, setting->bottom == 1 ? "%s = %lld" : "%s = %lld/%lld", p->name, (long long)setting->top, (long long)setting->bottom);
-    s->definition[s->definitions++] = (nh_named){.name = p->name, .text = text, .value = nh_ratio(s->dag, setting->top, setting->bottom)};
+    (void)context;
+    (void)name;
+    (void)out;
+    (void)fault;
+    return false;
+}
+
+/* A parameter with an exact value becomes a definition. */
+static bool fix(reader *r, nh_parameter *p, const nh_setting *setting)
+{
+    nh_system *s = r->system;
+    nh_parse_fault fault = {0};
+    nh_ex value;
+    const char *ratio = setting->bottom == 1 ? "%lld" : "%lld/%lld";
+    const char *exact = setting->formula ? setting->formula : nh_arena_printf(s->arena, ratio, (long long)setting->top, (long long)setting->bottom);
+    if (!setting->formula) value = nh_ratio(s->dag, setting->top, setting->bottom);
+    else if (!nh_parse(s->dag, exact, no_name, NULL, &value, &fault))
+        return nh_fail(r->error, NH_USAGE, "", "`%s` is no constant for `%s`: %.300s", exact, p->name, fault.what);
+    s->definition[s->definitions++] = (nh_named){.name = p->name, .text = nh_arena_printf(s->arena, "%s = %s", p->name, exact), .value = value};
     size_t behind = s->parameters - 1 - (size_t)(p - s->parameter);
     memmove(p, p + 1, behind * sizeof *p);
     s->parameters--;
+    return true;
 }
 
 static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
@@ -320,8 +337,8 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
         nh_parameter *found = NULL;
         for (size_t i = 0; i < s->parameters; i++)
             if (!strcmp(s->parameter[i].name, setting[k].name)) found = &s->parameter[i];
-        if (found && setting[k].bottom > 0) {
-            fix(s, found, &setting[k]);
+        if (found && (setting[k].bottom > 0 || setting[k].formula)) {
+            if (!fix(r, found, &setting[k])) return false;
             continue;
         }
         if (found) {

@@ -1,0 +1,286 @@
+#include "base/sweep.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "base/context_internal.h"
+#include "base/output.h"
+#include "base/progress.h"
+#include "base/sweep_internal.h"
+
+static const char last_line[] = "finished\n";
+
+size_t nh_sweep_units(const nh_sweep *s) { return (s->items + s->per_unit - 1) / s->per_unit; }
+
+static size_t first_item(const nh_sweep *s, size_t unit) { return unit * s->per_unit; }
+
+static size_t unit_items(const nh_sweep *s, size_t unit)
+{
+    size_t left = s->items - first_item(s, unit);
+    return left < s->per_unit ? left : s->per_unit;
+}
+
+bool nh_sweep_is_ours(const nh_sweep *s, size_t unit) { return s->chunks < 2 || unit % s->chunks == s->chunk; }
+
+/* ---- files ---- */
+
+static void path_of(const nh_sweep *s, size_t unit, const char *ending, nh_text *out)
+{
+    nh_text_init(out);
+    nh_text_addf(out, "%s/%s-%06zu.%s", s->folder, s->name, unit, ending);
+}
+
+static char *read_file(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    nh_text text;
+    char piece[4096];
+    nh_text_init(&text);
+    if (!file) return NULL;
+    for (size_t n; (n = fread(piece, 1, sizeof piece, file)) > 0;) nh_text_add_n(&text, piece, n);
+    bool good = !ferror(file);
+    fclose(file);
+    char *out = good ? nh_strdup(nh_text_string(&text)) : NULL;
+    nh_text_clear(&text);
+    return out;
+}
+
+/* The lines behind the head, each ended by 0, and how many there are: at most as many as the unit has items. Their
+ * start, or NULL where the file is none of this sweep. */
+static char *cut_lines(const nh_sweep *s, size_t unit, char *text, size_t *lines, bool *finished)
+{
+    nh_text head;
+    nh_text_init(&head);
+    nh_text_addf(&head, "%s %zu\n", s->fingerprint, unit);
+    bool own = !strncmp(text, nh_text_string(&head), head.length);
+    char *at = text + head.length, *start = at;
+    nh_text_clear(&head);
+    *lines = 0;
+    *finished = false;
+    if (!own) return NULL;
+    for (char *end; *lines < unit_items(s, unit) && (end = strchr(at, '\n')); at = end + 1, (*lines)++) *end = 0;
+    *finished = *lines == unit_items(s, unit) && !strcmp(at, last_line);
+    return start;
+}
+
+/* The lines of the unit's file, which the caller frees by *text; NULL: there is none, or none that is finished. */
+static char *finished_lines(const nh_sweep *s, size_t unit, char **text)
+{
+    nh_text path;
+    size_t lines;
+    bool finished = false;
+    path_of(s, unit, "txt", &path);
+    *text = read_file(nh_text_string(&path));
+    nh_text_clear(&path);
+    char *start = *text ? cut_lines(s, unit, *text, &lines, &finished) : NULL;
+    if (finished) return start;
+    nh_free(*text);
+    *text = NULL;
+    return NULL;
+}
+
+bool nh_sweep_is_finished(const nh_sweep *s, size_t unit)
+{
+    char *text;
+    bool finished = finished_lines(s, unit, &text) != NULL;
+    nh_free(text);
+    return finished;
+}
+
+size_t nh_sweep_read(const nh_sweep *s, nh_arena *arena, const char **line)
+{
+    size_t found = 0;
+    for (size_t unit = 0; unit < nh_sweep_units(s); unit++) {
+        char *text, *at = finished_lines(s, unit, &text);
+        size_t n = unit_items(s, unit), first = first_item(s, unit);
+        for (size_t k = 0; k < n; k++) {
+            line[first + k] = at ? nh_arena_strdup(arena, at) : NULL;
+            if (at) at += strlen(at) + 1;
+        }
+        found += text ? n : 0;
+        nh_free(text);
+    }
+    return found;
+}
+
+/* ---- one unit ---- */
+
+static bool write_unit(const nh_sweep *s, size_t unit, const char *ending, const nh_text *lines, bool whole,
+                       nh_error *error)
+{
+    nh_text path, text;
+    path_of(s, unit, ending, &path);
+    nh_text_init(&text);
+    nh_text_addf(&text, "%s %zu\n", s->fingerprint, unit);
+    nh_text_add(&text, nh_text_string(lines));
+    if (whole) nh_text_add(&text, last_line);
+    bool good = nh_output_write(nh_text_string(&path), nh_text_string(&text), text.length, error);
+    nh_text_clear(&text);
+    nh_text_clear(&path);
+    return good;
+}
+
+/* What an interrupted run left of this unit. */
+static size_t take_part(const nh_sweep *s, size_t unit, nh_text *lines)
+{
+    nh_text path;
+    size_t n = 0;
+    bool finished;
+    path_of(s, unit, "part", &path);
+    char *text = read_file(nh_text_string(&path)), *at = text ? cut_lines(s, unit, text, &n, &finished) : NULL;
+    for (size_t k = 0; at && k < n; k++) {
+        nh_text_addf(lines, "%s\n", at);
+        at += strlen(at) + 1;
+    }
+    nh_free(text);
+    nh_text_clear(&path);
+    return n;
+}
+
+static void drop_part(const nh_sweep *s, size_t unit)
+{
+    nh_text path;
+    path_of(s, unit, "part", &path);
+    unlink(nh_text_string(&path));
+    nh_text_clear(&path);
+}
+
+bool nh_sweep_do_unit(const nh_sweep *s, size_t unit, atomic_size_t *items_done, bool (*orphan)(void), nh_error *error)
+{
+    nh_text lines;
+    nh_text_init(&lines);
+    size_t n = unit_items(s, unit), before = take_part(s, unit, &lines), k = before;
+    atomic_fetch_add(items_done, before);
+    for (; k < n && !nh_interrupted() && !(orphan && orphan()); k++) {
+        size_t length = lines.length;
+        if (!s->item(s->context, first_item(s, unit) + k, &lines) || nh_interrupted()) {
+            lines.length = length;
+            if (lines.data) lines.data[length] = 0;
+            break;
+        }
+        nh_text_add(&lines, "\n");
+        atomic_fetch_add(items_done, 1);
+    }
+    bool good = k == n ? write_unit(s, unit, "txt", &lines, true, error)
+                       : k == before || write_unit(s, unit, "part", &lines, false, error);
+    if (good && k == n) drop_part(s, unit);
+    nh_text_clear(&lines);
+    return good;
+}
+
+/* ---- all of them ---- */
+
+size_t nh_sweep_missing(const nh_sweep *s, size_t *unit)
+{
+    size_t n = 0;
+    for (size_t u = 0; u < nh_sweep_units(s); u++)
+        if (nh_sweep_is_ours(s, u) && !nh_sweep_is_finished(s, u)) unit[n++] = u;
+    return n;
+}
+
+void nh_sweep_say(const nh_sweep *s, size_t done, size_t all)
+{
+    char words[120];
+    snprintf(words, sizeof words, "%s: %zu of %zu", s->doing, done, all);
+    nh_progress(words, all ? (double)done / (double)all : 1);
+}
+
+/* What an item says of itself would hide how far the whole has come. */
+static nh_progress_handler *be_quiet(void **context)
+{
+    nh_context *c = nh_context_here();
+    nh_progress_handler *handler = c->handler;
+    *context = c->handler_context;
+    c->handler = NULL;
+    return handler;
+}
+
+static bool do_here(const nh_sweep *s, size_t n, const size_t *unit, nh_error *error)
+{
+    atomic_size_t done = 0;
+    size_t all = 0;
+    bool good = true;
+    for (size_t i = 0; i < n; i++) all += unit_items(s, unit[i]);
+    for (size_t i = 0; good && i < n && !nh_interrupted(); i++) {
+        void *context;
+        nh_sweep_say(s, atomic_load(&done), all);
+        nh_progress_handler *handler = be_quiet(&context);
+        good = nh_sweep_do_unit(s, unit[i], &done, NULL, error);
+        nh_progress_set(handler, context);
+    }
+    return good;
+}
+
+/* Numbers from the team are units, whoever finished them before. */
+static bool do_in_team(const nh_sweep *s, nh_error *error)
+{
+    atomic_size_t done = 0;
+    bool good = true;
+    for (size_t u; good && !nh_interrupted() && (u = s->team->next(s->team->context)) < nh_sweep_units(s);) {
+        void *context;
+        nh_progress_handler *handler;
+        nh_sweep_say(s, first_item(s, u), s->items);
+        handler = be_quiet(&context);
+        good = nh_sweep_is_finished(s, u) || nh_sweep_do_unit(s, u, &done, NULL, error);
+        nh_progress_set(handler, context);
+    }
+    return good;
+}
+
+bool nh_sweep_run(const nh_sweep *s, nh_sweep_state *state, nh_error *error)
+{
+    enum { rounds = 3 }; /* a unit whose worker died is tried twice more */
+    size_t *unit = nh_alloc_array(nh_sweep_units(s) + 1, sizeof *unit), n = 0;
+    bool good = true;
+    *state = (nh_sweep_state){0};
+    if (s->team && s->team->size > 1) good = do_in_team(s, error);
+    if (s->team && s->team->size > 1) s->team->meet(s->team->context);
+    bool whole = !s->team || s->team->rank == 0; /* what was lost in a team is done by its first */
+    for (int round = 0; good && whole && round < rounds && !nh_interrupted(); round++) {
+        if (!(n = nh_sweep_missing(s, unit))) break;
+        good = s->workers > 1 && n > 1 ? nh_sweep_do_in_workers(s, n, unit, state, error) : do_here(s, n, unit, error);
+    }
+    for (size_t u = 0; u < nh_sweep_units(s); u++) state->units += nh_sweep_is_ours(s, u);
+    state->finished = state->units - nh_sweep_missing(s, unit);
+    nh_free(unit);
+    return good;
+}
+
+/* ---- who works in the folder ---- */
+
+int nh_sweep_hold(const char *folder)
+{
+    nh_text path;
+    nh_text_init(&path);
+    nh_text_addf(&path, "%s/lock", folder);
+    int file = open(nh_text_string(&path), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    nh_text_clear(&path);
+    if (file >= 0) flock(file, LOCK_SH);
+    return file;
+}
+
+/* NAME-000017.txt.AbCdEf */
+static bool is_temporary(const char *file, const char *name)
+{
+    const char *dot = strrchr(file, '.');
+    return !strncmp(file, name, strlen(name)) && dot && strlen(dot) == 7;
+}
+
+bool nh_sweep_is_alone(int hold) { return hold >= 0 && !flock(hold, LOCK_EX | LOCK_NB); }
+
+void nh_sweep_tidy(const char *folder, const char *name)
+{
+    DIR *list = opendir(folder);
+    for (struct dirent *entry; list && (entry = readdir(list));)
+        if (is_temporary(entry->d_name, name)) unlinkat(dirfd(list), entry->d_name, 0);
+    if (list) closedir(list);
+}
+
+void nh_sweep_release(int hold)
+{
+    if (hold >= 0) close(hold);
+}

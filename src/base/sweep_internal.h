@@ -1,0 +1,20 @@
+/* sweep_internal: what sweep and its worker processes share. */
+#ifndef NH_SWEEP_INTERNAL_H
+#define NH_SWEEP_INTERNAL_H
+
+#include <stdatomic.h>
+
+#include "base/sweep.h"
+
+bool nh_sweep_is_ours(const nh_sweep *sweep, size_t unit);
+bool nh_sweep_is_finished(const nh_sweep *sweep, size_t unit);
+/* Units that are not finished, of the chunk. */
+size_t nh_sweep_missing(const nh_sweep *sweep, size_t *unit);
+void nh_sweep_say(const nh_sweep *sweep, size_t done, size_t all);
+/* Computes and writes a unit; what an interruption, or the end of the process that began this one, leaves of it is kept. */
+bool nh_sweep_do_unit(const nh_sweep *sweep, size_t unit, atomic_size_t *items_done, bool (*orphan)(void),
+                      nh_error *error);
+bool nh_sweep_do_in_workers(const nh_sweep *sweep, size_t units, const size_t *unit, nh_sweep_state *state,
+                            nh_error *error);
+
+#endif

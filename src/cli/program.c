@@ -1,0 +1,101 @@
+/* program: from the command line to the exit code. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/escape.h"
+#include "base/files.h"
+#include "base/progress.h"
+#include "cli/cli.h"
+#include "cli/cli_table.h"
+#include "evaluate/machine.h"
+#include "exact/normal.h"
+
+static const struct {
+    const char *name;
+    nh_cli_command *run;
+} commands[] = {
+#define X(name, operand, meaning, example) {#name, nh_cli_##name},
+    NH_CLI_COMMAND_TABLE(X)
+#undef X
+};
+enum { command_count = sizeof commands / sizeof *commands };
+
+extern const char nh_cli_fingerprint[]; /* the Makefile makes it */
+
+const char *nh_cli_program(void)
+{
+    static char text[80];
+    snprintf(text, sizeof text, "nhsym %s %s", NH_VERSION, nh_cli_fingerprint);
+    return text;
+}
+
+static void out_of_memory(size_t wanted)
+{
+    (void)wanted;
+    static const char text[] = "nhsym: out of memory\n";
+    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) _exit(NH_LIMIT);
+    _exit(NH_LIMIT);
+}
+
+static int run(nh_cli *cli, nh_error *error)
+{
+    if (cli->help || !cli->command) return nh_cli_help(cli, error);
+    for (size_t i = 0; i < command_count; i++)
+        if (!strcmp(cli->command, commands[i].name)) return commands[i].run(cli, error);
+    nh_fail(error, NH_USAGE, "", "there is no command `%s`", cli->command);
+    const char *near = nh_cli_command_near(cli->command);
+    if (near) nh_error_hint(error, "did you mean `nhsym %s`?", near);
+    else nh_error_hint(error, "`nhsym help` lists the commands");
+    return NH_USAGE;
+}
+
+/* The command as one line; words with other characters than a shell passes on are quoted. */
+static const char *line_of(nh_cli *cli, int argc, char **argv)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_add(&text, "nhsym");
+    for (int i = 1; i < argc; i++) {
+        bool bare = argv[i][0] && !argv[i][strspn(argv[i], plain)];
+        nh_text_add(&text, bare ? " " : " '");
+        for (const char *c = argv[i]; *c; c++)
+            if (*c == '\'') nh_text_add(&text, "'\\''");
+            else nh_text_add_n(&text, c, 1);
+        nh_text_add(&text, bare ? "" : "'");
+    }
+    const char *line = nh_arena_strdup(cli->arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return line;
+}
+
+int nh_cli_main(int argc, char **argv, const nh_team *team)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_memory_set_handler(out_of_memory);
+    nh_files_begin();
+    nh_cli cli = {.arena = nh_arena_create(), .team = team};
+    cli.line = line_of(&cli, argc, argv);
+    int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
+    if (error.code != NH_OK) {
+        char text[4096];
+        nh_error_format(&error, text, sizeof text);
+        nh_text shown;
+        nh_text_init(&shown);
+        nh_escape_terminal(text, &shown);
+        fprintf(stderr, "nhsym: %s\n", nh_text_string(&shown));
+        nh_text_clear(&shown);
+    }
+    nh_files_end();
+    nh_arena_free(cli.arena);
+    nh_machine_cleanup();
+    nh_normal_cleanup();
+    if (fflush(stdout) || ferror(stdout)) {
+        fprintf(stderr, "nhsym: standard output could not be written\n");
+        code = code ? code : NH_NUMERIC;
+    }
+    if (nh_interrupted()) _exit(code); /* a decomposition that was left alone may still run */
+    return code;
+}

@@ -1,0 +1,115 @@
+/* scan: numbers of a system at every point of a grid of parameter values, and the values at which they jump.
+ *
+ * A grid is the product of one list of exact values for each parameter. At each point a source gives numbers, of which
+ * the first leads: where it jumps there is a special value. Beside them stand the smallest generalized singular values
+ * of a few ansatz spaces, nearly continuous functions of the parameter that vanish where such a space holds one more
+ * current: between two points of the grid a special value shows as a dip of one of them.
+ *
+ * Points, and afterwards jumps, are items of a sweep (base/sweep.h) in a folder; the folder's manifest says what was
+ * asked. Dips that are narrower than the grid, and currents outside of the ansatz spaces, are missed. */
+#ifndef NH_SCAN_H
+#define NH_SCAN_H
+
+#include "base/option.h"
+#include "base/sweep.h"
+#include "system/system.h"
+
+enum { NH_SCAN_MOST_AXES = 4, NH_SCAN_MOST_NUMBERS = 32, NH_SCAN_MOST_SPACES = 32 };
+
+/* Exactly top/bottom; text: "5/2". */
+typedef struct {
+    double value;
+    int64_t top, bottom;
+    const char *text;
+} nh_scan_value;
+
+typedef struct {
+    const char *name;      /* a parameter */
+    size_t count;
+    nh_scan_value *value;
+    bool ascending;        /* then jumps and dips are looked for along it */
+} nh_scan_axis;
+
+/* What is computed at a point, by whoever can. */
+typedef struct {
+    const char *of;        /* "count", "analyze", "reduce" */
+    size_t count;
+    const char *const *name; /* the first leads */
+    bool spectra;          /* the ansatz spaces are looked at as well */
+    /* The numbers with these settings, exact ones for the parameters of the grid; a number that is not there is NAN,
+     * and *why is the reason, in the arena. `generic`: for almost all values of the parameters instead; the settings
+     * are no more than starting values then. False: interrupted. */
+    bool (*at)(void *context, nh_arena *arena, size_t settings, const nh_setting *setting, bool generic, double *number,
+               const char **why);
+    void *context;
+} nh_scan_source;
+
+typedef struct {
+    const char *system_path;
+    size_t settings;
+    const nh_setting *setting;
+    size_t axes;
+    const char *const *over; /* "k=1:4:61", "k=1,2,5/2" */
+    const nh_scan_source *source;
+    nh_options options;
+    const char *program;     /* which program answers: version and build */
+    const char *folder;
+    size_t chunk, chunks;    /* part of the points only, as in base/sweep.h */
+    size_t workers;
+    void (*begin_worker)(void);
+    const nh_team *team;
+} nh_scan_request;
+
+typedef struct {
+    double *number;          /* of the source */
+    double *smallest;        /* per ansatz space the smallest generalized singular value that does not vanish; NAN */
+    size_t *vanishing;       /* per ansatz space: how many do */
+    const char *why;         /* why numbers are missing; or NULL */
+    bool done;
+} nh_scan_row;
+
+typedef enum { NH_SCAN_HIT, NH_SCAN_STEP, NH_SCAN_DIP } nh_scan_kind;
+
+/* A value at which something jumps. */
+typedef struct {
+    nh_scan_kind kind;       /* a point of the grid; an end of a region; between points */
+    size_t axis, place;      /* along which; the point at it, or below it */
+    double value;
+    const char *exact;       /* "1/3", "pi/6", or NULL: not recognised */
+    double *number;          /* there, where it was recognised; else NAN */
+    double generic;          /* the leading number around it; for a step NAN */
+    double below, above;     /* the leading number at the points beside it */
+    double smallest;         /* a dip: the singular value there, relative to those at the points beside it */
+    const char *space;       /* a dip: the ansatz space that holds one more current there */
+    bool confirmed;          /* the source gives another leading number there, with the exact value */
+    const char *why;         /* where it does not: why; or NULL */
+} nh_scan_special;
+
+typedef struct {
+    nh_arena *arena;
+    nh_system *system;       /* with the settings */
+    const nh_scan_source *source;
+    size_t axes, points, spaces;
+    nh_scan_axis axis[NH_SCAN_MOST_AXES];
+    const char *question;    /* all that the answer depends on, as a command line */
+    const char **space;      /* names of the ansatz spaces */
+    size_t *columns;         /* how many functions they are made of */
+    nh_scan_row *row;
+    size_t specials, unrefined; /* unrefined: jumps that were not looked at yet */
+    nh_scan_special *special;
+    size_t units, finished;  /* of the chunk */
+    double unit_seconds;     /* what a unit was estimated to take */
+    size_t deaths;
+    const char *death;
+    bool partial, chunked;   /* something is missing; only a chunk was computed */
+    bool silent;             /* another member of the team speaks */
+} nh_scan;
+
+/* NULL: bad input, a folder that holds another scan, or one that cannot be written. */
+nh_scan *nh_scan_create(const nh_scan_request *request, nh_error *error);
+void nh_scan_free(nh_scan *scan);
+
+/* The value of an axis at a point of the grid; the last axis varies fastest. */
+const nh_scan_value *nh_scan_at(const nh_scan *scan, size_t point, size_t axis);
+
+#endif

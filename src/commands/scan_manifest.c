@@ -1,0 +1,125 @@
+/* scan_manifest: what a folder holds the scan of.
+ *
+ * The manifest is written once, by whoever comes first: a link is made or is there already. Who comes later computes
+ * only if program, files and question are the same. Of the time that a point takes only the size of a unit depends,
+ * and of that no answer. */
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/files.h"
+#include "base/json.h"
+#include "base/output.h"
+#include "commands/scan_internal.h"
+
+static const double unit_seconds = 10;
+static const size_t least_units = 32; /* of a small grid, so that several workers share it */
+
+static const char *hexadecimal(nh_arena *arena, uint64_t number) { return nh_arena_printf(arena, "%016" PRIx64, number); }
+
+static bool make_folder(const char *path, nh_error *error)
+{
+    if (!mkdir(path, 0777) || errno == EEXIST) return true;
+    nh_fail(error, NH_NUMERIC, path, "the folder could not be created: %s", strerror(errno));
+    return nh_error_hint(error, "-o takes a folder; its parent folder must exist");
+}
+
+/* ---- reading ---- */
+
+static bool differs(const nh_json *m, const char *key, const char *mine, const char *what, const char *path, nh_error *error)
+{
+    const char *there = nh_json_text(m, key);
+    if (there && !strcmp(there, mine)) return false;
+    nh_fail(error, NH_USAGE, path, "this folder holds a scan %s: there `%.200s`, here `%.200s`", what, there ? there : "", mine);
+    nh_error_hint(error, "give another folder, or remove this one");
+    return true;
+}
+
+static bool compare(const char *path, const char *text, const char *program, const char *files, const char *question,
+                    size_t *per_unit, double *seconds, nh_error *error)
+{
+    nh_json *m = nh_json_parse(text);
+    double size = nh_json_value(m, "points_per_unit");
+    *seconds = nh_json_value(m, "unit_seconds");
+    bool good = size >= 1 && nh_json_value(m, "schema") == 1;
+    if (!good) {
+        nh_fail(error, NH_INPUT, path, "this is no manifest of a scan");
+        nh_error_hint(error, "give another folder, or remove this one");
+    }
+    good = good && !differs(m, "question", question, "with another question", path, error)
+           && !differs(m, "files", files, "of another system file, or this one was changed since", path, error)
+           && !differs(m, "program", program, "that another program began", path, error);
+    if (good) *per_unit = (size_t)size;
+    nh_json_free(m);
+    return good;
+}
+
+static char *read_manifest(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    char piece[1024];
+    nh_text text;
+    nh_text_init(&text);
+    if (!file) return NULL;
+    for (size_t n; (n = fread(piece, 1, sizeof piece, file)) > 0;) nh_text_add_n(&text, piece, n);
+    fclose(file);
+    char *out = nh_strdup(nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}
+
+/* ---- writing ---- */
+
+static char *manifest_text(const nh_scan *x, const char *program, const char *files, double seconds)
+{
+    nh_json *m = nh_json_object();
+    double most = fmax(1, floor((double)x->points / (double)least_units));
+    double size = fmin(most, fmax(1, floor(unit_seconds / fmax(seconds, 1e-9))));
+    nh_json_put_number(m, "schema", 1);
+    nh_json_put_text(m, "program", program);
+    nh_json_put_text(m, "system", x->system->name);
+    nh_json_put_text(m, "question", x->question);
+    nh_json_put_text(m, "files", files);
+    nh_json_put_number(m, "points", (double)x->points);
+    nh_json_put_number(m, "points_per_unit", size);
+    nh_json_put_number(m, "unit_seconds", seconds * size);
+    return nh_json_finish(m);
+}
+
+/* Beside its place, then linked to it: the first one stays. */
+static bool write_first(const char *path, const char *text, nh_error *error)
+{
+    char beside[NH_OUTPUT_LONGEST];
+    snprintf(beside, sizeof beside, "%s.%ld", path, (long)getpid());
+    if (!nh_output_write(beside, text, strlen(text), error)) return false;
+    bool good = !link(beside, path) || errno == EEXIST;
+    int reason = errno;
+    unlink(beside);
+    return good || nh_fail(error, NH_NUMERIC, path, "could not be written: %s", strerror(reason));
+}
+
+bool nh_scan_manifest(nh_scan *x, const nh_scan_request *q, double (*seconds_of_a_point)(void *), void *context,
+                      size_t *per_unit, const char **fingerprint, nh_error *error)
+{
+    const char *path = nh_arena_printf(x->arena, "%s/manifest.json", q->folder);
+    const char *files = hexadecimal(x->arena, nh_files_fingerprint());
+    if (!make_folder(q->folder, error) || !make_folder(nh_arena_printf(x->arena, "%s/units", q->folder), error)) return false;
+    char *text = read_manifest(path);
+    if (!text) {
+        char *mine = manifest_text(x, q->program, files, seconds_of_a_point(context));
+        bool written = write_first(path, mine, error);
+        nh_free(mine);
+        if (!written || !(text = read_manifest(path))) return nh_fail(error, NH_NUMERIC, path, "could not be written");
+    }
+    bool good = compare(path, text, q->program, files, x->question, per_unit, &x->unit_seconds, error);
+    nh_free(text);
+    uint64_t h = nh_text_fingerprint(0, x->question, strlen(x->question));
+    h = nh_text_fingerprint(h, files, strlen(files));
+    h = nh_text_fingerprint(h, q->program, strlen(q->program));
+    *fingerprint = nh_arena_printf(x->arena, "nhsym scan %s", hexadecimal(x->arena, h));
+    return good;
+}
