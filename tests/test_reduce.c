@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "document/export.h"
 #include "document/reduction.h"
 #include "scratch.h"
 #include "sweep.h"
@@ -262,6 +263,14 @@ Test(reduce, json)
     nh_reduction_free(r);
 }
 
+/* The stages as C. */
+static void export_c(const nh_reduction *r, nh_text *out)
+{
+    nh_export *x = nh_export_of_reduction(r);
+    nh_export_text(x, NH_EXPORT_C, "reduced", NULL, out);
+    nh_export_free(x);
+}
+
 /* A coordinate may be called as the array of the state, and time may occur. */
 Test(reduce, c_code_of_a_quotient_compiles)
 {
@@ -274,8 +283,8 @@ Test(reduce, c_code_of_a_quotient_compiles)
     char name[SCRATCH], command[SCRATCH + 100];
     nh_text code;
     nh_text_init(&code);
-    nh_reduction_c(r, &code);
-    cr_expect(strstr(nh_text_string(&code), "int stage1(double t, const double *state_, double *rate_, double *zeta_)") != NULL);
+    export_c(r, &code);
+    cr_expect(strstr(nh_text_string(&code), "int reduced_stage1(double t, const double state[") != NULL);
     cr_assert(scratch_text(name, nh_text_string(&code)));
     snprintf(command, sizeof command, "${CC:-cc} -std=c99 -Wall -Wextra -Werror -fsyntax-only -x c %s", name);
     cr_expect_eq(system(command), 0);
@@ -292,12 +301,12 @@ Test(reduce, c_code_computes_the_reduced_equations)
     must(r != NULL, &error, "crane");
     nh_text code;
     nh_text_init(&code);
-    nh_reduction_c(r, &code);
+    export_c(r, &code);
     nh_text_add(&code, "#include <stdio.h>\nint main(void)\n{\n    double z[20], rate[20] = {0}, zeta[20] = {0};\n");
     double z[20], *got = nh_alloc_array(40 * r->stages, sizeof *got), *next = got;
     for (size_t i = 0; i < 20; i++) z[i] = 0.3 + 0.11 * (double)i - 0.007 * (double)(i * i);
     for (size_t i = 0; i < 20; i++) nh_text_addf(&code, "    z[%zu] = %.17g;\n", i, z[i]);
-    for (size_t s = 0; s < r->stages; s++) nh_text_addf(&code, "    stage%zu(z, rate, zeta);\n    for (int i = 0; i < 20; i++) printf(\"%%.17g\\n%%.17g\\n\", rate[i], zeta[i]);\n", s + 1);
+    for (size_t s = 0; s < r->stages; s++) nh_text_addf(&code, "    if (reduced_stage%zu(0, z, &reduced_default, rate, zeta)) return 1;\n    for (int i = 0; i < 20; i++) printf(\"%%.17g\\n%%.17g\\n\", rate[i], zeta[i]);\n", s + 1);
     nh_text_add(&code, "    return 0;\n}\n");
     cr_assert_eq(scratch_run_c(nh_text_string(&code), got, 40 * r->stages), (long)(40 * r->stages), "%s", nh_text_string(&code));
     for (size_t s = 0; s < r->stages; s++) {

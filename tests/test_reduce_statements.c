@@ -2,6 +2,7 @@
 #include "oracle.h"
 
 #include "document/html.h"
+#include "document/export.h"
 #include "document/reduction.h"
 #include "scratch.h"
 #include "sweep.h"
@@ -189,6 +190,14 @@ Test(reduce_statements, symmetries_that_are_local)
     done(&t);
 }
 
+/* The stages as C. */
+static void export_c(const nh_reduction *r, nh_text *out)
+{
+    nh_export *x = nh_export_of_reduction(r);
+    nh_export_text(x, NH_EXPORT_C, "reduced", NULL, out);
+    nh_export_free(x);
+}
+
 /* A Lagrangian may be many-valued and its symmetries not; dividing by a symmetry that is local is said to be so. */
 Test(reduce_statements, stages_that_are_local)
 {
@@ -216,7 +225,7 @@ Test(reduce_statements, stages_that_are_local)
     SAYS(PAGE(t), "this group acts only locally");
     nh_text code;
     nh_text_init(&code);
-    nh_reduction_c(t.r, &code);
+    export_c(t.r, &code);
     SAYS(nh_text_string(&code), "which acts locally.");
     nh_text_clear(&code);
     done(&t);

@@ -158,6 +158,34 @@ Test(schema, what_scan_writes_fits)
     place_clear(&p);
 }
 
+/* Linear systems, an iteration, no parameters, inputs. */
+Test(schema, what_export_writes_fits)
+{
+    static const char *const lines[] = {"sleigh", "snakeboard --of equations,reduced", "constant_speed --of submanifold", "implicit.yaml --of submanifold", "skate_with_friction --of equations --input c"};
+    static const char implicit[] = "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z'^5 + z' = x'*y'\"]\n";
+    cJSON *schema = read_json("docs/schema/export.json");
+    place p = place_make();
+    write_here(&p, "implicit.yaml", implicit);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char line[300], environment[PATH_MAX + 30];
+        snprintf(environment, sizeof environment, "NHSYM_PATH=%s", p.project);
+        snprintf(line, sizeof line, "export %s --to json", lines[i]);
+        finished f = run_so(&p, &(manner){.environment = (const char *const[]){environment, NULL}}, line);
+        cr_assert(f.code == 0, "%s: %s", line, f.err);
+        cJSON *root = cJSON_Parse(f.out);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", lines[i], v.fault);
+        cJSON *functions = cJSON_GetObjectItem(root, "functions");
+        cr_expect(cJSON_GetArraySize(functions) > 2);
+        cJSON_AddNumberToObject(cJSON_GetArrayItem(cJSON_GetObjectItem(cJSON_GetArrayItem(functions, 0), "results"), 0), "more", 1);
+        cr_expect_not(fits(schema, root, "", &v), "an unknown key");
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(schema);
+    place_clear(&p);
+}
+
 Test(schema, what_chart_writes_fits)
 {
     static const char *const lines[] = {"sleigh --budget 2s", "ball_on_turntable --until 3 --budget 500ms", "lagrange_top --until 2 --budget 300ms"};

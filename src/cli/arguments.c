@@ -9,7 +9,7 @@
 #include "cli/cli_table.h"
 
 enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
-       opt_of, opt_number, opt_workers, opt_chunk };
+       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 #define OLD(code, old, argument) {old, argument, NULL, code},
@@ -187,6 +187,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_weak: return cli->weak = true;
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_to: cli->to = value; return true;
+    case opt_input: cli->input = value; return true;
+    case opt_name: cli->name = value; return true;
     case opt_watch: cli->watch = value; return true;
     case opt_svg: cli->svg = value; return true;
     case opt_budget: return seconds(value, &cli->budget, error);

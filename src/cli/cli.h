@@ -31,13 +31,14 @@ typedef struct {
     bool equations;              /* of analyze and verify: the geometry written out */
     const char *initial;         /* of simulate and reduce */
     const nh_method *method;
-    const char *group, *chain, *to; /* of reduce */
+    const char *group, *chain, *to; /* of reduce; `to` of export, too */
+    const char *input, *name;  /* of export */
     bool project, weak;
     const char *watch;           /* of simulate */
     const char *over;            /* of benchmark and classify: the last --over */
     size_t overs, numbers;
     const char **over_list, **number; /* of scan: every --over, every --number */
-    const char *of;              /* of scan */
+    const char *of;              /* of scan and export */
     size_t chunk, chunks, workers;
     const nh_team *team;         /* processes of one run on several machines; or NULL */
     bool scene, shape;           /* shape: of classify */
@@ -70,7 +71,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_benchmark, nh_cli_reduce, nh_cli_classify, nh_cli_scan, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
+nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_benchmark, nh_cli_reduce, nh_cli_classify, nh_cli_export, nh_cli_scan, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
 
 /* What simulate and benchmark ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);

@@ -9,19 +9,19 @@ bool nh_word_among(const char *words, const char *word);
 
 /*    code           name           argument            shown as             of the commands      meaning */
 #define NH_CLI_OPTION_TABLE(X)                                                                                                                                     \
-    X(opt_set,         "set",         required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan", "set a parameter; repeatable")      \
+    X(opt_set,         "set",         required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan export", "set a parameter; repeatable")      \
     X(opt_analysis,    "analysis",    required_argument, "FILE",               "analyze simulate benchmark", "read ansatz and motion from this analysis file")                              \
     X(opt_no_analysis, "no-analysis", no_argument,       "",                   "analyze simulate benchmark", "ignore analysis files; the program chooses ansatz and motion")     \
-    X(opt_velocities, "velocities",  required_argument, "auto|quasi|coordinates", "analyze verify simulate benchmark", "velocities of the computation")                  \
+    X(opt_velocities, "velocities",  required_argument, "auto|quasi|coordinates", "analyze verify simulate benchmark export", "velocities of the computation")                  \
     X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate benchmark reduce classify scan", "write the result as JSON; `-`: print it, and nothing else") \
     X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate benchmark reduce scan", "write the result as one self-contained page") \
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze", "write the result as a LaTeX document")                                        \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "LaTeX without a preamble, to include in another document")                      \
-    X('o',             "output",      required_argument, "DIR",                "analyze scan", "-o: write all these files and every figure into a folder; scan: the folder of its parts and its result")                      \
+    X('o',             "output",      required_argument, "DIR",                "analyze scan export", "-o: write all files into a folder; scan: the folder of its parts and its result")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
-    X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce", "initial state")                                       \
+    X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export", "initial state")                                       \
     X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce", "project the initial velocities onto the constraints")            \
     X(opt_method,      "method",      required_argument, "NAME",               "simulate", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \
@@ -33,29 +33,31 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_robustness, "robustness",  no_argument,       "",                   "benchmark", "maps of where the methods fail")                                          \
     X(opt_over,        "over",        required_argument, "RANGES",             "benchmark classify scan", "benchmark: the robustness map of these ranges, as in a=1e-9:1, omega=1:9; classify: the parameter; scan: k=1:4:61 or k=1,2,5/2; repeatable")    \
     X(opt_shape,       "shape",       no_argument,       "",                   "classify", "only integrals whose coefficients do not depend on cyclic coordinates") \
-    X(opt_of,          "of",          required_argument, "count|analyze|reduce", "scan", "which numbers: the count of integrals, or those of a command")              \
+    X(opt_of,          "of",          required_argument, "WORDS", "scan export", "scan: which numbers: count (of integrals), analyze, reduce; export: parts: equations, momenta, submanifold, currents, reduced")              \
     X(opt_number,      "number",      required_argument, "NAME",               "scan", "a number by its path in the JSON, as in group.dimension; repeatable")          \
     X(opt_workers,     "workers",     required_argument, "N",                  "scan", "processes that share the work; it does not change the result")                 \
     X(opt_chunk,       "chunk",       required_argument, "I/N",                "scan", "only part I of N, for job arrays; then once without it")                       \
     X(opt_budget,      "budget",      required_argument, "TIME",               "benchmark", "time to spend on measurements: 5s, 200ms")                                          \
     X(opt_svg,         "svg",         required_argument, "FILE",               "benchmark simulate", "write a picture: error against time, or the columns over time")                                         \
-    X(opt_group,       "group",       required_argument, "FIELDS",             "reduce", "\"1, 2\" or \"x=1; theta=1\": the group to divide out")                        \
+    X(opt_group,       "group",       required_argument, "FIELDS",             "reduce export", "\"1, 2\" or \"x=1; theta=1\": the group to divide out")                        \
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
-    X(opt_weak,        "weak",        no_argument,       "",                   "reduce", "also allow symmetries up to a total derivative")              \
-    X(opt_to,          "to",          required_argument, "c|latex",            "reduce", "print the reduced equations as C or LaTeX")                                            \
+    X(opt_weak,        "weak",        no_argument,       "",                   "reduce export", "also allow symmetries up to a total derivative")              \
+    X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|latex|json", "reduce export", "the language of the exported code; reduce: print the reduced equations so") \
+    X(opt_input,       "input",       required_argument, "NAMES",              "export", "parameters that are inputs of a controller: arguments of every function") \
+    X(opt_name,        "name",        required_argument, "NAME",               "export", "what names of files and functions begin with") \
     X(opt_tolerance,   "tolerance",   required_argument, "EPS",                "analyze simulate benchmark reduce", "relative tolerance of the motions")                                  \
     X(opt_until,       "until",       required_argument, "T",                  "analyze simulate benchmark reduce", "end time of the motions")                                       \
-    X(opt_seed,        "seed",        required_argument, "N",                  "analyze", "seed of all random choices")                                                \
+    X(opt_seed,        "seed",        required_argument, "N",                  "analyze export", "seed of all random choices")                                                \
     X(opt_samples,     "samples",     required_argument, "N",                  "analyze", "number of sample points")                                                         \
     X(opt_columns,     "columns",     required_argument, "N",                  "analyze", "number of columns of the largest ansatz")                                          \
     X(opt_degree,      "degree",      required_argument, "D",                  "analyze classify scan", "count integrals polynomial in the velocities up to this degree")        \
     X(opt_threads,     "threads",     required_argument, "N",                  "analyze", "number of threads; it does not change the result")                      \
-    X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze verify simulate benchmark reduce classify scan", "time limit: the run ends then, with partial results") \
-    X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan", "set an option that `nhsym explain options` lists")    \
-    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan", "show the current step on standard error")           \
-    X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan new", "-q: no summary")                       \
+    X(opt_max_seconds, "max-seconds", required_argument, "S",                  "analyze verify simulate benchmark reduce classify scan export", "time limit: the run ends then, with partial results") \
+    X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan export", "set an option that `nhsym explain options` lists")    \
+    X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan export", "show the current step on standard error")           \
+    X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export new", "-q: no summary")                       \
     X('v',             "verbose",     no_argument,       "",                   "analyze simulate benchmark reduce classify scan", "-v: a longer summary")                                    \
-    X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan", "no colours; NO_COLOR does the same")       \
+    X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan export", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: list the options of the command")                                               \
     X(opt_version,     "version",     no_argument,       "",                   "", "print the version")
 
@@ -79,6 +81,7 @@ const char *nh_cli_command_near(const char *word);
     X(reduce,   "SYSTEM|FILE", "the symmetry group and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
     X(classify, "SYSTEM|FILE", "at which values of a parameter more is conserved", "nhsym classify penning_trap --over w") \
     X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
+    X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
     X(list,     "",            "list the available systems", "nhsym list")                                                                                  \
     X(show,     "SYSTEM",      "print a system file", "nhsym show sleigh")                                                                                   \
     X(new,      "NAME",        "write NAME.yaml, an example system to edit", "nhsym new skate")                                                           \

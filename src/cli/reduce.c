@@ -2,6 +2,7 @@
 
 #include "base/progress.h"
 #include "cli/cli.h"
+#include "document/export.h"
 #include "document/html.h"
 #include "document/reduction.h"
 
@@ -12,12 +13,25 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
     *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .accuracy = cli->accuracy, .equations = cli->equations, .options = cli->options};
-    if (cli->to && strcmp(cli->to, "c") && strcmp(cli->to, "latex")) {
-        nh_fail(error, NH_USAGE, "", "`nhsym reduce` cannot write `%s`", cli->to);
-        return nh_error_hint(error, "--to takes c or latex");
-    }
+    nh_export_target target;
+    if (cli->to && !nh_export_target_of(cli->to, &target, error)) return false;
     q->system_path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
     return q->system_path != NULL;
+}
+
+/* Functions of the stages; LaTeX as a part of another document. */
+static void put_code(const nh_cli *cli, const nh_reduction *r, nh_text *out)
+{
+    nh_error none = {0};
+    nh_export_target target = NH_EXPORT_C;
+    const char *prefix;
+    nh_run run = nh_cli_run(cli, NULL, NULL);
+    nh_export_target_of(cli->to, &target, &none);
+    nh_export *x = nh_export_of_reduction(r);
+    nh_export_prefix(x, NULL, &prefix, &none);
+    if (target == NH_EXPORT_LATEX) nh_reduction_latex(r, out);
+    else nh_export_text(x, target, prefix, &run, out);
+    nh_export_free(x);
 }
 
 /* The summary, or the equations as code. */
@@ -25,8 +39,7 @@ static void print(const nh_cli *cli, const nh_reduction *r)
 {
     nh_text text;
     nh_text_init(&text);
-    if (cli->to && !strcmp(cli->to, "c")) nh_reduction_c(r, &text);
-    else if (cli->to) nh_reduction_latex(r, &text);
+    if (cli->to) put_code(cli, r, &text);
     else nh_reduction_text(r, cli->verbose, &text);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);

@@ -124,6 +124,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->slice = slice;
     s->reduced = &c->reduced;
     s->shown = &pretty->reduced;
+    s->shown_slice = pretty->slice;
     s->chaplygin = pretty;
     if (!r->brief && c->plain) s->measure = measure_of(r, slice, c->K, c->U, pretty->slice, pretty->K, pretty->U);
     nh_atlas *atlas = nh_atlas_create(action, true);
@@ -266,6 +267,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         s->slice = &t->slice;
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
+        s->shown_slice = &pretty->slice;
         if (t->abelian && first->plain && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);

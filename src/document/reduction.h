@@ -9,8 +9,7 @@
 void nh_reduction_text(const nh_reduction *reduction, bool verbose, nh_text *out);
 /* The document as a heap string (nh_free); `run` may be NULL. */
 char *nh_reduction_json(const nh_reduction *reduction, const nh_run *run);
-/* The reduced equations of every stage: one C function each, and one block of equations each for LaTeX. */
-void nh_reduction_c(const nh_reduction *reduction, nh_text *out);
+/* The reduced equations of every stage: a block of equations each, to be read into another document. */
 void nh_reduction_latex(const nh_reduction *reduction, nh_text *out);
 
 /* The reduced equations of a stage: M_ij, x', p', zeta as pairs of a name and an expression; n pairs in the kinetic's arena.  Expressions are

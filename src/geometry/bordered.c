@@ -31,29 +31,39 @@ struct nh_bordered {
     double *unit;                   /* m: of each velocity, so that those of lengths and angles compare */
 };
 
+void nh_bordered_expressions(const nh_model *o, nh_ex *K, nh_ex *h, nh_ex *F, nh_ex *g, nh_ex *f)
+{
+    const nh_system *y = o->system;
+    nh_dag *d = o->dag;
+    size_t m = o->m, k = o->k;
+    nh_ex *q = nh_alloc_array(2 * m, sizeof *q), *v = q + m;
+    for (size_t s = 0; s < m; s++) q[s] = y->coordinate[s].q, v[s] = y->coordinate[s].v;
+    for (size_t s = 0; s < m; s++) {
+        nh_ex p = nh_diff(d, y->lagrangian, v[s]);
+        h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, y->lagrangian, q[s]), y->force[s]));
+        h[s] = nh_add(d, h[s], nh_diff_along(d, p, m, q, v));
+        for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, v[r]);
+    }
+    for (size_t a = 0; a < k; a++) {
+        f[a] = nh_constraint_without_poles(o, a);
+        g[a] = nh_add(d, nh_diff(d, f[a], y->t), nh_diff_along(d, f[a], m, q, v));
+        for (size_t s = 0; s < m; s++) F[a + s * k] = nh_diff(d, f[a], v[s]);
+    }
+    nh_free(q);
+}
+
 nh_bordered *nh_bordered_create(const nh_model *o)
 {
     const nh_system *y = o->system;
     nh_dag *d = o->dag;
     size_t m = o->m, k = o->k, total = m * m + m + k * m + 2 * k;
     nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(total + 1, sizeof *out);
-    nh_ex *K = out, *h = K + m * m, *F = h + m, *g = F + k * m, *f = g + k;
     in[0] = y->t;
     for (size_t s = 0; s < m; s++) {
         in[1 + s] = y->coordinate[s].q;
         in[1 + m + s] = y->coordinate[s].v;
     }
-    for (size_t s = 0; s < m; s++) {
-        nh_ex p = nh_diff(d, y->lagrangian, in[1 + m + s]);
-        h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, y->lagrangian, in[1 + s]), y->force[s]));
-        h[s] = nh_add(d, h[s], nh_diff_along(d, p, m, in + 1, in + 1 + m));
-        for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, in[1 + m + r]);
-    }
-    for (size_t a = 0; a < k; a++) {
-        f[a] = nh_constraint_without_poles(o, a);
-        g[a] = nh_add(d, nh_diff(d, f[a], y->t), nh_diff_along(d, f[a], m, in + 1, in + 1 + m));
-        for (size_t s = 0; s < m; s++) F[a + s * k] = nh_diff(d, f[a], in[1 + m + s]);
-    }
+    nh_bordered_expressions(o, out, out + m * m, out + m * m + m, out + m * m + m + k * m, out + m * m + m + k * m + k);
     nh_bordered *b = nh_alloc(sizeof *b);
     *b = (nh_bordered){.m = m, .k = k, .in = nh_alloc_array(1 + 2 * m, sizeof *b->in), .out = nh_alloc_array(total + 1, sizeof *b->out)};
     b->terms = nh_alloc_array(total + 1, sizeof *b->terms);

@@ -41,6 +41,9 @@ bool nh_bordered_force(nh_bordered *bordered, double t, const double *q, const d
 /* The velocities on the constraints that are nearest to v, by Gauss-Newton; v is overwritten.  False when that does not converge. */
 bool nh_bordered_project(nh_bordered *bordered, double t, const double *q, double *v);
 
+/* The entries as expressions of t, q, q': K (m x m, column-major), h (m), F (k x m, column-major), g (k), f (k); constraints without poles, not normalised. */
+void nh_bordered_expressions(const nh_model *model, nh_ex *K, nh_ex *h, nh_ex *F, nh_ex *g, nh_ex *f);
+
 /* f^a = lhs - rhs in coordinate velocities, without its poles: y' = x' tan phi as y' cos phi = x' sin phi. */
 nh_ex nh_constraint_without_poles(const nh_model *model, size_t a);
 

@@ -1,0 +1,173 @@
+/* What is written about a function, whatever the language; which files there are. */
+#include "document/export.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/escape.h"
+#include "document/export_internal.h"
+#include "document/facts.h"
+#include "document/formula.h"
+#include "document/reduction.h"
+
+static const char *const targets[] = {"c", "python", "sympy", "matlab", "latex", "json"};
+enum { target_count = sizeof targets / sizeof *targets };
+
+bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *error)
+{
+    for (size_t i = 0; name && i < target_count; i++) {
+        if (strcmp(name, targets[i]) && !(i == NH_EXPORT_MATLAB && !strcmp(name, "octave"))) continue;
+        *out = (nh_export_target)i;
+        return true;
+    }
+    if (name)
+        nh_fail(error, NH_USAGE, "--to", "there is no language `%.100s`", name);
+    else
+        nh_fail(error, NH_USAGE, "--to", "no language is given");
+    const char *near = name ? nh_text_nearest(name, targets, target_count) : NULL;
+    return near ? nh_error_hint(error, "did you mean `%s`?", near)
+                : nh_error_hint(error, "--to takes c, python, sympy, matlab, latex or json");
+}
+
+bool nh_export_prefix(const nh_export *x, const char *wish, const char **out, nh_error *error)
+{
+    nh_text text;
+    const char *name = wish ? wish : x->system->name, *first = name;
+    size_t length = strlen(name);
+    bool fits = isalpha((unsigned char)*first);
+    for (const char *c = name; *c; c++) fits = fits && (isalnum((unsigned char)*c) || *c == '_');
+    if (wish && (!fits || length > 40)) {
+        nh_fail(error, NH_USAGE, "--name", "`%.100s` is not a name for functions", wish);
+        return nh_error_hint(error, "a name is a letter a-z or A-Z, then letters, digits and _, 40 at most");
+    }
+    nh_text_init(&text);
+    nh_source_identifier(&nh_source_c, name, &text);
+    *out = nh_arena_printf(x->arena, "%.40s", nh_text_string(&text));
+    nh_text_clear(&text);
+    return true;
+}
+
+/* ---- words ---- */
+
+void nh_export_head(const nh_export *x, const char *before, nh_text *out)
+{
+    nh_text_addf(out, "%s", before);
+    nh_escape_c_comment(x->system->title, out);
+    nh_text_add(out, ".  Exported by nhsym " NH_VERSION ".\n");
+    for (size_t i = 0; i < x->notes; i++) {
+        nh_text_addf(out, "%s", before);
+        nh_escape_c_comment(x->note[i], out);
+        nh_text_add(out, "\n");
+    }
+}
+
+const char *nh_export_label(const nh_export_function *f, const nh_export_array *a, size_t row)
+{
+    return a->label ? a->label[row] : nh_kind_of(f->dag, a->e[row]) == NH_SYMBOL ? nh_name_of(f->dag, a->e[row]) : "";
+}
+
+void nh_export_array_words(const nh_export_function *f, const nh_export_array *a, nh_text *out)
+{
+    bool any = false;
+    nh_text_add(out, a->doc);
+    for (size_t i = 0; i < a->rows; i++) {
+        const char *label = nh_export_label(f, a, i);
+        if (!*label) break;
+        nh_text_addf(out, "%s%s", any ? ", " : " (", label);
+        any = true;
+    }
+    if (any) nh_text_add(out, ")");
+}
+
+static void current_words(const nh_export *x, const nh_export_function *f, const char *before, nh_text *out)
+{
+    const nh_analysis *r = x->analysis;
+    const nh_export_array *a = &f->result[0];
+    for (size_t i = 0, row = 0; i < r->count && row < a->rows; i++) {
+        const nh_current *c = &r->found[i];
+        if (strcmp(c->name, a->label[row])) continue;
+        row++;
+        const char *holds = nh_facts_holds(r->model, &c->proof, true);
+        nh_text_addf(out, "%s%s%s%s: ", before, c->name, *c->meaning ? ", " : "", c->meaning);
+        if (c->proof.proved)
+            nh_text_addf(out, "proved%s", holds);
+        else
+            nh_text_addf(out, "conserved to %.0f digits%s%s", c->proof.digits, nh_formula_doubt(c), holds);
+        if (c->local) nh_text_add(out, "; many-valued on an angle");
+        nh_text_add(out, "\n");
+    }
+}
+
+static void stage_words(const nh_reduction *r, size_t i, const char *before, nh_text *out)
+{
+    const nh_reduction_stage *s = &r->stage[i];
+    const char *holds = nh_reduction_stage_holds(r, s);
+    nh_text_addf(out, "%s%s (%s), by %s%s%s%s.\n", before, nh_reduction_stage_title(r, i), nh_stage_kind_name(s->kind),
+                 s->group, s->local ? ", which acts locally" : "", *holds ? ", a group of symmetries" : "", holds);
+}
+
+void nh_export_words(const nh_export *x, const nh_export_function *f, const char *before, nh_text *out)
+{
+    for (const char *line = f->doc; *line;) {
+        size_t length = strcspn(line, "\n");
+        nh_text_addf(out, "%s%.*s\n", before, (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+    if (f->part == NH_EXPORT_CURRENTS) current_words(x, f, before, out);
+    if (f->part == NH_EXPORT_REDUCED) stage_words(x->reduction, f->stage, before, out);
+}
+
+void nh_export_summary(const nh_export *x, nh_text *out)
+{
+    for (unsigned part = NH_EXPORT_EQUATIONS; part < NH_EXPORT_ALL; part <<= 1) {
+        bool any = false;
+        for (size_t i = 0; i < x->functions; i++) {
+            if (x->function[i].part != part) continue;
+            nh_text_addf(out, any ? ", %s" : "%-12s %s",
+                         any ? x->function[i].name : nh_export_part_name((nh_export_part)part), x->function[i].name);
+            any = true;
+        }
+        if (any) nh_text_add(out, "\n");
+    }
+    for (size_t i = 0; i < x->notes; i++) nh_text_addf(out, "  %s\n", x->note[i]);
+}
+
+/* ---- files ---- */
+
+void nh_export_text(const nh_export *x, nh_export_target target, const char *prefix, const nh_run *run, nh_text *out)
+{
+    char *json;
+    switch (target) {
+    case NH_EXPORT_C:
+        nh_export_c_header(x, prefix, out);
+        nh_text_add(out, "\n");
+        nh_export_c_source(x, prefix, false, out);
+        break;
+    case NH_EXPORT_PYTHON: nh_export_python(x, prefix, false, out); break;
+    case NH_EXPORT_SYMPY: nh_export_python(x, prefix, true, out); break;
+    case NH_EXPORT_MATLAB: nh_export_matlab(x, prefix, out); break;
+    case NH_EXPORT_LATEX: nh_export_latex(x, out); break;
+    case NH_EXPORT_JSON:
+        nh_text_add(out, json = nh_export_json(x, run));
+        nh_free(json);
+        break;
+    }
+}
+
+size_t nh_export_files(const nh_export *x, nh_export_target target, const char *prefix, const nh_run *run,
+                       nh_export_file out[NH_EXPORT_MOST_FILES])
+{
+    static const char *const ending[] = {".c", ".py", "_sympy.py", ".m", ".tex", ".json"};
+    out[0].name = nh_arena_printf(x->arena, "%s%s", prefix, ending[target]);
+    nh_text_init(&out[0].text);
+    if (target != NH_EXPORT_C) {
+        nh_export_text(x, target, prefix, run, &out[0].text);
+        return 1;
+    }
+    out[1].name = nh_arena_printf(x->arena, "%s.h", prefix);
+    nh_text_init(&out[1].text);
+    nh_export_c_source(x, prefix, true, &out[0].text);
+    nh_export_c_header(x, prefix, &out[1].text);
+    return 2;
+}

@@ -1,0 +1,124 @@
+/* export_matlab: one file for MATLAB and Octave: a function that returns the others as a struct of handles. */
+#include <string.h>
+
+#include "base/escape.h"
+#include "document/export_internal.h"
+
+/* Comments end with their line. */
+static void put_comment(const char *indent, const char *text, nh_text *out)
+{
+    for (const char *line = text; *line;) {
+        size_t length = strcspn(line, "\n");
+        nh_text_addf(out, "%s%% ", indent);
+        for (size_t i = 0; i < length; i++) nh_text_add_n(out, (unsigned char)line[i] < ' ' ? " " : line + i, 1);
+        nh_text_add(out, "\n");
+        line += length + (line[length] == '\n');
+    }
+}
+
+static void begin(nh_export_body *b)
+{
+    const nh_export_function *f = b->f;
+    nh_text words;
+    nh_text_add(b->out, "\nfunction [");
+    for (size_t i = 0; i < f->results; i++) nh_text_addf(b->out, "%s%s", i ? ", " : "", b->result[i]);
+    nh_text_addf(b->out, "] = %s(%s", f->name, b->time);
+    for (size_t i = 0; i < f->arguments; i++) nh_text_addf(b->out, ", %s", b->argument[i]);
+    if (b->x->inputs) nh_text_addf(b->out, ", %s", b->inputs);
+    nh_text_addf(b->out, ", %s)\n", b->parameters);
+    nh_text_init(&words);
+    nh_export_words(b->x, f, "", &words);
+    for (int side = 0; side < 2; side++)
+        for (size_t i = 0; i < (side ? f->results : f->arguments); i++) {
+            nh_text_addf(&words, "%s: ", side ? b->result[i] : b->argument[i]);
+            nh_export_array_words(f, side ? &f->result[i] : &f->argument[i], &words);
+            nh_text_add(&words, "\n");
+        }
+    put_comment("    ", nh_text_string(&words), b->out);
+    nh_text_clear(&words);
+}
+
+static void unpack(nh_export_body *b, const char *name, const char *array, size_t index)
+{
+    nh_text_addf(b->out, "    %s = %s(%zu);\n", name, array, index + 1);
+}
+static void parameter(nh_export_body *b, const char *name, const char *member)
+{
+    nh_text_addf(b->out, "    %s = %s.%s;\n", name, b->parameters, member);
+}
+
+static void fill(nh_export_body *b, const char *array, size_t rows, size_t columns, const nh_ex *e)
+{
+    size_t width = columns ? columns : 1;
+    nh_text_addf(b->out, "    %s = zeros(%zu, %zu);\n", array, rows, width);
+    for (size_t i = 0; i < rows * width; i++) {
+        if (nh_is_zero(b->f->dag, e[i])) continue;
+        if (columns)
+            nh_text_addf(b->out, "    %s(%zu, %zu) = ", array, i / width + 1, i % width + 1);
+        else
+            nh_text_addf(b->out, "    %s(%zu) = ", array, i + 1);
+        nh_source_put(b->code, e[i]);
+        nh_text_add(b->out, ";\n");
+    }
+}
+
+static void solve(nh_export_body *b, size_t i)
+{
+    nh_text_addf(b->out, "    %s = %s\\%s;\n", b->unknown[i], b->matrix[i], b->right[i]);
+}
+
+static void newton(nh_export_body *b, size_t i)
+{
+    nh_text_addf(b->out, "    %s = %s(:);\n    last_ = Inf;\n    for step_ = 1:41\n", b->unknown[i],
+                 b->argument[b->f->solve[i].guess]);
+    nh_source_indent(b->code, "    ");
+}
+
+static void newton_end(nh_export_body *b, size_t i)
+{
+    nh_text_addf(b->out,
+                 "    if step_ == 41, error('the iteration for velocities does not converge'); end\n    %s = %s\\%s;\n "
+                 "   %s = %s - %s;\n    change_ = max(abs(%s)./(1 + abs(%s)));\n"
+                 "    if change_ < 4e-16 || (change_ < 1e-13 && change_ >= last_/2), break; end\n    last_ = "
+                 "change_;\n    end\n",
+                 b->right[i], b->matrix[i], b->right[i], b->unknown[i], b->unknown[i], b->right[i], b->right[i],
+                 b->unknown[i]);
+}
+
+static void end(nh_export_body *b)
+{
+    for (size_t i = 0; i < b->f->results; i++) {
+        const nh_export_array *a = &b->f->result[i];
+        fill(b, b->result[i], a->rows, a->columns > 1 ? a->columns : 0, a->e);
+    }
+    nh_text_add(b->out, "end\n");
+}
+
+static const nh_export_form form = {&nh_source_matlab, begin, unpack, parameter, fill, solve, newton, newton_end, end};
+
+void nh_export_matlab(const nh_export *x, const char *prefix, nh_text *out)
+{
+    const nh_system *s = x->system;
+    nh_arena *arena = nh_arena_create();
+    const char *const *member = nh_export_members(x, &nh_source_matlab, arena);
+    nh_text head;
+    nh_text_addf(out, "function api = %s()\n", prefix);
+    nh_text_init(&head);
+    nh_export_head(x, "", &head);
+    nh_text_addf(
+        &head, "api = %s() has the functions below as api.NAME, and the values of the system file as api.parameters.\n",
+        prefix);
+    put_comment("", nh_text_string(&head), out);
+    nh_text_clear(&head);
+    nh_text_add(out, "    api = struct();\n    api.parameters = struct();\n");
+    for (size_t i = 0; i < s->parameters; i++) {
+        char text[40];
+        nh_text_number(s->parameter[i].value, text, sizeof text);
+        if (!x->input[i]) nh_text_addf(out, "    api.parameters.%s = %s;\n", member[i], text);
+    }
+    for (size_t i = 0; i < x->functions; i++)
+        nh_text_addf(out, "    api.%s = @%s;\n", x->function[i].name, x->function[i].name);
+    nh_text_add(out, "end\n");
+    for (size_t i = 0; i < x->functions; i++) nh_export_put_body(&form, x, &x->function[i], prefix, member, out);
+    nh_arena_free(arena);
+}

@@ -1,0 +1,222 @@
+/* export: what is written for C, C++, Python, SymPy and Octave computes what the expressions are, by tapes and LAPACK.
+ */
+#include "exported.h"
+#include "exported_systems.h"
+
+#include <cjson/cJSON.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include "document/export.h"
+#include "scratch.h"
+#include "sweep.h"
+
+enum { probes = 2, share = 4 }; /* calls of each function; tests that share the systems */
+
+typedef struct {
+    nh_export *x;
+    const char *name;
+    exported_call *call; /* probes for each function */
+} exported;
+
+typedef struct {
+    char folder[SCRATCH];
+    size_t count;
+    exported of[EXPORTED_SYSTEMS];
+} batch;
+
+/* ---- a folder with all files ---- */
+
+static void write_file(const batch *b, const char *name, const nh_text *text)
+{
+    char path[SCRATCH + 100];
+    snprintf(path, sizeof path, "%s/%s", b->folder, name);
+    FILE *file = fopen(path, "w");
+    cr_assert(file && fputs(nh_text_string(text), file) >= 0 && fclose(file) == 0, "%s", path);
+}
+
+static void write_code(const batch *b, const exported *e, nh_export_target target)
+{
+    nh_export_file file[NH_EXPORT_MOST_FILES];
+    size_t n = nh_export_files(e->x, target, e->name, NULL, file);
+    for (size_t i = 0; i < n; i++) {
+        write_file(b, file[i].name, &file[i].text);
+        nh_text_clear(&file[i].text);
+    }
+}
+
+/* Where the Lagrangian is defined: not every probe is such a place. */
+static exported_call call_of(const nh_export *x, const nh_export_function *f, size_t probe)
+{
+    for (size_t attempt = 0;; attempt++) {
+        exported_call c = exported_call_make(x, f, probe + probes * attempt);
+        bool finite = exported_run(x, f, &c);
+        for (size_t r = 0; r < f->results && finite; r++)
+            finite = nh_all_finite(f->result[r].rows * f->result[r].columns, c.result[r]);
+        if (finite || attempt == 10) {
+            cr_assert(finite, "%s of %s has no values", f->name, x->system->name);
+            return c;
+        }
+        exported_call_clear(&c);
+    }
+}
+
+static exported make(const batch *b, const exported_system *s)
+{
+    char path[SCRATCH + 100];
+    snprintf(path, sizeof path, "systems/%s.yaml", s->name);
+    if (s->text) {
+        nh_text text;
+        nh_text_init(&text);
+        nh_text_add(&text, s->text);
+        snprintf(path, sizeof path, "%s.yaml", s->name);
+        write_file(b, path, &text);
+        snprintf(path, sizeof path, "%s/%s.yaml", b->folder, s->name);
+        nh_text_clear(&text);
+    }
+    exported e = {.x = exported_make(path, NULL, s->input), .name = s->name};
+    e.call = nh_alloc_array(probes * e.x->functions + 1, sizeof *e.call);
+    for (size_t i = 0; i < e.x->functions; i++)
+        for (size_t p = 0; p < probes; p++) e.call[i * probes + p] = call_of(e.x, &e.x->function[i], p);
+    return e;
+}
+
+static void batch_make(batch *b, size_t part)
+{
+    memset(b, 0, sizeof *b);
+    scratch_name(b->folder);
+    cr_assert_not_null(mkdtemp(b->folder));
+    for (size_t i = part; i < EXPORTED_SYSTEMS; i += share)
+        if (sweep_tries(i / share, 1, 4)) b->of[b->count++] = make(b, &EXPORTED[i]);
+}
+
+static void batch_clear(batch *b)
+{
+    char command[SCRATCH + 20];
+    for (size_t i = 0; i < b->count; i++) {
+        for (size_t k = 0; k < probes * b->of[i].x->functions; k++) exported_call_clear(&b->of[i].call[k]);
+        nh_free(b->of[i].call);
+        nh_export_free(b->of[i].x);
+    }
+    snprintf(command, sizeof command, "rm -rf %s", b->folder);
+    cr_expect_eq(system(command), 0);
+}
+
+/* ---- what a program prints, against what is expected ---- */
+
+/* For each call a number, 0 where it has values, then these. */
+static void compare(const batch *b, const char *language, const char *command, double allowed,
+                    bool (*wanted)(const exported *e))
+{
+    char line[SCRATCH + 400];
+    snprintf(line, sizeof line, "cd %s && %s", b->folder, command);
+    FILE *pipe = popen(line, "r");
+    cr_assert_not_null(pipe);
+    size_t values = 0, calls = 0;
+    double worst = 0;
+    for (size_t s = 0; s < b->count; s++) {
+        const exported *e = &b->of[s];
+        if (wanted && !wanted(e)) continue;
+        for (size_t k = 0; k < probes * e->x->functions; k++) {
+            const nh_export_function *f = &e->x->function[k / probes];
+            const exported_call *c = &e->call[k];
+            bool read = fgets(line, sizeof line, pipe) != NULL;
+            cr_assert(read, "%s ends before %s of %s", language, f->name, e->name);
+            calls++;
+            bool good = strtod(line, NULL) == 0;
+            cr_expect(good == c->good, "%s, %s of %s: %s", language, f->name, e->name, good ? "has a value" : "fails");
+            for (size_t r = 0; r < f->results && good; r++) {
+                size_t n = f->result[r].rows * f->result[r].columns;
+                double size = 1;
+                for (size_t i = 0; i < n && c->good; i++) size = fmax(size, fabs(c->result[r][i]));
+                for (size_t i = 0; i < n; i++) {
+                    cr_assert(fgets(line, sizeof line, pipe) != NULL, "%s ends within %s of %s", language, f->name,
+                              e->name);
+                    double off = fabs(strtod(line, NULL) - c->result[r][i]) / size;
+                    values++;
+                    worst = fmax(worst, off);
+                    cr_expect(!c->good || off <= allowed, "%s, %s of %s: %s[%zu] is %.17g, not %.17g", language,
+                              f->name, e->name, f->result[r].name, i, strtod(line, NULL), c->result[r][i]);
+                }
+            }
+        }
+    }
+    cr_expect_null(fgets(line, sizeof line, pipe), "%s prints more", language);
+    cr_expect_eq(pclose(pipe), 0, "%s", language);
+    cr_expect_gt(values, 20 * b->count / 2);
+    cr_log_info("%s: %zu calls, %zu values, largest difference %.1e", language, calls, values, worst);
+}
+
+static void put_list(nh_text *out, const char *open, size_t n, const double *x, const char *close)
+{
+    nh_text_add(out, open);
+    for (size_t i = 0; i < n; i++) nh_text_addf(out, "%s%.17g", i ? ", " : "", x[i]);
+    nh_text_add(out, close);
+}
+
+static bool has_parameters(const nh_export *x) { return x->system->parameters > x->inputs; }
+
+/* ---- C and C++ ---- */
+
+static void c_call(const exported *e, const nh_export_function *f, const exported_call *c, nh_text *out)
+{
+    nh_text_add(out, "    {\n");
+    for (size_t a = 0; a < f->arguments; a++) {
+        nh_text_addf(out, "        const double a%zu[] = ", a);
+        put_list(out, "{", f->argument[a].rows, c->argument[a], "};\n");
+    }
+    if (e->x->inputs) nh_text_addf(out, "        const double u[] = {%.17g};\n", exported_input);
+    for (size_t r = 0; r < f->results; r++)
+        nh_text_addf(out, "        double r%zu[%zu];\n", r, f->result[r].rows * f->result[r].columns);
+    nh_text_addf(out, "        int code = %s_%s(%.17g", e->name, f->name, exported_time);
+    for (size_t a = 0; a < f->arguments; a++) nh_text_addf(out, ", a%zu", a);
+    nh_text_addf(out, "%s", e->x->inputs ? ", u" : "");
+    if (has_parameters(e->x)) nh_text_addf(out, ", &%s_default", e->name);
+    for (size_t r = 0; r < f->results; r++) nh_text_addf(out, ", r%zu", r);
+    nh_text_add(out, ");\n        printf(\"%d\\n\", code);\n");
+    for (size_t r = 0; r < f->results; r++)
+        nh_text_addf(out, "        for (int i = 0; i < %zu && code == 0; i++) printf(\"%%.17g\\n\", r%zu[i]);\n",
+                     f->result[r].rows * f->result[r].columns, r);
+    nh_text_add(out, "    }\n");
+}
+
+static void c_program(const batch *b)
+{
+    nh_text out;
+    nh_text_init(&out);
+    nh_text_add(&out, "#include <stdio.h>\n");
+    for (size_t s = 0; s < b->count; s++) nh_text_addf(&out, "#include \"%s.h\"\n", b->of[s].name);
+    for (size_t s = 0; s < b->count; s++) {
+        const exported *e = &b->of[s];
+        nh_text_addf(&out, "static void call_%s(void)\n{\n", e->name);
+        for (size_t k = 0; k < probes * e->x->functions; k++) c_call(e, &e->x->function[k / probes], &e->call[k], &out);
+        nh_text_add(&out, "}\n");
+        write_code(b, e, NH_EXPORT_C);
+    }
+    nh_text_add(&out, "int main(void)\n{\n");
+    for (size_t s = 0; s < b->count; s++) nh_text_addf(&out, "    call_%s();\n", b->of[s].name);
+    nh_text_add(&out, "    return 0;\n}\n");
+    write_file(b, "main.c", &out);
+    nh_text_clear(&out);
+}
+
+static void languages(size_t part)
+{
+    batch b;
+    batch_make(&b, part);
+    c_program(&b);
+    compare(&b, "C", "${CC:-cc} -std=c99 -O0 -Wall -Wextra -Werror *.c -o c_code -lm && ./c_code", 1e-12, NULL);
+    char command[SCRATCH + 200];
+    snprintf(
+        command, sizeof command,
+        "cd %s && for file in *.c; do c++ -x c++ -std=c++11 -fsyntax-only -Wall -Wextra -Werror $file || exit 1; done",
+        b.folder);
+    cr_expect_eq(system(command), 0, "C++");
+    batch_clear(&b);
+}
+
+Test(export, languages_1) { languages(0); }
+Test(export, languages_2) { languages(1); }
+Test(export, languages_3) { languages(2); }
+Test(export, languages_4) { languages(3); }
