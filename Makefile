@@ -76,11 +76,15 @@ STATES  = 50
 SEED    = 1
 SECONDS = 60
 
+# MPI's program, where MPI is: for scans on many machines. (Open MPI keeps memory to its end, of which a sanitizer would complain.)
+HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
+CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
+
 .PHONY: all library sleigh check check-all tests install uninstall wheel bench catalogue reductions random parameters perturbed classification fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(BUILD)/nhsym
+all: $(BUILD)/nhsym $(if $(HAS_MPI),$(BUILD)/nhsym-mpi)
 
 library: $(BUILD)/$(SONAME)
 
@@ -158,6 +162,15 @@ $(BUILD)/$(SONAME): $(SHARED) $(BUILD)/libnhsym.map
 	@echo "  link $@"
 	@$(LINK) -shared -Wl,-soname,$(SONAME) -Wl,-z,defs -Wl,--version-script=$(BUILD)/libnhsym.map $(SHARED) $(LDLIBS) -o $@
 
+$(BUILD)/nhsym-mpi: $(CLI_MPI) $(BUILD)/libnhsym.a
+	@echo "  link $@"
+	@$(LINK) $(CLI_MPI) $(BUILD)/libnhsym.a $(call libraries,archive) $$(pkg-config --libs mpi-c) -o $@
+
+$(BUILD)/mpi/%.o: src/cli/%.c
+	@mkdir -p $(@D)
+	@echo "  cc   $<"
+	@$(COMPILE) $(patsubst -I%,-isystem %,$(shell pkg-config --cflags-only-I mpi-c)) -c $< -o $@
+
 # By which a scan knows the program that began it.
 $(BUILD)/fingerprint.o: $(BUILD)/libnhsym.a
 	@printf 'extern const char nh_cli_fingerprint[]; const char nh_cli_fingerprint[] = "%s";\n' "$$(sha256sum <$< | cut -c1-16)" | $(CC) $(CFLAGS) -xc -c - -o $@
@@ -212,7 +225,7 @@ SHARE = $(DESTDIR)$(PREFIX)/share
 
 install: all library
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(LIBDIR)/pkgconfig
-	install -m 755 $(BUILD)/nhsym $(DESTDIR)$(PREFIX)/bin/
+	install -m 755 $(BUILD)/nhsym $(if $(HAS_MPI),$(BUILD)/nhsym-mpi) $(DESTDIR)$(PREFIX)/bin/
 	install -m 644 src/nhsym.h $(DESTDIR)$(PREFIX)/include/
 	install -m 644 $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)/libnhsym.so.$(VERSION)
 	ln -sf libnhsym.so.$(VERSION) $(DESTDIR)$(LIBDIR)/$(SONAME)

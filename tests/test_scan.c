@@ -234,6 +234,32 @@ Test(scan, workers_and_parts_do_not_change_a_byte)
     place_clear(&p);
 }
 
+/* With MPI where it is. */
+Test(scan, mpi_processes_do_not_change_a_byte)
+{
+    place p = place_make();
+    char line[3 * PATH_MAX];
+    if (system("command -v mpirun >/dev/null") || (snprintf(line, sizeof line, "%s-mpi", p.program), access(line, X_OK))) {
+        place_clear(&p);
+        cr_skip("mpirun or nhsym-mpi is not there");
+    }
+    write_here(&p, "sine.yaml", sine);
+    scan_well(&p, "one", "");
+    for (int n = 1; n <= 4; n *= 2) {
+        char folder[10];
+        snprintf(folder, sizeof folder, "mpi%d", n);
+        snprintf(line, sizeof line, "cd %s && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -np %d %s-mpi %s -o %s >log 2>&1", p.folder, n, p.program,
+                 question, folder);
+        int code = system(line);
+        char *log = read_here(&p, "log");
+        cr_assert_eq(code, 0, "%s: %d\n%s", line, code, log);
+        free(log);
+        expect_same(&p, "one", folder);
+    }
+    scan_well(&p, "mpi2", ""); /* both programs continue each other */
+    place_clear(&p);
+}
+
 /* ---- kills ---- */
 
 static void wait_a_little(long milliseconds) { nanosleep(&(struct timespec){milliseconds / 1000, milliseconds % 1000 * 1000000}, NULL); }

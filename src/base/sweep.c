@@ -95,7 +95,7 @@ size_t nh_sweep_read(const nh_sweep *s, nh_arena *arena, const char **line)
 {
     size_t found = 0;
     for (size_t unit = 0; unit < nh_sweep_units(s); unit++) {
-        char *text, *at = finished_lines(s, unit, &text);
+        char *text = NULL, *at = nh_sweep_is_ours(s, unit) ? finished_lines(s, unit, &text) : NULL;
         size_t n = unit_items(s, unit), first = first_item(s, unit);
         for (size_t k = 0; k < n; k++) {
             line[first + k] = at ? nh_arena_strdup(arena, at) : NULL;

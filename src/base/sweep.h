@@ -47,7 +47,7 @@ typedef struct {
 
 /* Computes what is missing. False: a file could not be written; what is finished is kept. */
 bool nh_sweep_run(const nh_sweep *sweep, nh_sweep_state *state, nh_error *error);
-/* The lines of all items, in the arena; NULL where there is none yet. Returns how many there are. */
+/* The lines of all items of the chunk, in the arena; NULL where there is none yet. Returns how many there are. */
 size_t nh_sweep_read(const nh_sweep *sweep, nh_arena *arena, const char **line);
 /* Units of the sweep. */
 size_t nh_sweep_units(const nh_sweep *sweep);

@@ -40,6 +40,10 @@ static void out_of_memory(size_t wanted)
 
 static int run(nh_cli *cli, nh_error *error)
 {
+    if (cli->team && cli->team->size > 1 && cli->command && strcmp(cli->command, "scan")) {
+        nh_fail(error, NH_USAGE, "", "several processes of nhsym-mpi share a scan, but no `%s`", cli->command);
+        return nh_error_hint(error, "mpirun nhsym-mpi scan sleigh --over k=1:4:61 -o scan"), NH_USAGE;
+    }
     if (cli->help || !cli->command) return nh_cli_help(cli, error);
     for (size_t i = 0; i < command_count; i++)
         if (!strcmp(cli->command, commands[i].name)) return commands[i].run(cli, error);
@@ -79,7 +83,8 @@ int nh_cli_main(int argc, char **argv, const nh_team *team)
     nh_cli cli = {.arena = nh_arena_create(), .team = team};
     cli.line = line_of(&cli, argc, argv);
     int code = nh_cli_parse(&cli, argc, argv, &error) ? run(&cli, &error) : (int)error.code;
-    if (error.code != NH_OK) {
+    bool said = team && team->rank && (error.code == NH_USAGE || error.code == NH_INPUT); /* by the first, too */
+    if (error.code != NH_OK && !said) {
         char text[4096];
         nh_error_format(&error, text, sizeof text);
         nh_text shown;

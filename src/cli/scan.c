@@ -27,7 +27,8 @@ static bool request_of(nh_cli *cli, nh_scan_request *q, nh_scan_source *source, 
                            .folder = cli->folder, .chunk = cli->chunk, .chunks = cli->chunks, .workers = cli->workers,
                            .begin_worker = begin_worker, .team = cli->team};
     if (!path) return false;
-    if (!q->workers) q->workers = 1;
+    if (!q->workers || (q->team && q->team->size > 1)) q->workers = 1;
+    if (q->team && q->team->size > 1 && !q->options.threads) q->options.threads = 1;
     if (q->workers > 1 && !q->options.threads) q->options.threads = 1;
     nh_scan_numbers_request numbers = {.of = cli->of, .names = cli->numbers, .name = cli->number, .system_path = path,
                                        .settings = cli->settings, .setting = cli->setting, .options = q->options};
