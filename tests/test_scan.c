@@ -74,6 +74,22 @@ Test(scan, the_sleigh_jumps_at_two)
     place_clear(&p);
 }
 
+/* A value where the grid ends is told by its own name, not by its neighbour's. */
+Test(scan, values_at_the_ends_have_their_names)
+{
+    place p = place_with_systems();
+    cJSON *root = scanned(&p, "scan sleigh --over k=1:4:7");
+    cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItem(root, "special")), 4);
+    for (int k = 1; k <= 4; k++) {
+        char name[2] = {(char)('0' + k), 0};
+        const cJSON *s = special(root, "k", name);
+        cr_assert_not_null(s, "k = %d", k);
+        cr_expect_eq(number_of(s, "k"), k);
+    }
+    cJSON_Delete(root);
+    place_clear(&p);
+}
+
 /* The coefficient of y^3 is special at 1/3 and at 2, and the parameter is hidden in it. */
 Test(scan, values_between_points_are_found_recognised_and_confirmed)
 {

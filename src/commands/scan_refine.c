@@ -201,9 +201,9 @@ static void recognise(task *t)
         else if (!why)
             why = nh_arena_printf(t->arena, "with exactly %s %s", name_of(t, &guess[k]), t->why ? t->why : "the number is the same as around it");
     }
+    if (t->kind == NH_SCAN_HIT) t->name = name_of(t, &here);
     look_at_ends(t);
     t->why = t->confirmed ? NULL : why ? why : "the exact value was not recognised";
-    if (t->kind == NH_SCAN_HIT) t->name = name_of(t, &here);
     for (size_t i = 0; !t->confirmed && i < t->request->source->count; i++) t->number[i] = NAN;
 }
 
