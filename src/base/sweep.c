@@ -182,12 +182,8 @@ size_t nh_sweep_missing(const nh_sweep *s, size_t *unit)
     return n;
 }
 
-void nh_sweep_say(const nh_sweep *s, size_t done, size_t all)
-{
-    char words[120];
-    snprintf(words, sizeof words, "%s: %zu of %zu", s->doing, done, all);
-    nh_progress(words, all ? (double)done / (double)all : 1);
-}
+/* The same words from first to last: a log has a line now and then, not one for every item. */
+void nh_sweep_say(const nh_sweep *s, size_t done, size_t all) { nh_progress(s->doing, all ? (double)done / (double)all : 1); }
 
 /* What an item says of itself would hide how far the whole has come. */
 static nh_progress_handler *be_quiet(void **context)

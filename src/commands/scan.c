@@ -46,7 +46,7 @@ static const char *question_of(const nh_scan *x, const nh_scan_request *q)
         nh_text_add(&text, " --over ");
         for (const char *c = q->over[i]; *c; c++) nh_text_add_n(&text, c, *c != ' ');
     }
-    for (size_t i = 0; i < q->source->count; i++) nh_text_addf(&text, " --number %s", q->source->name[i]);
+    for (size_t i = 0; i < q->source->count && !q->source->usual; i++) nh_text_addf(&text, " --number %s", q->source->name[i]);
     for (size_t i = 0; i < q->settings; i++) {
         nh_text_number(q->setting[i].value, value, sizeof value);
         nh_text_addf(&text, " --set %s=%s", q->setting[i].name, value);
@@ -136,15 +136,21 @@ static bool compute_jump(void *context, size_t index, nh_text *line)
     return nh_scan_refine(w->scan, w->request, &w->jump[index], line);
 }
 
-/* The same value along the same line, found twice. */
+static double coordinate(const nh_scan *x, const nh_scan_special *s, size_t axis)
+{
+    return axis == s->axis ? s->value : nh_scan_at(x, s->place, axis)->value;
+}
+
+/* The same place, found twice: by two dips, or along two axes. */
 static bool known(const nh_scan *x, const nh_scan_special *s)
 {
-    size_t stride = nh_scan_stride(x, s->axis);
     for (size_t i = 0; i < x->specials; i++) {
-        const nh_scan_special *o = &x->special[i];
-        bool line = o->axis == s->axis && o->place / stride / x->axis[s->axis].count == s->place / stride / x->axis[s->axis].count
-                    && o->place % stride == s->place % stride;
-        if (line && fabs(o->value - s->value) <= 1e-9 * fmax(1, fabs(s->value))) return true;
+        bool same = true;
+        for (size_t a = 0; a < x->axes; a++) {
+            double u = coordinate(x, &x->special[i], a), v = coordinate(x, s, a);
+            same = same && fabs(u - v) <= 1e-9 * fmax(1, fabs(v));
+        }
+        if (same) return true;
     }
     return false;
 }
@@ -168,13 +174,32 @@ static bool run_sweep(nh_scan *x, const nh_sweep *s, nh_sweep_state *state, cons
     return good;
 }
 
+/* At most points. */
+static size_t most_common(const nh_scan *x, size_t space)
+{
+    size_t best = 0, times = 0;
+    for (size_t n = 0; n <= x->columns[space]; n++) {
+        size_t k = 0;
+        for (size_t i = 0; i < x->points; i++) k += x->row[i].done && isfinite(x->row[i].smallest[space]) && x->row[i].vanishing[space] == n;
+        if (k > times) times = k, best = n;
+    }
+    return best;
+}
+
+double nh_scan_sigma(const nh_scan *x, size_t point, size_t space)
+{
+    const nh_scan_row *r = &x->row[point];
+    if (!r->done || r->vanishing[space] < x->usual[space]) return NAN;
+    return r->vanishing[space] > x->usual[space] ? 0 : r->smallest[space];
+}
+
 static bool scan_points(work *w, nh_sweep s, size_t per_unit, nh_error *error)
 {
     nh_scan *x = w->scan;
     nh_sweep_state state;
     const char **line;
     s.name = "points";
-    s.doing = "points";
+    s.doing = nh_arena_printf(x->arena, "%zu points", x->points);
     s.items = x->points;
     s.per_unit = per_unit;
     s.item = compute_point;
@@ -188,6 +213,8 @@ static bool scan_points(work *w, nh_sweep s, size_t per_unit, nh_error *error)
         read_row(x, line[i], &x->row[i]);
         x->partial |= !x->row[i].done;
     }
+    x->usual = nh_arena_alloc(x->arena, (x->spaces + 1) * sizeof *x->usual);
+    for (size_t k = 0; k < x->spaces; k++) x->usual[k] = most_common(x, k);
     return good;
 }
 
@@ -197,7 +224,7 @@ static bool scan_jumps(work *w, nh_sweep s, nh_error *error)
     nh_sweep_state state;
     const char **line;
     s.name = "jumps";
-    s.doing = "jumps looked at more closely";
+    s.doing = nh_arena_printf(x->arena, "%zu jumps, looked at more closely", w->jumps);
     s.items = w->jumps;
     s.per_unit = 1;
     s.item = compute_jump;

@@ -35,6 +35,7 @@ typedef struct {
     const char *of;        /* "count", "analyze", "reduce" */
     size_t count;
     const char *const *name; /* the first leads */
+    bool usual;            /* they are those that `of` has by itself */
     bool spectra;          /* the ansatz spaces are looked at as well */
     /* The numbers with these settings, exact ones for the parameters of the grid; a number that is not there is NAN,
      * and *why is the reason, in the arena. `generic`: for almost all values of the parameters instead; the settings
@@ -94,6 +95,7 @@ typedef struct {
     const char *question;    /* all that the answer depends on, as a command line */
     const char **space;      /* names of the ansatz spaces */
     size_t *columns;         /* how many functions they are made of */
+    size_t *usual;           /* how many singular values vanish at most points */
     nh_scan_row *row;
     size_t specials, unrefined; /* unrefined: jumps that were not looked at yet */
     nh_scan_special *special;
@@ -111,5 +113,8 @@ void nh_scan_free(nh_scan *scan);
 
 /* The value of an axis at a point of the grid; the last axis varies fastest. */
 const nh_scan_value *nh_scan_at(const nh_scan *scan, size_t point, size_t axis);
+
+/* The singular value of a space that does not vanish at most points: 0 where it does; or NAN. */
+double nh_scan_sigma(const nh_scan *scan, size_t point, size_t space);
 
 #endif

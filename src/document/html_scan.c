@@ -30,8 +30,9 @@ static void specials(nh_html_writer *w, const nh_scan *x)
     if (!x->specials) nh_html_add(w, "<p>None was found.</p>\n");
     if (x->specials) nh_html_table(w, "Where numbers jump", "where|what");
     for (size_t i = 0; i < x->specials; i++) {
+        if (!nh_scan_alike(x, i)) continue;
         nh_html_add(w, "<tr><td>");
-        nh_html_text(w, nh_scan_where(x, &x->special[i]));
+        nh_html_text(w, nh_scan_where(x, i));
         nh_html_add(w, "</td><td>");
         nh_html_text(w, nh_scan_what(x, &x->special[i]));
         nh_html_add(w, "</td></tr>\n");
@@ -55,7 +56,7 @@ static double *column(const nh_scan *x, size_t k)
     double *out = nh_arena_alloc(x->arena, (x->points + 1) * sizeof *out);
     for (size_t i = 0; i < x->points; i++) {
         const nh_scan_row *r = &x->row[i];
-        out[i] = !r->done ? NAN : k < NH_SCAN_MOST_NUMBERS ? r->number[k] : r->smallest[k - NH_SCAN_MOST_NUMBERS];
+        out[i] = !r->done ? NAN : k < NH_SCAN_MOST_NUMBERS ? r->number[k] : nh_scan_sigma(x, i, k - NH_SCAN_MOST_NUMBERS);
     }
     return out;
 }
@@ -127,22 +128,30 @@ static void map_of_leading(nh_html_writer *w, const nh_scan *x, nh_cells *cells)
     put_map(w, x, cells, classes, curve, "The leading number over both parameters", "The leading number over both parameters; special values as points.");
 }
 
-/* Dark where the smallest of all singular values is small. */
+/* Of all spaces; INFINITY: not known. */
+static double smallest_at(const nh_scan *x, size_t point)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < x->spaces; k++)
+        if (x->columns[k]) least = fmin(least, nh_scan_sigma(x, point, k));
+    return least;
+}
+
+/* Dark where it is small, black where one more vanishes. */
 static void map_of_singular_values(nh_html_writer *w, const nh_scan *x, nh_cells *cells)
 {
-    double *least = nh_arena_alloc(x->arena, (x->points + 1) * sizeof *least), low = INFINITY, high = 0;
+    double low = INFINITY, high = 0;
     nh_curve curve[4];
     for (size_t i = 0; i < x->points; i++) {
-        least[i] = INFINITY;
-        for (size_t k = 0; k < x->spaces; k++)
-            if (x->columns[k] && x->row[i].done && x->row[i].smallest[k] > 0) least[i] = fmin(least[i], x->row[i].smallest[k]);
-        if (!isfinite(least[i])) continue;
-        low = fmin(low, least[i]);
-        high = fmax(high, least[i]);
+        double least = smallest_at(x, i);
+        if (!isfinite(least) || least == 0) continue;
+        low = fmin(low, least);
+        high = fmax(high, least);
     }
     for (size_t i = 0; i < x->points; i++) {
-        int shade = high > low ? (int)(230 * log(least[i] / low) / log(high / low)) : 230;
-        if (isfinite(least[i])) snprintf(cells->fill[i], 8, "#%02x%02x%02x", (unsigned char)shade, (unsigned char)shade, (unsigned char)shade);
+        double least = smallest_at(x, i);
+        unsigned char shade = least == 0 ? 0 : high > low ? (unsigned char)(230 * log(fmin(least, high) / low) / log(high / low)) : 230;
+        if (isfinite(least)) snprintf(cells->fill[i], 8, "#%02x%02x%02x", shade, shade, shade);
         else cells->fill[i][0] = 0;
     }
     if (high > 0) put_map(w, x, cells, 0, curve, "The smallest singular value over both parameters", "The smallest of the singular values over both parameters, on a logarithmic scale: dark is small.");

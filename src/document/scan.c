@@ -5,20 +5,39 @@
 
 const char *const nh_scan_caution =
     "A scan is a search by numbers: it misses special values between points whose dip is narrower than the grid, and those of integrals "
-    "outside of its ansatz spaces. `nhsym classify` excludes values by proof where the parameter allows it.";
+    "outside of its ansatz spaces. nhsym classify excludes values by proof where the parameter allows it.";
 
 /* ---- words ---- */
 
-const char *nh_scan_where(const nh_scan *x, const nh_scan_special *s)
+static bool alike(const nh_scan_special *a, const nh_scan_special *b)
 {
+    return a->axis == b->axis && a->exact && b->exact && !strcmp(a->exact, b->exact) && a->confirmed == b->confirmed
+           && a->generic == b->generic && a->number[0] == b->number[0];
+}
+
+size_t nh_scan_alike(const nh_scan *x, size_t special)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < x->specials; i++) {
+        if (i != special && !alike(&x->special[i], &x->special[special])) continue;
+        if (i < special) return 0;
+        n++;
+    }
+    return n;
+}
+
+const char *nh_scan_where(const nh_scan *x, size_t special)
+{
+    const nh_scan_special *s = &x->special[special];
     nh_text text;
-    double value = s->value;
+    size_t lines = nh_scan_alike(x, special);
     nh_text_init(&text);
-    if (!s->exact) nh_text_addf(&text, "%s = %.10g", x->axis[s->axis].name, value);
+    if (!s->exact) nh_text_addf(&text, "%s = %.10g", x->axis[s->axis].name, s->value);
     else if (strspn(s->exact, "-0123456789/") == strlen(s->exact)) nh_text_addf(&text, "%s = %s", x->axis[s->axis].name, s->exact);
-    else nh_text_addf(&text, "%s = %s = %.10g", x->axis[s->axis].name, s->exact, value);
-    for (size_t a = 0; a < x->axes; a++)
+    else nh_text_addf(&text, "%s = %s = %.10g", x->axis[s->axis].name, s->exact, s->value);
+    for (size_t a = 0; a < x->axes && lines < 2; a++)
         if (a != s->axis) nh_text_addf(&text, ", %s = %s", x->axis[a].name, nh_scan_at(x, s->place, a)->text);
+    if (lines > 1) nh_text_addf(&text, ", for %zu of the other values", lines);
     const char *out = nh_arena_strdup(x->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
@@ -90,10 +109,10 @@ static void put_specials(const nh_scan *x, nh_text *out)
         for (size_t i = 0; i < x->specials; i++) {
             const nh_scan_special *s = &x->special[i];
             bool sure = s->confirmed || s->kind == NH_SCAN_STEP;
-            if (sure != (kind == 0)) continue;
+            if (sure != (kind == 0) || !nh_scan_alike(x, i)) continue;
             if (!headed) nh_text_add(out, kind == 0 ? "\nSpecial values\n" : "\nPerhaps special\n");
             headed = true;
-            nh_text_addf(out, "  %s\n    %s\n", nh_scan_where(x, s), nh_scan_what(x, s));
+            nh_text_addf(out, "  %s\n    %s\n", nh_scan_where(x, i), nh_scan_what(x, s));
         }
     }
     if (!x->specials && !x->partial) nh_text_add(out, "\nNo special value was found.\n");
@@ -153,7 +172,7 @@ static void put_points(const nh_scan *x, nh_json *root)
         put_numbers(x, x->row[i].number, item);
         nh_json *spectrum = nh_json_put_array(item, "spectrum");
         for (size_t k = 0; k < x->spaces; k++)
-            if (x->columns[k]) nh_json_add_number(spectrum, x->row[i].smallest[k]);
+            if (x->columns[k]) nh_json_add_number(spectrum, nh_scan_sigma(x, i, k));
         nh_json_put_text(item, "why", x->row[i].why);
     }
 }
@@ -236,7 +255,7 @@ void nh_scan_csv(const nh_scan *x, nh_text *out)
         }
         for (size_t k = 0; k < x->source->count; k++) put_field(out, r->number[k]);
         for (size_t k = 0; k < x->spaces; k++)
-            if (x->columns[k]) put_field(out, r->smallest[k]);
+            if (x->columns[k]) put_field(out, nh_scan_sigma(x, i, k));
         nh_text_add(out, ",");
         if (r->why) put_quoted(out, r->why);
         nh_text_add(out, "\n");

@@ -231,6 +231,6 @@ bool nh_scan_numbers(nh_arena *arena, const nh_scan_numbers_request *q, nh_scan_
         }
         if (strcmp(q->name[i], x->name[0])) x->name[x->names++] = q->name[i];
     }
-    *out = (nh_scan_source){.of = commands[k].of, .count = x->names, .name = x->name, .spectra = commands[k].spectra, .at = numbers_at, .context = x};
+    *out = (nh_scan_source){.of = commands[k].of, .count = x->names, .name = x->name, .usual = !q->names, .spectra = commands[k].spectra, .at = numbers_at, .context = x};
     return !q->names || are_there(x, commands[k].of, error);
 }
