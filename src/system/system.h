@@ -48,7 +48,7 @@ typedef struct {
     const nh_deck *deck;     /* where it was written: NULL for the command line */
     const nh_deck_node *key;
     int64_t top, bottom;     /* with bottom > 0: exactly this ratio; the name stands for it like a definition, and is no parameter any more */
-    const char *formula;     /* the same with this constant, as in "sqrt(3)/2"; NULL: none */
+    const char *formula;     /* the same with this constant, as in "sqrt(3)/2", or function of the other parameters; NULL: none */
 } nh_setting;
 
 /* A map of where motions are hard to compute, as texts of the command line: nothing of it is looked at before it is made. */

@@ -1,5 +1,6 @@
 /* system_read: a system file, key by key. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -302,12 +303,15 @@ static bool read_dependent(reader *r)
     return true;
 }
 
-static bool no_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
+/* Those that have exact values already are definitions. */
+static bool among_parameters(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
 {
-    (void)context;
-    (void)name;
-    (void)out;
-    (void)fault;
+    const nh_system *s = context;
+    for (size_t i = 0; i < s->parameters; i++)
+        if (!strcmp(s->parameter[i].name, name)) return *out = s->parameter[i].symbol, true;
+    for (size_t i = 0; i < s->definitions; i++)
+        if (!strcmp(s->definition[i].name, name)) return *out = s->definition[i].value, true;
+    snprintf(fault->what, sizeof fault->what, "`%s` is not a parameter", name);
     return false;
 }
 
@@ -315,14 +319,18 @@ static bool no_name(void *context, const char *name, nh_ex *out, nh_parse_fault 
 static bool fix(reader *r, nh_parameter *p, const nh_setting *setting)
 {
     nh_system *s = r->system;
-    nh_parse_fault fault = {0};
-    nh_ex value;
-    const char *ratio = setting->bottom == 1 ? "%lld" : "%lld/%lld";
-    const char *exact = setting->formula ? setting->formula : nh_arena_printf(s->arena, ratio, (long long)setting->top, (long long)setting->bottom);
-    if (!setting->formula) value = nh_ratio(s->dag, setting->top, setting->bottom);
-    else if (!nh_parse(s->dag, exact, no_name, NULL, &value, &fault))
-        return nh_fail(r->error, NH_USAGE, "", "`%s` is no constant for `%s`: %.300s", exact, p->name, fault.what);
-    s->definition[s->definitions++] = (nh_named){.name = p->name, .text = nh_arena_printf(s->arena, "%s = %s", p->name, exact), .value = value};
+    nh_parse_fault fault = {.offset = 0};
+    nh_named d = {.name = p->name};
+    if (setting->formula) {
+        d.text = nh_arena_printf(s->arena, "%s = %s", p->name, setting->formula);
+        if (!nh_parse(s->dag, setting->formula, among_parameters, s, &d.value, &fault))
+            return nh_fail(r->error, NH_USAGE, "", "`%s` cannot be `%s`: %s", p->name, setting->formula, fault.what);
+    } else {
+        d.text = nh_arena_printf(s->arena, setting->bottom == 1 ? "%s = %lld" : "%s = %lld/%lld", p->name,
+                                 (long long)setting->top, (long long)setting->bottom);
+        d.value = nh_ratio(s->dag, setting->top, setting->bottom);
+    }
+    s->definition[s->definitions++] = d;
     size_t behind = s->parameters - 1 - (size_t)(p - s->parameter);
     memmove(p, p + 1, behind * sizeof *p);
     s->parameters--;
