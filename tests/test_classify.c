@@ -348,15 +348,17 @@ static const char *text_of(const cJSON *object, const char *key) { return cJSON_
 Test(classify, the_command_constructs_and_proves)
 {
     place p = place_make();
-    cJSON *root = classified(&p, "henon_heiles.yaml --over eps --set B=16"), *values = cJSON_GetObjectItem(root, "values"), *value;
+    cJSON *root = classified(&p, "henon_heiles.yaml --over eps --set B=16"), *values = cJSON_GetObjectItem(root, "special"), *value;
     cr_assert_eq(cJSON_GetArraySize(values), 2);
     cJSON_ArrayForEach(value, values)
     {
-        cr_expect(cJSON_IsTrue(cJSON_GetObjectItem(value, "constructed")), "%s", text_of(value, "value"));
+        cr_expect(cJSON_IsTrue(cJSON_GetObjectItem(value, "proved")), "%s", text_of(cJSON_GetObjectItem(value, "where"), "eps"));
         cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItem(value, "currents")), 2);
     }
-    cr_expect_str_eq(text_of(cJSON_GetArrayItem(values, 0), "value"), "2");
-    cr_expect_str_eq(text_of(cJSON_GetArrayItem(values, 1), "value"), "16/3");
+    cr_expect_str_eq(text_of(cJSON_GetObjectItem(cJSON_GetArrayItem(values, 0), "where"), "eps"), "2");
+    cr_expect_str_eq(text_of(cJSON_GetObjectItem(cJSON_GetArrayItem(values, 1), "where"), "eps"), "16/3");
+    cr_expect(cJSON_IsTrue(cJSON_GetObjectItem(root, "nowhere_else")));
+    cr_expect_eq(cJSON_GetNumberValue(cJSON_GetObjectItem(root, "generic")), 3);
     cJSON_Delete(root);
     place_clear(&p);
 }
@@ -406,7 +408,7 @@ Test(classify, the_command_refuses)
 {
     static const struct {
         const char *line, *words;
-    } lines[] = {{"classify henon_heiles_sk", "over which parameter"}, {"classify henon_heiles_sk --over B", "not a parameter"}, {"classify --over A", "over which parameter"},
+    } lines[] = {{"classify henon_heiles_sk", "over which parameter"}, {"classify henon_heiles_sk --over B", "not a parameter"}, {"classify --over A", "over which parameter"}, {"classify henon_heiles_sk --over eps,,B", "lacks the name"}, {"classify henon_heiles_sk --over a,b,c", "more than two"},
                  {"classify toda_lattice --over x --html a.html", "does not take --html"}};
     place p = place_with_systems();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {

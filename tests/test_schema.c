@@ -113,7 +113,8 @@ Test(schema, what_analyze_writes_fits)
 
 Test(schema, what_classify_writes_fits)
 {
-    static const char *const lines[] = {"classify/henon_heiles.yaml --over eps", "classify/atwood.yaml --over mu --degree 2", "classify/knife.yaml --over b --degree 1 --shape"};
+    static const char *const lines[] = {"classify/henon_heiles.yaml --over eps", "classify/atwood.yaml --over mu --degree 2", "classify/knife.yaml --over b --degree 1 --shape",
+                                        "classify/quartic.yaml --over mu,b --degree 2"};
     cJSON *schema = read_json("docs/schema/classification.json");
     place p = place_make();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {

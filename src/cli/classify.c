@@ -6,6 +6,26 @@
 #include "cli/cli.h"
 #include "document/classification.h"
 
+/* "eps" or "B, eps" */
+static bool read_names(nh_cli *cli, nh_classify_request *q, nh_error *error)
+{
+    const char *name[3];
+    size_t count = 0;
+    for (const char *at = cli->over; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        at += strspn(at, " ");
+        size_t length = strcspn(at, ", ");
+        if (length == 0) return nh_fail(error, NH_USAGE, "", "--over `%s` lacks the name of a parameter", cli->over);
+        if (count < 3) name[count++] = nh_arena_strndup(cli->arena, at, length);
+    }
+    if (count > 2) {
+        nh_fail(error, NH_USAGE, "", "--over `%s` names more than two parameters", cli->over);
+        return nh_error_hint(error, "give the others values with --set");
+    }
+    q->over = name[0];
+    q->second = count > 1 ? name[1] : NULL;
+    return true;
+}
+
 static bool request_of(nh_cli *cli, nh_classify_request *q, nh_error *error)
 {
     if (cli->operands != 1 || !cli->over) {
@@ -13,34 +33,60 @@ static bool request_of(nh_cli *cli, nh_classify_request *q, nh_error *error)
         return nh_error_hint(error, "nhsym classify penning_trap --over w");
     }
     *q = (nh_classify_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting,
-                               .over = cli->over, .shape = cli->shape, .options = cli->options};
+                               .shape = cli->shape, .options = cli->options};
+    if (!read_names(cli, q, error)) return false;
     q->system_path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
     return q->system_path != NULL;
 }
 
-static void print(const nh_cli *cli, const nh_classified *x)
+/* Text and JSON; what may be written of one of both kinds of results. */
+typedef struct {
+    nh_classified *line;
+    nh_classified_plane *plane;
+    bool partial;
+    const char *obstacle;
+} answer;
+
+static bool classify(const nh_classify_request *q, answer *a, nh_error *error)
+{
+    if (q->second) a->plane = nh_classify_plane_system(q, error);
+    else a->line = nh_classify_system(q, error);
+    if (a->plane) a->partial = a->plane->partial, a->obstacle = a->plane->plane->obstacle;
+    if (a->line) a->partial = a->line->partial, a->obstacle = a->line->classification->obstacle;
+    return a->line || a->plane;
+}
+
+static void print(const nh_cli *cli, const answer *a)
 {
     nh_text text;
     nh_text_init(&text);
-    nh_classification_text(x, cli->verbose, &text);
+    if (a->plane) nh_classification_plane_text(a->plane, cli->verbose, &text);
+    else nh_classification_text(a->line, cli->verbose, &text);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
+}
+
+static char *json_of(const answer *a, const nh_run *run)
+{
+    return a->plane ? nh_classification_plane_json(a->plane, run) : nh_classification_json(a->line, run);
 }
 
 int nh_cli_classify(nh_cli *cli, nh_error *error)
 {
     nh_classify_request request;
+    answer a = {.line = NULL};
     nh_cli_progress_begin(cli);
     if (!request_of(cli, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
-    nh_classified *x = nh_classify_system(&request, error);
+    bool done = classify(&request, &a, error);
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
-    if (!x) return nh_cli_failed(cli, &run, error);
-    bool good = true, partial = x->partial;
-    if (nh_cli_speaks(cli)) print(cli, x);
-    if (cli->json) good = nh_cli_write_json(cli, nh_classification_json(x, &run), error);
+    if (!done) return nh_cli_failed(cli, &run, error);
+    bool good = true;
+    if (nh_cli_speaks(cli)) print(cli, &a);
+    if (cli->json) good = nh_cli_write_json(cli, json_of(&a, &run), error);
     good = nh_cli_written(cli, good, error);
-    if (good && x->classification->obstacle) nh_fail(error, NH_NUMERIC, "", "%s", x->classification->obstacle);
-    nh_classified_free(x);
-    return !good ? (int)error->code : nh_interrupted() ? (int)nh_ended_code() : partial ? NH_LIMIT : (int)error->code;
+    if (good && a.obstacle) nh_fail(error, NH_NUMERIC, "", "%s", a.obstacle);
+    if (a.line) nh_classified_free(a.line);
+    if (a.plane) nh_classified_plane_free(a.plane);
+    return !good ? (int)error->code : nh_interrupted() ? (int)nh_ended_code() : a.partial ? NH_LIMIT : (int)error->code;
 }

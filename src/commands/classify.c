@@ -1,17 +1,16 @@
 /* From a system file and the name of a parameter to its special values, with the currents that hold there. */
-#include "commands/classify.h"
-
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/progress.h"
+#include "commands/classify_internal.h"
 
 enum { chosen_degree = 4 };
 
 /* ---- the family ---- */
 
-static bool find_parameter(const nh_system *s, const char *name, size_t *out, nh_error *error)
+bool nh_classified_parameter(const nh_system *s, const char *name, size_t *out, nh_error *error)
 {
     const char **names = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *names);
     for (size_t i = 0; i < s->parameters; i++) {
@@ -25,34 +24,40 @@ static bool find_parameter(const nh_system *s, const char *name, size_t *out, nh
     return nh_error_hint(error, "--over takes one of the names under `parameters:` in the system file");
 }
 
-/* All other parameters at the ratios that their decimals are. */
-static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_system *s, size_t parameter,
-                       nh_error *error)
+/* All other parameters at the ratios that their decimals are; settings of the caller that are exact stay. */
+static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_system *s, nh_error *error)
 {
     x->other = nh_arena_alloc(x->arena, (s->parameters + q->settings + 1) * sizeof *x->other);
     for (size_t k = 0; k < q->settings; k++)
-        if (q->setting[k].bottom > 0) x->other[x->others++] = q->setting[k];
+        if (q->setting[k].bottom > 0 && !q->setting[k].formula) x->other[x->others++] = q->setting[k];
     for (size_t i = 0; i < s->parameters; i++) {
         nh_num value = nh_num_decimal(s->parameter[i].value);
-        if (i == parameter) continue;
+        const char *name = s->parameter[i].name;
+        if (!strcmp(name, q->over) || (q->second && !strcmp(name, q->second))) continue;
         if (!nh_num_short(value))
             return nh_fail(error, NH_USAGE, "", "the value %.17g of `%s` has too many digits for a classification",
-                           s->parameter[i].value, s->parameter[i].name);
-        x->other[x->others++] = (nh_setting){.name = nh_arena_strdup(x->arena, s->parameter[i].name),
-                                             .value = s->parameter[i].value, .top = value.p, .bottom = value.q};
+                           s->parameter[i].value, name);
+        x->other[x->others++] = (nh_setting){.name = nh_arena_strdup(x->arena, name), .value = s->parameter[i].value,
+                                             .top = value.p, .bottom = value.q};
     }
+    x->fixed = x->others;
+    for (size_t k = 0; k < q->settings; k++) /* functions of what is set before */
+        if (q->setting[k].formula) x->other[x->others++] = q->setting[k];
     return true;
 }
 
 /* A value near the file's, which is special by no design. */
 static double unimportant(double value) { return round((value * 1.0871 + (value == 0 ? 0.3187 : 0)) * 1e6) / 1e6; }
 
-static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q, const nh_setting *at, nh_error *error)
+nh_analysis *nh_classified_analyse(const nh_classified *x, const nh_classify_request *q, size_t count,
+                                   const nh_setting *at, nh_error *error)
 {
-    nh_setting *setting = nh_alloc_array(x->others + 1, sizeof *setting);
-    memcpy(setting, x->other, x->others * sizeof *setting);
-    setting[x->others] = *at;
-    nh_analyze_request request = {.command = q->command, .system_path = q->system_path, .settings = x->others + 1,
+    size_t formulas = x->others - x->fixed, all = x->others + count;
+    nh_setting *setting = nh_alloc_array(all + 1, sizeof *setting);
+    memcpy(setting, x->other, x->fixed * sizeof *setting);
+    memcpy(setting + x->fixed, at, count * sizeof *setting);
+    memcpy(setting + x->fixed + count, x->other + x->fixed, formulas * sizeof *setting);
+    nh_analyze_request request = {.command = q->command, .system_path = q->system_path, .settings = all,
                                   .setting = setting, .options = q->options, .no_figures = true};
     request.options.degree = (double)x->degree;
     nh_analysis *r = nh_analysis_create(&request, error);
@@ -67,16 +72,21 @@ static bool polynomial_in_velocities(const nh_analysis *r, const nh_current *f)
 
 static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error *error)
 {
-    size_t parameter = 0;
+    size_t parameter = 0, second = 0;
     nh_system *s = nh_system_read(q->system_path, q->settings, q->setting, error);
     if (!s) return false;
-    bool good = find_parameter(s, q->over, &parameter, error) && fix_others(x, q, s, parameter, error);
-    if (good) {
+    bool good = nh_classified_parameter(s, q->over, &parameter, error)
+        && (!q->second || nh_classified_parameter(s, q->second, &second, error));
+    if (good && q->second && second == parameter)
+        good = nh_fail(error, NH_USAGE, "", "--over names `%s` twice", q->over);
+    if (good && fix_others(x, q, s, error)) {
         x->name = nh_arena_strdup(x->arena, s->name);
         x->title = nh_arena_strdup(x->arena, s->title);
         x->over = nh_arena_strdup(x->arena, q->over);
-        nh_setting at = {.name = x->over, .value = unimportant(s->parameter[parameter].value)};
-        x->almost_all = analyse(x, q, &at, error);
+        x->second = q->second ? nh_arena_strdup(x->arena, q->second) : NULL;
+        nh_setting at[2] = {{.name = x->over, .value = unimportant(s->parameter[parameter].value)},
+                            {.name = x->second, .value = unimportant(s->parameter[second].value * 1.0313)}};
+        x->almost_all = nh_classified_analyse(x, q, q->second ? 2 : 1, at, error);
     }
     nh_system_free(s);
     return x->almost_all != NULL;
@@ -84,14 +94,17 @@ static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error
 
 /* ---- special values ---- */
 
-static nh_ex *known_currents(nh_classified *x)
+nh_ex *nh_classified_known(nh_classified *x)
 {
     const nh_analysis *r = x->almost_all;
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     x->currents = nh_arena_alloc(x->arena, (r->count + 1) * sizeof *x->currents);
     for (size_t k = 0; k < r->count; k++) {
         if (!polynomial_in_velocities(r, &r->found[k]) || !r->found[k].proof.all_parameters) continue;
-        if (!nh_parametric_rational(r->model->dag, r->found[k].phi, r->model->parameter[0])) continue;
+        bool rational = true;
+        for (size_t i = 0; i < r->system->parameters; i++)
+            rational &= nh_parametric_rational(r->model->dag, r->found[k].phi, r->model->parameter[i]);
+        if (!rational) continue;
         phi[x->known] = r->found[k].phi;
         x->currents[x->known++] = k;
     }
@@ -106,6 +119,12 @@ bool nh_classified_rational(const nh_special_factor *f, int64_t *top, int64_t *b
     return true;
 }
 
+size_t nh_classified_complete(const nh_analysis *r)
+{
+    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    return c->counted && !c->count.obstacle ? c->degree : 0;
+}
+
 static void analyse_value(nh_classified *x, const nh_classify_request *q, const nh_classify_value *v,
                           nh_classified_value *out)
 {
@@ -116,32 +135,42 @@ static void analyse_value(nh_classified *x, const nh_classify_request *q, const 
     if (!nh_classified_rational(&v->polynomial, &top, &bottom)) return;
     nh_error_clear(&error);
     nh_setting at = {.name = x->over, .value = (double)top / (double)bottom, .top = top, .bottom = bottom};
-    nh_analysis *r = out->result = analyse(x, q, &at, &error);
+    nh_analysis *r = out->result = nh_classified_analyse(x, q, 1, &at, &error);
     out->why = r ? NULL : nh_arena_strdup(x->arena, error.what);
-    if (!r) return;
-    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    if (c->counted && !c->count.obstacle) out->complete = c->degree;
+    if (r) out->complete = nh_classified_complete(r);
 }
 
-nh_classified *nh_classify_system(const nh_classify_request *q, nh_error *error)
+nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_classified *x = nh_arena_alloc(arena, sizeof *x);
     *x = (nh_classified){.arena = arena, .shape = q->shape, .degree = q->options.degree > 0 ? (size_t)q->options.degree
                          : chosen_degree};
-    if (!read_family(x, q, error)) {
-        nh_classified_free(x);
-        return NULL;
-    }
-    nh_ex *phi = known_currents(x);
-    size_t parameter = 0;
-    find_parameter(x->almost_all->system, q->over, &parameter, error);
-    nh_classify_question question = {.parameter = parameter, .shape = q->shape, .degree = x->degree,
-                                     .work = q->options.count_work, .unknowns = (size_t)q->options.pencil, .known =
-                                         x->known, .current = phi};
+    if (read_family(x, q, error)) return x;
+    nh_classified_free(x);
+    return NULL;
+}
+
+nh_classify_question nh_classified_question(nh_classified *x, const nh_classify_request *q, const nh_ex *known)
+{
+    nh_classify_question question = {.shape = q->shape, .degree = x->degree, .work = q->options.count_work,
+                                     .unknowns = (size_t)q->options.pencil, .plane = (size_t)q->options.plane,
+                                     .known = x->known, .current = known};
+    nh_error none;
+    nh_error_clear(&none);
+    nh_classified_parameter(x->almost_all->system, x->over, &question.parameter, &none);
+    return question;
+}
+
+nh_classified *nh_classify_system(const nh_classify_request *q, nh_error *error)
+{
+    nh_classified *x = nh_classified_open(q, error);
+    if (!x) return NULL;
+    nh_ex *phi = nh_classified_known(x);
+    nh_classify_question question = nh_classified_question(x, q, phi);
     x->classification = nh_classify(x->almost_all->model, &question);
     nh_free(phi);
-    x->value = nh_arena_alloc(arena, (x->classification->values + 1) * sizeof *x->value);
+    x->value = nh_arena_alloc(x->arena, (x->classification->values + 1) * sizeof *x->value);
     for (size_t k = 0; k < x->classification->values && !nh_interrupted(); k++)
         analyse_value(x, q, &x->classification->value[k], &x->value[k]);
     x->partial = nh_interrupted();
@@ -174,19 +203,24 @@ static void put_polynomial(const nh_special_factor *f, const char *name, nh_text
 
 const char *nh_classified_words(const nh_classified *x, const nh_special_factor *f)
 {
+    return nh_classified_values(x, x->over, f);
+}
+
+const char *nh_classified_values(const nh_classified *x, const char *name, const nh_special_factor *f)
+{
     int64_t top, bottom;
     nh_text text;
     nh_text_init(&text);
     if (nh_classified_rational(f, &top, &bottom)) {
-        nh_text_addf(&text, "%s = %" PRId64, x->over, top);
+        nh_text_addf(&text, "%s = %" PRId64, name, top);
         if (bottom != 1) nh_text_addf(&text, "/%" PRId64, bottom);
     } else {
         double *root = nh_alloc_array(f->degree + 1, sizeof *root);
         size_t reals = nh_special_reals(f, root);
-        put_polynomial(f, x->over, &text);
+        put_polynomial(f, name, &text);
         nh_text_add(&text, reals ? " = 0 (" : " = 0 (no real value");
         for (size_t k = 0; k < reals; k++)
-            nh_text_addf(&text, "%s%.8g", k ? ", " : nh_arena_printf(x->arena, "%s = ", x->over), root[k]);
+            nh_text_addf(&text, "%s%.8g", k ? ", " : nh_arena_printf(x->arena, "%s = ", name), root[k]);
         nh_text_add(&text, ")");
         nh_free(root);
     }

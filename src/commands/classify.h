@@ -1,19 +1,22 @@
-/* classify: at which values of one parameter does a system have more conservation laws than for almost all?
+/* classify: at which values of a parameter, or of two, does a system have more conservation laws than for almost all?
  *
  * The system with all other parameters at their values is analysed at a value of no importance: what is proved there
  * for every value of the parameter is known to the engine (integrals/classify.h). At every special value that is
- * rational the system is analysed with exactly this number in the parameter's place. */
+ * rational the system is analysed with exactly this number in the parameter's place.
+ *
+ * With two parameters the engine is integrals/plane.h. The system is analysed at isolated points, and classified along
+ * curves on which one parameter is a rational function of the other. */
 #ifndef NH_STUDY_CLASSIFY_H
 #define NH_STUDY_CLASSIFY_H
 
-#include "integrals/classify.h"
+#include "integrals/plane.h"
 #include "commands/analyze.h"
 
 typedef struct {
     const char *command, *system_path;
     size_t settings;
     const nh_setting *setting;
-    const char *over;        /* the parameter's name */
+    const char *over, *second; /* names of the parameters; NULL: there is no second one */
     bool shape;              /* coefficients that do not depend on cyclic coordinates */
     nh_options options;
 } nh_classify_request;
@@ -27,14 +30,14 @@ typedef struct {
 
 struct nh_classified {
     nh_arena *arena;
-    const char *name, *title, *over;
+    const char *name, *title, *over, *second; /* second: NULL, or another parameter that varies */
     nh_analysis *almost_all;   /* the analysis of the family */
     size_t known, *currents; /* of its currents those that hold for every value */
     size_t degree;           /* that was asked for */
     bool shape;
     nh_classification *classification;
     nh_classified_value *value; /* of its values */
-    size_t others;           /* other parameters, with their values */
+    size_t others, fixed;    /* other parameters: so many with values, then functions of the parameter */
     nh_setting *other;
     bool partial;            /* the run was ended before it was through */
 };
@@ -42,8 +45,47 @@ struct nh_classified {
 nh_classified *nh_classify_system(const nh_classify_request *request, nh_error *error);
 void nh_classified_free(nh_classified *classified);
 
+/* What was found on one curve. */
+typedef struct {
+    const char *graph;       /* "eps = 2": this parameter as a function of the other; NULL: not of this form */
+    bool upright;            /* it is that of the second name */
+    nh_classified *along;    /* over the other parameter; NULL: there is none, because */
+    const char *why;
+    size_t complete;         /* the degree up to which its currents account for the number of integrals */
+} nh_classified_curve;
+
+/* A special point: isolated, or on a curve with more integrals than its other points. */
+typedef struct {
+    const char *value[2];    /* of both names of the plane: a rational number, or an equation */
+    bool rational;           /* both are numbers, about: */
+    double about[2];
+    size_t first;
+    const nh_classify_number *number; /* by degree */
+    size_t curve;            /* on which; SIZE_MAX: isolated */
+    const nh_classified_value *at; /* its analysis */
+} nh_classified_point;
+
+typedef struct {
+    nh_classified *family;   /* without a classification */
+    const char *over[2];     /* lambda and mu of the engine: the second name, then the first one */
+    nh_plane *plane;
+    nh_classified_curve *curve; /* of its curves */
+    nh_classified_value *isolated; /* analyses at isolated points */
+    size_t points;
+    nh_classified_point *point;
+    bool partial;
+} nh_classified_plane;
+
+/* Over both parameters. */
+nh_classified_plane *nh_classify_plane_system(const nh_classify_request *request, nh_error *error);
+void nh_classified_plane_free(nh_classified_plane *classified);
+
 /* "eps = 1/3", "C^2 - 3 = 0 (C = -1.7320508, 1.7320508)"; in the arena. */
 const char *nh_classified_words(const nh_classified *classified, const nh_special_factor *polynomial);
+/* The same for a parameter of this name. */
+const char *nh_classified_values(const nh_classified *classified, const char *name, const nh_special_factor *polynomial);
+/* "eps - 2 = 0", in the names of the plane; in the arena of its family. */
+const char *nh_classified_curve_words(const nh_classified_plane *plane, const nh_special_curve *curve);
 /* Is it one rational number? */
 bool nh_classified_rational(const nh_special_factor *polynomial, int64_t *top, int64_t *bottom);
 

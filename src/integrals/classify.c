@@ -1,123 +1,14 @@
 /* Special values of one parameter: chi at two points modulo several primes, lifted, and every root counted. */
-#include "integrals/classify.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "base/progress.h"
+#include "integrals/classify_internal.h"
 
-enum { least_primes = 4, most_points = 60, steps_beyond = 1, first_beyond = 2, root_primes = 40 };
+enum { least_primes = 4 };
 
-typedef struct {
-    const nh_classify_question *q;
-    nh_count_question count;
-    nh_parametric family;
-    nh_classification *out;
-} search;
-
-/* At which value the equations are taken. */
-typedef enum { ANY_VALUE, ROOT, INFINITE } value_kind;
-typedef struct {
-    value_kind kind;
-    const nh_special_factor *root;
-} place;
-
-typedef enum { DONE, TOO_MUCH } outcome;
-
-/* ---- points ---- */
-
-/* Series at another regular point modulo this prime.  NULL: too long, or none is found. */
-static nh_parametric_series *series_at(search *s, size_t prime, uint64_t seed, size_t order)
-{
-    nh_parametric_series *x = NULL;
-    bool regular = false;
-    for (uint64_t attempt = 0; attempt < most_points && !regular && !s->family.obstacle && !nh_late(); attempt++)
-        if (nh_parametric_choose(&s->family, prime, seed + 1000 * attempt))
-            x = nh_parametric_series_create(&s->family, order, &regular);
-    return x;
-}
-
-/* ---- how many integrals at one value ---- */
-
-/* The residue of the value modulo this prime; false: it has none. */
-static bool residue_of(const place *p, nh_prime f, nh_residue *out)
-{
-    uint64_t random = f.p;
-    *out = nh_residue_random(f, &random);
-    return p->kind != ROOT || nh_special_root(p->root, f, out);
-}
-
-/* N for each order, as in the count of one system. */
-static bool totals(search *s, const nh_parametric_series *x, const nh_residue *values, size_t degree, size_t *total,
-                   nh_classify_number *out)
-{
-    nh_parametric *f = &s->family;
-    size_t order = x->ring->order, from = 0, n = f->counter.equations->n;
-    bool good = true;
-    uint64_t random = 31337;
-    nh_differentials d = {.n = n, .kept = x->ring->variables, .w = nh_alloc_array(n + 1, sizeof(nh_residue))};
-    for (size_t i = 0; i < n; i++) d.w[i] = nh_residue_random(x->ring->field, &random);
-    memset(total, 0, (order + 1) * sizeof *total);
-    for (int part = 0; part < (x->split ? 2 : 1) && good; part++) {
-        nh_graded_problem p = nh_parametric_problem(f, x, values, degree, !x->split ? NH_ALL_DEGREES : part
-                                                    ? NH_ODD_DEGREES : NH_EVEN_DEGREES);
-        nh_graded_count *g = nh_graded_solve(&p);
-        good = g->solved;
-        if (!g->injective) from = SIZE_MAX;
-        else if (from < g->injective_at) from = g->injective_at;
-        f->counter.work += g->work;
-        for (size_t k = 0; k <= order; k++) total[k] += g->total[k];
-        if (good) nh_count_solutions_differ(g, x->ring->field, &d);
-        nh_graded_count_clear(g);
-    }
-    size_t same = order, step = nh_parametric_step(f);
-    while (same > 0 && total[same - 1] == total[order]) same--;
-    bool bounded = good && from <= order;
-    if (bounded && same < from) same = from;
-    *out = (nh_classify_number){.bound = total[order], .order = order, .rank = nh_count_rank(&d, x->ring->field),
-                                .counted = good, .bounded = bounded,
-                                .settled = bounded && order - same >= step + steps_beyond};
-    nh_free(d.row);
-    nh_free(d.w);
-    return good;
-}
-
-/* Orders grow until the number is the least that it can be, or does not change. `known`: for almost all values, of
- * which products are independent. */
-static outcome count(search *s, size_t degree, const place *p, size_t least, size_t *known, nh_classify_number *out)
-{
-    size_t step = 1, prime = 0;
-    nh_residue lambda;
-    while (prime < root_primes && !residue_of(p, nh_prime_at(prime), &lambda)) prime++;
-    if (prime == root_primes) return TOO_MUCH;
-    s->family.counter.work = 0;
-    for (size_t order = degree + first_beyond; s->family.counter.work < s->count.work
-         && !nh_late(); order += step + 1) {
-        nh_parametric_series *x = series_at(s, prime, 7 + degree, order);
-        if (!x) break;
-        if (step != nh_parametric_step(&s->family)) { /* only now it is known */
-            step = nh_parametric_step(&s->family);
-            order = degree * step - step + first_beyond - 1;
-            nh_parametric_series_free(x);
-            continue;
-        }
-        size_t *total = nh_alloc_array(order + 1, sizeof *total);
-        nh_residue *values = nh_alloc_array(x->length, sizeof *values);
-        nh_count_row row = {0};
-        nh_classify_number number;
-        nh_parametric_at(x, lambda, p->kind == INFINITE, values);
-        bool good = totals(s, x, values, degree, total, &number);
-        if (good && known && nh_count_products(&s->family.counter, x->ring, x->coordinate, degree, &row))
-            least = *known = row.known;
-        nh_free(values);
-        nh_free(total);
-        nh_parametric_series_free(x);
-        if (!good) break;
-        *out = number;
-        if (number.bounded && (number.bound == least || number.settled)) break;
-    }
-    return out->bounded ? DONE : TOO_MUCH;
-}
+typedef nh_classify_search search;
+typedef nh_classify_place place;
 
 /* ---- roots of chi ---- */
 
@@ -125,7 +16,7 @@ static outcome count(search *s, size_t degree, const place *p, size_t least, siz
 static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_t prime, uint64_t seed,
                      nh_residue_polynomial *chi, nh_residue_polynomial *Q, nh_classify_row *out)
 {
-    nh_parametric_series *x = series_at(s, prime, seed, row->number.order);
+    nh_parametric_series *x = nh_classify_series(s, prime, seed, row->number.order);
     if (!x) return false;
     nh_sparse_pencil pencil = {0};
     nh_parametric_variable variable;
@@ -234,9 +125,9 @@ static void count_values(search *s, size_t degree)
         nh_classify_value *v = &s->out->value[k];
         if (v->degenerate) continue;
         nh_progress("special values", -1);
-        place p = {ROOT, &v->polynomial};
+        place p = {.kind = NH_CLASSIFY_ROOT, .root = &v->polynomial};
         nh_classify_number *n = &v->number[degree];
-        bool counted = count(s, degree, &p, row->number.bound, NULL, n) == DONE, more = counted
+        bool counted = nh_classify_count(s, degree, &p, row->number.bound, NULL, n), more = counted
             && n->bound > row->number.bound;
         if (more && n->settled && !v->first) v->first = degree;
         if ((!counted || (more && !n->settled)) && !v->open) v->open = degree;
@@ -283,9 +174,9 @@ static void run(search *s)
     while (c->rows < s->q->degree && !nh_late()) {
         nh_classify_row row = {0};
         size_t degree = c->rows + 1;
-        place any = {.kind = ANY_VALUE}, infinite = {.kind = INFINITE};
+        place any = {.kind = NH_CLASSIFY_ANY}, infinite = {.kind = NH_CLASSIFY_INFINITE};
         nh_progress("integrals for almost all values", -1);
-        bool good = count(s, degree, &any, 0, &row.known, &row.number) == DONE;
+        bool good = nh_classify_count(s, degree, &any, 0, &row.known, &row.number);
         nh_progress("where the equations for integrals lose rank", -1);
         good = good && find_values(s, degree, &row) && !nh_late();
         /* the other parity was looked at one degree lower */
@@ -297,7 +188,8 @@ static void run(search *s)
         }
         c->row[c->rows++] = row;
         count_values(s, degree);
-        if (c->limit) count(s, degree, &infinite, row.number.bound, NULL, &c->row[degree - 1].infinite);
+        if (c->limit)
+            nh_classify_count(s, degree, &infinite, row.number.bound, NULL, &c->row[degree - 1].infinite);
     }
     if (s->family.obstacle && !c->rows) c->obstacle = s->family.obstacle;
     c->step = nh_parametric_step(&s->family);
@@ -306,9 +198,9 @@ static void run(search *s)
 nh_classification *nh_classify(const nh_model *model, const nh_classify_question *q)
 {
     nh_classification *out = nh_alloc(sizeof *out);
-    search s = {.q = q, .out = out, .count = {.generic = true, .degree = q->degree, .work = q->work, .known = q->known,
-                                              .current = q->current}};
-    nh_parametric_open(&s.family, model, q->parameter, q->shape, &s.count);
+    search s;
+    nh_classify_open(&s, model, q);
+    s.out = out;
     if (s.family.obstacle) out->obstacle = s.family.obstacle;
     else run(&s);
     nh_parametric_close(&s.family);

@@ -19,7 +19,11 @@
 enum { NH_CLASSIFY_MOST_PRIMES = 12 };
 
 typedef struct {
-    size_t parameter;        /* its index; the model has no other */
+    size_t parameter;        /* its index; the model has no other, but for */
+    bool two;
+    size_t second;           /* where there are two; with bottom > 0 it is held at top/bottom */
+    int64_t top, bottom;
+    size_t plane;            /* with two, the largest determinant */
     bool shape;              /* coefficients do not depend on cyclic coordinates */
     size_t degree;           /* up to which */
     double work;             /* products of residues that one count may take */

@@ -1,17 +1,23 @@
-/* Equations of motion as polynomials in a parameter: evaluated at many values modulo a prime, and interpolated. */
-#include "integrals/parametric.h"
-
+/* Equations of motion as series at a point and at values of the parameters. */
 #include <flint/nmod_mat.h>
-#include <flint/nmod_poly.h>
 #include <string.h>
 
 #include "base/progress.h"
+#include "integrals/parametric_internal.h"
 
-enum { most_factors = 16, most_degree = 12, most_values = 32, largest_series = 20000, most_parameters = 3000 };
+enum { most_factors = 16, most_degree = 12, largest_series = 20000, most_parameters = 3000 };
 
 /* ---- what depends on the parameter, and how ---- */
 
 static nh_ex symbol_of(const nh_parametric *f) { return f->counter.equations->model->parameter[f->parameter]; }
+
+/* On one of the parameters. */
+static bool depends(const nh_parametric *f, nh_ex e)
+{
+    const nh_jet_equations *x = f->counter.equations;
+    return nh_depends(x->dag, e, symbol_of(f))
+        || (f->second != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->second]));
+}
 
 static size_t factor_of(nh_parametric *f, nh_ex base)
 {
@@ -37,7 +43,7 @@ static void find_denominators(nh_parametric *f, size_t n, const nh_ex *e, size_t
             for (size_t j = 0; j < nh_arity(d, product[i]); j++) {
                 double x = nh_num_value(nh_number_of(d, nh_exponent_of(d, product[i], j)));
                 nh_ex base = nh_child(d, product[i], j);
-                if (x >= 0 || !nh_depends(d, base, symbol_of(f))) continue;
+                if (x >= 0 || !depends(f, base)) continue;
                 size_t at = factor_of(f, base);
                 if (power[at] < (size_t)-x) power[at] = (size_t)-x;
             }
@@ -70,8 +76,15 @@ static bool inside_functions(const nh_parametric *f)
 {
     const nh_jet_point *p = f->counter.equations->point;
     for (size_t k = 0; k < p->kernels; k++)
-        if (nh_depends(f->counter.equations->dag, p->kernel[k].key, symbol_of(f))) return true;
+        if (depends(f, p->kernel[k].key)) return true;
     return false;
+}
+
+static bool any_depends(const nh_parametric *f, size_t n, const nh_ex *e)
+{
+    bool any = false;
+    for (size_t i = 0; i < n; i++) any |= depends(f, e[i]);
+    return any;
 }
 
 static bool among(const nh_parametric *f, size_t n, const nh_ex *e, nh_ex symbol)
@@ -99,8 +112,10 @@ static void look(nh_parametric *f)
     const nh_jet_equations *x = f->counter.equations;
     size_t of_rest[most_factors] = {0};
     if (inside_functions(f)) f->obstacle = "the parameter occurs inside of a function or a root";
-    else if (!plain(f) && among(f, x->m, x->rho, symbol_of(f))) f->obstacle = "the constraints depend on the parameter";
-    else if (!in_equations(f, symbol_of(f))) f->obstacle = "the equations do not depend on the parameter";
+    else if (!plain(f) && any_depends(f, x->m, x->rho)) f->obstacle = "the constraints depend on the parameter";
+    else if (!in_equations(f, symbol_of(f))
+             || (f->second != SIZE_MAX && !in_equations(f, x->model->parameter[f->second])))
+        f->obstacle = "the equations do not depend on the parameter";
     if (f->obstacle) return;
     find_denominators(f, x->n * x->n, x->M, f->of_mass);
     find_denominators(f, x->n, x->A, f->of_rest);
@@ -111,10 +126,10 @@ static void look(nh_parametric *f)
     }
 }
 
-void nh_parametric_open(nh_parametric *f, const nh_model *model, size_t parameter, bool shape,
+void nh_parametric_open(nh_parametric *f, const nh_model *model, size_t parameter, size_t second, bool shape,
                         const nh_count_question *question)
 {
-    *f = (nh_parametric){.parameter = parameter, .shape = shape};
+    *f = (nh_parametric){.parameter = parameter, .second = second, .shape = shape};
     nh_counter_open(&f->counter, model, question);
     nh_jet_equations *x = f->counter.equations;
     f->index = nh_alloc_array(x->coordinates + 1, sizeof *f->index);
@@ -238,12 +253,12 @@ static bool plain_series(nh_parametric *f, const nh_jet_ring *r, nh_residue *coo
     return good;
 }
 
-/* Q, Q X_i, Q w^l' at one value of the parameter. */
-static bool at_value(nh_parametric *f, nh_parametric_series *s, nh_residue lambda, nh_residue *out)
+bool nh_parametric_value(nh_parametric *f, nh_parametric_series *s, nh_residue lambda, nh_residue mu, nh_residue *out)
 {
     nh_jet_equations *x = f->counter.equations;
     const nh_jet_ring *r = s->ring;
     x->at[x->coordinates + f->parameter] = lambda;
+    if (f->second != SIZE_MAX) x->at[x->coordinates + f->second] = mu;
     bool good = plain(f) ? plain_series(f, r, s->coordinate, out + s->fields_at)
         : nh_adapted_frame_series(f->counter.frame, r, s->coordinate, out + s->fields_at);
     good = good && multiplier(f, r, s->coordinate, out)
@@ -255,94 +270,6 @@ static bool at_value(nh_parametric *f, nh_parametric_series *s, nh_residue lambd
     return good;
 }
 
-/* ---- interpolation ---- */
-
-/* Coefficients from values at distinct places (Newton's divided differences), in place: value[k] is that at
- * place[k]. */
-static void interpolate(nh_prime p, size_t count, const nh_residue *place, size_t length, nh_residue *value)
-{
-    for (size_t step = 1; step < count; step++)
-        for (size_t k = count - 1; k >= step; k--) {
-            nh_residue scale = nh_residue_inverse(p, nh_residue_sub(p, place[k], place[k - step]));
-            for (size_t z = 0; z < length; z++)
-                value[k * length + z] = nh_residue_mul(p, scale,
-                                                       nh_residue_sub(p, value[k * length + z],
-                                                           value[(k - 1) * length + z]));
-        }
-    for (size_t step = count - 1; step-- > 0;) /* Horner: (x - place[step]) times what is behind */
-        for (size_t k = step; k + 1 < count; k++)
-            nh_residue_add_multiple(p, length, value + k * length, value + (k + 1) * length,
-                                    nh_residue_negative(p, place[step]));
-}
-
-static size_t highest(size_t count, size_t length, const nh_residue *value)
-{
-    while (count > 1) {
-        const nh_residue *top = value + (count - 1) * length;
-        for (size_t z = 0; z < length; z++)
-            if (top[z]) return count - 1;
-        count--;
-    }
-    return 0;
-}
-
-static void entry(nmod_poly_t out, const nh_parametric_series *s, size_t z)
-{
-    nmod_poly_zero(out);
-    for (size_t j = 0; j <= s->degree; j++) nmod_poly_set_coeff_ui(out, (slong)j, s->coefficient[j * s->length + z]);
-}
-
-/* Divide by the greatest common factor of all coefficients. */
-static void divide_content(nh_parametric_series *s)
-{
-    nmod_poly_t content, e;
-    nmod_poly_init(content, s->ring->field.p);
-    nmod_poly_init(e, s->ring->field.p);
-    for (size_t z = 0; z < s->length && nmod_poly_degree(content) != 0; z++) {
-        entry(e, s, z);
-        nmod_poly_gcd(content, content, e);
-    }
-    for (size_t z = 0; z < s->length && nmod_poly_degree(content) > 0; z++) {
-        entry(e, s, z);
-        nmod_poly_div(e, e, content);
-        for (size_t j = 0; j <= s->degree; j++)
-            s->coefficient[j * s->length + z] = (nh_residue)nmod_poly_get_coeff_ui(e, (slong)j);
-    }
-    if (nmod_poly_degree(content) > 0) s->degree -= (size_t)nmod_poly_degree(content);
-    nmod_poly_clear(e);
-    nmod_poly_clear(content);
-}
-
-/* Values at more and more places, until one of them is not needed. */
-static bool find_coefficients(nh_parametric *f, nh_parametric_series *s)
-{
-    nh_prime p = s->ring->field;
-    uint64_t random = f->counter.equations->point->random + 77;
-    nh_residue place[most_values];
-    size_t have = 0, degree = most_values;
-    nh_residue *value = nh_alloc_array(most_values * s->length, sizeof *value);
-    for (size_t want = 4; want <= most_values && degree == most_values && !nh_late(); want *= 2) {
-        size_t tries = 0;
-        for (; have < want && tries < 3 * most_values; tries++) {
-            place[have] = nh_residue_random(p, &random);
-            if (at_value(f, s, place[have], value + have * s->length)) have++;
-            else if (f->counter.equations->obstacle) break;
-        }
-        if (have < want) break;
-        nh_free(s->coefficient);
-        s->coefficient = nh_alloc_array(want * s->length, sizeof *value);
-        memcpy(s->coefficient, value, want * s->length * sizeof *value);
-        interpolate(p, want, place, s->length, s->coefficient);
-        size_t found = highest(want, s->length, s->coefficient);
-        if (found + 1 < want) degree = found;
-    }
-    nh_free(value);
-    s->degree = degree;
-    if (have == most_values && degree == most_values)
-        f->obstacle = "equations that are not polynomial in the parameter, of a degree that is not too high";
-    return degree < most_values;
-}
-
 /* ---- creation ---- */
 
 /* Every term of Gamma changes the parity of |alpha|. */
@@ -350,7 +277,7 @@ static bool has_parity(const nh_parametric *f, const nh_parametric_series *s)
 {
     size_t n = f->counter.equations->n, count = nh_jet_equations_monomials(n), e = s->ring->size;
     bool split = f->counter.equations->fields == n;
-    for (size_t j = 0; j <= s->degree; j++)
+    for (size_t j = 0; j < (s->degree + 1) * (s->second + 1); j++)
         for (size_t l = 0; l < n; l++)
             for (size_t i = 0; i < n && split; i++)
                 split = nh_jet_is_zero(s->ring, s->coefficient + j * s->length + s->rates_at + (l * count + 1 + i) * e);
@@ -375,11 +302,10 @@ nh_parametric_series *nh_parametric_series_create(nh_parametric *f, size_t order
     s->rates_at = size + x->fields * kept * size;
     s->length = s->rates_at + x->n * nh_jet_equations_monomials(x->n) * size;
     s->coordinate = nh_alloc_array((x->coordinates + 1) * size, sizeof *s->coordinate);
-    *regular = find_coefficients(f, s);
+    *regular = nh_parametric_interpolate(f, s);
     if (*regular) {
-        divide_content(s);
         s->split = has_parity(f, s);
-        if (s->degree <= most_degree) return s;
+        if (s->degree <= most_degree && s->second <= most_degree) return s;
         f->obstacle = "equations of a degree in the parameter that is too high";
     }
     nh_parametric_series_free(s);

@@ -9,7 +9,10 @@
  *
  * Without constraints the coordinates are those of the file. With constraints they are those of an adapted frame, which
  * has to be free of lambda. Cyclic ones may be left out: then Phi has coefficients that do not depend on them, and
- * where the velocities have all directions of the others there is no need of a frame. */
+ * where the velocities have all directions of the others there is no need of a frame.
+ *
+ * With two parameters, lambda and mu, there are G_ij for lambda^i mu^j. A second parameter may also be held at a
+ * residue. */
 #ifndef NH_PARAMETRIC_H
 #define NH_PARAMETRIC_H
 
@@ -18,7 +21,10 @@
 
 typedef struct {
     nh_counter counter;      /* the equations, with the parameter as a symbol, and the known integrals */
-    size_t parameter;        /* its index in the model, whose other parameters have been replaced */
+    size_t parameter;        /* its index in the model, whose other parameters have been replaced, but for */
+    size_t second;           /* mu; SIZE_MAX: there is none */
+    bool held;               /* mu is this residue, */
+    nh_residue value;        /* and the series are those of one parameter */
     bool shape;              /* without cyclic coordinates */
     size_t kept, *index;     /* where there is no frame: the coordinates of the series */
     nh_ex *factor;           /* q is a product of powers of these, which depend on the parameter: */
@@ -30,7 +36,7 @@ typedef struct {
 bool nh_parametric_rational(nh_dag *dag, nh_ex e, nh_ex symbol);
 
 /* Borrows the model and the question, of which the parameters are indeterminates. */
-void nh_parametric_open(nh_parametric *family, const nh_model *model, size_t parameter, bool shape,
+void nh_parametric_open(nh_parametric *family, const nh_model *model, size_t parameter, size_t second, bool shape,
                         const nh_count_question *question);
 void nh_parametric_close(nh_parametric *family);
 
@@ -39,10 +45,10 @@ bool nh_parametric_choose(nh_parametric *family, size_t prime, uint64_t seed);
 
 typedef struct {
     nh_jet_ring *ring;
-    size_t degree;           /* in the parameter */
+    size_t degree, second;   /* in lambda, in mu */
     size_t length;           /* of one coefficient: Q, then the fields, then the rates, as in graded_solver.h */
     size_t fields_at, rates_at;
-    nh_residue *coefficient; /* (degree + 1) x length */
+    nh_residue *coefficient; /* (second + 1) x (degree + 1) x length */
     nh_residue *coordinate;  /* of the equations, as series */
     bool split;              /* solutions are even or odd in the velocities */
 } nh_parametric_series;
@@ -51,7 +57,7 @@ typedef struct {
 nh_parametric_series *nh_parametric_series_create(nh_parametric *family, size_t order, bool *regular);
 void nh_parametric_series_free(nh_parametric_series *series);
 
-/* The equations at one value; `infinite`: the coefficient of the highest power. `values` has room for `length`
+/* The equations at one value of the only parameter; `infinite`: the coefficient of the highest power. `values` has room for `length`
  * residues. */
 void nh_parametric_at(const nh_parametric_series *series, nh_residue lambda, bool infinite, nh_residue *values);
 /* Their linear system. */
@@ -66,7 +72,7 @@ typedef struct {
     int scale[16];
 } nh_parametric_variable;
 
-/* The linear system for every value: the equations up to the weight order - 1 for the series up to the weight `order`,
+/* The linear system for every value, `variable` for each of the parameters: the equations up to the weight order - 1 for the series up to the weight `order`,
  * in a variable in which its degree is low and much of it is constant. False: more than `most` unknowns, companions
  * included. The entries are on the heap. */
 bool nh_parametric_pencil(const nh_parametric *family, const nh_parametric_series *series, size_t degree,

@@ -9,30 +9,34 @@
 
 enum { least_cost = 4, largest_cost = 4096 };
 
-/* constant + lambda slope, in a column */
+/* A term is a column and its coefficients: the constant one, then those of the other powers, `slopes`. */
 typedef struct {
-    uint32_t column;
-    nh_residue constant, slope;
-} term;
-
-typedef struct {
-    size_t count, capacity, slopes; /* slopes: of its terms that have one */
-    term *term;
+    size_t count, capacity, slopes; /* slopes: of its terms that depend on the parameters */
+    uint32_t *term;
 } sparse_row;
 
 typedef struct {
-    size_t count, slopes;    /* rows with a term here; with a slope */
+    size_t count, slopes;    /* rows with a term here; with one that depends on the parameters */
     size_t rows, capacity;   /* the list may hold rows that have no term here any more */
     uint32_t *row;
 } sparse_column;
 
 typedef struct {
     nh_prime f;
-    size_t rows, columns;
+    size_t rows, columns, powers, stride; /* stride = 1 + powers: of a term */
     sparse_row *row;
     sparse_column *column;
     sparse_row work;
 } sparse;
+
+static uint32_t *at(const sparse *s, const sparse_row *r, size_t k) { return r->term + k * s->stride; }
+
+static bool moves(const sparse *s, const uint32_t *t)
+{
+    bool any = false;
+    for (size_t k = 1; k < s->powers; k++) any |= t[1 + k] != 0;
+    return any;
+}
 
 /* ---- in ---- */
 
@@ -64,45 +68,66 @@ static size_t linear_entries(const nh_sparse_pencil *p, nh_prime f, nh_sparse_en
     return count;
 }
 
-static void enter_column(sparse *s, uint32_t row, const term *t)
+static size_t sorted_entries(const nh_sparse_pencil *p, nh_sparse_entry **out)
 {
-    sparse_column *c = &s->column[t->column];
+    *out = nh_alloc_array(p->entries + 1, sizeof **out);
+    memcpy(*out, p->entry, p->entries * sizeof **out);
+    qsort(*out, p->entries, sizeof **out, by_place);
+    return p->entries;
+}
+
+static void enter_column(sparse *s, uint32_t row, const uint32_t *t)
+{
+    sparse_column *c = &s->column[t[0]];
     nh_grow(&c->row, &c->capacity, c->rows + 1, sizeof *c->row);
     c->row[c->rows++] = row;
     c->count++;
-    c->slopes += t->slope != 0;
+    c->slopes += moves(s, t);
 }
 
-static void leave_column(sparse *s, const term *t)
+static void leave_column(sparse *s, const uint32_t *t)
 {
-    s->column[t->column].count--;
-    s->column[t->column].slopes -= t->slope != 0;
+    s->column[t[0]].count--;
+    s->column[t[0]].slopes -= moves(s, t);
 }
 
-static void push(sparse_row *r, uint32_t column, nh_residue constant, nh_residue slope)
+/* Room for one more term, which is not counted before it is known to be there. */
+static uint32_t *next(const sparse *s, sparse_row *r)
 {
-    if (!constant && !slope) return;
-    nh_grow(&r->term, &r->capacity, r->count + 1, sizeof *r->term);
-    r->term[r->count++] = (term){column, constant, slope};
-    r->slopes += slope != 0;
+    nh_grow(&r->term, &r->capacity, (r->count + 1) * s->stride, sizeof *r->term);
+    return at(s, r, r->count);
+}
+
+static bool push(const sparse *s, sparse_row *r)
+{
+    const uint32_t *t = at(s, r, r->count);
+    bool slope = moves(s, t), any = slope || t[1];
+    r->count += any;
+    r->slopes += slope;
+    return any;
 }
 
 static void open_sparse(sparse *s, const nh_sparse_pencil *p, nh_prime f)
 {
     nh_sparse_entry *e;
-    size_t D = p->degree ? p->degree : 1, count = linear_entries(p, f, &e);
-    *s = (sparse){.f = f, .rows = p->rows + (D - 1) * p->columns, .columns = D * p->columns};
+    bool one = p->second == 0;
+    size_t D = one && p->degree ? p->degree : 1, count = one ? linear_entries(p, f, &e) : sorted_entries(p, &e);
+    *s = (sparse){.f = f, .rows = p->rows + (D - 1) * p->columns, .columns = D * p->columns,
+                  .powers = one ? 2 : (p->degree + 1) * (p->second + 1)};
+    s->stride = 1 + s->powers;
     s->row = nh_alloc_array(s->rows + 1, sizeof *s->row);
     s->column = nh_alloc_array(s->columns + 1, sizeof *s->column);
     for (size_t k = 0; k < count;) {
-        nh_residue value[2] = {0, 0};
         size_t first = k;
+        uint32_t *t = next(s, &s->row[e[first].row]);
+        memset(t, 0, s->stride * sizeof *t);
+        t[0] = e[first].column;
         for (; k < count && by_place(&e[first], &e[k]) == 0; k++)
-            value[e[k].power] = nh_residue_add(f, value[e[k].power], e[k].value);
-        push(&s->row[e[first].row], e[first].column, value[0], value[1]);
+            t[1 + e[k].power] = nh_residue_add(f, t[1 + e[k].power], e[k].value);
+        push(s, &s->row[e[first].row]);
     }
     for (size_t i = 0; i < s->rows; i++)
-        for (size_t k = 0; k < s->row[i].count; k++) enter_column(s, (uint32_t)i, &s->row[i].term[k]);
+        for (size_t k = 0; k < s->row[i].count; k++) enter_column(s, (uint32_t)i, at(s, &s->row[i], k));
     nh_free(e);
 }
 
@@ -117,43 +142,46 @@ static void close_sparse(sparse *s)
 
 /* ---- elimination ---- */
 
-static const term *term_at(const sparse_row *r, uint32_t column)
+static const uint32_t *term_at(const sparse *s, const sparse_row *r, uint32_t column)
 {
     size_t low = 0, high = r->count;
     while (low < high) {
         size_t middle = (low + high) / 2;
-        if (r->term[middle].column < column) low = middle + 1;
+        if (*at(s, r, middle) < column) low = middle + 1;
         else high = middle;
     }
-    return low < r->count && r->term[low].column == column ? &r->term[low] : NULL;
+    return low < r->count && *at(s, r, low) == column ? at(s, r, low) : NULL;
 }
 
-/* row -= (constant + lambda slope) times the pivot row, without the pivot's column. */
-static void subtract(sparse *s, uint32_t index, const sparse_row *p, uint32_t column, nh_residue constant,
-                     nh_residue slope)
+/* t -= factor times the term x of the pivot row, of which one depends on no parameter. */
+static void subtract_term(const sparse *s, uint32_t *t, const nh_residue *factor, const uint32_t *x)
+{
+    nh_prime f = s->f;
+    for (size_t k = 1; k < s->powers; k++) {
+        nh_residue both = nh_residue_add(f, nh_residue_mul(f, factor[0], x[1 + k]), nh_residue_mul(f, factor[k], x[1]));
+        t[1 + k] = nh_residue_sub(f, t[1 + k], both);
+    }
+    t[1] = nh_residue_sub(f, t[1], nh_residue_mul(f, factor[0], x[1]));
+}
+
+/* row -= factor times the pivot row, without the pivot's column. */
+static void subtract(sparse *s, uint32_t index, const sparse_row *p, uint32_t column, const nh_residue *factor)
 {
     sparse_row *r = &s->row[index], *w = &s->work;
-    nh_prime f = s->f;
     size_t i = 0, j = 0;
     w->count = w->slopes = 0;
     while (i < r->count || j < p->count) {
-        bool left = i < r->count && (j == p->count || r->term[i].column <= p->term[j].column), right = j < p->count
-            && (i == r->count || p->term[j].column <= r->term[i].column);
-        term t = left ? r->term[i] : (term){p->term[j].column, 0, 0};
-        if (right) {
-            const term *x = &p->term[j];
-            nh_residue both = nh_residue_add(f, nh_residue_mul(f, constant, x->slope),
-                                             nh_residue_mul(f, slope, x->constant));
-            t.constant = nh_residue_sub(f, t.constant, nh_residue_mul(f, constant, x->constant));
-            t.slope = nh_residue_sub(f, t.slope, both);
-        }
-        if (t.column != column) {
-            bool is_new = !left && (t.constant || t.slope);
-            if (left) leave_column(s, &r->term[i]);
-            if (is_new) enter_column(s, index, &t);
-            else if (left && (t.constant || t.slope))
-                s->column[t.column].count++, s->column[t.column].slopes += t.slope != 0;
-            push(w, t.column, t.constant, t.slope);
+        const uint32_t *a = i < r->count ? at(s, r, i) : NULL, *b = j < p->count ? at(s, p, j) : NULL;
+        bool left = a && (!b || a[0] <= b[0]), right = b && (!a || b[0] <= a[0]);
+        uint32_t *t = next(s, w);
+        if (left) memcpy(t, a, s->stride * sizeof *t);
+        else memset(t, 0, s->stride * sizeof *t), t[0] = b[0];
+        if (right) subtract_term(s, t, factor, b);
+        if (t[0] != column) {
+            if (left) leave_column(s, a);
+            bool there = push(s, w);
+            if (there && !left) enter_column(s, index, t);
+            else if (there) s->column[t[0]].count++, s->column[t[0]].slopes += moves(s, t);
         }
         i += left;
         j += right;
@@ -170,14 +198,16 @@ static void eliminate(sparse *s, uint32_t index, uint32_t column)
     s->row[index] = (sparse_row){0};
     s->column[column] = (sparse_column){0};
     for (size_t k = 0; k < p.count; k++)
-        if (p.term[k].column != column) leave_column(s, &p.term[k]);
-    nh_residue inverse = nh_residue_inverse(s->f, term_at(&p, column)->constant);
+        if (*at(s, &p, k) != column) leave_column(s, at(s, &p, k));
+    nh_residue inverse = nh_residue_inverse(s->f, term_at(s, &p, column)[1]);
+    nh_residue *factor = nh_alloc_array(s->powers, sizeof *factor);
     for (size_t k = 0; k < c.rows; k++) {
-        const term *t = term_at(&s->row[c.row[k]], column);
-        if (t)
-            subtract(s, c.row[k], &p, column, nh_residue_mul(s->f, t->constant, inverse),
-                     nh_residue_mul(s->f, t->slope, inverse));
+        const uint32_t *t = term_at(s, &s->row[c.row[k]], column);
+        if (!t) continue;
+        for (size_t i = 0; i < s->powers; i++) factor[i] = nh_residue_mul(s->f, t[1 + i], inverse);
+        subtract(s, c.row[k], &p, column, factor);
     }
+    nh_free(factor);
     nh_free(p.term);
     nh_free(c.row);
 }
@@ -187,11 +217,11 @@ static size_t pivot_of(const sparse *s, const sparse_row *r, size_t most)
 {
     size_t best = SIZE_MAX;
     for (size_t k = 0; k < r->count; k++) {
-        const term *t = &r->term[k];
-        const sparse_column *c = &s->column[t->column];
+        const uint32_t *t = at(s, r, k);
+        const sparse_column *c = &s->column[t[0]];
         size_t cost = (r->count - 1) * (c->count - 1);
-        if (!t->constant || t->slope || (r->slopes && c->slopes) || cost > most) continue;
-        best = t->column;
+        if (!t[1] || moves(s, t) || (r->slopes && c->slopes) || cost > most) continue;
+        best = t[0];
         most = cost;
     }
     return best;
@@ -217,7 +247,7 @@ nh_sparse_pencil nh_sparse_pencil_reduce(const nh_sparse_pencil *p, nh_prime f)
 {
     sparse s;
     open_sparse(&s, p, f);
-    nh_sparse_pencil out = {.degree = 1};
+    nh_sparse_pencil out = {.degree = p->second ? p->degree : 1, .second = p->second};
     eliminate_all(&s);
     uint32_t *to = nh_alloc_array(s.columns + 1, sizeof *to);
     for (size_t j = 0; j < s.columns; j++) { /* columns without rows stay free for every value: they do not matter */
@@ -226,12 +256,11 @@ nh_sparse_pencil nh_sparse_pencil_reduce(const nh_sparse_pencil *p, nh_prime f)
     }
     for (size_t i = 0; i < s.rows; i++) {
         for (size_t k = 0; k < s.row[i].count; k++) {
-            const term *t = &s.row[i].term[k];
-            nh_residue value[2] = {t->constant, t->slope};
-            for (uint32_t power = 0; power < 2; power++) {
-                if (!value[power]) continue;
+            const uint32_t *t = at(&s, &s.row[i], k);
+            for (uint32_t power = 0; power < s.powers; power++) {
+                if (!t[1 + power]) continue;
                 nh_grow(&out.entry, &out.capacity, out.entries + 1, sizeof *out.entry);
-                out.entry[out.entries++] = (nh_sparse_entry){(uint32_t)out.rows, to[t->column], power, value[power]};
+                out.entry[out.entries++] = (nh_sparse_entry){(uint32_t)out.rows, to[t[0]], power, t[1 + power]};
             }
         }
         out.rows += s.row[i].count > 0;

@@ -1,7 +1,6 @@
 /* Special values modulo primes, and over the rationals: FLINT's polynomials. */
 #include "integrals/special_values.h"
 
-#include <flint/fmpq.h>
 #include <flint/fmpz_poly.h>
 #include <flint/fmpz_poly_factor.h>
 #include <flint/nmod_poly.h>
@@ -10,6 +9,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "integrals/special_values_internal.h"
 
 /* ---- modulo a prime ---- */
 
@@ -73,15 +73,13 @@ void nh_special_roots_clear(nh_special_roots *r)
 
 /* ---- over the integers ---- */
 
-/* One coefficient from all primes but the last, which has to agree. */
-static bool reconstruct(size_t primes, const nh_prime *prime, const nh_residue_polynomial *residue, size_t at,
-                        fmpq_t out)
+bool nh_special_reconstruct(size_t primes, const nh_prime *prime, const nh_residue *residue, fmpq_t out)
 {
     fmpz_t x, m;
-    fmpz_init_set_ui(x, residue[0].coefficient[at]);
+    fmpz_init_set_ui(x, residue[0]);
     fmpz_init_set_ui(m, prime[0].p);
     for (size_t i = 1; i + 1 < primes; i++) {
-        fmpz_CRT_ui(x, x, m, residue[i].coefficient[at], prime[i].p, 0);
+        fmpz_CRT_ui(x, x, m, residue[i], prime[i].p, 0);
         fmpz_mul_ui(m, m, prime[i].p);
     }
     bool good = fmpq_reconstruct_fmpz(out, x, m);
@@ -89,7 +87,7 @@ static bool reconstruct(size_t primes, const nh_prime *prime, const nh_residue_p
         nh_prime last = prime[primes - 1];
         nh_residue top = (nh_residue)fmpz_fdiv_ui(fmpq_numref(out),
                                                   last.p), bottom = (nh_residue)fmpz_fdiv_ui(fmpq_denref(out), last.p);
-        good = bottom && nh_residue_mul(last, residue[primes - 1].coefficient[at], bottom) == top;
+        good = bottom && nh_residue_mul(last, residue[primes - 1], bottom) == top;
     }
     fmpz_clear(m);
     fmpz_clear(x);
@@ -100,13 +98,15 @@ static bool lift(size_t primes, const nh_prime *prime, const nh_residue_polynomi
 {
     size_t degree = residue[0].degree;
     fmpq_t *q = nh_alloc_array(degree + 1, sizeof *q);
+    nh_residue *r = nh_alloc_array(primes, sizeof *r);
     fmpz_t common, x;
     bool good = true;
     fmpz_init_set_ui(common, 1);
     fmpz_init(x);
     for (size_t j = 0; j <= degree; j++) fmpq_init(q[j]);
     for (size_t j = 0; j <= degree && good; j++) {
-        good = reconstruct(primes, prime, residue, j, q[j]);
+        for (size_t i = 0; i < primes; i++) r[i] = residue[i].coefficient[j];
+        good = nh_special_reconstruct(primes, prime, r, q[j]);
         fmpz_lcm(common, common, fmpq_denref(q[j]));
     }
     for (size_t j = 0; j <= degree && good; j++) {
@@ -117,6 +117,7 @@ static bool lift(size_t primes, const nh_prime *prime, const nh_residue_polynomi
     for (size_t j = 0; j <= degree; j++) fmpq_clear(q[j]);
     fmpz_clear(x);
     fmpz_clear(common);
+    nh_free(r);
     nh_free(q);
     return good;
 }
@@ -175,16 +176,15 @@ void nh_special_factors_clear(nh_special_factors *f)
 
 /* ---- roots ---- */
 
-bool nh_special_root(const nh_special_factor *factor, nh_prime f, nh_residue *root)
+bool nh_residue_polynomial_root(const nh_residue_polynomial *of, nh_prime f, nh_residue *root)
 {
     nmod_poly_t p;
     nmod_poly_factor_t parts;
     bool found = false;
     nmod_poly_init(p, f.p);
     nmod_poly_factor_init(parts);
-    for (size_t j = 0; j <= factor->degree; j++)
-        nmod_poly_set_coeff_ui(p, (slong)j, nh_residue_of(f, factor->coefficient[j]));
-    if (nmod_poly_degree(p) == (slong)factor->degree) nmod_poly_factor(parts, p);
+    take(p, of);
+    if (nmod_poly_degree(p) == (slong)of->degree && of->degree) nmod_poly_factor(parts, p);
     for (slong k = 0; k < parts->num; k++) {
         if (nmod_poly_degree(parts->p + k) != 1) continue;
         nh_residue top = (nh_residue)nmod_poly_get_coeff_ui(parts->p + k,
@@ -196,6 +196,16 @@ bool nh_special_root(const nh_special_factor *factor, nh_prime f, nh_residue *ro
     }
     nmod_poly_factor_clear(parts);
     nmod_poly_clear(p);
+    return found;
+}
+
+bool nh_special_root(const nh_special_factor *factor, nh_prime f, nh_residue *root)
+{
+    nh_residue_polynomial p = {.degree = factor->degree};
+    p.coefficient = nh_alloc_array(p.degree + 1, sizeof *p.coefficient);
+    for (size_t j = 0; j <= p.degree; j++) p.coefficient[j] = nh_residue_of(f, factor->coefficient[j]);
+    bool found = nh_residue_polynomial_root(&p, f, root);
+    nh_free(p.coefficient);
     return found;
 }
 

@@ -34,7 +34,8 @@ typedef struct {
 nh_special_factors nh_special_lift(size_t primes, const nh_prime *prime, const nh_residue_polynomial *residue);
 void nh_special_factors_clear(nh_special_factors *factors);
 
-/* The least root of the factor modulo the prime, where there is one. */
+/* The least root modulo the prime, where there is one. */
+bool nh_residue_polynomial_root(const nh_residue_polynomial *p, nh_prime field, nh_residue *root);
 bool nh_special_root(const nh_special_factor *factor, nh_prime field, nh_residue *root);
 
 /* Its real roots, ascending, as doubles; their number.  `out` has room for `degree`. */

@@ -8,19 +8,33 @@
 #include "base/progress.h"
 #include "integrals/sparse_pencil.h"
 
-/* A + lambda E */
+/* The coefficients of the powers; the first one is constant. */
 typedef struct {
-    nmod_mat_t A, E;
+    size_t count;
+    nmod_mat_t *m;
 } matrices;
 
-static ulong prime_of(const matrices *m) { return m->A->mod.n; }
+static ulong prime_of(const matrices *x) { return x->m[0]->mod.n; }
+static slong rows_of(const matrices *x) { return nmod_mat_nrows(x->m[0]); }
+static slong columns_of(const matrices *x) { return nmod_mat_ncols(x->m[0]); }
 
-static void replace(matrices *m, nmod_mat_t A, nmod_mat_t E)
+static matrices zeros(size_t count, slong rows, slong columns, ulong p)
 {
-    nmod_mat_swap(m->A, A);
-    nmod_mat_swap(m->E, E);
-    nmod_mat_clear(A);
-    nmod_mat_clear(E);
+    matrices x = {.count = count, .m = nh_alloc_array(count, sizeof *x.m)};
+    for (size_t k = 0; k < count; k++) nmod_mat_init(x.m[k], rows, columns, p);
+    return x;
+}
+
+static void clear(matrices *x)
+{
+    for (size_t k = 0; k < x->count; k++) nmod_mat_clear(x->m[k]);
+    nh_free(x->m);
+}
+
+static void replace(matrices *x, matrices by)
+{
+    clear(x);
+    *x = by;
 }
 
 /* ---- the pencil as matrices ---- */
@@ -30,12 +44,12 @@ static void add_to(nmod_mat_t m, size_t row, size_t column, nh_residue value)
     nmod_mat_entry(m, row, column) = n_addmod(nmod_mat_entry(m, row, column), value, m->mod.n);
 }
 
-static void fill(const nh_sparse_pencil *p, nh_prime f, matrices *m)
+static matrices matrices_of(const nh_sparse_pencil *p, nh_prime f)
 {
-    nmod_mat_init(m->A, (slong)p->rows, (slong)p->columns, f.p);
-    nmod_mat_init(m->E, (slong)p->rows, (slong)p->columns, f.p);
+    matrices x = zeros((p->degree + 1) * (p->second + 1), (slong)p->rows, (slong)p->columns, f.p);
     for (size_t k = 0; k < p->entries; k++)
-        add_to(p->entry[k].power ? m->E : m->A, p->entry[k].row, p->entry[k].column, p->entry[k].value);
+        add_to(x.m[p->entry[k].power], p->entry[k].row, p->entry[k].column, p->entry[k].value);
+    return x;
 }
 
 /* ---- constant equations ---- */
@@ -76,7 +90,7 @@ static void substitute_in(nmod_mat_t M, const nmod_mat_t C, slong pivots, const 
 }
 
 /* C y = 0, in reduced echelon form with `rank` rows: its pivots leave the pencil. */
-static void use_constants(matrices *m, const nmod_mat_t C, slong rank)
+static void use_constants(matrices *x, const nmod_mat_t C, slong rank)
 {
     slong columns = nmod_mat_ncols(C), opens = 0;
     slong *pivot = nh_alloc_array((size_t)rank + 1, sizeof *pivot), *open = nh_alloc_array((size_t)columns + 1,
@@ -85,8 +99,7 @@ static void use_constants(matrices *m, const nmod_mat_t C, slong rank)
         if (i < rank && nmod_mat_entry(C, i, j)) pivot[i++] = j;
         else open[opens++] = j;
     }
-    substitute_in(m->A, C, rank, pivot, opens, open);
-    substitute_in(m->E, C, rank, pivot, opens, open);
+    for (size_t k = 0; k < x->count; k++) substitute_in(x->m[k], C, rank, pivot, opens, open);
     nh_free(open);
     nh_free(pivot);
 }
@@ -98,99 +111,109 @@ static void copy_rows(nmod_mat_t to, const nmod_mat_t from, slong first, slong c
             nmod_mat_entry(to, i, j) = nmod_mat_entry(from, first + i, column + j);
 }
 
-/* Equations without lambda as they stand: most of them, and sparse matrices stay small. */
-static void constant_rows(matrices *m)
+static bool is_constant(const matrices *x, slong row)
 {
-    slong rows = nmod_mat_nrows(m->A), columns = nmod_mat_ncols(m->A), constant = 0, other = 0;
-    for (slong i = 0; i < rows; i++) constant += row_is_zero(m->E, i, 0, columns);
-    nmod_mat_t C, A, E;
-    nmod_mat_init(C, constant, columns, prime_of(m));
-    nmod_mat_init(A, rows - constant, columns, prime_of(m));
-    nmod_mat_init(E, rows - constant, columns, prime_of(m));
-    constant = 0;
+    bool constant = true;
+    for (size_t k = 1; k < x->count && constant; k++) constant = row_is_zero(x->m[k], row, 0, columns_of(x));
+    return constant;
+}
+
+static void copy_row(nmod_mat_t to, slong row, const nmod_mat_t from, slong source)
+{
+    for (slong j = 0; j < nmod_mat_ncols(from); j++) nmod_mat_entry(to, row, j) = nmod_mat_entry(from, source, j);
+}
+
+/* Equations without a parameter as they stand: most of them, and sparse matrices stay small. */
+static void constant_rows(matrices *x)
+{
+    slong rows = rows_of(x), columns = columns_of(x), constants = 0, constant = 0, other = 0;
+    for (slong i = 0; i < rows; i++) constants += is_constant(x, i);
+    nmod_mat_t C;
+    nmod_mat_init(C, constants, columns, prime_of(x));
+    matrices rest = zeros(x->count, rows - constants, columns, prime_of(x));
     for (slong i = 0; i < rows; i++) {
-        bool is_constant = row_is_zero(m->E, i, 0, columns);
-        for (slong j = 0; j < columns; j++) {
-            nmod_mat_entry(is_constant ? C : A, is_constant ? constant : other, j) = nmod_mat_entry(m->A, i, j);
-            if (!is_constant) nmod_mat_entry(E, other, j) = nmod_mat_entry(m->E, i, j);
+        if (is_constant(x, i)) {
+            copy_row(C, constant++, x->m[0], i);
+            continue;
         }
-        constant += is_constant;
-        other += !is_constant;
+        for (size_t k = 0; k < x->count; k++) copy_row(rest.m[k], other, x->m[k], i);
+        other++;
     }
-    replace(m, A, E);
-    slong rank = constant ? nmod_mat_rref(C) : 0;
-    use_constants(m, C, rank);
+    replace(x, rest);
+    slong rank = constants ? nmod_mat_rref(C) : 0;
+    use_constants(x, C, rank);
     nmod_mat_clear(C);
 }
 
-/* Echelon form of [E | A]: independent rows, and constant equations, whose number is returned. */
-static slong row_step(matrices *m)
+/* Echelon form of [.. | A_1 | A_0]: independent rows, and constant equations, whose number is returned. */
+static slong row_step(matrices *x)
 {
-    slong rows = nmod_mat_nrows(m->A), columns = nmod_mat_ncols(m->A), rank, moving = 0;
+    slong rows = rows_of(x), columns = columns_of(x), rank, moving = 0, last = (slong)(x->count - 1) * columns;
     if (!rows || !columns) return 0;
-    nmod_mat_t W, A, E, C;
-    nmod_mat_init(W, rows, 2 * columns, prime_of(m));
+    nmod_mat_t W, C;
+    nmod_mat_init(W, rows, (slong)x->count * columns, prime_of(x));
     for (slong i = 0; i < rows; i++)
-        for (slong j = 0; j < columns; j++) {
-            nmod_mat_entry(W, i, j) = nmod_mat_entry(m->E, i, j);
-            nmod_mat_entry(W, i, columns + j) = nmod_mat_entry(m->A, i, j);
-        }
+        for (size_t k = 0; k < x->count; k++)
+            for (slong j = 0; j < columns; j++)
+                nmod_mat_entry(W, i, (k ? (slong)(k - 1) * columns : last) + j) = nmod_mat_entry(x->m[k], i, j);
     rank = nmod_mat_rref(W);
-    while (moving < rank && !row_is_zero(W, moving, 0, columns)) moving++;
-    nmod_mat_init(E, moving, columns, prime_of(m));
-    nmod_mat_init(A, moving, columns, prime_of(m));
-    nmod_mat_init(C, rank - moving, columns, prime_of(m));
-    copy_rows(E, W, 0, 0);
-    copy_rows(A, W, 0, columns);
-    copy_rows(C, W, moving, columns);
+    while (moving < rank && !row_is_zero(W, moving, 0, last)) moving++;
+    matrices rest = zeros(x->count, moving, columns, prime_of(x));
+    for (size_t k = 0; k < x->count; k++) copy_rows(rest.m[k], W, 0, k ? (slong)(k - 1) * columns : last);
+    nmod_mat_init(C, rank - moving, columns, prime_of(x));
+    copy_rows(C, W, moving, last);
     nmod_mat_clear(W);
-    replace(m, A, E);
-    use_constants(m, C, rank - moving);
+    replace(x, rest);
+    use_constants(x, C, rank - moving);
     nmod_mat_clear(C);
     return rank - moving;
 }
 
-static void transpose(matrices *m)
+static void transpose(matrices *x)
 {
-    nmod_mat_t A, E;
-    nmod_mat_init(A, nmod_mat_ncols(m->A), nmod_mat_nrows(m->A), prime_of(m));
-    nmod_mat_init(E, nmod_mat_ncols(m->A), nmod_mat_nrows(m->A), prime_of(m));
-    nmod_mat_transpose(A, m->A);
-    nmod_mat_transpose(E, m->E);
-    replace(m, A, E);
+    matrices t = zeros(x->count, columns_of(x), rows_of(x), prime_of(x));
+    for (size_t k = 0; k < x->count; k++) nmod_mat_transpose(t.m[k], x->m[k]);
+    replace(x, t);
 }
 
-static void reduce(matrices *m)
+static void reduce(matrices *x)
 {
-    constant_rows(m);
-    for (bool changed = true; changed && nmod_mat_nrows(m->A) && nmod_mat_ncols(m->A) && !nh_late();) {
-        slong rows = nmod_mat_nrows(m->A), columns = nmod_mat_ncols(m->A);
-        while (row_step(m) > 0) {}
-        transpose(m);
-        while (row_step(m) > 0) {}
-        transpose(m);
-        changed = nmod_mat_nrows(m->A) != rows || nmod_mat_ncols(m->A) != columns;
+    constant_rows(x);
+    for (bool changed = true; changed && rows_of(x) && columns_of(x) && !nh_late();) {
+        slong rows = rows_of(x), columns = columns_of(x);
+        while (row_step(x) > 0) {}
+        transpose(x);
+        while (row_step(x) > 0) {}
+        transpose(x);
+        changed = rows_of(x) != rows || columns_of(x) != columns;
     }
+}
+
+static matrices reduced(const nh_sparse_pencil *p, nh_prime f, size_t *degree)
+{
+    nh_sparse_pencil small = nh_sparse_pencil_reduce(p, f);
+    matrices x = matrices_of(&small, f);
+    *degree = small.degree;
+    nh_free(small.entry);
+    reduce(&x);
+    return x;
 }
 
 /* ---- results ---- */
 
 bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, nh_residue_polynomial *out)
 {
-    matrices m;
     nmod_mat_t X;
     nmod_poly_t chi;
-    nh_sparse_pencil small = nh_sparse_pencil_reduce(p, f);
-    fill(&small, f, &m);
-    nh_free(small.entry);
-    reduce(&m);
-    slong k = nmod_mat_ncols(m.A);
-    bool none = !k || !nmod_mat_nrows(m.A), solved = !nh_late() && (none || nmod_mat_nrows(m.A) == k);
+    size_t degree;
+    matrices x = reduced(p, f, &degree);
+    slong k = columns_of(&x);
+    bool none = !k || !rows_of(&x), solved = !nh_late() && (none || rows_of(&x) == k);
     nmod_poly_init(chi, f.p);
     nmod_poly_one(chi);
     if (solved && !none) {
         nmod_mat_init(X, k, k, f.p);
-        solved = nmod_mat_solve(X, m.E, m.A);
+        solved = nmod_mat_solve(X, x.m[1], x.m[0]);
         if (solved) nmod_mat_neg(X, X);
         if (solved) nmod_mat_charpoly(chi, X);
         nmod_mat_clear(X);
@@ -199,9 +222,22 @@ bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, nh_residue_polynomial *
     out->coefficient = nh_alloc_array(out->degree + 1, sizeof *out->coefficient);
     for (size_t j = 0; j <= out->degree; j++) out->coefficient[j] = (nh_residue)nmod_poly_get_coeff_ui(chi, (slong)j);
     nmod_poly_clear(chi);
-    nmod_mat_clear(m.A);
-    nmod_mat_clear(m.E);
+    clear(&x);
     return solved;
+}
+
+nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *p, nh_prime f)
+{
+    size_t degree;
+    matrices x = reduced(p, f, &degree);
+    size_t rows = (size_t)rows_of(&x), columns = (size_t)columns_of(&x), at = 0;
+    nh_staircase_matrices out = {.degree = degree, .second = p->second, .rows = rows, .columns = columns,
+                                 .entry = nh_alloc_array(x.count * rows * columns + 1, sizeof *out.entry)};
+    for (size_t k = 0; k < x.count; k++)
+        for (size_t i = 0; i < rows; i++)
+            for (size_t j = 0; j < columns; j++) out.entry[at++] = (nh_residue)nmod_mat_entry(x.m[k], i, j);
+    clear(&x);
+    return out;
 }
 
 size_t nh_staircase_rank(const nh_sparse_pencil *p, nh_prime f, nh_residue lambda)

@@ -8,7 +8,9 @@
  *     columns   the same for the transposes
  *
  * until E is square and invertible. Then chi = det(lambda + E^-1 A) is the product of the finite elementary divisors:
- * rank A(lambda) is that of almost all values exactly where chi(lambda) is not zero. */
+ * rank A(lambda) is that of almost all values exactly where chi(lambda) is not zero.
+ *
+ * With two parameters the same steps for [.. | A_01 | A_10 | A_00] leave small matrices with the same loss of rank. */
 #ifndef NH_STAIRCASE_H
 #define NH_STAIRCASE_H
 
@@ -23,7 +25,14 @@ typedef struct {
 /* chi, monic.  False behind the deadline (base/progress.h). */
 bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, nh_residue_polynomial *chi);
 
-/* The rank at one value. */
+/* With two parameters: what is left, by powers, then rows, then columns; on the heap. */
+typedef struct {
+    size_t degree, second, rows, columns; /* degrees in lambda and in mu */
+    nh_residue *entry;
+} nh_staircase_matrices;
+nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *pencil, nh_prime field);
+
+/* The rank at one value of the only parameter. */
 size_t nh_staircase_rank(const nh_sparse_pencil *pencil, nh_prime field, nh_residue lambda);
 
 #endif

@@ -1,0 +1,22 @@
+/* For the files of the command. */
+#ifndef NH_CLASSIFY_COMMAND_INTERNAL_H
+#define NH_CLASSIFY_COMMAND_INTERNAL_H
+
+#include "commands/classify.h"
+
+/* The family without a classification, and its currents that hold for every value, which are on the heap. */
+nh_classified *nh_classified_open(const nh_classify_request *request, nh_error *error);
+nh_ex *nh_classified_known(nh_classified *classified);
+nh_classify_question nh_classified_question(nh_classified *classified, const nh_classify_request *request,
+                                            const nh_ex *known);
+
+/* The index of a parameter; false with an error. */
+bool nh_classified_parameter(const nh_system *system, const char *name, size_t *out, nh_error *error);
+
+/* With these values beside those of the other parameters. */
+nh_analysis *nh_classified_analyse(const nh_classified *classified, const nh_classify_request *request, size_t count,
+                                   const nh_setting *at, nh_error *error);
+/* The degree up to which its currents account for the number of integrals; 0: none. */
+size_t nh_classified_complete(const nh_analysis *analysis);
+
+#endif

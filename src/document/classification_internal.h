@@ -1,0 +1,35 @@
+/* For the files of the documents of a classification. */
+#ifndef NH_REPORT_CLASSIFICATION_INTERNAL_H
+#define NH_REPORT_CLASSIFICATION_INTERNAL_H
+
+#include "base/json.h"
+#include "document/classification.h"
+
+/* A current as text, on the heap; NULL: longer than `shown`. */
+char *nh_classification_current(const nh_analysis *result, const nh_current *current, double shown);
+
+/* ---- text ---- */
+
+const char *nh_classification_end(const char *end);
+/* Title, parameters, and values of the others. */
+void nh_classification_head(const nh_classified *classified, nh_text *out);
+/* A line for one degree, and the currents that hold for all values. */
+void nh_classification_almost_all(size_t degree, const nh_classify_number *number, size_t known, nh_text *out);
+void nh_classification_known(const nh_classified *classified, nh_text *out);
+/* "degree 2: 3 instead of 2" */
+void nh_classification_counted(size_t degree, bool first, const nh_classify_number *number, size_t almost_all,
+                               bool complete, nh_text *out);
+/* The currents that were constructed, and what that proves. */
+void nh_classification_currents(const nh_analysis *result, nh_text *out);
+void nh_classification_proof(const nh_classified_value *at, size_t first, nh_text *out);
+
+/* ---- JSON ---- */
+
+void nh_classification_put_number(nh_json *to, const char *key, const nh_classify_number *number);
+void nh_classification_put_head(const nh_classified *classified, nh_json *root);
+/* What is proved at a value or for almost all; "current" is null when it is longer than the option `written`. */
+void nh_classification_put_currents(const nh_analysis *result, size_t count, const size_t *index, nh_json *to);
+/* Per degree from 1 on: numbers at one value. */
+void nh_classification_put_here(nh_json *to, size_t rows, const nh_classify_number *number);
+
+#endif

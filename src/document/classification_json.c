@@ -1,0 +1,159 @@
+/* The classification over one parameter as JSON. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "document/classification_internal.h"
+
+static const nh_classification *of(const nh_classified *x) { return x->classification; }
+
+static bool exact(const nh_classify_row *row) { return row->number.bound == row->known; }
+
+static bool special(const nh_classify_value *v) { return v->first > 0 && !v->degenerate; }
+
+/* ---- parts that both kinds share ---- */
+
+void nh_classification_put_number(nh_json *to, const char *key, const nh_classify_number *n)
+{
+    if (!n->bounded) {
+        nh_json_put_null(to, key);
+        return;
+    }
+    nh_json *item = nh_json_put_object(to, key);
+    nh_json_put_number(item, "integrals", (double)n->bound);
+    nh_json_put_number(item, "independent", (double)n->rank);
+    nh_json_put_number(item, "order", (double)n->order);
+    nh_json_put_bool(item, "settled", n->settled);
+}
+
+void nh_classification_put_head(const nh_classified *x, nh_json *root)
+{
+    nh_json_put_number(root, "schema", 1);
+    nh_json_put_text(root, "version", NH_VERSION);
+    nh_json_put_text(root, "system", x->name);
+    nh_json *over = nh_json_put_array(root, "over");
+    if (x->second) nh_json_add_text(over, x->second);
+    nh_json_add_text(over, x->over);
+    nh_json *parameters = nh_json_put_object(root, "parameters");
+    for (size_t i = 0; i < x->fixed; i++) nh_json_put_number(parameters, x->other[i].name, x->other[i].value);
+    nh_json_put_bool(root, "shape", x->shape);
+    nh_json_put_number(root, "degree", (double)x->degree);
+}
+
+void nh_classification_put_currents(const nh_analysis *r, size_t count, const size_t *index, nh_json *to)
+{
+    nh_json *list = nh_json_put_array(to, "currents");
+    for (size_t k = 0; r && k < count; k++) {
+        const nh_current *f = &r->found[index ? index[k] : k];
+        if (!f->proof.proved || f->series) continue;
+        char *text = nh_classification_current(r, f, r->options.written);
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_text(item, "name", f->name);
+        nh_json_put_text(item, "current", text);
+        nh_free(text);
+    }
+}
+
+void nh_classification_put_here(nh_json *to, size_t rows, const nh_classify_number *number)
+{
+    nh_json *degrees = nh_json_put_array(to, "degrees");
+    for (size_t d = 1; d <= rows; d++) {
+        nh_json *row = nh_json_add_object(degrees);
+        nh_json_put_number(row, "degree", (double)d);
+        nh_classification_put_number(row, "here", &number[d]);
+    }
+}
+
+/* ---- one parameter ---- */
+
+static void put_degrees(const nh_classified *x, nh_json *to)
+{
+    nh_json *list = nh_json_put_array(to, "degrees");
+    for (size_t d = 1; d <= of(x)->rows; d++) {
+        const nh_classify_row *row = &of(x)->row[d - 1];
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_number(item, "degree", (double)d);
+        nh_classification_put_number(item, "almost_all", &row->number);
+        nh_json_put_number(item, "known", (double)row->known);
+        nh_json_put_bool(item, "exact", exact(row));
+        nh_json_put_number(item, "unknowns", (double)row->unknowns);
+        nh_json_put_bool(item, "lifted", row->lifted);
+        nh_json_put_number(item, "examined", (double)row->roots);
+        nh_json *primes = nh_json_put_array(item, "primes");
+        for (size_t i = 0; i < row->primes; i++) nh_json_add_number(primes, (double)row->prime[i]);
+        nh_json_put_number(item, "excluded_height", row->lifted ? row->height : NAN);
+        nh_classification_put_number(item, "infinity", &row->infinite);
+    }
+}
+
+/* {"eps": "1/3"}, or an equation as text. */
+static void put_where(const nh_classified *x, const nh_classify_value *v, nh_json *item)
+{
+    int64_t top, bottom;
+    char ratio[60];
+    if (!nh_classified_rational(&v->polynomial, &top, &bottom)) {
+        nh_json_put_text(item, "where", nh_classified_words(x, &v->polynomial));
+        return;
+    }
+    snprintf(ratio, sizeof ratio, bottom == 1 ? "%" PRId64 : "%" PRId64 "/%" PRId64, top, bottom);
+    nh_json_put_text(nh_json_put_object(item, "where"), x->over, ratio);
+}
+
+static void put_special(const nh_classified *x, size_t index, nh_json *list)
+{
+    const nh_classify_value *v = &of(x)->value[index];
+    const nh_classified_value *at = &x->value[index];
+    char text[60];
+    nh_json *item = nh_json_add_object(list);
+    put_where(x, v, item);
+    nh_json *coefficients = nh_json_put_array(item, "polynomial");
+    for (size_t j = 0; j <= v->polynomial.degree; j++) {
+        snprintf(text, sizeof text, "%" PRId64, v->polynomial.coefficient[j]);
+        nh_json_add_text(coefficients, text);
+    }
+    double *root = nh_alloc_array(v->polynomial.degree + 1, sizeof *root);
+    nh_json_put_numbers(item, "real_values", nh_special_reals(&v->polynomial, root), root, 1);
+    nh_free(root);
+    nh_json_put_number(item, "from_degree", (double)v->first);
+    nh_json_put_number(item, "dimension", (double)v->number[of(x)->rows].bound);
+    nh_classification_put_here(item, of(x)->rows, v->number);
+    nh_json_put_bool(item, "proved", at->result && at->complete >= v->first);
+    nh_json_put_text(item, "not_constructed_because", at->why);
+    nh_classification_put_currents(at->result, at->result ? at->result->count : 0, NULL, item);
+}
+
+/* Values at which the equations mean nothing, and values at which the number was not decided. */
+static bool put_others(const nh_classified *x, nh_json *root)
+{
+    bool open = false;
+    nh_json *degenerate = nh_json_put_array(root, "degenerate"), *undecided = nh_json_put_array(root, "undecided");
+    for (size_t k = 0; k < of(x)->values; k++) {
+        const nh_classify_value *v = &of(x)->value[k];
+        if (v->degenerate) nh_json_add_text(degenerate, nh_classified_words(x, &v->polynomial));
+        if (v->open) nh_json_add_text(undecided, nh_classified_words(x, &v->polynomial));
+        open |= v->open > 0;
+    }
+    return open;
+}
+
+char *nh_classification_json(const nh_classified *x, const nh_run *run)
+{
+    nh_json *root = nh_json_object();
+    bool all = of(x)->rows == x->degree;
+    nh_classification_put_head(x, root);
+    nh_json_put_text(root, "obstacle", of(x)->obstacle);
+    nh_json_put_text(root, "ended_by", of(x)->end);
+    nh_json_put_bool(root, "limit", of(x)->limit);
+    nh_json_put_number(root, "generic", of(x)->rows ? (double)of(x)->row[of(x)->rows - 1].number.bound : NAN);
+    nh_classification_put_currents(x->almost_all, x->known, x->currents, root);
+    put_degrees(x, root);
+    nh_json *list = nh_json_put_array(root, "special");
+    for (size_t k = 0; k < of(x)->values; k++)
+        if (special(&of(x)->value[k])) put_special(x, k, list);
+    all &= !put_others(x, root);
+    for (size_t d = 0; d < of(x)->rows; d++) all &= of(x)->row[d].lifted && exact(&of(x)->row[d]);
+    nh_json_put_bool(root, "nowhere_else", all);
+    nh_json_put_bool(root, "partial", x->partial);
+    nh_run_json(run, x->almost_all->system, root);
+    return nh_json_finish(root);
+}

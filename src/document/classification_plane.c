@@ -1,0 +1,245 @@
+/* The classification over two parameters as text and as JSON. */
+#include <inttypes.h>
+#include <math.h>
+
+#include "document/classification_internal.h"
+
+typedef nh_classified_plane plane;
+
+/* ---- what both say ---- */
+
+static bool exact(const nh_plane_row *row) { return row->number.bound == row->known; }
+
+static bool special(const nh_plane_curve *c) { return c->first > 0 && !c->degenerate; }
+
+/* mu is a root of a polynomial that has no rational one, or the line was not reached. */
+static bool unexamined(const nh_plane_line *l) { return l->across.degree > 1; }
+
+/* Nothing is open: up to the height of the last degree there is nothing else. */
+static bool closed(const plane *x)
+{
+    const nh_plane *o = x->plane;
+    bool all = o->rows == x->family->degree && !x->partial;
+    for (size_t d = 0; d < o->rows; d++) all &= o->row[d].lifted && exact(&o->row[d]);
+    for (size_t k = 0; k < o->curves; k++) all &= !o->curve[k].open;
+    for (size_t k = 0; k < o->lines; k++) {
+        const nh_classification *line = o->line[k].line;
+        all &= !unexamined(&o->line[k]) && (!line || line->rows == o->rows);
+        for (size_t i = 0; line && i < line->values; i++) all &= !line->value[i].open;
+    }
+    return all;
+}
+
+/* ---- text ---- */
+
+static void put_numbers(const plane *x, const nh_classify_number *number, size_t first, size_t complete, nh_text *out)
+{
+    for (size_t d = first; d <= x->plane->rows; d++)
+        nh_classification_counted(d, d == first, &number[d], x->plane->row[d - 1].number.bound, complete >= d, out);
+    nh_text_add(out, "\n");
+}
+
+static void put_curve(const plane *x, size_t index, nh_text *out)
+{
+    const nh_plane_curve *c = &x->plane->curve[index];
+    const nh_classified_curve *at = &x->curve[index];
+    nh_text_addf(out, "  %s\n", nh_classified_curve_words(x, &c->polynomial));
+    put_numbers(x, c->number, c->first, at->complete, out);
+    if (!at->along) {
+        nh_text_addf(out, "    counted modulo primes; no currents: %s\n", at->why ? at->why : "the run was ended");
+        return;
+    }
+    const nh_classified *along = at->along;
+    for (size_t k = 0; k < along->known; k++) {
+        const nh_current *f = &along->almost_all->found[along->currents[k]];
+        char *text = nh_classification_current(along->almost_all, f, along->almost_all->options.shown);
+        nh_text_addf(out, "    %s = %s\n", f->name, text ? text : "... (too long to be shown; option `shown`)");
+        nh_free(text);
+    }
+    if (at->complete)
+        nh_text_addf(out, "    all of them proved for every %s, and complete to degree %zu for almost all\n",
+                     along->over, at->complete);
+    else nh_text_add(out, "    proved, but fewer than were counted: the others were not constructed\n");
+}
+
+static void put_point(const plane *x, const nh_classified_point *p, nh_text *out)
+{
+    for (int k = 1; k >= 0; k--) {
+        nh_text_add(out, k ? "  " : ", ");
+        if (p->about[k] - p->about[k] == 0) nh_text_addf(out, "%s = ", x->over[k]);
+        nh_text_add(out, p->value[k]);
+    }
+    if (p->curve != SIZE_MAX)
+        nh_text_addf(out, "   (on %s)", nh_classified_curve_words(x, &x->plane->curve[p->curve].polynomial));
+    nh_text_add(out, "\n");
+    put_numbers(x, p->number, p->first, p->at->complete, out);
+    nh_classification_proof(p->at, p->first, out);
+}
+
+static void put_special(const plane *x, nh_text *out)
+{
+    size_t written = 0;
+    for (size_t k = 0; k < x->plane->curves; k++) {
+        if (!special(&x->plane->curve[k])) continue;
+        nh_text_add(out, written++ ? "" : "\nMore on the curves\n");
+        put_curve(x, k, out);
+    }
+    for (size_t k = 0; k < x->points; k++) {
+        nh_text_add(out, k ? "" : "\nMore at the points\n");
+        put_point(x, &x->point[k], out);
+    }
+    written = 0;
+    for (size_t k = 0; k < x->plane->curves; k++) {
+        const nh_plane_curve *c = &x->plane->curve[k];
+        if (c->degenerate)
+            nh_text_addf(out, "%s%s", written++ ? "; " : "\nDegenerate, and not looked at: ",
+                         nh_classified_curve_words(x, &c->polynomial));
+    }
+    nh_text_add(out, written ? "\n" : "");
+}
+
+static void put_open(const plane *x, nh_text *out)
+{
+    const nh_plane *o = x->plane;
+    for (size_t k = 0; k < o->curves; k++)
+        if (o->curve[k].open)
+            nh_text_addf(out, "\nNot decided on %s: how many there are of degree %zu.\n",
+                         nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open);
+    for (size_t k = 0; k < o->lines; k++)
+        if (unexamined(&o->line[k]))
+            nh_text_addf(out, "\nNot examined: points with %s.\n",
+                         nh_classified_values(x->family, x->over[1], &o->line[k].across));
+}
+
+static void put_excluded(const plane *x, bool verbose, nh_text *out)
+{
+    const nh_plane *o = x->plane;
+    bool any = x->points > 0;
+    for (size_t k = 0; k < o->curves; k++) any |= special(&o->curve[k]);
+    if (o->rows) nh_text_addf(out, "\n%s:\n", any ? "Nowhere else" : "Nowhere more");
+    for (size_t d = 1; d <= o->rows; d++) {
+        const nh_plane_row *row = &o->row[d - 1];
+        if (!row->lifted || row->height < 1) {
+            nh_text_addf(out, "  degree %zu: curves and points, here or at a lower degree, are known modulo primes only\n", d);
+            continue;
+        }
+        nh_text_addf(out, "  degree %zu: no other pair of rational numbers with numerators and denominators up to %.1e has more than %zu\n",
+                     d, row->height, row->number.bound);
+        if (verbose) {
+            nh_text_addf(out, "    (%zu unknowns, order %zu, determinants of size %zu, modulo", row->unknowns,
+                         row->number.order, row->size);
+            for (size_t i = 0; i < row->primes; i++) nh_text_addf(out, "%s %" PRIu64, i ? "," : "", row->prime[i]);
+            nh_text_add(out, ")\n");
+        }
+    }
+    if (o->rows)
+        nh_text_add(out, "  Another pair of algebraic numbers could have more only if modulo all of the primes it lies on one of the curves or has a residue of a point that was examined, or none. Infinite values were not looked at.\n");
+}
+
+void nh_classification_plane_text(const plane *x, bool verbose, nh_text *out)
+{
+    const nh_plane *o = x->plane;
+    nh_classification_head(x->family, out);
+    if (o->obstacle) {
+        nh_text_addf(out, "Nothing can be said: %s.\n", o->obstacle);
+        return;
+    }
+    nh_text_addf(out, "For almost all %s, %s\n", x->over[1], x->over[0]);
+    for (size_t d = 1; d <= o->rows; d++)
+        nh_classification_almost_all(d, &o->row[d - 1].number, o->row[d - 1].known, out);
+    nh_classification_known(x->family, out);
+    put_special(x, out);
+    put_open(x, out);
+    put_excluded(x, verbose, out);
+    if (o->end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", o->rows + 1, nh_classification_end(o->end));
+}
+
+/* ---- JSON ---- */
+
+static void put_degrees(const plane *x, nh_json *to)
+{
+    nh_json *list = nh_json_put_array(to, "degrees");
+    for (size_t d = 1; d <= x->plane->rows; d++) {
+        const nh_plane_row *row = &x->plane->row[d - 1];
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_number(item, "degree", (double)d);
+        nh_classification_put_number(item, "almost_all", &row->number);
+        nh_json_put_number(item, "known", (double)row->known);
+        nh_json_put_bool(item, "exact", exact(row));
+        nh_json_put_number(item, "unknowns", (double)row->unknowns);
+        nh_json_put_number(item, "determinant", (double)row->size);
+        nh_json_put_bool(item, "lifted", row->lifted);
+        nh_json *primes = nh_json_put_array(item, "primes");
+        for (size_t i = 0; i < row->primes; i++) nh_json_add_number(primes, (double)row->prime[i]);
+        nh_json_put_number(item, "excluded_height", row->lifted ? row->height : NAN);
+    }
+}
+
+static void put_json_curve(const plane *x, size_t index, nh_json *list)
+{
+    const nh_plane_curve *c = &x->plane->curve[index];
+    const nh_classified_curve *at = &x->curve[index];
+    nh_json *item = nh_json_add_object(list);
+    nh_json_put_text(item, "where", nh_classified_curve_words(x, &c->polynomial));
+    nh_json_put_text(item, "on", NULL);
+    nh_json_put_number(item, "from_degree", (double)c->first);
+    nh_json_put_number(item, "dimension", (double)c->number[x->plane->rows].bound);
+    nh_classification_put_here(item, x->plane->rows, c->number);
+    nh_json_put_bool(item, "proved", at->complete > 0);
+    nh_json_put_text(item, "not_constructed_because", at->why);
+    const nh_classified *along = at->along;
+    nh_classification_put_currents(along ? along->almost_all : NULL, along ? along->known : 0,
+                                   along ? along->currents : NULL, item);
+}
+
+/* {"B": "1", "eps": "1/3"}, or equations as text. */
+static void put_json_point(const plane *x, const nh_classified_point *p, nh_json *list)
+{
+    nh_json *item = nh_json_add_object(list);
+    nh_json *where = nh_json_put_object(item, "where");
+    for (int k = 1; k >= 0; k--) nh_json_put_text(where, x->over[k], p->value[k]);
+    nh_json_put_text(item, "on", p->curve == SIZE_MAX ? NULL
+                     : nh_classified_curve_words(x, &x->plane->curve[p->curve].polynomial));
+    nh_json_put_number(item, "from_degree", (double)p->first);
+    nh_json_put_number(item, "dimension", (double)p->number[x->plane->rows].bound);
+    nh_classification_put_here(item, x->plane->rows, p->number);
+    nh_json_put_bool(item, "proved", p->at->result && p->at->complete >= p->first);
+    nh_json_put_text(item, "not_constructed_because", p->at->why);
+    const nh_analysis *r = p->at->result;
+    nh_classification_put_currents(r, r ? r->count : 0, NULL, item);
+}
+
+static void put_others(const plane *x, nh_json *root)
+{
+    const nh_plane *o = x->plane;
+    nh_json *degenerate = nh_json_put_array(root, "degenerate"), *undecided = nh_json_put_array(root, "undecided");
+    for (size_t k = 0; k < o->curves; k++) {
+        const char *words = nh_classified_curve_words(x, &o->curve[k].polynomial);
+        if (o->curve[k].degenerate) nh_json_add_text(degenerate, words);
+        if (o->curve[k].open) nh_json_add_text(undecided, words);
+    }
+    for (size_t k = 0; k < o->lines; k++)
+        if (unexamined(&o->line[k]))
+            nh_json_add_text(undecided, nh_classified_values(x->family, x->over[1], &o->line[k].across));
+}
+
+char *nh_classification_plane_json(const plane *x, const nh_run *run)
+{
+    const nh_plane *o = x->plane;
+    nh_json *root = nh_json_object();
+    nh_classification_put_head(x->family, root);
+    nh_json_put_text(root, "obstacle", o->obstacle);
+    nh_json_put_text(root, "ended_by", o->end);
+    nh_json_put_number(root, "generic", o->rows ? (double)o->row[o->rows - 1].number.bound : NAN);
+    nh_classification_put_currents(x->family->almost_all, x->family->known, x->family->currents, root);
+    put_degrees(x, root);
+    nh_json *list = nh_json_put_array(root, "special");
+    for (size_t k = 0; k < o->curves; k++)
+        if (special(&o->curve[k])) put_json_curve(x, k, list);
+    for (size_t k = 0; k < x->points; k++) put_json_point(x, &x->point[k], list);
+    put_others(x, root);
+    nh_json_put_bool(root, "nowhere_else", closed(x));
+    nh_json_put_bool(root, "partial", x->partial);
+    nh_run_json(run, x->family->almost_all->system, root);
+    return nh_json_finish(root);
+}

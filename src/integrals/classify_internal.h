@@ -1,0 +1,34 @@
+/* For the files of the classification. */
+#ifndef NH_CLASSIFY_INTERNAL_H
+#define NH_CLASSIFY_INTERNAL_H
+
+#include "integrals/classify.h"
+#include "integrals/special_curves.h"
+
+typedef struct {
+    const nh_classify_question *q;
+    nh_count_question count;
+    nh_parametric family;
+    nh_classification *out;
+} nh_classify_search;
+
+/* Obstacles are in the family, which is to be closed. */
+void nh_classify_open(nh_classify_search *search, const nh_model *model, const nh_classify_question *question);
+
+/* At which value the equations are taken; of two parameters mu has the value of the question, or a random one. */
+typedef enum { NH_CLASSIFY_ANY, NH_CLASSIFY_ROOT, NH_CLASSIFY_INFINITE, NH_CLASSIFY_CURVE } nh_classify_kind;
+typedef struct {
+    nh_classify_kind kind;
+    const nh_special_factor *root;
+    const nh_special_curve *curve;
+} nh_classify_place;
+
+/* Series at another regular point modulo this prime.  NULL: too long, or none is found. */
+nh_parametric_series *nh_classify_series(nh_classify_search *search, size_t prime, uint64_t seed, size_t order);
+
+/* Orders grow until the number is the least that it can be, or does not change. `known`: for almost all values, of
+ * which products are independent; or NULL.  False: beyond the limits. */
+bool nh_classify_count(nh_classify_search *search, size_t degree, const nh_classify_place *place, size_t least,
+                       size_t *known, nh_classify_number *out);
+
+#endif

@@ -1,0 +1,36 @@
+/* special_curves: plane algebraic curves from their residues modulo several primes.
+ *
+ * As special_values.h, for polynomials in two variables: Chinese remainder theorem, rational reconstruction, where one
+ * prime more has to agree, and factors over the integers. */
+#ifndef NH_SPECIAL_CURVES_H
+#define NH_SPECIAL_CURVES_H
+
+#include "integrals/common_curves.h"
+#include "integrals/special_values.h"
+
+/* Irreducible over Q: sum of coefficient[j * (degree[0] + 1) + i] lambda^i mu^j, whole, without common factor. */
+typedef struct {
+    size_t degree[2];
+    int64_t *coefficient;    /* on the heap */
+} nh_special_curve;
+
+typedef struct {
+    bool lifted;             /* the last prime agreed */
+    size_t curves;
+    nh_special_curve *curve;
+    double norm;             /* sum of the sizes of the coefficients of their product */
+} nh_special_curves;
+
+/* Monic polynomials of the same degrees modulo several primes. */
+nh_special_curves nh_special_curves_lift(size_t primes, const nh_prime *prime, const nh_residue_surface *residue);
+void nh_special_curves_clear(nh_special_curves *curves);
+
+/* A point of the curve modulo the prime, which follows from the number; false: it has none there. */
+bool nh_special_curve_point(const nh_special_curve *curve, nh_prime field, uint64_t seed, nh_residue *lambda,
+                            nh_residue *mu);
+
+/* Do all points with these lambda and the rational number mu lie on the curve? */
+bool nh_special_curve_contains(const nh_special_curve *curve, const nh_special_factor *lambda, int64_t top,
+                               int64_t bottom);
+
+#endif
