@@ -201,6 +201,113 @@ static void c_program(const batch *b)
     nh_text_clear(&out);
 }
 
+/* ---- Python: NumPy, SymPy ---- */
+
+static bool has(const char *command)
+{
+    char line[200];
+    snprintf(line, sizeof line, "%s >/dev/null 2>&1", command);
+    return system(line) == 0;
+}
+
+/* Debian's, or the first one: another may be in front of it on the PATH, without packages. */
+static const char *python(const char *module)
+{
+    static const char *const all[] = {"/usr/bin/python3", "python3"};
+    char line[100];
+    for (size_t i = 0; i < 2; i++) {
+        snprintf(line, sizeof line, "%s -c 'import %s'", all[i], module);
+        if (has(line)) return all[i];
+    }
+    cr_log_warn("skipped: there is no Python with %s (Debian: python3-%s)", module, module);
+    return NULL;
+}
+
+/* A list of calls as data: module, function, arguments. */
+static void python_calls(const batch *b, const char *name, bool sympy, bool (*wanted)(const exported *e))
+{
+    static const char head[] =
+        "import numpy as np\n"
+        "def call(f, *a, **k):\n"
+        "    try:\n"
+        "        r = f(0.23, *[np.array(x) for x in a], **k)\n"
+        "    except (ArithmeticError, np.linalg.LinAlgError):\n"
+        "        return print(1)\n"
+        "    print(0)\n"
+        "    for x in r if isinstance(r, tuple) else (r,):\n"
+        "        for y in np.ravel(x): print('%.17g' % y)\n"
+        "    if not any(len(x) for x in a): return\n"
+        "    many = f(0.23, *[np.stack([x, np.array(x)*(1 + 1e-9), x], 1) for x in map(np.array, a)], **k)\n"
+        "    for x, y in zip(*[z if isinstance(z, tuple) else (z,) for z in (r, many)]):\n"
+        "        y = np.broadcast_to(y.T, (3,) + x.T.shape).T if y.ndim == x.ndim else y\n"
+        "        assert y.shape == x.shape + (3,), (f.__name__, y.shape, x.shape)\n"
+        "        assert np.max(np.abs(y[..., 2] - x)) <= 1e-12*(1 + np.max(np.abs(x))), f.__name__\n";
+    static const char symbolic[] = "import sympy as sp\n"
+                                   "def call(f, *a, **k):\n"
+                                   "    r = f(0.23, *a, **k)\n"
+                                   "    print(0)\n"
+                                   "    for x in r if isinstance(r, tuple) else (r,):\n"
+                                   "        for y in x: print('%.17g' % sp.N(y, 20))\n";
+    nh_text out;
+    nh_text_init(&out);
+    nh_text_add(&out, sympy ? symbolic : head);
+    for (size_t s = 0; s < b->count; s++) {
+        const exported *e = &b->of[s];
+        const char *module = sympy ? "_sympy" : "";
+        if (wanted && !wanted(e)) continue;
+        write_code(b, e, sympy ? NH_EXPORT_SYMPY : NH_EXPORT_PYTHON);
+        nh_text_addf(&out, "import %s%s as m\n", e->name, module);
+        if (sympy) nh_text_add(&out, "p = m.Parameters(*[m.values[x] for x in m.parameters])\n");
+        for (size_t k = 0; k < probes * e->x->functions; k++) {
+            const nh_export_function *f = &e->x->function[k / probes];
+            nh_text_addf(&out, "call(m.%s", f->name);
+            for (size_t a = 0; a < f->arguments; a++) put_list(&out, ", [", f->argument[a].rows, e->call[k].argument[a], "]");
+            if (e->x->inputs) nh_text_addf(&out, ", inputs=[%.17g]", exported_input);
+            nh_text_add(&out, sympy ? ", parameters=p)\n" : ")\n");
+        }
+    }
+    write_file(b, name, &out);
+    nh_text_clear(&out);
+}
+
+/* Numbers put into symbolic elimination: the smaller systems, and those with odd names. */
+static bool few_coordinates(const exported *e)
+{
+    for (size_t i = 0; i < e->x->functions; i++)
+        for (size_t k = 0; k < e->x->function[i].solves; k++)
+            if (e->x->function[i].solve[k].newton) return false;
+    return e->x->system->coordinates <= 3 || !strcmp(e->name, "keywords");
+}
+
+/* ---- Octave ---- */
+
+static void octave_calls(const batch *b)
+{
+    static const char head[] = "1;\nwarning('off', 'all');\n"
+                               "function show(varargin)\n    disp(0);\n    for i = 1:nargin\n        printf('%.17g\\n', varargin{i}.');\n    end\nend\n";
+    nh_text out;
+    nh_text_init(&out);
+    nh_text_add(&out, head);
+    for (size_t s = 0; s < b->count; s++) {
+        const exported *e = &b->of[s];
+        write_code(b, e, NH_EXPORT_MATLAB);
+        nh_text_addf(&out, "m = %s();\n", e->name);
+        for (size_t k = 0; k < probes * e->x->functions; k++) {
+            const nh_export_function *f = &e->x->function[k / probes];
+            nh_text_add(&out, "[");
+            for (size_t r = 0; r < f->results; r++) nh_text_addf(&out, "%sr%zu", r ? ", " : "", r);
+            nh_text_addf(&out, "] = m.%s(0.23", f->name);
+            for (size_t a = 0; a < f->arguments; a++) put_list(&out, ", [", f->argument[a].rows, e->call[k].argument[a], "]");
+            if (e->x->inputs) nh_text_addf(&out, ", %.17g", exported_input);
+            nh_text_add(&out, ", m.parameters); show(");
+            for (size_t r = 0; r < f->results; r++) nh_text_addf(&out, "%sr%zu", r ? ", " : "", r);
+            nh_text_add(&out, ");\n");
+        }
+    }
+    write_file(b, "calls.m", &out);
+    nh_text_clear(&out);
+}
+
 static void languages(size_t part)
 {
     batch b;
@@ -208,15 +315,29 @@ static void languages(size_t part)
     c_program(&b);
     compare(&b, "C", "${CC:-cc} -std=c99 -O0 -Wall -Wextra -Werror *.c -o c_code -lm && ./c_code", 1e-12, NULL);
     char command[SCRATCH + 200];
-    snprintf(
-        command, sizeof command,
-        "cd %s && for file in *.c; do c++ -x c++ -std=c++11 -fsyntax-only -Wall -Wextra -Werror $file || exit 1; done",
-        b.folder);
+    snprintf(command, sizeof command, "cd %s && for file in *.c; do c++ -x c++ -std=c++11 -fsyntax-only -Wall -Wextra -Werror $file || exit 1; done", b.folder);
     cr_expect_eq(system(command), 0, "C++");
+    const char *numpy = python("numpy"), *sympy = python("sympy");
+    if (numpy) {
+        python_calls(&b, "calls.py", false, NULL);
+        snprintf(command, sizeof command, "%s -B calls.py", numpy);
+        compare(&b, "NumPy", command, 1e-12, NULL);
+    }
+    if (sympy) {
+        python_calls(&b, "symbolic.py", true, few_coordinates);
+        snprintf(command, sizeof command, "%s -B symbolic.py", sympy);
+        compare(&b, "SymPy", command, 1e-12, few_coordinates);
+    }
+    if (has("octave-cli --version")) {
+        octave_calls(&b);
+        compare(&b, "Octave", "octave-cli --no-gui --no-init-file --no-history --quiet calls.m", 1e-12, NULL);
+    } else {
+        cr_log_warn("skipped: there is no octave-cli (Debian: octave)");
+    }
     batch_clear(&b);
 }
 
-Test(export, languages_1) { languages(0); }
-Test(export, languages_2) { languages(1); }
-Test(export, languages_3) { languages(2); }
-Test(export, languages_4) { languages(3); }
+Test(export, languages_1, .timeout = 300) { languages(0); }
+Test(export, languages_2, .timeout = 300) { languages(1); }
+Test(export, languages_3, .timeout = 300) { languages(2); }
+Test(export, languages_4, .timeout = 300) { languages(3); }

@@ -176,7 +176,7 @@ static void begin(nh_export_body *b)
 
 static void unpack(nh_export_body *b, const char *name, const char *array, size_t index)
 {
-    nh_text_addf(b->out, "    const double %s = %s[%zu];\n", name, array, index);
+    nh_text_addf(b->out, "%sconst double %s = %s[%zu];\n", b->indent, name, array, index);
 }
 static void parameter(nh_export_body *b, const char *name, const char *member)
 {
@@ -187,7 +187,7 @@ static void put_entries(nh_export_body *b, const char *array, size_t n, const nh
 {
     for (size_t i = 0; i < n; i++) {
         if (!zeros && nh_is_zero(b->f->dag, e[i])) continue;
-        nh_text_addf(b->out, "    %s[%zu] = ", array, i);
+        nh_text_addf(b->out, "%s%s[%zu] = ", b->indent, array, i);
         nh_source_put(b->code, e[i]);
         nh_text_add(b->out, ";\n");
     }
@@ -196,7 +196,7 @@ static void put_entries(nh_export_body *b, const char *array, size_t n, const nh
 static void fill(nh_export_body *b, const char *array, size_t rows, size_t columns, const nh_ex *e)
 {
     size_t n = rows * (columns ? columns : 1);
-    nh_text_addf(b->out, "    double %s[%zu] = {0};\n", array, n);
+    nh_text_addf(b->out, "%sdouble %s[%zu] = {0};\n", b->indent, array, n);
     put_entries(b, array, n, e, false);
 }
 
@@ -214,19 +214,20 @@ static void newton(nh_export_body *b, size_t i)
                  "    double %s[%zu], last_ = HUGE_VAL;\n    for (int i_ = 0; i_ < %zu; i_++) %s[i_] = %s[i_];\n    "
                  "for (int step_ = 0;; step_++) {\n",
                  b->unknown[i], s->n, s->n, b->unknown[i], b->argument[s->guess]);
-    nh_source_indent(b->code, "    ");
+    nh_export_indent(b, "        ");
 }
 
 static void newton_end(nh_export_body *b, size_t i)
 {
-    nh_text_addf(
-        b->out,
-        "    double change_ = 0;\n    if (step_ == 40 || nh_solve(%zu, %s, %s)) return -1;\n"
-        "    for (int i_ = 0; i_ < %zu; i_++) {\n        %s[i_] -= %s[i_];\n        change_ = fmax(change_, "
-        "fabs(%s[i_])/(1 + fabs(%s[i_])));\n    }\n"
-        "    if (change_ < 4e-16 || (change_ < 1e-13 && change_ >= last_/2)) break;\n    last_ = change_;\n    }\n",
-        b->f->solve[i].n, b->matrix[i], b->right[i], b->f->solve[i].n, b->unknown[i], b->right[i], b->right[i],
-        b->unknown[i]);
+    size_t n = b->f->solve[i].n;
+    const char *x = b->unknown[i], *step = b->right[i];
+    nh_text_add(b->out, "        double change_ = 0;\n");
+    nh_text_addf(b->out, "        if (step_ == 40 || nh_solve(%zu, %s, %s)) return -1;\n", n, b->matrix[i], step);
+    nh_text_addf(b->out, "        for (int i_ = 0; i_ < %zu; i_++) {\n            %s[i_] -= %s[i_];\n", n, x, step);
+    nh_text_addf(b->out, "            change_ = fmax(change_, fabs(%s[i_])/(1 + fabs(%s[i_])));\n        }\n", step, x);
+    nh_text_add(b->out, "        if (change_ < 4e-16 || (change_ < 1e-13 && change_ >= last_/2)) break;\n"
+                        "        last_ = change_;\n    }\n");
+    nh_export_indent(b, "    ");
 }
 
 static void end(nh_export_body *b)

@@ -124,6 +124,12 @@ static void put_solve(const nh_export_form *form, nh_export_body *b, size_t i)
     }
 }
 
+void nh_export_indent(nh_export_body *b, const char *indent)
+{
+    b->indent = indent;
+    nh_source_indent(b->code, indent);
+}
+
 bool nh_export_put_body(const nh_export_form *form, const nh_export *x, const nh_export_function *f, const char *prefix,
                         const char *const *member, nh_text *out)
 {
@@ -136,7 +142,7 @@ bool nh_export_put_body(const nh_export_form *form, const nh_export *x, const nh
                         .code = nh_source_create(form->language, f->dag, out)};
     bool *used = used_nodes(f, arena);
     nh_ex *e;
-    nh_source_indent(b.code, "    ");
+    nh_export_indent(&b, "    ");
     name_arrays(&b);
     form->begin(&b);
     unpack(form, &b, used);

@@ -14,6 +14,7 @@ typedef struct nh_export_body {
     const char *const *member; /* of the parameters, in the language's words */
     nh_source *code;
     nh_text *out;
+    const char *indent; /* of a statement */
     const char *time, *argument[NH_EXPORT_MOST_ARRAYS], *result[NH_EXPORT_MOST_ARRAYS], *inputs, *parameters;
     const char *unknown[NH_EXPORT_MOST_SOLVES], *matrix[NH_EXPORT_MOST_SOLVES], *right[NH_EXPORT_MOST_SOLVES];
 } nh_export_body;
@@ -34,6 +35,8 @@ typedef struct {
 
 /* member[i] of parameter i, in the arena of the code's language. */
 const char *const *nh_export_members(const nh_export *x, const nh_source_language *language, nh_arena *arena);
+/* Statements are indented so from now on: within a loop, behind it. */
+void nh_export_indent(nh_export_body *b, const char *indent);
 /* The body of a function, between form->begin and form->end; the code has the sign function or not. */
 bool nh_export_put_body(const nh_export_form *form, const nh_export *x, const nh_export_function *f, const char *prefix,
                         const char *const *member, nh_text *out);

@@ -40,7 +40,7 @@ static void begin(nh_export_body *b)
 
 static void unpack(nh_export_body *b, const char *name, const char *array, size_t index)
 {
-    nh_text_addf(b->out, "    %s = %s(%zu);\n", name, array, index + 1);
+    nh_text_addf(b->out, "%s%s = %s(%zu);\n", b->indent, name, array, index + 1);
 }
 static void parameter(nh_export_body *b, const char *name, const char *member)
 {
@@ -50,13 +50,13 @@ static void parameter(nh_export_body *b, const char *name, const char *member)
 static void fill(nh_export_body *b, const char *array, size_t rows, size_t columns, const nh_ex *e)
 {
     size_t width = columns ? columns : 1;
-    nh_text_addf(b->out, "    %s = zeros(%zu, %zu);\n", array, rows, width);
+    nh_text_addf(b->out, "%s%s = zeros(%zu, %zu);\n", b->indent, array, rows, width);
     for (size_t i = 0; i < rows * width; i++) {
         if (nh_is_zero(b->f->dag, e[i])) continue;
         if (columns)
-            nh_text_addf(b->out, "    %s(%zu, %zu) = ", array, i / width + 1, i % width + 1);
+            nh_text_addf(b->out, "%s%s(%zu, %zu) = ", b->indent, array, i / width + 1, i % width + 1);
         else
-            nh_text_addf(b->out, "    %s(%zu) = ", array, i + 1);
+            nh_text_addf(b->out, "%s%s(%zu) = ", b->indent, array, i + 1);
         nh_source_put(b->code, e[i]);
         nh_text_add(b->out, ";\n");
     }
@@ -71,18 +71,18 @@ static void newton(nh_export_body *b, size_t i)
 {
     nh_text_addf(b->out, "    %s = %s(:);\n    last_ = Inf;\n    for step_ = 1:41\n", b->unknown[i],
                  b->argument[b->f->solve[i].guess]);
-    nh_source_indent(b->code, "    ");
+    nh_export_indent(b, "        ");
 }
 
 static void newton_end(nh_export_body *b, size_t i)
 {
-    nh_text_addf(b->out,
-                 "    if step_ == 41, error('the iteration for velocities does not converge'); end\n    %s = %s\\%s;\n "
-                 "   %s = %s - %s;\n    change_ = max(abs(%s)./(1 + abs(%s)));\n"
-                 "    if change_ < 4e-16 || (change_ < 1e-13 && change_ >= last_/2), break; end\n    last_ = "
-                 "change_;\n    end\n",
-                 b->right[i], b->matrix[i], b->right[i], b->unknown[i], b->unknown[i], b->right[i], b->right[i],
-                 b->unknown[i]);
+    const char *x = b->unknown[i], *step = b->right[i];
+    nh_text_add(b->out, "        if step_ == 41, error('the iteration for velocities does not converge'); end\n");
+    nh_text_addf(b->out, "        %s = %s\\%s;\n        %s = %s - %s;\n", step, b->matrix[i], step, x, x, step);
+    nh_text_addf(b->out, "        change_ = max(abs(%s)./(1 + abs(%s)));\n", step, x);
+    nh_text_add(b->out, "        if change_ < 4e-16 || (change_ < 1e-13 && change_ >= last_/2), break; end\n"
+                        "        last_ = change_;\n    end\n");
+    nh_export_indent(b, "    ");
 }
 
 static void end(nh_export_body *b)

@@ -27,6 +27,8 @@ static const char numpy_head[] =
     "    if b.ndim == 1 and A.ndim == 2:\n"
     "        return np.linalg.solve(A, b)\n"
     "    A, b = np.moveaxis(A, (0, 1), (-2, -1)), np.moveaxis(b, 0, -1)\n"
+    "    many = np.broadcast_shapes(A.shape[:-2], b.shape[:-1])\n"
+    "    A, b = np.broadcast_to(A, many + A.shape[-2:]), np.broadcast_to(b, many + b.shape[-1:])\n"
     "    return np.moveaxis(np.linalg.solve(A, b[..., None])[..., 0], -1, 0)\n"
     "\n"
     "\n"
@@ -100,7 +102,7 @@ static void begin(nh_export_body *b)
 
 static void unpack(nh_export_body *b, const char *name, const char *array, size_t index)
 {
-    nh_text_addf(b->out, "    %s = %s[%zu]\n", name, array, index);
+    nh_text_addf(b->out, "%s%s = %s[%zu]\n", b->indent, name, array, index);
 }
 static void parameter(nh_export_body *b, const char *name, const char *member)
 {
@@ -131,7 +133,7 @@ static void put_array(nh_export_body *b, size_t rows, size_t columns, const nh_e
 
 static void fill(nh_export_body *b, const char *array, size_t rows, size_t columns, const nh_ex *e)
 {
-    nh_text_addf(b->out, "    %s = ", array);
+    nh_text_addf(b->out, "%s%s = ", b->indent, array);
     put_array(b, rows, columns, e);
     nh_text_add(b->out, "\n");
 }
@@ -145,7 +147,7 @@ static void newton(nh_export_body *b, size_t i)
 {
     nh_text_addf(b->out, "    %s = np.array(%s, dtype=float)\n    last_ = np.inf\n    for step_ in range(40):\n",
                  b->unknown[i], b->argument[b->f->solve[i].guess]);
-    nh_source_indent(b->code, "        ");
+    nh_export_indent(b, "        ");
 }
 
 static void newton_end(nh_export_body *b, size_t i)
@@ -156,7 +158,7 @@ static void newton_end(nh_export_body *b, size_t i)
                  "        last_ = change_\n    else:\n        raise ArithmeticError(\"the iteration for velocities "
                  "does not converge\")\n",
                  b->matrix[i], b->right[i], b->unknown[i], b->unknown[i], b->unknown[i]);
-    nh_source_indent(b->code, "    ");
+    nh_export_indent(b, "    ");
 }
 
 static void end(nh_export_body *b)
