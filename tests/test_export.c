@@ -261,7 +261,8 @@ static void python_calls(const batch *b, const char *name, bool sympy, bool (*wa
         for (size_t k = 0; k < probes * e->x->functions; k++) {
             const nh_export_function *f = &e->x->function[k / probes];
             nh_text_addf(&out, "call(m.%s", f->name);
-            for (size_t a = 0; a < f->arguments; a++) put_list(&out, ", [", f->argument[a].rows, e->call[k].argument[a], "]");
+            for (size_t a = 0; a < f->arguments; a++)
+                put_list(&out, ", [", f->argument[a].rows, e->call[k].argument[a], "]");
             if (e->x->inputs) nh_text_addf(&out, ", inputs=[%.17g]", exported_input);
             nh_text_add(&out, sympy ? ", parameters=p)\n" : ")\n");
         }
@@ -284,7 +285,8 @@ static bool few_coordinates(const exported *e)
 static void octave_calls(const batch *b)
 {
     static const char head[] = "1;\nwarning('off', 'all');\n"
-                               "function show(varargin)\n    disp(0);\n    for i = 1:nargin\n        printf('%.17g\\n', varargin{i}.');\n    end\nend\n";
+                               "function show(varargin)\n    disp(0);\n    for i = 1:nargin\n        "
+                               "printf('%.17g\\n', varargin{i}.');\n    end\nend\n";
     nh_text out;
     nh_text_init(&out);
     nh_text_add(&out, head);
@@ -297,7 +299,8 @@ static void octave_calls(const batch *b)
             nh_text_add(&out, "[");
             for (size_t r = 0; r < f->results; r++) nh_text_addf(&out, "%sr%zu", r ? ", " : "", r);
             nh_text_addf(&out, "] = m.%s(0.23", f->name);
-            for (size_t a = 0; a < f->arguments; a++) put_list(&out, ", [", f->argument[a].rows, e->call[k].argument[a], "]");
+            for (size_t a = 0; a < f->arguments; a++)
+                put_list(&out, ", [", f->argument[a].rows, e->call[k].argument[a], "]");
             if (e->x->inputs) nh_text_addf(&out, ", %.17g", exported_input);
             nh_text_add(&out, ", m.parameters); show(");
             for (size_t r = 0; r < f->results; r++) nh_text_addf(&out, "%sr%zu", r ? ", " : "", r);
@@ -315,7 +318,10 @@ static void languages(size_t part)
     c_program(&b);
     compare(&b, "C", "${CC:-cc} -std=c99 -O0 -Wall -Wextra -Werror *.c -o c_code -lm && ./c_code", 1e-12, NULL);
     char command[SCRATCH + 200];
-    snprintf(command, sizeof command, "cd %s && for file in *.c; do c++ -x c++ -std=c++11 -fsyntax-only -Wall -Wextra -Werror $file || exit 1; done", b.folder);
+    snprintf(
+        command, sizeof command,
+        "cd %s && for file in *.c; do c++ -x c++ -std=c++11 -fsyntax-only -Wall -Wextra -Werror $file || exit 1; done",
+        b.folder);
     cr_expect_eq(system(command), 0, "C++");
     const char *numpy = python("numpy"), *sympy = python("sympy");
     if (numpy) {
