@@ -223,7 +223,7 @@ Test(tex, a_hostile_file_is_set_as_text)
     if (!installed) cr_skip_test("no pdflatex with pgfplots");
 }
 
-/* The body alone, within another document; and the reduced equations, too. */
+/* The body alone, within another document; and the reduced equations, too; and what is exported. */
 Test(tex, a_fragment_is_read_by_another_document)
 {
     place p = place_with_systems();
@@ -238,7 +238,10 @@ Test(tex, a_fragment_is_read_by_another_document)
     free(body);
     write_here(&p, "paper.tex", "\\documentclass{article}\\usepackage{amsmath,amssymb,longtable,pgfplots}\\pgfplotsset{compat=1.16}\n"
                                 "\\begin{document}\\section{Ours}\\input{body}\\section{Theirs}\\input{reduced}\\end{document}\n");
-    bool installed = set_in_type(&p, "paper");
+    f = run_expecting(&p, "export crane --to latex --of equations,submanifold,reduced", 0);
+    write_here(&p, "exported.tex", f.out);
+    finished_clear(&f);
+    bool installed = set_in_type(&p, "paper") && set_in_type(&p, "exported");
     place_clear(&p);
     if (!installed) cr_skip_test("no pdflatex with pgfplots");
 }

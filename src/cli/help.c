@@ -181,8 +181,8 @@ static void fish(void)
         for (const char *c = meaning(&options[j]); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
         puts("'");
     }
-    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify scan show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
-         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify scan' -k -a '(__fish_complete_suffix .yaml)'");
+    puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
+         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan' -k -a '(__fish_complete_suffix .yaml)'");
 }
 
 int nh_cli_help(nh_cli *cli, nh_error *error)

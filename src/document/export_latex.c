@@ -95,22 +95,26 @@ static void add_row(rows *r, const char *left, const char *right)
 
 static void put_piece(void *context, const char *piece) { nh_text_add(context, piece); }
 
+/* Short ones in a row are aligned; a long one is a paragraph that TeX breaks. */
 static void put_rows(rows *r, nh_text *out)
 {
-    bool fits = r->count > 0;
-    for (size_t i = 0; i < r->count; i++) fits = fits && nh_typeset_width(r->list[i].right) < widest_row;
-    if (fits) nh_text_add(out, "\\begin{align*}\n");
+    bool aligned = false;
     for (size_t i = 0; i < r->count; i++) {
-        nh_text_addf(out, fits ? "%s &= " : "\\nhformula{%s = ", r->list[i].left);
+        row *at = &r->list[i];
+        bool fits = nh_typeset_width(at->right) < widest_row;
+        if (aligned) nh_text_add(out, fits ? " \\\\\n" : "\n\\end{align*}\n");
+        if (fits && !aligned) nh_text_add(out, "\\begin{align*}\n");
+        nh_text_addf(out, fits ? "%s &= " : "\\nhformula{%s = ", at->left);
         if (fits)
-            nh_typeset(r->list[i].right, NH_LATEX, out);
+            nh_typeset(at->right, NH_LATEX, out);
         else
-            nh_typeset_pieces(r->list[i].right, NH_LATEX, NH_TEX_WIDEST, put_piece, out);
-        nh_text_add(out, !fits ? "}\n" : i + 1 < r->count ? " \\\\\n" : "\n");
-        nh_free(r->list[i].left);
-        nh_free(r->list[i].right);
+            nh_typeset_pieces(at->right, NH_LATEX, NH_TEX_WIDEST, put_piece, out);
+        if (!fits) nh_text_add(out, "}\n");
+        aligned = fits;
+        nh_free(at->left);
+        nh_free(at->right);
     }
-    if (fits) nh_text_add(out, "\\end{align*}\n");
+    if (aligned) nh_text_add(out, "\n\\end{align*}\n");
     nh_free(r->list);
     *r = (rows){0};
 }
