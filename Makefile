@@ -59,8 +59,9 @@ FORTRAN  = $(if $(findstring :,$(call archive,openblas)),-l:libgfortran.so.5)
 WITHOUT_MPI = $(and $(MPI),$(findstring :,$(call archive,sundials_core)))
 
 PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
-TEST_PACKAGES = $(PACKAGES) libcriterion-dev pkg-config python3-numpy python3-sympy python3-pytest python3-setuptools python3-wheel
+TEST_PACKAGES = $(PACKAGES) libcriterion-dev pkg-config
 BROWSER       = chromium
+PYTHON_PACKAGES = python3-numpy python3-sympy python3-pytest python3-setuptools python3-wheel
 
 MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
 OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
@@ -142,8 +143,9 @@ packages:
 test-packages:
 	@sh tests/packages.sh $(TEST_PACKAGES)
 
-# A system without this package (another than Debian's chromium) gets its tests all the same, those in the browser skipped.
+# A system without these packages (another than Debian's chromium, or Python) gets its tests all the same, those in the browser or of Python skipped.
 check-packages: test-packages
+	@sh tests/python.sh -c pass 2>/dev/null || sh tests/packages.sh $(PYTHON_PACKAGES) || echo "without these packages the tests of the Python package are skipped"
 	@command -v chromium >/dev/null || sh tests/packages.sh $(BROWSER) || echo "without a browser the tests in it are skipped"
 
 $(BUILD)/libnhsym.a: $(OBJECTS)
