@@ -7,6 +7,7 @@
 #   make library   the shared library    make wheel    the Python package, into build/python
 #   make bench     measure, and write docs/performance.md
 #   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
+#   make papers    every numbered item of the three papers of the method, and write docs/papers.md
 #   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
 #   make parameters give every system other parameter values, compare its formulas, and print the table
@@ -81,7 +82,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all tests install uninstall wheel bench catalogue reductions random parameters perturbed classification fuzz print-libraries print-includes clean packages test-packages check-packages
+.PHONY: all library sleigh check check-all tests install uninstall wheel bench catalogue papers reductions random parameters perturbed classification fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -117,6 +118,11 @@ classification: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@{ printf '# Classification\n\nWritten by `make classification`: families of `tests/data/classify`, whose files hold no answers, by `nhsym classify`. For almost all values: how many integrals polynomial in the velocities of at most this degree there are, with the constant 1, for degrees 1, 2, ..; with <= where products of known ones do not reach that number. Special values: from which degree on there are more; proved: the currents were constructed there and are all. Degenerate: values at which the equations mean nothing. Height: no other rational number with numerator and denominator up to this has more, nor has any transcendental one ([method.md](method.md), section 11). s: seconds, with the analyses that construct and prove.\n\n'; \
 	   $(BUILD)/tests/bench_classify; } >$(BUILD)/classification.md; code=$$?; mv $(BUILD)/classification.md docs/; tail -n 1 docs/classification.md; exit $$code
+
+papers: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) all tests
+	@{ printf '# The papers\n\nWritten by `make papers`: the numbered equations, definitions, theorems and figures of the three papers that the method stands on, each with a command that shows it, the value of the program on the example of the paper, and the finding: whether what is printed agrees with it, at random points; of a misprint how far the printed form is off and how well the corrected one agrees; or why nothing can be compared. Values of `--equations` are lines of its JSON ([formats.md](formats.md)). Where the command is `make papers`, the program of this page compares with independent values of `tests/data` (of Lie algebras). Long formulas: Phi_1 = -m/2 (v^2 + a^2 k^2 phi\047^2) with v = x\047/cos phi, Phi_2 = m v sin(phi/k) + m a k phi\047 cos(phi/k), Phi_3 = m a^2 k^2/2 log((R + v/a)/(R - v/a)) - m a^2 t R with R = sqrt(v^2/a^2 + k^2 phi\047^2); the commands want them written out, and `--velocities coordinates` beside.\n\n'; \
+	   $(BUILD)/tests/bench_papers; } >$(BUILD)/papers.md; code=$$?; mv $(BUILD)/papers.md docs/; tail -n 1 docs/papers.md; exit $$code
 
 reductions: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
