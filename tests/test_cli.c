@@ -115,7 +115,7 @@ Test(cli, old_names_are_still_understood)
 Test(cli, old_names_are_shown_nowhere)
 {
     static const char *const lines[] = {"help", "help man", "help bash", "help zsh", "help fish", "help analyze", "help simulate", "help benchmark", "explain options"};
-    static const char *const words[] = {"--chart", " chart", "(chart", "--stress", "stress_", "chart_", "-l chart", "-l stress", "\\-chart"};
+    static const char *const words[] = {"--chart", "nhsym chart", "-a chart", " chart) ", "(chart", "--stress", "stress_", "chart_", "-l chart", "-l stress", "\\-chart"};
     place p = place_make();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         finished f = run_with_path(&p, lines[i]);

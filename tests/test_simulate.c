@@ -145,3 +145,107 @@ Test(simulate, a_picture_shows_what_is_watched)
     finished_clear(&f);
     place_clear(&p);
 }
+
+Test(simulate, tables_of_initial_states_and_parameters)
+{
+    static const struct {
+        const char *table, *options, *out, *err;
+        int code;
+    } cases[] = {
+        {"x,x_dot\n1,0\n0,2\n", "", "member,t,x,x_dot,E\n0,0,1,0,2\n0,1,", "", 0},
+        {"x, \"w\"\n2,1\n# a comment\n\n1+1,3\n", "", "member,w,t,x,x_dot,E\n0,1,0,2,0,2\n0,1,1,", "", 0},
+        {"x\n2\n1\n", "--method relaxation-8", "member,t,x,x_dot,E\n0,0,2,0,8\n", "", 0},
+        {"x\n3\n", "--json -", "{\n\t\"schema\":\t1,\n\t\"motions\":\t[{", "", 0},
+        {"xx\n2\n", "", "", "starts.csv: the column `xx` is no coordinate, velocity or parameter of spring\nhint: did you mean `x`?", 3},
+        {"x,w\n2,1\n1\n", "", "", "starts.csv:3: this line has 1 fields, but the line of names has 2", 3},
+        {"x,w\n2,one\n", "", "", "starts.csv:2: `w` needs a number, found `one`", 3},
+        {"x\n2\n1 +\n", "", "", "starts.csv:3", 3},
+        {"x\n", "", "", "starts.csv: the table has no rows", 3},
+        {"x\n1\n", "--ensemble 3", "", "--initial-table, and --ensemble as well", 2},
+        {"t,x\n0,1\n1,1\n", "", "", "all motions of a table begin at one time, but t is 1 here and 0 in the first row", 3},
+    };
+    place p = place_make();
+    write_here(&p, "spring.yaml", oscillator);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[300];
+        write_here(&p, "starts.csv", cases[i].table);
+        snprintf(line, sizeof line, "$N simulate spring.yaml --until 1 --step 1 --initial-table starts.csv %s", cases[i].options);
+        finished f = run_shell(&p, line);
+        cr_expect(f.code == cases[i].code && !strncmp(f.out, cases[i].out, strlen(cases[i].out)), "%s: %d\n%s%s", cases[i].table, f.code, f.out, f.err);
+        cr_expect(strstr(f.err, cases[i].err), "%s: %s", cases[i].table, f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* m x'' = u(t): what was put in comes out after two integrations. */
+Test(simulate, inputs_over_time)
+{
+    static const struct {
+        const char *input;
+        double speed; /* at t = 3 */
+    } cases[] = {{"u=sin(t)", 0.5 * (1 - -0.98999249660044542)}, {"u = m*t^2", 9}, {"u=drive.csv:thrust", 0.5 * (0.5 * 2 + 1 * 2 + (2 - 1) / 2.0)}, {"u=drive.csv:flat", 1.5 * 0.25}};
+    static const struct {
+        const char *input, *err;
+    } wrong[] = {{"w=1", "`w` is not a parameter of cart"}, {"u=2*u", "the input `u` depends on itself"}, {"u=sin(s)", "--input u:5: unknown name `s`"},
+                 {"u=drive.csv:thrus", "drive.csv: there is no column `thrus`\nhint: did you mean `thrust`?"}, {"u=drive.csv", "--input u needs a column of drive.csv"},
+                 {"u=back.csv:v", "back.csv:3: the times of an input must rise, but 0 comes after 1"}, {"u", "--input needs NAME=EXPR, found `u`"}};
+    place p = place_make();
+    write_here(&p, "cart.yaml", "name: cart\nparameters: [{name: m, value: 2}, {name: u, value: 7}]\ncoordinates: [x]\nlagrangian: m*x'^2/2\nforces: [\"x = u\"]\n");
+    write_here(&p, "drive.csv", "t,thrust,flat\n0.5,0,0.25\n1,2,0.25\n2,2,0.25\n4,-2,0.25\n");
+    write_here(&p, "back.csv", "t,v\n1,0\n0,1\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "$N simulate cart.yaml --initial x=0 --until 3 --step 3 --watch \"x'\" --input '%s'", cases[i].input);
+        finished f = run_shell(&p, line);
+        cr_expect(f.code == 0 && fabs(last_number(f.out) - cases[i].speed) < 1e-9, "%s: %s instead of %.10g\n%s", cases[i].input, f.out, cases[i].speed, f.err);
+        finished_clear(&f);
+    }
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "$N simulate cart.yaml --initial x=0 --input '%s'", wrong[i].input);
+        finished f = run_shell(&p, line);
+        cr_expect((f.code == 2 || f.code == 3) && strstr(f.err, wrong[i].err), "%s: %d %s", wrong[i].input, f.code, f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* Commas and semicolons end the entries of every list, except between parentheses. */
+Test(simulate, lists_have_one_syntax)
+{
+    static const char *const lines[][2] = {
+        {"simulate spring.yaml --until 1 --step 1 --initial \"x=atan2(1,2), x'=1\" --watch \"x, atan2(x,x')\"", "simulate spring.yaml --until 1 --step 1 --initial \"x=atan2(1,2); x'=1;\" --watch \" x ; atan2(x,x')\""},
+        {"verify spring.yaml --field 'Z0=1, x=0'", "verify spring.yaml --field 'Z0=1; x=0'"},
+    };
+    place p = place_make();
+    write_here(&p, "spring.yaml", oscillator);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        finished f[2];
+        for (int k = 0; k < 2; k++) {
+            char line[400];
+            snprintf(line, sizeof line, "$N %s", lines[i][k]);
+            f[k] = run_shell(&p, line);
+        }
+        cr_expect(f[0].code == 0 && f[1].code == 0 && !strcmp(f[0].out, f[1].out), "%s\n%s%s%s%s", lines[i][0], f[0].out, f[1].out, f[0].err, f[1].err);
+        finished_clear(&f[0]), finished_clear(&f[1]);
+    }
+    place_clear(&p);
+}
+
+/* As a shell calls it. */
+Test(simulate, completions_complete_values)
+{
+    static const char *const cases[][2] = {{"nhsym simulate sleigh --method relax", "relaxation-4 relaxation-8"}, {"nhsym simulate --option fixed_st", "fixed_steps="}, {"nhsym explain metho", "methods"},
+                                           {"nhsym help simul", "simulate"}, {"nhsym simulate sleigh --velocities qu", "quasi"}, {"nhsym simulate sleigh --initial-t", "--initial-table"}};
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[700];
+        snprintf(line, sizeof line, "$N help bash >c.bash; bash -c 'compopt() { :; }; . ./c.bash; COMP_WORDS=(%s); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _nhsym; echo \"${COMPREPLY[*]}\"'", cases[i][0]);
+        finished f = run_shell(&p, line);
+        size_t length = strlen(cases[i][1]);
+        cr_expect(!strncmp(f.out, cases[i][1], length) && f.out[length] == '\n', "%s: %s%s", cases[i][0], f.out, f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}

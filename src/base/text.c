@@ -290,3 +290,10 @@ uint64_t nh_text_fingerprint(uint64_t before, const char *bytes, size_t length)
     for (size_t i = 0; i < length; i++) h = (h ^ (unsigned char)bytes[i]) * prime;
     return h ^ offset;
 }
+
+size_t nh_text_entry(const char *text, const char *separators)
+{
+    size_t length = 0;
+    for (int depth = 0; text[length] && (depth > 0 || !strchr(separators, text[length])); length++) depth += (text[length] == '(') - (text[length] == ')');
+    return length;
+}

@@ -33,6 +33,9 @@ const char *nh_text_nearest(const char *word, const char *const *candidates, siz
 /* A number that tells texts apart (FNV-1a), continued from that of what stands before; from 0. */
 uint64_t nh_text_fingerprint(uint64_t before, const char *bytes, size_t length);
 
+/* Lists on the command line: the length of the entry at `text`, which ends at one of the separators outside parentheses, or with the text. */
+size_t nh_text_entry(const char *text, const char *separators);
+
 /* Columns that `string` takes on a terminal (UTF-8 code points; no wide characters are used here). */
 size_t nh_text_width(const char *string);
 

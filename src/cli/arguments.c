@@ -7,8 +7,9 @@
 
 #include "cli/cli.h"
 #include "cli/cli_table.h"
+#include "problem/input.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
        opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
@@ -48,6 +49,20 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     double x;
     if (!nh_text_to_number(value, &x)) return nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
     cli->setting[cli->settings++] = (nh_setting){.name = name, .value = x};
+    return true;
+}
+
+/* "u = sin(t)", or "u = FILE.csv:COLUMN". */
+static bool set_input(nh_cli *cli, const char *text, nh_error *error)
+{
+    char *name;
+    const char *value;
+    if (!assignment(cli, text, "input", &name, &value, error)) return false;
+    for (size_t end = strlen(name); end && name[end - 1] == ' ';) name[--end] = 0;
+    value += strspn(value, " ");
+    const char *input = nh_input_text(cli->arena, name, value, error);
+    if (!input) return false;
+    cli->setting[cli->settings++] = (nh_setting){.name = name, .input = input};
     return true;
 }
 
@@ -169,6 +184,9 @@ static bool missing_value(const char *word, nh_error *error)
     return nh_error_hint(error, "`nhsym help` describes the option");
 }
 
+/* `-` is a file, too: what is read is kept, so a pipe will do. */
+static const char *file_of(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
+
 static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 {
     char *name;
@@ -182,12 +200,13 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_threads: return nh_options_set(&cli->options, "threads", value, error);
     case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
+    case opt_initial_table: cli->table = file_of(value); return true;
     case opt_method: return nh_method_given(value, &cli->method, error);
     case opt_project: return cli->project = true;
     case opt_weak: return cli->weak = true;
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_to: cli->to = value; return true;
-    case opt_input: cli->input = value; return true;
+    case opt_input: return strchr(value, '=') ? set_input(cli, value, error) : (cli->input = value, true);
     case opt_name: cli->name = value; return true;
     case opt_watch: cli->watch = value; return true;
     case opt_svg: cli->svg = value; return true;
@@ -262,8 +281,7 @@ static const char *optional_value(const nh_cli *cli, int argc, char **argv)
     return next;
 }
 
-/* `-` is a file, too: what is read is kept, so a pipe will do. */
-static void take_operand(nh_cli *cli, const char *word) { cli->operand[cli->operands++] = strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
+static void take_operand(nh_cli *cli, const char *word) { cli->operand[cli->operands++] = file_of(word); }
 
 bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
 {

@@ -31,6 +31,7 @@ typedef struct {
     bool equations;              /* of analyze and verify: the geometry written out */
     const char *initial;         /* of simulate and reduce */
     const nh_method *method;
+    const char *table;           /* of initial states */
     const char *group, *chain, *to; /* of reduce; `to` of export, too */
     const char *input, *name;  /* of export */
     bool project, weak;

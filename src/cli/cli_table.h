@@ -23,6 +23,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export", "initial state")                                       \
     X(opt_project,     "project",     no_argument,       "",                   "simulate benchmark reduce", "project the initial velocities onto the constraints")            \
+    X(opt_initial_table, "initial-table", required_argument, "FILE",           "simulate", "a motion per row of a CSV file: initial states and parameters by name") \
     X(opt_method,      "method",      required_argument, "NAME",               "simulate", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
     X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing")                                                       \
     X(opt_watch,       "watch",       required_argument, "\"x, T=m/2*v^2\"",   "simulate", "only these quantities, from the smallest model that determines them")                \
@@ -43,7 +44,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
     X(opt_weak,        "weak",        no_argument,       "",                   "reduce export", "also allow symmetries up to a total derivative")              \
     X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|latex|json", "reduce export", "the language of the exported code; reduce: print the reduced equations so") \
-    X(opt_input,       "input",       required_argument, "NAMES",              "export", "parameters that are inputs of a controller: arguments of every function") \
+    X(opt_input,       "input",       required_argument, "\"u=sin(t)\"",       "simulate export", "simulate: a parameter over time, an expression of t or FILE.csv:COLUMN; export: NAMES of parameters that are arguments") \
     X(opt_name,        "name",        required_argument, "NAME",               "export", "what names of files and functions begin with") \
     X(opt_tolerance,   "tolerance",   required_argument, "EPS",                "analyze simulate benchmark reduce", "relative tolerance of the motions")                                  \
     X(opt_until,       "until",       required_argument, "T",                  "analyze simulate benchmark reduce", "end time of the motions")                                       \

@@ -5,6 +5,7 @@
 
 #include "cli/cli.h"
 #include "cli/cli_table.h"
+#include "document/wording.h"
 
 typedef struct {
     const char *name;
@@ -106,17 +107,39 @@ static void manual_page(void)
 
 /* ---- completions ---- */
 
+/* The words that an option or a command takes, with `between`; nothing where these are not a fixed list. */
+static void put_values(const char *name, const char *shown, const char *between)
+{
+    if (strchr(shown, '|') && shown[0] != '[') {
+        for (; *shown; shown++) fputs(*shown == '|' ? between : (char[]){*shown, 0}, stdout);
+    } else if (!strcmp(name, "method")) {
+        fputs(NH_METHOD_AUTOMATIC, stdout);
+        for (size_t i = 0; i < nh_method_count(); i++) printf("%s%s", between, nh_method_at(i)->word);
+    } else if (!strcmp(name, "option")) {
+        for (size_t i = 0; i < nh_option_count(); i++) printf("%s%s=", i ? between : "", nh_option_at(i).name);
+    } else if (!strcmp(name, "explain")) {
+        fputs("options", stdout), printf("%smethods", between);
+        for (size_t i = 0; i < nh_glossary_count(); i++)
+            if (!strchr(nh_glossary_at(i).word, ' ')) printf("%s%s", between, nh_glossary_at(i).word);
+    } else if (!strcmp(name, "help")) {
+        for (size_t i = 0; i < command_count; i++) printf("%s%s", i ? between : "", commands[i].name);
+        printf("%sman%sbash%szsh%sfish", between, between, between, between);
+    }
+}
+
+static bool has_values(const option_word *o) { return (strchr(o->shown, '|') && o->shown[0] != '[') || nh_word_among("method option", o->name); }
+static bool is_file(const option_word *o) { return !strcmp(o->shown, "FILE") || !strcmp(o->shown, "DIR") || strstr(o->shown, "FILE|-"); }
+
 static void bash(void)
 {
     puts("# bash completion for nhsym; written by `nhsym help bash`\n_nhsym() {\n    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} options=\"\"\n    case $before in");
     for (size_t i = 0; i < option_count; i++) {
-        bool choice = strchr(options[i].shown, '|') && options[i].shown[0] != '[';
         if (options[i].argument != required_argument) continue;
-        printf("    --%s) ", options[i].name);
-        if (choice) printf("COMPREPLY=($(compgen -W \"$(echo '%s' | tr '|' ' ')\" -- \"$word\"))", options[i].shown);
-        else if (!strcmp(options[i].shown, "FILE") || !strcmp(options[i].shown, "DIR")) fputs("COMPREPLY=($(compgen -f -- \"$word\"))", stdout);
-        else fputs("COMPREPLY=()", stdout);
-        puts("; return ;;");
+        bool file = is_file(&options[i]), equation = !strcmp(options[i].name, "option");
+        printf("    --%s) %sCOMPREPLY=(", options[i].name, equation ? "compopt -o nospace; " : "");
+        if (file) fputs("$(compgen -f -- \"$word\")", stdout);
+        else fputs("$(compgen -W \"", stdout), put_values(options[i].name, options[i].shown, " "), fputs("\" -- \"$word\")", stdout);
+        puts("); return ;;");
     }
     fputs("    esac\n    if [ \"$COMP_CWORD\" = 1 ]; then COMPREPLY=($(compgen -W \"", stdout);
     for (size_t i = 0; i < command_count; i++) printf("%s%s", i ? " " : "", commands[i].name);
@@ -126,6 +149,12 @@ static void bash(void)
         for (size_t j = 0; j < option_count; j++)
             if (takes(&commands[i], &options[j])) printf("--%s ", options[j].name);
         puts("\" ;;");
+    }
+    puts("    esac\n    case ${COMP_WORDS[1]} in");
+    for (const char *const *name = (const char *const[]){"explain", "help", NULL}; *name; name++) {
+        printf("    %s) COMPREPLY=($(compgen -W \"", *name);
+        put_values(*name, "", " ");
+        puts("\" -- \"$word\")); return ;;");
     }
     puts("    esac\n    case $word in\n    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
          "    *) COMPREPLY=($(compgen -W \"$(nhsym list 2>/dev/null | cut -d' ' -f1)\" -- \"$word\") $(compgen -f -X '!*.yaml' -- \"$word\")) ;;\n    esac\n}\ncomplete -F _nhsym nhsym");
@@ -158,10 +187,14 @@ static void zsh(void)
                 if (strchr("[]:", *c)) putchar('\\');
                 quoted(one);
             }
-            bool file = !strcmp(options[j].shown, "FILE") || !strcmp(options[j].shown, "DIR");
-            printf("]%s'", options[j].argument != required_argument ? "" : file ? ":file:_files" : ":value:");
+            printf("]%s", options[j].argument != required_argument ? "" : is_file(&options[j]) ? ":file:_files" : ":value:");
+            if (has_values(&options[j])) putchar('('), put_values(options[j].name, options[j].shown, " "), putchar(')');
+            putchar('\'');
         }
-        puts(" \\\n    '*:system:->system' ;;");
+        fputs(" \\\n    '*:word:", stdout);
+        if (nh_word_among("explain help", commands[i].name)) putchar('('), put_values(commands[i].name, "", " "), putchar(')');
+        else fputs("->system", stdout);
+        puts("' ;;");
     }
     puts("esac\nif [[ $state == system ]]; then compadd -a systems; _files -g '*.yaml'; fi");
 }
@@ -175,10 +208,16 @@ static void fish(void)
         puts("'");
     }
     for (size_t j = 0; j < option_count; j++) {
-        bool file = !strcmp(options[j].shown, "FILE") || !strcmp(options[j].shown, "DIR") || options[j].argument == optional_argument;
+        bool file = is_file(&options[j]), required = options[j].argument == required_argument;
         printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -l %s %s -d '", options[j].commands, options[j].name,
-               file ? "-r -F" : options[j].argument == required_argument ? "-r" : "");
+               file ? "-r -F" : required ? "-x" : "");
         for (const char *c = meaning(&options[j]); *c; c++) printf(*c == '\'' ? "\\'" : "%c", *c);
+        if (has_values(&options[j])) fputs("' -a '", stdout), put_values(options[j].name, options[j].shown, " ");
+        puts("'");
+    }
+    for (const char *const *name = (const char *const[]){"explain", "help", NULL}; *name; name++) {
+        printf("complete -c nhsym -n '__fish_seen_subcommand_from %s' -a '", *name);
+        put_values(*name, "", " ");
         puts("'");
     }
     puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"

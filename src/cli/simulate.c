@@ -60,12 +60,65 @@ static void complain(const nh_simulation *s, nh_error *error)
     if (!s->motion->complete) nh_fail(error, NH_NUMERIC, "", "the motion ended at t = %g: %s", s->motion->end_time, s->checked && nh_interrupted() ? s->why : s->motion->note);
 }
 
+/* The motions of a table one by one, as a table or as JSON. */
+static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_simulate_rows *rows, nh_error *error)
+{
+    nh_text text;
+    nh_json *root = cli->json ? nh_members_json() : NULL;
+    bool good = true;
+    nh_text_init(&text);
+    for (size_t i = 0; i < rows->count && good && !nh_interrupted(); i++) {
+        const nh_simulate_row *row = &rows->row[i];
+        nh_simulate_request q = *request;
+        nh_setting *all = nh_arena_alloc(cli->arena, (q.settings + row->settings + 1) * sizeof *all);
+        if (q.settings) memcpy(all, q.setting, q.settings * sizeof *all);
+        memcpy(all + q.settings, row->setting, row->settings * sizeof *all);
+        q.setting = all;
+        q.settings += row->settings;
+        if (row->initial) q.initial = row->initial, q.from = row->from;
+        nh_simulation *s = nh_simulation_create(&q, error);
+        good = s != NULL;
+        if (good && root) nh_member_json(s, row, root);
+        if (good && !root) nh_member_csv(s, i, row, &text);
+        if (good) complain(s, error);
+        nh_simulate_row_blame(row, error);
+        nh_simulation_free(s);
+    }
+    nh_cli_progress_end();
+    if (nh_cli_speaks(cli)) fputs(nh_text_string(&text), stdout);
+    nh_text_clear(&text);
+    if (root) good = nh_cli_write_json(cli, nh_json_finish(root), error) && good;
+    good = nh_cli_written(cli, good, error);
+    return good && nh_interrupted() ? (int)nh_ended_code() : (int)error->code;
+}
+
+/* --initial-table: its motions together, as an ensemble, or one by one where they differ in more than the initial state.  False: see the code. */
+static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows, int *code, nh_error *error)
+{
+    *code = NH_OK;
+    if (!cli->table) return true;
+    bool good = !cli->ensemble && !cli->html && !cli->svg;
+    if (!good) nh_fail(error, NH_USAGE, "", "--initial-table, and --%s as well", cli->ensemble ? "ensemble" : cli->html ? "html" : "svg"), nh_error_hint(error, "a table of initial states gives a table of motions, or JSON");
+    good = good && nh_simulate_rows_read(cli->arena, q, cli->table, rows, error);
+    if (good && (rows->parameters || q->method || rows->count == 1)) return *code = one_by_one(cli, q, rows, error), false;
+    if (!good) return *code = (int)error->code, false;
+    q->ensemble = rows->count;
+    q->table = rows;
+    q->initial = rows->row[0].initial;
+    q->from = rows->row[0].from;
+    return true;
+}
+
 int nh_cli_simulate(nh_cli *cli, nh_error *error)
 {
     static const char *const example = "nhsym simulate sleigh --initial \"omega=2\" --until 10";
     nh_simulate_request request;
+    nh_simulate_rows rows;
+    int code;
     nh_cli_progress_begin(cli);
     if (!nh_cli_motion_request(cli, example, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
+    if (cli->input) return nh_fail(error, NH_USAGE, "", "--input needs NAME=EXPR, found `%s`", cli->input), nh_error_hint(error, "for example: --input \"%s=sin(t)\"", cli->input), NH_USAGE;
+    if (!together(cli, &request, &rows, &code, error)) return code;
     nh_simulation *s = nh_simulation_create(&request, error);
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, request.analysis_path);

@@ -164,7 +164,7 @@ static bool parse_field(nh_reduction *r, const char *text, nh_ex *component, nh_
     const nh_kinetic *k = r->kinetic;
     for (size_t s = 0; s < k->m; s++) component[s] = nh_int(k->dag, 0);
     for (const char *c = text; *c;) {
-        size_t length = strcspn(c, ",");
+        size_t length = nh_text_entry(c, ",");
         char *item = trimmed(r->arena, c, length), *equal = strchr(item, '=');
         if (!equal) return bad_field(r, item, error);
         char *name = trimmed(r->arena, item, (size_t)(equal - item));

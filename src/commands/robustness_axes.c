@@ -71,7 +71,7 @@ static size_t read_axes(nh_arena *arena, const nh_benchmark_work *plain, const n
 {
     size_t n = 0;
     char *text = nh_arena_strdup(arena, over), *rest = text;
-    for (char *part; (part = strsep(&rest, ","));) {
+    for (char *part; (part = strsep(&rest, ",;"));) {
         while (*part == ' ') part++;
         if (n == most_axes) return nh_fail(error, NH_USAGE, "", "--over takes at most %d ranges", most_axes), nh_error_hint(error, "set further parameters one at a time by --set"), 0;
         if (!read_axis(arena, part, &a[n], error) || !know(plain, request, &a[n], error)) return 0;
@@ -97,7 +97,7 @@ static const char *with_initial(nh_arena *arena, const char *initial, const char
 {
     char *text = nh_arena_strdup(arena, initial), *rest = text;
     const char *out = nh_arena_printf(arena, "%s=%.17g", name, value);
-    for (char *part; (part = strsep(&rest, ","));) {
+    for (char *part; (part = strsep(&rest, ",;"));) {
         part += strspn(part, " ");
         size_t length = strcspn(part, "= ");
         if (*part && (length != strlen(name) || strncmp(part, name, length))) out = nh_arena_printf(arena, "%s, %s", out, part);

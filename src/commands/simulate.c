@@ -15,14 +15,6 @@ static const double repeated = 0.1;                      /* seconds: shorter com
 
 /* ---- what is wanted along the motion ---- */
 
-/* The end of the quantity that begins at `text`: a comma outside parentheses, or the end. */
-static const char *end_of_quantity(const char *text)
-{
-    int depth = 0;
-    for (; *text && (*text != ',' || depth > 0); text++) depth += (*text == '(') - (*text == ')');
-    return text;
-}
-
 /* "y, T = m/2*v^2" */
 static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
 {
@@ -32,8 +24,8 @@ static bool read_watch(nh_simulation *s, const char *text, nh_error *error)
     size_t extras = 0;
     if (!nh_symbol_find(o->dag, "E", &taken)) extra[extras++] = (nh_named){.name = "E", .value = o->E};
     if (!nh_symbol_find(o->dag, "Lbar", &taken)) extra[extras++] = (nh_named){.name = "Lbar", .value = o->Lbar};
-    for (const char *end; *text; text = end + (*end == ',')) {
-        end = end_of_quantity(text);
+    for (const char *end; *text; text = end + (*end != 0)) {
+        end = text + nh_text_entry(text, ",;");
         const char *equal = memchr(text, '=', (size_t)(end - text)), *to = equal ? equal : end;
         while (text < to && *text == ' ') text++;
         while (to > text && to[-1] == ' ') to--;

@@ -7,6 +7,18 @@
 #include "commands/choice.h"
 #include "problem/observables.h"
 
+/* A motion of a table. */
+typedef struct {
+    const char *initial, *from; /* as behind --initial, or NULL; file and line */
+    size_t settings;
+    nh_setting *setting;        /* of the columns that are parameters */
+} nh_simulate_row;
+
+typedef struct {
+    size_t count, parameters;   /* rows; columns that are parameters: the same in every row */
+    nh_simulate_row *row;
+} nh_simulate_rows;
+
 typedef struct {
     const char *system_path, *analysis_path; /* analysis may be NULL: its initial state, time and watched quantities are used */
     size_t settings;
@@ -22,6 +34,7 @@ typedef struct {
     const nh_method *method;                 /* NULL: the one that suits, or with an accuracy the cheapest */
     double accuracy;                         /* the error that is allowed in what is printed; 0: options.tolerance, unchecked */
     size_t ensemble;                         /* members; 0: one motion */
+    const nh_simulate_rows *table;           /* their initial states; NULL: around the given one */
     double spread;                           /* of their initial states about the given one, relative to max(|z_i|, 1) */
     nh_options options;
 } nh_simulate_request;
@@ -53,6 +66,12 @@ struct nh_simulation {
     nh_accuracy accuracy;                 /* of the one motion */
     nh_ensemble_accuracy accuracy_of_all; /* of the ensemble */
 };
+
+/* A file of comma-separated values with a line of names: coordinates, velocities (x' or x_dot) and parameters. */
+bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *request, const char *path, nh_simulate_rows *rows, nh_error *error);
+
+/* An error without a place is that of this row. */
+void nh_simulate_row_blame(const nh_simulate_row *row, nh_error *error);
 
 nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error *error);
 /* "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model).  `from`: where it is written, for messages; NULL: --initial. */

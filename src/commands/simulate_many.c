@@ -13,17 +13,29 @@ const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene
     return kept;
 }
 
+/* The states of all members, row by row. */
+static bool initial_states(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion, double *initial, nh_error *error)
+{
+    size_t size = s->model->m + s->model->n;
+    double *z0 = nh_arena_alloc(s->arena, size * sizeof *z0);
+    nh_dynamics *d = nh_dynamics_create(s->model);
+    bool good = true;
+    for (size_t i = 0; q->table && i < q->ensemble && good; i++)
+        good = nh_simulate_row_start(s, &q->table->row[i], d, motion->initial->t, motion->project, initial + i * size, error);
+    if (!q->table) good = nh_dynamics_start(d, motion->initial, motion->project, z0, error);
+    if (!q->table && good) nh_ensemble_states(size, z0, q->ensemble, q->spread, (uint64_t)q->options.seed, initial);
+    nh_dynamics_free(d);
+    return good;
+}
+
 bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion, nh_error *error)
 {
     size_t size = s->model->m + s->model->n, threads = nh_threads(q->options.threads);
-    double *z0 = nh_arena_alloc(s->arena, size * sizeof *z0), *initial = nh_alloc_array(q->ensemble, size * sizeof *initial);
-    nh_dynamics *d = nh_dynamics_create(s->model);
-    if (nh_dynamics_start(d, motion->initial, motion->project, z0, error)) {
-        nh_ensemble_states(size, z0, q->ensemble, q->spread, (uint64_t)q->options.seed, initial);
+    double *initial = nh_alloc_array(q->ensemble, size * sizeof *initial);
+    if (initial_states(s, q, motion, initial, error)) {
         if (s->checked) s->ensemble = nh_ensemble_accurate(motion, q->ensemble, initial, threads, q->accuracy, &s->ways.ways, &s->accuracy_of_all, error);
         else s->ensemble = nh_ensemble_create(motion, q->ensemble, initial, threads, error);
     }
-    nh_dynamics_free(d);
     nh_free(initial);
     if (!s->ensemble) return false;
     if (s->checked) s->tolerance = s->accuracy_of_all.tolerance, s->held = s->accuracy_of_all.held, s->why = s->accuracy_of_all.why;

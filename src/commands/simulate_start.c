@@ -13,20 +13,19 @@
 
 nh_analysis_file *nh_simulate_initial(nh_arena *arena, const char *from, const char *initial, nh_error *error)
 {
-    size_t length = strlen(initial);
-    char *text = nh_arena_alloc(arena, 2 * length + 64), *to = text + sprintf(text, "validate:\n  initial: {");
-    for (const char *c = initial; *c; c++) {
-        if (*c == ';') {
-            *to++ = ',';
-        } else if (*c == '=') {
-            *to++ = ':';
-            *to++ = ' ';
-        } else {
-            *to++ = *c;
-        }
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_add(&text, "validate:\n  initial: {");
+    for (const char *c = initial, *more = ""; *c; c += *c != 0) {
+        size_t length = nh_text_entry(c, ",;"), equal = strcspn(c, "=,;");
+        bool pair = equal < length;
+        if (strspn(c, " \t") < length) nh_text_addf(&text, pair ? "%s%.*s: \"%.*s\"" : "%s%.*s", more, (int)(pair ? equal : length), c, (int)(length - equal - 1), c + equal + 1), more = ", ";
+        c += length;
     }
-    strcpy(to, "}\n");
-    return nh_analysis_file_text(from ? from : "--initial", text, error);
+    nh_text_add(&text, "}\n");
+    const char *kept = nh_arena_strdup(arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return nh_analysis_file_text(from ? from : "--initial", kept, error);
 }
 
 static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)

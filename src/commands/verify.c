@@ -318,9 +318,9 @@ nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice cha
                .zeta = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex)), .W = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex))};
     bool good = true; /* node 0 is the number 0: components not named vanish */
     for (const char *p = text; good && *p;) {
-        size_t length = strcspn(p, ";");
+        size_t length = nh_text_entry(p, ",;");
         good = component(v, p, length, &g, error);
-        p += length + (p[length] == ';');
+        p += length + (p[length] != 0);
     }
     good = good && solve_zeta(v, g.time, g.space, g.zeta, error);
     if (good) {

@@ -56,6 +56,14 @@ const char **nh_simulation_names(const nh_simulation *s)
     return out;
 }
 
+/* The columns of a table; without the drawing, which is at the end. */
+static size_t shown_of(const nh_simulation *s)
+{
+    size_t shown = 0;
+    while (shown < s->columns.count && s->columns.track[shown].kind != NH_TRACK_SHAPE) shown++;
+    return shown;
+}
+
 static void put_names(const nh_simulation *s, const char *first, size_t shown, nh_text *out)
 {
     const char **name = nh_simulation_names(s);
@@ -64,12 +72,11 @@ static void put_names(const nh_simulation *s, const char *first, size_t shown, n
     nh_text_add(out, "\n");
 }
 
-void nh_motion_csv(const nh_simulation *s, nh_text *out)
+static void put_rows(const nh_simulation *s, const char *first, nh_text *out)
 {
-    size_t shown = 0; /* without the drawing, which is at the end */
-    while (shown < s->columns.count && s->columns.track[shown].kind != NH_TRACK_SHAPE) shown++;
-    put_names(s, "t", shown, out);
+    size_t shown = shown_of(s);
     for (size_t i = 0; i < s->motion->count; i++) {
+        nh_text_add(out, first);
         put(out, s->motion->time[i]);
         for (size_t k = 0; k < shown; k++) {
             nh_text_add(out, ",");
@@ -77,6 +84,27 @@ void nh_motion_csv(const nh_simulation *s, nh_text *out)
         }
         nh_text_add(out, "\n");
     }
+}
+
+void nh_motion_csv(const nh_simulation *s, nh_text *out)
+{
+    put_names(s, "t", shown_of(s), out);
+    put_rows(s, "", out);
+}
+
+void nh_member_csv(const nh_simulation *s, size_t member, const nh_simulate_row *row, nh_text *out)
+{
+    nh_text first;
+    nh_text_init(&first);
+    nh_text_add(&first, "member,");
+    for (size_t i = 0; i < row->settings; i++) nh_text_addf(&first, "%s,", row->setting[i].name);
+    nh_text_add(&first, "t");
+    if (member == 0) put_names(s, nh_text_string(&first), shown_of(s), out);
+    nh_text_clear(&first);
+    nh_text_addf(&first, "%zu,", member);
+    for (size_t i = 0; i < row->settings; i++) put(&first, row->setting[i].value), nh_text_add(&first, ",");
+    put_rows(s, nh_text_string(&first), out);
+    nh_text_clear(&first);
 }
 
 void nh_ensemble_csv(const nh_simulation *s, nh_text *out)
@@ -169,11 +197,9 @@ char *nh_ensemble_json(const nh_simulation *s, const nh_run *run)
     return nh_json_finish(root);
 }
 
-char *nh_motion_json(const nh_simulation *s, const nh_run *run)
+static void put_motion(const nh_simulation *s, nh_json *root)
 {
     static const char *const groups[] = {"states", "currents", "multipliers", "energies", "watch"};
-    nh_json *root = nh_json_object();
-    nh_json_put_number(root, "schema", 1);
     nh_json_put_text(root, "method", s->method);
     nh_json_put_text(root, "formulation", s->formulation);
     nh_json_put_text(root, "scene", s->scene);
@@ -199,6 +225,29 @@ char *nh_motion_json(const nh_simulation *s, const nh_run *run)
     nh_json *warnings = nh_json_put_array(root, "warnings");
     if (s->astray) nh_json_add_text(warnings, s->astray);
     if (s->motion->note[0]) nh_json_add_text(warnings, s->motion->note);
+}
+
+char *nh_motion_json(const nh_simulation *s, const nh_run *run)
+{
+    nh_json *root = nh_json_object();
+    nh_json_put_number(root, "schema", 1);
+    put_motion(s, root);
     if (run) nh_run_json(run, s->system, root);
     return nh_json_finish(root);
+}
+
+nh_json *nh_members_json(void)
+{
+    nh_json *root = nh_json_object();
+    nh_json_put_number(root, "schema", 1);
+    nh_json_put_array(root, "motions");
+    return root;
+}
+
+void nh_member_json(const nh_simulation *s, const nh_simulate_row *row, nh_json *root)
+{
+    nh_json *item = nh_json_add_object(nh_json_get(root, "motions")), *set = nh_json_put_object(item, "set");
+    for (size_t i = 0; i < row->settings; i++) nh_json_put_number(set, row->setting[i].name, row->setting[i].value);
+    nh_json_put_text(item, "initial", row->initial);
+    put_motion(s, item);
 }

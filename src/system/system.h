@@ -44,6 +44,7 @@ typedef struct {
 
 typedef struct {
     const char *name;
+    const char *input;       /* an expression of t and the parameters, instead of a value; NULL: none */
     double value;
     const nh_deck *deck;     /* where it was written: NULL for the command line */
     const nh_deck_node *key;

@@ -303,6 +303,26 @@ static bool read_dependent(reader *r)
     return true;
 }
 
+static void remove_parameter(nh_system *s, nh_parameter *p)
+{
+    size_t behind = s->parameters - 1 - (size_t)(p - s->parameter);
+    memmove(p, p + 1, behind * sizeof *p);
+    s->parameters--;
+}
+
+/* An input over time takes the place of a parameter, as a definition.  What stands in it is known before the coordinates are. */
+static bool make_input(reader *r, nh_parameter *p, const nh_setting *setting)
+{
+    nh_system *s = r->system;
+    nh_ex value;
+    const char *name = p->name, *text = nh_arena_printf(s->arena, "%s = %s", name, setting->input);
+    if (!nh_system_expression_text(s, nh_arena_printf(s->arena, "--input %s", name), setting->input, 0, NULL, &value, r->error)) return false;
+    if (nh_depends(s->dag, value, p->symbol)) return nh_fail(r->error, NH_USAGE, "", "the input `%s` depends on itself", name);
+    s->definition[s->definitions++] = (nh_named){.name = name, .text = text, .value = value};
+    remove_parameter(s, p);
+    return true;
+}
+
 /* Those that have exact values already are definitions. */
 static bool among_parameters(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
 {
@@ -331,9 +351,7 @@ static bool fix(reader *r, nh_parameter *p, const nh_setting *setting)
         d.value = nh_ratio(s->dag, setting->top, setting->bottom);
     }
     s->definition[s->definitions++] = d;
-    size_t behind = s->parameters - 1 - (size_t)(p - s->parameter);
-    memmove(p, p + 1, behind * sizeof *p);
-    s->parameters--;
+    remove_parameter(s, p);
     return true;
 }
 
@@ -345,8 +363,8 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
         nh_parameter *found = NULL;
         for (size_t i = 0; i < s->parameters; i++)
             if (!strcmp(s->parameter[i].name, setting[k].name)) found = &s->parameter[i];
-        if (found && (setting[k].bottom > 0 || setting[k].formula)) {
-            if (!fix(r, found, &setting[k])) return false;
+        if (found && (setting[k].bottom > 0 || setting[k].formula || setting[k].input)) {
+            if (!(setting[k].input ? make_input : fix)(r, found, &setting[k])) return false;
             continue;
         }
         if (found) {
@@ -372,8 +390,8 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     const char *doc; /* for the reader of the file */
     if (!nh_system_text_of(r, r->root, "name", "system", &s->name) || !nh_system_text_of(r, r->root, "title", s->name, &s->title)) return false;
     if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc)) return false;
-    if (!read_parameters(r) || !apply_settings(r, settings, setting)) return false;
     s->t = nh_symbol(s->dag, "t");
+    if (!read_parameters(r) || !apply_settings(r, settings, setting)) return false;
     return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && nh_system_read_chain(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
            && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_symmetry(r) && nh_system_read_drawing(r) && nh_system_read_known(r)
            && nh_system_read_robustness(r);

@@ -1,0 +1,102 @@
+/* simulate_table: a table of motions: each row is an initial state, or a value per parameter, or both. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands/simulate_internal.h"
+#include "problem/table.h"
+
+typedef enum { COLUMN_STATE, COLUMN_PARAMETER } column_kind;
+
+/* x_dot is x', as in the tables that simulate writes. */
+static const char *state_name(nh_arena *arena, const nh_system *s, const char *name)
+{
+    static const char dot[] = "_dot";
+    size_t length = strlen(name), tail = sizeof dot - 1;
+    for (size_t i = 0; i < s->coordinates; i++) {
+        const char *own = s->coordinate[i].name;
+        if (!strcmp(own, name)) return name;
+        if (strlen(own) + tail == length && !strncmp(own, name, length - tail) && !strcmp(name + length - tail, dot)) return nh_arena_printf(arena, "%s'", own);
+    }
+    return name;
+}
+
+static bool is_parameter(const nh_system *s, const char *name)
+{
+    for (size_t i = 0; i < s->parameters; i++)
+        if (!strcmp(s->parameter[i].name, name)) return true;
+    return false;
+}
+
+/* A coordinate, a velocity or the time; else a suggestion. */
+static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, const char *name, nh_error *error)
+{
+    size_t n = 0;
+    const char **names = nh_arena_alloc(arena, (2 * s->coordinates + s->quasi + s->parameters + 1) * sizeof *names);
+    names[n++] = "t";
+    for (size_t i = 0; i < s->coordinates; i++) names[n++] = s->coordinate[i].name;
+    for (size_t i = 0; i < s->coordinates; i++) names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
+    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    for (size_t i = 0; i < n; i++)
+        if (!strcmp(names[i], name)) return true;
+    for (size_t i = 0; i < s->parameters; i++) names[n++] = s->parameter[i].name;
+    nh_fail(error, NH_INPUT, t->path, "the column `%s` is no coordinate, velocity or parameter of %s", name, s->name);
+    const char *near = nh_text_nearest(name, names, n);
+    return near ? nh_error_hint(error, "did you mean `%s`?", near) : false;
+}
+
+/* The row as words behind --initial and as settings, after those of the request. */
+static bool read_row(nh_arena *arena, const nh_table *t, size_t row, const char *const *name, const column_kind *kind, nh_simulate_row *out, nh_error *error)
+{
+    nh_text words;
+    nh_text_init(&words);
+    bool good = true;
+    out->from = nh_arena_printf(arena, "%s:%zu", t->path, t->line[row]);
+    out->setting = nh_arena_alloc(arena, t->columns * sizeof *out->setting);
+    for (size_t j = 0; j < t->columns && good; j++) {
+        const char *cell = t->cell[row * t->columns + j];
+        if (kind[j] == COLUMN_STATE && *cell) nh_text_addf(&words, "%s%s=%s", words.length ? ", " : "", name[j], cell);
+        if (kind[j] == COLUMN_STATE) continue;
+        nh_setting *p = &out->setting[out->settings++];
+        p->name = name[j];
+        good = nh_table_number(arena, t, row, j, &p->value, error);
+    }
+    out->initial = words.length ? nh_arena_strdup(arena, nh_text_string(&words)) : NULL;
+    nh_text_clear(&words);
+    return good;
+}
+
+bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *q, const char *path, nh_simulate_rows *out, nh_error *error)
+{
+    nh_table *t = nh_table_read(arena, path, error);
+    nh_system *s = t ? nh_system_read(q->system_path, q->settings, q->setting, error) : NULL;
+    if (!s) return false;
+    const char **name = nh_arena_alloc(arena, t->columns * sizeof *name);
+    column_kind *kind = nh_arena_alloc(arena, t->columns * sizeof *kind);
+    bool good = true;
+    *out = (nh_simulate_rows){.row = nh_arena_alloc(arena, t->rows * sizeof *out->row)};
+    for (size_t j = 0; j < t->columns && good; j++) {
+        name[j] = state_name(arena, s, t->name[j]);
+        kind[j] = is_parameter(s, name[j]) ? COLUMN_PARAMETER : COLUMN_STATE;
+        out->parameters += kind[j] == COLUMN_PARAMETER;
+        if (kind[j] == COLUMN_STATE) good = is_state(arena, t, s, name[j], error);
+    }
+    nh_system_free(s);
+    for (; out->count < t->rows && good; out->count++) good = read_row(arena, t, out->count, name, kind, &out->row[out->count], error);
+    return good;
+}
+
+void nh_simulate_row_blame(const nh_simulate_row *row, nh_error *error)
+{
+    if (error->code != NH_OK && !error->where[0]) snprintf(error->where, sizeof error->where, "%s", row->from);
+}
+
+bool nh_simulate_row_start(nh_simulation *s, const nh_simulate_row *row, nh_dynamics *d, double time, bool project, double *z, nh_error *error)
+{
+    nh_analysis_file *own = nh_simulate_initial(s->arena, row->from, row->initial ? row->initial : "", error);
+    bool good = own && nh_analysis_file_resolve(own, s->model, error);
+    if (good && own->initial.t != time) good = nh_fail(error, NH_INPUT, row->from, "all motions of a table begin at one time, but t is %g here and %g in the first row", own->initial.t, time);
+    good = good && nh_dynamics_start(d, &own->initial, project, z, error);
+    nh_simulate_row_blame(row, error);
+    nh_analysis_file_free(own);
+    return good;
+}

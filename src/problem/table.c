@@ -1,0 +1,112 @@
+/* table: reads comma-separated values: a line of names, then rows with as many fields. */
+#include "problem/table.h"
+
+#include <string.h>
+
+#include "base/files.h"
+#include "base/text.h"
+
+enum { most_bytes = 1 << 28 };
+
+/* The field at *at, without blanks and quotes around it; *at moves behind the comma, or to the end. */
+static const char *next_field(nh_arena *arena, const char **at, bool *more)
+{
+    const char *c = *at + strspn(*at, " \t");
+    bool quoted = *c == '"';
+    size_t n = 0;
+    char *out = nh_arena_alloc(arena, strlen(c) + 1);
+    if (quoted) c++;
+    while (*c && (quoted ? *c != '"' || c[1] == '"' : *c != ',')) {
+        if (quoted && *c == '"') c++;
+        out[n++] = *c++;
+    }
+    if (quoted) c += strcspn(c, ",");
+    while (!quoted && n && (out[n - 1] == ' ' || out[n - 1] == '\t')) n--;
+    out[n] = 0;
+    *more = *c == ',';
+    *at = c + *more;
+    return out;
+}
+
+static size_t fields_of(const char *line)
+{
+    size_t n = 1;
+    bool quoted = false;
+    for (; *line; line++) {
+        if (*line == '"') quoted = !quoted;
+        n += *line == ',' && !quoted;
+    }
+    return n;
+}
+
+static void read_fields(nh_arena *arena, const char *line, const char **out)
+{
+    bool more = true;
+    for (size_t i = 0; more; i++) out[i] = next_field(arena, &line, &more);
+}
+
+static bool read_line(nh_arena *arena, nh_table *t, const char *line, size_t number, nh_error *error)
+{
+    size_t fields = fields_of(line);
+    if (!t->columns) {
+        t->columns = fields;
+        t->name = nh_arena_alloc(arena, fields * sizeof *t->name);
+        read_fields(arena, line, t->name);
+        return true;
+    }
+    if (fields != t->columns) return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, number), "this line has %zu fields, but the line of names has %zu", fields, t->columns);
+    t->line[t->rows] = number;
+    read_fields(arena, line, t->cell + t->rows++ * t->columns);
+    return true;
+}
+
+/* Cuts the text at the ends of its lines. */
+static bool read_lines(nh_arena *arena, nh_table *t, char *text, nh_error *error)
+{
+    size_t lines = 1, number = 0;
+    for (const char *c = text; *c; c++) lines += *c == '\n';
+    size_t fields = fields_of(text);
+    t->line = nh_arena_alloc(arena, lines * sizeof *t->line);
+    t->cell = nh_arena_alloc(arena, (fields + lines) * sizeof *t->cell);
+    for (char *rest = text, *line; (line = strsep(&rest, "\n"));) {
+        number++;
+        line[strcspn(line, "\r")] = 0;
+        if (!line[strspn(line, " \t")] || *line == '#') continue;
+        if (t->columns && (t->rows + 1) * t->columns > fields + lines) return nh_fail(error, NH_INPUT, t->path, "the lines have different numbers of fields");
+        if (!read_line(arena, t, line, number, error)) return false;
+    }
+    return true;
+}
+
+nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error)
+{
+    static const char mark[] = "\xef\xbb\xbf"; /* that some programs begin files with */
+    size_t length;
+    char *text = nh_files_read(path, most_bytes, &length, error);
+    if (!text) return NULL;
+    nh_table *t = nh_arena_alloc(arena, sizeof *t);
+    t->path = nh_arena_strdup(arena, path);
+    bool good = length <= most_bytes || nh_fail(error, NH_INPUT, path, "the table is longer than %d bytes", (int)most_bytes);
+    if (good && memchr(text, 0, length)) good = nh_fail(error, NH_INPUT, path, "the table contains a zero byte");
+    if (good) good = read_lines(arena, t, strncmp(text, mark, sizeof mark - 1) ? text : text + sizeof mark - 1, error);
+    nh_free(text);
+    if (good && !t->rows) good = nh_fail(error, NH_INPUT, path, "the table has no rows: a line of names comes first, then one line per row");
+    return good ? t : NULL;
+}
+
+size_t nh_table_column(const nh_table *t, const char *name, nh_error *error)
+{
+    for (size_t i = 0; i < t->columns; i++)
+        if (!strcmp(t->name[i], name)) return i;
+    const char *near = nh_text_nearest(name, t->name, t->columns);
+    nh_fail(error, NH_INPUT, t->path, "there is no column `%s`", name);
+    if (near) nh_error_hint(error, "did you mean `%s`?", near);
+    return t->columns;
+}
+
+bool nh_table_number(nh_arena *arena, const nh_table *t, size_t row, size_t column, double *out, nh_error *error)
+{
+    const char *cell = t->cell[row * t->columns + column];
+    if (nh_text_to_number(cell, out)) return true;
+    return nh_fail(error, NH_INPUT, nh_arena_printf(arena, "%s:%zu", t->path, t->line[row]), "`%s` needs a number, found `%s`", t->name[column], cell);
+}

@@ -1,0 +1,23 @@
+/* table: files of comma-separated values with a line of names: initial states, and inputs over time. */
+#ifndef NH_TABLE_H
+#define NH_TABLE_H
+
+#include "base/error.h"
+#include "base/memory.h"
+
+typedef struct {
+    const char *path;
+    size_t columns, rows;
+    const char **name;   /* columns */
+    const char **cell;   /* rows x columns, row by row: text, which may be empty */
+    size_t *line;        /* rows: in the file, from 1 */
+} nh_table;
+
+/* In the arena; fields may stand in double quotes, empty lines and those that begin with # are left out.  NULL with file and line. */
+nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error);
+/* The column of that name; `columns` with a suggestion when there is none. */
+size_t nh_table_column(const nh_table *table, const char *name, nh_error *error);
+/* The number in a cell; false with its place. */
+bool nh_table_number(nh_arena *arena, const nh_table *table, size_t row, size_t column, double *out, nh_error *error);
+
+#endif
