@@ -7,7 +7,7 @@ program=$(realpath "${NHSYM:-build/nhsym}")
 cd "$(dirname "$0")/.." || exit 2
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
-scan="$program scan tests/data/classify/henon_heiles.yaml --set B=1 --over eps=-1:3:161 --quiet"
+scan="$program scan tests/data/classify/henon_heiles.yaml --set B=1 --over eps=-1:3:81 --quiet"
 random() { # r: below $1
     seed=$(((seed * 1103515245 + 12345) % 2147483648))
     r=$((seed / 1000003 % $1))
@@ -30,10 +30,10 @@ while [ "$kills" -lt "$times" ]; do
             victim=$(pgrep -P "$main" | head -n 1)
             if [ "$r" = 0 ] && [ "$victim" ]; then
                 what="a worker"
-                kill -9 "$victim" 2>/dev/null || continue
+                kill -KILL "$victim" 2>/dev/null || continue
             else
                 what="all of it"
-                kill -9 -- "-$main" 2>/dev/null || break
+                kill -KILL "-$main" 2>/dev/null || break
             fi
             kills=$((kills + 1))
             echo "$kills: killed $what, $(ls "$work/killed/units" 2>/dev/null | grep -c 'txt$') units finished"

@@ -124,6 +124,23 @@ Test(scan, values_between_points_are_found_recognised_and_confirmed)
     }
 }
 
+/* Cubic forms up to rotation and scale are a plane, in which the two that are integrable are points: a line through random forms misses them. */
+Test(scan, nothing_is_confirmed_where_there_is_nothing)
+{
+    srand(5);
+    for (int i = 0; i < 4; i++) {
+        place p = place_make();
+        char text[400];
+        snprintf(text, sizeof text, "name: f\nparameters: {k: 0.2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2 - 0.%d*x^3 - 0.%d*x^2*y + 0.%d*x*y^2 - sinh(k)*y^3\n", 11 + rand() % 80,
+                 11 + rand() % 80, 11 + rand() % 80);
+        write_here(&p, "f.yaml", text);
+        cJSON *root = scanned(&p, "scan f.yaml --over k=-2.03:2.17:17");
+        cr_expect_eq(confirmed(root), 0, "%s", text);
+        cJSON_Delete(root);
+        place_clear(&p);
+    }
+}
+
 Test(scan, over_two_parameters_each_line_is_looked_along)
 {
     place p = place_make();
@@ -262,7 +279,7 @@ Test(scan, mpi_processes_do_not_change_a_byte)
     write_here(&p, "sine.yaml", sine);
     scan_well(&p, "one", "");
     for (int n = 1; n <= 4; n *= 2) {
-        char folder[10];
+        char folder[24];
         snprintf(folder, sizeof folder, "mpi%d", n);
         snprintf(line, sizeof line, "cd %s && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -np %d %s-mpi %s -o %s >log 2>&1", p.folder, n, p.program,
                  question, folder);
