@@ -3,6 +3,7 @@
 #include <criterion/criterion.h>
 #include <cjson/cJSON.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "commands/classify.h"
@@ -386,6 +387,49 @@ Test(plane, points_on_curves_are_found)
     cr_expect(strstr(f.out, "all of them proved for every k, and complete to degree 2"), "%s", f.out);
     cr_expect(strstr(f.out, "m = 1, k = 1   (on m - 1 = 0)"), "%s", f.out);
     cr_expect(strstr(f.out, "Degenerate, and not looked at: m = 0"), "%s", f.out);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+static char *file_of(const place *p, const char *name)
+{
+    char path[PATH_MAX + 60];
+    snprintf(path, sizeof path, "%s/out/%s", p->folder, name);
+    FILE *f = fopen(path, "r");
+    cr_assert_not_null(f, "%s", path);
+    char *text = calloc(1, 2000000);
+    cr_assert_lt(fread(text, 1, 1999999, f), 1999999);
+    fclose(f);
+    return text;
+}
+
+/* Page, LaTeX and picture of a curve that is no graph, a line and a point; and of one parameter. */
+Test(plane, documents_show_the_plane)
+{
+    place p = place_make();
+    write_system(&p, "mu: 0.4, la: 0.3", "(x'^2 + y'^2)/2 - x^4 - (mu - 1)*y^3 - mu*y^2 - (la^2 + mu^2 - 4)*(x^2*y + x*y^3)");
+    finished f = run_expecting(&p, "classify a.yaml --over mu,la --degree 2 --quiet -o out", 0);
+    static const struct {
+        const char *name, *words;
+    } parts[] = {{"figure1.svg", "<path"}, {"report.html", "with the constant 1: la^2 + mu^2 - 4 = 0: 3; elsewhere 2."}, {"report.html", "Counted modulo primes. No currents: "},
+                 {"report.html", "no other pair of rational numbers"}, {"report.html", "id=\"picture\""},
+                 {"report.tex", "\\subsection{la\\textasciicircum{}2 + mu\\textasciicircum{}2 -{} 4 = 0}"},
+                 {"report.tex", "\\addplot"}, {"report.tex", "\\end{document}"},
+                 {"result.json", "\"nowhere_else\""}};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        char *text = file_of(&p, parts[i].name);
+        cr_expect(strstr(text, parts[i].words), "%s lacks %s", parts[i].name, parts[i].words);
+        cr_expect_not(strstr(text, "nan\"") || strstr(text, ">nan<"), "%s", parts[i].name);
+        free(text);
+    }
+    finished_clear(&f);
+    f = run_expecting(&p, "classify a.yaml --over mu --set la=2 --degree 2 --quiet --html out/line.html --tex out/line.tex", 0);
+    char *text = file_of(&p, "line.html");
+    cr_expect(strstr(text, "Where there are more") && strstr(text, "mu = 0"), "a value");
+    free(text);
+    text = file_of(&p, "line.tex");
+    cr_expect(strstr(text, "\\section{Where there are more}"));
+    free(text);
     finished_clear(&f);
     place_clear(&p);
 }

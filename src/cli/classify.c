@@ -5,6 +5,8 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "document/classification.h"
+#include "document/html.h"
+#include "document/tex.h"
 
 /* "eps" or "B, eps" */
 static bool read_names(nh_cli *cli, nh_classify_request *q, nh_error *error)
@@ -71,12 +73,30 @@ static char *json_of(const answer *a, const nh_run *run)
     return a->plane ? nh_classification_plane_json(a->plane, run) : nh_classification_json(a->line, run);
 }
 
+static bool write_documents(nh_cli *cli, const answer *a, const nh_run *run, nh_error *error)
+{
+    nh_text text;
+    bool good = true;
+    nh_text_init(&text);
+    if (cli->html) {
+        nh_html_classification(a->line, a->plane, run, &text);
+        good = (!cli->folder || nh_cli_write_figures(cli, nh_text_string(&text), error))
+            && nh_cli_write(cli, cli->html, &text, error);
+    }
+    if (cli->tex && good) {
+        nh_tex_classification(a->line, a->plane, &text);
+        good = nh_cli_write(cli, cli->tex, &text, error);
+    }
+    return good;
+}
+
 int nh_cli_classify(nh_cli *cli, nh_error *error)
 {
     nh_classify_request request;
     answer a = {.line = NULL};
     nh_cli_progress_begin(cli);
-    if (!request_of(cli, &request, error) || !nh_cli_can_write(cli, error)) return error->code;
+    if (!request_of(cli, &request, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error))
+        return error->code;
     bool done = classify(&request, &a, error);
     nh_cli_progress_end();
     nh_run run = nh_cli_run(cli, request.system_path, NULL);
@@ -84,6 +104,7 @@ int nh_cli_classify(nh_cli *cli, nh_error *error)
     bool good = true;
     if (nh_cli_speaks(cli)) print(cli, &a);
     if (cli->json) good = nh_cli_write_json(cli, json_of(&a, &run), error);
+    good = good && write_documents(cli, &a, &run, error);
     good = nh_cli_written(cli, good, error);
     if (good && a.obstacle) nh_fail(error, NH_NUMERIC, "", "%s", a.obstacle);
     if (a.line) nh_classified_free(a.line);

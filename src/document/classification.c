@@ -152,7 +152,7 @@ static void put_infinity(const nh_classified *x, nh_text *out)
     else nh_text_addf(out, "\nIn the limit of infinite %s: not more.\n", x->over);
 }
 
-static void put_excluded(const nh_classified *x, bool verbose, nh_text *out)
+void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *out)
 {
     const nh_classification *c = of(x);
     if (!c->rows) return;
@@ -183,7 +183,7 @@ void nh_classification_text(const nh_classified *x, bool verbose, nh_text *out)
     put_almost_all(x, out);
     put_values(x, out);
     put_infinity(x, out);
-    put_excluded(x, verbose, out);
+    nh_classification_excluded(x, verbose, out);
     if (of(x)->end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", of(x)->rows + 1, nh_classification_end(of(x)->end));
 }
 

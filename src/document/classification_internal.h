@@ -4,6 +4,7 @@
 
 #include "base/json.h"
 #include "document/classification.h"
+#include "document/svg.h"
 
 /* A current as text, on the heap; NULL: longer than `shown`. */
 char *nh_classification_current(const nh_analysis *result, const nh_current *current, double shown);
@@ -22,6 +23,32 @@ void nh_classification_counted(size_t degree, bool first, const nh_classify_numb
 /* The currents that were constructed, and what that proves. */
 void nh_classification_currents(const nh_analysis *result, nh_text *out);
 void nh_classification_proof(const nh_classified_value *at, size_t first, nh_text *out);
+
+/* What is proved where there are not more; what was not decided. */
+void nh_classification_excluded(const nh_classified *classified, bool verbose, nh_text *out);
+void nh_classification_plane_excluded(const nh_classified_plane *classified, bool verbose, nh_text *out);
+void nh_classification_plane_open(const nh_classified_plane *classified, nh_text *out);
+
+/* ---- page and LaTeX ---- */
+
+/* What a document of either form does with the parts of a classification, one after the other. */
+typedef struct {
+    void *to;
+    void (*section)(void *to, const char *id, const char *title);
+    void (*item)(void *to, const char *title);
+    void (*words)(void *to, const char *text);
+    void (*formula)(void *to, const char *label, const char *text); /* label = text */
+    void (*plot)(void *to, nh_plot *plot, const char *caption);
+} nh_classification_pen;
+
+/* One of both is there. */
+void nh_classification_outline(const nh_classified *line, const nh_classified_plane *plane,
+                               const nh_classification_pen *pen);
+/* "1 curve and 2 points with more conservation laws" */
+void nh_classification_answer(const nh_classified *line, const nh_classified_plane *plane, nh_text *out);
+
+/* The plane of both parameters: curves and points by the number of integrals of the highest degree. */
+void nh_classification_picture(const nh_classified_plane *plane, const nh_classification_pen *pen);
 
 /* ---- JSON ---- */
 

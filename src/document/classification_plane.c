@@ -98,7 +98,7 @@ static void put_special(const plane *x, nh_text *out)
     nh_text_add(out, written ? "\n" : "");
 }
 
-static void put_open(const plane *x, nh_text *out)
+void nh_classification_plane_open(const plane *x, nh_text *out)
 {
     const nh_plane *o = x->plane;
     for (size_t k = 0; k < o->curves; k++)
@@ -111,7 +111,7 @@ static void put_open(const plane *x, nh_text *out)
                          nh_classified_values(x->family, x->over[1], &o->line[k].across));
 }
 
-static void put_excluded(const plane *x, bool verbose, nh_text *out)
+void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out)
 {
     const nh_plane *o = x->plane;
     bool any = x->points > 0;
@@ -149,8 +149,8 @@ void nh_classification_plane_text(const plane *x, bool verbose, nh_text *out)
         nh_classification_almost_all(d, &o->row[d - 1].number, o->row[d - 1].known, out);
     nh_classification_known(x->family, out);
     put_special(x, out);
-    put_open(x, out);
-    put_excluded(x, verbose, out);
+    nh_classification_plane_open(x, out);
+    nh_classification_plane_excluded(x, verbose, out);
     if (o->end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", o->rows + 1, nh_classification_end(o->end));
 }
 

@@ -19,7 +19,7 @@ static const char macros[] =
     "\\definecolor{nhblue}{HTML}{0072B2}\\definecolor{nhred}{HTML}{D55E00}\\definecolor{nhgreen}{HTML}{009E73}\\definecolor{nhpink}{HTML}{CC79A7}"
     "\\definecolor{nhorange}{HTML}{E69F00}\\definecolor{nhsky}{HTML}{56B4E9}\n";
 
-static void head(nh_tex_writer *w, bool fragment)
+void nh_tex_head(nh_tex_writer *w, bool fragment)
 {
     static const char packages[] = "\\usepackage{amsmath,amssymb,longtable,pgfplots}\n";
     nh_tex_add(w, "% Written by nhsym " NH_VERSION ".\n");
@@ -119,7 +119,7 @@ static void constraint_words(nh_tex_writer *w)
     nh_text_clear(&words);
 }
 
-static void system_section(nh_tex_writer *w)
+void nh_tex_system(nh_tex_writer *w)
 {
     const nh_analysis *r = w->r;
     const nh_system *s = r->system;
@@ -403,7 +403,7 @@ static void search_section(nh_tex_writer *w)
     stages(w);
 }
 
-static void repeat_section(nh_tex_writer *w)
+void nh_tex_repeat(nh_tex_writer *w)
 {
     const nh_analysis *r = w->r;
     nh_tex_add(w, "\\section{To repeat it}\n\\begin{raggedright}\n");
@@ -427,16 +427,16 @@ static void repeat_section(nh_tex_writer *w)
 void nh_tex(const nh_analysis *r, bool fragment, nh_text *out)
 {
     nh_tex_writer w = {r, out};
-    head(&w, fragment);
+    nh_tex_head(&w, fragment);
     nh_tex_add(&w, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
     answer(&w);
     currents_section(&w);
-    system_section(&w);
+    nh_tex_system(&w);
     nh_tex_geometry(&w);
     motion_section(&w);
     figures_section(&w);
     search_section(&w);
-    repeat_section(&w);
+    nh_tex_repeat(&w);
     nh_tex_add(&w, "\\par\\endgroup\n");
     if (!fragment) nh_tex_add(&w, "\\end{document}\n");
 }

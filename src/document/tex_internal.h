@@ -32,6 +32,11 @@ void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e);
 /* The same with a label in LaTeX, such as Z_{\dot{x}}. */
 void nh_tex_labelled(nh_tex_writer *w, const char *latex, nh_ex e);
 
+/* What stands before the body, and sections that every document has. */
+void nh_tex_head(nh_tex_writer *w, bool fragment);
+void nh_tex_system(nh_tex_writer *w);
+void nh_tex_repeat(nh_tex_writer *w);
+
 /* The geometry, where it was asked for. */
 void nh_tex_geometry(nh_tex_writer *w);
 

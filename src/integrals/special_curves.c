@@ -147,6 +147,20 @@ bool nh_special_curve_point(const nh_special_curve *c, nh_prime f, uint64_t seed
     return found;
 }
 
+size_t nh_special_curve_reals(const nh_special_curve *c, int fixed, double value, double *out)
+{
+    size_t degree = c->degree[1 - fixed];
+    double *a = nh_alloc_array(degree + 1, sizeof *a);
+    for (size_t k = 0; k <= degree; k++)
+        for (size_t z = c->degree[fixed] + 1; z-- > 0;) {
+            size_t i = fixed ? k : z, j = fixed ? z : k;
+            a[k] = a[k] * value + (double)c->coefficient[j * (c->degree[0] + 1) + i];
+        }
+    size_t count = nh_special_roots_of(degree, a, out);
+    nh_free(a);
+    return count;
+}
+
 bool nh_special_curve_contains(const nh_special_curve *c, const nh_special_factor *lambda, int64_t top, int64_t bottom)
 {
     fmpz_poly_t p, q;

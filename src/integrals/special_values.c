@@ -217,13 +217,14 @@ static double value(size_t degree, const double *c, double x)
 }
 
 /* Between roots of the derivative a polynomial is monotone. */
-static size_t real_roots(size_t degree, const double *c, double *out)
+size_t nh_special_roots_of(size_t degree, const double *c, double *out)
 {
+    while (degree && c[degree] == 0) degree--;
     if (degree == 0) return 0;
     double *slope = nh_alloc_array(degree, sizeof *slope), *turn = nh_alloc_array(degree + 2, sizeof *turn), bound = 0;
     for (size_t j = 1; j <= degree; j++) slope[j - 1] = (double)j * c[j];
     for (size_t j = 0; j < degree; j++) bound = fmax(bound, fabs(c[j] / c[degree]));
-    size_t turns = real_roots(degree - 1, slope, turn + 1), count = 0;
+    size_t turns = nh_special_roots_of(degree - 1, slope, turn + 1), count = 0;
     turn[0] = -1 - bound; /* Cauchy's bound */
     turn[turns + 1] = 1 + bound;
     for (size_t k = 0; k <= turns; k++) {
@@ -245,7 +246,7 @@ size_t nh_special_reals(const nh_special_factor *factor, double *out)
 {
     double *c = nh_alloc_array(factor->degree + 1, sizeof *c);
     for (size_t j = 0; j <= factor->degree; j++) c[j] = (double)factor->coefficient[j];
-    size_t count = real_roots(factor->degree, c, out);
+    size_t count = nh_special_roots_of(factor->degree, c, out);
     nh_free(c);
     return count;
 }

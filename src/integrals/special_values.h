@@ -40,5 +40,7 @@ bool nh_special_root(const nh_special_factor *factor, nh_prime field, nh_residue
 
 /* Its real roots, ascending, as doubles; their number.  `out` has room for `degree`. */
 size_t nh_special_reals(const nh_special_factor *factor, double *out);
+/* The same for coefficients from the constant term on. */
+size_t nh_special_roots_of(size_t degree, const double *coefficient, double *out);
 
 #endif

@@ -1,0 +1,185 @@
+/* The parts of a classification in the order of its page and of its LaTeX document. */
+#include <string.h>
+
+#include "document/classification_internal.h"
+
+typedef nh_classified_plane plane;
+typedef nh_classification_pen pen;
+
+/* ---- pieces ---- */
+
+/* Every line as words; blanks before it are left out. */
+static void put_lines(const pen *p, nh_text *text)
+{
+    char *line = nh_strdup(nh_text_string(text));
+    for (char *at = line, *end; *at; at = end) {
+        at += strspn(at, " \n");
+        end = at + strcspn(at, "\n");
+        if (*end) *end++ = 0;
+        if (*at) p->words(p->to, at);
+    }
+    nh_free(line);
+    nh_text_clear(text);
+}
+
+static void put_currents(const pen *p, const nh_analysis *r, size_t count, const size_t *index)
+{
+    for (size_t k = 0; k < count; k++) {
+        const nh_current *f = &r->found[index ? index[k] : k];
+        if (!f->proof.proved || f->series) continue;
+        char *text = nh_classification_current(r, f, r->options.shown);
+        if (text) p->formula(p->to, f->name, text);
+        else p->words(p->to, "A longer current (option `shown`).");
+        nh_free(text);
+    }
+}
+
+static void put_numbers(const pen *p, size_t rows, const nh_classify_number *n, size_t first, size_t complete,
+                        const size_t *almost_all)
+{
+    nh_text text;
+    nh_text_init(&text);
+    for (size_t d = first; d <= rows; d++)
+        nh_classification_counted(d, d == first, &n[d], almost_all[d], complete >= d, &text);
+    nh_text_add(&text, ".");
+    put_lines(p, &text);
+}
+
+static void put_no_currents(const pen *p, const char *why)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_addf(&text, "Counted modulo primes. No currents: %s.", why ? why : "the run was ended");
+    put_lines(p, &text);
+}
+
+static void put_value(const pen *p, const nh_classified_value *at, size_t first)
+{
+    if (!at->result) {
+        put_no_currents(p, at->why);
+        return;
+    }
+    put_currents(p, at->result, at->result->count, NULL);
+    p->words(p->to, at->complete >= first ? "All of them are proved, and there are no others up to these degrees."
+             : "They are proved, but fewer than were counted.");
+}
+
+/* ---- one parameter ---- */
+
+static void outline_line(const nh_classified *x, const pen *p)
+{
+    const nh_classification *c = x->classification;
+    size_t almost_all[NH_COUNT_HIGHEST_DEGREE + 1] = {0}, written = 0;
+    nh_text text;
+    nh_text_init(&text);
+    for (size_t d = 1; d <= c->rows; d++) almost_all[d] = c->row[d - 1].number.bound;
+    for (size_t k = 0; k < c->values; k++) {
+        const nh_classify_value *v = &c->value[k];
+        if (!v->first || v->degenerate) continue;
+        if (!written++) p->section(p->to, "special", "Where there are more");
+        p->item(p->to, nh_classified_words(x, &v->polynomial));
+        put_numbers(p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
+        put_value(p, &x->value[k], v->first);
+    }
+    p->section(p->to, "almost", "For almost all values");
+    for (size_t d = 1; d <= c->rows; d++)
+        nh_classification_almost_all(d, &c->row[d - 1].number, c->row[d - 1].known, &text);
+    put_lines(p, &text);
+    put_currents(p, x->almost_all, x->known, x->currents);
+    p->section(p->to, "excluded", "What is excluded");
+    nh_classification_excluded(x, true, &text);
+    put_lines(p, &text);
+}
+
+/* ---- two ---- */
+
+static void outline_curve(const plane *x, const pen *p, size_t k, const size_t *almost_all)
+{
+    const nh_plane_curve *c = &x->plane->curve[k];
+    const nh_classified_curve *at = &x->curve[k];
+    p->item(p->to, nh_classified_curve_words(x, &c->polynomial));
+    put_numbers(p, x->plane->rows, c->number, c->first, at->complete, almost_all);
+    if (!at->along) {
+        put_no_currents(p, at->why);
+        return;
+    }
+    put_currents(p, at->along->almost_all, at->along->known, at->along->currents);
+    p->words(p->to, at->complete ? "All of them are proved for every value on the curve, and there are no others for almost all."
+             : "They are proved, but fewer than were counted.");
+}
+
+static const char *place_of(const plane *x, const nh_classified_point *q)
+{
+    nh_text text;
+    nh_text_init(&text);
+    for (int v = 1; v >= 0; v--)
+        nh_text_addf(&text, q->about[v] - q->about[v] == 0 ? "%s%s = %s" : "%s%.0s%s", v ? "" : ", ", x->over[v],
+                     q->value[v]);
+    const char *out = nh_arena_strdup(x->family->arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}
+
+static void outline_plane(const plane *x, const pen *p)
+{
+    const nh_plane *o = x->plane;
+    size_t almost_all[NH_COUNT_HIGHEST_DEGREE + 1] = {0}, written = 0;
+    nh_text text;
+    nh_text_init(&text);
+    for (size_t d = 1; d <= o->rows; d++) almost_all[d] = o->row[d - 1].number.bound;
+    p->section(p->to, "picture", "The plane of both parameters");
+    nh_classification_picture(x, p);
+    for (size_t k = 0; k < o->curves; k++) {
+        if (!o->curve[k].first || o->curve[k].degenerate) continue;
+        if (!written++) p->section(p->to, "curves", "Curves with more");
+        outline_curve(x, p, k, almost_all);
+    }
+    for (size_t k = 0; k < x->points; k++) {
+        const nh_classified_point *q = &x->point[k];
+        if (!k) p->section(p->to, "points", "Points with more");
+        p->item(p->to, place_of(x, q));
+        put_numbers(p, o->rows, q->number, q->first, q->at->complete, almost_all);
+        put_value(p, q->at, q->first);
+    }
+    p->section(p->to, "almost", "For almost all values");
+    for (size_t d = 1; d <= o->rows; d++)
+        nh_classification_almost_all(d, &o->row[d - 1].number, o->row[d - 1].known, &text);
+    put_lines(p, &text);
+    put_currents(p, x->family->almost_all, x->family->known, x->family->currents);
+    p->section(p->to, "excluded", "What is excluded");
+    nh_classification_plane_open(x, &text);
+    nh_classification_plane_excluded(x, true, &text);
+    put_lines(p, &text);
+}
+
+void nh_classification_outline(const nh_classified *line, const plane *x, const pen *p)
+{
+    if (x) outline_plane(x, p);
+    else outline_line(line, p);
+}
+
+static size_t count_line(const nh_classified *x)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < x->classification->values; k++)
+        n += x->classification->value[k].first > 0 && !x->classification->value[k].degenerate;
+    return n;
+}
+
+void nh_classification_answer(const nh_classified *line, const plane *x, nh_text *out)
+{
+    const char *obstacle = x ? x->plane->obstacle : line->classification->obstacle;
+    size_t curves = 0, rows = x ? x->plane->rows : line->classification->rows;
+    for (size_t k = 0; x && k < x->plane->curves; k++) curves += x->plane->curve[k].first && !x->plane->curve[k].degenerate;
+    if (obstacle) {
+        nh_text_addf(out, "Nothing can be said: %s.", obstacle);
+        return;
+    }
+    if (x)
+        nh_text_addf(out, "%zu curve%s and %zu point%s with more conservation laws than almost all", curves,
+                     curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s");
+    else
+        nh_text_addf(out, "%zu value%s of %s with more conservation laws than almost all", count_line(line),
+                     count_line(line) == 1 ? "" : "s", line->over);
+    nh_text_addf(out, ", polynomial in the velocities up to degree %zu.", rows);
+}
