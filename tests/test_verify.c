@@ -7,6 +7,7 @@
 
 #include "document/simulation.h"
 #include "document/verification.h"
+#include "exact/normal.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -307,4 +308,60 @@ Test(simulate, symmetries_of_the_file_make_scenes_smaller)
         nh_simulation_free(s);
     }
     unlink(path);
+}
+
+/* ---- symmetries of the equations of motion ---- */
+
+static nh_verification *motions(const char *file, const char *text, nh_chart_choice chart)
+{
+    nh_error error;
+    nh_error_clear(&error);
+    nh_options o = defaults();
+    nh_system *s = nh_system_read(file, 0, NULL, &error);
+    cr_assert_not_null(s, "%s", error.what);
+    nh_verification *v = nh_verification_of_motions(s, chart, text, &o, &error);
+    cr_assert_not_null(v, "%s: %s", text, error.what);
+    return v;
+}
+
+/* Translations, rotations and scalings are; the sleigh's field of Phi_2 is a constraint symmetry and none of these; [Gamma,Z] = f Gamma has the f that the
+ * weight of the time gives. */
+Test(verify, symmetries_of_the_equations_of_motion)
+{
+    static const struct {
+        const char *file, *field;
+        bool holds;
+        double factor;
+    } list[] = {
+        {"systems/kepler.yaml", "x=2*x; y=2*y; z=2*z; Z0=3*t", true, 3},
+        {"systems/kepler.yaml", "x=2*x; y=2*y; z=2*z; Z0=2*t", false, 2},
+        {"systems/sleigh.yaml", "y=1", true, 0}, /* not in the canonical distribution */
+        {"systems/sleigh.yaml", "Z0=-t", true, -1}, /* nothing in it has a time of its own */
+        {"systems/sleigh.yaml", "x=x; y=y", false, 0},
+        {"systems/sleigh.yaml", "phi=1; x=-y; y=x", true, 0},
+        {"systems/sleigh.yaml", "phi=cos(phi/k)/(a*k); x=cos(phi)*sin(phi/k); y=sin(phi)*sin(phi/k)", false, 0},
+        {"systems/constant_speed.yaml", "x=-y; y=x", true, 0}, /* a nonlinear constraint */
+        {"systems/constant_speed.yaml", "y=-z; z=y", false, 0},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        for (int chart = NH_CHART_AUTO; chart <= NH_CHART_COORDINATES; chart += NH_CHART_COORDINATES) {
+            nh_verification *v = motions(list[i].file, list[i].field, (nh_chart_choice)chart);
+            cr_expect_eq(v->conserved, list[i].holds, "%s: %s", list[i].file, list[i].field);
+            cr_expect(!v->conserved || (v->proof.proved && v->proof.all_parameters), "%s: not proved", list[i].field);
+            cr_expect_neq(v->conserved, v->has_counterexample);
+            cr_expect(nh_is_number(v->model->dag, v->factor, (int64_t)list[i].factor), "%s: another f", list[i].field);
+            nh_verification_free(v);
+        }
+}
+
+/* The scaling has Z(E) = -2 E, and every function that it makes of a current is conserved. */
+Test(verify, what_a_symmetry_of_the_equations_makes_of_currents)
+{
+    nh_verification *v = motions("systems/kepler.yaml", "x=2*x; y=2*y; z=2*z; Z0=3*t", NH_CHART_AUTO);
+    nh_dag *d = v->model->dag;
+    cr_assert_gt(v->made, 3);
+    for (size_t i = 0; i < v->made; i++) cr_expect_eq(nh_normal_is_zero(d, nh_model_gamma(v->model, v->make[i].value), 0), NH_ZERO, "Z(%s)", v->make[i].name);
+    nh_ex sum = nh_add(d, v->make[0].value, nh_mul(d, nh_int(d, 2), v->model->E));
+    cr_expect(!strcmp(v->make[0].name, "E") && nh_normal_is_zero(d, sum, 0) == NH_ZERO);
+    nh_verification_free(v);
 }

@@ -39,7 +39,7 @@ typedef struct {
     const char *over;            /* of benchmark and classify: the last --over */
     size_t overs, numbers;
     const char **over_list, **number; /* of scan: every --over, every --number */
-    const char *of;              /* of scan and export */
+    const char *of;              /* of verify --field (constraint, equations), scan and export */
     size_t chunk, chunks, workers;
     const nh_team *team;         /* processes of one run on several machines; or NULL */
     bool scene, shape;           /* shape: of classify */

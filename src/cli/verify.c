@@ -11,11 +11,21 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error
         nh_fail(error, NH_USAGE, "", "`nhsym verify` needs one system and either --current or --field");
         return nh_error_hint(error, "nhsym verify sleigh --current \"m*v\", or --field \"Z0=1; phi=phi'; x=x'\"");
     }
+    bool motions = cli->of && !strcmp(cli->of, "equations");
+    if (cli->of && !motions && strcmp(cli->of, "constraint")) {
+        nh_fail(error, NH_USAGE, "", "--of does not know `%s`", cli->of);
+        return nh_error_hint(error, "--of takes constraint or equations");
+    }
+    if (cli->of && !cli->field) {
+        nh_fail(error, NH_USAGE, "", "--of needs --field");
+        return nh_error_hint(error, "for example: --field \"Z0=1\" --of equations");
+    }
     const char *path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
     if (path) *run = nh_cli_run(cli, path, NULL);
     nh_system *system = path ? nh_system_read(path, cli->settings, cli->setting, error) : NULL;
     if (!system) return false;
-    if (cli->current) *out = nh_verification_of_current(system, cli->velocities, cli->current, &cli->options, error);
+    if (motions) *out = nh_verification_of_motions(system, cli->velocities, cli->field, &cli->options, error);
+    else if (cli->current) *out = nh_verification_of_current(system, cli->velocities, cli->current, &cli->options, error);
     else *out = nh_verification_of_field(system, cli->velocities, cli->field, &cli->options, error);
     if (*out && cli->equations) nh_verification_write_out(*out, &cli->options);
     return *out != NULL;

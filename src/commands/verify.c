@@ -309,25 +309,118 @@ static bool check_field(nh_verification *v, const given *g, const nh_options *op
     return true;
 }
 
+/* "Z0=..; x=.."; components that are not named vanish. */
+static bool read_field(nh_verification *v, const char *text, given *g, nh_error *error)
+{
+    const nh_model *o = v->model;
+    *g = (given){.time = nh_int(o->dag, 0), .space = nh_arena_alloc(v->arena, (o->m + 1) * sizeof(nh_ex)),
+                 .zeta = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex)), .W = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex))};
+    bool good = true; /* node 0 is the number 0 */
+    for (const char *p = text; good && *p;) {
+        size_t length = nh_text_entry(p, ",;");
+        good = component(v, p, length, g, error);
+        p += length + (p[length] != 0);
+    }
+    return good;
+}
+
 nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
 {
     nh_verification *v = start(system, chart, options, error);
     if (!v) return NULL;
     nh_model *o = v->model;
-    given g = {.time = nh_int(o->dag, 0), .space = nh_arena_alloc(v->arena, (o->m + 1) * sizeof(nh_ex)),
-               .zeta = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex)), .W = nh_arena_alloc(v->arena, (o->n + 1) * sizeof(nh_ex))};
-    bool good = true; /* node 0 is the number 0: components not named vanish */
-    for (const char *p = text; good && *p;) {
-        size_t length = nh_text_entry(p, ",;");
-        good = component(v, p, length, &g, error);
-        p += length + (p[length] != 0);
-    }
-    good = good && solve_zeta(v, g.time, g.space, g.zeta, error);
+    given g;
+    bool good = read_field(v, text, &g, error) && solve_zeta(v, g.time, g.space, g.zeta, error);
     if (good) {
         v->current = nh_simplify(o->dag, nh_symmetry_current(o, g.time, g.zeta));
         outside(v, &g);
         good = check_field(v, &g, options, error) && (!v->conserved || describe(v, options, error));
     }
+    return complete(v, good, error);
+}
+
+/* ---- symmetries of the equations of motion ---- */
+
+/* The part of Z(e) along time and coordinates. */
+static nh_ex along_places(const nh_model *o, const given *g, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    nh_ex sum = nh_mul(d, g->time, nh_diff(d, e, o->system->t));
+    for (size_t s = 0; s < o->m; s++) sum = nh_add(d, sum, nh_mul(d, g->space[s], nh_diff(d, e, o->system->coordinate[s].q)));
+    return sum;
+}
+
+/* W from [Gamma,Z]^s = f rho^s, where the user gave none: R^s_i W^i = Gamma(Z^s) - Z_q(rho^s) - f rho^s, with Gamma(Z^s) and f = Gamma(Z^0). */
+static bool prolong(nh_verification *v, given *g, nh_error *error)
+{
+    const nh_model *o = v->model;
+    nh_dag *d = o->dag;
+    nh_ex *rest = nh_arena_alloc(v->arena, (o->m + 1) * sizeof *rest);
+    if (g->has_W) return true;
+    for (size_t s = 0; s < o->m; s++) {
+        rest[s] = nh_sub(d, nh_model_gamma(o, g->space[s]), along_places(o, g, o->rho[s]));
+        rest[s] = nh_sub(d, rest[s], nh_mul(d, v->factor, o->rho[s]));
+    }
+    if (!solve_zeta(v, nh_int(d, 0), rest, g->W, error)) return false;
+    for (size_t i = 0; i < o->n; i++) g->W[i] = nh_simplify(d, g->W[i]);
+    return true;
+}
+
+/* [Gamma,Z] - f Gamma along coordinate k, or velocity k - m: three terms. */
+static void motion_condition(nh_verification *v, const given *g, size_t k, nh_ex term[3])
+{
+    const nh_model *o = v->model;
+    nh_field Z = {g->time, g->space, g->W};
+    bool place = k < o->m;
+    nh_ex own = place ? g->space[k] : g->W[k - o->m], motion = place ? o->rho[k] : o->a[k - o->m];
+    term[0] = nh_model_gamma(o, own);
+    term[1] = nh_neg(o->dag, nh_model_along(o, &Z, motion));
+    term[2] = nh_neg(o->dag, nh_mul(o->dag, v->factor, motion));
+    v->equation = nh_arena_printf(v->arena, "[Gamma,Z] - f Gamma along %s", place ? v->system->coordinate[k].name : nh_name_of(o->dag, o->chart->w[k - o->m]));
+}
+
+/* Z(Phi) of the currents that the system file knows. */
+static void make_currents(nh_verification *v, const given *g)
+{
+    const nh_system *y = v->system;
+    nh_field Z = {g->time, g->space, g->W};
+    nh_error ignored;
+    v->make = nh_arena_alloc(v->arena, (y->currents + 1) * sizeof *v->make);
+    for (size_t i = 0; i < y->currents; i++) {
+        nh_ex phi;
+        nh_error_clear(&ignored);
+        if (!nh_analysis_file_to_chart(v->model, y->current[i].value, &phi, &ignored)) continue;
+        v->make[v->made++] = (nh_named){.name = y->current[i].name, .value = nh_simplify(v->model->dag, nh_model_along(v->model, &Z, phi))};
+    }
+}
+
+nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *text, const nh_options *options, nh_error *error)
+{
+    nh_verification *v = start(system, chart, options, error);
+    if (!v) return NULL;
+    nh_model *o = v->model;
+    given g;
+    bool good = read_field(v, text, &g, error);
+    v->of_equations = true;
+    v->factor = good ? nh_simplify(o->dag, nh_model_gamma(o, g.time)) : 0;
+    good = good && prolong(v, &g, error);
+    nh_points *points = good ? nh_points_create(o, test_points, 1.2, (uint64_t)options->seed + 7, error) : NULL;
+    good = points != NULL;
+    v->conserved = true;
+    v->proof = (nh_proof){.proved = true, .all_parameters = true, .digits = INFINITY};
+    for (size_t k = 0; k < o->m + o->n && good && v->conserved; k++) {
+        nh_ex term[3];
+        double residual;
+        motion_condition(v, &g, k, term);
+        nh_proof proof = nh_prove_zero(o, 3, term, true, options);
+        bool found = worst_point(v, points, 3, term, &residual);
+        v->residual = fmax(v->residual, residual);
+        v->conserved = accepts(&proof, residual, options);
+        v->has_counterexample = found && !v->conserved;
+        v->proof = nh_proof_both(o, v->proof, proof);
+    }
+    nh_points_free(points);
+    if (good && v->conserved) make_currents(v, &g);
     return complete(v, good, error);
 }
 

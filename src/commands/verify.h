@@ -14,7 +14,11 @@ struct nh_verification {
     nh_ex current;            /* in the chart; of a field: its current alpha(Z), if it lies in the canonical distribution */
     nh_ex *form;              /* of a field: i_Z phi^a, one for each constraint; else NULL */
     bool outside;             /* of a field: they do not vanish, Z is not in the canonical distribution */
-    bool conserved;           /* or: is a constraint symmetry */
+    bool of_equations;        /* of a field: is it a symmetry of the equations of motion, [Gamma,Z] = f Gamma, and no constraint symmetry is asked for */
+    nh_ex factor;             /* then: f = Gamma(Z^0); `current` means nothing */
+    size_t made;              /* then: known currents of the system file, and what Z makes of them: currents too [CechMusilova2014, sec. 3.3] */
+    nh_named *make;
+    bool conserved;           /* or: is a symmetry */
     const char *region;       /* a current is conserved in a part of the motions only: where (integrals/region.h); then `conserved` is false */
     bool trivial;             /* the current is constant */
     const char *branch, *other_branch; /* of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
@@ -36,6 +40,8 @@ nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice c
 /* "Z0=..; phi=..; x=..": components along t and the coordinates, those not named are 0. */
 nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
 
+/* Is it a symmetry of the equations of motion?  Components along velocities that are not named follow from the others: Z is prolonged. */
+nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *field, const nh_options *options, nh_error *error);
 /* The geometry written out, with the bracket of the field where there is one. */
 void nh_verification_write_out(nh_verification *verification, const nh_options *options);
 

@@ -23,14 +23,14 @@ static void answer(nh_html_writer *w, const nh_verification *v, bool field)
 {
     nh_text_addf(w->out, "<p class=\"answer %s\">", v->conserved ? "found" : "undecided");
     if (v->conserved) {
-        nh_html_add(w, field ? "Yes: this is a constraint symmetry" : "Yes: this is conserved");
+        nh_text_addf(w->out, "Yes: this is %s", nh_verification_noun(v, field));
         certificate(w, v);
         nh_html_text(w, nh_verification_branches(v));
     } else if (v->region) {
         nh_html_add(w, "No: this is conserved only in a region: ");
         nh_html_text(w, v->region);
     } else {
-        nh_html_add(w, field ? "No: this is not a constraint symmetry" : "No: this is not conserved");
+        nh_text_addf(w->out, "No: this is not %s", nh_verification_noun(v, field));
     }
     nh_html_add(w, v->conserved && v->trivial ? "; it is trivial: the current is a constant.</p>\n" : ".</p>\n");
 }
@@ -87,11 +87,12 @@ static void outside(nh_html_writer *w, const nh_verification *v)
 
 static void question(nh_html_writer *w, const nh_verification *v, bool field)
 {
-    if (v->outside) nh_html_add(w, "<section id=\"question\"><h2>The field</h2>\n");
+    if (v->outside || v->of_equations) nh_html_add(w, "<section id=\"question\"><h2>The field</h2>\n");
     else if (field) nh_html_add(w, "<section id=\"question\"><h2>The current of the field</h2>\n");
     else nh_html_add(w, "<section id=\"question\"><h2>The question</h2>\n<p>Does this stay constant along every motion?</p>\n");
     nh_html_add(w, "<article class=\"card\">\n");
-    if (v->outside) outside(w, v);
+    if (v->of_equations) nh_html_formula(w, "<mrow><mo>[</mo><mi>\u0393</mi><mo>,</mo><mi>Z</mi><mo>]</mo><mo>=</mo><mi>f</mi><mi>\u0393</mi><mo>,</mo><mspace width=\"1em\"></mspace><mi>f</mi></mrow>", v->factor);
+    else if (v->outside) outside(w, v);
     else nh_html_formula(w, "Phi", v->current);
     nh_html_add(w, "<dl><dt>Residual</dt><dd>");
     nh_html_number(w, v->residual, 2);

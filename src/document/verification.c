@@ -79,9 +79,26 @@ static void put_outside(const nh_verification *v, double shown, nh_text *out)
     }
 }
 
+const char *nh_verification_noun(const nh_verification *v, bool field)
+{
+    return v->of_equations ? "a symmetry of the equations of motion" : field ? "a constraint symmetry" : "conserved";
+}
+
+/* What a symmetry of the equations of motion makes of the currents that the system file knows. */
+static void put_made(const nh_verification *v, double shown, nh_text *out)
+{
+    if (v->made) nh_text_add(out, "  it makes of known currents\n");
+    for (size_t i = 0; i < v->made; i++) {
+        char label[200];
+        snprintf(label, sizeof label, "    Z(%.150s) = ", v->make[i].name);
+        put(v, out, label, v->make[i].value, shown);
+    }
+}
+
 void nh_verification_text(const nh_verification *v, bool field, double shown, nh_text *out)
 {
-    if (field && v->outside) put_outside(v, shown, out);
+    if (v->of_equations) put(v, out, "[Gamma,Z] = f Gamma with f = ", v->factor, shown);
+    else if (field && v->outside) put_outside(v, shown, out);
     else if (field) put(v, out, "the field's current is  ", v->current, shown);
     else put(v, out, "Phi = ", v->current, INFINITY);
     if (v->region) {
@@ -89,17 +106,18 @@ void nh_verification_text(const nh_verification *v, bool field, double shown, nh
         return;
     }
     if (!v->conserved) {
-        nh_text_addf(out, "%s\n  at ", field ? "NO: this is not a constraint symmetry" : "NO: this is not conserved");
+        nh_text_addf(out, "NO: this is not %s\n  at ", nh_verification_noun(v, field));
         if (v->has_counterexample) put_point(v, out);
         nh_text_addf(out, "\n  %s = %.6g, relative to its terms %.2g\n", field ? v->equation : "Gamma(Phi)", v->rate, v->residual);
         return;
     }
-    nh_text_add(out, field ? "YES: this is a constraint symmetry" : "YES: this is conserved");
+    nh_text_addf(out, "YES: this is %s", nh_verification_noun(v, field));
     if (v->proof.proved) nh_text_addf(out, ", proved%s", nh_facts_holds(v->model, &v->proof, false));
     else nh_text_addf(out, ", to %.0f digits%s", v->proof.digits, v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
     nh_text_add(out, nh_verification_branches(v));
     nh_text_addf(out, "%s\n", v->trivial ? "; it is trivial: the current is a constant" : "");
     if (v->has_symmetry && !v->trivial) put_field(v, shown, out);
+    put_made(v, shown, out);
 }
 
 static void put_expression(const nh_verification *v, nh_json *to, const char *key, nh_ex e)
@@ -148,7 +166,12 @@ char *nh_verification_json(const nh_verification *v, const nh_run *run)
     nh_json_put_number(root, "schema", 1);
     nh_json_put_bool(root, "conserved", v->conserved);
     nh_json_put_text(root, "region", v->region);
-    if (v->outside) nh_json_put_null(root, "current");
+    nh_json_put_text(root, "of", v->of_equations ? "equations" : v->form ? "constraint" : NULL);
+    if (v->of_equations) put_expression(v, root, "factor", v->factor);
+    else nh_json_put_null(root, "factor");
+    nh_json *makes = nh_json_put_object(root, "makes");
+    for (size_t i = 0; i < v->made; i++) put_expression(v, makes, v->make[i].name, v->make[i].value);
+    if (v->outside || v->of_equations) nh_json_put_null(root, "current");
     else put_expression(v, root, "current", v->current);
     put_forms(v, root);
     nh_json_put_bool(root, "trivial", v->trivial);

@@ -6,6 +6,8 @@
 #include "document/provenance.h"
 #include "commands/verify.h"
 
+/* "a constraint symmetry", "conserved", or what else was in question. */
+const char *nh_verification_noun(const nh_verification *verdict, bool field);
 void nh_verification_text(const nh_verification *verdict, bool field, double shown, nh_text *out);
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
 char *nh_verification_json(const nh_verification *verdict, const nh_run *run);
