@@ -12,6 +12,7 @@
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
 #   make parameters give every system other parameter values, compare its formulas, and print the table
 #   make perturbed analyse copies of every system with a small term added, and print the table
+#   make house     count files, functions and headers, and write the tables of docs/architecture.md
 #   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
 #   make clean
 
@@ -82,7 +83,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all tests install uninstall wheel bench catalogue papers reductions random parameters perturbed classification fuzz print-libraries print-includes clean packages test-packages check-packages
+.PHONY: all library sleigh check check-all tests install uninstall wheel bench catalogue papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -132,6 +133,11 @@ reductions: test-packages
 random parameters perturbed: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@$(BUILD)/tests/bench_$@ $(if $(filter random,$@),$(SYSTEMS),systems) $(SEED)
+
+# Between its two marks in the page.
+house: all
+	@sh tests/house.sh $(BUILD) >$(BUILD)/house.md
+	@sed -e '/<!-- house -->/r $(BUILD)/house.md' -e '/<!-- house -->/,/<!-- end -->/{/<!--/!d}' docs/architecture.md >$(BUILD)/architecture.md && mv $(BUILD)/architecture.md docs/architecture.md
 
 fuzz:
 	@sh tests/packages.sh $(PACKAGES) clang
