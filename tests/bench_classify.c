@@ -1,7 +1,7 @@
 /* bench_classify: families of tests/data/classify, whose files hold no answers, classified: the rows of
  * docs/classification.md. And random families, as many of them with a planted special value as without.
  *
- *     bench_classify [FAMILIES OF EACH KIND]
+ *     bench_classify [FAMILIES OF EACH KIND [ROWS OF THIS FILE ONLY]]
  *
  * The exit code is 1 when a value is missed or false among the random ones. */
 #include <inttypes.h>
@@ -87,6 +87,58 @@ static void row(size_t index)
     nh_classified_free(x);
 }
 
+/* ---- two parameters ---- */
+
+static const struct {
+    const char *file, *first, *second;
+    double degree;
+} PLANES[] = {{"henon_heiles", "B", "eps", 4}, {"quartic", "mu", "b", 4}};
+
+static void put_plane(const nh_classified_plane *x)
+{
+    size_t rows = x->plane->rows, written = 0;
+    for (size_t k = 0; k < x->plane->curves; k++) {
+        const nh_plane_curve *c = &x->plane->curve[k];
+        if (!c->first || c->degenerate) continue;
+        printf("%s%s from degree %zu (%zu, %s)", written++ ? "; " : "", nh_classified_curve_words(x, &c->polynomial), c->first,
+               c->number[c->first].bound, x->curve[k].complete ? "proved" : "counted");
+    }
+    for (size_t k = 0; k < x->points; k++) {
+        const nh_classified_point *p = &x->point[k];
+        printf("%s(%s, %s) from degree %zu (%zu, %s)", written++ ? "; " : "", p->value[1], p->value[0], p->first,
+               p->number[p->first].bound, p->at->complete >= p->first ? "proved" : "counted");
+    }
+    printf("%s |  | %.0e |", written ? "" : "none", rows ? x->plane->row[rows - 1].height : 0);
+}
+
+static void plane_row(size_t index)
+{
+    char path[200];
+    nh_error error;
+    nh_error_clear(&error);
+    nh_setting setting = {.name = "A", .value = 1, .top = 1, .bottom = 1};
+    snprintf(path, sizeof path, "tests/data/classify/%s.yaml", PLANES[index].file);
+    nh_classify_request q = {.system_path = path, .settings = !strcmp(PLANES[index].file, "henon_heiles"),
+                             .setting = &setting, .over = PLANES[index].first, .second = PLANES[index].second};
+    nh_options_default(&q.options);
+    q.options.degree = PLANES[index].degree;
+    double begin = nh_clock();
+    nh_classified_plane *x = nh_classify_plane_system(&q, &error);
+    if (!x) {
+        printf("| %s | %s |\n", PLANES[index].file, error.what);
+        return;
+    }
+    printf("| %s | %s, %s | %zu | ", x->family->title, x->over[1], x->over[0], x->plane->rows);
+    for (size_t d = 0; d < x->plane->rows; d++)
+        printf("%s%s%zu", d ? ", " : "", x->plane->row[d].number.bound == x->plane->row[d].known ? "" : "<= ",
+               x->plane->row[d].number.bound);
+    printf(" | ");
+    put_plane(x);
+    printf(" %.1f |\n", nh_clock() - begin);
+    fflush(stdout);
+    nh_classified_plane_free(x);
+}
+
 /* ---- random families ---- */
 
 static int small(uint64_t *random) { return (int)(nh_residue_random(nh_prime_at(0), random) % 19) - 9; }
@@ -138,7 +190,11 @@ int main(int argc, char **argv)
 {
     size_t each = argc > 1 ? strtoul(argv[1], NULL, 10) : 100, missed = 0, wrong = 0;
     puts("| family | over | degree | for almost all values, by degree | special values | degenerate | height | s |\n|---|---|---|---|---|---|---|---|");
-    for (size_t i = 0; i < sizeof FAMILIES / sizeof *FAMILIES; i++) row(i);
+    const char *only = argc > 2 ? argv[2] : NULL;
+    for (size_t i = 0; i < sizeof FAMILIES / sizeof *FAMILIES; i++)
+        if (!only || !strcmp(only, FAMILIES[i].file)) row(i);
+    for (size_t i = 0; i < sizeof PLANES / sizeof *PLANES; i++)
+        if (!only || !strcmp(only, PLANES[i].file)) plane_row(i);
     uint64_t random = 2026;
     for (size_t i = 0; i < 2 * each; i++) {
         bool planted = i % 2, found = false;
