@@ -6,6 +6,7 @@
 #include "exact/kernel.h"
 #include "exact/normal.h"
 #include "graph/diff.h"
+#include "graph/terms.h"
 
 enum { most_found = 400, largest_form = 2000, largest_inertia = 4, least_down = 1 };
 
@@ -201,6 +202,28 @@ static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_
     return inside && !plain;
 }
 
+/* The highest powers of coordinates in the potential: so far, at most twice, a power costs no more than a coordinate. */
+static void take_potential(const nh_jet_equations *x, nh_letters *l)
+{
+    static const double most = 2;
+    const nh_model *o = x->model;
+    nh_dag *d = x->dag;
+    nh_ex *zero = nh_alloc_array(x->n + 1, sizeof *zero);
+    for (size_t i = 0; i < x->n; i++) zero[i] = nh_int(d, 0);
+    nh_ex *term, V = nh_substitute(d, o->Lbar, x->n, x->w, zero);
+    size_t terms = nh_terms_of(d, V, &term);
+    for (size_t i = 0; i < terms; i++) {
+        if (nh_kind_of(d, term[i]) != NH_PRODUCT) continue;
+        for (size_t k = 0; k < nh_arity(d, term[i]); k++) {
+            nh_ex base = nh_child(d, term[i], k), exponent = nh_exponent_of(d, term[i], k);
+            for (size_t j = 0; j < l->count && nh_kind_of(d, exponent) == NH_NUMBER; j++)
+                if (l->item[j].base == base && l->item[j].kind == NH_LETTER_POWER) l->item[j].up = fmax(l->item[j].up, fmin(most, nh_num_value(nh_number_of(d, exponent))));
+        }
+    }
+    nh_free(term);
+    nh_free(zero);
+}
+
 nh_letters nh_letters_of(nh_jet_equations *x, bool secular)
 {
     const nh_model *o = x->model;
@@ -216,6 +239,7 @@ nh_letters nh_letters_of(nh_jet_equations *x, bool secular)
     size_t coordinates = l.count;
     for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1); /* forces are derivatives */
     take_determinant(x, &l);
+    take_potential(x, &l);
     for (size_t i = coordinates; i < l.count; i++) l.item[i].linear = l.item[i].kind == NH_LETTER_POWER && is_linear(x, &l, coordinates, l.item[i].base);
     nh_free(e);
     return l;

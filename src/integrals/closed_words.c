@@ -41,9 +41,9 @@ static void put_power(nh_known_motions_words *w, nh_known_motions_letter *l, nh_
 static void put_powers(nh_known_motions_words *w, nh_known_motions_letter *l, const nh_letter *a)
 {
     nh_dag *d = w->equations->dag;
-    double root = (double)a->root, down = a->down;
-    for (int64_t k = 1; (double)k / root <= w->most; k++)
-        if (!a->linear || k % a->root) put_power(w, l, nh_pow(d, a->base, nh_ratio(d, k, a->root)), (double)k / root);
+    double root = (double)a->root, down = a->down, up = a->up;
+    for (int64_t k = 1; (double)k / root <= w->most * up; k++)
+        if (!a->linear || k % a->root) put_power(w, l, nh_pow(d, a->base, nh_ratio(d, k, a->root)), (double)k / root / up);
     for (int64_t k = 1; a->down > 0 && (double)k / root <= w->most * down; k++)
         put_power(w, l, nh_pow(d, a->base, nh_ratio(d, -k, a->root)), (double)k / root / down);
 }

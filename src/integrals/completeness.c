@@ -32,6 +32,7 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
     enum { two = 2, few = 4, highest = 6, high = 4, low = 2 };
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) {
         nh_completeness *c = &out[kind];
+        if (q->again && kind != (out[NH_COMPLETE_IN_COORDINATES].counted ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME)) continue;
         size_t coordinates = model->m + (kind == NH_COMPLETE_IN_TIME);
         size_t chosen = coordinates <= two ? highest : coordinates <= few ? high : low;
         nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME, .degree = q->degree ? q->degree : chosen, .work = q->work,
@@ -42,7 +43,7 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
             continue;
         }
         read_rows(c, q->all);
-        c->generic = holds_generically(model, q, c);
+        c->generic = !q->again && holds_generically(model, q, c);
     }
 }
 

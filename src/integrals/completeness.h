@@ -29,6 +29,7 @@ typedef struct {
     const nh_ex *current;
     bool general;           /* all of them hold for all parameters */
     bool all;               /* there can be no more functionally independent ones */
+    bool again;             /* only the kind that comes first, for the parameters' values: the rest is as it was */
     size_t degree;          /* 0: chosen */
     double work;
 } nh_completeness_question;

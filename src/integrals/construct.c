@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "integrals/closed_words.h"
 #include "integrals/count_internal.h"
+#include "integrals/velocity_frame.h"
 
 enum { spare = 24, spare_few = 2, beyond_degree = 4, most_order = 120, most_points = 60, most_coefficients = 20000 };
 
@@ -14,6 +15,7 @@ enum { spare = 24, spare_few = 2, beyond_degree = 4, most_order = 120, most_poin
 typedef struct {
     nh_counter *counter;
     nh_known_motions_words *words;
+    const nh_velocity_frame *frame; /* solutions are recognised in it */
     nh_count_series *series;
     nh_residue *word;        /* words x size */
     nh_prime field;
@@ -212,7 +214,7 @@ static void add_constructed(nh_construction *out, const attempt *a, const nh_gra
     for (size_t j = 0; j < terms; j++) {
         if (!nmod_mat_entry(r->row, i, j)) continue;
         nh_ex e = nh_known_motions_word(a->words, a->chosen[r->order[j] % a->kept]);
-        for (size_t l = 0; l < x->n; l++) e = nh_mul(x->dag, e, nh_powi(x->dag, x->w[l], g->alpha[r->order[j] / a->kept * x->n + l]));
+        e = nh_mul(x->dag, e, nh_velocity_frame_monomial(a->frame, x, g->alpha + r->order[j] / a->kept * x->n));
         c->term[c->terms++] = e;
     }
 }
@@ -329,7 +331,7 @@ static size_t order_for(const attempt *a, size_t degree)
 
 typedef enum { DONE, UNLUCKY, TOO_MUCH } outcome;
 
-static bool solve_parity(nh_construction *out, attempt *a, size_t degree, nh_parity parity, news *x, const nh_count_functionals *f, const nh_jet_ring *ring)
+static bool solve_parity(nh_construction *out, attempt *a, size_t degree, nh_parity parity, news *x, const nh_count_functionals *f, const nh_jet_ring *ring, bool *good)
 {
     nh_counter *c = a->counter;
     nh_graded_problem p = nh_count_problem(c, a->series, degree, parity);
@@ -345,7 +347,8 @@ static bool solve_parity(nh_construction *out, attempt *a, size_t degree, nh_par
     } else if (N) {
         solution_differentials(x, a, g);
     }
-    if (N) recognise(out, a, g, x);
+    *good = nh_velocity_frame_apply(a->frame, c->equations, a->series->ring, a->series->coordinate, g, &c->work);
+    if (N && *good) recognise(out, a, g, x);
     nh_free(x->solution);
     x->solution = NULL;
     nh_graded_count_clear(g);
@@ -359,7 +362,7 @@ static outcome solve(nh_construction *out, attempt *a, const nh_construct_questi
     news x = {0};
     bool good = s ? known_products(&x, a, s, question->degree, &f) : !question->further && known_differentials(&x, a), enough = true;
     for (int part = 0; part < (a->series->split ? 2 : 1) && good && enough; part++)
-        enough = solve_parity(out, a, question->degree, !a->series->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES, &x, &f, s ? s->ring : NULL);
+        enough = solve_parity(out, a, question->degree, !a->series->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES, &x, &f, s ? s->ring : NULL, &good);
     nh_free(x.known.row);
     nh_count_functionals_clear(&f);
     nh_count_series_free(s);
@@ -377,7 +380,7 @@ static outcome attempt_at(nh_construction *out, attempt *a, const nh_construct_q
     if (!a->series) return regular ? TOO_MUCH : UNLUCKY;
     a->size = a->series->ring->size;
     a->field = a->series->ring->field;
-    double least = (double)a->words->words * ((double)a->series->ring->pairs[a->size] + (double)a->words->words * (double)a->size / 2);
+    double least = (double)a->words->words * ((double)a->series->ring->pairs[a->size] + (double)a->words->words * (double)a->size / 4);
     if (c->work + least > c->q->work) return TOO_MUCH;
     a->word = nh_alloc_array(a->words->words * a->size, sizeof *a->word);
     if (!nh_known_motions_words_evaluate(a->words, a->series->ring, a->series->coordinate, a->word, &c->work)) return UNLUCKY;
@@ -410,9 +413,10 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     *out = (nh_construction){.arena = arena};
     nh_counter_open(&c, model, &q);
     nh_known_motions_words *words = c.equations->obstacle ? NULL : nh_known_motions_words_create(c.equations, question->price, question->most_words, question->secular);
+    nh_velocity_frame frame = nh_velocity_frame_of(c.equations);
     outcome o = words ? UNLUCKY : TOO_MUCH;
     for (size_t point = 0; point < most_points && o == UNLUCKY && !c.equations->obstacle && !nh_late(); point++) {
-        attempt a = {.counter = &c, .words = words};
+        attempt a = {.counter = &c, .words = words, .frame = &frame};
         if (!nh_count_regular_point(&c, point)) continue;
         o = attempt_at(out, &a, question);
         clear(&a);
@@ -420,6 +424,7 @@ nh_construction *nh_construct(const nh_model *model, const nh_construct_question
     out->words = words ? words->words : 0;
     out->limited = o != DONE;
     out->work = c.work;
+    nh_velocity_frame_clear(&frame);
     nh_known_motions_words_free(words);
     nh_counter_close(&c);
     return out;

@@ -54,15 +54,17 @@ bool nh_count_take_known(nh_counter *counter);
 typedef struct {
     size_t count;
     uint8_t *exponent; /* count x known */
+    size_t *before, *factor; /* each is product `before` times integral `factor`; not of 1 */
 } nh_count_monomials;
 
 nh_count_monomials nh_count_monomials_list(const nh_counter *counter, size_t degree);
 void nh_count_monomials_clear(nh_count_monomials *products);
 
-/* Random linear functionals of polynomials in the velocities whose coefficients are series: each takes its own velocities and combines the first coefficients. */
+/* Random linear functionals of polynomials in the velocities whose coefficients are series: each takes its own velocities and a curve z_k = v_k s^(weight_k) and
+ * combines the coefficients of the series in s. */
 typedef struct {
-    size_t count, n, size; /* size: of the series */
-    nh_residue *w, *factor; /* count x n; count x size */
+    size_t count, n, size, order; /* of the series */
+    nh_residue *w, *curve, *weight; /* count x n; count x size: v^e; count x (order + 1) */
 } nh_count_functionals;
 
 nh_count_functionals nh_count_functionals_create(const nh_jet_ring *ring, size_t n, size_t count, uint64_t seed);

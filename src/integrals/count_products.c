@@ -25,74 +25,117 @@ static size_t list(const nh_counter *c, size_t degree, uint8_t *out)
     return count <= most_products ? count : 0;
 }
 
-nh_count_monomials nh_count_monomials_list(const nh_counter *c, size_t degree)
-{
-    nh_count_monomials p = {.count = list(c, degree, NULL)};
-    p.exponent = nh_alloc(p.count * c->known + 1);
-    if (p.count) list(c, degree, p.exponent);
-    return p;
-}
-
-void nh_count_monomials_clear(nh_count_monomials *p) { nh_free(p->exponent); }
-
-/* All products at one choice of velocities, each from one that came before by a factor. */
-static void multiply_products(const nh_jet_ring *ring, size_t known, size_t count, const uint8_t *exponent, const nh_residue *phi, nh_residue *out)
+/* Every product but 1 is one that came before times a factor. */
+static void find_factors(nh_count_monomials *p, size_t known)
 {
     uint8_t *less = nh_alloc(known + 1);
-    nh_jet_constant(ring, 1, out);
-    for (size_t p = 1; p < count; p++) {
-        size_t k = 0, before = p;
-        while (!exponent[p * known + k]) k++;
-        memcpy(less, exponent + p * known, known);
+    for (size_t i = 1; i < p->count; i++) {
+        size_t k = 0, before = i;
+        while (!p->exponent[i * known + k]) k++;
+        memcpy(less, p->exponent + i * known, known);
         less[k]--;
-        while (before-- > 0 && memcmp(exponent + before * known, less, known) != 0) {}
-        nh_jet_mul(ring, out + before * ring->size, phi + k * ring->size, out + p * ring->size);
+        while (before-- > 0 && memcmp(p->exponent + before * known, less, known) != 0) {}
+        p->before[i] = before;
+        p->factor[i] = k;
     }
     nh_free(less);
 }
 
+nh_count_monomials nh_count_monomials_list(const nh_counter *c, size_t degree)
+{
+    nh_count_monomials p = {.count = list(c, degree, NULL)};
+    p.exponent = nh_alloc(p.count * c->known + 1);
+    p.before = nh_alloc_array(p.count + 1, sizeof *p.before);
+    p.factor = nh_alloc_array(p.count + 1, sizeof *p.factor);
+    if (p.count) list(c, degree, p.exponent);
+    find_factors(&p, c->known);
+    return p;
+}
+
+void nh_count_monomials_clear(nh_count_monomials *p)
+{
+    nh_free(p->factor);
+    nh_free(p->before);
+    nh_free(p->exponent);
+}
+
+/* All products at one choice of velocities, each from one that came before by a factor. */
+static void multiply_products(const nh_jet_ring *ring, const nh_count_monomials *p, const nh_residue *phi, nh_residue *out)
+{
+    nh_jet_constant(ring, 1, out);
+    for (size_t i = 1; i < p->count; i++) nh_jet_mul(ring, out + p->before[i] * ring->size, phi + p->factor[i] * ring->size, out + i * ring->size);
+}
+
 /* ---- functionals ---- */
+
+static nh_residue power_of(nh_prime field, const nh_residue *v, const uint8_t *exponent, size_t n)
+{
+    nh_residue r = 1;
+    for (size_t k = 0; k < n; k++) r = nh_residue_mul(field, r, nh_residue_power(field, v[k], exponent[k]));
+    return r;
+}
 
 nh_count_functionals nh_count_functionals_create(const nh_jet_ring *ring, size_t n, size_t count, uint64_t seed)
 {
-    nh_count_functionals f = {.count = count, .n = n, .size = ring->size};
+    size_t m = ring->variables, orders = ring->order + 1;
+    nh_count_functionals f = {.count = count, .n = n, .size = ring->size, .order = ring->order};
     f.w = nh_alloc_array(count * n + 1, sizeof *f.w);
-    f.factor = nh_alloc_array(count * ring->size + 1, sizeof *f.factor);
+    f.curve = nh_alloc_array(count * ring->size + 1, sizeof *f.curve);
+    f.weight = nh_alloc_array(count * orders + 1, sizeof *f.weight);
+    nh_residue *v = nh_alloc_array(m + 1, sizeof *v);
     for (size_t i = 0; i < count * n; i++) f.w[i] = nh_residue_random(ring->field, &seed);
-    for (size_t i = 0; i < count * ring->size; i++) f.factor[i] = nh_residue_random(ring->field, &seed);
+    for (size_t i = 0; i < count * orders; i++) f.weight[i] = nh_residue_random(ring->field, &seed);
+    for (size_t j = 0; j < count; j++) {
+        for (size_t k = 0; k < m; k++) v[k] = nh_residue_random(ring->field, &seed);
+        for (size_t e = 0; e < ring->size; e++) f.curve[j * ring->size + e] = power_of(ring->field, v, ring->exponent + e * m, m);
+    }
+    nh_free(v);
     return f;
 }
 
 void nh_count_functionals_clear(nh_count_functionals *f)
 {
-    nh_free(f->factor);
+    nh_free(f->weight);
+    nh_free(f->curve);
     nh_free(f->w);
 }
 
-/* Of a series at the velocities of functional j. */
-static nh_residue apply(const nh_count_functionals *f, size_t j, const nh_jet_ring *ring, const nh_residue *series)
+/* The coordinates along the curve z_k = v_k s^(weight_k), as series in s. */
+static void along_curve(const nh_count_functionals *f, size_t j, const nh_jet_ring *ring, const nh_jet_ring *line, size_t coordinates, const nh_residue *coordinate, nh_residue *out)
 {
-    nh_residue sum = 0;
-    for (size_t e = 0; e < f->size; e++) sum = nh_residue_add(ring->field, sum, nh_residue_mul(ring->field, f->factor[j * f->size + e], series[e]));
-    return sum;
+    memset(out, 0, coordinates * line->size * sizeof *out);
+    for (size_t k = 0; k < coordinates; k++)
+        for (size_t e = 0; e < ring->size; e++) {
+            nh_residue *at = &out[k * line->size + ring->degree[e]];
+            *at = nh_residue_add(ring->field, *at, nh_residue_mul(ring->field, f->curve[j * ring->size + e], coordinate[k * ring->size + e]));
+        }
 }
 
 bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, const nh_count_monomials *p, const nh_count_functionals *f, nh_residue *out)
 {
     nh_jet_equations *x = c->equations;
-    nh_residue *phi = nh_alloc_array(c->known * ring->size + 1, sizeof *phi), *product = nh_alloc_array(p->count * ring->size, sizeof *product);
-    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
+    size_t one = 1, all = x->coordinates;
+    nh_jet_ring *line = nh_jet_ring_create(ring->field, 1, &one, ring->order);
+    nh_residue *phi = nh_alloc_array(c->known * line->size + 1, sizeof *phi), *product = nh_alloc_array(p->count * line->size, sizeof *product), *q = nh_alloc_array(all * line->size + 1, sizeof *q);
     bool good = true;
     for (size_t j = 0; j < f->count && good && !nh_late(); j++) {
-        nh_jet_equations_velocities(x, v, ring, f->w + j * f->n);
+        along_curve(f, j, ring, line, all, coordinate, q);
+        nh_jet_eval *v = nh_jet_equations_eval(x, line, q);
+        nh_jet_equations_velocities(x, v, line, f->w + j * f->n);
         good = c->known == 0 || nh_jet_eval_all(v, c->known, c->current, phi);
-        if (good) multiply_products(ring, c->known, p->count, p->exponent, phi, product);
-        for (size_t i = 0; i < p->count && good; i++) out[i * f->count + j] = apply(f, j, ring, product + i * ring->size);
-        c->work += (double)p->count * (double)ring->pairs[ring->size];
+        if (good) multiply_products(line, p, phi, product);
+        for (size_t i = 0; i < p->count && good; i++) {
+            nh_residue sum = 0;
+            for (size_t e = 0; e < line->size; e++) sum = nh_residue_add(ring->field, sum, nh_residue_mul(ring->field, f->weight[j * line->size + e], product[i * line->size + e]));
+            out[i * f->count + j] = sum;
+        }
+        c->work += (double)p->count * (double)line->pairs[line->size] + (double)all * (double)ring->size;
+        nh_jet_eval_free(v);
     }
-    nh_jet_eval_free(v);
+    nh_free(q);
     nh_free(product);
     nh_free(phi);
+    nh_jet_ring_free(line);
     return good;
 }
 
@@ -103,10 +146,9 @@ void nh_count_solution_values(const nh_graded_count *g, const nh_jet_ring *ring,
     memset(out, 0, N * f->count * sizeof *out);
     for (size_t j = 0; j < f->count; j++)
         for (size_t a = 0; a < g->alphas; a++) {
-            nh_residue power = 1;
-            for (size_t i = 0; i < f->n; i++) power = nh_residue_mul(ring->field, power, nh_residue_power(ring->field, f->w[j * f->n + i], g->alpha[a * f->n + i]));
+            nh_residue power = power_of(ring->field, f->w + j * f->n, g->alpha + a * f->n, f->n);
             for (size_t e = 0; e < f->size; e++) {
-                nh_residue factor = nh_residue_mul(ring->field, power, f->factor[j * f->size + e]);
+                nh_residue factor = nh_residue_mul(ring->field, power, nh_residue_mul(ring->field, f->curve[j * f->size + e], f->weight[j * (f->order + 1) + ring->degree[e]]));
                 const nh_residue *c = g->series + (a * ring->size + e) * N;
                 for (size_t s = 0; s < N; s++) out[s * f->count + j] = nh_residue_add(ring->field, out[s * f->count + j], nh_residue_mul(ring->field, factor, c[s]));
             }

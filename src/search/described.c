@@ -87,7 +87,6 @@ static void put_values_in_symmetry(nh_model *o, const bool *fixed, nh_symmetry *
 static bool with_symmetry(nh_analysis *r, const nh_points *points, nh_current *f, nh_error *error)
 {
     nh_model *o = r->model;
-    if (!f->series) normalise(o, f);
     f->has_symmetry = nh_symmetry_of(o, points, f->phi, r->options.same, &f->symmetry, error);
     if (f->has_symmetry && f->proof.fixed) put_values_in_symmetry(o, f->proof.fixed, &f->symmetry);
     return f->has_symmetry;
@@ -182,7 +181,8 @@ void nh_described_fill(nh_current_checker *b, nh_current *f)
     nh_analysis *r = b->result;
     nh_error trouble;
     nh_error_clear(&trouble);
-    if (!with_symmetry(r, b->generic, f, &trouble)) nh_analysis_warn(r, "no symmetry could be computed: %s", trouble.what);
+    if (!f->series) normalise(r->model, f);
+    if (!b->brief && !with_symmetry(r, b->generic, f, &trouble)) nh_analysis_warn(r, "no symmetry could be computed: %s", trouble.what);
     f->local = is_local(r->model, b->generic, f->phi, f->series);
     find_meaning(r, b->generic, f);
     nh_current_in_velocities(b, f);

@@ -32,10 +32,10 @@ static size_t proved(const nh_analysis *r, nh_ex *phi, bool *general)
 }
 
 /* What is proved is compared with how much there can be. */
-static void count(nh_analysis *r)
+static void count(nh_analysis *r, bool again)
 {
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
-    nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .degree = (size_t)r->options.degree, .work = r->options.count_work};
+    nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .again = again, .degree = (size_t)r->options.degree, .work = r->options.count_work};
     nh_progress("how many integrals there are", -1);
     q.known = proved(r, phi, &q.general);
     nh_completeness_of(r->model, &q, r->completeness);
@@ -96,7 +96,10 @@ static void take_back(search *s)
 static bool keep_further(search *s, size_t degree, nh_candidate *candidate, const nh_points *fit)
 {
     nh_analysis *r = s->climb.r;
-    if (!nh_currents_add(s->climb.bench, candidate, fit, true)) return false;
+    s->climb.bench->brief = true;
+    bool conserved = nh_currents_add(s->climb.bench, candidate, fit, true);
+    s->climb.bench->brief = false;
+    if (!conserved) return false;
     nh_current *f = &r->found[--r->count];
     if (!f->proof.proved || r->furthers == NH_MOST_FURTHER) return false;
     if (!r->further) r->further = nh_arena_alloc(r->arena, NH_MOST_FURTHER * sizeof *r->further);
@@ -174,12 +177,19 @@ static bool construct_up_to(search *s, const nh_completeness *c, bool further, b
     return found;
 }
 
+/* Does time in the coefficients allow no more than there is without? */
+static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
+{
+    const nh_completeness *first = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    return c != first && first->counted && first->missing_at == c->missing_at && c->missing_at && first->count.row[c->missing_at - 1].bound == c->count.row[c->missing_at - 1].bound;
+}
+
 /* Of one kind.  In t alone most coefficients are no words but waves, and a number that is not settled is mostly far too large. */
 static bool construct(search *s, const nh_completeness *c, bool further)
 {
     static const double part = 0.25; /* of the work, for what the currents found determine, and for functions that are rare */
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6, work = s->climb.r->options.construct * (further ? part : 1);
-    bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time));
+    bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) && !adds_nothing(s->climb.r, c));
     if (!wanted) return false;
     return construct_up_to(s, c, further, false, dearest, work) || (!c->count.time && construct_up_to(s, c, further, true, dearest_secular, part * work));
 }
@@ -200,13 +210,15 @@ static void look(nh_analysis *r)
     nh_progress("integrals that the count misses", -1);
     nh_budget_begin(r->options.work);
     set_aside(&s);
+    bool stale = false;
     for (bool found = true; found && !nh_late();) {
-        found = false;
+        bool again = found = false;
         for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++) found = construct(&s, &r->completeness[i], false);
-        if (!found && lacks_further(r)) found = construct(&s, &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME], true);
+        if (!found && lacks_further(r)) found = again = construct(&s, &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME], true);
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-        if (found) count(r);
+        if (found) count(r, stale = again);
     }
+    if (stale && !nh_late()) count(r, false);
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.climb.bench);
@@ -219,7 +231,7 @@ static void look(nh_analysis *r)
 
 void nh_missing_count(nh_analysis *r, bool construct)
 {
-    count(r);
+    count(r, false);
     if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r)) && !nh_late()) look(r);
     check(r);
 }
