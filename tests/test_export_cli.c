@@ -87,6 +87,20 @@ Test(export_cli, files)
     place_clear(&p);
 }
 
+/* With other parameters, or elsewhere, a current may not be conserved. */
+Test(export_cli, where_currents_hold)
+{
+    sweep_plain_only();
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "export sleigh --to c --of currents", 0);
+    cr_expect_not_null(strstr(f.out, " * Phi1, minus the energy: proved for all m, a, k\n"));
+    finished_clear(&f);
+    f = run_expecting(&p, "export euler_disk --to c --of currents", 0);
+    cr_expect_not_null(strstr(f.out, " for these parameter values only; a series, for 0."));
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 /* ---- LaTeX ---- */
 
 /* Braces and environments are closed in their order; no formula is left out. */
