@@ -27,8 +27,7 @@ Test(export_cli, wrong_words)
          "hint: a name is a letter"},
         {"export driven.yaml --to c --of equations --name a-b", "--name: `a-b` is not a name for functions",
          "hint: a name is a letter"},
-        {"reduce driven.yaml --to cpp", "--to: there is no language `cpp`", ""},
-        {"simulate driven.yaml --input u", "`nhsym simulate` does not take --input", "this one belongs to: export"}};
+        {"reduce driven.yaml --to cpp", "--to: there is no language `cpp`", ""}};
     place p = place_make();
     write_here(&p, "driven.yaml", system_text);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
