@@ -317,3 +317,22 @@ Test(choice, the_same_on_a_busy_machine)
     finished_clear(&f);
     place_clear(&p);
 }
+
+/* Other values of the parameters choose the same dependent velocities, so that formulas can be compared; where these would hardly do, others. */
+Test(choice, set_parameters_keep_the_chart)
+{
+    static const double radius[] = {1, 8, 0.05, 20, 1e-12};
+    nh_chart *chart[5];
+    nh_system *system[5];
+    for (int i = 0; i < 5; i++) {
+        nh_error error = {0};
+        nh_setting setting[] = {{.name = "r", .value = radius[i]}, {.name = "A", .value = 6}};
+        system[i] = nh_system_read("systems/chaplygin_ball.yaml", 2, setting, &error);
+        cr_assert_not_null(system[i], "%s", error.what);
+        chart[i] = nh_chart_create(system[i], NH_CHART_COORDINATES, 1, &error);
+        cr_assert_not_null(chart[i], "%s", error.what);
+    }
+    for (int i = 1; i < 4; i++)
+        cr_expect_arr_eq(chart[i]->dependent, chart[0]->dependent, system[0]->constraints * sizeof *chart[0]->dependent, "r = %g", radius[i]);
+    for (int i = 0; i < 5; i++) nh_chart_free(chart[i]), nh_system_free(system[i]);
+}

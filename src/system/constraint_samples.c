@@ -26,10 +26,15 @@ static void cloud_tape(nh_constraint_samples *c)
         out[a] = nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs);
         for (size_t i = 0; i < c->m; i++) out[c->k + a + i * c->k] = nh_diff(d, out[a], in[1 + c->m + i]);
     }
-    const nh_ex *symbols;
-    const double *values;
-    nh_system_bindings(s, &symbols, &values);
-    c->tape = nh_tape_create(d, c->width, in, c->k * (1 + c->m), out, s->parameters, symbols, values);
+    nh_ex *symbol = nh_alloc_array(s->parameters + 1, sizeof *symbol);
+    double *value = nh_alloc_array(s->parameters + 1, sizeof *value);
+    for (size_t i = 0; i < s->parameters; i++) {
+        const nh_parameter *p = &s->parameter[i];
+        symbol[i] = p->symbol, value[i] = c->written && p->set ? p->written : p->value;
+    }
+    c->tape = nh_tape_create(d, c->width, in, c->k * (1 + c->m), out, s->parameters, symbol, value);
+    nh_free(value);
+    nh_free(symbol);
     c->work = nh_tape_work_create(c->tape);
     c->out = nh_alloc_array(c->k * (1 + c->m) + 1, sizeof *c->out);
     nh_free(in);
@@ -141,9 +146,20 @@ static size_t rank_of(const nh_constraint_samples *c, size_t *redundant)
 
 void nh_constraint_samples_init(nh_constraint_samples *c, nh_system *system, size_t constraints, uint64_t seed)
 {
-    *c = (nh_constraint_samples){.system = system, .m = system->coordinates, .k = constraints, .width = 1 + 2 * system->coordinates};
+    *c = (nh_constraint_samples){.system = system, .m = system->coordinates, .k = constraints, .width = 1 + 2 * system->coordinates, .seed = seed};
     cloud_tape(c);
     cloud_fill(c, seed);
+}
+
+bool nh_constraint_samples_init_written(nh_constraint_samples *c, nh_system *system, uint64_t seed)
+{
+    bool other = false;
+    for (size_t i = 0; i < system->parameters; i++) other |= system->parameter[i].set && system->parameter[i].written != system->parameter[i].value;
+    if (!other) return false;
+    *c = (nh_constraint_samples){.system = system, .m = system->coordinates, .k = system->constraints, .width = 1 + 2 * system->coordinates, .seed = seed, .written = true};
+    cloud_tape(c);
+    cloud_fill(c, seed);
+    return true;
 }
 
 /* Point at the first constraint that cannot hold together with those before it. */

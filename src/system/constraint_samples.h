@@ -16,10 +16,14 @@ typedef struct {
     double *unit;       /* m: nh_chart_unit of each coordinate */
     double *speed;      /* m: half the width of the velocity's */
     size_t count;
+    uint64_t seed;
+    bool written;       /* with the parameters at the values of the file */
 } nh_constraint_samples;
 
 /* Points for the first `constraints` of the system. */
 void nh_constraint_samples_init(nh_constraint_samples *c, nh_system *system, size_t constraints, uint64_t seed);
+/* For all constraints, with the parameters at the values of the file; false where these are the values in use. */
+bool nh_constraint_samples_init_written(nh_constraint_samples *c, nh_system *system, uint64_t seed);
 void nh_constraint_samples_clear(nh_constraint_samples *c);
 
 /* Refuse constraints that say nothing new, contradict each other or leave no freedom; the message names the constraint and the rank. */

@@ -75,7 +75,7 @@ static bool written_explicitly(const nh_constraint_samples *c, size_t *out)
     return true;
 }
 
-static double best_dependent(const nh_constraint_samples *c, size_t *out)
+static double best_subset(const nh_constraint_samples *c, size_t *out)
 {
     size_t *subset = nh_alloc_array(c->k + 1, sizeof *subset), tried = 0;
     double best = -1, largest;
@@ -88,6 +88,24 @@ static double best_dependent(const nh_constraint_samples *c, size_t *out)
         }
     } while (++tried < most_subsets && next_subset(c->k, c->m, subset));
     nh_free(subset);
+    return best;
+}
+
+/* Where the user sets parameters, the velocities that suit the values of the file, unless they are much worse: the same formulas for all values. */
+static double best_dependent(const nh_constraint_samples *c, size_t *out)
+{
+    static const double much_worse = 1e-3;
+    nh_constraint_samples written;
+    double best = best_subset(c, out), largest;
+    if (!nh_constraint_samples_init_written(&written, c->system, c->seed)) return best;
+    size_t *usual = nh_alloc_array(c->k + 1, sizeof *usual);
+    double score = written.count && best_subset(&written, usual) > 0 ? subset_score(c, usual, &largest) : 0;
+    if (score > much_worse * best) {
+        memcpy(out, usual, c->k * sizeof *out);
+        best = score;
+    }
+    nh_free(usual);
+    nh_constraint_samples_clear(&written);
     return best;
 }
 

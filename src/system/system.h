@@ -14,7 +14,8 @@ typedef struct {
     const char *name, *unit, *doc;
     nh_ex symbol;
     double value;
-    bool set; /* by the user, not by the file */
+    double written; /* its value in the file */
+    bool set;       /* by the user, not by the file */
 } nh_parameter;
 
 typedef struct {

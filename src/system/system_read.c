@@ -368,6 +368,7 @@ static bool apply_settings(reader *r, size_t count, const nh_setting *setting)
             continue;
         }
         if (found) {
+            found->written = found->value;
             found->value = setting[k].value;
             found->set = true;
             continue;
