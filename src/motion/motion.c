@@ -16,7 +16,8 @@
 /* CVODE and IDA refuse to work below some 10 roundings; the error stops falling well before. */
 static const double smallest_rtol = 1e-14;
 static const double default_max_steps = 1e7;
-static const double least_advance = 1e-10; /* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so */
+static const double least_advance = 1e-10; /* of the whole time, in NH_ADVANCE_AFTER steps: no motion gets to its end so; */
+enum { most_slow = 200 };                  /* but through a zero of a velocity whose size is not yet known, after as many times as many steps */
 
 static bool check_times(size_t count, const double *times, nh_error *error)
 {
@@ -156,7 +157,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     nh_step step = NH_STEP_ON;
     bool given = nh_turn_give(); /* steps evaluate tapes, and touch no expressions */
     double mark = motion->end_time, least = least_advance * fabs(times[count - 1] - times[0]);
-    for (int stuck = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, before);) {
+    for (int stuck = 0, slow = 0; step == NH_STEP_ON && motion->count < count && may_go_on(motion, options, before);) {
         double time = motion->end_time;
         tell(motion, count, times);
         step = stepper->advance(&time, motion, stepper->context);
@@ -168,10 +169,11 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
         motion->end_time = time;
         if (!store_reached(motion, count, times, time, stepper))
             break;
-        bool vanish = motion->steps % NH_ADVANCE_AFTER == 0 && fabs(time - mark) < least;
-        if (motion->steps % NH_ADVANCE_AFTER == 0)
+        if (motion->steps % NH_ADVANCE_AFTER == 0) {
+            slow = fabs(time - mark) < least ? slow + 1 : 0;
             mark = time;
-        if (stuck == NH_STUCK_AFTER || vanish) {
+        }
+        if (stuck == NH_STUCK_AFTER || slow == most_slow) {
             stepper->stuck(motion, stepper->context);
             break;
         }

@@ -73,7 +73,7 @@ typedef struct {
     /* The state at a time inside the last step; false when there is none. */
     bool (*state)(double time, double *state, void *context);
     double step_effort;   /* units of one step, beside the right-hand sides and what is counted elsewhere */
-    /* The last NH_STUCK_AFTER steps did not move the time, or the last NH_ADVANCE_AFTER hardly: write the note. */
+    /* The last NH_STUCK_AFTER steps did not move the time, or very many hardly: write the note. */
     void (*stuck)(nh_motion *motion, void *context);
 } nh_stepper;
 
