@@ -178,7 +178,7 @@ static void compare(const sheet *s, const cJSON *set, const char *mu_key, const 
         oracle_flat(oracle_get(point, "Lbar"), want);
         tally_add(&t[LBAR], 1, got, want, 0);
         for (size_t a = 0; a < k; a++) {
-            char label[20];
+            char label[40];
             snprintf(label, sizeof label, k == 1 ? "mu" : "mu_%zu", a + 1);
             got[a] = value_at(o, entry(s, "chetaev_equations", label, ""), z);
         }
@@ -684,7 +684,7 @@ static size_t place_of(const reduced_sheet *s, const char *name)
 
 static bundle bundle_of(reduced_sheet *s)
 {
-    static char names[12][12];
+    static char names[12][32];
     bundle b = {.s = s, .momentum = oracle_get(s->stage, "momentum"), .equations = oracle_get(s->stage, "equations"), .velocity = oracle_get(s->stage, "group_velocity")};
     const cJSON *item;
     cJSON_ArrayForEach(item, oracle_get(s->stage, "shape")) {
@@ -822,7 +822,7 @@ static void check_bundle(const char *file, const char *line, size_t stage, size_
         cJSON_ArrayForEach(equation, oracle_get(s.geometry, "equations")) {
             double left = sum_of(&b, oracle_get(equation, "terms"), rate), right = sum_of(&b, oracle_get(equation, "equals"), rate), whole = 0;
             cr_expect_float_eq(left, right, 1e-6 * (1 + fabs(left)), "%s: equation %zu: %.9g, %.9g", file, p, left, right);
-            char mine[20];
+            char mine[32];
             snprintf(mine, sizeof mine, "chi_%zu;", ++p);
             if (p > b.dim) continue;
             cJSON_ArrayForEach(part, oracle_get(s.geometry, "by_stages"))
