@@ -391,6 +391,28 @@ Test(plane, points_on_curves_are_found)
     place_clear(&p);
 }
 
+/* Only what was looked at is excluded. */
+Test(plane, lines_that_were_not_examined_are_named)
+{
+    place p = place_make();
+    write_system(&p, "mu: 0.4, la: 0.3", "(x'^2 + y'^2)/2 - x^4 - y^3 - (mu - 1)*x*y^2 - mu*la*(x^2*y + x*y^3)");
+    finished f = run_expecting(&p, "classify a.yaml --over mu,la --degree 2", 0);
+    cr_expect(strstr(f.out, "mu = 1, la = 0"), "%s", f.out);
+    cr_expect_not(strstr(f.out, "Not examined"), "%s", f.out);
+    finished_clear(&f);
+    write_system(&p, "mu: 0.4, la: 0.3", "(x'^2 + y'^2)/2 - x^4 - y^3 - (la - 1)*x*y^2 - (mu^2 - 2)*(x^2*y + 3*x*y^3)");
+    f = run_expecting(&p, "classify a.yaml --over mu,la --degree 2", 0);
+    cr_expect(strstr(f.out, "Not examined, or not up to the highest degree: points with mu^2 - 2 = 0"), "%s", f.out);
+    finished_clear(&f);
+    f = run_expecting(&p, "classify a.yaml --over mu,la --degree 2 --quiet --json -", 0);
+    cJSON *root = cJSON_Parse(f.out);
+    cr_expect(cJSON_IsFalse(key(root, "nowhere_else")));
+    cr_expect_eq(cJSON_GetArraySize(key(root, "undecided")), 1);
+    cJSON_Delete(root);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
 static char *file_of(const place *p, const char *name)
 {
     char path[PATH_MAX + 60];

@@ -12,8 +12,11 @@ static bool exact(const nh_plane_row *row) { return row->number.bound == row->kn
 
 static bool special(const nh_plane_curve *c) { return c->first > 0 && !c->degenerate; }
 
-/* mu is a root of a polynomial that has no rational one, or the line was not reached. */
-static bool unexamined(const nh_plane_line *l) { return l->across.degree > 1; }
+/* mu is a root of a polynomial that has no rational one, or the line was not reached, or not up to the highest degree. */
+static bool unexamined(const plane *x, const nh_plane_line *l)
+{
+    return l->across.degree > 1 || (!l->line && x->partial) || (l->line && l->line->rows < x->plane->rows);
+}
 
 /* Nothing is open: up to the height of the last degree there is nothing else. */
 static bool closed(const plane *x)
@@ -24,7 +27,7 @@ static bool closed(const plane *x)
     for (size_t k = 0; k < o->curves; k++) all &= !o->curve[k].open;
     for (size_t k = 0; k < o->lines; k++) {
         const nh_classification *line = o->line[k].line;
-        all &= !unexamined(&o->line[k]) && (!line || line->rows == o->rows);
+        all &= !unexamined(x, &o->line[k]);
         for (size_t i = 0; line && i < line->values; i++) all &= !line->value[i].open;
     }
     return all;
@@ -106,8 +109,8 @@ void nh_classification_plane_open(const plane *x, nh_text *out)
             nh_text_addf(out, "\nNot decided on %s: how many there are of degree %zu.\n",
                          nh_classified_curve_words(x, &o->curve[k].polynomial), o->curve[k].open);
     for (size_t k = 0; k < o->lines; k++)
-        if (unexamined(&o->line[k]))
-            nh_text_addf(out, "\nNot examined: points with %s.\n",
+        if (unexamined(x, &o->line[k]))
+            nh_text_addf(out, "\nNot examined, or not up to the highest degree: points with %s.\n",
                          nh_classified_values(x->family, x->over[1], &o->line[k].across));
 }
 
@@ -219,7 +222,7 @@ static void put_others(const plane *x, nh_json *root)
         if (o->curve[k].open) nh_json_add_text(undecided, words);
     }
     for (size_t k = 0; k < o->lines; k++)
-        if (unexamined(&o->line[k]))
+        if (unexamined(x, &o->line[k]))
             nh_json_add_text(undecided, nh_classified_values(x->family, x->over[1], &o->line[k].across));
 }
 
