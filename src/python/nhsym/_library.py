@@ -192,10 +192,15 @@ class LimitError(Error, RuntimeError):
 _classes = {2: UsageError, 3: InputError, 4: NumericalError, 5: LimitError}
 
 
+def _here(said):
+    """An option of the program is an argument here."""
+    return re.sub(r'--([a-z_]+)\b', r"\1", re.sub(r'--([a-z_]+) "', r'\1="', said))
+
+
 def error_of(record):
     """The exception of an nh_error."""
     text = ctypes.create_string_buffer(4096)
     library().nh_error_format(ctypes.byref(record), text, len(text))
     words = [getattr(record, name).decode(errors="replace") for name in ("what", "hint", "where", "excerpt")]
-    words[1], whole = (re.sub(r'--(\w+) "', r'\1="', said) for said in (words[1], text.value.decode(errors="replace")))  # an option of the program is an argument here
+    words, whole = [_here(said) for said in words], _here(text.value.decode(errors="replace"))
     return _classes.get(record.code, Error)(*words, code=record.code, text=whole)

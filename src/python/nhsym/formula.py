@@ -210,6 +210,6 @@ def text_of(expression):
         raise UsageError("an expression is needed, found %r" % (expression,), "give a string, a number or a SymPy expression")
     if isinstance(expression, (int, float)):
         return repr(expression)
-    if type(expression).__module__.split(".")[0] == "sympy" or hasattr(expression, "_sympy_"):
+    if hasattr(expression, "free_symbols") or hasattr(expression, "_sympy_"):
         return _of_sympy(expression)
     return str(expression)  # numbers of numpy, fractions

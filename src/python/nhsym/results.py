@@ -1,4 +1,5 @@
 """Results as objects: their JSON as attributes, their pages in a notebook, their numbers as arrays."""
+import difflib
 import functools
 import html
 import json
@@ -28,7 +29,8 @@ class Record:
         try:
             return self[name]
         except KeyError:
-            raise AttributeError("there is no `%s` here, but %s" % (name, ", ".join(self._content))) from None
+            near = difflib.get_close_matches(name, dir(self), 1)
+            raise AttributeError("there is no `%s` here%s" % (name, "; did you mean `%s`?" % near[0] if near else ", but " + ", ".join(self._content))) from None
 
     def __getitem__(self, key):
         return _wrapped(self._content[key], key in FORMULAS, self._coordinates)

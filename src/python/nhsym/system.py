@@ -30,8 +30,8 @@ def system(source, **settings):
 # ---- system files ----
 
 def _name(coordinate):
-    """Of a string, a SymPy symbol, or a function of t."""
-    return coordinate if isinstance(coordinate, str) else coordinate.func.__name__ if getattr(coordinate, "args", ()) else str(coordinate)
+    """Of a string, a SymPy symbol, a function of t, or its derivative."""
+    return text_of(coordinate)
 
 
 def _named(entries, second):
@@ -90,6 +90,16 @@ def _list(value):
     if hasattr(value, "items"):
         return ", ".join("%s = %s" % (key, text_of(entry)) for key, entry in value.items())
     return ", ".join(text_of(entry) for entry in value)
+
+
+def _positive(name, value):
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = 0.0
+    if not 0 < number < float("inf"):
+        raise UsageError("%s needs a positive number, found %r" % (name, value), "leave it out for the default")
+    return number
 
 
 def _of_analysis(analysis):
@@ -160,7 +170,7 @@ class System:
         self.problem = Problem(self._question)
 
     def __del__(self):
-        if getattr(self, "_rates", None):
+        if "_rates" in self.__dict__:  # which would be made by asking for it
             free_later(library().nh_rates_free, self._rates)
 
     @property
@@ -198,6 +208,9 @@ class System:
     def _ask(self, settings):
         """The problem of a question about this system."""
         given = {key: value for key, value in settings.items() if value is not None}
+        for key in ("until", "step", "accuracy"):
+            if key in given:
+                given[key] = _positive(key, given[key])
         if "options" in given:
             given["options"] = ", ".join(filter(None, [self._question.get("options"), _pairs(given["options"])]))
         return Problem(dict(self._question, **given)) if given else self.problem
@@ -235,7 +248,7 @@ class System:
 
     def benchmark(self, seconds=5, initial=None, until=None, options=None, progress=None):
         """Integrators compared on one motion; `seconds` for the measurements."""
-        p = self._ask(dict(initial=_pairs(initial), until=until, options=options))
+        p, seconds = self._ask(dict(initial=_pairs(initial), until=until, options=options)), _positive("seconds", seconds)
         return p.call(lambda error: library().nh_benchmark_methods(p.address, seconds, error), progress, lambda a: Benchmark(a, p))
 
     # ---- equations of motion on arrays ----

@@ -55,13 +55,13 @@ def random_expression(draw, depth):
 
 def test_there_and_back_on_expressions_nobody_wrote():
     draw, at, compared = random.Random(5), {x: 0.7, y: -1.3, k: 0.4}, 0
-    for _ in range(200):
+    for _ in range(80):
         expression = random_expression(draw, 4)
         first, again = (complex(e.evalf(30, subs=at)).real for e in (expression, nhsym.Formula(text_of(expression)).sympy()))
         if math.isfinite(first):
             assert again == pytest.approx(first, rel=1e-12, abs=1e-12)
             compared += 1
-    assert compared > 150
+    assert compared > 60
 
 
 def test_long_sums_are_read():

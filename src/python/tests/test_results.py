@@ -31,7 +31,7 @@ def test_currents(analysis):
     assert energy is analysis.currents[0] and energy.proved and energy.for_all and "energy" in energy.meaning and energy.case == 1
     assert energy.symmetry.components["t"] == "1"
     assert list(analysis.table["name"]) == [c.name for c in analysis.currents] and analysis.table["drift"].dtype == float
-    with pytest.raises(AttributeError, match="case"):
+    with pytest.raises(AttributeError, match="did you mean `case`"):
         energy.cas
     with pytest.raises(KeyError):
         analysis["Phi77"]

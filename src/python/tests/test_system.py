@@ -89,6 +89,27 @@ def test_errors_carry_place_cause_and_cure():
         nhsym.system(7)
     with pytest.raises(nhsym.InputError):
         nhsym.system(pathlib.Path("nowhere.yaml"))
+    spring = nhsym.system(OSCILLATOR)
+    for settings in (dict(until=-1), dict(until="x"), dict(step=0), dict(accuracy=float("nan"))):
+        with pytest.raises(nhsym.UsageError, match="positive"):
+            spring.simulate(initial={"x": 1}, **settings)
+    with pytest.raises(nhsym.InputError) as error:
+        spring.simulate(initial={"xx": 1})
+    assert error.value.where.startswith("initial:") and "--" not in str(error.value)
+
+
+def test_initial_velocities_from_sympy():
+    x = sympy.Function("x")(t)
+    motion = nhsym.system(OSCILLATOR).simulate(initial={x: 1, x.diff(t): sympy.Rational(1, 2)}, until=0.1)
+    assert (motion["x"][0], motion["x'"][0]) == (1, 0.5)
+
+
+def test_a_singular_lagrangian_is_refused_where_it_matters(recwarn):
+    frozen = nhsym.System(coordinates=["x", "y"], lagrangian="x'^2/2 + y")
+    with pytest.raises(nhsym.InputError, match="inertia"):
+        frozen.accelerations([1, 2], [0, 0])
+    del frozen
+    assert not recwarn.list
 
 
 def test_definitions_domain_and_quasi_velocities():
