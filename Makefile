@@ -5,6 +5,7 @@
 #   make check-all the same with the sweeps in full
 #   make           build only            make install PREFIX=/usr/local LIBDIR=.. DESTDIR=..  (make uninstall removes the same files)
 #   make library   the shared library    make wheel    the Python package, into build/python
+#   make deb       Debian packages, into build/deb (wants debhelper, dh-python and what `make packages` installs)
 #   make bench     measure, and write docs/performance.md
 #   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
 #   make papers    every numbered item of the three papers of the method, and write docs/papers.md
@@ -47,10 +48,10 @@ MPI_INCLUDE   := $(if $(SUNDIALS_CORE),$(shell pkg-config --cflags-only-I mpi-c 
 MPI           := $(if $(MPI_INCLUDE),-Wl$(comma)--as-needed $(shell pkg-config --libs mpi-c))
 LDLIBS   = $(call libraries,library)
 library  = -l$(1)
-# The program itself takes archives where there are any (ARCHIVES= for none): most of a short command was the loading of shared libraries
+# The program itself takes archives where there are any (ARCHIVES= for none, or ARCHIVES="gsl openblas" for some): most of a short command was the loading of shared libraries
 # (docs/performance.md, "A whole run").  Those that remain come first, for the same reason.  Tests are many, and stay small.
 ARCHIVES = yes
-archive  = -l$(if $(and $(ARCHIVES),$(findstring /,$(shell $(CC) -print-file-name=lib$(1).a))),:lib$(1).a,$(1))
+archive  = -l$(if $(and $(filter $(if $(filter yes,$(ARCHIVES)),%,$(ARCHIVES)),$(1)),$(findstring /,$(shell $(CC) -print-file-name=lib$(1).a))),:lib$(1).a,$(1))
 libraries = -lflint $(ARB) -lgmp -lnlopt -lcjson \
             $(foreach name,sundials_cvode sundials_arkode sundials_ida sundials_nvecserial sundials_sunmatrixdense sundials_sunlinsoldense $(SUNDIALS_CORE) \
                            gsl lapacke openblas yaml,$(call $(1),$(name))) \
@@ -83,7 +84,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all tests install uninstall wheel bench catalogue papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean packages test-packages check-packages
+.PHONY: all library sleigh check check-all tests install uninstall wheel deb deb-source bench catalogue papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean packages test-packages check-packages
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -233,6 +234,18 @@ wheel: library
 	sh "$$python" -c 'from setuptools import build_meta as b; b.build_sdist(".."); b.build_wheel("..")' >../log 2>&1 || { cat ../log; exit 1; }
 	@ls $(BUILD)/python/nhsym*
 
+# Debian packages, from a copy whose folder debian is src/debian; into $(BUILD)/deb.
+DEB = $(BUILD)/deb/nhsym-$(VERSION)
+deb-source:
+	@rm -rf $(BUILD)/deb && mkdir -p $(DEB)
+	@tar -cf - --exclude='./build*' --exclude=./.git . | tar -xf - -C $(DEB)
+	@mv $(DEB)/src/debian $(DEB)/debian
+	@sed -e 's/@VERSION@/$(VERSION)/' -e "s/@DATE@/$$(date -R -r docs/changes.md)/" $(DEB)/debian/changelog.in >$(DEB)/debian/changelog && rm $(DEB)/debian/changelog.in
+
+deb: deb-source
+	cd $(DEB) && dpkg-buildpackage -us -uc
+	@ls $(BUILD)/deb/*.deb
+
 # ---- installation ----
 
 SHARE = $(DESTDIR)$(PREFIX)/share
@@ -252,7 +265,7 @@ install: all library
 	install -m 644 systems/stress/*.yaml $(SHARE)/nhsym/systems/stress/
 	install -m 644 analyses/*.yaml $(SHARE)/nhsym/analyses/
 	install -m 644 docs/schema/*.json $(SHARE)/nhsym/schema/
-	install -m 644 README.md docs/*.md docs/example.c docs/nhsym.ipynb $(SHARE)/doc/nhsym/
+	install -m 644 README.md docs/*.md docs/example.c docs/nhsym.ipynb docs/CITATION.cff $(SHARE)/doc/nhsym/
 	install -m 644 docs/pictures/* $(SHARE)/doc/nhsym/pictures/
 	install -m 644 docs/catalogue/* $(SHARE)/doc/nhsym/catalogue/
 	install -d $(addprefix $(SHARE)/,man/man1 man/man3 bash-completion/completions zsh/site-functions fish/vendor_completions.d)

@@ -82,6 +82,7 @@ typedef struct {
     double      step;          /* between outputs of a simulation; 0: a hundredth of the time */
     double      accuracy;      /* the largest allowed error of motions; 0: the option `tolerance`, errors not estimated */
     const char *watch;         /* observables of a simulation: "y, T = m/2*v^2" */
+    const char *method;        /* of a simulation: an integrator that `nhsym explain methods` lists; NULL: the one that suits */
     const char *options;       /* of docs/options.md: "seed=3, samples=500" */
 } nh_question;
 

@@ -37,8 +37,8 @@ nh_analysis *nh_analyze(nh_problem *p, nh_error *error)
 static nh_simulate_request motion_of(const nh_problem *p)
 {
     return (nh_simulate_request){.system_path = p->system_path, .analysis_path = p->analysis_path, .settings = p->settings, .setting = p->setting, .chart = p->chart,
-                                 .initial = p->question.initial, .watch = p->question.watch, .step = p->question.step, .accuracy = p->question.accuracy,
-                                 .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0, .options = p->options};
+                                 .initial = p->question.initial, .from = "initial", .watch = p->question.watch, .step = p->question.step, .accuracy = p->question.accuracy,
+                                 .method = p->method, .tolerance_given = p->tolerance_given, .until_given = p->question.until > 0, .options = p->options};
 }
 
 nh_simulation *nh_simulate(nh_problem *p, nh_error *error)

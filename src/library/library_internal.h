@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "base/memory.h"
 #include "base/option.h"
+#include "motion/method.h"
 #include "system/embedding.h"
 
 struct nh_problem {
@@ -18,6 +19,7 @@ struct nh_problem {
     nh_setting  *setting;
     nh_chart_choice chart;
     nh_options   options;
+    const nh_method *method;
     bool         seed_given, samples_given, tolerance_given;
     nh_file_store files; /* that it has read */
     nh_system   *system;

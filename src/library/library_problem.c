@@ -52,6 +52,7 @@ static nh_question copy_of(nh_arena *arena, const nh_question *q)
     c.velocities = copied(arena, q->velocities);
     c.initial = copied(arena, q->initial);
     c.watch = copied(arena, q->watch);
+    c.method = copied(arena, q->method);
     c.options = copied(arena, q->options);
     return c;
 }
@@ -129,7 +130,7 @@ static bool open_problem(nh_problem *p, nh_error *error)
         nh_fail(error, NH_USAGE, "", "the question names no system");
         return nh_error_hint(error, "give a name, a path, or the text of a system file");
     }
-    if (!read_parameters(p, error) || !read_velocities(p, error)) return false;
+    if (!read_parameters(p, error) || !read_velocities(p, error) || (q->method && !nh_method_given(q->method, &p->method, error))) return false;
     p->system_path = source(p, "systems", q->system, q->system_text, error);
     if (!p->system_path) return false;
     bool named = !q->system_text && !strchr(q->system, '/') && !strstr(q->system, ".yaml");

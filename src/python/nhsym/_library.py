@@ -20,7 +20,7 @@ class Question(ctypes.Structure):
     """nh_question"""
     _fields_ = [("system", c_char_p), ("system_text", c_char_p), ("analysis", c_char_p), ("analysis_text", c_char_p), ("no_analysis", c_bool),
                 ("set", c_char_p), ("velocities", c_char_p), ("initial", c_char_p), ("until", c_double), ("step", c_double), ("accuracy", c_double),
-                ("watch", c_char_p), ("options", c_char_p)]
+                ("watch", c_char_p), ("method", c_char_p), ("options", c_char_p)]
 
 
 class CurrentFacts(ctypes.Structure):

@@ -231,9 +231,10 @@ class System:
         ask = library().nh_verify_current if field is None else library().nh_verify_field
         return p.call(lambda error: ask(p.address, text, error), progress, lambda a: Verification(a, p))
 
-    def simulate(self, initial=None, until=None, step=None, accuracy=None, watch=None, options=None, progress=None):
-        """A motion: initial={"phi": 0, "omega": 2}; watch=["y"] or {"T": "m/2*v^2"}; accuracy: the largest allowed error."""
-        p = self._ask(dict(initial=_pairs(initial), until=until, step=step, accuracy=accuracy, watch=_list(watch), options=options))
+    def simulate(self, initial=None, until=None, step=None, accuracy=None, method=None, watch=None, options=None, progress=None):
+        """A motion: initial={"phi": 0, "omega": 2} (left out: a state on the constraints); watch=["y"] or {"T": "m/2*v^2"}; accuracy: the largest allowed error;
+        method: an integrator by name, as `nhsym explain methods` lists them."""
+        p = self._ask(dict(initial=_pairs(initial), until=until, step=step, accuracy=accuracy, method=method, watch=_list(watch), options=options))
         return p.call(lambda error: library().nh_simulate(p.address, error), progress, lambda a: Simulation(a, p))
 
     def reduce(self, initial=None, until=None, accuracy=None, options=None, progress=None):

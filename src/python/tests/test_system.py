@@ -56,8 +56,6 @@ def test_right_hand_side_on_arrays():
 def test_runge_kutta_with_them_keeps_a_constraint():
     """The rolling disk of the shipped systems: y' of any method stays on the constraint submanifold to the method's order."""
     disk = nhsym.system("vertical_disk")
-    with pytest.raises(nhsym.UsageError, match='initial="x=0'):
-        disk.simulate()
     motion = disk.simulate(initial={"p'": 1.5, "h'": 0.7}, until=1, step=0.01, accuracy=1e-9)
     q, v = motion.states()
     y, h = numpy.concatenate([q[:, 0], v[:, 0]]), 0.01
@@ -96,6 +94,16 @@ def test_errors_carry_place_cause_and_cure():
     with pytest.raises(nhsym.InputError) as error:
         spring.simulate(initial={"xx": 1})
     assert error.value.where.startswith("initial:") and "--" not in str(error.value)
+
+
+def test_integrators_by_name():
+    spring = nhsym.system(OSCILLATOR)
+    motions = [spring.simulate(initial={"x": 1}, until=1, method=method) for method in ("adams", "rk8pd")]
+    assert len({motion.json["method"] for motion in motions}) == 2 and motions[0]["x"][-1] == pytest.approx(motions[1]["x"][-1], abs=1e-7)
+    with pytest.raises(nhsym.UsageError, match="adams"):
+        spring.simulate(initial={"x": 1}, method="adam")
+    with pytest.raises(nhsym.UsageError, match="method"):
+        spring.simulate(initial={"x": 1}, method="adams", accuracy=1e-6)
 
 
 def test_initial_velocities_from_sympy():
