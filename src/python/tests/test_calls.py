@@ -32,12 +32,29 @@ def test_an_exception_of_the_callback_ends_the_computation():
     assert spring.analyze().search == "complete"
 
 
-def test_control_c_ends_the_computation_and_leaves_what_there_is():
+def test_control_c_ends_the_computation_and_leaves_what_there_is(monkeypatch):
+    real, asked, sent = nhsym._calls.library(), threading.Event(), []
+
+    class Watched:
+        def __getattr__(self, name):
+            return getattr(real, name)
+
+        def nh_context_interrupt(self, address):
+            real.nh_context_interrupt(address)
+            asked.set()
+
+    def press(doing, part):
+        if not sent:
+            sent.append(doing)
+            os.kill(os.getpid(), signal.SIGINT)
+            assert asked.wait(60)  # the main thread was reached while this one computes
+
+    monkeypatch.setattr(nhsym._calls, "library", Watched)
     spring = nhsym.system(OSCILLATOR)
     with pytest.raises(nhsym.Interrupted) as stop:
-        spring.benchmark(600, initial={"x": 1}, progress=lambda doing, part: os.kill(os.getpid(), signal.SIGINT) if "ended" not in vars(spring) and not vars(spring).update(ended=1) else None)
-    assert stop.value.partial is None or stop.value.partial.partial
+        spring.benchmark(600, initial={"x": 1}, progress=press)
     assert isinstance(stop.value, KeyboardInterrupt)
+    assert stop.value.partial is None or stop.value.partial.partial
     assert spring.analyze().search == "complete"
 
 
