@@ -405,19 +405,19 @@ class Verification(Result):
 
 
 class Classification(Result):
-    """Special values of a parameter: `special`, `table` (a row per real value) and what the JSON has."""
+    """Special values of parameters: `special`, `degenerate`, `table` (a row per special value, and per real value of a root) and what the JSON has."""
 
     _kind = "classified"
     _formats = (TEXT, JSON)
 
     @property
-    def special(self):
-        return self["values"]
-
-    @property
     def table(self):
-        rows = [dict(entry, value=real, exact=None if entry["value"] is None else str(entry["value"])) for entry in self.json["values"] for real in entry["real_values"]]
-        return columns(rows, ["value", "exact", "from_degree", "degenerate", "constructed"])
+        rows = []
+        for entry in self.json["special"]:
+            where = entry["where"]
+            words = ", ".join("%s = %s" % pair for pair in where.items()) if isinstance(where, dict) else str(where)
+            rows += [dict(entry, where=words, value=real) for real in entry.get("real_values") or [None]]
+        return columns(rows, ["where", "value", "dimension", "from_degree", "proved"])
 
     def __repr__(self):
-        return "<Classification of %s over %s: %d special values>" % (self._problem.name, self.json["over"], len(self.json["values"]))
+        return "<Classification of %s over %s: %d special values>" % (self._problem.name, ", ".join(self.json["over"]), len(self.json["special"]))
