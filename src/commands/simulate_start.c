@@ -120,8 +120,7 @@ static bool choose_initial(nh_simulation *s, nh_state *initial)
     const nh_model *o = s->model;
     if (!o->chart->probes) return false;
     double *z = nh_arena_alloc(s->arena, o->width * sizeof *z);
-    initial->q = nh_arena_alloc(s->arena, o->m * sizeof(double));
-    initial->v = nh_arena_alloc(s->arena, o->m * sizeof(double));
+    *initial = (nh_state){.q = nh_arena_alloc(s->arena, o->m * sizeof(double)), .v = nh_arena_alloc(s->arena, o->m * sizeof(double))};
     memcpy(z, o->chart->probe, o->width * sizeof *z);
     if (!depends_on_time(o)) z[0] = 0;
     if (!round_point(o, z) || !velocities_at(o, z, initial->v)) {

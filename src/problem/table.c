@@ -88,8 +88,9 @@ nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error)
     t->path = nh_arena_strdup(arena, path);
     bool good = length <= most_bytes || nh_fail(error, NH_INPUT, path, "the table is longer than %d bytes", (int)most_bytes);
     if (good && memchr(text, 0, length)) good = nh_fail(error, NH_INPUT, path, "the table contains a zero byte");
-    if (good) good = read_lines(arena, t, strncmp(text, mark, sizeof mark - 1) ? text : text + sizeof mark - 1, error);
+    char *lines = good ? nh_arena_strndup(arena, text, length) : NULL; /* what was read has no end mark */
     nh_free(text);
+    if (good) good = read_lines(arena, t, strncmp(lines, mark, sizeof mark - 1) ? lines : lines + sizeof mark - 1, error);
     if (good && !t->rows) good = nh_fail(error, NH_INPUT, path, "the table has no rows: a line of names comes first, then one line per row");
     return good ? t : NULL;
 }
