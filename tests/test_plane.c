@@ -294,7 +294,8 @@ Test(plane, irrational_points_stay_open)
 {
     static const char text[] = "name: a\nparameters: {mu: 0.4, la: 0.3}\ncoordinates: [x, y]\n"
         "lagrangian: (x'^2 + y'^2)/2 - x^4 - y^3 - (la - 1)*x*y^2 - (mu^2 - 2)*(x^2*y + 3*x*y^3)\n";
-    nh_plane *p = plane_of(parsed(text), 2);
+    nh_system *s = parsed(text);
+    nh_plane *p = plane_of(s, 2);
     cr_assert_eq(p->rows, 2);
     bool found = false;
     for (size_t k = 0; k < p->lines; k++) {
@@ -304,6 +305,7 @@ Test(plane, irrational_points_stay_open)
     }
     cr_expect(found);
     nh_plane_free(p);
+    nh_system_free(s);
 }
 
 Test(plane, limits_are_named)
