@@ -12,7 +12,8 @@ if [ "$1" = --one ]; then # a program: its log and its line "name passed failed 
     all=$(printf '%s' "$line" | sed -n 's/.*Tested: *\([0-9]*\).*/\1/p')
     : "${good:=0}" "${all:=0}"
     bad=$((all - good))
-    [ "$code" != 0 ] && [ "$bad" = 0 ] && bad=1
+    [ "$all" = 0 ] && grep -aq 'skipped: ' "$log" && all=skipped # all of them, and the program says why
+    [ "$code" != 0 ] && [ "$bad" = 0 ] && [ "$all" != skipped ] && bad=1
     [ "$all" = 0 ] && bad=1
     grep -aq -e 'LeakSanitizer: detected' -e 'runtime error:' -e 'ERROR: AddressSanitizer' "$log" && bad=$((bad + 1)) # Criterion passes these over
     seconds=$(($(date +%s) - began))
@@ -20,6 +21,7 @@ if [ "$1" = --one ]; then # a program: its log and its line "name passed failed 
     {
         printf '%-45s %4d passed %3d failed %5d s\n' "$program" "$good" "$bad" "$seconds"
         grep -a '^measured: ' "$log"
+        [ "$all" = skipped ] && grep -a 'skipped: ' "$log" | head -n 1
         [ "$bad" = 0 ] || cat "$log"
     } >"$log.said"
     cat "$log.said" && rm "$log.said"

@@ -174,7 +174,8 @@ Test(html, every_number_is_in_the_json)
         char *page = both(&p, line, NULL, &json);
         size_t numbers = compare_numbers(page, json, line);
         cr_expect_gt(numbers, 15u, "%s: %zu numbers", line, numbers);
-        int currents = cJSON_GetArraySize(cJSON_GetObjectItem(json, "currents")), cards = 0;
+        int currents = 0, cards = 0;
+        for (size_t k = 0; k < 3; k++) currents += cJSON_GetArraySize(cJSON_GetObjectItem(json, ((const char *const[]){"currents", "currents_in_regions", "further_integrals"})[k]));
         for (const char *c = page; (c = strstr(c, "<article class=\"card\">")); c++) cards++;
         cr_expect_eq(cards, currents, "%s: %d cards, %d currents", line, cards, currents);
         cJSON_Delete(json);

@@ -13,6 +13,7 @@ static void run(const char *file, int least)
 {
     char command[300], line[1000], said[20000] = "";
     int  passed = 0;
+    if (SWEEP_SANITIZED) cr_log_warn("skipped: Python loads the library of the plain build");
     sweep_plain_only();
     snprintf(command, sizeof command, "sh tests/python.sh -m pytest -q -p no:cacheprovider src/python/tests/%s 2>&1", file);
     FILE *pipe = popen(command, "r");
@@ -24,7 +25,10 @@ static void run(const char *file, int least)
         if (word) passed = atoi(word);
     }
     int status = pclose(pipe);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) cr_skip_test("%s", said);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
+        cr_log_warn("skipped: %s", said);
+        cr_skip_test("no Python");
+    }
     cr_expect(WIFEXITED(status) && WEXITSTATUS(status) == 0, "%s:\n%s", file, said);
     cr_expect_geq(passed, least, "%s:\n%s", file, said);
 }

@@ -34,7 +34,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_robustness, "robustness",  no_argument,       "",                   "benchmark", "maps of where the methods fail")                                          \
     X(opt_over,        "over",        required_argument, "RANGES",             "benchmark classify scan", "benchmark: the robustness map of these ranges, as in a=1e-9:1, omega=1:9; classify: the parameter, or two as in B,eps; scan: k=1:4:61 or k=1,2,5/2; repeatable")    \
     X(opt_shape,       "shape",       no_argument,       "",                   "classify", "only integrals whose coefficients do not depend on cyclic coordinates") \
-    X(opt_of,          "of",          required_argument, "WORDS", "verify scan export", "verify --field: constraint or equations; scan: which numbers: count (of integrals), analyze, reduce; export: parts: equations, momenta, submanifold, currents, reduced")              \
+    X(opt_of,          "of",          required_argument, "WORDS", "verify scan export", "verify: a symmetry of constraint or equations; scan: which numbers, count (of integrals), analyze or reduce; export: parts, of equations, momenta, submanifold, currents, reduced")              \
     X(opt_number,      "number",      required_argument, "NAME",               "scan", "a number by its path in the JSON, as in group.dimension; repeatable")          \
     X(opt_workers,     "workers",     required_argument, "N",                  "scan", "processes that share the work; it does not change the result")                 \
     X(opt_chunk,       "chunk",       required_argument, "I/N",                "scan", "only part I of N, for job arrays; then once without it")                       \

@@ -62,7 +62,7 @@ static void all_commands(void)
          "  --quiet  --verbose  --no-color  --help      `nhsym help COMMAND` lists all\n"
          "\nExamples");
     for (size_t i = 0; i < command_count; i++)
-        if (nh_word_among("analyze verify new", commands[i].name)) printf("  %s\n", commands[i].example);
+        if (nh_word_among("analyze verify", commands[i].name)) printf("  %s\n", commands[i].example);
 }
 
 /* ---- the manual page ---- */

@@ -345,6 +345,7 @@ static void put_briefly(const writer *w, nh_json *item, const nh_current *f)
     else nh_json_put_null(item, "in_velocities");
     put_latex(w, item, f->phi);
     nh_json_put_text(item, "meaning", f->meaning);
+    nh_json_put_number(item, "heldout_residual", f->heldout);
     nh_json_put_number(item, "certified_digits", floor(f->proof.digits));
     nh_json_put_bool(item, "proved", f->proof.proved);
     nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
