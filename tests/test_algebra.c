@@ -63,10 +63,17 @@ static nh_algebra product(const char *letters)
     return g;
 }
 
+/* A basis that is not nearly dependent: the digits that such a one costs are lost whatever is done with it. */
 static nh_algebra in_random_basis(const nh_algebra *g, uint64_t seed, double *t)
 {
-    for (size_t i = 0; i < g->d * g->d; i++) t[i] = 2 * nh_random(&seed) - 1;
-    return nh_algebra_change(g, g->d, t, NULL);
+    size_t n = g->d;
+    double *a = nh_alloc_array(n * n + n + 1, sizeof *a), rcond;
+    do {
+        for (size_t i = 0; i < n * n; i++) a[i] = t[i] = 2 * nh_random(&seed) - 1;
+        cr_assert(nh_solve(n, a, 1, a + n * n, &rcond));
+    } while (rcond < 1e-3);
+    nh_free(a);
+    return nh_algebra_change(g, n, t, NULL);
 }
 
 static const struct {

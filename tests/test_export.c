@@ -323,7 +323,8 @@ static void languages(size_t part)
         command, sizeof command,
         "cd %s && for file in *.c; do c++ -x c++ -std=c++11 -fsyntax-only -Wall -Wextra -Werror $file || exit 1; done",
         b.folder);
-    cr_expect_eq(system(command), 0, "C++");
+    if (has("c++ --version")) cr_expect_eq(system(command), 0, "C++");
+    else cr_log_warn("skipped: there is no C++ compiler (Debian: g++)");
     const char *numpy = python("numpy"), *sympy = python("sympy");
     if (numpy) {
         python_calls(&b, "calls.py", false, NULL);

@@ -13,7 +13,7 @@
 #include "reduction/subspace.h"
 #include "system/sample.h"
 
-enum { draws = 6 };
+enum { draws = 16 };
 
 static double scale_of(const nh_algebra *g) { return fmax(nh_largest(g->d * g->d * g->d, g->c), 1e-300); }
 
@@ -286,6 +286,15 @@ static bool valid_splitting(const nh_algebra *g, const splitting *s, double smal
     return good && total == w;
 }
 
+/* How far the pieces are from ideals. */
+static double off_ideals(const nh_algebra *g, const splitting *s)
+{
+    double off = 0;
+    for (size_t i = 0, at = 0; i < s->count; at += s->dimension[i++]) off = fmax(off, nh_algebra_ideal(g, s->dimension[i], s->basis + at * g->d));
+    return off;
+}
+
+/* Of equally fine ones the most accurate: a draw may have eigenvalues that lie close together. */
 static void finest_splitting(const nh_algebra *g, double small, double cluster, size_t most, uint64_t seed, splitting *best)
 {
     best->count = 1;
@@ -296,6 +305,7 @@ static void finest_splitting(const nh_algebra *g, double small, double cluster, 
     double *kernel = nh_alloc_array(unknowns * unknowns + 1, sizeof *kernel), *t = nh_alloc_array(unknowns + 1, sizeof *t);
     size_t n = centroid(g, small, &seed, kernel);
     splitting s = {.basis = nh_alloc_array(w * w + 1, sizeof(double))};
+    double least = INFINITY;
     for (int draw = 0; draw < draws && n > 1; draw++) {
         memset(t, 0, unknowns * sizeof *t);
         for (size_t j = 0; j < n; j++) {
@@ -303,7 +313,10 @@ static void finest_splitting(const nh_algebra *g, double small, double cluster, 
             for (size_t i = 0; i < unknowns; i++) t[i] += x * kernel[i + j * unknowns];
         }
         split_by(w, t, cluster, &s);
-        if (s.count <= best->count || !valid_splitting(g, &s, small)) continue;
+        if (s.count < 2 || s.count < best->count || !valid_splitting(g, &s, small)) continue;
+        double off = off_ideals(g, &s);
+        if (s.count == best->count && !(off < least)) continue;
+        least = off;
         best->count = s.count;
         memcpy(best->dimension, s.dimension, sizeof s.dimension);
         memcpy(best->basis, s.basis, w * w * sizeof *s.basis);
