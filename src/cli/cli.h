@@ -64,7 +64,7 @@ typedef struct {
 /* The program, from its main function: the exit code. `team` may be NULL. */
 int nh_cli_main(int argc, char **argv, const nh_team *team);
 
-/* Version and build, by which two programs are told apart. */
+/* The version and a fingerprint of the build: two different programs have different ones. */
 const char *nh_cli_program(void);
 
 /* Parse the words after the program's name. */

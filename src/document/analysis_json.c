@@ -301,21 +301,27 @@ static void put_latex(const writer *w, nh_json *to, nh_ex e)
     nh_free(text);
 }
 
-static void put_current(const writer *w, nh_json *currents, const nh_current *f)
+/* What every integral has, counted or not. */
+static void put_briefly(const writer *w, nh_json *item, const nh_current *f)
 {
-    nh_json *item = nh_json_add_object(currents);
     nh_json_put_text(item, "name", f->name);
     put_expression(w, item, "expression", f->phi);
     if (f->has_in_velocities) put_expression(w, item, "in_velocities", f->in_velocities);
     else nh_json_put_null(item, "in_velocities");
     put_latex(w, item, f->phi);
     nh_json_put_text(item, "meaning", f->meaning);
-    nh_json_put_number(item, "residual", f->quotient);
     nh_json_put_number(item, "heldout_residual", f->heldout);
     nh_json_put_number(item, "certified_digits", floor(f->proof.digits));
     nh_json_put_bool(item, "proved", f->proof.proved);
     nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
     nh_facts_put_holds(item, w->r->model, &f->proof);
+}
+
+static void put_current(const writer *w, nh_json *currents, const nh_current *f)
+{
+    nh_json *item = nh_json_add_object(currents);
+    put_briefly(w, item, f);
+    nh_json_put_number(item, "residual", f->quotient);
     if (w->r->model->chart->branch) nh_json_put_bool(item, "on_both_branches", f->on_both);
     else nh_json_put_null(item, "on_both_branches");
     nh_json_put_bool(item, "exact", f->exact);
@@ -335,21 +341,6 @@ static void put_current(const writer *w, nh_json *currents, const nh_current *f)
     if (f->symmetry.kase) nh_json_put_number(item, "case", f->symmetry.kase);
     else nh_json_put_null(item, "case");
     nh_json_put_bool(item, "projectable", f->symmetry.projectable);
-}
-
-static void put_briefly(const writer *w, nh_json *item, const nh_current *f)
-{
-    nh_json_put_text(item, "name", f->name);
-    put_expression(w, item, "expression", f->phi);
-    if (f->has_in_velocities) put_expression(w, item, "in_velocities", f->in_velocities);
-    else nh_json_put_null(item, "in_velocities");
-    put_latex(w, item, f->phi);
-    nh_json_put_text(item, "meaning", f->meaning);
-    nh_json_put_number(item, "heldout_residual", f->heldout);
-    nh_json_put_number(item, "certified_digits", floor(f->proof.digits));
-    nh_json_put_bool(item, "proved", f->proof.proved);
-    nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
-    nh_facts_put_holds(item, w->r->model, &f->proof);
 }
 
 /* What holds in a part of the motions only, and what is a function of the currents. */

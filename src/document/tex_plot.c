@@ -5,7 +5,7 @@
 
 enum { most_points = 201, most_of_path = 601, marks = 16 };
 
-/* Those of Okabe and Ito, as in svg.c; lines differ by dashes too. */
+/* The colours of Okabe and Ito, as in svg.c; lines also differ by their dashes. */
 static const char *const styles[] = {"nhblue, solid", "nhred, dashed", "nhgreen, densely dotted", "nhpink, dash dot", "nhorange, loosely dashed", "nhsky, densely dashed", "gray, dash dot dot"};
 enum { style_count = sizeof styles / sizeof *styles };
 

@@ -22,7 +22,7 @@ void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value);
 /* The value of e.  False when it is not finite there, or a symbol has no value. */
 bool nh_ball_value(nh_ball *ball, nh_ex e, double *mid, double *radius);
 
-/* An upper bound of |e| (mid + radius), as log10, so that values below the double range are told apart; -infinity for an
+/* An upper bound of |e| (mid + radius), as log10, so that values below the range of doubles differ; -infinity for an
  * exact zero.  False as above. */
 bool nh_ball_log10_bound(nh_ball *ball, nh_ex e, double *log10_bound);
 

@@ -48,7 +48,7 @@ static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
 }
 
 /* A short rational near x, p/q with steps of less than a thousandth of the interval, so that points differ however small it is; where that does
- * not fit into 64 bits, the double itself, which is a rational too.  Returns the value. */
+ * not fit into 64 bits, the double itself, which is also a rational.  Returns the value. */
 static double set_near(nh_ball *ball, nh_ex symbol, double x, double span)
 {
     enum { grid = 997 };
