@@ -201,8 +201,11 @@ Test(library, a_parameter_is_classified)
     cr_expect_eq(json[0], '{');
     nh_string_free(text);
     nh_string_free(json);
-    cr_expect_null(nh_classified_document(c, NH_FORMAT_HTML, &o.error));
-    cr_expect_eq(o.error.code, NH_USAGE);
+    char *page = nh_classified_document(c, NH_FORMAT_HTML, &o.error), *latex = nh_classified_document(c, NH_FORMAT_LATEX, &o.error);
+    cr_expect(page && strstr(page, "</html>"));
+    cr_expect(latex && strstr(latex, "\\end{document}"));
+    nh_string_free(page);
+    nh_string_free(latex);
     nh_classified_free(c);
     cr_expect_null(nh_classify_over(o.problem, "kk", false, &o.error));
     cr_expect_not_null(strstr(o.error.what, "kk"));

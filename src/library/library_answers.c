@@ -184,13 +184,14 @@ char *nh_verification_document(const nh_verification *v, nh_format format, nh_er
 char *nh_classified_document(const nh_classified *c, nh_format format, nh_error *error)
 {
     nh_run  run = run_of(1);
+    (void)error; /* every format exists */
     nh_text text;
     nh_text_init(&text);
     switch (format) {
     case NH_FORMAT_JSON: return nh_classification_json(c, &run);
     case NH_FORMAT_TEXT: nh_classification_text(c, false, &text); break;
-    case NH_FORMAT_HTML: return no_document("a classification", "HTML", "text or JSON", error);
-    case NH_FORMAT_LATEX: return no_document("a classification", "LaTeX", "text or JSON", error);
+    case NH_FORMAT_HTML: nh_html_classification(c, NULL, &run, &text); break;
+    case NH_FORMAT_LATEX: nh_tex_classification(c, NULL, &text); break;
     }
     return taken(&text);
 }

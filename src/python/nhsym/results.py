@@ -408,7 +408,7 @@ class Classification(Result):
     """Special values of parameters: `special`, `degenerate`, `table` (a row per special value, and per real value of a root) and what the JSON has."""
 
     _kind = "classified"
-    _formats = (TEXT, JSON)
+    _formats = (TEXT, JSON, HTML, LATEX)
 
     @property
     def table(self):

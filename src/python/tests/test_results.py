@@ -104,7 +104,7 @@ def test_reduction_classification_and_benchmark():
     assert reduction.group.dimension == 4 and reduction.stages[0].kind == "chaplygin" and len(reduction.table["kind"]) == len(reduction.stages)
     two = nhsym.System(coordinates=["x", "y"], parameters={"k": 3}, lagrangian="(x'^2 + y'^2)/2 - (x^2 + k*y^2)/2")
     special = two.classify(sympy.Symbol("k"), options={"degree": 2})
-    assert 1.0 in special.table["value"] and "k = 1" in special.table["where"] and special.special[0].currents[0].current.sympy() and "k = 1" in special.text and "<pre>" in special._repr_html_()
+    assert 1.0 in special.table["value"] and "k = 1" in special.table["where"] and special.special[0].currents[0].current.sympy() and "k = 1" in special.text and "<iframe" in special._repr_html_() and "end{document}" in special.latex
     benchmark = two.benchmark(0.2, initial={"x": 1}, until=2)
     assert len(benchmark.table["method"]) > 5 and benchmark.table["error"].dtype == float
 
