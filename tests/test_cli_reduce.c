@@ -172,7 +172,7 @@ Test(cli_reduce, starts_where_the_action_is_not_free)
     char *found[] = {"isotropic_oscillator", "--initial", "x=0, y=0, z=0"};
     f = reduce(&p, found, 3);
     cr_expect_eq(f.code, 0);
-    cr_expect(strstr(f.out, "at the initial position, the action is not free: 3 fields, but an orbit of dimension 0 at x = 0, y = 0, z = 0"), "%s", f.out);
+    cr_expect(strstr(f.out, "at the initial position, the action is not free: 3 fields, but an orbit\n"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);
 }

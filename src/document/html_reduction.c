@@ -277,19 +277,9 @@ static void by_stages(nh_html_writer *w, const nh_reduction_stage *s)
     nh_html_add(w, ".</p>\n");
 }
 
-/* zeta_1 = zeta1: a velocity of the group that is one of the reduced equations, too. */
-static bool names_itself(const nh_dag *d, const nh_reduction_equation *e)
-{
-    const char *bar = strchr(e->name, '_'), *name = nh_kind_of(d, e->value) == NH_SYMBOL ? nh_name_of(d, e->value) : NULL;
-    size_t length = bar ? (size_t)(bar - e->name) : 0;
-    return bar && name && !strncmp(name, e->name, length) && !strcmp(name + length, bar + 1);
-}
-
 static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
 {
     const nh_reduction_stage *s = &r->stage[number];
-    nh_reduction_equation *e;
-    size_t n = nh_reduction_equations(r, s, &e);
     nh_text_addf(w->out, "<article class=\"card\">\n<h3>%s: ", nh_reduction_stage_title(r, number));
     for (const char *c = nh_reduction_stage_kind(s); *c; c++) nh_text_addf(w->out, *c == '\'' ? "\u2019" : "%c", *c);
     nh_html_add(w, " ");
@@ -306,14 +296,13 @@ static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
         nh_html_name(w, nh_name_of(w->dag, s->shown->x[i]));
     }
     nh_html_add(w, "</p>\n");
-    const char **label = nh_alloc_array(n + 1, sizeof *label);
-    nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
-    size_t told = 0;
-    for (size_t i = 0; i < n; i++)
-        if (!names_itself(w->dag, &e[i])) label[told] = e[i].name, value[told++] = e[i].value;
-    nh_html_formulas(w, told, label, value);
-    nh_free(value);
-    nh_free(label);
+    const char **label;
+    nh_ex *value;
+    size_t n = nh_reduction_shown(r, s, &label, &value);
+    nh_html_formulas(w, n, label, value);
+    nh_html_add(w, "<p class=\"note\">");
+    nh_html_text(w, nh_reduction_letters(r, s));
+    nh_html_add(w, "</p>\n");
     checks(w, r, s);
     by_stages(w, s);
     nh_sheet *sheet = nh_reduction_sheet(r, s);

@@ -50,12 +50,9 @@ const char *nh_reduction_joint_name(const nh_reduction *r, size_t joint)
 
 /* ---- text ---- */
 
-static void put_expression(nh_text *out, const char *indent, const char *name, nh_dag *d, nh_ex e, double shown)
-{
-    char *text = nh_formula_text(d, e, shown);
-    nh_text_addf(out, "%s%s = %s\n", indent, name, text);
-    nh_free(text);
-}
+enum { formula_indent = 4 };
+
+static void put_expression(nh_text *out, const char *name, nh_dag *d, nh_ex e, double shown) { nh_sheet_formulas(d, 1, &name, &e, formula_indent, shown, out); }
 
 static void put_condition(nh_text *out, const char *what, const nh_condition *c)
 {
@@ -171,18 +168,6 @@ static void put_joints(const nh_reduction *r, nh_text *out)
     }
 }
 
-/* By which method, at which cost, and why. */
-static void put_choice(const nh_reduction *r, const nh_reduction_stage *s, nh_text *out)
-{
-    const nh_reduction_choice *c = &s->choice;
-    if (!c->method) return;
-    nh_text_addf(out, "  accuracy %.1e %s up to t = %.4g: %s\n", r->wanted, c->held ? "held" : "not reached", s->reached, c->why);
-    nh_text_addf(out, "    %ld evaluations, %.2g ms with reconstruction", c->evaluations, 1e3 * c->seconds);
-    if (c->seconds > 0 && r->full.seconds > 0) nh_text_addf(out, ": %.2g times the time of the full motion", c->seconds / r->full.seconds);
-    if (s->seconds > 0 && r->full.seconds > 0) nh_text_addf(out, ", %.2g times without it", s->seconds / r->full.seconds);
-    nh_text_add(out, "\n");
-}
-
 /* The full motion, where an accuracy is wanted. */
 static void put_full(const nh_reduction *r, nh_text *out)
 {
@@ -192,81 +177,22 @@ static void put_full(const nh_reduction *r, nh_text *out)
     nh_text_addf(out, "  %s: %ld evaluations, %.2g ms\n", r->full_formulation, c->evaluations, 1e3 * c->seconds);
 }
 
-static void put_numbers(const nh_reduction *r, const nh_reduction_stage *s, nh_text *out)
+typedef struct {
+    nh_dag *dag;
+    double shown;
+    nh_text *out;
+} text_pen;
+
+static void text_words(void *to, const char *words)
 {
-    const char *with = s->against_full ? "the full motion" : "the first stage";
-    if (s->compared) nh_text_addf(out, "  after reconstruction: %.1e from %s up to t = %.4g", s->agreement, with, s->reached);
-    if (s->compared && s->unsure > 0) nh_text_addf(out, ", whose own error is %.1e", s->unsure);
-    if (!s->compared) nh_text_addf(out, "  not compared with %s", with);
-    const char *why = nh_reduction_no_energy(r, s), *energy = nh_reduction_energy(r, s);
-    if (why) nh_text_addf(out, "; %s not followed: %s", energy, why);
-    else nh_text_addf(out, "; %s drifts by %.1e", energy, s->energy_drift);
-    if (s->kind == NH_STAGE_SECOND && s->momentum_drift >= 0) nh_text_addf(out, why ? "; the momentum drifts by %.1e" : ", the momentum by %.1e", s->momentum_drift);
-    nh_text_add(out, "\n");
-    put_choice(r, s, out);
-    if (s->charts) nh_text_addf(out, "  the slice or the velocities change %zu time%s along the motion\n", s->charts, s->charts == 1 ? "" : "s");
-    if (s->note[0]) nh_text_addf(out, "  note: %s\n", s->note);
+    text_pen *p = to;
+    nh_text_addf(p->out, "  %s\n", words);
 }
 
-static void put_measure(const nh_reduction *r, const nh_reduction_stage *s, double shown, nh_text *out)
+static void text_formula(void *to, const char *label, nh_ex e)
 {
-    const nh_chaplygin_measure *m = &s->measure;
-    if (!m->tested) return;
-    if (m->measure) nh_text_addf(out, "  an invariant measure exists%s\n", m->size == 0 ? ": the Liouville measure" : m->local ? ", but only locally: its density is many-valued on an angle" : "");
-    if (m->measure && m->closed) {
-        put_expression(out, "    ", "density", r->kinetic->dag, m->density, shown);
-        if (!m->proof.all_parameters) nh_text_addf(out, "      (%s)\n", m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) + 1 : "to rounding");
-    }
-    if (!m->measure) nh_text_addf(out, "  no invariant measure with a density on the shape space (|d Theta| = %.2g)\n", m->curl);
-    if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) return; /* what the momentum adds to the form would have to be closed, too */
-    if (m->factor && m->closed && s->shown->n == 2) nh_text_add(out, "  the density is a conformal factor that makes it Hamiltonian, in the time d tau = density dt\n");
-    else if (m->factor && m->closed && s->shown->n > 2) nh_text_addf(out, "  density^(1/%zu) is a conformal factor that makes it Hamiltonian\n", s->shown->n - 1);
-    else if (m->factor) nh_text_addf(out, "  a conformal factor makes it Hamiltonian%s\n", m->local ? ", only locally" : "");
-    else nh_text_addf(out, "  no conformal factor makes it Hamiltonian%s\n", m->simple ? "" : " (Ups is not phi-simple)");
-}
-
-static void put_second(const nh_second *t, nh_text *out)
-{
-    nh_text_addf(out, "  condition (ii): weak form %.1e, strong form %.1e%s\n", t->weak, t->strong, t->strong > 1e-6 * (1 + t->weak) && t->strong > 1e-9 ? " (the momentum is conserved nevertheless)" : "");
-    if (t->magnetic) nh_text_add(out, "  the conserved momentum includes the part of the Lagrangian that is linear in the velocities\n");
-    else if (t->abelian) nh_text_add(out, "  its momentum is constant: the stage is a level set divided by the whole group\n");
-    else nh_text_addf(out, "  the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu\n", t->orbit, t->d - t->orbit);
-}
-
-static void put_linear(const nh_reduction *r, const nh_reduction_stage *s, double shown, nh_text *out)
-{
-    const nh_linear_momenta *l = &s->linear;
-    nh_dag *d = r->kinetic->dag;
-    if (!l->count) return;
-    const char *x = nh_name_of(d, s->shown->x[0]);
-    nh_text_addf(out, "  %zu current%s linear in the velocities: Y(%s)^-1 p with dY/d%s = N Y, p = (", l->count, l->count == 1 ? "" : "s", x, x);
-    for (size_t a = 0; a < l->count; a++) nh_text_addf(out, "%s%s", a ? ", " : "", s->shown->momentum[l->index[a]]);
-    nh_text_add(out, ")");
-    if (s->linear_drift >= 0) nh_text_addf(out, l->count == 1 ? "; it drifts by %.1e" : "; they drift by %.1e", s->linear_drift);
-    nh_text_add(out, "\n");
-    for (size_t a = 0; a < l->count * l->count; a++)
-        if (!nh_is_zero(d, l->N[a])) {
-            char name[64];
-            snprintf(name, sizeof name, "N_%zu%zu", a / l->count + 1, a % l->count + 1);
-            put_expression(out, "    ", name, d, l->N[a], shown);
-        }
-}
-
-static void put_chain(const nh_reduction_stage *s, nh_text *out)
-{
-    const nh_ideals *c = s->chain;
-    const nh_poincare *p = &s->poincare;
-    if (!s->by_stages) return;
-    nh_text_add(out, "  by stages along ");
-    for (size_t j = 0; j < c->blocks; j++) {
-        nh_text_add(out, j ? " > {" : "{");
-        for (size_t i = c->start[j]; i < c->d; i++) nh_text_addf(out, "%s%zu", i > c->start[j] ? ", " : "", c->order[i] + 1);
-        nh_text_add(out, "}");
-    }
-    nh_text_addf(out, " (numbers of the generators above); S of dimension %zu\n", p->dimension);
-    nh_text_addf(out, "  vertical and horizontal equations against the true accelerations at %zu places: in one stage %.1e, by stages %.1e\n", p->places,
-                 fmax(p->one_vertical, p->one_horizontal), fmax(p->stages_vertical, p->stages_horizontal));
-    nh_text_addf(out, "  bracket by stages against the bracket %.1e, Euler-Poincare right-hand side %.1e\n", p->bracket, p->euler_poincare);
+    text_pen *p = to;
+    put_expression(p->out, label, p->dag, e, p->shown);
 }
 
 static void put_stage(const nh_reduction *r, size_t number, double shown, nh_text *out)
@@ -282,14 +208,15 @@ static void put_stage(const nh_reduction *r, size_t number, double shown, nh_tex
     for (size_t i = 0; i < s->shown->n; i++) nh_text_addf(out, "%s%s", i ? ", " : "", nh_name_of(r->kinetic->dag, s->shown->x[i]));
     if (!s->shown->n) nh_text_add(out, "none: a point");
     nh_text_add(out, "\n");
-    if (s->kind == NH_STAGE_SECOND) put_second(s->second, out);
-    nh_reduction_equation *e;
-    size_t n = nh_reduction_equations(r, s, &e);
-    for (size_t i = 0; i < n; i++) put_expression(out, "    ", e[i].name, r->kinetic->dag, e[i].value, shown);
-    put_measure(r, s, shown, out);
-    put_linear(r, s, shown, out);
-    put_chain(s, out);
-    put_numbers(r, s, out);
+    text_pen to = {r->kinetic->dag, shown, out};
+    nh_reduction_pen pen = {&to, text_words, text_formula};
+    nh_reduction_conditions(s, &pen);
+    const char **label;
+    nh_ex *value;
+    size_t n = nh_reduction_shown(r, s, &label, &value);
+    nh_sheet_formulas(r->kinetic->dag, n, label, value, formula_indent, shown, out);
+    nh_text_addf(out, "  (%s)\n", nh_reduction_letters(r, s));
+    nh_reduction_remarks(r, s, &pen);
     nh_sheet *sheet = nh_reduction_sheet(r, s);
     if (sheet) nh_sheet_text(sheet, false, out);
 }
@@ -308,11 +235,11 @@ static void put_momenta(const nh_reduction *r, double shown, nh_text *out)
         nh_text_addf(out, "  %s ", nh_reduction_momentum_kind(p));
         nh_generator_text(r->kinetic, &field, out);
         nh_text_addf(out, " (%s%s%s)\n", p->proof.proved ? "proved" : "to rounding", p->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &p->proof, false), p->local ? "; local: many-valued on an angle" : "");
-        put_expression(out, "    ", nh_reduction_momentum_name(r, p), r->kinetic->dag, p->value, shown);
+        put_expression(out, nh_reduction_momentum_name(r, p), r->kinetic->dag, p->value, shown);
     }
 }
 
-void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
+static void put_all(const nh_reduction *r, bool verbose, nh_text *out)
 {
     double shown = r->options.shown;
     nh_text_addf(out, "%s   with ", r->system->title);
@@ -325,4 +252,13 @@ void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
     for (size_t i = 0; i < r->stages; i++) put_stage(r, i, shown, out);
     if (r->group->action.d) put_momenta(r, shown, out);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%swarning: %s\n", i ? "" : "\n", r->warning[i]);
+}
+
+void nh_reduction_text(const nh_reduction *r, bool verbose, nh_text *out)
+{
+    nh_text all;
+    nh_text_init(&all);
+    put_all(r, verbose, &all);
+    nh_sheet_fold(nh_text_string(&all), out);
+    nh_text_clear(&all);
 }

@@ -20,6 +20,19 @@ typedef struct {
 } nh_reduction_equation;
 size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_reduction_equation **out);
 
+/* Those that are shown: without zeta_1 = zeta1, a velocity of the group that serves as one of the equations; and what the letters in them mean. */
+size_t nh_reduction_shown(const nh_reduction *reduction, const nh_reduction_stage *stage, const char ***label, nh_ex **value);
+const char *nh_reduction_letters(const nh_reduction *reduction, const nh_reduction_stage *stage);
+
+/* What text and LaTeX say of a stage, sentence by sentence: what it rests on, and after its equations measure, currents, chain and motions. */
+typedef struct {
+    void *to;
+    void (*words)(void *to, const char *words);
+    void (*formula)(void *to, const char *label, nh_ex value);
+} nh_reduction_pen;
+void nh_reduction_conditions(const nh_reduction_stage *stage, const nh_reduction_pen *pen);
+void nh_reduction_remarks(const nh_reduction *reduction, const nh_reduction_stage *stage, const nh_reduction_pen *pen);
+
 /* "Stage 3, in one step instead of stages 1 and 2": the first and the second one build on each other, what divides the whole group is an alternative. */
 const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);
 /* "Chaplygin reduction by": what the stage is, before the name of its group.  The whole group at once: Euler-Poincare where the shape space is a point, else

@@ -28,6 +28,39 @@ const char *nh_reduction_stage_kind(const nh_reduction_stage *s)
     return constrained ? "Euler-d'Alembert-Poincare equations of" : "Euler-Poincare equations of";
 }
 
+/* zeta_1 = zeta1 */
+static bool names_itself(const nh_dag *d, const nh_reduction_equation *e)
+{
+    const char *bar = strchr(e->name, '_'), *name = nh_kind_of(d, e->value) == NH_SYMBOL ? nh_name_of(d, e->value) : NULL;
+    size_t length = bar ? (size_t)(bar - e->name) : 0;
+    return bar && name && !strncmp(name, e->name, length) && !strcmp(name + length, bar + 1);
+}
+
+size_t nh_reduction_shown(const nh_reduction *r, const nh_reduction_stage *s, const char ***label, nh_ex **value)
+{
+    nh_reduction_equation *e;
+    size_t n = nh_reduction_equations(r, s, &e), shown = 0;
+    *label = nh_arena_alloc(r->kinetic->arena, (n + 1) * sizeof **label);
+    *value = nh_arena_alloc(r->kinetic->arena, (n + 1) * sizeof **value);
+    for (size_t i = 0; i < n; i++)
+        if (!names_itself(r->kinetic->dag, &e[i])) (*label)[shown] = e[i].name, (*value)[shown++] = e[i].value;
+    return shown;
+}
+
+const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage *s)
+{
+    bool shape = s->shown->n > 0;
+    nh_arena *arena = r->kinetic->arena;
+    const char *p = shape ? "p: momenta of the shape; " : "";
+    static const char group[] = "velocity of the group along its field a, in the body frame";
+    switch (s->kind) {
+    case NH_STAGE_CHAPLYGIN: return nh_arena_printf(arena, s->shown->d ? "%szeta_a: %s" : "%s", s->shown->d ? p : "p: momenta of the shape", group);
+    case NH_STAGE_SECOND: return nh_arena_printf(arena, "%sm_a: momentum of the group, in the body frame, and v_a the velocity %sthat belongs to it; eta_a: %s", p, shape ? "eta_a + A x' " : "", group);
+    case NH_STAGE_QUOTIENT: return nh_arena_printf(arena, "zeta_a: %s", group);
+    default: return nh_arena_printf(arena, "%szeta_a, written zeta1, .. where it is one of the independent velocities: %s; mu_a: its momentum", p, group);
+    }
+}
+
 const char *nh_reduction_stage_holds(const nh_reduction *r, const nh_reduction_stage *s)
 {
     nh_proof all = {.proved = true, .all_parameters = true};

@@ -64,6 +64,10 @@ nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, size_t *own);
 char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, bool *minus, bool *sum);
 
 void nh_sheet_text(nh_sheet *sheet, bool colour, nh_text *out);
+/* Any text, its lines broken at blanks so that they have at most 80 columns. */
+void nh_sheet_fold(const char *text, nh_text *out);
+/* Formulas without a sheet as text of 80 columns: label = value, with names for what is repeated in long ones, which follow. */
+void nh_sheet_formulas(nh_dag *dag, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown, nh_text *out);
 void nh_sheet_json(nh_sheet *sheet, nh_json *to);     /* a member of `to` for each section */
 void nh_sheet_html(nh_sheet *sheet, const char *heading, nh_html_writer *w); /* heading: h3 */
 void nh_sheet_tex(nh_sheet *sheet, nh_tex_writer *w);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "document/formula.h"
 #include "document/notation.h"
 #include "document/sheet.h"
 
@@ -26,15 +27,23 @@ static size_t break_at(const char *text, size_t room)
     return best;
 }
 
-/* A formula, broken so that nothing runs beyond the last column; words at any blank. */
-static void wrapped(nh_text *out, size_t indent, const char *text, bool words)
+/* Where words are: at the last blank that leaves at most `room` columns before it, or at the first one. */
+static size_t blank_at(const char *text, size_t room)
 {
-    size_t hang = indent + (words ? 0 : 4);
+    size_t cut = 0, column = 0;
+    for (size_t i = 0; text[i] && (column <= room || !cut); i++) {
+        if (text[i] == ' ' && i) cut = i;
+        column += ((unsigned char)text[i] & 0xc0) != 0x80;
+    }
+    return cut;
+}
+
+/* Broken so that nothing runs beyond the last column; `hang`: of all lines but the first. */
+static void put_broken(nh_text *out, size_t indent, size_t hang, const char *text, size_t (*where)(const char *, size_t))
+{
     nh_text_addf(out, "%*s", (int)indent, "");
     for (size_t room = line_width - indent; nh_text_width(text) > room; room = line_width - hang) {
-        size_t cut = words ? 0 : break_at(text, room);
-        for (size_t i = 1; i <= room && words; i++)
-            if (text[i] == ' ') cut = i;
+        size_t cut = where(text, room);
         if (!cut) break;
         nh_text_add_n(out, text, cut);
         text += cut + (text[cut] == ' ');
@@ -42,6 +51,9 @@ static void wrapped(nh_text *out, size_t indent, const char *text, bool words)
     }
     nh_text_addf(out, "%s\n", text);
 }
+
+static void wrapped(nh_text *out, size_t indent, const char *text) { put_broken(out, indent, indent + 4, text, break_at); }
+static void wrapped_words(nh_text *out, size_t indent, size_t hang, const char *text) { put_broken(out, indent, hang, text, blank_at); }
 
 static void put_words(nh_text *out, const char *words)
 {
@@ -52,7 +64,7 @@ static void put_words(nh_text *out, const char *words)
         if (label) nh_notation_write(nh_text_string(&part), NH_NOTATION_TEXT, &text);
         else nh_text_add(&text, nh_text_string(&part));
     }
-    wrapped(out, line_indent, nh_text_string(&text), true);
+    wrapped_words(out, line_indent, line_indent, nh_text_string(&text));
     nh_text_clear(&text);
 }
 
@@ -81,7 +93,7 @@ static void put_line(const nh_sheet *s, const nh_sheet_line *line, nh_text *out)
     nh_text_add(&text, " = ");
     if (line->label[0]) terms(s, line->right, line->term, &text);
     else terms(s, line->left ? line->right : 0, line->term + line->left, &text);
-    wrapped(out, line_indent, nh_text_string(&text), false);
+    wrapped(out, line_indent, nh_text_string(&text));
     nh_text_clear(&text);
 }
 
@@ -98,4 +110,39 @@ void nh_sheet_text(nh_sheet *s, bool colour, nh_text *out)
             else put_line(s, &c.line[j], out);
         }
     }
+}
+
+void nh_sheet_fold(const char *text, nh_text *out)
+{
+    for (const char *line = text; *line;) {
+        size_t length = strcspn(line, "\n"), indent = strspn(line, " ");
+        nh_text one;
+        nh_text_init(&one);
+        nh_text_add_n(&one, line + indent, length - indent);
+        wrapped_words(out, indent, indent + line_indent, nh_text_string(&one));
+        nh_text_clear(&one);
+        line += length + (line[length] == '\n');
+    }
+}
+
+static void put_formula(nh_text *out, size_t indent, const char *label, char *value)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_addf(&text, "%s = %s", label, value);
+    wrapped(out, indent, nh_text_string(&text));
+    nh_text_clear(&text);
+    nh_free(value);
+}
+
+void nh_sheet_formulas(nh_dag *d, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown, nh_text *out)
+{
+    nh_formula_part part[NH_FORMULA_PARTS];
+    nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
+    memcpy(e, value, n * sizeof *e);
+    size_t parts = nh_formula_parts(d, n, e, part);
+    for (size_t i = 0; i < n; i++) put_formula(out, indent, label[i], nh_formula_text(d, e[i], shown));
+    if (parts) nh_text_addf(out, "%*swhere\n", (int)indent, "");
+    for (size_t k = 0; k < parts; k++) put_formula(out, indent, part[k].name, nh_formula_text(d, part[k].value, shown));
+    nh_free(e);
 }
