@@ -145,6 +145,8 @@ static bool set_in_type(const place *p, const char *name)
     return code != 3;
 }
 
+static const char *const REDUCED[] = {"crane", "vertical_disk", "kepler", "constant_speed", "skate_with_friction"};
+
 Test(tex, documents_are_set_without_a_fault)
 {
     place p = place_with_systems();
@@ -156,8 +158,63 @@ Test(tex, documents_are_set_without_a_fault)
         finished_clear(&f);
         installed = set_in_type(&p, "a");
     }
+    for (size_t i = 0; installed && i < sizeof REDUCED / sizeof *REDUCED; i++) {
+        char line[200];
+        snprintf(line, sizeof line, "reduce %s --equations --quiet --tex r.tex", REDUCED[i]);
+        finished f = run(&p, line);
+        finished_clear(&f);
+        installed = set_in_type(&p, "r");
+    }
     place_clear(&p);
     if (!installed) cr_skip_test("no pdflatex with pgfplots");
+}
+
+/* Are the braces of a document balanced, those that are escaped left out? */
+static bool balanced(const char *tex)
+{
+    int depth = 0;
+    for (const char *c = tex; *c && depth >= 0; c++) {
+        if (*c == '\\' && c[1]) c++;
+        else depth += (*c == '{') - (*c == '}');
+    }
+    return depth == 0;
+}
+
+static size_t times(const char *text, const char *word)
+{
+    size_t n = 0;
+    for (const char *c = text; (c = strstr(c, word)); c++) n++;
+    return n;
+}
+
+/* The objects of all stages that the JSON has are formulas of the document, with the reduced equations and the group besides. */
+Test(tex, reductions_are_documents)
+{
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof REDUCED / sizeof *REDUCED; i++) {
+        if (!sweep_tries(i, 2, 5)) continue;
+        char line[200];
+        snprintf(line, sizeof line, "reduce %s --equations --quiet --tex r.tex --json r.json", REDUCED[i]);
+        finished f = run_expecting(&p, line, 0);
+        finished_clear(&f);
+        char *tex = read_here(&p, "r.tex"), *text = read_here(&p, "r.json");
+        cJSON *json = cJSON_Parse(text), *stage, *section, *item;
+        size_t formulas = 0, stages = 0;
+        cJSON_ArrayForEach(stage, cJSON_GetObjectItem(json, "stages")) {
+            formulas += (size_t)cJSON_GetArraySize(cJSON_GetObjectItem(stage, "equations"));
+            stages++;
+            cJSON_ArrayForEach(section, cJSON_GetObjectItem(stage, "geometry"))
+                cJSON_ArrayForEach(item, section) formulas += !cJSON_GetObjectItem(item, "words");
+        }
+        cr_expect(balanced(tex), "%s", REDUCED[i]);
+        cr_expect_geq(times(tex, "\\nhformula{"), formulas, "%s: %zu formulas, the JSON has %zu", REDUCED[i], times(tex, "\\nhformula{"), formulas);
+        cr_expect_eq(times(tex, "\\section{Stage "), stages, "%s", REDUCED[i]);
+        cr_expect_null(strstr(tex, "nan"));
+        cJSON_Delete(json);
+        free(text);
+        free(tex);
+    }
+    place_clear(&p);
 }
 
 /* The next number behind `before` is this one: where it begins; else NULL. */

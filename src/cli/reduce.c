@@ -5,6 +5,7 @@
 #include "document/export.h"
 #include "document/html.h"
 #include "document/reduction.h"
+#include "document/tex.h"
 
 static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
 {
@@ -74,6 +75,12 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
         nh_text_init(&page);
         nh_html_reduction(r, &run, &page);
         good = nh_cli_write(cli, cli->html, &page, error);
+    }
+    if (cli->tex && good) {
+        nh_text text;
+        nh_text_init(&text);
+        nh_tex_reduction(r, &run, &text);
+        good = nh_cli_write(cli, cli->tex, &text, error);
     }
     good = nh_cli_written(cli, good, error);
     bool partial = r->partial;

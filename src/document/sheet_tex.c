@@ -54,9 +54,11 @@ void nh_sheet_tex(nh_sheet *s, nh_tex_writer *w)
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
         nh_sheet_section c = nh_sheet_brief(s, i, &own);
-        nh_tex_add(w, "\\subsection*{");
-        nh_tex_words(w, c.title);
-        nh_tex_add(w, "}\n");
+        if (c.title[0]) {
+            nh_tex_add(w, "\\subsection*{");
+            nh_tex_words(w, c.title);
+            nh_tex_add(w, "}\n");
+        }
         if (c.words[0]) put_words(w, c.words);
         for (size_t j = 0; j < c.lines; j++) {
             if (j == own) nh_tex_add(w, "where\\par\n");

@@ -19,7 +19,7 @@ static const char macros[] =
     "\\definecolor{nhblue}{HTML}{0072B2}\\definecolor{nhred}{HTML}{D55E00}\\definecolor{nhgreen}{HTML}{009E73}\\definecolor{nhpink}{HTML}{CC79A7}"
     "\\definecolor{nhorange}{HTML}{E69F00}\\definecolor{nhsky}{HTML}{56B4E9}\n";
 
-void nh_tex_head(nh_tex_writer *w, bool fragment)
+void nh_tex_head(nh_tex_writer *w, const char *title, bool fragment)
 {
     static const char packages[] = "\\usepackage{amsmath,amssymb,longtable,pgfplots}\n";
     nh_tex_add(w, "% Written by nhsym " NH_VERSION ".\n");
@@ -29,7 +29,7 @@ void nh_tex_head(nh_tex_writer *w, bool fragment)
     nh_tex_add(w, macros);
     if (fragment) return;
     nh_tex_add(w, "\\title{");
-    nh_tex_words(w, w->r->system->title);
+    nh_tex_words(w, title);
     nh_tex_add(w, "}\n\\author{nhsym " NH_VERSION "}\n\\date{}\n\\begin{document}\n\\maketitle\n");
 }
 
@@ -427,7 +427,7 @@ void nh_tex_repeat(nh_tex_writer *w)
 void nh_tex(const nh_analysis *r, bool fragment, nh_text *out)
 {
     nh_tex_writer w = {r, out};
-    nh_tex_head(&w, fragment);
+    nh_tex_head(&w, r->system->title, fragment);
     nh_tex_add(&w, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
     answer(&w);
     currents_section(&w);

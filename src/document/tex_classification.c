@@ -34,7 +34,7 @@ void nh_tex_classification(const nh_classified *line, const nh_classified_plane 
     nh_classification_pen pen = {&w, section, item, words, formula, plot};
     nh_text answer;
     nh_text_init(&answer);
-    nh_tex_head(&w, false);
+    nh_tex_head(&w, w.r->system->title, false);
     nh_tex_add(&w, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
     nh_classification_answer(line, plane, &answer);
     nh_tex_words(&w, nh_text_string(&answer));

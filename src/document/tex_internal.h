@@ -33,7 +33,7 @@ void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e);
 void nh_tex_labelled(nh_tex_writer *w, const char *latex, nh_ex e);
 
 /* What stands before the body, and sections that every document has. */
-void nh_tex_head(nh_tex_writer *w, bool fragment);
+void nh_tex_head(nh_tex_writer *w, const char *title, bool fragment);
 void nh_tex_system(nh_tex_writer *w);
 void nh_tex_repeat(nh_tex_writer *w);
 
