@@ -5,8 +5,6 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "document/classification.h"
-#include "document/html.h"
-#include "document/tex.h"
 
 /* "eps" or "B, eps" */
 static bool read_names(nh_cli *cli, nh_classify_request *q, nh_error *error)
@@ -73,21 +71,11 @@ static char *json_of(const answer *a, const nh_run *run)
     return a->plane ? nh_classification_plane_json(a->plane, run) : nh_classification_json(a->line, run);
 }
 
-static bool write_documents(nh_cli *cli, const answer *a, const nh_run *run, nh_error *error)
+static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
 {
-    nh_text text;
-    bool good = true;
-    nh_text_init(&text);
-    if (cli->html) {
-        nh_html_classification(a->line, a->plane, run, &text);
-        good = (!cli->folder || nh_cli_write_figures(cli, nh_text_string(&text), error))
-            && nh_cli_write(cli, cli->html, &text, error);
-    }
-    if (cli->tex && good) {
-        nh_tex_classification(a->line, a->plane, &text);
-        good = nh_cli_write(cli, cli->tex, &text, error);
-    }
-    return good;
+    const answer *a = result;
+    (void)cli;
+    nh_classification_write(a->line, a->plane, run, form, out);
 }
 
 int nh_cli_classify(nh_cli *cli, nh_error *error)
@@ -104,7 +92,7 @@ int nh_cli_classify(nh_cli *cli, nh_error *error)
     bool good = true;
     if (nh_cli_speaks(cli)) print(cli, &a);
     if (cli->json) good = nh_cli_write_json(cli, json_of(&a, &run), error);
-    good = good && write_documents(cli, &a, &run, error);
+    good = good && nh_cli_write_documents(cli, render, &a, &run, error);
     good = nh_cli_written(cli, good, error);
     if (good && a.obstacle) nh_fail(error, NH_NUMERIC, "", "%s", a.obstacle);
     if (a.line) nh_classified_free(a.line);

@@ -9,7 +9,7 @@
 #include "base/output.h"
 #include "base/sweep.h"
 #include "base/text.h"
-#include "document/provenance.h"
+#include "document/pen.h"
 #include "commands/analyze.h"
 #include "commands/simulate.h"
 #include "problem/places.h"
@@ -98,6 +98,10 @@ bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error);
 bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error);
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
+
+/* The page and the LaTeX document of a result, where they are wanted. */
+typedef void nh_cli_render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out);
+bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error);
 
 /* -o DIR: make the folder; everything goes there, but for what has a place of its own. */
 bool nh_cli_use_folder(nh_cli *cli, nh_error *error);

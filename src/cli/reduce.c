@@ -58,6 +58,13 @@ static void complain(const nh_reduction *r, double accuracy, nh_error *error)
     if (r->stages && r->full.method && !r->full.held && error->code == NH_OK) nh_fail(error, NH_NUMERIC, "", "the accuracy %.1e was not reached: %s", accuracy, r->full.why);
 }
 
+static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+{
+    (void)cli;
+    if (form == NH_PEN_PAGE) nh_html_reduction(result, run, out);
+    else nh_tex_reduction(result, run, out);
+}
+
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     nh_reduce_request request;
@@ -70,18 +77,7 @@ int nh_cli_reduce(nh_cli *cli, nh_error *error)
     bool good = true;
     if (nh_cli_speaks(cli)) print(cli, r);
     if (cli->json) good = nh_cli_write_json(cli, nh_reduction_json(r, &run), error);
-    if (cli->html && good) {
-        nh_text page;
-        nh_text_init(&page);
-        nh_html_reduction(r, &run, &page);
-        good = nh_cli_write(cli, cli->html, &page, error);
-    }
-    if (cli->tex && good) {
-        nh_text text;
-        nh_text_init(&text);
-        nh_tex_reduction(r, &run, &text);
-        good = nh_cli_write(cli, cli->tex, &text, error);
-    }
+    good = good && nh_cli_write_documents(cli, render, r, &run, error);
     good = nh_cli_written(cli, good, error);
     bool partial = r->partial;
     if (good && cli->accuracy > 0 && !partial) complain(r, cli->accuracy, error);

@@ -2,7 +2,6 @@
 
 #include "cli/cli.h"
 #include "document/geometry_sheet.h"
-#include "document/html.h"
 #include "document/verification.h"
 
 static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error)
@@ -31,6 +30,11 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error
     return *out != NULL;
 }
 
+static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+{
+    nh_verification_write(result, cli->field != NULL, run, form, out);
+}
+
 int nh_cli_verify(nh_cli *cli, nh_error *error)
 {
     nh_verification *v = NULL;
@@ -48,12 +52,7 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
         nh_text_clear(&text);
     }
     if (cli->json) good = nh_cli_write_json(cli, nh_verification_json(v, &run), error);
-    if (cli->html && good) {
-        nh_text page;
-        nh_text_init(&page);
-        nh_html_verification(v, cli->field != NULL, &run, &page);
-        good = nh_cli_write(cli, cli->html, &page, error);
-    }
+    good = good && nh_cli_write_documents(cli, render, v, &run, error);
     good = nh_cli_written(cli, good, error);
     nh_verification_free(v);
     return !good ? (int)error->code : conserved ? NH_OK : NH_REFUTED;

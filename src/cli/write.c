@@ -66,6 +66,22 @@ bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error)
     return good;
 }
 
+bool nh_cli_write_documents(nh_cli *cli, nh_cli_render *render, const void *result, const nh_run *run, nh_error *error)
+{
+    nh_text text;
+    bool good = true;
+    nh_text_init(&text);
+    if (cli->html) {
+        render(cli, result, run, NH_PEN_PAGE, &text);
+        good = (!cli->folder || nh_cli_write_figures(cli, nh_text_string(&text), error)) && nh_cli_write(cli, cli->html, &text, error);
+    }
+    if (cli->tex && good) {
+        render(cli, result, run, NH_PEN_LATEX, &text);
+        good = nh_cli_write(cli, cli->tex, &text, error);
+    }
+    return good;
+}
+
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error) { return nh_output_end(&cli->files, good, error); }
 
 /* ---- of a run that has no result ---- */

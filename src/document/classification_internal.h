@@ -4,7 +4,6 @@
 
 #include "base/json.h"
 #include "document/classification.h"
-#include "document/svg.h"
 
 /* A current as text, on the heap; NULL: longer than `shown`. */
 char *nh_classification_current(const nh_analysis *result, const nh_current *current, double shown);
@@ -31,24 +30,8 @@ void nh_classification_plane_open(const nh_classified_plane *classified, nh_text
 
 /* ---- page and LaTeX ---- */
 
-/* What a document of either form does with the parts of a classification, one after the other. */
-typedef struct {
-    void *to;
-    void (*section)(void *to, const char *id, const char *title);
-    void (*item)(void *to, const char *title);
-    void (*words)(void *to, const char *text);
-    void (*formula)(void *to, const char *label, const char *text); /* label = text */
-    void (*plot)(void *to, nh_plot *plot, const char *caption);
-} nh_classification_pen;
-
-/* One of both is there. */
-void nh_classification_outline(const nh_classified *line, const nh_classified_plane *plane,
-                               const nh_classification_pen *pen);
-/* "1 curve and 2 points with more conservation laws" */
-void nh_classification_answer(const nh_classified *line, const nh_classified_plane *plane, nh_text *out);
-
 /* The plane of both parameters: curves and points by the number of integrals of the highest degree. */
-void nh_classification_picture(const nh_classified_plane *plane, const nh_classification_pen *pen);
+void nh_classification_picture(const nh_classified_plane *plane, nh_pen *pen);
 
 /* ---- JSON ---- */
 

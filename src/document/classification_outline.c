@@ -4,37 +4,37 @@
 #include "document/classification_internal.h"
 
 typedef nh_classified_plane plane;
-typedef nh_classification_pen pen;
+typedef nh_pen pen;
 
 /* ---- pieces ---- */
 
 /* Every line as words; blanks before it are left out. */
-static void put_lines(const pen *p, nh_text *text)
+static void put_lines(pen *p, nh_text *text)
 {
     char *line = nh_strdup(nh_text_string(text));
     for (char *at = line, *end; *at; at = end) {
         at += strspn(at, " \n");
         end = at + strcspn(at, "\n");
         if (*end) *end++ = 0;
-        if (*at) p->words(p->to, at);
+        if (*at) nh_pen_words(p, "%s", at);
     }
     nh_free(line);
     nh_text_clear(text);
 }
 
-static void put_currents(const pen *p, const nh_analysis *r, size_t count, const size_t *index)
+static void put_currents(pen *p, const nh_analysis *r, size_t count, const size_t *index)
 {
     for (size_t k = 0; k < count; k++) {
         const nh_current *f = &r->found[index ? index[k] : k];
         if (!f->proof.proved || f->series) continue;
         char *text = nh_classification_current(r, f, r->options.shown);
-        if (text) p->formula(p->to, f->name, text);
-        else p->words(p->to, "A longer current (option `shown`).");
+        if (text) p->ink->equation(p->to, f->name, text);
+        else nh_pen_words(p, "A longer current (option `shown`).");
         nh_free(text);
     }
 }
 
-static void put_numbers(const pen *p, size_t rows, const nh_classify_number *n, size_t first, size_t complete,
+static void put_numbers(pen *p, size_t rows, const nh_classify_number *n, size_t first, size_t complete,
                         const size_t *almost_all)
 {
     nh_text text;
@@ -45,7 +45,7 @@ static void put_numbers(const pen *p, size_t rows, const nh_classify_number *n, 
     put_lines(p, &text);
 }
 
-static void put_no_currents(const pen *p, const char *why)
+static void put_no_currents(pen *p, const char *why)
 {
     nh_text text;
     nh_text_init(&text);
@@ -53,20 +53,20 @@ static void put_no_currents(const pen *p, const char *why)
     put_lines(p, &text);
 }
 
-static void put_value(const pen *p, const nh_classified_value *at, size_t first)
+static void put_value(pen *p, const nh_classified_value *at, size_t first)
 {
     if (!at->result) {
         put_no_currents(p, at->why);
         return;
     }
     put_currents(p, at->result, at->result->count, NULL);
-    p->words(p->to, at->complete >= first ? "All of them are proved, and there are no others up to these degrees."
+    nh_pen_words(p, "%s", at->complete >= first ? "All of them are proved, and there are no others up to these degrees."
              : "They are proved, but fewer than were counted.");
 }
 
 /* ---- one parameter ---- */
 
-static void outline_line(const nh_classified *x, const pen *p)
+static void outline_line(const nh_classified *x, pen *p)
 {
     const nh_classification *c = x->classification;
     size_t almost_all[NH_COUNT_HIGHEST_DEGREE + 1] = {0}, written = 0;
@@ -76,35 +76,35 @@ static void outline_line(const nh_classified *x, const pen *p)
     for (size_t k = 0; k < c->values; k++) {
         const nh_classify_value *v = &c->value[k];
         if (!v->first || v->degenerate) continue;
-        if (!written++) p->section(p->to, "special", "Where there are more");
-        p->item(p->to, nh_classified_words(x, &v->polynomial));
+        if (!written++) nh_pen_section(p, "special", "Where there are more");
+        nh_pen_card(p, nh_classified_words(x, &v->polynomial));
         put_numbers(p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
         put_value(p, &x->value[k], v->first);
     }
-    p->section(p->to, "almost", "For almost all values");
+    nh_pen_section(p, "almost", "For almost all values");
     for (size_t d = 1; d <= c->rows; d++)
         nh_classification_almost_all(d, &c->row[d - 1].number, c->row[d - 1].known, &text);
     put_lines(p, &text);
     put_currents(p, x->almost_all, x->known, x->currents);
-    p->section(p->to, "excluded", "What is excluded");
+    nh_pen_section(p, "excluded", "What is excluded");
     nh_classification_excluded(x, true, &text);
     put_lines(p, &text);
 }
 
 /* ---- two ---- */
 
-static void outline_curve(const plane *x, const pen *p, size_t k, const size_t *almost_all)
+static void outline_curve(const plane *x, pen *p, size_t k, const size_t *almost_all)
 {
     const nh_plane_curve *c = &x->plane->curve[k];
     const nh_classified_curve *at = &x->curve[k];
-    p->item(p->to, nh_classified_curve_words(x, &c->polynomial));
+    nh_pen_card(p, nh_classified_curve_words(x, &c->polynomial));
     put_numbers(p, x->plane->rows, c->number, c->first, at->complete, almost_all);
     if (!at->along) {
         put_no_currents(p, at->why);
         return;
     }
     put_currents(p, at->along->almost_all, at->along->known, at->along->currents);
-    p->words(p->to, at->complete ? "All of them are proved for every value on the curve, and there are no others for almost all."
+    nh_pen_words(p, "%s", at->complete ? "All of them are proved for every value on the curve, and there are no others for almost all."
              : "They are proved, but fewer than were counted.");
 }
 
@@ -120,42 +120,36 @@ static const char *place_of(const plane *x, const nh_classified_point *q)
     return out;
 }
 
-static void outline_plane(const plane *x, const pen *p)
+static void outline_plane(const plane *x, pen *p)
 {
     const nh_plane *o = x->plane;
     size_t almost_all[NH_COUNT_HIGHEST_DEGREE + 1] = {0}, written = 0;
     nh_text text;
     nh_text_init(&text);
     for (size_t d = 1; d <= o->rows; d++) almost_all[d] = o->row[d - 1].number.bound;
-    p->section(p->to, "picture", "The plane of both parameters");
+    nh_pen_section(p, "picture", "The plane of both parameters");
     nh_classification_picture(x, p);
     for (size_t k = 0; k < o->curves; k++) {
         if (!o->curve[k].first || o->curve[k].degenerate) continue;
-        if (!written++) p->section(p->to, "curves", "Curves with more");
+        if (!written++) nh_pen_section(p, "curves", "Curves with more");
         outline_curve(x, p, k, almost_all);
     }
     for (size_t k = 0; k < x->points; k++) {
         const nh_classified_point *q = &x->point[k];
-        if (!k) p->section(p->to, "points", "Points with more");
-        p->item(p->to, place_of(x, q));
+        if (!k) nh_pen_section(p, "points", "Points with more");
+        nh_pen_card(p, place_of(x, q));
         put_numbers(p, o->rows, q->number, q->first, q->at->complete, almost_all);
         put_value(p, q->at, q->first);
     }
-    p->section(p->to, "almost", "For almost all values");
+    nh_pen_section(p, "almost", "For almost all values");
     for (size_t d = 1; d <= o->rows; d++)
         nh_classification_almost_all(d, &o->row[d - 1].number, o->row[d - 1].known, &text);
     put_lines(p, &text);
     put_currents(p, x->family->almost_all, x->family->known, x->family->currents);
-    p->section(p->to, "excluded", "What is excluded");
+    nh_pen_section(p, "excluded", "What is excluded");
     nh_classification_plane_open(x, &text);
     nh_classification_plane_excluded(x, true, &text);
     put_lines(p, &text);
-}
-
-void nh_classification_outline(const nh_classified *line, const plane *x, const pen *p)
-{
-    if (x) outline_plane(x, p);
-    else outline_line(line, p);
 }
 
 static size_t count_line(const nh_classified *x)
@@ -166,20 +160,39 @@ static size_t count_line(const nh_classified *x)
     return n;
 }
 
-void nh_classification_answer(const nh_classified *line, const plane *x, nh_text *out)
+/* "1 curve and 2 points with more conservation laws" */
+static void answer(pen *p, const nh_classified *line, const plane *x)
 {
     const char *obstacle = x ? x->plane->obstacle : line->classification->obstacle;
     size_t curves = 0, rows = x ? x->plane->rows : line->classification->rows;
     for (size_t k = 0; x && k < x->plane->curves; k++) curves += x->plane->curve[k].first && !x->plane->curve[k].degenerate;
     if (obstacle) {
-        nh_text_addf(out, "Nothing can be said: %s.", obstacle);
+        nh_pen_say(p, "Nothing can be said: %s.", obstacle);
         return;
     }
     if (x)
-        nh_text_addf(out, "%zu curve%s and %zu point%s with more conservation laws than almost all", curves,
+        nh_pen_say(p, "%zu curve%s and %zu point%s with more conservation laws than almost all", curves,
                      curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s");
     else
-        nh_text_addf(out, "%zu value%s of %s with more conservation laws than almost all", count_line(line),
+        nh_pen_say(p, "%zu value%s of %s with more conservation laws than almost all", count_line(line),
                      count_line(line) == 1 ? "" : "s", line->over);
-    nh_text_addf(out, ", polynomial in the velocities up to degree %zu.", rows);
+    nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
+}
+
+void nh_classification_write(const nh_classified *line, const plane *x, const nh_run *run, nh_pen_form form, nh_text *out)
+{
+    const nh_analysis *r = (x ? x->family : line)->almost_all;
+    nh_pen_subject subject = {.system = r->system, .dag = r->model->dag, .chart = r->model->chart, .shown = run->shown};
+    pen all, *p = &all;
+    nh_pen_begin(p, form, &subject, "classification", out);
+    nh_pen_open(p, NH_PEN_ANSWER, "found", NULL);
+    answer(p, line, x);
+    nh_pen_close(p, NH_PEN_ANSWER);
+    p->ink->links(p->to, x ? "picture|The plane|almost|For almost all values|excluded|What is excluded|system|System|words|Words|repeat|Repeat it"
+                  : "almost|For almost all values|excluded|What is excluded|system|System|words|Words|repeat|Repeat it");
+    if (x) outline_plane(x, p);
+    else outline_line(line, p);
+    nh_pen_system(p, r->model);
+    nh_pen_glossary(p, "current, degree, proved, complete");
+    nh_pen_end(p, run);
 }

@@ -111,7 +111,7 @@ static void all_points(drawing *d, const plane *x)
     }
 }
 
-void nh_classification_picture(const plane *x, const nh_classification_pen *pen)
+void nh_classification_picture(const plane *x, nh_pen *pen)
 {
     drawing d = {.arena = x->family->arena};
     size_t rows = x->plane->rows;
@@ -130,6 +130,6 @@ void nh_classification_picture(const plane *x, const nh_classification_pen *pen)
                                           rows, only ? ": " : "", only ? only : "", x->plane->row[rows - 1].number.bound);
     nh_plot plot = {.title = "Where there are more conservation laws", .description = caption, .x_label = x->over[1],
                     .y_label = x->over[0], .curves = d.count, .curve = d.curve};
-    if (d.count) pen->plot(pen->to, &plot, caption);
+    if (d.count) pen->ink->plot(pen->to, &plot, caption);
     nh_free(d.curve);
 }

@@ -223,9 +223,9 @@ static void put_function(const nh_export *x, const nh_export_function *f, nh_tex
     nh_text_init(&w.lines);
     nh_export_words(x, f, "", &words);
     nh_text_addf(out, "\n\\subsection*{");
-    nh_tex_words(&(nh_tex_writer){NULL, out}, f->name);
+    nh_tex_words(&(nh_tex_writer){.out = out}, f->name);
     nh_text_add(out, "}\n");
-    nh_tex_words(&(nh_tex_writer){NULL, out}, nh_text_string(&words));
+    nh_tex_words(&(nh_tex_writer){.out = out}, nh_text_string(&words));
     nh_text_add(out, "\n");
     nh_text_clear(&words);
     w.code = nh_source_create(&nh_source_plain, f->dag, &w.lines);
@@ -256,10 +256,10 @@ void nh_export_latex(const nh_export *x, nh_text *out)
                  "\n\\documentclass{article}\n\\usepackage[margin=2.5cm]{geometry}\n\\usepackage{amsmath}"
                  "\n\\usepackage[T1]{fontenc}\n\\allowdisplaybreaks\n%s\\begin{document}\n\\section*{",
                  nh_tex_formula_macro);
-    nh_tex_words(&(nh_tex_writer){NULL, out}, x->system->title);
+    nh_tex_words(&(nh_tex_writer){.out = out}, x->system->title);
     nh_text_add(out, "}\n");
     for (size_t i = 0; i < x->notes; i++) {
-        nh_tex_words(&(nh_tex_writer){NULL, out}, x->note[i]);
+        nh_tex_words(&(nh_tex_writer){.out = out}, x->note[i]);
         nh_text_add(out, ".\n\n");
     }
     for (size_t i = 0; i < x->functions; i++) put_function(x, &x->function[i], out);

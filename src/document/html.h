@@ -8,21 +8,15 @@
 #include "base/text.h"
 #include "document/provenance.h"
 #include "document/svg.h"
-#include "commands/classify.h"
 #include "commands/reduce.h"
 #include "search/analysis.h"
 #include "commands/simulate.h"
 #include "commands/robustness.h"
-#include "commands/verify.h"
 
 void nh_html(const nh_analysis *result, nh_text *out);
 void nh_html_simulation(const nh_simulation *simulation, const nh_run *run, nh_text *out);
-void nh_html_verification(const nh_verification *verdict, bool field, const nh_run *run, nh_text *out); /* field: the question was about one */
 void nh_html_benchmark(const nh_benchmark *comparison, const nh_robustness *maps, const nh_run *run, nh_text *out); /* maps may be NULL */
 void nh_html_reduction(const nh_reduction *reduction, const nh_run *run, nh_text *out);
-
-/* One of both is there. */
-void nh_html_classification(const nh_classified *line, const nh_classified_plane *plane, const nh_run *run, nh_text *out);
 
 /* The figures of a page one by one, each a stand-alone SVG document: where the next begins, NULL after the last.  Moves *at on. */
 const char *nh_html_next_figure(const char **at, size_t *length);

@@ -11,27 +11,7 @@
 #include "document/html.h"
 #include "document/tex_internal.h"
 
-/* ---- before and after the body ---- */
-
-static const char macros[] =
-    "\\providecommand{\\nhnumber}[2]{$#2$} % all digits, and what is shown\n"
-    "\\providecommand{\\nhbreak}{\\penalty0\\hskip0pt\\relax}\n"
-    "\\definecolor{nhblue}{HTML}{0072B2}\\definecolor{nhred}{HTML}{D55E00}\\definecolor{nhgreen}{HTML}{009E73}\\definecolor{nhpink}{HTML}{CC79A7}"
-    "\\definecolor{nhorange}{HTML}{E69F00}\\definecolor{nhsky}{HTML}{56B4E9}\n";
-
-void nh_tex_head(nh_tex_writer *w, const char *title, bool fragment)
-{
-    static const char packages[] = "\\usepackage{amsmath,amssymb,longtable,pgfplots}\n";
-    nh_tex_add(w, "% Written by nhsym " NH_VERSION ".\n");
-    if (fragment) nh_text_addf(w->out, "%% To be read by \\input; the document needs these lines before its beginning:\n%% %s%% \\pgfplotsset{compat=1.16}\n", packages);
-    else nh_text_addf(w->out, "\\documentclass[11pt,a4paper]{article}\n%s\\usepackage[margin=2.5cm]{geometry}\n\\pgfplotsset{compat=1.16}\n", packages);
-    nh_tex_add(w, nh_tex_formula_macro);
-    nh_tex_add(w, macros);
-    if (fragment) return;
-    nh_tex_add(w, "\\title{");
-    nh_tex_words(w, title);
-    nh_tex_add(w, "}\n\\author{nhsym " NH_VERSION "}\n\\date{}\n\\begin{document}\n\\maketitle\n");
-}
+/* ---- the answer ---- */
 
 static void answer(nh_tex_writer *w)
 {
@@ -59,79 +39,6 @@ static void answer(nh_tex_writer *w)
         nh_tex_words(w, r->warning[i]);
         nh_tex_add(w, "\n");
     }
-}
-
-/* ---- the system ---- */
-
-static void parameters(nh_tex_writer *w)
-{
-    const nh_system *s = w->r->system;
-    if (!s->parameters) return;
-    nh_tex_add(w, "\\begin{center}\\begin{tabular}{lll}\nparameter & value & meaning \\\\\\hline\n");
-    for (size_t i = 0; i < s->parameters; i++) {
-        nh_tex_name(w, s->parameter[i].name);
-        nh_tex_add(w, " & ");
-        nh_tex_number(w, s->parameter[i].value, 10);
-        nh_tex_add(w, " ");
-        if (s->parameter[i].unit) nh_tex_words(w, s->parameter[i].unit);
-        nh_tex_add(w, " & \\parbox[t]{0.6\\linewidth}{\\raggedright ");
-        if (s->parameter[i].doc) nh_tex_words(w, s->parameter[i].doc);
-        nh_tex_add(w, "\\strut} \\\\\n");
-    }
-    nh_tex_add(w, "\\end{tabular}\\end{center}\n");
-}
-
-static void equations(nh_tex_writer *w, const nh_model *o)
-{
-    char label[200];
-    nh_tex_add(w, "\\subsection*{");
-    nh_tex_add(w, nh_facts_equations(o));
-    nh_tex_add(w, ", in ");
-    nh_tex_chart(w, o->chart->name);
-    nh_tex_add(w, "}\n");
-    for (size_t i = 0; i < o->n; i++) {
-        snprintf(label, sizeof label, "%.180s'", nh_name_of(o->dag, o->chart->w[i]));
-        nh_tex_formula(w, label, o->a[i]);
-    }
-    if (o->k) nh_tex_add(w, "Chetaev multipliers\n");
-    for (size_t a = 0; a < o->k; a++) {
-        snprintf(label, sizeof label, o->k == 1 ? "mu" : "mu_%zu", a + 1);
-        nh_tex_formula(w, label, o->mu[a]);
-    }
-    if (o->k) nh_tex_add(w, "Force of the constraints\n");
-    for (size_t s = 0; s < o->m && o->k; s++) {
-        snprintf(label, sizeof label, "F_%.180s", o->system->coordinate[s].name);
-        if (!nh_is_zero(o->dag, o->reaction[s])) nh_tex_formula(w, label, o->reaction[s]);
-    }
-}
-
-static void constraint_words(nh_tex_writer *w)
-{
-    nh_text words;
-    nh_text_init(&words);
-    nh_facts_constraint(w->r, &words);
-    nh_text_add(&words, w->r->branch ? "; " : "");
-    nh_facts_branch(w->r, &words);
-    nh_tex_count(w, w->r->model->k);
-    nh_tex_add(w, " ");
-    nh_tex_words(w, nh_text_string(&words));
-    nh_tex_add(w, "\n");
-    nh_text_clear(&words);
-}
-
-void nh_tex_system(nh_tex_writer *w)
-{
-    const nh_analysis *r = w->r;
-    const nh_system *s = r->system;
-    nh_tex_add(w, "\\section{The system}\n");
-    if (s->source && s->source[0]) nh_tex_words(w, s->source), nh_tex_add(w, ".\n\n");
-    parameters(w);
-    nh_tex_add(w, "Lagrangian\n");
-    nh_tex_formula(w, "L", s->lagrangian);
-    if (s->constraints) constraint_words(w);
-    for (size_t i = 0; i < s->constraints; i++) nh_tex_display(w, "", s->constraint[i].text);
-    equations(w, r->model);
-    if (r->other) equations(w, r->other);
 }
 
 /* ---- currents ---- */
@@ -403,40 +310,22 @@ static void search_section(nh_tex_writer *w)
     stages(w);
 }
 
-void nh_tex_repeat(nh_tex_writer *w)
-{
-    const nh_analysis *r = w->r;
-    nh_tex_add(w, "\\section{To repeat it}\n\\begin{raggedright}\n");
-    if (r->command) nh_tex_code(w, r->command), nh_tex_add(w, "\n\n");
-    nh_tex_add(w, "nhsym " NH_VERSION ", seed ");
-    nh_tex_number(w, r->options.seed, 17);
-    nh_tex_add(w, ", system file ");
-    nh_tex_code(w, r->system_path);
-    if (r->analysis_path) nh_tex_add(w, ", analysis file "), nh_tex_code(w, r->analysis_path);
-    for (size_t i = 0; nh_version_of(i).name; i++) {
-        nh_tex_add(w, ", ");
-        nh_tex_words(w, nh_version_of(i).name);
-        nh_tex_add(w, " ");
-        nh_tex_words(w, nh_version_of(i).version);
-    }
-    nh_tex_add(w, ", ");
-    nh_tex_words(w, nh_versions_machine());
-    nh_tex_add(w, ".\n\n\\end{raggedright}\n");
-}
-
 void nh_tex(const nh_analysis *r, bool fragment, nh_text *out)
 {
-    nh_tex_writer w = {r, out};
-    nh_tex_head(&w, r->system->title, fragment);
+    nh_tex_writer w = nh_tex_writer_of(r, out);
+    nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
+    nh_tex_head(&w, fragment, NULL);
     nh_tex_add(&w, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
     answer(&w);
     currents_section(&w);
-    nh_tex_system(&w);
-    nh_tex_geometry(&w);
+    nh_tex_written(&w);
+    nh_tex_equations(&w, r->model);
+    if (r->other) nh_tex_equations(&w, r->other);
+    nh_tex_geometry(&w, r->arena, r->theory);
     motion_section(&w);
     figures_section(&w);
     search_section(&w);
-    nh_tex_repeat(&w);
+    nh_tex_repeat(&w, &run);
     nh_tex_add(&w, "\\par\\endgroup\n");
     if (!fragment) nh_tex_add(&w, "\\end{document}\n");
 }

@@ -2,13 +2,12 @@
 #include "document/geometry_sheet.h"
 #include "document/tex_internal.h"
 
-void nh_tex_geometry(nh_tex_writer *w)
+void nh_tex_geometry(nh_tex_writer *w, nh_arena *arena, const struct nh_theory *t)
 {
-    const nh_analysis *r = w->r;
-    if (!r->theory) return;
+    if (!t) return;
     nh_tex_add(w, "\\section{Geometry}\nIn ");
-    nh_tex_chart(w, r->theory->model->chart->name);
+    nh_tex_chart(w, t->model->chart->name);
     nh_tex_words(w, ", with the numbers of the equations in \u010cech and Musilov\u00e1 (2014).");
     nh_tex_add(w, "\n");
-    nh_sheet_tex(nh_geometry_sheet(r->arena, r->theory, r->analysis), w);
+    nh_sheet_tex(nh_geometry_sheet(arena, t, w->analysis), w);
 }

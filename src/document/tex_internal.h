@@ -2,13 +2,22 @@
 #ifndef NH_TEX_INTERNAL_H
 #define NH_TEX_INTERNAL_H
 
+#include "document/provenance.h"
 #include "document/svg.h"
 #include "document/tex.h"
 
 typedef struct {
-    const nh_analysis *r;
     nh_text *out;
+    const nh_system *system;
+    const nh_analysis_file *analysis; /* its abbreviations are used in formulas; or NULL */
+    nh_dag *dag;                 /* of the formulas */
+    const nh_chart *chart;       /* whose roots are shown as velocities; or NULL */
+    double shown, written;       /* options: longer formulas are left out; are in the JSON */
+    const nh_analysis *r;        /* of `analyze`, else NULL */
+    size_t cells;                /* of the row, so far */
 } nh_tex_writer;
+
+nh_tex_writer nh_tex_writer_of(const nh_analysis *result, nh_text *out);
 
 enum { NH_TEX_WIDEST = 46 }; /* letters in a piece of a formula: well within a line */
 
@@ -32,13 +41,15 @@ void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e);
 /* The same with a label in LaTeX, such as Z_{\dot{x}}. */
 void nh_tex_labelled(nh_tex_writer *w, const char *latex, nh_ex e);
 
-/* What stands before the body, and sections that every document has. */
-void nh_tex_head(nh_tex_writer *w, const char *title, bool fragment);
-void nh_tex_system(nh_tex_writer *w);
-void nh_tex_repeat(nh_tex_writer *w);
+/* What stands before the body; `what` follows the title of the system, or is NULL. */
+void nh_tex_head(nh_tex_writer *w, bool fragment, const char *what);
+/* Sections of every document: the system as it was written; its equations; how to repeat the run. */
+void nh_tex_written(nh_tex_writer *w);
+void nh_tex_equations(nh_tex_writer *w, const nh_model *model);
+void nh_tex_repeat(nh_tex_writer *w, const nh_run *run);
 
-/* The geometry, where it was asked for. */
-void nh_tex_geometry(nh_tex_writer *w);
+/* The geometry; nothing without a theory. */
+void nh_tex_geometry(nh_tex_writer *w, nh_arena *arena, const struct nh_theory *theory);
 
 /* A figure, drawn by pgfplots from the numbers themselves. */
 void nh_tex_plot(nh_tex_writer *w, const nh_plot *plot, const char *caption);

@@ -183,11 +183,15 @@ void nh_tex_display(nh_tex_writer *w, const char *label, const char *text)
 /* What is too long for a page, under its name in LaTeX. */
 static void too_long(nh_tex_writer *w, const char *name, nh_ex e)
 {
-    bool known = (double)nh_complexity(w->r->model->dag, e) <= w->r->options.written;
+    bool known = (double)nh_complexity(w->dag, e) <= w->written;
     nh_text_addf(w->out, "\\par %s: too long for a page%s.\\par\n", name, known ? "; the JSON has it" : "");
 }
 
-static char *text_of(const nh_tex_writer *w, nh_ex e) { return nh_print_short(w->r->model->dag, nh_formula_abbreviate(w->r, e), w->r->options.shown); }
+static char *text_of(const nh_tex_writer *w, nh_ex e)
+{
+    nh_ex shown = w->chart ? nh_chart_shown(w->chart, e) : e;
+    return nh_print_short(w->dag, nh_formula_shortened(w->analysis, w->dag, shown), w->shown);
+}
 
 void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e)
 {
@@ -196,7 +200,7 @@ void nh_tex_formula(nh_tex_writer *w, const char *label, nh_ex e)
         nh_tex_display(w, label, text);
     } else {
         nh_text name;
-        nh_tex_writer inner = {w->r, &name};
+        nh_tex_writer inner = {.out = &name};
         nh_text_init(&name);
         nh_tex_name(&inner, label);
         too_long(w, nh_text_string(&name), e);

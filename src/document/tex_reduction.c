@@ -1,4 +1,6 @@
 /* The reduction as a LaTeX document. */
+#include <math.h>
+
 #include "document/reduction.h"
 #include "document/reduction_sheet.h"
 #include "document/tex_internal.h"
@@ -57,30 +59,10 @@ static void stage(document *d, size_t number)
     if (sheet) put(d, sheet);
 }
 
-static void system_of(document *d)
-{
-    const nh_system *s = d->r->system;
-    nh_sheet *sheet = nh_sheet_create(d->r->arena, d->dag);
-    section(&d->w, "The system");
-    if (s->source && s->source[0]) words(&d->w, s->source);
-    sheet->shown = d->r->options.shown;
-    nh_sheet_begin(sheet, "", "Lagrangian and parameters", "");
-    nh_sheet_formula(sheet, "L", s->lagrangian);
-    put(d, sheet);
-    for (size_t i = 0; i < s->constraints; i++) nh_tex_display(&d->w, "", s->constraint[i].text);
-    for (size_t i = 0; i < s->parameters; i++) {
-        nh_tex_add(&d->w, i ? ", " : "");
-        nh_tex_name(&d->w, s->parameter[i].name);
-        nh_tex_add(&d->w, " = ");
-        nh_tex_number(&d->w, s->parameter[i].value, 10);
-    }
-    nh_tex_add(&d->w, "\n\n");
-}
-
 void nh_tex_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
 {
-    document d = {{.out = out}, r->kinetic->dag, r, 0};
-    nh_tex_head(&d.w, r->system->title, false);
+    document d = {{.out = out, .system = r->system, .dag = r->kinetic->dag, .shown = run->shown, .written = INFINITY}, r->kinetic->dag, r, 0};
+    nh_tex_head(&d.w, false, "reduction by symmetry");
     nh_tex_add(&d.w, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
     for (size_t i = 0; i < r->warnings; i++) {
         nh_tex_add(&d.w, "\\textbf{Warning:} ");
@@ -91,8 +73,7 @@ void nh_tex_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     if (r->group != r->all) put(&d, nh_reduction_group_sheet(r, r->group));
     for (size_t i = 0; i < r->stages; i++) stage(&d, i);
     if (r->stages && r->group->action.d) put(&d, nh_reduction_momenta_sheet(r));
-    system_of(&d);
-    nh_tex_add(&d.w, "\\subsection*{To repeat this}\n");
-    nh_tex_code(&d.w, run->command);
-    nh_tex_add(&d.w, "\n\\par\\endgroup\n\\end{document}\n");
+    nh_tex_written(&d.w);
+    nh_tex_repeat(&d.w, run);
+    nh_tex_add(&d.w, "\\par\\endgroup\n\\end{document}\n");
 }

@@ -168,15 +168,16 @@ char *nh_reduction_document(const nh_reduction *r, nh_format format, nh_error *e
 
 char *nh_verification_document(const nh_verification *v, nh_format format, nh_error *error)
 {
+    (void)error; /* every format exists */
     nh_run  run = run_of(1);
     nh_text text;
     nh_text_init(&text);
     bool field = v->form != NULL;
     switch (format) {
     case NH_FORMAT_JSON: return nh_verification_json(v, &run);
-    case NH_FORMAT_HTML: nh_html_verification(v, field, &run, &text); break;
+    case NH_FORMAT_HTML: nh_verification_write(v, field, &run, NH_PEN_PAGE, &text); break;
     case NH_FORMAT_TEXT: nh_verification_text(v, field, shown, &text); break;
-    case NH_FORMAT_LATEX: return no_document("a verification", "LaTeX", "text, JSON or HTML", error);
+    case NH_FORMAT_LATEX: nh_verification_write(v, field, &run, NH_PEN_LATEX, &text); break;
     }
     return taken(&text);
 }
@@ -190,8 +191,8 @@ char *nh_classified_document(const nh_classified *c, nh_format format, nh_error 
     switch (format) {
     case NH_FORMAT_JSON: return nh_classification_json(c, &run);
     case NH_FORMAT_TEXT: nh_classification_text(c, false, &text); break;
-    case NH_FORMAT_HTML: nh_html_classification(c, NULL, &run, &text); break;
-    case NH_FORMAT_LATEX: nh_tex_classification(c, NULL, &text); break;
+    case NH_FORMAT_HTML: nh_classification_write(c, NULL, &run, NH_PEN_PAGE, &text); break;
+    case NH_FORMAT_LATEX: nh_classification_write(c, NULL, &run, NH_PEN_LATEX, &text); break;
     }
     return taken(&text);
 }

@@ -1,0 +1,182 @@
+#include "document/pen.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+void nh_pen_begin(nh_pen *p, nh_pen_form form, const nh_pen_subject *s, const char *what, nh_text *out)
+{
+    *p = (nh_pen){
+        .page = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = INFINITY},
+        .tex = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = INFINITY}};
+    p->ink = form == NH_PEN_PAGE ? &nh_pen_html : &nh_pen_tex;
+    p->to = form == NH_PEN_PAGE ? (void *)&p->page : (void *)&p->tex;
+    p->ink->begin(p->to, what);
+}
+
+/* ---- sections and cards ---- */
+
+void nh_pen_card_end(nh_pen *p)
+{
+    if (p->card) nh_pen_close(p, NH_PEN_CARD);
+    p->card = false;
+}
+
+static void section_end(nh_pen *p)
+{
+    nh_pen_card_end(p);
+    if (p->section) nh_pen_close(p, NH_PEN_SECTION);
+    p->section = false;
+}
+
+void nh_pen_section(nh_pen *p, const char *id, const char *title)
+{
+    section_end(p);
+    nh_pen_open(p, NH_PEN_SECTION, id, title);
+    p->section = true;
+}
+
+void nh_pen_card(nh_pen *p, const char *title)
+{
+    nh_pen_card_end(p);
+    nh_pen_open(p, NH_PEN_CARD, NULL, title);
+    p->card = true;
+}
+
+void nh_pen_system(nh_pen *p, const nh_model *model)
+{
+    section_end(p);
+    p->ink->system(p->to, model);
+}
+
+void nh_pen_glossary(nh_pen *p, const char *words)
+{
+    section_end(p);
+    p->ink->glossary(p->to, words);
+}
+
+void nh_pen_table(nh_pen *p, const char *caption, const char *heads) { p->ink->table(p->to, caption, heads); }
+
+void nh_pen_table_end(nh_pen *p) { p->ink->table_end(p->to); }
+
+void nh_pen_end(nh_pen *p, const nh_run *run)
+{
+    section_end(p);
+    p->ink->end(p->to, run);
+}
+
+void nh_pen_open(nh_pen *p, nh_pen_part part, const char *id, const char *title) { p->ink->open(p->to, part, id, title); }
+
+void nh_pen_close(nh_pen *p, nh_pen_part part) { p->ink->close(p->to, part); }
+
+/* ---- formats ---- */
+
+static void plain(nh_pen *p, const char *from, const char *to)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_text_add_n(&text, from, (size_t)(to - from));
+    if (text.length) p->ink->words(p->to, nh_text_string(&text));
+    nh_text_clear(&text);
+}
+
+/* One argument; *at stands on its %, and then behind it.  The list is passed as a pointer, so that what is read is read. */
+static void argument(nh_pen *p, const char **at, char before, va_list *list)
+{
+    const char *c = *at + 1;
+    int digits = *c == '.' ? (int)strtol(c + 1, (char **)&c, 10) : 6;
+    if (*c == 's') {
+        const char *text = va_arg(*list, const char *);
+        if (before == '{') p->ink->names(p->to, text);
+        else if (before == '<') p->ink->source(p->to, text);
+        else p->ink->words(p->to, text);
+    } else if (*c == 'z') {
+        p->ink->count(p->to, va_arg(*list, size_t));
+        c++;
+    } else if (*c == 'l') {
+        p->ink->count(p->to, (size_t)va_arg(*list, long));
+        c++;
+    } else {
+        p->ink->number(p->to, va_arg(*list, double), digits);
+    }
+    *at = c + 1;
+}
+
+/* Until the end of the format, or of its cell. */
+static const char *write_format(nh_pen *p, const char *format, bool cells, va_list *list)
+{
+    const char *from = format, *at = format;
+    while (*at && !(cells && *at == '|')) {
+        if (*at != '%') {
+            at++;
+            continue;
+        }
+        char before = at > from ? at[-1] : 0;
+        bool marked = before == '{' || before == '<';
+        plain(p, from, at - marked);
+        argument(p, &at, before, list);
+        from = at += marked;
+    }
+    plain(p, from, at);
+    return at;
+}
+
+void nh_pen_say(nh_pen *p, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    write_format(p, format, false, &list);
+    va_end(list);
+}
+
+void nh_pen_words(nh_pen *p, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    write_format(p, format, false, &list);
+    nh_pen_close(p, NH_PEN_WORDS);
+    va_end(list);
+}
+
+void nh_pen_fact(nh_pen *p, const char *name, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    nh_pen_open(p, NH_PEN_FACT, NULL, name);
+    write_format(p, format, false, &list);
+    nh_pen_close(p, NH_PEN_FACT);
+    va_end(list);
+}
+
+void nh_pen_row(nh_pen *p, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
+    for (bool more = true; more;) {
+        nh_pen_part part = *format == '#' ? NH_PEN_ROW_HEAD : *format == '!' ? NH_PEN_KIND : NH_PEN_CELL;
+        format += part != NH_PEN_CELL;
+        const char *kind = part == NH_PEN_KIND ? va_arg(list, const char *) : NULL;
+        nh_pen_open(p, part, kind, NULL);
+        if (kind) p->ink->words(p->to, kind), format += strlen("%s");
+        else format = write_format(p, format, true, &list);
+        nh_pen_close(p, part);
+        more = *format == '|';
+        format += more;
+    }
+    nh_pen_close(p, NH_PEN_ROW);
+    va_end(list);
+}
+
+void nh_pen_warning(nh_pen *p, const char *text)
+{
+    nh_pen_open(p, NH_PEN_WARNING, NULL, NULL);
+    p->ink->words(p->to, text);
+    nh_pen_close(p, NH_PEN_WARNING);
+}
+
+void nh_pen_formula(nh_pen *p, const char *label, nh_ex e) { p->ink->formulas(p->to, 1, &label, &e); }
+
+bool nh_pen_is_name(const char *label) { return !label[strcspn(label, "\\{}<>[] =")]; }

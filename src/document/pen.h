@@ -1,0 +1,86 @@
+/* pen: a document written once, for a page and for LaTeX.
+ *
+ * A document is a sequence of parts, which may hold parts; a part of words holds words, numbers, names and formulas.  A form of output is one
+ * nh_pen_ink.  In formats, as of printf:  %s words; %zu and %ld a count; %.3g a number with so many digits; {%s} words with names in
+ * parentheses, such as a chart has; <%s> a formula of the expression language.  In rows | ends a cell, and a cell that begins with # heads its row;
+ * one that begins with ! has its words as its kind, by which a page colours it. */
+#ifndef NH_PEN_H
+#define NH_PEN_H
+
+#include "document/html_internal.h"
+#include "document/tex_internal.h"
+
+typedef enum { NH_PEN_SECTION, NH_PEN_CARD, NH_PEN_FOLD, NH_PEN_WORDS, NH_PEN_ANSWER, NH_PEN_WARNING, NH_PEN_HEADING, NH_PEN_FACTS, NH_PEN_FACT,
+               NH_PEN_ROW, NH_PEN_CELL, NH_PEN_ROW_HEAD, NH_PEN_KIND, NH_PEN_PARTS } nh_pen_part;
+
+typedef struct {
+    void (*begin)(void *to, const char *what);
+    void (*links)(void *to, const char *sections);
+    /* `id`: of a section; the class of an answer and the kind of a cell.  `title` may be NULL. */
+    void (*open)(void *to, nh_pen_part part, const char *id, const char *title);
+    void (*close)(void *to, nh_pen_part part);
+    void (*words)(void *to, const char *words);
+    void (*number)(void *to, double value, int digits);
+    void (*count)(void *to, size_t value);
+    void (*names)(void *to, const char *words);
+    void (*source)(void *to, const char *formula);
+    void (*equation)(void *to, const char *label, const char *formula); /* label = formula, as texts */
+    /* What belongs together; labels are names, or in the language of notation.h. */
+    void (*formulas)(void *to, size_t n, const char *const *label, const nh_ex *e);
+    void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
+    void (*table_end)(void *to);
+    void (*plot)(void *to, nh_plot *plot, const char *caption);
+    void (*system)(void *to, const nh_model *model); /* as it was written, and its equations; model may be NULL */
+    void (*symmetry)(void *to, const nh_symmetry *symmetry); /* in words: its case, its bracket */
+    void (*geometry)(void *to, nh_arena *arena, const struct nh_theory *theory);
+    void (*glossary)(void *to, const char *words);   /* what these words mean, where the form has room for it */
+    void (*end)(void *to, const nh_run *run);
+} nh_pen_ink;
+
+typedef enum { NH_PEN_PAGE, NH_PEN_LATEX } nh_pen_form;
+
+/* What a document is about; formulas longer than `shown` are left out of it. */
+typedef struct {
+    const nh_system *system;
+    const nh_analysis_file *analysis;
+    nh_dag *dag;
+    const nh_chart *chart;
+    double shown;
+} nh_pen_subject;
+
+typedef struct {
+    const nh_pen_ink *ink;
+    void *to;
+    nh_html_writer page;
+    nh_tex_writer tex;
+    bool section, card;      /* that are open */
+} nh_pen;
+
+extern const nh_pen_ink nh_pen_html, nh_pen_tex;
+
+/* `pen` must stay where it is. */
+void nh_pen_begin(nh_pen *pen, nh_pen_form form, const nh_pen_subject *subject, const char *what, nh_text *out);
+void nh_pen_end(nh_pen *pen, const nh_run *run);
+
+/* A section, and a card in it, end where the next one begins, and before the system and the glossary. */
+void nh_pen_section(nh_pen *pen, const char *id, const char *title);
+void nh_pen_card(nh_pen *pen, const char *title);
+void nh_pen_card_end(nh_pen *pen);
+void nh_pen_system(nh_pen *pen, const nh_model *model);
+void nh_pen_glossary(nh_pen *pen, const char *words);
+/* A table ends with nh_pen_table_end; heads are separated by |. */
+void nh_pen_table(nh_pen *pen, const char *caption, const char *heads);
+void nh_pen_table_end(nh_pen *pen);
+
+void nh_pen_open(nh_pen *pen, nh_pen_part part, const char *id, const char *title);
+void nh_pen_close(nh_pen *pen, nh_pen_part part);
+void nh_pen_say(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));    /* into the open part */
+void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));  /* a paragraph */
+void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4))); /* of a list of facts */
+void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void nh_pen_warning(nh_pen *pen, const char *text);
+/* label = e; its label is no name, but in the language of notation.h. */
+void nh_pen_formula(nh_pen *pen, const char *label, nh_ex e);
+bool nh_pen_is_name(const char *label);
+
+#endif

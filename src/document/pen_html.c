@@ -1,0 +1,107 @@
+/* The parts of a document as a page. */
+#include "base/memory.h"
+#include "document/facts.h"
+#include "document/notation.h"
+#include "document/pen.h"
+
+static const struct {
+    const char *open, *titled, *close; /* before the id or the title; before the title of a part that has one; at its end */
+} markup[NH_PEN_PARTS] = {
+    [NH_PEN_SECTION] = {"<section id=\"", "<h2>", "</section>\n"},
+    [NH_PEN_CARD] = {"<article class=\"card\">\n", "<h3>", "</article>\n"},
+    [NH_PEN_FOLD] = {"<details>", "<summary>", "</details>\n"},
+    [NH_PEN_WORDS] = {"<p>", NULL, "</p>\n"},
+    [NH_PEN_ANSWER] = {"<p class=\"answer ", NULL, "</p>\n"},
+    [NH_PEN_WARNING] = {"<p class=\"warning\"><strong>Warning:</strong> ", NULL, "</p>\n"},
+    [NH_PEN_HEADING] = {"", "<h3>", ""},
+    [NH_PEN_FACTS] = {"<dl>\n", NULL, "</dl>\n"},
+    [NH_PEN_FACT] = {"", "<dt>", "</dd>\n"},
+    [NH_PEN_ROW] = {"<tr>", NULL, "</tr>\n"},
+    [NH_PEN_CELL] = {"<td>", NULL, "</td>"},
+    [NH_PEN_ROW_HEAD] = {"<th scope=\"row\">", NULL, "</th>"},
+    [NH_PEN_KIND] = {"<td class=\"", NULL, "</td>"},
+};
+
+static void begin(void *to, const char *what) { nh_html_begin(to, what); }
+
+static void links(void *to, const char *sections) { nh_html_links(to, sections); }
+
+static void open(void *to, nh_pen_part part, const char *id, const char *title)
+{
+    nh_html_add(to, markup[part].open);
+    if (id) nh_html_text(to, id), nh_html_add(to, "\">");
+    if (!title || !markup[part].titled) return;
+    nh_html_add(to, markup[part].titled);
+    nh_html_prose(to, title);
+    nh_html_add(to, part == NH_PEN_SECTION ? "</h2>\n" : part == NH_PEN_FOLD ? "</summary>\n" : part == NH_PEN_FACT ? "</dt><dd>" : "</h3>\n");
+}
+
+static void close(void *to, nh_pen_part part) { nh_html_add(to, markup[part].close); }
+
+static void words(void *to, const char *text) { nh_html_prose(to, text); }
+
+static void number(void *to, double value, int digits) { nh_html_number(to, value, digits); }
+
+static void count(void *to, size_t value) { nh_html_count(to, value); }
+
+static void names(void *to, const char *text) { nh_html_chart_name(to, text); }
+
+static void source(void *to, const char *formula) { nh_html_source(to, formula); }
+
+static void equation(void *to, const char *label, const char *formula)
+{
+    nh_html_add(to, "<div class=\"formula\">");
+    nh_html_name(to, label);
+    nh_html_add(to, " <math><mo>=</mo></math> ");
+    nh_html_source(to, formula);
+    nh_html_add(to, "</div>\n");
+}
+
+static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+{
+    nh_text *mathml = nh_alloc_array(n + 1, sizeof *mathml);
+    const char **shown = nh_alloc_array(n + 1, sizeof *shown);
+    for (size_t i = 0; i < n; i++) {
+        nh_text_init(&mathml[i]);
+        if (!nh_pen_is_name(label[i])) nh_notation_write(label[i], NH_NOTATION_MATHML, &mathml[i]);
+        shown[i] = mathml[i].length ? nh_text_string(&mathml[i]) : label[i];
+    }
+    nh_html_formulas(to, n, shown, e);
+    for (size_t i = 0; i < n; i++) nh_text_clear(&mathml[i]);
+    nh_free(shown);
+    nh_free(mathml);
+}
+
+static void table(void *to, const char *caption, const char *heads) { nh_html_table(to, caption, heads); }
+
+static void table_end(void *to) { nh_html_table_end(to); }
+
+static void plot(void *to, nh_plot *figure, const char *caption) { nh_html_figure(to, figure, caption); }
+
+static void system_of(void *to, const nh_model *model)
+{
+    nh_html_add(to, "<section id=\"system\"><h2>The system</h2>\n");
+    nh_html_written(to);
+    if (model) nh_html_add(to, "<h3>As it was understood</h3>\n"), nh_html_equations(to, model);
+    nh_html_add(to, "</section>\n");
+}
+
+static void symmetry(void *to, const nh_symmetry *z)
+{
+    nh_html_writer *w = to;
+    nh_facts_symmetry(z, NH_FACTS_PAGE, "; ", w->out);
+}
+
+static void geometry(void *to, nh_arena *arena, const struct nh_theory *theory) { nh_html_geometry(to, arena, theory); }
+
+static void glossary(void *to, const char *list) { nh_html_words(to, list); }
+
+static void end(void *to, const nh_run *run)
+{
+    nh_html_repeat(to, run);
+    nh_html_end(to);
+}
+
+const nh_pen_ink nh_pen_html = {begin, links, open, close, words, number, count, names, source, equation, formulas,
+                                table, table_end, plot, system_of, symmetry,
+                                geometry, glossary, end};

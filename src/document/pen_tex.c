@@ -1,0 +1,124 @@
+/* The parts of a document as LaTeX. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "document/facts.h"
+#include "document/notation.h"
+#include "document/pen.h"
+
+static const struct {
+    const char *open, *titled, *close; /* before the title; before it where there is one; at the end of the part */
+} markup[NH_PEN_PARTS] = {
+    [NH_PEN_SECTION] = {"", "\\section{", "\n"},
+    [NH_PEN_CARD] = {"", "\\subsection*{", "\n"},
+    [NH_PEN_FOLD] = {"", NULL, "\n"}, /* what it holds has a title of its own */
+    [NH_PEN_WORDS] = {"", NULL, "\n\n"},
+    [NH_PEN_ANSWER] = {"", NULL, "\n\n"},
+    [NH_PEN_WARNING] = {"\\textbf{Warning:} ", NULL, "\n\n"},
+    [NH_PEN_HEADING] = {"", "\\subsection*{", ""},
+    [NH_PEN_FACTS] = {"", NULL, ""},
+    [NH_PEN_FACT] = {"", "\\par\\textit{", "\\par\n"},
+    [NH_PEN_ROW] = {"", NULL, "\\tabularnewline\n"},
+    [NH_PEN_CELL] = {"", NULL, ""},
+    [NH_PEN_ROW_HEAD] = {"", NULL, ""},
+    [NH_PEN_KIND] = {"", NULL, ""},
+};
+
+static void begin(void *to, const char *what)
+{
+    nh_tex_head(to, false, what);
+    nh_tex_add(to, "\\begingroup\\parindent=0pt\\emergencystretch=3em\n");
+}
+
+static void links(void *to, const char *sections) { (void)to, (void)sections; }
+
+/* Cells are separated by &: before every cell but the first of its row. */
+static void open(void *to, nh_pen_part part, const char *id, const char *title)
+{
+    nh_tex_writer *w = to;
+    (void)id;
+    if (part == NH_PEN_ROW) w->cells = 0;
+    if ((part == NH_PEN_CELL || part == NH_PEN_ROW_HEAD || part == NH_PEN_KIND) && w->cells++) nh_tex_add(w, " & ");
+    nh_tex_add(w, markup[part].open);
+    if (!title || !markup[part].titled) return;
+    nh_tex_add(w, markup[part].titled);
+    nh_tex_words(w, title);
+    nh_tex_add(w, part == NH_PEN_FACT ? "}: " : "}\n");
+}
+
+static void close(void *to, nh_pen_part part) { nh_tex_add(to, markup[part].close); }
+
+static void words(void *to, const char *text) { nh_tex_words(to, text); }
+
+static void number(void *to, double value, int digits) { nh_tex_number(to, value, digits); }
+
+static void count(void *to, size_t value) { nh_tex_count(to, value); }
+
+static void names(void *to, const char *text) { nh_tex_chart(to, text); }
+
+static void source(void *to, const char *formula) { nh_tex_name(to, formula); }
+
+static void equation(void *to, const char *label, const char *formula) { nh_tex_display(to, label, formula); }
+
+static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+{
+    for (size_t i = 0; i < n; i++) {
+        nh_text latex;
+        nh_text_init(&latex);
+        if (nh_pen_is_name(label[i])) {
+            nh_tex_formula(to, label[i], e[i]);
+        } else {
+            nh_notation_write(label[i], NH_NOTATION_LATEX, &latex);
+            nh_tex_labelled(to, nh_text_string(&latex), e[i]);
+        }
+        nh_text_clear(&latex);
+    }
+}
+
+/* Columns of equal width whose words are set ragged. */
+static void table(void *to, const char *caption, const char *heads)
+{
+    nh_tex_writer *w = to;
+    size_t n = 1;
+    for (const char *c = heads; *c; c++) n += *c == '|';
+    nh_tex_words(w, caption);
+    nh_text_addf(w->out, "\n{\\footnotesize\\begin{longtable}{*{%zu}{p{%.3f\\linewidth}}}\n", n, 0.98 / (double)n - 0.025);
+    for (size_t length; n-- > 0; heads += length + (heads[length] == '|')) {
+        length = strcspn(heads, "|");
+        char *head = nh_alloc_array(length + 1, 1);
+        memcpy(head, heads, length);
+        nh_tex_words(w, head);
+        nh_tex_add(w, n ? " & " : "\\tabularnewline\\hline\\endhead\n");
+        nh_free(head);
+    }
+}
+
+static void table_end(void *to) { nh_tex_add(to, "\\end{longtable}}\n"); }
+
+static void plot(void *to, nh_plot *figure, const char *caption) { nh_tex_plot(to, figure, caption); }
+
+static void system_of(void *to, const nh_model *model)
+{
+    nh_tex_written(to);
+    if (model) nh_tex_equations(to, model);
+}
+
+static void symmetry(void *to, const nh_symmetry *z)
+{
+    nh_tex_writer *w = to;
+    nh_facts_symmetry(z, NH_FACTS_TEX, "; ", w->out);
+}
+
+static void geometry(void *to, nh_arena *arena, const struct nh_theory *theory) { nh_tex_geometry(to, arena, theory); }
+
+static void glossary(void *to, const char *list) { (void)to, (void)list; }
+
+static void end(void *to, const nh_run *run)
+{
+    nh_tex_repeat(to, run);
+    nh_tex_add(to, "\\par\\endgroup\n\\end{document}\n");
+}
+
+const nh_pen_ink nh_pen_tex = {begin, links, open, close, words, number, count, names, source, equation, formulas,
+                                table, table_end, plot, system_of, symmetry,
+                                geometry, glossary, end};
