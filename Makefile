@@ -202,6 +202,9 @@ $(addprefix $(BUILD)/,src/evaluate/tape_batch.o shared/src/evaluate/tape_batch.o
 
 $(addprefix $(BUILD)/,src/motion/ensemble.o shared/src/motion/ensemble.o): OWN_CFLAGS += -O3
 
+# The loops over residues.
+$(foreach name,residue residue_matrix,$(addprefix $(BUILD)/,src/exact/$(name).o shared/src/exact/$(name).o)): OWN_CFLAGS += -O3
+
 # Where systems are looked for at last (src/problem/places.c).
 $(addprefix $(BUILD)/,src/problem/places.o shared/src/problem/places.o): OWN_CPPFLAGS += -DNH_DATADIR='"$(PREFIX)/share/nhsym"'
 

@@ -34,12 +34,6 @@ size_t nh_jet_ring_size(size_t variables, const size_t *weight, size_t order, si
     return size <= most ? size : SIZE_MAX;
 }
 
-static int compare(const nh_jet_ring *r, const uint8_t *a, size_t degree_a, const uint8_t *b, size_t degree_b)
-{
-    if (degree_a != degree_b) return degree_a < degree_b ? -1 : 1;
-    return memcmp(a, b, r->variables);
-}
-
 static size_t degree_of(const nh_jet_ring *r, const uint8_t *e)
 {
     size_t degree = 0;
@@ -52,7 +46,7 @@ size_t nh_jet_ring_find(const nh_jet_ring *r, const uint8_t *e)
     size_t degree = degree_of(r, e), low = r->first[degree], high = r->first[degree + 1];
     while (high - low > 1) {
         size_t middle = (low + high) / 2;
-        if (compare(r, r->exponent + middle * r->variables, r->degree[middle], e, degree) <= 0) low = middle;
+        if (memcmp(r->exponent + middle * r->variables, e, r->variables) <= 0) low = middle;
         else high = middle;
     }
     return low;
@@ -72,35 +66,86 @@ static void list_exponents(nh_jet_ring *r)
     nh_free(current);
 }
 
-/* The pairs of each sum: all left exponents that are nowhere larger, found through the right one. */
+/* Indices by code: sum of e_k stride_k, where stride_k is the number of codes of the variables before. */
+typedef struct {
+    size_t *stride;
+    uint32_t *index; /* NULL: there are too many codes */
+} codes;
+
+static size_t code_of(const nh_jet_ring *r, const codes *c, const uint8_t *e)
+{
+    size_t code = 0;
+    for (size_t k = 0; k < r->variables; k++) code += e[k] * c->stride[k];
+    return code;
+}
+
+static codes number_codes(const nh_jet_ring *r)
+{
+    enum { most_codes = 1 << 21 };
+    codes c = {.stride = nh_alloc_array(r->variables + 1, sizeof *c.stride)};
+    size_t count = 1;
+    for (size_t k = 0; k < r->variables && count <= most_codes; k++) {
+        c.stride[k] = count;
+        count *= r->order / r->weight[k] + 1;
+    }
+    if (count > most_codes) return c;
+    c.index = nh_alloc_array(count, sizeof *c.index);
+    for (size_t e = 0; e < r->size; e++) c.index[code_of(r, &c, r->exponent + e * r->variables)] = (uint32_t)e;
+    return c;
+}
+
+/* How many left exponents are nowhere larger than the sums. */
+static size_t count_pairs(const nh_jet_ring *r)
+{
+    size_t count = 0;
+    for (size_t e = 0; e < r->size; e++) {
+        size_t own = 1;
+        for (size_t k = 0; k < r->variables; k++) own *= (size_t)r->exponent[e * r->variables + k] + 1;
+        count += own;
+    }
+    return count;
+}
+
+/* Of one sum, as an odometer; the code of the right one is the difference of codes. */
+static size_t list_pairs_of(nh_jet_ring *r, const codes *c, const uint8_t *sum, uint8_t *left, uint8_t *right, size_t count)
+{
+    size_t m = r->variables, all = c->index ? code_of(r, c, sum) : 0, own = 0;
+    memset(left, 0, m + 1);
+    for (bool more = true; more; count++) {
+        for (size_t k = 0; k < m && !c->index; k++) right[k] = (uint8_t)(sum[k] - left[k]);
+        r->left[count] = c->index ? c->index[own] : (uint32_t)nh_jet_ring_find(r, left);
+        r->right[count] = c->index ? c->index[all - own] : (uint32_t)nh_jet_ring_find(r, right);
+        size_t k = 0;
+        for (; k < m && left[k] == sum[k]; k++) {
+            own -= left[k] * c->stride[k];
+            left[k] = 0;
+        }
+        more = k < m;
+        if (!more) continue;
+        left[k]++;
+        own += c->stride[k];
+    }
+    return count;
+}
+
+/* The pairs of each sum: all left exponents that are nowhere larger. */
 static void list_pairs(nh_jet_ring *r)
 {
-    size_t m = r->variables, count = 0, capacity = 0;
-    uint8_t *rest = nh_alloc(m + 1);
+    size_t m = r->variables, room = count_pairs(r), count = 0;
+    uint8_t *left = nh_alloc(m + 1), *right = nh_alloc(m + 1);
+    codes c = number_codes(r);
     r->pairs = nh_arena_alloc(r->arena, (r->size + 1) * sizeof *r->pairs);
-    uint32_t *pair = NULL;
+    r->left = nh_arena_alloc(r->arena, (room + 1) * sizeof *r->left);
+    r->right = nh_arena_alloc(r->arena, (room + 1) * sizeof *r->right);
     for (size_t e = 0; e < r->size; e++) {
-        const uint8_t *sum = r->exponent + e * m;
         r->pairs[e] = count;
-        memset(rest, 0, m + 1);
-        for (bool more = true; more;) { /* all left exponents below `sum`, as an odometer */
-            nh_grow(&pair, &capacity, 2 * (count + 1), sizeof *pair);
-            pair[2 * count] = (uint32_t)nh_jet_ring_find(r, rest);
-            for (size_t k = 0; k < m; k++) rest[k] = (uint8_t)(sum[k] - rest[k]);
-            pair[2 * count++ + 1] = (uint32_t)nh_jet_ring_find(r, rest);
-            for (size_t k = 0; k < m; k++) rest[k] = (uint8_t)(sum[k] - rest[k]);
-            size_t k = 0;
-            while (k < m && rest[k] == sum[k]) rest[k++] = 0;
-            more = k < m;
-            if (more) rest[k]++;
-        }
+        count = list_pairs_of(r, &c, r->exponent + e * m, left, right, count);
     }
     r->pairs[r->size] = count;
-    r->left = nh_arena_alloc(r->arena, (count + 1) * sizeof *r->left);
-    r->right = nh_arena_alloc(r->arena, (count + 1) * sizeof *r->right);
-    for (size_t i = 0; i < count; i++) r->left[i] = pair[2 * i], r->right[i] = pair[2 * i + 1];
-    nh_free(pair);
-    nh_free(rest);
+    nh_free(c.index);
+    nh_free(c.stride);
+    nh_free(right);
+    nh_free(left);
 }
 
 static void list_steps(nh_jet_ring *r)

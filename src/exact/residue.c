@@ -11,13 +11,19 @@ nh_prime nh_prime_at(size_t index)
         n -= 12;
         found += n % 5 != 1 && n % 7 != 1 && n_is_prime(n);
     }
-    return (nh_prime){n, ((uint64_t)1 << 62) / n * n};
+    return (nh_prime){n, ((uint64_t)1 << 62) / n * n, ((uint64_t)1 << 62) / n};
 }
 
+/* c x - floor(x floor(2^32 c / p) / 2^32) p is between 0 and 2 p (Shoup's multiplication). */
 void nh_residue_add_multiple(nh_prime f, size_t n, nh_residue *restrict y, const nh_residue *restrict x, nh_residue c)
 {
     if (!c) return;
-    for (size_t i = 0; i < n; i++) y[i] = (nh_residue)((y[i] + (uint64_t)c * x[i]) % f.p);
+    uint64_t quotient = ((uint64_t)c << 32) / f.p;
+    uint32_t p = (uint32_t)f.p;
+    for (size_t i = 0; i < n; i++) {
+        uint32_t r = c * x[i] - (uint32_t)(quotient * x[i] >> 32) * p, sum = y[i] + (r >= p ? r - p : r);
+        y[i] = sum >= p ? sum - p : sum;
+    }
 }
 
 nh_residue nh_residue_of(nh_prime f, int64_t value)

@@ -16,7 +16,8 @@ typedef uint32_t nh_residue;
 
 typedef struct {
     uint64_t p;
-    uint64_t bound; /* the largest multiple of p up to 2^62 */
+    uint64_t bound;   /* the largest multiple of p up to 2^62 */
+    uint64_t inverse; /* floor(2^62 / p) */
 } nh_prime;
 
 /* The `index`-th such prime below 2^31, from above. */
@@ -32,7 +33,15 @@ static inline nh_residue nh_residue_negative(nh_prime f, nh_residue a) { return 
 
 static inline nh_residue nh_residue_sub(nh_prime f, nh_residue a, nh_residue b) { return nh_residue_add(f, a, nh_residue_negative(f, b)); }
 
-static inline nh_residue nh_residue_mul(nh_prime f, nh_residue a, nh_residue b) { return (nh_residue)((uint64_t)a * b % f.p); }
+/* Of x below 2^62: floor(floor(x / 2^30) floor(2^62 / p) / 2^32) is at most 2 below the quotient (Barrett's reduction), as p is above 2^30. */
+static inline nh_residue nh_residue_reduce(nh_prime f, uint64_t x)
+{
+    uint64_t quotient = (x >> 30) * (uint32_t)f.inverse >> 32, r = x - quotient * (uint32_t)f.p;
+    r = r >= 2 * f.p ? r - 2 * f.p : r;
+    return (nh_residue)(r >= f.p ? r - f.p : r);
+}
+
+static inline nh_residue nh_residue_mul(nh_prime f, nh_residue a, nh_residue b) { return nh_residue_reduce(f, (uint64_t)a * b); }
 
 /* sum + a b, for a sum below the bound; reduce it by `% p` in the end. */
 static inline uint64_t nh_residue_gather(nh_prime f, uint64_t sum, nh_residue a, nh_residue b)

@@ -108,7 +108,7 @@ bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, s
         nh_classify_number number;
         nh_parametric_at(x, lambda, p->kind == NH_CLASSIFY_INFINITE, values);
         bool good = totals(s, x, values, degree, total, &number);
-        if (good && known && nh_count_products(&s->family.counter, x->ring, x->coordinate, degree, &row))
+        if (good && known && nh_count_products(&s->family.counter, x->ring, x->coordinate, degree, SIZE_MAX, &row))
             least = *known = row.known;
         nh_free(values);
         nh_free(total);

@@ -21,7 +21,7 @@ static void read_rows(nh_completeness *c, bool all)
 static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
 {
     if (!model->system->parameters || !q->general || !c->degree) return false;
-    nh_count_question question = {.time = c->count.time, .generic = true, .degree = c->degree, .work = q->work, .known = q->known, .current = q->current};
+    nh_count_question question = {.time = c->count.time, .generic = true, .degree = c->degree, .work = q->work, .memory = q->memory, .known = q->known, .current = q->current};
     nh_completeness generic = {.count = nh_count_integrals(model, &question)};
     read_rows(&generic, q->all);
     return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
@@ -36,7 +36,7 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
         size_t coordinates = model->m + (kind == NH_COMPLETE_IN_TIME);
         size_t chosen = coordinates <= two ? highest : coordinates <= few ? high : low;
         nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME, .degree = q->degree ? q->degree : chosen, .work = q->work,
-                                      .known = q->known, .current = q->current};
+                                      .memory = q->memory, .known = q->known, .current = q->current};
         *c = (nh_completeness){.counted = true, .count = nh_count_integrals(model, &question)};
         if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {
             *c = (nh_completeness){0};

@@ -32,6 +32,7 @@ typedef struct {
     bool again;             /* only the kind that comes first, for the parameters' values: the rest is as it was */
     size_t degree;          /* 0: chosen */
     double work;
+    nh_count_memory *memory; /* NULL: none */
 } nh_completeness_question;
 
 void nh_completeness_of(const nh_model *model, const nh_completeness_question *question, nh_completeness out[NH_COMPLETENESS_KINDS]);

@@ -68,14 +68,9 @@ static bool totals(nh_counter *c, const nh_count_series *s, size_t degree, size_
     *injective_at = 0;
     for (int part = 0; part < (s->split ? 2 : 1) && good; part++) {
         nh_graded_problem p = nh_count_problem(c, s, degree, !s->split ? NH_ALL_DEGREES : part ? NH_ODD_DEGREES : NH_EVEN_DEGREES);
-        nh_graded_count *g = nh_graded_solve(&p);
-        good = g->solved;
-        if (!g->injective) *injective_at = SIZE_MAX;
-        else if (*injective_at < g->injective_at) *injective_at = g->injective_at;
-        c->work += g->work;
-        for (size_t k = 0; k <= order; k++) total[k] += g->total[k];
-        if (good) nh_count_solutions_differ(g, s->ring->field, d);
-        nh_graded_count_clear(g);
+        size_t from;
+        good = nh_count_solve(c, &p, total, &from, d);
+        if (*injective_at < from) *injective_at = from;
     }
     return good;
 }
@@ -121,7 +116,7 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row
     nh_differentials all, known;
     nh_count_differentials(c, &all, &known);
     outcome result = totals(c, s, degree, total, &from, &all) ? COUNTED : TOO_MUCH;
-    if (result == COUNTED && !(nh_count_products(c, s->ring, s->coordinate, degree, out) && nh_count_known_differ(c, s->ring, s->coordinate, &known) && nh_count_known_differ(c, s->ring, s->coordinate, &all))) result = UNLUCKY;
+    if (result == COUNTED && !(nh_count_products(c, s->ring, s->coordinate, degree, total[order], out) && nh_count_known_differ(c, s->ring, s->coordinate, &known) && nh_count_known_differ(c, s->ring, s->coordinate, &all))) result = UNLUCKY;
     out->rank = nh_count_rank(&all, s->ring->field);
     out->known_rank = nh_count_rank(&known, s->ring->field);
     out->degree = degree;

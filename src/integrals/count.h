@@ -43,8 +43,14 @@ typedef struct {
     const char *end;        /* why no higher degree was counted, or NULL */
 } nh_count;
 
+/* Numbers of solutions, for further questions about the same system: other integrals are known then.  It saves time, and does not change an answer. */
+typedef struct nh_count_memory nh_count_memory;
+nh_count_memory *nh_count_memory_create(void);
+void nh_count_memory_free(nh_count_memory *memory);
+
 typedef struct {
     bool time, generic;
+    nh_count_memory *memory; /* NULL: none */
     size_t degree;          /* up to which; 0: as far as `work` goes */
     double work;            /* products of residues, about 5e8 a second */
     size_t known;

@@ -47,6 +47,12 @@ typedef struct {
 void nh_count_differentials(const nh_counter *counter, nh_differentials *all, nh_differentials *known);
 void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known);
 
+/* The solutions of a problem, or what is remembered of them: N for each order is added to `total`; `injective_at`: SIZE_MAX: the symbol was not; their differentials are
+ * added.  False: beyond the limits. */
+bool nh_count_solve(nh_counter *counter, const nh_graded_problem *problem, size_t *total, size_t *injective_at, nh_differentials *differentials);
+/* Room for more rows, all zero. */
+nh_residue *nh_count_more_differentials(nh_differentials *differentials, size_t count);
+
 /* Find the degrees of the known integrals, and leave out those without values.  False: another point is needed. */
 bool nh_count_take_known(nh_counter *counter);
 
@@ -59,6 +65,23 @@ typedef struct {
 
 nh_count_monomials nh_count_monomials_list(const nh_counter *counter, size_t degree);
 void nh_count_monomials_clear(nh_count_monomials *products);
+
+/* v^e of a random curve z_k = v_k s^(weight_k), and series along it, as series in s. */
+void nh_count_curve(const nh_jet_ring *ring, uint64_t *random, nh_residue *out);
+void nh_count_along(const nh_jet_ring *ring, const nh_jet_ring *line, const nh_residue *curve, size_t count, const nh_residue *series, nh_residue *out);
+
+/* Random linear functionals of series: the coefficients along a curve combined; several on each curve. */
+typedef struct {
+    size_t count, lines, size, order; /* functionals; curves; of the series */
+    nh_residue *curve, *weight;       /* lines x size: v^e; count x (order + 1) */
+} nh_count_lines;
+
+nh_count_lines nh_count_lines_create(const nh_jet_ring *ring, size_t least);
+void nh_count_lines_clear(nh_count_lines *lines);
+/* Those on one curve, of a series along it: that of functional i into out[i stride]. */
+void nh_count_line_values(const nh_count_lines *lines, size_t line, nh_prime field, const nh_residue *series, nh_residue *out, size_t stride);
+/* All, of N series that lie side by side: into out[i stride + series]. */
+void nh_count_lines_values(const nh_count_lines *lines, const nh_jet_ring *ring, size_t N, const nh_residue *series, nh_residue *out, size_t stride);
 
 /* Random linear functionals of polynomials in the velocities whose coefficients are series: each takes its own velocities and a curve z_k = v_k s^(weight_k) and
  * combines the coefficients of the series in s. */
@@ -83,8 +106,8 @@ typedef struct {
 /* Does it grow? */
 bool nh_count_space_add(nh_count_space *rows, nh_prime field, const nh_residue *row);
 
-/* The rank of their products up to a degree; row->known and row->lower.  False as above. */
-bool nh_count_products(nh_counter *counter, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, nh_count_row *row);
+/* The rank of their products up to a degree, `bound` at most; row->known and row->lower.  False as above. */
+bool nh_count_products(nh_counter *counter, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, size_t bound, nh_count_row *row);
 
 /* Add the differentials of all solutions, or of the known integrals of any degree. */
 void nh_count_solutions_differ(const nh_graded_count *count, nh_prime field, nh_differentials *d);

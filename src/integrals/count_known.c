@@ -1,7 +1,7 @@
 /* Known integrals: their degrees, and the rank of their differentials modulo the prime. */
-#include <flint/nmod_mat.h>
 #include <string.h>
 
+#include "exact/residue_matrix.h"
 #include "integrals/count_internal.h"
 
 enum { most_failures = 40 };
@@ -77,7 +77,7 @@ bool nh_count_take_known(nh_counter *c)
 
 /* ---- functional independence ---- */
 
-static nh_residue *more_rows(nh_differentials *d, size_t count)
+nh_residue *nh_count_more_differentials(nh_differentials *d, size_t count)
 {
     size_t width = d->kept + d->n, old = d->rows;
     nh_grow(&d->row, &d->capacity, (old + count) * width + 1, sizeof *d->row);
@@ -89,11 +89,10 @@ static nh_residue *more_rows(nh_differentials *d, size_t count)
 size_t nh_count_rank(const nh_differentials *d, nh_prime f)
 {
     size_t width = d->kept + d->n;
-    nmod_mat_t m;
-    nmod_mat_init(m, (slong)d->rows, (slong)width, f.p);
-    for (size_t i = 0; i < d->rows * width; i++) nmod_mat_entry(m, i / width, i % width) = d->row[i];
-    size_t rank = (size_t)nmod_mat_rank(m);
-    nmod_mat_clear(m);
+    nh_residue *row = nh_alloc_array(d->rows * width + 1, sizeof *row);
+    memcpy(row, d->row, d->rows * width * sizeof *row);
+    size_t rank = nh_residue_matrix_rank(f, d->rows, width, row);
+    nh_free(row);
     return rank;
 }
 
@@ -109,7 +108,7 @@ static nh_residue velocity_power(const nh_differentials *d, nh_prime f, const ui
 void nh_count_solutions_differ(const nh_graded_count *g, nh_prime f, nh_differentials *d)
 {
     size_t N = g->total[g->order], width = d->kept + d->n;
-    nh_residue *out = more_rows(d, N);
+    nh_residue *out = nh_count_more_differentials(d, N);
     for (size_t a = 0; a < g->alphas; a++) {
         const uint8_t *alpha = g->alpha + a * d->n;
         const nh_residue *jet = g->jet + a * (1 + d->kept) * N;
@@ -133,7 +132,7 @@ bool nh_count_known_differ(nh_counter *c, const nh_jet_ring *ring, const nh_resi
     nh_jet_equations_velocities(c->equations, v, ring, d->w);
     bool good = true;
     for (size_t k = 0; k < c->known && good; k++) {
-        nh_residue *out = more_rows(d, 1);
+        nh_residue *out = nh_count_more_differentials(d, 1);
         for (size_t j = 0; j < width && good; j++) {
             nh_ex e = j < d->kept ? c->current[k] : c->slope[k * d->n + j - d->kept];
             if (j == 0 || j >= d->kept) good = nh_jet_eval_all(v, 1, &e, series);

@@ -1,8 +1,8 @@
 /* Products of known integrals as vectors modulo the prime: values of random linear functionals, the same ones for products and for solutions of the count. */
-#include <flint/nmod_mat.h>
 #include <string.h>
 
 #include "base/progress.h"
+#include "exact/residue_matrix.h"
 #include "integrals/count_internal.h"
 
 enum { most_products = 3000, spare_columns = 8 };
@@ -77,19 +77,14 @@ static nh_residue power_of(nh_prime field, const nh_residue *v, const uint8_t *e
 
 nh_count_functionals nh_count_functionals_create(const nh_jet_ring *ring, size_t n, size_t count, uint64_t seed)
 {
-    size_t m = ring->variables, orders = ring->order + 1;
+    size_t orders = ring->order + 1;
     nh_count_functionals f = {.count = count, .n = n, .size = ring->size, .order = ring->order};
     f.w = nh_alloc_array(count * n + 1, sizeof *f.w);
     f.curve = nh_alloc_array(count * ring->size + 1, sizeof *f.curve);
     f.weight = nh_alloc_array(count * orders + 1, sizeof *f.weight);
-    nh_residue *v = nh_alloc_array(m + 1, sizeof *v);
     for (size_t i = 0; i < count * n; i++) f.w[i] = nh_residue_random(ring->field, &seed);
     for (size_t i = 0; i < count * orders; i++) f.weight[i] = nh_residue_random(ring->field, &seed);
-    for (size_t j = 0; j < count; j++) {
-        for (size_t k = 0; k < m; k++) v[k] = nh_residue_random(ring->field, &seed);
-        for (size_t e = 0; e < ring->size; e++) f.curve[j * ring->size + e] = power_of(ring->field, v, ring->exponent + e * m, m);
-    }
-    nh_free(v);
+    for (size_t j = 0; j < count; j++) nh_count_curve(ring, &seed, f.curve + j * ring->size);
     return f;
 }
 
@@ -100,17 +95,6 @@ void nh_count_functionals_clear(nh_count_functionals *f)
     nh_free(f->w);
 }
 
-/* The coordinates along the curve z_k = v_k s^(weight_k), as series in s. */
-static void along_curve(const nh_count_functionals *f, size_t j, const nh_jet_ring *ring, const nh_jet_ring *line, size_t coordinates, const nh_residue *coordinate, nh_residue *out)
-{
-    memset(out, 0, coordinates * line->size * sizeof *out);
-    for (size_t k = 0; k < coordinates; k++)
-        for (size_t e = 0; e < ring->size; e++) {
-            nh_residue *at = &out[k * line->size + ring->degree[e]];
-            *at = nh_residue_add(ring->field, *at, nh_residue_mul(ring->field, f->curve[j * ring->size + e], coordinate[k * ring->size + e]));
-        }
-}
-
 bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, const nh_count_monomials *p, const nh_count_functionals *f, nh_residue *out)
 {
     nh_jet_equations *x = c->equations;
@@ -119,7 +103,7 @@ bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_re
     nh_residue *phi = nh_alloc_array(c->known * line->size + 1, sizeof *phi), *product = nh_alloc_array(p->count * line->size, sizeof *product), *q = nh_alloc_array(all * line->size + 1, sizeof *q);
     bool good = true;
     for (size_t j = 0; j < f->count && good && !nh_late(); j++) {
-        along_curve(f, j, ring, line, all, coordinate, q);
+        nh_count_along(ring, line, f->curve + j * f->size, all, coordinate, q);
         nh_jet_eval *v = nh_jet_equations_eval(x, line, q);
         nh_jet_equations_velocities(x, v, line, f->w + j * f->n);
         good = c->known == 0 || nh_jet_eval_all(v, c->known, c->current, phi);
@@ -157,25 +141,30 @@ void nh_count_solution_values(const nh_graded_count *g, const nh_jet_ring *ring,
 
 /* ---- how many are independent ---- */
 
-/* The rank of those rows that are no current of this degree by itself. */
-static size_t lower_rank(const nh_counter *c, const nmod_mat_t rows, const uint8_t *exponent, size_t degree)
+/* Is a current of this degree by itself among the factors? */
+static bool has_own_degree(const nh_counter *c, const uint8_t *exponent, size_t degree)
 {
-    size_t count = (size_t)nmod_mat_nrows(rows), kept = 0;
-    nmod_mat_t lower;
-    nmod_mat_init(lower, nmod_mat_nrows(rows), nmod_mat_ncols(rows), rows->mod.n);
-    for (size_t p = 0; p < count; p++) {
-        bool own = false;
-        for (size_t k = 0; k < c->known; k++) own |= exponent[p * c->known + k] && c->degree[k] == degree;
-        for (slong j = 0; j < nmod_mat_ncols(rows) && !own; j++) nmod_mat_entry(lower, kept, j) = nmod_mat_entry(rows, p, j);
-        kept += !own;
+    bool own = false;
+    for (size_t k = 0; k < c->known; k++) own |= exponent[k] && c->degree[k] == degree;
+    return own;
+}
+
+/* The rank of the first rows: of products of lower degree alone, or of all. */
+static size_t rank_of(const nh_counter *c, nh_prime field, const nh_count_monomials *p, size_t columns, const nh_residue *value, size_t degree, bool lower)
+{
+    nh_residue *rows = nh_alloc_array(p->count * columns, sizeof *rows);
+    size_t kept = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        if (lower && has_own_degree(c, p->exponent + i * c->known, degree)) continue;
+        memcpy(rows + kept++ * columns, value + i * columns, columns * sizeof *rows);
     }
-    size_t rank = (size_t)nmod_mat_rank(lower);
-    nmod_mat_clear(lower);
+    size_t rank = nh_residue_matrix_rank(field, kept, columns, rows);
+    nh_free(rows);
     return rank;
 }
 
-/* The rank of the products modulo the prime. */
-bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, nh_count_row *out)
+/* The rank of the products modulo the prime: they are solutions to this order, of which there are `bound` independent ones. */
+bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t degree, size_t bound, nh_count_row *out)
 {
     nh_count_monomials p = nh_count_monomials_list(c, degree);
     out->known = out->lower = 1;
@@ -183,15 +172,11 @@ bool nh_count_products(nh_counter *c, const nh_jet_ring *ring, const nh_residue 
         nh_count_monomials_clear(&p);
         return true;
     }
-    nh_count_functionals f = nh_count_functionals_create(ring, c->equations->n, p.count + spare_columns, 1234567 + degree);
+    nh_count_functionals f = nh_count_functionals_create(ring, c->equations->n, (p.count < bound ? p.count : bound) + spare_columns, 1234567 + degree);
     nh_residue *value = nh_alloc_array(p.count * f.count, sizeof *value);
     bool good = nh_count_product_values(c, ring, coordinate, &p, &f, value);
-    nmod_mat_t rows;
-    nmod_mat_init(rows, (slong)p.count, (slong)f.count, ring->field.p);
-    for (size_t i = 0; i < p.count * f.count; i++) nmod_mat_entry(rows, i / f.count, i % f.count) = value[i];
-    out->known = (size_t)nmod_mat_rank(rows);
-    out->lower = lower_rank(c, rows, p.exponent, degree);
-    nmod_mat_clear(rows);
+    out->known = rank_of(c, ring->field, &p, f.count, value, degree, false);
+    out->lower = rank_of(c, ring->field, &p, f.count, value, degree, true);
     nh_free(value);
     nh_count_functionals_clear(&f);
     nh_count_monomials_clear(&p);

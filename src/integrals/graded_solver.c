@@ -1,11 +1,12 @@
-/* The linear system Gamma(Phi) = 0 weight by weight, with sparse elimination of the symbol, component by component, and FLINT's echelon form for the
+/* The linear system Gamma(Phi) = 0 weight by weight, with sparse elimination of the symbol, component by component, and a dense echelon form for the
  * conditions on the parameters. */
-#include "base/progress.h"
 #include "integrals/graded_solver_internal.h"
 
-#include <flint/nmod_mat.h>
 #include <math.h>
 #include <string.h>
+
+#include "base/progress.h"
+#include "exact/residue_matrix.h"
 
 enum { spare_rows = 8, no_alpha = -1 };
 
@@ -134,12 +135,27 @@ void nh_graded_parameter(nh_graded_system *s, size_t alpha, size_t exponent)
 
 /* ---- the equations of weight k ---- */
 
+/* What is known of an equation: coefficients that are known, each times a residue. */
+typedef struct {
+    size_t count, factors, rows; /* factors, rows: room */
+    nh_residue *factor;
+    const nh_residue **row;
+} sum_of_rows;
+
+static void put_row(sum_of_rows *sum, nh_residue factor, const nh_residue *row)
+{
+    nh_grow(&sum->factor, &sum->factors, sum->count + 1, sizeof *sum->factor);
+    nh_grow(&sum->row, &sum->rows, sum->count + 1, sizeof *sum->row);
+    sum->factor[sum->count] = factor;
+    sum->row[sum->count++] = row;
+}
+
 /* The equation of beta and exponent `e`: what is known, and the symbol. */
-static void equation(nh_graded_system *s, size_t beta, size_t e, size_t number, uint64_t *sum)
+static void equation(nh_graded_system *s, size_t beta, size_t e, size_t number, sum_of_rows *sum)
 {
     const nh_jet_ring *r = s->r;
     size_t n = s->p->n, m = r->variables;
-    memset(sum, 0, (s->N + 1) * sizeof *sum);
+    sum->count = 0;
     for (size_t i = 0; i < s->terms; i++) {
         const term *t = &s->t[i];
         if (t->alpha[beta] == no_alpha) continue;
@@ -160,12 +176,11 @@ static void equation(nh_graded_system *s, size_t beta, size_t e, size_t number, 
                 s->symbol[s->entries++] = (nh_graded_entry){number, a * s->unknowns_of + (u - s->first), v};
                 continue;
             }
-            const nh_residue *x = nh_graded_row(s, a, u);
-            for (size_t j = 0; j < s->N; j++) sum[j] = nh_residue_gather(s->f, sum[j], v, x[j]);
+            put_row(sum, v, nh_graded_row(s, a, u));
             s->work += (double)s->N;
         }
     }
-    for (size_t j = 0; j < s->N; j++) s->known[number * s->N + j] = (nh_residue)(sum[j] % s->f.p);
+    nh_residue_matrix_gather(s->f, s->N, s->known + number * s->N, sum->count, sum->factor, sum->row);
 }
 
 static void equations(nh_graded_system *s)
@@ -178,84 +193,107 @@ static void equations(nh_graded_system *s)
     s->entries = 0;
     s->known = nh_alloc_array(s->equations * s->N + 1, sizeof *s->known);
     s->start = nh_alloc_array(s->equations + 1, sizeof *s->start);
-    uint64_t *sum = nh_alloc_array(s->N + 1, sizeof *sum);
+    sum_of_rows sum = {0};
     for (size_t q = 0; q < s->equations && !s->over && !nh_late() && s->work < s->p->most_work; q++) {
         s->start[q] = s->entries;
-        equation(s, q / count, from + q % count, q, sum);
+        equation(s, q / count, from + q % count, q, &sum);
     }
     s->over |= s->work >= s->p->most_work || nh_late();
     s->start[s->equations] = s->entries;
-    nh_free(sum);
+    nh_free(sum.row);
+    nh_free(sum.factor);
 }
 
 /* ---- conditions on the parameters ---- */
 
-/* The new conditions, as few random combinations as can have their rank (fewer conditions can only leave more parameters). */
-static void compress(nh_graded_system *s, nmod_mat_t out)
+static bool is_last(const nh_graded_system *s) { return s->k + 1 >= s->r->order; }
+
+/* The new conditions, as few random combinations as can have their rank (fewer conditions can only leave more parameters), into out; how many. */
+static size_t compress(nh_graded_system *s, nh_residue *out)
 {
     size_t columns = s->before, wanted = columns - s->conditions + spare_rows;
-    nmod_mat_t all;
-    nmod_mat_init(all, (slong)s->fresh_count, (slong)columns, s->f.p);
     for (size_t q = 0; q < s->fresh_count; q++) /* the latest parameters first: these are eliminated */
-        for (size_t j = 0; j < columns; j++) nmod_mat_entry(all, q, columns - 1 - j) = s->fresh[q * columns + j];
+        for (size_t j = 0; j < columns / 2; j++) {
+            nh_residue *row = s->fresh + q * columns, kept = row[j];
+            row[j] = row[columns - 1 - j];
+            row[columns - 1 - j] = kept;
+        }
     if (s->fresh_count <= wanted) {
-        nmod_mat_init_set(out, all);
-    } else {
-        nmod_mat_t mix;
-        uint64_t state = s->k + 1;
-        nmod_mat_init(mix, (slong)wanted, (slong)s->fresh_count, s->f.p);
-        for (size_t i = 0; i < wanted; i++)
-            for (size_t j = 0; j < s->fresh_count; j++) nmod_mat_entry(mix, i, j) = nh_residue_random(s->f, &state);
-        nmod_mat_init(out, (slong)wanted, (slong)columns, s->f.p);
-        nmod_mat_mul(out, mix, all);
-        nmod_mat_clear(mix);
-        s->work += (double)wanted * (double)s->fresh_count * (double)columns;
+        memcpy(out, s->fresh, s->fresh_count * columns * sizeof *out);
+        return s->fresh_count;
     }
-    nmod_mat_clear(all);
+    uint64_t state = s->k + 1;
+    nh_residue *mix = nh_alloc_array(wanted * s->fresh_count, sizeof *mix);
+    for (size_t i = 0; i < wanted * s->fresh_count; i++) mix[i] = nh_residue_random(s->f, &state);
+    nh_residue_matrix_multiply(s->f, wanted, s->fresh_count, columns, mix, s->fresh, out);
+    nh_free(mix);
+    s->work += (double)wanted * (double)s->fresh_count * (double)columns;
+    return wanted;
 }
 
-/* Every row: what belongs to the pivots is replaced, and the rest moves together. */
-static void substitute(nh_graded_system *s, const nmod_mat_t echelon, size_t rank)
+/* The coefficients that are looked at later: all up to this weight, or at the end those of the first jets, unless all are kept. */
+static size_t coefficients_left(const nh_graded_system *s, uint32_t *out)
 {
-    size_t columns = s->reached, kept = 0;
-    size_t *pivot = nh_alloc_array(rank + 1, sizeof *pivot), *to = nh_alloc_array(s->N + 1, sizeof *to);
-    for (size_t j = 0; j < s->N; j++) to[j] = 0;
-    for (size_t q = 0; q < rank; q++) {
-        size_t j = 0;
-        while (!nmod_mat_entry(echelon, q, j)) j++;
-        pivot[q] = columns - 1 - j;
-        to[pivot[q]] = SIZE_MAX;
+    size_t last = s->r->first[s->k + 2], m = s->r->variables, count = 0;
+    bool jets = is_last(s) && !s->p->keep;
+    if (jets && out) out[count] = 0;
+    count += jets;
+    for (size_t k = 0; k < m && jets; k++) {
+        uint32_t e = s->r->up[k * s->r->size];
+        if (e >= s->r->size) continue;
+        if (out) out[count] = e;
+        count++;
     }
-    for (size_t j = 0; j < s->N; j++)
-        if (to[j] != SIZE_MAX) to[j] = kept++;
-    nh_residue *condition = nh_alloc_array(rank * columns + 1, sizeof *condition);
-    for (size_t q = 0; q < rank; q++)
-        for (size_t j = 0; j < columns; j++) condition[q * columns + columns - 1 - j] = (nh_residue)nmod_mat_entry(echelon, q, j);
-    size_t last = s->k + 1;
+    for (size_t e = 0; e < last && !jets && out; e++) out[e] = (uint32_t)e;
+    return jets ? count : last;
+}
+
+/* The parameters that are no pivots take over: each coefficient keeps its entries there, and what its entries at the pivots bring.  Echelon: of the parameters, the latest
+ * first. */
+static void substitute(nh_graded_system *s, const nh_residue *echelon, size_t rank, const size_t *pivots)
+{
+    size_t columns = s->reached, kept = 0, among = 0, left = coefficients_left(s, NULL), *from = nh_alloc_array(s->N + 1, sizeof *from);
+    uint32_t *exponent = nh_alloc_array(left + 1, sizeof *exponent);
+    bool *gone = nh_alloc_array(s->N + 1, sizeof *gone);
+    coefficients_left(s, exponent);
+    for (size_t q = 0; q < rank; q++) gone[columns - 1 - pivots[q]] = true;
+    for (size_t j = 0; j < s->N; j++) {
+        if (!gone[j]) from[kept++] = j;
+        if (j + 1 == columns) among = kept;
+    }
+    nh_residue *condition = nh_alloc_array(rank * among + 1, sizeof *condition), *factor = nh_alloc_array(rank + 1, sizeof *factor);
+    const nh_residue **row = nh_alloc_array(rank + 1, sizeof *row);
+    for (size_t q = 0; q < rank; q++) {
+        row[q] = condition + q * among;
+        for (size_t j = 0; j < among; j++) condition[q * among + j] = echelon[q * columns + columns - 1 - from[j]];
+    }
     for (size_t a = 0; a < s->alphas; a++)
-        for (size_t e = 0; e < s->r->first[last + 1]; e++) {
-            nh_residue *x = nh_graded_row(s, a, e);
-            for (size_t q = 0; q < rank; q++) nh_residue_add_multiple(s->f, columns, x, condition + q * columns, nh_residue_negative(s->f, x[pivot[q]]));
-            for (size_t j = 0; j < s->N; j++)
-                if (to[j] != SIZE_MAX) x[to[j]] = x[j];
+        for (size_t i = 0; i < left; i++) {
+            nh_residue *x = nh_graded_row(s, a, exponent[i]);
+            for (size_t q = 0; q < rank; q++) factor[q] = nh_residue_negative(s->f, x[columns - 1 - pivots[q]]);
+            for (size_t j = 0; j < kept; j++) x[j] = x[from[j]];
             memset(x + kept, 0, (s->N - kept) * sizeof *x);
+            nh_residue_matrix_gather(s->f, among, x, rank, factor, row);
         }
-    s->work += (double)s->alphas * (double)s->r->first[last + 1] * (double)rank * (double)columns;
+    s->work += (double)s->alphas * (double)left * (double)rank * (double)(among + 1);
     s->N = kept;
+    nh_free(row);
+    nh_free(factor);
     nh_free(condition);
-    nh_free(to);
-    nh_free(pivot);
+    nh_free(gone);
+    nh_free(exponent);
+    nh_free(from);
 }
 
 /* Is there work left for it? */
 static bool may_substitute(nh_graded_system *s, size_t rank)
 {
-    double work = (double)s->alphas * (double)s->r->first[s->k + 2] * (double)rank * (double)s->reached;
+    double work = (double)s->alphas * (double)coefficients_left(s, NULL) * (double)rank * (double)(s->reached - rank + 1);
     s->over |= s->work + work > s->p->most_work;
     return !s->over;
 }
 
-/* All conditions in echelon form; they are substituted where few parameters survive, and always in a long series, which has few of them. */
+/* All conditions in echelon form; before the end they are substituted where few parameters survive, and always in a long series, which has few of them. */
 static void use_conditions(nh_graded_system *s)
 {
     size_t columns = s->before;
@@ -263,28 +301,25 @@ static void use_conditions(nh_graded_system *s)
     double rows = (double)s->conditions + fmin((double)s->fresh_count, (double)(columns - s->conditions + spare_rows));
     s->over |= s->work + rows * (double)columns * (double)columns > s->p->most_work;
     if (s->over) return;
-    nmod_mat_t fresh, all;
-    compress(s, fresh);
-    nmod_mat_init(all, (slong)s->conditions + nmod_mat_nrows(fresh), (slong)columns, s->f.p);
+    nh_residue *all = nh_alloc_array((s->conditions + s->fresh_count + 1) * columns, sizeof *all);
     for (size_t q = 0; q < s->conditions; q++)
-        for (size_t j = 0; j < s->reached; j++) nmod_mat_entry(all, q, columns - 1 - j) = s->condition[q * s->stride + j];
-    for (slong q = 0; q < nmod_mat_nrows(fresh); q++)
-        for (size_t j = 0; j < columns; j++) nmod_mat_entry(all, s->conditions + (size_t)q, j) = nmod_mat_entry(fresh, q, j);
-    nmod_mat_clear(fresh);
-    size_t rank = (size_t)nmod_mat_rref(all);
-    s->work += (double)nmod_mat_nrows(all) * (double)columns * (double)rank;
+        for (size_t j = 0; j < s->reached; j++) all[q * columns + columns - 1 - j] = s->condition[q * s->stride + j];
+    size_t count = s->conditions + compress(s, all + s->conditions * columns), *pivot = nh_alloc_array(columns + 1, sizeof *pivot);
+    size_t rank = nh_residue_matrix_echelon(s->f, count, columns, columns, all, pivot);
+    s->work += (double)count * (double)columns * (double)rank;
     s->reached = columns;
-    if ((s->p->keep || 4 * (s->N - rank) <= s->N) && may_substitute(s, rank)) {
-        substitute(s, all, rank);
+    if (!is_last(s) && (s->p->keep || 4 * (s->N - rank) <= s->N) && may_substitute(s, rank)) {
+        substitute(s, all, rank, pivot);
         s->conditions = 0;
     } else {
         nh_free(s->condition);
         s->condition = nh_alloc_array(rank * s->stride + 1, sizeof *s->condition);
         for (size_t q = 0; q < rank; q++)
-            for (size_t j = 0; j < columns; j++) s->condition[q * s->stride + columns - 1 - j] = (nh_residue)nmod_mat_entry(all, q, j);
+            for (size_t j = 0; j < columns; j++) s->condition[q * s->stride + columns - 1 - j] = all[q * columns + j];
         s->conditions = rank;
     }
-    nmod_mat_clear(all);
+    nh_free(pivot);
+    nh_free(all);
 }
 
 /* ---- weight by weight ---- */
@@ -335,12 +370,15 @@ static void finish(nh_graded_system *s, nh_graded_count *out)
     size_t m = s->r->variables;
     s->k = out->order ? out->order - 1 : 0;
     if (s->conditions && may_substitute(s, s->conditions)) {
-        nmod_mat_t all;
-        nmod_mat_init(all, (slong)s->conditions, (slong)s->reached, s->f.p);
-        for (size_t q = 0; q < s->conditions; q++)
-            for (size_t j = 0; j < s->reached; j++) nmod_mat_entry(all, q, s->reached - 1 - j) = s->condition[q * s->stride + j];
-        substitute(s, all, s->conditions);
-        nmod_mat_clear(all);
+        size_t *pivot = nh_alloc_array(s->conditions, sizeof *pivot);
+        nh_residue *all = nh_alloc_array(s->conditions * s->reached, sizeof *all);
+        for (size_t q = 0; q < s->conditions; q++) {
+            for (size_t j = 0; j < s->reached; j++) all[q * s->reached + s->reached - 1 - j] = s->condition[q * s->stride + j];
+            while (!all[q * s->reached + pivot[q]]) pivot[q]++;
+        }
+        substitute(s, all, s->conditions, pivot);
+        nh_free(all);
+        nh_free(pivot);
         s->conditions = 0;
     }
     if (s->over) return;

@@ -32,10 +32,11 @@ static size_t proved(const nh_analysis *r, nh_ex *phi, bool *general)
 }
 
 /* What is proved is compared with how much there can be. */
-static void count(nh_analysis *r, bool again)
+static void count(nh_analysis *r, bool again, nh_count_memory *memory)
 {
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
-    nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .again = again, .degree = (size_t)r->options.degree, .work = r->options.count_work};
+    nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .again = again, .degree = (size_t)r->options.degree,
+                                .work = r->options.count_work, .memory = memory};
     nh_progress("how many integrals there are", -1);
     q.known = proved(r, phi, &q.general);
     nh_completeness_of(r->model, &q, r->completeness);
@@ -201,7 +202,7 @@ static bool is_missing(const nh_analysis *r)
     return some;
 }
 
-static void look(nh_analysis *r)
+static void look(nh_analysis *r, nh_count_memory *memory)
 {
     search s = {0};
     nh_error ignored;
@@ -216,9 +217,9 @@ static void look(nh_analysis *r)
         for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++) found = construct(&s, &r->completeness[i], false);
         if (!found && lacks_further(r)) found = again = construct(&s, &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME], true);
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-        if (found) count(r, stale = again);
+        if (found) count(r, stale = again, memory);
     }
-    if (stale && !nh_late()) count(r, false);
+    if (stale && !nh_late()) count(r, false, memory);
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.climb.bench);
@@ -231,7 +232,9 @@ static void look(nh_analysis *r)
 
 void nh_missing_count(nh_analysis *r, bool construct)
 {
-    count(r, false);
-    if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r)) && !nh_late()) look(r);
+    nh_count_memory *memory = nh_count_memory_create();
+    count(r, false, memory);
+    if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r)) && !nh_late()) look(r, memory);
+    nh_count_memory_free(memory);
     check(r);
 }

@@ -1,0 +1,196 @@
+/* Sums of rows in halves of 32 bits, and Gauss and Jordan's elimination in panels of columns on top of them.
+ *
+ * A panel with the pivots A[R, C] = B replaces, of all columns from its first on,
+ *
+ *     A[R] by B^-1 A[R],      A[i] by A[i] - A[i, C] A[R]   for the other rows i
+ *
+ * so that most of the work is sums of many rows. */
+#include "exact/residue_matrix.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { panel_width = 32, block = 512 };
+
+#if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_ADDRESS__
+#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define CLONES
+#endif
+
+/* ---- sums of rows ---- */
+
+/* low + 2^32 high += two sums of four products, each below 2^62. */
+CLONES static void add_eight(size_t n, uint64_t *restrict low, uint64_t *restrict high, const nh_residue *restrict f, const nh_residue *const *row)
+{
+    const nh_residue *restrict a = row[0], *restrict b = row[1], *restrict c = row[2], *restrict d = row[3], *restrict e = row[4], *restrict g = row[5], *restrict h = row[6], *restrict k = row[7];
+    uint64_t fa = f[0], fb = f[1], fc = f[2], fd = f[3], fe = f[4], fg = f[5], fh = f[6], fk = f[7];
+    for (size_t j = 0; j < n; j++) {
+        uint64_t first = fa * a[j] + fb * b[j] + fc * c[j] + fd * d[j], second = fe * e[j] + fg * g[j] + fh * h[j] + fk * k[j];
+        low[j] += (first & UINT32_MAX) + (second & UINT32_MAX);
+        high[j] += (first >> 32) + (second >> 32);
+    }
+}
+
+/* (low + 2^32 high) mod p, both below 2^61 */
+CLONES static void fold(nh_prime field, size_t n, const uint64_t *restrict low, const uint64_t *restrict high, nh_residue *restrict y)
+{
+    uint64_t carry = ((uint64_t)1 << 32) % field.p;
+    for (size_t j = 0; j < n; j++) y[j] = nh_residue_reduce(field, nh_residue_reduce(field, low[j]) + nh_residue_reduce(field, high[j]) * carry);
+}
+
+/* Columns from `from` on, at most a block of them. */
+static void gather_block(nh_prime field, size_t from, size_t n, nh_residue *y, size_t count, const nh_residue *factor, const nh_residue *const *row)
+{
+    enum { together = 8 };
+    static const nh_residue zero[block] = {0};
+    uint64_t low[block], high[block];
+    memset(high, 0, n * sizeof *high);
+    for (size_t j = 0; j < n; j++) low[j] = y[from + j];
+    for (size_t t = 0; t < count; t += together) {
+        nh_residue f[together] = {0};
+        const nh_residue *r[together];
+        for (size_t i = 0; i < together; i++) {
+            bool used = t + i < count;
+            f[i] = used ? factor[t + i] : 0;
+            r[i] = used ? row[t + i] + from : zero;
+        }
+        add_eight(n, low, high, f, r);
+    }
+    fold(field, n, low, high, y + from);
+}
+
+void nh_residue_matrix_gather(nh_prime field, size_t n, nh_residue *y, size_t count, const nh_residue *factor, const nh_residue *const *row)
+{
+    enum { few = 4 };
+    if (count <= few) {
+        for (size_t t = 0; t < count; t++) nh_residue_add_multiple(field, n, y, row[t], factor[t]);
+        return;
+    }
+    for (size_t from = 0; from < n; from += block) gather_block(field, from, n - from < block ? n - from : block, y, count, factor, row);
+}
+
+void nh_residue_matrix_multiply(nh_prime field, size_t m, size_t k, size_t n, const nh_residue *a, const nh_residue *b, nh_residue *out)
+{
+    const nh_residue **row = nh_alloc_array(k + 1, sizeof *row);
+    for (size_t t = 0; t < k; t++) row[t] = b + t * n;
+    memset(out, 0, m * n * sizeof *out);
+    for (size_t i = 0; i < m; i++) nh_residue_matrix_gather(field, n, out + i * n, k, a + i * k, row);
+    nh_free(row);
+}
+
+/* ---- elimination ---- */
+
+typedef struct {
+    nh_prime field;
+    size_t rows, columns, rank;
+    nh_residue *a;
+    size_t first, width;               /* of the panel at hand */
+    size_t found, *pivot;              /* pivots in it; their columns, of the matrix */
+    nh_residue *panel, *pivots, *part; /* rows x width; found x 2 found; found x columns */
+} elimination;
+
+static void swap_rows(nh_residue *a, size_t n, size_t i, size_t k)
+{
+    for (size_t j = 0; i != k && j < n; j++) {
+        nh_residue kept = a[i * n + j];
+        a[i * n + j] = a[k * n + j];
+        a[k * n + j] = kept;
+    }
+}
+
+/* Rows of the panel that are linearly independent, and their pivots: the rows are brought to the head of the rest of the matrix. */
+static void find_pivots(elimination *x)
+{
+    size_t rest = x->rows - x->rank, w = x->width;
+    for (size_t i = 0; i < rest; i++) memcpy(x->panel + i * w, x->a + (x->rank + i) * x->columns + x->first, w * sizeof *x->panel);
+    x->found = 0;
+    for (size_t c = 0; c < w && x->found < rest; c++) {
+        size_t i = x->found;
+        while (i < rest && !x->panel[i * w + c]) i++;
+        if (i == rest) continue;
+        swap_rows(x->panel, w, i, x->found);
+        swap_rows(x->a, x->columns, x->rank + i, x->rank + x->found);
+        const nh_residue *head = x->panel + x->found * w;
+        nh_residue inverse = nh_residue_negative(x->field, nh_residue_inverse(x->field, head[c]));
+        for (i = x->found + 1; i < rest; i++) {
+            nh_residue *own = x->panel + i * w;
+            if (own[c]) nh_residue_add_multiple(x->field, w - c, own + c, head + c, nh_residue_mul(x->field, own[c], inverse));
+        }
+        x->pivot[x->rank + x->found++] = x->first + c;
+    }
+}
+
+/* B | 1 becomes 1 | B^-1, by Gauss and Jordan; B is regular. */
+static void invert_pivots(elimination *x)
+{
+    size_t k = x->found, w = 2 * k;
+    nh_residue *b = x->pivots;
+    memset(b, 0, k * w * sizeof *b);
+    for (size_t i = 0; i < k; i++) {
+        for (size_t j = 0; j < k; j++) b[i * w + j] = x->a[(x->rank + i) * x->columns + x->pivot[x->rank + j]];
+        b[i * w + k + i] = 1;
+    }
+    for (size_t c = 0; c < k; c++) {
+        size_t i = c;
+        while (!b[i * w + c]) i++;
+        swap_rows(b, w, i, c);
+        nh_residue inverse = nh_residue_inverse(x->field, b[c * w + c]);
+        for (size_t j = 0; j < w; j++) b[c * w + j] = nh_residue_mul(x->field, b[c * w + j], inverse);
+        for (i = 0; i < k; i++)
+            if (i != c) nh_residue_add_multiple(x->field, w, b + i * w, b + c * w, nh_residue_negative(x->field, b[i * w + c]));
+    }
+}
+
+/* The rows with pivots, and then the others: all, or those below. */
+static void apply_pivots(elimination *x, bool above)
+{
+    size_t k = x->found, n = x->columns - x->first;
+    const nh_residue *row[panel_width];
+    nh_residue factor[panel_width];
+    memset(x->part, 0, k * n * sizeof *x->part);
+    for (size_t t = 0; t < k; t++) row[t] = x->a + (x->rank + t) * x->columns + x->first;
+    for (size_t i = 0; i < k; i++) nh_residue_matrix_gather(x->field, n, x->part + i * n, k, x->pivots + i * 2 * k + k, row);
+    for (size_t i = 0; i < k; i++) memcpy(x->a + (x->rank + i) * x->columns + x->first, x->part + i * n, n * sizeof *x->part);
+    for (size_t i = above ? 0 : x->rank + k; i < x->rows; i++) {
+        nh_residue *own = x->a + i * x->columns;
+        bool any = false;
+        if (i >= x->rank && i < x->rank + k) continue;
+        for (size_t t = 0; t < k; t++) any |= (factor[t] = nh_residue_negative(x->field, own[x->pivot[x->rank + t]])) != 0;
+        if (any) nh_residue_matrix_gather(x->field, n, own + x->first, k, factor, row);
+    }
+}
+
+static size_t eliminate(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a, size_t *pivot, bool reduced)
+{
+    elimination x = {.field = field, .rows = rows, .columns = columns, .a = a, .pivot = pivot};
+    x.panel = nh_alloc_array(rows * panel_width + 1, sizeof *x.panel);
+    x.pivots = nh_alloc_array(2 * panel_width * panel_width, sizeof *x.pivots);
+    x.part = nh_alloc_array(panel_width * columns + 1, sizeof *x.part);
+    for (x.first = 0; x.first < within && x.rank < rows; x.first += x.width) {
+        x.width = within - x.first < panel_width ? within - x.first : panel_width;
+        find_pivots(&x);
+        if (!x.found) continue;
+        invert_pivots(&x);
+        apply_pivots(&x, reduced);
+        x.rank += x.found;
+    }
+    nh_free(x.part);
+    nh_free(x.pivots);
+    nh_free(x.panel);
+    return x.rank;
+}
+
+size_t nh_residue_matrix_echelon(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a, size_t *pivot)
+{
+    return eliminate(field, rows, columns, within, a, pivot, true);
+}
+
+size_t nh_residue_matrix_rank(nh_prime field, size_t rows, size_t columns, nh_residue *a)
+{
+    size_t *pivot = nh_alloc_array((rows < columns ? rows : columns) + 1, sizeof *pivot);
+    size_t rank = eliminate(field, rows, columns, columns, a, pivot, false);
+    nh_free(pivot);
+    return rank;
+}
