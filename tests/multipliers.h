@@ -14,7 +14,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "exact/arb.h"
+#include "evaluate/arb.h"
 #include "graph/diff.h"
 #include "graph/num_long.h"
 #include "exact/normal.h"

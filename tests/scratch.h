@@ -32,7 +32,7 @@ static inline bool scratch_text(char path[SCRATCH], const char *text)
 }
 
 /* Compile a program without a warning and run it; the numbers that it prints, one to a line.  Their number, or -1 when it fails. */
-static inline long scratch_run_c(const char *code, double *out, size_t most)
+static inline long scratch_run_c_with(const char *libraries, const char *code, double *out, size_t most)
 {
     char folder[SCRATCH], name[SCRATCH + 20], command[SCRATCH + 200], line[100];
     long n = 0;
@@ -41,12 +41,14 @@ static inline long scratch_run_c(const char *code, double *out, size_t most)
     snprintf(name, sizeof name, "%s/code.c", folder);
     FILE *file = fopen(name, "w");
     if (!file || (fputs(code, file) < 0) | (fclose(file) != 0)) return -1;
-    snprintf(command, sizeof command, "cd %s && ${CC:-cc} -std=c99 -Wall -Wextra -Werror code.c -o code -lm && ./code", folder);
+    snprintf(command, sizeof command, "cd %s && ${CC:-cc} -std=c99 -Wall -Wextra -Werror code.c -o code %s -lm && ./code", folder, libraries);
     FILE *pipe = popen(command, "r");
     while (pipe && (size_t)n < most && fgets(line, sizeof line, pipe)) out[n++] = strtod(line, NULL);
     if (!pipe || pclose(pipe) != 0) n = -1;
     snprintf(command, sizeof command, "rm -rf %s", folder);
     return system(command) == 0 ? n : -1;
 }
+
+static inline long scratch_run_c(const char *code, double *out, size_t most) { return scratch_run_c_with("", code, out, most); }
 
 #endif

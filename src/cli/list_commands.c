@@ -73,6 +73,19 @@ static void explain_methods(void)
     for (size_t i = 0; i < nh_method_count(); i++) printf("%-16s %s\n", nh_method_at(i)->word, nh_method_at(i)->about);
 }
 
+static void explain_functions(void)
+{
+    static const char row[] = "%-24s %s\n";
+    puts("sin cos tan asin acos atan atan2(y, x) sinh cosh tanh asinh acosh atanh exp log sqrt abs, and functions without elementary form.\n"
+         "Of these the last argument may move, the others are numbers or parameters; f_prime is the derivative, as in bessel_j_prime(n, x).\n");
+    for (size_t i = 0; i < nh_glossary_functions(); i++) {
+        nh_glossary_entry f = nh_glossary_function_at(i);
+        printf(row, f.word, f.text);
+    }
+    puts("\nBoth arguments of elliptic_f and elliptic_einc may move.  Values are computed by Arb, right to the last digits of a double; where a function\n"
+         "is not real, it has none.  Proofs use its differential equation, neighbouring orders and Wronski's determinant.");
+}
+
 /* The words behind `explain`, with a blank between them. */
 static const char *words_of(nh_cli *cli)
 {
@@ -98,21 +111,24 @@ int nh_cli_explain(nh_cli *cli, nh_error *error)
 {
     static const char row[] = "%-22s %s\n";
     size_t count = nh_glossary_count();
-    const char **names = nh_arena_alloc(cli->arena, (count + 2) * sizeof *names), *word = words_of(cli);
+    const char **names = nh_arena_alloc(cli->arena, (count + 3) * sizeof *names), *word = words_of(cli);
     for (size_t i = 0; i < count; i++) {
         nh_glossary_entry topic = nh_glossary_at(i);
         names[i] = topic.word;
         if (!word) printf(row, topic.word, topic.text);
         else if (!strcmp(word, topic.word)) return puts(topic.text), NH_OK;
     }
-    if (!word) return printf(row, "options", "all numerical options (nhsym explain options)"), printf(row, "methods", "all integrators (nhsym explain methods)"), NH_OK;
+    if (!word) return printf(row, "options", "all numerical options (nhsym explain options)"), printf(row, "methods", "all integrators (nhsym explain methods)"),
+        printf(row, "functions", "functions of formulas (nhsym explain functions)"), NH_OK;
     if (!strcmp(word, "options")) return explain_options(), NH_OK;
     if (!strcmp(word, "methods")) return explain_methods(), NH_OK;
+    if (!strcmp(word, "functions")) return explain_functions(), NH_OK;
     if (explain_beginning(word)) return NH_OK;
     names[count] = "options";
     names[count + 1] = "methods";
+    names[count + 2] = "functions";
     nh_fail(error, NH_USAGE, "", "there is no topic `%s`", word);
-    const char *near = nh_text_nearest(word, names, count + 2);
+    const char *near = nh_text_nearest(word, names, count + 3);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);
     else nh_error_hint(error, "`nhsym explain` lists the topics");
     return NH_USAGE;

@@ -138,6 +138,23 @@ void nh_export_summary(const nh_export *x, nh_text *out)
 
 /* ---- files ---- */
 
+bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *error)
+{
+    static const nh_source_language *const language[] = {&nh_source_c, &nh_source_python, &nh_source_sympy, &nh_source_matlab};
+    for (size_t i = 0; i < x->functions && target < NH_EXPORT_LATEX; i++) {
+        nh_ex *e;
+        const nh_export_function *f = &x->function[i];
+        size_t n = nh_export_expressions(f, x->arena, &e);
+        for (size_t k = 0; k < n; k++) {
+            const char *name = nh_source_lacks(language[target], f->dag, e[k]);
+            if (!name) continue;
+            nh_fail(error, NH_USAGE, "--to", "no common library of %s has the function %s, which `%s` needs", language[target]->name, name, f->name);
+            return nh_error_hint(error, "--to python has all functions, by SciPy and mpmath; latex and json write them as they are");
+        }
+    }
+    return true;
+}
+
 void nh_export_text(const nh_export *x, nh_export_target target, const char *prefix, const nh_run *run, nh_text *out)
 {
     char *json;

@@ -21,6 +21,9 @@ bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *erro
 /* A name that files and functions may begin with, from that of the system, or from `wish`; false where that is none. */
 bool nh_export_prefix(const nh_export *x, const char *wish, const char **out, nh_error *error);
 
+/* Has the language all functions that occur? */
+bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *error);
+
 /* What is written for a target: as files with these names, or all in one text. */
 typedef struct {
     const char *name; /* "sleigh.h" */

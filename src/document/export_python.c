@@ -263,9 +263,14 @@ void nh_export_python(const nh_export *x, const char *prefix, bool sympy, nh_tex
         sympy ? "\nFunctions of symbols or numbers; `q`, `v` and `parameters` are symbols to call them with.\n\"\"\"\n"
               : "\nAn array of states has a state in each column: the first axis is that of the components.\n\"\"\"\n");
     nh_text_clear(&head);
+    nh_text bodies;
+    nh_text_init(&bodies);
+    for (size_t i = 0; i < x->functions; i++) nh_export_put_body(&form, x, &x->function[i], prefix, member, &bodies);
+    nh_source_libraries(form.language, nh_text_string(&bodies), out);
     nh_text_add(out, sympy ? sympy_head : numpy_head);
     put_parameters(&p);
     if (sympy) put_symbols(&p);
-    for (size_t i = 0; i < x->functions; i++) nh_export_put_body(&form, x, &x->function[i], prefix, member, out);
+    nh_text_add(out, nh_text_string(&bodies));
+    nh_text_clear(&bodies);
     nh_arena_free(arena);
 }

@@ -98,6 +98,24 @@ void nh_source_free(nh_source *w)
 
 void nh_source_indent(nh_source *w, const char *indent) { w->indent = indent; }
 bool nh_source_has_sign(const nh_source *w) { return w->sign; }
+
+void nh_source_libraries(const nh_source_language *language, const char *code, nh_text *out)
+{
+    for (size_t i = 0; i < 2; i++)
+        if (language->library[i][0] && strstr(code, language->library[i][0])) nh_text_add(out, language->library[i][1]);
+}
+
+const char *nh_source_lacks(const nh_source_language *language, const nh_dag *dag, nh_ex e)
+{
+    enum { most = 256 };
+    nh_ex call[most];
+    size_t n = nh_functions_in(dag, e, call, most);
+    for (size_t i = 0; i < n && i < most && !language->plain; i++) {
+        nh_function f = nh_function_of(dag, call[i]);
+        if (nh_is_named_function(f) && !language->named[f]) return nh_function_name(f);
+    }
+    return NULL;
+}
 void nh_source_whole(nh_source *w) { w->whole = true; }
 
 static bool is_leaf(const nh_source *w, nh_ex e)

@@ -15,6 +15,9 @@ typedef struct {
     const char
         *reserved; /* words between blanks that no symbol may be called: keywords, and what the code itself uses */
     const char *call[NH_FUNCTION_COUNT]; /* functions, without the parenthesis */
+    /* Named functions, with $1, .. for the arguments.  NULL: no common library has it. */
+    const char *named[NH_FUNCTION_COUNT];
+    const char *library[2][2];           /* what code says that uses a library, and the line which that needs */
     const char *root;                    /* the square root */
     const char *pi;
     const char *power[3];      /* before, between and after base and exponent */
@@ -55,6 +58,10 @@ void nh_source_close(nh_source *code);
 
 /* Does the sign function occur? */
 bool nh_source_has_sign(const nh_source *code);
+/* The lines for the libraries that this code uses. */
+void nh_source_libraries(const nh_source_language *language, const char *code, nh_text *out);
+/* Every function in e can be written; otherwise the name of one that cannot. */
+const char *nh_source_lacks(const nh_source_language *language, const nh_dag *dag, nh_ex e);
 /* A word of the language from any text: letters, digits and _. */
 void nh_source_identifier(const nh_source_language *language, const char *text, nh_text *out);
 

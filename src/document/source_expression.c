@@ -192,6 +192,15 @@ void nh_source_put_terms(nh_source *w, nh_ex e, size_t begin, size_t end)
     }
 }
 
+/* "$1/$2*jv($1, $2)" with the arguments in the places. */
+static void put_template(nh_source *w, nh_ex e, const char *form)
+{
+    for (; *form; form++) {
+        if (*form == '$') put(w, nh_child(w->dag, e, (size_t)(*++form - '1')), NH_IN_POWER);
+        else nh_text_add_n(w->out, form, 1);
+    }
+}
+
 static void put_function(nh_source *w, nh_ex e)
 {
     nh_function f = nh_function_of(w->dag, e);
@@ -199,8 +208,12 @@ static void put_function(nh_source *w, nh_ex e)
         nh_text_add(w->out, w->language->pi);
         return;
     }
+    if (nh_is_named_function(f) && !w->language->plain) {
+        put_template(w, e, w->language->named[f] ? w->language->named[f] : nh_function_name(f));
+        return;
+    }
     w->sign |= f == NH_SIGN;
-    nh_text_addf(w->out, "%s(", w->language->call[f]);
+    nh_text_addf(w->out, "%s(", w->language->plain ? nh_function_name(f) : w->language->call[f]);
     for (size_t i = 0; i < nh_arity(w->dag, e); i++) {
         if (i) nh_text_add(w->out, ", ");
         put(w, nh_child(w->dag, e, i), NH_IN_SUM);

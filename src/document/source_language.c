@@ -7,6 +7,70 @@
     [NH_ASINH] = p hyper "sinh", [NH_ACOSH] = p hyper "cosh", [NH_ATANH] = p hyper "tanh", [NH_EXP] = p "exp", \
     [NH_LOG] = p "log", [NH_ATAN2] = p arc2
 
+/* Named functions.  GSL's are those of gsl/gsl_sf.h: Bessel functions need n >= 0 and x > 0, 2F1 needs |x| < 1; its 2F1_conj takes real and imaginary part
+ * of a and of b, the conjugate.  Derivatives are written by functions of neighbouring orders [DLMF 10.6, 10.29, 13.3, 14.10, 15.5]. */
+#define AI "gsl_sf_airy_Ai"
+#define BI "gsl_sf_airy_Bi"
+#define P0 ", GSL_PREC_DOUBLE)"
+#define CONJUGATE(s, p, c, x) \
+    "(4*(" p ") > (" s ")*(" s ") ? gsl_sf_hyperg_2F1_conj((" s ")/2, sqrt((" p ") - (" s ")*(" s ")/4), " c ", " x ") : " \
+    "gsl_sf_hyperg_2F1((" s ")/2 + sqrt((" s ")*(" s ")/4 - (" p ")), (" s ")/2 - sqrt((" s ")*(" s ")/4 - (" p ")), " c ", " x "))"
+#define GSL \
+    {[NH_LEGENDRE_P] = "gsl_sf_hyperg_2F1(-$1, $1 + 1, 1, (1 - $2)/2)", \
+     [NH_LEGENDRE_P_PRIME] = "($1*($1 + 1)/2*gsl_sf_hyperg_2F1(1 - $1, $1 + 2, 2, (1 - $2)/2))", \
+     [NH_HYP2F1] = "gsl_sf_hyperg_2F1($1, $2, $3, $4)", \
+     [NH_HYP2F1_PRIME] = "($1*$2/$3*gsl_sf_hyperg_2F1($1 + 1, $2 + 1, $3 + 1, $4))", \
+     [NH_GAUSS_F] = CONJUGATE("$1", "$2", "$3", "$4"), \
+     [NH_GAUSS_F_PRIME] = "($2/$3*" CONJUGATE("$1 + 2", "$2 + $1 + 1", "$3 + 1", "$4") ")", \
+     [NH_HYP1F1] = "gsl_sf_hyperg_1F1($1, $2, $3)", [NH_HYP1F1_PRIME] = "($1/$2*gsl_sf_hyperg_1F1($1 + 1, $2 + 1, $3))", \
+     [NH_HYPERU] = "gsl_sf_hyperg_U($1, $2, $3)", [NH_HYPERU_PRIME] = "(-$1*gsl_sf_hyperg_U($1 + 1, $2 + 1, $3))", \
+     [NH_BESSEL_J] = "gsl_sf_bessel_Jnu($1, $2)", [NH_BESSEL_J_PRIME] = "($1/$2*gsl_sf_bessel_Jnu($1, $2) - gsl_sf_bessel_Jnu($1 + 1, $2))", \
+     [NH_BESSEL_Y] = "gsl_sf_bessel_Ynu($1, $2)", [NH_BESSEL_Y_PRIME] = "($1/$2*gsl_sf_bessel_Ynu($1, $2) - gsl_sf_bessel_Ynu($1 + 1, $2))", \
+     [NH_BESSEL_I] = "gsl_sf_bessel_Inu($1, $2)", [NH_BESSEL_I_PRIME] = "($1/$2*gsl_sf_bessel_Inu($1, $2) + gsl_sf_bessel_Inu($1 + 1, $2))", \
+     [NH_BESSEL_K] = "gsl_sf_bessel_Knu($1, $2)", [NH_BESSEL_K_PRIME] = "($1/$2*gsl_sf_bessel_Knu($1, $2) - gsl_sf_bessel_Knu($1 + 1, $2))", \
+     [NH_AIRY_AI] = AI "($1" P0, [NH_AIRY_AI_PRIME] = AI "_deriv($1" P0, [NH_AIRY_BI] = BI "($1" P0, [NH_AIRY_BI_PRIME] = BI "_deriv($1" P0, \
+     [NH_ELLIPTIC_K] = "gsl_sf_ellint_Kcomp(sqrt($1)" P0, [NH_ELLIPTIC_E] = "gsl_sf_ellint_Ecomp(sqrt($1)" P0, \
+     [NH_ELLIPTIC_F] = "gsl_sf_ellint_F($1, sqrt($2)" P0, [NH_ELLIPTIC_EINC] = "gsl_sf_ellint_E($1, sqrt($2)" P0}
+
+#define MP(arguments, value, places) "np.vectorize(lambda " arguments ": float(_mp.re(" value ")))(" places ")"
+#define MP_GAUSS(places) \
+    MP("s, p, c, x", "_mp.hyp2f1(s/2 + _mp.sqrt(s**2/4 - p), s/2 - _mp.sqrt(s**2/4 - p), c, x)", places)
+#define SCIPY \
+    {[NH_LEGENDRE_P] = "_sf.hyp2f1(-$1, $1 + 1, 1, (1 - $2)/2)", [NH_LEGENDRE_P_PRIME] = "($1*($1 + 1)/2*_sf.hyp2f1(1 - $1, $1 + 2, 2, (1 - $2)/2))", \
+     [NH_LEGENDRE_Q] = MP("n, x", "_mp.legenq(n, 0, x, type=2)", "$1, $2"), \
+     [NH_LEGENDRE_Q_PRIME] = MP("n, x", "_mp.diff(lambda y: _mp.legenq(n, 0, y, type=2), x)", "$1, $2"), \
+     [NH_HYP2F1] = "_sf.hyp2f1($1, $2, $3, $4)", [NH_HYP2F1_PRIME] = "($1*$2/$3*_sf.hyp2f1($1 + 1, $2 + 1, $3 + 1, $4))", \
+     [NH_GAUSS_F] = MP_GAUSS("$1, $2, $3, $4"), [NH_GAUSS_F_PRIME] = "($2/$3*" MP_GAUSS("$1 + 2, $2 + $1 + 1, $3 + 1, $4") ")", \
+     [NH_HYP1F1] = "_sf.hyp1f1($1, $2, $3)", [NH_HYP1F1_PRIME] = "($1/$2*_sf.hyp1f1($1 + 1, $2 + 1, $3))", \
+     [NH_HYPERU] = "_sf.hyperu($1, $2, $3)", [NH_HYPERU_PRIME] = "(-$1*_sf.hyperu($1 + 1, $2 + 1, $3))", \
+     [NH_BESSEL_J] = "_sf.jv($1, $2)", [NH_BESSEL_J_PRIME] = "_sf.jvp($1, $2)", [NH_BESSEL_Y] = "_sf.yv($1, $2)", [NH_BESSEL_Y_PRIME] = "_sf.yvp($1, $2)", \
+     [NH_BESSEL_I] = "_sf.iv($1, $2)", [NH_BESSEL_I_PRIME] = "_sf.ivp($1, $2)", [NH_BESSEL_K] = "_sf.kv($1, $2)", [NH_BESSEL_K_PRIME] = "_sf.kvp($1, $2)", \
+     [NH_AIRY_AI] = "_sf.airy($1)[0]", [NH_AIRY_AI_PRIME] = "_sf.airy($1)[1]", [NH_AIRY_BI] = "_sf.airy($1)[2]", [NH_AIRY_BI_PRIME] = "_sf.airy($1)[3]", \
+     [NH_ELLIPTIC_K] = "_sf.ellipk($1)", [NH_ELLIPTIC_E] = "_sf.ellipe($1)", [NH_ELLIPTIC_F] = "_sf.ellipkinc($1, $2)", \
+     [NH_ELLIPTIC_EINC] = "_sf.ellipeinc($1, $2)"}
+
+#define SP_GAUSS(s, p, c, x) "sp.hyper((sp.S(" s ")/2 + sp.sqrt(sp.S(" s ")**2/4 - (" p ")), sp.S(" s ")/2 - sp.sqrt(sp.S(" s ")**2/4 - (" p "))), (" c ",), " x ")"
+#define SYMPY \
+    {[NH_LEGENDRE_P] = "sp.legendre($1, $2)", [NH_LEGENDRE_P_PRIME] = "($1*($2*sp.legendre($1, $2) - sp.legendre($1 - 1, $2))/($2**2 - 1))", \
+     [NH_HYP2F1] = "sp.hyper(($1, $2), ($3,), $4)", [NH_HYP2F1_PRIME] = "(sp.S($1)*$2/$3*sp.hyper(($1 + 1, $2 + 1), ($3 + 1,), $4))", \
+     [NH_GAUSS_F] = SP_GAUSS("$1", "$2", "$3", "$4"), [NH_GAUSS_F_PRIME] = "(sp.S($2)/$3*" SP_GAUSS("$1 + 2", "$2 + $1 + 1", "$3 + 1", "$4") ")", \
+     [NH_HYP1F1] = "sp.hyper(($1,), ($2,), $3)", [NH_HYP1F1_PRIME] = "(sp.S($1)/$2*sp.hyper(($1 + 1,), ($2 + 1,), $3))", \
+     [NH_BESSEL_J] = "sp.besselj($1, $2)", [NH_BESSEL_J_PRIME] = "((sp.besselj($1 - 1, $2) - sp.besselj($1 + 1, $2))/2)", \
+     [NH_BESSEL_Y] = "sp.bessely($1, $2)", [NH_BESSEL_Y_PRIME] = "((sp.bessely($1 - 1, $2) - sp.bessely($1 + 1, $2))/2)", \
+     [NH_BESSEL_I] = "sp.besseli($1, $2)", [NH_BESSEL_I_PRIME] = "((sp.besseli($1 - 1, $2) + sp.besseli($1 + 1, $2))/2)", \
+     [NH_BESSEL_K] = "sp.besselk($1, $2)", [NH_BESSEL_K_PRIME] = "(-(sp.besselk($1 - 1, $2) + sp.besselk($1 + 1, $2))/2)", \
+     [NH_AIRY_AI] = "sp.airyai($1)", [NH_AIRY_AI_PRIME] = "sp.airyaiprime($1)", [NH_AIRY_BI] = "sp.airybi($1)", [NH_AIRY_BI_PRIME] = "sp.airybiprime($1)", \
+     [NH_ELLIPTIC_K] = "sp.elliptic_k($1)", [NH_ELLIPTIC_E] = "sp.elliptic_e($1)", [NH_ELLIPTIC_F] = "sp.elliptic_f($1, $2)", \
+     [NH_ELLIPTIC_EINC] = "sp.elliptic_e($1, $2)"}
+
+#define OCTAVE \
+    {[NH_BESSEL_J] = "besselj($1, $2)", [NH_BESSEL_J_PRIME] = "((besselj($1 - 1, $2) - besselj($1 + 1, $2))/2)", \
+     [NH_BESSEL_Y] = "bessely($1, $2)", [NH_BESSEL_Y_PRIME] = "((bessely($1 - 1, $2) - bessely($1 + 1, $2))/2)", \
+     [NH_BESSEL_I] = "besseli($1, $2)", [NH_BESSEL_I_PRIME] = "((besseli($1 - 1, $2) + besseli($1 + 1, $2))/2)", \
+     [NH_BESSEL_K] = "besselk($1, $2)", [NH_BESSEL_K_PRIME] = "(-(besselk($1 - 1, $2) + besselk($1 + 1, $2))/2)", \
+     [NH_AIRY_AI] = "airy(0, $1)", [NH_AIRY_AI_PRIME] = "airy(1, $1)", [NH_AIRY_BI] = "airy(2, $1)", [NH_AIRY_BI_PRIME] = "airy(3, $1)", \
+     [NH_ELLIPTIC_K] = "ellipke($1)"}
+
 const nh_source_language nh_source_c = {
     .name = "c",
     /* C99, C11, C23, C++ to C++20, macros of <math.h> and of compilers, and the functions that the code calls */
@@ -23,6 +87,8 @@ const nh_source_language nh_source_c = {
                 "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log sqrt fabs atan2 pow memset memcpy "
                 "nh_sign nh_solve isfinite fmax last_ change_ step_ i_ ",
     .call = {FUNCTIONS("", "a", "atan2", "a"), [NH_ABS] = "fabs", [NH_SIGN] = "nh_sign"},
+    .named = GSL,
+    .library = {{"gsl_sf_", "#include <gsl/gsl_sf.h>\n"}},
     .root = "sqrt",
     .pi = "3.141592653589793",
     .power = {"pow(", ", ", ")"},
@@ -38,8 +104,10 @@ const nh_source_language nh_source_c = {
 
 const nh_source_language nh_source_python = {
     .name = "python",
-    .reserved = PYTHON_WORDS "np _array _solve _small last_ change_ step_ namedtuple ",
+    .reserved = PYTHON_WORDS "np _sf _mp _array _solve _small last_ change_ step_ namedtuple ",
     .call = {FUNCTIONS("np.", "arc", "arctan2", "arc"), [NH_ABS] = "np.abs", [NH_SIGN] = "np.sign"},
+    .named = SCIPY,
+    .library = {{"_mp.", "import mpmath as _mp\n"}, {"_sf.", "from scipy import special as _sf\n"}},
     .root = "np.sqrt",
     .pi = "np.pi",
     .power = {"", "**", ""},
@@ -50,6 +118,7 @@ const nh_source_language nh_source_sympy = {
     .name = "sympy",
     .reserved = PYTHON_WORDS "sp _array _solve _small namedtuple ",
     .call = {FUNCTIONS("sp.", "a", "atan2", "a"), [NH_ABS] = "sp.Abs", [NH_SIGN] = "sp.sign"},
+    .named = SYMPY,
     .root = "sp.sqrt",
     .pi = "sp.pi",
     .power = {"", "**", ""},
@@ -66,8 +135,10 @@ const nh_source_language nh_source_matlab = {
                 "endwhile endclassdef endenumeration endevents endmethods endproperties "
                 "unwind_protect unwind_protect_cleanup until do __FILE__ __LINE__ "
                 "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log sqrt abs atan2 sign zeros numel "
+                "besselj bessely besseli besselk airy ellipke "
                 "nargin norm max error struct ans varargin varargout nargout last_ change_ step_ Inf api ",
     .call = {FUNCTIONS("", "a", "atan2", "a"), [NH_ABS] = "abs", [NH_SIGN] = "sign"},
+    .named = OCTAVE,
     .root = "sqrt",
     .pi = "pi",
     .power = {"", "^", ""},

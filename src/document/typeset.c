@@ -187,8 +187,25 @@ static void arguments(const writer *w, const nh_formula_node *e)
     add(w, w->s->close);
 }
 
+static void named_call(const writer *w, const nh_formula_node *e)
+{
+    size_t k = 0;
+    const nh_formula_node *c = nh_typeset_named_head(w, e);
+    add(w, w->s->apply);
+    add(w, w->s->open);
+    for (; c; c = c->next) {
+        put(w, c);
+        if (c->next) nh_typeset_named_comma(w, e->text, k++);
+    }
+    add(w, w->s->close);
+}
+
 static void call(const writer *w, const nh_formula_node *e)
 {
+    if (nh_typeset_is_named(e->text)) {
+        named_call(w, e);
+        return;
+    }
     const char *const *around = !strcmp(e->text, "sqrt") ? w->s->root : !strcmp(e->text, "abs") ? w->s->bar : NULL;
     if (around && e->child && !e->child->next) {
         add(w, around[0]);
@@ -204,7 +221,8 @@ static void call(const writer *w, const nh_formula_node *e)
 static void power(const writer *w, const nh_formula_node *e)
 {
     const nh_formula_node *base = e->child, *exponent = base->next;
-    bool on_function = base->kind == NH_FORMULA_NODE_CALL && exponent->kind == NH_FORMULA_NODE_NUMBER && strcmp(base->text, "sqrt") && strcmp(base->text, "abs");
+    bool on_function = base->kind == NH_FORMULA_NODE_CALL && exponent->kind == NH_FORMULA_NODE_NUMBER && strcmp(base->text, "sqrt") && strcmp(base->text, "abs") &&
+                       !nh_typeset_is_named(base->text);
     bool plain = base->kind == NH_FORMULA_NODE_NAME || base->kind == NH_FORMULA_NODE_NUMBER || (base->kind == NH_FORMULA_NODE_CALL && !strcmp(base->text, "abs"));
     add(w, w->s->power[0]);
     if (on_function) {

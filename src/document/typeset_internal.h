@@ -38,6 +38,11 @@ typedef struct {
 void nh_typeset_put(const nh_typeset_writer *w, const nh_formula_node *e);
 /* The name of a function, without its argument. */
 void nh_typeset_function(const nh_typeset_writer *w, const char *name);
+/* Functions with letters and indices of their own (typeset_named.c): the letter with its index; returns the first of the arguments in parentheses. */
+bool nh_typeset_is_named(const char *name);
+const nh_formula_node *nh_typeset_named_head(const nh_typeset_writer *w, const nh_formula_node *call);
+/* Behind argument k of those. */
+void nh_typeset_named_comma(const nh_typeset_writer *w, const char *name, size_t k);
 /* What stands between two factors; `factor` is the second. */
 void nh_typeset_times(const nh_typeset_writer *w, const nh_formula_node *factor);
 

@@ -161,13 +161,17 @@ static void fraction(flow *f, const nh_formula_node *e, int depth)
 static void call(flow *f, const nh_formula_node *e, int depth)
 {
     const nh_typeset_script *s = f->w.s;
-    bool root = !strcmp(e->text, "sqrt"), bar = !strcmp(e->text, "abs");
-    if (!root && !bar) nh_typeset_function(&f->w, e->text);
+    bool root = !strcmp(e->text, "sqrt"), bar = !strcmp(e->text, "abs"), named = nh_typeset_is_named(e->text);
+    const nh_formula_node *first = e->child;
+    size_t k = 0;
+    if (named) first = nh_typeset_named_head(&f->w, e);
+    else if (!root && !bar) nh_typeset_function(&f->w, e->text);
     if (!root && !bar) add(f, s->apply);
     add(f, bar ? s->wide_bar : s->wide_open);
-    for (const nh_formula_node *c = e->child; c; c = c->next) {
+    for (const nh_formula_node *c = first; c; c = c->next) {
         open_up(f, c, depth + 1);
-        if (c->next) add(f, s->comma);
+        if (c->next && named) nh_typeset_named_comma(&f->w, e->text, k++);
+        else if (c->next) add(f, s->comma);
         if (c->next) may_break(f, of_sum(depth + 1));
     }
     if (root) add(f, s->power[0]);

@@ -111,3 +111,25 @@ static const nh_glossary_entry entries[] = {
 
 size_t nh_glossary_count(void) { return sizeof entries / sizeof *entries; }
 nh_glossary_entry nh_glossary_at(size_t i) { return entries[i]; }
+
+static const nh_glossary_entry functions[] = {
+    {"legendre_p(n, x)", "Legendre's function P_n of degree n"},
+    {"legendre_q(n, x)", "Legendre's function Q_n, on -1 < x < 1 or x > 1"},
+    {"hyp2f1(a, b, c, x)", "Gauss's hypergeometric function 2F1(a, b; c; x)"},
+    {"gauss_f(s, p, c, x)", "the same by the sum s = a + b and the product p = a b: real where a and b are conjugate"},
+    {"hyp1f1(a, b, x)", "Kummer's confluent function M(a, b, x) = 1F1(a; b; x)"},
+    {"hyperu(a, b, x)", "Tricomi's confluent function U(a, b, x)"},
+    {"bessel_j(n, x)", "Bessel's function J_n, n any real number"},
+    {"bessel_y(n, x)", "Bessel's function Y_n, x > 0"},
+    {"bessel_i(n, x)", "the modified function I_n"},
+    {"bessel_k(n, x)", "the modified function K_n, x > 0"},
+    {"airy_ai(x)", "Airy's function Ai"},
+    {"airy_bi(x)", "Airy's function Bi"},
+    {"elliptic_k(m)", "complete elliptic integral of the first kind, m = k^2"},
+    {"elliptic_e(m)", "complete elliptic integral of the second kind"},
+    {"elliptic_f(u, m)", "incomplete elliptic integral of the first kind, of the angle u"},
+    {"elliptic_einc(u, m)", "incomplete elliptic integral of the second kind"},
+};
+
+size_t nh_glossary_functions(void) { return sizeof functions / sizeof *functions; }
+nh_glossary_entry nh_glossary_function_at(size_t i) { return functions[i]; }

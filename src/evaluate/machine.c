@@ -132,6 +132,8 @@ static nh_machine *put_on_shelf(nh_text *text)
 static nh_machine *machine_of(const nh_tape *tape, bool start)
 {
     if (tape->length > most_instructions) return NULL;
+    for (size_t i = 0; i < tape->length; i++)
+        if (nh_op_is_named(tape->code[i].op)) return NULL; /* no C library has them; they take the time */
     nh_text text;
     nh_text_init(&text);
     nh_machine_text(tape, &text);

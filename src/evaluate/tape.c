@@ -6,6 +6,7 @@
 
 #include "base/effort.h"
 #include "base/memory.h"
+#include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
 
 static const double call = 8, each_value = 0.3; /* units of an evaluation beside its instructions: at all, and per input and output */
@@ -36,6 +37,13 @@ static double call_value(unsigned f, double a, double b)
     }
 }
 
+/* Of a named function; `more` may be NULL where it takes no more than two arguments. */
+static double named_value(unsigned op, double a, double b, const nh_more_arguments *more, const double *r)
+{
+    const double argument[NH_MOST_ARGUMENTS] = {a, b, more ? r[more->c] : 0, more ? r[more->d] : 0};
+    return nh_named_value((nh_function)(op - NH_OP_FUNCTION), argument);
+}
+
 static double op_value(unsigned op, double a, double b)
 {
     switch (op) {
@@ -56,10 +64,10 @@ static double op_value(unsigned op, double a, double b)
 
 /* What a virtual register holds: an operation, or (op == constant_word) the two halves of a double. */
 typedef struct {
-    uint32_t op, a, b, to; /* to: the register + 1, 0 when the slot is free */
+    uint32_t op, a, b, to; /* op: with `more` in its upper half; to: the register + 1, 0 when the slot is free */
 } known_value;
 
-enum { constant_word = UINT16_MAX };
+enum { constant_word = UINT16_MAX, most_more = UINT16_MAX };
 
 typedef struct {
     nh_dag *dag;
@@ -69,6 +77,8 @@ typedef struct {
     size_t count, kind_capacity, constant_capacity;
     nh_instruction *code;
     size_t length, capacity;
+    nh_more_arguments *more;
+    size_t mores, more_capacity;
     known_value *known; /* open addressing: equal operations have one register */
     size_t known_count, known_capacity;
     size_t n_fixed;
@@ -129,6 +139,47 @@ static uint32_t constant(compiler *c, double value)
 
 static bool is_constant(const compiler *c, uint32_t r, double value) { return c->kind[r] == 'c' && c->constant[r] == value; }
 
+/* The register of this operation, known or new. */
+static uint32_t operation(compiler *c, unsigned op, uint32_t more, uint32_t a, uint32_t b)
+{
+    known_value *k = find_known(c, op | more << 16, a, b);
+    if (k->to) return k->to - 1;
+    nh_grow(&c->code, &c->capacity, c->length + 1, sizeof *c->code);
+    uint32_t to = fresh(c, 't', 0);
+    k->to = to + 1;
+    c->code[c->length++] = (nh_instruction){(uint16_t)op, (uint16_t)more, to, a, b};
+    return to;
+}
+
+static bool all_constant(const compiler *c, size_t n, const uint32_t *r)
+{
+    for (size_t i = 0; i < n; i++)
+        if (c->kind[r[i]] != 'c') return false;
+    return true;
+}
+
+/* The third and the fourth argument: which entry, + 1; 0: there are too many. */
+static uint32_t more_of(compiler *c, uint32_t third, uint32_t fourth)
+{
+    for (size_t i = 0; i < c->mores; i++)
+        if (c->more[i].c == third && c->more[i].d == fourth) return (uint32_t)i + 1;
+    if (c->mores == most_more) return 0;
+    nh_grow(&c->more, &c->more_capacity, c->mores + 1, sizeof *c->more);
+    c->more[c->mores++] = (nh_more_arguments){third, fourth};
+    return (uint32_t)c->mores;
+}
+
+static uint32_t emit_named(compiler *c, nh_function f, const uint32_t *r)
+{
+    size_t n = nh_function_arity(f);
+    uint32_t more = n > 2 ? more_of(c, r[2], r[n - 1]) : 0;
+    if (n > 2 && !more) return constant(c, NAN);
+    if (!all_constant(c, n, r)) return operation(c, NH_OP_FUNCTION + f, more, r[0], r[n > 1]);
+    double value[NH_MOST_ARGUMENTS];
+    for (size_t i = 0; i < n; i++) value[i] = c->constant[r[i]];
+    return constant(c, nh_named_value(f, value));
+}
+
 static uint32_t emit(compiler *c, unsigned op, uint32_t a, uint32_t b)
 {
     if (c->kind[a] == 'c' && c->kind[b] == 'c') return constant(c, op_value(op, c->constant[a], c->constant[b]));
@@ -136,13 +187,7 @@ static uint32_t emit(compiler *c, unsigned op, uint32_t a, uint32_t b)
     if ((op == NH_OP_MUL || op == NH_OP_DIV) && is_constant(c, b, 1)) return a;
     if (op == NH_OP_MUL && is_constant(c, a, -1)) return emit(c, NH_OP_NEG, b, b);
     if (op == NH_OP_ADD && is_constant(c, a, 0)) return b;
-    known_value *k = find_known(c, op, a, b);
-    if (k->to) return k->to - 1;
-    nh_grow(&c->code, &c->capacity, c->length + 1, sizeof *c->code);
-    uint32_t to = fresh(c, 't', 0);
-    k->to = to + 1;
-    c->code[c->length++] = (nh_instruction){op, to, a, b};
-    return to;
+    return operation(c, op, 0, a, b);
 }
 
 static uint32_t integer_power(compiler *c, uint32_t a, int64_t n)
@@ -239,7 +284,9 @@ static uint32_t compile_node(compiler *c, nh_ex e)
     }
     nh_function f = nh_function_of(c->dag, e);
     if (f == NH_PI) return constant(c, 3.14159265358979323846);
-    uint32_t a = c->value[nh_child(c->dag, e, 0)] - 1;
+    uint32_t argument[NH_MOST_ARGUMENTS], a = c->value[nh_child(c->dag, e, 0)] - 1;
+    for (size_t i = 0; i < nh_arity(c->dag, e); i++) argument[i] = c->value[nh_child(c->dag, e, i)] - 1;
+    if (nh_is_named_function(f)) return emit_named(c, f, argument);
     uint32_t b = f == NH_ATAN2 ? c->value[nh_child(c->dag, e, 1)] - 1 : a;
     return emit(c, NH_OP_FUNCTION + f, a, b);
 }
@@ -268,14 +315,31 @@ static void compile_nodes(compiler *c, size_t n_out, const nh_ex *out)
 
 /* ---- registers: a linear scan over last uses ---- */
 
+/* The registers that an instruction reads, each once. */
+static size_t operands(const compiler *c, const nh_instruction *x, uint32_t *out)
+{
+    uint32_t all[NH_MOST_ARGUMENTS] = {x->a, x->b, x->a, x->a};
+    if (x->more) all[2] = c->more[x->more - 1].c, all[3] = c->more[x->more - 1].d;
+    size_t n = 0;
+    for (size_t i = 0; i < NH_MOST_ARGUMENTS; i++) {
+        bool seen = false;
+        for (size_t j = 0; j < n; j++) seen |= out[j] == all[i];
+        if (!seen) out[n++] = all[i];
+    }
+    return n;
+}
+
 static void assign(compiler *c, nh_tape *tape, const uint32_t *out)
 {
-    uint32_t *place = nh_alloc_array(c->count + 1, sizeof *place);
+    uint32_t *place = nh_alloc_array(c->count + 1, sizeof *place), operand[NH_MOST_ARGUMENTS];
     size_t *last = nh_alloc_array(c->count + 1, sizeof *last);
     char *used = nh_alloc(c->count + 1);
     for (size_t i = 0; i < c->length; i++) {
-        last[c->code[i].a] = last[c->code[i].b] = i;
-        used[c->code[i].a] = used[c->code[i].b] = 1;
+        size_t n = operands(c, &c->code[i], operand);
+        for (size_t k = 0; k < n; k++) {
+            last[operand[k]] = i;
+            used[operand[k]] = 1;
+        }
     }
     for (size_t i = 0; i < tape->outputs; i++) {
         last[out[i]] = SIZE_MAX;
@@ -292,12 +356,14 @@ static void assign(compiler *c, nh_tape *tape, const uint32_t *out)
     uint32_t next = (uint32_t)(tape->inputs + tape->constants), *stack = nh_alloc_array(c->length + 1, sizeof *stack);
     size_t depth = 0;
     for (size_t i = 0; i < c->length; i++) {
-        nh_instruction x = c->code[i], y = {x.op, 0, place[x.a], place[x.b]};
+        nh_instruction x = c->code[i], y = {x.op, x.more, 0, place[x.a], place[x.b]};
         y.to = place[x.to] = depth ? stack[--depth] : next++; /* before the operands are freed: kernels must not alias */
-        if (c->kind[x.a] == 't' && last[x.a] == i) stack[depth++] = place[x.a];
-        if (x.b != x.a && c->kind[x.b] == 't' && last[x.b] == i) stack[depth++] = place[x.b];
+        size_t n = operands(c, &x, operand);
+        for (size_t k = 0; k < n; k++)
+            if (c->kind[operand[k]] == 't' && last[operand[k]] == i) stack[depth++] = place[operand[k]];
         tape->code[i] = y;
     }
+    for (size_t i = 0; i < c->mores; i++) tape->more[i] = (nh_more_arguments){place[c->more[i].c], place[c->more[i].d]};
     for (size_t i = 0; i < tape->outputs; i++) tape->output[i] = place[out[i]];
     tape->registers = next;
     nh_free(stack);
@@ -319,6 +385,7 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
     *tape = (nh_tape){.inputs = n_in, .outputs = n_out, .length = c.length, .unbound = c.unbound, .has_unbound = c.has_unbound};
     tape->code = nh_alloc_array(c.length + 1, sizeof *tape->code);
     tape->output = nh_alloc_array(n_out + 1, sizeof *tape->output);
+    tape->more = nh_alloc_array(c.mores + 1, sizeof *tape->more);
     assign(&c, tape, virtual_out);
     tape->effort = call + each_value * (double)(n_in + n_out);
     for (size_t i = 0; i < tape->length; i++) tape->effort += nh_op_effort(tape->code[i].op);
@@ -327,46 +394,9 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
     nh_free(c.kind);
     nh_free(c.constant);
     nh_free(c.code);
+    nh_free(c.more);
     nh_free(c.known);
     return tape;
-}
-
-void nh_tape_free(nh_tape *tape)
-{
-    if (!tape) return;
-    nh_free(tape->constant);
-    nh_free(tape->code);
-    nh_free(tape->output);
-    nh_free(tape);
-}
-
-size_t nh_tape_inputs(const nh_tape *tape) { return tape->inputs; }
-size_t nh_tape_outputs(const nh_tape *tape) { return tape->outputs; }
-size_t nh_tape_length(const nh_tape *tape) { return tape->length; }
-
-bool nh_tape_unbound(const nh_tape *tape, nh_ex *symbol)
-{
-    *symbol = tape->unbound;
-    return tape->has_unbound;
-}
-
-nh_tape_work *nh_tape_work_create(const nh_tape *tape)
-{
-    nh_tape_work *work = nh_alloc(sizeof *work);
-    work->scalar = nh_alloc_array(tape->registers + 1, sizeof(double));
-    work->row = nh_alloc_array(tape->registers + 1, sizeof *work->row);
-    for (size_t i = 0; i < tape->constants; i++) work->scalar[tape->inputs + i] = tape->constant[i];
-    work->batch = NULL; /* made at the first batch: many tapes only ever run at single points */
-    return work;
-}
-
-void nh_tape_work_free(nh_tape_work *work)
-{
-    if (!work) return;
-    free(work->batch);
-    nh_free(work->scalar);
-    nh_free(work->row);
-    nh_free(work);
 }
 
 /* Every instruction jumps to the next one by itself (GCC's labels as values): the processor then predicts each jump by where it stands, which makes
@@ -406,7 +436,9 @@ square:
     r[x->to] = r[x->a] * r[x->a], x++;
     DISPATCH();
 other:
-    r[x->to] = op_value(x->op, r[x->a], r[x->b]), x++;
+    r[x->to] = nh_op_is_named(x->op) ? named_value(x->op, r[x->a], r[x->b], x->more ? &tape->more[x->more - 1] : NULL, r)
+                                     : op_value(x->op, r[x->a], r[x->b]);
+    x++;
     DISPATCH();
 #undef DISPATCH
 done:

@@ -12,6 +12,7 @@
 
 #include "base/effort.h"
 #include "base/memory.h"
+#include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
 
 #if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined __SANITIZE_ADDRESS__
@@ -126,6 +127,17 @@ static void prepare(const nh_tape *tape, nh_tape_work *work)
         for (size_t p = 0; p < NH_BATCH; p++) work->row[tape->inputs + i][p] = tape->constant[i];
 }
 
+/* The points of padding have the value of the first. */
+static void named(const nh_tape *tape, const nh_instruction *x, double **row, size_t count, size_t padded)
+{
+    const double *third = x->more ? row[tape->more[x->more - 1].c] : row[x->a], *fourth = x->more ? row[tape->more[x->more - 1].d] : row[x->a];
+    for (size_t p = 0; p < count; p++) {
+        const double argument[NH_MOST_ARGUMENTS] = {row[x->a][p], row[x->b][p], third[p], fourth[p]};
+        row[x->to][p] = nh_named_value((nh_function)(x->op - NH_OP_FUNCTION), argument);
+    }
+    for (size_t p = count; p < padded; p++) row[x->to][p] = row[x->to][0];
+}
+
 void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, const double *const *in, double *const *out)
 {
     if (count == 0) return;
@@ -137,7 +149,9 @@ void nh_tape_eval_batch(const nh_tape *tape, nh_tape_work *work, size_t count, c
         memcpy(row[j], in[j], count * sizeof(double));
         for (size_t p = count; p < padded; p++) row[j][p] = in[j][0];
     }
-    for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++)
-        table[x->op](padded, row[x->to], row[x->a], row[x->b]);
+    for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++) {
+        if (nh_op_is_named(x->op)) named(tape, x, row, count, padded);
+        else table[x->op](padded, row[x->to], row[x->a], row[x->b]);
+    }
     for (size_t k = 0; k < tape->outputs; k++) memcpy(out[k], row[tape->output[k]], count * sizeof(double));
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
 
 /* Written out: the operators of C check every product for infinities. */
@@ -83,6 +84,10 @@ double complex *nh_tape_complex_create(const nh_tape *tape)
 void nh_tape_eval_complex(const nh_tape *tape, double complex *r, const double complex *in, double complex *out)
 {
     if (tape->inputs) memcpy(r, in, tape->inputs * sizeof *r);
-    for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++) r[x->to] = value_of(x->op, r[x->a], r[x->b]);
+    for (const nh_instruction *x = tape->code, *end = x + tape->length; x < end; x++) {
+        const nh_more_arguments *more = x->more ? &tape->more[x->more - 1] : NULL;
+        const double complex argument[NH_MOST_ARGUMENTS] = {r[x->a], r[x->b], more ? r[more->c] : 0, more ? r[more->d] : 0};
+        r[x->to] = nh_op_is_named(x->op) ? nh_named_value_complex((nh_function)(x->op - NH_OP_FUNCTION), argument) : value_of(x->op, r[x->a], r[x->b]);
+    }
     for (size_t i = 0; i < tape->outputs; i++) out[i] = r[tape->output[i]];
 }

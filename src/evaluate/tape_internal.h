@@ -14,8 +14,14 @@ typedef enum {
 } nh_op;
 
 typedef struct {
-    uint32_t op, to, a, b;
+    uint16_t op, more; /* more: of functions of three and four arguments the rest, nh_tape.more[more - 1]; else 0 */
+    uint32_t to, a, b;
 } nh_instruction;
+
+/* Registers of the third and the fourth argument; the same twice where there are three. */
+typedef struct {
+    uint32_t c, d;
+} nh_more_arguments;
 
 /* Registers: [0, inputs) inputs, [inputs, inputs + constants) constants, then temporaries. */
 struct nh_tape {
@@ -23,6 +29,7 @@ struct nh_tape {
     double effort;    /* units of one evaluation (base/effort.h) */
     double *constant;
     nh_instruction *code;
+    nh_more_arguments *more;
     uint32_t *output; /* register of each output */
     nh_ex unbound;
     bool has_unbound;
@@ -45,5 +52,8 @@ void nh_tape_look(const nh_tape *tape, nh_tape_work *work);
 
 /* Units of one instruction, interpreted. */
 double nh_op_effort(unsigned op);
+
+/* Is it a function that only named_value.h computes? */
+static inline bool nh_op_is_named(unsigned op) { return op >= NH_OP_FUNCTION && nh_is_named_function((nh_function)(op - NH_OP_FUNCTION)); }
 
 #endif

@@ -11,10 +11,10 @@ static const double between_looks = 2e6;           /* units, while the compiler 
 
 double nh_op_effort(unsigned op)
 {
-    static const double plain = 1.2, division = 2.5, root = 4, power = 25, function = 12;
+    static const double plain = 1.2, division = 2.5, root = 4, power = 25, function = 12, named = 5000;
     if (op == NH_OP_SQRT) return root;
     if (op == NH_OP_POW) return power;
-    if (op >= NH_OP_FUNCTION) return function;
+    if (op >= NH_OP_FUNCTION) return nh_op_is_named(op) ? named : function;
     return op == NH_OP_DIV || op == NH_OP_INV ? division : plain;
 }
 
@@ -33,7 +33,7 @@ void nh_tape_jit(nh_tape_work *work, double patience)
 static void start(const nh_tape *tape, nh_tape_work *work)
 {
     work->machine = nh_machine_of(tape);
-    if (!work->machine) work->words = "not compiled: it is too long, or there is too much machine code already";
+    if (!work->machine) work->words = "not compiled: it is too long, has functions that C does not know, or there is too much machine code already";
 }
 
 void nh_tape_look(const nh_tape *tape, nh_tape_work *work)

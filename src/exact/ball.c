@@ -5,6 +5,7 @@
 #include "base/budget.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "evaluate/named_value.h"
 #include "exact/ball_internal.h"
 #include "graph/num_long.h"
 
@@ -194,6 +195,17 @@ static void sign(arb_t out, const arb_t a, slong bits)
     arb_sgn(out, a);
 }
 
+static bool eval_named(nh_ball *ball, nh_ex e, arb_t out)
+{
+    size_t n = nh_arity(ball->dag, e);
+    bool fine = true;
+    arb_ptr argument = _arb_vec_init((slong)n);
+    for (size_t i = 0; i < n && fine; i++) fine = eval(ball, nh_child(ball->dag, e, i), argument + i);
+    if (fine) nh_named_value_ball(nh_function_of(ball->dag, e), argument, out, ball->bits);
+    _arb_vec_clear(argument, (slong)n);
+    return fine;
+}
+
 static bool eval_function(nh_ball *ball, nh_ex e, arb_t out)
 {
     static unary *const table[NH_FUNCTION_COUNT] = {
@@ -206,6 +218,7 @@ static bool eval_function(nh_ball *ball, nh_ex e, arb_t out)
         arb_const_pi(out, ball->bits);
         return true;
     }
+    if (nh_is_named_function(f)) return eval_named(ball, e, out);
     arb_t b;
     arb_init(b);
     bool fine = eval(ball, nh_child(ball->dag, e, 0), out);

@@ -2,7 +2,7 @@
 #ifndef NH_BALL_INTERNAL_H
 #define NH_BALL_INTERNAL_H
 
-#include "exact/arb.h"
+#include "evaluate/arb.h"
 #include "exact/ball.h"
 
 /* The value of e; false when it is not finite or a symbol has no value. */

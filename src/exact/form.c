@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "graph/dag_internal.h"
+#include "exact/named_relation.h"
 #include "exact/print_quotient.h"
 #include "graph/measure.h"
 
@@ -218,6 +219,13 @@ static bool rewrite_turn(nh_forms *s, nh_function f, nh_ex a, nh_ex *out)
     return true;
 }
 
+/* In functions of fewer orders; not where they are to be shown. */
+static nh_ex related(nh_forms *s, nh_ex e)
+{
+    nh_ex next;
+    return nh_named_relation_step(s->dag, e, &next) ? rewrite(s, next) : e;
+}
+
 static nh_ex rewrite_function(nh_forms *s, nh_ex e)
 {
     nh_function f = nh_function_of(s->dag, e);
@@ -226,8 +234,10 @@ static nh_ex rewrite_function(nh_forms *s, nh_ex e)
     if (rewrite_turn(s, f, a, &turned)) return turned;
     if (f == NH_EXP) return rewrite_exponential(s, a);
     if (!s->literal && (f == NH_SINH || f == NH_COSH || f == NH_TANH)) return rewrite_hyperbolic(s, f, a);
-    if (nh_arity(s->dag, e) == 1) return nh_call(s->dag, f, a);
-    return nh_call2(s->dag, f, a, canonical(s, nh_child(s->dag, e, 1)));
+    nh_ex argument[NH_MOST_ARGUMENTS] = {a};
+    for (size_t i = 1; i < nh_arity(s->dag, e); i++) argument[i] = canonical(s, nh_child(s->dag, e, i));
+    e = nh_call_any(s->dag, f, argument);
+    return nh_is_named_function(f) && !s->literal ? related(s, e) : e;
 }
 
 static nh_ex rewrite_sum(nh_forms *s, nh_ex e)

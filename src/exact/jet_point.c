@@ -84,7 +84,7 @@ static bool note_function(nh_jet_point *x, nh_ex e)
         if (x->pieces++) x->obstacle = "several functions that are defined piece by piece";
         return note(x, NH_JET_FREE, e, 1);
     case NH_ASIN: case NH_ACOS: case NH_ASINH: case NH_ACOSH: case NH_ATAN: case NH_ATANH: case NH_LOG: case NH_ATAN2: case NH_PI: return note(x, NH_JET_FREE, e, 1);
-    default: x->obstacle = "a function without a power series"; return false;
+    default: x->obstacle = "a function whose power series modulo a prime are not built in (Bessel, Legendre, ...)"; return false;
     }
 }
 

@@ -190,11 +190,9 @@ static nh_ex of_parts(contest *c, nh_ex e)
     nh_kind kind = nh_kind_of(c->dag, e);
     if (kind == NH_SUM) return sum_of_parts(c, e);
     if (kind == NH_PRODUCT) return product_of_parts(c, e);
-    size_t arity = nh_arity(c->dag, e);
-    nh_function f = nh_function_of(c->dag, e);
-    if (arity == 0) return e;
-    nh_ex a = part(c, nh_child(c->dag, e, 0));
-    return arity == 1 ? nh_call(c->dag, f, a) : nh_call2(c->dag, f, a, part(c, nh_child(c->dag, e, 1)));
+    nh_ex argument[NH_MOST_ARGUMENTS];
+    for (size_t i = 0; i < nh_arity(c->dag, e); i++) argument[i] = part(c, nh_child(c->dag, e, i));
+    return nh_call_any(c->dag, nh_function_of(c->dag, e), argument);
 }
 
 static bool polynomial(context *shared, nh_ex e);

@@ -312,9 +312,9 @@ static nh_ex rebuild(nh_dag *dag, nh_ex e, const nh_ex *image)
     nh_kind kind = nh_kind_of(dag, e);
     size_t n = nh_arity(dag, e);
     if (kind == NH_FUNCTION) {
-        nh_ex first = image[nh_child(dag, e, 0)];
-        if (n == 1) return nh_call(dag, nh_function_of(dag, e), first);
-        return nh_call2(dag, nh_function_of(dag, e), first, image[nh_child(dag, e, 1)]);
+        nh_ex argument[NH_MOST_ARGUMENTS];
+        for (size_t i = 0; i < n; i++) argument[i] = image[nh_child(dag, e, i)];
+        return nh_call_any(dag, nh_function_of(dag, e), argument);
     }
     nh_ex *part = nh_alloc_array(n + 1, sizeof *part), result;
     nh_num *scale = nh_alloc_array(n + 1, sizeof *scale);

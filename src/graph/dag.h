@@ -9,7 +9,7 @@
  *     sum       c0 + c1 e1 + c2 e2 + ...         content 1, first coefficient positive
  *     product   c * b1^x1 * b2^x2 * ...          (powers and quotients too: 1/b = b^-1, sqrt(b) = b^(1/2);
  *                                                 roots of numbers are split into roots of primes)
- *     function  sin, cos, ..., atan2, pi
+ *     function  sin, cos, ..., atan2, pi, bessel_j, ...
  *
  * Nothing deeper is done here (no trigonometric identities, no expansion): see normal.h. */
 #ifndef NH_DAG_H
@@ -26,8 +26,16 @@ typedef enum { NH_NUMBER, NH_SYMBOL, NH_SUM, NH_PRODUCT, NH_FUNCTION } nh_kind;
 
 typedef enum {
     NH_SIN, NH_COS, NH_TAN, NH_ASIN, NH_ACOS, NH_ATAN, NH_SINH, NH_COSH, NH_TANH, NH_ASINH, NH_ACOSH, NH_ATANH,
-    NH_EXP, NH_LOG, NH_ABS, NH_SIGN, NH_ATAN2, NH_PI, NH_FUNCTION_COUNT
+    NH_EXP, NH_LOG, NH_ABS, NH_SIGN, NH_ATAN2, NH_PI,
+    /* Named functions (named_function.h): solutions of a linear equation of second order, each followed by its derivative; */
+    NH_LEGENDRE_P, NH_LEGENDRE_P_PRIME, NH_LEGENDRE_Q, NH_LEGENDRE_Q_PRIME, NH_HYP2F1, NH_HYP2F1_PRIME, NH_GAUSS_F, NH_GAUSS_F_PRIME,
+    NH_HYP1F1, NH_HYP1F1_PRIME, NH_HYPERU, NH_HYPERU_PRIME, NH_BESSEL_J, NH_BESSEL_J_PRIME, NH_BESSEL_Y, NH_BESSEL_Y_PRIME,
+    NH_BESSEL_I, NH_BESSEL_I_PRIME, NH_BESSEL_K, NH_BESSEL_K_PRIME, NH_AIRY_AI, NH_AIRY_AI_PRIME, NH_AIRY_BI, NH_AIRY_BI_PRIME,
+    NH_ELLIPTIC_K, NH_ELLIPTIC_E, NH_ELLIPTIC_F, NH_ELLIPTIC_EINC, /* elliptic integrals */
+    NH_FUNCTION_COUNT
 } nh_function;
+
+enum { NH_MOST_ARGUMENTS = 4 }; /* of a function */
 
 /* An exact rational p/q with q > 0 in lowest terms; or (q == NH_LONG) one too long for 64 bits, which expr/num_long keeps under the
  * index p, with d the nearest double; or (q == 0) the double d. */
@@ -76,6 +84,7 @@ nh_ex nh_powi(nh_dag *dag, nh_ex base, int64_t exponent);
 nh_ex nh_sqrt(nh_dag *dag, nh_ex a);
 nh_ex nh_call(nh_dag *dag, nh_function f, nh_ex a);
 nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b);
+nh_ex nh_call_any(nh_dag *dag, nh_function f, const nh_ex *argument); /* as many as it takes */
 nh_ex nh_pi(nh_dag *dag);
 /* a = rest + c pi with sin(c pi), cos(c pi) that are numbers or half a root? */
 bool nh_split_turn(nh_dag *dag, nh_ex a, nh_ex *rest, nh_ex *sine, nh_ex *cosine);
@@ -96,6 +105,12 @@ nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i); /* of the i-th t
 nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i);     /* of the i-th factor of a product */
 const char *nh_function_name(nh_function f);
 size_t nh_function_arity(nh_function f);
+const char *nh_function_elsewhere(const char *name); /* what is written here for a name that other languages have; or NULL */
+bool nh_is_named_function(nh_function f);
+/* What the arguments of a named function are called, each by one letter: "n, x"; NULL for the others. */
+const char *nh_function_arguments(nh_function f);
+/* How many of its first arguments must be constant: nobody knows a closed form of the derivatives with respect to orders. */
+size_t nh_function_constants(nh_function f);
 bool nh_is_zero(const nh_dag *dag, nh_ex e);
 bool nh_is_number(const nh_dag *dag, nh_ex e, int64_t value);
 /* Does `symbol` occur in `e`? (not through rules of implicit symbols, see diff.h) */

@@ -61,8 +61,8 @@ const nh_power_rule *nh_dag_power_rule(const nh_dag *dag, nh_ex symbol);
 bool nh_dag_simplified(const nh_dag *dag, nh_ex e, nh_ex *out);
 void nh_dag_set_simplified(nh_dag *dag, nh_ex e, nh_ex simple);
 
-/* f'(a); e is f(a) itself. */
-nh_ex nh_diff_outer(nh_dag *dag, nh_function f, nh_ex e, nh_ex a);
+/* The derivative of the function e with respect to its argument i. */
+nh_ex nh_diff_argument(nh_dag *dag, nh_ex e, size_t i);
 
 nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg);
 

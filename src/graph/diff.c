@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "graph/dag_internal.h"
+#include "graph/named_function.h"
 
 /* ---- the memo: open addressing on (e, x) ---- */
 
@@ -59,7 +60,7 @@ static nh_ex inverse(nh_dag *d, nh_ex a) { return nh_powi(d, a, -1); }
 static nh_ex inverse_sqrt(nh_dag *d, nh_ex a) { return nh_pow(d, a, nh_ratio(d, -1, 2)); }
 
 /* f'(a); `e` is f(a) itself. */
-nh_ex nh_diff_outer(nh_dag *d, nh_function f, nh_ex e, nh_ex a)
+static nh_ex outer(nh_dag *d, nh_function f, nh_ex e, nh_ex a)
 {
     switch (f) {
     case NH_SIN: return nh_call(d, NH_COS, a);
@@ -81,19 +82,28 @@ nh_ex nh_diff_outer(nh_dag *d, nh_function f, nh_ex e, nh_ex a)
     }
 }
 
-static nh_ex diff_function(nh_dag *d, nh_ex e, nh_ex x)
+/* d atan2(y, x) = (x dy - y dx)/(x^2 + y^2) */
+static nh_ex angle(nh_dag *d, nh_ex e, size_t i)
+{
+    nh_ex y = nh_child(d, e, 0), x = nh_child(d, e, 1);
+    return nh_div(d, i ? nh_neg(d, y) : x, nh_add(d, square(d, y), square(d, x)));
+}
+
+nh_ex nh_diff_argument(nh_dag *d, nh_ex e, size_t i)
 {
     nh_function f = nh_function_of(d, e);
-    if (f == NH_PI) return nh_int(d, 0);
-    nh_ex a = nh_child(d, e, 0);
-    if (f != NH_ATAN2) {
-        nh_ex da = nh_diff(d, a, x);
-        return nh_is_zero(d, da) ? da : nh_mul(d, nh_diff_outer(d, f, e, a), da);
+    if (f == NH_ATAN2) return angle(d, e, i);
+    return nh_is_named_function(f) ? nh_named_function_rate(d, e, i) : outer(d, f, e, nh_child(d, e, i));
+}
+
+static nh_ex diff_function(nh_dag *d, nh_ex e, nh_ex x)
+{
+    nh_ex sum = nh_int(d, 0);
+    for (size_t i = 0; i < nh_arity(d, e); i++) {
+        nh_ex da = nh_diff(d, nh_child(d, e, i), x);
+        if (!nh_is_zero(d, da)) sum = nh_add(d, sum, nh_mul(d, nh_diff_argument(d, e, i), da));
     }
-    /* atan2(y, x)' = (y' x - y x') / (x^2 + y^2) */
-    nh_ex b = nh_child(d, e, 1);
-    nh_ex top = nh_sub(d, nh_mul(d, nh_diff(d, a, x), b), nh_mul(d, a, nh_diff(d, b, x)));
-    return nh_div(d, top, nh_add(d, square(d, a), square(d, b)));
+    return sum;
 }
 
 /* (b^y)' / b^y * ... : the derivative of one factor b^y, written without dividing by b. */

@@ -1,8 +1,12 @@
 /* function: calls of functions in canonical form: values at numbers, signs of odd and even functions. */
 #include <math.h>
+#include <string.h>
 
 #include "graph/dag.h"
 #include "graph/dag_internal.h"
+
+#define NAMED(f, name, arity, arguments) [NH_##f] = {name, arity, 0, -1, -1, NULL, arguments}
+#define PAIR(f, name, arity, arguments) NAMED(f, name, arity, arguments), NAMED(f##_PRIME, name "_prime", arity, arguments)
 
 /* of(0) or of(1) where these are whole numbers; -1 where there is no such rule. */
 static const struct {
@@ -10,6 +14,7 @@ static const struct {
     int arity, parity; /* parity: -1 odd, 1 even, 0 neither */
     int at_zero, at_one;
     double (*f)(double);
+    const char *arguments; /* of a named function */
 } table[NH_FUNCTION_COUNT] = {
     [NH_SIN] = {"sin", 1, -1, 0, -1, sin},       [NH_COS] = {"cos", 1, 1, 1, -1, cos},
     [NH_TAN] = {"tan", 1, -1, 0, -1, tan},       [NH_ASIN] = {"asin", 1, -1, 0, -1, asin},
@@ -20,10 +25,58 @@ static const struct {
     [NH_EXP] = {"exp", 1, 0, 1, -1, exp},        [NH_LOG] = {"log", 1, 0, -1, 0, log},
     [NH_ABS] = {"abs", 1, 1, 0, 1, fabs},        [NH_SIGN] = {"sign", 1, -1, 0, 1, NULL},
     [NH_ATAN2] = {"atan2", 2, 0, -1, -1, NULL},  [NH_PI] = {"pi", 0, 0, -1, -1, NULL},
+    PAIR(LEGENDRE_P, "legendre_p", 2, "n, x"), PAIR(LEGENDRE_Q, "legendre_q", 2, "n, x"), PAIR(HYP2F1, "hyp2f1", 4, "a, b, c, x"),
+    PAIR(GAUSS_F, "gauss_f", 4, "s, p, c, x"), PAIR(HYP1F1, "hyp1f1", 3, "a, b, x"), PAIR(HYPERU, "hyperu", 3, "a, b, x"),
+    PAIR(BESSEL_J, "bessel_j", 2, "n, x"), PAIR(BESSEL_Y, "bessel_y", 2, "n, x"), PAIR(BESSEL_I, "bessel_i", 2, "n, x"),
+    PAIR(BESSEL_K, "bessel_k", 2, "n, x"), PAIR(AIRY_AI, "airy_ai", 1, "x"), PAIR(AIRY_BI, "airy_bi", 1, "x"),
+    NAMED(ELLIPTIC_K, "elliptic_k", 1, "m"), NAMED(ELLIPTIC_E, "elliptic_e", 1, "m"), NAMED(ELLIPTIC_F, "elliptic_f", 2, "u, m"),
+    NAMED(ELLIPTIC_EINC, "elliptic_einc", 2, "u, m"),
 };
 
 const char *nh_function_name(nh_function f) { return table[f].name; }
 size_t nh_function_arity(nh_function f) { return (size_t)table[f].arity; }
+const char *nh_function_arguments(nh_function f) { return table[f].arguments; }
+bool nh_is_named_function(nh_function f) { return table[f].arguments != NULL; }
+
+size_t nh_function_constants(nh_function f)
+{
+    return table[f].arguments && f < NH_ELLIPTIC_K ? (size_t)table[f].arity - 1 : 0;
+}
+
+/* What functions are called elsewhere, and what there is instead. */
+const char *nh_function_elsewhere(const char *name)
+{
+    static const char *const other[][2] = {
+        {"ln", "the natural logarithm is written `log`"},
+        {"cot", "write 1/tan(...)"},
+        {"sec", "write 1/cos(...)"},
+        {"csc", "write 1/sin(...)"},
+        {"diff", "a velocity is written with a prime: x'"},
+        {"Derivative", "a velocity is written with a prime: x'"},
+        {"besselj", "write bessel_j(n, x)"},
+        {"jv", "write bessel_j(n, x)"},
+        {"bessely", "write bessel_y(n, x)"},
+        {"yv", "write bessel_y(n, x)"},
+        {"besseli", "write bessel_i(n, x)"},
+        {"iv", "write bessel_i(n, x)"},
+        {"besselk", "write bessel_k(n, x)"},
+        {"kv", "write bessel_k(n, x)"},
+        {"airy", "write airy_ai(x) or airy_bi(x)"},
+        {"legendre", "write legendre_p(n, x)"},
+        {"hypergeom", "write hyp2f1(a, b, c, x) or hyp1f1(a, b, x)"},
+        {"ellipk", "write elliptic_k(m) with the parameter m, the square of the modulus"},
+        {"ellipe", "write elliptic_e(m) with the parameter m, the square of the modulus"},
+        {"kummer_m", "write hyp1f1(a, b, x)"},
+        {"kummer_u", "write hyperu(a, b, x)"},
+        {"sgn", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
+        {"sign", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
+        {"max", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
+        {"min", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
+    };
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+        if (!strcmp(name, other[i][0])) return other[i][1];
+    return NULL;
+}
 
 /* Of x and -x exactly one looks negative (sums have a positive first coefficient). */
 static bool looks_negative(const nh_dag *dag, nh_ex e)
@@ -92,6 +145,7 @@ static bool number_value(nh_dag *dag, nh_function f, nh_ex a, nh_ex *out)
         *out = nh_int(dag, table[f].at_one);
         return true;
     }
+    if (!table[f].f) return false;
     double y = table[f].f(nh_num_value(x));
     *out = nh_real(dag, y);
     return !nh_num_exact(x) || !isfinite(y); /* log(0) is no number; sin(2) stays exact */
@@ -121,6 +175,11 @@ nh_ex nh_call2(nh_dag *dag, nh_function f, nh_ex a, nh_ex b)
 {
     uint32_t arg[2] = {a, b};
     return nh_dag_intern(dag, NH_FUNCTION, f, 2, arg);
+}
+
+nh_ex nh_call_any(nh_dag *dag, nh_function f, const nh_ex *argument)
+{
+    return table[f].arity == 1 ? nh_call(dag, f, argument[0]) : nh_dag_intern(dag, NH_FUNCTION, f, (size_t)table[f].arity, argument);
 }
 
 nh_ex nh_pi(nh_dag *dag) { return nh_dag_intern(dag, NH_FUNCTION, NH_PI, 0, NULL); }

@@ -54,16 +54,10 @@ static void spread_product(sweep *s, nh_ex node, nh_ex a)
 static void spread_function(sweep *s, nh_ex node, nh_ex a)
 {
     nh_dag *d = s->dag;
-    nh_function f = nh_function_of(d, node);
-    if (f == NH_PI) return;
-    nh_ex x = nh_child(d, node, 0);
-    if (f != NH_ATAN2) {
-        give(s, x, nh_mul(d, a, nh_diff_outer(d, f, node, x)));
-        return;
+    for (size_t i = 0; i < nh_arity(d, node); i++) {
+        nh_ex x = nh_child(d, node, i);
+        if (s->needed[x]) give(s, x, nh_mul(d, a, nh_diff_argument(d, node, i)));
     }
-    nh_ex b = nh_child(d, node, 1), over = nh_div(d, a, nh_add(d, nh_powi(d, x, 2), nh_powi(d, b, 2))); /* atan2(x, b) */
-    give(s, x, nh_mul(d, over, b));
-    give(s, b, nh_neg(d, nh_mul(d, over, x)));
 }
 
 static void spread(sweep *s, nh_ex node)

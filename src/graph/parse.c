@@ -69,8 +69,8 @@ bool nh_is_name(const char *text)
 
 static bool find_function(const char *name, nh_function *out)
 {
-    for (int f = 0; f < NH_PI; f++) {
-        if (strcmp(name, nh_function_name((nh_function)f))) continue;
+    for (int f = 0; f < NH_FUNCTION_COUNT; f++) {
+        if (f == NH_PI || strcmp(name, nh_function_name((nh_function)f))) continue;
         *out = (nh_function)f;
         return true;
     }
@@ -195,10 +195,17 @@ static bool close_parenthesis(parser *p)
     return true;
 }
 
+static bool wrong_number(parser *p, const char *name, const char *amount)
+{
+    nh_function f;
+    fail(p, p->at, "`%s` takes %s", name, amount);
+    return find_function(name, &f) && nh_is_named_function(f) && hint(p, "write %s(%s)", name, nh_function_arguments(f));
+}
+
 /* The arguments of `name`, after it. */
 static bool arguments(parser *p, const char *name, size_t count, nh_ex *argument)
 {
-    static const char *const amount[] = {"no", "one argument", "two arguments"};
+    static const char *const amount[] = {"no", "one argument", "two arguments", "three arguments", "four arguments"};
     if (peek(p) != '(') {
         bool power = peek(p) == '^';
         fail(p, p->at, "`%s` is a function; `(` was expected after it", name);
@@ -208,7 +215,7 @@ static bool arguments(parser *p, const char *name, size_t count, nh_ex *argument
     for (size_t i = 0; i < count; i++) {
         if (!expression(p, &argument[i])) return false;
         char c = peek(p);
-        if (c == (i + 1 < count ? ')' : ',')) return fail(p, p->at, "`%s` takes %s", name, amount[count]);
+        if (c == (i + 1 < count ? ')' : ',')) return wrong_number(p, name, amount[count]);
         if (i + 1 < count && c != ',') return no_operator(p, "an operator or `,`");
         if (c == ',') p->at++;
     }
@@ -218,10 +225,9 @@ static bool arguments(parser *p, const char *name, size_t count, nh_ex *argument
 /* f(a) or f(a, b); the name has been read, `at` is its offset. */
 static bool call(parser *p, nh_function f, const char *name, size_t at, nh_ex *out)
 {
-    nh_ex a[2];
-    size_t arity = nh_function_arity(f);
-    if (!arguments(p, name, arity, a)) return false;
-    *out = arity == 2 ? nh_call2(p->dag, f, a[0], a[1]) : nh_call(p->dag, f, a[0]);
+    nh_ex a[NH_MOST_ARGUMENTS];
+    if (!arguments(p, name, nh_function_arity(f), a)) return false;
+    *out = nh_call_any(p->dag, f, a);
     if (nh_kind_of(p->dag, *out) == NH_NUMBER && !isfinite(nh_num_value(nh_number_of(p->dag, *out))))
         return fail(p, at, "`%s` has no finite value here", name);
     return true;
@@ -237,26 +243,6 @@ static bool square_root(parser *p, size_t at, nh_ex *out)
     return true;
 }
 
-/* What functions are called elsewhere, and what there is instead. */
-static const char *instead_of(const char *name)
-{
-    static const char *const other[][2] = {
-        {"ln", "the natural logarithm is written `log`"},
-        {"cot", "write 1/tan(...)"},
-        {"sec", "write 1/cos(...)"},
-        {"csc", "write 1/sin(...)"},
-        {"diff", "a velocity is written with a prime: x'"},
-        {"Derivative", "a velocity is written with a prime: x'"},
-        {"sgn", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
-        {"sign", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
-        {"max", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
-        {"min", "only smooth functions are allowed; use `abs` for an expression of constant sign on the domain"},
-    };
-    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
-        if (!strcmp(name, other[i][0])) return other[i][1];
-    return NULL;
-}
-
 /* The caller does not know the name, or explained why it cannot stand here. */
 static bool unresolved(parser *p, const char *word, size_t at)
 {
@@ -264,10 +250,11 @@ static bool unresolved(parser *p, const char *word, size_t at)
     bool unknown = !fault->what[0] || !strncmp(fault->what, "unknown name", strlen("unknown name")), called = peek(p) == '(';
     fault->offset = at;
     if (unknown) snprintf(fault->what, sizeof fault->what, "unknown %s `%s`", called ? "function" : "name", word);
-    const char *instead = unknown && called ? instead_of(word) : NULL;
+    const char *instead = unknown && called ? nh_function_elsewhere(word) : NULL;
     if (instead) return hint(p, "%s", instead);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
-    return hint(p, "the functions are: sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log sqrt abs");
+    return hint(p, "the functions are: sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log sqrt abs "
+                   "and those of `nhsym explain functions`");
 }
 
 /* A name that is not the language's own: the caller knows it. */

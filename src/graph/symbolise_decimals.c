@@ -38,14 +38,14 @@ static nh_ex lift(nh_dag *d, nh_ex e, nh_lifted *table, nh_ex *image, bool *done
     if (kind == NH_NUMBER) return number(d, nh_number_of(d, e), table);
     if (done[e]) return image[e];
     size_t n = nh_arity(d, e);
-    nh_ex child[2] = {0}, out = kind == NH_FUNCTION ? 0 : number(d, nh_constant_of(d, e), table);
+    nh_ex child[NH_MOST_ARGUMENTS] = {0}, out = kind == NH_FUNCTION ? 0 : number(d, nh_constant_of(d, e), table);
     for (size_t i = 0; i < n; i++) {
         nh_ex x = lift(d, nh_child(d, e, i), table, image, done);
         if (kind == NH_SUM) out = nh_add(d, out, nh_mul(d, number(d, nh_coefficient_of(d, e, i), table), x));
         else if (kind == NH_PRODUCT) out = nh_mul(d, out, nh_pow(d, x, lift(d, nh_exponent_of(d, e, i), table, image, done)));
         else child[i] = x;
     }
-    if (kind == NH_FUNCTION) out = n == 2 ? nh_call2(d, nh_function_of(d, e), child[0], child[1]) : n == 1 ? nh_call(d, nh_function_of(d, e), child[0]) : e;
+    if (kind == NH_FUNCTION) out = nh_call_any(d, nh_function_of(d, e), child);
     done[e] = true;
     return image[e] = out;
 }

@@ -147,6 +147,40 @@ static bool not_an_equation(const nh_deck *deck, const nh_deck_node *node, size_
     return nh_error_hint(error, "equations stand under constraints, forces, definitions and in the velocities' map");
 }
 
+/* Orders of functions do not move: a first argument with coordinates, velocities or time, or NULL. */
+static const char *moving_order(const nh_system *y, nh_ex e)
+{
+    enum { most = 64 };
+    nh_ex call[most], symbol[most];
+    size_t calls = nh_functions_in(y->dag, e, call, most);
+    for (size_t i = 0; i < calls && i < most; i++) {
+        nh_function f = nh_function_of(y->dag, call[i]);
+        for (size_t j = 0; j < nh_function_constants(f); j++) {
+            size_t n = nh_symbols_in(y->dag, nh_child(y->dag, call[i], j), symbol, most), fixed = 0;
+            for (size_t k = 0; k < n && k < most; k++)
+                for (size_t p = 0; p < y->parameters; p++) fixed += y->parameter[p].symbol == symbol[k];
+            if (fixed < n) return nh_function_name(f);
+        }
+    }
+    return NULL;
+}
+
+/* Parses, and checks what the grammar does not say. */
+static bool read_text(const nh_system *y, const char *text, scope *s, nh_ex *lhs, nh_ex *rhs, nh_parse_fault *fault)
+{
+    if (lhs ? !nh_parse_equation(y->dag, text, resolve, s, lhs, rhs, fault) : !nh_parse(y->dag, text, resolve, s, rhs, fault)) return false;
+    const char *name = lhs ? moving_order(y, *lhs) : NULL, *place;
+    if (!name) name = moving_order(y, *rhs);
+    if (!name) return true;
+    nh_function f = NH_SIN;
+    while (strcmp(nh_function_name(f), name)) f++;
+    place = strstr(text, name);
+    *fault = (nh_parse_fault){.offset = place ? (size_t)(place - text) : 0};
+    snprintf(fault->what, sizeof fault->what, "only the last argument of %s(%s) may move: the others are numbers or parameters", name, nh_function_arguments(f));
+    snprintf(fault->hint, sizeof fault->hint, "the derivative with respect to another argument has no closed form");
+    return false;
+}
+
 bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip, unsigned forbid,
                                size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs, nh_error *error)
 {
@@ -154,7 +188,7 @@ bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, con
     nh_parse_fault fault;
     const char *text = node->text + skip;
     if (!lhs && !not_an_equation(deck, node, skip, error)) return false;
-    if (lhs ? nh_parse_equation(system->dag, text, resolve, &s, lhs, rhs, &fault) : nh_parse(system->dag, text, resolve, &s, rhs, &fault)) return true;
+    if (read_text(system, text, &s, lhs, rhs, &fault)) return true;
     nh_deck_fail(deck, node, skip + fault.offset, error, "%s", fault.what);
     return fault.hint[0] ? nh_error_hint(error, "%s", fault.hint) : false;
 }
@@ -179,7 +213,7 @@ bool nh_system_expression_text(const nh_system *system, const char *where, const
 {
     scope s = {system, extras, extra, 0};
     nh_parse_fault fault;
-    if (nh_parse(system->dag, text, resolve, &s, out, &fault)) return true;
+    if (read_text(system, text, &s, NULL, out, &fault)) return true;
     char place[300];
     snprintf(place, sizeof place, "%.250s:%zu", where, fault.offset + 1);
     nh_fail(error, NH_USAGE, place, "%s", fault.what);

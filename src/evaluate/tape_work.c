@@ -1,0 +1,44 @@
+/* tape_work: a tape's memory, and that of those who run it. */
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "evaluate/tape_internal.h"
+
+void nh_tape_free(nh_tape *tape)
+{
+    if (!tape) return;
+    nh_free(tape->constant);
+    nh_free(tape->code);
+    nh_free(tape->more);
+    nh_free(tape->output);
+    nh_free(tape);
+}
+
+size_t nh_tape_inputs(const nh_tape *tape) { return tape->inputs; }
+size_t nh_tape_outputs(const nh_tape *tape) { return tape->outputs; }
+size_t nh_tape_length(const nh_tape *tape) { return tape->length; }
+
+bool nh_tape_unbound(const nh_tape *tape, nh_ex *symbol)
+{
+    *symbol = tape->unbound;
+    return tape->has_unbound;
+}
+
+nh_tape_work *nh_tape_work_create(const nh_tape *tape)
+{
+    nh_tape_work *work = nh_alloc(sizeof *work);
+    work->scalar = nh_alloc_array(tape->registers + 1, sizeof(double));
+    work->row = nh_alloc_array(tape->registers + 1, sizeof *work->row);
+    for (size_t i = 0; i < tape->constants; i++) work->scalar[tape->inputs + i] = tape->constant[i];
+    work->batch = NULL; /* made at the first batch: many tapes only ever run at single points */
+    return work;
+}
+
+void nh_tape_work_free(nh_tape_work *work)
+{
+    if (!work) return;
+    free(work->batch);
+    nh_free(work->scalar);
+    nh_free(work->row);
+    nh_free(work);
+}

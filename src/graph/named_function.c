@@ -1,0 +1,90 @@
+#include "graph/named_function.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "graph/parse.h"
+
+/* The second derivative, in the letters of the arguments, f and g = f' [DLMF 14.2.1, 15.10.1, 13.2.1, 10.2.1, 10.25.1, 9.2.1]. */
+static const struct {
+    nh_function f;
+    const char *second;
+} equation[] = {
+    {NH_LEGENDRE_P, "(2*x*g - n*(n + 1)*f)/(1 - x^2)"},
+    {NH_LEGENDRE_Q, "(2*x*g - n*(n + 1)*f)/(1 - x^2)"},
+    {NH_HYP2F1, "(a*b*f - (c - (a + b + 1)*x)*g)/(x*(1 - x))"},
+    {NH_GAUSS_F, "(p*f - (c - (s + 1)*x)*g)/(x*(1 - x))"}, /* s = a + b, p = a b */
+    {NH_HYP1F1, "(a*f - (b - x)*g)/x"},
+    {NH_HYPERU, "(a*f - (b - x)*g)/x"},
+    {NH_BESSEL_J, "(n^2/x^2 - 1)*f - g/x"},
+    {NH_BESSEL_Y, "(n^2/x^2 - 1)*f - g/x"},
+    {NH_BESSEL_I, "(n^2/x^2 + 1)*f - g/x"},
+    {NH_BESSEL_K, "(n^2/x^2 + 1)*f - g/x"},
+    {NH_AIRY_AI, "x*f"},
+    {NH_AIRY_BI, "x*f"},
+};
+
+/* First derivatives of elliptic integrals [DLMF 19.4, with m = k^2]. */
+static const struct {
+    nh_function f;
+    size_t argument;
+    const char *first;
+} slope[] = {
+    {NH_ELLIPTIC_K, 0, "(elliptic_e(m) - (1 - m)*f)/(2*m*(1 - m))"},
+    {NH_ELLIPTIC_E, 0, "(f - elliptic_k(m))/(2*m)"},
+    {NH_ELLIPTIC_F, 0, "1/sqrt(1 - m*sin(u)^2)"},
+    {NH_ELLIPTIC_F, 1, "(elliptic_einc(u, m) - (1 - m)*f)/(2*m*(1 - m)) - sin(2*u)/(4*(1 - m)*sqrt(1 - m*sin(u)^2))"},
+    {NH_ELLIPTIC_EINC, 0, "sqrt(1 - m*sin(u)^2)"},
+    {NH_ELLIPTIC_EINC, 1, "(f - elliptic_f(u, m))/(2*m)"},
+};
+
+nh_function nh_named_function_base(nh_function f) { return f < NH_ELLIPTIC_K ? f - (f - NH_LEGENDRE_P) % 2 : f; }
+
+typedef struct {
+    nh_dag *dag;
+    nh_function f, other;
+    const nh_ex *argument;
+} letters;
+
+static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
+{
+    const letters *x = context;
+    const char *list = nh_function_arguments(x->f), *at = strchr(list, name[0]);
+    (void)fault;
+    if (at) *out = x->argument[(at - list) / 3]; /* "n, x" */
+    else if (name[0] == 'f' || name[0] == 'g') *out = nh_call_any(x->dag, x->f + (name[0] == 'g'), x->argument);
+    else *out = nh_call_any(x->dag, x->other + (name[0] == 'G'), x->argument);
+    return true;
+}
+
+bool nh_named_function_read(nh_dag *dag, const char *text, nh_function f, nh_function other, const nh_ex *argument, nh_ex *out)
+{
+    letters x = {dag, f, other, argument};
+    nh_parse_fault fault;
+    return nh_parse(dag, text, resolve, &x, out, &fault);
+}
+
+/* What cannot be written is not a number. */
+static nh_ex read_or_nan(nh_dag *dag, const char *text, nh_function f, const nh_ex *argument)
+{
+    nh_ex out;
+    return text && nh_named_function_read(dag, text, f, f, argument, &out) ? out : nh_real(dag, NAN);
+}
+
+nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i)
+{
+    nh_function f = nh_function_of(dag, e), base = nh_named_function_base(f);
+    nh_ex argument[NH_MOST_ARGUMENTS];
+    const char *text = NULL;
+    for (size_t k = 0; k < nh_arity(dag, e); k++) argument[k] = nh_child(dag, e, k);
+    if (f >= NH_ELLIPTIC_K) {
+        for (size_t k = 0; k < sizeof slope / sizeof *slope; k++)
+            if (slope[k].f == f && slope[k].argument == i) text = slope[k].first;
+        return read_or_nan(dag, text, f, argument);
+    }
+    if (i < nh_function_constants(f)) return nh_real(dag, NAN);
+    if (f == base) return nh_call_any(dag, f + 1, argument);
+    for (size_t k = 0; k < sizeof equation / sizeof *equation; k++)
+        if (equation[k].f == base) text = equation[k].second;
+    return read_or_nan(dag, text, base, argument);
+}
