@@ -96,14 +96,15 @@ double nh_reduced_drift(nh_formulation *f, const nh_motion *motion)
     return worst / size;
 }
 
-/* "reduced by SE(2), 2 states", "reduced again by R, 3 states".  Why it cannot be used, or NULL. */
+/* "reduced by SE(2), 2 states", "reduced again by R, 3 states", "reduced on momentum levels by R, 4 states".  Why it cannot be used, or NULL. */
 static const char *open_stage(nh_benchmark_work *c, const nh_reduction_stage *s)
 {
     nh_formulation *f = &c->formulation[c->formulations];
     *f = (nh_formulation){.reduced = nh_reduced_flow_create(s->reduced)};
     f->problem = nh_reduced_flow_problem(f->reduced);
     f->size = f->problem.size;
-    f->name = nh_arena_printf(c->out->arena, "reduced %sby %s, %zu state%s", s->kind == NH_STAGE_SECOND ? "again " : "", s->group, f->size, f->size == 1 ? "" : "s");
+    const char *again = s->kind != NH_STAGE_SECOND ? "" : s->second->first->d ? "again " : "on momentum levels ";
+    f->name = nh_arena_printf(c->out->arena, "reduced %sby %s, %zu state%s", again, s->group, f->size, f->size == 1 ? "" : "s");
     f->z0 = nh_arena_alloc(c->out->arena, (2 * f->size + 1) * sizeof *f->z0);
     f->scale = f->z0 + f->size;
     for (size_t i = 0; i < f->size; i++) f->z0[i] = s->start[i], f->scale[i] = c->absolute;

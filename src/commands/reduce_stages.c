@@ -239,8 +239,8 @@ static nh_action both_groups(const nh_action *first, size_t d, const nh_ex *fiel
     return both;
 }
 
-/* q, v: the initial state, or that moved along the first group's orbit onto the slice of `first`. */
-static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const double *q, const double *v, size_t d, const nh_ex *field, nh_error *error)
+/* q, v: the initial state, or that moved along the first group's orbit onto the slice of `first`; simple: the first stage as it is shown. */
+static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const nh_chaplygin *simple, const double *q, const double *v, size_t d, const nh_ex *field, nh_error *error)
 {
     nh_reduction *r = b->r;
     nh_second *t = &r->second[0], *pretty = t;
@@ -254,8 +254,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         for (size_t a = 0; a < d; a++) y0[a] = x[along[a]];
         good = nh_second_equations(t, shape, along, y0, error) && nh_slice_components(s1, q, v, u) && nh_reduced_start(&first->reduced, x, u, z);
     }
-    const nh_chaplygin *simple = good ? r->stage[0].chaplygin : NULL;
-    if (simple && (simple != first || nh_largest(d, y0) > 0) && !r->brief && r->stage[0].kind == NH_STAGE_CHAPLYGIN) { /* the same on the slices y = 0 */
+    if (good && (simple != first || nh_largest(d, y0) > 0) && !r->brief) { /* the same on the slices y = 0 */
         nh_error trouble = {0};
         memset(y0, 0, n * sizeof *y0);
         if (nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) && nh_second_equations(&r->second[1], shape, along, y0, &trouble) && slice_is_good(&r->second[1].slice)) pretty = &r->second[1];
@@ -268,7 +267,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         s->reduced = &t->reduced;
         s->shown = &pretty->reduced;
         s->shown_slice = &pretty->slice;
-        if (t->abelian && first->plain && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
+        if (t->abelian && first->plain && first->d && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
         s->against_full = full != NULL;
@@ -308,11 +307,33 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         size_t d = n ? second_fields(r, first, n, rest, field) : 0;
         nh_error trouble = {0};
         if (n && !d && !first->plain) nh_reduction_warn(r, "stage 1 is not reduced further: forces of the reduced system act along the further symmetries (%zu) that normalise the first group, so no momentum is conserved", n);
-        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, q, v, d, field, &trouble)) nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
+        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, shown, q, v, d, field, &trouble)) nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
         nh_free(field);
     }
     nh_free(index);
     nh_free(q);
+    return good;
+}
+
+/* Without constraints the first stage divides out nothing, G = {e}, Upsilon = 0, and the second one is the reduction on the level sets of the momentum: Routh's, or of the
+ * cotangent bundle [ChhabraEmami2014, sec. 2.3]. */
+static bool momentum_levels(nh_reduction_bench *b, nh_error *error)
+{
+    nh_reduction *r = b->r;
+    const nh_action *g = &r->group->action;
+    size_t m = r->kinetic->m, *index = nh_alloc_array(g->d + m + 1, sizeof *index), *shape = index + g->d, n = nh_group_free_subset(r->group, &r->options, index);
+    nh_slice *whole = nh_arena_alloc(r->arena, sizeof *whole);
+    nh_ex *field = nh_alloc_array(g->d * m + 1, sizeof *field);
+    double nothing = 0;
+    for (size_t i = 0; i < m; i++) shape[i] = i;
+    nh_action_sub(&r->action[0], g, 0, &nothing, &r->options);
+    nh_slice_init(whole, &r->action[0], shape, shape, &nothing);
+    const nh_chaplygin *first = chaplygin_on(r, whole, error);
+    size_t d = first && n ? second_fields(r, first, n, index, field) : 0;
+    bool good = d && second_stage(b, first, first, r->initial.q, r->initial.v, d, field, error);
+    if (first && !d) nh_fail(error, NH_INPUT, "", "forces act along all fields of the group");
+    nh_free(index);
+    nh_free(field);
     return good;
 }
 
@@ -339,5 +360,8 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
         return false;
     }
     if (trouble.code != NH_OK) nh_reduction_warn(r, "the system is not reduced by the whole group: %s", trouble.what);
+    bool levels = good && !r->kinetic->f && !quotient && !nh_interrupted() && !nh_reduction_late(r, "level sets of the momentum");
+    nh_error_clear(&trouble);
+    if (levels && !momentum_levels(&b, &trouble)) nh_reduction_warn(r, "not reduced on level sets of the momentum: %s", trouble.what);
     return true;
 }

@@ -196,10 +196,14 @@ static void second(nh_html_writer *w, const nh_reduction_stage *s)
 {
     const nh_second *t = s->second;
     if (s->kind != NH_STAGE_SECOND) return;
-    nh_html_add(w, "<dt>Condition (ii)</dt><dd>weak form ");
-    nh_html_number(w, t->weak, 1);
-    nh_html_add(w, ", strong form ");
-    nh_html_number(w, t->strong, 1);
+    nh_html_add(w, "<dt>Condition (ii)</dt><dd>");
+    if (nh_reduction_on_levels(s)) nh_html_add(w, "holds without constraints: G = {e} and \u03a5 = 0");
+    else {
+        nh_html_add(w, "of a second stage, that no force acts along its fields: weak form ");
+        nh_html_number(w, t->weak, 1);
+        nh_html_add(w, ", strong form ");
+        nh_html_number(w, t->strong, 1);
+    }
     nh_html_add(w, "</dd>\n<dt>Momentum</dt><dd>");
     if (t->magnetic) nh_html_add(w, "constant, including the part of the Lagrangian that is linear in the velocities");
     else if (t->abelian) nh_html_add(w, "constant");
@@ -351,6 +355,7 @@ static void answer(nh_html_writer *w, const nh_reduction *r)
     }
     nh_html_add(w, ".</p>\n");
     for (size_t i = 0; i < r->stages; i++) {
+        if (nh_reduction_on_levels(&r->stage[i])) continue;
         nh_html_add(w, !i ? "<p>It reduces " : nh_reduction_instead(r, i) ? "; in one step to " : ", then to ");
         if (!i) nh_html_count(w, r->kinetic->m);
         if (!i) nh_html_add(w, r->kinetic->m == 1 ? " coordinate to " : " coordinates to ");

@@ -41,6 +41,8 @@ const char *nh_reduction_stage_kind(const nh_reduction_stage *stage);
 /* " for k = 2": what the stage's group needs to be one of symmetries; "" where that is nothing. */
 const char *nh_reduction_stage_holds(const nh_reduction *reduction, const nh_reduction_stage *stage);
 bool nh_reduction_instead(const nh_reduction *reduction, size_t stage);
+/* A second stage without a first one: of a system without constraints. */
+bool nh_reduction_on_levels(const nh_reduction_stage *stage);
 /* "; globally: SO(2)^3 of dimension 3" where not all symmetries are known to be so, else "". */
 const char *nh_reduction_globally(const nh_reduction *reduction, const nh_group *group);
 /* Why the energy of a stage's motion was not followed; NULL where it was. */

@@ -5,16 +5,19 @@
 
 #include "document/facts.h"
 
+bool nh_reduction_on_levels(const nh_reduction_stage *s) { return s->kind == NH_STAGE_SECOND && s->second->first->d == 0; }
+
 bool nh_reduction_instead(const nh_reduction *r, size_t i)
 {
     nh_stage_kind kind = r->stage[i].kind;
-    return i > 0 && kind != NH_STAGE_CHAPLYGIN && kind != NH_STAGE_SECOND;
+    return i > 0 && kind != NH_STAGE_CHAPLYGIN && (kind != NH_STAGE_SECOND || nh_reduction_on_levels(&r->stage[i]));
 }
 
 const char *nh_reduction_stage_title(const nh_reduction *r, size_t i)
 {
     nh_arena *arena = r->kinetic->arena;
     if (!nh_reduction_instead(r, i)) return nh_arena_printf(arena, "Stage %zu", i + 1);
+    if (nh_reduction_on_levels(&r->stage[i])) return nh_arena_printf(arena, "Stage %zu, instead of stage %zu", i + 1, i);
     if (i == 1) return nh_arena_printf(arena, "Stage %zu, in one step instead of stage 1", i + 1);
     return nh_arena_printf(arena, "Stage %zu, in one step instead of stages 1 %s %zu", i + 1, i == 2 ? "and" : "to", i);
 }
@@ -22,6 +25,7 @@ const char *nh_reduction_stage_title(const nh_reduction *r, size_t i)
 const char *nh_reduction_stage_kind(const nh_reduction_stage *s)
 {
     static const char *const titles[] = {"Chaplygin reduction by", "second stage, by", NULL, "equations on a slice of", "the quotient by"};
+    if (nh_reduction_on_levels(s)) return s->second->abelian ? "Routh's reduction, on level sets of the momentum, by" : "reduction of the cotangent bundle, on level sets of the momentum, by";
     if (s->kind != NH_STAGE_POINCARE) return titles[s->kind];
     bool shape = s->shown->n > 0, constrained = s->shown_slice->f > 0;
     if (shape) return constrained ? "Lagrange-d'Alembert-Poincare equations of" : "Lagrange-Poincare equations of";

@@ -29,7 +29,8 @@ void nh_reduction_conditions(const nh_reduction_stage *s, const nh_reduction_pen
     const nh_second *t = s->second;
     if (s->kind != NH_STAGE_SECOND) return;
     bool only_weak = t->strong > 1e-6 * (1 + t->weak) && t->strong > 1e-9;
-    say(p, "condition (ii): weak form %.1e, strong form %.1e%s", t->weak, t->strong, only_weak ? " (the momentum is conserved nevertheless)" : "");
+    if (nh_reduction_on_levels(s)) say(p, "without constraints G = {e} and Upsilon = 0, so that the conditions (i) and (ii) of a second stage hold");
+    else say(p, "condition (ii) of a second stage, that no force acts along its fields: weak form %.1e, strong form %.1e%s", t->weak, t->strong, only_weak ? " (the momentum is conserved nevertheless)" : "");
     if (t->magnetic) say(p, "the conserved momentum includes the part of the Lagrangian that is linear in the velocities");
     else if (t->abelian) say(p, "its momentum is constant: the stage is a level set divided by the whole group");
     else say(p, "the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu", t->orbit, t->d - t->orbit);

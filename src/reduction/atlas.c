@@ -170,6 +170,7 @@ static const nh_slice *slice_at(nh_atlas *a, const double *q)
 /* The constraints on the orbits at a place, as a guard. */
 static double connection_regularity(const nh_slice *s, const double *q)
 {
+    if (!s->f) return 1;
     size_t m = s->m, f = s->f, *columns = nh_alloc_array(f + 1, sizeof *columns);
     double *omega = nh_alloc_array(f * m + m * m + 1, sizeof *omega), *K = omega + f * m, value;
     nh_kinetic_values(s->kinetic, f * m, s->omega, q, omega);
