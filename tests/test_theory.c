@@ -839,6 +839,9 @@ Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_moti
 {
     check_bundle("systems/euler_disk.yaml", "", 1, 1, 2);
     check_bundle("systems/euler_disk.yaml", " --group 1,2,3 --chain 1;2,3", 1, 2, 1);
+    check_bundle("systems/euler_disk.yaml", " --inner 1,4=1/3;2,4=-1/5;3,2=2/7;4,4=2;1,1=5/4", 1, 1, 2);
+    check_bundle("systems/euler_disk.yaml", " --group 1,2,3 --chain 1;2,3 --inner 1,2=1/3;1,3=r^2/7", 1, 2, 1);
+    check_bundle("systems/euler_top.yaml", " --inner 1,2=1/3;2,3=1/4", 0, 0, 3);
     check_bundle("systems/snakeboard.yaml", "", 0, 1, 2);
     check_bundle("systems/chaplygin_ball.yaml", "", 2, 2, 1);
     check_bundle("systems/sleigh_inertia.yaml", "", 1, 0, 2);

@@ -32,7 +32,7 @@ typedef struct {
     const char *initial;         /* of simulate and reduce */
     const nh_method *method;
     const char *table;           /* of initial states */
-    const char *group, *chain, *to; /* of reduce; `to` of export, too */
+    const char *group, *chain, *inner, *to; /* of reduce; `to` of export, too */
     const char *input, *name;  /* of export */
     bool project, weak;
     const char *watch;           /* of simulate */

@@ -13,7 +13,7 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "`nhsym reduce` needs a system");
         return nh_error_hint(error, "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"");
     }
-    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .accuracy = cli->accuracy, .equations = cli->equations, .options = cli->options};
+    *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .inner = cli->inner, .accuracy = cli->accuracy, .equations = cli->equations, .options = cli->options};
     nh_export_target target;
     if (cli->to && !nh_export_target_of(cli->to, &target, error)) return false;
     q->system_path = nh_places_find(cli->arena, "systems", cli->operand[0], error);

@@ -378,6 +378,7 @@ nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
     }
     r->until = q->options.until;
     r->chain_text = q->chain;
+    r->inner_text = q->inner;
     r->chart = q->chart;
     nh_linalg_threads(1);
     nh_progress("the symmetry group", -1);

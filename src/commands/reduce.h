@@ -25,6 +25,7 @@ typedef struct {
     bool project;             /* move velocities that violate the constraints to the nearest that do not */
     bool weak;                /* also symmetries that change L by a total derivative */
     const char *chain;        /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL: found */
+    const char *inner;        /* "1,4=1/2; 4,4=3": entries of the inner product g0 of these generators, which chooses the lifts by stages; NULL: they are orthonormal */
     const char *group;        /* "1, 2, 5" (of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
     double accuracy;          /* to which reduced and full motions must agree: their methods and tolerances are chosen for it, options.tolerance is a hundredth of it; 0: none is asked for */
     bool equations;           /* with the objects of the theory written out */
@@ -114,7 +115,8 @@ struct nh_reduction {
     nh_action action[4];      /* of the stages */
     nh_second second[2];
     nh_ideals chain;
-    const char *chain_text;
+    const char *chain_text, *inner_text;
+    const nh_ex *inner;       /* g0 of the generators of the stage that is written by stages, d x d; NULL: they are orthonormal */
     nh_momenta momenta;
     nh_chain_symmetries *joints; /* of the kinetic energy, joint by joint; NULL unless the system is given by bodies */
     nh_generator *of_joint;      /* joints->fields: those, with what they leave invariant */

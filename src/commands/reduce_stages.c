@@ -355,7 +355,7 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     if (r->action[1].d < g->d) nh_reduction_warn(r, "the whole group does not act freely (isotropy of dimension %zu); the reduction uses a subgroup of dimension %zu", g->d - g->orbit, r->action[1].d);
     nh_error trouble = {0};
     bool good = quotient ? nh_reduction_quotient(&b, &r->action[1], &trouble) : nh_reduction_whole(&b, &r->action[1], &trouble);
-    if (!good && r->chain_text) {
+    if (!good && (r->chain_text || r->inner_text)) {
         if (error) *error = trouble;
         return false;
     }

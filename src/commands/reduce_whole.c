@@ -1,4 +1,5 @@
 /* reduce_whole: the reduction by the whole group at once, and the equations by stages. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,20 +33,74 @@ static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order
     return 0;
 }
 
-/* The equations by stages, with the locked inertia at a sample point as inner product on the Lie algebra. */
+static bool bad_inner(size_t d, const char *text, nh_error *error)
+{
+    nh_fail(error, NH_USAGE, "--inner", "`%.100s` is not an entry of an inner product on the %zu generators of the group", text, d);
+    return nh_error_hint(error, "--inner \"1,%zu=1/2; %zu,%zu=3\": numbers of two generators, and the value; what is not given is 1 on the diagonal and 0 beside it", d, d, d);
+}
+
+/* "1,4=1/2; 4,4=3" as expressions of the parameters. */
+static bool read_inner(nh_reduction *r, size_t d, nh_error *error)
+{
+    nh_dag *dag = r->kinetic->dag;
+    nh_ex *g = nh_arena_alloc(r->arena, (d * d + 1) * sizeof *g), value;
+    for (size_t a = 0; a < d * d; a++) g[a] = nh_int(dag, a % (d + 1) == 0);
+    for (const char *c = r->inner_text; *c;) {
+        size_t length = strcspn(c, ";"), i, j;
+        char *entry = nh_arena_strndup(r->arena, c, length);
+        int end = 0;
+        c += length + (c[length] == ';');
+        if (!entry[strspn(entry, " \t")]) continue;
+        if (sscanf(entry, "%zu , %zu = %n", &i, &j, &end) != 2 || !end || i < 1 || j < 1 || i > d || j > d) return bad_inner(d, entry, error);
+        if (!nh_system_expression_text(r->system, "--inner", entry + end, 0, NULL, &value, error)) return false;
+        for (size_t s = 0; s < r->kinetic->m; s++)
+            if (nh_depends(dag, value, r->kinetic->q[s]) || nh_depends(dag, value, r->kinetic->v[s])) return nh_fail(error, NH_USAGE, "--inner", "`%.100s` is not constant: values may contain parameters only", entry);
+        g[(i - 1) * d + j - 1] = g[(j - 1) * d + i - 1] = value;
+    }
+    r->inner = g;
+    return true;
+}
+
+static bool positive(size_t d, const double *metric)
+{
+    double *a = nh_alloc_array(d * d + 1, sizeof *a);
+    bool good = true;
+    memcpy(a, metric, d * d * sizeof *a);
+    for (size_t k = 0; k < d && good; k++) {
+        good = a[k * (d + 1)] > 0;
+        for (size_t i = k + 1; i < d && good; i++)
+            for (size_t j = k + 1; j < d; j++) a[i * d + j] -= a[i * d + k] * a[k * d + j] / a[k * (d + 1)];
+    }
+    nh_free(a);
+    return good;
+}
+
+/* g0 where it is given; else the locked inertia at a sample point, for numbers as generic as can be. */
+static bool inner_product(nh_reduction *r, const nh_slice *slice, double *metric, nh_error *error)
+{
+    size_t d = slice->d, m = slice->m;
+    double *K = nh_alloc_array(m * m + 1, sizeof *K);
+    nh_kinetic_values(r->kinetic, m * m, slice->K, r->initial.q, K);
+    for (size_t a = 0; a < d * d; a++) metric[a] = K[(slice->n + a / d) * m + slice->n + a % d];
+    nh_free(K);
+    if (!r->inner_text) return true;
+    if (!read_inner(r, d, error)) return false;
+    nh_kinetic_values(r->kinetic, d * d, r->inner, r->initial.q, metric);
+    return positive(d, metric) || nh_fail(error, NH_USAGE, "--inner", "`%.200s` is not positive definite", r->inner_text);
+}
+
+/* The equations by stages. */
 static bool by_stages(nh_reduction *r, nh_reduction_stage *s, nh_error *error)
 {
     const nh_slice *slice = s->slice;
-    size_t d = slice->d, m = slice->m, *size = nh_alloc_array(2 * d + 2, sizeof *size), *order = size + d + 1;
-    double *K = nh_alloc_array(m * m + d * d + 1, sizeof *K), *metric = K + m * m;
+    size_t d = slice->d, *size = nh_alloc_array(2 * d + 2, sizeof *size), *order = size + d + 1;
+    double *metric = nh_alloc_array(d * d + 1, sizeof *metric);
     size_t blocks = r->chain_text ? read_chain(r->chain_text, d, size, order, error) : nh_ideals_find(&slice->action->algebra, size, order);
-    nh_kinetic_values(r->kinetic, m * m, slice->K, r->initial.q, K);
-    for (size_t a = 0; a < d * d; a++) metric[a] = K[(slice->n + a / d) * m + slice->n + a % d];
-    bool good = blocks > 0 && nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
+    bool good = blocks > 0 && inner_product(r, slice, metric, error) && nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
     if (good) good = s->by_stages = nh_poincare_check(&s->poincare, slice, &r->chain, &r->options, error);
     s->chain = &r->chain;
     nh_free(size);
-    nh_free(K);
+    nh_free(metric);
     return good;
 }
 
@@ -84,8 +139,9 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
     nh_reduction_compare(b, s, &(nh_reduction_time_series){.atlas = atlas, .q = r->initial.q, .v = r->initial.v, .outputs = NH_REDUCTION_OUTPUTS, .want = b->full, .stride = m, .reached = b->reached});
     nh_atlas_free(atlas);
     nh_error trouble = {0};
-    if (!r->brief && s->kind == NH_STAGE_POINCARE && !by_stages(r, s, r->chain_text ? error : &trouble)) {
-        if (r->chain_text) good = false;
+    bool given = r->chain_text || r->inner_text;
+    if (!r->brief && s->kind == NH_STAGE_POINCARE && !by_stages(r, s, given ? error : &trouble)) {
+        if (given) good = false;
         else nh_reduction_warn(r, "no equations by stages: %s", trouble.what);
     }
     return good;

@@ -1,4 +1,4 @@
-/* reduction_sheet: a stage of the first or second kind; the whole group in bundle_sheet.c. */
+/* reduction_sheet: a stage of the first or second kind; the whole group in reduction_sheet_bundle.c. */
 #include "document/reduction_sheet.h"
 
 #include "document/reduction_sheet_internal.h"
@@ -189,6 +189,7 @@ nh_sheet *nh_reduction_sheet(const nh_reduction *r, const nh_reduction_stage *st
     b.s->shown = r->options.shown;
     if (stage->kind == NH_STAGE_CHAPLYGIN) chaplygin(&b, stage->chaplygin, t);
     if (stage->kind == NH_STAGE_SECOND) second(&b, stage->second, t);
-    if (t->bundle) nh_reduction_sheet_bundle(&b, t->bundle, stage->by_stages ? stage->chain : NULL);
+    if (t->bundle) nh_reduction_sheet_bundle(&b, t->bundle);
+    if (t->bundle && stage->by_stages) nh_reduction_sheet_stages(&b, t->bundle, stage->chain, r->inner);
     return b.s;
 }

@@ -1,4 +1,4 @@
-/* The whole group at once, and block by block along a chain of ideals. */
+/* The whole group at once. */
 #include "document/reduction_sheet_internal.h"
 
 #include "exact/normal.h"
@@ -79,104 +79,10 @@ static void equations(const nh_reduction_builder *b, const nh_lagrange_poincare 
     nh_free(chi);
 }
 
-/* ---- by stages ---- */
-
-static size_t block_of(const nh_ideals *c, size_t generator)
-{
-    for (size_t j = 0; j < c->blocks; j++)
-        for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++)
-            if (c->order[i] == generator) return j;
-    return c->blocks;
-}
-
-/* The maps a_j and b_j on basis vectors, where they do not vanish. */
-static void maps(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *c)
-{
-    const nh_ex *constant = l->slice->action->constant;
-    nh_text words;
-    nh_text_init(&words);
-    for (size_t j = 0; j < c->blocks; j++) {
-        nh_text_addf(&words, "%sblock %zu", j ? "; " : "", j);
-        for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) nh_text_addf(&words, " $e_{%zu}$", c->order[i] + 1);
-    }
-    nh_sheet_begin(b->s, "chain", "Chain of ideals",
-                   nh_sheet_label(b->s, "%s. $n_{j}$ is spanned by block j and those behind it. $g_{0}$: the inner product in which the generators are orthonormal, so that each is its own lift "
-                                        "$H_{j}$. $a_{j}(x,y)$ is minus the part of $[x,y]$ in $n_{j+1}$, $b_{j}(x,N)=[x,N]$; those not listed vanish.", nh_text_string(&words)));
-    nh_text_clear(&words);
-    for (size_t x = 0; x < l->d; x++)
-        for (size_t y = 0; y < l->d; y++) {
-            size_t j = block_of(c, x), k = block_of(c, y);
-            bool any = false;
-            if (k < j || (k == j && y < x)) continue;
-            for (size_t a = 0; a < l->d; a++) {
-                nh_ex e = constant[(x * l->d + y) * l->d + a];
-                if (nh_is_zero(b->d, e) || (k == j && block_of(c, a) == j)) continue;
-                if (!any) nh_sheet_sum(b->s, "", nh_sheet_label(b->s, k == j ? "a_{%zu}(e_{%zu},e_{%zu})" : "b_{%zu}(e_{%zu},e_{%zu})", j, x + 1, y + 1));
-                any = true;
-                nh_sheet_add(b->s, k == j ? nh_neg(b->d, e) : e, number(b, "e", a));
-            }
-        }
-}
-
-/* xi with the blocks from..to-1 only. */
-static void part(const nh_lagrange_poincare *l, const nh_ideals *c, const nh_ex *xi, size_t from, size_t to, nh_ex *out)
-{
-    for (size_t a = 0; a < l->d; a++) {
-        size_t j = block_of(c, a);
-        out[a] = j >= from && j < to ? xi[a] : nh_int(l->slice->dag, 0);
-    }
-}
-
-/* label = the block i of [x, y] as a combination of the momenta; nothing where it vanishes. */
-static void contribution(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *c, size_t i, const nh_ex *x, const nh_ex *y, const char *label)
-{
-    nh_ex *out = nh_alloc_array(l->d + 1, sizeof *out);
-    bool any = false;
-    nh_lagrange_poincare_bracket(l, x, y, out);
-    for (size_t a = 0; a < l->d; a++) {
-        nh_ex e = block_of(c, a) == i ? nh_simplify(b->d, out[a]) : nh_int(b->d, 0);
-        if (nh_is_zero(b->d, e)) continue;
-        if (!any) nh_sheet_sum(b->s, "", label);
-        any = true;
-        nh_sheet_add(b->s, e, number(b, "mu", a));
-    }
-    nh_free(out);
-}
-
-/* sum_j beta_j'(chi_j) = sum_i <beta_i, [omega, chi]_i>, with the bracket in parts [CendraDiaz2018, eq. 14]. */
-static void stages(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *c)
-{
-    nh_ex *x = nh_alloc_array(4 * l->d + 1, sizeof *x), *y = x + l->d, *chi = y + l->d;
-    nh_sheet_begin(b->s, "by_stages", "Vertical equations by stages, block by block",
-                   "$beta_{j}$ is the part of $mu$ on block j. For each chi the sum of the parts below is $\\Sigma_{j} beta'_{j}(chi_{j})$; the sum over all blocks is needed, since chi need not lie in one of them.");
-    for (size_t p = 0; p < l->r; p++) {
-        column(l, l->chi, l->r, p, chi);
-        for (size_t i = 0; i < c->blocks; i++) {
-            part(l, c, l->omega, i, i + 1, x);
-            part(l, c, chi, i, i + 1, y);
-            contribution(b, l, c, i, x, y, nh_sheet_label(b->s, "beta_{%zu}([omega_{%zu},chi_{%zu;%zu}])", i, i, p + 1, i));
-            for (size_t j = 0; j < i; j++) {
-                part(l, c, l->omega, j, j + 1, x);
-                part(l, c, chi, j, j + 1, y);
-                contribution(b, l, c, i, x, y, nh_sheet_label(b->s, "beta_{%zu}(-a_{%zu}(omega_{%zu},chi_{%zu;%zu}))", i, j, j, p + 1, j));
-                part(l, c, chi, j + 1, c->blocks, y);
-                contribution(b, l, c, i, x, y, nh_sheet_label(b->s, "beta_{%zu}(b_{%zu}(omega_{%zu},chi_{%zu;>%zu}))", i, j, j, p + 1, j));
-                part(l, c, l->omega, j + 1, c->blocks, x);
-                part(l, c, chi, j, j + 1, y);
-                contribution(b, l, c, i, x, y, nh_sheet_label(b->s, "beta_{%zu}(-b_{%zu}(chi_{%zu;%zu},omega_{>%zu}))", i, j, p + 1, j, j));
-            }
-        }
-    }
-    nh_free(x);
-}
-
-void nh_reduction_sheet_bundle(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *chain)
+void nh_reduction_sheet_bundle(const nh_reduction_builder *b, const nh_lagrange_poincare *l)
 {
     nh_reduction_sheet_frame(b, l->slice);
     distribution(b, l);
     lagrangian(b, l);
     equations(b, l);
-    if (!chain) return;
-    maps(b, l, chain);
-    stages(b, l, chain);
 }
