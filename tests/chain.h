@@ -254,6 +254,8 @@ static const joint_form FORMS[] = {
     {"free", "angles: xyz", 6, {0, 0, 0, 1, 1, 1}, {0, 1, 2, 0, 1, 2}, 0},
     {"translation", "axes: [y, x]", 2, {0, 0}, {1, 0}, 0},
     {"translation", "axes: [z, x, y]", 3, {0, 0, 0}, {2, 0, 1}, 0},
+    {"schoenflies", "axis: y", 4, {0, 0, 0, 1}, {0, 1, 2, 1}, 0},
+    {"translating-screw", "axis: x, pitch: -0.23", 3, {0, 0, 1}, {1, 2, 0}, -0.23},
 };
 enum { forms = sizeof FORMS / sizeof *FORMS };
 

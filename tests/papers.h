@@ -184,7 +184,7 @@ static const row ROWS[] = {
     {C, "(2.15), (2.16)", "N_theta = N", IS, D_CRANE, .label = "stages.1.abelian", .printed = "true"},
     {C, "lemma 2.4, alpha_theta", "momentum along psi1 on the level set", VALUE, D_CRANE, "1.hamiltonian", "phat_psi1", "theta_1", "c*sin(psi1)/" DELTA, .k = 0},
     {C, "lemma 2.5", "d alpha_theta is basic", NOT, D_NONE, .printed = "a proof; its result is the form of (2.20)"},
-    {C, "(2.17), (2.20)", "Xi_theta", VALUE, D_CRANE, "1.hamiltonian", "Xi_psi1,psi2", "theta_1", "b*l*cos(psi1)/" DELTA "^2", .k = 0},
+    {C, "(2.17), (2.20)", "Xi_theta", VALUE, D_CRANE, "1.magnetic_form", "Xi_psi1,psi2", "theta_1", "b*l*cos(psi1)/" DELTA "^2", .k = 0},
     {C, "(2.18)", "the inverse of phi_theta: along psi2", VALUE, D_CRANE, "1.hamiltonian", "phat_psi2", "theta_1", "b*sin(psi1)/" DELTA, .k = 0},
     {C, "theorem 2.6, 5.2, (2.19)", "twice reduced motion against the full one", SMALL, D_CRANE, .label = "stages.1.agreement_with_full"},
     {C, "definition 3.1, (3.21), (3.22)", "metric from bodies and joints; r_cm,3 and r_6 are misprinted", BY, D_NONE, .label = "crane metric"},

@@ -656,7 +656,7 @@ Test(theory, second_stage_of_the_crane_as_printed_is_the_tabulated_one)
         set_state(&s, q, v);
         got[0] = shown_value(&s, "mechanical_connection", "Abreve_psi1^1", "");
         got[1] = shown_value(&s, "mechanical_connection", "Abreve_psi2^1", "");
-        got[2] = shown_value(&s, "hamiltonian", "Xi_psi1,psi2", "theta_1");
+        got[2] = shown_value(&s, "magnetic_form", "Xi_psi1,psi2", "theta_1");
         oracle_flat(oracle_get(point, "Abreve"), want);
         want[2] = oracle_number(point, "Xi12_over_vartheta");
         tally_add(&t, 3, got, want, 0);

@@ -254,10 +254,10 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         for (size_t a = 0; a < d; a++) y0[a] = x[along[a]];
         good = nh_second_equations(t, shape, along, y0, error) && nh_slice_components(s1, q, v, u) && nh_reduced_start(&first->reduced, x, u, z);
     }
-    if (good && (simple != first || nh_largest(d, y0) > 0) && !r->brief) { /* the same on the slices y = 0 */
+    if (good && (simple != first || nh_largest(d, y0) > 0) && !r->brief) { /* the same on slices at simple places */
         nh_error trouble = {0};
-        memset(y0, 0, n * sizeof *y0);
-        if (nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) && nh_second_equations(&r->second[1], shape, along, y0, &trouble) && slice_is_good(&r->second[1].slice)) pretty = &r->second[1];
+        nh_slice probe = {.kinetic = t->hat, .action = &t->action, .n = n - d, .d = d, .shape = shape, .along = along};
+        if (nice_place(&probe, y0) && nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) && nh_second_equations(&r->second[1], shape, along, y0, &trouble)) pretty = &r->second[1];
     }
     if (good) {
         size_t reached;

@@ -92,7 +92,7 @@ static void put_coefficient(nh_dag *d, nh_ex c, bool first, nh_text *out)
     nh_text_add(out, negative ? (first ? "-" : " - ") : first ? "" : " + ");
     if (nh_is_number(d, size, 1)) return;
     char *text = nh_print_string(d, size);
-    nh_text_addf(out, nh_kind_of(d, size) == NH_SUM ? "(%s) " : "%s ", text);
+    nh_text_addf(out, nh_formula_is_sum(text) ? "(%s) " : "%s ", text);
     nh_free(text);
 }
 

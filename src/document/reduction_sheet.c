@@ -1,4 +1,4 @@
-/* reduction_sheet: a stage of the first or second kind; the whole group in reduction_sheet_bundle.c. */
+/* reduction_sheet: a stage of the first kind; the second in reduction_sheet_second.c, the whole group in reduction_sheet_bundle.c. */
 #include "document/reduction_sheet.h"
 
 #include "document/reduction_sheet_internal.h"
@@ -79,7 +79,18 @@ static const char *group_name(const nh_reduction_builder *b, size_t a) { return 
 
 static const char *speed(const nh_reduction_builder *b, size_t i) { return nh_sheet_label(b->s, "<%s'>", nh_reduction_sheet_x(b, b->slice, i)); }
 
-static void hamiltonian(const nh_reduction_builder *b, const char *label, const nh_ex *inverse, const nh_ex *locked, nh_ex V)
+/* 1/2 x' K x' as terms. */
+void nh_reduction_sheet_kinetic(const nh_reduction_builder *b, const nh_ex *K)
+{
+    size_t n = b->slice->n;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++) {
+            nh_ex e = i == j ? nh_mul(b->d, nh_ratio(b->d, 1, 2), K[i * n + j]) : K[i * n + j];
+            nh_sheet_add(b->s, e, i == j ? nh_sheet_label(b->s, "%s^{2}", speed(b, i)) : nh_sheet_label(b->s, "%s %s", speed(b, i), speed(b, j)));
+        }
+}
+
+void nh_reduction_sheet_hamiltonian(const nh_reduction_builder *b, const char *label, const nh_ex *inverse, const nh_ex *locked, nh_ex V)
 {
     nh_sheet_sum(b->s, "", label);
     quadratic(b, b->slice->n, inverse, shape_name, false);
@@ -123,61 +134,11 @@ static void chaplygin(nh_reduction_builder *b, const nh_chaplygin *c, const nh_r
     nh_sheet_begin(b->s, "hamiltonian", "Reduced Lagrangian and Hamiltonian", "$\\hat{K}=H^{T} K H$ with the lift H; $p_{i}=\\hat{K}_{i,j} <x'>^{j}$ (2.10).");
     nh_reduction_sheet_symmetric(b, c->slice, c->K, "\\hat{K}");
     nh_sheet_sum(b->s, "", "\\hat{L}");
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = i; j < n; j++) {
-            nh_ex e = i == j ? nh_mul(b->d, nh_ratio(b->d, 1, 2), c->K[i * n + j]) : c->K[i * n + j];
-            nh_sheet_add(b->s, e, i == j ? nh_sheet_label(b->s, "%s^{2}", speed(b, i)) : nh_sheet_label(b->s, "%s %s", speed(b, i), speed(b, j)));
-        }
+    nh_reduction_sheet_kinetic(b, c->K);
     for (size_t i = 0; i < n && !c->plain; i++) nh_sheet_add(b->s, c->a[i], speed(b, i));
     nh_sheet_add(b->s, nh_neg(b->d, c->V), "");
-    if (c->plain && t->inverse) hamiltonian(b, "\\hat{H}", t->inverse, NULL, c->V);
+    if (c->plain && t->inverse) nh_reduction_sheet_hamiltonian(b, "\\hat{H}", t->inverse, NULL, c->V);
     gyroscopic(b, c);
-}
-
-/* ---- the second stage ---- */
-
-static void magnetic(const nh_reduction_builder *b, const nh_second *t)
-{
-    size_t n = t->n, d = t->d, listed = 0;
-    if (!t->abelian) {
-        nh_sheet_words(b->s, nh_sheet_label(b->s, "The group is not abelian: $theta$ moves on a coadjoint orbit of dimension %zu, and $N_{theta}$ has dimension %zu.", t->orbit, d - t->orbit));
-        nh_reduction_sheet_curvature(b, &t->slice, t->Bv, "B");
-        return;
-    }
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = i + 1; j < n; j++) {
-            bool any = false;
-            for (size_t a = 0; a < d; a++) any |= !nh_is_zero(b->d, t->Bv[(a * n + i) * n + j]);
-            if (!any) continue;
-            nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "Xi_{<%s>,<%s>}", nh_reduction_sheet_x(b, &t->slice, i), nh_reduction_sheet_x(b, &t->slice, j)));
-            for (size_t a = 0; a < d; a++) nh_sheet_add(b->s, t->Bv[(a * n + i) * n + j], nh_sheet_label(b->s, "theta_{%zu}", a + 1));
-            listed++;
-        }
-    if (!listed) nh_sheet_words(b->s, "$Xi_{theta}$ vanishes.");
-}
-
-static void second(nh_reduction_builder *b, const nh_second *t, const nh_reduction_theory *theory)
-{
-    size_t n = t->n, d = t->d;
-    b->slice = &t->slice;
-    nh_reduction_sheet_frame(b, &t->slice);
-    nh_sheet_begin(b->s, "mechanical_connection", "Locked inertia and mechanical connection",
-                   "$I_{a,b}$ is the metric of the first stage on the orbits; $theta_{a}=I_{a,b} v^{b}$ with $v=zeta+\\breve{A} <x'>$ is the momentum, which is kept (2.14).");
-    for (size_t a = 0; a < d; a++)
-        for (size_t c = a; c < d; c++)
-            if (!nh_is_zero(b->d, t->inertia[a * d + c])) nh_sheet_formula(b->s, nh_sheet_label(b->s, "I_{%zu,%zu}", a + 1, c + 1), t->inertia[a * d + c]);
-    nh_reduction_sheet_lift(b, &t->slice, t->Av, "\\breve{A}");
-    nh_sheet_begin(b->s, "hamiltonian", "Momentum level set and reduced Hamiltonian",
-                   t->abelian ? "$N_{theta}=N$: the level set is divided by the whole group. $\\hat{p}$ are the momenta of the first stage, p those that remain; $Xi_{theta}$ is the magnetic form (2.20)."
-                              : "$\\hat{p}$ are the momenta of the first stage, p those that remain.");
-    for (size_t i = 0; i < n; i++) {
-        nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\hat{p}_{<%s>}", nh_reduction_sheet_x(b, &t->slice, i)));
-        nh_sheet_add(b->s, nh_int(b->d, 1), nh_sheet_label(b->s, "p_{<%s>}", nh_reduction_sheet_x(b, &t->slice, i)));
-        for (size_t a = 0; a < d; a++) add(b, t->Av[a * n + i], "theta_{%zu}", a + 1);
-    }
-    magnetic(b, t);
-    nh_reduction_sheet_symmetric(b, &t->slice, t->Kt, "\\breve{K}");
-    if (theory->locked && (theory->inverse || !n)) hamiltonian(b, "\\breve{H}", theory->inverse, theory->locked, t->slice.V);
 }
 
 nh_sheet *nh_reduction_sheet(const nh_reduction *r, const nh_reduction_stage *stage)
@@ -188,7 +149,7 @@ nh_sheet *nh_reduction_sheet(const nh_reduction *r, const nh_reduction_stage *st
     b.s = nh_sheet_create(r->arena, b.d);
     b.s->shown = r->options.shown;
     if (stage->kind == NH_STAGE_CHAPLYGIN) chaplygin(&b, stage->chaplygin, t);
-    if (stage->kind == NH_STAGE_SECOND) second(&b, stage->second, t);
+    if (stage->kind == NH_STAGE_SECOND) nh_reduction_sheet_second(&b, stage->second, t);
     if (t->bundle) nh_reduction_sheet_bundle(&b, t->bundle);
     if (t->bundle && stage->by_stages) nh_reduction_sheet_stages(&b, t->bundle, stage->chain, r->inner);
     return b.s;

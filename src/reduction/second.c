@@ -22,6 +22,8 @@ bool nh_second_descend(const nh_chaplygin *f, const nh_ex *field, nh_ex *out)
     const nh_slice *s = f->slice;
     nh_dag *d = f->dag;
     size_t n = f->n, g = f->d;
+    for (size_t i = 0; i < n && !g; i++) out[i] = field[s->shape[i]];
+    if (!g) return true;
     nh_ex *a = nh_alloc_array(g * g + 2 * g + 1, sizeof *a), *c = a + g * g, *y = c + g;
     for (size_t r = 0; r < g; r++) y[r] = s->y[r];
     for (size_t r = 0; r < g; r++) {

@@ -8,7 +8,28 @@
 
 typedef nh_system_reader reader;
 
-static const char *const kind_names[] = {"fixed", "revolute", "prismatic", "helical", "cylindrical", "planar", "spherical", "free", "translation"};
+static const char *const kind_names[] = {"fixed", "revolute", "prismatic", "helical", "cylindrical", "planar", "spherical", "free", "translation", "schoenflies", "translating-screw"};
+
+/* Of each kind: its screws (0: as many as `axes`), a bit for each of them that turns, how the names of its coordinates end, and which keys it has. */
+enum { AXIS = 1, AXES = 2, PITCH = 4, ANGLES = 8 };
+static const struct {
+    size_t degrees;
+    unsigned turns;
+    const char *letters;
+    unsigned keys;
+} kinds[NH_JOINT_KINDS] = {
+    [NH_JOINT_FIXED] = {0, 0, "", 0},
+    [NH_JOINT_REVOLUTE] = {1, 1, "", AXIS},
+    [NH_JOINT_PRISMATIC] = {1, 0, "", AXIS},
+    [NH_JOINT_HELICAL] = {1, 1, "", AXIS | PITCH},
+    [NH_JOINT_CYLINDRICAL] = {2, 2, "sa", AXIS},
+    [NH_JOINT_PLANAR] = {3, 4, "xya", AXIS},
+    [NH_JOINT_SPHERICAL] = {3, 7, "abc", ANGLES},
+    [NH_JOINT_FREE] = {6, 070, "xyzabc", ANGLES},
+    [NH_JOINT_TRANSLATION] = {0, 0, "xyz", AXES},
+    [NH_JOINT_SCHOENFLIES] = {4, 010, "xyza", AXIS},
+    [NH_JOINT_TRANSLATING_SCREW] = {3, 4, "xya", AXIS | PITCH},
+};
 
 /* ---- words ---- */
 
@@ -92,9 +113,8 @@ static bool read_bodies(reader *r)
 
 static size_t degrees_of(reader *r, const nh_deck_node *item, nh_joint_kind kind)
 {
-    static const size_t degrees[] = {0, 1, 1, 1, 2, 3, 3, 6, 0};
     const nh_deck_node *axes = nh_deck_get(item, "axes");
-    if (kind != NH_JOINT_TRANSLATION) return degrees[kind];
+    if (kind != NH_JOINT_TRANSLATION) return kinds[kind].degrees;
     if (!axes) nh_deck_fail(r->deck, item, 0, r->error, "a joint of type translation needs `axes`");
     if (!axes) nh_error_hint(r->error, "for example: axes: [x, y]");
     if (!axes || !nh_deck_is(r->deck, axes, NH_DECK_LIST, "axes", r->error)) return SIZE_MAX;
@@ -126,15 +146,13 @@ static bool carries(reader *r, const nh_deck_node *item, nh_joint *j, size_t ind
 /* Is there a key for a thing that this kind of joint does not have? */
 static bool fitting_keys(reader *r, const nh_deck_node *item, nh_joint_kind kind)
 {
-    bool line = kind == NH_JOINT_REVOLUTE || kind == NH_JOINT_PRISMATIC || kind == NH_JOINT_HELICAL || kind == NH_JOINT_CYLINDRICAL;
-    const struct { const char *key; bool fits; } rule[] = {{"axis", line || kind == NH_JOINT_PLANAR}, {"axes", kind == NH_JOINT_TRANSLATION},
-        {"pitch", kind == NH_JOINT_HELICAL}, {"angles", kind == NH_JOINT_SPHERICAL || kind == NH_JOINT_FREE}};
+    static const struct { const char *key; unsigned bit; } rule[] = {{"axis", AXIS}, {"axes", AXES}, {"pitch", PITCH}, {"angles", ANGLES}};
     for (size_t i = 0; i < sizeof rule / sizeof *rule; i++) {
-        if (rule[i].fits || !nh_deck_get(item, rule[i].key)) continue;
+        if (kinds[kind].keys & rule[i].bit || !nh_deck_get(item, rule[i].key)) continue;
         return nh_deck_fail(r->deck, nh_deck_get(item, rule[i].key), 0, r->error, "a joint of type %s has no `%s`", kind_names[kind], rule[i].key);
     }
-    if (kind == NH_JOINT_HELICAL && !nh_deck_get(item, "pitch")) {
-        nh_deck_fail(r->deck, item, 0, r->error, "a joint of type helical needs a `pitch`");
+    if (kinds[kind].keys & PITCH && !nh_deck_get(item, "pitch")) {
+        nh_deck_fail(r->deck, item, 0, r->error, "a joint of type %s needs a `pitch`", kind_names[kind]);
         return nh_error_hint(r->error, "the pitch is the advance per radian");
     }
     return true;
@@ -225,15 +243,13 @@ bool nh_system_read_tree(reader *r)
 /* What the screws of a joint are called when the file does not say: the joint's name, and a letter when there are several. */
 static const char *default_name(reader *r, const nh_joint *j, size_t k)
 {
-    static const char *const letters[] = {"", "", "", "", "sa", "xya", "abc", "xyzabc", "xyz"};
     if (j->screws == 1) return j->name;
-    return nh_arena_printf(r->system->arena, "%s_%c", j->name, letters[j->kind][k]);
+    return nh_arena_printf(r->system->arena, "%s_%c", j->name, kinds[j->kind].letters[k]);
 }
 
 bool nh_joint_turns(const nh_joint *j, size_t k)
 {
-    static const unsigned turns[] = {0, 1, 0, 1, 2, 4, 7, 070, 0}; /* a bit per screw */
-    return turns[j->kind] >> k & 1;
+    return kinds[j->kind].turns >> k & 1;
 }
 
 static bool coordinate_of(reader *r, const nh_joint *j, size_t k, const nh_deck_node *name)

@@ -189,6 +189,10 @@ static bool axes_of_joint(reader *r, const nh_joint *j, nh_screw *s)
     int axis[3] = {2, 1, 0};
     const nh_deck_node *given = nh_deck_get(j->node, "axis"), *axes = nh_deck_get(j->node, "axes");
     switch (j->kind) {
+    case NH_JOINT_SCHOENFLIES: /* along x, y, z, about the axis */
+        for (int k = 0; k < 3; k++) unit_vector(d, k, s[k].axis);
+        return direction_of(r, j->node, "axis", "an axis", 2, s[3].axis);
+    case NH_JOINT_TRANSLATING_SCREW: /* as a planar joint, whose turn advances along the normal */
     case NH_JOINT_PLANAR: { /* normal z: along x, along y, about z; and so on in turn */
         long normal = given ? nh_system_word(r, given, "the normal of a plane", 3, axis_names) : 2;
         if (normal < 0 && !r->error->hint[0]) nh_error_hint(r->error, "any other plane is reached by a `rotation` of the joint");
