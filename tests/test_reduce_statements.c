@@ -234,8 +234,8 @@ Test(reduce_statements, stages_that_are_local)
     nh_reduction_free(r);
     /* r^2 (a^2 + b^2) with angles a, b: their rotation is the only symmetry */
     told t = tell("name: two_angles\ncoordinates: [{name: a, type: angle}, {name: b, type: angle}]\ndomain: {a: [0.5, 1.5], b: [0.5, 1.5]}\nlagrangian: (a'^2 + b'^2)/2 - (a^2 + b^2)^2\n");
-    cr_assert(t.r->stages == 1 && t.r->all->action.d == 1);
-    cr_expect(t.r->stage[0].local && t.r->all->local && t.r->all->global == 0);
+    cr_assert(t.r->stages == 2 && t.r->all->action.d == 1);
+    cr_expect(t.r->stage[0].local && t.r->stage[1].local && t.r->all->local && t.r->all->global == 0);
     SAYS(TEXT(t), "Symmetry group, locally: SO(2), dimension 1; globally: none");
     SAYS(TEXT(t), "acts only locally: many-valued on an angle");
     SAYS(PAGE(t), "this group acts only locally");

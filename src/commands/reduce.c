@@ -350,7 +350,7 @@ static void clear_stages(nh_reduction *r)
     memset(r->second, 0, sizeof r->second);
     memset(&r->chain, 0, sizeof r->chain);
     memset(r->stage, 0, sizeof r->stage);
-    r->stages = 0;
+    r->stages = r->unused_count = 0;
 }
 
 /* The stages.  Where they were interrupted there are none, and the group is kept. */

@@ -46,6 +46,11 @@ typedef struct {
     char why[512];            /* all that in words, or what failed */
 } nh_reduction_choice;
 
+/* A symmetry that a stage does without, or a stage that there is not, and why. */
+typedef struct {
+    const char *what, *why;   /* "e3", "a Chaplygin stage" */
+} nh_reduction_unused;
+
 typedef enum { NH_STAGE_CHAPLYGIN, NH_STAGE_SECOND, NH_STAGE_POINCARE, NH_STAGE_SLICE, NH_STAGE_QUOTIENT } nh_stage_kind;
 
 /* What is shown of a stage where its objects are asked for. */
@@ -117,6 +122,8 @@ struct nh_reduction {
     nh_ideals chain;
     const char *chain_text, *inner_text;
     const nh_ex *inner;       /* g0 of the generators of the stage that is written by stages, d x d; NULL: they are orthonormal */
+    size_t unused_count;
+    nh_reduction_unused unused[24];
     nh_momenta momenta;
     nh_chain_symmetries *joints; /* of the kinetic energy, joint by joint; NULL unless the system is given by bodies */
     nh_generator *of_joint;      /* joints->fields: those, with what they leave invariant */

@@ -1,5 +1,5 @@
 /* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages), reduce_compare.c (their motions), reduce_whole.c (the whole group at once) and
- * reduce_quotient.c (other systems). */
+ * reduce_quotient.c (other systems), reduce_unused.c (what is not used, and why). */
 #ifndef NH_REDUCE_INTERNAL_H
 #define NH_REDUCE_INTERNAL_H
 
@@ -70,6 +70,11 @@ bool nh_reduction_whole_model(nh_reduction *reduction, nh_error *error);
 /* Divide a group out of equations that it leaves invariant, whatever they are (quotient.h); what is conserved there. */
 bool nh_reduction_quotient(nh_reduction_bench *bench, const nh_action *action, nh_error *error);
 bool nh_reduction_quotient_momenta(nh_reduction *reduction, nh_error *error);
+
+/* Why there is no Chaplygin stage, and why a second one goes without generators: used (of the group's): those that the first or the second have; on a field that
+ * normalises the first group (or NULL) the condition (ii) decides. */
+void nh_reduction_no_chaplygin(nh_reduction *reduction);
+void nh_reduction_not_in_second(nh_reduction *reduction, const nh_chaplygin *first, const bool *used, const bool *normalises);
 
 /* What --equations shows of the stages. */
 void nh_reduction_write_out(nh_reduction *reduction);

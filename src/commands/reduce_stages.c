@@ -143,7 +143,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
 /* ---- the second stage ---- */
 
 /* Combinations of the generators outside the first group that normalise it and satisfy (ii), as fields on Q. */
-static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t rest, const size_t *index, nh_ex *field)
+static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t rest, const size_t *index, nh_ex *field, bool *used)
 {
     nh_dag *d = r->kinetic->dag;
     size_t m = r->kinetic->m;
@@ -153,6 +153,7 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t r
     size_t n = nh_second_candidates(first, rest, all, &r->options, c);
     for (size_t j = 0; j < n; j++) {
         nh_second_coefficients(first, rest, all, c + j * rest, &r->options, exact);
+        for (size_t i = 0; i < rest; i++) used[index[i]] |= c[j * rest + i] != 0;
         for (size_t s = 0; s < m; s++) {
             field[j * m + s] = nh_int(d, 0);
             for (size_t i = 0; i < rest; i++) field[j * m + s] = nh_add(d, field[j * m + s], nh_mul(d, exact[i], all[i * m + s]));
@@ -304,12 +305,17 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         nh_free(t);
         size_t n = good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, &r->options, rest) : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
-        size_t d = n ? second_fields(r, first, n, rest, field) : 0;
+        bool *used = nh_alloc_array(2 * g->d + 1, sizeof *used), *normalises = used + g->d;
+        for (size_t i = 0; i < f; i++) used[index[i]] = true;
+        for (size_t i = 0; i < n; i++) normalises[rest[i]] = true;
+        size_t d = n ? second_fields(r, first, n, rest, field, used) : 0;
         nh_error trouble = {0};
+        if (good && !nh_interrupted()) nh_reduction_not_in_second(r, first, used, normalises);
+        nh_free(used);
         if (n && !d && !first->plain) nh_reduction_warn(r, "stage 1 is not reduced further: forces of the reduced system act along the further symmetries (%zu) that normalise the first group, so no momentum is conserved", n);
         if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, shown, q, v, d, field, &trouble)) nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
         nh_free(field);
-    }
+    } else if (g->d) nh_reduction_no_chaplygin(r);
     nh_free(index);
     nh_free(q);
     return good;
@@ -329,7 +335,9 @@ static bool momentum_levels(nh_reduction_bench *b, nh_error *error)
     nh_action_sub(&r->action[0], g, 0, &nothing, &r->options);
     nh_slice_init(whole, &r->action[0], shape, shape, &nothing);
     const nh_chaplygin *first = chaplygin_on(r, whole, error);
-    size_t d = first && n ? second_fields(r, first, n, index, field) : 0;
+    bool *used = nh_alloc_array(g->d + 1, sizeof *used);
+    size_t d = first && n ? second_fields(r, first, n, index, field, used) : 0;
+    nh_free(used);
     bool good = d && second_stage(b, first, first, r->initial.q, r->initial.v, d, field, error);
     if (first && !d) nh_fail(error, NH_INPUT, "", "forces act along all fields of the group");
     nh_free(index);

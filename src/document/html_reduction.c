@@ -314,6 +314,19 @@ static void stage(nh_html_writer *w, const nh_reduction *r, size_t number)
     nh_html_add(w, "</article>\n");
 }
 
+static void unused(nh_html_writer *w, const nh_reduction *r)
+{
+    if (r->unused_count) nh_html_add(w, "<h3>What the stages do without, and why</h3>\n<dl>\n");
+    for (size_t i = 0; i < r->unused_count; i++) {
+        nh_html_add(w, "<dt>");
+        nh_html_text(w, r->unused[i].what);
+        nh_html_add(w, "</dt><dd>");
+        nh_html_text(w, r->unused[i].why);
+        nh_html_add(w, "</dd>\n");
+    }
+    if (r->unused_count) nh_html_add(w, "</dl>\n");
+}
+
 static bool has_momenta(const nh_reduction *r) { return r->stages > 0 && r->group->action.d; }
 
 static void momenta(nh_html_writer *w, const nh_reduction *r)
@@ -391,6 +404,7 @@ void nh_html_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     if (!r->stages) nh_html_add(&w, "<p>No reduction was possible.</p>\n");
     full_motion(&w, r);
     for (size_t i = 0; i < r->stages; i++) stage(&w, r, i);
+    unused(&w, r);
     nh_html_add(&w, "</section>\n");
     momenta(&w, r);
     nh_html_add(&w, "<section id=\"system\"><h2>The system</h2>\n");

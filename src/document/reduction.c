@@ -250,6 +250,7 @@ static void put_all(const nh_reduction *r, bool verbose, nh_text *out)
     put_joints(r, out);
     put_full(r, out);
     for (size_t i = 0; i < r->stages; i++) put_stage(r, i, shown, out);
+    for (size_t i = 0; i < r->unused_count; i++) nh_text_addf(out, "%s  %s: %s\n", i ? "" : "\nWhat the stages do without, and why\n", r->unused[i].what, r->unused[i].why);
     if (r->group->action.d) put_momenta(r, shown, out);
     for (size_t i = 0; i < r->warnings; i++) nh_text_addf(out, "%swarning: %s\n", i ? "" : "\n", r->warning[i]);
 }

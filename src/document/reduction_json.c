@@ -339,6 +339,16 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
     }
 }
 
+static void put_unused(nh_json *root, const nh_reduction *r)
+{
+    nh_json *list = nh_json_put_array(root, "not_used");
+    for (size_t i = 0; i < r->unused_count; i++) {
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_text(item, "what", r->unused[i].what);
+        nh_json_put_text(item, "why", r->unused[i].why);
+    }
+}
+
 static void put_joints(nh_json *root, const nh_reduction *r)
 {
     const nh_chain_symmetries *c = r->joints;
@@ -385,6 +395,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     stages = nh_json_put_array(root, "stages");
     for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
     put_momenta(root, r);
+    put_unused(root, r);
     nh_json_put_number(root, "coordinates", (double)r->kinetic->m);
     nh_json_put_number(root, "seconds", r->seconds);
     warnings = nh_json_put_array(root, "warnings");

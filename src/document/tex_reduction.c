@@ -72,6 +72,8 @@ void nh_tex_reduction(const nh_reduction *r, const nh_run *run, nh_text *out)
     if (r->all) put(&d, nh_reduction_group_sheet(r, r->all));
     if (r->group != r->all) put(&d, nh_reduction_group_sheet(r, r->group));
     for (size_t i = 0; i < r->stages; i++) stage(&d, i);
+    if (r->unused_count) nh_tex_add(&d.w, "\\subsection*{What the stages do without, and why}\n");
+    for (size_t i = 0; i < r->unused_count; i++) words(&d.w, nh_arena_printf(r->arena, "%s: %s.", r->unused[i].what, r->unused[i].why));
     if (r->stages && r->group->action.d) put(&d, nh_reduction_momenta_sheet(r));
     nh_tex_written(&d.w);
     nh_tex_repeat(&d.w, run);

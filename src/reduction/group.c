@@ -289,6 +289,23 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
     return found;
 }
 
+size_t nh_group_subalgebras(const nh_group *g, size_t size, double *most)
+{
+    enum { most_trials = 20000 };
+    size_t d = g->action.d, count = 0, trials = 0, *subset = nh_alloc_array(d + size + 1, sizeof *subset);
+    double *on = on_constraints(&g->action);
+    *most = 0;
+    for (size_t i = 0; i < size && i <= d; i++) subset[i] = i;
+    if (size > 0 && size <= d && g->action.closes) do {
+            if (!subalgebra(&g->action.algebra, size, subset)) continue;
+            count++;
+            *most = fmax(*most, transversality(&g->action, on, subset));
+        } while (++trials < most_trials && next_subset(d, size, subset));
+    nh_free(subset);
+    nh_free(on);
+    return count;
+}
+
 /* The least sigma_min / sigma_max of some columns of E, made of length one, over places (m x d each). */
 static double independence(size_t m, size_t d, size_t places, const double *E, size_t count, const size_t *subset)
 {

@@ -30,6 +30,8 @@ void nh_group_free(nh_group *group);
  * the others normalise, then the least abelian, then the one with the most generators along coordinates that the system calls dependent, then the
  * best conditioned over the sample points. */
 bool nh_group_chaplygin(const nh_group *group, const nh_options *options, size_t *index);
+/* Where there is none: how many subsets of that size span a subalgebra, and the most that a transversality (see nh_action) of theirs comes to. */
+size_t nh_group_subalgebras(const nh_group *group, size_t size, double *transversality);
 /* A largest subset of the generators that spans a subalgebra and acts freely at the sample points; returns its size (0: none was found). */
 size_t nh_group_free_subset(const nh_group *group, const nh_options *options, size_t *index);
 /* The generators outside a subset that normalise it ([e, subset] in the span of the subset); returns their number. */
