@@ -125,8 +125,8 @@ NH_API void nh_verification_free(nh_verification *verification);
 NH_API void nh_classified_free(nh_classified *classified);
 NH_API void nh_benchmark_free(nh_benchmark *benchmark);
 
-/* The documents of the command line.  LaTeX: a reduction gives its equations; a simulation and a benchmark have none (NULL,
- * NH_USAGE).  The text of a simulation is its table.  Free the string by nh_string_free. */
+/* The documents of the command line.  LaTeX of a reduction are its equations, else a document.  The text of a simulation is its table.  Free the string by
+ * nh_string_free. */
 typedef enum { NH_FORMAT_TEXT, NH_FORMAT_JSON, NH_FORMAT_HTML, NH_FORMAT_LATEX } nh_format;
 
 NH_API char *nh_analysis_document(const nh_analysis *analysis, nh_format format, nh_error *error);

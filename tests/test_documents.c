@@ -9,6 +9,11 @@ static const char *const commands[] = {
     "verify sleigh --field x=1",
     "verify sleigh --field x=1 --of equations",
     "verify heisenberg_particle --current x'^2+y'^2",
+    "simulate sleigh --until 3",
+    "simulate sleigh --until 1 --accuracy 1e-6 --watch v",
+    "simulate sleigh --until 1 --ensemble 3",
+    "simulate free_particle --method midpoint --step 0.1 --until 1",
+    "benchmark free_particle --until 1 --budget 0.1s --over x=0:1 --initial x=0",
     "classify penning_trap --over w --degree 2",
     "classify penning_trap --over w,B --degree 1",
 };

@@ -3,7 +3,18 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "document/benchmark.h"
-#include "document/html.h"
+
+typedef struct {
+    const nh_benchmark *benchmark;
+    const nh_robustness *robustness; /* or NULL */
+} comparison;
+
+static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+{
+    const comparison *c = result;
+    (void)cli;
+    nh_benchmark_write(c->benchmark, c->robustness, run, form, out);
+}
 
 static bool write_all(nh_cli *cli, const nh_run *run, const nh_benchmark *c, const nh_robustness *s, nh_error *error)
 {
@@ -20,10 +31,7 @@ static bool write_all(nh_cli *cli, const nh_run *run, const nh_benchmark *c, con
         nh_benchmark_svg(c, &text);
         good = nh_cli_write(cli, cli->svg, &text, error);
     }
-    if (cli->html && good) {
-        nh_html_benchmark(c, s, run, &text);
-        good = nh_cli_write(cli, cli->html, &text, error);
-    }
+    good = good && nh_cli_write_documents(cli, render, &(comparison){c, s}, run, error);
     if (cli->json && good) good = nh_cli_write_json(cli, nh_benchmark_json(c, s, run), error);
     return nh_cli_written(cli, good, error);
 }

@@ -2,7 +2,6 @@
 
 #include "base/progress.h"
 #include "cli/cli.h"
-#include "document/html.h"
 #include "document/simulation.h"
 
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *q, nh_error *error)
@@ -12,7 +11,7 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
         return nh_error_hint(error, "%s", example);
     }
     const char *name = cli->operand[0];
-    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .method = cli->method, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html != NULL,
+    *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .method = cli->method, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html || cli->tex,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
     q->system_path = nh_places_find(cli->arena, "systems", name, error);
     if (!q->system_path) return false;
@@ -97,8 +96,8 @@ static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows
 {
     *code = NH_OK;
     if (!cli->table) return true;
-    bool good = !cli->ensemble && !cli->html && !cli->svg;
-    if (!good) nh_fail(error, NH_USAGE, "", "--initial-table, and --%s as well", cli->ensemble ? "ensemble" : cli->html ? "html" : "svg"), nh_error_hint(error, "a table of initial states gives a table of motions, or JSON");
+    bool good = !cli->ensemble && !cli->html && !cli->tex && !cli->svg;
+    if (!good) nh_fail(error, NH_USAGE, "", "--initial-table, and --%s as well", cli->ensemble ? "ensemble" : cli->html ? "html" : cli->tex ? "tex" : "svg"), nh_error_hint(error, "a table of initial states gives a table of motions, or JSON");
     good = good && nh_simulate_rows_read(cli->arena, q, cli->table, rows, error);
     if (good && (rows->parameters || q->method || rows->count == 1)) return *code = one_by_one(cli, q, rows, error), false;
     if (!good) return *code = (int)error->code, false;
@@ -107,6 +106,12 @@ static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows
     q->initial = rows->row[0].initial;
     q->from = rows->row[0].from;
     return true;
+}
+
+static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
+{
+    (void)cli;
+    nh_simulation_write(result, run, form, out);
 }
 
 int nh_cli_simulate(nh_cli *cli, nh_error *error)
@@ -126,12 +131,7 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     bool good = true;
     put_table(cli, s);
     if (cli->json) good = nh_cli_write_json(cli, s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run), error);
-    if (cli->html && good) {
-        nh_text page;
-        nh_text_init(&page);
-        nh_html_simulation(s, &run, &page);
-        good = nh_cli_write(cli, cli->html, &page, error);
-    }
+    good = good && nh_cli_write_documents(cli, render, s, &run, error);
     if (cli->svg && good) {
         nh_text picture;
         nh_text_init(&picture);

@@ -8,8 +8,7 @@
 #include "base/json.h"
 #include "base/memory.h"
 
-enum { goals = 4 };
-static const double goal[goals] = {1e-3, 1e-6, 1e-9, 1e-12};
+const double nh_benchmark_goal[NH_BENCHMARK_GOALS] = {1e-3, 1e-6, 1e-9, 1e-12};
 
 static bool same_line(const nh_run_record *a, const nh_run_record *b) { return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation); }
 
@@ -42,8 +41,8 @@ const nh_run_record *nh_benchmark_fastest(const nh_benchmark *c, size_t from, si
 static void put_line(const nh_benchmark *c, size_t from, size_t to, nh_text *out)
 {
     nh_text_addf(out, "    %-30s", c->item[from].method);
-    for (int g = 0; g < goals; g++) {
-        const nh_run_record *m = nh_benchmark_fastest(c, from, to, goal[g], true);
+    for (int g = 0; g < NH_BENCHMARK_GOALS; g++) {
+        const nh_run_record *m = nh_benchmark_fastest(c, from, to, nh_benchmark_goal[g], true);
         char us[16], cell[48];
         if (m) {
             time_text(m->seconds, us);
@@ -86,17 +85,17 @@ static void put_run(const nh_benchmark *c, const nh_run_record *m, nh_text *out)
 
 static void put_front(const nh_benchmark *c, nh_text *out)
 {
-    for (int g = 0; g < goals; g++) {
-        const nh_run_record *m = nh_benchmark_fastest(c, 0, c->count, goal[g], false);
+    for (int g = 0; g < NH_BENCHMARK_GOALS; g++) {
+        const nh_run_record *m = nh_benchmark_fastest(c, 0, c->count, nh_benchmark_goal[g], false);
         if (!m) continue;
         char us[16];
         time_text(m->seconds, us);
-        nh_text_addf(out, "  below %.0e: %s in %s, ", goal[g], m->method, m->formulation);
+        nh_text_addf(out, "  below %.0e: %s in %s, ", nh_benchmark_goal[g], m->method, m->formulation);
         if (isnan(m->step)) nh_text_addf(out, "tolerance %.0e", m->tolerance);
         else nh_text_addf(out, "step %.3g", m->step);
         nh_text_addf(out, ": error %.0e", m->error);
         if (isfinite(m->worst_drift)) nh_text_addf(out, ", drift %.0e", m->worst_drift);
-        nh_text_addf(out, ", %s us, %ld evaluations%s\n", us, m->evaluations, goal[g] < c->agreement ? " (further than the reference is confirmed)" : "");
+        nh_text_addf(out, ", %s us, %ld evaluations%s\n", us, m->evaluations, nh_benchmark_goal[g] < c->agreement ? " (further than the reference is confirmed)" : "");
     }
 }
 
@@ -108,7 +107,7 @@ void nh_benchmark_text(const nh_benchmark *c, bool verbose, nh_text *out)
     for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++) nh_text_addf(out, "warning: %s\n", warning[i]);
     nh_text_add(out, "\nMicroseconds (evaluations) to an error below");
     nh_text_addf(out, "\n%34s", "");
-    for (int g = 0; g < goals; g++) nh_text_addf(out, "%18.0e", goal[g]);
+    for (int g = 0; g < NH_BENCHMARK_GOALS; g++) nh_text_addf(out, "%18.0e", nh_benchmark_goal[g]);
     nh_text_add(out, "\n");
     put_lines(c, out);
     nh_text_add(out, "\nFastest\n");

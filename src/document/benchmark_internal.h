@@ -10,6 +10,10 @@
 enum { NH_BENCHMARK_WARNINGS = 2 };
 size_t nh_benchmark_warnings(const nh_benchmark *comparison, const char *out[NH_BENCHMARK_WARNINGS]);
 
+/* Errors below which the fastest run is named. */
+enum { NH_BENCHMARK_GOALS = 4 };
+extern const double nh_benchmark_goal[NH_BENCHMARK_GOALS];
+
 /* The discrete problem. */
 void nh_fits_text(const nh_benchmark *comparison, bool verbose, nh_text *out);
 void nh_fits_json(const nh_benchmark *comparison, nh_json *root);

@@ -93,7 +93,12 @@ void nh_html_table(nh_html_writer *w, const char *caption, const char *heads)
     if (heads) nh_html_add(w, "<thead><tr>");
     for (const char *end; heads && *heads; heads = *end ? end + 1 : end) {
         end = heads + strcspn(heads, "|");
-        nh_text_addf(w->out, "<th scope=\"col\">%.*s</th>", (int)(end - heads), heads);
+        char *head = nh_alloc_array((size_t)(end - heads) + 1, 1);
+        memcpy(head, heads, (size_t)(end - heads));
+        nh_html_add(w, "<th scope=\"col\">");
+        nh_html_text(w, head);
+        nh_html_add(w, "</th>");
+        nh_free(head);
         if (!*end) nh_html_add(w, "</tr></thead>");
     }
     nh_html_add(w, "<tbody>\n");

@@ -180,3 +180,5 @@ void nh_pen_warning(nh_pen *p, const char *text)
 void nh_pen_formula(nh_pen *p, const char *label, nh_ex e) { p->ink->formulas(p->to, 1, &label, &e); }
 
 bool nh_pen_is_name(const char *label) { return !label[strcspn(label, "\\{}<>[] =")]; }
+
+void nh_pen_plot(nh_pen *p, nh_plot *plot, const char *caption) { p->ink->plot(p->to, plot, caption); }

@@ -16,7 +16,7 @@ typedef enum { NH_PEN_SECTION, NH_PEN_CARD, NH_PEN_FOLD, NH_PEN_WORDS, NH_PEN_AN
 typedef struct {
     void (*begin)(void *to, const char *what);
     void (*links)(void *to, const char *sections);
-    /* `id`: of a section; the class of an answer and the kind of a cell.  `title` may be NULL. */
+    /* `id`: of a section; the class of an answer and the kind of a cell.  `title` may be NULL; of a kind it is a remark. */
     void (*open)(void *to, nh_pen_part part, const char *id, const char *title);
     void (*close)(void *to, nh_pen_part part);
     void (*words)(void *to, const char *words);
@@ -30,10 +30,11 @@ typedef struct {
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
+    void (*series)(void *to, const nh_time_series *series); /* a motion: the drawing, and plots over time */
     void (*system)(void *to, const nh_model *model); /* as it was written, and its equations; model may be NULL */
     void (*symmetry)(void *to, const nh_symmetry *symmetry); /* in words: its case, its bracket */
     void (*geometry)(void *to, nh_arena *arena, const struct nh_theory *theory);
-    void (*glossary)(void *to, const char *words);   /* what these words mean, where the form has room for it */
+    void (*glossary)(void *to, const char *words);   /* what these words mean; not in LaTeX */
     void (*end)(void *to, const nh_run *run);
 } nh_pen_ink;
 
@@ -79,6 +80,7 @@ void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(pr
 void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4))); /* of a list of facts */
 void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void nh_pen_warning(nh_pen *pen, const char *text);
+void nh_pen_plot(nh_pen *pen, nh_plot *plot, const char *caption);
 /* label = e; its label is no name, but in the language of notation.h. */
 void nh_pen_formula(nh_pen *pen, const char *label, nh_ex e);
 bool nh_pen_is_name(const char *label);

@@ -29,7 +29,9 @@ static void links(void *to, const char *sections) { nh_html_links(to, sections);
 static void open(void *to, nh_pen_part part, const char *id, const char *title)
 {
     nh_html_add(to, markup[part].open);
-    if (id) nh_html_text(to, id), nh_html_add(to, "\">");
+    if (id) nh_html_text(to, id);
+    if (part == NH_PEN_KIND && title && *title) nh_html_add(to, "\" title=\""), nh_html_text(to, title); /* where the pointer rests on it */
+    if (id) nh_html_add(to, "\">");
     if (!title || !markup[part].titled) return;
     nh_html_add(to, markup[part].titled);
     nh_html_prose(to, title);
@@ -78,6 +80,8 @@ static void table_end(void *to) { nh_html_table_end(to); }
 
 static void plot(void *to, nh_plot *figure, const char *caption) { nh_html_figure(to, figure, caption); }
 
+static void series(void *to, const nh_time_series *motion) { nh_html_time_series(to, motion); }
+
 static void system_of(void *to, const nh_model *model)
 {
     nh_html_add(to, "<section id=\"system\"><h2>The system</h2>\n");
@@ -103,5 +107,5 @@ static void end(void *to, const nh_run *run)
 }
 
 const nh_pen_ink nh_pen_html = {begin, links, open, close, words, number, count, names, source, equation, formulas,
-                                table, table_end, plot, system_of, symmetry,
+                                table, table_end, plot, series, system_of, symmetry,
                                 geometry, glossary, end};

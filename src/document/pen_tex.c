@@ -5,6 +5,7 @@
 #include "document/facts.h"
 #include "document/notation.h"
 #include "document/pen.h"
+#include "document/typeset.h"
 
 static const struct {
     const char *open, *titled, *close; /* before the title; before it where there is one; at the end of the part */
@@ -56,7 +57,15 @@ static void count(void *to, size_t value) { nh_tex_count(to, value); }
 
 static void names(void *to, const char *text) { nh_tex_chart(to, text); }
 
-static void source(void *to, const char *formula) { nh_tex_name(to, formula); }
+static void source(void *to, const char *formula)
+{
+    nh_tex_writer *w = to;
+    nh_text latex;
+    nh_text_init(&latex);
+    if (nh_typeset(formula, NH_LATEX, &latex)) nh_text_addf(w->out, "$%s$", nh_text_string(&latex));
+    else nh_tex_code(w, formula);
+    nh_text_clear(&latex);
+}
 
 static void equation(void *to, const char *label, const char *formula) { nh_tex_display(to, label, formula); }
 
@@ -97,6 +106,19 @@ static void table_end(void *to) { nh_tex_add(to, "\\end{longtable}}\n"); }
 
 static void plot(void *to, nh_plot *figure, const char *caption) { nh_tex_plot(to, figure, caption); }
 
+static void draw(void *to, const nh_plot *figure, const char *caption) { nh_tex_plot(to, figure, caption); }
+
+/* The plots of the page; what else it has is for a screen. */
+static void series(void *to, const nh_time_series *motion)
+{
+    nh_tex_writer *w = to;
+    nh_text rest;
+    nh_text_init(&rest);
+    nh_html_writer page = {.out = &rest, .system = w->system, .analysis = w->analysis, .dag = w->dag, .shown = w->shown, .sink = draw, .context = w};
+    nh_html_time_series(&page, motion);
+    nh_text_clear(&rest);
+}
+
 static void system_of(void *to, const nh_model *model)
 {
     nh_tex_written(to);
@@ -120,5 +142,5 @@ static void end(void *to, const nh_run *run)
 }
 
 const nh_pen_ink nh_pen_tex = {begin, links, open, close, words, number, count, names, source, equation, formulas,
-                                table, table_end, plot, system_of, symmetry,
+                                table, table_end, plot, series, system_of, symmetry,
                                 geometry, glossary, end};

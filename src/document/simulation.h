@@ -1,10 +1,10 @@
-/* simulation: a simulation as CSV and as JSON (schema version 1, docs/formats.md). */
+/* simulation: a simulation as CSV, as JSON (schema version 1, docs/formats.md), as a page and as LaTeX. */
 #ifndef NH_MOTION_REPORT_H
 #define NH_MOTION_REPORT_H
 
 #include "base/json.h"
 #include "base/text.h"
-#include "document/provenance.h"
+#include "document/pen.h"
 #include "commands/simulate.h"
 
 /* The names of the columns as a table shows them, one per column, different, of letters, digits and underscores. */
@@ -12,6 +12,8 @@ const char **nh_simulation_names(const nh_simulation *simulation);
 void nh_motion_csv(const nh_simulation *simulation, nh_text *out); /* a head line, then a row per output time */
 /* A heap string (nh_free), ending in a newline; `run` may be NULL. */
 char *nh_motion_json(const nh_simulation *simulation, const nh_run *run);
+
+void nh_simulation_write(const nh_simulation *simulation, const nh_run *run, nh_pen_form form, nh_text *out);
 
 /* The member `accuracy` of a motion; null when a is NULL. */
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root);

@@ -114,13 +114,6 @@ static char *taken(nh_text *text)
     return out;
 }
 
-static char *no_document(const char *what, const char *format, const char *instead, nh_error *error)
-{
-    nh_fail(error, NH_USAGE, "", "%s cannot be written as %s", what, format);
-    nh_error_hint(error, "choose %s", instead);
-    return NULL;
-}
-
 char *nh_analysis_document(const nh_analysis *a, nh_format format, nh_error *error)
 {
     nh_text text;
@@ -139,14 +132,15 @@ static nh_run run_of(double seed) { return (nh_run){.seed = seed, .shown = shown
 
 char *nh_simulation_document(const nh_simulation *s, nh_format format, nh_error *error)
 {
+    (void)error; /* every format exists */
     nh_run  run = run_of(1);
     nh_text text;
     nh_text_init(&text);
     switch (format) {
     case NH_FORMAT_JSON: return nh_motion_json(s, &run);
-    case NH_FORMAT_HTML: nh_html_simulation(s, &run, &text); break;
+    case NH_FORMAT_HTML: nh_simulation_write(s, &run, NH_PEN_PAGE, &text); break;
     case NH_FORMAT_TEXT: nh_motion_csv(s, &text); break;
-    case NH_FORMAT_LATEX: return no_document("a simulation", "LaTeX", "text, JSON or HTML", error);
+    case NH_FORMAT_LATEX: nh_simulation_write(s, &run, NH_PEN_LATEX, &text); break;
     }
     return taken(&text);
 }
@@ -199,14 +193,15 @@ char *nh_classified_document(const nh_classified *c, nh_format format, nh_error 
 
 char *nh_benchmark_document(const nh_benchmark *b, nh_format format, nh_error *error)
 {
+    (void)error; /* every format exists */
     nh_run  run = run_of(1);
     nh_text text;
     nh_text_init(&text);
     switch (format) {
     case NH_FORMAT_JSON: return nh_benchmark_json(b, NULL, &run);
-    case NH_FORMAT_HTML: nh_html_benchmark(b, NULL, &run, &text); break;
+    case NH_FORMAT_HTML: nh_benchmark_write(b, NULL, &run, NH_PEN_PAGE, &text); break;
     case NH_FORMAT_TEXT: nh_benchmark_text(b, false, &text); break;
-    case NH_FORMAT_LATEX: return no_document("a benchmark", "LaTeX", "text, JSON or HTML", error);
+    case NH_FORMAT_LATEX: nh_benchmark_write(b, NULL, &run, NH_PEN_LATEX, &text); break;
     }
     return taken(&text);
 }
