@@ -54,14 +54,14 @@ ARCHIVES = yes
 archive  = -l$(if $(and $(filter $(if $(filter yes,$(ARCHIVES)),%,$(ARCHIVES)),$(1)),$(findstring /,$(shell $(CC) -print-file-name=lib$(1).a))),:lib$(1).a,$(1))
 libraries = -lflint $(ARB) -lgmp -lnlopt -lcjson \
             $(foreach name,sundials_cvode sundials_arkode sundials_ida sundials_nvecserial sundials_sunmatrixdense sundials_sunlinsoldense $(SUNDIALS_CORE) \
-                           gsl lapacke openblas yaml,$(call $(1),$(name))) \
+                           gsl lapacke openblas yaml expat,$(call $(1),$(name))) \
             $(if $(filter archive,$(1)),$(if $(WITHOUT_MPI),,$(MPI)) $(FORTRAN),$(MPI)) -lm
 # What OpenBLAS' archive wants.
 FORTRAN  = $(if $(findstring :,$(call archive,openblas)),-l:libgfortran.so.5)
 # Its stand-in is src/cli/archives.c.
 WITHOUT_MPI = $(and $(MPI),$(findstring :,$(call archive,sundials_core)))
 
-PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
+PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libexpat1-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
 TEST_PACKAGES = $(PACKAGES) libcriterion-dev pkg-config
 BROWSER       = chromium
 PYTHON_PACKAGES = python3-numpy python3-sympy python3-pytest python3-setuptools python3-wheel

@@ -10,7 +10,7 @@
 /* A system by name brings the analysis of that name with it; a file is taken alone. */
 static const char *analysis_of(nh_cli *cli, const char *system)
 {
-    if (cli->no_analysis || strchr(system, '/') || strstr(system, ".yaml")) return NULL;
+    if (cli->no_analysis || nh_places_is_path(system)) return NULL;
     return nh_places_look(cli->arena, "analyses", system);
 }
 
@@ -37,7 +37,7 @@ static bool request_of(nh_cli *cli, nh_analyze_request *q, nh_error *error)
         nh_fail(error, NH_USAGE, "", "`nhsym analyze` needs a system or an analysis file");
         return nh_error_hint(error, "nhsym analyze sleigh, or nhsym analyze mine.yaml");
     }
-    q->system_path = nh_places_find(cli->arena, "systems", name, error);
+    q->system_path = nh_cli_system(cli, name, error);
     if (q->system_path && !q->analysis_path) q->analysis_path = analysis_of(cli, name);
     return q->system_path != NULL;
 }

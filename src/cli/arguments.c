@@ -10,7 +10,7 @@
 #include "problem/input.h"
 
 enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
-       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name };
+       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 #define OLD(code, old, argument) {old, argument, NULL, code},
@@ -197,7 +197,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_samples: return cli->samples_given = true, nh_options_set(&cli->options, "samples", value, error);
     case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
-    case opt_threads: return nh_options_set(&cli->options, "threads", value, error);
+    case opt_threads: case opt_columns: case opt_degree: return nh_options_set(&cli->options, name_of(code), value, error);
     case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
     case opt_initial: cli->initial = value; return true;
     case opt_initial_table: cli->table = file_of(value); return true;
@@ -207,6 +207,8 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_to: cli->to = value; return true;
     case opt_input: return strchr(value, '=') ? set_input(cli, value, error) : (cli->input = value, true);
+    case opt_wheel: cli->wheel[cli->wheels++] = value; return true;
+    case opt_base: cli->base = value; return true;
     case opt_name: cli->name = value; return true;
     case opt_watch: cli->watch = value; return true;
     case opt_svg: cli->svg = value; return true;
@@ -228,8 +230,6 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_group: cli->group = value; return true;
     case opt_current: cli->current = value; return true;
     case opt_field: cli->field = value; return true;
-    case opt_columns: return nh_options_set(&cli->options, "columns", value, error);
-    case opt_degree: return nh_options_set(&cli->options, "degree", value, error);
     case opt_option: return assignment(cli, value, "option", &name, &text, error) && set_option(cli, name, text, error);
     case opt_velocities: return set_velocities(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
@@ -289,6 +289,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     cli->setting = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->setting);
     cli->operand = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->operand);
     cli->over_list = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->over_list);
+    cli->wheel = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->wheel);
     cli->number = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->number);
     cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
     nh_options_default(&cli->options);

@@ -35,7 +35,7 @@ static bool request_of(nh_cli *cli, nh_classify_request *q, nh_error *error)
     *q = (nh_classify_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting,
                                .shape = cli->shape, .options = cli->options};
     if (!read_names(cli, q, error)) return false;
-    q->system_path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
+    q->system_path = nh_cli_system(cli, cli->operand[0], error);
     return q->system_path != NULL;
 }
 

@@ -37,6 +37,8 @@ typedef struct {
     bool project, weak;
     const char *watch;           /* of simulate */
     const char *over;            /* of benchmark and classify: the last --over */
+    size_t wheels;
+    const char **wheel, *base;   /* --wheel, each; --base */
     size_t overs, numbers;
     const char **over_list, **number; /* of scan: every --over, every --number */
     const char *of;              /* of verify --field (constraint, equations), scan and export */
@@ -85,6 +87,9 @@ void nh_cli_progress_end(void);
 void nh_cli_guard_begin(double seconds);
 void nh_cli_guard_writing(void);
 
+
+/* The file of a system by name or path, with --wheel and --base; notes of the file go to standard error. */
+const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error);
 
 /* To repeat this command. */
 nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analysis_path);

@@ -10,6 +10,8 @@ bool nh_word_among(const char *words, const char *word);
 /*    code           name           argument            shown as             of the commands      meaning */
 #define NH_CLI_OPTION_TABLE(X)                                                                                                                                     \
     X(opt_set,         "set",         required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan export", "set a parameter; repeatable")      \
+    X(opt_wheel,       "wheel",       required_argument, "LINK[=RADIUS]",      "analyze verify simulate benchmark reduce classify scan export show", "robots: this link rolls on the plane z = 0; repeatable") \
+    X(opt_base,        "base",        required_argument, "fixed|planar|floating", "analyze verify simulate benchmark reduce classify scan export show", "robots: how the root link is carried; planar with wheels, else fixed") \
     X(opt_analysis,    "analysis",    required_argument, "FILE",               "analyze simulate benchmark", "read ansatz and motion from this analysis file")                              \
     X(opt_no_analysis, "no-analysis", no_argument,       "",                   "analyze simulate benchmark", "ignore analysis files; the program chooses ansatz and motion")     \
     X(opt_velocities, "velocities",  required_argument, "auto|quasi|coordinates", "analyze verify simulate benchmark export", "velocities of the computation")                  \
@@ -85,7 +87,7 @@ const char *nh_cli_command_near(const char *word);
     X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
     X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
     X(list,     "",            "list the available systems", "nhsym list")                                                                                  \
-    X(show,     "SYSTEM",      "print a system file", "nhsym show sleigh")                                                                                   \
+    X(show,     "SYSTEM|FILE", "print a system file, of a robot description the one it stands for", "nhsym show sleigh")                                                                                   \
     X(new,      "NAME",        "write NAME.yaml, an example system to edit", "nhsym new skate")                                                           \
     X(explain,  "[TOPIC]",     "define a word of the report", "nhsym explain gap")                                                                 \
     X(version,  "",            "print the version", "nhsym version")                                                                                         \

@@ -24,7 +24,7 @@ static bool request_of(nh_cli *cli, nh_export_request *q, nh_export_target *targ
                              .input = cli->input,
                              .options = cli->options};
     if (!nh_export_target_of(cli->to, target, error)) return false;
-    q->system_path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
+    q->system_path = nh_cli_system(cli, cli->operand[0], error);
     return q->system_path != NULL;
 }
 

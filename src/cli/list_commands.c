@@ -1,7 +1,7 @@
 /* list_commands: the commands that need no computation. */
 #include <string.h>
 
-#include "system/deck.h"
+#include "system/deck_build.h"
 #include "base/escape.h"
 #include "base/files.h"
 #include "cli/cli.h"
@@ -33,6 +33,23 @@ int nh_cli_list(nh_cli *cli, nh_error *error)
     return NH_INPUT;
 }
 
+/* A robot description, or what the command line completes, as the system file that it stands for. */
+static int show_whole(const char *path, nh_error *error)
+{
+    nh_deck *deck = nh_system_deck(path, error);
+    if (!deck) return error->code;
+    nh_text text, safe;
+    nh_text_init(&text);
+    nh_text_init(&safe);
+    nh_deck_print(nh_deck_root(deck), &text);
+    nh_escape_terminal(nh_text_string(&text), &safe);
+    fputs(nh_text_string(&safe), stdout);
+    nh_text_clear(&safe);
+    nh_text_clear(&text);
+    nh_deck_free(deck);
+    return NH_OK;
+}
+
 int nh_cli_show(nh_cli *cli, nh_error *error)
 {
     if (cli->operands != 1) {
@@ -40,12 +57,15 @@ int nh_cli_show(nh_cli *cli, nh_error *error)
         nh_error_hint(error, "nhsym show sleigh");
         return NH_USAGE;
     }
-    const char *path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
+    const char *path = nh_cli_system(cli, cli->operand[0], error);
     if (!path) return error->code;
+    if (cli->wheels || cli->base) return show_whole(path, error);
     size_t length;
     char *text = nh_files_read(path, NH_DECK_SIZE_LIMIT, &length, error);
     if (!text) return error->code;
     if (length > NH_DECK_SIZE_LIMIT) nh_fail(error, NH_INPUT, path, "the file is larger than %d MiB", NH_DECK_SIZE_LIMIT >> 20);
+    size_t blank = strspn(text, " \t\r\n");
+    if (error->code == NH_OK && text[blank] == '<') return nh_free(text), show_whole(path, error);
     nh_text shown;
     nh_text_init(&shown);
     nh_text_add_n(&shown, text, length);

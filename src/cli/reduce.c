@@ -16,7 +16,7 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
     *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .inner = cli->inner, .accuracy = cli->accuracy, .equations = cli->equations, .options = cli->options};
     nh_export_target target;
     if (cli->to && !nh_export_target_of(cli->to, &target, error)) return false;
-    q->system_path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
+    q->system_path = nh_cli_system(cli, cli->operand[0], error);
     return q->system_path != NULL;
 }
 

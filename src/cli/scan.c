@@ -21,7 +21,7 @@ static bool request_of(nh_cli *cli, nh_scan_request *q, nh_scan_source *source, 
                                                                                               : "into which folder?");
         return nh_error_hint(error, "%s", example);
     }
-    const char *path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
+    const char *path = nh_cli_system(cli, cli->operand[0], error);
     *q = (nh_scan_request){.system_path = path, .settings = cli->settings, .setting = cli->setting, .axes = cli->overs,
                            .over = cli->over_list, .source = source, .options = cli->options, .program = nh_cli_program(),
                            .folder = cli->folder, .chunk = cli->chunk, .chunks = cli->chunks, .workers = cli->workers,

@@ -13,10 +13,10 @@ bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request
     const char *name = cli->operand[0];
     *q = (nh_simulate_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .step = cli->step, .watch = cli->watch, .scene = cli->scene, .method = cli->method, .accuracy = cli->accuracy, .ensemble = cli->ensemble, .spread = cli->spread > 0 ? cli->spread : 0.1, .project = cli->project, .draw = cli->html || cli->tex,
                                .until_given = cli->until_given, .tolerance_given = cli->tolerance_given, .options = cli->options};
-    q->system_path = nh_places_find(cli->arena, "systems", name, error);
+    q->system_path = nh_cli_system(cli, name, error);
     if (!q->system_path) return false;
     if (cli->analysis) return (q->analysis_path = nh_places_find(cli->arena, "analyses", cli->analysis, error)) != NULL;
-    if (!cli->no_analysis && !strchr(name, '/') && !strstr(name, ".yaml")) q->analysis_path = nh_places_look(cli->arena, "analyses", name);
+    if (!cli->no_analysis && !nh_places_is_path(name)) q->analysis_path = nh_places_look(cli->arena, "analyses", name);
     return true;
 }
 

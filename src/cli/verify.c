@@ -19,7 +19,7 @@ static bool ask(nh_cli *cli, nh_run *run, nh_verification **out, nh_error *error
         nh_fail(error, NH_USAGE, "", "--of needs --field");
         return nh_error_hint(error, "for example: --field \"Z0=1\" --of equations");
     }
-    const char *path = nh_places_find(cli->arena, "systems", cli->operand[0], error);
+    const char *path = nh_cli_system(cli, cli->operand[0], error);
     if (path) *run = nh_cli_run(cli, path, NULL);
     nh_system *system = path ? nh_system_read(path, cli->settings, cli->setting, error) : NULL;
     if (!system) return false;

@@ -133,7 +133,7 @@ static bool open_problem(nh_problem *p, nh_error *error)
     if (!read_parameters(p, error) || !read_velocities(p, error) || (q->method && !nh_method_given(q->method, &p->method, error))) return false;
     p->system_path = source(p, "systems", q->system, q->system_text, error);
     if (!p->system_path) return false;
-    bool named = !q->system_text && !strchr(q->system, '/') && !strstr(q->system, ".yaml");
+    bool named = !q->system_text && !nh_places_is_path(q->system);
     if (q->no_analysis) p->analysis_path = NULL;
     else if (q->analysis || q->analysis_text) p->analysis_path = source(p, "analyses", q->analysis, q->analysis_text, error);
     else if (named) p->analysis_path = nh_places_look(p->arena, "analyses", q->system);

@@ -28,7 +28,7 @@ static char *file_of_code(nh_arena *arena)
 /* In a folder of both kinds: a file of the other? One that cannot be read is what it is asked for, and its mistakes are told. */
 static bool is_of_kind(const char *file, const char *kind)
 {
-    static const char *const of_systems[] = {"coordinates", "lagrangian", "bodies", "include"};
+    static const char *const of_systems[] = {"coordinates", "lagrangian", "bodies", "include", "urdf"};
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_deck *deck = nh_deck_read(file, &ignored);
@@ -69,10 +69,21 @@ static size_t places(nh_arena *arena, const char *kind, place *out)
     return n;
 }
 
+bool nh_places_is_path(const char *name)
+{
+    static const char *const endings[] = {".yaml", ".urdf", ".xml"};
+    size_t length = strlen(name);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        size_t n = strlen(endings[i]);
+        if (length > n && !strcmp(name + length - n, endings[i])) return true;
+    }
+    return strchr(name, '/') != NULL;
+}
+
 const char *nh_places_look(nh_arena *arena, const char *kind, const char *name)
 {
     place where[most_places] = {{NULL, false}};
-    if (strchr(name, '/') || (strlen(name) > 5 && !strcmp(name + strlen(name) - 5, ".yaml"))) return access(name, F_OK) ? NULL : name;
+    if (nh_places_is_path(name)) return access(name, F_OK) ? NULL : name;
     size_t n = places(arena, kind, where);
     for (size_t i = 0; i < n; i++) {
         const char *file = nh_arena_printf(arena, "%s/%s.yaml", where[i].folder, name);
@@ -116,7 +127,7 @@ const char *nh_places_find(nh_arena *arena, const char *kind, const char *name, 
 {
     const char *found = nh_places_look(arena, kind, name);
     if (found) return found;
-    if (strchr(name, '/') || strstr(name, ".yaml")) {
+    if (nh_places_is_path(name)) {
         nh_fail(error, NH_INPUT, name, "there is no such file");
         if (!strcmp(kind, "systems")) nh_error_hint(error, "`nhsym list` lists the available systems; `nhsym new skate` writes an example");
         return NULL;

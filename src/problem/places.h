@@ -10,6 +10,8 @@
 const char *nh_places_find(nh_arena *arena, const char *kind, const char *name, nh_error *error);
 /* The same without complaint. */
 const char *nh_places_look(nh_arena *arena, const char *kind, const char *name);
+/* Is this word the path of a file, and not a name? */
+bool nh_places_is_path(const char *word);
 /* All names of that kind, sorted, each once. */
 size_t nh_places_names(nh_arena *arena, const char *kind, const char ***names);
 

@@ -118,6 +118,7 @@ static const nh_deck_node *without(nh_arena *arena, const nh_deck_node *map, con
 static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error *error)
 {
     if (prepare && !prepare(deck, error)) return false;
+    if (!nh_deck_rename(deck, deck->root, "urdf", "include", error)) return false; /* a robot description is a file like others */
     const nh_deck_node *node = nh_deck_get(deck->root, "include");
     if (!node) return true;
     if (!nh_deck_is(deck, node, NH_DECK_SCALAR, "the name of a file", error)) return false;

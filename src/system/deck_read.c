@@ -1,4 +1,4 @@
-/* deck_read: from a file through libyaml's events to the tree of a deck. */
+/* deck_read: from a file through libyaml's events to the tree of a deck; robot descriptions in XML by urdf.c. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,6 +6,8 @@
 
 #include "system/deck_internal.h"
 #include "system/deck_yaml.h"
+#include "system/urdf.h"
+#include "system/xml.h"
 #include "base/escape.h"
 #include "base/files.h"
 
@@ -331,7 +333,7 @@ nh_deck *nh_deck_parse(const char *name, const char *text, size_t length, nh_err
     if (!check_bytes(name, text, length, error))
         return NULL;
     nh_deck *deck = nh_deck_create(name, text, length);
-    if (nh_deck_check_text(deck, error) && build(deck, error))
+    if (nh_deck_check_text(deck, error) && (nh_xml_looks(deck) ? (deck->root = nh_urdf_read(deck, error)) != NULL : build(deck, error)))
         return deck;
     nh_deck_free(deck);
     return NULL;

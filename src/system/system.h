@@ -78,6 +78,8 @@ typedef struct {
     nh_dag *dag;
     nh_deck *deck;
     const char *name, *title, *source;
+    const nh_deck_node *notes; /* texts for the user, or NULL: what was left out of a robot description or taken for something else */
+    size_t note_count;
     nh_ex t;
     size_t parameters, coordinates, constraints, definitions, intervals, currents, not_conserved;
     nh_parameter *parameter;
@@ -109,6 +111,8 @@ typedef struct {
 /* Read a system file; `settings` override parameter values.  NULL on failure. */
 nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error);
 nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting, nh_error *error);
+/* The tree of a file with all that it includes, completed as system/robot.h says. */
+nh_deck *nh_system_deck(const char *path, nh_error *error);
 void nh_system_free(nh_system *system);
 
 /* The closed forms that the file knows, in memory of the system: false only where one contains a definition that is no function of t. */

@@ -7,6 +7,7 @@
 #include "graph/diff.h"
 #include "graph/parse.h"
 #include "system/reach.h"
+#include "system/robot.h"
 #include "system/system_internal.h"
 #include "system/units.h"
 
@@ -14,7 +15,7 @@ typedef nh_system_reader reader;
 
 static const char *const top_keys[] = {"name", "title", "source", "parameters", "coordinates", "definitions", "lagrangian",
                                        "constraints", "dependent", "velocities", "forces", "domain", "known", "doc",
-                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw", "robustness"};
+                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw", "robustness", "include", "urdf", "base", "notes"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 void *nh_system_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
@@ -389,6 +390,7 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)", r->error)) return false;
     if (!nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
     const char *doc; /* for the reader of the file */
+    if (!nh_system_list_of(r, r->root, "notes", &s->notes, &s->note_count)) return false;
     if (!nh_system_text_of(r, r->root, "name", "system", &s->name) || !nh_system_text_of(r, r->root, "title", s->name, &s->title)) return false;
     if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc)) return false;
     s->t = nh_symbol(s->dag, "t");
@@ -410,12 +412,18 @@ static bool rename_old_keys(nh_deck *deck, nh_error *error)
     return true;
 }
 
+/* The deck, or NULL where it could not be completed. */
+static nh_deck *whole(nh_deck *deck, nh_error *error)
+{
+    if (deck && nh_deck_include(deck, rename_old_keys, error) && nh_robot_complete(deck, error)) return deck;
+    nh_deck_free(deck);
+    return NULL;
+}
+
+nh_deck *nh_system_deck(const char *path, nh_error *error) { return whole(nh_deck_read(path, error), error); }
+
 static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *setting, nh_error *error)
 {
-    if (deck && !nh_deck_include(deck, rename_old_keys, error)) {
-        nh_deck_free(deck);
-        return NULL;
-    }
     if (!deck) return NULL;
     nh_arena *arena = nh_arena_create();
     nh_system *s = nh_arena_alloc(arena, sizeof *s);
@@ -433,10 +441,10 @@ static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *se
 
 nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error)
 {
-    return read_deck(nh_deck_read(path, error), settings, setting, error);
+    return read_deck(nh_system_deck(path, error), settings, setting, error);
 }
 
 nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting, nh_error *error)
 {
-    return read_deck(nh_deck_parse(name, text, strlen(text), error), settings, setting, error);
+    return read_deck(whole(nh_deck_parse(name, text, strlen(text), error), error), settings, setting, error);
 }

@@ -13,10 +13,22 @@ from .formula import text_of
 from .results import Analysis, Benchmark, Classification, Reduction, Simulation, Verification, _arrays
 
 
-def system(source, **settings):
-    """The system of this name ("sleigh"), of this file (a path, or a name that ends in .yaml), or of this text (of several lines).
+def _robot(source, wheels, base):
+    """The text of a file that includes this one and names wheels, ["left", "right"] or {"left": 0.1, "right": None}, and the kind of the base."""
+    path = os.path.abspath(os.fspath(source))
+    entries = wheels.items() if hasattr(wheels, "items") else [(wheel, None) for wheel in ([wheels] if isinstance(wheels, str) else wheels or ())]
+    content = {"include": path, "wheels": [link if radius is None else {"body": link, "radius": radius} for link, radius in entries], "base": base}
+    return "".join("%s: %s\n" % (key, json.dumps(value, ensure_ascii=False)) for key, value in content.items() if value)
+
+
+def system(source, *, wheels=None, base=None, **settings):
+    """The system of this name ("sleigh"), of this file (a path, or a name that ends in .yaml or .urdf), or of this text (of several lines).
+
+    Of a robot description: wheels=["left", "right"] or {"left": 0.1} (with radius), base="fixed", "planar" or "floating".
 
     Settings: set={"m": 2}, velocities="quasi", analysis="file.yaml" (or a text; False: none), options={"seed": 3}."""
+    if wheels or base:
+        return System(_question={"system": os.path.basename(os.fspath(source)), "system_text": _robot(source, wheels, base)}, **settings)
     if isinstance(source, os.PathLike):
         path = os.fspath(source)
         return System(_question={"system": path if "/" in path else "./" + path}, **settings)

@@ -12,6 +12,26 @@ t = sympy.Symbol("t")
 OSCILLATOR = "name: spring\nparameters: [{name: m, value: 2}, {name: k, value: 8}]\ncoordinates: [x]\nlagrangian: m*x'^2/2 - k*x^2/2\n"
 
 
+ROBOT = """<robot name="cart"><link name="body"><inertial><mass value="3"/><inertia ixx="0.1" iyy="0.1" izz="0.2"/></inertial></link>
+  <link name="left"><inertial><mass value="1"/><inertia ixx="0.003" iyy="0.005" izz="0.003"/></inertial></link>
+  <joint name="turn" type="continuous"><origin xyz="0 0.3 0"/><parent link="body"/><child link="left"/><axis xyz="0 1 0"/></joint></robot>"""
+
+
+def test_robot_descriptions(tmp_path):
+    file = tmp_path / "cart.urdf"
+    file.write_text(ROBOT)
+    assert nhsym.system(file).coordinates == ("turn",)
+    rolling = nhsym.system(file, wheels={"left": 0.1})
+    assert rolling.coordinates == ("turn", "x", "y", "heading")
+    assert rolling.parameters["mass_body"] == 3
+    motion = rolling.simulate(initial={"turn'": 2}, until=1, step=1)
+    assert abs(motion.table["x"][-1] - 0.2) < 1e-9
+    with pytest.raises(nhsym.InputError, match="did you mean `left`"):
+        nhsym.system(file, wheels=["leeft"])
+    with pytest.raises(nhsym.InputError, match="needs a radius"):
+        nhsym.system(str(file), wheels=["left"], base="planar")
+
+
 def test_by_name_file_and_text(tmp_path):
     file = tmp_path / "mine.yaml"
     file.write_text(OSCILLATOR)

@@ -1,0 +1,127 @@
+/* deck_build: see deck_build.h. */
+#include "system/deck_build.h"
+
+#include <string.h>
+
+nh_deck_node *nh_deck_new(nh_deck *deck, nh_deck_kind kind, size_t begin, size_t end)
+{
+    nh_deck_node *node = nh_arena_alloc(deck->arena, sizeof *node);
+    *node = (nh_deck_node){.kind = kind, .text = "", .plain = true, .begin = begin, .end = end, .deck = deck};
+    nh_deck_place(deck, begin, &node->line, &node->column);
+    return node;
+}
+
+nh_deck_node *nh_deck_word(nh_deck *deck, const char *text, size_t begin, size_t end)
+{
+    nh_deck_node *node = nh_deck_new(deck, NH_DECK_SCALAR, begin, end);
+    node->text = nh_arena_strdup(deck->arena, text);
+    return node;
+}
+
+nh_deck_node *nh_deck_new_at(nh_deck *deck, nh_deck_kind kind, const nh_deck_node *place)
+{
+    nh_deck_node *node = nh_deck_new(deck, kind, 0, 0);
+    if (!place) return node;
+    *node = *place;
+    node->kind = kind;
+    node->text = "";
+    node->plain = true;
+    node->count = 0;
+    node->item = node->key = NULL;
+    return node;
+}
+
+nh_deck_node *nh_deck_word_at(nh_deck *deck, const char *text, const nh_deck_node *place)
+{
+    nh_deck_node *node = nh_deck_new_at(deck, NH_DECK_SCALAR, place);
+    node->text = nh_arena_strdup(deck->arena, text);
+    return node;
+}
+
+/* Room for one more: it doubles whenever the count is a power of two. */
+static void make_room(nh_deck *deck, const nh_deck_node ***array, size_t count)
+{
+    if (count & (count - 1)) return;
+    const nh_deck_node **more = nh_arena_alloc(deck->arena, (2 * count + 1) * sizeof *more);
+    if (count) memcpy(more, *array, count * sizeof *more);
+    *array = more;
+}
+
+void nh_deck_append(nh_deck *deck, nh_deck_node *list, const nh_deck_node *item)
+{
+    make_room(deck, &list->item, list->count);
+    list->item[list->count++] = item;
+}
+
+void nh_deck_put(nh_deck *deck, nh_deck_node *map, const char *key, const nh_deck_node *value)
+{
+    make_room(deck, &map->key, map->count);
+    map->key[map->count] = nh_deck_word_at(deck, key, value);
+    nh_deck_append(deck, map, value);
+}
+
+nh_deck_node *nh_deck_copy(nh_deck *deck, const nh_deck_node *node, const char *without)
+{
+    nh_deck_node *copy = nh_deck_new_at(deck, node->kind, node);
+    copy->text = node->text;
+    for (size_t i = 0; i < node->count; i++) {
+        if (node->kind == NH_DECK_LIST) nh_deck_append(deck, copy, node->item[i]);
+        else if (!without || strcmp(node->key[i]->text, without)) {
+            nh_deck_put(deck, copy, node->key[i]->text, node->item[i]);
+            copy->key[copy->count - 1] = node->key[i];
+        }
+    }
+    return copy;
+}
+
+/* ---- as YAML ---- */
+
+/* In quotes unless it is one word that YAML leaves alone. */
+static void print_word(const char *text, nh_text *out)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-*/^()";
+    bool bare = text[0] && !text[strspn(text, plain)] && !strchr("*-/.^)+", text[0]);
+    if (bare || nh_text_is_number(text)) {
+        nh_text_add(out, text);
+        return;
+    }
+    nh_text_add(out, "\"");
+    for (const char *c = text; *c; c++)
+        if (*c == '"' || *c == '\\') nh_text_addf(out, "\\%c", *c);
+        else if (*c == '\n') nh_text_add(out, "\\n");
+        else nh_text_add_n(out, c, 1);
+    nh_text_add(out, "\"");
+}
+
+static void print_flow(const nh_deck_node *node, nh_text *out)
+{
+    bool map = node->kind == NH_DECK_MAP;
+    if (node->kind == NH_DECK_SCALAR) {
+        print_word(node->text, out);
+        return;
+    }
+    nh_text_add(out, map ? "{" : "[");
+    for (size_t i = 0; i < node->count; i++) {
+        if (i) nh_text_add(out, ", ");
+        if (map) print_word(node->key[i]->text, out);
+        if (map) nh_text_add(out, ": ");
+        print_flow(node->item[i], out);
+    }
+    nh_text_add(out, map ? "}" : "]");
+}
+
+void nh_deck_print(const nh_deck_node *root, nh_text *out)
+{
+    for (size_t i = 0; i < root->count; i++) {
+        const nh_deck_node *value = root->item[i];
+        bool lines = value->kind == NH_DECK_LIST && value->count;
+        nh_text_addf(out, "%s:%s", root->key[i]->text, lines ? "\n" : " ");
+        for (size_t j = 0; lines && j < value->count; j++) {
+            nh_text_add(out, "  - ");
+            print_flow(value->item[j], out);
+            nh_text_add(out, "\n");
+        }
+        if (!lines) print_flow(value, out);
+        if (!lines) nh_text_add(out, "\n");
+    }
+}

@@ -1,0 +1,210 @@
+/* robot: see robot.h. */
+#include "system/robot.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "system/deck_build.h"
+#include "system/urdf.h"
+
+enum { height_size = 40 };
+
+typedef struct {
+    nh_deck *deck;
+    nh_error *error;
+    const nh_deck_node *root, *bodies, *joints, *rims; /* of the file; rims: NULL where no robot description takes part */
+    nh_deck_node *wheels, *notes;
+} reader;
+
+static const char *text_of(const nh_deck_node *map, const char *key)
+{
+    const nh_deck_node *node = nh_deck_get(map, key);
+    return node && node->kind == NH_DECK_SCALAR ? node->text : "";
+}
+
+/* The entry of a list whose `key` is this word, or NULL. */
+static const nh_deck_node *entry(const nh_deck_node *list, const char *key, const char *word)
+{
+    for (size_t i = 0; list && list->kind == NH_DECK_LIST && i < list->count; i++)
+        if (!strcmp(text_of(list->item[i], key), word)) return list->item[i];
+    return NULL;
+}
+
+static void note(reader *r, const nh_deck_node *place, const char *text)
+{
+    nh_deck_append(r->deck, r->notes, nh_deck_word_at(r->deck, nh_arena_printf(r->deck->arena, "%s:%zu: %s", place->deck->name, place->line, text), place));
+}
+
+/* ---- wheels ---- */
+
+/* What the robot description and the body's joint say, where the entry itself says nothing. */
+static bool fill(reader *r, const nh_deck_node *item, nh_deck_node *wheel, const char *body)
+{
+    const nh_deck_node *joint = entry(r->joints, "child", body), *rim = nh_deck_get(r->rims, body), *axis = nh_deck_get(joint, "axis"), *place = item;
+    bool turns = !strcmp(text_of(joint, "type"), "revolute");
+    if (item->kind == NH_DECK_MAP) place = nh_deck_get(item, "body");
+    if (!turns && !nh_deck_get(wheel, "axle")) {
+        nh_deck_fail(r->deck, place, 0, r->error, "`%s` cannot be a wheel: no joint turns it about an axis", body);
+        return nh_error_hint(r->error, "for a ball write {type: ball, body: %s, radius: ..}", body);
+    }
+    if (!nh_deck_get(wheel, "type")) nh_deck_put(r->deck, wheel, "type", nh_deck_word_at(r->deck, "rolling", place));
+    if (!nh_deck_get(wheel, "axle")) nh_deck_put(r->deck, wheel, "axle", axis ? axis : nh_deck_word_at(r->deck, "z", place));
+    if (!nh_deck_get(wheel, "at") && nh_deck_get(rim, "at") && !nh_deck_get(wheel, "radius")) nh_deck_put(r->deck, wheel, "at", nh_deck_get(rim, "at"));
+    if (nh_deck_get(wheel, "radius")) return true;
+    if (nh_deck_get(rim, "radius")) return nh_deck_put(r->deck, wheel, "radius", nh_deck_get(rim, "radius")), true;
+    const char *why = text_of(rim, "why");
+    nh_deck_fail(r->deck, place, 0, r->error, "the wheel `%s` needs a radius%s%s", body, *why ? ": " : "", why);
+    return nh_error_hint(r->error, "write {body: %s, radius: 0.1} under `wheels:`, or --wheel %s=0.1", body, body);
+}
+
+static bool known_body(reader *r, const nh_deck_node *word, const char *body)
+{
+    const char **names = nh_arena_alloc(r->deck->arena, (r->bodies->count + 1) * sizeof *names);
+    for (size_t i = 0; i < r->bodies->count; i++) {
+        names[i] = text_of(r->bodies->item[i], "name");
+        if (!strcmp(names[i], body)) return true;
+    }
+    nh_deck_fail(r->deck, word, 0, r->error, "there is no body `%s`", word->text);
+    const char *near = nh_text_nearest(body, names, r->bodies->count);
+    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : nh_error_hint(r->error, "a wheel is a body that a joint turns");
+}
+
+/* An entry that is only a name, or of a body with a circle; others stay as they are. */
+static bool read_wheel(reader *r, const nh_deck_node *item)
+{
+    const nh_deck_node *word = item->kind == NH_DECK_SCALAR ? item : nh_deck_get(item, "body");
+    const char *type = text_of(item, "type");
+    bool short_form = item->kind == NH_DECK_SCALAR || (word && word->kind == NH_DECK_SCALAR && r->rims && (!*type || !strcmp(type, "rolling")));
+    if (!short_form) return nh_deck_append(r->deck, r->wheels, item), true;
+    const char *body = word->text, *converted = nh_urdf_name(r->deck->arena, word->text);
+    if (!entry(r->bodies, "name", body) && entry(r->bodies, "name", converted)) body = converted;
+    nh_deck_node *wheel = item->kind == NH_DECK_MAP ? nh_deck_copy(r->deck, item, "body") : nh_deck_new_at(r->deck, NH_DECK_MAP, item);
+    nh_deck_put(r->deck, wheel, "body", nh_deck_word_at(r->deck, body, word));
+    nh_deck_append(r->deck, r->wheels, wheel);
+    return known_body(r, word, body) && fill(r, item, wheel, body);
+}
+
+/* ---- what carries the root ---- */
+
+/* The height of the root's origin at which the wheels touch the plane z = 0: that of the first; others are compared with it. */
+static bool height_of(reader *r, char out[height_size])
+{
+    const double close = 1e-6;
+    double height = NAN;
+    for (size_t i = 0; i < r->wheels->count; i++) {
+        const nh_deck_node *rim = nh_deck_get(r->rims, text_of(r->wheels->item[i], "body"));
+        double radius, centre;
+        if (!nh_text_to_number(text_of(r->wheels->item[i], "radius"), &radius) || !nh_text_to_number(text_of(rim, "height"), &centre)) continue;
+        if (isnan(height)) height = radius - centre;
+        if (fabs(radius - centre - height) > close * (fabs(radius) + fabs(centre)))
+            note(r, r->wheels->item[i], nh_arena_printf(r->deck->arena, "the wheel `%s` does not touch the plane where the first one does: it is %.3g off",
+                                                        text_of(r->wheels->item[i], "body"), fabs(radius - centre - height)));
+    }
+    snprintf(out, height_size, "%.12g", height);
+    return !isnan(height) && strtod(out, NULL) != 0;
+}
+
+/* x, y, heading, unless another joint has one of these names. */
+static void put_coordinates(reader *r, nh_deck_node *joint, size_t count, const char *const *names, const nh_deck_node *place)
+{
+    const nh_deck_node *parameters = nh_deck_get(r->root, "parameters");
+    nh_deck_node *list = nh_deck_new_at(r->deck, NH_DECK_LIST, place);
+    for (size_t i = 0; i < count; i++) {
+        if (entry(r->joints, "name", names[i]) || entry(parameters, "name", names[i])) return;
+        nh_deck_append(r->deck, list, nh_deck_word_at(r->deck, names[i], place));
+    }
+    nh_deck_put(r->deck, joint, "coordinates", list);
+}
+
+/* The only body that no joint carries. */
+static const nh_deck_node *root_body(reader *r, size_t *count)
+{
+    const nh_deck_node *found = NULL;
+    *count = 0;
+    for (size_t i = 0; i < r->bodies->count; i++) {
+        if (entry(r->joints, "child", text_of(r->bodies->item[i], "name"))) continue;
+        if (++*count == 1) found = nh_deck_get(r->bodies->item[i], "name");
+        else if (*count == 2 && found)
+            nh_deck_fail(r->deck, nh_deck_get(r->bodies->item[i], "name"), 0, r->error, "no joint has `%s` as its child, and neither `%s`",
+                         text_of(r->bodies->item[i], "name"), found->text);
+    }
+    if (*count > 1) nh_error_hint(r->error, "one body carries all others: connect them by joints");
+    return *count == 1 ? found : NULL;
+}
+
+static bool base_type(reader *r, const nh_deck_node *base, const nh_deck_node *body, const char **out)
+{
+    static const char *const words[] = {"fixed", "planar", "floating"};
+    bool rolls = r->wheels->count > 0 && strcmp(body->text, "world");
+    *out = base ? base->text : rolls ? "planar" : "fixed";
+    if (base && !nh_deck_is(r->deck, base, NH_DECK_SCALAR, "base", r->error)) return false;
+    for (int i = 0; i < 3; i++)
+        if (!strcmp(*out, words[i])) return true;
+    nh_deck_fail(r->deck, base, 0, r->error, "`%s` is not a kind of base; expected fixed, planar or floating", *out);
+    const char *near = nh_text_nearest(*out, words, 3);
+    return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
+}
+
+/* A joint `base` between the ground and the root; NULL where it is not needed, or with a message. */
+static const nh_deck_node *base_joint(reader *r, const nh_deck_node *base)
+{
+    static const char *const plane[] = {"x", "y", "heading"}, *const space[] = {"x", "y", "z", "yaw", "pitch", "roll"};
+    size_t roots;
+    const char *type;
+    char height[height_size];
+    const nh_deck_node *body = root_body(r, &roots);
+    if (roots == 0 && base) {
+        nh_deck_fail(r->deck, base, 0, r->error, "`base` has nothing to carry: every body has a joint");
+        return NULL;
+    }
+    if (!body || !base_type(r, base, body, &type)) return NULL;
+    nh_deck_node *joint = nh_deck_new_at(r->deck, NH_DECK_MAP, body);
+    const char *kind = !strcmp(type, "floating") ? "free" : type;
+    nh_deck_put(r->deck, joint, "name", nh_deck_word_at(r->deck, entry(r->joints, "name", "base") ? "base_joint" : "base", body));
+    nh_deck_put(r->deck, joint, "type", nh_deck_word_at(r->deck, kind, body));
+    nh_deck_put(r->deck, joint, "child", body);
+    if (!strcmp(kind, "planar") && height_of(r, height)) {
+        nh_deck_node *at = nh_deck_new_at(r->deck, NH_DECK_LIST, body);
+        for (int i = 0; i < 3; i++) nh_deck_append(r->deck, at, nh_deck_word_at(r->deck, i == 2 ? height : "0", body));
+        nh_deck_put(r->deck, joint, "at", at);
+    }
+    if (!strcmp(kind, "planar")) put_coordinates(r, joint, 3, plane, body);
+    if (!strcmp(kind, "free")) put_coordinates(r, joint, 6, space, body);
+    return joint;
+}
+
+/* ---- all of it ---- */
+
+static nh_deck_node *list_under(reader *r, const char *key)
+{
+    const nh_deck_node *node = nh_deck_get(r->root, key);
+    return node && node->kind == NH_DECK_LIST ? nh_deck_copy(r->deck, node, NULL) : nh_deck_new_at(r->deck, NH_DECK_LIST, r->root);
+}
+
+bool nh_robot_complete(nh_deck *deck, nh_error *error)
+{
+    static const char *const made[] = {"wheels", "joints", "notes", "base", NH_URDF_RIMS};
+    reader r = {.deck = deck, .error = error, .root = deck->root};
+    const nh_deck_node *base = nh_deck_get(r.root, "base"), *wheels = nh_deck_get(r.root, "wheels"), *carrying = NULL;
+    r.bodies = nh_deck_get(r.root, "bodies");
+    r.joints = nh_deck_get(r.root, "joints");
+    r.rims = nh_deck_get(r.root, NH_URDF_RIMS);
+    if (base && !r.bodies) return nh_deck_fail(deck, base, 0, error, "`base` needs `bodies:`, but the file has none");
+    if (!r.bodies || r.bodies->kind != NH_DECK_LIST || (wheels && wheels->kind != NH_DECK_LIST) || (r.joints && r.joints->kind != NH_DECK_LIST)) return true;
+    r.wheels = nh_deck_new_at(deck, NH_DECK_LIST, wheels ? wheels : r.root);
+    r.notes = list_under(&r, "notes");
+    for (size_t i = 0; wheels && i < wheels->count; i++)
+        if (!read_wheel(&r, wheels->item[i])) return false;
+    if (base || r.rims) carrying = base_joint(&r, base);
+    if (error->code != NH_OK) return false;
+    nh_deck_node *root = nh_deck_copy(deck, r.root, NULL), *joints = list_under(&r, "joints");
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++) root = nh_deck_copy(deck, root, made[i]);
+    if (carrying) nh_deck_append(deck, joints, carrying);
+    if (r.joints || carrying) nh_deck_put(deck, root, "joints", joints);
+    if (wheels) nh_deck_put(deck, root, "wheels", r.wheels);
+    if (r.notes->count) nh_deck_put(deck, root, "notes", r.notes);
+    deck->root = root;
+    return true;
+}

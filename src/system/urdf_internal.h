@@ -1,0 +1,43 @@
+/* urdf_internal: shared by urdf.c (links and joints) and urdf_values.c (numbers, places, circles). */
+#ifndef NH_URDF_INTERNAL_H
+#define NH_URDF_INTERNAL_H
+
+#include "system/deck_build.h"
+#include "system/urdf.h"
+#include "system/xml.h"
+
+typedef struct {
+    double p[3], R[9]; /* a position and a rotation, row by row */
+} nh_urdf_pose;
+
+typedef struct {
+    nh_deck *deck;
+    nh_error *error;
+    nh_deck_node *notes; /* what was left out or taken for something else */
+} nh_urdf_reader;
+
+bool nh_urdf_fail(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void nh_urdf_note(nh_urdf_reader *u, size_t at, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Refuse attributes and, unless `children` is NULL, child elements that are not among these words (blanks between them); other elements are noted where they
+ * resemble none of them.  `ignored`: children without a meaning here. */
+bool nh_urdf_only(nh_urdf_reader *u, const nh_xml *element, const char *attributes, const char *children, const char *ignored);
+
+/* The attribute, which must be there. */
+const nh_xml_attribute *nh_urdf_need(nh_urdf_reader *u, const nh_xml *element, const char *name);
+/* Its numbers, exactly `count`; `words` (or NULL) gets them as they are written. */
+bool nh_urdf_numbers(nh_urdf_reader *u, const nh_xml_attribute *a, size_t count, double *value, nh_deck_node *words);
+/* One number; absent: the fallback. */
+bool nh_urdf_number(nh_urdf_reader *u, const nh_xml *element, const char *name, double fallback, double *value);
+
+/* The child <origin> of an element: into `map` (or nowhere: NULL) as `place`: [x, y, z] and `rotation`, unless they are zero. */
+bool nh_urdf_origin(nh_urdf_reader *u, const nh_xml *element, nh_deck_node *map, const char *place, nh_urdf_pose *out);
+nh_urdf_pose nh_urdf_product(const nh_urdf_pose *a, const nh_urdf_pose *b);
+
+/* <inertial>: mass, centre, inertia and its axes into a body. */
+bool nh_urdf_inertial(nh_urdf_reader *u, const nh_xml *inertial, nh_deck_node *body, double *mass);
+
+/* The circle of a link that turns about `axis` (NULL: about none), `zero` its pose at zero displacements, into `rims`. */
+bool nh_urdf_rim(nh_urdf_reader *u, const nh_xml *link, const char *name, const double *axis, const nh_urdf_pose *zero, nh_deck_node *rims);
+
+#endif
