@@ -26,6 +26,28 @@ static bool read_names(nh_cli *cli, nh_classify_request *q, nh_error *error)
     return true;
 }
 
+/* --of measure */
+static bool read_question(nh_cli *cli, nh_classify_request *q, nh_error *error)
+{
+    static const char *const names[] = {
+#define X(name, word) #word,
+        NH_LINEAR_QUESTION_TABLE(X)
+#undef X
+    };
+    size_t of = 0;
+    while (cli->of && of < NH_LINEAR_QUESTIONS && strcmp(cli->of, names[of])) of++;
+    q->of = (nh_linear_question)of;
+    if (of < NH_LINEAR_QUESTIONS && (of == NH_OF_CURRENTS || !q->second)) return true;
+    if (of < NH_LINEAR_QUESTIONS) {
+        nh_fail(error, NH_USAGE, "", "--of %s takes one parameter, not two", cli->of);
+        return nh_error_hint(error, "give the other a value with --set");
+    }
+    nh_fail(error, NH_USAGE, "", "--of does not know `%s`", cli->of);
+    const char *near = nh_text_nearest(cli->of, names, NH_LINEAR_QUESTIONS);
+    return nh_error_hint(error, near ? "did you mean `%s`?" : "currents, measure, hamiltonization, symmetries or "
+                         "constraints%s", near ? near : "");
+}
+
 static bool request_of(nh_cli *cli, nh_classify_request *q, nh_error *error)
 {
     if (cli->operands != 1 || !cli->over) {
@@ -34,7 +56,7 @@ static bool request_of(nh_cli *cli, nh_classify_request *q, nh_error *error)
     }
     *q = (nh_classify_request){.command = cli->line, .settings = cli->settings, .setting = cli->setting,
                                .shape = cli->shape, .options = cli->options};
-    if (!read_names(cli, q, error)) return false;
+    if (!read_names(cli, q, error) || !read_question(cli, q, error)) return false;
     q->system_path = nh_cli_system(cli, cli->operand[0], error);
     return q->system_path != NULL;
 }

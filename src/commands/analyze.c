@@ -277,6 +277,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     nh_deadline_set(r->options.max_seconds);
     merge_options(r, q); /* now the analysis' motion is known too */
     r->timing.geometry = lap(&clock);
+    if (q->model_only) return true;
     size_t families = r->analysis ? r->analysis->families : 0;
     nh_family *family = r->analysis ? r->analysis->family : NULL;
     if (families == 0) {

@@ -49,16 +49,25 @@ static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_
 /* A value near the file's, which is special by no design. */
 static double unimportant(double value) { return round((value * 1.0871 + (value == 0 ? 0.3187 : 0)) * 1e6) / 1e6; }
 
-nh_analysis *nh_classified_analyse(const nh_classified *x, const nh_classify_request *q, size_t count,
-                                   const nh_setting *at, nh_error *error)
+nh_setting *nh_classified_settings(const nh_classified *x, size_t count, const nh_setting *at, size_t *all)
 {
-    size_t formulas = x->others - x->fixed, all = x->others + count;
-    nh_setting *setting = nh_alloc_array(all + 1, sizeof *setting);
+    size_t formulas = x->others - x->fixed;
+    *all = x->others + count;
+    nh_setting *setting = nh_alloc_array(*all + 1, sizeof *setting);
     memcpy(setting, x->other, x->fixed * sizeof *setting);
     memcpy(setting + x->fixed, at, count * sizeof *setting);
     memcpy(setting + x->fixed + count, x->other + x->fixed, formulas * sizeof *setting);
+    return setting;
+}
+
+nh_analysis *nh_classified_analyse(const nh_classified *x, const nh_classify_request *q, size_t count,
+                                   const nh_setting *at, nh_error *error)
+{
+    size_t all;
+    nh_setting *setting = nh_classified_settings(x, count, at, &all);
     nh_analyze_request request = {.command = q->command, .system_path = q->system_path, .settings = all,
-                                  .setting = setting, .options = q->options, .no_figures = true};
+                                  .setting = setting, .options = q->options, .no_figures = true,
+                                  .model_only = q->of != NH_OF_CURRENTS};
     request.options.degree = (double)x->degree;
     nh_analysis *r = nh_analysis_create(&request, error);
     nh_free(setting);
@@ -131,10 +140,16 @@ static void analyse_value(nh_classified *x, const nh_classify_request *q, const 
     int64_t top, bottom;
     nh_error error;
     if (!v->first || v->degenerate) return;
-    out->why = "currents are constructed at rational values only";
+    out->why = x->question ? "it is looked at more closely at rational values only"
+        : "currents are constructed at rational values only";
     if (!nh_classified_rational(&v->polynomial, &top, &bottom)) return;
     nh_error_clear(&error);
     nh_setting at = {.name = x->over, .value = (double)top / (double)bottom, .top = top, .bottom = bottom};
+    if (x->question) {
+        out->why = NULL;
+        nh_classified_confirm(x, q, &at, v->number[v->first].bound, out);
+        return;
+    }
     nh_analysis *r = out->result = nh_classified_analyse(x, q, 1, &at, &error);
     out->why = r ? NULL : nh_arena_strdup(x->arena, error.what);
     if (r) out->complete = nh_classified_complete(r);
@@ -144,7 +159,8 @@ nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_classified *x = nh_arena_alloc(arena, sizeof *x);
-    *x = (nh_classified){.arena = arena, .shape = q->shape, .degree = q->options.degree > 0 ? (size_t)q->options.degree
+    *x = (nh_classified){.arena = arena, .shape = q->shape, .of = q->of,
+                          .degree = q->options.degree > 0 ? (size_t)q->options.degree
                          : chosen_degree};
     if (read_family(x, q, error)) return x;
     nh_classified_free(x);
@@ -168,7 +184,10 @@ nh_classified *nh_classify_system(const nh_classify_request *q, nh_error *error)
     if (!x) return NULL;
     nh_ex *phi = nh_classified_known(x);
     nh_classify_question question = nh_classified_question(x, q, phi);
-    x->classification = nh_classify(x->almost_all->model, &question);
+    if (q->of != NH_OF_CURRENTS) x->question = nh_linear_system_create(x->almost_all->model, q->of, &q->options);
+    if (x->question) question.linear = &x->question->family;
+    if (x->question && x->question->obstacle) x->classification = nh_classification_refused(x->question->obstacle);
+    else x->classification = nh_classify(x->almost_all->model, &question);
     nh_free(phi);
     x->value = nh_arena_alloc(x->arena, (x->classification->values + 1) * sizeof *x->value);
     for (size_t k = 0; k < x->classification->values && !nh_interrupted(); k++)
@@ -182,6 +201,7 @@ void nh_classified_free(nh_classified *x)
     if (!x) return;
     for (size_t k = 0; x->value && k < x->classification->values; k++) nh_analysis_free(x->value[k].result);
     nh_classification_free(x->classification);
+    nh_linear_system_free(x->question);
     nh_analysis_free(x->almost_all);
     nh_arena_free(x->arena);
 }

@@ -10,6 +10,7 @@
 #define NH_STUDY_CLASSIFY_H
 
 #include "integrals/plane.h"
+#include "reduction/linear_questions.h"
 #include "commands/analyze.h"
 
 typedef struct {
@@ -18,6 +19,7 @@ typedef struct {
     const nh_setting *setting;
     const char *over, *second; /* names of the parameters; NULL: there is no second one */
     bool shape;              /* coefficients that do not depend on cyclic coordinates */
+    nh_linear_question of;   /* currents, or something else of one parameter */
     nh_options options;
 } nh_classify_request;
 
@@ -25,7 +27,8 @@ typedef struct {
 typedef struct {
     nh_analysis *result;     /* NULL: there is none, because */
     const char *why;
-    size_t complete;         /* the degree up to which they account for the number of integrals */
+    const char *shown;       /* what was found there, of other questions than that of currents; NULL */
+    size_t complete;         /* the degree up to which they, or this, account for the number */
 } nh_classified_value;
 
 struct nh_classified {
@@ -37,6 +40,8 @@ struct nh_classified {
     bool shape;
     nh_classification *classification;
     nh_classified_value *value; /* of its values */
+    nh_linear_question of;
+    nh_linear_system *question; /* or NULL: of currents */
     size_t others, fixed;    /* other parameters: so many with values, then functions of the parameter */
     nh_setting *other;
     bool partial;            /* the run was ended before it was through */

@@ -13,6 +13,12 @@ nh_classify_question nh_classified_question(nh_classified *classified, const nh_
 /* The index of a parameter; false with an error. */
 bool nh_classified_parameter(const nh_system *system, const char *name, size_t *out, nh_error *error);
 
+/* The values of the other parameters with these between them, on the heap; how many they are. */
+nh_setting *nh_classified_settings(const nh_classified *classified, size_t count, const nh_setting *at, size_t *all);
+/* classify_confirm.c: what holds at one value, where the number is `bound`. */
+void nh_classified_confirm(nh_classified *classified, const nh_classify_request *request, const nh_setting *at,
+                           size_t bound, nh_classified_value *out);
+
 /* With these values beside those of the other parameters. */
 nh_analysis *nh_classified_analyse(const nh_classified *classified, const nh_classify_request *request, size_t count,
                                    const nh_setting *at, nh_error *error);

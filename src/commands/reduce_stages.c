@@ -21,48 +21,6 @@ static char *name_of(nh_reduction *r, const nh_action *action)
     return name;
 }
 
-static bool slice_is_good(const nh_slice *s)
-{
-    enum { trials = 8 };
-    static const double regular = 1e-3;
-    const nh_kinetic *k = s->kinetic;
-    double *q = nh_alloc_array(k->m, sizeof *q), *minor = nh_alloc_array(s->d * s->d + k->m * s->d + s->d + 1, sizeof *minor), *E = minor + s->d * s->d, *sv = E + k->m * s->d;
-    bool good = true;
-    for (size_t p = 0; p < trials && p < k->places && good && s->d; p++) {
-        memcpy(q, k->place + p * k->m, k->m * sizeof *q);
-        for (size_t a = 0; a < s->d; a++) q[s->along[a]] = s->y0[a];
-        nh_action_values(s->action, q, E);
-        for (size_t i = 0; i < s->d; i++)
-            for (size_t a = 0; a < s->d; a++) minor[i + a * s->d] = E[s->along[i] + a * k->m];
-        good = isfinite(nh_largest(s->d * s->d, minor));
-        nh_singular_values(s->d, s->d, minor, sv);
-        good = good && sv[s->d - 1] > regular * sv[0];
-    }
-    nh_free(q);
-    nh_free(minor);
-    return good;
-}
-
-/* The first y of zeros, then right angles, then ones, at which the slice is regular. */
-static bool nice_place(nh_slice *s, double *y)
-{
-    static const double values[] = {0, 1.5707963267948966, 1};
-    enum { most = 2000 };
-    size_t d = s->d, trials = 1;
-    for (size_t a = 0; a < d && trials < most; a++) trials *= 3;
-    s->y0 = y;
-    for (size_t trial = 0; trial < trials && trial < most; trial++) {
-        size_t code = trial;
-        bool allowed = true;
-        for (size_t a = 0; a < d; a++, code /= 3) {
-            y[a] = values[code % 3];
-            allowed &= code % 3 != 1 || s->kinetic->angle[s->along[a]];
-        }
-        if (allowed && slice_is_good(s)) return true;
-    }
-    return false;
-}
-
 /* The slice through a place, and the one that is shown: y = 0 where that is regular. */
 void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const double *q, nh_slice **through, nh_slice **shown)
 {
@@ -75,9 +33,8 @@ void nh_reduction_make_slices(nh_reduction *r, const nh_action *action, const do
     *through = nh_arena_alloc(r->arena, sizeof **through);
     *shown = nh_arena_alloc(r->arena, sizeof **shown);
     nh_slice_init(*through, action, shape, along, y);
-    **shown = (nh_slice){.kinetic = action->kinetic, .action = action, .n = m - d, .d = d, .shape = shape, .along = along, .y0 = zero};
     if (r->brief && r->kept[which]) **shown = *r->kept[which];
-    else if (!same && nice_place(*shown, zero)) nh_slice_init(*shown, action, shape, along, zero);
+    else if (!same && nh_slice_nice(action, along, zero)) nh_slice_init(*shown, action, shape, along, zero);
     else **shown = **through;
     if (!r->brief && (*shown)->K != (*through)->K) r->kept[which] = *shown;
     nh_free(y);
@@ -257,8 +214,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
     }
     if (good && (simple != first || nh_largest(d, y0) > 0) && !r->brief) { /* the same on slices at simple places */
         nh_error trouble = {0};
-        nh_slice probe = {.kinetic = t->hat, .action = &t->action, .n = n - d, .d = d, .shape = shape, .along = along};
-        if (nice_place(&probe, y0) && nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) && nh_second_equations(&r->second[1], shape, along, y0, &trouble)) pretty = &r->second[1];
+        if (nh_slice_nice(&t->action, along, y0) && nh_second_init(&r->second[1], simple, d, field, &r->options, &trouble) && nh_second_equations(&r->second[1], shape, along, y0, &trouble)) pretty = &r->second[1];
     }
     if (good) {
         size_t reached;

@@ -39,7 +39,7 @@ const char *nh_classification_end(const char *end)
 
 void nh_classification_head(const nh_classified *x, nh_text *out)
 {
-    nh_text_addf(out, "%s\nintegrals polynomial in the velocities, over ", x->title);
+    nh_text_addf(out, "%s\n%s, over ", x->title, nh_classification_subject(x));
     if (x->second) nh_text_addf(out, "%s and ", x->second);
     nh_text_addf(out, "%s%s", x->over, x->shape ? ", with coefficients that do not depend on cyclic coordinates" : "");
     for (size_t i = 0; i < x->fixed; i++)
@@ -48,11 +48,17 @@ void nh_classification_head(const nh_classified *x, nh_text *out)
 }
 
 /* Where the integrals for almost all values are known and proved, more is more. */
-void nh_classification_almost_all(size_t degree, const nh_classify_number *n, size_t known, nh_text *out)
+void nh_classification_almost_all(const nh_classified *x, size_t degree, const nh_classify_number *n, size_t known,
+                                  nh_text *out)
 {
     bool all = n->bound == known;
-    nh_text_addf(out, "  degree %zu: %s%zu with the constant 1%s\n", degree, all ? "" : "at most ", n->bound,
-                 all ? "" : n->settled ? ", the same over several orders" : ", perhaps fewer");
+    const char *bounded = all ? "" : x->of == NH_OF_INTEGRABILITY ? "" : "at most ";
+    nh_text_add(out, "  ");
+    nh_classification_level(x, degree, out);
+    nh_text_addf(out, ": %s", bounded);
+    nh_classification_amount(x, n->bound, out);
+    nh_text_addf(out, "%s%s\n", x->of == NH_OF_CURRENTS ? " with the constant 1" : "", all ? "" : n->settled
+                 ? ", the same over several orders" : ", perhaps fewer");
 }
 
 void nh_classification_known(const nh_classified *x, nh_text *out)
@@ -69,7 +75,7 @@ static void put_almost_all(const nh_classified *x, nh_text *out)
 {
     nh_text_addf(out, "For almost all %s\n", x->over);
     for (size_t d = 1; d <= of(x)->rows; d++)
-        nh_classification_almost_all(d, &of(x)->row[d - 1].number, of(x)->row[d - 1].known, out);
+        nh_classification_almost_all(x, d, &of(x)->row[d - 1].number, of(x)->row[d - 1].known, out);
     nh_classification_known(x, out);
 }
 
@@ -84,18 +90,28 @@ void nh_classification_currents(const nh_analysis *r, nh_text *out)
     }
 }
 
-void nh_classification_counted(size_t degree, bool first, const nh_classify_number *n, size_t almost_all, bool complete,
-                               nh_text *out)
+void nh_classification_counted(const nh_classified *x, size_t degree, bool first, const nh_classify_number *n,
+                               size_t almost_all, bool complete, nh_text *out)
 {
-    nh_text_addf(out, "%sdegree %zu: ", first ? "    " : ", ", degree);
-    if (!n->bounded) nh_text_add(out, "not counted");
-    else nh_text_addf(out, "%s%zu instead of %zu", complete ? "" : n->settled ? "up to " : "at most ", n->bound, almost_all);
+    const char *bounded = complete || x->of == NH_OF_INTEGRABILITY ? "" : n->settled ? "up to " : "at most ";
+    nh_text_add(out, first ? "    " : ", ");
+    nh_classification_level(x, degree, out);
+    nh_text_addf(out, ": %s", n->bounded ? bounded : "not counted");
+    if (!n->bounded) return;
+    nh_classification_amount(x, n->bound, out);
+    nh_text_add(out, " instead of ");
+    nh_classification_amount(x, almost_all, out);
 }
 
-void nh_classification_proof(const nh_classified_value *at, size_t first, nh_text *out)
+void nh_classification_proof(const nh_classified *x, const nh_classified_value *at, size_t first, nh_text *out)
 {
+    if (at->shown) {
+        nh_text_addf(out, "    %s%s\n", at->shown, at->complete >= first ? ", proved" : "");
+        return;
+    }
     if (!at->result) {
-        nh_text_addf(out, "    counted modulo primes; no currents: %s\n", at->why);
+        nh_text_addf(out, "    counted modulo primes; %s%s\n", x->question ? "" : "no currents: ",
+                     at->why ? at->why : "the run was ended");
         return;
     }
     nh_classification_currents(at->result, out);
@@ -110,15 +126,24 @@ static void put_value(const nh_classified *x, size_t index, nh_text *out)
     const nh_classified_value *at = &x->value[index];
     nh_text_addf(out, "  %s\n", nh_classified_words(x, &v->polynomial));
     for (size_t d = v->first; d <= of(x)->rows; d++)
-        nh_classification_counted(d, d == v->first, &v->number[d], of(x)->row[d - 1].number.bound, at->complete >= d, out);
+        nh_classification_counted(x, d, d == v->first, &v->number[d], of(x)->row[d - 1].number.bound, at->complete >= d, out);
     nh_text_add(out, "\n");
-    nh_classification_proof(at, v->first, out);
+    nh_classification_proof(x, at, v->first, out);
+}
+
+static void put_open(const nh_classified *x, const nh_classify_value *v, nh_text *out)
+{
+    nh_text_addf(out, "\nNot decided at %s: ", nh_classified_words(x, &v->polynomial));
+    nh_classification_level(x, v->open, out);
+    nh_text_add(out, ", of which there may be ");
+    nh_classification_beyond(x, of(x)->row[v->open - 1].number.bound, out);
+    nh_text_add(out, ".\n");
 }
 
 static void put_values(const nh_classified *x, nh_text *out)
 {
     size_t n = count_special(x), degenerate = 0;
-    if (n) nh_text_add(out, "\nMore for\n");
+    if (n) nh_text_addf(out, "\n%s\n", nh_classification_where(x));
     for (size_t k = 0; k < of(x)->values; k++)
         if (special(&of(x)->value[k])) put_value(x, k, out);
     for (size_t k = 0; k < of(x)->values; k++) {
@@ -131,14 +156,14 @@ static void put_values(const nh_classified *x, nh_text *out)
     for (size_t k = 0; k < of(x)->values; k++) {
         const nh_classify_value *v = &of(x)->value[k];
         if (v->open)
-            nh_text_addf(out, "\nNot decided at %s: how many there are of degree %zu.\n",
-                         nh_classified_words(x, &v->polynomial), v->open);
+            put_open(x, v, out);
     }
 }
 
 static void put_infinity(const nh_classified *x, nh_text *out)
 {
     const nh_classification *c = of(x);
+    if (x->question) return;
     if (!c->limit) {
         nh_text_addf(out, "\nAs %s goes to infinity the equations of motion have no limit.\n", x->over);
         return;
@@ -152,24 +177,34 @@ static void put_infinity(const nh_classified *x, nh_text *out)
     else nh_text_addf(out, "\nIn the limit of infinite %s: not more.\n", x->over);
 }
 
+/* What one degree excludes. */
+static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh_text *out)
+{
+    const nh_classify_row *row = &of(x)->row[degree - 1];
+    bool lifted = row->lifted && row->height >= 1;
+    nh_text_add(out, "  ");
+    nh_classification_level(x, degree, out);
+    nh_text_add(out, ": no transcendental number");
+    if (lifted)
+        nh_text_addf(out, ", and no rational one with numerator and denominator up to %.1e,", row->height);
+    nh_text_add(out, " has ");
+    nh_classification_beyond(x, row->number.bound, out);
+    if (!lifted)
+        nh_text_addf(out, "; up to %zu algebraic values, here or at a lower degree, are known modulo primes only",
+                     row->roots);
+    nh_text_add(out, "\n");
+    if (!verbose || !lifted) return;
+    nh_text_addf(out, "    (%zu unknowns, order %zu, modulo", row->unknowns, row->number.order);
+    for (size_t i = 0; i < row->primes; i++) nh_text_addf(out, "%s %" PRIu64, i ? "," : "", row->prime[i]);
+    nh_text_add(out, ")\n");
+}
+
 void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *out)
 {
     const nh_classification *c = of(x);
     if (!c->rows) return;
     nh_text_addf(out, "\n%s values, proved:\n", count_special(x) ? "No other" : "No special");
-    for (size_t d = 1; d <= c->rows; d++) {
-        const nh_classify_row *row = &c->row[d - 1];
-        if (!row->lifted || row->height < 1) {
-            nh_text_addf(out, "  degree %zu: no transcendental number has more than %zu; up to %zu algebraic values, here or at a lower degree, are known modulo primes only\n", d, row->number.bound, row->roots);
-            continue;
-        }
-        nh_text_addf(out, "  degree %zu: no transcendental number, and no rational one with numerator and denominator up to %.1e, has more than %zu\n", d, row->height, row->number.bound);
-        if (verbose) {
-            nh_text_addf(out, "    (%zu unknowns, order %zu, modulo", row->unknowns, row->number.order);
-            for (size_t i = 0; i < row->primes; i++) nh_text_addf(out, "%s %" PRIu64, i ? "," : "", row->prime[i]);
-            nh_text_add(out, ")\n");
-        }
-    }
+    for (size_t d = 1; d <= c->rows; d++) put_excluded(x, d, verbose, out);
     nh_text_add(out, "  Another algebraic number could be one only if modulo all of the primes it has the residue of a value that was examined, or none.\n");
 }
 
@@ -184,6 +219,8 @@ void nh_classification_text(const nh_classified *x, bool verbose, nh_text *out)
     put_values(x, out);
     put_infinity(x, out);
     nh_classification_excluded(x, verbose, out);
-    if (of(x)->end) nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", of(x)->rows + 1, nh_classification_end(of(x)->end));
+    if (!of(x)->end) return;
+    if (x->question) nh_text_addf(out, "\nThe question was not answered: %s.\n", nh_classification_end(of(x)->end));
+    else nh_text_addf(out, "\nDegree %zu was not reached: %s.\n", of(x)->rows + 1, nh_classification_end(of(x)->end));
 }
 

@@ -11,17 +11,29 @@ char *nh_classification_current(const nh_analysis *result, const nh_current *cur
 /* ---- text ---- */
 
 const char *nh_classification_end(const char *end);
+
+/* classification_wording.c: "integrals polynomial in the velocities", "More for", "more conservation laws than almost
+ * all", "degree 2"; a number, of brackets the rank instead of what it lacks. */
+const char *nh_classification_subject(const nh_classified *classified);
+const char *nh_classification_where(const nh_classified *classified);
+const char *nh_classification_more(const nh_classified *classified);
+void nh_classification_level(const nh_classified *classified, size_t level, nh_text *out);
+void nh_classification_amount(const nh_classified *classified, size_t bound, nh_text *out);
+void nh_classification_beyond(const nh_classified *classified, size_t bound, nh_text *out); /* "more than 3" */
+
 /* Title, parameters, and values of the others. */
 void nh_classification_head(const nh_classified *classified, nh_text *out);
 /* A line for one degree, and the currents that hold for all values. */
-void nh_classification_almost_all(size_t degree, const nh_classify_number *number, size_t known, nh_text *out);
+void nh_classification_almost_all(const nh_classified *classified, size_t degree, const nh_classify_number *number,
+                                  size_t known, nh_text *out);
 void nh_classification_known(const nh_classified *classified, nh_text *out);
 /* "degree 2: 3 instead of 2" */
-void nh_classification_counted(size_t degree, bool first, const nh_classify_number *number, size_t almost_all,
-                               bool complete, nh_text *out);
+void nh_classification_counted(const nh_classified *classified, size_t degree, bool first,
+                               const nh_classify_number *number, size_t almost_all, bool complete, nh_text *out);
 /* The currents that were constructed, and what that proves. */
 void nh_classification_currents(const nh_analysis *result, nh_text *out);
-void nh_classification_proof(const nh_classified_value *at, size_t first, nh_text *out);
+void nh_classification_proof(const nh_classified *classified, const nh_classified_value *at, size_t first,
+                             nh_text *out);
 
 /* What is proved where there are not more; what was not decided. */
 void nh_classification_excluded(const nh_classified *classified, bool verbose, nh_text *out);

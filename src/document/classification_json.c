@@ -36,6 +36,7 @@ void nh_classification_put_head(const nh_classified *x, nh_json *root)
     nh_json_add_text(over, x->over);
     nh_json *parameters = nh_json_put_object(root, "parameters");
     for (size_t i = 0; i < x->fixed; i++) nh_json_put_number(parameters, x->other[i].name, x->other[i].value);
+    nh_json_put_text(root, "of", nh_linear_question_name(x->of));
     nh_json_put_bool(root, "shape", x->shape);
     nh_json_put_number(root, "degree", (double)x->degree);
 }
@@ -74,7 +75,7 @@ static void put_degrees(const nh_classified *x, nh_json *to)
         nh_json *item = nh_json_add_object(list);
         nh_json_put_number(item, "degree", (double)d);
         nh_classification_put_number(item, "almost_all", &row->number);
-        nh_json_put_number(item, "known", (double)row->known);
+        nh_json_put_number(item, "known", row->known == SIZE_MAX ? NAN : (double)row->known);
         nh_json_put_bool(item, "exact", exact(row));
         nh_json_put_number(item, "unknowns", (double)row->unknowns);
         nh_json_put_bool(item, "lifted", row->lifted);
@@ -117,7 +118,8 @@ static void put_special(const nh_classified *x, size_t index, nh_json *list)
     nh_json_put_number(item, "from_degree", (double)v->first);
     nh_json_put_number(item, "dimension", (double)v->number[of(x)->rows].bound);
     nh_classification_put_here(item, of(x)->rows, v->number);
-    nh_json_put_bool(item, "proved", at->result && at->complete >= v->first);
+    nh_json_put_bool(item, "proved", (at->result || at->shown) && at->complete >= v->first);
+    nh_json_put_text(item, "shown", at->shown);
     nh_json_put_text(item, "not_constructed_because", at->why);
     nh_classification_put_currents(at->result, at->result ? at->result->count : 0, NULL, item);
 }
@@ -139,7 +141,7 @@ static bool put_others(const nh_classified *x, nh_json *root)
 char *nh_classification_json(const nh_classified *x, const nh_run *run)
 {
     nh_json *root = nh_json_object();
-    bool all = of(x)->rows == x->degree;
+    bool all = of(x)->rows == (x->question ? x->question->family.levels : x->degree);
     nh_classification_put_head(x, root);
     nh_json_put_text(root, "obstacle", of(x)->obstacle);
     nh_json_put_text(root, "ended_by", of(x)->end);

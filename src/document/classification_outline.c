@@ -34,29 +34,34 @@ static void put_currents(pen *p, const nh_analysis *r, size_t count, const size_
     }
 }
 
-static void put_numbers(pen *p, size_t rows, const nh_classify_number *n, size_t first, size_t complete,
-                        const size_t *almost_all)
+static void put_numbers(const nh_classified *x, pen *p, size_t rows, const nh_classify_number *n, size_t first,
+                        size_t complete, const size_t *almost_all)
 {
     nh_text text;
     nh_text_init(&text);
     for (size_t d = first; d <= rows; d++)
-        nh_classification_counted(d, d == first, &n[d], almost_all[d], complete >= d, &text);
+        nh_classification_counted(x, d, d == first, &n[d], almost_all[d], complete >= d, &text);
     nh_text_add(&text, ".");
     put_lines(p, &text);
 }
 
-static void put_no_currents(pen *p, const char *why)
+static void put_no_currents(const nh_classified *x, pen *p, const char *why)
 {
     nh_text text;
     nh_text_init(&text);
-    nh_text_addf(&text, "Counted modulo primes. No currents: %s.", why ? why : "the run was ended");
+    nh_text_addf(&text, "Counted modulo primes%s%s.", x->question ? "; " : ". No currents: ",
+                 why ? why : "the run was ended");
     put_lines(p, &text);
 }
 
-static void put_value(pen *p, const nh_classified_value *at, size_t first)
+static void put_value(const nh_classified *x, pen *p, const nh_classified_value *at, size_t first)
 {
+    if (at->shown) {
+        nh_pen_words(p, "%s%s.", at->shown, at->complete >= first ? ", proved" : "");
+        return;
+    }
     if (!at->result) {
-        put_no_currents(p, at->why);
+        put_no_currents(x, p, at->why);
         return;
     }
     put_currents(p, at->result, at->result->count, NULL);
@@ -76,14 +81,14 @@ static void outline_line(const nh_classified *x, pen *p)
     for (size_t k = 0; k < c->values; k++) {
         const nh_classify_value *v = &c->value[k];
         if (!v->first || v->degenerate) continue;
-        if (!written++) nh_pen_section(p, "special", "Where there are more");
+        if (!written++) nh_pen_section(p, "special", nh_classification_where(x));
         nh_pen_card(p, nh_classified_words(x, &v->polynomial));
-        put_numbers(p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
-        put_value(p, &x->value[k], v->first);
+        put_numbers(x, p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
+        put_value(x, p, &x->value[k], v->first);
     }
     nh_pen_section(p, "almost", "For almost all values");
     for (size_t d = 1; d <= c->rows; d++)
-        nh_classification_almost_all(d, &c->row[d - 1].number, c->row[d - 1].known, &text);
+        nh_classification_almost_all(x, d, &c->row[d - 1].number, c->row[d - 1].known, &text);
     put_lines(p, &text);
     put_currents(p, x->almost_all, x->known, x->currents);
     nh_pen_section(p, "excluded", "What is excluded");
@@ -98,9 +103,9 @@ static void outline_curve(const plane *x, pen *p, size_t k, const size_t *almost
     const nh_plane_curve *c = &x->plane->curve[k];
     const nh_classified_curve *at = &x->curve[k];
     nh_pen_card(p, nh_classified_curve_words(x, &c->polynomial));
-    put_numbers(p, x->plane->rows, c->number, c->first, at->complete, almost_all);
+    put_numbers(x->family, p, x->plane->rows, c->number, c->first, at->complete, almost_all);
     if (!at->along) {
-        put_no_currents(p, at->why);
+        put_no_currents(x->family, p, at->why);
         return;
     }
     put_currents(p, at->along->almost_all, at->along->known, at->along->currents);
@@ -138,12 +143,12 @@ static void outline_plane(const plane *x, pen *p)
         const nh_classified_point *q = &x->point[k];
         if (!k) nh_pen_section(p, "points", "Points with more");
         nh_pen_card(p, place_of(x, q));
-        put_numbers(p, o->rows, q->number, q->first, q->at->complete, almost_all);
-        put_value(p, q->at, q->first);
+        put_numbers(x->family, p, o->rows, q->number, q->first, q->at->complete, almost_all);
+        put_value(x->family, p, q->at, q->first);
     }
     nh_pen_section(p, "almost", "For almost all values");
     for (size_t d = 1; d <= o->rows; d++)
-        nh_classification_almost_all(d, &o->row[d - 1].number, o->row[d - 1].known, &text);
+        nh_classification_almost_all(x->family, d, &o->row[d - 1].number, o->row[d - 1].known, &text);
     put_lines(p, &text);
     put_currents(p, x->family->almost_all, x->family->known, x->family->currents);
     nh_pen_section(p, "excluded", "What is excluded");
@@ -174,9 +179,10 @@ static void answer(pen *p, const nh_classified *line, const plane *x)
         nh_pen_say(p, "%zu curve%s and %zu point%s with more conservation laws than almost all", curves,
                      curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s");
     else
-        nh_pen_say(p, "%zu value%s of %s with more conservation laws than almost all", count_line(line),
-                     count_line(line) == 1 ? "" : "s", line->over);
-    nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
+        nh_pen_say(p, "%zu value%s of %s with %s", count_line(line), count_line(line) == 1 ? "" : "s", line->over,
+                   nh_classification_more(line));
+    if (line && line->question) nh_pen_say(p, ".");
+    else nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
 }
 
 void nh_classification_write(const nh_classified *line, const plane *x, const nh_run *run, nh_pen_form form, nh_text *out)

@@ -38,7 +38,7 @@ static bool closed(const plane *x)
 static void put_numbers(const plane *x, const nh_classify_number *number, size_t first, size_t complete, nh_text *out)
 {
     for (size_t d = first; d <= x->plane->rows; d++)
-        nh_classification_counted(d, d == first, &number[d], x->plane->row[d - 1].number.bound, complete >= d, out);
+        nh_classification_counted(x->family, d, d == first, &number[d], x->plane->row[d - 1].number.bound, complete >= d, out);
     nh_text_add(out, "\n");
 }
 
@@ -76,7 +76,7 @@ static void put_point(const plane *x, const nh_classified_point *p, nh_text *out
         nh_text_addf(out, "   (on %s)", nh_classified_curve_words(x, &x->plane->curve[p->curve].polynomial));
     nh_text_add(out, "\n");
     put_numbers(x, p->number, p->first, p->at->complete, out);
-    nh_classification_proof(p->at, p->first, out);
+    nh_classification_proof(x->family, p->at, p->first, out);
 }
 
 static void put_special(const plane *x, nh_text *out)
@@ -149,7 +149,7 @@ void nh_classification_plane_text(const plane *x, bool verbose, nh_text *out)
     }
     nh_text_addf(out, "For almost all %s, %s\n", x->over[1], x->over[0]);
     for (size_t d = 1; d <= o->rows; d++)
-        nh_classification_almost_all(d, &o->row[d - 1].number, o->row[d - 1].known, out);
+        nh_classification_almost_all(x->family, d, &o->row[d - 1].number, o->row[d - 1].known, out);
     nh_classification_known(x->family, out);
     put_special(x, out);
     nh_classification_plane_open(x, out);

@@ -82,32 +82,36 @@ static bool any_depends(const nh_model *o, size_t n, const nh_ex *e, size_t symb
 }
 
 /* X_i on the coordinates. */
-static nh_growth growth_of_displacements(const nh_model *o)
+static nh_distribution_fields displacements(const nh_model *o)
 {
-    nh_ex *field = nh_alloc_array(o->n * o->m + 1, sizeof *field);
+    nh_distribution_fields f = {o->n, o->m, o->chart->symbol + 1, nh_alloc_array(o->n * o->m + 1, sizeof *f.field)};
     for (size_t i = 0; i < o->n; i++)
-        for (size_t s = 0; s < o->m; s++) field[i * o->m + s] = o->R[s * o->n + i];
-    nh_growth g = nh_growth_of(o, o->n, o->m, o->chart->symbol + 1, field, 0);
-    nh_free(field);
-    return g;
+        for (size_t s = 0; s < o->m; s++) f.field[i * o->m + s] = o->R[s * o->n + i];
+    return f;
 }
 
 /* X_0 at w = 0 and X_i on (t, q), for rho affine in w. */
-static nh_growth growth_of_events(const nh_model *o)
+static nh_distribution_fields events(const nh_model *o)
 {
     size_t N = 1 + o->m;
     nh_dag *d = o->dag;
-    nh_ex *field = nh_alloc_array((o->n + 1) * N, sizeof *field), *zero = nh_alloc_array(o->n + 1, sizeof *zero);
+    nh_distribution_fields f = {o->n + 1, N, o->chart->symbol, nh_alloc_array((o->n + 1) * N, sizeof *f.field)};
+    nh_ex *zero = nh_alloc_array(o->n + 1, sizeof *zero);
     for (size_t i = 0; i <= o->n; i++) {
         zero[i] = nh_int(d, 0);
-        field[i * N] = nh_int(d, i == 0);
-        for (size_t s = 0; s < o->m; s++) field[i * N + 1 + s] = i ? o->R[s * o->n + i - 1] : o->rho[s];
+        f.field[i * N] = nh_int(d, i == 0);
+        for (size_t s = 0; s < o->m; s++) f.field[i * N + 1 + s] = i ? o->R[s * o->n + i - 1] : o->rho[s];
     }
-    for (size_t s = 0; s < o->m; s++) field[1 + s] = nh_substitute(d, field[1 + s], o->n, o->chart->w, zero);
-    nh_growth g = nh_growth_of(o, o->n + 1, N, o->chart->symbol, field, 0);
-    g.space = NH_ON_EVENTS;
+    for (size_t s = 0; s < o->m; s++) f.field[1 + s] = nh_substitute(d, f.field[1 + s], o->n, o->chart->w, zero);
     nh_free(zero);
-    nh_free(field);
+    return f;
+}
+
+static nh_growth growth_of(const nh_model *o, nh_distribution_fields f, nh_growth_space space)
+{
+    nh_growth g = nh_growth_of(o, f.count, f.dimension, f.symbol, f.field, 0);
+    g.space = space;
+    nh_free(f.field);
     return g;
 }
 
@@ -125,18 +129,29 @@ static nh_growth growth_of_states(const nh_model *o, size_t shift)
     return g;
 }
 
+/* Do the fields R depend on the velocities of the chart, or on t? */
+static bool bent(const nh_model *o)
+{
+    return any_depends(o, o->m * o->n, o->R, o->n + o->chart->implicit, o->chart->symbol + 1 + o->m);
+}
+
+static bool timed(const nh_model *o) { return any_depends(o, o->m * o->n, o->R, 1, &o->system->t); }
+
+nh_distribution_fields nh_distribution_fields_of(const nh_model *o)
+{
+    if (o->k == 0 || o->chart->implicit || bent(o) || !is_affine(o)) return (nh_distribution_fields){0};
+    return is_homogeneous(o) && !is_rheonomic(o) && !timed(o) ? displacements(o) : events(o);
+}
+
 /* The smallest space that tells it.  Where the chart bends although the constraints do not, the canonical distribution contains the n directions
  * Y_i, and d/dt when neither velocity at rest nor t has a part in it; they add to every rank alike. */
 static nh_growth growth(const nh_model *o, const nh_distribution *out)
 {
-    const nh_chart *c = o->chart;
-    size_t own = o->n + c->implicit;
-    bool bent = any_depends(o, o->m * o->n, o->R, own, c->symbol + 1 + o->m), timed = any_depends(o, o->m * o->n, o->R, 1, &o->system->t);
     bool at_rest = out->type == NH_LINEAR && !out->rheonomic;
     nh_growth g;
     if (out->type == NH_NONLINEAR) g = growth_of_states(o, 0), g.space = NH_ON_STATES;
-    else if (bent || (at_rest && timed)) g = growth_of_states(o, o->n + at_rest), g.space = at_rest ? NH_ON_POSITIONS : NH_ON_EVENTS;
-    else g = at_rest ? growth_of_displacements(o) : growth_of_events(o);
+    else if (bent(o) || (at_rest && timed(o))) g = growth_of_states(o, o->n + at_rest), g.space = at_rest ? NH_ON_POSITIONS : NH_ON_EVENTS;
+    else g = at_rest ? growth_of(o, displacements(o), NH_ON_POSITIONS) : growth_of(o, events(o), NH_ON_EVENTS);
     return g;
 }
 

@@ -27,6 +27,15 @@ typedef struct {
     size_t hidden;      /* of them, those that are not given as constraints between positions */
 } nh_distribution;
 
+/* Fields that span the distribution of virtual displacements, or of those in space and time, of constraints that are at
+ * most affine: `count` of them with components field[i * dimension + j] along symbol[j], on the heap. None otherwise. */
+typedef struct {
+    size_t count, dimension;
+    const nh_ex *symbol;
+    nh_ex *field;
+} nh_distribution_fields;
+nh_distribution_fields nh_distribution_fields_of(const nh_model *model);
+
 nh_distribution nh_distribution_of(const nh_model *model);
 const char *nh_constraint_type_name(nh_constraint_type type);
 

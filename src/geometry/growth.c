@@ -20,14 +20,13 @@ typedef struct {
     size_t end; /* size of the graph at which brackets are given up */
 } space;
 
-static void bracket(const space *x, const nh_ex *a, const nh_ex *b, nh_ex *out)
+void nh_growth_bracket(nh_dag *d, size_t N, const nh_ex *symbol, const nh_ex *a, const nh_ex *b, nh_ex *out)
 {
-    nh_dag *d = x->d;
-    for (size_t s = 0; s < x->N; s++) {
+    for (size_t s = 0; s < N; s++) {
         out[s] = nh_int(d, 0);
-        for (size_t r = 0; r < x->N; r++) {
-            if (!nh_is_zero(d, a[r])) out[s] = nh_add(d, out[s], nh_mul(d, a[r], nh_diff(d, b[s], x->symbol[r])));
-            if (!nh_is_zero(d, b[r])) out[s] = nh_sub(d, out[s], nh_mul(d, b[r], nh_diff(d, a[s], x->symbol[r])));
+        for (size_t r = 0; r < N; r++) {
+            if (!nh_is_zero(d, a[r])) out[s] = nh_add(d, out[s], nh_mul(d, a[r], nh_diff(d, b[s], symbol[r])));
+            if (!nh_is_zero(d, b[r])) out[s] = nh_sub(d, out[s], nh_mul(d, b[r], nh_diff(d, a[s], symbol[r])));
         }
     }
 }
@@ -125,7 +124,7 @@ static void next_stage(const space *x, brackets *b, size_t generators)
     for (size_t i = 0; i < generators; i++)
         for (size_t j = from; j < to && b->count < most_fields && nh_dag_size(x->d) < x->end; j++) {
             if (from == 0 && j <= i) continue; /* [X_i, X_j] once */
-            bracket(x, b->field + i * N, b->field + j * N, out);
+            nh_growth_bracket(x->d, x->N, x->symbol, b->field + i * N, b->field + j * N, out);
             push(b, N, out);
         }
     b->first[++b->stages] = b->count;
@@ -282,7 +281,7 @@ static void grow_to(space *x, frame *f, size_t count)
     nh_ex *field = nh_alloc_array(N + 1, sizeof *field);
     for (size_t i = 1; i < f->count && f->count < count && !x->too_large; i++)
         for (size_t j = 0; j < i && f->count < count && !x->too_large; j++) {
-            bracket(x, f->field + i * N, f->field + j * N, field);
+            nh_growth_bracket(x->d, x->N, x->symbol, f->field + i * N, f->field + j * N, field);
             frame_add(x, f, field);
         }
     nh_free(field);
@@ -303,7 +302,7 @@ static bool prove_involutive(space *x, size_t generators, const nh_ex *generator
     bool good = f.count == count && !x->too_large;
     for (size_t i = 0; i < f.count && good; i++)
         for (size_t j = 0; j < i && good; j++) {
-            bracket(x, f.field + i * N, f.field + j * N, field);
+            nh_growth_bracket(x->d, x->N, x->symbol, f.field + i * N, f.field + j * N, field);
             for (size_t s = 0; s < N && good; s++) good = nh_is_zero(x->d, tidy(x, field[s])) && !x->too_large;
         }
     nh_free(field);

@@ -34,4 +34,7 @@ typedef struct {
  * count).  Other places than generic ones: each coordinate, and all, at zero, where the domain contains it. */
 nh_growth nh_growth_of(const nh_model *model, size_t count, size_t N, const nh_ex *symbol, const nh_ex *field, size_t shift);
 
+/* [a, b] of two fields on these symbols. */
+void nh_growth_bracket(nh_dag *dag, size_t N, const nh_ex *symbol, const nh_ex *a, const nh_ex *b, nh_ex *out);
+
 #endif

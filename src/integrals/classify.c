@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 #include "integrals/classify_internal.h"
+#include "integrals/linear_pencil.h"
 
 enum { least_primes = 4 };
 
@@ -11,6 +12,15 @@ typedef nh_classify_search search;
 typedef nh_classify_place place;
 
 /* ---- roots of chi ---- */
+
+static bool pencil_of(search *s, const nh_parametric_series *x, size_t degree, nh_sparse_pencil *out,
+                      nh_parametric_variable *variable)
+{
+    nh_parity parity = !x->split ? NH_ALL_DEGREES : degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
+    *variable = (nh_parametric_variable){0};
+    if (s->q->linear) return nh_linear_pencil(&s->family, x, degree, s->q->unknowns, out);
+    return nh_parametric_pencil(&s->family, x, degree, parity, s->q->unknowns, out, variable);
+}
 
 /* chi and Q at one point. */
 static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_t prime, uint64_t seed,
@@ -20,16 +30,14 @@ static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_
     if (!x) return false;
     nh_sparse_pencil pencil = {0};
     nh_parametric_variable variable;
-    nh_parity parity = !x->split ? NH_ALL_DEGREES : degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
-    bool good = nh_parametric_pencil(&s->family, x, degree, parity, s->q->unknowns, &pencil, &variable)
-        && nh_staircase(&pencil, x->ring->field, chi);
+    bool good = pencil_of(s, x, degree, &pencil, &variable) && nh_staircase(&pencil, x->ring->field, chi);
     if (good) nh_parametric_back(&variable, x->ring->field, chi);
     if (good) {
         Q->degree = x->degree;
         Q->coefficient = nh_alloc_array(x->degree + 1, sizeof *Q->coefficient);
         for (size_t j = 0; j <= x->degree; j++) Q->coefficient[j] = x->coefficient[j * x->length];
         while (Q->degree > 0 && !Q->coefficient[Q->degree]) Q->degree--;
-        s->out->limit = Q->degree == x->degree;
+        s->out->limit = !s->q->linear && Q->degree == x->degree;
         out->unknowns = pencil.columns;
         out->power = pencil.degree;
     }
@@ -168,10 +176,12 @@ static bool find_values(search *s, size_t degree, nh_classify_row *row)
 
 /* ---- degrees ---- */
 
+static size_t last_degree(const search *s) { return s->q->linear ? s->q->linear->levels : s->q->degree; }
+
 static void run(search *s)
 {
     nh_classification *c = s->out;
-    while (c->rows < s->q->degree && !nh_late()) {
+    while (c->rows < last_degree(s) && !nh_late()) {
         nh_classify_row row = {0};
         size_t degree = c->rows + 1;
         place any = {.kind = NH_CLASSIFY_ANY}, infinite = {.kind = NH_CLASSIFY_INFINITE};
@@ -179,6 +189,7 @@ static void run(search *s)
         bool good = nh_classify_count(s, degree, &any, 0, &row.known, &row.number);
         nh_progress("where the equations for integrals lose rank", -1);
         good = good && find_values(s, degree, &row) && !nh_late();
+        if (s->q->linear && row.number.bound == 0) row.known = 0;
         /* the other parity was looked at one degree lower */
         if (c->rows) row.height = fmin(row.height, c->row[c->rows - 1].height);
         if (!good) {
@@ -204,6 +215,13 @@ nh_classification *nh_classify(const nh_model *model, const nh_classify_question
     if (s.family.obstacle) out->obstacle = s.family.obstacle;
     else run(&s);
     nh_parametric_close(&s.family);
+    return out;
+}
+
+nh_classification *nh_classification_refused(const char *obstacle)
+{
+    nh_classification *out = nh_alloc(sizeof *out);
+    out->obstacle = obstacle;
     return out;
 }
 

@@ -7,6 +7,8 @@
  * [docs/method.md, sec. 11]. Roots common to two points are lifted from several primes (special_values.h), and the
  * integrals are counted at each.
  *
+ * Instead of integrals the solutions of a linear family can be counted (linear_family.h): then the numbers are P.
+ *
  * What is proved: no transcendental number is special; a number that is special and not among the values (special,
  * degenerate or examined in vain) has, modulo each of the primes, the residue of one of them, or no residue. For
  * rationals up to a `height` this cannot be. */
@@ -25,6 +27,8 @@ typedef struct {
     int64_t top, bottom;
     size_t plane;            /* with two, the largest determinant */
     bool shape;              /* coefficients do not depend on cyclic coordinates */
+    const nh_linear_family *linear; /* its solutions are counted instead of integrals, its levels are the degrees; or
+                              * NULL */
     size_t degree;           /* up to which */
     double work;             /* products of residues that one count may take */
     size_t unknowns;         /* of the largest linear system */
@@ -73,6 +77,8 @@ typedef struct {
 } nh_classification;
 
 nh_classification *nh_classify(const nh_model *model, const nh_classify_question *question);
+/* Nothing was done. */
+nh_classification *nh_classification_refused(const char *obstacle);
 void nh_classification_free(nh_classification *classification);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 #include "integrals/classify_internal.h"
+#include "integrals/linear_pencil.h"
 
 enum { most_points = 60, steps_beyond = 1, first_beyond = 2, root_primes = 40 };
 
@@ -14,7 +15,8 @@ void nh_classify_open(search *s, const nh_model *model, const nh_classify_questi
 {
     *s = (search){.q = q, .count = {.generic = true, .degree = q->degree, .work = q->work, .known = q->known,
                                     .current = q->current}};
-    nh_parametric_open(&s->family, model, q->parameter, q->two ? q->second : SIZE_MAX, q->shape, &s->count);
+    nh_parametric_open(&s->family, model, q->parameter, q->two ? q->second : SIZE_MAX, q->shape, q->linear,
+                       &s->count);
     s->family.held = q->two && q->bottom > 0;
 }
 
@@ -83,6 +85,36 @@ static bool totals(search *s, const nh_parametric_series *x, const nh_residue *v
     return good;
 }
 
+/* P at one value, of one order. */
+static bool dimension_at(search *s, size_t prime, size_t level, size_t order, const place *p, nh_residue lambda,
+                         size_t *out)
+{
+    nh_parametric_series *x = nh_classify_series(s, prime, 7 + level, order);
+    if (!x) return false;
+    nh_residue *values = nh_alloc_array(x->length, sizeof *values);
+    nh_parametric_at(x, lambda, p->kind == NH_CLASSIFY_INFINITE, values);
+    bool good = nh_linear_dimension(&s->family, x, values, level, s->count.work - s->family.counter.work, out);
+    nh_free(values);
+    nh_parametric_series_free(x);
+    return good;
+}
+
+/* The same for orders that grow, as below. What brackets of fields say is seen one order later than they are long. */
+static void dimension(search *s, size_t prime, size_t level, const place *p, nh_residue lambda, size_t least,
+                      nh_classify_number *out)
+{
+    const nh_linear_family *l = s->q->linear;
+    size_t seen = l->low + l->step + 1, number;
+    for (size_t order = l->low + 1, same = 0; !nh_late(); order++) {
+        if (!dimension_at(s, prime, level, order, p, lambda, &number)) break;
+        same = out->bounded && number == out->bound ? same + 1 : 0;
+        *out = (nh_classify_number){.bound = number, .order = order, .counted = true, .bounded = true,
+                                    .settled = same >= steps_beyond && order > seen};
+        if (number == least || out->settled) break;
+    }
+    out->settled |= out->bounded && out->bound == 0;
+}
+
 bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, size_t *known, nh_classify_number *out)
 {
     size_t step = 1, prime = 0;
@@ -92,6 +124,13 @@ bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, s
     if (prime == root_primes) return false;
     s->family.held = true;
     s->family.counter.work = 0;
+    if (s->q->linear) {
+        *out = (nh_classify_number){0};
+        if (known) least = *known = s->q->linear->known;
+        dimension(s, prime, degree, p, lambda, least, out);
+        s->family.held = held;
+        return out->bounded;
+    }
     for (size_t order = degree + first_beyond; s->family.counter.work < s->count.work
          && !nh_late(); order += step + 1) {
         nh_parametric_series *x = nh_classify_series(s, prime, 7 + degree, order);

@@ -31,8 +31,7 @@ static size_t factor_of(nh_parametric *f, nh_ex base)
     return f->factors++;
 }
 
-/* The highest powers that these expressions are divided by. */
-static void find_denominators(nh_parametric *f, size_t n, const nh_ex *e, size_t *power)
+void nh_parametric_denominators(nh_parametric *f, size_t n, const nh_ex *e, size_t *power)
 {
     enum { most = 4000 };
     nh_dag *d = f->counter.equations->dag;
@@ -100,11 +99,20 @@ static bool in_equations(const nh_parametric *f, nh_ex symbol)
     return among(f, x->m, x->rho, symbol) || among(f, x->n * x->n, x->M, symbol) || among(f, x->n, x->A, symbol);
 }
 
+/* A density that is one function of a cyclic angle does not depend on it: the logarithm's derivative is constant. */
+static bool is_kept(const nh_parametric *f, size_t k)
+{
+    const nh_jet_equations *x = f->counter.equations;
+    if (in_equations(f, x->coordinate[k])) return true;
+    bool angle = k >= x->time && x->model->system->coordinate[k - x->time].type == NH_ANGLE;
+    return !f->shape && !(f->linear && angle);
+}
+
 /* The coordinates of the series are those of the file: without constraints, and for the shape alone where there are no
  * fewer velocities than coordinates left. */
 static bool plain(const nh_parametric *f)
 {
-    return f->counter.equations->n == f->counter.equations->m || (f->shape && f->kept <= f->counter.equations->n);
+    return f->linear || f->counter.equations->n == f->counter.equations->m || (f->shape && f->kept <= f->counter.equations->n);
 }
 
 static void look(nh_parametric *f)
@@ -117,9 +125,9 @@ static void look(nh_parametric *f)
              || (f->second != SIZE_MAX && !in_equations(f, x->model->parameter[f->second])))
         f->obstacle = "the equations do not depend on the parameter";
     if (f->obstacle) return;
-    find_denominators(f, x->n * x->n, x->M, f->of_mass);
-    find_denominators(f, x->n, x->A, f->of_rest);
-    find_denominators(f, x->m, x->rho, of_rest);
+    nh_parametric_denominators(f, x->n * x->n, x->M, f->of_mass);
+    nh_parametric_denominators(f, x->n, x->A, f->of_rest);
+    nh_parametric_denominators(f, x->m, x->rho, of_rest);
     for (size_t i = 0; i < f->factors; i++) { /* adj(q M) q A is free of what clears M already */
         size_t more = f->of_rest[i] > f->of_mass[i] ? f->of_rest[i] - f->of_mass[i] : 0;
         f->of_rest[i] = more > of_rest[i] ? more : of_rest[i];
@@ -127,24 +135,29 @@ static void look(nh_parametric *f)
 }
 
 void nh_parametric_open(nh_parametric *f, const nh_model *model, size_t parameter, size_t second, bool shape,
-                        const nh_count_question *question)
+                        const nh_linear_family *linear, const nh_count_question *question)
 {
-    *f = (nh_parametric){.parameter = parameter, .second = second, .shape = shape};
+    *f = (nh_parametric){.parameter = parameter, .second = second, .shape = shape, .linear = linear};
     nh_counter_open(&f->counter, model, question);
     nh_jet_equations *x = f->counter.equations;
     f->index = nh_alloc_array(x->coordinates + 1, sizeof *f->index);
     f->factor = nh_alloc_array(most_factors, sizeof *f->factor);
     f->of_mass = nh_alloc_array(most_factors, sizeof *f->of_mass);
     f->of_rest = nh_alloc_array(most_factors, sizeof *f->of_rest);
+    if (linear && linear->coefficient) {
+        nh_parametric_linear_open(f);
+        return;
+    }
     f->obstacle = x->obstacle;
     for (size_t k = 0; k < x->coordinates; k++)
-        if (!shape || in_equations(f, x->coordinate[k])) f->index[f->kept++] = k;
+        if (is_kept(f, k)) f->index[f->kept++] = k;
     if (!f->obstacle) look(f);
 }
 
 void nh_parametric_close(nh_parametric *f)
 {
     nh_counter_close(&f->counter);
+    nh_free(f->entry);
     nh_free(f->of_rest);
     nh_free(f->of_mass);
     nh_free(f->factor);
@@ -159,16 +172,19 @@ bool nh_parametric_choose(nh_parametric *f, size_t prime, uint64_t seed)
     nh_adapted_frame_free(f->counter.frame);
     f->counter.frame = NULL;
     nh_jet_equations_choose(x, nh_prime_at(prime), seed);
+    if (f->linear && f->linear->coefficient) return true;
     return nh_count_take_known(&f->counter) && (plain(f) || (f->counter.frame = nh_adapted_frame_create(x)) != NULL);
 }
 
 size_t nh_parametric_kept(const nh_parametric *f) { return plain(f) ? f->kept : f->counter.frame->kept; }
-size_t nh_parametric_step(const nh_parametric *f) { return plain(f) ? 1 : f->counter.frame->step; }
+size_t nh_parametric_step(const nh_parametric *f)
+{
+    return f->linear ? f->linear->step : plain(f) ? 1 : f->counter.frame->step;
+}
 
 /* ---- series at one value ---- */
 
-/* det M of series; zero where it is singular at the point. */
-static void determinant(const nh_jet_ring *r, size_t n, nh_residue *M, nh_residue *out)
+void nh_parametric_determinant(const nh_jet_ring *r, size_t n, nh_residue *M, nh_residue *out)
 {
     nh_residue *inverse = nh_alloc_array(2 * r->size, sizeof *inverse), *ratio = inverse + r->size;
     nh_jet_constant(r, 1, out);
@@ -212,7 +228,7 @@ static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue 
                                    sizeof *M), *value = M + x->n * x->n * r->size, *work = value + r->size;
     nh_jet_eval *v = nh_jet_equations_eval(x, r, coordinate);
     bool good = nh_jet_eval_all(v, x->n * x->n, x->M, M);
-    if (good) determinant(r, x->n, M, out);
+    if (good) nh_parametric_determinant(r, x->n, M, out);
     for (size_t i = 0; i < f->factors && good; i++) {
         good = nh_jet_eval_all(v, 1, &f->factor[i], value);
         for (size_t k = 0; k < f->of_mass[i] * x->n + f->of_rest[i] && good; k++) times(r, out, value, work);
@@ -226,6 +242,7 @@ static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue 
 static bool spanned(const nh_parametric *f, const nh_jet_ring *r, const nh_residue *field)
 {
     const nh_jet_equations *x = f->counter.equations;
+    if (f->linear) return true;
     nmod_mat_t m;
     nmod_mat_init(m, (slong)x->fields, (slong)f->kept, r->field.p);
     for (size_t i = 0; i < x->fields; i++)
@@ -253,21 +270,29 @@ static bool plain_series(nh_parametric *f, const nh_jet_ring *r, nh_residue *coo
     return good;
 }
 
-bool nh_parametric_value(nh_parametric *f, nh_parametric_series *s, nh_residue lambda, nh_residue mu, nh_residue *out)
+bool nh_parametric_motion(nh_parametric *f, const nh_jet_ring *r, nh_residue *coordinate, nh_residue lambda,
+                          nh_residue mu, nh_residue *out)
 {
     nh_jet_equations *x = f->counter.equations;
-    const nh_jet_ring *r = s->ring;
+    size_t rates_at = (1 + x->fields * nh_parametric_kept(f)) * r->size;
+    size_t length = rates_at + x->n * nh_jet_equations_monomials(x->n) * r->size;
     x->at[x->coordinates + f->parameter] = lambda;
     if (f->second != SIZE_MAX) x->at[x->coordinates + f->second] = mu;
-    bool good = plain(f) ? plain_series(f, r, s->coordinate, out + s->fields_at)
-        : nh_adapted_frame_series(f->counter.frame, r, s->coordinate, out + s->fields_at);
-    good = good && multiplier(f, r, s->coordinate, out)
-        && nh_jet_equations_accelerations(x, r, s->coordinate, out + s->rates_at);
+    bool good = plain(f) ? plain_series(f, r, coordinate, out + r->size)
+        : nh_adapted_frame_series(f->counter.frame, r, coordinate, out + r->size);
+    good = good && multiplier(f, r, coordinate, out)
+        && nh_jet_equations_accelerations(x, r, coordinate, out + rates_at);
     nh_residue *work = nh_alloc_array(r->size, sizeof *work);
-    for (size_t k = s->fields_at; k < s->length && good; k += r->size) times(r, out + k, out, work);
+    for (size_t k = r->size; k < length && good; k += r->size) times(r, out + k, out, work);
     nh_free(work);
-    f->counter.work += (double)r->pairs[r->size] * (x->products + (double)s->length / (double)r->size);
+    f->counter.work += (double)r->pairs[r->size] * (x->products + (double)length / (double)r->size);
     return good;
+}
+
+bool nh_parametric_value(nh_parametric *f, nh_parametric_series *s, nh_residue lambda, nh_residue mu, nh_residue *out)
+{
+    return f->linear ? nh_parametric_linear_value(f, s, lambda, mu, out)
+        : nh_parametric_motion(f, s->ring, s->coordinate, lambda, mu, out);
 }
 
 /* ---- creation ---- */
@@ -300,11 +325,12 @@ nh_parametric_series *nh_parametric_series_create(nh_parametric *f, size_t order
     nh_free(one);
     s->fields_at = size;
     s->rates_at = size + x->fields * kept * size;
-    s->length = s->rates_at + x->n * nh_jet_equations_monomials(x->n) * size;
+    s->length = f->linear ? nh_parametric_linear_length(f, s->ring)
+        : s->rates_at + x->n * nh_jet_equations_monomials(x->n) * size;
     s->coordinate = nh_alloc_array((x->coordinates + 1) * size, sizeof *s->coordinate);
     *regular = nh_parametric_interpolate(f, s);
     if (*regular) {
-        s->split = has_parity(f, s);
+        s->split = !f->linear && has_parity(f, s);
         if (s->degree <= most_degree && s->second <= most_degree) return s;
         f->obstacle = "equations of a degree in the parameter that is too high";
     }

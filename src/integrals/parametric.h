@@ -11,12 +11,16 @@
  * has to be free of lambda. Cyclic ones may be left out: then Phi has coefficients that do not depend on them, and
  * where the velocities have all directions of the others there is no need of a frame.
  *
+ * Instead of the equations of motion the series may be those of a linear family (linear_family.h): Q, then its
+ * coefficients times what clears them. They are in the coordinates of the file, or in those of the family.
+ *
  * With two parameters, lambda and mu, there are G_ij for lambda^i mu^j. A second parameter may also be held at a
  * residue. */
 #ifndef NH_PARAMETRIC_H
 #define NH_PARAMETRIC_H
 
 #include "integrals/count_internal.h"
+#include "integrals/linear_family.h"
 #include "integrals/staircase.h"
 
 typedef struct {
@@ -26,6 +30,8 @@ typedef struct {
     bool held;               /* mu is this residue, */
     nh_residue value;        /* and the series are those of one parameter */
     bool shape;              /* without cyclic coordinates */
+    const nh_linear_family *linear; /* or NULL */
+    nh_ex *entry;            /* its coefficients and masses, canonical */
     size_t kept, *index;     /* where there is no frame: the coordinates of the series */
     nh_ex *factor;           /* q is a product of powers of these, which depend on the parameter: */
     size_t factors, *of_mass, *of_rest; /* exponents: what clears M, and what is needed beyond it */
@@ -37,7 +43,7 @@ bool nh_parametric_rational(nh_dag *dag, nh_ex e, nh_ex symbol);
 
 /* Borrows the model and the question, of which the parameters are indeterminates. */
 void nh_parametric_open(nh_parametric *family, const nh_model *model, size_t parameter, size_t second, bool shape,
-                        const nh_count_question *question);
+                        const nh_linear_family *linear, const nh_count_question *question);
 void nh_parametric_close(nh_parametric *family);
 
 /* Another point, which follows from both numbers; false: a singular one. */

@@ -227,8 +227,10 @@ static size_t pivot_of(const sparse *s, const sparse_row *r, size_t most)
     return best;
 }
 
-static void eliminate_all(sparse *s)
+/* How many pivots there were. */
+static size_t eliminate_all(sparse *s)
 {
+    size_t pivots = 0;
     for (size_t cost = least_cost; cost <= largest_cost && !nh_late(); cost *= 4)
         for (bool found = true; found && !nh_late();) {
             found = false;
@@ -237,8 +239,10 @@ static void eliminate_all(sparse *s)
                 if (column == SIZE_MAX) continue;
                 eliminate(s, (uint32_t)i, (uint32_t)column);
                 found = true;
+                pivots++;
             }
         }
+    return pivots;
 }
 
 /* ---- out ---- */
@@ -248,7 +252,7 @@ nh_sparse_pencil nh_sparse_pencil_reduce(const nh_sparse_pencil *p, nh_prime f)
     sparse s;
     open_sparse(&s, p, f);
     nh_sparse_pencil out = {.degree = p->second ? p->degree : 1, .second = p->second};
-    eliminate_all(&s);
+    out.pivots = eliminate_all(&s);
     uint32_t *to = nh_alloc_array(s.columns + 1, sizeof *to);
     for (size_t j = 0; j < s.columns; j++) { /* columns without rows stay free for every value: they do not matter */
         to[j] = (uint32_t)out.columns;

@@ -20,6 +20,7 @@ typedef struct {
     size_t rows, columns, degree, entries, capacity;
     nh_sparse_entry *entry;
     size_t second;           /* degree in mu; 0 where there is none */
+    size_t pivots;           /* of a reduced one: how many were used up */
 } nh_sparse_pencil;
 
 /* The linear system reduced: one entry for each place and power, rows and columns renumbered. With one parameter it has

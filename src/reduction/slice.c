@@ -214,3 +214,47 @@ void nh_slice_place(const nh_slice *s, const double *x, double *q)
     for (size_t i = 0; i < s->n; i++) q[s->shape[i]] = x[i];
     for (size_t a = 0; a < s->d; a++) q[s->along[a]] = s->y0[a];
 }
+
+/* ---- round places ---- */
+
+static bool regular_at(const nh_action *g, const size_t *along, const double *y)
+{
+    enum { trials = 8 };
+    static const double regular = 1e-3;
+    const nh_kinetic *k = g->kinetic;
+    size_t m = k->m, d = g->d;
+    double *q = nh_alloc_array(m, sizeof *q), *minor = nh_alloc_array(d * d + m * d + d + 1, sizeof *minor);
+    double *E = minor + d * d, *sv = E + m * d;
+    bool good = true;
+    for (size_t p = 0; p < trials && p < k->places && good && d; p++) {
+        memcpy(q, k->place + p * m, m * sizeof *q);
+        for (size_t a = 0; a < d; a++) q[along[a]] = y[a];
+        nh_action_values(g, q, E);
+        for (size_t i = 0; i < d; i++)
+            for (size_t a = 0; a < d; a++) minor[i + a * d] = E[along[i] + a * m];
+        good = isfinite(nh_largest(d * d, minor));
+        nh_singular_values(d, d, minor, sv);
+        good = good && sv[d - 1] > regular * sv[0];
+    }
+    nh_free(q);
+    nh_free(minor);
+    return good;
+}
+
+bool nh_slice_nice(const nh_action *g, const size_t *along, double *y)
+{
+    static const double values[] = {0, 1.5707963267948966, 1};
+    enum { most = 2000 };
+    size_t d = g->d, trials = 1;
+    for (size_t a = 0; a < d && trials < most; a++) trials *= 3;
+    for (size_t trial = 0; trial < trials && trial < most; trial++) {
+        size_t code = trial;
+        bool allowed = true;
+        for (size_t a = 0; a < d; a++, code /= 3) {
+            y[a] = values[code % 3];
+            allowed &= code % 3 != 1 || g->kinetic->angle[along[a]];
+        }
+        if (allowed && regular_at(g, along, y)) return true;
+    }
+    return false;
+}

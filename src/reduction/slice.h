@@ -38,6 +38,9 @@ void nh_slice_choose(const nh_action *action, size_t *shape, size_t *along);
 /* The same at one place.  `avoid`: d coordinates that did not last from there; others are taken unless they are far worse.  NULL: none. */
 void nh_slice_choose_at(const nh_action *action, const double *q, const size_t *avoid, size_t *shape, size_t *along);
 
+/* The first y of zeros, then right angles, then ones, at which the slice is regular. */
+bool nh_slice_nice(const nh_action *action, const size_t *along, double *y);
+
 /* y0 (d values); entries are simplified where y0 is exact (whole numbers, pi/2).  Memory: the kinetic's arena. */
 void nh_slice_init(nh_slice *slice, const nh_action *action, const size_t *shape, const size_t *along, const double *y0);
 

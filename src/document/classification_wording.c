@@ -1,0 +1,47 @@
+/* What a classification counts, in words: by question. */
+#include "document/classification_internal.h"
+
+static const struct {
+    const char *subject;     /* of the whole */
+    const char *where;       /* heading of the special values, and of sentences about them */
+    const char *more;        /* "more ..." */
+} WORDS[NH_LINEAR_QUESTIONS] = {
+    [NH_OF_CURRENTS] = {"integrals polynomial in the velocities", "More for", "more conservation laws than almost all"},
+    [NH_OF_MEASURE] = {"invariant measures exp(sigma(q)) dq dw", "An invariant measure for", "an invariant measure"},
+    [NH_OF_HAMILTONIZATION] = {"conformal factors on the shape space, by which the reduced equations become Hamiltonian",
+                               "A conformal factor for", "a conformal factor"},
+    [NH_OF_SYMMETRIES] = {"infinitesimal symmetries of Lagrangian and constraints", "More symmetries for",
+                          "more symmetries than almost all"},
+    [NH_OF_INTEGRABILITY] = {"directions that brackets of the allowed motions have", "Fewer directions for",
+                             "fewer directions than almost all"},
+};
+
+const char *nh_classification_subject(const nh_classified *x) { return WORDS[x->of].subject; }
+const char *nh_classification_where(const nh_classified *x) { return WORDS[x->of].where; }
+const char *nh_classification_more(const nh_classified *x) { return WORDS[x->of].more; }
+
+void nh_classification_level(const nh_classified *x, size_t level, nh_text *out)
+{
+    switch (x->of) {
+    case NH_OF_MEASURE: nh_text_add(out, "densities"); return;
+    case NH_OF_HAMILTONIZATION: nh_text_add(out, "factors"); return;
+    case NH_OF_SYMMETRIES: nh_text_add(out, "symmetries"); return;
+    case NH_OF_INTEGRABILITY: nh_text_addf(out, "brackets up to length %zu", level + 1); return;
+    default: nh_text_addf(out, "degree %zu", level);
+    }
+}
+
+void nh_classification_amount(const nh_classified *x, size_t bound, nh_text *out)
+{
+    bool word = x->of == NH_OF_MEASURE || x->of == NH_OF_HAMILTONIZATION;
+    bool rank = x->of == NH_OF_INTEGRABILITY && x->question;
+    if (word && bound < 2) nh_text_add(out, bound ? "one" : "none");
+    else nh_text_addf(out, "%zu", rank ? x->question->family.unknowns - bound : bound);
+}
+
+void nh_classification_beyond(const nh_classified *x, size_t bound, nh_text *out)
+{
+    bool any = (x->of == NH_OF_MEASURE || x->of == NH_OF_HAMILTONIZATION) && !bound;
+    nh_text_add(out, any ? "one" : x->of == NH_OF_INTEGRABILITY ? "less than " : "more than ");
+    if (!any) nh_classification_amount(x, bound, out);
+}
