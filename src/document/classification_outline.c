@@ -81,7 +81,7 @@ static void outline_line(const nh_classified *x, pen *p)
     for (size_t k = 0; k < c->values; k++) {
         const nh_classify_value *v = &c->value[k];
         if (!v->first || v->degenerate) continue;
-        if (!written++) nh_pen_section(p, "special", nh_classification_where(x));
+        if (!written++) nh_pen_section(p, "special", x->question ? nh_classification_where(x) : "Where there are more");
         nh_pen_card(p, nh_classified_words(x, &v->polynomial));
         put_numbers(x, p, c->rows, v->number, v->first, x->value[k].complete, almost_all);
         put_value(x, p, &x->value[k], v->first);
