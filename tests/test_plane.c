@@ -437,7 +437,7 @@ Test(plane, documents_show_the_plane)
         const char *name, *words;
     } parts[] = {{"figure1.svg", "<path"}, {"report.html", "with the constant 1: la^2 + mu^2 - 4 = 0: 3; elsewhere 2."}, {"report.html", "Counted modulo primes. No currents: "},
                  {"report.html", "no other pair of rational numbers"}, {"report.html", "id=\"picture\""},
-                 {"report.tex", "\\subsection{la\\textasciicircum{}2 + mu\\textasciicircum{}2 -{} 4 = 0}"},
+                 {"report.tex", "\\subsection*{la\\textasciicircum{}2 + mu\\textasciicircum{}2 -{} 4 = 0}"},
                  {"report.tex", "\\addplot"}, {"report.tex", "\\end{document}"},
                  {"result.json", "\"nowhere_else\""}};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
