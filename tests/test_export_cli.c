@@ -50,6 +50,17 @@ Test(export_cli, inputs_and_parts)
     cr_expect_null(strstr(f.out, "double u;"), "an input is no parameter");
     cr_expect_null(strstr(f.out, "driven_momenta"), "only the wanted part");
     finished_clear(&f);
+    write_here(&p, "marked.yaml", "include: driven.yaml\nparameters: [{name: u, value: 0, input: true}]\n");
+    f = run_expecting(&p, "export marked.yaml --to c --of equations", 0); /* the file says it itself */
+    cr_expect_not_null(strstr(f.out, "/* inputs: u */"), "%s", f.out);
+    finished_clear(&f);
+    f = run_expecting(&p, "export marked.yaml --to c --of equations --input w", 0);
+    cr_expect_not_null(strstr(f.out, "/* inputs: u, w */"), "%s", f.out);
+    finished_clear(&f);
+    write_here(&p, "marked.yaml", "include: driven.yaml\nparameters: [{name: u, value: 0, input: yes}]\n");
+    f = run_expecting(&p, "analyze marked.yaml", 3);
+    cr_expect_not_null(strstr(f.err, "marked.yaml:2:41: `input` must be true or false, found `yes`"), "%s", f.err);
+    finished_clear(&f);
     f = run_expecting(&p, "export driven.yaml --to json --of momenta,submanifold --input u,w", 0);
     cr_expect_not_null(strstr(f.out, "\"inputs\":\t[\"u\", \"w\"]"));
     cr_expect(strstr(f.out, "\"velocities_of_momenta\"") && strstr(f.out, "\"rates\"") &&

@@ -178,6 +178,40 @@ Test(simulate, tables_of_initial_states_and_parameters)
     place_clear(&p);
 }
 
+/* --over: the table of all combinations. */
+Test(simulate, motions_over_ranges)
+{
+    static const struct {
+        const char *options, *out, *err;
+        int code;
+    } cases[] = {
+        {"--over w=1:2:3 --watch x", "member,w,t,x\n0,1,0,1\n", "", 0},
+        {"--over w=1,3/2 --over x=2,4 --watch x", "member,w,t,x\n0,1,0,2\n", "", 0},
+        {"--over x=0:1:2 --over \"x'=1,2\"", "member,t,x,x_dot,E\n0,0,0,1,0.5\n", "", 0},
+        {"--over w", "", "--over `w` is no range and no list", 2},
+        {"--over w=2:1:3", "", "the first end of the range is not below the second", 2},
+        {"--over ww=1:2:3", "", "--over: the column `ww` is no coordinate, velocity or parameter of spring\nhint: did you mean", 3},
+        {"--over w=1:2:3 --initial-table starts.csv", "", "--initial-table, and --over as well", 2},
+        {"--over w=1:2:3 --ensemble 3", "", "--over, and --ensemble as well", 2},
+    };
+    place p = place_make();
+    write_here(&p, "spring.yaml", oscillator);
+    write_here(&p, "starts.csv", "x\n1\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "$N simulate spring.yaml --initial x=1 --until 1 --step 1 %s", cases[i].options);
+        finished f = run_shell(&p, line);
+        cr_expect(f.code == cases[i].code && !strncmp(f.out, cases[i].out, strlen(cases[i].out)), "%s: %d\n%s%s", cases[i].options, f.code, f.out, f.err);
+        cr_expect(strstr(f.err, cases[i].err), "%s: %s", cases[i].options, f.err);
+        size_t lines = 0;
+        for (const char *c = f.out; *c; c++) lines += *c == '\n';
+        cr_expect(i != 0 || lines == 7, "three motions of two rows, and names: %zu lines", lines);
+        cr_expect(i != 1 || lines == 9, "four motions: %zu lines", lines);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 /* m x'' = u(t): what was put in comes out after two integrations. */
 Test(simulate, inputs_over_time)
 {

@@ -1,7 +1,9 @@
 #include <string.h>
 
+#include "base/files.h"
 #include "base/progress.h"
 #include "cli/cli.h"
+#include "commands/scan.h"
 #include "document/simulation.h"
 
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *q, nh_error *error)
@@ -91,13 +93,49 @@ static int one_by_one(nh_cli *cli, const nh_simulate_request *request, const nh_
     return good && nh_interrupted() ? (int)nh_ended_code() : (int)error->code;
 }
 
+/* --over, each: a table whose rows are all combinations, the last name changing first. */
+static bool write_combinations(nh_cli *cli, nh_error *error)
+{
+    static const char name[] = "--over";
+    const size_t most = 1000000;
+    nh_scan_axis *axis = nh_arena_alloc(cli->arena, cli->overs * sizeof *axis);
+    size_t rows = 1;
+    nh_text text;
+    nh_text_init(&text);
+    bool good = true;
+    for (size_t i = 0; i < cli->overs && good; i++) {
+        good = nh_scan_read_axis(cli->arena, cli->over_list[i], &axis[i], error);
+        if (good && axis[i].count > most / rows) good = nh_fail(error, NH_USAGE, "", "--over: there are more than %zu combinations", most);
+        if (good) rows *= axis[i].count, nh_text_addf(&text, "%s%s", i ? "," : "", axis[i].name);
+    }
+    for (size_t row = 0; row < rows && good; row++) {
+        size_t stride = rows;
+        for (size_t i = 0; i < cli->overs; i++) {
+            char number[32];
+            stride /= axis[i].count;
+            nh_text_number(axis[i].value[row / stride % axis[i].count].value, number, sizeof number);
+            nh_text_addf(&text, "%s%s", i ? "," : "\n", number);
+        }
+    }
+    if (good) nh_files_add(name, nh_text_string(&text), text.length);
+    nh_text_clear(&text);
+    cli->table = name;
+    return good;
+}
+
 /* --initial-table: its motions together, as an ensemble, or one by one where they differ in more than the initial state.  False: see the code. */
 static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows, int *code, nh_error *error)
 {
     *code = NH_OK;
-    if (!cli->table) return true;
+    if (!cli->table && !cli->overs) return true;
+    const char *option = cli->overs ? "over" : "initial-table";
+    if (cli->table && cli->overs) {
+        nh_fail(error, NH_USAGE, "", "--initial-table, and --over as well");
+        return nh_error_hint(error, "write the values of --over into the table"), *code = NH_USAGE, false;
+    }
+    if (cli->overs && !write_combinations(cli, error)) return *code = (int)error->code, false;
     bool good = !cli->ensemble && !cli->html && !cli->tex && !cli->svg;
-    if (!good) nh_fail(error, NH_USAGE, "", "--initial-table, and --%s as well", cli->ensemble ? "ensemble" : cli->html ? "html" : cli->tex ? "tex" : "svg"), nh_error_hint(error, "a table of initial states gives a table of motions, or JSON");
+    if (!good) nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", option, cli->ensemble ? "ensemble" : cli->html ? "html" : cli->tex ? "tex" : "svg"), nh_error_hint(error, "several motions are one table, or JSON");
     good = good && nh_simulate_rows_read(cli->arena, q, cli->table, rows, error);
     if (good && (rows->parameters || q->method || rows->count == 1)) return *code = one_by_one(cli, q, rows, error), false;
     if (!good) return *code = (int)error->code, false;

@@ -157,7 +157,13 @@ static bool read_inputs(nh_export *x, const char *list, nh_error *error)
     const nh_system *s = x->system;
     const char **names = nh_arena_alloc(x->arena, (s->parameters + 1) * sizeof *names), *word;
     x->input = nh_arena_alloc(x->arena, (s->parameters + 1) * sizeof *x->input);
-    for (size_t i = 0; i < s->parameters; i++) names[i] = s->parameter[i].name;
+    for (size_t i = 0; i < s->parameters; i++) {
+        names[i] = s->parameter[i].name;
+        if (!s->parameter[i].input) continue;
+        if (!may_change(s, i, error)) return false;
+        x->inputs++;
+        x->input[i] = true;
+    }
     while (list && (word = next_word(x->arena, &list))) {
         size_t i = 0;
         while (i < s->parameters && strcmp(word, names[i])) i++;

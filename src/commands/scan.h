@@ -30,6 +30,9 @@ typedef struct {
     bool ascending;        /* then jumps and dips are looked for along it */
 } nh_scan_axis;
 
+/* "k=1:4:61" or "k=1,2,5/2"; whether there is something of this name is for the caller to say. */
+bool nh_scan_read_axis(nh_arena *arena, const char *text, nh_scan_axis *out, nh_error *error);
+
 /* What is computed at a point, by whoever can. */
 typedef struct {
     const char *of;        /* "count", "analyze", "reduce" */

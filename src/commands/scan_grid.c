@@ -107,18 +107,22 @@ static bool is_parameter(const nh_scan *x, const char *name, nh_error *error)
     return nh_error_hint(error, "--over takes names under `parameters:` in the system file");
 }
 
+bool nh_scan_read_axis(nh_arena *arena, const char *text, nh_scan_axis *out, nh_error *error)
+{
+    const char *equal = strchr(text, '=');
+    if (!equal || equal == text) return unreadable(text, error);
+    *out = (nh_scan_axis){.name = nh_arena_strndup(arena, text, (size_t)(equal - text))};
+    return (strchr(equal, ':') ? read_range : read_list)(arena, text, out, error);
+}
+
 bool nh_scan_read_grid(nh_scan *x, const nh_scan_request *q, nh_error *error)
 {
     x->points = 1;
     if (q->axes > NH_SCAN_MOST_AXES)
         return nh_fail(error, NH_USAGE, "", "a scan has at most %d parameters, but --over is given %zu times", NH_SCAN_MOST_AXES, q->axes);
     for (size_t i = 0; i < q->axes; i++) {
-        const char *text = q->over[i], *equal = strchr(text, '=');
         nh_scan_axis *a = &x->axis[x->axes];
-        if (!equal || equal == text) return unreadable(text, error);
-        *a = (nh_scan_axis){.name = nh_arena_strndup(x->arena, text, (size_t)(equal - text))};
-        if (!is_parameter(x, a->name, error)) return false;
-        if (!(strchr(equal, ':') ? read_range : read_list)(x->arena, text, a, error)) return false;
+        if (!nh_scan_read_axis(x->arena, q->over[i], a, error) || !is_parameter(x, a->name, error)) return false;
         x->axes++;
         if (a->count > most_points / x->points) return nh_fail(error, NH_USAGE, "", "the grid has more than %zu points", most_points);
         x->points *= a->count;

@@ -16,6 +16,7 @@ typedef struct {
     double value;
     double written; /* its value in the file */
     bool set;       /* by the user, not by the file */
+    bool input;     /* the file says that it may change with time: an argument of exported code */
 } nh_parameter;
 
 typedef struct {

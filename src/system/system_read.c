@@ -71,9 +71,19 @@ static bool read_unit(reader *r, const nh_deck_node *item, const char **out)
     return nh_error_hint(r->error, "use SI units and units accepted with them, such as m, kg m^2, N/m, rad/s, 1/s, deg; write any other unit under `doc`");
 }
 
+static bool read_truth(reader *r, const nh_deck_node *item, const char *key, bool *out)
+{
+    const nh_deck_node *node = nh_deck_get(item, key);
+    *out = node && node->kind == NH_DECK_SCALAR && node->plain && !strcmp(node->text, "true");
+    if (!node || *out || (node->kind == NH_DECK_SCALAR && node->plain && !strcmp(node->text, "false"))) return true;
+    if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, key, r->error)) return false;
+    nh_deck_fail(r->deck, node, 0, r->error, "`%s` must be true or false, found `%s`", key, node->text);
+    return nh_error_hint(r->error, "an input may change with time: `nhsym export` makes it an argument");
+}
+
 static bool read_parameters(reader *r)
 {
-    static const char *const keys[] = {"name", "value", "unit", "doc"};
+    static const char *const keys[] = {"name", "value", "unit", "doc", "input"};
     const nh_deck_node *list = nh_deck_get(r->root, "parameters");
     nh_system *s = r->system;
     if (list) list = nh_deck_named(r->deck, list);
@@ -83,13 +93,13 @@ static bool read_parameters(reader *r)
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i];
         if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a parameter {name: ..., value: ...}", r->error)) return false;
-        if (!nh_deck_only(r->deck, item, keys, 4, r->error)) return false;
+        if (!nh_deck_only(r->deck, item, keys, 5, r->error)) return false;
         const nh_deck_node *name = nh_deck_get(item, "name"), *value = nh_deck_get(item, "value");
         if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this parameter has no `name`");
         if (!nh_system_new_name(r, name)) return false;
         nh_parameter *p = &s->parameter[i];
         *p = (nh_parameter){.name = name->text};
-        if (!read_unit(r, item, &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc)) return false;
+        if (!read_unit(r, item, &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc) || !read_truth(r, item, "input", &p->input)) return false;
         if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
         if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error)) return false;
         p->symbol = nh_symbol(s->dag, p->name);

@@ -380,15 +380,29 @@ static void collect(reader *r)
         if (!strcmp(e->name, "link")) r->link[n++] = e;
 }
 
+/* By their names in the file. */
+static bool distinct(reader *r)
+{
+    for (size_t i = 0; i < r->count; i++) {
+        const nh_xml_attribute *name = nh_xml_get(r->joint[i].element, "name");
+        for (size_t k = 0; k < i; k++)
+            if (!strcmp(name->value, nh_xml_get(r->joint[k].element, "name")->value)) return nh_urdf_fail(&r->u, name->begin, "there are two joints `%s`", name->value);
+    }
+    return true;
+}
+
 static bool read_robot(reader *r)
 {
+    enum { most = 1000 };
     const char *ignored = "material transmission gazebo sensor ros2_control plugin mujoco";
     if (!is_robot(r) || !nh_urdf_only(&r->u, r->robot, "name version", "link joint", ignored)) return false;
     collect(r);
     if (!r->links) return nh_urdf_fail(&r->u, r->robot->begin, "this robot has no <link>");
+    if (r->links > most || r->count > most) return nh_urdf_fail(&r->u, r->robot->begin, "this robot has more than %d links or joints", most);
     size_t n = 0;
     for (const nh_xml *e = r->robot->first; e; e = e->next)
         if (!strcmp(e->name, "joint") && !read_joint(r, e, &r->joint[n++])) return false;
+    if (!distinct(r)) return false;
     for (size_t i = 0; i < r->count; i++)
         if (has_coordinate(&r->joint[i])) r->joint[i].name = free_name(r, r->joint[i].name, i);
     for (size_t i = 0; i < r->links; i++)
