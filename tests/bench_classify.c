@@ -1,10 +1,11 @@
 /* bench_classify: families of tests/data/classify, whose files hold no answers, classified: the rows of
  * docs/classification.md. And random families, as many of them with a planted special value as without.
  *
- *     bench_classify [FAMILIES OF EACH KIND [ROWS OF THIS FILE ONLY]]
+ *     bench_classify [FAMILIES OF EACH KIND [ROWS OF THIS FILE ONLY, OR questions]]
  *
  * The exit code is 1 when a value is missed or false among the random ones. */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,6 +86,78 @@ static void row(size_t index)
     printf(" | %.0e | %.1f |\n", c->rows ? c->row[c->rows - 1].height : 0, nh_clock() - begin);
     fflush(stdout);
     nh_classified_free(x);
+}
+
+/* ---- other questions ---- */
+
+static const struct {
+    const char *path, *over; /* NULL: over each of the parameters in turn, the others at their values */
+    nh_linear_question of;
+} QUESTIONS[] = {
+    {"tests/data/classify/sleigh.yaml", "a", NH_OF_MEASURE},          {"tests/data/classify/sleigh.yaml", "a", NH_OF_HAMILTONIZATION},
+    {"tests/data/classify/suslov.yaml", "D", NH_OF_MEASURE},          {"tests/data/classify/suslov.yaml", "D", NH_OF_HAMILTONIZATION},
+    {"tests/data/classify/veselova.yaml", "b", NH_OF_MEASURE},        {"tests/data/classify/veselova.yaml", "b", NH_OF_INTEGRABILITY},
+    {"tests/data/classify/ball.yaml", "l", NH_OF_MEASURE},            {"tests/data/classify/ball.yaml", "l", NH_OF_HAMILTONIZATION},
+    {"tests/data/classify/distribution.yaml", "k", NH_OF_MEASURE},    {"tests/data/classify/distribution.yaml", "k", NH_OF_HAMILTONIZATION},
+    {"tests/data/classify/distribution.yaml", "k", NH_OF_SYMMETRIES}, {"tests/data/classify/distribution.yaml", "k", NH_OF_INTEGRABILITY},
+    {"tests/data/classify/oscillators.yaml", "b", NH_OF_SYMMETRIES},  {"systems/crane.yaml", NULL, NH_OF_HAMILTONIZATION},
+};
+
+/* What one run says of one parameter: adds it to the parts of a row. */
+static void answer(size_t index, const char *over, nh_text *names, nh_text *special, nh_text *degenerate, size_t *number,
+                   double *height)
+{
+    nh_error error = {0};
+    nh_classify_request q = {.system_path = QUESTIONS[index].path, .over = over, .of = QUESTIONS[index].of};
+    nh_options_default(&q.options);
+    nh_classified *x = nh_classify_system(&q, &error);
+    if (!x) return;
+    const nh_classification *c = x->classification;
+    if (!c->obstacle) nh_text_addf(names, "%s%s", nh_text_string(names)[0] ? ", " : "", over);
+    for (size_t k = 0; k < c->values; k++) {
+        const nh_classify_value *v = &c->value[k];
+        const char *words = nh_classified_words(x, &v->polynomial);
+        nh_text *to = v->degenerate ? degenerate : special;
+        if (!v->degenerate && !v->first && !v->open) continue;
+        nh_text_addf(to, "%s%s", nh_text_string(to)[0] ? "; " : "", words);
+        if (!v->degenerate)
+            nh_text_addf(to, " (%zu, %s)", v->number[v->first ? v->first : v->open].bound, !v->first ? "not decided"
+                         : x->value[k].complete >= v->first ? "proved" : "counted");
+    }
+    if (c->rows && c->row[0].height < *height) *height = c->row[0].height;
+    if (c->rows) *number = c->row[0].number.bound;
+    nh_classified_free(x);
+}
+
+static void question_row(size_t index)
+{
+    nh_error error = {0};
+    nh_text names, special, degenerate;
+    size_t number = 0;
+    double begin = nh_clock(), height = INFINITY;
+    nh_text_init(&names);
+    nh_text_init(&special);
+    nh_text_init(&degenerate);
+    nh_system *s = nh_system_read(QUESTIONS[index].path, 0, NULL, &error);
+    for (size_t i = 0; s && i < s->parameters; i++)
+        if (!QUESTIONS[index].over || !strcmp(QUESTIONS[index].over, s->parameter[i].name))
+            answer(index, s->parameter[i].name, &names, &special, &degenerate, &number, &height);
+    printf("| %s | %s | %s | %zu | %s | %s | %.0e | %.1f |\n", s ? s->title : error.what, nh_text_string(&names),
+           nh_linear_question_name(QUESTIONS[index].of), number, nh_text_string(&special)[0] ? nh_text_string(&special) : "none",
+           nh_text_string(&degenerate), height, nh_clock() - begin);
+    fflush(stdout);
+    nh_system_free(s);
+    nh_text_clear(&names);
+    nh_text_clear(&special);
+    nh_text_clear(&degenerate);
+}
+
+static void question_rows(void)
+{
+    puts("\nOther questions (`--of`), of one parameter after the other where several are named, the others at their values. Number: for almost all values the dimension of the densities of "
+         "measures (1: there is one), of conformal factors, of symmetries, or of the forms that brackets of the allowed motions leave; special values with theirs. Proved: the program constructs it there "
+         "and proves it exactly; counted: modulo primes.\n\n| family | over | question | number | special values | degenerate | height | s |\n|---|---|---|---|---|---|---|---|");
+    for (size_t i = 0; i < sizeof QUESTIONS / sizeof *QUESTIONS; i++) question_row(i);
 }
 
 /* ---- two parameters ---- */
@@ -195,6 +268,7 @@ int main(int argc, char **argv)
         if (!only || !strcmp(only, FAMILIES[i].file)) row(i);
     for (size_t i = 0; i < sizeof PLANES / sizeof *PLANES; i++)
         if (!only || !strcmp(only, PLANES[i].file)) plane_row(i);
+    if (!only || !strcmp(only, "questions")) question_rows();
     uint64_t random = 2026;
     for (size_t i = 0; i < 2 * each; i++) {
         bool planted = i % 2, found = false;

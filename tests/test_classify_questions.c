@@ -68,7 +68,7 @@ Test(questions, suslov)
  * integrable. */
 Test(questions, veselova)
 {
-    expect(FAMILY("veselova"), "b", NH_OF_MEASURE, "0 | b = 1: 1 | b = 0: 1 proved | b = -1: 1");
+    expect(FAMILY("veselova"), "b", NH_OF_MEASURE, "0 | b = 1: 1 proved | b = 0: 1 proved | b = -1: 1 proved");
     expect(FAMILY("veselova"), "b", NH_OF_INTEGRABILITY, "0 | b = 1: 1 proved | b = -1: 1 proved");
 }
 

@@ -53,20 +53,13 @@ static void growth(nh_classified *x, const nh_model *o, nh_classified_value *out
 
 /* ---- a Chaplygin reduction ---- */
 
-static bool no_gyroscopic_force(const nh_chaplygin *c)
-{
-    for (size_t i = 0; i < c->n * c->n * c->n; i++)
-        if (!nh_is_zero(c->dag, c->U[i])) return false;
-    return true;
-}
-
 static void density(nh_classified *x, const nh_reduction_stage *s, nh_classified_value *out)
 {
     const nh_chaplygin_measure *m = &s->measure;
     nh_text text;
     nh_text_init(&text);
     nh_text_addf(&text, "reduced by %s, the equations ", s->group);
-    if (no_gyroscopic_force(s->chaplygin)) {
+    if (nh_chaplygin_flat(s->chaplygin->slice, s->chaplygin->U)) {
         nh_text_add(&text, "have no gyroscopic force: they are Hamiltonian");
         out->complete = 1;
     } else {

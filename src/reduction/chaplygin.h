@@ -60,6 +60,8 @@ typedef struct {
     nh_proof proof;     /* of it */
 } nh_chaplygin_measure;
 
+/* Is there no gyroscopic force at the values of the parameters? */
+bool nh_chaplygin_flat(const nh_slice *slice, const nh_ex *U);
 /* K (n x n) and U (n x n x n, Ups_ij = U_kij x'^k) as functions of the slice's x: those of the first stage, or of the second (second.h). */
 nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *slice, const nh_ex *K, const nh_ex *U, const nh_options *options);
 

@@ -3,7 +3,9 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "exact/normal.h"
 #include "graph/diff.h"
+#include "integrals/exact_points.h"
 #include "reduction/chaplygin.h"
 #include "reduction/subspace.h"
 
@@ -162,9 +164,21 @@ static void in_units(gyro *g, const double *s)
     }
 }
 
+/* Where the parameters' values make the gyroscopic force vanish, what is left of it by rounding has no scale. */
+bool nh_chaplygin_flat(const nh_slice *s, const nh_ex *U)
+{
+    enum { largest_form = 4000 };
+    for (size_t i = 0; i < s->n * s->n * s->n; i++)
+        if (!nh_is_zero(s->dag, U[i])
+            && nh_normal_is_zero(s->dag, nh_exact_values(s->kinetic->model, U[i]), largest_form) != NH_ZERO)
+            return false;
+    return true;
+}
+
 nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, const nh_ex *U, const nh_options *options)
 {
     enum { most_places = 24 };
+    static const double perhaps_rounding = 1e-6;
     nh_chaplygin_measure out = {.tested = s->n > 0};
     size_t n = s->n, cube = n * n * n, total, places = s->kinetic->places;
     if (!n) return out;
@@ -197,6 +211,8 @@ nh_chaplygin_measure nh_chaplygin_measure_of(const nh_slice *s, const nh_ex *K, 
     out.simple = out.phi_simple <= zero;
     out.factor = out.measure && out.simple;
     if (tensor_size > 0) out.phi_simple /= tensor_size;
+    if (tensor_size + slope_size < perhaps_rounding && nh_chaplygin_flat(s, U))
+        out = (nh_chaplygin_measure){.tested = true, .measure = true, .simple = true, .factor = true};
     nh_free(e);
     nh_free(value);
     nh_free(work);
