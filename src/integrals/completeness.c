@@ -27,14 +27,19 @@ static bool holds_generically(const nh_model *model, const nh_completeness_quest
     return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
 }
 
-void nh_completeness_of(const nh_model *model, const nh_completeness_question *q, nh_completeness out[NH_COMPLETENESS_KINDS])
+size_t nh_completeness_degree(const nh_model *model, bool time)
 {
     enum { two = 2, few = 4, highest = 6, high = 4, low = 2 };
+    size_t coordinates = model->m + time;
+    return coordinates <= two ? highest : coordinates <= few ? high : low;
+}
+
+void nh_completeness_of(const nh_model *model, const nh_completeness_question *q, nh_completeness out[NH_COMPLETENESS_KINDS])
+{
     for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) {
         nh_completeness *c = &out[kind];
         if (q->again && kind != (out[NH_COMPLETE_IN_COORDINATES].counted ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME)) continue;
-        size_t coordinates = model->m + (kind == NH_COMPLETE_IN_TIME);
-        size_t chosen = coordinates <= two ? highest : coordinates <= few ? high : low;
+        size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);
         nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME, .degree = q->degree ? q->degree : chosen, .work = q->work,
                                       .memory = q->memory, .known = q->known, .current = q->current};
         *c = (nh_completeness){.counted = true, .count = nh_count_integrals(model, &question)};

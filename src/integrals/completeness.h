@@ -35,6 +35,9 @@ typedef struct {
     nh_count_memory *memory; /* NULL: none */
 } nh_completeness_question;
 
+/* The degree up to which a kind is counted unless the user chooses another. */
+size_t nh_completeness_degree(const nh_model *model, bool time);
+
 void nh_completeness_of(const nh_model *model, const nh_completeness_question *question, nh_completeness out[NH_COMPLETENESS_KINDS]);
 
 /* What is proved, in sentences; nothing when nothing was counted.  `uncertain`: how many currents are certified numerically and not proved. */

@@ -116,7 +116,8 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row
     nh_differentials all, known;
     nh_count_differentials(c, &all, &known);
     outcome result = totals(c, s, degree, total, &from, &all) ? COUNTED : TOO_MUCH;
-    if (result == COUNTED && !(nh_count_products(c, s->ring, s->coordinate, degree, total[order], out) && nh_count_known_differ(c, s->ring, s->coordinate, &known) && nh_count_known_differ(c, s->ring, s->coordinate, &all))) result = UNLUCKY;
+    bool products = c->q->alone || result != COUNTED || nh_count_products(c, s->ring, s->coordinate, degree, total[order], out);
+    if (result == COUNTED && !(products && nh_count_known_differ(c, s->ring, s->coordinate, &known) && nh_count_known_differ(c, s->ring, s->coordinate, &all))) result = UNLUCKY;
     out->rank = nh_count_rank(&all, s->ring->field);
     out->known_rank = nh_count_rank(&known, s->ring->field);
     out->degree = degree;
@@ -141,7 +142,7 @@ static outcome count_degree(nh_counter *c, size_t degree, nh_count_row *out)
         if (o == TOO_MUCH) break;
         *out = row;
         any = row.bounded;
-        if (row.complete || row.settled || (row.functions && c->work > least_share * c->q->work)) break;
+        if (row.complete || row.settled || (row.functions && c->q->alone) || (row.functions && c->work > least_share * c->q->work)) break;
     }
     return any ? COUNTED : TOO_MUCH;
 }
@@ -159,14 +160,14 @@ bool nh_count_regular_point(nh_counter *c, size_t attempt)
 
 static void degrees(nh_counter *c, nh_count *out)
 {
-    size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, attempt = 0;
+    size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, first = c->q->alone ? last : 1, attempt = 0;
     while (attempt < NH_COUNT_POINTS && !c->equations->obstacle && !nh_count_regular_point(c, attempt)) attempt++;
     if (!c->frame || c->equations->obstacle) {
         out->obstacle = c->equations->obstacle ? c->equations->obstacle : "no regular point was found modulo a prime";
         return;
     }
-    while (out->rows < last && !nh_late()) {
-        outcome o = count_degree(c, out->rows + 1, &out->row[out->rows]);
+    while (first + out->rows <= last && !nh_late()) {
+        outcome o = count_degree(c, first + out->rows, &out->row[out->rows]);
         if (o == UNLUCKY && !c->equations->obstacle) {
             do attempt++;
             while (attempt < NH_COUNT_POINTS && !nh_count_regular_point(c, attempt));

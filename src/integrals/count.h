@@ -52,6 +52,7 @@ typedef struct {
     bool time, generic;
     nh_count_memory *memory; /* NULL: none */
     size_t degree;          /* up to which; 0: as far as `work` goes */
+    bool alone;             /* this degree only, until all are functions of the known ones: row[0]; products are not compared */
     double work;            /* products of residues, about 5e8 a second */
     size_t known;
     const nh_ex *current;   /* integrals in t, q, w: what is not polynomial in the velocities is left out */

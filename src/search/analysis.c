@@ -63,6 +63,7 @@ void nh_analysis_free(nh_analysis *r)
 {
     if (!r) return;
     nh_validation_free(r->validation);
+    nh_count_memory_free(r->counted);
     nh_hits_free(r->hits);
     nh_model_free(r->other);
     nh_model_free(r->model);

@@ -80,6 +80,21 @@ typedef struct {
     size_t degree;            /* in the velocities */
 } nh_further_integral;
 
+/* The null vectors of a sampled problem: combinations of columns that are polynomials in the velocities. */
+typedef struct {
+    size_t degree, columns, dimension;
+    bool timely;              /* t occurs */
+    nh_ex *column;
+    double *vector;           /* columns x dimension */
+} nh_sampled_space;
+
+/* They against the space that was counted, where that is complete to their degree: spanned by products of the currents. */
+typedef struct {
+    bool compared, agrees;
+    size_t degree, products;
+    double angle;             /* the largest between a null vector and the space */
+} nh_counted_space;
+
 /* What kept something out, and from which value on it would not; option: NULL: nothing did. */
 typedef struct {
     const char *option;
@@ -143,6 +158,8 @@ struct nh_analysis {
     nh_spectrum current, symmetry;
     bool routes_compared, routes_agree;
     double routes_angle;
+    nh_sampled_space *sampled; /* NULL: an ansatz that the program chose, or not polynomial in the velocities */
+    nh_counted_space counted_space;
     nh_hits *hits;
     size_t specials;
     nh_special *special;
@@ -160,6 +177,7 @@ struct nh_analysis {
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
     size_t *integral;         /* found[integral[i]] */
     nh_completeness completeness[NH_COMPLETENESS_KINDS];
+    nh_count_memory *counted; /* while the search goes on */
     nh_verdict verdict;
     nh_search search;         /* NONE is impossible where it was cut */
     nh_observables tracks;         /* validation->watch holds their values, row by row */

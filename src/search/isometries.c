@@ -149,7 +149,7 @@ void nh_isometries_search(nh_stage_solver *x)
 {
     nh_analysis *r = x->r;
     const nh_model *o = r->model;
-    if (o->m > most_coordinates) return;
+    if (o->m > most_coordinates || (nh_counted_covers(&x->counted, 1, true) && nh_counted_covers(&x->counted, 2, false))) return;
     nh_progress("isometries of the kinetic energy", -1);
     nh_ex *P = nh_arena_alloc(r->arena, most_momenta * sizeof *P), *PP = nh_arena_alloc(r->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
     list *also = nh_arena_alloc(r->arena, sizeof *also);

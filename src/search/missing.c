@@ -15,30 +15,14 @@
 /* What is proved, in closed form, and room for it. */
 static size_t most_proved(const nh_analysis *r) { return r->count + r->furthers + 1; }
 
-static size_t proved(const nh_analysis *r, nh_ex *phi, bool *general)
-{
-    size_t n = 0;
-    *general = true;
-    for (size_t k = 0; k < r->furthers; k++) {
-        phi[n++] = r->further[k].current.phi;
-        *general &= r->further[k].current.proof.all_parameters;
-    }
-    for (size_t k = 0; k < r->count; k++) {
-        if (!r->found[k].proof.proved || r->found[k].series) continue;
-        phi[n++] = r->found[k].phi;
-        *general &= r->found[k].proof.all_parameters;
-    }
-    return n;
-}
-
 /* What is proved is compared with how much there can be. */
-static void count(nh_analysis *r, bool again, nh_count_memory *memory)
+static void count(nh_analysis *r, bool again)
 {
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .again = again, .degree = (size_t)r->options.degree,
-                                .work = r->options.count_work, .memory = memory};
+                                .work = r->options.count_work, .memory = r->counted};
     nh_progress("how many integrals there are", -1);
-    q.known = proved(r, phi, &q.general);
+    q.known = nh_counted_proved(r, phi, &q.general);
     nh_completeness_of(r->model, &q, r->completeness);
     if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
     nh_free(phi);
@@ -152,7 +136,7 @@ static bool construct_at(search *s, const nh_completeness *c, bool further, bool
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     bool general, found = false;
     nh_construct_question q = {.time = c->count.time, .further = further, .secular = secular, .degree = degree, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
-    q.known = proved(r, phi, &general);
+    q.known = nh_counted_proved(r, phi, &general);
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
     for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
@@ -202,7 +186,7 @@ static bool is_missing(const nh_analysis *r)
     return some;
 }
 
-static void look(nh_analysis *r, nh_count_memory *memory)
+static void look(nh_analysis *r)
 {
     search s = {0};
     nh_error ignored;
@@ -217,9 +201,9 @@ static void look(nh_analysis *r, nh_count_memory *memory)
         for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found; i++) found = construct(&s, &r->completeness[i], false);
         if (!found && lacks_further(r)) found = again = construct(&s, &r->completeness[r->completeness[0].counted ? 0 : NH_COMPLETE_IN_TIME], true);
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-        if (found) count(r, stale = again, memory);
+        if (found) count(r, stale = again);
     }
-    if (stale && !nh_late()) count(r, false, memory);
+    if (stale && !nh_late()) count(r, false);
     take_back(&s);
     nh_budget_begin(INFINITY);
     nh_currents_finish(s.climb.bench);
@@ -232,9 +216,10 @@ static void look(nh_analysis *r, nh_count_memory *memory)
 
 void nh_missing_count(nh_analysis *r, bool construct)
 {
-    nh_count_memory *memory = nh_count_memory_create();
-    count(r, false, memory);
-    if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r)) && !nh_late()) look(r, memory);
-    nh_count_memory_free(memory);
+    if (!r->counted) r->counted = nh_count_memory_create();
+    count(r, false);
+    if (construct && r->options.construct > 0 && (is_missing(r) || lacks_further(r)) && !nh_late()) look(r);
+    nh_count_memory_free(r->counted);
+    r->counted = NULL;
     check(r);
 }

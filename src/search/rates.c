@@ -250,6 +250,7 @@ static bool pencil_of(nh_stage_solver *x, nh_ex q, nh_ex power, const char *name
     nh_error_clear(&ignored);
     size_t before = r->independent;
     nh_family family[2];
+    if (nh_counted_superfluous(&x->counted, 1, base, nh_depends(r->model->dag, q, r->model->system->t))) return false;
     nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, base, x->ranges->count / 2 - 2, &ignored);
     if (!a) return false;
     waves w = {.context = {.x = x, .base = a, .q = q, .base_of_power = power}, .base = base, .which = which};

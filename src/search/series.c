@@ -8,7 +8,6 @@
 #include "base/clock.h"
 #include "graph/diff.h"
 #include "graph/print.h"
-#include "exact/walls.h"
 #include "integrals/function_series.h"
 #include "search/stage_solver.h"
 
@@ -147,7 +146,9 @@ static void search(problem *p, const char *what)
     char name[120];
     double start = nh_clock();
     nh_series_space space;
+    nh_family words = {.kind = NH_TERMS, .terms = p->words, .term = p->word};
     if (p->full || nh_stage_solver_done(p->x)) return;
+    if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == r->system->t)) return;
     snprintf(name, sizeof name, "%s with coefficients that are series in %s", what,
              nh_name_of(r->model->dag, p->variable));
     nh_stage_record *note = nh_stage_solver_note(p->x, name);
@@ -203,21 +204,13 @@ static void linear_in(nh_stage_solver *x, nh_ex q)
     search(&p, "velocities");
 }
 
-/* A power series continued past a kink or a jump of the equations of motion is no current behind it. */
-static bool has_walls(const nh_model *o)
-{
-    nh_ex *e = nh_arena_alloc(o->arena, (o->m + o->n) * sizeof *e), wall[NH_MOST_WALLS];
-    memcpy(e, o->rho, o->m * sizeof *e);
-    memcpy(e + o->m, o->a, o->n * sizeof *e);
-    return nh_walls_between(o->dag, o->m + o->n, e, o->width, o->chart->symbol, wall) > 0;
-}
-
 /* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are closed
- * under Gamma. */
+ * under Gamma.  A power series continued past a kink or a
+ * jump of the equations of motion is no current behind it. */
 void nh_series_stages(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
-    if (x->words.shapes != 1 || o->chart->implicit || has_walls(o)) return;
+    if (x->words.shapes != 1 || o->chart->implicit || nh_counted_has_walls(o)) return;
     linear_in(x, x->words.shape[0]);
     problem p = {.x = x, .variable = x->words.shape[0]};
     put(&p, nh_int(o->dag, 1));
@@ -230,7 +223,7 @@ void nh_series_stages(nh_stage_solver *x)
 void nh_stage_solver_series_in_each(nh_stage_solver *x)
 {
     enum { most_shapes = 3 };
-    if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit || has_walls(x->r->model)) return;
+    if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit || nh_counted_has_walls(x->r->model)) return;
     for (size_t i = 0; i < x->words.shapes; i++) linear_in(x, x->words.shape[i]);
 }
 
@@ -270,7 +263,7 @@ void nh_stage_solver_series_in_time(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     nh_ex one = nh_int(o->dag, 1);
-    if (nh_stage_solver_done(x) || o->chart->implicit || !driven(o) || has_walls(o)) return;
+    if (nh_stage_solver_done(x) || o->chart->implicit || !driven(o) || nh_counted_has_walls(o)) return;
     problem p = {.x = x, .variable = o->system->t};
     put_all(&p, x->words.positions, x->words.position);
     put_all(&p, o->n, o->chart->w);

@@ -15,7 +15,7 @@ static const double points_per_column = 2.5;
 bool nh_stage_solver_begin(nh_stage_solver *x, nh_analysis *r, nh_error *error)
 {
     size_t points = range_points_each * r->model->m;
-    *x = (nh_stage_solver){.r = r};
+    *x = (nh_stage_solver){.r = r, .counted.r = r};
     x->ranges = nh_points_create(r->model, points > range_points ? points : range_points, 1, (uint64_t)r->options.seed, error);
     x->bench = x->ranges ? nh_current_checker_create(r, error) : NULL;
     if (!x->bench) nh_stage_solver_end(x);
@@ -189,6 +189,7 @@ void nh_solved_clear(nh_solved *s)
 
 size_t nh_stage_solver_news(nh_stage_solver *x, size_t families, const nh_family *family)
 {
+    if (nh_counted_superfluous(&x->counted, families, family, false)) return 0;
     nh_solved s = nh_stage_solver_solve(x, families, family);
     size_t fresh = 0;
     if (s.nullspace && s.nullspace->likely) {
@@ -217,7 +218,7 @@ void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families
 {
     nh_progress(name, nh_budget_part());
     nh_analysis *r = x->r;
-    if (families == 0) return;
+    if (families == 0 || nh_counted_superfluous(&x->counted, families, family, false)) return;
     double start = nh_clock();
     nh_stage_record *note = nh_stage_solver_note(x, name);
     nh_solved s = nh_stage_solver_solve(x, families, family);

@@ -4,6 +4,7 @@
 
 #include "integrals/dictionary.h"
 #include "integrals/sectors.h"
+#include "search/counted.h"
 #include "search/currents.h"
 
 enum { NH_MOST_FACTORS = 10 };
@@ -17,6 +18,7 @@ typedef struct {
     nh_reflections *reflections; /* found when a stage is large */
     size_t factors;              /* simple currents, dependent ones too: factors of later stages */
     nh_ex factor[NH_MOST_FACTORS];
+    nh_counted counted;          /* stages that the count makes superfluous are left out */
     bool wide;                   /* the stage at hand has few columns for what it looks for: it may have as many as any ansatz */
 } nh_stage_solver;
 

@@ -103,15 +103,17 @@ static void how_it_ended(nh_analysis *r, bool spent)
 
 bool nh_staged_search_run(nh_analysis *r, nh_error *error)
 {
-    enum { pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 5, time_after = 17 };
+    enum { counted_from = 1, pencils_after = 2, known_after = 5, isometries_after = 4, series_after = 5, time_after = 17 };
     nh_stage_solver x;
     if (!nh_stage_solver_begin(&x, r, error)) return false;
     nh_budget_begin(r->options.work);
+    r->counted = nh_count_memory_create();
     x.words = nh_dictionary_of(r->model);
     nh_stage stage;
     nh_integrals_find(&x);
     single_stages(&x);
     for (size_t i = 0; !nh_stage_solver_done(&x) && nh_stage_at(r->arena, r->model, &x.words, i, &stage); i++) {
+        x.counted.on = i >= counted_from;
         nh_stage_solver_stage(&x, stage.name, stage.families, stage.family);
         if (i + 1 == pencils_after) stages_of_many(&x);
         if (i + 1 == pencils_after && !nh_stage_solver_done(&x)) nh_linear_motion_search(&x);

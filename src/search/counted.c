@@ -1,0 +1,154 @@
+/* The degree of an ansatz in the velocities, and the count at this degree alone. */
+#include "search/counted.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/progress.h"
+#include "exact/walls.h"
+#include "graph/diff.h"
+
+static const double no_degree = INFINITY; /* not polynomial in the velocities */
+
+/* ---- degrees ---- */
+
+static bool has_velocities(const nh_model *o, nh_ex e)
+{
+    bool has = false;
+    for (size_t i = 0; i < o->n && !has; i++) has = nh_depends(o->dag, e, o->chart->w[i]);
+    return has;
+}
+
+/* At most this; a function of a sum of products is not looked into: what is no polynomial as it is written has no degree. */
+static double degree_of(const nh_model *o, nh_ex e)
+{
+    nh_dag *d = o->dag;
+    double degree = 0;
+    if (!has_velocities(o, e)) return 0;
+    if (nh_kind_of(d, e) == NH_SYMBOL) return 1;
+    if (nh_kind_of(d, e) != NH_SUM && nh_kind_of(d, e) != NH_PRODUCT) return no_degree;
+    for (size_t k = 0; k < nh_arity(d, e); k++) {
+        double own = degree_of(o, nh_child(d, e, k));
+        if (nh_kind_of(d, e) == NH_SUM) {
+            degree = fmax(degree, own);
+            continue;
+        }
+        nh_ex exponent = nh_exponent_of(d, e, k);
+        nh_num n = nh_kind_of(d, exponent) == NH_NUMBER ? nh_number_of(d, exponent) : nh_num_int(-1);
+        bool whole = nh_num_short(n) && n.q == 1 && n.p > 0;
+        if (own > 0) degree += whole ? own * (double)n.p : no_degree;
+    }
+    return degree;
+}
+
+static double highest(const nh_model *o, size_t count, const nh_ex *e)
+{
+    double degree = 0;
+    for (size_t i = 0; i < count && degree < no_degree; i++) degree = fmax(degree, degree_of(o, e[i]));
+    return degree;
+}
+
+static bool depends_on_time(const nh_model *o, size_t count, const nh_ex *e)
+{
+    bool depends = false;
+    for (size_t i = 0; i < count && !depends; i++) depends = nh_depends(o->dag, e[i], o->system->t);
+    return depends;
+}
+
+/* A product of functions of the velocities that are none, such as a wave in them, has no degree. */
+static double degree_of_family(const nh_model *o, const nh_family *f, bool *timely)
+{
+    double degree = 0, own;
+    *timely |= depends_on_time(o, f->in_count, f->in) || depends_on_time(o, f->terms, f->term);
+    switch (f->kind) {
+    case NH_TERMS:
+        return highest(o, f->terms, f->term);
+    case NH_POLYNOMIAL:
+        return highest(o, f->in_count, f->in) * (double)f->degree;
+    case NH_FAMILY_PRODUCT:
+        for (size_t i = 0; i < f->parts; i++) degree += degree_of_family(o, &f->part[i], timely);
+        return degree;
+    default:
+        own = highest(o, f->in_count, f->in);
+        return own > 0 ? no_degree : 0;
+    }
+}
+
+double nh_counted_degree(const nh_model *o, size_t families, const nh_family *family, bool *timely)
+{
+    double degree = 0;
+    for (size_t i = 0; i < families; i++) degree = fmax(degree, degree_of_family(o, &family[i], timely));
+    return degree;
+}
+
+/* ---- the count ---- */
+
+size_t nh_counted_proved(const nh_analysis *r, nh_ex *phi, bool *general)
+{
+    size_t n = 0;
+    *general = true;
+    for (size_t k = 0; k < r->furthers; k++) {
+        phi[n++] = r->further[k].current.phi;
+        *general &= r->further[k].current.proof.all_parameters;
+    }
+    for (size_t k = 0; k < r->count; k++) {
+        if (!r->found[k].proof.proved || r->found[k].series) continue;
+        phi[n++] = r->found[k].phi;
+        *general &= r->found[k].proof.all_parameters;
+    }
+    return n;
+}
+
+bool nh_counted_has_walls(const nh_model *o)
+{
+    nh_ex *e = nh_arena_alloc(o->arena, (o->m + o->n) * sizeof *e), wall[NH_MOST_WALLS];
+    memcpy(e, o->rho, o->m * sizeof *e);
+    memcpy(e + o->m, o->a, o->n * sizeof *e);
+    return nh_walls_between(o->dag, o->m + o->n, e, o->width, o->chart->symbol, wall) > 0;
+}
+
+typedef enum { NOTHING, SOMETHING, UNKNOWN } news;
+
+/* On leaves of integrable constraints not all functions are counted, and across a kink or a jump of the equations others are conserved on either side. */
+static news look_for_news(nh_counted *x, size_t degree, size_t kind)
+{
+    nh_analysis *r = x->r;
+    bool general;
+    if (nh_counted_has_walls(r->model)) return UNKNOWN;
+    nh_ex *phi = nh_alloc_array(r->count + r->furthers + 1, sizeof *phi);
+    nh_count_question q = {.time = kind == NH_COMPLETE_IN_TIME, .alone = true, .degree = degree, .work = r->options.count_work, .memory = r->counted, .current = phi};
+    q.known = nh_counted_proved(r, phi, &general);
+    nh_count c = nh_count_integrals(r->model, &q);
+    nh_free(phi);
+    if (c.obstacle || !c.rows || c.leaf || c.time != q.time) return UNKNOWN;
+    return c.row[0].functions ? NOTHING : SOMETHING;
+}
+
+/* Beyond a few coordinates the count takes longer than the stages that it may spare. */
+static bool is_cheap(const nh_analysis *r)
+{
+    enum { few_coordinates = 5 };
+    return r->counted && r->model->m <= few_coordinates;
+}
+
+bool nh_counted_covers(nh_counted *x, size_t degree, bool timely)
+{
+    const nh_analysis *r = x->r;
+    size_t kind = timely ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES;
+    if (!x->on || !is_cheap(r) || degree < 1 || degree > nh_completeness_degree(r->model, timely)) return false;
+    for (size_t k = kind; k < NH_COMPLETENESS_KINDS; k++)
+        if (degree <= x->covered[k]) return true;
+    if ((x->open[kind] && degree >= x->open[kind] && x->open_at[kind] == r->independent) || (x->beyond[kind] && degree >= x->beyond[kind])) return false;
+    news found = nh_late() ? UNKNOWN : look_for_news(x, degree, kind);
+    if (found == NOTHING) x->covered[kind] = degree;
+    if (found == UNKNOWN) x->beyond[kind] = degree;
+    if (found == SOMETHING) x->open[kind] = degree, x->open_at[kind] = r->independent;
+    return found == NOTHING;
+}
+
+bool nh_counted_superfluous(nh_counted *x, size_t families, const nh_family *family, bool timely)
+{
+    if (!x->on || !is_cheap(x->r)) return false;
+    double degree = nh_counted_degree(x->r->model, families, family, &timely);
+    return degree <= NH_COUNT_HIGHEST_DEGREE && nh_counted_covers(x, degree < 1 ? 1 : (size_t)degree, timely);
+}
