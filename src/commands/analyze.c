@@ -8,6 +8,7 @@
 #include "base/linalg.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "search/agreement.h"
 #include "search/branch.h"
 #include "search/coefficients.h"
 #include "search/currents.h"
@@ -154,6 +155,7 @@ static bool linear_problem(nh_analysis *r, size_t families, const nh_family *fam
         r->timing.nullspace = lap(clock);
         nh_current_checker *bench = nh_current_checker_create(r, error);
         good = bench != NULL;
+        nh_agreement_keep(r, families, family, a, s);
         if (good) collect(r, bench, a, points, s);
         if (good) nh_currents_finish(bench);
         nh_current_checker_free(bench);
@@ -296,6 +298,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     }
     watch_deadline(r);
     if (!nh_late()) nh_missing_count(r, r->stages > 0);
+    if (!nh_late()) nh_agreement_find(r);
     conclude(r);
     nh_integrals_of_constraints(r);
     nh_branch_compare(r);

@@ -215,6 +215,15 @@ static void put_search(const writer *w, nh_json *to)
     } else {
         nh_json_put_null(to, "routes");
     }
+    if (r->counted_space.compared) {
+        nh_json *space = nh_json_put_object(to, "counted_space");
+        nh_json_put_bool(space, "agrees", r->counted_space.agrees);
+        nh_json_put_number(space, "angle", r->counted_space.angle);
+        nh_json_put_number(space, "degree", (double)r->counted_space.degree);
+        nh_json_put_number(space, "products", (double)r->counted_space.products);
+    } else {
+        nh_json_put_null(to, "counted_space");
+    }
     nh_json *samples = nh_json_put_object(to, "samples");
     nh_json_put_number(samples, "used", (double)r->samples);
     nh_json_put_number(samples, "beyond_chart", (double)r->beyond);

@@ -45,6 +45,14 @@ static void spectra(nh_html_writer *w)
     spectrum(w, "current", &w->r->current);
     spectrum(w, "symmetry", &w->r->symmetry);
     nh_html_table_end(w);
+    const nh_counted_space *counted = &w->r->counted_space;
+    if (counted->compared) {
+        nh_html_add(w, counted->agrees ? "<p>The current route agrees with the count of degree " : "<p>The current route DISAGREES with the count of degree ");
+        nh_html_number(w, (double)counted->degree, 1);
+        nh_html_add(w, ": the largest angle between a null vector and the products of the currents is ");
+        nh_html_number(w, counted->angle, 1);
+        nh_html_add(w, ".</p>\n");
+    }
     if (!w->r->routes_compared) return;
     nh_html_add(w, w->r->routes_agree ? "<p>The two routes agree: the angle between the spaces that they find is " : "<p>The two routes DISAGREE: the angle between the spaces that they find is ");
     nh_html_number(w, w->r->routes_angle, 1);

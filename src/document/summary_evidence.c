@@ -122,6 +122,9 @@ void nh_summary_evidence(nh_summary_writer *w)
     spectrum_values(w, &r->symmetry);
     if (r->routes_compared)
         nh_text_addf(w->out, "  the two routes %s: angle %.0e between the spaces found\n", r->routes_agree ? "agree" : "DISAGREE", fmax(r->routes_angle, 1e-16));
+    if (r->counted_space.compared)
+        nh_text_addf(w->out, "  the current route %s with the count of degree %zu: angle %.0e to the products of the currents\n", r->counted_space.agrees ? "agrees" : "DISAGREES",
+                     r->counted_space.degree, fmax(r->counted_space.angle, 1e-16));
 }
 
 /* The watched quantities at a few times. */
