@@ -61,7 +61,7 @@ fi
 # to the smallest of the errors that the others reached
 least=$(cat "$work/scipy" "$work/octave" | awk '{ if (x == "" || $NF + 0 < x + 0) x = $NF } END { print x == "" ? 1e-10 : x }')
 "$build/tests/bench_side" "$least" >"$work/side" || exit 1
-for name in tape nullspace chain ensemble stress; do
+for name in tape nullspace chain ensemble stress series; do
     echo "  bench: $name" >&2
     if [ -x "$build/tests/bench_$name" ]; then "$build/tests/bench_$name" >"$work/$name" || exit 1; fi
 done
@@ -150,6 +150,10 @@ section "Chains of bodies" chain \
     "rigid bodies, recursive Newton and Euler and Cholesky in C (\`tests/chain.h\`). The tape is interpreted or compiled, one point, or interpreted for a batch of 256 points" \
     "at a time. Nanoseconds per point, the least of many short runs. The difference is that of the accelerations, relative."
 ten=$(from chain '$2 + 0 == 10 { print $3 + 0 }')
+
+section "Counting integrals" series \
+    "The linear systems of the count ([method.md](method.md), section 10) for a natural system with a polynomial potential: the even part of the given degree in the velocities, of series up to" \
+    "two orders above it. Least of some runs of the solver alone. Parameters: the most that are free at a time."
 
 say "## Every system" "" "\`tests/bench_whole.sh build\`" "" \
     "Whole runs of \`nhsym analyze --no-analysis\`, from the start of the process to its end, one for each shipped system." ""

@@ -70,6 +70,24 @@ static const published PUBLISHED[] = {
      "parameters: {k: 0.7, a: 0.3, b: 0.4, c: 0.5}\ncoordinates: [x, y, z]\n"
      "lagrangian: (x'^2 + y'^2 + z'^2)/2 + k/sqrt(x^2 + y^2 + z^2) - a/x^2 - b/y^2 - c/z^2\n"
      "domain: {x: [0.5, 2], y: [0.5, 2], z: [0.5, 2]}\n", 5, 4},
+    /* I. Fris, V. Mandrosov, Ya. A. Smorodinsky, M. Uhlir and P. Winternitz, Phys. Lett. 16 (1965) 354: the fourth of their potentials, in polar coordinates */
+    {"Smorodinsky and Winternitz, IV",
+     "parameters: {a: 0.7, b: 0.3, c: 0.4}\ncoordinates: [r, {name: th, type: angle}]\n"
+     "lagrangian: (r'^2 + r^2*th'^2)/2 - a/r - (b*cos(th/2) + c*sin(th/2))/sqrt(r)\ndomain: {r: [0.5, 2], th: [0.3, 1.5]}\n", 3, 6},
+    /* A. Ballesteros, A. Enciso, F. J. Herranz, O. Ragnisco and D. Riglioni, Phys. Lett. A 375 (2011) 1431: an oscillator on Darboux's space III */
+    {"oscillator on Darboux's space III",
+     "parameters: {l: 0.3, w: 0.8}\ncoordinates: [x, y]\nlagrangian: (1 + l*(x^2 + y^2))*(x'^2 + y'^2)/2 - w^2*(x^2 + y^2)/(1 + l*(x^2 + y^2))/2\n"
+     "domain: {x: [0.5, 1.5], y: [0.5, 1.5]}\n", 3, 6},
+    /* J. Wolfes, J. Math. Phys. 15 (1974) 1420: three bodies on a line with forces among pairs and among all three, in their own coordinates */
+    {"Wolfes, three bodies",
+     "parameters: {a: 0.4, b: 0.7}\ncoordinates: [x, y, z]\n"
+     "lagrangian: (x'^2 + y'^2 + z'^2)/2 - a/(x - y)^2 - a/(y - z)^2 - a/(z - x)^2 - b/(x + y - 2*z)^2 - b/(y + z - 2*x)^2 - b/(z + x - 2*y)^2\n"
+     "domain: {x: [0.2, 0.6], y: [1.5, 2], z: [4, 5]}\n", 5, 4},
+    /* K. M. Ehlers and J. Koiller, Regul. Chaotic Dyn. 12 (2007) 127: a homogeneous ball that neither slips nor spins */
+    {"rubber ball",
+     "parameters: {m: 1.1, I: 0.5, R: 0.8}\ncoordinates: [x, y, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+     "lagrangian: m*(x'^2 + y'^2)/2 + I/2*(h'^2 + p'^2 + s'^2 + 2*p'*s'*cos(h))\n"
+     "constraints: [\"x' = R*(h'*sin(p) - s'*sin(h)*cos(p))\", \"y' = -R*(h'*cos(p) + s'*sin(h)*sin(p))\", \"p' + s'*cos(h) = 0\"]\ndomain: {h: [0.4, 2.6]}\n", 6, 2},
     /* a penny rolls down a slope: y and th drift, and the angle stands outside of sines and cosines */
     {"vertical disk on a slope",
      "parameters: {m: 1, I: 0.4, J: 0.2, R: 0.6, g: 0.9}\ncoordinates: [x, y, {name: th, type: angle}, {name: ph, type: angle}]\n"
