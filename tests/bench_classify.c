@@ -244,7 +244,7 @@ static size_t random_values(uint64_t *random, bool planted, bool *found)
     nh_model *o = s ? nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error) : NULL;
     nh_text_clear(&text);
     if (!o) return SIZE_MAX;
-    nh_classify_question q = {.degree = 4, .work = 1e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classify_question q = {.degree = 4, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
     nh_classification *c = nh_classify(o, &q);
     size_t values = c->rows < 4 ? SIZE_MAX : 0;
     for (size_t k = 0; k < c->values; k++) {

@@ -66,7 +66,8 @@ Test(classify, chi_vanishes_where_a_hidden_pencil_loses_rank)
             value[1] = value[0]; /* a double one */
             nh_sparse_pencil p = hidden(f, value, power, &random);
             nh_residue_polynomial chi;
-            cr_assert(nh_staircase(&p, f, &chi));
+            double products = 1e12;
+            cr_assert(nh_staircase(&p, f, &products, &chi));
             cr_assert_eq(chi.degree, blocks * power);
             size_t generic = nh_staircase_rank(&p, f, 12345);
             for (size_t i = 0; i < blocks; i++) {
@@ -83,6 +84,26 @@ Test(classify, chi_vanishes_where_a_hidden_pencil_loses_rank)
             nh_free(chi.coefficient);
             nh_free(p.entry);
         }
+}
+
+/* The work is counted: the same limit ends it at the same place on every machine. */
+Test(classify, a_staircase_ends_where_its_products_are_used_up)
+{
+    nh_prime f = nh_prime_at(0);
+    uint64_t random = 7;
+    nh_residue value[blocks];
+    for (size_t i = 0; i < blocks; i++) value[i] = nh_residue_random(f, &random);
+    nh_sparse_pencil p = hidden(f, value, 1, &random);
+    double all = 1e12, enough, short_of;
+    for (int round = 0; round < 3; round++) {
+        nh_residue_polynomial chi;
+        double left = !round ? all : round == 1 ? enough : short_of;
+        cr_expect_eq(nh_staircase(&p, f, &left, &chi), round < 2);
+        cr_expect(round < 2 ? left >= 0 : left < 0);
+        if (!round) enough = all - left, short_of = 0.9 * enough;
+        nh_free(chi.coefficient);
+    }
+    nh_free(p.entry);
 }
 
 /* ---- lifting ---- */
@@ -132,7 +153,7 @@ static nh_classification *classify(nh_system *s, size_t degree, bool shape)
     nh_error error = {0};
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
     must(o != NULL, &error, "the model");
-    nh_classify_question q = {.shape = shape, .degree = degree, .work = 1e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classify_question q = {.shape = shape, .degree = degree, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
     nh_classification *c = nh_classify(o, &q);
     nh_model_free(o);
     return c;
@@ -316,7 +337,7 @@ Test(classify, values_follow_the_parameter)
     nh_system *s = family_of(NULL, "name: a\nparameters: {mu: 0.4}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^4 - x^2*y^2/mu - y^4\n", 0, NULL);
     nh_error error = {0};
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
-    nh_classify_question q = {.degree = 2, .work = 1e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classify_question q = {.degree = 2, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
     nh_classification *c = nh_classify(o, &q);
     char found[200];
     describe(c, found, sizeof found);

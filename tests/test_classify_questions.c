@@ -142,7 +142,7 @@ static size_t planted(uint64_t *random, bool with, nh_linear_question question, 
     nh_options_default(&options);
     nh_linear_system *l = nh_linear_system_create(o, question, &options);
     cr_assert_null(l->obstacle, "%s", l->obstacle);
-    nh_classify_question q = {.linear = &l->family, .work = 1e10, .unknowns = 6000};
+    nh_classify_question q = {.linear = &l->family, .work = 1e10, .products = 5e10, .unknowns = 6000};
     nh_classification *c = nh_classify(o, &q);
     size_t values = 0;
     for (size_t i = 0; i < c->values; i++) {

@@ -133,7 +133,7 @@ static nh_plane *plane_of(nh_system *s, size_t degree)
     nh_error error = {0};
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
     must(o != NULL, &error, "the model");
-    nh_classify_question q = {.parameter = 1, .two = true, .second = 0, .degree = degree, .work = 1e10,
+    nh_classify_question q = {.parameter = 1, .two = true, .second = 0, .degree = degree, .work = 1e10, .products = 5e10,
                               .unknowns = 6000, .plane = 100, .known = 1, .current = &o->E};
     nh_plane *p = nh_plane_classify(o, &q);
     nh_model_free(o);
@@ -314,7 +314,7 @@ Test(plane, limits_are_named)
     nh_error error = {0};
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
     must(o != NULL, &error, "the model");
-    nh_classify_question q = {.parameter = 1, .two = true, .second = 0, .degree = 4, .work = 1e10, .unknowns = 6000,
+    nh_classify_question q = {.parameter = 1, .two = true, .second = 0, .degree = 4, .work = 1e10, .products = 5e10, .unknowns = 6000,
                               .plane = 4, .known = 1, .current = &o->E};
     nh_plane *p = nh_plane_classify(o, &q);
     cr_expect_str_eq(p->end, "plane");

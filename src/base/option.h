@@ -45,6 +45,7 @@
     X(words,            2000,    1,      20000, whole, "words",    "functions of the coordinates that the coefficients of a missing integral are made of, at most") \
     X(pencil,           6000,   10,      1e6,   whole, "unknowns", "classify: largest linear system for integrals at a degree")                 \
     X(plane,            100,     2,      1e4,   whole, "",         "classify over two parameters: largest determinant")                        \
+    X(staircase,        5e10,   1e6,    1e15,  real,  "products", "classify: of residues that looking for the values of one degree may take")  \
     X(shown,            600,     10,     1e9,   whole, "symbols",  "longer formulas are not written out in the summary")                     \
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \
     X(tolerance,        1e-10,   1e-14,  1e-2,  real,  "",         "relative tolerance of the motions")                                      \

@@ -170,6 +170,7 @@ nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)
 nh_classify_question nh_classified_question(nh_classified *x, const nh_classify_request *q, const nh_ex *known)
 {
     nh_classify_question question = {.shape = q->shape, .degree = x->degree, .work = q->options.count_work,
+                                     .products = q->options.staircase,
                                      .unknowns = (size_t)q->options.pencil, .plane = (size_t)q->options.plane,
                                      .known = x->known, .current = known};
     nh_error none;

@@ -29,6 +29,7 @@ char *nh_classification_current(const nh_analysis *r, const nh_current *f, doubl
 const char *nh_classification_end(const char *end)
 {
     if (!strcmp(end, "work")) return "the count of integrals takes more work than the option `count_work`";
+    if (!strcmp(end, "staircase")) return "looking for the values takes more work than the option `staircase`";
     if (!strcmp(end, "unknowns")) return "the linear system has more unknowns than the option `pencil`";
     if (!strcmp(end, "plane")) return "the determinants are larger than the option `plane`";
     if (!strcmp(end, "time")) return "the run was ended";

@@ -30,7 +30,7 @@ static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_
     if (!x) return false;
     nh_sparse_pencil pencil = {0};
     nh_parametric_variable variable;
-    bool good = pencil_of(s, x, degree, &pencil, &variable) && nh_staircase(&pencil, x->ring->field, chi);
+    bool good = pencil_of(s, x, degree, &pencil, &variable) && nh_staircase(&pencil, x->ring->field, &s->products, chi);
     if (good) nh_parametric_back(&variable, x->ring->field, chi);
     if (good) {
         Q->degree = x->degree;
@@ -188,13 +188,14 @@ static void run(search *s)
         nh_progress("integrals for almost all values", -1);
         bool good = nh_classify_count(s, degree, &any, 0, &row.known, &row.number);
         nh_progress("where the equations for integrals lose rank", -1);
+        s->products = s->q->products;
         good = good && find_values(s, degree, &row) && !nh_late();
         if (s->q->linear && row.number.bound == 0) row.known = 0;
         /* the other parity was looked at one degree lower */
         if (c->rows) row.height = fmin(row.height, c->row[c->rows - 1].height);
         if (!good) {
-            c->end = s->family.obstacle ? s->family.obstacle : nh_late() ? "time" : row.number.bounded ? "unknowns"
-                : "work";
+            c->end = s->family.obstacle ? s->family.obstacle : nh_late() ? "time" : !row.number.bounded ? "work"
+                : s->products < 0 ? "staircase" : "unknowns";
             break;
         }
         c->row[c->rows++] = row;

@@ -31,6 +31,7 @@ typedef struct {
                               * NULL */
     size_t degree;           /* up to which */
     double work;             /* products of residues that one count may take */
+    double products;         /* of residues that looking for the values of one degree may take */
     size_t unknowns;         /* of the largest linear system */
     size_t known;
     const nh_ex *current;    /* integrals for all values */

@@ -10,6 +10,7 @@ typedef struct {
     nh_count_question count;
     nh_parametric family;
     nh_classification *out;
+    double products;         /* of residues that looking for the values of this degree may still take */
 } nh_classify_search;
 
 /* Obstacles are in the family, which is to be closed. */

@@ -58,13 +58,13 @@ static bool determinants(search *s, const nh_parametric_series *x, size_t degree
     nh_parity parity = !x->split ? NH_ALL_DEGREES : degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
     bool good = nh_parametric_pencil(&s->s.family, x, degree, parity, s->s.q->unknowns, &pencil, variable);
     if (good) {
-        nh_staircase_matrices m = nh_staircase_reduce(&pencil, f);
+        nh_staircase_matrices m = nh_staircase_reduce(&pencil, f, &s->s.products);
         size_t rank = nh_compression_rank(&m, f), size = rank * (m.degree > m.second ? m.degree : m.second);
         row->unknowns = pencil.columns;
         row->power[0] = pencil.degree;
         row->power[1] = pencil.second;
         if (size > row->size) row->size = size;
-        good = size <= s->s.q->plane && !nh_late();
+        good = size <= s->s.q->plane && s->s.products >= 0 && !nh_late();
         *Q = singular(x);
         nh_residue_surface d;
         good = good && nh_compression_determinant(&m, f, rank, seed, &d);
@@ -206,6 +206,7 @@ static bool find_zeros(search *s, size_t degree, nh_plane_row *row)
 {
     residues r = {.count = 0};
     bool good = true;
+    s->s.products = s->s.q->products;
     for (size_t prime = 0; prime < NH_CLASSIFY_MOST_PRIMES && good && !row->lifted; prime++) {
         nh_common_curves curves = {.across = {0, NULL}};
         good = zeros_modulo(s, degree, prime, row, &curves);
@@ -300,7 +301,7 @@ static void run(search *s)
         if (o->rows) row.height = fmin(row.height, o->row[o->rows - 1].height);
         if (!good) {
             o->end = s->s.family.obstacle ? s->s.family.obstacle : nh_late() ? "time" : !row.number.bounded ? "work"
-                : row.size > s->s.q->plane ? "plane" : "unknowns";
+                : row.size > s->s.q->plane ? "plane" : s->s.products < 0 ? "staircase" : "unknowns";
             break;
         }
         o->row[o->rows++] = row;

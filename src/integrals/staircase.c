@@ -3,6 +3,7 @@
 
 #include <flint/nmod_mat.h>
 #include <flint/nmod_poly.h>
+#include <math.h>
 
 #include "base/memory.h"
 #include "base/progress.h"
@@ -146,10 +147,11 @@ static void constant_rows(matrices *x)
 }
 
 /* Echelon form of [.. | A_1 | A_0]: independent rows, and constant equations, whose number is returned. */
-static slong row_step(matrices *x)
+static slong row_step(matrices *x, double *products)
 {
     slong rows = rows_of(x), columns = columns_of(x), rank, moving = 0, last = (slong)(x->count - 1) * columns;
-    if (!rows || !columns) return 0;
+    *products -= (double)rows * (double)rows * (double)columns * (double)x->count;
+    if (!rows || !columns || *products < 0) return 0;
     nmod_mat_t W, C;
     nmod_mat_init(W, rows, (slong)x->count * columns, prime_of(x));
     for (slong i = 0; i < rows; i++)
@@ -176,39 +178,41 @@ static void transpose(matrices *x)
     replace(x, t);
 }
 
-static void reduce(matrices *x)
+static void reduce(matrices *x, double *products)
 {
     constant_rows(x);
-    for (bool changed = true; changed && rows_of(x) && columns_of(x) && !nh_late();) {
+    for (bool changed = true; changed && rows_of(x) && columns_of(x) && *products >= 0 && !nh_late();) {
         slong rows = rows_of(x), columns = columns_of(x);
-        while (row_step(x) > 0) {}
+        while (row_step(x, products) > 0) {}
         transpose(x);
-        while (row_step(x) > 0) {}
+        while (row_step(x, products) > 0) {}
         transpose(x);
         changed = rows_of(x) != rows || columns_of(x) != columns;
     }
 }
 
-static matrices reduced(const nh_sparse_pencil *p, nh_prime f, size_t *degree)
+static matrices reduced(const nh_sparse_pencil *p, nh_prime f, double *products, size_t *degree)
 {
     nh_sparse_pencil small = nh_sparse_pencil_reduce(p, f);
     matrices x = matrices_of(&small, f);
     *degree = small.degree;
     nh_free(small.entry);
-    reduce(&x);
+    reduce(&x, products);
     return x;
 }
 
 /* ---- results ---- */
 
-bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, nh_residue_polynomial *out)
+bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, double *products, nh_residue_polynomial *out)
 {
     nmod_mat_t X;
     nmod_poly_t chi;
     size_t degree;
-    matrices x = reduced(p, f, &degree);
+    matrices x = reduced(p, f, products, &degree);
     slong k = columns_of(&x);
-    bool none = !k || !rows_of(&x), solved = !nh_late() && (none || rows_of(&x) == k);
+    bool none = !k || !rows_of(&x), solved;
+    *products -= 2 * pow((double)k, 3);
+    solved = *products >= 0 && !nh_late() && (none || rows_of(&x) == k);
     nmod_poly_init(chi, f.p);
     nmod_poly_one(chi);
     if (solved && !none) {
@@ -226,10 +230,10 @@ bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, nh_residue_polynomial *
     return solved;
 }
 
-nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *p, nh_prime f)
+nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *p, nh_prime f, double *products)
 {
     size_t degree;
-    matrices x = reduced(p, f, &degree);
+    matrices x = reduced(p, f, products, &degree);
     size_t rows = (size_t)rows_of(&x), columns = (size_t)columns_of(&x), at = 0;
     nh_staircase_matrices out = {.degree = degree, .second = p->second, .rows = rows, .columns = columns,
                                  .entry = nh_alloc_array(x.count * rows * columns + 1, sizeof *out.entry)};

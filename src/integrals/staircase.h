@@ -22,15 +22,16 @@ typedef struct {
     nh_residue *coefficient;
 } nh_residue_polynomial;
 
-/* chi, monic.  False behind the deadline (base/progress.h). */
-bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, nh_residue_polynomial *chi);
+/* chi, monic. `products` of residues may be taken and becomes what is left of them, negative when it was too little.
+ * False then, and behind the deadline (base/progress.h). */
+bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, double *products, nh_residue_polynomial *chi);
 
 /* With two parameters: what is left, by powers, then rows, then columns; on the heap. */
 typedef struct {
     size_t degree, second, rows, columns; /* degrees in lambda and in mu */
     nh_residue *entry;
 } nh_staircase_matrices;
-nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *pencil, nh_prime field);
+nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *pencil, nh_prime field, double *products);
 
 /* The rank at one value of the only parameter. */
 size_t nh_staircase_rank(const nh_sparse_pencil *pencil, nh_prime field, nh_residue lambda);
