@@ -207,6 +207,52 @@ Test(normal, forms)
     }
 }
 
+/* However it was written, and e and -e are told apart. */
+Test(normal, one_sum_of_equal_expressions)
+{
+    static const char *const pair[][2] = {
+        {"m*(x+y)^2-4*m*x*y", "m*(y-x)^2"}, {"a*sin(f)^2+b*cos(f)*sin(f)*2", "a+b*sin(2*f)-a*cos(f)^2"}, {"(x-1)*(x+1)/(y+x*y)", "(x-1)/y"},
+        {"J*(p-q*cos(h))-m*r^2*p", "p*(J-m*r^2)-J*cos(h)*q"}, {"exp(a)*x/exp(b)", "x*exp(a-b)"}, {"(x+y)/sqrt(x+y)", "sqrt(x+y)"},
+    };
+    for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
+        nh_dag *dag = nh_dag_create();
+        nh_ex a = ex(dag, pair[i][0]), b = ex(dag, pair[i][1]);
+        cr_expect_eq(nh_canonical_sum(dag, a), nh_canonical_sum(dag, b), "%s and %s", pair[i][0], pair[i][1]);
+        cr_expect_eq(nh_normal_is_zero(dag, nh_sub(dag, nh_canonical_sum(dag, a), a), 0), NH_ZERO, "%s", pair[i][0]);
+        cr_expect_eq(nh_canonical_sign(dag, a), nh_canonical_sign(dag, b), "%s and %s", pair[i][0], pair[i][1]);
+        cr_expect_eq(nh_canonical_sign(dag, a), -nh_canonical_sign(dag, nh_neg(dag, b)), "%s and its opposite", pair[i][0]);
+        nh_dag_free(dag);
+    }
+}
+
+/* Not on which was made first. */
+Test(normal, an_order_that_depends_on_what_they_are)
+{
+    static const char *const text[] = {
+        "2", "z", "x", "x*y", "x*z", "y*z", "x+y", "y-z", "y+z", "2*x-3*y", "h*cos(p)", "h*sin(p)", "x*cos(p)", "x*sin(p)-y*cos(p)", "y*sin(p)+x*cos(p)", "x^2*y",
+        "x*y^2", "sqrt(x*y)", "exp(-x)*y", "m*(x+y)", "m*(x-y)", "(x+y)/z", "(x-y)/z", "x*(y+z)*cos(p)", "x*(y+z)*sin(p)",
+    };
+    enum { count = sizeof text / sizeof *text };
+    nh_dag *dag[2] = {nh_dag_create(), nh_dag_create()};
+    nh_ex e[2][count];
+    for (int k = 0; k < 2; k++) {
+        ex(dag[k], "m+x+y+z+h+p");
+        for (size_t i = 0; i < count; i++) {
+            size_t j = k ? count - 1 - i : i;
+            e[k][j] = ex(dag[k], text[j]);
+        }
+    }
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < count; j++) {
+            int order[2], back = nh_complexity_order(dag[0], e[0][j], e[0][i]);
+            for (int k = 0; k < 2; k++) order[k] = nh_complexity_order(dag[k], e[k][i], e[k][j]);
+            cr_expect((order[0] < 0) == (order[1] < 0) && (order[0] > 0) == (order[1] > 0), "%s and %s", text[i], text[j]);
+            cr_expect((order[0] == 0) == (i == j) && (order[0] < 0) == (back > 0), "%s and %s", text[i], text[j]);
+        }
+    nh_dag_free(dag[0]);
+    nh_dag_free(dag[1]);
+}
+
 /* Radicands are shown as they were written where that is shorter than their canonical form. */
 Test(normal, radicands_are_kept)
 {

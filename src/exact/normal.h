@@ -30,6 +30,13 @@ nh_ex nh_simplify_short(nh_dag *dag, nh_ex e, size_t most);
  * sin(x) - y*cos(x)); e itself when the size bound is met. */
 nh_ex nh_numerator(nh_dag *dag, nh_ex e);
 
+/* The reduced quotient written out as a sum: the same for all expressions that are equal by what kernels are known to satisfy, however they were written; e
+ * itself when the size bound is met. */
+nh_ex nh_canonical_sum(nh_dag *dag, nh_ex e);
+
+/* The sign of its leading coefficient, by which e and -e are told apart; 1 when the size bound is met. */
+int nh_canonical_sign(nh_dag *dag, nh_ex e);
+
 /* An equal expression with canonical arguments of functions, radicands and exponents, so that equal ones are the same node. */
 nh_ex nh_canonical(nh_dag *dag, nh_ex e, size_t max_terms);
 

@@ -147,13 +147,14 @@ static size_t equations(problem *p, const size_t *chosen, const nh_quotient **c,
 static bool root_product(problem *p, const nh_zero_root *root, nh_ex *out)
 {
     nh_dag *d = p->numbers->dag;
-    nh_ex e, product = nh_int(d, 1);
-    bool joint = !nh_quotient_is_zero(p->system.field, root->rational); /* one root of the product, or one of each */
+    nh_ex e, product = nh_int(d, 1), under_one = product;
+    bool joint = !nh_quotient_is_zero(p->system.field, root->rational); /* sums under one root, or each under its own; symbols always, as in monomials */
     for (size_t i = 0; i < root->roots; i++) {
         if (!nh_relation_question_emit(&p->question, root->root[i], &e)) return false;
-        product = nh_mul(d, product, joint ? e : nh_pow(d, e, nh_ratio(d, root->power[i], 2)));
+        if (joint && nh_kind_of(d, e) != NH_SYMBOL) under_one = nh_mul(d, under_one, e);
+        else product = nh_mul(d, product, nh_pow(d, e, nh_ratio(d, joint ? 1 : root->power[i], 2)));
     }
-    *out = joint ? nh_sqrt(d, product) : product;
+    *out = nh_mul(d, product, nh_sqrt(d, under_one));
     return true;
 }
 

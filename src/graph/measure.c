@@ -1,6 +1,8 @@
 /* measure: see measure.h.  Each node is looked at once. */
 #include "graph/measure.h"
 
+#include <stdlib.h>
+
 #include "base/memory.h"
 #include "graph/index.h"
 
@@ -89,6 +91,87 @@ size_t nh_complexity(const nh_dag *dag, nh_ex e)
     size_t length = length_of(dag, e, &known);
     nh_index_clear(&known);
     return length;
+}
+
+/* ---- which comes first ---- */
+
+/* A term with its coefficient, or a base with its exponent. */
+typedef struct {
+    const nh_dag *dag;
+    nh_ex e, exponent;
+    double coefficient;
+} piece;
+
+static int structure(const nh_dag *dag, nh_ex a, nh_ex b);
+
+static int sign_of(double x) { return (x > 0) - (x < 0); }
+
+static int by_structure(const void *left, const void *right)
+{
+    const piece *a = left, *b = right;
+    int order = structure(a->dag, a->e, b->e);
+    return order ? order : structure(a->dag, a->exponent, b->exponent);
+}
+
+static piece *pieces_of(const nh_dag *dag, nh_ex e)
+{
+    size_t n = nh_arity(dag, e);
+    nh_kind kind = nh_kind_of(dag, e);
+    piece *list = nh_alloc_array(n + 1, sizeof *list);
+    for (size_t i = 0; i < n; i++) {
+        nh_ex own = nh_child(dag, e, i);
+        list[i] = (piece){dag, own, kind == NH_PRODUCT ? nh_exponent_of(dag, e, i) : own, kind == NH_SUM ? nh_num_value(nh_coefficient_of(dag, e, i)) : 1};
+    }
+    if (kind != NH_FUNCTION) qsort(list, n, sizeof *list, by_structure);
+    return list;
+}
+
+/* Term by term, each at its place in the order; coefficients decide between sums of the same terms, the larger first. */
+static int by_pieces(const nh_dag *dag, nh_ex a, nh_ex b)
+{
+    size_t n = nh_arity(dag, a);
+    piece *x = pieces_of(dag, a), *y = pieces_of(dag, b);
+    int order = 0;
+    for (size_t i = 0; i < n && !order; i++) order = by_structure(&x[i], &y[i]);
+    for (size_t i = 0; i < n && !order; i++) order = sign_of(y[i].coefficient - x[i].coefficient);
+    nh_free(x);
+    nh_free(y);
+    if (order || nh_kind_of(dag, a) == NH_FUNCTION) return order;
+    return sign_of(nh_num_value(nh_constant_of(dag, b)) - nh_num_value(nh_constant_of(dag, a)));
+}
+
+static int structure(const nh_dag *dag, nh_ex a, nh_ex b)
+{
+    if (a == b) return 0;
+    nh_kind kind = nh_kind_of(dag, a);
+    if (kind != nh_kind_of(dag, b)) return kind < nh_kind_of(dag, b) ? -1 : 1;
+    if (kind == NH_SYMBOL) return a < b ? -1 : 1;
+    if (kind == NH_NUMBER) return sign_of(nh_num_value(nh_number_of(dag, a)) - nh_num_value(nh_number_of(dag, b)));
+    if (kind == NH_FUNCTION && nh_function_of(dag, a) != nh_function_of(dag, b)) return nh_function_of(dag, a) < nh_function_of(dag, b) ? -1 : 1;
+    if (nh_arity(dag, a) != nh_arity(dag, b)) return nh_arity(dag, a) < nh_arity(dag, b) ? -1 : 1;
+    return by_pieces(dag, a, b);
+}
+
+/* The one with the earlier symbol, where they have not the same. */
+static int by_symbols(const nh_dag *dag, nh_ex a, nh_ex b)
+{
+    size_t n = nh_symbols_in(dag, a, NULL, 0), m = nh_symbols_in(dag, b, NULL, 0), i = 0;
+    nh_ex *x = nh_alloc_array(n + m + 1, sizeof *x), *y = x + n;
+    nh_symbols_in(dag, a, x, n);
+    nh_symbols_in(dag, b, y, m);
+    while (i < n && i < m && x[i] == y[i]) i++;
+    int order = i < n && i < m ? (x[i] < y[i] ? -1 : 1) : (n < m) - (n > m);
+    nh_free(x);
+    return order;
+}
+
+int nh_complexity_order(const nh_dag *dag, nh_ex a, nh_ex b)
+{
+    static const size_t longest = 3000;
+    size_t x = nh_complexity(dag, a), y = nh_complexity(dag, b);
+    if (x != y) return x < y ? -1 : 1;
+    int order = by_symbols(dag, a, b);
+    return order || x > longest ? order : structure(dag, a, b);
 }
 
 /* ---- how deep it is ---- */

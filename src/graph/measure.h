@@ -1,4 +1,4 @@
-/* measure: how long an expression looks, how deep it is, which numbers it holds. */
+/* measure: how long an expression looks, how deep it is, which numbers it holds, which of two comes first. */
 #ifndef NH_MEASURE_H
 #define NH_MEASURE_H
 
@@ -6,6 +6,10 @@
 
 /* How long e looks on paper: about the number of symbols, numbers and operators when it is printed. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);
+
+/* An order of expressions that depends on what they are and on the order of their symbols' declaration, not on which was made first: negative where a comes
+ * before b, 0 for equal ones.  Short ones come first, then those with earlier symbols; of long ones no more is compared. */
+int nh_complexity_order(const nh_dag *dag, nh_ex a, nh_ex b);
 
 /* How many functions, and powers of sums, stand inside of each other at most; whatever was named by a definition counts. */
 size_t nh_nesting(const nh_dag *dag, nh_ex e);

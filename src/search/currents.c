@@ -57,16 +57,16 @@ static void decide(nh_current_checker *b, nh_candidate *c, nh_current *f)
     nh_coefficients_certify(&r->options, f);
 }
 
-/* Simple ones first, so that the complicated ones are called dependent. */
+/* Simple ones first, so that the complicated ones are called dependent; equally simple ones in an order that no number decides. */
 static void sort(nh_analysis *r)
 {
     nh_dag *d = r->model->dag;
     for (size_t i = 1; i < r->count; i++) {
         nh_current f = r->found[i];
-        size_t own = nh_complexity(d, f.phi), j = i;
+        size_t j = i;
         bool energy = f.energy;
         for (; j > 0; j--) {
-            if (r->found[j - 1].energy || (!energy && nh_complexity(d, r->found[j - 1].phi) <= own)) break;
+            if (r->found[j - 1].energy || (!energy && nh_complexity_order(d, r->found[j - 1].phi, f.phi) <= 0)) break;
             r->found[j] = r->found[j - 1];
         }
         r->found[j] = f;

@@ -6,7 +6,17 @@
 #include "exact/normal.h"
 #include "integrals/fixed.h"
 
+static const size_t longest = 3000; /* of a current that is brought into a form of its own */
+
 /* ---- normalisation: the symmetry's simplest component gets coefficient one ---- */
+
+/* The shortest form, the same however e was written: of equally short ones that of the sum written out. */
+static nh_ex shortest(nh_dag *d, nh_ex e)
+{
+    nh_ex as_written = nh_simplify_short(d, e, 0), sum = as_written;
+    if (nh_is_short(d, e) && nh_complexity(d, e) <= longest) sum = nh_simplify_short(d, nh_canonical_sum(d, e), 0);
+    return nh_complexity(d, sum) <= nh_complexity(d, as_written) ? sum : as_written;
+}
 
 static bool is_parametric(const nh_model *o, nh_ex e)
 {
@@ -55,11 +65,14 @@ static void put_values(nh_model *o, const bool *fixed, size_t n, nh_ex *e)
 static void normalise(nh_model *o, nh_current *f)
 {
     nh_dag *d = o->dag;
-    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta), Z0 = nh_symmetry_components(o, f->phi, zeta);
+    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
+    if (nh_is_short(d, f->phi) && nh_complexity(d, f->phi) <= longest) /* e or -e: where the symmetry does not tell which */
+        f->phi = shortest(d, nh_canonical_sign(d, f->phi) < 0 ? nh_neg(d, f->phi) : f->phi);
+    nh_ex Z0 = nh_symmetry_components(o, f->phi, zeta);
     put_values(o, f->proof.fixed, f->proof.fixed ? o->n : 0, zeta);
     nh_ex unit = unit_of(o, Z0, zeta);
     nh_free(zeta);
-    f->phi = nh_simplify_short(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit), 0);
+    f->phi = shortest(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit));
 }
 
 /* The same in a field, time first. */
@@ -171,7 +184,7 @@ void nh_current_in_velocities(const nh_current_checker *b, nh_current *f)
     f->has_in_velocities = invertible;
     f->in_velocities = nh_substitute(o->dag, f->phi, o->chart->implicit, o->chart->u, v);
     if (invertible && o->chart->quasi)
-        f->in_velocities = nh_simplify_short(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, b->inverse), 0);
+        f->in_velocities = shortest(o->dag, nh_substitute(o->dag, f->in_velocities, o->n, o->chart->w, b->inverse));
     f->in_velocities = nh_chart_in_velocities(o->chart, nh_chart_shown(o->chart, f->in_velocities));
     nh_free(v);
 }
