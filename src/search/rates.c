@@ -53,14 +53,18 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
     return count;
 }
 
+/* Of a periodic coordinate nu is known up to whole numbers and its sign: nu, 1 - nu, 1 + nu, 2 - nu. */
+static int folds(const rate_context *c) { return c->imaginary && c->periodic ? 4 : 1; }
+static double unfolded(double nu, int fold) { return (fold % 2 ? -nu : nu) + (double)((fold + 1) / 2); }
+
 static bool follow(const nh_model *changed, double near, double *value, void *context)
 {
     rate_context *c = context;
     double re[most_values], im[most_values], best = HUGE_VAL;
     size_t n = rates(changed, c, re, im, most_values);
     for (size_t i = 0; i < n; i++)
-        for (int turn = 0; turn < (c->imaginary && c->periodic ? 2 : 1); turn++) { /* nu may have crossed 1/2, where it was folded */
-            double v = !c->imaginary ? re[i] : turn ? 1 - im[i] : im[i];
+        for (int fold = 0; fold < folds(c); fold++) {
+            double v = c->imaginary ? unfolded(im[i], fold) : re[i];
             if (fabs(v - near) >= best) continue;
             best = fabs(v - near);
             *value = v;
@@ -98,8 +102,11 @@ static nh_ex named(rate_context *c, double value)
 {
     const nh_analysis *r = c->x->r;
     double exact = r->options.recognise;
-    nh_ex e = nh_name_value(r->model, value, follow, c, exact, (uint64_t)r->options.seed);
-    if (!e) e = nh_name_value(r->model, value, follow, c, few_digits * exact, (uint64_t)r->options.seed);
+    nh_ex e = 0;
+    for (int fold = 0; fold < folds(c) && !e; fold++) {
+        e = nh_name_value(r->model, unfolded(value, fold), follow, c, exact, (uint64_t)r->options.seed);
+        if (!e) e = nh_name_value(r->model, unfolded(value, fold), follow, c, few_digits * exact, (uint64_t)r->options.seed);
+    }
     return e ? e : number_of(c, value);
 }
 
@@ -155,12 +162,26 @@ static size_t wave_families(waves *w, nh_family *out)
     return w->which == NH_PENCIL_PLAIN - 1 ? 2 : 1;
 }
 
-/* How much new the rates promise, the k-th in the given form. */
-static size_t promises(waves *w, size_t k, int how)
+/* How much new a rate promises in some form, and how far that is from being conserved. */
+typedef struct {
+    size_t news;
+    double worst;
+} promise;
+
+static promise promises(waves *w, size_t k, int how)
 {
     nh_family family[2];
+    promise p;
     w->how[k] = how;
-    return nh_stage_solver_news(w->context.x, wave_families(w, family), family);
+    p.news = nh_stage_solver_news(w->context.x, wave_families(w, family), family, &p.worst);
+    return p;
+}
+
+/* As much, as nearly conserved: a number or an expression that is no more than near the rate leaves a rest that its digits do not. */
+static bool as_good(promise a, promise b)
+{
+    static const double rounding = 1e-13, much = 100;
+    return a.news > b.news || (a.news == b.news && a.worst <= much * b.worst + rounding);
 }
 
 /* Whether the value and what it looks like are the same to rounding. */
@@ -179,14 +200,14 @@ static void choose_forms(waves *w)
         one.count = 1;
         one.re[0] = w->re[k];
         one.im[0] = w->im[k];
-        size_t most = promises(&one, 0, AS_NUMBERS);
+        promise most = promises(&one, 0, AS_NUMBERS);
         int how = AS_NUMBERS;
         if (!plain(&w->context, w->re[k]) || !plain(&w->context, w->im[k])) {
-            size_t digits = promises(&one, 0, AS_DIGITS);
-            if (digits > most) how = AS_DIGITS, most = digits;
+            promise digits = promises(&one, 0, AS_DIGITS);
+            if (!as_good(most, digits)) how = AS_DIGITS, most = digits;
         }
-        if (!most) continue;
-        if (promises(&one, 0, NAMED) >= most) how = NAMED;
+        if (!most.news) continue;
+        if (as_good(promises(&one, 0, NAMED), most)) how = NAMED;
         w->re[kept] = w->re[k];
         w->im[kept] = w->im[k];
         w->how[kept++] = how;

@@ -187,11 +187,12 @@ void nh_solved_clear(nh_solved *s)
     nh_ansatz_free(s->ansatz);
 }
 
-size_t nh_stage_solver_news(nh_stage_solver *x, size_t families, const nh_family *family)
+size_t nh_stage_solver_news(nh_stage_solver *x, size_t families, const nh_family *family, double *worst)
 {
     if (nh_counted_superfluous(&x->counted, families, family, false)) return 0;
     nh_solved s = nh_stage_solver_solve(x, families, family);
     size_t fresh = 0;
+    if (worst) *worst = s.nullspace && s.nullspace->likely ? s.nullspace->spectrum[s.nullspace->likely - 1] : 0;
     if (s.nullspace && s.nullspace->likely) {
         nh_candidates *list = nh_echelon(x->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &x->r->options);
         nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
@@ -203,7 +204,7 @@ size_t nh_stage_solver_news(nh_stage_solver *x, size_t families, const nh_family
     return fresh;
 }
 
-bool nh_stage_solver_promising(nh_stage_solver *x, size_t families, const nh_family *family) { return nh_stage_solver_news(x, families, family) > 0; }
+bool nh_stage_solver_promising(nh_stage_solver *x, size_t families, const nh_family *family) { return nh_stage_solver_news(x, families, family, NULL) > 0; }
 
 /* The first `count` null vectors, turned into what is new in them. */
 static size_t harvest(nh_stage_solver *x, const nh_solved *s, size_t count, bool certain)
