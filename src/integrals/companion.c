@@ -1,5 +1,7 @@
 #include "integrals/companion.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "exact/normal.h"
@@ -112,5 +114,40 @@ nh_fixed nh_companion_relation(const nh_model *o, size_t n, const nh_ex *term, c
     if (found.found) memcpy(coefficient, c, n * sizeof *c);
     nh_free(e);
     nh_free(like);
+    return found;
+}
+
+/* ---- at other values ---- */
+
+/* Two digits of each value; what differs goes on to differ. */
+static void shorten(size_t n, const double *value, double *out)
+{
+    for (size_t i = 0; i < n; i++) {
+        int place = value[i] == 0 ? 0 : (int)floor(log10(fabs(value[i]))) - 1;
+        double digits = round(value[i] * pow(10, -place)), unit = pow(10, abs(place));
+        for (size_t j = 0; j <= i; j++) {
+            out[i] = place < 0 ? digits / unit : digits * unit; /* a quotient of whole numbers is the double nearest to the decimal */
+            if (j == i || out[j] != out[i] || value[j] == value[i]) continue;
+            digits++;
+            j = SIZE_MAX; /* from the first again */
+        }
+    }
+}
+
+nh_fixed nh_companion_relation_nearby(const nh_model *o, size_t n, const nh_ex *term, const nh_ex *rate, const double *like, const nh_options *options,
+                                      nh_ex *coefficient)
+{
+    size_t all = o->system->parameters;
+    double *value = nh_alloc_array(all + 1, sizeof *value);
+    nh_ex *c = nh_alloc_array(n + 1, sizeof *c);
+    nh_model nearby = *o;
+    shorten(all, o->parameter_value, value);
+    nearby.parameter_value = value;
+    nh_fixed found = nh_fixed_relation(&nearby, n, rate, NULL, options, c);
+    if (found.found) found = nh_companion_relation(&nearby, n, term, options, c);
+    if (!found.all_parameters || !nh_fixed_is_like(o, n, c, like)) found = (nh_fixed){0};
+    if (found.found) memcpy(coefficient, c, n * sizeof *c);
+    nh_free(c);
+    nh_free(value);
     return found;
 }

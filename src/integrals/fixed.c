@@ -52,8 +52,7 @@ const char *nh_fixed_text(const nh_model *o, const bool *fixed)
 
 /* ---- one relation ---- */
 
-/* Are the exact coefficients the given ones, up to a factor?  (A relation may exist that is not the one that was fitted.) */
-static bool is_like(const nh_model *o, size_t n, const nh_ex *exact, const double *like)
+bool nh_fixed_is_like(const nh_model *o, size_t n, const nh_ex *exact, const double *like)
 {
     double *value = nh_alloc_array(n + 1, sizeof *value), largest = 0, factor = 0, worst = 0;
     nh_tape *tape = nh_tape_create(o->dag, 0, NULL, n, exact, o->system->parameters, o->parameter, o->parameter_value);
@@ -89,7 +88,7 @@ static nh_relation_verdict relation(const problem *p, const bool *fixed, nh_ex *
         if (!fixed || !fixed[i]) p->free[count++] = o->parameter[i];
     for (size_t j = 0; j < p->n; j++) p->valued[j] = fixed ? nh_fixed_values(o, fixed, p->e[j]) : p->e[j];
     nh_relation_verdict verdict = nh_relation_find(o->dag, p->n, p->valued, count, p->free, p->limit, out);
-    if (verdict == NH_RELATION_UNIQUE && p->like && !is_like(o, p->n, out, p->like)) verdict = NH_RELATION_NONE;
+    if (verdict == NH_RELATION_UNIQUE && p->like && !nh_fixed_is_like(o, p->n, out, p->like)) verdict = NH_RELATION_NONE;
     return verdict;
 }
 

@@ -21,6 +21,9 @@ typedef struct {
 /* The coefficients of the only relation among e (n of them); `like`: it must be this vector at the parameters' values, up to a factor (NULL: any). */
 nh_fixed nh_fixed_relation(const nh_model *model, size_t n, const nh_ex *e, const double *like, const nh_options *options, nh_ex *coefficient);
 
+/* Are the exact coefficients these numbers at the parameters' values, up to a factor?  (A relation may exist that is not the one that was fitted.) */
+bool nh_fixed_is_like(const nh_model *model, size_t n, const nh_ex *exact, const double *like);
+
 /* Which parameters must have their values for something to hold that holds with all of them fixed: `occurring` are expressions with those that matter. */
 typedef bool nh_fixed_test(const bool *fixed, void *context);
 const bool *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds, void *context);

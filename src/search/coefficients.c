@@ -26,9 +26,13 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
         if (named.found) memcpy(out, rate, c->count * sizeof *out);
         else letters->count = 0;
     }
-    if (relation.too_large && relation.found) {
-        memcpy(rate, out, c->count * sizeof *out);
-        nh_fixed shorter = nh_companion_relation(o, c->count, c->term, options, rate);
+    if (relation.too_large) {
+        nh_ex *shown = nh_alloc_array(c->count + 1, sizeof *shown);
+        memcpy(shown, out, c->count * sizeof *shown);
+        nh_fixed shorter = relation.found ? nh_companion_relation(o, c->count, c->term, options, shown)
+                                          : nh_companion_relation_nearby(o, c->count, c->term, rate, c->coefficient, options, shown);
+        if (shorter.found) memcpy(rate, shown, c->count * sizeof *shown);
+        nh_free(shown);
         if (shorter.found) relation = shorter;
         if (shorter.found) memcpy(out, rate, c->count * sizeof *out);
     }
