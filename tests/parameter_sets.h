@@ -1,7 +1,9 @@
 /* A system's formulas with other values of its parameters: for bench_parameters, which prints a table, and test_parameters_reduce, which asserts.
  *
  * Parameters are symbols, so that every formula must be the same, letter for letter.  Where one parameter has a special value that value is put in its place in the
- * formulas of both.  Reduced equations are left out: charts are chosen by conditioning at the given values. */
+ * formulas of both.  There may be more currents for a special value, and others of them are simple: the file's formula must then be a function of those that are found
+ * there, which is decided by the rank of gradients in ball arithmetic; or mean nothing there, like a formula with 1/k for k = 0 or sqrt(B^2 - w^2) for
+ * B < w.  Reduced equations are left out: charts are chosen by conditioning at the given values. */
 #ifndef NH_TESTS_PARAMETER_SETS_H
 #define NH_TESTS_PARAMETER_SETS_H
 
@@ -15,6 +17,8 @@
 #include "document/facts.h"
 #include "commands/analyze.h"
 #include "commands/reduce.h"
+#include "integrals/gradient_rank.h"
+#include "problem/analysis_file.h"
 #include "system/sample.h"
 
 /* ---- formulas ---- */
@@ -29,6 +33,7 @@ typedef struct {
     size_t count, capacity;
     formula *list;
     bool answered;   /* nothing failed */
+    nh_analysis *analysis; /* where the currents are from; NULL where there was none */
 } formulas;
 
 /* One parameter at a special value; name NULL: none. */
@@ -41,6 +46,7 @@ static inline void formulas_clear(formulas *f)
 {
     for (size_t i = 0; i < f->count; i++) nh_free(f->list[i].text);
     nh_free(f->list);
+    nh_analysis_free(f->analysis);
     *f = (formulas){0};
 }
 
@@ -91,8 +97,50 @@ static inline void add_analysis(formulas *f, const char *path, size_t settings, 
         formulas_add(f, r->model, special, c->name, 1, c->has_in_velocities ? &c->in_velocities : &c->phi, &c->proof, why_limited(c));
     }
     f->answered &= r != NULL;
-    nh_analysis_free(r);
+    f->analysis = r;
     nh_error_clear(&error);
+}
+
+/* ---- what becomes of a formula at other values ---- */
+
+typedef enum { FATE_FUNCTION, FATE_NOTHING, FATE_OTHER } formula_fate;
+static const char *const fate_words[] = {"a function of those found", "means nothing", "differs"};
+
+/* Is it a finite real number at some point? */
+static inline bool real_somewhere(const nh_model *o, nh_ex phi)
+{
+    enum { tried = 32 };
+    nh_error error = {0};
+    double value[tried];
+    bool real = false;
+    nh_points *p = nh_points_create(o, tried, 1, 17, &error);
+    if (p) nh_points_evaluate(p, o, 1, &phi, value);
+    for (size_t i = 0; p && i < tried; i++) real |= isfinite(value[i]);
+    nh_points_free(p);
+    nh_error_clear(&error);
+    return real;
+}
+
+/* Of a current: is it a function of those found there? */
+static inline formula_fate fate_of(const formulas *is, const formula *f)
+{
+    const nh_analysis *r = is->analysis;
+    nh_error error = {0};
+    nh_ex e, list[200];
+    size_t n = 0;
+    if (!r || strncmp(f->name, "Phi", 3)) return FATE_OTHER;
+    if (strstr(f->text, "nan") || !nh_system_expression_text(r->system, "a formula", f->text, 0, NULL, &e, &error)
+        || !nh_analysis_file_to_chart(r->model, e, &list[0], &error)) {
+        nh_error_clear(&error);
+        return FATE_NOTHING;
+    }
+    nh_ex phi = list[0];
+    for (size_t k = 0; k < r->count && n < 190; k++)
+        if (r->found[k].independence == NH_INDEPENDENT) list[n++] = r->found[k].phi;
+    list[n] = phi;
+    nh_rank rank = nh_rank_decide(r->model, n, list, r->options.doubt);
+    if (rank.answer == NH_RANK_STAYS) return FATE_FUNCTION;
+    return real_somewhere(r->model, phi) ? FATE_OTHER : FATE_NOTHING;
 }
 
 /* ---- of a reduction ---- */
@@ -245,7 +293,8 @@ static inline formulas ask(const char *path, const parameters_question *q, size_
 }
 
 typedef struct {
-    bool drawn[PARAMETER_SETS], same[PARAMETER_SETS]; /* were there admissible values? */
+    bool drawn[PARAMETER_SETS], same[PARAMETER_SETS]; /* were there admissible values?  all formulas? */
+    size_t others[PARAMETER_SETS];                    /* that are not there letter for letter, but as functions of those that are, or mean nothing there */
     size_t formulas, limited; /* of the file; those that hold for some values only, of the file and of the first two sets */
     char *words;              /* what differs, and what is limited, with reasons */
 } parameters_row;
@@ -273,17 +322,21 @@ static inline void list_limited(const formulas *f, const char *where, parameters
     }
 }
 
-/* Does every formula of `was` stand in `is`, under its name unless a special value brings others in? */
-static inline bool compare_formulas(const formulas *was, const formulas *is, const parameter_set *p, nh_text *out)
+/* Does every formula of `was` stand in `is`, under its name unless a special value brings others in?  `others`: how many only as functions of those. */
+static inline bool compare_formulas(const formulas *was, const formulas *is, const parameter_set *p, size_t *others, nh_text *out)
 {
     bool same = is->answered && (p->special.name || is->count == was->count);
+    *others = 0;
     if (is->count != was->count) nh_text_addf(out, "%s%zu formulas instead of %zu for %s", *nh_text_string(out) ? "; " : "", is->count, was->count, p->text);
     for (size_t i = 0; i < was->count; i++) {
         const formula *f = &was->list[i], *g = named(is, f->name);
         if (p->special.name ? find_formula(is, f->text) != NULL : g && !strcmp(g->text, f->text)) continue;
-        nh_text_addf(out, "%s%s %s for %s", *nh_text_string(out) ? "; " : "", f->name, g ? "differs" : "is not there", p->text);
-        if (getenv("NHSYM_TEST_FIGURES")) printf("%s: %s\n    %s\n    %s\n", p->text, f->name, f->text, g ? g->text : "");
-        same = false;
+        formula_fate fate = fate_of(is, f);
+        nh_text_addf(out, "%s%s: %s for %s", *nh_text_string(out) ? "; " : "", f->name, fate == FATE_OTHER && !g ? "is not there" : fate_words[fate], p->text);
+        *others += fate != FATE_OTHER;
+        if (fate != FATE_OTHER && p->special.name) continue;
+        if (getenv("NHSYM_TEST_FIGURES") && fate == FATE_OTHER) printf("%s: %s\n    %s\n    %s\n", p->text, f->name, f->text, g ? g->text : "");
+        same &= fate == FATE_NOTHING;
     }
     return same;
 }
@@ -300,7 +353,7 @@ static inline void compare_set(const char *path, const nh_system *s, const param
     if (!good || draws == most_draws) return;
     formulas is = ask(path, q, p.count, p.setting, p.special), was = p.special.name ? ask(path, q, 0, NULL, p.special) : (formulas){0};
     o->drawn[set] = true;
-    o->same[set] = compare_formulas(p.special.name ? &was : plain, &is, &p, out);
+    o->same[set] = compare_formulas(p.special.name ? &was : plain, &is, &p, &o->others[set], out);
     if (!p.special.name) list_limited(&is, parameter_set_name[set], o, out);
     formulas_clear(&is);
     formulas_clear(&was);
