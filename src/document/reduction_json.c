@@ -281,6 +281,8 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     nh_json_put_bool(to, "alternative", nh_reduction_instead(r, (size_t)(s - r->stage)));
     put_fields(to, s->action);
     for (size_t i = 0; i < s->shown->n; i++) nh_json_add_text(list, nh_name_of(d, s->shown->x[i]));
+    nh_json *slice = nh_json_put_object(to, "slice");
+    for (size_t a = 0; a < s->shown_slice->d; a++) put_expression(slice, s->shown_slice->kinetic->name[s->shown_slice->along[a]], d, s->shown_slice->y[a]);
     list = nh_json_put_array(to, "velocities");
     for (size_t i = 0; i < s->shown->r; i++) nh_json_add_text(list, nh_name_of(d, s->shown->w[i]));
     nh_reduction_equation *e;

@@ -1,0 +1,655 @@
+/* What `reduce --equations` prints of systems of many kinds, against a second computation from the Lagrangian and the constraints alone.
+ *
+ * The metric comes from values of L (it is quadratic in the velocities), the forms from values of the constraints, derivatives from differences; the
+ * structure constants from differences of the printed fields.  Of the program nothing is used but the reader of expressions and their evaluation. */
+#include "reduced_sheet.h"
+
+#include <math.h>
+
+#include "base/linalg.h"
+
+enum { most = 10 };
+
+typedef struct {
+    reduced_sheet s;
+    size_t m, f;               /* coordinates, constraints */
+    size_t first;              /* of a second stage: the Chaplygin stage below it; else SIZE_MAX */
+    size_t n, d;               /* of the stage: shape, group */
+    size_t x[most], y[most];   /* coordinates of the system: shape, and those that the slice fixes */
+    double q[most];            /* a place of the slice */
+    double c[most * most * most]; /* [e_a, e_b] = -c_ab^k e_k as fields */
+    const char *name;
+} object;
+
+static size_t coordinate(const object *o, const char *name)
+{
+    for (size_t i = 0; i < o->m; i++)
+        if (!strcmp(o->s.system->coordinate[i].name, name)) return i;
+    cr_assert_fail("%s: there is no %s", o->name, name);
+    return 0;
+}
+
+static const char *name_of(const object *o, size_t i) { return o->s.system->coordinate[o->x[i]].name; }
+
+static double evaluated(object *o, nh_ex e, const double *q, const double *v)
+{
+    const nh_ex *parameter;
+    const double *numbers;
+    double out;
+    for (size_t i = 0; i < o->m; i++) o->s.value[2 * i] = q[i], o->s.value[2 * i + 1] = v ? v[i] : 0;
+    nh_system_bindings(o->s.system, &parameter, &numbers);
+    nh_tape *tape = nh_tape_create(o->s.system->dag, o->s.symbols, o->s.symbol, 1, &e, o->s.system->parameters, parameter, numbers);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, o->s.value, &out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return out;
+}
+
+static void set_place(object *o)
+{
+    for (size_t i = 0; i < o->m; i++) o->s.value[2 * i] = o->q[i], o->s.value[2 * i + 1] = 0;
+}
+
+static double potential(object *o, const double *q) { return -evaluated(o, o->s.system->lagrangian, q, NULL); }
+
+/* K_ij = L(e_i + e_j) - L(e_i) - L(e_j) + L(0). */
+static void metric(object *o, const double *q, double *K)
+{
+    size_t m = o->m;
+    nh_ex L = o->s.system->lagrangian;
+    double v[most] = {0}, one[most], zero = evaluated(o, L, q, v);
+    for (size_t i = 0; i < m; i++) {
+        v[i] = 1;
+        one[i] = evaluated(o, L, q, v) - zero;
+        v[i] = 0;
+    }
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j <= i; j++) {
+            v[i] += 1, v[j] += 1;
+            K[i + j * m] = K[j + i * m] = evaluated(o, L, q, v) - zero - one[i] - one[j];
+            v[i] = v[j] = 0;
+        }
+}
+
+/* f x m, column by column. */
+static void forms(object *o, const double *q, double *omega)
+{
+    double v[most] = {0};
+    for (size_t a = 0; a < o->f; a++) {
+        const nh_constraint *c = &o->s.system->constraint[a];
+        for (size_t i = 0; i < o->m; i++) {
+            v[i] = 1;
+            omega[a + i * o->f] = evaluated(o, c->lhs, q, v) - evaluated(o, c->rhs, q, v);
+            v[i] = 0;
+        }
+    }
+}
+
+/* Components of the fields of stage `of` along all coordinates: m x d. */
+static size_t fields(object *o, size_t of, const double *q, double *E)
+{
+    const cJSON *field, *component, *stage = cJSON_GetArrayItem(oracle_get(o->s.root, "stages"), (int)of);
+    size_t d = 0;
+    for (size_t i = 0; i < o->m; i++) o->s.value[2 * i] = q[i];
+    cJSON_ArrayForEach(field, oracle_get(stage, "generators")) {
+        for (size_t i = 0; i < o->m; i++) E[i + d * o->m] = 0;
+        cJSON_ArrayForEach(component, field) E[coordinate(o, component->string) + d * o->m] = value_of(&o->s, component->valuestring);
+        d++;
+    }
+    return d;
+}
+
+/* x (columns of b) with a x = b, where a has more rows than columns: a^T a x = a^T b. */
+static void least(size_t rows, size_t n, const double *a, size_t count, const double *b, double *x)
+{
+    double N[most * most] = {0}, rcond;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            for (size_t r = 0; r < rows; r++) N[i + j * n] += a[r + i * rows] * a[r + j * rows];
+    for (size_t c = 0; c < count; c++)
+        for (size_t i = 0; i < n; i++) {
+            x[i + c * n] = 0;
+            for (size_t r = 0; r < rows; r++) x[i + c * n] += a[r + i * rows] * b[r + c * rows];
+        }
+    cr_assert(nh_solve(n, N, count, x, &rcond));
+}
+
+static const double step = 1e-5;
+
+/* c_ab^k = -([e_a, e_b] in the fields): the fields differentiated along each other. */
+static void constants(object *o, size_t of, size_t d, const double *q)
+{
+    size_t m = o->m;
+    double E[most * most], side[2][most * most], at[most], bracket[most] = {0}, k[most];
+    fields(o, of, q, E);
+    for (size_t a = 0; a < d; a++)
+        for (size_t b = 0; b < d; b++) {
+            memset(bracket, 0, sizeof bracket);
+            for (int turn = 0; turn < 2; turn++) { /* (e_a d) e_b - (e_b d) e_a */
+                const double *along = E + (turn ? b : a) * m;
+                for (int w = 0; w < 2; w++) {
+                    for (size_t i = 0; i < m; i++) at[i] = q[i] + (w ? step : -step) * along[i];
+                    fields(o, of, at, side[w]);
+                }
+                for (size_t i = 0; i < m; i++) bracket[i] += (turn ? -1 : 1) * (side[1][i + (turn ? a : b) * m] - side[0][i + (turn ? a : b) * m]) / (2 * step);
+            }
+            least(m, d, E, 1, bracket, k);
+            for (size_t j = 0; j < d; j++) o->c[(a * d + b) * d + j] = fabs(k[j]) > 1e-7 ? -k[j] : 0;
+        }
+    set_place(o);
+}
+
+/* ---- the metric that a stage starts from, in the coordinates of its shape and its slice ---- */
+
+/* The first stage's shape coordinates; its own: all. */
+static size_t around(const object *o, size_t *of)
+{
+    if (o->first == SIZE_MAX) {
+        for (size_t i = 0; i < o->m; i++) of[i] = i;
+        return o->m;
+    }
+    const cJSON *name, *stage = cJSON_GetArrayItem(oracle_get(o->s.root, "stages"), (int)o->first);
+    size_t n = 0;
+    cJSON_ArrayForEach(name, oracle_get(stage, "shape")) of[n++] = coordinate(o, name->valuestring);
+    return n;
+}
+
+/* A = om_e^-1 om_x (d x n) of a Chaplygin stage at q, and the frame (d_i, e_a): m x m. */
+static void connection(object *o, size_t of, size_t n, const size_t *x, const double *q, double *A, double *frame)
+{
+    size_t m = o->m, f = o->f;
+    double omega[most * most], E[most * most], a[most * most] = {0}, rcond;
+    forms(o, q, omega);
+    cr_assert_eq(fields(o, of, q, E), f);
+    memset(frame, 0, m * m * sizeof *frame);
+    for (size_t i = 0; i < n; i++) frame[x[i] + i * m] = 1;
+    memcpy(frame + n * m, E, f * m * sizeof *frame);
+    for (size_t r = 0; r < f; r++)
+        for (size_t c = 0; c < f; c++)
+            for (size_t i = 0; i < m; i++) a[r + c * f] += omega[r + i * f] * E[i + c * m];
+    for (size_t r = 0; r < f; r++)
+        for (size_t i = 0; i < n; i++) A[r + i * f] = omega[r + x[i] * f];
+    cr_assert(nh_solve(f, a, n, A, &rcond));
+}
+
+/* The lifts (m x n), Khat (n x n) and J_a (d x n). */
+static void lifted(object *o, size_t of, size_t n, const size_t *x, const double *q, double *lift, double *Khat, double *J)
+{
+    size_t m = o->m, f = o->f;
+    double A[most * most], frame[most * most], K[most * most];
+    connection(o, of, n, x, q, A, frame);
+    metric(o, q, K);
+    for (size_t i = 0; i < n; i++)
+        for (size_t r = 0; r < m; r++) {
+            lift[r + i * m] = frame[r + i * m];
+            for (size_t a = 0; a < f; a++) lift[r + i * m] -= A[a + i * f] * frame[r + (n + a) * m];
+        }
+    for (size_t j = 0; j < n; j++) {
+        for (size_t i = 0; i < n; i++) {
+            Khat[i + j * n] = 0;
+            for (size_t r = 0; r < m; r++)
+                for (size_t s = 0; s < m; s++) Khat[i + j * n] += lift[r + i * m] * K[r + s * m] * lift[s + j * m];
+        }
+        for (size_t a = 0; a < f; a++) {
+            J[a + j * f] = 0;
+            for (size_t r = 0; r < m; r++)
+                for (size_t s = 0; s < m; s++) J[a + j * f] += frame[r + (n + a) * m] * K[r + s * m] * lift[s + j * m];
+        }
+    }
+}
+
+/* ---- comparisons ---- */
+
+static void same(const object *o, const char *label, double got, double want, double tolerance)
+{
+    cr_expect_float_eq(got, want, tolerance * (1 + fabs(want)), "%s: %s is %.12g, but %.12g was expected", o->name, label, got, want);
+}
+
+static double line_value(const object *o, const char *section, const char *of, const char *format, ...)
+{
+    char label[200];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(label, sizeof label, format, list);
+    va_end(list);
+    return shown_value(&o->s, section, label, of);
+}
+
+/* B^a_ij from a connection of d x n at q and at q +- step along each shape coordinate. */
+static void curvature(object *o, size_t n, size_t d, const size_t *x, void (*at)(object *, const double *, double *), double *B)
+{
+    double A[most * most], side[2][most * most], *dA = nh_alloc_array(n * n * d + 1, sizeof *dA), q[most];
+    at(o, o->q, A);
+    for (size_t l = 0; l < n; l++) {
+        for (int w = 0; w < 2; w++) {
+            memcpy(q, o->q, sizeof q);
+            q[x[l]] += w ? step : -step;
+            at(o, q, side[w]);
+        }
+        for (size_t i = 0; i < n * d; i++) dA[l * n * d + i] = (side[1][i] - side[0][i]) / (2 * step);
+    }
+    for (size_t a = 0; a < d; a++)
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j < n; j++) {
+                double e = dA[i * n * d + a + j * d] - dA[j * n * d + a + i * d];
+                for (size_t b = 0; b < d; b++)
+                    for (size_t k = 0; k < d; k++) e -= o->c[(b * d + k) * d + a] * A[b + i * d] * A[k + j * d];
+                B[(a * n + i) * n + j] = e;
+            }
+    nh_free(dA);
+    set_place(o);
+}
+
+/* label = 1/2 p M p with letters for the two p: the printed coefficients are those of the symmetric M. */
+static void quadratic(const object *o, const char *label, double sign, size_t n, const double *M, const char *square, const char *product, bool numbered)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++) {
+            char of[100];
+            if (numbered) snprintf(of, sizeof of, i == j ? square : product, i + 1, j + 1);
+            else snprintf(of, sizeof of, i == j ? square : product, name_of(o, i), name_of(o, j));
+            same(o, label, line_value(o, "hamiltonian", of, "%s", label), sign * (i == j ? M[i + i * n] / 2 : M[i + j * n]), 1e-8);
+        }
+}
+
+static void inverse(size_t n, const double *M, double *out)
+{
+    double a[most * most], rcond;
+    memcpy(a, M, n * n * sizeof *a);
+    for (size_t i = 0; i < n * n; i++) out[i] = i % (n + 1) == 0;
+    if (n) cr_assert(nh_solve(n, a, n, out, &rcond));
+}
+
+/* ---- the first stage ---- */
+
+static void chaplygin_connection(object *o, const double *q, double *A)
+{
+    double frame[most * most];
+    connection(o, 0, o->n, o->x, q, A, frame);
+}
+
+static void check_chaplygin(object *o)
+{
+    size_t n = o->n, d = o->d;
+    double A[most * most], lift[most * most], Khat[most * most], J[most * most], inv[most * most], *B = nh_alloc_array(d * n * n + 1, sizeof *B);
+    chaplygin_connection(o, o->q, A);
+    lifted(o, 0, n, o->x, o->q, lift, Khat, J);
+    curvature(o, n, d, o->x, chaplygin_connection, B);
+    for (size_t a = 0; a < d; a++)
+        for (size_t i = 0; i < n; i++) {
+            char speed[100];
+            snprintf(speed, sizeof speed, "%s'", name_of(o, i));
+            same(o, "Ahat", line_value(o, "connection", "", "Ahat_%s^%zu", name_of(o, i), a + 1), A[a + i * d], 1e-9);
+            same(o, "J", line_value(o, "gyroscopic_form", speed, "J_%zu", a + 1), J[a + i * d], 1e-9);
+            for (size_t j = i + 1; j < n; j++) same(o, "B", line_value(o, "connection", "", "B_%s,%s^%zu", name_of(o, i), name_of(o, j), a + 1), B[(a * n + i) * n + j], 1e-6);
+        }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++) {
+            same(o, "Khat", line_value(o, "hamiltonian", "", "Khat_%s,%s", name_of(o, i), name_of(o, j)), Khat[i + j * n], 1e-9);
+            for (size_t k = 0; k < n && i < j; k++) {
+                char speed[100];
+                double upsilon = 0;
+                for (size_t a = 0; a < d; a++) upsilon += J[a + k * d] * B[(a * n + i) * n + j];
+                snprintf(speed, sizeof speed, "%s'", name_of(o, k));
+                same(o, "Upsilon", line_value(o, "gyroscopic_form", speed, "Upsilon_%s,%s", name_of(o, i), name_of(o, j)), upsilon, 1e-6);
+            }
+        }
+    quadratic(o, "Lhat", 1, n, Khat, "%s'^2", "%s' %s'", false);
+    inverse(n, Khat, inv);
+    quadratic(o, "Hhat", 1, n, inv, "p_%s^2", "p_%s p_%s", false);
+    double V = potential(o, o->q);
+    set_place(o);
+    same(o, "V in Lhat", line_value(o, "hamiltonian", "", "Lhat"), -V, 1e-9);
+    nh_free(B);
+}
+
+/* ---- the second stage, or level sets of a momentum ---- */
+
+/* The metric on the coordinates `of` (h of them) at q, and the fields in these. */
+static size_t base_metric(object *o, size_t stage, const double *q, double *K, double *E)
+{
+    size_t of[most], h = around(o, of), m = o->m, d;
+    double all[most * most], lift[most * most], J[most * most];
+    if (o->first == SIZE_MAX) metric(o, q, K);
+    else lifted(o, o->first, h, of, q, lift, K, J);
+    d = fields(o, stage, q, all);
+    for (size_t a = 0; a < d; a++)
+        for (size_t i = 0; i < h; i++) E[i + a * h] = all[of[i] + a * m];
+    return h;
+}
+
+static size_t second_index;
+
+/* The locked inertia (d x d) and the whole spatial connection I^-1 E^T K (d x h) at q. */
+static size_t spatial(object *o, const double *q, double *I, double *connected)
+{
+    double K[most * most], E[most * most], a[most * most], rcond;
+    size_t h = base_metric(o, second_index, q, K, E), d = o->d;
+    for (size_t r = 0; r < d; r++) {
+        for (size_t i = 0; i < h; i++) {
+            connected[r + i * d] = 0;
+            for (size_t s = 0; s < h; s++) connected[r + i * d] += E[s + r * h] * K[s + i * h];
+        }
+    }
+    for (size_t r = 0; r < d; r++)
+        for (size_t c = 0; c < d; c++) {
+            I[r + c * d] = 0;
+            for (size_t i = 0; i < h; i++) I[r + c * d] += connected[r + i * d] * E[i + c * h];
+        }
+    memcpy(a, I, d * d * sizeof *a);
+    cr_assert(nh_solve(d, a, h, connected, &rcond));
+    return h;
+}
+
+/* Of it the columns of the shape: on the slice the spatial connection is that of the body frame. */
+static void mechanical(object *o, const double *q, double *Av)
+{
+    double I[most * most], all[most * most];
+    size_t of[most], h = around(o, of);
+    spatial(o, q, I, all);
+    for (size_t i = 0; i < o->n; i++)
+        for (size_t s = 0; s < h; s++)
+            if (of[s] == o->x[i]) memcpy(Av + i * o->d, all + s * o->d, o->d * sizeof *Av);
+}
+
+/* d alpha on two vectors u, w of the coordinates, alpha = theta . connected, by differences. */
+static double exterior(object *o, const double *theta, size_t h, const size_t *of, const double *u, const double *w)
+{
+    double sum = 0, I[most * most], A[2][most * most], q[most];
+    for (size_t r = 0; r < h; r++) {
+        if (u[r] == 0 && w[r] == 0) continue;
+        for (int side = 0; side < 2; side++) {
+            memcpy(q, o->q, sizeof q);
+            q[of[r]] += side ? step : -step;
+            spatial(o, q, I, A[side]);
+        }
+        for (size_t s = 0; s < h; s++)
+            for (size_t a = 0; a < o->d; a++) sum += theta[a] * (A[1][a + s * o->d] - A[0][a + s * o->d]) / (2 * step) * (u[r] * w[s] - w[r] * u[s]);
+    }
+    set_place(o);
+    return sum;
+}
+
+/* Xi_theta as printed is d alpha_theta on lifts and fields; N_theta as printed leaves theta alone. */
+static void check_magnetic(object *o, const double *Av)
+{
+    size_t n = o->n, d = o->d, of[most], h = around(o, of), isotropy = 0;
+    double theta[most], E[most * most], K[most * most], vector[2 * most][most];
+    for (size_t a = 0; a < d; a++) {
+        theta[a] = 0.7 + 0.31 * (double)(a * a) - 0.2 * (double)a;
+        char *name = malloc(20); /* until the test ends */
+        snprintf(name, 20, "theta_%zu", a + 1);
+        o->s.value[own_name(&o->s, name)] = theta[a];
+    }
+    base_metric(o, second_index, o->q, K, E);
+    set_place(o);
+    for (size_t a = 0; a < d; a++) memcpy(vector[n + a], E + a * h, h * sizeof(double));
+    for (size_t i = 0; i < n; i++)
+        for (size_t r = 0; r < h; r++) {
+            vector[i][r] = of[r] == o->x[i];
+            for (size_t a = 0; a < d; a++) vector[i][r] -= Av[a + i * d] * E[r + a * h];
+        }
+    for (size_t i = 0; i < n + d; i++)
+        for (size_t j = i + 1; j < n + d; j++) {
+            double want = exterior(o, theta, h, of, vector[i], vector[j]), got = 0;
+            for (size_t a = 0; a < d && j < n; a++) {
+                char factor[30];
+                snprintf(factor, sizeof factor, "theta_%zu", a + 1);
+                got += theta[a] * line_value(o, "magnetic_form", factor, "Xi_%s,%s", name_of(o, i), name_of(o, j));
+            }
+            if (i >= n) got = line_value(o, "magnetic_form", "", "Xi(e_%zu,e_%zu)", i - n + 1, j - n + 1);
+            same(o, "Xi_theta", got, want, 1e-5);
+        }
+    const cJSON *line;
+    cJSON_ArrayForEach(line, oracle_get(o->s.geometry, "magnetic_form")) isotropy += !strncmp(text_of(line, "label"), "xi_", 3);
+    for (size_t p = 0; p < isotropy; p++)
+        for (size_t b = 0; b < d; b++) {
+            double sum = 0;
+            for (size_t a = 0; a < d; a++) {
+                char e[30];
+                snprintf(e, sizeof e, "e_%zu", a + 1);
+                double xi = line_value(o, "magnetic_form", e, "xi_%zu", p + 1);
+                for (size_t k = 0; k < d; k++) sum += xi * o->c[(a * d + b) * d + k] * theta[k];
+            }
+            same(o, "theta([xi, .])", sum, 0, 1e-6);
+        }
+    if (!cJSON_IsTrue(oracle_get(o->s.stage, "abelian"))) cr_expect_eq(isotropy, (size_t)oracle_number(o->s.stage, "isotropy"), "%s: %zu", o->name, isotropy);
+}
+
+static void check_second(object *o, size_t stage)
+{
+    size_t n = o->n, d = o->d, of[most], h = around(o, of);
+    double I[most * most], all[most * most], K[most * most], E[most * most], Av[most * most], Kt[most * most], inv[most * most], *B = nh_alloc_array(d * n * n + 1, sizeof *B);
+    second_index = stage;
+    spatial(o, o->q, I, all);
+    base_metric(o, stage, o->q, K, E);
+    mechanical(o, o->q, Av);
+    curvature(o, n, d, o->x, mechanical, B);
+    for (size_t a = 0; a < d; a++) {
+        for (size_t b = a; b < d; b++) same(o, "I", line_value(o, "mechanical_connection", "", "I_%zu,%zu", a + 1, b + 1), I[a + b * d], 1e-9);
+        for (size_t i = 0; i < n; i++) {
+            char momentum[30];
+            snprintf(momentum, sizeof momentum, "theta_%zu", a + 1);
+            same(o, "Abreve", line_value(o, "mechanical_connection", "", "Abreve_%s^%zu", name_of(o, i), a + 1), Av[a + i * d], 1e-9);
+            same(o, "phat", line_value(o, "hamiltonian", momentum, "phat_%s", name_of(o, i)), Av[a + i * d], 1e-9);
+            for (size_t j = i + 1; j < n; j++) same(o, "B", line_value(o, "mechanical_connection", "", "B_%s,%s^%zu", name_of(o, i), name_of(o, j), a + 1), B[(a * n + i) * n + j], 1e-6);
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) { /* K on lifts */
+            Kt[i + j * n] = 0;
+            for (size_t r = 0; r < h; r++)
+                for (size_t s = 0; s < h; s++) {
+                    double u = of[r] == o->x[i], w = of[s] == o->x[j];
+                    for (size_t a = 0; a < d; a++) u -= Av[a + i * d] * E[r + a * h], w -= Av[a + j * d] * E[s + a * h];
+                    Kt[i + j * n] += u * K[r + s * h] * w;
+                }
+            if (i <= j) set_place(o);
+        }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i; j < n; j++) same(o, "Kbreve", line_value(o, "hamiltonian", "", "Kbreve_%s,%s", name_of(o, i), name_of(o, j)), Kt[i + j * n], 1e-8);
+    quadratic(o, "R_theta", 1, n, Kt, "%s'^2", "%s' %s'", false);
+    inverse(n, Kt, inv);
+    quadratic(o, "Hbreve", 1, n, inv, "p_%s^2", "p_%s p_%s", false);
+    inverse(d, I, inv);
+    quadratic(o, "Hbreve", 1, d, inv, "theta_%zu^2", "theta_%zu theta_%zu", true);
+    quadratic(o, "R_theta", -1, d, inv, "theta_%zu^2", "theta_%zu theta_%zu", true);
+    check_magnetic(o, Av);
+    nh_free(B);
+}
+
+/* ---- the whole group ---- */
+
+static double chi_of(const object *o, size_t p, size_t a)
+{
+    char e[30];
+    snprintf(e, sizeof e, "e_%zu", a + 1);
+    return line_value(o, "connection", e, "chi_%zu", p + 1);
+}
+
+static void printed_connection(object *o, const double *q, double *A)
+{
+    for (size_t i = 0; i < o->m; i++) o->s.value[2 * i] = q[i];
+    for (size_t a = 0; a < o->d; a++)
+        for (size_t i = 0; i < o->n; i++) A[a + i * o->d] = line_value(o, "connection", "", "A_%s^%zu", name_of(o, i), a + 1);
+}
+
+/* chi and the lifts lie in D and are orthogonal to each other; B is the curvature of A; l has the metric on both. */
+static void check_bundle(object *o, size_t stage)
+{
+    size_t n = o->n, d = o->d, m = o->m, r = d - o->f;
+    double omega[most * most], K[most * most], E[most * most], A[most * most], vector[2 * most][most] = {{0}}, *B = nh_alloc_array(d * n * n + 1, sizeof *B);
+    forms(o, o->q, omega);
+    metric(o, o->q, K);
+    fields(o, stage, o->q, E);
+    set_place(o);
+    printed_connection(o, o->q, A);
+    for (size_t i = 0; i < n; i++) {
+        vector[i][o->x[i]] = 1;
+        for (size_t a = 0; a < d; a++)
+            for (size_t s = 0; s < m; s++) vector[i][s] -= A[a + i * d] * E[s + a * m];
+    }
+    for (size_t p = 0; p < r; p++)
+        for (size_t a = 0; a < d; a++)
+            for (size_t s = 0; s < m; s++) vector[n + p][s] += chi_of(o, p, a) * E[s + a * m];
+    for (size_t i = 0; i < n + r; i++) {
+        double size = 0;
+        for (size_t s = 0; s < m; s++) size += vector[i][s] * vector[i][s];
+        cr_expect_gt(size, 1e-6, "%s: vector %zu of D vanishes", o->name, i);
+        for (size_t a = 0; a < o->f; a++) {
+            double sum = 0;
+            for (size_t s = 0; s < m; s++) sum += omega[a + s * o->f] * vector[i][s];
+            same(o, "a form on D", sum, 0, 1e-9);
+        }
+        for (size_t j = i; j < n + r; j++) {
+            double product = 0;
+            char of[100];
+            for (size_t s = 0; s < m; s++)
+                for (size_t t = 0; t < m; t++) product += vector[i][s] * K[s + t * m] * vector[j][t];
+            if (i < n && j >= n) same(o, "a lift on S", product, 0, 1e-8);
+            if (i < n && j >= n) continue;
+            if (j < n) snprintf(of, sizeof of, i == j ? "%s'^2" : "%s' %s'", name_of(o, i), name_of(o, j));
+            else snprintf(of, sizeof of, i == j ? "nu_%zu^2" : "nu_%zu nu_%zu", i - n + 1, j - n + 1);
+            same(o, "l", line_value(o, "lagrangian", of, "l"), i == j ? product / 2 : product, 1e-8);
+        }
+    }
+    curvature(o, n, d, o->x, printed_connection, B);
+    for (size_t a = 0; a < d; a++)
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = i + 1; j < n; j++) same(o, "B", line_value(o, "connection", "", "B_%s,%s^%zu", name_of(o, i), name_of(o, j), a + 1), B[(a * n + i) * n + j], 1e-6);
+    nh_free(B);
+}
+
+/* ---- a system ---- */
+
+static void open_stage(object *o, const char *text, const char *line, size_t stage, const char *name)
+{
+    const cJSON *item;
+    *o = (object){.s = reduced_from("own.yaml", text, 0, NULL, line, stage), .first = SIZE_MAX, .name = name};
+    o->m = o->s.system->coordinates;
+    o->f = o->s.system->constraints;
+    for (size_t i = 0; i < o->m; i++) o->q[i] = 0.9 - 0.23 * (double)i + 0.06 * (double)(i * i);
+    cJSON_ArrayForEach(item, oracle_get(o->s.stage, "shape")) o->x[o->n++] = coordinate(o, item->valuestring);
+    for (size_t s = 0; s <= stage; s++) { /* a second stage lies on the first one's slice, too */
+        const cJSON *other = cJSON_GetArrayItem(oracle_get(o->s.root, "stages"), (int)s);
+        bool below = s == 0 && stage > 0 && !strcmp(text_of(other, "kind"), "chaplygin") && !strcmp(text_of(o->s.stage, "kind"), "second");
+        if (below) o->first = s;
+        if (s < stage && !below) continue;
+        cJSON_ArrayForEach(item, oracle_get(other, "slice")) {
+            o->q[coordinate(o, item->string)] = value_of(&o->s, item->valuestring);
+            if (s == stage) o->y[o->d++] = coordinate(o, item->string);
+        }
+    }
+    set_place(o);
+    constants(o, stage, o->d, o->q);
+}
+
+static void check(const char *name, const char *text, const char *line, const char *kinds)
+{
+    for (size_t stage = 0; kinds[stage]; stage++) {
+        object o;
+        open_stage(&o, text, line, stage, name);
+        const char *kind = text_of(o.s.stage, "kind");
+        cr_expect_eq(kind[0], kinds[stage], "%s: stage %zu is %s", name, stage + 1, kind);
+        cr_assert_eq(cJSON_GetArraySize(oracle_get(o.s.root, "stages")), (int)strlen(kinds), "%s: %d stages", name, cJSON_GetArraySize(oracle_get(o.s.root, "stages")));
+        if (!strcmp(kind, "chaplygin")) check_chaplygin(&o);
+        if (!strcmp(kind, "second")) check_second(&o, stage);
+        if (!strcmp(kind, "lagrange-dalembert-poincare")) check_bundle(&o, stage);
+        const cJSON *agreement = cJSON_GetObjectItem(o.s.stage, "agreement_with_full");
+        if (!agreement) agreement = cJSON_GetObjectItem(o.s.stage, "agreement_with_first");
+        cr_expect(cJSON_IsNumber(agreement) && agreement->valuedouble < 1e-9, "%s, stage %zu", name, stage + 1);
+        reduced_clear(&o.s);
+    }
+}
+
+Test(reduced_objects, snake_of_three_links)
+{
+    check("snake", "name: snake\nparameters: [{name: m, value: 1.3}, {name: J, value: 0.4}, {name: l, value: 0.7}]\n"
+          "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}, {name: a, type: angle}, {name: b, type: angle}]\n"
+          "domain: {a: [0.3, 0.9], b: [0.4, 1.1]}\n"
+          "definitions: [\"vx = x' - l*h'*sin(h) - l*(h'+a')*sin(h+a)\", \"vy = y' + l*h'*cos(h) + l*(h'+a')*cos(h+a)\", \"ux = x' + l*h'*sin(h) + l*(h'+b')*sin(h+b)\", \"uy = y' - l*h'*cos(h) - l*(h'+b')*cos(h+b)\"]\n"
+          "lagrangian: m/2*(x'^2 + y'^2 + vx^2 + vy^2 + ux^2 + uy^2) + J/2*(h'^2 + (h'+a')^2 + (h'+b')^2)\n"
+          "constraints: [\"y'*cos(h) = x'*sin(h)\", \"vy*cos(h+a) = vx*sin(h+a)\", \"uy*cos(h+b) = ux*sin(h+b)\"]\n", "", "c");
+}
+
+Test(reduced_objects, ball_with_a_rotor)
+{
+    check("ball with a rotor", "name: rotor\nparameters: [{name: m, value: 1.1}, {name: A, value: 0.5}, {name: C, value: 0.7}, {name: I, value: 0.2}, {name: R, value: 0.6}]\n"
+          "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}, {name: r, type: angle}]\n"
+          "domain: {h: [0.5, 1.4]}\n"
+          "definitions: [\"w1 = p'*sin(h)*sin(s) + h'*cos(s)\", \"w2 = p'*sin(h)*cos(s) - h'*sin(s)\", \"w3 = p'*cos(h) + s'\"]\n"
+          "lagrangian: m/2*(x'^2 + y'^2) + A/2*(w1^2 + w2^2) + C/2*w3^2 + I/2*(w3 + r')^2\n"
+          "constraints: [\"x' = R*(h'*sin(p) - s'*sin(h)*cos(p))\", \"y' = -R*(h'*cos(p) + s'*sin(h)*sin(p))\"]\n", " --group x=1;y=1;r=1;s=1", "csl");
+}
+
+Test(reduced_objects, disk_on_a_slope)
+{
+    check("disk on a slope", "name: slope\nparameters: [{name: m, value: 1.4}, {name: J, value: 0.6}, {name: K, value: 0.3}, {name: r, value: 0.5}, {name: g, value: 2.1}]\n"
+          "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}, {name: h, type: angle}]\n"
+          "lagrangian: m/2*(x'^2 + y'^2) + J/2*h'^2 + K/2*p'^2 + m*g*x\nconstraints: [\"x' = r*h'*cos(p)\", \"y' = r*h'*sin(p)\"]\n", "", "c");
+}
+
+/* A nonholonomic particle that carries a body of changing shape: N = SO(3). */
+Test(reduced_objects, non_abelian_second_stage)
+{
+    check("particle and body", "name: carrier\nparameters: [{name: A, value: 0.8}, {name: B, value: 1.1}, {name: C, value: 0.6}, {name: k, value: 0.4}]\n"
+          "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+          "domain: {h: [0.5, 1.4], y: [0.3, 0.8]}\n"
+          "definitions: [\"w1 = p'*sin(h)*sin(s) + h'*cos(s)\", \"w2 = p'*sin(h)*cos(s) - h'*sin(s)\", \"w3 = p'*cos(h) + s'\"]\n"
+          "lagrangian: (x'^2 + y'^2 + z'^2)/2 + (A + y^2)/2*w1^2 + B/2*(w2 + k*y*x')^2 + (C + x^2)/2*(w3 + k*y')^2 - x^2/2\n"
+          "constraints: [\"z' = y*x'\"]\n",
+          " --group z=1;p=1;p=-sin(p)*cos(h)/sin(h),h=cos(p),s=sin(p)/sin(h);p=cos(p)*cos(h)/sin(h),h=sin(p),s=-cos(p)/sin(h)", "csl");
+}
+
+/* Without constraints: a body with two masses that slide in it, rotations of all of it. */
+Test(reduced_objects, body_with_sliding_masses)
+{
+    check("sliding masses", "name: slider\nparameters: [{name: A, value: 0.8}, {name: B, value: 1.1}, {name: C, value: 0.6}, {name: m, value: 0.3}]\n"
+          "coordinates: [{name: u, type: length}, {name: v, type: length}, {name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
+          "domain: {h: [0.5, 1.4]}\n"
+          "definitions: [\"w1 = p'*sin(h)*sin(s) + h'*cos(s)\", \"w2 = p'*sin(h)*cos(s) - h'*sin(s)\", \"w3 = p'*cos(h) + s'\"]\n"
+          "lagrangian: (A*w1^2 + B*w2^2 + C*w3^2)/2 + m/2*((u' - w3*v)^2 + (v' + w3*u)^2 + (w1*v - w2*u)^2) + m/2*(u'*w3) - (u^2 + 2*v^2 + u*v)/2\n",
+          " --group p=1;p=-sin(p)*cos(h)/sin(h),h=cos(p),s=sin(p)/sin(h);p=cos(p)*cos(h)/sin(h),h=sin(p),s=-cos(p)/sin(h)", "ls");
+}
+
+Test(reduced_objects, double_pendulum_in_space)
+{
+    check("pendulum in space", "name: spatial\nparameters: [{name: m, value: 1.2}, {name: M, value: 0.7}, {name: g, value: 3}]\n"
+          "coordinates: [{name: p, type: angle}, {name: a, type: angle}, {name: q, type: angle}, {name: b, type: angle}]\ndomain: {a: [0.4, 1.2], b: [0.5, 1.3]}\n"
+          "definitions: [\"X = cos(p)*cos(a)*a' - sin(p)*sin(a)*p'\", \"Y = sin(p)*cos(a)*a' + cos(p)*sin(a)*p'\", \"Z = sin(a)*a'\", \"U = X + cos(q)*cos(b)*b' - sin(q)*sin(b)*q'\", \"V = Y + sin(q)*cos(b)*b' + cos(q)*sin(b)*q'\", \"W = Z + sin(b)*b'\"]\n"
+          "lagrangian: m/2*(X^2 + Y^2 + Z^2) + M/2*(U^2 + V^2 + W^2) + g*((m + M)*cos(a) + M*cos(b))\n", "", "ls");
+}
+
+/* Other joints: a hand of a SCARA robot with a flywheel; a nut on a screw. */
+Test(reduced_objects, schoenflies_joint)
+{
+    check("hand", "name: hand\nparameters: [{name: m, value: 1.2}, {name: A, value: 0.4}]\n"
+          "bodies: [{name: a, mass: m, inertia: [0.3, 0.4, 0.5], center: [0.1, 0.2, 0]}, {name: b, mass: 0.8, inertia: [A, 0.5, 0.2], center: [0.15, 0, 0.05]}]\n"
+          "joints:\n  - {type: schoenflies, child: a, coordinates: [x, y, z, h]}\n  - {type: revolute, parent: a, child: b, axis: x, at: [0.4, 0, 0], coordinates: [p]}\n",
+          " --group x=1;y=1;z=1;h=1,x=-y,y=x", "ls");
+}
+
+Test(reduced_objects, translating_screw)
+{
+    check("nut", "name: nut\nparameters: [{name: m, value: 1.2}, {name: c, value: 0.3}]\n"
+          "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.1, 0, 0.2]}, {name: b, mass: m, inertia: [0.4, 0.3, 0.2], center: [0, 0.2, 0.1]}]\n"
+          "joints:\n  - {type: revolute, child: a, coordinates: [s]}\n  - {type: translating-screw, pitch: c, axis: x, parent: a, child: b, at: [0.2, 0, 0], coordinates: [y, z, p]}\n", " --group s=1", "ls");
+}
+
+/* A blade at the end of an arm on a free cart: the constraint goes across the chain. */
+Test(reduced_objects, constraint_across_a_chain)
+{
+    check("arm with a blade", "name: arm\nparameters: [{name: m, value: 1.2}, {name: l, value: 0.5}]\n"
+          "bodies: [{name: a, mass: m, inertia: [0.1, 0.1, 0.4]}, {name: b, mass: 0.7, inertia: [0.1, 0.1, 0.2], center: [0.2, 0, 0]}]\n"
+          "joints:\n  - {type: planar, child: a, coordinates: [x, y, h]}\n  - {type: revolute, parent: a, child: b, at: [l, 0, 0], coordinates: [p]}\n"
+          "wheels: [{type: knife-edge, body: b, at: [0.6, 0, 0], axis: y}]\n", " --group x=1;y=1;h=1,x=-y,y=x", "cl");
+}
+
+/* A metric that couples everything, and a constraint with two symmetries, one of which is not conserved. */
+Test(reduced_objects, coupled_metric)
+{
+    check("gears", "name: gears\nparameters: [{name: a, value: 1.2}, {name: b, value: 0.5}]\n"
+          "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: u, type: number}, {name: v, type: number}]\ndomain: {u: [0.3, 0.9], v: [0.4, 1.1]}\n"
+          "lagrangian: (x'^2*(1 + u^2) + y'^2 + a*u'^2 + b*(1 + u^2)*v'^2)/2 + b*u*x'*v'/3 + y'*u'/4 - v^2/3\nconstraints: [\"y' = u*x' + v*u'\"]\n", " --group y=1;x=1", "cl");
+}
