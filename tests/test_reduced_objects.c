@@ -653,3 +653,22 @@ Test(reduced_objects, coupled_metric)
           "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: u, type: number}, {name: v, type: number}]\ndomain: {u: [0.3, 0.9], v: [0.4, 1.1]}\n"
           "lagrangian: (x'^2*(1 + u^2) + y'^2 + a*u'^2 + b*(1 + u^2)*v'^2)/2 + b*u*x'*v'/3 + y'*u'/4 - v^2/3\nconstraints: [\"y' = u*x' + v*u'\"]\n", " --group y=1;x=1", "cl");
 }
+
+/* d Theta = d/dx of y/(1 + (e - k) x^2 + y^2) dy: closed for e = k alone; and for no parameters where it is -2 x y/(1 + x^2 + y^2)^2 (1 + e^2). */
+Test(reduced_objects, parameters_with_a_measure)
+{
+    static const struct {
+        const char *weight, *where;
+    } cases[] = {{"(e - k)", "[[[\"e-k\"]]]"}, {"(1 + e^2)", "[[[\"e^2+1\"]]]"}, {"7", "[[]]"}, {"k*(e - 2*k)^2", "[[[\"k\"],[\"e-2*k\"]]]"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        snprintf(text, sizeof text, "name: weighted\nparameters: [{name: e, value: 0.7}, {name: k, value: 0.2}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}]\n"
+                 "domain: {x: [0.2, 0.6], y: [0.2, 0.6]}\nlagrangian: ((1 + %s*x^2)*x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z' = y*x'\"]\n", cases[i].weight);
+        reduced_sheet s = reduced_from("own.yaml", text, 0, NULL, " --group z=1", 0);
+        char *where = cJSON_PrintUnformatted(oracle_get(oracle_get(s.stage, "measure"), "measure_where")), *to = where;
+        for (const char *c = where; (*to = *c); c++) to += *c != ' ';
+        cr_expect_str_eq(where, cases[i].where, "%s: %s", cases[i].weight, where);
+        free(where);
+        reduced_clear(&s);
+    }
+}

@@ -9,6 +9,7 @@
 #include "reduction/group.h"
 #include "reduction/lagrange_poincare.h"
 #include "reduction/linear.h"
+#include "reduction/measure_conditions.h"
 #include "reduction/momenta.h"
 #include "reduction/poincare.h"
 #include "reduction/quotient.h"
@@ -71,6 +72,7 @@ typedef struct {
     const double *start;      /* (x, p) at the initial state, of `reduced` */
     const nh_chaplygin *chaplygin; /* shown; of the first kind */
     nh_chaplygin_measure measure;  /* of the first kind, and of the second for an abelian group (its factor: for two shape coordinates at most) */
+    nh_measure_conditions conditions; /* where there is no measure, or no factor: for which parameters there would be */
     const nh_second *second;  /* shown; of the second kind */
     bool by_stages;           /* third kind: were the equations by stages formed? */
     const nh_ideals *chain;

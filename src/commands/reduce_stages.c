@@ -68,6 +68,13 @@ static nh_chaplygin_measure measure_of(const nh_reduction *r, const nh_slice *sl
     return m;
 }
 
+/* Where the numbers say no: for which parameters the answer would be yes. */
+static void conditions_of(nh_reduction *r, nh_reduction_stage *s, const nh_slice *shown, const nh_ex *K, const nh_ex *U)
+{
+    const nh_chaplygin_measure *m = &s->measure;
+    if (m->tested && !(m->measure && m->factor) && r->system->parameters && !nh_reduction_late(r, "conditions for a measure")) s->conditions = nh_measure_conditions_of(r->arena, shown, K, U);
+}
+
 static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, const nh_chaplygin **through, nh_error *error)
 {
     nh_reduction *r = b->r;
@@ -84,6 +91,7 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
     s->shown_slice = pretty->slice;
     s->chaplygin = pretty;
     if (!r->brief && c->plain) s->measure = measure_of(r, slice, c->K, c->U, pretty->slice, pretty->K, pretty->U);
+    conditions_of(r, s, pretty->slice, pretty->K, pretty->U);
     nh_atlas *atlas = nh_atlas_create(action, true);
     size_t *independent = nh_arena_alloc(r->arena, (m + 1) * sizeof *independent);
     for (size_t i = 0; i < slice->n; i++) independent[i] = i;
@@ -225,6 +233,7 @@ static bool second_stage(nh_reduction_bench *b, const nh_chaplygin *first, const
         s->shown = &pretty->reduced;
         s->shown_slice = &pretty->slice;
         if (t->abelian && first->plain && first->d && !r->brief) s->measure = measure_of(r, &t->slice, t->Kt, t->U, &pretty->slice, pretty->Kt, pretty->U);
+        conditions_of(r, s, &pretty->slice, pretty->Kt, pretty->U);
         double *want = once_reduced(b, first, t, z, &s->momentum_drift, &reached);
         double *full = full_shape(b, s1);
         s->against_full = full != NULL;

@@ -159,6 +159,24 @@ static void put_matrix(nh_json *to, const char *key, nh_dag *d, size_t rows, siz
     }
 }
 
+/* A condition is a list of ways to satisfy it, a way a list of polynomials that vanish. */
+static void put_conditions(nh_json *to, const nh_reduction *r, const nh_measure_conditions *c)
+{
+    nh_json *list[2] = {nh_json_put_array(to, "measure_where"), nh_json_put_array(to, "factor_where")};
+    for (size_t i = 0; i < c->count && c->known; i++) {
+        nh_json *ways = nh_json_add_array(list[c->condition[i].factor]);
+        for (size_t j = 0; j < c->condition[i].where.ways; j++) {
+            const nh_parameter_zeros_way *way = &c->condition[i].where.way[j];
+            nh_json *all = nh_json_add_array(ways);
+            for (size_t k = 0; k < way->count; k++) {
+                char *text = nh_print_string(r->kinetic->dag, way->polynomial[k]);
+                nh_json_add_text(all, text);
+                nh_free(text);
+            }
+        }
+    }
+}
+
 static void put_measure(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)
 {
     if (!s->measure.tested) return;
@@ -170,6 +188,7 @@ static void put_measure(nh_json *to, const nh_reduction *r, const nh_reduction_s
     if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) nh_json_put_null(m, "conformal_factor");
     else nh_json_put_bool(m, "conformal_factor", s->measure.factor);
     nh_json_put_number(m, "curl", s->measure.curl);
+    put_conditions(m, r, &s->conditions);
     if (s->measure.closed) put_expression(m, "density", r->kinetic->dag, s->measure.density);
     if (s->measure.closed) nh_json_put_bool(m, "density_proved", s->measure.proof.proved);
     if (s->measure.closed) nh_facts_put_holds(m, r->kinetic->model, &s->measure.proof);

@@ -5,6 +5,7 @@
 
 #include "exact/normal.h"
 #include "document/facts.h"
+#include "document/formula.h"
 #include "document/reduction.h"
 
 static void say(const nh_reduction_pen *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -36,6 +37,37 @@ void nh_reduction_conditions(const nh_reduction_stage *s, const nh_reduction_pen
     else say(p, "the momentum moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu", t->orbit, t->d - t->orbit);
 }
 
+static void put_ways(const nh_reduction *r, const nh_parameter_zeros *v, nh_text *out)
+{
+    for (size_t i = 0; i < v->ways; i++) {
+        nh_text_add(out, i ? ", or " : "");
+        for (size_t k = 0; k < v->way[i].count; k++) {
+            char *text = nh_formula_text(r->kinetic->dag, v->way[i].polynomial[k], r->options.shown);
+            nh_text_addf(out, "%s%s = 0", k ? " and " : "", text);
+            nh_free(text);
+        }
+    }
+    if (!v->ways) nh_text_add(out, "no parameters");
+}
+
+/* The conditions for a measure; those for a factor are more than one reads, and stand in the JSON. */
+static void conditions(const nh_reduction *r, const nh_reduction_stage *s, const nh_reduction_pen *p)
+{
+    const nh_measure_conditions *c = &s->conditions;
+    size_t count = 0;
+    nh_text words;
+    nh_text_init(&words);
+    nh_text_add(&words, "an invariant measure exists for ");
+    for (size_t i = 0; i < c->count; i++) {
+        if (c->condition[i].factor) continue;
+        nh_text_add(&words, count++ ? "; and besides " : c->condition[i].where.ways ? "parameters with " : "");
+        put_ways(r, &c->condition[i].where, &words);
+    }
+    if (count) p->words(p->to, nh_text_string(&words));
+    if (!c->known && r->system->parameters) say(p, "for which parameters one exists is not known: the conditions are too large");
+    nh_text_clear(&words);
+}
+
 static void measure(const nh_reduction *r, const nh_reduction_stage *s, const nh_reduction_pen *p)
 {
     const nh_chaplygin_measure *m = &s->measure;
@@ -46,6 +78,7 @@ static void measure(const nh_reduction *r, const nh_reduction_stage *s, const nh
         if (!m->proof.all_parameters) say(p, "(%s)", m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) + 1 : "to rounding");
     }
     if (!m->measure) say(p, "no invariant measure with a density on the shape space (|d Theta| = %.2g)", m->curl);
+    if (!m->measure) conditions(r, s, p);
     if (s->kind == NH_STAGE_SECOND && s->shown->n > 2) return; /* what the momentum adds to the form would have to be closed, too */
     if (m->factor && m->closed && s->shown->n == 2) say(p, "the density is a conformal factor that makes it Hamiltonian, in the time d tau = density dt");
     else if (m->factor && m->closed && s->shown->n > 2) say(p, "density^(1/%zu) is a conformal factor that makes it Hamiltonian", s->shown->n - 1);

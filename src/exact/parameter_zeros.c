@@ -1,0 +1,116 @@
+#include "exact/parameter_zeros.h"
+
+#include <string.h>
+
+#include "exact/kernel.h"
+#include "exact/normal.h"
+#include "exact/print_quotient.h"
+#include "exact/relation_internal.h"
+
+enum { most_polynomials = 12 };
+
+typedef struct {
+    nh_arena *arena;
+    nh_relation_question question;
+    nh_parameter_zeros *out;
+} work;
+
+static nh_ex product_of(work *w, const nh_pieces *pieces)
+{
+    const nh_kernels *k = &w->question.form.kernels;
+    return nh_simplify(w->question.dag, nh_print_quotient_product(k, pieces, false));
+}
+
+static void add_way(work *w, size_t count, const nh_ex *polynomial)
+{
+    nh_parameter_zeros *v = w->out;
+    nh_parameter_zeros_way *way = nh_arena_alloc(w->arena, (v->ways + 1) * sizeof *way);
+    if (v->ways) memcpy(way, v->way, v->ways * sizeof *way);
+    way[v->ways] = (nh_parameter_zeros_way){.count = count, .polynomial = nh_arena_alloc(w->arena, (count + 1) * sizeof(nh_ex))};
+    if (count) memcpy(way[v->ways++].polynomial, polynomial, count * sizeof *polynomial);
+    v->way = way;
+}
+
+static bool same_variables(const work *w, const nh_pieces *p, const nh_factor *f, size_t a, size_t b)
+{
+    for (size_t g = 0; g < p->generators; g++)
+        if (!w->question.constant[g] && f->exponent[a * p->generators + g] != f->exponent[b * p->generators + g]) return false;
+    return true;
+}
+
+/* The coefficient of the monomial that term `first` has, as an expression. */
+static nh_ex coefficient(work *w, const nh_pieces *p, const nh_factor *f, size_t first)
+{
+    size_t n = p->generators;
+    nh_factor part = {.power = 1, .coefficient = nh_arena_alloc(w->arena, (f->terms + 1) * sizeof *part.coefficient),
+                      .exponent = nh_arena_alloc(w->arena, (f->terms * n + 1) * sizeof *part.exponent)};
+    int64_t *none = nh_arena_alloc(w->arena, (n + 1) * sizeof *none);
+    memset(none, 0, n * sizeof *none);
+    for (size_t i = first; i < f->terms; i++) {
+        if (!same_variables(w, p, f, first, i)) continue;
+        part.coefficient[part.terms] = f->coefficient[i];
+        for (size_t g = 0; g < n; g++) part.exponent[part.terms * n + g] = w->question.constant[g] ? f->exponent[i * n + g] : 0;
+        part.terms++;
+    }
+    nh_pieces all = {.generators = n, .factors = 1, .constant = (nh_num){.p = 1, .q = 1}, .exponent = none, .factor = &part};
+    return product_of(w, &all);
+}
+
+/* One factor: the coefficients of its monomials; no way where one of them is a number. */
+static bool add_factor(work *w, const nh_pieces *p, const nh_factor *f)
+{
+    nh_ex polynomial[most_polynomials];
+    size_t count = 0;
+    for (size_t i = 0; i < f->terms; i++) {
+        bool seen = false;
+        for (size_t j = 0; j < i && !seen; j++) seen = same_variables(w, p, f, i, j);
+        if (seen) continue;
+        nh_ex e = coefficient(w, p, f, i);
+        if (nh_kind_of(w->question.dag, e) == NH_NUMBER) return true;
+        for (size_t j = 0; j < count && !seen; j++) seen = polynomial[j] == e || polynomial[j] == nh_neg(w->question.dag, e);
+        if (seen) continue;
+        if (count == most_polynomials) return false;
+        polynomial[count++] = e;
+    }
+    add_way(w, count, polynomial);
+    return true;
+}
+
+/* A power of one constant kernel: a way of its own. */
+static void add_monomial(work *w, const nh_pieces *p)
+{
+    for (size_t g = 0; g < p->generators; g++) {
+        if (!w->question.constant[g] || p->exponent[g] <= 0) continue;
+        nh_ex kernel = nh_kernel_power(&w->question.form.kernels, g, 1);
+        add_way(w, 1, &kernel);
+    }
+}
+
+static bool find(work *w, nh_ex e)
+{
+    nh_pieces pieces;
+    if (!nh_relation_question_read(&w->question, &e)) return false;
+    for (size_t i = 0; i < w->question.form.kernels.count; i++) w->question.form.kernels.item[i].length = 1;
+    const nh_quotient *value = w->question.value[0];
+    if (nh_quotient_is_zero(w->question.form.field, value)) {
+        add_way(w, 0, NULL);
+        w->out->ways = 1;
+        return true;
+    }
+    bool good = nh_pieces_make(w->question.form.field, w->arena, value, true, &pieces);
+    if (good) add_monomial(w, &pieces);
+    for (size_t j = 0; j < pieces.factors && good; j++)
+        if (pieces.factor[j].power > 0) good = add_factor(w, &pieces, &pieces.factor[j]);
+    return good;
+}
+
+bool nh_parameter_zeros_find(nh_arena *arena, nh_dag *dag, nh_ex e, size_t parameters, const nh_ex *parameter, nh_parameter_zeros *out)
+{
+    enum { most_terms = 4000 };
+    work w = {.arena = arena, .out = out};
+    *out = (nh_parameter_zeros){0};
+    nh_relation_question_init(&w.question, dag, 1, parameters, parameter, most_terms);
+    bool good = find(&w, e);
+    nh_relation_question_clear(&w.question);
+    return good;
+}

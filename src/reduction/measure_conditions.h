@@ -1,0 +1,27 @@
+/* measure_conditions: for which parameters a reduced Chaplygin system has an invariant measure, or becomes Hamiltonian by a conformal factor (chaplygin.h).
+ *
+ *     T^k_ij = (Khat^-1)^kl U_lij,      Theta_j = T^i_ij
+ *     measure:  d_i Theta_j - d_j Theta_i = 0        factor:  that, and  T^k_ij - (Theta_j delta^k_i - Theta_i delta^k_j)/(n - 1) = 0
+ *
+ * as expressions; each vanishes for the parameters that exact/parameter_zeros.h finds. */
+#ifndef NH_MEASURE_CONDITIONS_H
+#define NH_MEASURE_CONDITIONS_H
+
+#include "exact/parameter_zeros.h"
+#include "reduction/slice.h"
+
+typedef struct {
+    bool factor;             /* of a conformal factor; else of the measure */
+    nh_parameter_zeros where;
+} nh_measure_condition;
+
+typedef struct {
+    bool known;              /* false: an expression is too large */
+    size_t count;            /* conditions, all of which must hold; those that are the same only once */
+    nh_measure_condition *condition;
+} nh_measure_conditions;
+
+/* K (n x n), U (n x n x n) as for nh_chaplygin_measure_of. */
+nh_measure_conditions nh_measure_conditions_of(nh_arena *arena, const nh_slice *slice, const nh_ex *K, const nh_ex *U);
+
+#endif
