@@ -10,6 +10,7 @@
 #include "base/sweep.h"
 #include "base/text.h"
 #include "document/pen.h"
+#include "cli/cli_table.h"
 #include "commands/analyze.h"
 #include "commands/simulate.h"
 #include "problem/places.h"
@@ -74,7 +75,9 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
 /* Exit code of a command. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
-nh_cli_command nh_cli_analyze, nh_cli_verify, nh_cli_simulate, nh_cli_benchmark, nh_cli_reduce, nh_cli_classify, nh_cli_export, nh_cli_scan, nh_cli_list, nh_cli_show, nh_cli_explain, nh_cli_version, nh_cli_help, nh_cli_new;
+#define X(name, operand, meaning, example) nh_cli_command nh_cli_##name;
+NH_CLI_COMMAND_TABLE(X)
+#undef X
 
 /* What simulate and benchmark ask for; `example` is the hint when no system is named. */
 bool nh_cli_motion_request(nh_cli *cli, const char *example, nh_simulate_request *request, nh_error *error);

@@ -259,8 +259,7 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
         if (!nh_dynamics_point(d, state->t, z, d->point)) size = -1;
         else size = fit_step(d, state, z + d->m);
     }
-    if (size < 0 || !nh_dynamics_point(d, state->t, z, d->point))
-    {
+    if (size < 0 || !nh_dynamics_point(d, state->t, z, d->point)) {
         nh_fail(error, NH_NUMERIC, "", "the initial state does not lie in the chart of %s: no velocities near the given ones satisfy the constraints", c->name);
         return nh_error_hint(error, "give fewer velocities (the constraints determine the others), change the values, or choose another branch by `domain:`");
     }

@@ -227,7 +227,11 @@ static double first_step(explicit_work *work, double span)
 
 static bool set_up(explicit_work *work, nh_gsl_odeiv_method method)
 {
-    static const gsl_odeiv2_step_type *const *const types[] = {&gsl_odeiv2_step_rk8pd, &gsl_odeiv2_step_rkf45, &gsl_odeiv2_step_msadams};
+    static const gsl_odeiv2_step_type *const *const types[] = {
+#define X(kind, name) &gsl_odeiv2_step_##name,
+        NH_GSL_ODEIV_TABLE(X)
+#undef X
+    };
     size_t size = work->problem->size;
     gsl_set_error_handler_off();
     if (!nh_sizes_open(&work->sizes, work->problem, work->options, work->state, work->count, work->times)) return false;

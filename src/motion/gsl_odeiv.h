@@ -8,7 +8,16 @@
 
 #include "motion/motion.h"
 
-typedef enum { NH_RK8PD, NH_RKF45, NH_MSADAMS } nh_gsl_odeiv_method;
+/* Its methods: identifier, the name in GSL. */
+#define NH_GSL_ODEIV_TABLE(X) \
+    X(NH_RK8PD, rk8pd)        \
+    X(NH_RKF45, rkf45)        \
+    X(NH_MSADAMS, msadams)
+typedef enum {
+#define X(method, name) method,
+    NH_GSL_ODEIV_TABLE(X)
+#undef X
+} nh_gsl_odeiv_method;
 
 /* As nh_flow. */
 nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *problem, const double *initial, size_t count, const double *times,

@@ -19,9 +19,27 @@
 #include "base/memory.h"
 #include "system/screw.h"
 
+/* The kinds of joints, and nowhere else: identifier, word of the file, screws (0: as many as `axes`), a bit for each of them that turns, how the
+ * names of its coordinates end, its keys.  Screws along `axis` need no more; others have their axes in bodies_values.c. */
+enum { NH_JOINT_AXIS = 1, NH_JOINT_AXES = 2, NH_JOINT_PITCH = 4, NH_JOINT_ANGLES = 8 };
+#define NH_JOINT_TABLE(X)                                                                  \
+    X(FIXED, "fixed", 0, 0, "", 0)                                                         \
+    X(REVOLUTE, "revolute", 1, 1, "", NH_JOINT_AXIS)                                       \
+    X(PRISMATIC, "prismatic", 1, 0, "", NH_JOINT_AXIS)                                     \
+    X(HELICAL, "helical", 1, 1, "", NH_JOINT_AXIS | NH_JOINT_PITCH)                        \
+    X(CYLINDRICAL, "cylindrical", 2, 2, "sa", NH_JOINT_AXIS)                               \
+    X(PLANAR, "planar", 3, 4, "xya", NH_JOINT_AXIS)                                        \
+    X(SPHERICAL, "spherical", 3, 7, "abc", NH_JOINT_ANGLES)                                \
+    X(FREE, "free", 6, 070, "xyzabc", NH_JOINT_ANGLES)                                     \
+    X(TRANSLATION, "translation", 0, 0, "xyz", NH_JOINT_AXES)                              \
+    X(SCHOENFLIES, "schoenflies", 4, 010, "xyza", NH_JOINT_AXIS)                           \
+    X(TRANSLATING_SCREW, "translating-screw", 3, 4, "xya", NH_JOINT_AXIS | NH_JOINT_PITCH)
+
 typedef enum {
-    NH_JOINT_FIXED, NH_JOINT_REVOLUTE, NH_JOINT_PRISMATIC, NH_JOINT_HELICAL, NH_JOINT_CYLINDRICAL, NH_JOINT_PLANAR, NH_JOINT_SPHERICAL,
-    NH_JOINT_FREE, NH_JOINT_TRANSLATION, NH_JOINT_SCHOENFLIES, NH_JOINT_TRANSLATING_SCREW, NH_JOINT_KINDS
+#define X(kind, word, screws, turns, letters, keys) NH_JOINT_##kind,
+    NH_JOINT_TABLE(X)
+#undef X
+    NH_JOINT_KINDS
 } nh_joint_kind;
 
 enum { NH_GROUND = -1, NH_MOST_SCREWS = 6 };

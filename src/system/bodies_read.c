@@ -8,27 +8,21 @@
 
 typedef nh_system_reader reader;
 
-static const char *const kind_names[] = {"fixed", "revolute", "prismatic", "helical", "cylindrical", "planar", "spherical", "free", "translation", "schoenflies", "translating-screw"};
+static const char *const kind_names[NH_JOINT_KINDS] = {
+#define X(kind, word, screws, turns, letters, keys) word,
+    NH_JOINT_TABLE(X)
+#undef X
+};
 
-/* Of each kind: its screws (0: as many as `axes`), a bit for each of them that turns, how the names of its coordinates end, and which keys it has. */
-enum { AXIS = 1, AXES = 2, PITCH = 4, ANGLES = 8 };
 static const struct {
     size_t degrees;
     unsigned turns;
     const char *letters;
     unsigned keys;
 } kinds[NH_JOINT_KINDS] = {
-    [NH_JOINT_FIXED] = {0, 0, "", 0},
-    [NH_JOINT_REVOLUTE] = {1, 1, "", AXIS},
-    [NH_JOINT_PRISMATIC] = {1, 0, "", AXIS},
-    [NH_JOINT_HELICAL] = {1, 1, "", AXIS | PITCH},
-    [NH_JOINT_CYLINDRICAL] = {2, 2, "sa", AXIS},
-    [NH_JOINT_PLANAR] = {3, 4, "xya", AXIS},
-    [NH_JOINT_SPHERICAL] = {3, 7, "abc", ANGLES},
-    [NH_JOINT_FREE] = {6, 070, "xyzabc", ANGLES},
-    [NH_JOINT_TRANSLATION] = {0, 0, "xyz", AXES},
-    [NH_JOINT_SCHOENFLIES] = {4, 010, "xyza", AXIS},
-    [NH_JOINT_TRANSLATING_SCREW] = {3, 4, "xya", AXIS | PITCH},
+#define X(kind, word, screws, turns, letters, keys) {screws, turns, letters, keys},
+    NH_JOINT_TABLE(X)
+#undef X
 };
 
 /* ---- words ---- */
@@ -146,12 +140,12 @@ static bool carries(reader *r, const nh_deck_node *item, nh_joint *j, size_t ind
 /* Is there a key for a thing that this kind of joint does not have? */
 static bool fitting_keys(reader *r, const nh_deck_node *item, nh_joint_kind kind)
 {
-    static const struct { const char *key; unsigned bit; } rule[] = {{"axis", AXIS}, {"axes", AXES}, {"pitch", PITCH}, {"angles", ANGLES}};
+    static const struct { const char *key; unsigned bit; } rule[] = {{"axis", NH_JOINT_AXIS}, {"axes", NH_JOINT_AXES}, {"pitch", NH_JOINT_PITCH}, {"angles", NH_JOINT_ANGLES}};
     for (size_t i = 0; i < sizeof rule / sizeof *rule; i++) {
         if (kinds[kind].keys & rule[i].bit || !nh_deck_get(item, rule[i].key)) continue;
         return nh_deck_fail(r->deck, nh_deck_get(item, rule[i].key), 0, r->error, "a joint of type %s has no `%s`", kind_names[kind], rule[i].key);
     }
-    if (kinds[kind].keys & PITCH && !nh_deck_get(item, "pitch")) {
+    if (kinds[kind].keys & NH_JOINT_PITCH && !nh_deck_get(item, "pitch")) {
         nh_deck_fail(r->deck, item, 0, r->error, "a joint of type %s needs a `pitch`", kind_names[kind]);
         return nh_error_hint(r->error, "the pitch is the advance per radian");
     }
