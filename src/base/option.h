@@ -43,6 +43,7 @@
     X(count_work,       2e8,     0,      1e15,  real,  "products", "of residues that counting one kind of integrals may take")               \
     X(construct,        2e9,     0,      1e15,  real,  "products", "of residues that constructing what one count misses may take; 0: nothing is constructed") \
     X(words,            2000,    1,      20000, whole, "words",    "functions of the coordinates that the coefficients of a missing integral are made of, at most") \
+    X(quadrature_length, 400,    10,     1e6,   whole, "symbols",  "longer formulas are not integrated for explicit motions")                \
     X(pencil,           6000,   10,      1e6,   whole, "unknowns", "classify: largest linear system for integrals at a degree")                 \
     X(plane,            100,     2,      1e4,   whole, "",         "classify over two parameters: largest determinant")                        \
     X(staircase,        5e10,   1e6,    1e15,  real,  "products", "classify: of residues that looking for the values of one degree may take")  \

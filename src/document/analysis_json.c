@@ -10,6 +10,7 @@
 #include "document/facts.h"
 #include "document/formula.h"
 #include "document/geometry_sheet.h"
+#include "document/motion_sheet.h"
 #include "document/analysis_json_internal.h"
 #include "document/provenance.h"
 
@@ -406,6 +407,7 @@ char *nh_analysis_json(const nh_analysis *r)
     nh_json *root = nh_json_object();
     put_system(&w, root);
     put_equations(&w, root);
+    nh_motion_sheet_json(r, root);
     nh_geometry_json(r->arena, r->theory, r->analysis, root);
     put_search(&w, root);
     nh_json *currents = nh_json_put_array(root, "currents");

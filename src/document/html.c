@@ -67,7 +67,8 @@ static void links(nh_html_writer *w)
     const nh_analysis *r = w->r;
     nh_text sections;
     nh_text_init(&sections);
-    nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|%ssearch|%s|words|Words|repeat|Repeat it", r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "", r->theory ? "geometry|Geometry|" : "",
+    nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|%s%ssearch|%s|words|Words|repeat|Repeat it", r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "", r->motion ? "explicit|Explicit motion|" : "",
+                 r->theory ? "geometry|Geometry|" : "",
                  r->count ? "How it was found" : "What was tried");
     nh_html_links(w, nh_text_string(&sections));
     nh_text_clear(&sections);
@@ -91,6 +92,7 @@ void nh_html(const nh_analysis *r, nh_text *out)
     nh_html_simulation_motion(&w);
     nh_html_figures(&w);
     nh_html_system(&w);
+    nh_html_explicit_motion(&w);
     nh_html_geometry(&w, r->arena, r->theory);
     nh_html_evidence(&w);
     nh_html_words(&w, "current, symmetry, case, distribution, projectable, independent, local, residual, drift, gap, multiplier, nonholonomic, growth");

@@ -64,6 +64,7 @@ void nh_html_end(nh_html_writer *w);
 void nh_html_written(nh_html_writer *w);                          /* the system as it was written */
 void nh_html_equations(nh_html_writer *w, const nh_model *model); /* and as it was understood */
 void nh_html_system(nh_html_writer *w);
+void nh_html_explicit_motion(nh_html_writer *w); /* nothing where none is known */
 void nh_html_geometry(nh_html_writer *w, nh_arena *arena, const struct nh_theory *theory); /* nothing without a theory */
 void nh_html_currents(nh_html_writer *w);
 void nh_html_figures(nh_html_writer *w);

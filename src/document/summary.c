@@ -9,6 +9,7 @@
 #include "document/facts.h"
 #include "document/formula.h"
 #include "document/geometry_sheet.h"
+#include "document/motion_sheet.h"
 
 enum { line_width = 100 };
 
@@ -315,6 +316,7 @@ void nh_summary(const nh_analysis *r, nh_summary_style style, nh_text *out)
     system_lines(&w);
     answer(&w);
     equations(&w);
+    if (r->motion) nh_sheet_text(nh_motion_sheet(r), style.colour, out);
     if (r->theory) nh_sheet_text(nh_geometry_sheet(r->arena, r->theory, r->analysis), style.colour, out);
     nh_summary_evidence(&w);
     nh_summary_motion(&w);

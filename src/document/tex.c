@@ -321,6 +321,7 @@ void nh_tex(const nh_analysis *r, bool fragment, nh_text *out)
     nh_tex_written(&w);
     nh_tex_equations(&w, r->model);
     if (r->other) nh_tex_equations(&w, r->other);
+    nh_tex_explicit_motion(&w);
     nh_tex_geometry(&w, r->arena, r->theory);
     motion_section(&w);
     figures_section(&w);

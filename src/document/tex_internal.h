@@ -48,6 +48,8 @@ void nh_tex_written(nh_tex_writer *w);
 void nh_tex_equations(nh_tex_writer *w, const nh_model *model);
 void nh_tex_repeat(nh_tex_writer *w, const nh_run *run);
 
+/* The motion as formulas; nothing where none is known. */
+void nh_tex_explicit_motion(nh_tex_writer *w);
 /* The geometry; nothing without a theory. */
 void nh_tex_geometry(nh_tex_writer *w, nh_arena *arena, const struct nh_theory *theory);
 

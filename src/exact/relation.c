@@ -254,3 +254,38 @@ nh_relation_verdict nh_relation_find(nh_dag *dag, size_t n, const nh_ex *e, size
     nh_relation_question_clear(&q);
     return verdict;
 }
+
+/* What the last expression needs, modulo a prime. */
+static bool find_support(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter, size_t max_terms, bool *support)
+{
+    question q;
+    nh_relation_question_init(&q, dag, n, parameters, parameter, max_terms);
+    bool found = nh_relation_question_read(&q, e);
+    if (found) {
+        nh_relation_system system = nh_relation_question_system(&q);
+        nh_relation_rows rows;
+        nh_relation_rows_init(&rows, &system);
+        found = nh_relation_rows_choose_point(&rows) && nh_relation_rows_last(&rows, support);
+        nh_relation_rows_clear(&rows);
+    }
+    nh_relation_question_clear(&q);
+    return found;
+}
+
+bool nh_relation_express(nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter, size_t max_terms, nh_ex *coefficient)
+{
+    bool *support = nh_alloc_array(n + 1, sizeof *support), found = n && find_support(dag, n, e, parameters, parameter, max_terms, support);
+    nh_ex *used = nh_alloc_array(n + 1, sizeof *used), *c = nh_alloc_array(n + 1, sizeof *c);
+    size_t count = 0;
+    for (size_t j = 0; j < n && found; j++)
+        if (support[j]) used[count++] = e[j];
+    found = found && nh_relation_find(dag, count, used, parameters, parameter, max_terms, c) == NH_RELATION_UNIQUE && !nh_is_zero(dag, c[count - 1]);
+    for (size_t j = 0, k = 0; j + 1 < n && found; j++) {
+        coefficient[j] = nh_int(dag, 0);
+        if (support[j]) coefficient[j] = nh_simplify_short(dag, nh_neg(dag, nh_div(dag, c[k++], c[count - 1])), 0);
+    }
+    nh_free(c);
+    nh_free(used);
+    nh_free(support);
+    return found;
+}

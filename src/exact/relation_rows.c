@@ -231,25 +231,27 @@ static int by_weight(const void *left, const void *right)
     return a->first < b->first ? -1 : a->first > b->first;
 }
 
-/* One free column f: the vector with c_f = 1 is c_pivot = -row_f. */
-static void narrow(const echelon *e, bool *support)
+/* The vector with c_f = 1 of a free column f is c_pivot = -row_f. */
+static void narrow(const echelon *e, size_t free_column, bool *support)
 {
-    bool *pivots = nh_alloc_array(e->n, sizeof *pivots);
-    size_t free_column = 0;
-    for (size_t i = 0; i < e->rank; i++) pivots[e->pivot[i]] = true;
-    while (pivots[free_column] || !support[free_column]) free_column++;
+    memset(support, 0, e->n * sizeof *support);
     for (size_t i = 0; i < e->rank; i++) support[e->pivot[i]] = e->row[i * e->n + free_column] != 0;
-    nh_free(pivots);
+    support[free_column] = true;
 }
 
-size_t nh_relation_rows_rank(nh_relation_rows *rows, bool *support, size_t *chosen)
+static size_t count_columns(size_t n, const bool *support)
 {
-    size_t n = rows->system->n, wanted = 0;
-    echelon e = {.n = n};
-    for (size_t j = 0; j < n; j++) wanted += support[j];
+    size_t count = 0;
+    for (size_t j = 0; j < n; j++) count += support[j];
+    return count;
+}
+
+/* The rows from the sparsest on, until there are as many as columns; which ones, and per column whether it has a pivot. */
+static echelon reduce(nh_relation_rows *rows, const bool *support, size_t *chosen, bool *pivots)
+{
+    size_t n = rows->system->n, wanted = count_columns(n, support);
+    echelon e = {.n = n, .row = nh_alloc_array((n + 1) * n, sizeof *e.row), .pivot = nh_alloc_array(n + 1, sizeof *e.pivot)};
     nmod_init(&e.mod, rows->prime);
-    e.row = nh_alloc_array((n + 1) * n, sizeof *e.row);
-    e.pivot = nh_alloc_array(n + 1, sizeof *e.pivot);
     weigh(rows, support);
     qsort(rows->row, rows->rows, sizeof *rows->row, by_weight);
     for (size_t i = 0; i < rows->rows && e.rank < wanted; i++) {
@@ -261,9 +263,39 @@ size_t nh_relation_rows_rank(nh_relation_rows *rows, bool *support, size_t *chos
         }
         if (insert(&e, v)) chosen[e.rank - 1] = i;
     }
-    if (e.rank + 1 == wanted) narrow(&e, support);
-    size_t rank = e.rank;
-    nh_free(e.row);
-    nh_free(e.pivot);
-    return rank;
+    for (size_t i = 0; i < e.rank; i++) pivots[e.pivot[i]] = true;
+    return e;
+}
+
+static void finish(echelon *e, bool *pivots)
+{
+    nh_free(e->row);
+    nh_free(e->pivot);
+    nh_free(pivots);
+}
+
+size_t nh_relation_rows_rank(nh_relation_rows *rows, bool *support, size_t *chosen)
+{
+    size_t n = rows->system->n, wanted = count_columns(n, support), free_column = 0;
+    bool *pivots = nh_alloc_array(n + 1, sizeof *pivots);
+    echelon e = reduce(rows, support, chosen, pivots);
+    if (e.rank + 1 == wanted) {
+        while (pivots[free_column] || !support[free_column]) free_column++;
+        narrow(&e, free_column, support);
+    }
+    finish(&e, pivots);
+    return e.rank;
+}
+
+bool nh_relation_rows_last(nh_relation_rows *rows, bool *support)
+{
+    size_t n = rows->system->n, *chosen = nh_alloc_array(n + 1, sizeof *chosen);
+    bool *pivots = nh_alloc_array(n + 1, sizeof *pivots);
+    for (size_t j = 0; j < n; j++) support[j] = true;
+    echelon e = reduce(rows, support, chosen, pivots);
+    bool depends = !pivots[n - 1];
+    if (depends) narrow(&e, n - 1, support);
+    nh_free(chosen);
+    finish(&e, pivots);
+    return depends;
 }

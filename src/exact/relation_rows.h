@@ -46,6 +46,9 @@ bool nh_relation_rows_choose_point(nh_relation_rows *rows);
  * one less than the columns, `support` is narrowed to what the null vector needs. */
 size_t nh_relation_rows_rank(nh_relation_rows *rows, bool *support, size_t *chosen);
 
+/* Is the last column a combination of those before it?  Then `support` holds it and those that it needs, the first ones possible. */
+bool nh_relation_rows_last(nh_relation_rows *rows, bool *support);
+
 /* The coefficient of an unknown in an equation, NULL when there is none. */
 const nh_quotient *nh_relation_rows_entry(const nh_relation_rows *rows, size_t row, size_t column);
 

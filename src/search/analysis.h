@@ -174,6 +174,7 @@ struct nh_analysis {
     nh_further_relation *relation;
     size_t almosts;           /* nearly conserved, found by the way: at most NH_MOST_ALMOST */
     nh_near_current *almost;
+    const struct nh_explicit_motion *motion; /* as formulas (search/explicit_motion.h); NULL: none is known */
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
     size_t *integral;         /* found[integral[i]] */
     nh_completeness completeness[NH_COMPLETENESS_KINDS];

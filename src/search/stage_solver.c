@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "integrals/prove.h"
 
 enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60, short_factor = 14 };
 static const double points_per_column = 2.5;
@@ -240,4 +241,23 @@ void nh_stage_solver_stage(nh_stage_solver *x, const char *name, size_t families
     }
     note->seconds = nh_clock() - start;
     nh_solved_clear(&s);
+}
+
+size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
+{
+    nh_analysis *r = x->r;
+    nh_ex *term = nh_arena_alloc(r->arena, sizeof *term);
+    double *one = nh_arena_alloc(r->arena, sizeof *one);
+    *term = e;
+    *one = 1;
+    nh_candidate *c = nh_arena_alloc(r->arena, sizeof *c);
+    *c = (nh_candidate){.count = 1, .term = term, .coefficient = one, .refitted = true, .all = 1, .all_term = term, .all_coefficient = one, .all_size = one};
+    if (nh_kind_of(r->model->dag, *term) == NH_NUMBER || nh_currents_known(x->bench, *term)) return 0;
+    if (nh_prove_digits(r->model, *term, &r->options) < r->options.digits) return 0;
+    nh_stage_record *note = nh_stage_solver_note(x, name);
+    note->columns = note->sectors = 1;
+    note->found = nh_currents_add(x->bench, c, x->ranges, false);
+    note->dimension = note->found;
+    r->independent += note->found;
+    return note->found;
 }

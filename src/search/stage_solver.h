@@ -51,6 +51,9 @@ size_t nh_stage_solver_news(nh_stage_solver *climb, size_t families, const nh_fa
 bool nh_stage_solver_promising(nh_stage_solver *climb, size_t families, const nh_family *family);
 /* Solve it, keep what is new, and note it. */
 void nh_stage_solver_stage(nh_stage_solver *climb, const char *name, size_t families, const nh_family *family);
+/* One expression: where it is new, and its rate cancels in ball arithmetic, it is kept.  Doubles may lose all digits of it, where determinants of the constraints are
+ * small on parts of the domain.  How many independent currents that makes. */
+size_t nh_stage_solver_certify(nh_stage_solver *climb, nh_ex e, const char *name);
 
 /* Exponentials and waves in t and in the coordinates, with rates from the pencil. */
 void nh_rates_search(nh_stage_solver *climb);

@@ -8,6 +8,7 @@
 #include "integrals/prove.h"
 #include "search/stage_solver.h"
 #include "search/constraint_integrals.h"
+#include "search/quadratures.h"
 #include "search/stages.h"
 
 /* Currents found so far as factors: Phi times 1, t, positions and the system's functions. */
@@ -29,25 +30,6 @@ static void known_stage(nh_stage_solver *x)
     nh_stage_solver_stage(x, "currents found so far times t, positions and the system's functions", 1, both);
 }
 
-/* Where determinants of the constraints are small on parts of the domain, doubles lose all digits of the rates: in ball arithmetic they cancel, or they do not. */
-static void certify(nh_stage_solver *x, nh_ex e, const char *name)
-{
-    nh_analysis *r = x->r;
-    nh_ex *term = nh_arena_alloc(r->arena, sizeof *term);
-    double *one = nh_arena_alloc(r->arena, sizeof *one);
-    *term = e;
-    *one = 1;
-    nh_candidate *c = nh_arena_alloc(r->arena, sizeof *c);
-    *c = (nh_candidate){.count = 1, .term = term, .coefficient = one, .refitted = true, .all = 1, .all_term = term, .all_coefficient = one, .all_size = one};
-    if (nh_kind_of(r->model->dag, *term) == NH_NUMBER || nh_currents_known(x->bench, *term)) return;
-    if (nh_prove_digits(r->model, *term, &r->options) < r->options.digits) return;
-    nh_stage_record *note = nh_stage_solver_note(x, name);
-    note->columns = note->sectors = 1;
-    note->found = nh_currents_add(x->bench, c, x->ranges, false);
-    note->dimension = note->found;
-    r->independent += note->found;
-}
-
 /* The energy and each momentum alone: nothing nearly dependent beside them can take their place. */
 static void single_stages(nh_stage_solver *x)
 {
@@ -58,7 +40,7 @@ static void single_stages(nh_stage_solver *x)
         *e = i == 0 ? r->model->E : x->words.momentum[i - 1];
         *all = (nh_family){.kind = NH_TERMS, .terms = 1, .term = e};
         if (nh_stage_solver_promising(x, 1, all)) nh_stage_solver_stage(x, i == 0 ? "energy" : "a momentum", 1, all);
-        else certify(x, *e, i == 0 ? "energy, in ball arithmetic" : "a momentum, in ball arithmetic");
+        else nh_stage_solver_certify(x, *e, i == 0 ? "energy, in ball arithmetic" : "a momentum, in ball arithmetic");
     }
 }
 
@@ -125,6 +107,7 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
         if (i + 1 == time_after) nh_stage_solver_series_in_time(&x);
     }
     if (!nh_stage_solver_done(&x)) nh_stage_solver_series_in_each(&x);
+    nh_quadratures_search(&x);
     bool spent = nh_budget_spent();
     nh_budget_begin(INFINITY);
     nh_currents_finish(x.bench);

@@ -1,0 +1,52 @@
+#include "document/motion_sheet.h"
+
+#include "integrals/fixed.h"
+#include "search/explicit_motion.h"
+
+/* The parameter, what the letters are, and for which values it holds. */
+static const char *words_of(nh_sheet *s, const nh_analysis *r)
+{
+    const nh_explicit_motion *m = r->motion;
+    const char *fixed = m->fixed ? nh_fixed_text(r->model, m->fixed) : "";
+    const char *rest = m->known < m->states ? " No closed form was found for the other states." : "";
+    return nh_sheet_label(s, "Along every motion, with $<%s>$ as the parameter; the numbers C are constant along motions.%s%s%s%s", nh_name_of(s->dag, m->state[m->parameter]), rest,
+                          *fixed ? " For " : "", fixed, *fixed ? "." : "");
+}
+
+static const char *name(nh_sheet *s, nh_ex symbol) { return nh_sheet_label(s, "<%s>", nh_name_of(s->dag, symbol)); }
+
+nh_sheet *nh_motion_sheet(const nh_analysis *r)
+{
+    const nh_explicit_motion *m = r->motion;
+    if (!m) return NULL;
+    nh_sheet *s = nh_sheet_create(r->arena, r->model->dag);
+    s->analysis = r->analysis;
+    s->chart = r->model->chart->roots ? r->model->chart : NULL;
+    s->shown = r->options.shown;
+    s->written = r->options.written;
+    nh_sheet_begin(s, "states", "Explicit motion", words_of(s, r));
+    for (size_t i = 0; i < m->states; i++)
+        if (m->is_known[i] && i != m->parameter) nh_sheet_formula(s, name(s, m->state[i]), m->value[i]);
+    if (m->roots) nh_sheet_begin(s, "roots", "Roots in it", "Each has its sign from the state.");
+    for (size_t i = 0; i < m->roots; i++) {
+        nh_sheet_formula(s, nh_sheet_label(s, "<%s>^{2}", nh_name_of(s->dag, m->root[i].symbol)), m->root[i].square);
+        nh_sheet_formula(s, name(s, m->root[i].symbol), m->root[i].value);
+    }
+    nh_sheet_begin(s, "constants", "Its constants, from the state at any time", "");
+    for (size_t j = 0; j < m->constants; j++) nh_sheet_formula(s, name(s, m->constant[j].symbol), m->constant[j].value);
+    return s;
+}
+
+void nh_motion_sheet_json(const nh_analysis *r, nh_json *to)
+{
+    const nh_explicit_motion *m = r->motion;
+    if (!m) {
+        nh_json_put_null(to, "explicit_motion");
+        return;
+    }
+    nh_json *item = nh_json_put_object(to, "explicit_motion");
+    nh_json_put_text(item, "parameter", nh_name_of(r->model->dag, m->state[m->parameter]));
+    nh_json_put_bool(item, "complete", m->known == m->states);
+    nh_json_put_text(item, "fixed", m->fixed ? nh_fixed_text(r->model, m->fixed) : NULL);
+    nh_sheet_json(nh_motion_sheet(r), item);
+}

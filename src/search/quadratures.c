@@ -1,0 +1,167 @@
+#include "search/quadratures.h"
+
+#include <stdlib.h>
+
+#include "base/budget.h"
+#include "base/progress.h"
+#include "exact/normal.h"
+#include "exact/square.h"
+#include "graph/measure.h"
+#include "integrals/exact_points.h"
+#include "search/explicit_motion.h"
+
+/* Which parameters have their values, where some must: those that stand in functions and exponents of the equations of motion and of the currents, and those
+ * that a current needs.  NULL: none. */
+static const bool *special_values(const nh_analysis *r)
+{
+    enum { most = 64 };
+    const nh_model *o = r->model;
+    size_t n = o->system->parameters;
+    bool *fixed = nh_arena_alloc(r->arena, (n + 1) * sizeof *fixed), any = false;
+    for (size_t j = 0; j < o->m + o->n + r->count; j++) {
+        const nh_current *f = j < o->m + o->n ? NULL : &r->found[j - o->m - o->n];
+        nh_ex e = f ? f->phi : j < o->m ? o->rho[j] : o->a[j - o->m], call[most];
+        size_t calls = nh_functions_in(o->dag, e, call, most);
+        for (size_t p = 0; p < n; p++) {
+            if (f && !f->proof.all_parameters) fixed[p] |= !f->proof.fixed || f->proof.fixed[p];
+            for (size_t i = 0; i < calls && i < most; i++) fixed[p] |= nh_depends(o->dag, call[i], o->parameter[p]);
+            any |= fixed[p];
+        }
+    }
+    return any ? fixed : NULL;
+}
+
+/* The currents in closed form; `general`: that hold for all values of the parameters. */
+static size_t gather(const nh_analysis *r, bool general, nh_ex *current)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < r->count; k++)
+        if (!r->found[k].series && (r->found[k].proof.all_parameters || !general)) current[n++] = r->found[k].phi;
+    return n;
+}
+
+/* More states; then no roots; then time as the parameter; then fewer values of parameters. */
+static bool better(const nh_explicit_motion *a, const nh_explicit_motion *b)
+{
+    if (!b || a->known != b->known) return !b || a->known > b->known;
+    if (a->roots != b->roots) return a->roots < b->roots;
+    if (!a->fixed != !b->fixed) return !a->fixed;
+    return false;
+}
+
+/* ---- the constants of integration as currents ---- */
+
+static bool is_parametric(const nh_model *o, nh_ex e)
+{
+    for (size_t j = 0; j < o->width; j++)
+        if (nh_depends(o->dag, e, o->chart->symbol[j])) return false;
+    return true;
+}
+
+/* sqrt(m^2 u) as m sqrt(u): where that changes a sign, the root does so everywhere, and the rate vanishes for either. */
+static nh_ex shorter_roots(const nh_model *o, nh_ex e)
+{
+    enum { most = 200 };
+    nh_dag *d = o->dag;
+    nh_ex product[most], half = nh_ratio(d, 1, 2), outside, inside;
+    size_t n = nh_products_in(d, e, product, most);
+    for (size_t i = 0; i < n && i < most; i++)
+        for (size_t f = 0; f < nh_arity(d, product[i]); f++) {
+            nh_ex base = nh_child(d, product[i], f), x = nh_exponent_of(d, product[i], f);
+            if (x != half && x != nh_neg(d, half)) continue;
+            bool split = nh_square_split(d, nh_simplify_short(d, base, 0), &outside, &inside) && is_parametric(o, outside);
+            if (split) e = nh_substitute_root(d, e, base, nh_mul(d, outside, nh_sqrt(d, inside)));
+        }
+    return e;
+}
+
+/* log(c u) as log u, with a positive c of parameters: the factor of a logarithm in a current is one. */
+static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
+{
+    enum { most = 24 };
+    const nh_model *o = r->model;
+    nh_dag *d = o->dag;
+    nh_ex call[most], by[most];
+    size_t n = nh_functions_in(d, e, call, most), logs = 0;
+    for (size_t i = 0; i < n && n <= most; i++) {
+        nh_ex u = nh_child(d, call[i], 0), c = nh_int(d, 1);
+        if (nh_function_of(d, call[i]) != NH_LOG || nh_kind_of(d, u) != NH_PRODUCT) continue;
+        c = nh_number(d, nh_constant_of(d, u));
+        for (size_t f = 0; f < nh_arity(d, u); f++)
+            if (is_parametric(o, nh_child(d, u, f)) && is_parametric(o, nh_exponent_of(d, u, f))) c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
+        nh_ex valued = nh_exact_values(o, c);
+        if (nh_kind_of(d, valued) != NH_NUMBER || nh_num_value(nh_number_of(d, valued)) <= 0) continue;
+        by[logs] = nh_call(d, NH_LOG, nh_div(d, u, c));
+        call[logs++] = call[i];
+    }
+    return nh_substitute(d, e, logs, call, by);
+}
+
+typedef struct {
+    nh_ex e;
+    bool fixed;
+    size_t length;
+} constant;
+
+/* For all values of the parameters before for some; short before long. */
+static int by_generality(const void *left, const void *right)
+{
+    const constant *a = left, *b = right;
+    if (a->fixed != b->fixed) return a->fixed ? 1 : -1;
+    if (a->length != b->length) return a->length < b->length ? -1 : 1;
+    return a->e < b->e ? -1 : a->e > b->e;
+}
+
+static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *const *tried)
+{
+    const nh_model *o = x->r->model;
+    size_t n = 0, most = 1;
+    for (size_t k = 0; k < count; k++) most += tried[k]->constants;
+    constant *list = nh_alloc_array(most, sizeof *list);
+    for (size_t k = 0; k < count; k++)
+        for (size_t j = 0; j < tried[k]->constants; j++) {
+            if (!tried[k]->constant[j].integrated) continue;
+            nh_ex e = nh_simplify_short(o->dag, shorter_logarithms(x->r, shorter_roots(o, tried[k]->constant[j].value)), 0);
+            e = shorter_roots(o, e);
+            list[n++] = (constant){e, tried[k]->fixed != NULL, nh_complexity(o->dag, e)};
+        }
+    qsort(list, n, sizeof *list, by_generality);
+    for (size_t j = 0; j < n && !nh_stage_solver_done(x); j++) nh_stage_solver_certify(x, list[j].e, "integration of one equation after another");
+    nh_free(list);
+}
+
+/* ---- the whole ---- */
+
+/* With every state as the parameter; the best one. */
+static const nh_explicit_motion *try_all(nh_stage_solver *x, const bool *fixed, size_t n, const nh_ex *current, size_t *count, const nh_explicit_motion **tried)
+{
+    const nh_model *o = x->r->model;
+    const nh_explicit_motion *best = NULL;
+    size_t states = 1 + o->m + o->n;
+    for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
+        const nh_explicit_motion *m = nh_explicit_motion_along(x->r->arena, o, x->ranges, i, fixed, n, current, &x->r->options);
+        if (!m) continue;
+        tried[(*count)++] = m;
+        if (better(m, best)) best = m;
+        if (i == 0 && m->known == states && !m->roots) break; /* nothing is simpler */
+    }
+    return best;
+}
+
+void nh_quadratures_search(nh_stage_solver *x)
+{
+    nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    size_t states = 1 + o->m + o->n, count = 0;
+    if (o->chart->implicit || nh_budget_spent()) return;
+    nh_progress("integration of one equation after another", nh_budget_part());
+    nh_ex *current = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *current);
+    const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried), *best = try_all(x, NULL, gather(r, true, current), current, &count, tried);
+    const bool *fixed = special_values(r);
+    if (fixed && !(best && best->known == states)) {
+        const nh_explicit_motion *special = try_all(x, fixed, gather(r, false, current), current, &count, tried);
+        if (special && better(special, best)) best = special;
+    }
+    harvest(x, count, tried);
+    if (best && best->known > 1) r->motion = best;
+}

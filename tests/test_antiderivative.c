@@ -1,0 +1,137 @@
+/* antiderivative: closed forms are found where they exist, are continuous where that is promised, and their derivatives are compared in numbers,
+ * which shares nothing with the linear algebra that found them. */
+#include <criterion/criterion.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "evaluate/tape.h"
+#include "exact/antiderivative.h"
+#include "graph/print.h"
+#include "base/memory.h"
+#include "typed.h"
+
+enum { names = 6, samples = 12 };
+static const char *const name[names] = {"x", "a", "b", "c", "p", "k"};
+
+/* x in an interval, the others fixed. */
+typedef struct {
+    nh_dag *dag;
+    double low, high;
+} place;
+
+static double value_at(const place *p, nh_ex e, double x)
+{
+    static const double others[names] = {0, 1.3, 0.7, 0.4, 2.1, 0.6};
+    nh_ex symbol[names];
+    double in[names], out;
+    for (size_t i = 0; i < names; i++) symbol[i] = nh_symbol(p->dag, name[i]);
+    memcpy(in, others, sizeof in);
+    in[0] = x;
+    nh_tape *tape = nh_tape_create(p->dag, names, symbol, 1, &e, 0, NULL, NULL);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, in, &out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return out;
+}
+
+static double sample(const place *p, size_t i) { return p->low + (p->high - p->low) * (0.5 + (double)i) / samples; }
+
+static int sign(void *context, nh_ex e)
+{
+    const place *p = context;
+    int all = 0;
+    for (size_t i = 0; i < samples; i++) {
+        double v = value_at(p, e, sample(p, i));
+        int s = (v > 0) - (v < 0);
+        if (i && s != all) return 0;
+        all = s;
+    }
+    return all;
+}
+
+static bool integrate(place *p, const char *text, nh_ex *f, nh_ex *F)
+{
+    nh_ex constant[names - 1];
+    for (size_t i = 1; i < names; i++) constant[i - 1] = nh_symbol(p->dag, name[i]);
+    nh_integration in = {.dag = p->dag, .x = nh_symbol(p->dag, "x"), .constants = names - 1, .constant = constant, .sign = sign, .context = p};
+    *f = ex(p->dag, text);
+    return nh_antiderivative(&in, *f, F);
+}
+
+/* F between neighbouring samples against Simpson's rule: a jump would show. */
+static void check(const char *text, double low, double high)
+{
+    place p = {nh_dag_create(), low, high};
+    nh_ex f, F;
+    cr_expect(integrate(&p, text, &f, &F), "no antiderivative of %s", text);
+    char *shown = nh_print_string(p.dag, F);
+    for (size_t i = 0; i + 1 < samples; i++) {
+        enum { parts = 40 };
+        double a = sample(&p, i), h = (sample(&p, i + 1) - a) / parts, sum = 0;
+        for (int j = 0; j < parts; j++) sum += h / 6 * (value_at(&p, f, a + j * h) + 4 * value_at(&p, f, a + (j + 0.5) * h) + value_at(&p, f, a + (j + 1) * h));
+        double difference = value_at(&p, F, a + parts * h) - value_at(&p, F, a);
+        cr_expect(fabs(difference - sum) <= 1e-6 * (1 + fabs(sum)), "%s: %s rises by %g instead of %g from %g", text, shown, difference, sum, a);
+    }
+    nh_free(shown);
+    nh_dag_free(p.dag);
+}
+
+Test(antiderivative, rational)
+{
+    check("(a*x^3 + b)/x^2", 0.5, 3);
+    check("1/(x^2 + a)", -2, 2);
+    check("1/(x^2 - a)", -1, 1);
+    check("1/(x^2 - a)", 1.3, 3);
+    check("x^5/((x^2 + 1)^2*(x + b))", -0.5, 2);
+    check("1/(x^3 - a^3)", 1.5, 3);
+}
+
+Test(antiderivative, exponentials_and_logarithms)
+{
+    check("x^2*exp(-a*x)", 0, 2);
+    check("exp(-a*x)*cos(b*x + c)", 0, 5);
+    check("1/(a + b*exp(k*x))", -2, 2);
+    check("log(x)^2/x", 0.5, 2);
+    check("x*log(a*x + b)", 0.5, 2);
+    check("tanh(a*x)", -1, 2);
+    check("1/cosh(a*x)", -1, 2);
+}
+
+Test(antiderivative, turning)
+{
+    check("x*sin(a*x)^2", 0, 9);
+    check("1/(p + a*cos(x) + b*sin(x))", 0, 12);
+    check("1/(c + p*cos(x))", -1.2, 1.2);
+    check("cos(x)*sin(x/2)/(a*cos(x/2) + b*sin(x/2))", -1, 1);
+    check("tan(x)", -1, 1);
+    check("1/cos(x)^3", -1, 1);
+}
+
+Test(antiderivative, roots)
+{
+    check("1/sqrt(a^2 - x^2)", -1, 1);
+    check("x^2/sqrt(a*x^2 + b)", -1, 1);
+    check("sqrt(x^2 - a)", 1.3, 3);
+    check("1/(x*sqrt(p*x - a*x^2 - b^2))", 0.5, 1.2);
+    check("x/sqrt(p*x - a*x^2 - b^2)", 0.5, 1.2);
+    check("1/((x^2 - a^2)*sqrt(p^2 - x^2))", -1, 1);
+    check("(a*x + b)^(3/2)", 0, 2);
+    check("x^(k - 1)", 0.5, 2);
+    check("1/sqrt(2*exp(-x) - exp(-2*x) - c)", -0.4, 1);
+    check("1/(exp(x) + sqrt(1 + exp(2*x)))", -1, 1);
+    check("1/(sqrt(a + x)*sqrt(p - x))", -1, 2);
+}
+
+/* The error function, an elliptic integral, an exponential integral: none is elementary. */
+Test(antiderivative, not_elementary)
+{
+    static const char *const text[] = {"exp(-a*x^2)", "1/sqrt(1 + x^3)", "exp(x)/x", "cos(a*exp(-b*x))", "sin(x)/x"};
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
+        place p = {nh_dag_create(), 0.5, 2};
+        nh_ex f, F;
+        cr_expect(!integrate(&p, text[i], &f, &F), "%s", text[i]);
+        nh_dag_free(p.dag);
+    }
+}

@@ -1,0 +1,198 @@
+/* quadratures: integration of one equation after another completes systems that have no more integrals in an ansatz, and gives their motions as
+ * formulas.  Both are compared with motions that this file computes itself, from the equations of motion alone. */
+#include "mechanics.h"
+#include "scratch.h"
+
+#include <math.h>
+
+#include "commands/analyze.h"
+#include "graph/print.h"
+#include "search/explicit_motion.h"
+
+/* ---- asking ---- */
+
+static nh_analysis *ask_file(const char *path)
+{
+    nh_error error = {0};
+    nh_analyze_request request = {.system_path = path};
+    nh_options_default(&request.options);
+    nh_analysis *r = nh_analysis_create(&request, &error);
+    cr_assert_not_null(r, "%s: %s", path, error.what);
+    return r;
+}
+
+static nh_analysis *ask(const char *text)
+{
+    char path[SCRATCH];
+    cr_assert(scratch_text(path, text));
+    nh_analysis *r = ask_file(path);
+    remove(path);
+    return r;
+}
+
+/* ---- motions of our own ---- */
+
+enum { most_states = 16, most_letters = 48, steps = 400 };
+static const double step = 2.5e-4;
+
+/* z' = (1, rho, a) */
+static void rates(const nh_tape *tape, nh_tape_work *work, size_t n, const double *z, double *out)
+{
+    out[0] = 1;
+    nh_tape_eval(tape, work, z, out + 1);
+    (void)n;
+}
+
+/* Runge and Kutta's method of order four, `count` steps. */
+static void run(const nh_model *o, double *z, size_t count)
+{
+    size_t n = 1 + o->m + o->n;
+    nh_ex e[most_states];
+    double k[4][most_states], at[most_states];
+    for (size_t i = 0; i + 1 < n; i++) e[i] = i < o->m ? o->rho[i] : o->a[i - o->m];
+    nh_tape *tape = nh_model_tape(o, n - 1, e);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    for (size_t s = 0; s < count; s++) {
+        for (int stage = 0; stage < 4; stage++) {
+            double part = stage == 0 ? 0 : stage == 3 ? step : step / 2;
+            for (size_t i = 0; i < n; i++) at[i] = z[i] + (stage ? part * k[stage - 1][i] : 0);
+            rates(tape, work, n, at, k[stage]);
+        }
+        for (size_t i = 0; i < n; i++) z[i] += step / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
+    }
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+}
+
+/* n expressions of the states, the constants and the roots. */
+static void values(const nh_analysis *r, size_t n, const nh_ex *e, const double *z, const double *letters, double *out)
+{
+    const nh_model *o = r->model;
+    const nh_explicit_motion *m = r->motion;
+    nh_ex symbol[most_letters];
+    double in[most_letters];
+    size_t count = 0;
+    for (size_t i = 0; i < m->states; i++) symbol[count] = m->state[i], in[count++] = z[i];
+    for (size_t j = 0; j < m->constants + m->roots; j++) {
+        symbol[count] = j < m->constants ? m->constant[j].symbol : m->root[j - m->constants].symbol;
+        in[count++] = letters[j];
+    }
+    nh_tape *tape = nh_tape_create(o->dag, count, symbol, n, e, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, in, out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+}
+
+/* From one state: the constants stay what they are, and the formulas give what our own integration gives.  1 where all can be evaluated. */
+static size_t follow(const nh_analysis *r, const char *name, const double *start)
+{
+    const nh_explicit_motion *m = r->motion;
+    double z[most_states], first[most_letters] = {0}, last[most_letters] = {0}, formula[most_states];
+    nh_ex e[most_letters];
+    size_t letters = m->constants + m->roots;
+    for (size_t j = 0; j < letters; j++) e[j] = j < m->constants ? m->constant[j].value : m->root[j - m->constants].value;
+    for (size_t i = 0; i < m->states; i++) z[i] = start[i];
+    values(r, letters, e, z, first, first);
+    run(r->model, z, steps);
+    values(r, letters, e, z, first, last);
+    for (size_t j = 0; j < letters; j++)
+        if (!isfinite(first[j]) || !isfinite(last[j])) return 0;
+    for (size_t j = 0; j < m->constants; j++)
+        cr_expect(fabs(last[j] - first[j]) <= 1e-6 * (1 + fabs(first[j])), "%s: %s changes from %g to %g", name, nh_name_of(r->model->dag, m->constant[j].symbol), first[j], last[j]);
+    for (size_t j = m->constants; j < letters; j++) first[j] = last[j]; /* roots follow the parameter */
+    values(r, m->states, m->value, z, first, formula);
+    for (size_t i = 0; i < m->states; i++)
+        if (m->is_known[i])
+            cr_expect(fabs(formula[i] - z[i]) <= 1e-6 * (1 + fabs(z[i])), "%s: %s is %g, its formula %g", name, nh_name_of(r->model->dag, m->state[i]), z[i], formula[i]);
+    return 1;
+}
+
+/* As many currents as can exist, each proved or certified; so many states in closed form; and both on motions. */
+static void check(nh_analysis *r, const char *name, size_t independent, size_t known)
+{
+    enum { starts = 12 };
+    cr_expect_eq(r->independent, independent, "%s: %zu independent currents", name, r->independent);
+    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits, "%s: %s", name, r->found[k].name);
+    cr_assert_not_null(r->motion, "%s", name);
+    cr_expect_eq(r->motion->known, known, "%s: %zu states", name, r->motion->known);
+    nh_error error = {0};
+    nh_points *points = nh_points_create(r->model, starts, 1, 7, &error);
+    size_t followed = 0;
+    cr_assert_not_null(points, "%s", error.what);
+    for (size_t p = 0; p < starts; p++) {
+        double z[most_states];
+        for (size_t i = 0; i < r->motion->states; i++) z[i] = points->column[i][p];
+        followed += follow(r, name, z);
+    }
+    cr_expect(followed > starts / 2, "%s: only %zu motions followed", name, followed);
+    nh_points_free(points);
+    nh_analysis_free(r);
+}
+
+/* ---- systems that ship ---- */
+
+Test(quadratures, sleigh) { check(ask_file("systems/sleigh.yaml"), "sleigh", 5, 6); }
+Test(quadratures, constant_speed) { check(ask_file("systems/constant_speed.yaml"), "constant speed", 5, 6); }
+Test(quadratures, skate_on_belt) { check(ask_file("systems/skate_on_belt.yaml"), "skate on a belt", 5, 6); }
+Test(quadratures, knife_edge) { check(ask_file("systems/knife_edge.yaml"), "knife edge", 5, 6); }
+Test(quadratures, free_particle) { check(ask_file("systems/free_particle.yaml"), "free particle", 6, 7); }
+
+/* The sleigh's third current [CechMusilova2014, sec. 4.2] for all values of the parameters, although its position needs k = 2. */
+Test(quadratures, time_of_the_sleigh)
+{
+    nh_analysis *r = ask_file("systems/sleigh.yaml");
+    bool found = false;
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_current *f = &r->found[k];
+        found |= nh_depends(r->model->dag, f->phi, r->system->t) && f->proof.all_parameters && !f->local;
+    }
+    cr_expect(found);
+    nh_analysis_free(r);
+}
+
+/* ---- others ---- */
+
+/* Drag with the square of the speed: x' |x'| has a sign. */
+Test(quadratures, drag)
+{
+    check(ask("name: drag\nparameters: [{name: m, value: 2}, {name: d, value: 0.3}]\n"
+              "coordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: m/2*(x'^2 + y'^2)\n"
+              "forces: [\"x = -d*x'*sqrt(x'^2 + y'^2)\", \"y = -d*y'*sqrt(x'^2 + y'^2)\"]\n"
+              "domain: {\"x'\": [0.2, 1], \"y'\": [0.2, 1]}\n"), "drag", 4, 5);
+}
+
+/* A skate with friction that a slope pulls: linear equations one after another. */
+Test(quadratures, skate_on_slope)
+{
+    check(ask("name: slope\nparameters: [{name: m, value: 2}, {name: J, value: 1}, {name: d, value: 0.3}, {name: b, value: 0.6}]\n"
+              "coordinates: [{name: phi, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
+              "lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 + m*b*x\nconstraints: [\"y'*cos(phi) = x'*sin(phi)\"]\n"
+              "velocities: {names: [w, v], map: [\"phi' = w\", \"x' = v*cos(phi)\", \"y' = v*sin(phi)\"]}\n"
+              "forces: [\"x = -d*x'\", \"y = -d*y'\"]\n"), "skate on a slope", 5, 6);
+}
+
+/* A surface on which only the energy and one momentum are polynomials. */
+Test(quadratures, surface)
+{
+    check(ask("name: surface\nparameters: [{name: m, value: 2}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+              "lagrangian: m/2*(1 + x^2)*(x'^2 + y'^2)\n"), "surface", 4, 5);
+}
+
+/* Falling with drag: the speed tends to a limit, with the area tangent below it. */
+Test(quadratures, fall)
+{
+    check(ask("name: fall\nparameters: [{name: m, value: 2}, {name: d, value: 0.3}, {name: g, value: 9}]\n"
+              "coordinates: [{name: z, type: length}]\nlagrangian: m/2*z'^2 - m*g*z\nforces: [\"z = d*z'^2\"]\n"
+              "domain: {\"z'\": [-3, -1]}\n"), "fall", 2, 3);
+}
+
+/* cos of an exponential has no elementary integral: the skate that turns ever slower keeps three currents, and no false one. */
+Test(quadratures, not_elementary)
+{
+    nh_analysis *r = ask_file("systems/skate_with_friction.yaml");
+    cr_expect_eq(r->independent, 3);
+    cr_assert_not_null(r->motion);
+    cr_expect_eq(r->motion->known, 4);
+    nh_analysis_free(r);
+}
