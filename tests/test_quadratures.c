@@ -44,7 +44,7 @@ static void rates(const nh_tape *tape, nh_tape_work *work, size_t n, const doubl
 }
 
 /* Runge and Kutta's method of order four, `count` steps. */
-static void run(const nh_model *o, double *z, size_t count)
+static void run(const nh_model *o, double *z, size_t count, double step)
 {
     size_t n = 1 + o->m + o->n;
     nh_ex e[most_states];
@@ -94,7 +94,12 @@ static size_t follow(const nh_analysis *r, const char *name, const double *start
     for (size_t j = 0; j < letters; j++) e[j] = j < m->constants ? m->constant[j].value : m->root[j - m->constants].value;
     for (size_t i = 0; i < m->states; i++) z[i] = start[i];
     values(r, letters, e, z, first, first);
-    run(r->model, z, steps);
+    double fine[most_states];
+    memcpy(fine, z, sizeof fine);
+    run(r->model, z, steps, step);
+    run(r->model, fine, 2 * steps, step / 2);
+    for (size_t i = 0; i < m->states; i++)
+        if (!(fabs(fine[i] - z[i]) <= 1e-10 * (1 + fabs(z[i])))) return 0; /* near the end of a chart our own integration is no reference */
     values(r, letters, e, z, first, last);
     for (size_t j = 0; j < letters; j++)
         if (!isfinite(first[j]) || !isfinite(last[j])) return 0;
