@@ -36,15 +36,14 @@ enum { most_states = 16, most_letters = 48, steps = 400 };
 static const double step = 2.5e-4;
 
 /* z' = (1, rho, a) */
-static void rates(const nh_tape *tape, nh_tape_work *work, size_t n, const double *z, double *out)
+static void rates(const nh_tape *tape, nh_tape_work *work, const double *z, double *out)
 {
     out[0] = 1;
     nh_tape_eval(tape, work, z, out + 1);
-    (void)n;
 }
 
 /* Runge and Kutta's method of order four, `count` steps. */
-static void run(const nh_model *o, double *z, size_t count, double step)
+static void run(const nh_model *o, double *z, size_t count, double h)
 {
     size_t n = 1 + o->m + o->n;
     nh_ex e[most_states];
@@ -54,11 +53,11 @@ static void run(const nh_model *o, double *z, size_t count, double step)
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t s = 0; s < count; s++) {
         for (int stage = 0; stage < 4; stage++) {
-            double part = stage == 0 ? 0 : stage == 3 ? step : step / 2;
+            double part = stage == 0 ? 0 : stage == 3 ? h : h / 2;
             for (size_t i = 0; i < n; i++) at[i] = z[i] + (stage ? part * k[stage - 1][i] : 0);
-            rates(tape, work, n, at, k[stage]);
+            rates(tape, work, at, k[stage]);
         }
-        for (size_t i = 0; i < n; i++) z[i] += step / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
+        for (size_t i = 0; i < n; i++) z[i] += h / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
     }
     nh_tape_work_free(work);
     nh_tape_free(tape);
