@@ -424,7 +424,7 @@ nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o,
     if (nh_is_zero(c.d, c.rate[parameter])) return NULL;
     bool more = true;
     while (more && !nh_budget_spent())
-        more = solve_first(&c, 1) || solve_second(&c, true) || solve_rate(&c) || solve_second(&c, false) || solve_first(&c, pair) || solve_first(&c, c.m->states);
+        more = solve_first(&c, 1) || solve_second(&c, true) || solve_rate(&c) || solve_second(&c, false) || solve_first(&c, pair);
     conclude(&c);
     return c.m;
 }
