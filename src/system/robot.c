@@ -147,19 +147,18 @@ static bool base_type(reader *r, const nh_deck_node *base, const nh_deck_node *b
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near) : false;
 }
 
-/* A joint `base` between the ground and the root; NULL where it is not needed, or with a message. */
-static const nh_deck_node *base_joint(reader *r, const nh_deck_node *base)
+/* A joint `base` between the ground and the root; NULL where it is not needed. */
+static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node **out)
 {
     static const char *const plane[] = {"x", "y", "heading"}, *const space[] = {"x", "y", "z", "yaw", "pitch", "roll"};
     size_t roots;
     const char *type;
     char height[height_size];
     const nh_deck_node *body = root_body(r, &roots);
-    if (roots == 0 && base) {
-        nh_deck_fail(r->deck, base, 0, r->error, "`base` has nothing to carry: every body has a joint");
-        return NULL;
-    }
-    if (!body || !base_type(r, base, body, &type)) return NULL;
+    if (roots == 0 && base)
+        return nh_deck_fail(r->deck, base, 0, r->error, "`base` has nothing to carry: every body has a joint");
+    if (!body) return roots < 2;
+    if (!base_type(r, base, body, &type)) return false;
     nh_deck_node *joint = nh_deck_new_at(r->deck, NH_DECK_MAP, body);
     const char *kind = !strcmp(type, "floating") ? "free" : type;
     nh_deck_put(r->deck, joint, "name", nh_deck_word_at(r->deck, entry(r->joints, "name", "base") ? "base_joint" : "base", body));
@@ -172,7 +171,8 @@ static const nh_deck_node *base_joint(reader *r, const nh_deck_node *base)
     }
     if (!strcmp(kind, "planar")) put_coordinates(r, joint, 3, plane, body);
     if (!strcmp(kind, "free")) put_coordinates(r, joint, 6, space, body);
-    return joint;
+    *out = joint;
+    return true;
 }
 
 /* ---- all of it ---- */
@@ -197,8 +197,7 @@ bool nh_robot_complete(nh_deck *deck, nh_error *error)
     r.notes = list_under(&r, "notes");
     for (size_t i = 0; wheels && i < wheels->count; i++)
         if (!read_wheel(&r, wheels->item[i])) return false;
-    if (base || r.rims) carrying = base_joint(&r, base);
-    if (error->code != NH_OK) return false;
+    if ((base || r.rims) && !base_joint(&r, base, &carrying)) return false;
     nh_deck_node *root = nh_deck_copy(deck, r.root, NULL), *joints = list_under(&r, "joints");
     for (size_t i = 0; i < sizeof made / sizeof *made; i++) root = nh_deck_copy(deck, root, made[i]);
     if (carrying) nh_deck_append(deck, joints, carrying);
