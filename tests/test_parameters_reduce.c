@@ -186,11 +186,12 @@ Test(parameters_reduce, the_comparison_sees_what_differs)
     formulas was = {.count = 2, .list = a, .answered = true}, is = {.count = 2, .list = b, .answered = true}, less = {.count = 1, .list = a, .answered = true};
     parameter_set plain = {.text = "a = 2"}, special = {.special = {"a", 2}, .text = "a = 2"};
     parameters_row o = {0};
+    size_t others;
     nh_text words;
     nh_text_init(&words);
-    cr_expect(compare_formulas(&was, &was, &plain, &words) && compare_formulas(&less, &was, &special, &words));
+    cr_expect(compare_formulas(&was, &was, &plain, &others, &words) && compare_formulas(&less, &was, &special, &others, &words));
     cr_expect_str_eq(nh_text_string(&words), "2 formulas instead of 1 for a = 2");
-    cr_expect(!compare_formulas(&was, &is, &plain, &words) && !compare_formulas(&was, &less, &plain, &words) && !compare_formulas(&was, &is, &special, &words));
+    cr_expect(!compare_formulas(&was, &is, &plain, &others, &words) && !compare_formulas(&was, &less, &plain, &others, &words) && !compare_formulas(&was, &is, &special, &others, &words));
     list_limited(&is, "file", &o, &words);
     cr_expect_eq(o.limited, 1);
     nh_text_clear(&words);
