@@ -94,7 +94,7 @@ static const key SCHEMA[] = {
     {"constraint.growth_proved", "b"}, {"constraint.growth_space", "s"}, {"constraint.hidden_holonomic.count", "n"}, {"constraint.hidden_holonomic.without_closed_form", "n"},
     {"reduced_equations", "a"}, {"reduced_equations.0.velocity", "s"}, {"reduced_equations.0.rate", "s"}, {"multipliers", "a"},
     {"nullspace.columns", "n"}, {"nullspace.rows", "n"}, {"nullspace.spectrum", "a"}, {"nullspace.gap", "n0"}, {"nullspace.dimension", "n"},
-    {"explicit_motion", "o0"}, {"unknowns", "o"}, {"currents", "a"}, {"almost_conserved", "a"}, {"independent_currents", "n"}, {"local_maximum", "n"},
+    {"explicit_motion", "o0"}, {"counted_space", "o0"}, {"unknowns", "o"}, {"currents", "a"}, {"almost_conserved", "a"}, {"independent_currents", "n"}, {"local_maximum", "n"},
     {"validation", "o0"}, {"timing.total_s", "n"}, {"warnings", "a"},
     {"stages", "a"}, {"partial", "b"}, {"run.command", "s"}, {"run.system_file", "s"}, {"run.machine", "s"}, {"run.libraries.FLINT", "s"},
 };
@@ -121,7 +121,7 @@ static size_t null_numbers(const cJSON *item)
                                         "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file", "accuracy",
                                         "semiholonomic", "branch", "on_both_branches",
                                         "completeness", "in_time", "obstacle", "of", "proved", "missing_at", "equations",
-                                        "explicit_motion", "fixed"};
+                                        "explicit_motion", "fixed", "counted_space"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {
         for (size_t i = 0; i < COUNT(texts); i++)

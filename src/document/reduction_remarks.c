@@ -75,7 +75,7 @@ static void measure(const nh_reduction *r, const nh_reduction_stage *s, const nh
     if (m->measure) say(p, "an invariant measure exists%s", m->size == 0 ? ": the Liouville measure" : m->local ? ", but only locally: its density is many-valued on an angle" : "");
     if (m->measure && m->closed) {
         p->formula(p->to, "density", m->density);
-        if (!m->proof.all_parameters) say(p, "(%s)", m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) + 1 : "to rounding");
+        if (!m->proof.all_parameters) say(p, "the density holds%s", m->proof.proved ? nh_facts_holds(r->kinetic->model, &m->proof, false) : " to rounding");
     }
     if (!m->measure) say(p, "no invariant measure with a density on the shape space (|d Theta| = %.2g)", m->curl);
     if (!m->measure) conditions(r, s, p);
