@@ -286,6 +286,8 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
     nh_json_put_number(item, "low", series->low);
     nh_json_put_number(item, "high", series->high);
     nh_json_put_number(item, "degree", (double)series->degree);
+    if (series->equation) nh_json_put_text(item, "equation", series->equation);
+    else nh_json_put_null(item, "equation");
     nh_json *words = nh_json_put_array(item, "words");
     for (size_t i = 0; i < series->words; i++) {
         char *text = nh_print_string(w->dag, series->word[i]);

@@ -208,6 +208,9 @@ static void series_lines(nh_summary_writer *w, const nh_series *s)
         nh_print(d, s->word[i], w->out);
     }
     nh_text_addf(w->out, "\n        f: Chebyshev series of degree %zu in %s on [%g, %g] without closed form (coefficients in the JSON)\n", s->degree, q, s->low, s->high);
+    if (!s->equation) return;
+    nh_text_add(w->out, "        the same: ");
+    wrapped(w, 12, s->equation);
 }
 
 static void current(nh_summary_writer *w, const nh_current *f)

@@ -1,4 +1,5 @@
-/* How Bessel, Legendre, hypergeometric and Airy functions and elliptic integrals stand on paper: a letter, some of the arguments as its index, the
+/* How Bessel, Legendre, hypergeometric and Airy functions and elliptic
+ * integrals stand on paper: a letter, some of the arguments as its index, the
  * others in parentheses; the derivative has a prime. */
 #include <string.h>
 
@@ -12,12 +13,14 @@ static const struct {
     size_t index;             /* so many arguments are an index */
     const char *between;      /* the others */
 } table[] = {
-    {"legendre_p", "P", NULL, NULL, 1, ","}, {"legendre_q", "Q", NULL, NULL, 1, ","}, {"bessel_j", "J", NULL, NULL, 1, ","},
-    {"bessel_y", "Y", NULL, NULL, 1, ","},   {"bessel_i", "I", NULL, NULL, 1, ","},   {"bessel_k", "K", NULL, NULL, 1, ","},
-    {"hyp2f1", "F", "2", "1", 0, ",;;"},     {"gauss_f", "F", NULL, NULL, 3, ","},    {"hyp1f1", "F", "1", "1", 0, ";;"},
-    {"hyperu", "U", NULL, NULL, 0, ",,"},    {"airy_ai", "Ai", NULL, NULL, 0, ","},   {"airy_bi", "Bi", NULL, NULL, 0, ","},
-    {"elliptic_k", "K", NULL, NULL, 0, ","}, {"elliptic_e", "E", NULL, NULL, 0, ","}, {"elliptic_f", "F", NULL, NULL, 0, "|"},
-    {"elliptic_einc", "E", NULL, NULL, 0, "|"},
+    {"legendre_p", "P", NULL, NULL, 1, ","}, {"legendre_q", "Q", NULL, NULL, 1, ","},
+    {"bessel_j", "J", NULL, NULL, 1, ","},   {"bessel_y", "Y", NULL, NULL, 1, ","},
+    {"bessel_i", "I", NULL, NULL, 1, ","},   {"bessel_k", "K", NULL, NULL, 1, ","},
+    {"hyp2f1", "F", "2", "1", 0, ",;;"},     {"gauss_f", "F", NULL, NULL, 3, ","},
+    {"hyp1f1", "F", "1", "1", 0, ";;"},      {"hyperu", "U", NULL, NULL, 0, ",,"},
+    {"airy_ai", "Ai", NULL, NULL, 0, ","},   {"airy_bi", "Bi", NULL, NULL, 0, ","},
+    {"elliptic_k", "K", NULL, NULL, 0, ","}, {"elliptic_e", "E", NULL, NULL, 0, ","},
+    {"elliptic_f", "F", NULL, NULL, 0, "|"}, {"elliptic_einc", "E", NULL, NULL, 0, "|"},
 };
 enum { rows = sizeof table / sizeof *table };
 
@@ -34,9 +37,13 @@ bool nh_typeset_is_named(const char *name) { return row_of(name) < rows; }
 /* {}_2F_1, with the prime */
 static void put_numbered(const nh_typeset_writer *w, size_t i, bool derived)
 {
-    if (w->form == NH_LATEX) nh_text_addf(w->out, "{}_%s%s_%s%s", table[i].left, table[i].letter, table[i].right, derived ? "'" : "");
-    else nh_text_addf(w->out, "<mmultiscripts><mi>%s</mi><mn>%s</mn>%s<mprescripts/><mn>%s</mn><mrow></mrow></mmultiscripts>", table[i].letter,
-                      table[i].right, derived ? "<mo>\u2032</mo>" : "<mrow></mrow>", table[i].left);
+    if (w->form == NH_LATEX)
+        nh_text_addf(w->out, "{}_%s%s_%s%s", table[i].left, table[i].letter, table[i].right, derived ? "'" : "");
+    else
+        nh_text_addf(w->out,
+                     "<mmultiscripts><mi>%s</mi><mn>%s</mn>%s<mprescripts/><mn>%s</"
+                     "mn><mrow></mrow></mmultiscripts>",
+                     table[i].letter, table[i].right, derived ? "<mo>\u2032</mo>" : "<mrow></mrow>", table[i].left);
 }
 
 static void put_letter(const nh_typeset_writer *w, size_t i, bool derived)

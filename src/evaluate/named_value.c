@@ -4,7 +4,8 @@
 
 enum { least_bits = 64, most_bits = 4096, wanted_bits = 54, below_doubles = -1100 };
 
-/* The derivative with respect to x, by values of the function with other orders [DLMF 10.6.1, 10.29.1, 13.3.15, 13.3.22, 14.10.5, 15.5.1]. */
+/* The derivative with respect to x, by values of the function with other orders
+ * [DLMF 10.6.1, 10.29.1, 13.3.15, 13.3.22, 14.10.5, 15.5.1]. */
 typedef enum { PLAIN, PRIME } which;
 
 static void add_integer(acb_t out, const acb_t a, slong n, slong bits) { acb_add_si(out, a, n, bits); }
@@ -36,8 +37,10 @@ static void legendre(acb_t out, bool second, acb_srcptr x, which part, slong bit
     acb_clear(zero);
 }
 
-/* 2F1(a, b; c; x), its derivative a b/c 2F1(a + 1, b + 1; c + 1; x).  `flags`: which differences are whole numbers. */
-static void gauss(acb_t out, acb_t a, acb_t b, const acb_t product, const acb_t c, const acb_t x, which part, int flags, slong bits)
+/* 2F1(a, b; c; x), its derivative a b/c 2F1(a + 1, b + 1; c + 1; x).  `flags`:
+ * which differences are whole numbers. */
+static void gauss(acb_t out, acb_t a, acb_t b, const acb_t product, const acb_t c, const acb_t x, which part, int flags,
+                  slong bits)
 {
     acb_t below;
     acb_init(below);
@@ -111,7 +114,8 @@ static void confluent(acb_t out, bool second, acb_srcptr x, which part, slong bi
 
 typedef void bessel_function(acb_t out, const acb_t order, const acb_t x, slong bits);
 
-/* J' = (J_(n-1) - J_(n+1))/2, as Y; I' = (I_(n-1) + I_(n+1))/2, K' = -(K_(n-1) + K_(n+1))/2 */
+/* J' = (J_(n-1) - J_(n+1))/2, as Y; I' = (I_(n-1) + I_(n+1))/2, K' = -(K_(n-1)
+ * + K_(n+1))/2 */
 static void bessel(acb_t out, bessel_function *f, int sign_of_next, acb_srcptr x, which part, slong bits)
 {
     if (part == PLAIN) {
@@ -142,17 +146,30 @@ static void value(acb_t out, nh_function f, acb_srcptr x, slong bits)
 {
     which part = (f - NH_LEGENDRE_P) % 2 ? PRIME : PLAIN;
     switch (f) {
-    case NH_LEGENDRE_P: case NH_LEGENDRE_P_PRIME: legendre(out, false, x, part, bits); break;
-    case NH_LEGENDRE_Q: case NH_LEGENDRE_Q_PRIME: legendre(out, true, x, part, bits); break;
-    case NH_HYP2F1: case NH_HYP2F1_PRIME: by_parameters(out, x, part, bits); break;
-    case NH_GAUSS_F: case NH_GAUSS_F_PRIME: by_sum_and_product(out, x, part, bits); break;
-    case NH_HYP1F1: case NH_HYP1F1_PRIME: confluent(out, false, x, part, bits); break;
-    case NH_HYPERU: case NH_HYPERU_PRIME: confluent(out, true, x, part, bits); break;
-    case NH_BESSEL_J: case NH_BESSEL_J_PRIME: bessel(out, acb_hypgeom_bessel_j, -1, x, part, bits); break;
-    case NH_BESSEL_Y: case NH_BESSEL_Y_PRIME: bessel(out, acb_hypgeom_bessel_y, -1, x, part, bits); break;
-    case NH_BESSEL_I: case NH_BESSEL_I_PRIME: bessel(out, acb_hypgeom_bessel_i, 1, x, part, bits); break;
-    case NH_BESSEL_K: case NH_BESSEL_K_PRIME: bessel(out, acb_hypgeom_bessel_k, 1, x, part, bits); break;
-    case NH_AIRY_AI: case NH_AIRY_AI_PRIME: case NH_AIRY_BI: case NH_AIRY_BI_PRIME: airy(out, f, x, bits); break;
+    case NH_LEGENDRE_P:
+    case NH_LEGENDRE_P_PRIME: legendre(out, false, x, part, bits); break;
+    case NH_LEGENDRE_Q:
+    case NH_LEGENDRE_Q_PRIME: legendre(out, true, x, part, bits); break;
+    case NH_HYP2F1:
+    case NH_HYP2F1_PRIME: by_parameters(out, x, part, bits); break;
+    case NH_GAUSS_F:
+    case NH_GAUSS_F_PRIME: by_sum_and_product(out, x, part, bits); break;
+    case NH_HYP1F1:
+    case NH_HYP1F1_PRIME: confluent(out, false, x, part, bits); break;
+    case NH_HYPERU:
+    case NH_HYPERU_PRIME: confluent(out, true, x, part, bits); break;
+    case NH_BESSEL_J:
+    case NH_BESSEL_J_PRIME: bessel(out, acb_hypgeom_bessel_j, -1, x, part, bits); break;
+    case NH_BESSEL_Y:
+    case NH_BESSEL_Y_PRIME: bessel(out, acb_hypgeom_bessel_y, -1, x, part, bits); break;
+    case NH_BESSEL_I:
+    case NH_BESSEL_I_PRIME: bessel(out, acb_hypgeom_bessel_i, 1, x, part, bits); break;
+    case NH_BESSEL_K:
+    case NH_BESSEL_K_PRIME: bessel(out, acb_hypgeom_bessel_k, 1, x, part, bits); break;
+    case NH_AIRY_AI:
+    case NH_AIRY_AI_PRIME:
+    case NH_AIRY_BI:
+    case NH_AIRY_BI_PRIME: airy(out, f, x, bits); break;
     case NH_ELLIPTIC_K: acb_elliptic_k(out, x, bits); break;
     case NH_ELLIPTIC_E: acb_elliptic_e(out, x, bits); break;
     case NH_ELLIPTIC_F: acb_elliptic_f(out, x, x + 1, 0, bits); break;
@@ -179,7 +196,8 @@ void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bi
 /* As a double: to all its digits, or to below the smallest. */
 static bool precise(const arb_t x)
 {
-    return arb_is_finite(x) && (arb_rel_accuracy_bits(x) >= wanted_bits || mag_cmp_2exp_si(arb_radref(x), below_doubles) < 0);
+    return arb_is_finite(x) &&
+           (arb_rel_accuracy_bits(x) >= wanted_bits || mag_cmp_2exp_si(arb_radref(x), below_doubles) < 0);
 }
 
 double nh_named_value(nh_function f, const double *argument)
@@ -210,7 +228,8 @@ double complex nh_named_value_complex(nh_function f, const double complex *argum
     for (slong bits = least_bits; bits <= most_bits && isnan(creal(out)); bits *= 2) {
         value(all, f, x, bits);
         if (precise(acb_realref(all)) && precise(acb_imagref(all)))
-            out = CMPLX(arf_get_d(arb_midref(acb_realref(all)), ARF_RND_NEAR), arf_get_d(arb_midref(acb_imagref(all)), ARF_RND_NEAR));
+            out = CMPLX(arf_get_d(arb_midref(acb_realref(all)), ARF_RND_NEAR),
+                        arf_get_d(arb_midref(acb_imagref(all)), ARF_RND_NEAR));
     }
     _acb_vec_clear(x, (slong)n);
     acb_clear(all);

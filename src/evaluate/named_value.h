@@ -1,4 +1,5 @@
-/* named_value: values of Legendre, hypergeometric, Bessel and Airy functions and of elliptic integrals, with rigorous bounds (Arb). */
+/* named_value: values of Legendre, hypergeometric, Bessel and Airy functions
+ * and of elliptic integrals, with rigorous bounds (Arb). */
 #ifndef NH_NAMED_VALUE_H
 #define NH_NAMED_VALUE_H
 
@@ -10,7 +11,8 @@
 /* f of as many arguments as it takes.  Not finite where it is not real. */
 void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bits);
 
-/* Right to the last digits of a double, however many digits that needs; not a number where f is not real or too hard. */
+/* Right to the last digits of a double, however many digits that needs; not a
+ * number where f is not real or too hard. */
 double nh_named_value(nh_function f, const double *argument);
 
 /* At a complex point near the real axis. */

@@ -9,8 +9,8 @@
 
 enum { most_steps = 24 };
 
-
-/* The function whose order is larger or smaller by one, in the letters of nh_named_function_read [DLMF 10.6.2, 10.29.2, 14.10, 15.5, 13.3]. */
+/* The function whose order is larger or smaller by one, in the letters of
+ * nh_named_function_read [DLMF 10.6.2, 10.29.2, 14.10, 15.5, 13.3]. */
 static const struct {
     nh_function f;
     size_t order;
@@ -32,7 +32,8 @@ static const struct {
     {NH_BESSEL_K, 0, "n*f/x - g", "-n*f/x - g"},
 };
 
-/* The derivative of the second solution by the determinant of Wronski; F, G: the first and its derivative [DLMF 10.5.2, 10.28.2, 14.2.4, 9.2.7]. */
+/* The derivative of the second solution by the determinant of Wronski; F, G:
+ * the first and its derivative [DLMF 10.5.2, 10.28.2, 14.2.4, 9.2.7]. */
 static const struct {
     nh_function second, first;
     const char *derivative;
@@ -43,7 +44,8 @@ static const struct {
     {NH_AIRY_BI, NH_AIRY_AI, "(G*f + 1/pi)/F"},
 };
 
-/* How far a number lies beyond (0, 1], or the constant part of another order beyond (-1, 0], in steps of one; 0 also where that is too far. */
+/* How far a number lies beyond (0, 1], or the constant part of another order
+ * beyond (-1, 0], in steps of one; 0 also where that is too far. */
 static long steps_beyond(nh_dag *dag, nh_ex order)
 {
     nh_parts parts;
@@ -93,6 +95,7 @@ bool nh_named_relation_step(nh_dag *dag, nh_ex e, nh_ex *out)
     for (size_t i = 0; i < nh_arity(dag, e); i++) argument[i] = nh_child(dag, e, i);
     if (next_order(dag, e, base, argument, out)) return true;
     for (size_t k = 0; k < sizeof wronskian / sizeof *wronskian && f != base; k++)
-        if (wronskian[k].second == base) return nh_named_function_read(dag, wronskian[k].derivative, base, wronskian[k].first, argument, out);
+        if (wronskian[k].second == base)
+            return nh_named_function_read(dag, wronskian[k].derivative, base, wronskian[k].first, argument, out);
     return false;
 }

@@ -1,16 +1,19 @@
-/* named_relation: the relations between named functions of one argument whose orders differ by whole numbers, and between two solutions of one equation:
+/* named_relation: the relations between named functions of one argument whose
+ * orders differ by whole numbers, and between two solutions of one equation:
  *
  *     J_(n+1) = (n/x) J_n - J_n',      J_n Y_n' - J_n' Y_n = 2/(pi x)
  *
- * With these every function of such a family is a combination of one of them and its derivative, whose orders lie in (0, 1],
- * or in (n - 1, n] with a symbol n. */
+ * With these every function of such a family is a combination of one of them
+ * and its derivative, whose orders lie in (0, 1], or in (n - 1, n] with a
+ * symbol n. */
 #ifndef NH_NAMED_RELATION_H
 #define NH_NAMED_RELATION_H
 
 #include "graph/dag.h"
 
-/* One step: e, a call with canonical arguments, by functions whose orders are nearer to that interval, or by the first of two solutions.  False: there
- * is no step. */
+/* One step: e, a call with canonical arguments, by functions whose orders are
+ * nearer to that interval, or by the first of two solutions.  False: there is
+ * no step. */
 bool nh_named_relation_step(nh_dag *dag, nh_ex e, nh_ex *out);
 
 #endif

@@ -5,7 +5,8 @@
 
 #include "graph/parse.h"
 
-/* The second derivative, in the letters of the arguments, f and g = f' [DLMF 14.2.1, 15.10.1, 13.2.1, 10.2.1, 10.25.1, 9.2.1]. */
+/* The second derivative, in the letters of the arguments, f and g = f'
+ * [DLMF 14.2.1, 15.10.1, 13.2.1, 10.2.1, 10.25.1, 9.2.1]. */
 static const struct {
     nh_function f;
     const char *second;
@@ -33,7 +34,9 @@ static const struct {
     {NH_ELLIPTIC_K, 0, "(elliptic_e(m) - (1 - m)*f)/(2*m*(1 - m))"},
     {NH_ELLIPTIC_E, 0, "(f - elliptic_k(m))/(2*m)"},
     {NH_ELLIPTIC_F, 0, "1/sqrt(1 - m*sin(u)^2)"},
-    {NH_ELLIPTIC_F, 1, "(elliptic_einc(u, m) - (1 - m)*f)/(2*m*(1 - m)) - sin(2*u)/(4*(1 - m)*sqrt(1 - m*sin(u)^2))"},
+    {NH_ELLIPTIC_F, 1,
+     "(elliptic_einc(u, m) - (1 - m)*f)/(2*m*(1 - m)) - sin(2*u)/(4*(1 - "
+     "m)*sqrt(1 - m*sin(u)^2))"},
     {NH_ELLIPTIC_EINC, 0, "sqrt(1 - m*sin(u)^2)"},
     {NH_ELLIPTIC_EINC, 1, "(f - elliptic_f(u, m))/(2*m)"},
 };
@@ -57,7 +60,8 @@ static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault 
     return true;
 }
 
-bool nh_named_function_read(nh_dag *dag, const char *text, nh_function f, nh_function other, const nh_ex *argument, nh_ex *out)
+bool nh_named_function_read(nh_dag *dag, const char *text, nh_function f, nh_function other, const nh_ex *argument,
+                            nh_ex *out)
 {
     letters x = {dag, f, other, argument};
     nh_parse_fault fault;

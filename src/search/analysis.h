@@ -22,6 +22,7 @@ typedef struct {
     nh_ex *word;              /* the functions that they multiply */
     double *coefficient;      /* of T_k for word i: coefficient[i * stride + k], k = 0 .. degree */
     size_t stride;
+    const char *equation;     /* which linear equation of second order they satisfy; NULL: not known, or too long */
 } nh_series;
 
 typedef struct {

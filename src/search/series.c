@@ -9,6 +9,7 @@
 #include "graph/diff.h"
 #include "graph/print.h"
 #include "integrals/function_series.h"
+#include "integrals/named_coefficients.h"
 #include "search/stage_solver.h"
 
 enum { most_words = 32, near_points = 24 };
@@ -19,6 +20,7 @@ typedef struct {
     size_t words;
     nh_ex word[most_words];
     bool full; /* there were more than fit */
+    const char *equation; /* of coefficients that have no name, or NULL */
 } problem;
 
 static void put(problem *p, nh_ex e)
@@ -101,7 +103,8 @@ static size_t keep(problem *p, const nh_series_space *space)
                               .high = space->high,
                               .word = nh_arena_alloc(r->arena, space->words * sizeof(nh_ex)),
                               .coefficient = nh_arena_alloc(r->arena, n * sizeof(double)),
-                              .stride = space->degree + 1};
+                              .stride = space->degree + 1,
+                              .equation = p->equation};
         if (!nh_currents_add_series(p->x->bench, expression_of(p, space, k, series), series, space->digits[k]))
             continue;
         if (p->variable == r->system->t) r->found[r->count - 1].meaning = meaning_of(p, space, k);
@@ -138,6 +141,20 @@ static double end_of_time(const nh_stage_solver *x)
     for (size_t i = 0; i < system->intervals; i++)
         if (system->interval[i].symbol == system->t) return -INFINITY;
     return x->r->options.until;
+}
+
+/* Coefficients that have names, proved before they are tried. */
+static void named(problem *p, const char *what)
+{
+    nh_analysis *r = p->x->r;
+    nh_ex *phi = nh_arena_alloc(r->arena, NH_MOST_NAMED * sizeof *phi);
+    nh_family *family = nh_arena_alloc(r->arena, sizeof *family);
+    if (p->full || nh_stage_solver_done(p->x)) return;
+    size_t n = nh_named_coefficients(r->model, p->variable, p->words, p->word, p->x->words.forms, p->x->words.form, r->arena, phi, &p->equation);
+    if (!n) return;
+    *family = (nh_family){.kind = NH_TERMS, .terms = n, .term = phi};
+    nh_stage_solver_stage(p->x, nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what, nh_name_of(r->model->dag, p->variable)),
+                          1, family);
 }
 
 static void search(problem *p, const char *what)
@@ -201,6 +218,7 @@ static void linear_in(nh_stage_solver *x, nh_ex q)
     put_all(&p, o->n, o->chart->w);
     if (x->words.shapes > 1) put_all(&p, o->m, o->rho);
     if (o->system->has_forces) put(&p, nh_int(o->dag, 1)); /* friction takes what depends on the place alone */
+    named(&p, "velocities");
     search(&p, "velocities");
 }
 
@@ -270,6 +288,7 @@ void nh_stage_solver_series_in_time(nh_stage_solver *x)
     put(&p, one);
     put_all(&p, x->words.momenta, x->words.momentum);
     p.full &= x->words.positions + o->n >= most_words; /* momenta only as far as there is room */
+    named(&p, "positions, velocities and momenta");
     search(&p, "positions, velocities and momenta");
     put_polar(&p);
     if (p.words) search(&p, "lengths and the frame of the kinetic energy times first harmonics");

@@ -1,0 +1,24 @@
+/* named_variable: a linear equation u'' = P u' + Q u in s, in another variable
+ * x = r(s) in which P and Q are rational. */
+#ifndef NH_NAMED_VARIABLE_H
+#define NH_NAMED_VARIABLE_H
+
+#include "graph/dag.h"
+
+/* u'' = p u' + q u, the derivatives by `variable`. */
+typedef struct {
+    nh_ex variable, p, q;
+    nh_ex meaning; /* of the variable: cos(s), s^2, exp(k s), .. */
+} nh_named_equation;
+
+enum { NH_MOST_EQUATIONS = 12 };
+
+/* e in cot s where that is possible and shorter: common factors that have both
+ * sines and cosines cancel there. */
+nh_ex nh_named_tidy(nh_dag *dag, nh_ex e, nh_ex s);
+
+/* The same equation in s, cos s, sin s, cot s, exp(k s) and the squares of
+ * these, as far as it is free of roots and of s there: how many. */
+size_t nh_named_variables(nh_dag *dag, const nh_named_equation *in_s, nh_named_equation out[NH_MOST_EQUATIONS]);
+
+#endif

@@ -1,0 +1,147 @@
+/* Currents whose coefficients are Airy, Bessel, Legendre, Gauss's or Kummer's
+ * functions: found, named and proved for all parameters; what has no such
+ * coefficients stays a series, with its equation. */
+#include "mechanics.h"
+#include "scratch.h"
+
+#include "commands/analyze.h"
+#include "graph/print.h"
+
+static nh_analysis *ask(const char *path)
+{
+    nh_error error = {0};
+    nh_analyze_request request = {.system_path = path};
+    nh_options_default(&request.options);
+    request.options.until = 0.7;
+    nh_analysis *r = nh_analysis_create(&request, &error);
+    cr_assert_not_null(r, "%s: %s", path, error.what);
+    return r;
+}
+
+static nh_analysis *ask_text(const char *text)
+{
+    char path[SCRATCH];
+    cr_assert(scratch_text(path, text));
+    nh_analysis *r = ask(path);
+    remove(path);
+    return r;
+}
+
+/* `count` independent currents, proved for all parameters, `named` of them with
+ * this function, and no series. */
+static void expect_named(nh_analysis *r, size_t count, const char *name, size_t named)
+{
+    size_t seen = 0;
+    cr_assert_eq(r->independent, count, "%zu currents, expected %zu with %s", r->independent, count, name);
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_current *f = &r->found[k];
+        char *text = nh_print_string(r->model->dag, f->phi);
+        cr_assert_null(f->series, "a series beside %s", name);
+        cr_assert(f->proof.proved && f->proof.all_parameters, "%s", text);
+        cr_assert_lt(f->heldout, 1e-9, "%s: %g", text, f->heldout);
+        seen += strstr(text, name) != NULL;
+        nh_free(text);
+    }
+    cr_assert_eq(seen, named, "%zu currents with %s, expected %zu", seen, name, named);
+    nh_analysis_free(r);
+}
+
+#define HEAD(parameters) "name: test\nparameters: [" parameters "]\ncoordinates: [{name: x, type: length}]\n"
+
+Test(named_search, airy)
+{
+    expect_named(ask_text(HEAD("{name: m, value: 1.1}, {name: k, value: 2}") "lagrangian: m/2*x'^2 "
+                                                                             "- m*k*t*x^2/2\n"),
+                 2, "airy_", 2);
+    expect_named(ask_text(HEAD("{name: m, value: 1.2}, {name: c, value: 0.3}, {name: k, value: 2}, "
+                               "{name: b, value: 0.4}") "lagrangian: m/2*x'^2 - (k*t - "
+                                                        "b)*x^2/2\nforces: [\"x = -c*x'\"]\ndomain: "
+                                                        "{t: [0.5, 3]}\n"),
+                 2, "airy_", 2);
+}
+
+/* Lengthening pendulum [Cauchy], powers of time, an exponential that fades,
+ * Bessel's own equation. */
+Test(named_search, bessel)
+{
+    expect_named(ask_text(HEAD("{name: g, value: 9}, {name: a, value: 1}, {name: v, "
+                               "value: 0.3}") "lagrangian: (a + v*t)^2*x'^2/2 - g*(a + "
+                                              "v*t)*x^2/2\ndomain: {t: [0.1, 2]}\n"),
+                 2, "bessel_", 2);
+    expect_named(ask_text(HEAD("{name: w, value: 1.4}") "lagrangian: x'^2/2 - "
+                                                        "w^2*t^3*x^2/2\ndomain: {t: [0.3, 2]}\n"),
+                 2, "bessel_", 2);
+    expect_named(ask_text(HEAD("{name: w, value: 1.4}") "lagrangian: x'^2/2 + w^2*t^2*x^2/2 + "
+                                                        "x^2/t^2\ndomain: {t: [0.3, 1.5]}\n"),
+                 2, "bessel_", 2);
+    expect_named(ask_text(HEAD("{name: a, value: 0.6}, {name: w, value: 1.7}") "lagrangian: "
+                                                                               "x'^2/2 - "
+                                                                               "w^2*exp(-a*t)*"
+                                                                               "x^2/2\n"),
+                 2, "bessel_", 2);
+    expect_named(ask_text(HEAD("{name: n, value: 0.3}") "lagrangian: t*(x'^2 - (1 - "
+                                                        "n^2/t^2)*x^2)/2\ndomain: {t: [1, 3]}\n"),
+                 2, "bessel_", 2);
+}
+
+Test(named_search, kummer)
+{
+    expect_named(ask_text(HEAD("{name: a, value: 1.3}") "lagrangian: x'^2/2 + (t^2/4 + "
+                                                        "a)*x^2/2\ndomain: {t: [0.5, 2]}\n"),
+                 2, "hyp", 2);
+    expect_named(ask_text(HEAD("{name: b, value: 0.7}, {name: c, value: 2}") "lagrangian: x'^2/2 + "
+                                                                             "(c^2 + b/t + "
+                                                                             "2/t^2)*x^2/2\ndomain: "
+                                                                             "{t: [0.5, 2]}\n"),
+                 2, "hyp", 2);
+}
+
+Test(named_search, gauss)
+{
+    expect_named(ask_text(HEAD("{name: n, value: 1.3}") "lagrangian: (1 - t^2)*x'^2/2 - n*(n + "
+                                                        "1)*x^2/2\ndomain: {t: [0.1, 0.8]}\n"),
+                 2, "hyp2f1", 2);
+    expect_named(ask_text(HEAD("{name: w, value: 1.9}") "lagrangian: (1 - t^2)*x'^2/2 + "
+                                                        "w^2*x^2/2\ndomain: {t: [0.1, 0.8]}\n"),
+                 2, "", 2);
+}
+
+/* The rolling disk, whose parameters a and b are conjugate: k^2 = m C r^2/(A (C
+ * + m r^2)) [Appell, Korteweg]. */
+Test(named_search, rolling_disk, .timeout = 120)
+{
+    nh_analysis *r = ask("systems/rolling_disk.yaml");
+    for (size_t k = 0; k < r->count; k++) {
+        char *text = nh_print_string(r->model->dag, r->found[k].phi);
+        cr_assert(!strstr(text, "gauss_f") || strstr(text, "gauss_f(1, m*C*r^2/(A*(C + m*r^2)), 1, "), "%s", text);
+        nh_free(text);
+    }
+    expect_named(r, 3, "gauss_f", 2);
+}
+
+static void expect_equation(nh_analysis *r, size_t series, const char *equation)
+{
+    size_t seen = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        if (!r->found[k].series) continue;
+        seen++;
+        cr_assert_not_null(r->found[k].series->equation);
+        cr_assert(strstr(r->found[k].series->equation, equation), "%s", r->found[k].series->equation);
+    }
+    cr_assert_eq(seen, series);
+    nh_analysis_free(r);
+}
+
+/* Mathieu's equation has no solution with a name here; that of Euler's disk has
+ * singular points that are not real. */
+Test(named_search, equations_without_names, .timeout = 120)
+{
+    expect_equation(ask_text(HEAD("{name: a, value: 1.1}, {name: e, value: 0.4}") "lagrangian: "
+                                                                                  "x'^2/2 - (a + "
+                                                                                  "e*cos(2*t))*x^"
+                                                                                  "2/2\n"),
+                    2, "f'' = (-a - e*cos(2*t))*f");
+    expect_equation(ask("systems/euler_disk.yaml"), 2,
+                    "f'' = (1/tan(theta))*f' + (2*r^2*M*I3*(e/tan(theta) + "
+                    "2)/(4*I1*I3 + r^2*M*(4*I1 + e^2*I3)))*f");
+}
