@@ -10,7 +10,7 @@
 
 enum {
     most_words = 32,
-    most_forms = 5,
+    most_forms = 5, longest_entry = 150,
     longest = 3000,
     longest_form = 60,
     longest_shown = 250
@@ -68,7 +68,7 @@ static bool row(seeker *x, size_t i)
         nh_ex *a = &x->A[i * most_words + j], slope = nh_diff(d, rate, x->word[j]);
         if (nh_kind_of(d, x->pace) == NH_SYMBOL) slope = nh_substitute(d, slope, 1, &x->pace, &one);
         *a = nh_is_zero(d, slope) || x->word[j] == x->pace ? nh_int(d, 0) : nh_simplify(d, slope);
-        if (!depends_on_s_alone(x, *a)) return false;
+        if (!depends_on_s_alone(x, *a) || nh_complexity(d, *a) > longest_entry) return false;
         rest = nh_sub(d, rest, nh_product(d, 3, (nh_ex[]){x->pace, *a, x->word[j]}));
     }
     return nh_normal_is_zero(d, rest, 0) == NH_ZERO;
@@ -143,6 +143,7 @@ static bool eliminate(const seeker *x, size_t i, size_t j, elimination *out)
     q = simple(x, q);
     out->equation = (nh_named_equation){x->s, p, q, x->s};
     out->tidy = (nh_named_equation){x->s, nh_named_tidy(d, p, x->s), nh_named_tidy(d, q, x->s), x->s};
+    if (nh_complexity(d, p) > 2 * longest_entry || nh_complexity(d, q) > 4 * longest_entry) return false;
     out->a = a;
     out->b = b;
     return true;
