@@ -149,8 +149,9 @@ static void named(problem *p, const char *what)
     nh_analysis *r = p->x->r;
     nh_ex *phi = nh_arena_alloc(r->arena, NH_MOST_NAMED * sizeof *phi);
     nh_family *family = nh_arena_alloc(r->arena, sizeof *family);
-    if (p->full || nh_stage_solver_done(p->x)) return;
-    size_t n = nh_named_coefficients(r->model, p->variable, p->words, p->word, p->x->words.forms, p->x->words.form, r->arena, phi, &p->equation);
+    if (p->full || r->options.named == 0 || nh_stage_solver_done(p->x)) return;
+    size_t n = nh_named_coefficients(r->model, p->variable, p->words, p->word, p->x->words.forms, p->x->words.form,
+                                     r->arena, phi, &p->equation);
     if (!n) return;
     *family = (nh_family){.kind = NH_TERMS, .terms = n, .term = phi};
     nh_stage_solver_stage(p->x, nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what, nh_name_of(r->model->dag, p->variable)),
