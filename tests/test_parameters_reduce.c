@@ -126,7 +126,7 @@ Test(parameters_reduce, a_density_says_for_which_values)
     write_here(&p, "own.yaml", knife);
     finished f = run(&p, "reduce own.yaml --html page.html"), other = run(&p, "reduce own.yaml --set k=2");
     char *page = read_here(&p, "page.html");
-    cr_expect_not_null(strstr(f.out, "density = sin(p)\n    the density holds for k = 1\n"), "%s", f.out);
+    cr_expect_not_null(strstr(f.out, "density = sin(p)\n  the density holds for k = 1\n"), "%s", f.out);
     cr_expect_not_null(strstr(page, "density"));
     cr_expect_not_null(strstr(page, " for k = 1"));
     cr_expect_not_null(strstr(other.out, "no invariant measure"));

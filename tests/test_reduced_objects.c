@@ -378,8 +378,9 @@ static void check_magnetic(object *o, const double *Av)
     double theta[most], E[most * most], K[most * most], vector[2 * most][most];
     for (size_t a = 0; a < d; a++) {
         theta[a] = 0.7 + 0.31 * (double)(a * a) - 0.2 * (double)a;
-        char *name = malloc(20); /* until the test ends */
-        snprintf(name, 20, "theta_%zu", a + 1);
+        enum { length = 32 };
+        char *name = malloc(length); /* until the test ends */
+        snprintf(name, length, "theta_%zu", a + 1);
         o->s.value[own_name(&o->s, name)] = theta[a];
     }
     base_metric(o, second_index, o->q, K, E);

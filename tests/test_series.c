@@ -20,6 +20,7 @@ static nh_analysis *ask(const char *text)
     nh_error error = {0};
     nh_analyze_request request = {.system_path = path};
     nh_options_default(&request.options);
+    request.options.named = 0; /* series also of functions that have names */
     nh_analysis *r = nh_analysis_create(&request, &error);
     remove(path);
     cr_assert_not_null(r, "%s", error.what);
@@ -304,7 +305,7 @@ Test(series, the_interval_of_time_is_said_everywhere, .timeout = 120)
 {
     place p = place_make();
     write_here(&p, "airy.yaml", airy);
-    finished f = run_expecting(&p, "analyze airy.yaml --tex a.tex --json a.json --html a.html", 0);
+    finished f = run_expecting(&p, "analyze airy.yaml --option named=0 --tex a.tex --json a.json --html a.html", 0);
     char *tex = read_here(&p, "a.tex"), *page = read_here(&p, "a.html"), *json = read_here(&p, "a.json");
     cr_expect_not_null(strstr(f.out, " in t on [-0.4, 10.4] without closed form"), "%s", f.out);
     cr_expect_not_null(strstr(json, "\"coordinate\":\t\"t\""), "%.3000s", json);

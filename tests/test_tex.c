@@ -228,7 +228,7 @@ static const char *next_number(const char *at, const char *before, double number
 Test(tex, coefficients_of_a_series_are_told)
 {
     place p = place_with_systems();
-    finished f = run_expecting(&p, "analyze rolling_disk --quiet --tex a.tex --json a.json --html a.html", 0);
+    finished f = run_expecting(&p, "analyze rolling_disk --option named=0 --quiet --tex a.tex --json a.json --html a.html", 0);
     finished_clear(&f);
     char *tex = read_here(&p, "a.tex"), *page = read_here(&p, "a.html"), *text = read_here(&p, "a.json");
     cJSON *json = cJSON_Parse(text), *current;

@@ -90,7 +90,7 @@ size_t nh_count_rank(const nh_differentials *d, nh_prime f)
 {
     size_t width = d->kept + d->n;
     nh_residue *row = nh_alloc_array(d->rows * width + 1, sizeof *row);
-    memcpy(row, d->row, d->rows * width * sizeof *row);
+    if (d->rows) memcpy(row, d->row, d->rows * width * sizeof *row);
     size_t rank = nh_residue_matrix_rank(f, d->rows, width, row);
     nh_free(row);
     return rank;

@@ -122,6 +122,5 @@ def test_documents(analysis, sleigh, tmp_path):
         assert (tmp_path / ("result." + ending)).stat().st_size > 1000
     with pytest.raises(nhsym.UsageError, match="doc"):
         analysis.save(tmp_path / "result.doc")
-    with pytest.raises(nhsym.UsageError):
-        sleigh.verify("m*v").latex
+    assert sleigh.verify("m*v").latex.startswith("%")
     assert "currents" in dir(analysis) and "verdict" in repr(nhsym.Record(analysis.json))
