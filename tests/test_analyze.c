@@ -57,7 +57,6 @@ typedef struct {
     nh_chart_choice chart;
     uint64_t seed;
     double until;
-    bool series;      /* also where coefficients have names */
 } question;
 
 static nh_analysis *ask(question q)
@@ -70,7 +69,6 @@ static nh_analysis *ask(question q)
     request.settings = q.set ? 3 : 0;
     request.seed_given = q.seed > 0;
     if (q.seed) request.options.seed = (double)q.seed;
-    if (q.series) request.options.named = 0;
     request.until_given = q.until > 0;
     if (q.until > 0) request.options.until = q.until;
     nh_analysis *r = nh_analysis_create(&request, &error);
@@ -629,7 +627,12 @@ Test(analyze, meanings_are_true, .timeout = 120)
 Test(analyze, series_of_the_rolling_disk, .timeout = 120)
 {
     sweep_plain_only();
-    nh_analysis *r = ask((question){.system = "systems/rolling_disk.yaml", .series = true});
+    nh_error error = {0};
+    nh_analyze_request request = {.system_path = "systems/rolling_disk.yaml"};
+    nh_options_default(&request.options);
+    request.options.named = 0;
+    nh_analysis *r = nh_analysis_create(&request, &error);
+    must(r != NULL, &error, "rolling_disk");
     size_t series = 0;
     cr_expect(r->verdict == NH_FOUND && r->independent == 3, "%zu independent", r->independent);
     for (size_t k = 0; k < r->count; k++) {
