@@ -162,7 +162,7 @@ Test(parameters, rates_of_a_thermostat_are_named)
 {
     expect_names(&(named_case){"name: s\nparameters: {M: 0.83, E: 1.37, u: 0.91}\ncoordinates: [x, y, z]\nlagrangian: M*(x'^2 + y'^2 + z'^2)/2 + E*x\n"
                                "constraints: [\"x'^2 + y'^2 + z'^2 = u^2\"]\ndependent: [z]\ndomain: {x': [-0.4, 0.4], y': [-0.4, 0.4], z': [0.3, 0.9]}\n",
-                               {"", "--set M=1.2719 --set E=0.9123 --set u=1.1", "--set M=2 --set E=3 --set u=1"}, 3});
+                               {"", "--set M=1.2719 --set E=0.9123 --set u=1.1", "--set M=2 --set E=3 --set u=1"}, 5});
 }
 
 /* The one current with these values fixed, all others for all parameters. */

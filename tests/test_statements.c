@@ -267,7 +267,7 @@ Test(statements, currents_are_printed_so_that_they_hold_on_both_branches)
     place p = place_make();
     write_branches(&p);
     reports r = analyze(&p, "up.yaml");
-    char *text = currents_of(r.text, "FOUND", "How it was found"), *tex = currents_of(r.tex, "\\section{Currents}", "\\section{The system}");
+    char *text = currents_of(r.text, "FOUND", "Explicit motion"), *tex = currents_of(r.tex, "\\section{Currents}", "\\section{The system}");
     char *page = currents_of(r.page, "<section id=\"currents\">", "<section id=\"system\">");
     cr_expect(!strstr(text, "sqrt") && !strstr(tex, "\\sqrt") && !strstr(page, "msqrt"), "%s", text);
     cr_expect_not_null(strstr(r.text, "computed on the branch z' > 0; the equations hold on the branch z' < 0 too\n"), "%s", r.text);

@@ -87,7 +87,7 @@ const char *nh_cli_command_near(const char *word);
     X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
     X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
     X(list,     "",            "list the available systems", "nhsym list")                                                                                  \
-    X(show,     "SYSTEM|FILE", "print a system file, of a robot description the one it stands for", "nhsym show sleigh")                                                                                   \
+    X(show,     "SYSTEM|FILE", "print a system file; a robot description as one", "nhsym show sleigh")                                                                                   \
     X(new,      "NAME",        "write NAME.yaml, an example system to edit", "nhsym new skate")                                                           \
     X(explain,  "[TOPIC]",     "define a word of the report", "nhsym explain gap")                                                                 \
     X(version,  "",            "print the version", "nhsym version")                                                                                         \

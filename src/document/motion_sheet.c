@@ -9,8 +9,9 @@ static const char *words_of(nh_sheet *s, const nh_analysis *r)
     const nh_explicit_motion *m = r->motion;
     const char *fixed = m->fixed ? nh_fixed_text(r->model, m->fixed) : "";
     const char *rest = m->known < m->states ? " No closed form was found for the other states." : "";
-    return nh_sheet_label(s, "Along every motion, with $<%s>$ as the parameter; the numbers C are constant along motions.%s%s%s%s", nh_name_of(s->dag, m->state[m->parameter]), rest,
-                          *fixed ? " For " : "", fixed, *fixed ? "." : "");
+    return nh_sheet_label(s, "Along every motion, with $<%s>$ as the parameter; the numbers C are constant along motions.%s%s%s%s%s", nh_name_of(s->dag, m->state[m->parameter]), rest,
+                          *fixed ? " For " : "", fixed, *fixed ? "." : "",
+                          r->branch ? nh_arena_printf(r->arena, " On the branch %s only.", r->branch) : "");
 }
 
 static const char *name(nh_sheet *s, nh_ex symbol) { return nh_sheet_label(s, "<%s>", nh_name_of(s->dag, symbol)); }

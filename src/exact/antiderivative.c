@@ -9,9 +9,11 @@
 
 enum { default_terms = 20000, most_candidates = 140, most_kernels = 12, most_factors = 24, highest = 12 };
 
+static const size_t absent = SIZE_MAX; /* x itself, where f has it in functions only */
+
 /* A kernel that depends on x, and the exponents that it may have in the numerator of F. */
 typedef struct {
-    size_t index;
+    size_t index;            /* among the kernels of f, or absent */
     nh_ex e;
     nh_kernel_kind kind;
     int64_t low, high;
@@ -141,6 +143,7 @@ static void put_functions_of(builder *b, const divisor *p)
     put_logarithm(b, p->e);
     for (size_t i = 0; i < b->letters && p->terms; i++) {
         const letter *u = &b->letter[i];
+        if (u->index == absent) continue;
         if (coefficients(b, p->terms, u->index, u->index, c) && !nh_is_zero(b->d, c[3])) put_quadratic(b, u->e, c);
         size_t partner = b->form.kernels.item[u->index].partner;
         if (u->kind == NH_KERNEL_COS && coefficients(b, p->terms, u->index, partner, c) && nh_is_zero(b->d, c[3])) put_turning(b, u->index, partner, c);
@@ -331,7 +334,7 @@ static bool read(builder *b, nh_arena *arena, nh_forms *forms, nh_ex f)
         rooted |= b->form.kernels.item[g].kind == NH_KERNEL_ROOT && nh_depends(b->d, b->form.kernels.item[g].atom, b->in->x);
         add_letter(b, g);
     }
-    if (!has_x && b->letters < most_kernels) b->letter[b->letters++] = (letter){.index = SIZE_MAX, .e = b->in->x, .kind = NH_KERNEL_PLAIN, .high = 1};
+    if (!has_x && b->letters < most_kernels) b->letter[b->letters++] = (letter){.index = absent, .e = b->in->x, .kind = NH_KERNEL_PLAIN, .high = 1};
     for (size_t j = 0; j < b->pieces.factors; j++) {
         const nh_factor *p = &b->pieces.factor[j];
         if (p->power < 0) add_divisor(b, factor_expression(b, p), -p->power - !rooted, p);
