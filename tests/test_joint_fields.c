@@ -43,7 +43,7 @@ static const chain chains[] = {
      "  - {type: revolute, axis: [0, 0.6, 0.8], parent: a, child: b, at: [0.5, 0, 0], coordinates: [u]}\n", "SO(3) x SE(2)", 6},
     {"a free body by two joints", "bodies: [{name: a}, {name: b, mass: m, inertia: [A, 0.5, 0.6], center: [0.1, 0.2, 0]}]\njoints:\n"
      "  - {type: translation, axes: [x, y, z], child: a, coordinates: [x, y, z]}\n  - {type: spherical, parent: a, child: b, coordinates: [u, v, w]}\n", "SE(3) x SO(3)", 9},
-    {"hand of a SCARA robot", "gravity: g\nbodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.1, 0.2, 0]}, {name: b, mass: m, inertia: [A, A, 0.2]}]\njoints:\n"
+    {"hand of a SCARA robot", "gravity: g\nbodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.1, 0.2, 0]}, {name: b, mass: m, inertia: [A, A, 0.2], center: [0.2, 0, 0]}]\njoints:\n"
      "  - {type: schoenflies, child: a, coordinates: [x, y, z, h]}\n  - {type: revolute, parent: a, child: b, at: [0.4, 0, 0], coordinates: [p]}\n", "SE(2) x SO(2)", 4},
     {"two plates", "bodies: [{name: a, mass: 1, inertia: [0.3, 0.4, 0.5], center: [0.1, 0, 0]}, {name: b, mass: m, inertia: [A, 0.3, 0.2], center: [0.2, 0, 0]}]\njoints:\n"
      "  - {type: planar, axis: y, child: a, coordinates: [x, y, h]}\n  - {type: revolute, axis: y, parent: a, child: b, at: [0.4, 0, 0], coordinates: [p]}\n", NULL, 4},
