@@ -76,7 +76,7 @@ static inline void reduced_clear(reduced_sheet *s)
 static inline size_t own_name(reduced_sheet *s, const char *text)
 {
     nh_ex e = nh_symbol(s->system->dag, text);
-    s->name[s->names++] = (nh_named){.name = text, .value = e};
+    s->name[s->names++] = (nh_named){.name = nh_name_of(s->system->dag, e), .value = e};
     s->symbol[s->symbols] = e;
     return s->symbols++;
 }

@@ -61,7 +61,7 @@ static const piecewise PIECEWISE[] = {
     {"a magnetic field that changes its sign",
      "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + abs(x)*y'\nknown: {currents: [{name: momentum, expr: y' + abs(x)}, {name: energy, expr: x'^2 + y'^2}]}\n", 2, NULL},
     {"a constraint with a kink",
-     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [\"y' = abs(x)*x'\"]\nknown: {currents: [{name: hidden, expr: y - x*abs(x)/2}, {name: speed, expr: x'^2 + y'^2}]}\n", 2, NULL},
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [\"y' = abs(x)*x'\"]\nknown: {currents: [{name: hidden, expr: y - x*abs(x)/2}, {name: speed, expr: x'^2 + y'^2}]}\n", 3, NULL},
     {"the domain knows one side only",
      "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - abs(x)\ndomain: {x: [0.5, 2]}\nknown: {currents: [{name: energy, expr: x'^2/2 + abs(x)}]}\n", 1, "for x > 0"},
 };

@@ -378,9 +378,8 @@ static void check_magnetic(object *o, const double *Av)
     double theta[most], E[most * most], K[most * most], vector[2 * most][most];
     for (size_t a = 0; a < d; a++) {
         theta[a] = 0.7 + 0.31 * (double)(a * a) - 0.2 * (double)a;
-        enum { length = 32 };
-        char *name = malloc(length); /* until the test ends */
-        snprintf(name, length, "theta_%zu", a + 1);
+        char name[32];
+        snprintf(name, sizeof name, "theta_%zu", a + 1);
         o->s.value[own_name(&o->s, name)] = theta[a];
     }
     base_metric(o, second_index, o->q, K, E);

@@ -94,7 +94,8 @@ static bool explain(reader *r)
 
 bool nh_xml_looks(const nh_deck *deck)
 {
-    return deck->source[skip_space(deck->source, 0)] == '<';
+    const char *begin = deck->source + skip_space(deck->source, 0);
+    return *begin == '<' && begin[1] != '<'; /* `<<` is YAML's key of a merge */
 }
 
 const nh_xml *nh_xml_read(nh_deck *deck, nh_error *error)
