@@ -34,7 +34,7 @@ nh_ex nh_numerator(nh_dag *dag, nh_ex e);
  * itself when the size bound is met. */
 nh_ex nh_canonical_sum(nh_dag *dag, nh_ex e);
 
-/* The sign of its leading coefficient, by which e and -e are told apart; 1 when the size bound is met. */
+/* The sign of its leading coefficient, which distinguishes e from -e; 1 when the size bound is met. */
 int nh_canonical_sign(nh_dag *dag, nh_ex e);
 
 /* An equal expression with canonical arguments of functions, radicands and exponents, so that equal ones are the same node. */

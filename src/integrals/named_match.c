@@ -207,8 +207,8 @@ static size_t three_points(matcher *m, points *s, nh_ex out[2])
 
 /* ---- v'' = R v ---- */
 
-/* g with g'/g = P/2, for P = sum of c_k x^k with whole k >= -1, powers with a
- * symbol too. */
+/* g with g'/g = P/2, for P = sum of c_k x^k with whole k >= -1; a power may
+ * have a symbol. */
 static bool gauge(matcher *m, nh_ex *g)
 {
     enum { most_degree = 6 };
