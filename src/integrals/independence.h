@@ -2,7 +2,8 @@
  *
  * The gradient of each on the submanifold, in units of the sampling box, projected off the gradients of those accepted before it, at generic points: the
  * median of the remaining fraction decides.  A gradient that is rounding against what the function is summed from (below eps/doubt of it) is none: so
- * (R - r)/sqrt((R - r)^2), constant wherever it is smooth, is told from a current.  Products of currents are not used: they need their own degree bookkeeping. */
+ * (R - r)/sqrt((R - r)^2), constant wherever it is smooth, is distinguished from a current.  Products of currents are not used: they would need degrees
+ * of their own. */
 #ifndef NH_INDEPENDENCE_H
 #define NH_INDEPENDENCE_H
 

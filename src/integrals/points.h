@@ -21,7 +21,7 @@ nh_points *nh_points_create(const nh_model *model, size_t count, double stretch,
 /* The same with the points beyond the chart, as many as the sampling meets on the way. */
 nh_points *nh_points_cover(const nh_model *model, size_t count, uint64_t seed, nh_error *error);
 void nh_points_free(nh_points *points);
-/* All of them, those beyond the chart too. */
+/* The number of points, including those beyond the chart. */
 size_t nh_points_equations(const nh_points *points);
 
 /* Run a tape (inputs: the model's symbols) over all points: out[k][p].  `out` rows must hold points->count values. */

@@ -219,7 +219,8 @@ static void go_alone(search *s, size_t n)
 
 /* ---- together or alone? ---- */
 
-/* Units of effort that a member needs alone, by the way that the first was found to need; INFINITY where that one is not as accurate as is wanted. */
+/* Units of effort that a single member needs with the plan of the first member; INFINITY
+ * where that plan misses the accuracy. */
 static double cost_alone(search *s, const nh_integration_plans *ways)
 {
     nh_accuracy a = {.held = false};

@@ -25,7 +25,8 @@ static char *file_of_code(nh_arena *arena)
     return n > 0 ? nh_arena_strndup(arena, path, (size_t)n) : NULL;
 }
 
-/* In a folder of both kinds: a file of the other? One that cannot be read is what it is asked for, and its mistakes are told. */
+/* Is a file of this kind, in a folder that holds both kinds? An unreadable
+ * file counts as the requested kind, and its errors are reported. */
 static bool is_of_kind(const char *file, const char *kind)
 {
     static const char *const of_systems[] = {"coordinates", "lagrangian", "bodies", "include", "urdf"};

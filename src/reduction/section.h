@@ -15,7 +15,7 @@ nh_ex nh_section_marked(nh_dag *dag, size_t n, const nh_ex *mark, const nh_ex *e
 /* n new symbols. */
 void nh_section_marks(nh_dag *dag, size_t n, nh_ex *mark);
 
-/* v, c: n; those of v that are zero stay so, v[pivot] = 1 too. */
+/* v and c have n entries; zero entries of v stay zero, and v[pivot] stays 1. */
 nh_proof nh_section_coefficients(const nh_kinetic *kinetic, size_t n, const nh_ex *e, const double *v, size_t pivot, const nh_options *options, nh_ex *c);
 
 /* The first entry that is 1, or the largest. */

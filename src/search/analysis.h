@@ -173,7 +173,7 @@ struct nh_analysis {
     nh_further_integral *further;
     size_t relations;         /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
     nh_further_relation *relation;
-    size_t almosts;           /* nearly conserved, found by the way: at most NH_MOST_ALMOST */
+    size_t almosts;           /* nearly conserved quantities that the search met: at most NH_MOST_ALMOST */
     nh_near_current *almost;
     const struct nh_explicit_motion *motion; /* as formulas (search/explicit_motion.h); NULL: none is known */
     size_t integrals;         /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
