@@ -1,9 +1,11 @@
 /* Attempts to break the count: other points and primes, plateaus, systems that fall apart, related functions, leaves, and brute force. */
 #include <criterion/criterion.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "exact/residue_matrix.h"
 #include "integrals/count_internal.h"
+#include "problem/analysis_file.h"
 #include "names.h"
 
 static nh_model *model_of(nh_system *s)
@@ -214,4 +216,42 @@ Test(breaks, flat_systems_agree_with_brute_force)
     }
     nh_count space = count_text("name: f\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n", 2);
     cr_expect_eq(space.row[1].bound, kernel_of_free_motion(3, 2));
+}
+
+/* One coordinate and time; the currents of `known`, said to have so many independent ones among them: of how many does the count know at degree 1, with 1? */
+static size_t known_at_one(const char *lagrangian, const char *known, size_t independent)
+{
+    char *text = nh_alloc(4096);
+    snprintf(text, 4096, "name: n\ncoordinates: [x]\ndomain: {t: [0.5, 1.5]}\nlagrangian: %s\nknown:\n  currents:\n%s", lagrangian, known);
+    nh_error error = {0};
+    nh_system *s = system_of(text);
+    nh_model *o = model_of(s);
+    nh_ex phi[8];
+    size_t n = 0;
+    for (; n < s->currents; n++) cr_assert(nh_analysis_file_to_chart(o, s->current[n].value, &phi[n], &error), "%s", error.what);
+    nh_count_question q = {.time = true, .degree = 1, .work = 1e9, .known = n, .current = phi, .independent = independent};
+    nh_count c = nh_count_integrals(o, &q);
+    cr_assert_null(c.obstacle, "%s", c.obstacle);
+    cr_expect_eq(c.row[0].bound, 3); /* 1 and two linear ones */
+    nh_model_free(o);
+    nh_system_free(s);
+    nh_free(text);
+    return c.row[0].known;
+}
+
+#define CURRENT(name, expr) "    - {name: " name ", expr: \"" expr "\"}\n"
+
+/* Named functions stand for any solution of their equation. */
+Test(count_breaks, named_functions_that_are_related)
+{
+    const char *spring = "x'^2/2 - t*x^2/2", *two = CURRENT("A", "x'*airy_ai(-t) + x*airy_ai_prime(-t)") CURRENT("B", "x'*airy_bi(-t) + x*airy_bi_prime(-t)");
+    cr_expect_eq(known_at_one(spring, two, 2), 3);
+    cr_expect_eq(known_at_one(spring, two, 0), 1); /* nobody says that they are independent */
+    /* sqrt(pi t/2) J_1/2(t) = sin(t); other solutions are independent of it. */
+    const char *same = CURRENT("A", "sqrt(t)*(x'*bessel_j(1/2, t) - x*bessel_j_prime(1/2, t)) - x*bessel_j(1/2, t)/(2*sqrt(t))") CURRENT("B", "x'*sin(t) - x*cos(t)");
+    cr_expect_eq(known_at_one("x'^2/2 - x^2/2", same, 1), 2);
+    /* exp(t) 1F1(1, 1, -2 t) = exp(-t), of which x'' = x holds, but not of another solution. */
+    cr_expect_eq(known_at_one("x'^2/2 + x^2/2", CURRENT("A", "(x'*hyp1f1(1, 1, -2*t) + 2*x*hyp1f1_prime(1, 1, -2*t) - x*hyp1f1(1, 1, -2*t))*exp(t)"), 1), 1);
+    /* The determinant of Wronski is in the formula, and of other solutions it is another number: pi (A B' - A' B) = 1. */
+    cr_expect_eq(known_at_one(spring, CURRENT("A", "(x'*airy_ai(-t) + x*airy_ai_prime(-t))*(1 + pi*(airy_ai(-t)*airy_bi_prime(-t) - airy_ai_prime(-t)*airy_bi(-t)))"), 1), 2);
 }

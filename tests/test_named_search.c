@@ -116,6 +116,7 @@ Test(named_search, rolling_disk, .timeout = 120)
         cr_assert(!strstr(text, "gauss_f") || strstr(text, "gauss_f(1, m*C*r^2/(A*(C + m*r^2)), 1, "), "%s", text);
         nh_free(text);
     }
+    cr_assert(r->completeness[NH_COMPLETE_IN_COORDINATES].degree >= 2 && r->completeness[NH_COMPLETE_IN_COORDINATES].generic, "they are all of degree 2");
     expect_named(r, 3, "gauss_f", 2);
 }
 

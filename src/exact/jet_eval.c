@@ -243,6 +243,29 @@ static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
     }
 }
 
+/* f'' = P f' + Q f: E(f) = f' E(u) and E(f') = f'' E(u), which are right to one order more each time. */
+static void solution(nh_jet_eval *v, nh_ex e, nh_residue *out)
+{
+    const nh_jet_ring *r = v->ring;
+    const nh_jet_kernel *k = nh_jet_point_solution(v->point, e);
+    const nh_residue *u = v->value[nh_child(v->dag, e, nh_arity(v->dag, e) - 1)];
+    nh_residue *f = nh_alloc_array(3 * r->size, sizeof *f), *prime = f + r->size, *second = prime + r->size;
+    nh_jet_constant(r, k->value, f);
+    nh_jet_constant(r, k->sine, prime);
+    for (size_t order = 0; order < r->order; order++) {
+        nh_jet_mul(r, v->value[k->P], prime, second);
+        nh_jet_add_product(r, second, v->value[k->Q], f);
+        nh_jet_integral(r, u, prime, k->value, out);
+        memcpy(f, out, r->size * sizeof *f);
+        nh_jet_integral(r, u, second, k->sine, out);
+        memcpy(prime, out, r->size * sizeof *prime);
+    }
+    memcpy(out, e == k->key ? f : prime, r->size * sizeof *out);
+    nh_free(f);
+}
+
+static bool is_solution(const nh_jet_eval *v, nh_ex e) { return nh_kind_of(v->dag, e) == NH_FUNCTION && nh_is_named_function(nh_function_of(v->dag, e)); }
+
 static void compute(nh_jet_eval *v, nh_ex e)
 {
     nh_residue *out = room(v, e);
@@ -255,7 +278,9 @@ static void compute(nh_jet_eval *v, nh_ex e)
         switch (nh_function_of(v->dag, e)) {
         case NH_SIN: case NH_COS: case NH_TAN: circular(v, e, out); break;
         case NH_EXP: case NH_SINH: case NH_COSH: case NH_TANH: exponential(v, e, out); break;
-        default: primitive(v, e, out); break;
+        default:
+            if (is_solution(v, e)) solution(v, e, out);
+            else primitive(v, e, out);
         }
     }
     v->varies[e] = false;
@@ -265,6 +290,18 @@ static void compute(nh_jet_eval *v, nh_ex e)
     v->changing[v->changes++] = e;
 }
 
+/* What has to be known before e, one after another; false behind the last. */
+static bool operand(nh_jet_eval *v, nh_ex e, size_t i, nh_ex *out)
+{
+    nh_kind kind = nh_kind_of(v->dag, e);
+    size_t arity = kind == NH_NUMBER || kind == NH_SYMBOL ? 0 : nh_arity(v->dag, e);
+    if (i < arity) *out = nh_child(v->dag, e, i);
+    if (i < arity || !is_solution(v, e) || i > arity + 1) return i < arity;
+    const nh_jet_kernel *k = nh_jet_point_solution(v->point, e);
+    *out = i == arity ? k->P : k->Q;
+    return true;
+}
+
 /* e and what it is made of, operands first. */
 static void compute_all(nh_jet_eval *v, nh_ex e)
 {
@@ -272,11 +309,9 @@ static void compute_all(nh_jet_eval *v, nh_ex e)
     nh_grow(&v->stack, &v->stack_capacity, 1, sizeof *v->stack);
     v->stack[depth++] = e;
     while (depth && !v->unlucky) {
-        nh_ex top = v->stack[depth - 1];
-        nh_kind kind = nh_kind_of(v->dag, top);
-        size_t before = depth, arity = v->value[top] || kind == NH_NUMBER || kind == NH_SYMBOL ? 0 : nh_arity(v->dag, top);
-        for (size_t i = 0; i < arity; i++) {
-            nh_ex child = nh_child(v->dag, top, i);
+        nh_ex top = v->stack[depth - 1], child = top;
+        size_t before = depth;
+        for (size_t i = 0; !v->value[top] && operand(v, top, i, &child); i++) {
             if (v->value[child]) continue;
             nh_grow(&v->stack, &v->stack_capacity, depth + 1, sizeof *v->stack);
             v->stack[depth++] = child;

@@ -5,6 +5,8 @@
 
 #include "base/memory.h"
 #include "exact/kernel.h"
+#include "graph/diff.h"
+#include "graph/named_function.h"
 #include "graph/num_long.h"
 
 static const uint64_t most_order = (uint64_t)1 << 40; /* of the common denominator of the multiples of one atom */
@@ -74,6 +76,31 @@ static bool note_parts(nh_jet_point *x, nh_jet_kernel_kind kind, nh_ex argument)
     return !x->obstacle;
 }
 
+/* f of f and of f' */
+static nh_ex base_of(nh_dag *dag, nh_ex e)
+{
+    nh_ex argument[NH_MOST_ARGUMENTS];
+    for (size_t i = 0; i < nh_arity(dag, e); i++) argument[i] = nh_child(dag, e, i);
+    return nh_call_any(dag, nh_named_function_base(nh_function_of(dag, e)), argument);
+}
+
+/* The right side of f'' = P f' + Q f is linear in f and f'. */
+static bool note_solution(nh_jet_point *x, nh_ex e)
+{
+    nh_dag *dag = x->dag;
+    nh_ex f = base_of(dag, e), prime, second, zero = nh_int(dag, 0), one = nh_int(dag, 1);
+    size_t last = nh_arity(dag, f) - 1;
+    if (find(x, NH_JET_SOLUTION, f)) return true;
+    prime = nh_named_function_rate(dag, f, last);
+    second = nh_named_function_rate(dag, prime, last);
+    nh_ex P = nh_substitute(dag, second, 2, (nh_ex[]){f, prime}, (nh_ex[]){zero, one});
+    nh_ex Q = nh_substitute(dag, second, 2, (nh_ex[]){f, prime}, (nh_ex[]){one, zero});
+    if (!note(x, NH_JET_SOLUTION, f, 1)) return false;
+    x->kernel[x->kernels - 1].P = P;
+    x->kernel[x->kernels - 1].Q = Q;
+    return nh_jet_point_register(x, 2, (nh_ex[]){P, Q});
+}
+
 static bool note_function(nh_jet_point *x, nh_ex e)
 {
     switch (nh_function_of(x->dag, e)) {
@@ -84,7 +111,10 @@ static bool note_function(nh_jet_point *x, nh_ex e)
         if (x->pieces++) x->obstacle = "several functions that are defined piece by piece";
         return note(x, NH_JET_FREE, e, 1);
     case NH_ASIN: case NH_ACOS: case NH_ASINH: case NH_ACOSH: case NH_ATAN: case NH_ATANH: case NH_LOG: case NH_ATAN2: case NH_PI: return note(x, NH_JET_FREE, e, 1);
-    default: x->obstacle = "a function whose power series modulo a prime are not built in (Bessel, Legendre, ...)"; return false;
+    default:
+        if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) && nh_function_of(x->dag, e) < NH_ELLIPTIC_K) return note_solution(x, e);
+        x->obstacle = "a function whose power series modulo a prime are not built in (Bessel, Legendre, ... in the equations of motion)";
+        return false;
     }
 }
 
@@ -222,4 +252,11 @@ nh_residue nh_jet_point_free_value(nh_jet_point *x, nh_ex primitive)
     nh_jet_kernel *k = find(x, NH_JET_FREE, primitive);
     if (!k->chosen) k->value = nh_residue_random(x->field, &x->random), k->chosen = true;
     return k->value;
+}
+
+const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *x, nh_ex f)
+{
+    nh_jet_kernel *k = find(x, NH_JET_SOLUTION, base_of(x->dag, f));
+    if (!k->chosen) k->value = nh_residue_random(x->field, &x->random), k->sine = nh_residue_random(x->field, &x->random), k->chosen = true;
+    return k;
 }

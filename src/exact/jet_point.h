@@ -8,6 +8,7 @@
  *     roots        of one radicand: powers of one root; square roots are squares themselves, so that sqrt(a b) = sqrt(a) sqrt(b)
  *     |u|          u or -u, whichever is a square; only one such kernel
  *     log, asin, atan, atan2, asinh, ..    any residue each
+ *     f, f' where f'' = P f' + Q f         any residue each, where `solutions` is set: they stand for any solution of the equation, not for f
  *
  * Arguments have to be canonical (nh_form_rewrite).  There are no other relations when the atoms of exp and the logarithms have derivatives that
  * are linearly independent over Q, and so have the atoms of sin and cos with the inverse trigonometric functions [Ax1971]:
@@ -18,14 +19,15 @@
 #include "graph/dag.h"
 #include "exact/residue.h"
 
-typedef enum { NH_JET_CIRCLE, NH_JET_EXPONENTIAL, NH_JET_ROOT, NH_JET_FREE } nh_jet_kernel_kind;
+typedef enum { NH_JET_CIRCLE, NH_JET_EXPONENTIAL, NH_JET_ROOT, NH_JET_FREE, NH_JET_SOLUTION } nh_jet_kernel_kind;
 
 typedef struct {
     nh_jet_kernel_kind kind;
     nh_ex key;             /* atom, radicand, or the primitive itself */
     uint64_t order;        /* the kernel is of key/order, or the order of the root */
     bool chosen;
-    nh_residue value, sine; /* of exp, the root, the primitive, or cos and sin */
+    nh_residue value, sine; /* of exp, the root, the primitive, or cos and sin, or f and f' */
+    nh_ex P, Q;            /* of f */
 } nh_jet_kernel;
 
 typedef struct {
@@ -35,6 +37,7 @@ typedef struct {
     nh_jet_kernel *kernel;
     size_t kernels, capacity;
     size_t pieces;          /* kernels |u| */
+    bool solutions;         /* named functions may be noted (graph/named_function.h) */
     const char *obstacle;   /* why expressions cannot be followed, or NULL */
 } nh_jet_point;
 
@@ -54,5 +57,7 @@ bool nh_jet_point_root(nh_jet_point *point, nh_ex radicand, nh_residue value, nh
 bool nh_jet_point_circle(nh_jet_point *point, nh_ex argument, nh_residue *sine, nh_residue *cosine);
 bool nh_jet_point_exponential(nh_jet_point *point, nh_ex argument, nh_residue *out);
 nh_residue nh_jet_point_free_value(nh_jet_point *point, nh_ex primitive);
+/* The kernel of f, for f and for f', with its residues chosen. */
+const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *point, nh_ex f);
 
 #endif

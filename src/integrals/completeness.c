@@ -21,7 +21,7 @@ static void read_rows(nh_completeness *c, bool all)
 static bool holds_generically(const nh_model *model, const nh_completeness_question *q, const nh_completeness *c)
 {
     if (!model->system->parameters || !q->general || !c->degree) return false;
-    nh_count_question question = {.time = c->count.time, .generic = true, .degree = c->degree, .work = q->work, .memory = q->memory, .known = q->known, .current = q->current};
+    nh_count_question question = {.time = c->count.time, .generic = true, .degree = c->degree, .work = q->work, .memory = q->memory, .known = q->known, .independent = q->independent, .current = q->current};
     nh_completeness generic = {.count = nh_count_integrals(model, &question)};
     read_rows(&generic, q->all);
     return !generic.count.obstacle && generic.degree == c->degree && generic.linear >= c->linear;
@@ -41,7 +41,7 @@ void nh_completeness_of(const nh_model *model, const nh_completeness_question *q
         if (q->again && kind != (out[NH_COMPLETE_IN_COORDINATES].counted ? NH_COMPLETE_IN_COORDINATES : NH_COMPLETE_IN_TIME)) continue;
         size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);
         nh_count_question question = {.time = kind == NH_COMPLETE_IN_TIME, .degree = q->degree ? q->degree : chosen, .work = q->work,
-                                      .memory = q->memory, .known = q->known, .current = q->current};
+                                      .memory = q->memory, .known = q->known, .independent = q->independent, .current = q->current};
         *c = (nh_completeness){.counted = true, .count = nh_count_integrals(model, &question)};
         if (kind == NH_COMPLETE_IN_COORDINATES && c->count.time) {
             *c = (nh_completeness){0};

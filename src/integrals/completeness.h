@@ -27,6 +27,7 @@ typedef struct {
 typedef struct {
     size_t known;
     const nh_ex *current;
+    size_t independent;     /* of these */
     bool general;           /* all of them hold for all parameters */
     bool all;               /* there can be no more functionally independent ones */
     bool again;             /* only the kind that comes first, for the parameters' values: the rest is as it was */

@@ -22,6 +22,7 @@ typedef struct {
     double work;            /* products of residues */
     size_t known;
     const nh_ex *current;
+    size_t independent;      /* of these */
 } nh_construct_question;
 
 typedef struct {

@@ -94,6 +94,15 @@ void nh_count_differentials_clear(nh_differentials *all, nh_differentials *known
 
 typedef enum { COUNTED, UNLUCKY, TOO_MUCH } outcome;
 
+/* Residues stand for any solutions of the equations of named functions.  Where they show more independent functions than there are, the functions meant are
+ * related in ways that other solutions are not. */
+static bool shows_too_many(const nh_counter *c, const nh_count_row *row)
+{
+    bool named = false;
+    for (size_t k = 0; k < c->known; k++) named |= c->named[k];
+    return named && row->known_rank > c->q->independent;
+}
+
 static void read_totals(const nh_counter *c, const size_t *total, size_t from, nh_count_row *out)
 {
     size_t order = out->order, same = order;
@@ -122,6 +131,7 @@ static outcome count_at(nh_counter *c, size_t degree, size_t order, nh_count_row
     out->known_rank = nh_count_rank(&known, s->ring->field);
     out->degree = degree;
     out->order = order;
+    if (result == COUNTED && shows_too_many(c, out)) c->unnamed = true, result = UNLUCKY; /* another point, without them */
     read_totals(c, total, from, out);
     nh_count_differentials_clear(&all, &known);
     nh_free(total);
@@ -201,6 +211,16 @@ static bool is_current(const nh_jet_equations *x, nh_ex e)
     return good;
 }
 
+static bool has_named(const nh_dag *dag, nh_ex e)
+{
+    enum { most = 256 };
+    nh_ex call[most];
+    size_t n = nh_functions_in(dag, e, call, most);
+    bool found = n == most;
+    for (size_t i = 0; i < n && !found; i++) found = nh_is_named_function(nh_function_of(dag, call[i]));
+    return found;
+}
+
 /* Those that can be followed; what one of them stumbles over is no obstacle for the equations. */
 static void register_known(nh_counter *c)
 {
@@ -208,7 +228,10 @@ static void register_known(nh_counter *c)
     for (size_t k = 0; k < c->q->known; k++) {
         nh_ex e = c->q->current[k];
         size_t kernels = x->point->kernels;
-        bool good = is_current(x, e) && nh_jet_equations_take(x, false, &e) && (x->point->kernels == kernels || !nh_jet_equations_related(x, nh_prime_at(0)));
+        bool named = has_named(x->dag, e), good = is_current(x, e) && (!named || c->q->independent);
+        if (named && good) c->rate[c->known] = nh_model_gamma(x->model, e);
+        x->point->solutions = true;
+        good = good && nh_jet_equations_take(x, false, &e) && (!named || nh_jet_equations_take(x, false, &c->rate[c->known])) && (x->point->kernels == kernels || !nh_jet_equations_related(x, nh_prime_at(0)));
         nh_ex *slope = c->slope + c->known * x->n;
         for (size_t i = 0; i < x->n && good; i++) {
             slope[i] = nh_diff(x->dag, e, x->w[i]);
@@ -216,6 +239,7 @@ static void register_known(nh_counter *c)
         }
         if (good) {
             c->index[c->known] = k;
+            c->named[c->known] = named;
             c->current[c->known++] = e;
         }
         if (!good) x->obstacle = x->point->obstacle = NULL, x->point->kernels = kernels;
@@ -229,6 +253,8 @@ void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_questi
     c->degree = nh_alloc_array(question->known + 1, sizeof *c->degree);
     c->index = nh_alloc_array(question->known + 1, sizeof *c->index);
     c->failed = nh_alloc_array(question->known + 1, sizeof *c->failed);
+    c->named = nh_alloc_array(question->known + 1, sizeof *c->named);
+    c->rate = nh_alloc_array(question->known + 1, sizeof *c->rate);
     c->slope = nh_alloc_array(question->known * model->n + 1, sizeof *c->slope);
     if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_prime_at(0))) c->equations->obstacle = "functions that may be related to each other";
     if (!c->equations->obstacle) register_known(c);
@@ -239,6 +265,8 @@ void nh_counter_close(nh_counter *c)
     nh_adapted_frame_free(c->frame);
     nh_jet_equations_free(c->equations);
     nh_free(c->slope);
+    nh_free(c->rate);
+    nh_free(c->named);
     nh_free(c->failed);
     nh_free(c->index);
     nh_free(c->degree);

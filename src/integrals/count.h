@@ -56,6 +56,7 @@ typedef struct {
     double work;            /* products of residues, about 5e8 a second */
     size_t known;
     const nh_ex *current;   /* integrals in t, q, w: what is not polynomial in the velocities is left out */
+    size_t independent;     /* how many of them are known to be, as functions; those with named functions are left out when residues show more */
 } nh_count_question;
 
 /* Products of integrals that are linearly dependent: exponents of the question's integrals, products of lower degree first, the last one the leading one. */

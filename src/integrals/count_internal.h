@@ -13,6 +13,9 @@ typedef struct {
     size_t *index;           /* which of the question's they are */
     size_t *failed;          /* at how many points they could not be evaluated */
     nh_ex *current, *slope;  /* slope: d current/d w, n each */
+    bool *named;             /* with named functions, which stand for any solutions of their equations */
+    nh_ex *rate;             /* Gamma of these: it has to vanish for every such solution */
+    bool unnamed;            /* they are left out */
     double work;
 } nh_counter;
 

@@ -8,6 +8,23 @@ enum { most_failures = 40 };
 
 /* ---- known integrals ---- */
 
+/* Is a current with named functions one for every solution of their equations?  Relations between two functions may be in the formula that was proved. */
+static bool is_kept(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, size_t k, bool *good)
+{
+    nh_jet_equations *x = c->equations;
+    uint64_t random = 815;
+    nh_residue *w = nh_alloc_array(x->n + 1, sizeof *w), *series = nh_alloc_array(ring->size, sizeof *series);
+    nh_jet_eval *v = nh_jet_equations_eval(x, ring, coordinate);
+    for (size_t i = 0; i < x->n; i++) w[i] = nh_residue_random(ring->field, &random);
+    nh_jet_equations_velocities(x, v, ring, w);
+    *good = nh_jet_eval_all(v, 1, &c->rate[k], series);
+    bool kept = !*good || series[0] == 0;
+    nh_jet_eval_free(v);
+    nh_free(series);
+    nh_free(w);
+    return kept;
+}
+
 /* Values along the line w = a + s b for s = 0 .. count - 1, as differences: the degree is the last that is not zero. */
 static bool line_degree(nh_counter *c, const nh_jet_ring *ring, const nh_residue *coordinate, nh_ex e, size_t *degree)
 {
@@ -41,6 +58,8 @@ static void move_known(nh_counter *c, size_t to, size_t from)
     size_t n = c->equations->n;
     c->failed[to] = c->failed[from];
     c->index[to] = c->index[from];
+    c->named[to] = c->named[from];
+    c->rate[to] = c->rate[from];
     c->current[to] = c->current[from];
     memmove(c->slope + to * n, c->slope + from * n, n * sizeof *c->slope);
 }
@@ -56,8 +75,9 @@ bool nh_count_take_known(nh_counter *c)
     bool good = true;
     size_t kept = 0;
     for (size_t k = 0; k < c->known && good; k++) {
-        size_t degree;
-        good = line_degree(c, ring, x->at, c->current[k], &degree);
+        size_t degree = 0;
+        if (c->named[k] && (c->unnamed || !is_kept(c, ring, x->at, k, &good))) continue;
+        good = good && line_degree(c, ring, x->at, c->current[k], &degree);
         bool hopeless = !good && ++c->failed[k] > most_failures;
         good |= hopeless;
         if (hopeless) continue;

@@ -59,9 +59,9 @@ void nh_agreement_find(nh_analysis *r)
     nh_error ignored;
     nh_error_clear(&ignored);
     bool general;
-    size_t room = r->count + r->furthers + 1, *degree = nh_alloc_array(room, sizeof *degree);
+    size_t independent, room = r->count + r->furthers + 1, *degree = nh_alloc_array(room, sizeof *degree);
     nh_ex *phi = nh_alloc_array(room, sizeof *phi), *product = nh_alloc_array(most + 1, sizeof *product);
-    size_t n = nh_counted_proved(r, phi, &general), kept = 0;
+    size_t n = nh_counted_proved(r, phi, &general, &independent), kept = 0;
     for (size_t k = 0; k < n; k++) {
         bool timely = false;
         double own = nh_counted_degree(r->model, 1, &(nh_family){.kind = NH_TERMS, .terms = 1, .term = &phi[k]}, &timely);

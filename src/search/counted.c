@@ -83,10 +83,11 @@ double nh_counted_degree(const nh_model *o, size_t families, const nh_family *fa
 
 /* ---- the count ---- */
 
-size_t nh_counted_proved(const nh_analysis *r, nh_ex *phi, bool *general)
+size_t nh_counted_proved(const nh_analysis *r, nh_ex *phi, bool *general, size_t *independent)
 {
     size_t n = 0;
     *general = true;
+    *independent = 0;
     for (size_t k = 0; k < r->furthers; k++) {
         phi[n++] = r->further[k].current.phi;
         *general &= r->further[k].current.proof.all_parameters;
@@ -95,6 +96,7 @@ size_t nh_counted_proved(const nh_analysis *r, nh_ex *phi, bool *general)
         if (!r->found[k].proof.proved || r->found[k].series) continue;
         phi[n++] = r->found[k].phi;
         *general &= r->found[k].proof.all_parameters;
+        *independent += r->found[k].independence == NH_INDEPENDENT;
     }
     return n;
 }
@@ -117,7 +119,7 @@ static news look_for_news(nh_counted *x, size_t degree, size_t kind)
     if (nh_counted_has_walls(r->model)) return UNKNOWN;
     nh_ex *phi = nh_alloc_array(r->count + r->furthers + 1, sizeof *phi);
     nh_count_question q = {.time = kind == NH_COMPLETE_IN_TIME, .alone = true, .degree = degree, .work = r->options.count_work, .memory = r->counted, .current = phi};
-    q.known = nh_counted_proved(r, phi, &general);
+    q.known = nh_counted_proved(r, phi, &general, &q.independent);
     nh_count c = nh_count_integrals(r->model, &q);
     nh_free(phi);
     if (c.obstacle || !c.rows || c.leaf || c.time != q.time) return UNKNOWN;

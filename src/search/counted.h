@@ -30,7 +30,7 @@ bool nh_counted_covers(nh_counted *counted, size_t degree, bool timely);
 /* Is there a kink or a jump in the equations of motion? */
 bool nh_counted_has_walls(const nh_model *model);
 
-/* The currents that are proved, in closed form; out: room for all of them.  `general`: they hold for all parameters. */
-size_t nh_counted_proved(const nh_analysis *result, nh_ex *out, bool *general);
+/* The currents that are proved, in closed form; out: room for all of them.  `general`: they hold for all parameters; `independent`: how many are. */
+size_t nh_counted_proved(const nh_analysis *result, nh_ex *out, bool *general, size_t *independent);
 
 #endif

@@ -22,7 +22,7 @@ static void count(nh_analysis *r, bool again)
     nh_completeness_question q = {.current = phi, .all = r->search == NH_SEARCH_COMPLETE, .again = again, .degree = (size_t)r->options.degree,
                                 .work = r->options.count_work, .memory = r->counted};
     nh_progress("how many integrals there are", -1);
-    q.known = nh_counted_proved(r, phi, &q.general);
+    q.known = nh_counted_proved(r, phi, &q.general, &q.independent);
     nh_completeness_of(r->model, &q, r->completeness);
     if (nh_late()) memset(r->completeness, 0, sizeof r->completeness);
     nh_free(phi);
@@ -136,7 +136,7 @@ static bool construct_at(search *s, const nh_completeness *c, bool further, bool
     nh_ex *phi = nh_alloc_array(most_proved(r), sizeof *phi);
     bool general, found = false;
     nh_construct_question q = {.time = c->count.time, .further = further, .secular = secular, .degree = degree, .price = price, .most_words = (size_t)r->options.words, .work = s->work, .current = phi};
-    q.known = nh_counted_proved(r, phi, &general);
+    q.known = nh_counted_proved(r, phi, &general, &q.independent);
     nh_construction *x = nh_construct(r->model, &q);
     s->work -= x->work;
     for (size_t k = 0; k < x->count && !is_over(s, further); k++) found |= lift(s, degree, &x->item[k], further);
