@@ -75,7 +75,7 @@ Test(parameters_reduce, brackets_in_words_have_symbols)
 {
     place p = place_with_systems();
     finished f = run(&p, "reduce three_bodies");
-    cr_expect_not_null(strstr(f.out, "[e1,e4] = -(a + b)/a e2"), "%s", f.out);
+    cr_expect_not_null(strstr(f.out, "[e_1,e_4] = -(a + b)/a e_2"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);
 }
@@ -126,7 +126,8 @@ Test(parameters_reduce, a_density_says_for_which_values)
     write_here(&p, "own.yaml", knife);
     finished f = run(&p, "reduce own.yaml --html page.html"), other = run(&p, "reduce own.yaml --set k=2");
     char *page = read_here(&p, "page.html");
-    cr_expect_not_null(strstr(f.out, "density = sin(p)\n  the density holds for k = 1\n"), "%s", f.out);
+    cr_expect_not_null(strstr(f.out, "density = sin(p)\n"), "%s", f.out);
+    cr_expect_not_null(strstr(f.out, "the density holds for k = 1"), "%s", f.out);
     cr_expect_not_null(strstr(page, "density"));
     cr_expect_not_null(strstr(page, " for k = 1"));
     cr_expect_not_null(strstr(other.out, "no invariant measure"));
@@ -148,8 +149,8 @@ Test(parameters_reduce, equations_of_a_special_group_say_so)
     char *html = read_here(&p, "page.html");
     cr_expect_not_null(strstr(latex.out, "a group of symmetries for k = 1"), "%s%s", latex.out, latex.err);
     cr_expect_not_null(strstr(c.out, "a group of symmetries for k = 1"), "%s", c.out);
-    cr_expect_not_null(strstr(page.out, "(for k = 1)"), "%s", page.out);
-    cr_expect_not_null(strstr(html, " for k = 1</td>"));
+    cr_expect_not_null(strstr(page.out, " for k = 1;"), "%s", page.out);
+    cr_expect_not_null(strstr(html, " for k = 1;"));
     free(html);
     finished_clear(&latex);
     finished_clear(&c);

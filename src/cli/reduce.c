@@ -60,9 +60,7 @@ static void complain(const nh_reduction *r, double accuracy, nh_error *error)
 
 static void render(const nh_cli *cli, const void *result, const nh_run *run, nh_pen_form form, nh_text *out)
 {
-    (void)cli;
-    if (form == NH_PEN_PAGE) nh_html_reduction(result, run, out);
-    else nh_tex_reduction(result, run, out);
+    nh_reduction_write(result, cli->verbose, run, form, out);
 }
 
 int nh_cli_reduce(nh_cli *cli, nh_error *error)

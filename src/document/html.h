@@ -14,7 +14,6 @@
 #include "commands/robustness.h"
 
 void nh_html(const nh_analysis *result, nh_text *out);
-void nh_html_reduction(const nh_reduction *reduction, const nh_run *run, nh_text *out);
 
 /* The figures of a page one by one, each a stand-alone SVG document: where the next begins, NULL after the last.  Moves *at on. */
 const char *nh_html_next_figure(const char **at, size_t *length);

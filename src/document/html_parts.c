@@ -18,15 +18,21 @@ void nh_html_text(nh_html_writer *w, const char *text) { nh_escape_xml(text, w->
 void nh_html_prose(nh_html_writer *w, const char *text)
 {
     static const char *const raised[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
-    for (const char *c = text; *c; c++) {
+    for (const char *c = text; *c;) {
         const char *digit = c + 1 + (c[0] == '^' && c[1] == '-');
         if (*c != '^' || *digit < '0' || *digit > '9') {
-            nh_html_text(w, (const char[]){*c, 0});
+            size_t length = 1 + strcspn(c + 1, "^");
+            nh_text run;
+            nh_text_init(&run);
+            nh_text_add_n(&run, c, length);
+            nh_html_text(w, nh_text_string(&run));
+            nh_text_clear(&run);
+            c += length;
             continue;
         }
         if (c[1] == '-') nh_html_add(w, "\u207b");
         for (; digit[0] >= '0' && digit[0] <= '9'; digit++) nh_html_add(w, raised[*digit - '0']);
-        c = digit - 1;
+        c = digit;
     }
 }
 

@@ -47,6 +47,7 @@ static const struct {
     {"eps", {"eps", "<mi>\u03b5</mi>", "\\varepsilon"}},
     {"epsp", {"eps'", "<msup><mi>\u03b5</mi><mo>\u2032</mo></msup>", "\\varepsilon'"}},
     {"wedge", {" ^ ", "<mo>\u2227</mo>", "\\wedge "}},
+    {"supset", {">", "<mo>\u2283</mo>", "\\supset "}},
     {"Sigma", {"sum", "<mo>\u2211</mo>", "\\sum"}},
     {"pidot", {"pi'", "<mover accent=\"true\"><mi>\u03c0</mi><mo>\u02d9</mo></mover>", "\\dot{\\pi}"}},
     {"quad", {"   ", "<mspace width=\"1em\"></mspace>", "\\quad "}},

@@ -2,16 +2,25 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/memory.h"
+#include "document/formula.h"
+#include "document/notation.h"
+#include "graph/print.h"
 
 void nh_pen_begin(nh_pen *p, nh_pen_form form, const nh_pen_subject *s, const char *what, nh_text *out)
 {
     *p = (nh_pen){
         .page = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = INFINITY},
         .tex = {.out = out, .system = s->system, .analysis = s->analysis, .dag = s->dag, .chart = s->chart, .shown = s->shown, .written = INFINITY}};
-    p->ink = form == NH_PEN_PAGE ? &nh_pen_html : &nh_pen_tex;
-    p->to = form == NH_PEN_PAGE ? (void *)&p->page : (void *)&p->tex;
+    p->plain = (nh_plain_writer){.out = out, .of = *s};
+    static const nh_pen_ink *const ink[] = {&nh_pen_html, &nh_pen_tex, &nh_pen_plain};
+    void *const to[] = {&p->page, &p->tex, &p->plain};
+    p->ink = ink[form];
+    p->to = to[form];
     p->ink->begin(p->to, what);
 }
 
@@ -74,10 +83,14 @@ void nh_pen_close(nh_pen *p, nh_pen_part part) { p->ink->close(p->to, part); }
 
 static void plain(nh_pen *p, const char *from, const char *to)
 {
-    nh_text text;
+    nh_text text, part;
+    bool label;
     nh_text_init(&text);
     nh_text_add_n(&text, from, (size_t)(to - from));
-    if (text.length) p->ink->words(p->to, nh_text_string(&text));
+    for (const char *rest = nh_text_string(&text); nh_notation_next(&rest, &part, &label); nh_text_clear(&part)) {
+        if (label) p->ink->letters(p->to, nh_text_string(&part));
+        else p->ink->words(p->to, nh_text_string(&part));
+    }
     nh_text_clear(&text);
 }
 
@@ -140,11 +153,19 @@ void nh_pen_words(nh_pen *p, const char *format, ...)
     va_end(list);
 }
 
+void nh_pen_fact_begin(nh_pen *p, const char *name)
+{
+    nh_pen_open(p, NH_PEN_FACT, NULL, NULL);
+    nh_pen_open(p, NH_PEN_FACT_NAME, NULL, NULL);
+    plain(p, name, name + strlen(name));
+    nh_pen_close(p, NH_PEN_FACT_NAME);
+}
+
 void nh_pen_fact(nh_pen *p, const char *name, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    nh_pen_open(p, NH_PEN_FACT, NULL, name);
+    nh_pen_fact_begin(p, name);
     write_format(p, format, false, &list);
     nh_pen_close(p, NH_PEN_FACT);
     va_end(list);
@@ -182,3 +203,38 @@ void nh_pen_formula(nh_pen *p, const char *label, nh_ex e) { p->ink->formulas(p-
 bool nh_pen_is_name(const char *label) { return !label[strcspn(label, "\\{}<>[] =")]; }
 
 void nh_pen_plot(nh_pen *p, nh_plot *plot, const char *caption) { p->ink->plot(p->to, plot, caption); }
+
+void nh_pen_name(nh_pen *p, const char *name)
+{
+    char *label = nh_alloc_array(strlen(name) + 3, 1);
+    snprintf(label, strlen(name) + 3, "<%s>", name);
+    p->ink->letters(p->to, label);
+    nh_free(label);
+}
+
+/* c d/dx + ...: a coefficient that is a sum stands in parentheses. */
+void nh_pen_field(nh_pen *p, nh_dag *d, size_t n, const char *const *coordinate, const nh_ex *component)
+{
+    bool first = true;
+    for (size_t i = 0; i < n; i++) {
+        if (nh_is_zero(d, component[i])) continue;
+        char *text = nh_print_string(d, component[i]), label[200];
+        bool sum = nh_formula_is_sum(text), minus = !sum && text[0] == '-';
+        p->ink->words(p->to, first ? "" : " ");
+        if (minus || !first) p->ink->letters(p->to, minus ? "-" : "+");
+        p->ink->words(p->to, first ? "" : " ");
+        if (strcmp(text + minus, "1")) nh_pen_say(p, sum ? "(<%s>) " : "<%s> ", text + minus);
+        snprintf(label, sizeof label, "\\frac{\\p}{\\p<%.180s>}", coordinate[i]);
+        p->ink->letters(p->to, label);
+        nh_free(text);
+        first = false;
+    }
+}
+
+void nh_pen_sheet(nh_pen *p, nh_sheet *sheet)
+{
+    if (!sheet) return;
+    sheet->names = p->names;
+    p->ink->sheet(p->to, sheet);
+    p->names = sheet->names;
+}

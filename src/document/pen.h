@@ -1,17 +1,18 @@
-/* pen: a document written once, for a page and for LaTeX.
+/* pen: a document written once, for a page, for LaTeX and for a terminal.
  *
  * A document is a sequence of parts, which may hold parts; a part of words holds words, numbers, names and formulas.  A form of output is one
  * nh_pen_ink.  In formats, as of printf:  %s words; %zu and %ld a count; %.3g a number with so many digits; {%s} words with names in
- * parentheses, such as a chart has; <%s> a formula of the expression language.  In rows | ends a cell, and a cell that begins with # heads its row;
+ * parentheses, such as a chart has; <%s> a formula of the expression language; $..$ letters of the theory, as notation.h has them.  In rows | ends a cell, and a cell that begins with # heads its row;
  * one that begins with ! has its words as its kind, by which a page colours it. */
 #ifndef NH_PEN_H
 #define NH_PEN_H
 
 #include "document/html_internal.h"
+#include "document/sheet.h"
 #include "document/tex_internal.h"
 
 typedef enum { NH_PEN_SECTION, NH_PEN_CARD, NH_PEN_FOLD, NH_PEN_WORDS, NH_PEN_ANSWER, NH_PEN_WARNING, NH_PEN_HEADING, NH_PEN_FACTS, NH_PEN_FACT,
-               NH_PEN_ROW, NH_PEN_CELL, NH_PEN_ROW_HEAD, NH_PEN_KIND, NH_PEN_PARTS } nh_pen_part;
+               NH_PEN_FACT_NAME, NH_PEN_ROW, NH_PEN_CELL, NH_PEN_ROW_HEAD, NH_PEN_KIND, NH_PEN_PARTS } nh_pen_part;
 
 typedef struct {
     void (*begin)(void *to, const char *what);
@@ -24,9 +25,11 @@ typedef struct {
     void (*count)(void *to, size_t value);
     void (*names)(void *to, const char *words);
     void (*source)(void *to, const char *formula);
+    void (*letters)(void *to, const char *label);    /* in the language of notation.h */
     void (*equation)(void *to, const char *label, const char *formula); /* label = formula, as texts */
     /* What belongs together; labels are names, or in the language of notation.h. */
     void (*formulas)(void *to, size_t n, const char *const *label, const nh_ex *e);
+    void (*sheet)(void *to, nh_sheet *sheet);        /* its sections have headings below that of a card */
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
@@ -34,11 +37,11 @@ typedef struct {
     void (*system)(void *to, const nh_model *model); /* as it was written, and its equations; model may be NULL */
     void (*symmetry)(void *to, const nh_symmetry *symmetry); /* in words: its case, its bracket */
     void (*geometry)(void *to, nh_arena *arena, const struct nh_theory *theory);
-    void (*glossary)(void *to, const char *words);   /* what these words mean; not in LaTeX */
+    void (*glossary)(void *to, const char *words);   /* what these words mean; on pages only */
     void (*end)(void *to, const nh_run *run);
 } nh_pen_ink;
 
-typedef enum { NH_PEN_PAGE, NH_PEN_LATEX } nh_pen_form;
+typedef enum { NH_PEN_PAGE, NH_PEN_LATEX, NH_PEN_TEXT } nh_pen_form;
 
 /* What a document is about; formulas longer than `shown` are left out of it. */
 typedef struct {
@@ -49,15 +52,24 @@ typedef struct {
     double shown;
 } nh_pen_subject;
 
+/* Of a text for a terminal, whose lines are not folded yet. */
+typedef struct {
+    nh_text *out;
+    nh_pen_subject of;
+    size_t cells;            /* of the row, so far */
+} nh_plain_writer;
+
 typedef struct {
     const nh_pen_ink *ink;
     void *to;
     nh_html_writer page;
     nh_tex_writer tex;
+    nh_plain_writer plain;
+    size_t names;            /* of repeated parts in sheets, so far: one sequence for the document */
     bool section, card;      /* that are open */
 } nh_pen;
 
-extern const nh_pen_ink nh_pen_html, nh_pen_tex;
+extern const nh_pen_ink nh_pen_html, nh_pen_tex, nh_pen_plain;
 
 /* `pen` must stay where it is. */
 void nh_pen_begin(nh_pen *pen, nh_pen_form form, const nh_pen_subject *subject, const char *what, nh_text *out);
@@ -78,6 +90,11 @@ void nh_pen_close(nh_pen *pen, nh_pen_part part);
 void nh_pen_say(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));    /* into the open part */
 void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));  /* a paragraph */
 void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4))); /* of a list of facts */
+void nh_pen_fact_begin(nh_pen *pen, const char *name);                                          /* it ends by nh_pen_close */
+void nh_pen_name(nh_pen *pen, const char *name); /* of a coordinate, a velocity, .., within words */
+/* A field: the sum of its components times d/d(coordinate), within words. */
+void nh_pen_field(nh_pen *pen, nh_dag *dag, size_t n, const char *const *coordinate, const nh_ex *component);
+void nh_pen_sheet(nh_pen *pen, nh_sheet *sheet); /* NULL: nothing */
 void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void nh_pen_warning(nh_pen *pen, const char *text);
 void nh_pen_plot(nh_pen *pen, nh_plot *plot, const char *caption);

@@ -15,7 +15,8 @@ static const struct {
     [NH_PEN_WARNING] = {"<p class=\"warning\"><strong>Warning:</strong> ", NULL, "</p>\n"},
     [NH_PEN_HEADING] = {"", "<h3>", ""},
     [NH_PEN_FACTS] = {"<dl>\n", NULL, "</dl>\n"},
-    [NH_PEN_FACT] = {"", "<dt>", "</dd>\n"},
+    [NH_PEN_FACT] = {"", NULL, "</dd>\n"},
+    [NH_PEN_FACT_NAME] = {"<dt>", NULL, "</dt><dd>"},
     [NH_PEN_ROW] = {"<tr>", NULL, "</tr>\n"},
     [NH_PEN_CELL] = {"<td>", NULL, "</td>"},
     [NH_PEN_ROW_HEAD] = {"<th scope=\"row\">", NULL, "</th>"},
@@ -35,7 +36,7 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
     if (!title || !markup[part].titled) return;
     nh_html_add(to, markup[part].titled);
     nh_html_prose(to, title);
-    nh_html_add(to, part == NH_PEN_SECTION ? "</h2>\n" : part == NH_PEN_FOLD ? "</summary>\n" : part == NH_PEN_FACT ? "</dt><dd>" : "</h3>\n");
+    nh_html_add(to, part == NH_PEN_SECTION ? "</h2>\n" : part == NH_PEN_FOLD ? "</summary>\n" : "</h3>\n");
 }
 
 static void close(void *to, nh_pen_part part) { nh_html_add(to, markup[part].close); }
@@ -49,6 +50,14 @@ static void count(void *to, size_t value) { nh_html_count(to, value); }
 static void names(void *to, const char *text) { nh_html_chart_name(to, text); }
 
 static void source(void *to, const char *formula) { nh_html_source(to, formula); }
+
+static void letters(void *to, const char *label)
+{
+    nh_html_writer *w = to;
+    nh_html_add(w, "<math>");
+    nh_notation_write(label, NH_NOTATION_MATHML, w->out);
+    nh_html_add(w, "</math>");
+}
 
 static void equation(void *to, const char *label, const char *formula)
 {
@@ -73,6 +82,8 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
     nh_free(shown);
     nh_free(mathml);
 }
+
+static void sheet(void *to, nh_sheet *formulas_of) { nh_sheet_html(formulas_of, "h4", to); }
 
 static void table(void *to, const char *caption, const char *heads) { nh_html_table(to, caption, heads); }
 
@@ -106,6 +117,6 @@ static void end(void *to, const nh_run *run)
     nh_html_end(to);
 }
 
-const nh_pen_ink nh_pen_html = {begin, links, open, close, words, number, count, names, source, equation, formulas,
-                                table, table_end, plot, series, system_of, symmetry,
+const nh_pen_ink nh_pen_html = {begin, links, open, close, words, number, count, names, source, letters, equation, formulas,
+                                sheet, table, table_end, plot, series, system_of, symmetry,
                                 geometry, glossary, end};

@@ -18,7 +18,8 @@ static const struct {
     [NH_PEN_WARNING] = {"\\textbf{Warning:} ", NULL, "\n\n"},
     [NH_PEN_HEADING] = {"", "\\subsection*{", ""},
     [NH_PEN_FACTS] = {"", NULL, ""},
-    [NH_PEN_FACT] = {"", "\\par\\textit{", "\\par\n"},
+    [NH_PEN_FACT] = {"", NULL, "\\par\n"},
+    [NH_PEN_FACT_NAME] = {"\\par\\textit{", NULL, "}: "},
     [NH_PEN_ROW] = {"", NULL, "\\tabularnewline\n"},
     [NH_PEN_CELL] = {"", NULL, ""},
     [NH_PEN_ROW_HEAD] = {"", NULL, ""},
@@ -44,7 +45,7 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
     if (!title || !markup[part].titled) return;
     nh_tex_add(w, markup[part].titled);
     nh_tex_words(w, title);
-    nh_tex_add(w, part == NH_PEN_FACT ? "}: " : "}\n");
+    nh_tex_add(w, "}\n");
 }
 
 static void close(void *to, nh_pen_part part) { nh_tex_add(to, markup[part].close); }
@@ -67,6 +68,14 @@ static void source(void *to, const char *formula)
     nh_text_clear(&latex);
 }
 
+static void letters(void *to, const char *label)
+{
+    nh_tex_writer *w = to;
+    nh_tex_add(w, "$");
+    nh_notation_write(label, NH_NOTATION_LATEX, w->out);
+    nh_tex_add(w, "$");
+}
+
 static void equation(void *to, const char *label, const char *formula) { nh_tex_display(to, label, formula); }
 
 static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
@@ -83,6 +92,8 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
         nh_text_clear(&latex);
     }
 }
+
+static void sheet(void *to, nh_sheet *formulas_of) { nh_sheet_tex(formulas_of, "subsubsection", to); }
 
 /* Columns of equal width whose words are set ragged. */
 static void table(void *to, const char *caption, const char *heads)
@@ -141,6 +152,6 @@ static void end(void *to, const nh_run *run)
     nh_tex_add(to, "\\par\\endgroup\n\\end{document}\n");
 }
 
-const nh_pen_ink nh_pen_tex = {begin, links, open, close, words, number, count, names, source, equation, formulas,
-                                table, table_end, plot, series, system_of, symmetry,
+const nh_pen_ink nh_pen_tex = {begin, links, open, close, words, number, count, names, source, letters, equation, formulas,
+                               sheet, table, table_end, plot, series, system_of, symmetry,
                                 geometry, glossary, end};

@@ -1,11 +1,15 @@
-/* reduction: the result of `nhsym reduce` as text and as JSON (docs/formats.md). */
+/* reduction: the result of `nhsym reduce` as a document, as JSON and as equations for LaTeX (docs/formats.md). */
 #ifndef NH_REPORT_REDUCTION_H
 #define NH_REPORT_REDUCTION_H
 
 #include "base/text.h"
+#include "document/pen.h"
 #include "document/provenance.h"
 #include "commands/reduce.h"
 
+/* `run` may be NULL for a text. */
+void nh_reduction_write(const nh_reduction *reduction, bool verbose, const nh_run *run, nh_pen_form form, nh_text *out);
+/* The text, its lines folded. */
 void nh_reduction_text(const nh_reduction *reduction, bool verbose, nh_text *out);
 /* The document as a heap string (nh_free); `run` may be NULL. */
 char *nh_reduction_json(const nh_reduction *reduction, const nh_run *run);
@@ -23,15 +27,6 @@ size_t nh_reduction_equations(const nh_reduction *reduction, const nh_reduction_
 /* Those that are shown: without zeta_1 = zeta1, a velocity of the group that serves as one of the equations; and what the letters in them mean. */
 size_t nh_reduction_shown(const nh_reduction *reduction, const nh_reduction_stage *stage, const char ***label, nh_ex **value);
 const char *nh_reduction_letters(const nh_reduction *reduction, const nh_reduction_stage *stage);
-
-/* What text and LaTeX say of a stage, sentence by sentence: what it rests on, and after its equations measure, currents, chain and motions. */
-typedef struct {
-    void *to;
-    void (*words)(void *to, const char *words);
-    void (*formula)(void *to, const char *label, nh_ex value);
-} nh_reduction_pen;
-void nh_reduction_conditions(const nh_reduction_stage *stage, const nh_reduction_pen *pen);
-void nh_reduction_remarks(const nh_reduction *reduction, const nh_reduction_stage *stage, const nh_reduction_pen *pen);
 
 /* "Stage 3, in one step instead of stages 1 and 2": the first and the second one build on each other, what divides the whole group is an alternative. */
 const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);

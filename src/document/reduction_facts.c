@@ -58,10 +58,10 @@ const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage
     const char *p = shape ? "p: momenta of the shape; " : "";
     static const char group[] = "velocity of the group along its field a, in the body frame";
     switch (s->kind) {
-    case NH_STAGE_CHAPLYGIN: return nh_arena_printf(arena, s->shown->d ? "%szeta_a: %s" : "%s", s->shown->d ? p : "p: momenta of the shape", group);
-    case NH_STAGE_SECOND: return nh_arena_printf(arena, "%sm_a: momentum of the group, in the body frame, and v_a the velocity %sthat belongs to it; eta_a: %s", p, shape ? "eta_a + A x' " : "", group);
-    case NH_STAGE_QUOTIENT: return nh_arena_printf(arena, "zeta_a: %s", group);
-    default: return nh_arena_printf(arena, "%szeta_a, written zeta1, .. where it is one of the independent velocities: %s; mu_a: its momentum", p, group);
+    case NH_STAGE_CHAPLYGIN: return nh_arena_printf(arena, s->shown->d ? "%s$zeta_{a}$: %s" : "%s", s->shown->d ? p : "p: momenta of the shape", group);
+    case NH_STAGE_SECOND: return nh_arena_printf(arena, "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ the velocity %sthat belongs to it; $eta_{a}$: %s", p, shape ? "$eta_{a} + A <x'>$ " : "", group);
+    case NH_STAGE_QUOTIENT: return nh_arena_printf(arena, "$zeta_{a}$: %s", group);
+    default: return nh_arena_printf(arena, "%s$zeta_{a}$, written zeta1, .. where it is one of the independent velocities: %s; $mu_{a}$: its momentum", p, group);
     }
 }
 

@@ -5,12 +5,12 @@
 #include "commands/reduce.h"
 #include "document/sheet.h"
 
-/* Generators and brackets of a group. */
-nh_sheet *nh_reduction_group_sheet(const nh_reduction *reduction, const nh_group *group);
-/* The equations of a stage, with the fields that it divides out. */
+/* The brackets of a group's generators: one section. */
+nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *reduction, const nh_action *group);
+/* The equations of a stage: one section without a heading. */
 nh_sheet *nh_reduction_equations_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
-/* Conserved momenta of the group: one section. */
-nh_sheet *nh_reduction_momenta_sheet(const nh_reduction *reduction);
+/* Formulas that the remarks on a stage refer to, the density of its measure and the matrix of its linear momenta; NULL where there are none. */
+nh_sheet *nh_reduction_remarks_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
 /* NULL for stages without such objects, and where they were not asked for. */
 nh_sheet *nh_reduction_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
 

@@ -1,5 +1,4 @@
-/* What every reduction has, with or without its geometry: the group, the equations of a stage, the conserved momenta. */
-#include "document/facts.h"
+/* What every reduction has, with or without its geometry: the brackets of the group, the equations of a stage. */
 #include "document/reduction.h"
 #include "document/reduction_sheet.h"
 
@@ -8,13 +7,6 @@ static nh_sheet *sheet_of(const nh_reduction *r)
     nh_sheet *s = nh_sheet_create(r->arena, r->kinetic->dag);
     s->shown = r->options.shown;
     return s;
-}
-
-/* label = X^r d/dq^r */
-static void put_field(nh_sheet *s, const nh_kinetic *k, const char *label, const nh_ex *component)
-{
-    nh_sheet_sum(s, "", label);
-    for (size_t r = 0; r < k->m; r++) nh_sheet_add(s, component[r], nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", k->name[r]));
 }
 
 static void put_brackets(nh_sheet *s, const nh_action *g)
@@ -33,20 +25,12 @@ static void put_brackets(nh_sheet *s, const nh_action *g)
         }
 }
 
-nh_sheet *nh_reduction_group_sheet(const nh_reduction *r, const nh_group *g)
+nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *r, const nh_action *g)
 {
     nh_sheet *s = sheet_of(r);
-    const char *name = nh_sheet_label(s, "%s: %s, dimension %zu%s", g->given ? "Group given" : g->local ? "Symmetry group, locally" : "Symmetry group", g->name,
-                                      g->action.d + g->missing, nh_reduction_globally(r, g));
-    nh_sheet_begin(s, "group", name, "Generators, and brackets of the Lie algebra; those that are not listed vanish.");
-    for (size_t a = 0; a < g->action.d; a++) {
-        const nh_generator *e = &g->action.generator[a];
-        put_field(s, r->kinetic, nh_sheet_label(s, "e_{%zu}", a + 1), e->component);
-        nh_proof proof = nh_generator_proof(r->kinetic, e);
-        const char *holds = proof.all_parameters ? "" : proof.proved ? nh_facts_holds(r->kinetic->model, &proof, false) : " to rounding";
-        if (e->local || *holds) nh_sheet_words(s, nh_sheet_label(s, "$e_{%zu}$ is a symmetry%s%s.", a + 1, holds, e->local ? ", locally: many-valued on an angle" : ""));
-    }
-    put_brackets(s, &g->action);
+    nh_sheet_begin(s, "brackets", "", "");
+    put_brackets(s, g);
+    s->section->words = s->section->lines ? "Brackets of the Lie algebra; those that are not listed vanish." : "All brackets vanish.";
     return s;
 }
 
@@ -56,23 +40,22 @@ nh_sheet *nh_reduction_equations_sheet(const nh_reduction *r, const nh_reduction
     nh_ex *value;
     size_t n = nh_reduction_shown(r, stage, &label, &value);
     nh_sheet *s = sheet_of(r);
-    nh_sheet_begin(s, "divided", "Divided out", "");
-    for (size_t a = 0; a < stage->action->d; a++) put_field(s, stage->action->kinetic, nh_sheet_label(s, "e_{%zu}", a + 1), stage->action->generator[a].component);
-    nh_sheet_begin(s, "reduced_equations", "Reduced equations", nh_sheet_label(s, "%s.", nh_reduction_letters(r, stage)));
+    nh_sheet_begin(s, "reduced_equations", "", "");
     for (size_t i = 0; i < n; i++) nh_sheet_formula(s, nh_sheet_label(s, "<%s>", label[i]), value[i]);
+    nh_sheet_words(s, nh_sheet_label(s, "(%s)", nh_reduction_letters(r, stage)));
     return s;
 }
 
-nh_sheet *nh_reduction_momenta_sheet(const nh_reduction *r)
+nh_sheet *nh_reduction_remarks_sheet(const nh_reduction *r, const nh_reduction_stage *stage)
 {
+    const nh_chaplygin_measure *m = &stage->measure;
+    const nh_linear_momenta *l = &stage->linear;
     nh_sheet *s = sheet_of(r);
-    nh_sheet_begin(s, "momenta", "Conserved momenta of the group", r->momenta.count ? "" : "None is conserved, among the sections of the search.");
-    for (size_t i = 0; i < r->momenta.count; i++) {
-        const nh_momentum *p = &r->momenta.momentum[i];
-        const char *holds = p->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &p->proof, false);
-        nh_sheet_words(s, nh_sheet_label(s, "A %s $xi$ (%s%s%s):", nh_reduction_momentum_kind(p), p->proof.proved ? "proved" : "to rounding", holds, p->local ? "; local: many-valued on an angle" : ""));
-        put_field(s, r->kinetic, "xi", p->field);
-        nh_sheet_formula(s, nh_sheet_label(s, "<%s>", nh_reduction_momentum_name(r, p)), p->value);
+    nh_sheet_begin(s, "remarks", "", "");
+    if (m->tested && m->measure && m->closed) nh_sheet_formula(s, "<density>", m->density);
+    for (size_t a = 0; a < l->count * l->count; a++) {
+        const char *label = nh_sheet_label(s, "N_{%zu,%zu}", a / l->count + 1, a % l->count + 1);
+        if (!nh_is_zero(s->dag, l->N[a])) nh_sheet_formula(s, label, l->N[a]);
     }
-    return s;
+    return s->section->lines ? s : NULL;
 }

@@ -70,6 +70,6 @@ void nh_sheet_fold(const char *text, nh_text *out);
 void nh_sheet_formulas(nh_dag *dag, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown, nh_text *out);
 void nh_sheet_json(nh_sheet *sheet, nh_json *to);     /* a member of `to` for each section */
 void nh_sheet_html(nh_sheet *sheet, const char *heading, nh_html_writer *w); /* heading: h3 */
-void nh_sheet_tex(nh_sheet *sheet, nh_tex_writer *w);
+void nh_sheet_tex(nh_sheet *sheet, const char *heading, nh_tex_writer *w);   /* heading: subsection */
 
 #endif

@@ -49,13 +49,13 @@ static void put_words(nh_tex_writer *w, const char *words)
     nh_tex_add(w, "\\par\n");
 }
 
-void nh_sheet_tex(nh_sheet *s, nh_tex_writer *w)
+void nh_sheet_tex(nh_sheet *s, const char *heading, nh_tex_writer *w)
 {
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
         nh_sheet_section c = nh_sheet_brief(s, i, &own);
         if (c.title[0]) {
-            nh_tex_add(w, "\\subsection*{");
+            nh_text_addf(w->out, "\\%s*{", heading);
             nh_tex_words(w, c.title);
             nh_tex_add(w, "}\n");
         }

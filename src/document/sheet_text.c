@@ -102,7 +102,7 @@ void nh_sheet_text(nh_sheet *s, bool colour, nh_text *out)
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
         nh_sheet_section c = nh_sheet_brief(s, i, &own);
-        nh_text_addf(out, "\n%s%s%s\n", colour ? "\033[1m" : "", c.title, colour ? "\033[0m" : "");
+        if (c.title[0]) nh_text_addf(out, "\n%s%s%s\n", colour ? "\033[1m" : "", c.title, colour ? "\033[0m" : "");
         if (c.words[0]) put_words(out, c.words);
         for (size_t j = 0; j < c.lines; j++) {
             if (j == own) nh_text_addf(out, "%*swhere\n", line_indent, "");

@@ -1,4 +1,4 @@
-/* tex: an analysis or a reduction as a LaTeX document, for pdflatex or lualatex with amsmath and pgfplots.
+/* tex: an analysis as a LaTeX document, for pdflatex or lualatex with amsmath and pgfplots.
  *
  * Formulas are paragraphs of mathematics, which TeX breaks by its own measures between the pieces of nh_typeset_pieces; every number stands in
  * \nhnumber{all its digits}{as shown}, as the JSON has it; plots hold their data. */
@@ -12,7 +12,5 @@
 
 /* fragment: without the lines before and after the body, to be read into another document by \input; its head says what that must load. */
 void nh_tex(const nh_analysis *result, bool fragment, nh_text *out);
-
-void nh_tex_reduction(const nh_reduction *reduction, const nh_run *run, nh_text *out);
 
 #endif

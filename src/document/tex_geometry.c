@@ -10,7 +10,7 @@ void nh_tex_geometry(nh_tex_writer *w, nh_arena *arena, const struct nh_theory *
     nh_tex_chart(w, t->model->chart->name);
     nh_tex_words(w, ", with the numbers of the equations in \u010cech and Musilov\u00e1 (2014).");
     nh_tex_add(w, "\n");
-    nh_sheet_tex(nh_geometry_sheet(arena, t, w->analysis), w);
+    nh_sheet_tex(nh_geometry_sheet(arena, t, w->analysis), "subsection", w);
 }
 
 void nh_tex_explicit_motion(nh_tex_writer *w)
@@ -18,5 +18,5 @@ void nh_tex_explicit_motion(nh_tex_writer *w)
     nh_sheet *sheet = nh_motion_sheet(w->r);
     if (!sheet) return;
     nh_tex_add(w, "\\section{Explicit motion}\n");
-    nh_sheet_tex(sheet, w);
+    nh_sheet_tex(sheet, "subsection", w);
 }

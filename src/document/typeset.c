@@ -23,7 +23,7 @@ static const struct {
     {"sigma", "σ", "\\sigma "},    {"tau", "τ", "\\tau "},       {"phi", "φ", "\\varphi "},    {"chi", "χ", "\\chi "},        {"psi", "ψ", "\\psi "},
     {"omega", "ω", "\\omega "},    {"Gamma", "Γ", "\\Gamma "},   {"Delta", "Δ", "\\Delta "},   {"Theta", "Θ", "\\Theta "},    {"Lambda", "Λ", "\\Lambda "},
     {"Xi", "Ξ", "\\Xi "},          {"Sigma", "Σ", "\\Sigma "},   {"Phi", "Φ", "\\Phi "},       {"Psi", "Ψ", "\\Psi "},        {"Omega", "Ω", "\\Omega "},
-    {"varphi", "φ", "\\varphi "},  {"Pi", "Π", "\\Pi "},         {"upsilon", "υ", "\\upsilon "}, {"vartheta", "ϑ", "\\vartheta "},
+    {"varphi", "φ", "\\varphi "},  {"Pi", "Π", "\\Pi "},         {"upsilon", "υ", "\\upsilon "}, {"Upsilon", "Υ", "\\Upsilon "}, {"vartheta", "ϑ", "\\vartheta "},
 };
 
 typedef nh_typeset_writer writer;

@@ -59,7 +59,7 @@ static void symmetry(nh_pen *p, const nh_verification *v, bool field)
     nh_pen_section(p, "symmetry", field ? "The field, with its Chetaev components" : "The symmetry that gives it");
     components(p, v);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
-    nh_pen_open(p, NH_PEN_FACT, NULL, "Symmetry");
+    nh_pen_fact_begin(p, "Symmetry");
     p->ink->symmetry(p->to, &v->symmetry);
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_close(p, NH_PEN_FACTS);

@@ -153,7 +153,7 @@ char *nh_reduction_document(const nh_reduction *r, nh_format format, nh_error *e
     (void)error;
     switch (format) {
     case NH_FORMAT_JSON: return nh_reduction_json(r, &run);
-    case NH_FORMAT_HTML: nh_html_reduction(r, &run, &text); break;
+    case NH_FORMAT_HTML: nh_reduction_write(r, false, &run, NH_PEN_PAGE, &text); break;
     case NH_FORMAT_LATEX: nh_reduction_latex(r, &text); break;
     case NH_FORMAT_TEXT: nh_reduction_text(r, true, &text); break;
     }

@@ -1,0 +1,128 @@
+/* The parts of a document as text for a terminal, which has neither figures, nor links, nor what others say already: the glossary, the system's file. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "document/facts.h"
+#include "document/geometry_sheet.h"
+#include "document/notation.h"
+#include "document/pen.h"
+
+static const struct {
+    const char *open, *close; /* before the title, or the part; at its end */
+    bool titled;
+} markup[NH_PEN_PARTS] = {
+    [NH_PEN_SECTION] = {"\n", "", true}, [NH_PEN_CARD] = {"\n", "", true},
+    [NH_PEN_FOLD] = {"\n", "", true},    [NH_PEN_WORDS] = {"  ", "\n", false},
+    [NH_PEN_ANSWER] = {"", "\n", false}, [NH_PEN_WARNING] = {"warning: ", "\n", false},
+    [NH_PEN_HEADING] = {"\n", "", true}, [NH_PEN_FACTS] = {"", "", false},
+    [NH_PEN_FACT] = {"", "\n", false},   [NH_PEN_FACT_NAME] = {"  ", ": ", false},
+    [NH_PEN_ROW] = {"  ", "\n", false},  [NH_PEN_CELL] = {"", "", false},
+    [NH_PEN_ROW_HEAD] = {"", "", false}, [NH_PEN_KIND] = {"", "", false},
+};
+
+static void words(void *to, const char *text)
+{
+    nh_plain_writer *w = to;
+    nh_text_add(w->out, text);
+}
+
+/* The title with the values of the parameters. */
+static void begin(void *to, const char *what)
+{
+    nh_plain_writer *w = to;
+    const nh_system *s = w->of.system;
+    (void)what;
+    nh_text_addf(w->out, "%s   %s", s->title, s->parameters ? "with " : "no parameters");
+    for (size_t i = 0; i < s->parameters; i++)
+        nh_text_addf(w->out, "%s%s = %.6g", i ? ", " : "", s->parameter[i].name, s->parameter[i].value);
+    nh_text_add(w->out, "\n");
+}
+
+static void links(void *to, const char *sections) { (void)to, (void)sections; }
+
+static void open(void *to, nh_pen_part part, const char *id, const char *title)
+{
+    nh_plain_writer *w = to;
+    (void)id;
+    if (part == NH_PEN_ROW) w->cells = 0;
+    if ((part == NH_PEN_CELL || part == NH_PEN_ROW_HEAD || part == NH_PEN_KIND) && w->cells++) words(w, "  ");
+    if (markup[part].titled && !title) return;
+    words(w, markup[part].open);
+    if (markup[part].titled) nh_text_addf(w->out, "%s\n", title);
+}
+
+static void close(void *to, nh_pen_part part) { words(to, markup[part].close); }
+
+static void number(void *to, double value, int digits)
+{
+    nh_plain_writer *w = to;
+    if (isfinite(value)) nh_text_addf(w->out, "%.*g", digits, value);
+    else words(w, "-");
+}
+
+static void count(void *to, size_t value) { nh_text_addf(((nh_plain_writer *)to)->out, "%zu", value); }
+
+static void letters(void *to, const char *label)
+{
+    nh_notation_write(label, NH_NOTATION_TEXT, ((nh_plain_writer *)to)->out);
+}
+
+static void equation(void *to, const char *label, const char *formula)
+{
+    nh_text_addf(((nh_plain_writer *)to)->out, *label ? "    %s = %s\n" : "    %s%s\n", label, formula);
+}
+
+static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+{
+    enum { indent = 4 };
+    nh_plain_writer *w = to;
+    nh_text *name = nh_alloc_array(n + 1, sizeof *name);
+    const char **shown = nh_alloc_array(n + 1, sizeof *shown);
+    for (size_t i = 0; i < n; i++) {
+        nh_text_init(&name[i]);
+        if (nh_pen_is_name(label[i])) nh_text_add(&name[i], label[i]);
+        else nh_notation_write(label[i], NH_NOTATION_TEXT, &name[i]);
+        shown[i] = nh_text_string(&name[i]);
+    }
+    nh_sheet_formulas(w->of.dag, n, shown, e, indent, w->of.shown, w->out);
+    for (size_t i = 0; i < n; i++) nh_text_clear(&name[i]);
+    nh_free(shown);
+    nh_free(name);
+}
+
+static void sheet(void *to, nh_sheet *formulas_of) { nh_sheet_text(formulas_of, false, ((nh_plain_writer *)to)->out); }
+
+static void table(void *to, const char *caption, const char *heads)
+{
+    nh_plain_writer *w = to;
+    nh_text_addf(w->out, "\n%s\n  ", caption);
+    for (const char *c = heads; *c; c++) nh_text_addf(w->out, *c == '|' ? "  " : "%c", *c);
+    words(w, "\n");
+}
+
+static void table_end(void *to) { words(to, "\n"); }
+
+static void plot(void *to, nh_plot *figure, const char *caption) { (void)to, (void)figure, (void)caption; }
+
+static void series(void *to, const nh_time_series *motion) { (void)to, (void)motion; }
+
+static void system_of(void *to, const nh_model *model) { (void)to, (void)model; }
+
+static void symmetry(void *to, const nh_symmetry *z)
+{
+    nh_facts_symmetry(z, NH_FACTS_TEXT, "; ", ((nh_plain_writer *)to)->out);
+}
+
+static void geometry(void *to, nh_arena *arena, const struct nh_theory *theory)
+{
+    nh_plain_writer *w = to;
+    if (theory) sheet(w, nh_geometry_sheet(arena, theory, w->of.analysis));
+}
+
+static void glossary(void *to, const char *list) { (void)to, (void)list; }
+
+static void end(void *to, const nh_run *run) { (void)to, (void)run; }
+
+const nh_pen_ink nh_pen_plain = {begin,  links,     open,     close,    words,    number, count,     words,
+                                 words,  letters,   equation, formulas, sheet,    table,  table_end, plot,
+                                 series, system_of, symmetry, geometry, glossary, end};

@@ -1,0 +1,13 @@
+/* reduction_internal: declarations for the document of a reduction. */
+#ifndef NH_REDUCTION_DOCUMENT_INTERNAL_H
+#define NH_REDUCTION_DOCUMENT_INTERNAL_H
+
+#include "document/pen.h"
+#include "document/reduction.h"
+
+/* Facts of a stage: what it rests on. */
+void nh_reduction_conditions(const nh_reduction_stage *stage, nh_pen *pen);
+/* And after its equations: measure, currents, chain and motions. */
+void nh_reduction_remarks(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_pen *pen);
+
+#endif
