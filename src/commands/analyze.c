@@ -246,15 +246,33 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
     if (r->validation->checked && !r->validation->accuracy.held) nh_analysis_warn(r, "%s", r->validation->accuracy.why);
 }
 
+/* An upper bound for the dimension of the space of currents polynomial in the velocities of degree two, functions of t as coefficients where these were counted. */
+static size_t counted_currents(const nh_analysis *r)
+{
+    for (size_t k = NH_COMPLETENESS_KINDS; k-- > 0;) {
+        const nh_count *c = &r->completeness[k].count;
+        if (r->completeness[k].counted && !c->obstacle && c->rows >= 2 && c->row[1].bounded) return c->row[1].bound;
+    }
+    return 0;
+}
+
 /* The geometry, with the brackets of the currents that have a field in closed form. */
 static void write_out(nh_analysis *r)
 {
     nh_progress("the geometry", -1);
+    nh_named_current *list = nh_arena_alloc(r->arena, (r->count + r->furthers + 1) * sizeof *list);
+    size_t count = 0;
     r->theory = nh_theory_of(r->arena, r->model, r->other, r->count, &r->options);
     for (size_t k = 0; k < r->count; k++) {
         const nh_current *f = &r->found[k];
         if (f->has_symmetry && !f->series) nh_theory_add(r->arena, r->theory, f->name, &f->symmetry);
+        if (f->proof.proved && !f->series) list[count++] = (nh_named_current){f->name, f->phi, f->energy};
     }
+    for (size_t k = 0; k < r->furthers; k++) {
+        const nh_current *f = &r->further[k].current;
+        if (f->proof.proved && !f->series) list[count++] = (nh_named_current){f->name, f->phi, f->energy};
+    }
+    if (!nh_late()) nh_theory_space(r->arena, r->theory, count, list, counted_currents(r), &r->options);
 }
 
 /* ---- the pipeline ---- */

@@ -431,5 +431,7 @@ void nh_verification_write_out(nh_verification *v, const nh_options *options)
     if (v->model->chart->quasi && v->system->constraints)
         v->other = nh_model_create(v->system, nh_chart_create(v->system, NH_CHART_COORDINATES, (uint64_t)options->seed, &ignored), &ignored);
     v->theory = nh_theory_of(v->arena, v->model, v->other, 1, options);
-    if (v->has_symmetry && !v->trivial) nh_theory_add(v->arena, v->theory, "Phi", &v->symmetry);
+    if (!v->has_symmetry || v->trivial) return;
+    nh_theory_add(v->arena, v->theory, "Phi", &v->symmetry);
+    if (v->conserved && v->proof.proved) nh_theory_space(v->arena, v->theory, 1, &(nh_named_current){.name = "Phi", .phi = v->symmetry.phi}, 0, options);
 }

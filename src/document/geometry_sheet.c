@@ -302,6 +302,7 @@ nh_sheet *nh_geometry_sheet(nh_arena *arena, const nh_theory *t, const nh_analys
     inertial(&b);
     determining(&b);
     currents(&b);
+    nh_symmetry_sheet(b.s, t);
     return b.s;
 }
 

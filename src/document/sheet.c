@@ -184,6 +184,15 @@ static void put_terms(const nh_sheet *s, const nh_sheet_section *c, nh_json *ite
     }
 }
 
+static void put_words(nh_json *to, const char *words)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_sheet_plain(words, &text);
+    nh_json_put_text(to, "words", nh_text_string(&text));
+    nh_text_clear(&text);
+}
+
 void nh_sheet_json(nh_sheet *s, nh_json *to)
 {
     for (size_t i = 0; i < s->sections; i++) {
@@ -193,7 +202,7 @@ void nh_sheet_json(nh_sheet *s, nh_json *to)
             const nh_sheet_line *line = &c->line[j];
             nh_json *item = nh_json_add_object(list);
             if (line->words) {
-                nh_json_put_text(item, "words", line->words);
+                put_words(item, line->words);
                 continue;
             }
             if (line->tag[0]) put_label(item, "number", line->tag);

@@ -63,6 +63,8 @@ nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, size_t *own);
 /* A coefficient before its factor: its sign, and the rest, which needs parentheses where it is a sum; "" for 1.  NULL: too long.  To be freed. */
 char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, bool *minus, bool *sum);
 
+/* Words with labels between dollar signs, as text. */
+void nh_sheet_plain(const char *words, nh_text *out);
 void nh_sheet_text(nh_sheet *sheet, bool colour, nh_text *out);
 /* Any text, its lines broken at blanks so that they have at most 80 columns. */
 void nh_sheet_fold(const char *text, nh_text *out);

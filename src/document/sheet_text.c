@@ -55,15 +55,21 @@ static void put_broken(nh_text *out, size_t indent, size_t hang, const char *tex
 static void wrapped(nh_text *out, size_t indent, const char *text) { put_broken(out, indent, indent + 4, text, break_at); }
 static void wrapped_words(nh_text *out, size_t indent, size_t hang, const char *text) { put_broken(out, indent, hang, text, blank_at); }
 
+void nh_sheet_plain(const char *words, nh_text *out)
+{
+    nh_text part;
+    bool label;
+    for (; nh_notation_next(&words, &part, &label); nh_text_clear(&part)) {
+        if (label) nh_notation_write(nh_text_string(&part), NH_NOTATION_TEXT, out);
+        else nh_text_add(out, nh_text_string(&part));
+    }
+}
+
 static void put_words(nh_text *out, const char *words)
 {
-    nh_text text, part;
-    bool label;
+    nh_text text;
     nh_text_init(&text);
-    for (; nh_notation_next(&words, &part, &label); nh_text_clear(&part)) {
-        if (label) nh_notation_write(nh_text_string(&part), NH_NOTATION_TEXT, &text);
-        else nh_text_add(&text, nh_text_string(&part));
-    }
+    nh_sheet_plain(words, &text);
     wrapped_words(out, line_indent, line_indent, nh_text_string(&text));
     nh_text_clear(&text);
 }

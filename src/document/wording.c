@@ -26,6 +26,10 @@ static const nh_glossary_entry entries[] = {
      "(case 2); neither (case 3)."},
     {"projectable", "The components of Z along time and coordinates do not depend on velocities.  Whether Z is a "
      "symmetry of the equations of motion is another question."},
+    {"space of symmetries", "Constraint symmetries are linear in their currents; those that are projectable, of case 1, or have [Gamma,Z] in the "
+     "canonical distribution form subspaces (--equations)."},
+    {"closure", "The fields Gamma, U_1, .. with all their brackets.  What it leaves constant are the currents with [Gamma,Z] in the canonical "
+     "distribution; its rank bounds their number (--equations)."},
     {"multiplier", "Chetaev's multiplier mu_a, one for each constraint: the force that keeps constraint a is mu_a "
      "times its derivatives by the velocities."},
     {"degree", "Of a polynomial in the velocities, whatever its coefficients are."},

@@ -312,7 +312,7 @@ static void decide(nh_model *o, const nh_points *points, nh_symmetry *z, const n
         inside &= is_inside(o, &l, same);
     }
     z->kase = decided ? worst : 0;
-    z->bracket_in_distribution = inside;
+    z->bracket_in_distribution = inside || z->kase == 1 || z->kase == 2; /* Gamma and Z lie in it; the form of a long formula is the less certain of both */
     nh_free(at);
     nh_free(value);
     nh_free(e);

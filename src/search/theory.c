@@ -15,3 +15,9 @@ void nh_theory_add(nh_arena *arena, nh_theory *t, const char *name, const nh_sym
 {
     t->bracket[t->brackets++] = (struct nh_theory_bracket){name, symmetry, nh_bracket_of(arena, t->own, symmetry)};
 }
+
+void nh_theory_space(nh_arena *arena, nh_theory *t, size_t count, const nh_named_current *current, size_t counted, const nh_options *options)
+{
+    t->fields = nh_bracket_fields_of(arena, t->submanifold);
+    t->space = nh_symmetry_space_of(arena, t->own, count, current, counted, options);
+}

@@ -1,0 +1,208 @@
+#include "exact/relation_space.h"
+
+#include <string.h>
+
+#include "base/progress.h"
+#include "exact/form.h"
+#include "exact/jet_eval.h"
+#include "exact/normal.h"
+#include "exact/relation.h"
+#include "exact/residue_matrix.h"
+
+enum { canonical_length = 2000, beyond = 24, longest = 250, most_points = 200, largest_fraction = 2000 };
+
+typedef struct {
+    const nh_relation_columns *q;
+    nh_dag *d;
+    nh_prime field;
+    nh_jet_point *point;
+    nh_ex *entry;              /* canonical */
+    nh_residue *matrix;        /* reduced */
+    size_t rank, *pivot;
+} problem;
+
+/* ---- the rank along a curve ---- */
+
+/* The symbols that are no variables. */
+static size_t constants_of(const problem *x, nh_ex **out)
+{
+    enum { most = 64 };
+    nh_ex symbol[most];
+    size_t count = 0, room = 0;
+    *out = NULL;
+    for (size_t e = 0; e < x->q->columns * x->q->rows; e++) {
+        size_t n = nh_symbols_in(x->d, x->entry[e], symbol, most);
+        for (size_t i = 0; i < n && i < most; i++) {
+            bool known = false;
+            for (size_t k = 0; k < x->q->variables && !known; k++) known = x->q->variable[k] == symbol[i];
+            for (size_t k = 0; k < count && !known; k++) known = (*out)[k] == symbol[i];
+            if (known) continue;
+            nh_grow(out, &room, count + 1, sizeof **out);
+            (*out)[count++] = symbol[i];
+        }
+    }
+    return count;
+}
+
+/* All entries as series along a random curve. */
+static bool evaluate(problem *x, const nh_jet_ring *ring, uint64_t seed, size_t constants, const nh_ex *constant, nh_residue *out)
+{
+    uint64_t random = seed + 4711;
+    nh_jet_point_choose(x->point, x->field, seed);
+    nh_jet_eval *v = nh_jet_eval_create(x->point, ring);
+    nh_residue *series = nh_alloc_array(ring->size, sizeof *series);
+    for (size_t k = 0; k < constants; k++) {
+        nh_jet_constant(ring, nh_residue_random(x->field, &random), series);
+        nh_jet_eval_set(v, constant[k], series, false);
+    }
+    for (size_t k = 0; k < x->q->variables; k++) {
+        for (size_t e = 0; e < ring->size; e++) series[e] = nh_residue_random(x->field, &random);
+        nh_jet_eval_set(v, x->q->variable[k], series, false);
+    }
+    bool good = nh_jet_eval_all(v, x->q->columns * x->q->rows, x->entry, out);
+    nh_free(series);
+    nh_jet_eval_free(v);
+    return good;
+}
+
+/* Column j, row (i, e): the coefficient e of entry i. */
+static void fill(problem *x, const nh_jet_ring *ring, const nh_residue *value)
+{
+    size_t rows = x->q->rows, columns = x->q->columns;
+    for (size_t j = 0; j < columns; j++)
+        for (size_t i = 0; i < rows; i++)
+            for (size_t e = 0; e < ring->size; e++) x->matrix[(i * ring->size + e) * columns + j] = value[(j * rows + i) * ring->size + e];
+}
+
+static bool find_rank(problem *x)
+{
+    size_t rows = x->q->rows, columns = x->q->columns, one = 1, order = 2 * columns / rows + beyond;
+    if (order > longest) order = longest;
+    x->field = nh_prime_at(1);
+    nh_jet_ring *ring = nh_jet_ring_create(x->field, 1, &one, order);
+    nh_ex *constant;
+    size_t constants = constants_of(x, &constant), total = rows * ring->size;
+    nh_residue *value = nh_alloc_array(columns * total + 1, sizeof *value);
+    bool good = false;
+    for (uint64_t seed = 1; seed <= most_points && !good; seed++) good = evaluate(x, ring, seed, constants, constant, value);
+    if (good) {
+        x->matrix = nh_alloc_array(columns * total + 1, sizeof *x->matrix);
+        x->pivot = nh_alloc_array(columns + total + 1, sizeof *x->pivot);
+        fill(x, ring, value);
+        x->rank = nh_residue_matrix_echelon(x->field, total, columns, columns, x->matrix, x->pivot);
+    }
+    nh_free(value);
+    nh_free(constant);
+    nh_jet_ring_free(ring);
+    return good;
+}
+
+/* ---- one relation ---- */
+
+/* The fraction of small numbers that a residue is, as a continued fraction. */
+static bool fraction(nh_prime f, nh_residue a, int64_t *num, int64_t *den)
+{
+    int64_t r0 = (int64_t)f.p, r1 = a, t0 = 0, t1 = 1;
+    while (r1 > largest_fraction) {
+        int64_t q = r0 / r1, r = r0 - q * r1, t = t0 - q * t1;
+        r0 = r1, r1 = r, t0 = t1, t1 = t;
+    }
+    *num = t1 < 0 ? -r1 : r1;
+    *den = t1 < 0 ? -t1 : t1;
+    return *den > 0 && *den <= largest_fraction;
+}
+
+static bool holds(const problem *x, const nh_ex *c)
+{
+    for (size_t i = 0; i < x->q->rows; i++) {
+        nh_ex sum = nh_int(x->d, 0);
+        for (size_t j = 0; j < x->q->columns; j++)
+            if (!nh_is_zero(x->d, c[j])) sum = nh_add(x->d, sum, nh_mul(x->d, c[j], x->q->entry[j * x->q->rows + i]));
+        if (!nh_is_zero(x->d, sum) && nh_normal_is_zero(x->d, sum, x->q->max_terms) != NH_ZERO) return false;
+    }
+    return true;
+}
+
+/* As fractions, where all of them are small ones. */
+static bool by_fractions(const problem *x, size_t n, const size_t *column, const nh_residue *value, nh_ex *c)
+{
+    int64_t num, den;
+    for (size_t k = 0; k < n; k++) {
+        if (!fraction(x->field, value[k], &num, &den)) return false;
+        c[column[k]] = nh_ratio(x->d, num, den);
+    }
+    return holds(x, c);
+}
+
+/* As functions of the parameters: all rows at once, each with a factor of its own that satisfies nothing. */
+static bool by_parameters(const problem *x, size_t n, const size_t *column, nh_ex *c)
+{
+    size_t rows = x->q->rows;
+    nh_ex *whole = nh_alloc_array(2 * n, sizeof *whole), *found = whole + n, *mark = nh_alloc_array(rows, sizeof *mark);
+    for (size_t i = 0; i < rows; i++) mark[i] = nh_symbol_fresh(x->d, "a row");
+    for (size_t k = 0; k < n; k++) {
+        whole[k] = nh_int(x->d, 0);
+        for (size_t i = 0; i < rows; i++) whole[k] = nh_add(x->d, whole[k], nh_mul(x->d, mark[i], x->q->entry[column[k] * rows + i]));
+    }
+    bool good = nh_relation_find(x->d, n, whole, x->q->parameters, x->q->parameter, x->q->max_terms, found) == NH_RELATION_UNIQUE && !nh_is_zero(x->d, found[n - 1]);
+    for (size_t k = 0; k < n && good; k++) c[column[k]] = nh_simplify(x->d, nh_div(x->d, found[k], found[n - 1]));
+    nh_free(mark);
+    nh_free(whole);
+    return good && holds(x, c);
+}
+
+/* c_free = 1, c_pivot = -row_free. */
+static bool relation(const problem *x, size_t free_column, nh_ex *c)
+{
+    size_t columns = x->q->columns, n = 0, *column = nh_alloc_array(columns + 1, sizeof *column);
+    nh_residue *value = nh_alloc_array(columns + 1, sizeof *value);
+    for (size_t j = 0; j < columns; j++) c[j] = nh_int(x->d, 0);
+    for (size_t i = 0; i < x->rank; i++) {
+        nh_residue a = x->matrix[i * columns + free_column];
+        if (!a) continue;
+        column[n] = x->pivot[i];
+        value[n++] = nh_residue_negative(x->field, a);
+    }
+    column[n] = free_column;
+    value[n++] = 1;
+    bool good = by_fractions(x, n, column, value, c);
+    for (size_t j = 0; j < columns && !good; j++) c[j] = nh_int(x->d, 0);
+    good = good || by_parameters(x, n, column, c);
+    nh_free(value);
+    nh_free(column);
+    return good;
+}
+
+/* ---- the whole ---- */
+
+static void solve(problem *x, nh_arena *arena, nh_relation_space *out)
+{
+    size_t columns = x->q->columns;
+    bool *pivots = nh_alloc_array(columns + 1, sizeof *pivots);
+    for (size_t i = 0; i < x->rank; i++) pivots[x->pivot[i]] = true;
+    out->bound = columns - x->rank;
+    out->coefficient = nh_arena_alloc(arena, (out->bound * columns + 1) * sizeof *out->coefficient);
+    for (size_t j = 0; j < columns && !nh_late(); j++)
+        if (!pivots[j] && relation(x, j, out->coefficient + out->proved * columns)) out->proved++;
+    nh_free(pivots);
+}
+
+nh_relation_space *nh_relation_space_of(nh_arena *arena, const nh_relation_columns *q)
+{
+    nh_relation_space *out = nh_arena_alloc(arena, sizeof *out);
+    size_t total = q->columns * q->rows;
+    problem x = {.q = q, .d = q->dag, .point = nh_jet_point_create(q->dag), .entry = nh_alloc_array(total + 1, sizeof(nh_ex))};
+    *out = (nh_relation_space){0};
+    nh_forms forms;
+    nh_forms_init(&forms, q->dag, false, canonical_length);
+    for (size_t e = 0; e < total; e++) x.entry[e] = nh_form_rewrite(&forms, q->entry[e]);
+    nh_forms_clear(&forms);
+    if (!nh_jet_point_register(x.point, total, x.entry)) out->obstacle = x.point->obstacle;
+    else if (!find_rank(&x)) out->obstacle = "no regular point was found";
+    else solve(&x, arena, out);
+    nh_free(x.matrix);
+    nh_free(x.pivot);
+    nh_free(x.entry);
+    nh_jet_point_free(x.point);
+    return out;
+}

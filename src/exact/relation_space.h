@@ -1,0 +1,35 @@
+/* relation_space: all linear relations among columns of expressions.
+ *
+ *     sum_j c_j e_ij = 0    identically, for every row i,   c_j in Q(parameters)
+ *
+ * Along a curve whose power series are random modulo a prime, the constants being random residues, the columns become columns of residues, whose rank is a
+ * lower bound: so `bound`, what is missing to the number of columns, is an upper one for the dimension of the relations.  Each vector of the reduced echelon
+ * form says which columns a relation consists of; its coefficients are found exactly, and the relation is then an identity of normal forms.  Where `proved`
+ * is equal to `bound` there are no other relations. */
+#ifndef NH_RELATION_SPACE_H
+#define NH_RELATION_SPACE_H
+
+#include "base/memory.h"
+#include "graph/dag.h"
+
+typedef struct {
+    nh_dag *dag;
+    size_t columns, rows;
+    const nh_ex *entry;        /* entry[j * rows + i] */
+    size_t variables;
+    const nh_ex *variable;     /* all other symbols are constants */
+    size_t parameters;
+    const nh_ex *parameter;
+    size_t max_terms;          /* of normal forms; 0: their default */
+} nh_relation_columns;
+
+typedef struct {
+    const char *obstacle;      /* why nothing is known, or NULL */
+    size_t bound, proved;
+    nh_ex *coefficient;        /* proved x columns: the last column of each has 1, and is in no other */
+} nh_relation_space;
+
+/* In the arena; expressions belong to the graph. */
+nh_relation_space *nh_relation_space_of(nh_arena *arena, const nh_relation_columns *columns);
+
+#endif

@@ -1,0 +1,190 @@
+#include "integrals/closure.h"
+
+#include <string.h>
+
+#include "base/progress.h"
+#include "exact/form.h"
+#include "exact/jet_eval.h"
+#include "exact/residue_matrix.h"
+#include "integrals/exact_points.h"
+
+enum { canonical_length = 2000, most_points = 200, most_size = 3000, deepest = 10, most_nodes = 400000 };
+
+typedef struct {
+    const nh_model *o;
+    nh_dag *d;
+    size_t N, count, functions;
+    nh_ex *e;                  /* the fields' components, then the functions: canonical, with the parameters' values */
+    nh_prime field;
+    nh_jet_point *point;
+    nh_jet_ring *ring;
+    nh_residue *value;         /* of e */
+    size_t kept, *order;       /* fields that are independent at the point, and up to which order their series are right */
+    nh_residue *frame;         /* N x N series */
+} space;
+
+static nh_residue *member(const space *x, size_t i) { return x->frame + i * x->N * x->ring->size; }
+
+/* ---- a point ---- */
+
+static bool evaluate(space *x, uint64_t seed)
+{
+    uint64_t random = seed + 815;
+    nh_jet_point_choose(x->point, x->field, seed);
+    nh_jet_eval *v = nh_jet_eval_create(x->point, x->ring);
+    nh_residue *series = nh_alloc_array(x->ring->size, sizeof *series);
+    for (size_t k = 0; k < x->N; k++) {
+        nh_jet_constant(x->ring, nh_residue_random(x->field, &random), series);
+        if (x->ring->order) series[x->ring->up[k * x->ring->size]] = 1;
+        nh_jet_eval_set(v, x->o->chart->symbol[k], series, false);
+    }
+    bool good = nh_jet_eval_all(v, x->count * x->N + x->functions, x->e, x->value);
+    nh_free(series);
+    nh_jet_eval_free(v);
+    return good;
+}
+
+/* Are the atoms of exp, and those of sin and cos, linearly independent?  Then kernels satisfy nothing else than what the point keeps [jet_point.h]. */
+static bool unrelated(space *x)
+{
+    nh_jet_eval *v = nh_jet_eval_create(x->point, x->ring);
+    nh_residue *series = nh_alloc_array(x->ring->size, sizeof *series);
+    for (size_t k = 0; k < x->N; k++) {
+        uint64_t random = 815 + k;
+        nh_jet_constant(x->ring, nh_residue_random(x->field, &random), series);
+        series[x->ring->up[k * x->ring->size]] = 1;
+        nh_jet_eval_set(v, x->o->chart->symbol[k], series, false);
+    }
+    bool good = true;
+    for (int real = 0; real < 2 && good; real++) {
+        size_t count;
+        nh_jet_eval_atoms(v, real, &count, NULL);
+        nh_residue *rows = nh_alloc_array(count * x->ring->size + 1, sizeof *rows);
+        good = nh_jet_eval_atoms(v, real, &count, rows) && nh_residue_matrix_rank(x->field, count, x->ring->size, rows) == count;
+        nh_free(rows);
+    }
+    nh_free(series);
+    nh_jet_eval_free(v);
+    return good;
+}
+
+/* ---- the closure ---- */
+
+/* Does the field raise the rank at the point?  Then it is kept. */
+static bool keep(space *x, const nh_residue *field, size_t order)
+{
+    size_t N = x->N, size = x->ring->size;
+    nh_residue *rows = nh_alloc_array((x->kept + 1) * N, sizeof *rows);
+    for (size_t i = 0; i <= x->kept; i++)
+        for (size_t c = 0; c < N; c++) rows[i * N + c] = (i < x->kept ? member(x, i) : field)[c * size];
+    bool grows = x->kept < N && nh_residue_matrix_rank(x->field, x->kept + 1, N, rows) == x->kept + 1;
+    nh_free(rows);
+    if (!grows) return false;
+    memcpy(member(x, x->kept), field, N * size * sizeof *field);
+    x->order[x->kept++] = order;
+    return true;
+}
+
+/* out = [a, b] */
+static void bracket(const space *x, const nh_residue *a, const nh_residue *b, nh_residue *out)
+{
+    const nh_jet_ring *ring = x->ring;
+    size_t size = ring->size;
+    nh_residue *slope = nh_alloc_array(size, sizeof *slope);
+    memset(out, 0, x->N * size * sizeof *out);
+    for (size_t s = 0; s < x->N; s++)
+        for (size_t r = 0; r < x->N; r++) {
+            if (!nh_jet_is_zero(ring, a + r * size)) {
+                nh_jet_derivative(ring, b + s * size, r, slope);
+                nh_jet_add_product(ring, out + s * size, a + r * size, slope);
+            }
+            if (nh_jet_is_zero(ring, b + r * size)) continue;
+            nh_jet_derivative(ring, a + s * size, r, slope);
+            nh_jet_sub_product(ring, out + s * size, b + r * size, slope);
+        }
+    nh_free(slope);
+}
+
+/* Brackets of the generators with every field that is kept, until nothing is new; those that need orders that are not there are left out. */
+static void close_up(space *x, size_t enough)
+{
+    nh_residue *out = nh_alloc_array(x->N * x->ring->size, sizeof *out);
+    for (size_t i = 0; i < x->count && x->kept < enough; i++) keep(x, x->value + i * x->N * x->ring->size, x->ring->order);
+    size_t generators = x->kept;
+    for (size_t j = 0; j < x->kept; j++)
+        for (size_t i = 0; i < generators && x->kept < enough && !nh_late(); i++) {
+            if (x->order[j] == 0 || (j < generators && i >= j)) continue;
+            bracket(x, member(x, i), member(x, j), out);
+            keep(x, out, x->order[j] - 1);
+        }
+    nh_free(out);
+}
+
+/* The rank of the functions' gradients at the point. */
+static size_t gradients(const space *x)
+{
+    size_t size = x->ring->size;
+    nh_residue *rows = nh_alloc_array(x->functions * x->N + 1, sizeof *rows);
+    for (size_t i = 0; i < x->functions; i++)
+        for (size_t k = 0; k < x->N; k++) rows[i * x->N + k] = x->value[(x->count * x->N + i) * size + x->ring->up[k * size]];
+    size_t rank = nh_residue_matrix_rank(x->field, x->functions, x->N, rows);
+    nh_free(rows);
+    return rank;
+}
+
+/* ---- the whole ---- */
+
+static bool take(space *x, const nh_ex *field, const nh_ex *function, nh_closure *out)
+{
+    size_t n = x->count * x->N, nodes = 0;
+    nh_forms forms;
+    x->e = nh_alloc_array(n + x->functions + 1, sizeof *x->e);
+    for (size_t i = 0; i < n + x->functions && nodes < most_nodes; i++) nodes += nh_node_count(x->d, i < n ? field[i] : function[i - n]);
+    if (nodes >= most_nodes) return out->obstacle = "formulas that are too long", false;
+    nh_forms_init(&forms, x->d, false, canonical_length);
+    for (size_t i = 0; i < n + x->functions; i++) x->e[i] = nh_form_rewrite(&forms, nh_exact_values(x->o, i < n ? field[i] : function[i - n]));
+    nh_forms_clear(&forms);
+    if (x->o->chart->implicit) out->obstacle = "velocities that are given implicitly";
+    else if (!nh_jet_point_register(x->point, n + x->functions, x->e)) out->obstacle = x->point->obstacle;
+    return !out->obstacle;
+}
+
+static nh_jet_ring *ring_of(const space *x)
+{
+    size_t order = deepest, *one = nh_alloc_array(x->N + 1, sizeof *one);
+    for (size_t k = 0; k < x->N; k++) one[k] = 1;
+    while (order > 1 && nh_jet_ring_size(x->N, one, order, most_size) == SIZE_MAX) order--;
+    nh_jet_ring *ring = nh_jet_ring_create(x->field, x->N, one, order);
+    nh_free(one);
+    return ring;
+}
+
+static void solve(space *x, nh_closure *out)
+{
+    bool good = false;
+    x->ring = ring_of(x);
+    x->value = nh_alloc_array((x->count * x->N + x->functions) * x->ring->size + 1, sizeof *x->value);
+    x->frame = nh_alloc_array(x->N * x->N * x->ring->size, sizeof *x->frame);
+    x->order = nh_alloc_array(x->N + 1, sizeof *x->order);
+    for (uint64_t seed = 1; seed <= most_points && !good; seed++) good = evaluate(x, seed);
+    if (!good) out->obstacle = "no regular point was found";
+    else if (!unrelated(x)) out->obstacle = "functions that are related in ways that are not known";
+    if (out->obstacle) return;
+    out->known = gradients(x);
+    close_up(x, x->N - out->known);
+    out->rank = x->kept;
+}
+
+nh_closure nh_closure_of(const nh_model *o, size_t count, const nh_ex *field, size_t functions, const nh_ex *function)
+{
+    space x = {.o = o, .d = o->dag, .N = 1 + o->m + o->n, .count = count, .functions = functions, .field = nh_prime_at(0), .point = nh_jet_point_create(o->dag)};
+    nh_closure out = {.dimension = x.N};
+    if (take(&x, field, function, &out)) solve(&x, &out);
+    nh_jet_ring_free(x.ring);
+    nh_free(x.order);
+    nh_free(x.frame);
+    nh_free(x.value);
+    nh_free(x.e);
+    nh_jet_point_free(x.point);
+    return out;
+}

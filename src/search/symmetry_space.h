@@ -1,0 +1,54 @@
+/* symmetry_space: the constraint symmetries of the currents that were found as one linear space, and which currents can have better ones.
+ *
+ * Z(Phi) is linear in Phi, with Z(1) = Gamma/Lbar and Z(Phi Psi) = Phi Z(Psi) + Psi Z(Phi) - Phi Psi Gamma/Lbar.  That Z is projectable, is of case 1, or
+ * has [Gamma, Z] in the canonical distribution, are linear conditions on Phi (bracket_fields.h): subspaces, found exactly (relation_space.h).
+ * How many independent currents fulfil the last two at all is bounded by the rank of brackets (closure.h). */
+#ifndef NH_SYMMETRY_SPACE_H
+#define NH_SYMMETRY_SPACE_H
+
+#include "base/option.h"
+#include "integrals/bracket_fields.h"
+#include "integrals/closure.h"
+
+typedef struct {
+    const char *name;
+    nh_ex phi;                 /* in the chart of the model */
+    bool energy;               /* a multiple of the energy */
+} nh_named_current;
+
+/* Subspaces of the currents. */
+typedef enum { NH_SPACE_BEST, NH_SPACE_CASE1, NH_SPACE_PROJECTABLE, NH_SPACE_INSIDE, NH_SPACES } nh_space_kind;
+
+/* A current of the basis, and what is known of its field. */
+typedef struct {
+    nh_ex combination, phi;    /* of the currents' names; of the currents */
+    bool in[NH_SPACES];
+    const nh_field *field;     /* of a projectable one, simplified; else NULL */
+} nh_space_member;
+
+/* How many currents of a kind there can be: those that some fields annihilate. */
+typedef struct {
+    nh_closure closure;
+    size_t count;              /* independent currents of this kind that were found: currents, combinations of the basis, products of powers */
+    nh_ex *name;               /* in terms of the currents' names */
+} nh_space_bound;
+
+typedef struct {
+    const char *obstacle;      /* why the space was not found, or NULL */
+    size_t degree;             /* of the currents in the velocities, at most; others are there without their products */
+    size_t others;
+    size_t left_out;           /* products beyond the most that are looked at */
+    size_t dimension, of[NH_SPACES];
+    bool sure;                 /* these numbers are proved, for the products of the currents that were found */
+    nh_space_member *member;   /* dimension */
+    nh_space_bound inside, case1;
+    bool all_inside, all_case1; /* every current is: the fields vanish */
+    size_t counted;            /* of all currents polynomial of this degree: an upper bound for their dimension, or 0 */
+} nh_symmetry_space;
+
+/* The currents are proved; in the arena.  `counted`: how many independent currents polynomial in the velocities, with 1, of degree two there are at most; 0:
+ * not known.  `submanifold`: of the model that they are expressions of. */
+nh_symmetry_space *nh_symmetry_space_of(nh_arena *arena, const nh_submanifold *submanifold, size_t count, const nh_named_current *current, size_t counted,
+                                        const nh_options *options);
+
+#endif
