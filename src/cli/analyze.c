@@ -10,7 +10,7 @@
 /* A system by name brings the analysis of that name with it; a file is taken alone. */
 static const char *analysis_of(nh_cli *cli, const char *system)
 {
-    if (cli->no_analysis || nh_places_is_path(system)) return NULL;
+    if (cli->no_analysis || cli->ons || nh_places_is_path(system)) return NULL;
     return nh_places_look(cli->arena, "analyses", system);
 }
 

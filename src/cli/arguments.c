@@ -10,7 +10,7 @@
 #include "problem/input.h"
 
 enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
-       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base };
+       opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base, opt_on };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
 #define OLD(code, old, argument) {old, argument, NULL, code},
@@ -187,6 +187,15 @@ static bool missing_value(const char *word, nh_error *error)
 /* `-` is a file, too: what is read is kept, so a pipe will do. */
 static const char *file_of(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
 
+/* What the command line adds to a system file. */
+static bool add_to_file(nh_cli *cli, int code, const char *value)
+{
+    if (code == opt_wheel) cli->wheel[cli->wheels++] = value;
+    else if (code == opt_base) cli->base = value;
+    else cli->on[cli->ons++] = value;
+    return true;
+}
+
 static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 {
     char *name;
@@ -207,8 +216,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_to: cli->to = value; return true;
     case opt_input: return strchr(value, '=') ? set_input(cli, value, error) : (cli->input = value, true);
-    case opt_wheel: cli->wheel[cli->wheels++] = value; return true;
-    case opt_base: cli->base = value; return true;
+    case opt_wheel: case opt_base: case opt_on: return add_to_file(cli, code, value);
     case opt_name: cli->name = value; return true;
     case opt_watch: cli->watch = value; return true;
     case opt_svg: cli->svg = value; return true;
@@ -290,6 +298,7 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     cli->operand = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->operand);
     cli->over_list = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->over_list);
     cli->wheel = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->wheel);
+    cli->on = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->on);
     cli->number = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->number);
     cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
     nh_options_default(&cli->options);

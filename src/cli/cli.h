@@ -40,6 +40,8 @@ typedef struct {
     const char *over;            /* of benchmark and classify: the last --over */
     size_t wheels;
     const char **wheel, *base;   /* --wheel, each; --base */
+    size_t ons;
+    const char **on;             /* --on, each */
     size_t overs, numbers;
     const char **over_list, **number; /* of scan: every --over, every --number */
     const char *of;              /* of verify --field (constraint, equations), scan and export */

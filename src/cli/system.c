@@ -37,7 +37,7 @@ static void put_wheels(nh_text *out, const char *list, size_t *count)
     }
 }
 
-/* The same file with wheels and a base: a text that includes it. */
+/* The same file with wheels, a base and levels: a text that includes it. */
 static const char *completed(nh_cli *cli, const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -51,6 +51,8 @@ static const char *completed(nh_cli *cli, const char *path)
     if (count) nh_text_add(&text, "]\n");
     if (cli->base) nh_text_add(&text, "base: "), put_quoted(&text, cli->base), nh_text_add(&text, "\n");
     const char *name = nh_arena_printf(cli->arena, "%s, command line", path);
+    for (size_t i = 0; i < cli->ons; i++) nh_text_add(&text, i ? ", " : "levels: ["), put_quoted(&text, cli->on[i]);
+    if (cli->ons) nh_text_add(&text, "]\n");
     nh_files_add(name, nh_text_string(&text), text.length);
     nh_text_clear(&text);
     return name;
@@ -59,7 +61,7 @@ static const char *completed(nh_cli *cli, const char *path)
 const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error)
 {
     const char *path = nh_places_find(cli->arena, "systems", word, error);
-    if (path && (cli->wheels || cli->base)) path = completed(cli, path);
+    if (path && (cli->wheels || cli->base || cli->ons)) path = completed(cli, path);
     if (!path || cli->quiet || !strcmp(cli->command, "analyze") || !strcmp(cli->command, "show")) return path; /* an analysis has warnings of its own */
     nh_error ignored;
     nh_error_clear(&ignored);

@@ -43,6 +43,9 @@ void nh_classification_head(const nh_classified *x, nh_text *out)
     nh_text_addf(out, "%s\n%s, over ", x->title, nh_classification_subject(x));
     if (x->second) nh_text_addf(out, "%s and ", x->second);
     nh_text_addf(out, "%s%s", x->over, x->shape ? ", with coefficients that do not depend on cyclic coordinates" : "");
+    const nh_system *s = x->almost_all->system;
+    for (size_t i = s->constraints - s->levels; i < s->constraints; i++)
+        nh_text_addf(out, "%s%s", i == s->constraints - s->levels ? "\n   on the level " : ", ", s->constraint[i].text);
     for (size_t i = 0; i < x->fixed; i++)
         nh_text_addf(out, "%s%s = %.15g", i ? ", " : "\n   with ", x->other[i].name, x->other[i].value);
     nh_text_add(out, "\n\n");

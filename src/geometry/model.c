@@ -268,6 +268,18 @@ nh_model *nh_model_bare(nh_system *system, nh_chart *chart)
     return o;
 }
 
+/* On invariant levels of a system no force is needed to stay there. */
+static bool levels_kept(const nh_model *o, nh_error *error)
+{
+    enum { terms = 20000 };
+    size_t levels = o->system->levels;
+    for (size_t i = 0; i < levels; i++) {
+        nh_zero_verdict verdict = nh_normal_is_zero(o->dag, o->mu[o->k - levels + i], terms);
+        if (verdict != NH_ZERO) return nh_system_refuse_level(o->system, i, verdict == NH_NONZERO, error);
+    }
+    return true;
+}
+
 nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
 {
     nh_model *o = nh_model_bare(system, chart);
@@ -292,7 +304,7 @@ nh_model *nh_model_create(nh_system *system, nh_chart *chart, nh_error *error)
     }
     inertial_forces(o, &slope);
     matrices(o, &slope);
-    bool good = !nh_interrupted() && accelerations(o, error) && multipliers(o, &slope, error);
+    bool good = !nh_interrupted() && accelerations(o, error) && multipliers(o, &slope, error) && levels_kept(o, error);
     if (nh_interrupted()) {
         nh_error_clear(error);
         good = nh_fail_ended(error, "while the equations of motion were derived");

@@ -28,3 +28,33 @@ nh_ex nh_terms_moduli(nh_dag *d, nh_ex e)
         sum = nh_add(d, sum, nh_call(d, NH_ABS, nh_mul(d, nh_number(d, nh_coefficient_of(d, e, i)), nh_child(d, e, i))));
     return sum;
 }
+
+/* The exponent of a base in a term; whole and not negative, otherwise 0. */
+static int64_t exponent_in(const nh_dag *d, nh_ex term, nh_ex base)
+{
+    if (term == base) return 1;
+    for (size_t k = 0; nh_kind_of(d, term) == NH_PRODUCT && k < nh_arity(d, term); k++) {
+        nh_ex x = nh_exponent_of(d, term, k);
+        if (nh_child(d, term, k) != base || nh_kind_of(d, x) != NH_NUMBER) continue;
+        nh_num e = nh_number_of(d, x);
+        return e.q == 1 && e.p > 0 ? e.p : 0;
+    }
+    return 0;
+}
+
+nh_ex nh_terms_common(nh_dag *d, nh_ex sum)
+{
+    nh_ex first = nh_child(d, sum, 0), out = nh_int(d, 1);
+    bool product = nh_kind_of(d, first) == NH_PRODUCT;
+    if (!nh_num_is(nh_constant_of(d, sum), 0)) return out;
+    for (size_t k = 0; k < (product ? nh_arity(d, first) : 1); k++) {
+        nh_ex base = product ? nh_child(d, first, k) : first;
+        int64_t least = exponent_in(d, first, base);
+        for (size_t i = 1; i < nh_arity(d, sum) && least; i++) {
+            int64_t e = exponent_in(d, nh_child(d, sum, i), base);
+            if (e < least) least = e;
+        }
+        out = nh_mul(d, out, nh_powi(d, base, least));
+    }
+    return out;
+}

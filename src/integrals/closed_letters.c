@@ -152,20 +152,27 @@ static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
     return sum;
 }
 
-/* Its factors with half powers. */
+/* The factors of an expression with half powers; sums without what their terms have in common. */
+static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e)
+{
+    nh_dag *d = x->dag;
+    bool product = nh_kind_of(d, e) == NH_PRODUCT;
+    for (size_t k = 0; k < (product ? nh_arity(d, e) : 1); k++) {
+        nh_ex base = product ? nh_child(d, e, k) : e, common = nh_int(d, 1);
+        if (!of_position(x, base)) continue;
+        bool sum = nh_kind_of(d, base) == NH_SUM;
+        if (sum) common = nh_terms_common(d, base);
+        if (!nh_is_number(d, common, 1)) {
+            take_factors(x, l, common);
+            take_factors(x, l, nh_simplify_short(d, nh_div(d, base, common), largest_form));
+        } else take_power(x, l, base, sum ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
+    }
+}
+
 static void take_determinant(const nh_jet_equations *x, nh_letters *l)
 {
     const nh_model *o = x->model;
-    nh_dag *d = x->dag;
-    if (o->n > largest_inertia) return;
-    nh_ex e = nh_simplify_short(d, minor_of(o, 0, 0), largest_form);
-    bool product = nh_kind_of(d, e) == NH_PRODUCT;
-    for (size_t k = 0; k < (product ? nh_arity(d, e) : 1); k++) {
-        nh_ex base = product ? nh_child(d, e, k) : e;
-        if (!of_position(x, base)) continue;
-        bool sum = nh_kind_of(d, base) == NH_SUM;
-        take_power(x, l, base, sum ? nh_num_ratio(-1, 2) : nh_num_int(-1), 0);
-    }
+    if (o->n <= largest_inertia) take_factors(x, l, nh_simplify_short(x->dag, minor_of(o, 0, 0), largest_form));
 }
 
 /* ---- the coordinates ---- */

@@ -4,14 +4,28 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/terms.h"
 
 enum { largest_form = 2000 };
+
+/* Its sums divided by what their terms have in common, which stands before them. */
+static nh_ex factored(nh_dag *d, nh_ex e)
+{
+    nh_ex out = e;
+    for (size_t k = 0; nh_kind_of(d, e) == NH_PRODUCT && k < nh_arity(d, e); k++) {
+        nh_ex base = nh_child(d, e, k), x = nh_exponent_of(d, e, k);
+        if (nh_kind_of(d, base) == NH_SUM) out = nh_mul(d, nh_div(d, out, nh_pow(d, base, x)), nh_pow(d, factored(d, base), x));
+    }
+    if (nh_kind_of(d, e) != NH_SUM) return out;
+    nh_ex common = nh_terms_common(d, e);
+    return nh_is_number(d, common, 1) ? e : nh_mul(d, common, nh_simplify_short(d, nh_div(d, e, common), largest_form));
+}
 
 /* What of e is a square of functions of the coordinates, its root. */
 static nh_ex root_of(nh_jet_equations *x, nh_ex e)
 {
     nh_dag *d = x->dag;
-    nh_ex root = nh_int(d, 1), simple = nh_simplify_short(d, e, largest_form);
+    nh_ex root = nh_int(d, 1), simple = factored(d, nh_simplify_short(d, e, largest_form));
     if (nh_kind_of(d, simple) != NH_PRODUCT) return root;
     for (size_t k = 0; k < nh_arity(d, simple); k++) {
         nh_ex base = nh_child(d, simple, k), exponent = nh_exponent_of(d, simple, k);

@@ -282,6 +282,25 @@ nh_chart *nh_chart_create(nh_system *system, nh_chart_choice choice, uint64_t se
 
 /* ---- back from coordinate velocities ---- */
 
+/* On a level each velocity is that of one coordinate alone, times a function of position: then the others are not used.
+ * Cyclic ones are the last choice. */
+static void choose_rows(const nh_chart *c, const nh_ex *R, bool *used)
+{
+    const nh_system *s = c->system;
+    size_t found = 0, m = s->coordinates;
+    for (size_t k = 0; k < m; k++) used[k] = false;
+    for (size_t i = 0; i < c->n && s->levels; i++) {
+        size_t best = m;
+        for (size_t k = 0; k < m; k++) {
+            bool own = !nh_is_zero(s->dag, R[k * c->n + i]);
+            for (size_t j = 0; j < c->n && own; j++) own = j == i || nh_is_zero(s->dag, R[k * c->n + j]);
+            if (own && (best == m || nh_depends(s->dag, s->lagrangian, s->coordinate[k].q))) best = k;
+        }
+        if (best < m) used[best] = true, found++;
+    }
+    for (size_t k = 0; k < m && found < c->n; k++) used[k] = true;
+}
+
 bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
 {
     const nh_system *s = c->system;
@@ -293,16 +312,18 @@ bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
     }
     nh_ex *R = nh_alloc_array(m * n + n * n + n + 1, sizeof *R), *N = R + m * n, *b = N + n * n;
     nh_ex *zero = nh_alloc_array(n + 1, sizeof *zero);
-    bool affine = true;
+    bool affine = true, *used = nh_alloc_array(m + 1, sizeof *used);
     for (size_t k = 0; k < m; k++)
         for (size_t i = 0; i < n; i++) {
             R[k * n + i] = nh_diff(d, c->rho[k], c->w[i]);
             for (size_t j = 0; j < n; j++) affine &= !nh_depends(d, R[k * n + i], c->w[j]);
         }
+    choose_rows(c, R, used);
     for (size_t i = 0; i < n && affine; i++) {
         b[i] = nh_int(d, 0);
         for (size_t j = 0; j < n; j++) N[i * n + j] = nh_int(d, 0);
         for (size_t k = 0; k < m; k++) {
+            if (!used[k]) continue;
             nh_ex rest = nh_sub(d, s->coordinate[k].v, nh_substitute(d, c->rho[k], n, c->w, zero));
             b[i] = nh_add(d, b[i], nh_mul(d, R[k * n + i], rest));
             for (size_t j = 0; j < n; j++) N[i * n + j] = nh_add(d, N[i * n + j], nh_mul(d, R[k * n + i], R[k * n + j]));
@@ -319,6 +340,7 @@ bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
     }
     bool good = lu != NULL;
     nh_lu_free(lu);
+    nh_free(used);
     nh_free(zero);
     nh_free(R);
     return good;

@@ -86,6 +86,7 @@ typedef struct {
     nh_parameter *parameter;
     nh_coordinate *coordinate;
     nh_constraint *constraint;
+    size_t levels;           /* so many of the constraints, the last ones, say on which level of an integral the system is */
     nh_named *definition;
     nh_interval *interval;   /* the sampling box as far as the user gave it */
     size_t reaches;
@@ -135,6 +136,9 @@ bool nh_system_expression_text(const nh_system *system, const char *where, const
 
 /* Parameter symbols and values as parallel arrays owned by the arena. */
 void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values);
+
+/* A level (0, 1, ..) to which motions do not keep, or of which that is not decided.  Returns false. */
+bool nh_system_refuse_level(const nh_system *system, size_t level, bool proved, nh_error *error);
 
 /* The index of a coordinate by name, or -1. */
 long nh_system_coordinate(const nh_system *system, const char *name);

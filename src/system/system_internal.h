@@ -37,6 +37,9 @@ bool nh_system_read_known(nh_system_reader *r);
 bool nh_system_check_motions(nh_system_reader *r, const nh_deck_node *known);
 bool nh_system_read_robustness(nh_system_reader *r);
 
+/* `levels:` as constraints, behind all others, and velocities for them (invariant_level.c). */
+bool nh_system_read_levels(nh_system_reader *r);
+
 /* Bodies and joints, in this order: who carries whom; the coordinates that joints bring (room for them: NH_MOST_SCREWS each); expressions and all
  * that follows from them.  Wheels become constraints, for which the caller has room. */
 bool nh_system_read_tree(nh_system_reader *r);

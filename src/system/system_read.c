@@ -15,7 +15,7 @@ typedef nh_system_reader reader;
 
 static const char *const top_keys[] = {"name", "title", "source", "parameters", "coordinates", "definitions", "lagrangian",
                                        "constraints", "dependent", "velocities", "forces", "domain", "known", "doc",
-                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw", "robustness", "include", "urdf", "base", "notes"};
+                                       "bodies", "joints", "gravity", "wheels", "symmetry", "draw", "robustness", "include", "urdf", "base", "notes", "levels"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 void *nh_system_take(reader *r, size_t count, size_t size) { return nh_arena_alloc(r->system->arena, (count + 1) * size); }
@@ -406,8 +406,8 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     s->t = nh_symbol(s->dag, "t");
     if (!read_parameters(r) || !apply_settings(r, settings, setting)) return false;
     return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) && read_definitions(r) && nh_system_read_chain(r) && read_lagrangian(r) && read_constraints(r) && read_dependent(r)
-           && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_symmetry(r) && nh_system_read_drawing(r) && nh_system_read_known(r)
-           && nh_system_read_robustness(r);
+           && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) && nh_system_read_levels(r) && nh_system_read_symmetry(r) && nh_system_read_drawing(r)
+           && (s->levels || (nh_system_read_known(r) && nh_system_read_robustness(r))); /* claims about the whole system */
 }
 
 /* Files of earlier versions: chart {velocities: ..}, and stress. */
