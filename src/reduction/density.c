@@ -73,6 +73,7 @@ static bool minus_theta(const search *s, const nh_ex *K, const nh_ex *U, nh_ex *
             out[j] = nh_sub(d, out[j], b[i]);
         }
     }
+    for (size_t j = 0; j < n && lu; j++) out[j] = nh_simplify(d, out[j]); /* or 1e-9 of it is lost near a pole of the coordinates */
     bool good = lu != NULL;
     nh_lu_free(lu);
     nh_free(b);
@@ -167,7 +168,7 @@ static void offer_candidate(contest *t, const candidate *c)
 /* One factor, or two, that fit with rational exponents. */
 static void choose(contest *t, size_t rows, const double *column, const double *want)
 {
-    static const double fits = 1e-6; /* near a pole of the coordinates no more is left; the proof decides */
+    static const double fits = 1e-6; /* where -Theta is too long to be simplified no more is left; the proof decides */
     double c[2];
     for (size_t i = 0; i < t->s->factors && t->left; i++) {
         candidate one = {.terms = 1, .which = {i}};
