@@ -324,3 +324,14 @@ Test(parameters, a_second_group_has_parameters)
     cr_expect_str_eq(text_of(field, "s"), "1");
     cJSON_Delete(root);
 }
+
+/* For c = 0 a current was divided by c, and called proved. */
+Test(parameters, no_current_is_divided_by_what_is_zero)
+{
+    cJSON *json = answer("analyze two_wheel_carriage --json - --quiet --set c=0");
+    const cJSON *item;
+    cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(json, "currents")), 7);
+    cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(json, "warnings")), 0);
+    cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(json, "currents")) cr_expect(isfinite(number_of(item, "drift")), "%s: its drift is no number", text_of(item, "expression"));
+    cJSON_Delete(json);
+}

@@ -80,6 +80,17 @@ nh_tape *nh_model_tape(const nh_model *o, size_t count, const nh_ex *out)
     return nh_tape_create(o->dag, o->width, o->chart->symbol, count, out, o->system->parameters, o->parameter, o->parameter_value);
 }
 
+double nh_model_number(const nh_model *o, nh_ex e)
+{
+    double value;
+    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, 1, &e, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, NULL, &value);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return value;
+}
+
 /* ---- construction ---- */
 
 /* A large Lagrangian, such as that of a chain of bodies, is differentiated with respect to everything at once, and along X_0 in one go (tau). */

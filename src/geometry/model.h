@@ -63,6 +63,9 @@ nh_ex nh_model_omega(const nh_model *model, const nh_field *a, const nh_field *b
 /* A tape of expressions over the points (t, q, w, u), parameters bound. */
 nh_tape *nh_model_tape(const nh_model *model, size_t count, const nh_ex *out);
 
+/* The value of an expression of the parameters. */
+double nh_model_number(const nh_model *model, nh_ex e);
+
 /* The energy of the system as an expression of the chart, and an expression of coordinate velocities brought to the chart. */
 nh_ex nh_model_compose(const nh_model *model, nh_ex e);
 

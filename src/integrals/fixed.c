@@ -63,7 +63,7 @@ bool nh_fixed_is_like(const nh_model *o, size_t n, const nh_ex *exact, const dou
             largest = fabs(like[j]);
             factor = value[j] / like[j];
         }
-    for (size_t j = 0; j < n; j++) worst = fmax(worst, fabs(value[j] - factor * like[j]));
+    for (size_t j = 0; j < n; j++) worst = isfinite(value[j]) ? fmax(worst, fabs(value[j] - factor * like[j])) : INFINITY; /* 0/0 for special values */
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(value);

@@ -228,11 +228,7 @@ static bool number_at(reader *r, const nh_deck_node *node, const char *name, dou
     nh_ex e;
     if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "an initial value", r->error)) return false;
     if (!nh_system_expression(o->system, r->a->deck, node, r->extras, r->extra, &e, r->error)) return false;
-    nh_tape *tape = nh_tape_create(o->dag, 0, NULL, 1, &e, o->system->parameters, o->parameter, o->parameter_value);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, NULL, out);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
+    *out = nh_model_number(o, e);
     if (isfinite(*out)) return true;
     nh_deck_fail(r->a->deck, node, 0, r->error, "the initial value of `%s` must be a number", name);
     return nh_error_hint(r->error, "only parameters can be used here");

@@ -38,18 +38,25 @@ static nh_ex parametric_factor(const nh_model *o, nh_ex e)
     return factor;
 }
 
+/* A factor c is no unit for c = 0. */
+static bool is_unit(const nh_model *o, nh_ex factor)
+{
+    double value = nh_model_number(o, factor);
+    return isfinite(value) && value != 0;
+}
+
 /* What to divide the current by: Z^0 where it is a constant, so that the energy's symmetry is d/dt; else the simplest factor of zeta. */
 static nh_ex unit_of(const nh_model *o, nh_ex Z0, const nh_ex *zeta)
 {
     nh_dag *d = o->dag;
-    if (!nh_is_zero(d, Z0) && is_parametric(o, Z0)) return Z0;
+    if (is_parametric(o, Z0) && is_unit(o, Z0)) return Z0;
     nh_ex best = nh_int(d, 1);
     size_t least = SIZE_MAX;
     for (size_t i = o->n; i-- > 0;) { /* later components win ties */
         if (nh_is_zero(d, zeta[i])) continue;
         nh_ex factor = parametric_factor(o, zeta[i]);
         size_t size = nh_is_number(d, factor, 1) ? 0 : nh_complexity(d, factor);
-        if (size >= least) continue;
+        if (size >= least || !is_unit(o, factor)) continue;
         least = size;
         best = factor;
     }
@@ -72,7 +79,7 @@ static void normalise(nh_model *o, nh_current *f)
     put_values(o, f->proof.fixed, f->proof.fixed ? o->n : 0, zeta);
     nh_ex unit = unit_of(o, Z0, zeta);
     nh_free(zeta);
-    f->phi = shortest(d, nh_is_zero(d, unit) ? f->phi : nh_div(d, f->phi, unit));
+    f->phi = shortest(d, nh_div(d, f->phi, unit));
 }
 
 /* The same in a field, time first. */
