@@ -11,7 +11,7 @@
 #   make papers    every numbered item of the three papers of the method, and write docs/papers.md
 #   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
-#   make parameters give every system other parameter values, compare its formulas, and print the table
+#   make parameters give every system other parameter values, compare its formulas, and write docs/parameters.md (it continues where it was stopped; SEED=N)
 #   make perturbed analyse copies of every system with a small term added, and print the table
 #   make house     count files, functions and headers, and write the tables of docs/architecture.md
 #   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
@@ -131,7 +131,18 @@ reductions: test-packages
 	@{ printf '# Reductions\n\nWritten by `make reductions`: every system of `systems/` that has a group to reduce by, from $(STATES) initial states of its domain, over ten units of time at the tolerance 1e-10. The last column is a ratio of times on one machine in one run.\n\nKnown: full motions that are known to 100 tolerances up to the end (the others are compared as far as they are known). Followed: reduced motions that go as far, or until the constraints become dependent. Apart: those that are further from the full motion somewhere than 100 tolerances and what that itself is known to (where more than 100 tolerances lie between them: by how much full motions with other tolerances differ; their number stands in brackets). Charts changed: how often another slice or other velocities took over ([method.md](method.md), section 9). Times faster: the time of the full motions divided by that of the reduced ones, with equal tolerances.\n\n'; \
 	   $(BUILD)/tests/bench_reductions systems $(STATES); } >$(BUILD)/reductions.md; code=$$?; mv $(BUILD)/reductions.md docs/; tail -n 1 docs/reductions.md; exit $$code
 
-random parameters perturbed: test-packages
+# One row per system, made anew when the program or the system is newer.
+ROWS = $(BUILD)/parameters-$(SEED)
+PARAMETER_ROWS = $(patsubst systems/%.yaml,$(ROWS)/%.row,$(wildcard systems/*.yaml))
+$(ROWS)/%.row: systems/%.yaml $(BUILD)/tests/bench_parameters
+	@mkdir -p $(@D)
+	@$(BUILD)/tests/bench_parameters $< $(SEED) >$@
+
+parameters: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) tests
+	@$(MAKE) --no-print-directory -k -j$(JOBS) $(PARAMETER_ROWS); code=$$?; sh tests/parameters.sh $(ROWS) >$(BUILD)/parameters.md && mv $(BUILD)/parameters.md docs/ || code=1; tail -n 1 docs/parameters.md; exit $$code
+
+random perturbed: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) tests
 	@$(BUILD)/tests/bench_$@ $(if $(filter random,$@),$(SYSTEMS),systems) $(SEED)
 

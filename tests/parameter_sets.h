@@ -1,9 +1,11 @@
 /* A system's formulas with other values of its parameters: for bench_parameters, which prints a table, and test_parameters_reduce, which asserts.
  *
  * Parameters are symbols, so that every formula must be the same, letter for letter.  Where one parameter has a special value that value is put in its place in the
- * formulas of both.  There may be more currents for a special value, and others of them are simple: the file's formula must then be a function of those that are found
- * there, which is decided by the rank of gradients in ball arithmetic; or mean nothing there, like a formula with 1/k for k = 0 or sqrt(B^2 - w^2) for
- * B < w.  Reduced equations are left out: charts are chosen by conditioning at the given values. */
+ * formulas of both.  There may be more of them for a special value, and others are simple: the file's formula must then be a function of those that are found
+ * there, which for currents is decided by the rank of gradients in ball arithmetic, and for fields, momenta and densities by linear algebra over the constants; or
+ * mean nothing there, like a formula that becomes a constant, or with 1/k for k = 0, or with sqrt(B^2 - w^2) for B < w, or any where the file's equations of motion are not finite.
+ * A series has numbers for the given values; where there is one for the others as well nothing is compared.
+ * Reduced equations are left out: charts are chosen by conditioning at the given values. */
 #ifndef NH_TESTS_PARAMETER_SETS_H
 #define NH_TESTS_PARAMETER_SETS_H
 
@@ -12,11 +14,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/linalg.h"
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "document/facts.h"
 #include "commands/analyze.h"
-#include "commands/reduce.h"
+#include "commands/reduce_internal.h"
 #include "integrals/gradient_rank.h"
 #include "problem/analysis_file.h"
 #include "system/sample.h"
@@ -33,7 +36,8 @@ typedef struct {
     size_t count, capacity;
     formula *list;
     bool answered;   /* nothing failed */
-    nh_analysis *analysis; /* where the currents are from; NULL where there was none */
+    nh_analysis *analysis;   /* where they are from; NULL where there was none */
+    nh_reduction *reduction;
 } formulas;
 
 /* One parameter at a special value; name NULL: none. */
@@ -47,6 +51,7 @@ static inline void formulas_clear(formulas *f)
     for (size_t i = 0; i < f->count; i++) nh_free(f->list[i].text);
     nh_free(f->list);
     nh_analysis_free(f->analysis);
+    nh_reduction_free(f->reduction);
     *f = (formulas){0};
 }
 
@@ -101,48 +106,6 @@ static inline void add_analysis(formulas *f, const char *path, size_t settings, 
     nh_error_clear(&error);
 }
 
-/* ---- what becomes of a formula at other values ---- */
-
-typedef enum { FATE_FUNCTION, FATE_NOTHING, FATE_OTHER } formula_fate;
-static const char *const fate_words[] = {"a function of those found", "means nothing", "differs"};
-
-/* Is it a finite real number at some point? */
-static inline bool real_somewhere(const nh_model *o, nh_ex phi)
-{
-    enum { tried = 32 };
-    nh_error error = {0};
-    double value[tried];
-    bool real = false;
-    nh_points *p = nh_points_create(o, tried, 1, 17, &error);
-    if (p) nh_points_evaluate(p, o, 1, &phi, value);
-    for (size_t i = 0; p && i < tried; i++) real |= isfinite(value[i]);
-    nh_points_free(p);
-    nh_error_clear(&error);
-    return real;
-}
-
-/* Of a current: is it a function of those found there? */
-static inline formula_fate fate_of(const formulas *is, const formula *f)
-{
-    const nh_analysis *r = is->analysis;
-    nh_error error = {0};
-    nh_ex e, list[200];
-    size_t n = 0;
-    if (!r || strncmp(f->name, "Phi", 3)) return FATE_OTHER;
-    if (strstr(f->text, "nan") || !nh_system_expression_text(r->system, "a formula", f->text, 0, NULL, &e, &error)
-        || !nh_analysis_file_to_chart(r->model, e, &list[0], &error)) {
-        nh_error_clear(&error);
-        return FATE_NOTHING;
-    }
-    nh_ex phi = list[0];
-    for (size_t k = 0; k < r->count && n < 190; k++)
-        if (r->found[k].independence == NH_INDEPENDENT) list[n++] = r->found[k].phi;
-    list[n] = phi;
-    nh_rank rank = nh_rank_decide(r->model, n, list, r->options.doubt);
-    if (rank.answer == NH_RANK_STAYS) return FATE_FUNCTION;
-    return real_somewhere(r->model, phi) ? FATE_OTHER : FATE_NOTHING;
-}
-
 /* ---- of a reduction ---- */
 
 /* Brackets follow from generators; where a special value brings more of these in they have other numbers. */
@@ -189,12 +152,150 @@ static inline void add_reduction(formulas *f, const char *path, size_t settings,
         if (m->tested && m->measure && m->closed) formulas_add(f, r->model, special, name, 1, &m->density, &m->proof, m->proof.proved ? "" : "to rounding");
     }
     for (size_t i = 0; r && r->joints && i < r->joints->fields; i++) {
-        snprintf(name, sizeof name, "field %zu of joints", i + 1);
+        snprintf(name, sizeof name, "joint field %zu", i + 1);
         formulas_add(f, r->model, special, name, r->kinetic->m, r->joints->field[i].component, NULL, "");
     }
     f->answered &= r != NULL;
-    nh_reduction_free(r);
+    if (r) nh_reduction_whole_model(r, &error);
+    f->reduction = r;
     nh_error_clear(&error);
+}
+
+/* ---- what becomes of a formula at other values ---- */
+
+typedef enum { FATE_LETTERS, FATE_FUNCTION, FATE_SERIES, FATE_NOTHING, FATE_OTHER, FATES } formula_fate; /* the better ones first */
+static const char *const fate_words[] = {"letter for letter", "by those found there", "series", "mean nothing", "differ"};
+
+enum { most_parts = 64, probes = 32 };
+
+static inline nh_model *model_of(const formulas *f) { return f->analysis ? f->analysis->model : f->reduction ? f->reduction->whole : NULL; }
+
+/* The parts of a formula, which "; " separates, as expressions of another run of the same system; 0 where one means nothing. */
+static inline size_t parts_of(const nh_model *o, const char *text, nh_ex *e)
+{
+    nh_error error = {0};
+    char *copy = nh_strdup(text);
+    size_t n = 0;
+    bool good = !strstr(text, "nan") && !strstr(text, "inf");
+    for (char *at = copy, *next; good && at && n < most_parts; at = next) {
+        if ((next = strstr(at, "; "))) *next = 0, next += 2;
+        good = nh_system_expression_text(o->system, "a formula", at, 0, NULL, &e[n], &error) && nh_analysis_file_to_chart(o, e[n], &e[n], &error);
+        n++;
+    }
+    nh_error_clear(&error);
+    nh_free(copy);
+    return good ? n : 0;
+}
+
+/* Values of the parts at points: value[part * probes + point]; false where there are no points. */
+static inline bool values_of(const nh_model *o, size_t n, const nh_ex *e, double *value)
+{
+    nh_error error = {0};
+    nh_points *p = nh_points_create(o, probes, 1, 17, &error);
+    if (p) nh_points_evaluate(p, o, n, e, value);
+    nh_points_free(p);
+    nh_error_clear(&error);
+    return p != NULL;
+}
+
+/* Are all parts finite real numbers at some point? */
+static inline bool real_somewhere(const nh_model *o, size_t n, const nh_ex *e)
+{
+    double *value = nh_alloc_array(n * probes + 1, sizeof *value);
+    bool there = values_of(o, n, e, value), real = false;
+    for (size_t i = 0; there && i < probes; i++) {
+        bool all = true;
+        for (size_t j = 0; j < n; j++) all &= isfinite(value[j * probes + i]);
+        real |= all;
+    }
+    nh_free(value);
+    return real;
+}
+
+/* Are the file's equations of motion, in its chart, finite anywhere for a special value? */
+static inline bool equations_mean_something(const formulas *was, special_value special)
+{
+    const nh_model *o = model_of(was);
+    nh_dag *d = o ? o->dag : NULL;
+    nh_ex e[2 * most_parts];
+    size_t n = 0;
+    if (!o || !special.name || o->n + o->m > 2 * most_parts) return true;
+    for (size_t i = 0; i < o->m; i++) e[n++] = o->rho[i];
+    for (size_t i = 0; i < o->n; i++) e[n++] = o->a[i];
+    for (size_t i = 0; i < o->system->parameters; i++) {
+        nh_ex value = nh_number(d, nh_num_decimal(special.value));
+        for (size_t j = 0; j < n && !strcmp(o->system->parameter[i].name, special.name); j++) e[j] = nh_substitute(d, e[j], 1, &o->parameter[i], &value);
+    }
+    return real_somewhere(o, n, e);
+}
+
+/* Is it a combination with constant coefficients of the formulas of the same kind (the first word of the name, without numbers)? */
+static inline bool is_spanned(const formulas *is, const formula *f, size_t n, const nh_ex *e)
+{
+    const nh_model *o = model_of(is);
+    size_t rows = n * probes, columns = 0, kind = strcspn(f->name, "0123456789");
+    double *all = nh_alloc_array((is->count + 1) * rows + 1, sizeof *all), *b = nh_alloc_array(rows + is->count + 1, sizeof *b), size = 0, off = 0;
+    bool good = values_of(o, n, e, b);
+    for (size_t i = 0; good && i < is->count; i++) {
+        nh_ex part[most_parts];
+        if (strncmp(is->list[i].name, f->name, kind) || parts_of(o, is->list[i].text, part) != n) continue;
+        good = values_of(o, n, part, all + columns++ * rows);
+    }
+    for (size_t j = 0; j < rows; j++) { /* a point where one of them is not finite is no point */
+        bool finite = isfinite(b[j]);
+        for (size_t i = 0; i < columns; i++) finite &= isfinite(all[i * rows + j]);
+        if (!finite) b[j] = 0;
+        for (size_t i = 0; i < columns && !finite; i++) all[i * rows + j] = 0;
+        size = fmax(size, fabs(b[j]));
+    }
+    double *kept = nh_alloc_array(rows * (columns + 1) + 1, sizeof *kept), *want = nh_alloc_array(rows + 1, sizeof *want);
+    memcpy(kept, all, rows * columns * sizeof *kept);
+    memcpy(want, b, rows * sizeof *want);
+    good = good && columns > 0 && columns <= rows && nh_least_squares(rows, columns, all, 1, b, rows, 1e-12) > 0;
+    for (size_t j = 0; good && j < rows; j++) {
+        for (size_t i = 0; i < columns; i++) want[j] -= b[i] * kept[i * rows + j];
+        off = fmax(off, fabs(want[j]));
+    }
+    nh_free(all);
+    nh_free(b);
+    nh_free(kept);
+    nh_free(want);
+    return good && off <= 1e-9 * size;
+}
+
+/* Of a current: is it a function of those found there? */
+static inline bool is_function(const formulas *is, nh_ex phi)
+{
+    const nh_analysis *r = is->analysis;
+    nh_ex list[200];
+    size_t n = 0;
+    for (size_t k = 0; r && k < r->count && n < 190; k++)
+        if (r->found[k].independence == NH_INDEPENDENT) list[n++] = r->found[k].phi;
+    list[n] = phi;
+    return r && nh_rank_decide(r->model, n, list, r->options.doubt).answer == NH_RANK_STAYS;
+}
+
+static inline bool is_constant(const nh_model *o, size_t n, const nh_ex *e)
+{
+    bool moves = false;
+    for (size_t j = 0; j < o->width; j++)
+        for (size_t i = 0; i < n; i++) moves |= nh_depends(o->dag, e[i], o->chart->symbol[j]);
+    return !moves && n == 1;
+}
+
+static inline bool is_series(const formula *f) { return f && strstr(f->limit, "a series"); }
+
+/* `g`: what has its name there. */
+static inline formula_fate fate_of(const formulas *is, const formula *f, const formula *g)
+{
+    const nh_model *o = model_of(is);
+    nh_ex e[most_parts];
+    size_t n = o ? parts_of(o, f->text, e) : 0;
+    if (is_series(f) && is_series(g)) return FATE_SERIES;
+    if (!o || !strncmp(f->name, "bracket", 7)) return FATE_OTHER;
+    if (!n || is_constant(o, n, e)) return FATE_NOTHING;
+    if (strncmp(f->name, "Phi", 3) ? is_spanned(is, f, n, e) : is_function(is, e[0])) return FATE_FUNCTION;
+    return real_somewhere(o, n, e) ? FATE_OTHER : FATE_NOTHING;
 }
 
 /* What kind of system it is with these values; false: none. */
@@ -293,10 +394,10 @@ static inline formulas ask(const char *path, const parameters_question *q, size_
 }
 
 typedef struct {
-    bool drawn[PARAMETER_SETS], same[PARAMETER_SETS]; /* were there admissible values?  all formulas? */
-    size_t others[PARAMETER_SETS];                    /* that are not there letter for letter, but as functions of those that are, or mean nothing there */
+    bool drawn[PARAMETER_SETS];        /* were there admissible values? */
+    formula_fate fate[PARAMETER_SETS]; /* the worst of a formula */
     size_t formulas, limited; /* of the file; those that hold for some values only, of the file and of the first two sets */
-    char *words;              /* what differs, and what is limited, with reasons */
+    char *words;              /* what is not there letter for letter, and what is limited, with reasons */
 } parameters_row;
 
 static inline const formula *find_formula(const formulas *f, const char *text)
@@ -322,23 +423,28 @@ static inline void list_limited(const formulas *f, const char *where, parameters
     }
 }
 
-/* Does every formula of `was` stand in `is`, under its name unless a special value brings others in?  `others`: how many only as functions of those. */
-static inline bool compare_formulas(const formulas *was, const formulas *is, const parameter_set *p, size_t *others, nh_text *out)
+/* Does every formula of `was` stand in `is`, under its name unless a special value brings others in?  The worst fate of one. */
+static inline formula_fate compare_formulas(const formulas *was, const formulas *is, const parameter_set *p, nh_text *out)
 {
-    bool same = is->answered && (p->special.name || is->count == was->count);
-    *others = 0;
-    if (is->count != was->count) nh_text_addf(out, "%s%zu formulas instead of %zu for %s", *nh_text_string(out) ? "; " : "", is->count, was->count, p->text);
+    bool meaning = equations_mean_something(was, p->special), bad_count = !p->special.name && is->count != was->count;
+    formula_fate worst = is->answered && !bad_count ? FATE_LETTERS : FATE_OTHER;
+    size_t count[FATES] = {0};
+    const char *names[FATES][400];
+    if (!is->answered || bad_count) nh_text_addf(out, "%s%s: %zu formulas instead of %zu", *nh_text_string(out) ? "; " : "", p->text, is->count, was->count);
     for (size_t i = 0; i < was->count; i++) {
         const formula *f = &was->list[i], *g = named(is, f->name);
         if (p->special.name ? find_formula(is, f->text) != NULL : g && !strcmp(g->text, f->text)) continue;
-        formula_fate fate = fate_of(is, f);
-        nh_text_addf(out, "%s%s: %s for %s", *nh_text_string(out) ? "; " : "", f->name, fate == FATE_OTHER && !g ? "is not there" : fate_words[fate], p->text);
-        *others += fate != FATE_OTHER;
-        if (fate != FATE_OTHER && p->special.name) continue;
+        formula_fate fate = fate_of(is, f, g);
+        if (fate == FATE_OTHER && !meaning) fate = FATE_NOTHING;
         if (getenv("NHSYM_TEST_FIGURES") && fate == FATE_OTHER) printf("%s: %s\n    %s\n    %s\n", p->text, f->name, f->text, g ? g->text : "");
-        same &= fate == FATE_NOTHING;
+        if (count[fate] < 400) names[fate][count[fate]++] = f->name;
+        worst = fate > worst ? fate : worst;
     }
-    return same;
+    for (formula_fate k = FATE_FUNCTION; k < FATES; k++) {
+        if (count[k]) nh_text_addf(out, "%s%s: %s: ", *nh_text_string(out) ? "; " : "", p->text, fate_words[k]);
+        for (size_t i = 0; i < count[k]; i++) nh_text_addf(out, "%s%s", i ? ", " : "", names[k][i]);
+    }
+    return worst;
 }
 
 /* One set of values against the file's formulas. */
@@ -353,7 +459,7 @@ static inline void compare_set(const char *path, const nh_system *s, const param
     if (!good || draws == most_draws) return;
     formulas is = ask(path, q, p.count, p.setting, p.special), was = p.special.name ? ask(path, q, 0, NULL, p.special) : (formulas){0};
     o->drawn[set] = true;
-    o->same[set] = compare_formulas(p.special.name ? &was : plain, &is, &p, &o->others[set], out);
+    o->fate[set] = compare_formulas(p.special.name ? &was : plain, &is, &p, out);
     if (!p.special.name) list_limited(&is, parameter_set_name[set], o, out);
     formulas_clear(&is);
     formulas_clear(&was);
