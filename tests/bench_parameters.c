@@ -7,7 +7,7 @@
  * together; nothing for a system without parameters.  The exit code is 1 when it could not be read. */
 #include "parameter_sets.h"
 
-static const char *const mark[] = {"letters", "functions", "series", "no meaning", "differs"};
+static const char *const mark[] = {"letters", "functions", "limited", "no meaning", "differs"};
 
 int main(int argc, char **argv)
 {

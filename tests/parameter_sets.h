@@ -4,7 +4,7 @@
  * formulas of both.  There may be more of them for a special value, and others are simple: the file's formula must then be a function of those that are found
  * there, which for currents is decided by the rank of gradients in ball arithmetic, and for fields, momenta and densities by linear algebra over the constants; or
  * mean nothing there, like a formula that becomes a constant, or with 1/k for k = 0, or with sqrt(B^2 - w^2) for B < w, or any where the file's equations of motion are not finite.
- * A series has numbers for the given values; where there is one for the others as well nothing is compared.
+ * What holds for the file's values only, such as a series, is not compared, but counted.
  * Reduced equations are left out: charts are chosen by conditioning at the given values. */
 #ifndef NH_TESTS_PARAMETER_SETS_H
 #define NH_TESTS_PARAMETER_SETS_H
@@ -163,8 +163,8 @@ static inline void add_reduction(formulas *f, const char *path, size_t settings,
 
 /* ---- what becomes of a formula at other values ---- */
 
-typedef enum { FATE_LETTERS, FATE_FUNCTION, FATE_SERIES, FATE_NOTHING, FATE_OTHER, FATES } formula_fate; /* the better ones first */
-static const char *const fate_words[] = {"letter for letter", "by those found there", "series", "mean nothing", "differ"};
+typedef enum { FATE_LETTERS, FATE_FUNCTION, FATE_LIMITED, FATE_NOTHING, FATE_OTHER, FATES } formula_fate; /* the better ones first */
+static const char *const fate_words[] = {"letter for letter", "by those found there", "hold for the file's values only", "mean nothing", "differ"};
 
 enum { most_parts = 64, probes = 32 };
 
@@ -283,15 +283,12 @@ static inline bool is_constant(const nh_model *o, size_t n, const nh_ex *e)
     return !moves && n == 1;
 }
 
-static inline bool is_series(const formula *f) { return f && strstr(f->limit, "a series"); }
-
-/* `g`: what has its name there. */
-static inline formula_fate fate_of(const formulas *is, const formula *f, const formula *g)
+static inline formula_fate fate_of(const formulas *is, const formula *f)
 {
     const nh_model *o = model_of(is);
     nh_ex e[most_parts];
     size_t n = o ? parts_of(o, f->text, e) : 0;
-    if (is_series(f) && is_series(g)) return FATE_SERIES;
+    if (*f->limit) return FATE_LIMITED;
     if (!o || !strncmp(f->name, "bracket", 7)) return FATE_OTHER;
     if (!n || is_constant(o, n, e)) return FATE_NOTHING;
     if (strncmp(f->name, "Phi", 3) ? is_spanned(is, f, n, e) : is_function(is, e[0])) return FATE_FUNCTION;
@@ -423,18 +420,26 @@ static inline void list_limited(const formulas *f, const char *where, parameters
     }
 }
 
+/* How many hold for all values. */
+static inline size_t unlimited(const formulas *f)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < f->count; i++) n += !*f->list[i].limit;
+    return n;
+}
+
 /* Does every formula of `was` stand in `is`, under its name unless a special value brings others in?  The worst fate of one. */
 static inline formula_fate compare_formulas(const formulas *was, const formulas *is, const parameter_set *p, nh_text *out)
 {
-    bool meaning = equations_mean_something(was, p->special), bad_count = !p->special.name && is->count != was->count;
+    bool meaning = equations_mean_something(was, p->special), bad_count = !p->special.name && unlimited(is) != unlimited(was);
     formula_fate worst = is->answered && !bad_count ? FATE_LETTERS : FATE_OTHER;
     size_t count[FATES] = {0};
     const char *names[FATES][400];
-    if (!is->answered || bad_count) nh_text_addf(out, "%s%s: %zu formulas instead of %zu", *nh_text_string(out) ? "; " : "", p->text, is->count, was->count);
+    if (!is->answered || bad_count) nh_text_addf(out, "%s%s: %zu formulas instead of %zu", *nh_text_string(out) ? "; " : "", p->text, unlimited(is), unlimited(was));
     for (size_t i = 0; i < was->count; i++) {
         const formula *f = &was->list[i], *g = named(is, f->name);
         if (p->special.name ? find_formula(is, f->text) != NULL : g && !strcmp(g->text, f->text)) continue;
-        formula_fate fate = fate_of(is, f, g);
+        formula_fate fate = fate_of(is, f);
         if (fate == FATE_OTHER && !meaning) fate = FATE_NOTHING;
         if (getenv("NHSYM_TEST_FIGURES") && fate == FATE_OTHER) printf("%s: %s\n    %s\n    %s\n", p->text, f->name, f->text, g ? g->text : "");
         if (count[fate] < 400) names[fate][count[fate]++] = f->name;

@@ -14,7 +14,7 @@ A special value is put into the file's formulas before the comparison. Sets for 
 * letters: all formulas are the same, letter for letter.
 * functions: all formulas of the file follow from those that are found there. At a special value there are more of them, and simpler ones.
   For currents the rank of gradients in ball arithmetic decides, for fields, momenta and densities linear algebra over the constants.
-* series: a current is a series, whose numbers hold for the given values; there is one for the other values as well. The others are as above.
+* limited: a formula of the file holds for some values only, as the file's run says, and is not compared: a series, or a closed form that there is for such values. The others are as above.
 * no meaning: some formulas of the file mean nothing there, for instance with 1/k for k = 0 or sqrt(B^2 - w^2) for B < w; or they become constants; or the
   file's equations of motion are not finite at that value. The others are as above.
 * differs: a formula is not there.
@@ -28,5 +28,5 @@ PAGE
 cat -- *.row
 awk -F' *[|] *' '
     { systems++; formulas += $3; limited += $7; for (i = 4; i <= 6; i++) { seen[i, $i]++; drawn[i] += $i != "-" } }
-    function set(i, name) { return sprintf("%s: %d of %d letter for letter, %d by functions, %d series, %d without a meaning, %d differ", name, seen[i, "letters"], drawn[i], seen[i, "functions"], seen[i, "series"], seen[i, "no meaning"], seen[i, "differs"]) }
+    function set(i, name) { return sprintf("%s: %d of %d letter for letter, %d by functions, %d limited, %d without a meaning, %d differ", name, seen[i, "letters"], drawn[i], seen[i, "functions"], seen[i, "limited"], seen[i, "no meaning"], seen[i, "differs"]) }
     END { printf "\n%d systems with parameters, %d formulas. %s. %s. %s. For some values only: %d.\n", systems, formulas, set(4, "Whole numbers"), set(5, "Decimals"), set(6, "One special value"), limited }' ./*.row
