@@ -17,7 +17,7 @@ static const double enough_seconds = 2e-3; /* repetitions stop after this time *
 typedef struct {
     nh_flow_problem problem;
     size_t n;
-    double *z, *low, *high, *coarse;
+    double *z, *low, *high, *coarse, *size;
     const nh_tape *tape;   /* for the complex step; NULL where implicit velocities would have to be found */
     double complex *work, *in, *out;
     long evaluations;
@@ -58,7 +58,7 @@ static bool by_complex_step(differences *d, double t, double *J)
     return true;
 }
 
-/* Steps near the best for errors of order 1, 2 and 4 and rounding: eps^(1/2), eps^(1/3), eps^(1/5), times max(1, |z_j|). */
+/* Steps near the best for errors of order 1, 2 and 4 and rounding: eps^(1/2), eps^(1/3), eps^(1/5), times the largest |z_j| of all points. */
 static bool jacobian(differences *d, int kind, double t, double *J)
 {
     size_t n = d->n;
@@ -66,7 +66,7 @@ static bool jacobian(differences *d, int kind, double t, double *J)
     if (kind == complex_step) return by_complex_step(d, t, J);
     if (kind == forward && !rate_at(d, t, 0, 0, d->low)) return false;
     for (size_t j = 0; j < n; j++) {
-        double *column = J + j * n, h = fmax(1, fabs(d->z[j])) * pow(DBL_EPSILON, kind == forward ? 1.0 / 2 : kind == central_differences ? 1.0 / 3 : 1.0 / 5);
+        double *column = J + j * n, h = d->size[j] * pow(DBL_EPSILON, kind == forward ? 1.0 / 2 : kind == central_differences ? 1.0 / 3 : 1.0 / 5);
         if (kind == forward) {
             if (!rate_at(d, t, j, h, d->high)) return false;
             for (size_t i = 0; i < n; i++) column[i] = (d->high[i] - d->low[i]) / h;
@@ -82,7 +82,7 @@ static bool jacobian(differences *d, int kind, double t, double *J)
 
 static double largest_difference(size_t count, const double *a, const double *exact)
 {
-    double worst = 0, scale = 1;
+    double worst = 0, scale = DBL_MIN;
     for (size_t i = 0; i < count; i++) scale = fmax(scale, fabs(exact[i]));
     for (size_t i = 0; i < count; i++) worst = fmax(worst, fabs(a[i] - exact[i]) / scale);
     return worst;
@@ -112,12 +112,21 @@ static void measure(differences *d, const nh_chart *c, int kind, double *J, doub
     if (!done) out->seconds = out->error = NAN;
 }
 
+static void set_sizes(differences *d, const nh_chart *c)
+{
+    for (size_t p = 0; p < c->probes; p++)
+        for (size_t j = 0; j < d->n; j++) d->size[j] = fmax(d->size[j], fabs(c->probe[p * c->width + 1 + j]));
+    for (size_t j = 0; j < d->n; j++)
+        if (!(d->size[j] > 0)) d->size[j] = 1;
+}
+
 void nh_benchmark_derivatives(const nh_formulation *f, nh_benchmark *out)
 {
     size_t n = f->size;
     if (!f->model || !f->problem.jacobian) return;
-    differences d = {.problem = f->problem, .n = n, .z = nh_alloc_array(4 * n, sizeof *d.z)};
-    d.low = d.z + n, d.high = d.low + n, d.coarse = d.high + n;
+    differences d = {.problem = f->problem, .n = n, .z = nh_alloc_array(5 * n, sizeof *d.z)};
+    d.low = d.z + n, d.high = d.low + n, d.coarse = d.high + n, d.size = d.coarse + n;
+    set_sizes(&d, f->model->chart);
     double *J = nh_alloc_array(2 * n * n, sizeof *J);
     d.in = nh_alloc_array(2 * n + 2, sizeof *d.in), d.out = d.in + n + 1;
     if (!f->model->chart->implicit) {

@@ -11,6 +11,8 @@ static const double smallest_slope = 0.03; /* of a current, relative to the star
 
 static const double same_rows = 1e-9;      /* relative difference of two forms of one row that is rounding */
 
+static const double rounding = 1e-13;      /* of a current beside its slope, where its state is zero */
+
 static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
 
 /* ---- core, quadratures, rest ---- */
@@ -61,7 +63,7 @@ static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
         e[i] = nh_substitute(o->dag, s->network.row[s->state[i]], count, symbol, zero);
         e[n + i] = s->network.row[s->state[i]];
     }
-    double *value = nh_alloc_array(2 * n + 1, sizeof *value), *point = nh_alloc_array(width + 1, sizeof *point);
+    double *value = nh_alloc_array(4 * n + 1, sizeof *value), *off = value + 2 * n, *size = off + n, *point = nh_alloc_array(width + 1, sizeof *point);
     nh_tape *tape = nh_dependency_graph_tape(&s->network, 2 * n, e, 0, NULL, NULL);
     nh_tape_work *work = nh_tape_work_create(tape);
     bool good = !s->implicit && o->chart->probes > 0;
@@ -70,8 +72,12 @@ static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
         for (size_t k = 0; k < s->levels; k++) point[o->width + k] = 0.7385 + 0.31 * (double)(p + k); /* any */
         nh_tape_eval(tape, work, point, value);
         good = nh_all_finite(2 * n, value);
-        for (size_t i = 0; i < n && good; i++) good = fabs(value[i] - value[n + i]) <= same_rows * (1 + fabs(value[n + i]));
+        for (size_t i = 0; i < n; i++) {
+            off[i] = fmax(off[i], fabs(value[i] - value[n + i]));
+            size[i] = fmax(size[i], fabs(value[n + i]));
+        }
     }
+    for (size_t i = 0; i < n && good; i++) good = off[i] <= same_rows * size[i];
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(point);
@@ -210,7 +216,8 @@ nh_closed_subsystem_run *nh_closed_subsystem_run_create(const nh_closed_subsyste
     memcpy(run->slope, run->level + s->levels, s->levels * sizeof *run->slope);
     for (size_t k = 0; k < s->levels && run->failed < 0; k++) { /* does it give back what was there? */
         double at = z0[s->state[s->kept + k]];
-        if (!(fabs(run->level[k] - at) <= same_rows * (1 + fabs(at)))) run->failed = (long)k;
+        double allowed = at != 0 ? same_rows * fabs(at) : rounding * fabs(run->point[width + k] / run->slope[k]);
+        if (!(fabs(run->level[k] - at) <= allowed)) run->failed = (long)k;
     }
     return run;
 }

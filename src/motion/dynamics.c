@@ -191,13 +191,14 @@ nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 
 /* ---- initial states ---- */
 
-/* One Gauss-Newton step of rho(w) = v for the given velocities; the size of the step, negative on failure. */
+/* One Gauss-Newton step of rho(w) = v for the given velocities; the largest |dw_i| beside |w_i| and the step's largest part, negative on failure: no unit matters but
+ * for velocities of several kinds, of which the large ones decide. */
 static double fit_step(nh_dynamics *d, const nh_state *state, double *w)
 {
     size_t m = d->m, n = d->n;
     nh_tape_eval(d->velocity, d->velocity_work, d->point, d->out);
     if (!nh_all_finite(m * (1 + n), d->out)) return -1;
-    double *R = d->dense, *b = R + m * n, size = 0;
+    double *R = d->dense, *b = R + m * n, step = 0, size = 0;
     memcpy(R, d->out + m, m * n * sizeof *R);
     for (size_t s = 0; s < m; s++) {
         bool counts = !state->given || state->given[s];
@@ -207,9 +208,10 @@ static double fit_step(nh_dynamics *d, const nh_state *state, double *w)
     if (nh_least_squares(m, n, R, 1, b, m, 1e-12) < 0) return -1;
     for (size_t i = 0; i < n; i++) {
         w[i] += b[i];
-        size = fmax(size, fabs(b[i]));
+        step = fmax(step, fabs(b[i]));
+        size = fmax(size, fabs(w[i]));
     }
-    return size;
+    return step > 0 ? step / fmax(step, size) : 0;
 }
 
 /* The largest of v_s and the terms of rho_s = R_si w_i + b_s. */

@@ -103,7 +103,7 @@ static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double 
         nh_tape_eval(tape, scratch, point, value);
         double size = 0;
         for (size_t i = 0; i < rows * n; i++) size = isfinite(value[i]) ? fmax(size, fabs(value[i])) : INFINITY;
-        for (size_t i = 0; i < rows * n; i++) a[p * rows + i / n + total * (i % n)] = isfinite(size) ? value[i] / fmax(size, 1) : 0;
+        for (size_t i = 0; i < rows * n; i++) a[p * rows + i / n + total * (i % n)] = isfinite(size) && size > 0 ? value[i] / size : 0;
     }
     size_t dimension = 0;
     if (nh_svd(total, n, a, singular, NULL, vt))

@@ -60,7 +60,7 @@ static bool run(problem *p, double t0, double t1, double tolerance, double large
         size_t taken = evolve->count + evolve->failed_steps - before;
         before += taken;
         *steps -= taken < *steps ? taken : *steps;
-        for (size_t j = 0; good && j < n; j++) good = fabs(y[j]) < largest * fmax(1, size[j]);
+        for (size_t j = 0; good && j < n; j++) good = fabs(y[j]) < largest * size[j];
     }
     if (evolve) gsl_odeiv2_evolve_free(evolve);
     if (control) gsl_odeiv2_control_free(control);

@@ -382,16 +382,16 @@ static bool agrees(const curve *c, size_t i)
     static const double rounding = 1e-6;
     nh_ex pair[2] = {in_states(c, c->value[i]), c->m->state[i]};
     size_t count = c->points->count, compared = 0;
-    double *value = nh_alloc_array(2 * count + 1, sizeof *value);
-    bool same = true;
+    double *value = nh_alloc_array(2 * count + 1, sizeof *value), off = 0, size = 0;
     nh_points_evaluate(c->points, c->o, 2, pair, value);
     for (size_t p = 0; p < count; p++) {
         if (!isfinite(value[p])) continue;
         compared++;
-        same &= fabs(value[p] - value[count + p]) <= rounding * (1 + fabs(value[count + p]));
+        off = fmax(off, fabs(value[p] - value[count + p]));
+        size = fmax(size, fabs(value[count + p]));
     }
     nh_free(value);
-    return same && 2 * compared > count;
+    return off <= rounding * size && 2 * compared > count;
 }
 
 /* What still depends on states that are not solved is not known.  A constant that is none, to all digits, ends it all. */

@@ -107,18 +107,21 @@ bool nh_chart_complete(const nh_chart *c, double *z)
     if (!k) return true;
     double *u = z + c->width - k, *out = nh_alloc_array(k + k * k, sizeof *out), *jacobian = out + k;
     nh_tape_work *work = nh_tape_work_create(c->newton);
-    double last = INFINITY;
+    double last = INFINITY, speed = 0;
     bool good = false;
+    for (double *w = u - c->n; w < u; w++) speed = fmax(speed, fabs(*w));
     for (int step = 0; step < newton_steps && !good; step++) {
-        double size = 0, norm = 0;
+        double size = 0, norm = 0, largest = speed;
         nh_tape_eval(c->newton, work, z, out);
         for (size_t i = 0; i < k; i++) norm = fmax(norm, fabs(out[i]));
         if (!isfinite(norm) || !nh_solve(k, jacobian, 1, out, NULL)) break;
         for (size_t i = 0; i < k; i++) {
-            size = fmax(size, fabs(out[i]) / (1 + fabs(u[i])));
+            largest = fmax(largest, fabs(u[i]));
+            size = fmax(size, fabs(out[i]));
             u[i] -= out[i];
         }
-        good = size < 4e-16 || (size < 1e-13 && size >= 0.5 * last);
+        bool stays = size >= 0.5 * last; /* what is zero, beside velocities that are, does no more than that */
+        good = size <= 4e-16 * largest || (stays && size < 1e-13 * fmax(largest, 1e-2));
         last = size;
     }
     nh_tape_work_free(work);

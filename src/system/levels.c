@@ -108,17 +108,17 @@ typedef struct {
     size_t k, m, width;   /* levels; coordinates; 1 + m */
     nh_tape *tape;        /* k levels, then their derivatives by (t, q), column-major */
     nh_tape_work *work;
-    double *out, *dense, *step;
+    double *out, *dense, *step, *half; /* half: of the sampling interval of each */
 } search;
 
-/* |f| against what one step of the size of q changes. */
+/* |f| against what a step of the size of q, or of its sampling interval, changes. */
 static bool is_zero(const search *x, const double *z)
 {
     static const double small = 1e-9;
     for (size_t a = 0; a < x->k; a++) {
         double size = 0;
-        for (size_t j = 0; j < x->width; j++) size = fmax(size, fabs(x->out[x->k + a + j * x->k]) * (1 + fabs(z[j])));
-        if (fabs(x->out[a]) > small * fmax(size, small)) return false;
+        for (size_t j = 0; j < x->width; j++) size = fmax(size, fabs(x->out[x->k + a + j * x->k]) * (x->half[j] + fabs(z[j])));
+        if (fabs(x->out[a]) > small * size) return false;
     }
     return true;
 }
@@ -175,6 +175,12 @@ static void create(search *x, const nh_ex *level)
     x->out = nh_alloc_array(x->k * (1 + x->width), sizeof *x->out);
     x->dense = nh_alloc_array(x->k * x->m + 1, sizeof *x->dense);
     x->step = nh_alloc_array((x->k > x->m ? x->k : x->m) + x->width + 1, sizeof *x->step);
+    x->half = nh_alloc_array(x->width, sizeof *x->half);
+    for (size_t j = 0; j < x->width; j++) {
+        double low, high;
+        nh_domain_range(s, in[j], &low, &high);
+        x->half[j] = (high - low) / 2;
+    }
     nh_free(in);
     nh_free(out);
 }
@@ -186,6 +192,7 @@ static void clear(search *x)
     nh_free(x->out);
     nh_free(x->dense);
     nh_free(x->step);
+    nh_free(x->half);
 }
 
 /* Does some start lead to a point?  Also true where hardly any point can be evaluated: then nothing is known. */
