@@ -112,6 +112,63 @@ Test(browser, slider_plots_and_drawing_move_together)
     if (skipped) cr_skip_test("no chromium");
 }
 
+/* Played to its end the motion stays there, or with `loop` it begins again; at four times the speed it takes two seconds, of three that are
+ * shown in frames of a tenth. */
+Test(browser, a_motion_ends_or_loops)
+{
+    sweep_plain_only();
+#define FRAMES "var n=0;window.requestAnimationFrame=function(f){return n++<30?setTimeout(function(){f(100*n);},1):0;};"
+    static const char *const SCRIPT[] = {
+        FRAMES "document.getElementById('speed').value='4';document.getElementById('play').click();",
+        FRAMES "document.getElementById('speed').value='4';document.getElementById('loop').checked=true;document.getElementById('play').click();",
+    };
+    place p = place_with_page("analyze sleigh --quiet --html page.html");
+    bool skipped = false;
+    for (size_t i = 0; i < 2 && !skipped; i++) {
+        write_with(&p, "page.html", "played.html", 1, &SCRIPT[i]);
+        char *seen = document_of(&p, "played.html");
+        skipped = !seen;
+        if (seen) {
+            cr_expect_eq(strstr(seen, ">t = 10.00</output>") != NULL, i == 0, "%s", SCRIPT[i]);
+            cr_expect_eq(strstr(seen, ">Pause</button>") != NULL, i == 1, "%s", SCRIPT[i]);
+        }
+        free(seen);
+    }
+    place_clear(&p);
+    if (skipped) cr_skip_test("no chromium");
+}
+
+/* The pages of a document of Chromium's, whose objects for pages are not compressed. */
+static size_t printed_pages(const char *pdf, size_t length)
+{
+    static const char word[] = "/Type /Page";
+    size_t n = 0;
+    for (size_t i = 0; i + sizeof word < length; i++) n += !memcmp(pdf + i, word, sizeof word - 1) && pdf[i + sizeof word - 1] != 's';
+    return n;
+}
+
+Test(browser, the_sleigh_is_six_pages_on_paper)
+{
+    sweep_plain_only();
+    place p = place_with_page("analyze sleigh --quiet --html page.html");
+    char *seen = document_in(&p, "page.html", "--no-pdf-header-footer --print-to-pdf=page.pdf"), path[PATH_MAX];
+    bool skipped = !seen;
+    snprintf(path, sizeof path, "%.4000s/page.pdf", p.folder);
+    FILE *file = skipped ? NULL : fopen(path, "rb");
+    if (file) {
+        enum { most = 1 << 23 };
+        char *pdf = malloc(most);
+        size_t length = fread(pdf, 1, most, file), pages = printed_pages(pdf, length);
+        cr_expect(pages >= 2 && pages <= 6, "%zu pages", pages);
+        free(pdf);
+        fclose(file);
+    }
+    cr_expect(skipped || file);
+    free(seen);
+    place_clear(&p);
+    if (skipped) cr_skip_test("no chromium");
+}
+
 Test(browser, a_hostile_title_stays_text)
 {
     sweep_plain_only();

@@ -211,7 +211,7 @@ static void drift_plot(nh_html_writer *w, const nh_current *f)
     snprintf(title, sizeof title, "Drift of %.100s along the test motion", f->name);
     nh_plot plot = {.title = title, .description = "Absolute change since the start, relative to the size of the terms of the current, on a logarithmic scale",
                     .x_label = "t", .y_label = "relative change", .log_y = true, .floor = 1e-17, .timed = true, .curves = 1, .curve = &curve};
-    nh_html_add(w, "<details><summary>Drift plot</summary>\n");
+    nh_html_add(w, "<details class=\"drift\"><summary>Drift plot</summary>\n");
     nh_html_figure(w, &plot, "Change of the current since the start, relative to the size of its terms; rounding is near 10\u207b\u00b9\u2076.");
     nh_html_add(w, "</details>\n");
     nh_free(y);

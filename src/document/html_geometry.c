@@ -17,6 +17,7 @@ void nh_html_explicit_motion(nh_html_writer *w)
 {
     nh_sheet *sheet = nh_motion_sheet(w->r);
     if (!sheet) return;
+    sheet->section->title = ""; /* that of the section */
     nh_html_add(w, "<section id=\"explicit\"><h2>Explicit motion</h2>\n");
     nh_sheet_html(sheet, "h3", w);
     nh_html_add(w, "</section>\n");

@@ -17,9 +17,17 @@ const char *const nh_html_style =
     "summary{cursor:pointer;font-size:.92rem;color:var(--link);padding:.2rem 0}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.88rem;margin:.8rem 0}caption{text-align:left;font-weight:600;padding:.2rem 0;white-space:nowrap}.where{margin-left:1.2rem}.where p{margin:.1rem 0}td.flagged,td.detected{color:var(--good)}td.failed,td.timeout{color:var(--bad)}td.undetected{color:var(--paper);background:var(--bad);font-weight:700}\n"
     "th,td{border-bottom:1px solid var(--line);padding:.25rem .9rem .25rem 0;text-align:left;vertical-align:top}thead th{color:var(--soft);font-weight:500}tbody th{font-weight:500}#repeat th{white-space:nowrap}.word{display:inline-block;max-width:100%}sup{line-height:0}\n"
     "figure{margin:1.2rem 0}.beside{display:grid;grid-template-columns:1fr 1fr;gap:0 1rem}.beside figure:only-child{grid-column:1/3}.beside svg .tick,.beside svg .label{font-size:20px}.beside figure:only-child svg .tick,.beside figure:only-child svg .label{font-size:12px}figcaption{font-size:.86rem;color:var(--soft)}svg.plot{display:block;width:100%;height:auto}svg text{fill:var(--soft)}svg .grid,svg .axis{stroke:var(--soft)}\n"
-    ".controls{display:flex;align-items:center;gap:.8rem;position:sticky;bottom:0;background:var(--paper);padding:.5rem 0;z-index:1}#when{flex:1}button{font-size:1rem;min-width:5rem;padding:.45rem .9rem;border:1px solid var(--line);border-radius:6px;background:var(--card);color:var(--ink)}output{min-width:6.5rem;font-size:.9rem}\n"
+    ".controls{display:flex;flex-wrap:wrap;align-items:center;gap:.8rem;position:sticky;bottom:0;background:var(--paper);padding:.5rem 0;z-index:1}#when{flex:1 1 10rem}.controls label{font-size:.9rem;font-family:system-ui,sans-serif}select{font-size:.9rem;padding:.3rem;border:1px solid var(--line);border-radius:6px;background:var(--card);color:var(--ink)}\n"
+    "#player:fullscreen{background:var(--paper);display:flex;flex-direction:column;padding:1rem}#player:fullscreen figure{flex:1;min-height:0;margin:0}#player:fullscreen #scene{height:100%}#player:fullscreen figcaption{display:none}button{font-size:1rem;min-width:5rem;padding:.45rem .9rem;border:1px solid var(--line);border-radius:6px;background:var(--card);color:var(--ink)}output{min-width:6.5rem;font-size:.9rem}\n"
     "@media (max-width:34rem){caption{white-space:normal}.formula{padding-left:.2rem}.where{margin-left:.4rem}.card{padding-left:.7rem;padding-right:.5rem}.beside{grid-template-columns:1fr}.beside figure{grid-column:1}dl{grid-template-columns:1fr}dd{margin-bottom:.4rem}body{font-size:16px}svg .tick,svg .label{font-size:18px}svg .legend{font-size:17px}figure svg.plot:not(#scene) path[fill=none]{stroke-width:2.8}}\n"
-    "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player{display:none}body{font-size:10.5pt}main{max-width:none;padding:0}figure,.formula,dl,tr{break-inside:avoid}.copy{display:none}summary{list-style:none;color:var(--soft)}svg.plot{max-width:11.5cm}#motion svg .tick,#motion svg .label,#motion svg .legend{font-size:19px}.beside svg .tick,.beside svg .label{font-size:20px}#motion figure{display:inline-block;width:49%}.card{padding-bottom:.3rem}h2,h3{break-after:avoid}.formula{overflow:visible}details::details-content{content-visibility:visible}}\n";
+    /* On paper: two columns; no heading is left behind at the end of one, and no part of a figure, a formula or a row. */
+    "@media print{:root{--ink:#000;--paper:#fff;--card:#fff;--soft:#444;--link:#000}nav,#player,.copy,.drift{display:none}\n"
+    "html{font-size:13.5px}body{font-size:9pt;line-height:1.3}main{max-width:none;padding:0}section{columns:2;column-gap:7mm}#repeat{columns:auto}#repeat .wide{break-inside:auto}#repeat code{font-size:.72rem}\n"
+    "h1{font-size:1.6rem}h2{column-span:all;break-inside:avoid;margin:1.1rem 0 .3rem;font-size:1.2rem}h2::after{content:'';display:block;height:4cm;margin-bottom:-4cm}h3{margin:.7rem 0 .2rem;font-size:1rem}h4{margin:.5rem 0 .1rem}p{margin:.35rem 0}\n"
+    "h2,h3,h4,summary,h2+p,h3+p,p:has(+.formula),p:has(+figure),p:has(+dl),p:has(+.wide){break-after:avoid}figure,.formula,dt,dd,tr,.tags,.wide{break-inside:avoid}caption{break-after:avoid}dt{break-after:avoid}\n"
+    "summary{list-style:none;color:var(--soft)}details::details-content{content-visibility:visible}dl{grid-template-columns:5.2rem 1fr;gap:.1rem .4rem;margin:.3rem 0}dt{font-size:.76rem}\n"
+    ".card{padding:.1rem .5rem .3rem;margin:.4rem 0}.formula{overflow:visible;padding:.1rem 0 .1rem .5rem;line-height:1.35}.formula math{margin:.1em 0}\n"
+    "figure{margin:.4rem 0}.beside{display:block}table{margin:.3rem 0;font-size:.72rem}th,td{padding:.08rem .35rem .08rem 0}.wide{overflow:visible}svg .tick,svg .label,svg .legend{font-size:19px}}\n";
 
 const char *const nh_html_script =
     "'use strict';\n"
@@ -67,10 +75,15 @@ const char *const nh_html_script =
     "function show(i){bar.value=i;clock.textContent='t = '+T[i].toPrecision(4);draw(i);cursors.forEach(function(g){\n"
     "  var t0=+g.getAttribute('data-t0'),t1=+g.getAttribute('data-t1'),x0=+g.getAttribute('data-x0'),x1=+g.getAttribute('data-x1'),n=g.querySelector('.now');\n"
     "  if(t1!==t0){var x=(x0+(x1-x0)*(T[i]-t0)/(t1-t0)).toFixed(1);n.setAttribute('x1',x);n.setAttribute('x2',x);n.setAttribute('visibility','visible');}});}\n"
-    "var timer=null,seconds=8;\n"
+    "var timer=null,seconds=8,loop=document.getElementById('loop'),speed=document.getElementById('speed'),full=document.getElementById('full');\n"
     "function stop(){if(timer!==null)cancelAnimationFrame(timer);timer=null;play.textContent='Play';}\n"
-    "play.addEventListener('click',function(){if(timer!==null){stop();return;}var from=+bar.value;if(from===last)from=0;play.textContent='Pause';var begin=null;\n"
-    " function step(now){if(begin===null)begin=now;var i=Math.min(last,Math.round(from+(now-begin)/1000/seconds*last));show(i);if(i===last){stop();return;}timer=requestAnimationFrame(step);}\n"
-    " timer=requestAnimationFrame(step);});\n"
+    /* Each frame goes on from the one before, so that the speed may change in between. */
+    "function start(){var at=+bar.value,before=null;if(at>=last)at=0;play.textContent='Pause';\n"
+    " function step(now){if(before!==null)at+=(now-before)/1000/seconds*last*speed.value;before=now;if(at>last){if(!loop.checked){show(last);stop();return;}at%=last;}show(Math.round(at));timer=requestAnimationFrame(step);}\n"
+    " timer=requestAnimationFrame(step);}\n"
+    "play.addEventListener('click',function(){if(timer!==null)stop();else start();});\n"
+    /* On a whole screen, such as a projector, the motion begins again and again. */
+    "if(full){if(!box.requestFullscreen)full.remove();full.addEventListener('click',function(){if(document.fullscreenElement)document.exitFullscreen();else{loop.checked=true;box.requestFullscreen();if(timer===null)start();}});\n"
+    " document.addEventListener('fullscreenchange',function(){full.textContent=document.fullscreenElement?'Leave full screen':'Full screen';});}\n"
     "bar.addEventListener('input',function(){stop();show(+bar.value);});show(0);\n"
     "})();\n";

@@ -190,7 +190,13 @@ static void player(nh_html_writer *w, const nh_time_series *c)
         nh_html_add(w, ".</figcaption></figure>\n");
     }
     nh_html_add(w, "<div class=\"controls\"><button type=\"button\" id=\"play\" aria-label=\"play or pause\">Play</button>"
-                   "<input type=\"range\" id=\"when\" min=\"0\" max=\"1000\" value=\"0\" step=\"1\" aria-label=\"time\"/> <output id=\"clock\" for=\"when\">t = 0</output></div></div>\n");
+                   "<input type=\"range\" id=\"when\" min=\"0\" max=\"1000\" value=\"0\" step=\"1\" aria-label=\"time\"/> "
+                   "<output id=\"clock\" for=\"when\">t = 0</output>\n"
+                   "<label>speed <select id=\"speed\"><option>0.25</option><option>0.5</option><option selected=\"selected\">1</option>"
+                   "<option>2</option><option>4</option></select></label> "
+                   "<label><input type=\"checkbox\" id=\"loop\"/> loop</label> ");
+    if (c->shapes) nh_html_add(w, "<button type=\"button\" id=\"full\">Full screen</button>");
+    nh_html_add(w, "</div></div>\n");
     data(w, c);
 }
 

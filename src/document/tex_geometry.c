@@ -17,6 +17,7 @@ void nh_tex_explicit_motion(nh_tex_writer *w)
 {
     nh_sheet *sheet = nh_motion_sheet(w->r);
     if (!sheet) return;
+    sheet->section->title = ""; /* that of the section */
     nh_tex_add(w, "\\section{Explicit motion}\n");
     nh_sheet_tex(sheet, "subsection", w);
 }
