@@ -111,7 +111,7 @@ static void certificate(nh_html_writer *w, const nh_current *f)
         nh_html_add(w, nh_formula_doubt(f));
     }
     nh_html_text(w, nh_facts_holds(w->r->model, &f->proof, false));
-    nh_html_text(w, nh_facts_on_branches(w->r, f));
+    nh_html_text(w, nh_facts_where(w->r, f));
     nh_html_add(w, "</dd>\n<dt>Residual</dt><dd>");
     nh_html_number(w, f->heldout, 2);
     nh_html_add(w, " at points outside the fit</dd>\n");

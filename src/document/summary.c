@@ -174,7 +174,7 @@ static void certificate(nh_summary_writer *w, const nh_current *f)
     const char *holds = nh_facts_holds(w->r->model, &f->proof, true);
     if (f->proof.proved) nh_text_addf(w->out, "proved%s", holds);
     else nh_text_addf(w->out, "conserved to %.0f digits%s%s", f->proof.digits, nh_formula_doubt(f), holds);
-    nh_text_add(w->out, nh_facts_on_branches(w->r, f));
+    nh_text_add(w->out, nh_facts_where(w->r, f));
     nh_text_addf(w->out, "; held-out residual %.1e", f->heldout);
     if (w->r->validation && !f->region && f->drift.until != 0) nh_text_addf(w->out, "; drift %.1e at tolerance %.0e", f->drift.drift[NH_DRIFT_RUNS - 1], w->r->validation->tolerance[NH_DRIFT_RUNS - 1]);
     nh_text_add(w->out, "\n");

@@ -83,7 +83,7 @@ static void certificate(nh_tex_writer *w, const nh_current *f)
         nh_tex_add(w, nh_formula_doubt(f));
     }
     nh_tex_words(w, nh_facts_holds(w->r->model, &f->proof, false));
-    nh_tex_words(w, nh_facts_on_branches(w->r, f));
+    nh_tex_words(w, nh_facts_where(w->r, f));
     nh_tex_add(w, ".");
     nh_tex_add(w, " Residual ");
     nh_tex_number(w, f->heldout, 2);

@@ -159,9 +159,11 @@ static void put_functions_of(builder *b, const divisor *p)
 
 /* ---- roots of quadratic polynomials ---- */
 
-/* sqrt(Q) with a polynomial Q in x, or in y = exp(lambda x): then candidates are functions of y, and x is log(y)/lambda. */
+/* sqrt(Q) with a polynomial Q in x, or in y = exp(lambda x), y = cos(u) or y = sin(u): then candidates are functions of y. */
 typedef struct {
     nh_ex x, Q, root, back; /* the variable; back: what it stands for */
+    size_t count;           /* 0: it is x */
+    nh_ex from[2], to[2];   /* what gives functions of y; of the other one of sine and cosine only squares do */
 } radical;
 
 /* Q = a x^2 + b x + c; false where it is none, or of degree one. */
@@ -176,7 +178,12 @@ static bool quadratic(const builder *b, nh_ex x, nh_ex Q, nh_ex out[3])
     return true;
 }
 
-static nh_ex back(const builder *b, const radical *r, nh_ex e) { return r->x == b->in->x ? e : nh_substitute(b->d, e, 1, &r->x, &r->back); }
+static nh_ex back(const builder *b, const radical *r, nh_ex e) { return r->count ? nh_substitute(b->d, e, 1, &r->x, &r->back) : e; }
+
+static nh_ex in_variable(const builder *b, const radical *r, nh_ex e)
+{
+    return r->count ? nh_simplify_short(b->d, nh_canonical(b->d, nh_substitute(b->d, e, r->count, r->from, r->to), 0), 0) : e;
+}
 
 /* int dx/sqrt(Q): with a > 0 the logarithm of 2 sqrt(a Q) + Q', with a < 0 the arctangent of Q'/(2 sqrt(-a Q)). */
 static void put_first_kind(builder *b, const radical *r, const nh_ex k[3])
@@ -217,28 +224,48 @@ static void put_poles(builder *b, const radical *r, nh_ex p)
     }
 }
 
-static void put_integrals(builder *b, const radical *r)
+static void put_integrals(builder *b, radical r)
 {
     nh_dag *d = b->d;
-    nh_ex k[3], x = r->x == b->in->x ? r->x : nh_div(d, nh_call(d, NH_LOG, r->x), nh_diff(d, nh_child(d, r->back, 0), b->in->x));
-    if (nh_depends(d, r->Q, b->in->x) != (r->x == b->in->x) || !quadratic(b, r->x, r->Q, k)) return;
-    put_first_kind(b, r, k);
-    if (r->x != b->in->x) put_third_kind(b, r, nh_int(d, 0)); /* dx = dy/(lambda y) */
-    for (size_t j = 0; j < b->divisors; j++) put_poles(b, r, r->x == x ? b->divisor[j].e : nh_canonical(d, nh_substitute(d, b->divisor[j].e, 1, &b->in->x, &x), 0));
+    nh_ex k[3];
+    bool is_exponential = r.count && nh_function_of(d, r.back) == NH_EXP;
+    r.Q = in_variable(b, &r, r.Q);
+    if ((r.count && nh_depends(d, r.Q, b->in->x)) || !nh_depends(d, r.Q, r.x) || !quadratic(b, r.x, r.Q, k)) return;
+    put_first_kind(b, &r, k);
+    if (is_exponential) put_third_kind(b, &r, nh_int(d, 0)); /* dx = dy/(lambda y) */
+    for (size_t j = 0; j < b->divisors; j++) {
+        nh_ex p = in_variable(b, &r, b->divisor[j].e);
+        if (!r.count || !nh_depends(d, p, b->in->x)) put_poles(b, &r, p);
+    }
+}
+
+/* y = exp(lambda x) and exp(-lambda x) */
+static void put_root_of_exponentials(builder *b, nh_ex Q, nh_ex root, nh_ex exponential)
+{
+    nh_dag *d = b->d;
+    nh_ex y = nh_symbol_fresh(d, "y"), lambda = nh_simplify_short(d, nh_diff(d, nh_child(d, exponential, 0), b->in->x), 0);
+    for (int sign = 1; sign >= -1 && !nh_depends(d, lambda, b->in->x); sign -= 2) {
+        nh_ex turned = nh_mul(d, nh_int(d, sign), lambda);
+        put_integrals(b, (radical){y, Q, root, nh_call(d, NH_EXP, nh_mul(d, turned, b->in->x)), 1, {b->in->x}, {nh_div(d, nh_call(d, NH_LOG, y), turned)}});
+    }
+}
+
+/* y = cos u and sin u */
+static void put_root_of_waves(builder *b, nh_ex Q, nh_ex root, nh_ex cosine, nh_ex sine)
+{
+    nh_dag *d = b->d;
+    nh_ex y = nh_symbol_fresh(d, "y"), other = nh_sqrt(d, nh_sub(d, nh_int(d, 1), nh_powi(d, y, 2)));
+    put_integrals(b, (radical){y, Q, root, cosine, 2, {cosine, sine}, {y, other}});
+    put_integrals(b, (radical){y, Q, root, sine, 2, {sine, cosine}, {y, other}});
 }
 
 static void put_root(builder *b, nh_ex Q, nh_ex root)
 {
-    nh_dag *d = b->d;
-    put_integrals(b, &(radical){b->in->x, Q, root, b->in->x});
+    put_integrals(b, (radical){.x = b->in->x, .Q = Q, .root = root});
     for (size_t i = 0; i < b->letters; i++) {
-        if (b->letter[i].kind != NH_KERNEL_EXP) continue;
-        nh_ex y = nh_symbol_fresh(d, "y"), argument = nh_child(d, b->letter[i].e, 0), lambda = nh_simplify_short(d, nh_diff(d, argument, b->in->x), 0);
-        for (int sign = 1; sign >= -1 && !nh_depends(d, lambda, b->in->x); sign -= 2) {
-            nh_ex turned = nh_mul(d, nh_int(d, sign), lambda), x = nh_div(d, nh_call(d, NH_LOG, y), turned);
-            nh_ex in_y = nh_simplify_short(d, nh_canonical(d, nh_substitute(d, Q, 1, &b->in->x, &x), 0), 0);
-            put_integrals(b, &(radical){y, in_y, root, nh_call(d, NH_EXP, nh_mul(d, turned, b->in->x))});
-        }
+        const letter *l = &b->letter[i];
+        if (l->kind == NH_KERNEL_EXP) put_root_of_exponentials(b, Q, root, l->e);
+        if (l->kind == NH_KERNEL_COS) put_root_of_waves(b, Q, root, l->e, nh_kernel_power(&b->form.kernels, b->form.kernels.item[l->index].partner, 1));
     }
 }
 

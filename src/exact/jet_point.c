@@ -147,6 +147,29 @@ bool nh_jet_point_register(nh_jet_point *x, size_t n, const nh_ex *e)
 
 /* ---- values ---- */
 
+/* Have the numbers their roots? */
+static bool has_roots(const nh_jet_point *x, nh_prime field)
+{
+    const nh_jet_point there = {.dag = x->dag, .field = field};
+    bool good = true;
+    for (size_t i = 0; i < x->kernels && good; i++) {
+        nh_residue value, root;
+        const nh_jet_kernel *k = &x->kernel[i];
+        if (k->kind != NH_JET_ROOT || nh_kind_of(x->dag, k->key) != NH_NUMBER) continue;
+        good = nh_jet_point_number(&there, nh_number_of(x->dag, k->key), &value) && nh_residue_root(field, value, k->order, &root);
+    }
+    return good;
+}
+
+nh_prime nh_jet_point_prime(const nh_jet_point *x, size_t index)
+{
+    enum { most = 3000 };
+    nh_prime f = nh_prime_at(0);
+    for (size_t tried = 0, found = 0; tried < most; tried++, f = nh_prime_next(f))
+        if (has_roots(x, f) && found++ == index) return f;
+    return nh_prime_at(index);
+}
+
 void nh_jet_point_choose(nh_jet_point *x, nh_prime field, uint64_t seed)
 {
     x->field = field;

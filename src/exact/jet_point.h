@@ -48,6 +48,9 @@ void nh_jet_point_free(nh_jet_point *point);
 /* Note the kernels of these expressions.  False, with an obstacle, when one cannot be followed. */
 bool nh_jet_point_register(nh_jet_point *point, size_t n, const nh_ex *e);
 
+/* The index-th of the primes modulo which the numbers that stand below roots have these roots; of the first primes when there are few. */
+nh_prime nh_jet_point_prime(const nh_jet_point *point, size_t index);
+
 /* Forget all values; the next ones follow from prime and seed. */
 void nh_jet_point_choose(nh_jet_point *point, nh_prime field, uint64_t seed);
 

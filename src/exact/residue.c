@@ -4,14 +4,19 @@
 #include <flint/nmod.h>
 #include <flint/ulong_extras.h>
 
+nh_prime nh_prime_next(nh_prime f)
+{
+    uint64_t n = f.p;
+    do n -= 12;
+    while (n % 5 == 1 || n % 7 == 1 || !n_is_prime(n));
+    return (nh_prime){n, ((uint64_t)1 << 62) / n * n, ((uint64_t)1 << 62) / n};
+}
+
 nh_prime nh_prime_at(size_t index)
 {
-    uint64_t n = ((uint64_t)1 << 31) + 3; /* 11 modulo 12 */
-    for (size_t found = 0; found <= index;) {
-        n -= 12;
-        found += n % 5 != 1 && n % 7 != 1 && n_is_prime(n);
-    }
-    return (nh_prime){n, ((uint64_t)1 << 62) / n * n, ((uint64_t)1 << 62) / n};
+    nh_prime f = nh_prime_next((nh_prime){.p = ((uint64_t)1 << 31) + 3}); /* 11 modulo 12 */
+    for (size_t found = 0; found < index; found++) f = nh_prime_next(f);
+    return f;
 }
 
 /* c x - floor(x floor(2^32 c / p) / 2^32) p is between 0 and 2 p (Shoup's multiplication). */

@@ -22,6 +22,8 @@ typedef struct {
 
 /* The `index`-th such prime below 2^31, from above. */
 nh_prime nh_prime_at(size_t index);
+/* The one below it. */
+nh_prime nh_prime_next(nh_prime f);
 
 static inline nh_residue nh_residue_add(nh_prime f, nh_residue a, nh_residue b)
 {

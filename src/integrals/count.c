@@ -164,7 +164,7 @@ bool nh_count_regular_point(nh_counter *c, size_t attempt)
     nh_jet_equations *x = c->equations;
     nh_adapted_frame_free(c->frame);
     c->frame = NULL;
-    nh_jet_equations_choose(x, nh_prime_at(attempt % 16), 1 + attempt);
+    nh_jet_equations_choose(x, nh_jet_point_prime(x->point, attempt % 16), 1 + attempt);
     return nh_count_take_known(c) && (c->frame = nh_adapted_frame_create(x)) != NULL;
 }
 
@@ -231,7 +231,7 @@ static void register_known(nh_counter *c)
         bool named = has_named(x->dag, e), good = is_current(x, e) && (!named || c->q->independent);
         if (named && good) c->rate[c->known] = nh_model_gamma(x->model, e);
         x->point->solutions = true;
-        good = good && nh_jet_equations_take(x, false, &e) && (!named || nh_jet_equations_take(x, false, &c->rate[c->known])) && (x->point->kernels == kernels || !nh_jet_equations_related(x, nh_prime_at(0)));
+        good = good && nh_jet_equations_take(x, false, &e) && (!named || nh_jet_equations_take(x, false, &c->rate[c->known])) && (x->point->kernels == kernels || !nh_jet_equations_related(x, nh_jet_point_prime(x->point, 0)));
         nh_ex *slope = c->slope + c->known * x->n;
         for (size_t i = 0; i < x->n && good; i++) {
             slope[i] = nh_diff(x->dag, e, x->w[i]);
@@ -256,7 +256,7 @@ void nh_counter_open(nh_counter *c, const nh_model *model, const nh_count_questi
     c->named = nh_alloc_array(question->known + 1, sizeof *c->named);
     c->rate = nh_alloc_array(question->known + 1, sizeof *c->rate);
     c->slope = nh_alloc_array(question->known * model->n + 1, sizeof *c->slope);
-    if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_prime_at(0))) c->equations->obstacle = "functions that may be related to each other";
+    if (!c->equations->obstacle && nh_jet_equations_related(c->equations, nh_jet_point_prime(c->equations->point, 0))) c->equations->obstacle = "functions that may be related to each other";
     if (!c->equations->obstacle) register_known(c);
 }
 

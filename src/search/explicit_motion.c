@@ -187,13 +187,28 @@ static bool split_root_of(nh_dag *d, nh_ex D, nh_ex *outside, nh_ex *inside)
     return true;
 }
 
+/* Q = b (C + e), e a constant: with the root of +-b outside, which has one sign at the points, a constant is left. */
+static void take_out_rate(curve *c, nh_ex C, nh_ex *outside, nh_ex *inside)
+{
+    nh_dag *d = c->d;
+    nh_ex k[3], more, rest;
+    if (degree_in(c, *inside, C, k) != 1) return;
+    nh_ex e = simple(c, nh_div(d, k[0], k[1]));
+    int sign = nh_depends(d, e, c->s) ? 0 : sign_at_points(c, k[1]);
+    if (!sign || !split_root_of(d, nh_mul(d, nh_int(d, sign), k[1]), &more, &rest)) return;
+    *outside = nh_product(d, 3, (nh_ex[]){*outside, more, nh_sqrt(d, rest)});
+    *inside = nh_mul(d, nh_int(d, sign), nh_add(d, C, e));
+}
+
 /* a u^2 + b u + e = C:  u = (-b + r)/(2 a), r^2 = b^2 - 4 a (e - C); r = 2 a u + b in the states.  `constant_root`: only where r is one, but for a factor. */
 static bool solve_quadratic(curve *c, size_t u, const nh_ex k[3], nh_ex current, bool constant_root)
 {
     nh_dag *d = c->d;
     nh_ex constant = new_constant(c, current, false), two = nh_int(d, 2), inside, outside, r;
     nh_ex D = simple(c, nh_sub(d, nh_powi(d, k[1], 2), nh_product(d, 3, (nh_ex[]){nh_int(d, 4), k[2], nh_sub(d, k[0], constant)})));
-    bool solved = split_root_of(d, D, &outside, &inside);
+    size_t last;
+    bool solved = split_root_of(d, D, &outside, &inside) && unknowns(c, inside, &last) == 0;
+    if (solved) take_out_rate(c, constant, &outside, &inside);
     nh_ex state = nh_add(d, nh_product(d, 3, (nh_ex[]){two, k[2], c->m->state[u]}), k[1]);
     solved = solved && name_root(c, inside, in_states(c, nh_div(d, state, outside)), constant_root, &r);
     if (!solved) {
@@ -242,11 +257,12 @@ static bool solve_first(curve *c, size_t most_unknowns)
     return true;
 }
 
-static bool solve_second(curve *c, bool constant_root)
+/* Other states may stand before the root, not below it: x'^2/cos(h)^2 is what is given of a velocity x' = v cos(h). */
+static bool solve_second(curve *c, size_t most_unknowns, bool constant_root)
 {
     for (size_t j = 0; j < c->currents && room(c); j++) {
         choice best = {.cost = INFINITY};
-        if (!c->used[j]) consider(c, j, 2, 1, &best);
+        if (!c->used[j]) consider(c, j, 2, most_unknowns, &best);
         if (best.cost == INFINITY || !solve_quadratic(c, best.state, best.k, c->current[j], constant_root)) continue;
         return c->used[j] = true;
     }
@@ -424,7 +440,7 @@ nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o,
     if (nh_is_zero(c.d, c.rate[parameter])) return NULL;
     bool more = true;
     while (more && !nh_budget_spent())
-        more = solve_first(&c, 1) || solve_second(&c, true) || solve_rate(&c) || solve_second(&c, false) || solve_first(&c, pair);
+        more = solve_first(&c, 1) || solve_second(&c, 1, true) || solve_rate(&c) || solve_second(&c, 1, false) || solve_first(&c, pair) || solve_second(&c, pair, false);
     conclude(&c);
     return c.m;
 }
