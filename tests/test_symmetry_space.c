@@ -160,16 +160,18 @@ static char *equations_of(place *p, const char *text, const char *words)
 
 static const cJSON *section_of(const cJSON *root, const char *key) { return cJSON_GetObjectItem(cJSON_GetObjectItem(root, "equations"), key); }
 
-static double number_of(const cJSON *root, const char *label)
+static double number_in(const cJSON *root, const char *section, const char *label)
 {
     const cJSON *line;
-    cJSON_ArrayForEach(line, section_of(root, "symmetry_space"))
+    cJSON_ArrayForEach(line, section_of(root, section))
     {
         const cJSON *own = cJSON_GetObjectItem(line, "label"), *value = cJSON_GetObjectItem(line, "expression");
         if (cJSON_IsString(own) && !strcmp(own->valuestring, label) && cJSON_IsString(value)) return atof(value->valuestring);
     }
     return -1;
 }
+
+static double number_of(const cJSON *root, const char *label) { return number_in(root, "symmetry_space", label); }
 
 static bool says(const cJSON *root, const char *key, const char *words)
 {
@@ -182,23 +184,23 @@ static bool says(const cJSON *root, const char *key, const char *words)
     return false;
 }
 
-/* Every projectable field that is shown: `verify` calls it a constraint symmetry. */
-static size_t verified(place *p, const cJSON *root)
+/* Every field of a section, called `first` and so on: `verify` calls it a symmetry of that kind. */
+static size_t verified(place *p, const cJSON *root, const char *section, const char *first, const char *kind)
 {
     size_t count = 0;
     const cJSON *line, *term;
-    cJSON_ArrayForEach(line, section_of(root, "symmetry_space"))
+    cJSON_ArrayForEach(line, section_of(root, section))
     {
         const cJSON *label = cJSON_GetObjectItem(line, "label"), *terms = cJSON_GetObjectItem(line, "terms");
         char field[2000] = "";
-        if (!terms || strncmp(label->valuestring, "Z(", 2)) continue;
+        if (!terms || !label || strncmp(label->valuestring, first, strlen(first)) || strchr(label->valuestring + 2, '(')) continue;
         cJSON_ArrayForEach(term, terms)
         {
             const char *of = cJSON_GetObjectItem(term, "of")->valuestring; /* d/dx */
             size_t used = strlen(field);
             snprintf(field + used, sizeof field - used, "%s%s=%s", used ? "; " : "", strcmp(of, "d/dt") ? of + 3 : "Z0", cJSON_GetObjectItem(term, "coefficient")->valuestring);
         }
-        char *argument[] = {p->program, "verify", "s.yaml", "--field", field, NULL};
+        char *argument[] = {p->program, "verify", "s.yaml", "--field", field, "--of", (char *)kind, NULL};
         finished f = run_vector(p, &(manner){0}, argument);
         cr_expect_eq(f.code, 0, "%s: %s%s", field, f.out, f.err);
         finished_clear(&f);
@@ -219,7 +221,7 @@ Test(symmetry_space, of_the_sleigh_only_functions_of_the_energy_have_their_brack
     cr_expect(says(root, "bracket_bounds", "So the currents with [Gamma,Z] in the canonical distribution are the functions of Phi1, and no others: proved."));
     cr_expect_eq(number_of(root, "dim"), 7);
     cr_expect_eq(number_of(root, "dim_projectable"), 3);
-    cr_expect_eq(number_of(root, "dim_case 1"), 2);
+    cr_expect_eq(number_of(root, "dim_case1"), 2);
     cJSON_Delete(root);
     free(json);
     place_clear(&p);
@@ -232,7 +234,7 @@ Test(symmetry_space, a_skate_on_a_slope)
     cJSON *root = cJSON_Parse(json);
     cr_expect(says(root, "symmetry_space", "These numbers are proved."));
     cr_expect_geq(number_of(root, "dim_projectable"), 2); /* d/dt, d/df */
-    cr_expect_geq(verified(&p, root), 2);
+    cr_expect_geq(verified(&p, root, "symmetry_space", "Z(", "constraint"), 2);
     cr_expect(says(root, "bracket_bounds", "proved."));
     cJSON_Delete(root);
     free(json);
@@ -264,8 +266,69 @@ Test(symmetry_space, of_unconstrained_systems_everything_is_of_case_1)
     cr_expect(says(root, "bracket_bounds", "All V vanish"));
     cr_expect_eq(number_of(root, "dim"), 20, "%g", number_of(root, "dim")); /* as their count says */
     cr_expect(says(root, "symmetry_space", "they are all that there are"));
-    cr_expect_eq(number_of(root, "dim"), number_of(root, "dim_case 1"));
-    cr_expect_geq(verified(&p, root), 3);
+    cr_expect_eq(number_of(root, "dim"), number_of(root, "dim_case1"));
+    cr_expect_geq(verified(&p, root, "symmetry_space", "Z(", "constraint"), 3);
+    cJSON_Delete(root);
+    free(json);
+    place_clear(&p);
+}
+
+/* ---- symmetries of the equations of motion ---- */
+
+static void point_symmetries(const char *text, double points, double dynamical)
+{
+    place p = place_make();
+    char *json = equations_of(&p, text, "");
+    cJSON *root = cJSON_Parse(json);
+    cr_expect(says(root, "equation_symmetries", "all that there are of this form: proved"), "%s", text);
+    cr_expect_eq(number_in(root, "equation_symmetries", "dim_point"), points, "%s: %g", text, number_in(root, "equation_symmetries", "dim_point"));
+    cr_expect_eq(number_in(root, "equation_symmetries", "dim_dynamical"), dynamical, "%s: %g", text, number_in(root, "equation_symmetries", "dim_dynamical"));
+    cr_expect_eq((double)verified(&p, root, "equation_symmetries", "S_", "equations"), points + dynamical);
+    cJSON_Delete(root);
+    free(json);
+    place_clear(&p);
+}
+
+#define LINE(L) "name: line\nparameters: [{name: k, value: 3}]\ncoordinates: [{name: x, type: length}]\ndomain: {x: [0.5, 2]}\nlagrangian: " L "\n"
+
+/* Lie's numbers for equations of second order: 8, 3, 2. */
+Test(symmetry_space, point_symmetries_of_one_equation)
+{
+    point_symmetries(LINE("x'^2/2"), 8, 0);
+    point_symmetries(LINE("x'^2/2 - k/x^2"), 3, 0);
+    point_symmetries(LINE("x'^2/2 - k*x^4"), 2, 0);
+    point_symmetries(LINE("x'^2/2 - k*x^4 + x^3"), 1, 0);
+}
+
+/* Shifts, a turn, two scalings; and a shift across the blade: parallel curves are motions as well. On a slope turns and one scaling are gone. */
+Test(symmetry_space, point_symmetries_of_skates)
+{
+    point_symmetries("name: skate\nparameters: [{name: m, value: 2}, {name: J, value: 0.5}]\ncoordinates: [{name: f, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
+                     "lagrangian: m/2*(x'^2 + y'^2) + J/2*f'^2\nconstraints: [\"y'*cos(f) = x'*sin(f)\"]\n", 7, 0);
+    point_symmetries(SKATE, 5, 0);
+}
+
+static char *line_of(const cJSON *root, const char *label)
+{
+    const cJSON *line;
+    cJSON_ArrayForEach(line, section_of(root, "equation_symmetries"))
+        if (cJSON_GetObjectItem(line, "label") && !strcmp(cJSON_GetObjectItem(line, "label")->valuestring, label)) return cJSON_GetObjectItem(line, "expression")->valuestring;
+    return "";
+}
+
+/* A turn makes of one current of the sleigh the other one; none of both fields is a symmetry of the equations of motion. */
+Test(symmetry_space, a_turn_maps_currents_of_the_sleigh_to_each_other)
+{
+    place p = place_with_systems();
+    finished f = run(&p, "analyze sleigh --equations --json=r.json --quiet");
+    cr_assert_eq(f.code, 0, "%s", f.err);
+    finished_clear(&f);
+    char *json = read_here(&p, "r.json");
+    cJSON *root = cJSON_Parse(json);
+    cr_expect_eq(number_in(root, "equation_symmetries", "dim_point"), 5);
+    cr_expect_str_eq(line_of(root, "S_5(Phi2)"), "-Phi3/k");
+    cr_expect_str_eq(line_of(root, "S_5(Phi3)"), "Phi2/k");
+    cr_expect_str_eq(line_of(root, "S_4(Phi1)"), "-2*Phi1");
     cJSON_Delete(root);
     free(json);
     place_clear(&p);

@@ -433,5 +433,7 @@ void nh_verification_write_out(nh_verification *v, const nh_options *options)
     v->theory = nh_theory_of(v->arena, v->model, v->other, 1, options);
     if (!v->has_symmetry || v->trivial) return;
     nh_theory_add(v->arena, v->theory, "Phi", &v->symmetry);
-    if (v->conserved && v->proof.proved) nh_theory_space(v->arena, v->theory, 1, &(nh_named_current){.name = "Phi", .phi = v->symmetry.phi}, 0, options);
+    nh_named_current *current = nh_arena_alloc(v->arena, sizeof *current);
+    *current = (nh_named_current){.name = "Phi", .phi = v->symmetry.phi};
+    if (v->conserved && v->proof.proved) nh_theory_space(v->arena, v->theory, 1, current, 0, options);
 }

@@ -73,16 +73,16 @@ static void space(nh_sheet *s, const nh_theory *t)
     const nh_symmetry_space *x = t->space;
     nh_sheet_begin(s, "symmetry_space", "The linear space of constraint symmetries",
                    "Of the currents that were found, their products of degree two at most in the velocities, and 1. Z is linear: $Z(1)=Gamma/\\bar{L}$, $Z(Phi Psi)=Phi Z(Psi)+Psi Z(Phi)-Phi Psi Gamma/\\bar{L}$. "
-                   "Fields that are projectable, of case 1, or have $[Gamma,Z]$ in the canonical distribution form subspaces; the basis begins with the first ones.");
+                   "Fields that are projectable, of case 1, or have $[Gamma,Z]$ in the canonical distribution (inside) form subspaces; the basis begins with the first ones.");
     if (x->obstacle) {
         nh_sheet_words(s, nh_sheet_label(s, "Not found, because of %s.", x->obstacle));
         return;
     }
     number(s, "dim", x->dimension);
     number(s, "dim_{projectable}", x->of[NH_SPACE_PROJECTABLE]);
-    number(s, "dim_{case 1}", x->of[NH_SPACE_CASE1]);
-    number(s, "dim_{projectable, case 1}", x->of[NH_SPACE_BEST]);
-    if (t->own->model->k) number(s, "dim_{bracket in distribution}", x->of[NH_SPACE_INSIDE]);
+    number(s, "dim_{case1}", x->of[NH_SPACE_CASE1]);
+    number(s, "dim_{projectable,case1}", x->of[NH_SPACE_BEST]);
+    if (t->own->model->k) number(s, "dim_{inside}", x->of[NH_SPACE_INSIDE]);
     if (x->counted && x->counted == x->dimension - x->others) nh_sheet_words(s, "The count of all currents of degree two finds no more: they are all that there are.");
     else if (x->counted > x->dimension - x->others) nh_sheet_words(s, nh_sheet_label(s, "The space of all currents of degree two has at most dimension %zu, by their count.", x->counted));
     if (x->left_out) nh_sheet_words(s, nh_sheet_label(s, "There are too many products: %zu were left out.", x->left_out));
@@ -152,9 +152,59 @@ static void bounds(nh_sheet *s, const nh_theory *t)
     else conclude(s, &t->space->case1, "g", "all V", "a field of case 1");
 }
 
+/* ---- symmetries of the equations of motion ---- */
+
+static const char *letters_of(nh_sheet *s, const nh_equation_symmetries *e)
+{
+    const char *list = "";
+    for (size_t i = 0; i < e->letters; i++) {
+        char *name = nh_print_string(s->dag, e->letter[i]);
+        list = nh_sheet_label(s, "%s%s$<%s>$", list, i ? ", " : "", name);
+        nh_free(name);
+    }
+    return list;
+}
+
+/* S_i(Phi) = .. in terms of currents, or as it is. */
+static void show_action(nh_sheet *s, const nh_theory *t, const nh_symmetry_action *a)
+{
+    const char *label = nh_sheet_label(s, "S_{%zu}(<%s>)", a->symmetry + 1, t->current[a->current].name);
+    nh_sheet_formula(s, label, a->combination ? a->combination : a->value);
+    if (a->combination) return;
+    nh_sheet_words(s, a->answer == NH_ACTION_INDEPENDENT ? "This is a current that does not depend on those that were found."
+                      : a->answer == NH_ACTION_DEPENDENT ? "This depends on the currents, but is no combination of their products of degree two."
+                                                         : "This is no combination of the currents' products of degree two.");
+}
+
+static void equations(nh_sheet *s, const nh_theory *t)
+{
+    const nh_equation_symmetries *e = t->symmetries;
+    const nh_model *o = t->own->model;
+    nh_sheet_begin(s, "equation_symmetries", "Symmetries of the equations of motion",
+                   "Fields S with $[Gamma,S]=a Gamma$, which need not be constraint symmetries: point symmetries on time and positions, prolonged to velocities; and dynamical ones, whose components along positions "
+                   "depend on velocities, up to multiples of $Gamma$. The derivative of a current along S is a current.");
+    if (e->obstacle) {
+        nh_sheet_words(s, nh_sheet_label(s, "None were looked for, because of %s.", e->obstacle));
+        return;
+    }
+    nh_sheet_words(s, nh_sheet_label(s, "Looked for with components of degree %zu at most in %s. %s", e->degree, letters_of(s, e),
+                                     e->sure ? "The point symmetries are all that there are of this form: proved." : "There may be more of this form: some relations are too long to be proved."));
+    number(s, "dim_{point}", e->points);
+    number(s, "dim_{dynamical}", e->dynamical);
+    for (size_t i = 0; i < e->points + e->dynamical; i++) {
+        nh_sheet_sum(s, "", nh_sheet_label(s, "S_{%zu}", i + 1));
+        nh_sheet_add(s, e->item[i].time, "\\frac{\\p}{\\p t}");
+        for (size_t r = 0; r < o->m; r++) nh_sheet_add(s, e->item[i].space[r], nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", o->system->coordinate[r].name));
+    }
+    if (e->dynamical) nh_sheet_words(s, "The dynamical ones are counted without combinations of point symmetries, and of those times currents.");
+    for (size_t i = 0; i < e->actions; i++) show_action(s, t, &e->action[i]);
+    if (t->currents && e->points + e->dynamical) nh_sheet_words(s, e->actions ? "All other derivatives of the currents vanish." : "All derivatives of the currents vanish.");
+}
+
 void nh_symmetry_sheet(nh_sheet *s, const nh_theory *t)
 {
     if (!t->space) return;
     space(s, t);
     bounds(s, t);
+    if (t->symmetries) equations(s, t);
 }

@@ -28,6 +28,8 @@ static const nh_glossary_entry entries[] = {
      "symmetry of the equations of motion is another question."},
     {"space of symmetries", "Constraint symmetries are linear in their currents; those that are projectable, of case 1, or have [Gamma,Z] in the "
      "canonical distribution form subspaces (--equations)."},
+    {"symmetry of the equations", "A field S with [Gamma,S] = a Gamma: a point symmetry acts on time and positions, a dynamical one has components that "
+     "depend on velocities (--equations)."},
     {"closure", "The fields Gamma, U_1, .. with all their brackets.  What it leaves constant are the currents with [Gamma,Z] in the canonical "
      "distribution; its rank bounds their number (--equations)."},
     {"multiplier", "Chetaev's multiplier mu_a, one for each constraint: the force that keeps constraint a is mu_a "

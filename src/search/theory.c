@@ -1,5 +1,7 @@
 #include "search/theory.h"
 
+#include "base/progress.h"
+
 nh_theory *nh_theory_of(nh_arena *arena, const nh_model *model, const nh_model *other, size_t most, const nh_options *options)
 {
     nh_theory *t = nh_arena_alloc(arena, sizeof *t);
@@ -19,5 +21,8 @@ void nh_theory_add(nh_arena *arena, nh_theory *t, const char *name, const nh_sym
 void nh_theory_space(nh_arena *arena, nh_theory *t, size_t count, const nh_named_current *current, size_t counted, const nh_options *options)
 {
     t->fields = nh_bracket_fields_of(arena, t->submanifold);
+    t->currents = count;
+    t->current = current;
     t->space = nh_symmetry_space_of(arena, t->own, count, current, counted, options);
+    if (!nh_late()) t->symmetries = nh_equation_symmetries_of(arena, t->own, count, current, t->space, options);
 }

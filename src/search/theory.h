@@ -7,7 +7,7 @@
 #include "geometry/determining.h"
 #include "geometry/inertial.h"
 #include "integrals/bracket.h"
-#include "search/symmetry_space.h"
+#include "search/equation_symmetries.h"
 
 typedef struct nh_theory {
     const nh_model *model;         /* the chart of coordinate velocities where there is one: the geometry is written in it */
@@ -23,12 +23,15 @@ typedef struct nh_theory {
     } *bracket;
     const nh_symmetry_space *space; /* of the currents that are proved; NULL: none was looked for */
     const nh_bracket_fields *fields; /* of the submanifold that is shown */
+    const nh_equation_symmetries *symmetries; /* of the equations of motion; NULL: none were looked for */
+    size_t currents;
+    const nh_named_current *current;
 } nh_theory;
 
 /* `other`: a chart of coordinate velocities beside a quasi one, or NULL.  There is room for `most` brackets. */
 nh_theory *nh_theory_of(nh_arena *arena, const nh_model *model, const nh_model *other, size_t most, const nh_options *options);
 void nh_theory_add(nh_arena *arena, nh_theory *theory, const char *name, const nh_symmetry *symmetry);
-/* The space of constraint symmetries of these currents, which are proved; counted: symmetry_space.h. */
+/* The space of constraint symmetries of these currents, which are proved and kept by the caller, and the symmetries of the equations of motion; counted: symmetry_space.h. */
 void nh_theory_space(nh_arena *arena, nh_theory *theory, size_t count, const nh_named_current *current, size_t counted, const nh_options *options);
 
 #endif
