@@ -47,7 +47,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
     X(opt_inner,       "inner",       required_argument, "\"1,4=1/2; 4,4=3\"",  "reduce", "the inner product of generators that chooses the lifts by stages; else orthonormal") \
     X(opt_weak,        "weak",        no_argument,       "",                   "reduce export", "also allow symmetries up to a total derivative")              \
-    X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|latex|json", "reduce export", "the language of the exported code; reduce: print the reduced equations so") \
+    X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|latex|json", "reduce export", "the language of the exported code; reduce: print the reduced equations so, or the motions as csv") \
     X(opt_input,       "input",       required_argument, "\"u=sin(t)\"",       "simulate export", "simulate: a parameter over time, an expression of t or FILE.csv:COLUMN; export: NAMES of parameters that are arguments") \
     X(opt_name,        "name",        required_argument, "NAME",               "export", "what names of files and functions begin with") \
     X(opt_tolerance,   "tolerance",   required_argument, "EPS",                "analyze simulate benchmark reduce", "relative tolerance of the motions")                                  \

@@ -15,7 +15,7 @@ static bool request_of(nh_cli *cli, nh_reduce_request *q, nh_error *error)
     }
     *q = (nh_reduce_request){.settings = cli->settings, .setting = cli->setting, .chart = cli->velocities, .initial = cli->initial, .project = cli->project, .weak = cli->weak, .group = cli->group, .chain = cli->chain, .inner = cli->inner, .accuracy = cli->accuracy, .equations = cli->equations, .options = cli->options};
     nh_export_target target;
-    if (cli->to && !nh_export_target_of(cli->to, &target, error)) return false;
+    if (cli->to && strcmp(cli->to, "csv") && !nh_export_target_of(cli->to, &target, error)) return false;
     q->system_path = nh_cli_system(cli, cli->operand[0], error);
     return q->system_path != NULL;
 }
@@ -35,12 +35,13 @@ static void put_code(const nh_cli *cli, const nh_reduction *r, nh_text *out)
     nh_export_free(x);
 }
 
-/* The summary, or the equations as code. */
+/* The summary, the equations as code, or the motions as numbers. */
 static void print(const nh_cli *cli, const nh_reduction *r)
 {
     nh_text text;
     nh_text_init(&text);
-    if (cli->to) put_code(cli, r, &text);
+    if (cli->to && !strcmp(cli->to, "csv")) nh_reduction_csv(r, &text);
+    else if (cli->to) put_code(cli, r, &text);
     else nh_reduction_text(r, cli->verbose, &text);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);

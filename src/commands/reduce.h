@@ -61,6 +61,15 @@ typedef struct {
     const nh_lagrange_poincare *bundle; /* third kind */
 } nh_reduction_theory;
 
+/* The motion of a stage's equations, at the first `count` of the reduction's times. */
+typedef struct {
+    size_t count, m;          /* 0: there is none; coordinates of the action's kinetic */
+    const double *q;          /* count x m: places, the group's motion found again */
+    size_t charted, momenta;  /* outputs before the slice or the velocities change for the first time; momenta */
+    const double *p;          /* charted x momenta */
+    const char **name;        /* of the momenta */
+} nh_reduction_motion;
+
 /* One stage, written on a slice through the initial state; `shown` is the same on the slice y = 0, where it is regular there. */
 typedef struct {
     nh_stage_kind kind;
@@ -91,6 +100,7 @@ typedef struct {
     bool compared, complete;
     bool dependent;           /* it ended where the constraints become dependent */
     const nh_reduction_theory *theory; /* NULL: not asked for */
+    nh_reduction_motion motion;
     char note[256];
 } nh_reduction_stage;
 
@@ -112,6 +122,9 @@ struct nh_reduction {
     double wanted;            /* the accuracy; 0: none is asked for */
     nh_reduction_choice full; /* with an accuracy */
     const char *full_formulation;
+    const double *times;      /* at which motions are given and compared */
+    size_t full_count;        /* those that the full motion reaches, */
+    const double *full_place; /* and its places: full_count x m */
     double full_reached;      /* time up to which the full motion is known well enough to be compared with */
     const nh_slice *kept[2];  /* the slices that are shown, of the first stage and of the whole group, and their equations: good for every initial state */
     const nh_chaplygin *kept_chaplygin;

@@ -1,6 +1,7 @@
 /* reduce_compare: the motion of a stage, with the group's found again, against the full one. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "commands/reduce_internal.h"
 
@@ -37,6 +38,19 @@ static void take_reduced(nh_reduction_bench *b, nh_reduction_stage *s, const nh_
     s->speedup = c->complete && s->seconds > 0 ? b->r->full_seconds / s->seconds : 0;
 }
 
+/* What is shown of it. */
+static void keep(nh_reduction *r, nh_reduction_stage *s, const nh_reconstruction *c)
+{
+    size_t n = c->first->n, momenta = c->first->r, charted = c->first_chart < c->count ? c->first_chart : c->count;
+    double *q = nh_arena_alloc(r->arena, (c->count * c->m + 1) * sizeof *q);
+    double *p = nh_arena_alloc(r->arena, (charted * momenta + 1) * sizeof *p);
+    const char **name = nh_arena_alloc(r->arena, (momenta + 1) * sizeof *name);
+    if (c->count > 0) memcpy(q, c->q, c->count * c->m * sizeof *q);
+    for (size_t i = 0; i < charted * momenta; i++) p[i] = c->z[i / momenta * c->size + n + i % momenta];
+    for (size_t k = 0; k < momenta; k++) name[k] = nh_arena_printf(r->arena, "%s", c->first->momentum[k]);
+    s->motion = (nh_reduction_motion){.count = c->count, .m = c->m, .q = q, .charted = charted, .momenta = momenta, .p = p, .name = name};
+}
+
 /* How far it goes and how near it comes. */
 static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const nh_reduction_time_series *course, const nh_reconstruction *c)
 {
@@ -48,6 +62,7 @@ static void take_whole(const nh_reduction_bench *b, nh_reduction_stage *s, const
     s->compared = n > 1;
     s->reached = n > 1 ? b->times[n - 1] : 0;
     s->agreement = nh_reduction_farthest(s, course, c);
+    if (!b->r->brief && c->q && s->compared) keep(b->r, s, c);
     snprintf(s->note, sizeof s->note, "%.250s", c->note);
 }
 

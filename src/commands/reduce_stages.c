@@ -315,7 +315,11 @@ bool nh_reduction_stages(nh_reduction *r, nh_error *error)
     nh_reduction_bench b = {.r = r, .times = nh_arena_alloc(r->arena, NH_REDUCTION_OUTPUTS * sizeof(double))};
     for (size_t i = 0; i < NH_REDUCTION_OUTPUTS; i++) b.times[i] = r->until * (double)i / (NH_REDUCTION_OUTPUTS - 1);
     if (nh_reduction_late(r, "the reduction")) return true;
-    if (!nh_reduction_full_motion(&b, error) || (!nh_interrupted() && r->kinetic->general && !first_and_second(&b, error))) return false;
+    bool moves = nh_reduction_full_motion(&b, error);
+    r->times = b.times;
+    r->full_count = moves ? b.reached : 0;
+    r->full_place = b.full;
+    if (!moves || (!nh_interrupted() && r->kinetic->general && !first_and_second(&b, error))) return false;
     const nh_action *g = &r->group->action;
     bool quotient = !r->kinetic->general;
     if (nh_interrupted()) return true;

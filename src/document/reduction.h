@@ -13,6 +13,8 @@ void nh_reduction_write(const nh_reduction *reduction, bool verbose, const nh_ru
 void nh_reduction_text(const nh_reduction *reduction, bool verbose, nh_text *out);
 /* The document as a heap string (nh_free); `run` may be NULL. */
 char *nh_reduction_json(const nh_reduction *reduction, const nh_run *run);
+/* The full motion and those of the stages over common times: what a motion does not reach is empty. */
+void nh_reduction_csv(const nh_reduction *reduction, nh_text *out);
 /* The reduced equations of every stage: a block of equations each, to be read into another document. */
 void nh_reduction_latex(const nh_reduction *reduction, nh_text *out);
 

@@ -9,5 +9,9 @@
 void nh_reduction_conditions(const nh_reduction_stage *stage, nh_pen *pen);
 /* And after its equations: measure, currents, chain and motions. */
 void nh_reduction_remarks(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_pen *pen);
+/* Figures of a stage's motion beside the full one; both in the JSON. */
+void nh_reduction_figures(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_pen *pen);
+void nh_reduction_motion_json(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_json *to);
+void nh_reduction_full_json(const nh_reduction *reduction, nh_json *to);
 
 #endif

@@ -5,7 +5,7 @@
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "document/facts.h"
-#include "document/reduction.h"
+#include "document/reduction_internal.h"
 #include "document/reduction_sheet.h"
 
 static void put_expression(nh_json *to, const char *key, nh_dag *d, nh_ex e)
@@ -341,6 +341,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     nh_json_put_number(to, "charts", (double)s->charts);
     nh_json_put_number(to, "seconds", s->seconds);
     nh_json_put_number(to, "speedup", s->speedup);
+    nh_reduction_motion_json(r, s, to);
 }
 
 static void put_momenta(nh_json *root, const nh_reduction *r)
@@ -415,6 +416,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     }
     stages = nh_json_put_array(root, "stages");
     for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
+    nh_reduction_full_json(r, root);
     put_momenta(root, r);
     put_unused(root, r);
     nh_json_put_number(root, "coordinates", (double)r->kinetic->m);
