@@ -223,6 +223,23 @@ Test(quadratures, car)
     check(ask_car("3", "atan("), "car of large inertia", 4, 5);
 }
 
+/* In the half plane the motions end at its border, where the area tangent of nearly 1 has no digits left in doubles: the drift is that of the formula
+ * evaluated with more digits, and the program says so. */
+Test(quadratures, digits_that_are_lost)
+{
+    nh_analysis *r = ask("name: half_plane\nparameters: [{name: k, value: 1.1}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                         "domain: {y: [0.5, 1.5]}\nlagrangian: (x'^2 + y'^2)/(2*y^2) - k*y\n");
+    size_t lost = 0, said = 0;
+    for (size_t k = 0; k < r->count; k++) {
+        const nh_drift *d = &r->found[k].drift;
+        cr_expect(d->explained, "%s drifts by %g", r->found[k].name, d->drift[NH_DRIFT_RUNS - 1]);
+        lost += d->in_doubles > 100 * d->drift[NH_DRIFT_RUNS - 1] && d->drift[NH_DRIFT_RUNS - 1] < d->drift[0] / 100;
+    }
+    for (size_t i = 0; i < r->warnings; i++) said += strstr(r->warning[i], "loses digits") != NULL;
+    cr_expect(lost == 1 && said == 1, "%zu currents lose digits, %zu warnings", lost, said);
+    nh_analysis_free(r);
+}
+
 /* cos of an exponential has no elementary integral: the skate that turns ever slower keeps three currents, and no false one. */
 Test(quadratures, not_elementary)
 {

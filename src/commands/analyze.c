@@ -238,6 +238,9 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
     }
     for (size_t k = 0; k < r->count; k++) {
         r->found[k].drift = r->validation->current[k];
+        if (r->found[k].drift.in_doubles > 0)
+            nh_analysis_warn(r, "the formula of %s loses digits along the test motion: its values in double precision change by %.1e; with 77 digits, along the same motion, they change by %.1e", r->found[k].name,
+                           r->found[k].drift.in_doubles, r->found[k].drift.drift[NH_DRIFT_RUNS - 1]);
         if (!r->found[k].drift.explained)
             nh_analysis_warn(r, "%s drifts by %.1e along the test motion, more than %g tolerances; the drift hardly falls with the tolerance, so it is not the error of the motion", r->found[k].name,
                            r->found[k].drift.drift[NH_DRIFT_RUNS - 1], r->options.drift);

@@ -9,6 +9,7 @@
 #include "base/linalg.h"
 #include "base/progress.h"
 #include "graph/terms.h"
+#include "integrals/exact_points.h"
 #include "motion/automatic.h"
 #include "motion/sizes.h"
 
@@ -57,6 +58,41 @@ static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
     return motion->count;
 }
 
+/* How far a current changes along a motion that is given in doubles, its formula evaluated with many digits; NAN: not known. */
+static double change_by_balls(const run *r, const nh_motion *motion, const bool *steep, size_t inside, nh_ex phi)
+{
+    enum { bits = 256 };
+    const nh_model *o = r->model;
+    const nh_chart *c = o->chart;
+    double first = NAN, worst = 0;
+    if (r->everywhere || c->implicit || motion->size != o->m + o->n) return NAN;
+    nh_ball *ball = nh_ball_create(o->dag, bits);
+    nh_exact_parameters(o, ball);
+    for (size_t i = 0; i < inside && !isnan(worst); i++) {
+        double value, radius;
+        if (steep[i]) continue;
+        nh_ball_set_double(ball, c->symbol[0], motion->time[i]);
+        for (size_t s = 0; s < motion->size; s++) nh_ball_set_double(ball, c->symbol[1 + s], motion->state[i * motion->size + s]);
+        bool good = nh_ball_value(ball, phi, &value, &radius);
+        if (isnan(first)) first = value;
+        worst = good ? fmax(worst, fabs(value - first) + radius) : NAN;
+    }
+    nh_ball_free(ball);
+    return worst;
+}
+
+/* A change that is larger than the motion's error explains may be rounding within the formula, such as atanh of nearly 1. */
+static void look_closer(const run *r, const nh_motion *motion, const bool *steep, size_t inside, nh_ex phi, size_t which, nh_drift *d)
+{
+    static const double much = 10;
+    double loose = d->drift[which], closer;
+    if (loose <= r->options->drift * r->out->tolerance[which]) return;
+    closer = change_by_balls(r, motion, steep, inside, phi) / fmax(d->scale, DBL_MIN);
+    if (!(closer * much < loose)) return;
+    d->drift[which] = closer;
+    if (which + 1 == NH_DRIFT_RUNS) d->in_doubles = loose;
+}
+
 /* Each current and, for its scale, its terms. */
 static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi, size_t which)
 {
@@ -78,6 +114,7 @@ static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi,
         }
         d->scale = scale;
         d->drift[which] = good ? worst / fmax(scale, DBL_MIN) : INFINITY;
+        if (good || isfinite(scale)) look_closer(r, motion, steep, inside, phi[k], which, d);
         nh_free(value);
         nh_free(e);
     }

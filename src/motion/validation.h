@@ -15,6 +15,7 @@ typedef struct {
     double drift[NH_DRIFT_RUNS]; /* max |Phi - Phi(0)| / scale, loosest tolerance first */
     double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
     double until;                /* time to which it was measured: before the end where the motion leaves the current's interval */
+    double in_doubles;           /* the drift of the tightest motion where its values in doubles lose digits, and `drift` is by balls; else 0 */
     bool small, falls;           /* below options->drift tolerances; falls with the tolerance (or is at rounding) */
     bool explained;              /* by the error of the motion itself: small, or it falls from the second tolerance to the third as that error does */
 } nh_drift;
