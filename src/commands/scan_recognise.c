@@ -2,7 +2,9 @@
  *
  * A ratio; a root of a quadratic equation with small whole coefficients, found as a short vector of a lattice;
  * a ratio times pi; a logarithm of a ratio. These are guesses: whoever asks must check them. */
+#include <flint/fmpz.h>
 #include <flint/fmpz_lll.h>
+#include <flint/fmpz_mat.h>
 #include <inttypes.h>
 #include <math.h>
 

@@ -14,11 +14,12 @@ static void add_integer(acb_t out, const acb_t a, slong n, slong bits) { acb_add
 static void legendre(acb_t out, bool second, acb_srcptr x, which part, slong bits)
 {
     acb_t order, value, zero;
-    double place = fabs(arf_get_d(arb_midref(acb_realref(x + 1)), ARF_RND_NEAR));
-    int type = second && place > 1; /* Q beyond 1 is another branch, real as well */
     acb_init(order);
     acb_init(value);
     acb_init(zero);
+    acb_set(value, x + 1);
+    double place = fabs(arf_get_d(arb_midref(acb_realref(value)), ARF_RND_NEAR));
+    int type = second && place > 1; /* Q beyond 1 is another branch, real as well */
     (second ? acb_hypgeom_legendre_q : acb_hypgeom_legendre_p)(value, x, zero, x + 1, type, bits);
     if (part == PRIME) {
         add_integer(order, x, -1, bits);

@@ -3,6 +3,7 @@
 
 #include <flint/nmod_mat.h>
 #include <flint/nmod_poly.h>
+#include <flint/ulong_extras.h>
 #include <math.h>
 
 #include "base/memory.h"
