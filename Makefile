@@ -21,8 +21,8 @@ CC      = gcc
 PREFIX  = /usr/local
 LIBDIR  = $(PREFIX)/lib
 VERSION = 0.1.0
-# Of the binary interface nhsym.h: another number when a program that was compiled with the old one would no longer run.
-SONAME  = libnhsym.so.0
+# Of the binary interface nhsym.h: another number when a program that was compiled with the old one would no longer run (docs/changes.md).
+SONAME  = libnhsym.so.1
 BUILD   = build$(if $(SANITIZE),-sanitize)
 JOBS    = $(shell nproc 2>/dev/null || echo 2)
 comma   = ,
@@ -268,8 +268,8 @@ install: all library
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(LIBDIR)/pkgconfig
 	install -m 755 $(BUILD)/nhsym $(if $(HAS_MPI),$(BUILD)/nhsym-mpi) $(DESTDIR)$(PREFIX)/bin/
 	install -m 644 src/nhsym.h $(DESTDIR)$(PREFIX)/include/
-	install -m 644 $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)/libnhsym.so.$(VERSION)
-	ln -sf libnhsym.so.$(VERSION) $(DESTDIR)$(LIBDIR)/$(SONAME)
+	install -m 644 $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)/$(SONAME).$(VERSION)
+	ln -sf $(SONAME).$(VERSION) $(DESTDIR)$(LIBDIR)/$(SONAME)
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libnhsym.so
 	install -m 644 $(BUILD)/libnhsym.a $(DESTDIR)$(LIBDIR)/
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBRARIES@|$(LDLIBS)|' src/library/nhsym.pc.in \

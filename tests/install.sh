@@ -17,7 +17,7 @@ here install >/dev/null
 lib=$stage$libraries
 
 # ---- names ----
-readelf -d "$lib/libnhsym.so" | grep -q 'soname: \[libnhsym.so.0\]' || failed "the shared library has no soname"
+readelf -d "$lib/libnhsym.so" | grep -q 'soname: \[libnhsym.so.1\]' || failed "the shared library has no soname"
 grep -o '^NH_API [^(]*(' src/nhsym.h | sed 's/($//; s/.*[ *]//' | sort >"$work/promised"
 nm -D --defined-only "$lib/libnhsym.so" | awk '$2 != "A" { sub(/@.*/, "", $3); print $3 }' | sort >"$work/exported"
 [ -s "$work/promised" ] || failed "no names in nhsym.h"

@@ -4,7 +4,7 @@
 here=$(cd "$(dirname "$0")/.." && pwd)
 for python in "${PYTHON:-python3}" python3 /usr/bin/python3; do
     "$python" -c 'import numpy, sympy, pytest, setuptools' 2>/dev/null || continue
-    : "${NHSYM_LIBRARY=$here/build/libnhsym.so.0}"
+    : "${NHSYM_LIBRARY=$here/build/libnhsym.so.1}"
     export NHSYM_LIBRARY PYTHONPATH="$here/src/python" PYTHONDONTWRITEBYTECODE=1
     exec "$python" "$@"
 done

@@ -6,7 +6,7 @@ import pathlib
 import re
 from ctypes import POINTER, c_bool, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
 
-SONAME = "libnhsym.so.0"
+SONAME = "libnhsym.so.1"
 TEXT, JSON, HTML, LATEX = range(4)      # nh_format
 PLAIN, AS_LATEX, AS_MATHML = range(3)   # nh_syntax
 
@@ -124,7 +124,7 @@ def _open():
             return ctypes.CDLL(path)
         except OSError as reason:
             reasons.append(str(reason))
-    raise ImportError("the library %s cannot be loaded: %s\nhint: install it (`make install`, or the package libnhsym0), or let NHSYM_LIBRARY name it"
+    raise ImportError("the library %s cannot be loaded: %s\nhint: install it (`make install`, or the package libnhsym1), or let NHSYM_LIBRARY name it"
                       % (SONAME, "; ".join(reasons)))
 
 
