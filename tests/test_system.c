@@ -1,7 +1,9 @@
 /* system: what a system file says, key by key, and the values that come of it.  (Refusals: test_bad.c.) */
 #include <criterion/criterion.h>
 
+#include <glob.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "names.h"
@@ -343,4 +345,54 @@ Test(system, units)
         cr_expect(fault.offset == bad[i].offset && fault.length == bad[i].length, "`%s`: %zu, %zu", bad[i].text, fault.offset, fault.length);
         cr_expect(bad[i].nearest ? fault.nearest && !strcmp(fault.nearest, bad[i].nearest) : !fault.nearest, "`%s`: %s", bad[i].text, fault.nearest ? fault.nearest : "nothing");
     }
+}
+
+/* Terms of other units than the terms beside them are told, with both units; numbers that are added, and symbols without a unit, may have any. */
+Test(system, units_of_terms)
+{
+    static const struct {
+        const char *parameters, *coordinates, *rest, *told; /* NULL: nothing is */
+    } cases[] = {
+        {"m: {value: 1, unit: kg}, k: {value: 1, unit: N/m}", "{name: x, type: length}", "lagrangian: m*x'^2/2 - k*x^2/2", NULL},
+        {"m: {value: 1, unit: kg}, k: {value: 1, unit: N/m}", "{name: x, type: length}", "lagrangian: m*x'^2/2 - k*x/2", "kg m^2/s^2, and `k*x` has kg m/s^2"},
+        {"m: {value: 1, unit: kg}", "{name: x, type: length}", "lagrangian: m*x'^2/2 - 9.81*m*x", "`m*x'^2` has the unit kg m^2/s^2, and `m*x` has kg m"},
+        {"m: {value: 1, unit: kg}, k: 3", "{name: x, type: length}", "lagrangian: m*x'^2/2 - k*x^2/2", NULL},
+        {"m: {value: 1, unit: kg}, l: {value: 1, unit: m}, g: {value: 1, unit: m/s^2}", "{name: a, type: angle}", "lagrangian: m*l^2*a'^2/2 + m*g*l*(cos(a) - 1)", NULL},
+        {"m: {value: 1, unit: kg}, l: {value: 1, unit: m}, g: {value: 1, unit: m/s^2}", "{name: a, unit: deg}", "lagrangian: m*l^2*a'^2/2 + m*g*l*cos(a)", "`a`, the argument of a function, has the unit 0.0174533"},
+        {"m: {value: 1, unit: g}, k: {value: 1, unit: N/m}", "{name: x, unit: m}", "lagrangian: m*x'^2/2 - k*x^2/2", "0.001 kg m^2/s^2, and `k*x^2` has kg m^2/s^2"},
+        {"m: {value: 1, unit: kg}, G: {value: 1, unit: au^3/yr^2}", "{name: x, unit: au}", "lagrangian: m*x'^2/2 + m*G/abs(x)", NULL},
+        {"m: {value: 1, unit: kg}, w: {value: 1, unit: 1/s}", "{name: x, type: length}", "lagrangian: m*x'^2/2 - m*x^2/2*w^2*cos(w*t)", NULL},
+        {"m: {value: 1, unit: kg}, w: {value: 1, unit: s}", "{name: x, type: length}", "lagrangian: m*x'^2/2 - m*x'^2/2*cos(w*t)", "`t*w`, the argument of a function, has the unit s^2"},
+        {"m: {value: 1, unit: kg}, c: {value: 1, unit: kg/s}", "{name: x, type: length}", "lagrangian: m*x'^2/2\nforces: [\"x = -c*x'\"]", NULL},
+        {"m: {value: 1, unit: kg}, c: {value: 1, unit: kg/m}", "{name: x, type: length}", "lagrangian: m*x'^2/2\nforces: [\"x = -c*x'\"]", "the force on x do not agree: `-c*x'` has the unit kg/s, and the Lagrangian by the coordinate kg m/s^2"},
+        {"m: {value: 1, unit: kg}, R: {value: 1, unit: m}", "{name: x, type: length}, {name: a, type: angle}", "lagrangian: m*x'^2/2 + m*R^2*a'^2/2\nconstraints: [\"x' = R*a'\"]", NULL},
+        {"m: {value: 1, unit: kg}, R: {value: 1, unit: m}", "{name: x, type: length}, {name: a, type: angle}", "lagrangian: m*x'^2/2 + m*R^2*a'^2/2\nconstraints: [\"x' = a'\"]", "a constraint do not agree: `x'` has the unit m/s, and `a'` has 1/s"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        nh_error error = {0};
+        snprintf(text, sizeof text, "name: s\nparameters: {%s}\ncoordinates: [%s]\n%s\n", cases[i].parameters, cases[i].coordinates, cases[i].rest);
+        nh_system *s = nh_system_parse("s", text, 0, NULL, &error);
+        must(s != NULL, &error, text);
+        cr_expect_eq(s->notes, (size_t)(cases[i].told != NULL), "%s: %s", text, s->notes ? s->note[0] : "nothing");
+        if (cases[i].told && s->notes) cr_expect(strstr(s->note[0], cases[i].told), "%s: %s", text, s->note[0]);
+        nh_system_free(s);
+    }
+}
+
+Test(system, units_of_the_systems_that_ship_agree)
+{
+    glob_t found;
+    size_t some = 0;
+    cr_assert_eq(glob("systems/*.yaml", 0, NULL, &found), 0);
+    for (size_t i = 0; i < found.gl_pathc; i++) {
+        nh_error error = {0};
+        nh_system *s = nh_system_read(found.gl_pathv[i], 0, NULL, &error);
+        must(s != NULL, &error, found.gl_pathv[i]);
+        for (size_t k = 0; k < s->notes; k++) cr_expect(!strstr(s->note[k], "units in"), "%s", s->note[k]);
+        for (size_t k = 0; k < s->parameters; k++) some += *s->parameter[k].unit != 0;
+        nh_system_free(s);
+    }
+    cr_expect_geq(some, 30u, "they have units");
+    globfree(&found);
 }

@@ -3,7 +3,7 @@
 
 #include "base/files.h"
 #include "cli/cli.h"
-#include "system/deck_build.h"
+#include "system/system.h"
 
 /* A word of YAML in double quotes. */
 static void put_quoted(nh_text *out, const char *word)
@@ -65,9 +65,8 @@ const char *nh_cli_system(nh_cli *cli, const char *word, nh_error *error)
     if (!path || cli->quiet || !strcmp(cli->command, "analyze") || !strcmp(cli->command, "show")) return path; /* an analysis has warnings of its own */
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_deck *deck = nh_system_deck(path, &ignored); /* whoever reads it says what is wrong */
-    const nh_deck_node *notes = deck ? nh_deck_get(nh_deck_root(deck), "notes") : NULL;
-    for (size_t i = 0; notes && i < notes->count; i++) fprintf(stderr, "nhsym: %s\n", notes->item[i]->text);
-    nh_deck_free(deck);
+    nh_system *system = nh_system_read(path, cli->settings, cli->setting, &ignored); /* whoever reads it says what is wrong */
+    for (size_t i = 0; system && i < system->notes; i++) fprintf(stderr, "nhsym: %s\n", system->note[i]);
+    nh_system_free(system);
     return path;
 }

@@ -53,7 +53,7 @@ static bool read_files(nh_analysis *r, const nh_analyze_request *q, nh_error *er
     if (own) memcpy(setting, r->analysis->setting, own * sizeof *setting);
     if (q->settings) memcpy(setting + own, q->setting, q->settings * sizeof *setting);
     r->system = nh_system_read(q->system_path, own + q->settings, setting, error);
-    for (size_t i = 0; r->system && i < r->system->note_count; i++) nh_analysis_warn(r, "%s", r->system->notes->item[i]->text);
+    for (size_t i = 0; r->system && i < r->system->notes; i++) nh_analysis_warn(r, "%s", r->system->note[i]);
     return r->system != NULL;
 }
 

@@ -79,8 +79,8 @@ typedef struct {
     nh_dag *dag;
     nh_deck *deck;
     const char *name, *title, *source;
-    const nh_deck_node *notes; /* texts for the user, or NULL: what was left out of a robot description or taken for something else */
-    size_t note_count;
+    const char **note; /* for the user: what was left out of a robot description or taken for something else; units that do not agree */
+    size_t notes;
     nh_ex t;
     size_t parameters, coordinates, constraints, definitions, intervals, currents, not_conserved;
     nh_parameter *parameter;

@@ -36,6 +36,7 @@ bool nh_system_read_drawing(nh_system_reader *r);
 bool nh_system_read_known(nh_system_reader *r);
 bool nh_system_check_motions(nh_system_reader *r, const nh_deck_node *known);
 bool nh_system_read_robustness(nh_system_reader *r);
+bool nh_system_read_notes(nh_system_reader *r); /* at the end: they are about the whole */
 
 /* `levels:` as constraints, behind all others, and velocities for them (invariant_level.c). */
 bool nh_system_read_levels(nh_system_reader *r);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "system/dimension.h"
 #include "system/system_internal.h"
 
 /* As many as degrees of freedom? */
@@ -79,6 +80,18 @@ bool nh_system_read_forces(nh_system_reader *r)
         s->force[index] = nh_add(s->dag, s->force[index], value);
         s->has_forces = true;
     }
+    return true;
+}
+
+bool nh_system_read_notes(nh_system_reader *r)
+{
+    const nh_deck_node *list;
+    const char **more;
+    size_t n, found = nh_dimension_check(r->system, &more);
+    if (!nh_system_list_of(r, r->root, "notes", &list, &n)) return false;
+    r->system->note = nh_system_take(r, n + found, sizeof *r->system->note);
+    for (size_t i = 0; i < n; i++) r->system->note[r->system->notes++] = list->item[i]->text;
+    for (size_t i = 0; i < found; i++) r->system->note[r->system->notes++] = more[i];
     return true;
 }
 

@@ -400,7 +400,6 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)", r->error)) return false;
     if (!nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
     const char *doc; /* for the reader of the file */
-    if (!nh_system_list_of(r, r->root, "notes", &s->notes, &s->note_count)) return false;
     if (!nh_system_text_of(r, r->root, "name", "system", &s->name) || !nh_system_text_of(r, r->root, "title", s->name, &s->title)) return false;
     if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc)) return false;
     s->t = nh_symbol(s->dag, "t");
@@ -441,7 +440,7 @@ static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *se
     s->deck = deck;
     s->dag = nh_dag_create();
     reader r = {s, deck, nh_deck_root(deck), error};
-    if (read_all(&r, settings, setting)) {
+    if (read_all(&r, settings, setting) && nh_system_read_notes(&r)) {
         nh_reach_walls(s);
         return s;
     }

@@ -5,12 +5,14 @@
  *     factor  := ("1" | name | "(" unit ")") [ "^" exponent | superscripts ]
  *
  * Names are those of the SI and of what is accepted beside it (min, h, deg, bar, eV, ...), with the SI's prefixes
- * where these are used.  Units are for the reader: nothing is converted, and dimensions are not compared. */
+ * where these are used.  Nothing is converted; whether the terms of a system have one unit, dimension.h looks. */
 #ifndef NH_UNITS_H
 #define NH_UNITS_H
 
 #include <stdbool.h>
 #include <stddef.h>
+
+#include "base/text.h"
 
 /* When it is none: where the part that is not understood begins, how long it is, and the nearest unit that is known,
  * or NULL. */
@@ -19,5 +21,21 @@ typedef struct {
     const char *nearest;
 } nh_unit_fault;
 bool nh_is_unit(const char *text, nh_unit_fault *fault);
+
+/* What a unit stands for: powers of the base units of the SI, radians counting as 1, and how many of their product it is. */
+enum { NH_UNIT_METRE, NH_UNIT_KILOGRAM, NH_UNIT_SECOND, NH_UNIT_AMPERE, NH_UNIT_KELVIN, NH_UNIT_MOLE, NH_UNIT_CANDELA, NH_UNIT_BASES };
+typedef struct {
+    double power[NH_UNIT_BASES];
+    double scale; /* nan: not known */
+    bool clock;   /* it measures time in something else than seconds */
+} nh_unit;
+
+/* Of a text that nh_is_unit takes; "" is 1. */
+nh_unit nh_unit_of(const char *text);
+nh_unit nh_unit_product(nh_unit a, nh_unit b, double power); /* a b^power */
+/* The same powers, and no two known scales that differ? */
+bool nh_unit_equal(nh_unit a, nh_unit b);
+/* "kg m^2/s^2", "0.001 m", "1". */
+void nh_unit_print(nh_unit unit, nh_text *out);
 
 #endif
