@@ -50,7 +50,7 @@ for suite in ${*:-bookworm trixie}; do
     step "a program in C, with both libraries" inside "$use" 'cd /tmp; cc /usr/share/doc/nhsym/example.c $(pkg-config --cflags --libs nhsym) -o shared; ./shared >shared.txt; ldd ./shared | grep libnhsym.so.1;
         cc /usr/share/doc/nhsym/example.c -Wl,-Bstatic -lnhsym -Wl,-Bdynamic $(pkg-config --libs --static nhsym | sed "s/-lnhsym //") -o static; ./static >static.txt; cmp shared.txt static.txt; grep "proved" shared.txt'
     step "Python" inside "$use" 'cd /tmp; python3 -c "import nhsym; a = nhsym.system(\"sleigh\").analyze(); print(repr(a), a[\"Phi2\"].sympy()); assert a.independent == 3"'
-    step "purge" inside "$use" "dpkg --purge python3-nhsym libnhsym-dev nhsym libnhsym1; test -z \"\$(dpkg-query -W -f '\${Package}' '*nhsym*' 2>/dev/null)\""
+    step "purge" inside "$use" "dpkg --purge \$(dpkg-query -W -f '\${Package} ' '*nhsym*'); test -z \"\$(dpkg-query -W -f '\${Package}' '*nhsym*' 2>/dev/null)\""
     files "$use" >"$packages/after.txt"
     diff "$packages/before.txt" "$packages/after.txt" || failed "$suite: purging the packages left or removed files"
     rm -rf --one-file-system "$build" "$use"

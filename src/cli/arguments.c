@@ -36,10 +36,30 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
         nh_fail(error, NH_USAGE, "", "--%s needs NAME=VALUE, found `%s`", option, text);
         return false;
     }
-    *name = nh_arena_strndup(cli->arena, text, (size_t)(equal - text));
-    *value = equal + 1;
+    size_t length = (size_t)(equal - text);
+    while (length && text[length - 1] == ' ') length--;
+    *name = nh_arena_strndup(cli->arena, text, length);
+    *value = equal + 1 + strspn(equal + 1, " ");
     return true;
 }
+
+/* A list may stand in one option, or in several. */
+static const char *joined(nh_cli *cli, const char *before, const char *more) { return before ? nh_arena_printf(cli->arena, "%s, %s", before, more) : more; }
+
+/* Every entry of a list, without the blanks around it. */
+static bool each(nh_cli *cli, const char *list, const char *option, bool (*take)(nh_cli *, const char *, nh_error *), nh_error *error)
+{
+    for (const char *at = list;; at++) {
+        at += strspn(at, " ");
+        size_t length = nh_text_entry(at, ",;"), end = length;
+        while (end && at[end - 1] == ' ') end--;
+        if (!end && (at[length] || at == list)) return nh_fail(error, NH_USAGE, "", "--%s: nothing stands %s `%s`", option, at == list ? "first in" : "between two commas of", list);
+        if (end && !take(cli, nh_arena_strndup(cli->arena, at, end), error)) return false;
+        at += length;
+        if (!*at) return true;
+    }
+}
+
 
 static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
 {
@@ -52,17 +72,32 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     return true;
 }
 
-/* "u = sin(t)", or "u = FILE.csv:COLUMN". */
+/* "u = sin(t)", or "u = FILE.csv:COLUMN"; for an export the name alone. */
 static bool set_input(nh_cli *cli, const char *text, nh_error *error)
 {
     char *name;
     const char *value;
+    if (!strchr(text, '=')) return cli->input = joined(cli, cli->input, text), true;
     if (!assignment(cli, text, "input", &name, &value, error)) return false;
-    for (size_t end = strlen(name); end && name[end - 1] == ' ';) name[--end] = 0;
-    value += strspn(value, " ");
     const char *input = nh_input_text(cli->arena, name, value, error);
     if (!input) return false;
     cli->setting[cli->settings++] = (nh_setting){.name = name, .input = input};
+    return true;
+}
+
+static bool add_wheel(nh_cli *cli, const char *text, nh_error *error) { return (void)error, cli->wheel[cli->wheels++] = text, true; }
+static bool add_level(nh_cli *cli, const char *text, nh_error *error) { return (void)error, cli->on[cli->ons++] = text, true; }
+static bool add_number(nh_cli *cli, const char *text, nh_error *error) { return (void)error, cli->number[cli->numbers++] = text, true; }
+
+/* "k=1:2:11", "k=1", "B"; what follows a comma and has no name is one more value: k=1,2,5/2. */
+static bool add_range(nh_cli *cli, const char *text, nh_error *error)
+{
+    (void)error;
+    const char **last = cli->overs ? &cli->over_list[cli->overs - 1] : NULL;
+    bool value = last && strchr(*last, '=') && !strchr(text, '=');
+    cli->over = joined(cli, cli->over, text);
+    if (value) *last = nh_arena_printf(cli->arena, "%s,%s", *last, text);
+    else cli->over_list[cli->overs++] = text;
     return true;
 }
 
@@ -70,6 +105,14 @@ static bool set_option(nh_cli *cli, const char *name, const char *text, nh_error
 {
     cli->limited = cli->limited || !strcmp(name, "max_seconds");
     return nh_options_set(&cli->options, name, text, error);
+}
+
+/* "absolute=1e-12" */
+static bool add_option(nh_cli *cli, const char *text, nh_error *error)
+{
+    char *name;
+    const char *value;
+    return assignment(cli, text, "option", &name, &value, error) && set_option(cli, name, value, error);
 }
 
 static bool positive(const char *text, const char *option, double *out, nh_error *error)
@@ -187,58 +230,49 @@ static bool missing_value(const char *word, nh_error *error)
 /* `-` is a file, too: what is read is kept, so a pipe will do. */
 static const char *file_of(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
 
-/* What the command line adds to a system file. */
-static bool add_to_file(nh_cli *cli, int code, const char *value)
-{
-    if (code == opt_wheel) cli->wheel[cli->wheels++] = value;
-    else if (code == opt_base) cli->base = value;
-    else cli->on[cli->ons++] = value;
-    return true;
-}
-
 static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
 {
-    char *name;
-    const char *text;
     switch (code) {
-    case opt_set: return set_parameter(cli, value, error);
+    case opt_set: return each(cli, value, "set", set_parameter, error);
     case opt_seed: return cli->seed_given = true, nh_options_set(&cli->options, "seed", value, error);
     case opt_samples: return cli->samples_given = true, nh_options_set(&cli->options, "samples", value, error);
     case opt_tolerance: return cli->tolerance_given = true, nh_options_set(&cli->options, "tolerance", value, error);
     case opt_until: return cli->until_given = true, nh_options_set(&cli->options, "until", value, error);
     case opt_threads: case opt_columns: case opt_degree: return nh_options_set(&cli->options, name_of(code), value, error);
     case opt_max_seconds: return set_option(cli, "max_seconds", value, error);
-    case opt_initial: cli->initial = value; return true;
+    case opt_initial: cli->initial = joined(cli, cli->initial, value); return true;
     case opt_initial_table: cli->table = file_of(value); return true;
     case opt_method: return nh_method_given(value, &cli->method, error);
     case opt_project: return cli->project = true;
     case opt_weak: return cli->weak = true;
     case opt_step: return positive(value, "step", &cli->step, error);
     case opt_to: cli->to = value; return true;
-    case opt_input: return strchr(value, '=') ? set_input(cli, value, error) : (cli->input = value, true);
-    case opt_wheel: case opt_base: case opt_on: return add_to_file(cli, code, value);
+    case opt_input: return each(cli, value, "input", set_input, error);
+    case opt_wheel: return each(cli, value, "wheel", add_wheel, error);
+    case opt_on: return each(cli, value, "on", add_level, error);
+    case opt_base: cli->base = value; return true;
     case opt_name: cli->name = value; return true;
-    case opt_watch: cli->watch = value; return true;
+    case opt_watch: cli->watch = joined(cli, cli->watch, value); return true;
     case opt_svg: cli->svg = value; return true;
     case opt_budget: return seconds(value, &cli->budget, error);
     case opt_accuracy: return positive(value, "accuracy", &cli->accuracy, error);
     case opt_ensemble: return members(value, &cli->ensemble, error);
     case opt_spread: return positive(value, "spread", &cli->spread, error);
     case opt_robustness: return cli->robustness = true;
-    case opt_over: cli->over = cli->over_list[cli->overs++] = value; return true;
-    case opt_of: cli->of = value; return true;
-    case opt_number: cli->number[cli->numbers++] = value; return true;
+    case opt_over: return each(cli, value, "over", add_range, error);
+    case opt_of: cli->of = joined(cli, cli->of, value); return true;
+    case opt_number: return each(cli, value, "number", add_number, error);
     case opt_workers: return whole(value, "workers", 256, &cli->workers, error);
     case opt_chunk: return set_chunk(cli, value, error);
     case opt_shape: return cli->shape = true;
     case opt_scene: return cli->scene = true;
     case opt_equations: return cli->equations = true;
-    case opt_chain: cli->chain = value; return true;
-    case opt_inner: cli->inner = value; return true;
-    case opt_group: cli->group = value; return true;
+    case opt_chain: cli->chain = cli->chain ? nh_arena_printf(cli->arena, "%s; %s", cli->chain, value) : value; return true;
+    case opt_inner: cli->inner = cli->inner ? nh_arena_printf(cli->arena, "%s; %s", cli->inner, value) : value; return true;
+    case opt_group: cli->group = joined(cli, cli->group, value); return true;
     case opt_current: cli->current = value; return true;
-    case opt_field: cli->field = value; return true;
-    case opt_option: return assignment(cli, value, "option", &name, &text, error) && set_option(cli, name, text, error);
+    case opt_field: cli->field = joined(cli, cli->field, value); return true;
+    case opt_option: return each(cli, value, "option", add_option, error);
     case opt_velocities: return set_velocities(cli, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);
@@ -294,12 +328,15 @@ static void take_operand(nh_cli *cli, const char *word) { cli->operand[cli->oper
 
 bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
 {
-    cli->setting = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->setting);
-    cli->operand = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->operand);
-    cli->over_list = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->over_list);
-    cli->wheel = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->wheel);
-    cli->on = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->on);
-    cli->number = nh_arena_alloc(cli->arena, ((size_t)argc + 1) * sizeof *cli->number);
+    size_t most = (size_t)argc + 1; /* entries of lists, and operands */
+    for (int i = 1; i < argc; i++)
+        for (const char *c = argv[i]; *c; c++) most += *c == ',' || *c == ';';
+    cli->setting = nh_arena_alloc(cli->arena, most * sizeof *cli->setting);
+    cli->operand = nh_arena_alloc(cli->arena, most * sizeof *cli->operand);
+    cli->over_list = nh_arena_alloc(cli->arena, most * sizeof *cli->over_list);
+    cli->wheel = nh_arena_alloc(cli->arena, most * sizeof *cli->wheel);
+    cli->on = nh_arena_alloc(cli->arena, most * sizeof *cli->on);
+    cli->number = nh_arena_alloc(cli->arena, most * sizeof *cli->number);
     cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
     nh_options_default(&cli->options);
     bool given[owner_count] = {false};

@@ -37,13 +37,13 @@ typedef struct {
     const char *input, *name;  /* of export */
     bool project, weak;
     const char *watch;           /* of simulate */
-    const char *over;            /* of benchmark and classify: the last --over */
+    const char *over;            /* of benchmark and classify: every --over, with commas */
     size_t wheels;
     const char **wheel, *base;   /* --wheel, each; --base */
     size_t ons;
     const char **on;             /* --on, each */
     size_t overs, numbers;
-    const char **over_list, **number; /* of scan: every --over, every --number */
+    const char **over_list, **number; /* of scan and simulate: every range, every number */
     const char *of;              /* of verify --field (constraint, equations), scan and export */
     size_t chunk, chunks, workers;
     const nh_team *team;         /* processes of one run on several machines; or NULL */

@@ -105,8 +105,8 @@ nh_ex *nh_export_symbols(nh_export *x, nh_dag *dag, const char *base, size_t n)
 /* The next word of a list with commas or blanks; NULL at its end. */
 static const char *next_word(nh_arena *arena, const char **list)
 {
-    *list += strspn(*list, ", \t");
-    size_t length = strcspn(*list, ", \t");
+    *list += strspn(*list, ",; \t");
+    size_t length = strcspn(*list, ",; \t");
     const char *word = length ? nh_arena_strndup(arena, *list, length) : NULL;
     *list += length;
     return word;
