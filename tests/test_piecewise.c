@@ -62,6 +62,14 @@ static const piecewise PIECEWISE[] = {
      "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + abs(x)*y'\nknown: {currents: [{name: momentum, expr: y' + abs(x)}, {name: energy, expr: x'^2 + y'^2}]}\n", 2, NULL},
     {"a constraint with a kink",
      "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nconstraints: [\"y' = abs(x)*x'\"]\nknown: {currents: [{name: hidden, expr: y - x*abs(x)/2}, {name: speed, expr: x'^2 + y'^2}]}\n", 3, NULL},
+    {"a Lagrangian that jumps, by a derivative in time and a kink",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x'*y*sign(x)\nknown: {currents: [{name: momentum, expr: y' - abs(x)}, {name: energy, expr: x'^2 + y'^2}]}\n", 2,
+     "on each side of x = 0, where it jumps"},
+    {"a force that turns with the side",
+     "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nforces: [\"x = y'*sign(x)\", \"y = -x'*sign(x)\"]\nknown: {currents: [{name: momentum, expr: y' + abs(x)}]}\n", 2,
+     "on each side of x = 0, where it jumps"},
+    {"steps in time",
+     "coordinates: [x]\nlagrangian: x'^2/2 - x*(t - atan(tan(pi*t))/pi)\n", 0, "on each side of cos(pi*t) = 0, where it jumps"},
     {"the domain knows one side only",
      "coordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - abs(x)\ndomain: {x: [0.5, 2]}\nknown: {currents: [{name: energy, expr: x'^2/2 + abs(x)}]}\n", 1, "for x > 0"},
 };
@@ -150,6 +158,30 @@ Test(piecewise, currents_are_continuous_along_motions)
             cr_expect(change > 0.02, "%s: the piece %s, %s, changes by %.1e only", p->name, r->piece[k].name, r->piece[k].region, change);
         }
         cr_expect(listed, "%s: nothing holds %s", p->name, p->region);
+        nh_analysis_free(r);
+    }
+}
+
+/* Where L jumps, or the constraints give other velocities, the equations of motion contain an impulse: velocities that go through unchanged are no
+ * motion, and what they conserve is no current.  What is left of L = d/dt (x |x|) and so on is none. */
+Test(piecewise, an_impulse_is_no_passage)
+{
+    static const struct {
+        const char *text, *region;
+    } of[] = {
+        {"coordinates: [x, y]\nlagrangian: (1 + sign(x)/2)*(x'^2 + y'^2)/2\n", "on each side of x = 0, where the motion has an impulse"},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - sign(x - y)*y'\n", "on each side of x - y = 0, where the motion has an impulse"},
+        {"coordinates: [x]\nlagrangian: x'^2/2 - sign(x)\n", "on each side of x = 0, where the motion has an impulse"},
+        {"coordinates: [x]\nlagrangian: (2 + sign(t - 2))*x'^2/2\n", "on each side of t = 2, where the motion has an impulse"},
+        {"coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"y' = sign(x)*x'\"]\n", "on each side of x = 0, where the motion has an impulse"},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + x'*sign(x) + (t*x' + x)*sign(t*x)\n", NULL},
+        {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + 1e-9*sign(x)*x'\n", NULL},
+    };
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        nh_analysis *r = analysed(of[i].text);
+        cr_expect_eq(r->independent > 0, !of[i].region, "%s: %zu", of[i].text, r->independent);
+        cr_expect_eq(r->pieces > 0, of[i].region != NULL, "%s: %zu", of[i].text, r->pieces);
+        for (size_t k = 0; k < r->pieces; k++) cr_expect(of[i].region && !strcmp(r->piece[k].region, of[i].region), "%s: %s", of[i].text, r->piece[k].region);
         nh_analysis_free(r);
     }
 }

@@ -10,10 +10,12 @@ static void put(nh_walls *w, nh_ex e, bool edge)
     for (size_t i = 0; i < w->count; i++) {
         if (w->e[i] != e) continue;
         w->edge[i] = w->edge[i] && edge;
+        w->cut[i] = w->cut[i] && w->cutting;
         return;
     }
     if (w->count == NH_MOST_WALLS) return;
     w->e[w->count] = e;
+    w->cut[w->count] = w->cutting;
     w->edge[w->count++] = edge;
 }
 
@@ -58,13 +60,16 @@ static void put_poles(nh_walls *w, nh_dag *d, nh_ex v, int depth)
 static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
 {
     nh_ex v = nh_arity(d, e) ? nh_child(d, e, 0) : 0, one = nh_int(d, 1);
-    switch (nh_function_of(d, e)) {
+    nh_function f = nh_function_of(d, e);
+    w->cutting = f == NH_ATAN2 || f == NH_ATAN || f == NH_ASIN || f == NH_ACOS;
+    switch (f) {
     case NH_ABS: case NH_SIGN: case NH_ATAN2: put_factors(w, d, v, false, 0); break;
     case NH_ATAN: put_poles(w, d, v, 0); break;
     case NH_ASIN: case NH_ACOS: put_factors(w, d, nh_sub(d, one, nh_powi(d, v, 2)), false, 0); break;
     case NH_ACOSH: put_factors(w, d, nh_sub(d, v, one), false, 0); break;
     default: break;
     }
+    w->cutting = false;
 }
 
 /* Operands stand before what is made of them: from e downwards each node is met once. */

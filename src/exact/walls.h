@@ -21,6 +21,8 @@ typedef struct {
     size_t count;
     nh_ex e[NH_MOST_WALLS];     /* expressions that are zero on a wall; each once */
     bool edge[NH_MOST_WALLS];   /* the base of a root, and no square: where it changes its sign the root ends */
+    bool cut[NH_MOST_WALLS];    /* of atan2, atan, asin or acos alone: on the other side another branch continues the function */
+    bool cutting;               /* what is being added */
 } nh_walls;
 
 /* Add the walls of e; more than fit are left out. */

@@ -10,6 +10,92 @@
 
 enum { seed_offset = 505 };
 
+/* ---- impulses ---- */
+
+enum { most_directions = 64 };
+
+/* rho^s, and I_s R^s_i: what must not jump, and what must vanish; their sizes. */
+typedef struct {
+    double rho[most_directions], impulse[most_directions], speed, size;
+} passage;
+
+static bool value_of(nh_ball *ball, nh_ex e, double *value)
+{
+    double radius;
+    return nh_ball_value(ball, e, value, &radius);
+}
+
+/* L, p and rho at one point, and of the wall g: dg/dt along the motion and dg/dq. */
+typedef struct {
+    double L, p[most_directions], rho[most_directions], rate, slope[most_directions];
+} sides;
+
+static bool side_at(const nh_model *o, nh_ball *ball, nh_ex g, double *z, sides *s)
+{
+    if (!nh_exact_at(o, ball, z) || !value_of(ball, o->Lbar, &s->L)
+        || !value_of(ball, nh_diff(o->dag, g, o->chart->symbol[0]), &s->rate)) return false;
+    for (size_t i = 0; i < o->m; i++) {
+        if (!value_of(ball, o->p[i], &s->p[i]) || !value_of(ball, o->rho[i], &s->rho[i])
+            || !value_of(ball, nh_diff(o->dag, g, o->chart->symbol[1 + i]), &s->slope[i])) return false;
+        s->rate += s->slope[i] * s->rho[i];
+    }
+    return true;
+}
+
+/* At one distance from the wall. */
+static bool passage_at(const nh_model *o, nh_ball *ball, const nh_crossing *c, size_t depth, passage *out)
+{
+    sides below, above;
+    *out = (passage){0};
+    if (!side_at(o, ball, c->wall, c->point[0][depth], &below) || !side_at(o, ball, c->wall, c->point[1][depth], &above)) return false;
+    for (size_t s = 0; s < o->m; s++) {
+        out->rho[s] = above.rho[s] - below.rho[s];
+        out->speed = fmax(out->speed, fabs(above.rho[s]));
+    }
+    for (size_t i = 0; i < o->n; i++)
+        for (size_t s = 0; s < o->m; s++) {
+            double R;
+            if (!value_of(ball, o->R[s * o->n + i], &R)) return false;
+            out->impulse[i] += R * ((above.p[s] - below.p[s]) * above.rate - (above.L - below.L) * above.slope[s]);
+            out->size = fmax(out->size, fabs(R) * fmax(fabs(above.p[s] * above.rate), fabs(above.L * above.slope[s])));
+        }
+    return true;
+}
+
+/* Neither falls towards the wall nor is it rounding. */
+static bool stays(size_t n, const double *far, const double *near, double size)
+{
+    static const double rounding = 1e-8;
+    double most[2] = {0, 0};
+    for (size_t i = 0; i < n; i++) most[0] = fmax(most[0], fabs(far[i])), most[1] = fmax(most[1], fabs(near[i]));
+    return most[1] > most[0] / 2 && most[1] > rounding * size;
+}
+
+/* A function of (t, q), and no cut: there L is taken for one of the branches of a function that goes on. */
+static bool may_kick(const nh_model *o, const nh_walls *walls, nh_ex g)
+{
+    for (size_t i = 0; i < walls->count; i++)
+        if (walls->e[i] == g && walls->cut[i]) return false;
+    for (size_t j = 1 + o->m; j < o->width; j++)
+        if (nh_depends(o->dag, g, o->chart->symbol[j])) return false;
+    return o->m <= most_directions;
+}
+
+static void find_impulses(const nh_model *o, const nh_options *options, nh_terrain *t)
+{
+    nh_ball *ball = nh_ball_create(o->dag, (long)options->bits);
+    nh_exact_parameters(o, ball);
+    for (size_t k = 0; k < t->crossings.count; k++) {
+        const nh_crossing *c = &t->crossings.item[k];
+        passage far, near;
+        bool known = !may_kick(o, &t->walls, c->wall);
+        for (size_t i = 0; i < t->impulses; i++) known |= t->impulse[i] == c->wall;
+        if (known || !passage_at(o, ball, c, 1, &far) || !passage_at(o, ball, c, 2, &near)) continue;
+        if (stays(o->n, far.impulse, near.impulse, near.size) || stays(o->m, far.rho, near.rho, near.speed)) t->impulse[t->impulses++] = c->wall;
+    }
+    nh_ball_free(ball);
+}
+
 nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena *arena)
 {
     nh_terrain out = {0};
@@ -22,6 +108,7 @@ nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena 
     }
     for (size_t i = 0; i < o->chart->implicit; i++) nh_walls_add(&out.walls, o->dag, o->chart->residual[i]);
     out.crossings = nh_crossings_find(o, &out.walls, &state, arena);
+    find_impulses(o, options, &out);
     return out;
 }
 
@@ -97,6 +184,8 @@ static void look(judge *j, const nh_crossing *c, seen *s)
 static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
 {
     if ((!s->below && !s->above && !s->jump) || r->count == NH_MOST_WALLS) return;
+    for (size_t i = 0; i < r->count; i++)
+        if (r->wall[i] == wall) return; /* of an impulse */
     r->wall[r->count] = wall;
     r->kind[r->count++] = s->below && s->above   ? NH_REGION_PARTS
                           : s->below || s->above ? (touches ? NH_REGION_PARTS : s->below ? NH_REGION_ABOVE
@@ -131,6 +220,7 @@ nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, 
     j.term = nh_alloc_array(j.terms, sizeof *j.term);
     nh_rate_terms(o, phi, j.term);
     nh_exact_parameters(o, j.ball);
+    for (size_t i = 0; i < terrain->impulses; i++) out.wall[out.count] = terrain->impulse[i], out.kind[out.count++] = NH_REGION_IMPULSE;
     look_at_all(&j, &terrain->crossings, &out);
     look_at_all(&j, &own, &out);
     nh_free(j.term);
@@ -177,10 +267,9 @@ const char *nh_region_text(nh_dag *d, const nh_region *r, nh_arena *arena)
     }
     for (size_t i = 0; i < r->count; i++) {
         if (r->kind[i] == NH_REGION_ABOVE || r->kind[i] == NH_REGION_BELOW) continue;
-        nh_text_addf(&text, "%s%s", between, r->kind[i] == NH_REGION_APART ? "on each side of "
-            : "in some parts that end at ");
+        nh_text_addf(&text, "%s%s", between, r->kind[i] == NH_REGION_PARTS ? "in some parts that end at " : "on each side of ");
         condition(d, r->wall[i], 0, &text);
-        nh_text_add(&text, r->kind[i] == NH_REGION_APART ? ", where it jumps" : "");
+        nh_text_add(&text, r->kind[i] == NH_REGION_APART ? ", where it jumps" : r->kind[i] == NH_REGION_IMPULSE ? ", where the motion has an impulse" : "");
         between = ", ";
     }
     const char *out = nh_arena_strdup(arena, nh_text_string(&text));
