@@ -11,7 +11,7 @@
 #include "search/stages.h"
 
 enum { most_values = 24, most_rates = 4 };
-static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as two that differ by the root of rounding */
+static const double split_by_rounding = 3e-7; /* a double eigenvalue comes as two that differ by the root of rounding; their mean is right to rounding */
 
 /* ---- exponentials and waves with unknown rates: exp(-lambda t) f, exp(-lambda q) f ---- */
 
@@ -23,13 +23,26 @@ typedef struct {
     bool periodic, imaginary;
 } rate_context;
 
+/* (x, y) is one of the values again, which becomes the mean of all that were seen; `seen` of each. */
+static bool again(double x, double y, size_t count, double *re, double *im, size_t *seen)
+{
+    for (size_t j = 0; j < count; j++) {
+        if (fabs(re[j] - x) + fabs(im[j] - y) >= split_by_rounding * (fabs(re[j]) + fabs(im[j]))) continue;
+        seen[j]++;
+        re[j] += (x - re[j]) / (double)seen[j];
+        im[j] += (y - im[j]) / (double)seen[j];
+        return true;
+    }
+    return false;
+}
+
 /* |Im| or Re of the pencil's eigenvalues, each once. */
 static size_t rates(const nh_model *o, const rate_context *c, double *re, double *im, size_t most)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
     const nh_points *points = c->x->ranges;
-    size_t n = c->base->columns, count = 0;
+    size_t n = c->base->columns, count = 0, *seen = nh_alloc_array(most + 1, sizeof *seen);
     double largest = 0, *A = nh_alloc_array(points->count * n + 1, sizeof *A), *B = nh_alloc_array(points->count * n + 1, sizeof *B);
     nh_nullspace_options limits = nh_nullspace_options_from(&c->x->r->options);
     nh_rows_pencil(o, c->base, nh_model_gamma(o, c->q), points, A, B);
@@ -41,12 +54,12 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
         if (y < split_by_rounding * fabs(x)) y = 0;
         if (fabs(x) < split_by_rounding * y) x = 0;
         if (c->periodic) y = fabs(y - round(y)); /* whole harmonics are in the base: nu, 1 - nu, 1 + nu, ... are one rate */
-        bool old = fabs(x) + fabs(y) < 1e-6 * largest;
-        for (size_t j = 0; j < count && !old; j++) old = fabs(re[j] - x) + fabs(im[j] - y) < split_by_rounding * (fabs(re[j]) + fabs(im[j]));
-        if (old) continue;
+        if (fabs(x) + fabs(y) < 1e-6 * largest || again(x, y, count, re, im, seen)) continue;
         re[count] = x;
-        im[count++] = y;
+        im[count] = y;
+        seen[count++] = 1;
     }
+    nh_free(seen);
     nh_pencil_free(p);
     nh_free(B);
     nh_free(A);
