@@ -8,8 +8,6 @@
 #include "base/budget.h"
 #include "base/linalg.h"
 #include "base/progress.h"
-#include "graph/terms.h"
-#include "integrals/exact_points.h"
 #include "motion/automatic.h"
 #include "motion/sizes.h"
 
@@ -40,99 +38,6 @@ static double most_steps(const run *r)
     enum { evaluations = 3, least = 1000 };
     double each = nh_work_millions(NH_WORK_VALUE, evaluations * (double)nh_dynamics_length(r->dynamics));
     return fmin(r->options->steps, fmax(least, floor(r->options->check_work / all_motions / each)));
-}
-
-/* ---- currents along a motion ---- */
-
-/* How many outputs there are before the motion leaves the interval of current k. */
-static size_t outputs_inside(const run *r, const nh_motion *motion, size_t k)
-{
-    const nh_system *system = r->model->system;
-    if (!r->valid || !r->valid[k].variable) return motion->count;
-    bool of_time = r->valid[k].variable == system->t;
-    for (size_t s = of_time ? r->model->m - 1 : 0; s < r->model->m; s++)
-        for (size_t i = 0; (of_time || system->coordinate[s].q == r->valid[k].variable) && i < motion->count; i++) {
-            double x = of_time ? motion->time[i] : motion->state[i * motion->size + s];
-            if (x < r->valid[k].low || x > r->valid[k].high) return i;
-        }
-    return motion->count;
-}
-
-/* How far a current changes along a motion that is given in doubles, its formula evaluated with many digits; NAN: not known. */
-static double change_by_balls(const run *r, const nh_motion *motion, const bool *steep, size_t inside, nh_ex phi)
-{
-    enum { bits = 256 };
-    const nh_model *o = r->model;
-    const nh_chart *c = o->chart;
-    double first = NAN, worst = 0;
-    if (r->everywhere || c->implicit || motion->size != o->m + o->n) return NAN;
-    nh_ball *ball = nh_ball_create(o->dag, bits);
-    nh_exact_parameters(o, ball);
-    for (size_t i = 0; i < inside && !isnan(worst); i++) {
-        double value, radius;
-        if (steep[i]) continue;
-        nh_ball_set_double(ball, c->symbol[0], motion->time[i]);
-        for (size_t s = 0; s < motion->size; s++) nh_ball_set_double(ball, c->symbol[1 + s], motion->state[i * motion->size + s]);
-        bool good = nh_ball_value(ball, phi, &value, &radius);
-        if (isnan(first)) first = value;
-        worst = good ? fmax(worst, fabs(value - first) + radius) : NAN;
-    }
-    nh_ball_free(ball);
-    return worst;
-}
-
-/* A change that is larger than the motion's error explains may be rounding within the formula, such as atanh of nearly 1. */
-static void look_closer(const run *r, const nh_motion *motion, const bool *steep, size_t inside, nh_ex phi, size_t which, nh_drift *d)
-{
-    static const double much = 10;
-    double loose = d->drift[which], closer;
-    if (loose <= r->options->drift * r->out->tolerance[which]) return;
-    closer = change_by_balls(r, motion, steep, inside, phi) / fmax(d->scale, DBL_MIN);
-    if (!(closer * much < loose)) return;
-    d->drift[which] = closer;
-    if (which + 1 == NH_DRIFT_RUNS) d->in_doubles = loose;
-}
-
-/* Each current and, for its scale, its terms. */
-static void measure(run *r, const nh_motion *motion, size_t n, const nh_ex *phi, size_t which)
-{
-    bool any, *steep = nh_steep_points(r->dynamics, motion, &any);
-    for (size_t k = 0; k < n; k++) {
-        nh_ex *e;
-        size_t per = nh_terms_of(r->model->dag, phi[k], &e);
-        double *value = nh_alloc_array(per * motion->count, sizeof *value);
-        nh_drift *d = &r->out->current[k];
-        double scale = 0, worst = 0;
-        size_t inside = outputs_inside(r, motion, k);
-        bool good = nh_along(r->dynamics, motion, per, e, value);
-        d->until = inside ? motion->time[inside - 1] : r->out->begin;
-        for (size_t i = 0; i < inside && good; i++) {
-            if (steep[i]) continue;
-            for (size_t j = 0; j < per; j++) scale = fmax(scale, fabs(value[i * per + j]));
-            worst = fmax(worst, fabs(value[i * per] - value[0]));
-            good = isfinite(worst) && isfinite(scale);
-        }
-        d->scale = scale;
-        d->drift[which] = good ? worst / fmax(scale, DBL_MIN) : INFINITY;
-        if (good || isfinite(scale)) look_closer(r, motion, steep, inside, phi[k], which, d);
-        nh_free(value);
-        nh_free(e);
-    }
-    nh_free(steep);
-}
-
-/* The tolerance bounds the error of a step.  What the steps of a motion add up to, and what the motion makes of it, may
- * be hundreds of tolerances.  That error falls with the tolerance, and what a current changes by itself does not. */
-static void judge(nh_validation *v, const nh_options *options)
-{
-    for (size_t k = 0; k < v->currents; k++) {
-        nh_drift *d = &v->current[k];
-        double tight = d->drift[NH_DRIFT_RUNS - 1], loose = d->drift[0];
-        double floor = 1e3 * DBL_EPSILON; /* rounding of thousands of steps */
-        d->small = tight <= options->drift * v->tolerance[NH_DRIFT_RUNS - 1];
-        d->falls = tight <= floor || (tight < loose / 5 && loose < 1);
-        d->explained = d->small || (d->falls && tight < d->drift[NH_DRIFT_RUNS - 2] / 5);
-    }
 }
 
 /* ---- the multiplier form ---- */
@@ -394,7 +299,7 @@ static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
         }
         if (r->everywhere) r->out->chart = "all coordinates (the chart breaks down on the way)";
         r->out->method = used->name;
-        measure(r, motion, q->currents, q->current, i);
+        nh_drift_measure(&(nh_drift_question){r->dynamics, r->options, r->out->begin, r->out->tolerance, q->currents, q->current, r->valid}, motion, i, r->out->current);
         if (i == NH_DRIFT_RUNS - 1) {
             keep(r, q->initial, motion);
             compare_with_others(r, q, motion);
@@ -447,7 +352,7 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     bool good = nh_dynamics_start(r.dynamics, q->initial, false, r.z0, error) && (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++) v->tolerance[i] = fmin(1e-3, tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
     good = good && all_runs(&r, q, error);
-    if (good) judge(v, q->options);
+    if (good) nh_drift_judge(v->currents, v->tolerance, q->options, v->current);
     nh_dynamics_free(r.dynamics);
     nh_free(r.times);
     nh_free(r.z0);

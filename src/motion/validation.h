@@ -8,17 +8,7 @@
 
 #include "base/option.h"
 #include "motion/accuracy.h"
-
-enum { NH_DRIFT_RUNS = 3 };
-
-typedef struct {
-    double drift[NH_DRIFT_RUNS]; /* max |Phi - Phi(0)| / scale, loosest tolerance first */
-    double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
-    double until;                /* time to which it was measured: before the end where the motion leaves the current's interval */
-    double in_doubles;           /* the drift of the tightest motion where its values in doubles lose digits, and `drift` is by balls; else 0 */
-    bool small, falls;           /* below options->drift tolerances; falls with the tolerance (or is at rounding) */
-    bool explained;              /* by the error of the motion itself: small, or it falls from the second tolerance to the third as that error does */
-} nh_drift;
+#include "motion/drift.h"
 
 typedef struct {
     nh_arena *arena;
@@ -54,12 +44,6 @@ typedef struct {
     bool asked; /* by the user: what the scene is made for */
     bool by_terms; /* a sum that may cancel (nh_trajectory_request) */
 } nh_observable;
-
-/* Where a current makes sense: while `variable` lies between low and high. */
-typedef struct {
-    nh_ex variable; /* a coordinate or t; 0: it holds everywhere */
-    double low, high;
-} nh_valid;
 
 typedef struct {
     const nh_model *model, *other; /* other: a second chart whose pivot is watched (its independent velocities as functions of this chart's); or NULL */

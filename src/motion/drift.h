@@ -1,0 +1,41 @@
+/* drift: how far currents change along a motion that is computed at three tolerances. */
+#ifndef NH_DRIFT_H
+#define NH_DRIFT_H
+
+#include "base/option.h"
+#include "motion/dynamics.h"
+
+enum { NH_DRIFT_RUNS = 3 };
+
+typedef struct {
+    double drift[NH_DRIFT_RUNS]; /* max |Phi - Phi(0)| / scale, loosest tolerance first */
+    double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
+    double until;                /* time to which it was measured: before the end where the motion leaves the current's interval */
+    double in_doubles;           /* the drift of the tightest motion where its values in doubles lose digits, and `drift` is by balls; else 0 */
+    bool small, falls;           /* below options->drift tolerances; falls with the tolerance (or is at rounding) */
+    bool explained;              /* by the error of the motion itself: small, or it falls from the second tolerance to the third as that error does */
+} nh_drift;
+
+/* Where a current makes sense: while `variable` lies between low and high. */
+typedef struct {
+    nh_ex variable; /* a coordinate or t; 0: it holds everywhere */
+    double low, high;
+} nh_valid;
+
+typedef struct {
+    nh_dynamics *dynamics;
+    const nh_options *options;
+    double begin;                /* of the motions */
+    const double *tolerance;     /* NH_DRIFT_RUNS */
+    size_t currents;
+    const nh_ex *current;        /* of the chart */
+    const nh_valid *valid;       /* `currents` intervals, or NULL */
+} nh_drift_question;
+
+/* Along the motion of tolerance[which], into out: one for each current. */
+void nh_drift_measure(const nh_drift_question *question, const nh_motion *motion, size_t which, nh_drift *out);
+
+/* After the last: small, falls, explained. */
+void nh_drift_judge(size_t count, const double *tolerance, const nh_options *options, nh_drift *drift);
+
+#endif
