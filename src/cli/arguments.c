@@ -9,7 +9,7 @@
 #include "cli/cli_table.h"
 #include "problem/input.h"
 
-enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
+enum { opt_set = 256, opt_analysis, opt_no_analysis, opt_velocities, opt_json, opt_html, opt_tex, opt_fragment, opt_current, opt_field, opt_initial, opt_project, opt_method, opt_initial_table, opt_step, opt_watch, opt_scene, opt_budget, opt_svg, opt_pdf, opt_group, opt_chain, opt_inner, opt_weak, opt_to, opt_tolerance, opt_until, opt_seed, opt_samples, opt_columns, opt_degree, opt_threads, opt_max_seconds, opt_option, opt_progress, opt_no_color, opt_version, opt_accuracy, opt_ensemble, opt_spread, opt_robustness, opt_over, opt_shape, opt_equations,
        opt_of, opt_number, opt_workers, opt_chunk, opt_input, opt_name, opt_wheel, opt_base, opt_on };
 
 #define X(code, name, argument, shown, commands, meaning) {name, argument, NULL, code},
@@ -254,6 +254,7 @@ static bool take(nh_cli *cli, int code, const char *value, nh_error *error)
     case opt_name: cli->name = value; return true;
     case opt_watch: cli->watch = joined(cli, cli->watch, value); return true;
     case opt_svg: cli->svg = value; return true;
+    case opt_pdf: cli->pdf = value; return true;
     case opt_budget: return seconds(value, &cli->budget, error);
     case opt_accuracy: return positive(value, "accuracy", &cli->accuracy, error);
     case opt_ensemble: return members(value, &cli->ensemble, error);

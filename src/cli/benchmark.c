@@ -27,9 +27,9 @@ static bool write_all(nh_cli *cli, const nh_run *run, const nh_benchmark *c, con
         fputs(nh_text_string(&text), stdout);
     }
     nh_text_clear(&text);
-    if (cli->svg) {
+    if (cli->svg || cli->pdf) {
         nh_benchmark_svg(c, &text);
-        good = nh_cli_write(cli, cli->svg, &text, error);
+        good = nh_cli_write_picture(cli, &text, error);
     }
     good = good && nh_cli_write_documents(cli, render, &(comparison){c, s}, run, error);
     if (cli->json && good) good = nh_cli_write_json(cli, nh_benchmark_json(c, s, run), error);

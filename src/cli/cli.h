@@ -50,7 +50,7 @@ typedef struct {
     bool scene, shape;           /* shape: of classify */
     double accuracy, spread;
     size_t ensemble;
-    const char *svg;             /* of benchmark */
+    const char *svg, *pdf;       /* of benchmark and simulate */
     bool robustness;
     double budget;
     double step;
@@ -106,6 +106,9 @@ bool nh_cli_speaks(const nh_cli *cli);
 bool nh_cli_can_write(const nh_cli *cli, nh_error *error);
 /* A text for a file or standard output (`-`), which is cleared; a JSON, which is freed, for --json.  The files take their places together, in the last of these: with `good`, or not at all. */
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error);
+/* A picture to where --svg and --pdf want it; its text is cleared.  And the bytes of the PDF. */
+bool nh_cli_write_picture(nh_cli *cli, nh_text *svg, nh_error *error);
+bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error);
 bool nh_cli_write_json(nh_cli *cli, char *json, nh_error *error);
 bool nh_cli_written(nh_cli *cli, bool good, nh_error *error);
 

@@ -134,8 +134,8 @@ static bool together(nh_cli *cli, nh_simulate_request *q, nh_simulate_rows *rows
         return nh_error_hint(error, "write the values of --over into the table"), *code = NH_USAGE, false;
     }
     if (cli->overs && !write_combinations(cli, error)) return *code = (int)error->code, false;
-    bool good = !cli->ensemble && !cli->html && !cli->tex && !cli->svg;
-    if (!good) nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", option, cli->ensemble ? "ensemble" : cli->html ? "html" : cli->tex ? "tex" : "svg"), nh_error_hint(error, "several motions are one table, or JSON");
+    bool good = !cli->ensemble && !cli->html && !cli->tex && !cli->svg && !cli->pdf;
+    if (!good) nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", option, cli->ensemble ? "ensemble" : cli->html ? "html" : cli->tex ? "tex" : cli->svg ? "svg" : "pdf"), nh_error_hint(error, "several motions are one table, or JSON");
     good = good && nh_simulate_rows_read(cli->arena, q, cli->table, rows, error);
     if (good && (rows->parameters || q->method || rows->count == 1)) return *code = one_by_one(cli, q, rows, error), false;
     if (!good) return *code = (int)error->code, false;
@@ -170,11 +170,11 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     put_table(cli, s);
     if (cli->json) good = nh_cli_write_json(cli, s->ensemble ? nh_ensemble_json(s, &run) : nh_motion_json(s, &run), error);
     good = good && nh_cli_write_documents(cli, render, s, &run, error);
-    if (cli->svg && good) {
+    if ((cli->svg || cli->pdf) && good) {
         nh_text picture;
         nh_text_init(&picture);
         nh_motion_svg(s, &picture);
-        good = nh_cli_write(cli, cli->svg, &picture, error);
+        good = nh_cli_write_picture(cli, &picture, error);
     }
     good = nh_cli_written(cli, good, error);
     if (s->astray && !cli->quiet) fprintf(stderr, "warning: %s\n", s->astray);

@@ -12,11 +12,11 @@ nh_run nh_cli_run(const nh_cli *cli, const char *system_path, const char *analys
     return (nh_run){cli->line, system_path, analysis_path, cli->options.seed, cli->options.shown, NAN};
 }
 
-/* The files of --json, --html, --tex and --svg; those that are not given are NULL. */
-enum { outputs = 4 };
+/* The files of --json, --html, --tex, --svg and --pdf; those that are not given are NULL. */
+enum { outputs = 5 };
 static void list_outputs(const nh_cli *cli, const char *path[outputs])
 {
-    const char *const all[outputs] = {cli->json, cli->html, cli->tex, cli->svg};
+    const char *const all[outputs] = {cli->json, cli->html, cli->tex, cli->svg, cli->pdf};
     memcpy(path, all, sizeof all);
 }
 
@@ -50,6 +50,18 @@ static bool write_to(nh_cli *cli, const char *path, const char *text, size_t len
     if (!is_stdout(path)) return nh_output_add(&cli->files, path, text, length, error);
     fwrite(text, 1, length, stdout);
     return true;
+}
+
+bool nh_cli_write_picture(nh_cli *cli, nh_text *svg, nh_error *error)
+{
+    nh_text pdf;
+    nh_text_init(&pdf);
+    bool good = !cli->pdf || nh_cli_pdf(svg, &pdf, error);
+    good = good && (!cli->pdf || write_to(cli, cli->pdf, pdf.data, pdf.length, error));
+    good = good && (!cli->svg || write_to(cli, cli->svg, nh_text_string(svg), svg->length, error));
+    nh_text_clear(&pdf);
+    nh_text_clear(svg);
+    return good;
 }
 
 bool nh_cli_write(nh_cli *cli, const char *path, nh_text *text, nh_error *error)

@@ -1,0 +1,66 @@
+/* pdf: a picture as PDF, by the program rsvg-convert of librsvg.
+ *
+ * A program instead of the library: its two dozen libraries would have to be loaded by every short command, and nobody who wants no PDF needs it. */
+#include <errno.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+
+extern char **environ;
+
+static const char converter[] = "rsvg-convert";
+
+/* Its exit status; -1, with errno, when it could not be started. */
+static int convert(FILE *svg, FILE *pdf)
+{
+    char *const argument[] = {(char *)converter, "--format=pdf", NULL};
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    sigset_t none;
+    pid_t child;
+    int status = 0;
+    setenv("SOURCE_DATE_EPOCH", "0", 0); /* no clock in the file */
+    sigemptyset(&none); /* this thread may leave signals to another */
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, fileno(svg), 0);
+    posix_spawn_file_actions_adddup2(&files, fileno(pdf), 1);
+    int reason = posix_spawnp(&child, converter, &files, &attributes, argument, environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    if (reason) return errno = reason, -1;
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR) return -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+static bool read_all(FILE *file, nh_text *out)
+{
+    char piece[4096];
+    rewind(file);
+    for (size_t n; (n = fread(piece, 1, sizeof piece, file)) > 0;) nh_text_add_n(out, piece, n);
+    return !ferror(file) && out->length > 0;
+}
+
+bool nh_cli_pdf(const nh_text *svg, nh_text *out, nh_error *error)
+{
+    FILE *in = tmpfile(), *made = tmpfile();
+    bool files = in && made && fwrite(nh_text_string(svg), 1, svg->length, in) == svg->length && !fflush(in) && lseek(fileno(in), 0, SEEK_SET) == 0;
+    int status = files ? convert(in, made) : -1;
+    const char *why = status < 0 ? strerror(errno) : NULL;
+    bool good = status == 0 && read_all(made, out);
+    if (in) fclose(in);
+    if (made) fclose(made);
+    if (good) return true;
+    if (!files) return nh_fail(error, NH_NUMERIC, "--pdf", "no temporary file could be written: %s", why);
+    if (why) nh_fail(error, NH_NUMERIC, "--pdf", "the program %s cannot be run: %s", converter, why);
+    else nh_fail(error, NH_NUMERIC, "--pdf", "the program %s failed with status %d", converter, status);
+    return nh_error_hint(error, "install it (Debian: apt-get install librsvg2-bin), or write the picture by --svg");
+}
