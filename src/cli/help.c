@@ -5,7 +5,9 @@
 
 #include "cli/cli.h"
 #include "cli/cli_table.h"
+#include "commands/export.h"
 #include "document/wording.h"
+#include "reduction/linear_questions.h"
 
 typedef struct {
     const char *name;
@@ -117,6 +119,13 @@ static void put_values(const char *name, const char *shown, const char *between)
         for (size_t i = 0; i < nh_method_count(); i++) printf("%s%s", between, nh_method_at(i)->word);
     } else if (!strcmp(name, "option")) {
         for (size_t i = 0; i < nh_option_count(); i++) printf("%s%s=", i ? between : "", nh_option_at(i).name);
+    } else if (!strcmp(name, "of")) { /* of all commands that have the option */
+        printf("constraint%scount%sanalyze%sreduce", between, between, between);
+#define X(name, word) printf("%s" #word, between);
+        NH_LINEAR_QUESTION_TABLE(X)
+#undef X
+        for (unsigned part = 1; part <= NH_EXPORT_ALL; part <<= 1)
+            if (part != NH_EXPORT_CURRENTS) printf("%s%s", between, nh_export_part_name((nh_export_part)part));
     } else if (!strcmp(name, "explain")) {
         fputs("options", stdout), printf("%smethods", between);
         for (size_t i = 0; i < nh_glossary_count(); i++)
@@ -127,7 +136,7 @@ static void put_values(const char *name, const char *shown, const char *between)
     }
 }
 
-static bool has_values(const option_word *o) { return (strchr(o->shown, '|') && o->shown[0] != '[') || nh_word_among("method option", o->name); }
+static bool has_values(const option_word *o) { return (strchr(o->shown, '|') && o->shown[0] != '[') || nh_word_among("method option of", o->name); }
 static bool is_file(const option_word *o) { return !strcmp(o->shown, "FILE") || !strcmp(o->shown, "DIR") || strstr(o->shown, "FILE|-"); }
 
 static void bash(void)
@@ -136,7 +145,8 @@ static void bash(void)
     for (size_t i = 0; i < option_count; i++) {
         if (options[i].argument != required_argument) continue;
         bool file = is_file(&options[i]), equation = !strcmp(options[i].name, "option");
-        printf("    --%s) %sCOMPREPLY=(", options[i].name, equation ? "compopt -o nospace; " : "");
+        printf("    %.1s%.1s%.1s--%s) %sCOMPREPLY=(", letter(&options[i]) ? "-" : "", letter(&options[i]) ? &options[i].meaning[1] : "", letter(&options[i]) ? "|" : "", options[i].name,
+               equation ? "compopt -o nospace 2>/dev/null; " : "");
         if (file) fputs("$(compgen -f -- \"$word\")", stdout);
         else fputs("$(compgen -W \"", stdout), put_values(options[i].name, options[i].shown, " "), fputs("\" -- \"$word\")", stdout);
         puts("); return ;;");
@@ -157,7 +167,7 @@ static void bash(void)
         puts("\" -- \"$word\")); return ;;");
     }
     puts("    esac\n    case $word in\n    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
-         "    *) COMPREPLY=($(compgen -W \"$(nhsym list 2>/dev/null | cut -d' ' -f1)\" -- \"$word\") $(compgen -f -X '!*.yaml' -- \"$word\")) ;;\n    esac\n}\ncomplete -F _nhsym nhsym");
+         "    *) COMPREPLY=($(compgen -W \"$(nhsym list 2>/dev/null | cut -d' ' -f1)\" -- \"$word\") $(compgen -f -X '!*.yaml' -- \"$word\") $(compgen -f -X '!*.urdf' -- \"$word\") $(compgen -d -- \"$word\")) ;;\n    esac\n}\ncomplete -F _nhsym nhsym");
 }
 
 /* In single quotes of a shell. */
@@ -196,7 +206,7 @@ static void zsh(void)
         else fputs("->system", stdout);
         puts("' ;;");
     }
-    puts("esac\nif [[ $state == system ]]; then compadd -a systems; _files -g '*.yaml'; fi");
+    puts("esac\nif [[ $state == system ]]; then compadd -a systems; _files -g '*.(yaml|urdf)'; fi");
 }
 
 static void fish(void)
@@ -221,7 +231,7 @@ static void fish(void)
         puts("'");
     }
     puts("complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan show' -a '(nhsym list 2>/dev/null | string split -f1 \" \")'\n"
-         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan' -k -a '(__fish_complete_suffix .yaml)'");
+         "complete -c nhsym -n '__fish_seen_subcommand_from analyze verify simulate benchmark reduce classify export scan' -k -a '(__fish_complete_suffix .yaml .urdf)'");
 }
 
 int nh_cli_help(nh_cli *cli, nh_error *error)
