@@ -41,7 +41,7 @@ static const refusal refusals[] = {
     {"sleigh", "--group", "x=1; y=1; x=2, y=-3", 3, {"field 3, 2 d/dx - 3 d/dy, is 2 times field 1 + -3 times field 2"}},
     {"sleigh", "--group", "y=0", 3, {"field 1 is zero everywhere"}},
     /* chains */
-    {"vertical_disk", "--chain", "1; 4; 2, 3", 3, {"the subgroups of the chain are not normal: [e4, e2] has a component along e1"}},
+    {"vertical_disk", "--chain", "1; 4; 2, 3", 3, {"a subgroup of the chain is not normal in the one before it: [e4, e2] has a component along e1"}},
     {"vertical_disk", "--chain", "1, 2", 2, {"must name every generator of the group once"}},
     /* not a group at all */
     {"sleigh", "--group", "", 2, {"give vector fields or numbers of generators"}},

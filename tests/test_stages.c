@@ -82,6 +82,35 @@ Test(stages, chains_are_found_and_wrong_ones_refused)
     nh_algebra_clear(&g);
 }
 
+/* se(2) > R^2 > R: the last is an ideal of R^2 only. Bracket and equations in parts are those of the algebra. */
+Test(stages, subnormal_chains)
+{
+    nh_algebra g = euclidean();
+    size_t size[4] = {1, 1, 1, 1}, order[4] = {2, 3, 0, 1}, pair[3] = {2, 1, 1};
+    double metric[16] = {3, 0.2, 0.5, -0.7, 0.2, 2, 0.3, 0.4, 0.5, 0.3, 4, 0.1, -0.7, 0.4, 0.1, 2}, eta[4] = {0.7, -1.1, 0.4, 0.9}, other[4] = {1.3, 0.2, -0.8, 0.6};
+    double x[4], y[4], bracket[4], parts[4], got[4], beta[4], mu[4] = {0.3, -0.5, 1.2, 0.8};
+    nh_error error = {0};
+    for (int k = 0; k < 2; k++) {
+        nh_ideals chain;
+        must(nh_ideals_init(&chain, &g, k ? 3 : 4, k ? pair : size, order, metric, &error), &error, "the chain");
+        nh_ideals_bracket(&chain, eta, other, got);
+        nh_ideals_join(&chain, eta, x);
+        nh_ideals_join(&chain, other, y);
+        nh_algebra_bracket(&g, x, y, bracket);
+        nh_ideals_split(&chain, bracket, parts);
+        for (size_t i = 0; i < 4; i++) cr_expect_float_eq(got[i], parts[i], 1e-14, "part %zu: %g, %g", i, got[i], parts[i]);
+        nh_ideals_split_covector(&chain, mu, beta);
+        nh_ideals_euler_poincare(&chain, eta, beta, got);
+        double left = 0, right = 0; /* sum_i got_i other_i = <mu, [eta, other]> */
+        for (size_t i = 0; i < 4; i++) left += got[i] * other[i], right += mu[i] * bracket[i];
+        cr_expect_float_eq(left, right, 1e-14);
+        nh_ideals_clear(&chain);
+    }
+    size_t wrong[4] = {0, 2, 1, 3}, three[2] = {1, 3};
+    cr_expect(!nh_ideals_init(&(nh_ideals){0}, &g, 2, three, wrong, metric, &error), "the turn makes of e2 e1");
+    nh_algebra_clear(&g);
+}
+
 static void equations(const char *name, nh_system *system, size_t n, const size_t *index, size_t blocks, const size_t *size, const size_t *order, size_t dimension, double tolerance)
 {
     nh_error error = {0};

@@ -745,3 +745,10 @@ Test(theory, the_whole_group_at_once_and_by_stages_as_printed_along_its_own_moti
     check_bundle("systems/sleigh_inertia.yaml", "", 1, 0, 2);
     check_bundle("systems/euler_top.yaml", "", 0, 0, 3);
 }
+
+/* Each subgroup normal in the one before, and not in the whole group: shifts along one line of the plane. */
+Test(theory, a_subnormal_chain_as_printed)
+{
+    check_bundle("systems/euler_disk.yaml", " --chain 4;1;2;3", 1, 1, 2);
+    check_bundle("systems/euler_disk.yaml", " --chain 4;1;2;3 --inner 1,4=1/3;2,4=-1/5;3,2=2/7;4,4=2;1,1=5/4", 1, 1, 2);
+}

@@ -1,4 +1,4 @@
-/* The whole group block by block, along a chain of ideals g = n_0 > n_1 > ... [CendraDiaz2018, sec. 2 to 5]; the same numbers: reduction/ideal_chain.h.
+/* The whole group block by block, along a chain g = n_0 > n_1 > ..., each an ideal of the one before [CendraDiaz2018, sec. 2 to 5]; the same numbers: reduction/ideal_chain.h.
  *
  *     H_j x = x - (its part in n_(j+1), by g0),        xi = sum_j H_j xi_j
  *     a_j(x, y) = -([H_j x, H_j y] - H_j [H_j x, H_j y]_j),      b_j(x, N) = [H_j x, N],      beta_j = H_j^T mu */
@@ -88,8 +88,8 @@ static void heading(const stages *s, bool given)
         nh_text_addf(&words, "%sblock %zu", j ? "; " : "", j);
         for (size_t i = c->start[j]; i < c->start[j] + c->size[j]; i++) nh_text_addf(&words, " $e_{%zu}$", c->order[i] + 1);
     }
-    nh_sheet_begin(s->b->s, "chain", "Chain of ideals",
-                   nh_sheet_label(s->b->s, "%s. $n_{j}$ is spanned by block j and those behind it. $g_{0}$: %s. $a_{j}(x,y)$ is minus the part of $[H_{j} x,H_{j} y]$ in $n_{j+1}$, "
+    nh_sheet_begin(s->b->s, "chain", "Chain of subgroups",
+                   nh_sheet_label(s->b->s, "%s. $n_{j}$ is spanned by block j and those behind it, an ideal of $n_{j-1}$. $g_{0}$: %s. $a_{j}(x,y)$ is minus the part of $[H_{j} x,H_{j} y]$ in $n_{j+1}$, "
                                            "$b_{j}(x,N)=[H_{j} x,N]$; those not listed vanish.", nh_text_string(&words),
                                   given ? "the inner product that was given; the lifts $H_{j}$ are orthogonal to $n_{j+1}$ in it" : "the inner product in which the generators are orthonormal, so that each is its own lift $H_{j}$"));
     nh_text_clear(&words);

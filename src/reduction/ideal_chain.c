@@ -9,15 +9,16 @@
 
 /* ---- the chain ---- */
 
-static bool ideal(const nh_algebra *g, size_t from, nh_error *error, const size_t *order)
+/* Are the vectors from `from` on an ideal of those from `above` on? */
+static bool ideal(const nh_algebra *g, size_t above, size_t from, nh_error *error, const size_t *order)
 {
     size_t d = g->d;
     double most = nh_largest(d * d * d, g->c);
-    for (size_t a = 0; a < d; a++)
+    for (size_t a = above; a < d; a++)
         for (size_t b = from; b < d; b++)
             for (size_t k = 0; k < from; k++)
                 if (fabs(g->c[(a * d + b) * d + k]) > 1e-9 * most)
-                    return nh_fail(error, NH_INPUT, "", "the subgroups of the chain are not normal: [e%zu, e%zu] has a component along e%zu", order[a] + 1, order[b] + 1, order[k] + 1);
+                    return nh_fail(error, NH_INPUT, "", "a subgroup of the chain is not normal in the one before it: [e%zu, e%zu] has a component along e%zu", order[a] + 1, order[b] + 1, order[k] + 1);
     return true;
 }
 
@@ -66,7 +67,7 @@ bool nh_ideals_init(nh_ideals *c, const nh_algebra *g, size_t blocks, const size
     c->algebra = nh_algebra_change(g, d, t, NULL);
     nh_free(t);
     bool good = at == d || nh_fail(error, NH_INPUT, "", "the blocks of the chain contain %zu generators, but the group has %zu", at, d);
-    for (size_t j = 1; j < blocks && good; j++) good = ideal(&c->algebra, c->start[j], error, order);
+    for (size_t j = 1; j < blocks && good; j++) good = ideal(&c->algebra, c->start[j - 1], c->start[j], error, order);
     if (good && !make_lifts(c, metric)) good = nh_fail(error, NH_NUMERIC, "", "the inner product on the Lie algebra is singular");
     if (!good) nh_ideals_clear(c);
     return good;

@@ -1,5 +1,6 @@
-/* ideal_chain: a Lie algebra along a chain of ideals g = n_0 > n_1 > ... [CendraDiaz2018, sec. 2 and 3].
+/* ideal_chain: a Lie algebra along a chain g = n_0 > n_1 > ..., each an ideal of the one before [CendraDiaz2018, sec. 2 and 3].
  *
+ * It need not be one of g: along a line in the plane, se(2) > R^2 > R, the brackets below are still those of n_j, and nothing else is used (their theorem 2.3).
  * Block j holds basis vectors that complete n_(j+1) to n_j.  With an inner product g0 on g, the horizontal lift H_j : n_j/n_(j+1) -> n_j takes a class to
  * its representative orthogonal to n_(j+1); (H_0 H_1 ...) splits g: a vector in parts is xi = sum_j H_j xi_j.  With
  *
@@ -26,10 +27,10 @@ typedef struct {
 } nh_ideals;
 
 /* `order` lists the basis vectors block after block; `metric` is g0 in the algebra's own basis (d x d, column-major).  Fails, naming the bracket, when some
- * n_j is not an ideal. */
+ * n_(j+1) is not an ideal of n_j. */
 bool nh_ideals_init(nh_ideals *chain, const nh_algebra *algebra, size_t blocks, const size_t *size, const size_t *order, const double *metric, nh_error *error);
 void nh_ideals_clear(nh_ideals *chain);
-/* A chain of ideals that basis vectors span, as long as possible: sizes of its blocks and the order; returns the number of blocks. */
+/* A chain of ideals of g that basis vectors span, as long as possible: sizes of its blocks and the order; returns the number of blocks. */
 size_t nh_ideals_find(const nh_algebra *algebra, size_t *size, size_t *order);
 
 /* Parts of a vector of the algebra's own basis, and back; parts of a covector (beta_j = H_j^T mu). */
