@@ -189,6 +189,7 @@ static void put_measure(nh_json *to, const nh_reduction *r, const nh_reduction_s
     else nh_json_put_bool(m, "conformal_factor", s->measure.factor);
     nh_json_put_number(m, "curl", s->measure.curl);
     put_conditions(m, r, &s->conditions);
+    nh_json_put_bool(m, "rare", s->conditions.rare);
     if (s->measure.closed) put_expression(m, "density", r->kinetic->dag, s->measure.density);
     if (s->measure.closed) nh_json_put_bool(m, "density_proved", s->measure.proof.proved);
     if (s->measure.closed) nh_facts_put_holds(m, r->kinetic->model, &s->measure.proof);

@@ -59,7 +59,9 @@ static void conditions(const nh_reduction *r, const nh_reduction_stage *s, nh_pe
         count++;
     }
     if (!c->known && r->system->parameters)
-        nh_pen_say(p, "; for which parameters one exists is not known: the conditions are too large");
+        nh_pen_say(p, "; %sfor which parameters one exists is not known: the conditions are too large (classify --of "
+                      "measure examines one parameter)",
+                   c->rare ? "for almost all parameters none exists (proved); " : "");
 }
 
 static void factor(const nh_reduction_stage *s, nh_pen *p)

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
 #include "graph/diff.h"
@@ -76,13 +77,31 @@ static bool demand(work *w, nh_ex e, bool factor)
     return true;
 }
 
-static bool closed(work *w)
+/* d_i Theta_j - d_j Theta_i */
+static nh_ex curl(const work *w, size_t i, size_t j)
 {
     const nh_ex *x = w->s->x;
+    return nh_sub(w->dag, nh_diff(w->dag, w->Theta[j], x[i]), nh_diff(w->dag, w->Theta[i], x[j]));
+}
+
+static bool closed(work *w)
+{
     bool good = true;
     for (size_t i = 0; i < w->n && good; i++)
-        for (size_t j = 0; j < i && good; j++) good = demand(w, tidy(w, nh_sub(w->dag, nh_diff(w->dag, w->Theta[j], x[i]), nh_diff(w->dag, w->Theta[i], x[j]))), false);
+        for (size_t j = 0; j < i && good; j++) good = demand(w, tidy(w, curl(w, i, j)), false);
     return good;
+}
+
+/* Does the curl of Theta vanish for hardly any parameters? */
+static bool rarely_closed(const work *w)
+{
+    bool found = false;
+    for (size_t i = 0; i < w->n && !found; i++)
+        for (size_t j = 0; j < i && !found; j++) {
+            nh_ex e = curl(w, i, j);
+            found = nh_generic_nonzero(w->dag, 1, &e, w->n, w->s->x);
+        }
+    return found;
 }
 
 static bool simple(work *w)
@@ -108,7 +127,9 @@ nh_measure_conditions nh_measure_conditions_of(nh_arena *arena, const nh_slice *
     out.condition = nh_arena_alloc(arena, (n * n + n * n * n + 1) * sizeof *out.condition);
     w.T = nh_arena_alloc(arena, (n * n * n + n + 1) * sizeof *w.T);
     w.Theta = w.T + n * n * n;
-    out.known = n > 1 && tensor(&w, K, U) && closed(&w) && (n == 2 || simple(&w));
+    bool made = n > 1 && tensor(&w, K, U);
+    out.known = made && closed(&w) && (n == 2 || simple(&w));
     if (!out.known) out.count = 0;
+    out.rare = made && !out.known && rarely_closed(&w);
     return out;
 }

@@ -1,0 +1,45 @@
+/* generic_value: what is not zero, and what is zero although it does not look so; and the crane's measure, whose conditions are too long. */
+#include <cjson/cJSON.h>
+
+#include "exact/generic_value.h"
+#include "mechanics.h"
+#include "program.h"
+
+static const char PLANE[] = "name: plane\nparameters: [{name: k, value: 1}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: f, type: angle}]\n"
+                            "lagrangian: (x'^2 + y'^2 + f'^2)/2\n";
+
+Test(generic_value, zero_in_disguise_and_not)
+{
+    static const char *const zero[] = {"0", "sin(f)^2 + cos(f)^2 - 1", "sin(2*f)*k - 2*k*sin(f)*cos(f)", "(x + y)^3 - x^3 - 3*x^2*y - 3*x*y^2 - y^3", "exp(x)*exp(-x) - 1",
+                                       "log(x*y) - log(x) - log(y)", "atan(tan(f)) - f", "sqrt(x^2*y) - x*sqrt(y)"};
+    static const char *const other[] = {"(k - 1)*x", "sin(f)*cos(f)", "sin(f/2)^2 - cos(f)", "exp(k*x) - 1", "(x + y)^3 - x^3 - y^3", "1/(x - k*y)", "sqrt(1 + x^2) - y"};
+    mechanics x = mechanics_of_text(PLANE, NH_CHART_COORDINATES);
+    nh_ex q[3];
+    for (size_t s = 0; s < 3; s++) q[s] = x.system->coordinate[s].q;
+    for (size_t i = 0; i < sizeof zero / sizeof *zero; i++) {
+        nh_ex e = formula(x.model, zero[i]);
+        cr_expect(!nh_generic_nonzero(x.model->dag, 1, &e, 3, q), "%s is zero for some signs at least", zero[i]);
+    }
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
+        nh_ex e[2] = {nh_int(x.model->dag, 0), formula(x.model, other[i])};
+        cr_expect(nh_generic_nonzero(x.model->dag, 2, e, 3, q), "%s", other[i]);
+    }
+    mechanics_clear(&x);
+}
+
+Test(generic_value, the_crane_has_no_measure_for_almost_all_parameters)
+{
+    place p = place_with_systems();
+    finished f = run(&p, "reduce crane --until 1 --json=r.json");
+    cr_assert_eq(f.code, 0, "%s", f.err);
+    cr_expect(strstr(f.out, "for almost all"), "%s", f.out);
+    finished_clear(&f);
+    char *json = read_here(&p, "r.json");
+    cJSON *root = cJSON_Parse(json);
+    const cJSON *stage = cJSON_GetArrayItem(cJSON_GetObjectItem(root, "stages"), 0), *measure = cJSON_GetObjectItem(stage, "measure");
+    cr_expect(cJSON_IsFalse(cJSON_GetObjectItem(measure, "exists")));
+    cr_expect(cJSON_IsTrue(cJSON_GetObjectItem(measure, "rare")));
+    cJSON_Delete(root);
+    free(json);
+    place_clear(&p);
+}
