@@ -107,6 +107,14 @@ awk -v most_lines=60 -v most_file=460 '
     { before = $0 }
     END { if (last > most_file) print previous ": " last " lines" }' src/*/*.c src/*/*.h >>"$offences"
 
+# ---- braces as .clang-format puts them: a function's on a line of its own, every other one behind its statement, `else` behind the brace ----
+awk '
+    FNR == 1 { closed = 0 }
+    /^[a-z].*\) [{]$/ && !/^(struct|enum|union|typedef)/ { print FILENAME ":" FNR ": the brace of a function stands on a line of its own" }
+    /^ +[{]$/ { print FILENAME ":" FNR ": the brace of a statement stands behind it" }
+    /^ *else/ && closed == FNR - 1 { print FILENAME ":" FNR ": else stands behind the brace" }
+    /^ *[}] *$/ { closed = FNR }' src/*/*.c src/*/*.h >>"$offences"
+
 # ---- no system is known to the code; src/cli may name one in an example ----
 for file in $(grep -liE 'sleigh|disk|crane' src/*/*.[ch] | grep -v '^src/cli/'); do # in code, not in a comment
     ${CC:-gcc} -fpreprocessed -dD -E -P -x c "$file" 2>/dev/null | grep -niE 'sleigh|disk|crane' | sed "s|^|$file: code that knows a system: |"

@@ -122,8 +122,7 @@ void nh_typeset_plain(const char *text, nh_text *out)
     if (nh_typeset_is_greek(text, length)) {
         nh_text_add(out, greek[greek_letter(text, length)].letter);
         text += length;
-    }
-    else {
+    } else {
         length = strcspn(text, "'_0123456789, =.(/+-*^");
         nh_text_add_n(out, text, length);
         text += length;
