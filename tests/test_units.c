@@ -175,3 +175,21 @@ Test(units, comparisons_know_none)
             cr_expect(other[k] <= 2 * one[k] && one[k] <= 2 * other[k], "%s, units %g, %g, %g: %g, %g", what[k], u->length, u->mass, u->time, other[k], one[k]);
     }
 }
+
+/* z' from a cubic equation that has no unit: for slow velocities to as many digits as for others. */
+Test(units, implicit_velocities_know_none)
+{
+    mechanics x = mechanics_of_text("name: test\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: [\"z'^3 + z'*(x'^2 + y'^2) = x'*y'^2\"]\n", NH_CHART_AUTO);
+    const nh_chart *c = x.model->chart;
+    size_t width = c->width;
+    cr_assert_eq(c->implicit, 1);
+    double *z = nh_alloc_array(2 * width, sizeof *z), *slow = z + width;
+    for (int power = -15; power <= 15; power += 3) {
+        for (size_t j = 0; j < width; j++) z[j] = slow[j] = 0.3 + 0.1 * (double)j;
+        for (size_t j = 1 + x.model->m; j < width; j++) slow[j] *= pow(10, power);
+        cr_assert(nh_chart_complete(c, z) && nh_chart_complete(c, slow), "1e%d", power);
+        cr_expect_float_eq(slow[width - 1] / pow(10, power), z[width - 1], 1e-14, "1e%d: %g", power, slow[width - 1] / pow(10, power) / z[width - 1] - 1);
+    }
+    nh_free(z);
+    mechanics_clear(&x);
+}

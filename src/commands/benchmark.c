@@ -32,12 +32,12 @@ static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_b
 /* A count is the same on a busy machine. */
 static double most_steps(const nh_benchmark_work *c) { return c->once ? c->options.robustness_steps : 1e8; }
 
-static bool out_of_time(nh_benchmark_work *c, const nh_motion *motion) { return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)); }
+static bool out_of_time(nh_benchmark_work *c, const nh_motion *motion) { return late(c) || nh_clock() > c->deadline || (c->once && (double)motion->steps >= most_steps(c)) || (c->effort > 0 && motion->effort >= c->effort); }
 
 static nh_motion *integrate(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double step, nh_error *error)
 {
     nh_formulation *f = &c->formulation[k->formulation];
-    nh_flow_options how = {.rtol = tolerance, .step = step, .scale = f->scale, .max_steps = most_steps(c), .cancelled = late, .cancel_context = c};
+    nh_flow_options how = {.rtol = tolerance, .step = step, .scale = f->scale, .max_steps = most_steps(c), .effort = c->effort, .cancelled = late, .cancel_context = c};
     const double *times = c->yard.times;
     if (!k->method) {
         nh_chetaev_problem problem = nh_bordered_problem(f->bordered);
@@ -124,14 +124,24 @@ void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double
 
 /* ---- the reference ---- */
 
+static const double units = 1e9; /* of effort in a second */
+
+/* A motion that decides what is compared, and until when: in counted work, as much as a part of the budget is on an ordinary machine. */
+static nh_motion *integrate_counted(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double part)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    c->deadline = INFINITY;
+    c->effort = c->once ? 0 : part * c->budget * units;
+    return integrate(c, k, tolerance, 0, &ignored);
+}
+
 static bool states_of(nh_benchmark_work *c, size_t formulation, const char *method, double tolerance, double *states)
 {
     nh_candidate_run k = {.method = nh_method_find(method), .formulation = formulation};
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    c->deadline = nh_clock() + c->budget / 4;
-    nh_motion *motion = integrate(c, &k, tolerance, 0, &ignored);
+    nh_motion *motion = integrate_counted(c, &k, tolerance, 0.25);
     c->hurried |= motion && !motion->complete && out_of_time(c, motion);
+    c->effort = 0;
     if (motion && motion->count > c->reached) c->reached = motion->count;
     bool good = motion && motion->complete && !breaks_down(&c->formulation[formulation], motion) && nh_formulation_states(&c->formulation[formulation], motion, states);
     nh_motion_free(motion);
@@ -322,14 +332,12 @@ static bool open_formulations(nh_benchmark_work *c, nh_error *error)
 /* One motion with the guard in each chart. */
 static void watch_charts(nh_benchmark_work *c)
 {
-    nh_error ignored;
-    nh_error_clear(&ignored);
     nh_candidate_run k = {.method = nh_method_find("CVODE Adams")};
     for (k.formulation = 0; k.formulation < c->formulations; k.formulation++) {
         nh_formulation *f = &c->formulation[k.formulation];
         if (!f->problem.guards) continue;
-        c->deadline = nh_clock() + c->budget / 10;
-        nh_motion *motion = integrate(c, &k, tolerances[2], 0, &ignored);
+        nh_motion *motion = integrate_counted(c, &k, tolerances[2], 0.1);
+        c->effort = 0;
         f->breaks = motion && breaks_down(f, motion);
         nh_motion_free(motion);
     }

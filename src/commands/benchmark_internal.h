@@ -95,6 +95,7 @@ typedef struct {
     nh_candidate_run candidate[NH_BENCHMARK_CANDIDATES];
     nh_run_record *grid; /* candidates x levels; method NULL: not run */
     double begun, budget, deadline, absolute;
+    double effort; /* of a motion that decides what is compared, in place of the deadline: the same on every machine; 0: the deadline */
     nh_options options;
     bool project, once; /* once: no repetitions, the time does not matter; steps are limited instead */
     size_t reached;     /* outputs of the reference's longest run */
