@@ -249,10 +249,11 @@ wheel: library
 	@ls $(BUILD)/python/nhsym*
 
 # Debian packages, from a copy whose folder debian is src/debian; into $(BUILD)/deb.
+# Without the page tests: their axe.min.js is no source, and no package runs them.
 DEB = $(BUILD)/deb/nhsym-$(VERSION)
 deb-source:
 	@rm -rf $(BUILD)/deb && mkdir -p $(DEB)
-	@tar -cf - --exclude='./build*' --exclude=./.git . | tar -xf - -C $(DEB)
+	@tar -cf - --exclude='./build*' --exclude=./.git --exclude=./tests/browser . | tar -xf - -C $(DEB)
 	@mv $(DEB)/src/debian $(DEB)/debian
 	@sed -e 's/@VERSION@/$(VERSION)/' -e "s/@DATE@/$$(date -R -r docs/changes.md)/" $(DEB)/debian/changelog.in >$(DEB)/debian/changelog && rm $(DEB)/debian/changelog.in
 
