@@ -47,6 +47,7 @@
     X(quadrature_length, 400,    10,     1e6,   whole, "symbols",  "longer formulas are not integrated for explicit motions")                \
     X(pencil,           6000,   10,      1e6,   whole, "unknowns", "classify: largest linear system for integrals at a degree")                 \
     X(plane,            100,     2,      1e4,   whole, "",         "classify over two parameters: largest determinant")                        \
+    X(lines,            10,      0,      1000,  whole, "",         "classify over two parameters: beyond `plane` the first one takes all ratios up to this height; 0: none") \
     X(staircase,        5e10,   1e6,    1e15,  real,  "products", "classify: of residues that looking for the values of one degree may take")  \
     X(shown,            600,     10,     1e9,   whole, "symbols",  "longer formulas are not written out in the summary")                     \
     X(written,          1e6,     10,     1e9,   whole, "symbols",  "longer formulas are null in JSON")                                       \

@@ -172,6 +172,7 @@ nh_classify_question nh_classified_question(nh_classified *x, const nh_classify_
     nh_classify_question question = {.shape = q->shape, .degree = x->degree, .work = q->options.count_work,
                                      .products = q->options.staircase,
                                      .unknowns = (size_t)q->options.pencil, .plane = (size_t)q->options.plane,
+                                     .lines = (size_t)q->options.lines,
                                      .known = x->known, .current = known};
     nh_error none;
     nh_error_clear(&none);

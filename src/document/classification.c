@@ -32,6 +32,7 @@ const char *nh_classification_end(const char *end)
     if (!strcmp(end, "staircase")) return "looking for the values takes more work than the option `staircase`";
     if (!strcmp(end, "unknowns")) return "the linear system has more unknowns than the option `pencil`";
     if (!strcmp(end, "plane")) return "the determinants are larger than the option `plane`";
+    if (!strcmp(end, "curves")) return "there are more curves, and the determinants are larger than the option `plane`";
     if (!strcmp(end, "time")) return "the run was ended";
     return end;
 }

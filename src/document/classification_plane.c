@@ -128,14 +128,18 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
         }
         nh_text_addf(out, "  degree %zu: no other pair of rational numbers with numerators and denominators up to %.1e has more than %zu\n",
                      d, row->height, row->number.bound);
-        if (verbose) {
+        if (row->swept)
+            nh_text_addf(out, "    (by %zu lines of %s modulo %" PRIu64 ", and those of the points)\n", row->swept, x->over[1], row->prime[0]);
+        else if (verbose) {
             nh_text_addf(out, "    (%zu unknowns, order %zu, determinants of size %zu, modulo", row->unknowns,
                          row->number.order, row->size);
             for (size_t i = 0; i < row->primes; i++) nh_text_addf(out, "%s %" PRIu64, i ? "," : "", row->prime[i]);
             nh_text_add(out, ")\n");
         }
     }
-    if (o->rows)
+    if (o->rows && o->row[o->rows - 1].swept)
+        nh_text_addf(out, "  Other pairs of higher degree were not looked at where %s is no such ratio: determinants are larger than the option `plane`.\n", x->over[1]);
+    else if (o->rows)
         nh_text_add(out, "  Another pair of algebraic numbers could have more only if modulo all of the primes it lies on one of the curves or has a residue of a point that was examined, or none. Infinite values were not looked at.\n");
 }
 
@@ -175,6 +179,7 @@ static void put_degrees(const plane *x, nh_json *to)
         nh_json *primes = nh_json_put_array(item, "primes");
         for (size_t i = 0; i < row->primes; i++) nh_json_add_number(primes, (double)row->prime[i]);
         nh_json_put_number(item, "excluded_height", row->lifted ? row->height : NAN);
+        nh_json_put_number(item, "lines", (double)row->swept);
     }
 }
 

@@ -37,7 +37,7 @@ static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_
         Q->coefficient = nh_alloc_array(x->degree + 1, sizeof *Q->coefficient);
         for (size_t j = 0; j <= x->degree; j++) Q->coefficient[j] = x->coefficient[j * x->length];
         while (Q->degree > 0 && !Q->coefficient[Q->degree]) Q->degree--;
-        s->out->limit = !s->q->linear && Q->degree == x->degree;
+        if (s->out) s->out->limit = !s->q->linear && Q->degree == x->degree;
         out->unknowns = pencil.columns;
         out->power = pencil.degree;
     }
@@ -46,8 +46,7 @@ static bool roots_at(search *s, const nh_classify_row *row, size_t degree, size_
     return good;
 }
 
-/* Modulo one prime, at two points. */
-static bool roots_modulo(search *s, size_t degree, size_t prime, nh_classify_row *row, nh_special_roots *out)
+bool nh_classify_roots(search *s, size_t degree, size_t prime, nh_classify_row *row, nh_special_roots *out)
 {
     nh_residue_polynomial chi[2] = {{0}}, Q[2] = {{0}};
     bool good = true;
@@ -149,7 +148,7 @@ static bool find_values(search *s, size_t degree, nh_classify_row *row)
     bool good = true;
     for (size_t prime = 0; prime < NH_CLASSIFY_MOST_PRIMES && good && !row->lifted; prime++) {
         nh_special_roots roots;
-        good = roots_modulo(s, degree, prime, row, &roots);
+        good = nh_classify_roots(s, degree, prime, row, &roots);
         if (!good) break;
         add(&excluded, nh_prime_at(prime), roots.excluded);
         add(&degenerate, nh_prime_at(prime), roots.degenerate);

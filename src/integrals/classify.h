@@ -25,7 +25,8 @@ typedef struct {
     bool two;
     size_t second;           /* where there are two; with bottom > 0 it is held at top/bottom */
     int64_t top, bottom;
-    size_t plane;            /* with two, the largest determinant */
+    size_t plane;            /* with two, the largest determinant; beyond it */
+    size_t lines;            /* the height of mu whose lines are looked at one after another */
     bool shape;              /* coefficients do not depend on cyclic coordinates */
     const nh_linear_family *linear; /* its solutions are counted instead of integrals, its levels are the degrees; or
                               * NULL */

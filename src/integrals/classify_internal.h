@@ -27,6 +27,9 @@ typedef struct {
 /* Series at another regular point modulo this prime.  NULL: too long, or none is found. */
 nh_parametric_series *nh_classify_series(nh_classify_search *search, size_t prime, uint64_t seed, size_t order);
 
+/* Where the equations of this degree lose rank, modulo one prime, at two points, by series of the row's order. */
+bool nh_classify_roots(nh_classify_search *search, size_t degree, size_t prime, nh_classify_row *row, nh_special_roots *out);
+
 /* Orders grow until the number is the least that it can be, or does not change. `known`: for almost all values, of
  * which products are independent; or NULL.  False: beyond the limits. */
 bool nh_classify_count(nh_classify_search *search, size_t degree, const nh_classify_place *place, size_t least,

@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "integrals/classify_internal.h"
+#include "integrals/plane_sweep.h"
 
 enum { least_primes = 4, places = 3 };
 
@@ -158,10 +159,10 @@ static void take_curves(nh_plane *o, const nh_special_curves *found, bool degene
     }
 }
 
-static void take_lines(nh_plane *o, const nh_special_factors *found)
+static void take_lines(nh_plane *o, size_t count, const nh_special_factor *factor)
 {
-    for (size_t k = 0; k < found->factors; k++) {
-        const nh_special_factor *f = &found->factor[k];
+    for (size_t k = 0; k < count; k++) {
+        const nh_special_factor *f = &factor[k];
         size_t at = 0, length = (f->degree + 1) * sizeof *f->coefficient;
         while (at < o->lines && (o->line[at].across.degree != f->degree
                                  || memcmp(o->line[at].across.coefficient, f->coefficient, length)))
@@ -192,7 +193,7 @@ static bool lift(search *s, const residues *r, nh_plane_row *row)
     if (lifted) {
         take_curves(s->out, &degenerate, true);
         take_curves(s->out, &special, false);
-        take_lines(s->out, &across);
+        take_lines(s->out, across.factors, across.factor);
         row->height = height(r, special.norm * degenerate.norm * across.norm);
     }
     nh_special_curves_clear(&special);
@@ -287,6 +288,24 @@ static void classify_line(search *s, size_t index)
 
 /* ---- degrees ---- */
 
+/* Beyond the largest determinant, by lines. */
+static bool sweep(search *s, size_t degree, nh_plane_row *row)
+{
+    nh_plane_sweep x;
+    bool good = nh_plane_sweep_lines(&s->s, s->out, degree, &row->number, s->s.q->lines, &x);
+    if (x.curves && !nh_late()) s->out->end = "curves";
+    if (good) {
+        take_lines(s->out, x.count, x.line);
+        row->swept = x.examined;
+        row->lifted = true;
+        row->height = x.height;
+        row->primes = 1;
+        row->prime[0] = nh_prime_at(0).p;
+    }
+    nh_plane_sweep_clear(&x);
+    return good;
+}
+
 static void run(search *s)
 {
     nh_plane *o = s->out;
@@ -297,10 +316,12 @@ static void run(search *s)
         nh_progress("integrals for almost all values", -1);
         bool good = nh_classify_count(&s->s, degree, &any, 0, &row.known, &row.number);
         nh_progress("where the equations for integrals lose rank", -1);
-        good = good && find_zeros(s, degree, &row) && !nh_late();
+        bool swept = o->rows && o->row[o->rows - 1].swept, found = good && !swept && find_zeros(s, degree, &row);
+        if (good && !found && !nh_late()) swept |= row.size > s->s.q->plane;
+        good = good && (found || (swept && s->s.q->lines && sweep(s, degree, &row))) && !nh_late();
         if (o->rows) row.height = fmin(row.height, o->row[o->rows - 1].height);
         if (!good) {
-            o->end = s->s.family.obstacle ? s->s.family.obstacle : nh_late() ? "time" : !row.number.bounded ? "work"
+            if (!o->end) o->end = s->s.family.obstacle ? s->s.family.obstacle : nh_late() ? "time" : !row.number.bounded ? "work"
                 : row.size > s->s.q->plane ? "plane" : s->s.products < 0 ? "staircase" : "unknowns";
             break;
         }
